@@ -1,0 +1,71 @@
+// What an identifier answers.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "models/friction/friction_description.h"
+
+namespace warmjoint {
+
+/// Whether the numbers can be trusted, and if not, why.
+enum class Status { ok, not_converged, not_identifiable, inadequate_model, bad_data };
+
+/// "ok", "not_converged", ...
+std::string_view StatusName(Status status);
+
+struct EstimatedParameter {
+  std::string name;
+  double value = 0;
+  std::string unit;
+  std::optional<double> std;  // standard deviation
+  std::optional<std::array<double, 2>> interval95;
+};
+
+/// Agreement of a fit with the samples that it kept. y: measured, yhat: fitted, e = y - yhat.
+struct Metrics {
+  int n = 0;                        // samples
+  int parameters = 0;               // d
+  double effective_parameters = 0;  // trace of the hat matrix; d where nothing is penalised
+  double rmse = 0;                  // sqrt(mean(e^2)), N.m or N
+  double mae = 0;                   // mean(|e|), N.m or N
+  double fit = 0;                   // 100 (1 - |e| / |y - mean(y)|), %
+  double fpe = 0;                   // V (1 + d/n)/(1 - d/n), V = mean(e^2)
+};
+
+/// Metrics of a fit. measured, fitted: [n] N.m or N.
+Metrics ComputeMetrics(const Eigen::VectorXd& measured, const Eigen::VectorXd& fitted,
+                       int parameters, double effective_parameters);
+
+/// State of an iterative identifier after one iteration.
+struct TraceEntry {
+  int iteration = 0;
+  std::vector<std::pair<std::string, double>> parameters;
+  double rmse = 0;  // over the kept samples, N.m or N
+};
+
+struct Estimate {
+  std::string identifier;
+  Status status = Status::ok;
+  std::string message;  // one sentence; for a failure: what is wrong and what would help
+  std::vector<EstimatedParameter> parameters;  // empty where nothing trustworthy is known
+  std::optional<Metrics> metrics;
+  std::optional<Metrics> holdout;
+  std::vector<TraceEntry> trace;
+  std::optional<FrictionDescription> friction;
+
+  /// The parameter of that name, or nullptr.
+  const EstimatedParameter* Find(std::string_view name) const;
+};
+
+/// The contract's estimate.json.
+nlohmann::json EstimateToJson(const Estimate& estimate);
+
+/// The inverse. Throws BadInput from `place` where the contract is broken.
+Estimate EstimateFromJson(const nlohmann::json& json, const Place& place);
+
+}  // namespace warmjoint

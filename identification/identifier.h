@@ -1,0 +1,37 @@
+// The family of identifiers, and its one list.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "identification/estimate.h"
+#include "identification/options.h"
+#include "models/foundation/random_stream.h"
+#include "sim/dataset/measurements.h"
+#include "sim/dataset/selection.h"
+
+namespace warmjoint {
+
+/// Everything an identifier may look at.
+struct IdentifierInput {
+  const Measurements& measurements;
+  const Selection& selection;  // filter over all samples, fit on those kept
+  const Options& options;
+  RandomKey random;  // for identifiers that draw their start
+};
+
+struct Identifier {
+  std::string name;
+  std::string summary;
+  std::vector<OptionInfo> options;
+  /// Mathematics that fails gives a status and a sentence; it does not throw.
+  Estimate (*identify)(const IdentifierInput& input);
+};
+
+/// All identifiers: a new one is its own file pair and one line in identifier_list.cc.
+const std::vector<Identifier>& Identifiers();
+
+/// The identifier of that name. Throws BadInput with the nearest name.
+const Identifier& FindIdentifier(const std::string& name);
+
+}  // namespace warmjoint

@@ -1,0 +1,9 @@
+#include "identification/score/npe.h"
+
+namespace warmjoint {
+
+double NormalisedParameterError(const Eigen::VectorXd& estimate, const Eigen::VectorXd& truth) {
+  return ((estimate - truth).array() / truth.array().abs()).matrix().norm();
+}
+
+}  // namespace warmjoint

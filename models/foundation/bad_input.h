@@ -1,0 +1,34 @@
+// Refusal of input that cannot be used: the one exception that users meet.
+#pragma once
+
+#include <fmt/core.h>
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace warmjoint {
+
+/// Where a refused value stands: a file and, where it has one, its line (counted from 1; 0: none).
+struct Place {
+  std::string file;
+  int line = 0;
+};
+
+/// What the user gave cannot be used. The message holds place, name, value, bound and remedy.
+/// Thrown by every room below tools; caught once, in main, which prints it and exits 2.
+class BadInput : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Throws BadInput with "file:line: " before the formatted message.
+template <typename... Args>
+[[noreturn]] void Refuse(const Place& place, fmt::format_string<Args...> format, Args&&... args) {
+  std::string where = place.file;
+  if (place.line > 0) where += fmt::format(":{}", place.line);
+  if (!where.empty()) where += ": ";
+  throw BadInput(where + fmt::format(format, std::forward<Args>(args)...));
+}
+
+}  // namespace warmjoint

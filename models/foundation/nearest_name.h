@@ -1,0 +1,18 @@
+// Suggestions for mistyped names: "unknown key 'speds'; did you mean 'speeds'?"
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace warmjoint {
+
+/// Number of single-character insertions, deletions, substitutions and swaps of neighbours
+/// between two words (optimal string alignment distance).
+int EditDistance(std::string_view a, std::string_view b);
+
+/// A sentence that ends a refusal of `name`: "; did you mean 'x'? Known: a, b, c", where x is the
+/// nearest of `known`, left out when nothing is near (distance above a third of the length).
+std::string Suggestion(std::string_view name, const std::vector<std::string>& known);
+
+}  // namespace warmjoint

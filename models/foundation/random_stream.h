@@ -1,0 +1,47 @@
+// Counter-based random numbers: the same (seed, realization, stream) gives the same bits for any
+// number of threads, shards or restarts.
+#pragma once
+
+#include <Random123/philox.h>
+
+#include <cstdint>
+
+namespace warmjoint {
+
+/// What a stream of random numbers is for. Streams of one realization are independent, so that
+/// drawing more of one leaves the others as they are.
+enum class Stream : std::uint32_t { truth = 0, motion = 1, torque_noise = 2, start = 3, test = 4 };
+
+/// Key of all the random numbers of one realization.
+struct RandomKey {
+  std::uint64_t seed = 0;
+  std::uint64_t realization = 0;
+};
+
+/// Philox 4x32-10 (Salmon et al. 2011) keyed by the seed, counting within (realization, stream).
+class RandomStream {
+ public:
+  RandomStream(RandomKey key, Stream stream);
+
+  /// Uniform in [0, 1), 53 bits.
+  double Uniform();
+  /// Uniform in [lower, upper).
+  double Uniform(double lower, double upper) { return lower + (upper - lower) * Uniform(); }
+  /// Standard normal (Box-Muller, both halves used).
+  double Normal();
+  /// Uniform whole number in [0, n); n at least 1.
+  std::uint64_t Below(std::uint64_t n);
+
+ private:
+  std::uint64_t Bits();
+
+  r123::Philox4x32 generator_;
+  r123::Philox4x32::key_type key_;
+  r123::Philox4x32::ctr_type counter_;
+  r123::Philox4x32::ctr_type block_{};
+  int used_ = 4;  // 32-bit words of block_ already given out
+  bool has_spare_ = false;
+  double spare_ = 0;
+};
+
+}  // namespace warmjoint

@@ -1,0 +1,26 @@
+// Coulomb friction, Eq. (1).
+#pragma once
+
+#include <array>
+
+#include "models/friction/parameter_info.h"
+#include "models/friction/sign.h"
+
+namespace warmjoint {
+
+/// F(v) = kc sign(v), Eq. (1). F(0) = 0.
+struct Coulomb {
+  static constexpr std::string_view name = "coulomb";
+  static constexpr std::string_view equation = "(1) F = kc sign(v)";
+  static constexpr std::array parameters{
+      ParameterInfo{"coulomb", "kc", kTorqueUnit, 0, kInfinity, 0, "level at any speed"},
+  };
+
+  /// v: rad/s or m/s; p: {kc}; returns N.m or N.
+  template <typename T>
+  static T Force(double v, const T* p) {
+    return p[0] * T(Sign(v));
+  }
+};
+
+}  // namespace warmjoint

@@ -1,0 +1,26 @@
+// Rotary and linear joints: which units go with which.
+#pragma once
+
+#include <string_view>
+
+namespace warmjoint {
+
+enum class JointKind { rotary, linear };
+
+/// A unit for each kind of joint, for example {"N.m", "N"}.
+struct JointUnit {
+  std::string_view rotary;
+  std::string_view linear;
+
+  constexpr std::string_view For(JointKind kind) const {
+    return kind == JointKind::rotary ? rotary : linear;
+  }
+};
+
+inline constexpr JointUnit kPositionUnit{"rad", "m"};
+inline constexpr JointUnit kVelocityUnit{"rad/s", "m/s"};
+inline constexpr JointUnit kTorqueUnit{"N.m", "N"};
+inline constexpr JointUnit kViscousUnit{"N.m.s/rad", "N.s/m"};
+inline constexpr JointUnit kThermalGainUnit{"N.m/W", "N/W"};
+
+}  // namespace warmjoint

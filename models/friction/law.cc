@@ -1,0 +1,48 @@
+#include "models/friction/law.h"
+
+#include "models/friction/asymmetric.h"
+#include "models/friction/coulomb.h"
+#include "models/friction/viscous_coulomb.h"
+
+namespace warmjoint {
+namespace {
+
+template <typename L>
+Law Describe() {
+  return {L::name, L::equation, L::parameters, &L::template Force<double>};
+}
+
+}  // namespace
+
+const std::vector<Law>& Laws() {
+  static const std::vector<Law> laws{
+      Describe<Coulomb>(),
+      Describe<ViscousCoulomb>(),
+      Describe<Asymmetric>(),
+  };
+  return laws;
+}
+
+const Law* FindLaw(std::string_view name) {
+  for (const Law& law : Laws()) {
+    if (law.name == name) return &law;
+  }
+  return nullptr;
+}
+
+std::vector<std::string> LawNames() {
+  std::vector<std::string> names;
+  for (const Law& law : Laws()) names.emplace_back(law.name);
+  return names;
+}
+
+void Regressor(const Law& law, double v, double* row) {
+  std::vector<double> unit(law.parameters.size(), 0.0);
+  for (size_t i = 0; i < unit.size(); ++i) {
+    unit[i] = 1.0;
+    row[i] = law.force(v, unit.data());
+    unit[i] = 0.0;
+  }
+}
+
+}  // namespace warmjoint

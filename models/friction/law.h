@@ -1,0 +1,35 @@
+// The family of nominal friction laws, and its one list.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "models/friction/parameter_info.h"
+
+namespace warmjoint {
+
+/// A nominal law Fn(v; p) behind one interface, made from the law's own struct.
+struct Law {
+  std::string_view name;
+  std::string_view equation;
+  std::span<const ParameterInfo> parameters;
+  /// Force in N.m or N at velocity v (rad/s or m/s); p: one value for each of `parameters`.
+  double (*force)(double v, const double* p);
+};
+
+/// All laws: a new one is its own header and one line in law.cc.
+const std::vector<Law>& Laws();
+
+/// The law of that name, or nullptr.
+const Law* FindLaw(std::string_view name);
+
+/// Names of all laws, in the order of the list.
+std::vector<std::string> LawNames();
+
+/// Row of the regressor at velocity v: dF/dp, one entry for each parameter.
+/// Exact for laws that are linear in their parameters: the force for each unit vector.
+void Regressor(const Law& law, double v, double* row);
+
+}  // namespace warmjoint

@@ -1,0 +1,25 @@
+// One row of a parameter table.
+#pragma once
+
+#include <limits>
+#include <string_view>
+
+#include "models/friction/joint_kind.h"
+
+namespace warmjoint {
+
+/// What is known of a parameter before any data: every law and the thermal state carry a table of
+/// these, from which checks, regressors, documentation and plots are made.
+struct ParameterInfo {
+  std::string_view name;    // as in files and on the command line
+  std::string_view symbol;  // as in the paper
+  JointUnit unit;
+  double lower;  // smallest allowed value
+  double upper;  // largest allowed value
+  double default_value;
+  std::string_view meaning;  // one short phrase
+};
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+}  // namespace warmjoint

@@ -1,0 +1,72 @@
+// The thermal energy state: friction that its own losses change, Eqs. (19)-(22).
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "models/friction/parameter_info.h"
+#include "models/friction/sign.h"
+
+namespace warmjoint {
+
+/// Parameters of E = k / (1 + s tau) W, Eq. (21): a first-order lag from the power lost, W, to the
+/// change of the friction level, E. k is negative where friction falls as the joint warms.
+struct Thermal {
+  double gain = 0;           // k, N.m/W or N/W
+  double time_constant = 1;  // tau, s
+
+  static constexpr std::array parameters{
+      ParameterInfo{"thermal_gain", "k", kThermalGainUnit, -kInfinity, kInfinity, 0,
+                    "change of the level for each watt lost, once settled"},
+      ParameterInfo{"thermal_time_constant",
+                    "tau",
+                    {"s", "s"},
+                    0,
+                    kInfinity,
+                    600,
+                    "time constant of warming and cooling"},
+  };
+};
+
+/// The same, sampled with a zero-order hold, Eq. (22): E[i+1] = pole E[i] + gain W[i].
+struct DiscreteThermal {
+  double gain = 0;  // ke, N.m/W or N/W
+  double pole = 0;  // te, dimensionless
+};
+
+/// te = exp(-h/tau), ke = k (1 - te), by expm1 so that h << tau loses no digits. h: step, s.
+inline DiscreteThermal Discretise(const Thermal& thermal, double h) {
+  const double cooling = -std::expm1(-h / thermal.time_constant);
+  return {thermal.gain * cooling, std::exp(-h / thermal.time_constant)};
+}
+
+/// The inverse of Discretise: tau = -h / ln(te), k = ke / (1 - te). 0 < te < 1.
+inline Thermal Continuous(const DiscreteThermal& discrete, double h) {
+  return {discrete.gain / (1 - discrete.pole), -h / std::log(discrete.pole)};
+}
+
+/// One step of Eq. (22). energy: E[i], N.m or N; loss: W[i], W. Returns E[i+1], which is exact when
+/// the loss is constant during the step; E[i] itself does not see W[i].
+template <typename T>
+T ThermalStep(const T& gain, const T& pole, const T& energy, const T& loss) {
+  return pole * energy + gain * loss;
+}
+
+/// F = Fn + sign(v) E, Eq. (20). nominal: Fn(v); energy: E; all N.m or N.
+template <typename T>
+T WarmForce(double v, const T& nominal, const T& energy) {
+  return nominal + T(Sign(v)) * energy;
+}
+
+/// W = |F v|, Eq. (19), in W.
+template <typename T>
+T Loss(double v, const T& force) {
+  const T power = force * v;
+  return power < T(0) ? T(-power) : power;
+}
+
+/// Whether warm friction pushes instead of braking: F v < 0, which happens once E < -Fn sign(v).
+/// From there on the losses feed themselves and the model has left its domain.
+inline bool FeedsItself(double v, double force) { return force * v < 0; }
+
+}  // namespace warmjoint

@@ -1,0 +1,27 @@
+// Viscous and Coulomb friction, Eq. (2).
+#pragma once
+
+#include <array>
+
+#include "models/friction/parameter_info.h"
+#include "models/friction/sign.h"
+
+namespace warmjoint {
+
+/// F(v) = kv v + kc sign(v), Eq. (2). F(0) = 0.
+struct ViscousCoulomb {
+  static constexpr std::string_view name = "viscous_coulomb";
+  static constexpr std::string_view equation = "(2) F = kv v + kc sign(v)";
+  static constexpr std::array parameters{
+      ParameterInfo{"viscous", "kv", kViscousUnit, 0, kInfinity, 0, "slope over speed"},
+      ParameterInfo{"coulomb", "kc", kTorqueUnit, 0, kInfinity, 0, "level at any speed"},
+  };
+
+  /// v: rad/s or m/s; p: {kv, kc}; returns N.m or N.
+  template <typename T>
+  static T Force(double v, const T* p) {
+    return p[0] * v + p[1] * T(Sign(v));
+  }
+};
+
+}  // namespace warmjoint

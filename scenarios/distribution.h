@@ -1,0 +1,20 @@
+// A number that is fixed or drawn.
+#pragma once
+
+#include <string>
+
+#include "models/foundation/random_stream.h"
+
+namespace warmjoint {
+
+/// A fixed number, a uniform range, a normal, or a log-uniform range.
+struct Distribution {
+  enum class Kind { fixed, uniform, normal, log_uniform };
+  Kind kind = Kind::fixed;
+  double a = 0;  // value, lower bound or mean
+  double b = 0;  // upper bound or standard deviation
+
+  double Draw(RandomStream& random) const;
+};
+
+}  // namespace warmjoint

@@ -1,0 +1,30 @@
+// Recordings as CSV: header row, then one row a sample.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "sim/dataset/measurements.h"
+
+namespace warmjoint {
+
+/// How the columns of a foreign file become ours.
+struct CsvLayout {
+  std::map<std::string, std::string>
+      column;  // ours -> theirs, for example torque -> force_N (--map)
+  std::map<std::string, std::string>
+      unit;  // ours -> unit in the file, for example position -> deg (--unit)
+  JointKind joint = JointKind::rotary;
+  double gear = 1;
+};
+
+/// Reads columns time, position, velocity, torque and optional motor_position, load, temperature.
+/// A missing velocity is derived (derive_velocity.h). Throws BadInput with file:line for: an empty
+/// file, a missing column, text in a number, NaN, time that does not increase, fewer than three
+/// samples, a constant torque, an unknown name in `layout`.
+Measurements ReadCsv(const std::string& path, const CsvLayout& layout = {});
+
+/// Writes the columns that are present, SI, numbers that read back bit for bit.
+void WriteCsv(const Measurements& measurements, const std::string& path);
+
+}  // namespace warmjoint

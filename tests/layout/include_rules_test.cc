@@ -1,0 +1,110 @@
+// The house rules that the #include lines show: arrows go one way, and some rooms may not meet.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <string>
+#include <vector>
+
+namespace {
+namespace fs = std::filesystem;
+
+/// What the files of one room may include. The first room whose folder holds a file is the file's.
+struct Room {
+  std::string folder;
+  std::vector<std::string> may_include;  // folders of the project
+  bool may_use_mujoco = false;
+};
+
+const std::vector<Room>& Rooms() {
+  static const std::vector<Room> rooms{
+      {"models/", {"models/"}},
+      {"scenarios/", {"models/", "scenarios/"}},
+      {"sim/dataset/", {"models/", "sim/dataset/"}},
+      {"sim/plugin/", {"models/", "sim/plugin/"}, true},
+      {"sim/", {"models/", "scenarios/", "sim/"}, true},
+      {"identification/score/", {"models/", "sim/dataset/", "identification/"}},
+      {"identification/", {"models/", "sim/dataset/", "identification/"}},
+      {"tools/", {"models/", "scenarios/", "sim/", "identification/", "tools/"}, true},
+  };
+  return rooms;
+}
+
+bool StartsWith(const std::string& text, const std::string& start) {
+  return text.rfind(start, 0) == 0;
+}
+
+bool StartsWithAny(const std::string& text, const std::vector<std::string>& starts) {
+  for (const std::string& start : starts) {
+    if (StartsWith(text, start)) return true;
+  }
+  return false;
+}
+
+/// Why `file` (relative to the project) may not include `header`; empty where it may.
+std::string Breach(const std::string& file, const std::string& header) {
+  const std::vector<std::string> own{"models/", "scenarios/", "sim/", "identification/", "tools/"};
+  for (const Room& room : Rooms()) {
+    if (!StartsWith(file, room.folder)) continue;
+
+    if (StartsWith(header, "mujoco/")) return room.may_use_mujoco ? "" : "knows no engine";
+    if (!StartsWithAny(header, own)) return "";
+    if (!StartsWithAny(header, room.may_include)) return "against the flow of data";
+
+    // identifiers see neither the truth nor the score
+    const bool identifies = room.folder == "identification/";
+    const bool secret = header == "sim/dataset/truth.h" || header == "sim/dataset/recording.h" ||
+                        StartsWith(header, "identification/score/");
+    return identifies && secret ? "identifiers may not see the truth" : "";
+  }
+  return "stands in no room";
+}
+
+/// Headers in the #include lines of a file.
+std::vector<std::string> IncludesOf(const fs::path& path) {
+  std::vector<std::string> headers;
+  std::ifstream stream(path);
+  const std::regex include(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])");
+  for (std::string line; std::getline(stream, line);) {
+    std::smatch match;
+    if (std::regex_search(line, match, include)) headers.push_back(match[1]);
+  }
+  return headers;
+}
+
+TEST(IncludeRules, EveryIncludeGoesDownTheFlow) {
+  const fs::path root = WARMJOINT_SOURCE_DIR;
+  int files = 0;
+  for (const Room& room : Rooms()) {
+    for (const auto& entry : fs::recursive_directory_iterator(root / room.folder)) {
+      const std::string extension = entry.path().extension();
+      if (extension != ".cc" && extension != ".h") continue;
+      ++files;
+      const std::string file = fs::relative(entry.path(), root);
+      for (const std::string& header : IncludesOf(entry.path())) {
+        EXPECT_EQ(Breach(file, header), "") << file << " includes " << header;
+      }
+    }
+  }
+  EXPECT_GT(files, 20) << "the rooms were not found";
+}
+
+TEST(IncludeRules, KnowWhatIsForbidden) {
+  EXPECT_NE(Breach("models/friction/law.cc", "scenarios/scenario.h"), "");
+  EXPECT_NE(Breach("models/friction/law.cc", "mujoco/mujoco.h"), "");
+  EXPECT_NE(Breach("scenarios/motion.cc", "sim/plant.h"), "");
+  EXPECT_NE(Breach("sim/dataset/csv.cc", "sim/plant.h"), "");
+  EXPECT_NE(Breach("sim/plugin/plugin.cc", "sim/plant.h"), "");
+  EXPECT_NE(Breach("sim/ideal_plant.cc", "identification/estimate.h"), "");
+  EXPECT_NE(Breach("identification/energy_ml.cc", "sim/dataset/truth.h"), "");
+  EXPECT_NE(Breach("identification/energy_ml.cc", "identification/score/npe.h"), "");
+  EXPECT_NE(Breach("identification/energy_ml.cc", "scenarios/scenario.h"), "");
+  EXPECT_NE(Breach("identification/score/npe.cc", "tools/store/store.h"), "");
+  EXPECT_NE(Breach("identification/score/npe.cc", "mujoco/mujoco.h"), "");
+  EXPECT_EQ(Breach("identification/score/npe.cc", "sim/dataset/truth.h"), "");
+  EXPECT_EQ(Breach("tools/main.cc", "identification/score/npe.h"), "");
+}
+
+}  // namespace

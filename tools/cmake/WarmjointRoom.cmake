@@ -1,0 +1,13 @@
+# warmjoint_room(NAME FOLDERS folder... LINKS target...)
+# A static library of every .cc file directly in the given folders (relative to the caller).
+function(warmjoint_room name)
+  cmake_parse_arguments(ROOM "" "" "FOLDERS;LINKS" ${ARGN})
+  set(sources)
+  foreach(folder ${ROOM_FOLDERS})
+    file(GLOB found CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cc)
+    list(APPEND sources ${found})
+  endforeach()
+  add_library(${name} STATIC ${sources})
+  target_link_libraries(${name} PUBLIC ${ROOM_LINKS} PRIVATE warmjoint_settings)
+  target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+endfunction()
