@@ -1,0 +1,88 @@
+#include "models/friction/friction_description.h"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "models/foundation/atomic_file.h"
+
+namespace warmjoint {
+namespace {
+using nlohmann::json;
+using testing::HasSubstr;
+
+json Example() {
+  return {
+      {"law", "viscous_coulomb"},
+      {"parameters", {{"viscous", 5.0}, {"coulomb", 15.0}}},
+      {"thermal", {{"thermal_gain", -3.0}, {"thermal_time_constant", 600.0}, {"ambient", 21.0}}},
+      {"gear", 100.0}};
+}
+
+std::string RefusalOf(const json& object) {
+  try {
+    FrictionFromJson(object, {"robot.json"});
+  } catch (const BadInput& refusal) {
+    return refusal.what();
+  }
+  return "accepted";
+}
+
+TEST(FrictionDescription, SurvivesARoundTrip) {
+  EXPECT_EQ(FrictionToJson(FrictionFromJson(Example(), {"robot.json"})), Example());
+}
+
+TEST(FrictionDescription, IsReadFromAnEstimateOrByItself) {
+  const std::string path = testing::TempDir() + "/friction.json";
+  for (const json& file : {Example(), json{{"identifier", "energy-ml"}, {"friction", Example()}}}) {
+    WriteWholeFile(path, file.dump(2));
+    EXPECT_EQ(ReadFrictionFile(path).parameters.at("coulomb"), 15.0);
+  }
+  std::filesystem::remove(path);
+}
+
+TEST(FrictionDescription, NamesTheLineThatIsNotJson) {
+  const std::string path = testing::TempDir() + "/broken.json";
+  WriteWholeFile(path, "{\n\"law\": \"coulomb\",\n}\n");
+  try {
+    ReadFrictionFile(path);
+    FAIL() << "accepted";
+  } catch (const BadInput& refusal) {
+    EXPECT_THAT(refusal.what(), HasSubstr("broken.json:3: is not JSON"));
+  }
+  std::filesystem::remove(path);
+}
+
+TEST(FrictionDescription, RefusesUnknownNamesWithTheNearest) {
+  json object = Example();
+  object["law"] = "viscos_coulomb";
+  EXPECT_THAT(RefusalOf(object), HasSubstr("did you mean 'viscous_coulomb'?"));
+  object = Example();
+  object["parameters"]["colomb"] = 1;
+  EXPECT_THAT(RefusalOf(object), HasSubstr("did you mean 'coulomb'?"));
+  object = Example();
+  object["termal"] = 1;
+  EXPECT_THAT(RefusalOf(object), HasSubstr("did you mean 'thermal'?"));
+}
+
+TEST(FrictionDescription, RefusesImpossibleValues) {
+  json object = Example();
+  object["parameters"]["coulomb"] = -1;
+  EXPECT_THAT(RefusalOf(object), HasSubstr("robot.json: coulomb is -1"));
+  object = Example();
+  object["parameters"].erase("coulomb");
+  EXPECT_THAT(RefusalOf(object), HasSubstr("lacks its parameter coulomb"));
+  object = Example();
+  object["thermal"]["thermal_time_constant"] = 0;
+  EXPECT_THAT(RefusalOf(object), HasSubstr("must be positive"));
+  object = Example();
+  object["thermal"]["thermal_gain"] = "much";
+  EXPECT_THAT(RefusalOf(object), HasSubstr("thermal_gain is \"much\"; it must be a number"));
+  object = Example();
+  object["gear"] = 0;
+  EXPECT_THAT(RefusalOf(object), HasSubstr("gear is 0"));
+  EXPECT_THAT(RefusalOf(json::array()), HasSubstr("must be an object"));
+}
+
+}  // namespace
+}  // namespace warmjoint
