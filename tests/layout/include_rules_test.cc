@@ -77,8 +77,8 @@ std::vector<std::string> IncludesOf(const fs::path& path) {
 TEST(IncludeRules, EveryIncludeGoesDownTheFlow) {
   const fs::path root = WARMJOINT_SOURCE_DIR;
   int files = 0;
-  for (const Room& room : Rooms()) {
-    for (const auto& entry : fs::recursive_directory_iterator(root / room.folder)) {
+  for (const std::string folder : {"models", "scenarios", "sim", "identification", "tools"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
       const std::string extension = entry.path().extension();
       if (extension != ".cc" && extension != ".h") continue;
       ++files;

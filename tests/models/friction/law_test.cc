@@ -3,9 +3,13 @@
 
 #include <gmock/gmock.h>
 
+#include <ostream>
 #include <set>
 
 namespace warmjoint {
+
+void PrintTo(const Law& law, std::ostream* stream) { *stream << law.name; }
+
 namespace {
 
 const std::vector<double> kVelocities{-2, -0.5, -1e-9, 0, 1e-9, 0.3, 1.7};  // rad/s
