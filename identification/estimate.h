@@ -6,6 +6,8 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "models/friction/friction_description.h"
@@ -62,10 +64,13 @@ struct Estimate {
   const EstimatedParameter* Find(std::string_view name) const;
 };
 
-/// The contract's estimate.json.
+/// The estimate as JSON: {identifier, status, message, parameters{name: {value, unit, std,
+/// interval95}}, metrics{}, holdout{}, trace[{iteration, rmse, parameters{}}], friction{}}.
+/// What is absent, or is not a finite number, is null.
 nlohmann::json EstimateToJson(const Estimate& estimate);
 
-/// The inverse. Throws BadInput from `place` where the contract is broken.
+/// The inverse: null numbers become NaN, parameters come sorted by name. Throws BadInput from
+/// `place` for a missing member, a wrong type or an unknown status.
 Estimate EstimateFromJson(const nlohmann::json& json, const Place& place);
 
 }  // namespace warmjoint

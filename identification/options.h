@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "models/foundation/bad_input.h"
@@ -14,21 +15,24 @@ namespace warmjoint {
 struct OptionInfo {
   std::string name;
   std::string default_value;
-  std::string allowed;  // "number", "integer", "range", or words separated by |
+  /// "range", words separated by |, or "number" or "integer" and bounds: "number > 0 <= 1".
+  std::string allowed;
   std::string meaning;
 };
 
 /// Values by name, defaults filled in.
 class Options {
  public:
-  /// Throws BadInput for an unknown name (with the nearest) or a value that is not allowed.
+  /// Throws BadInput from `place` for an unknown name (with the nearest) or a value that is not
+  /// allowed. Numbers must be finite.
   Options(const std::vector<OptionInfo>& table, const std::map<std::string, std::string>& given,
           const Place& place);
 
+  /// The value of an option of the table; a name that the table lacks is a bug.
   const std::string& Text(std::string_view name) const;
   double Number(std::string_view name) const;
   int Integer(std::string_view name) const;
-  /// "lower:upper", for example "-9:0".
+  /// "lower:upper", for example "-9:0"; lower <= upper.
   std::pair<double, double> Range(std::string_view name) const;
 
  private:

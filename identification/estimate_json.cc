@@ -1,0 +1,179 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "identification/estimate.h"
+#include "models/foundation/nearest_name.h"
+
+namespace warmjoint {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::array kStatuses{Status::ok, Status::not_converged, Status::not_identifiable,
+                               Status::inadequate_model, Status::bad_data};
+
+// writing: what is absent or not a finite number becomes null
+
+json NumberToJson(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
+
+json ParameterToJson(const EstimatedParameter& parameter) {
+  json result{{"value", NumberToJson(parameter.value)},
+              {"unit", parameter.unit},
+              {"std", nullptr},
+              {"interval95", nullptr}};
+  if (parameter.std) result["std"] = NumberToJson(*parameter.std);
+  if (parameter.interval95) {
+    const auto& [lower, upper] = *parameter.interval95;
+    result["interval95"] = {NumberToJson(lower), NumberToJson(upper)};
+  }
+  return result;
+}
+
+json MetricsToJson(const std::optional<Metrics>& metrics) {
+  if (!metrics) return nullptr;
+  return {{"n", metrics->n},
+          {"parameters", metrics->parameters},
+          {"effective_parameters", NumberToJson(metrics->effective_parameters)},
+          {"rmse", NumberToJson(metrics->rmse)},
+          {"mae", NumberToJson(metrics->mae)},
+          {"fit", NumberToJson(metrics->fit)},
+          {"fpe", NumberToJson(metrics->fpe)}};
+}
+
+json TraceToJson(const std::vector<TraceEntry>& trace) {
+  json result = json::array();
+  for (const TraceEntry& entry : trace) {
+    json parameters = json::object();
+    for (const auto& [name, value] : entry.parameters) parameters[name] = NumberToJson(value);
+    result.push_back({{"iteration", entry.iteration},
+                      {"rmse", NumberToJson(entry.rmse)},
+                      {"parameters", parameters}});
+  }
+  return result;
+}
+
+// reading: a member that is absent counts as null
+
+const json& Member(const json& object, const char* key, const char* owner, const Place& place) {
+  if (!object.is_object()) Refuse(place, "{} is {}; it must be an object", owner, object.dump());
+  static const json null;
+  const auto found = object.find(key);
+  return found == object.end() ? null : *found;
+}
+
+double ToNumber(const json& value, const char* name, const Place& place) {
+  if (value.is_null()) return std::numeric_limits<double>::quiet_NaN();
+  if (!value.is_number()) Refuse(place, "{} is {}; it must be a number", name, value.dump());
+  return value.get<double>();
+}
+
+int ToInteger(const json& value, const char* name, const Place& place) {
+  if (!value.is_number_integer()) {
+    Refuse(place, "{} is {}; it must be a whole number", name, value.dump());
+  }
+  return value.get<int>();
+}
+
+std::string ToText(const json& value, const char* name, const Place& place) {
+  if (!value.is_string()) Refuse(place, "{} is {}; it must be text", name, value.dump());
+  return value.get<std::string>();
+}
+
+Status ToStatus(const json& value, const Place& place) {
+  const std::string name = ToText(value, "status", place);
+  std::vector<std::string> known;
+  for (const Status status : kStatuses) {
+    if (name == StatusName(status)) return status;
+    known.emplace_back(StatusName(status));
+  }
+  Refuse(place, "there is no status '{}'{}", name, Suggestion(name, known));
+}
+
+EstimatedParameter ToParameter(const std::string& name, const json& object, const Place& place) {
+  EstimatedParameter parameter;
+  parameter.name = name;
+  parameter.value = ToNumber(Member(object, "value", name.c_str(), place), "value", place);
+  parameter.unit = ToText(Member(object, "unit", name.c_str(), place), "unit", place);
+
+  const json& deviation = Member(object, "std", name.c_str(), place);
+  if (!deviation.is_null()) parameter.std = ToNumber(deviation, "std", place);
+  const json& interval = Member(object, "interval95", name.c_str(), place);
+  if (interval.is_null()) return parameter;
+  if (!interval.is_array() || interval.size() != 2) {
+    Refuse(place, "interval95 of {} is {}; it must be [lower, upper]", name, interval.dump());
+  }
+  parameter.interval95 = {ToNumber(interval[0], "interval95", place),
+                          ToNumber(interval[1], "interval95", place)};
+  return parameter;
+}
+
+std::optional<Metrics> ToMetrics(const json& object, const char* owner, const Place& place) {
+  if (object.is_null()) return std::nullopt;
+  const auto number = [&](const char* key) {
+    return ToNumber(Member(object, key, owner, place), key, place);
+  };
+  Metrics metrics;
+  metrics.n = ToInteger(Member(object, "n", owner, place), "n", place);
+  metrics.parameters = ToInteger(Member(object, "parameters", owner, place), "parameters", place);
+  metrics.effective_parameters = number("effective_parameters");
+  metrics.rmse = number("rmse");
+  metrics.mae = number("mae");
+  metrics.fit = number("fit");
+  metrics.fpe = number("fpe");
+  return metrics;
+}
+
+TraceEntry ToTraceEntry(const json& object, const Place& place) {
+  TraceEntry entry;
+  entry.iteration = ToInteger(Member(object, "iteration", "trace", place), "iteration", place);
+  entry.rmse = ToNumber(Member(object, "rmse", "trace", place), "rmse", place);
+  for (const auto& [name, value] : Member(object, "parameters", "trace", place).items()) {
+    entry.parameters.emplace_back(name, ToNumber(value, name.c_str(), place));
+  }
+  return entry;
+}
+
+}  // namespace
+
+json EstimateToJson(const Estimate& estimate) {
+  json parameters = json::object();
+  for (const EstimatedParameter& parameter : estimate.parameters) {
+    parameters[parameter.name] = ParameterToJson(parameter);
+  }
+  return {{"identifier", estimate.identifier},
+          {"status", StatusName(estimate.status)},
+          {"message", estimate.message},
+          {"parameters", parameters},
+          {"metrics", MetricsToJson(estimate.metrics)},
+          {"holdout", MetricsToJson(estimate.holdout)},
+          {"trace", TraceToJson(estimate.trace)},
+          {"friction", estimate.friction ? FrictionToJson(*estimate.friction) : json(nullptr)}};
+}
+
+Estimate EstimateFromJson(const json& object, const Place& place) {
+  const auto member = [&](const char* key) -> const json& {
+    return Member(object, key, "the estimate", place);
+  };
+  Estimate estimate;
+  estimate.identifier = ToText(member("identifier"), "identifier", place);
+  estimate.status = ToStatus(member("status"), place);
+  estimate.message = ToText(member("message"), "message", place);
+
+  const json& parameters = member("parameters");
+  if (!parameters.is_object()) Refuse(place, "parameters must be an object");
+  for (const auto& [name, value] : parameters.items()) {
+    estimate.parameters.push_back(ToParameter(name, value, place));
+  }
+  estimate.metrics = ToMetrics(member("metrics"), "metrics", place);
+  estimate.holdout = ToMetrics(member("holdout"), "holdout", place);
+  for (const json& entry : member("trace")) estimate.trace.push_back(ToTraceEntry(entry, place));
+  if (!member("friction").is_null()) {
+    estimate.friction = FrictionFromJson(member("friction"), place);
+  }
+  return estimate;
+}
+
+}  // namespace warmjoint

@@ -1,0 +1,106 @@
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "identification/estimate.h"
+
+namespace warmjoint {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+Estimate Example() {
+  Estimate estimate;
+  estimate.identifier = "energy-em";
+  estimate.status = Status::not_converged;
+  estimate.message = "The parameters still move.";
+  estimate.parameters = {{"coulomb", 15.1, "N.m", 0.2, {{14.7, 15.5}}},
+                         {"viscous", 1.0 / 3, "N.m.s/rad", {}, {}}};
+  estimate.metrics = Metrics{3600, 4, 3.5, 0.5, 0.4, 93.25, 0.2506};
+  estimate.trace = {{0, {{"coulomb", 9.0}, {"viscous", 4.5}}, 1.9},
+                    {1, {{"coulomb", 10.0}, {"viscous", 4.75}}, 1.5}};
+  estimate.friction = FrictionDescription{
+      "viscous_coulomb", {{"viscous", 1.0 / 3}, {"coulomb", 15.1}}, Thermal{-3, 600}, 20, 50};
+  return estimate;
+}
+
+std::string Refusal(const json& object) {
+  try {
+    EstimateFromJson(object, {"estimate.json"});
+  } catch (const BadInput& refusal) {
+    return refusal.what();
+  }
+  return "accepted";
+}
+
+TEST(EstimateJson, HoldsTheKeysOfTheContract) {
+  const json object = EstimateToJson(Example());
+  EXPECT_EQ(object["identifier"], "energy-em");
+  EXPECT_EQ(object["status"], "not_converged");
+  EXPECT_EQ(object["parameters"]["coulomb"],
+            json({{"value", 15.1}, {"unit", "N.m"}, {"std", 0.2}, {"interval95", {14.7, 15.5}}}));
+  EXPECT_EQ(object["metrics"]["effective_parameters"], 3.5);
+  EXPECT_TRUE(object["holdout"].is_null());
+  EXPECT_EQ(object["trace"][1]["parameters"]["viscous"], 4.75);
+  EXPECT_EQ(object["friction"]["thermal"]["thermal_gain"], -3);
+}
+
+TEST(EstimateJson, ReadsBackBitForBit) {
+  const json object = EstimateToJson(Example());
+  const Estimate back = EstimateFromJson(json::parse(object.dump()), {});
+  EXPECT_EQ(EstimateToJson(back), object);
+  EXPECT_EQ(back.Find("viscous")->value, 1.0 / 3);
+  EXPECT_FALSE(back.Find("viscous")->std);
+  EXPECT_EQ(back.Find("gain"), nullptr);
+}
+
+TEST(EstimateJson, NeverWritesNanOrInfinityAsANumber) {
+  Estimate estimate = Example();
+  estimate.parameters[0].value = std::numeric_limits<double>::quiet_NaN();
+  estimate.parameters[0].std = std::numeric_limits<double>::infinity();
+  estimate.metrics->fit = -std::numeric_limits<double>::infinity();
+  estimate.trace[0].rmse = std::numeric_limits<double>::quiet_NaN();
+
+  const json object = EstimateToJson(estimate);
+  EXPECT_TRUE(object["parameters"]["coulomb"]["value"].is_null());
+  EXPECT_TRUE(object["parameters"]["coulomb"]["std"].is_null());
+  EXPECT_TRUE(object["metrics"]["fit"].is_null());
+  EXPECT_TRUE(object["trace"][0]["rmse"].is_null());
+  EXPECT_TRUE(std::isnan(EstimateFromJson(object, {}).metrics->fit));
+}
+
+TEST(EstimateJson, KeepsEveryStatus) {
+  for (const char* name :
+       {"ok", "not_converged", "not_identifiable", "inadequate_model", "bad_data"}) {
+    json object = EstimateToJson(Example());
+    object["status"] = name;
+    EXPECT_EQ(StatusName(EstimateFromJson(object, {}).status), name);
+  }
+}
+
+TEST(EstimateJson, RefusesABrokenContractWithThePlace) {
+  EXPECT_THAT(Refusal(json::array()), HasSubstr("estimate.json: the estimate is []"));
+  EXPECT_THAT(Refusal({{"identifier", "x"}}), HasSubstr("status is null"));
+
+  json object = EstimateToJson(Example());
+  object["status"] = "okay";
+  EXPECT_THAT(Refusal(object), HasSubstr("no status 'okay'; did you mean 'ok'?"));
+
+  object = EstimateToJson(Example());
+  object["parameters"]["coulomb"]["value"] = "15";
+  EXPECT_THAT(Refusal(object), HasSubstr("value is \"15\"; it must be a number"));
+
+  object = EstimateToJson(Example());
+  object["parameters"]["coulomb"]["interval95"] = {1};
+  EXPECT_THAT(Refusal(object), HasSubstr("interval95 of coulomb"));
+
+  object = EstimateToJson(Example());
+  object["metrics"]["n"] = 1.5;
+  EXPECT_THAT(Refusal(object), HasSubstr("n is 1.5; it must be a whole number"));
+}
+
+}  // namespace
+}  // namespace warmjoint
