@@ -11,4 +11,12 @@ namespace warmjoint {
 Eigen::VectorXd DeriveVelocity(const Eigen::VectorXd& time, const Eigen::VectorXd& position,
                                double cutoff);
 
+/// A cutoff for DeriveVelocity, in Hz: 100 Hz, which passes what a joint's controller does, or less
+/// where the noise of the position would otherwise drown its slope. White noise of standard
+/// deviation s on the position leaves sqrt(h (2 pi)^2 2/3 fc^3) s on the velocity (h: step, s);
+/// the cutoff is lowered until that is 1 % of the velocity's root mean square, at most to 0.02 of
+/// the sampling rate. s comes from the median of the position's fourth differences, or from its
+/// resolution (smallest step / sqrt(12)) where that is more.
+double ChooseCutoff(const Eigen::VectorXd& time, const Eigen::VectorXd& position);
+
 }  // namespace warmjoint

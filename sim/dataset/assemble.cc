@@ -1,0 +1,73 @@
+#include "sim/dataset/assemble.h"
+
+#include <cmath>
+
+#include "sim/dataset/derive_velocity.h"
+
+namespace warmjoint {
+namespace {
+
+void CheckFinite(const RawColumns& raw, const std::string& column, const Eigen::VectorXd& values) {
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    if (std::isfinite(values[i])) continue;
+    Refuse(raw.At(i), "{} of sample {} is {}; it must be finite. Cut the log there or repair it",
+           column, i + 1, values[i]);
+  }
+}
+
+void CheckTime(const RawColumns& raw, const Eigen::VectorXd& time) {
+  for (Eigen::Index i = 1; i < time.size(); ++i) {
+    if (time[i] > time[i - 1]) continue;
+    if (time[i] == time[i - 1]) {
+      Refuse(raw.At(i), "time {} s of sample {} is that of the sample before; drop one of them",
+             time[i], i + 1);
+    }
+    Refuse(raw.At(i),
+           "time of sample {} is {} s, after {} s: it runs backwards. Split the file there or sort "
+           "it by time",
+           i + 1, time[i], time[i - 1]);
+  }
+}
+
+void CheckTorque(const RawColumns& raw, const Measurements& measurements) {
+  const Eigen::VectorXd& torque = measurements.torque;
+  if (torque.maxCoeff() > torque.minCoeff()) return;
+  Refuse({raw.file},
+         "torque is {} {} in all {} samples; a log of friction must vary. Is it mapped "
+         "to the right column?",
+         torque[0], measurements.torque_unit, torque.size());
+}
+
+}  // namespace
+
+Measurements AssembleMeasurements(RawColumns raw, const std::vector<ColumnSource>& sources,
+                                  const CsvLayout& layout) {
+  Measurements measurements;
+  measurements.joint = layout.joint;
+  measurements.gear = layout.gear;
+  measurements.source = raw.file;
+
+  // to SI, each value checked
+  for (std::size_t k = 0; k < sources.size(); ++k) {
+    const auto& [column, index, unit] = sources[k];
+    CheckFinite(raw, column->name, raw.values[k]);
+    Eigen::VectorXd values = std::move(raw.values[k]);
+    if (unit.factor != 1 || unit.offset != 0) {
+      values = unit.factor * values.array() + unit.offset;
+    }
+    if (column->name == "torque") measurements.torque_unit = unit.base;
+    column->set(measurements, std::move(values));
+  }
+
+  const Eigen::Index n = measurements.size();
+  if (n < 3) Refuse({raw.file}, "has {} samples; at least 3 are needed", n);
+  CheckTime(raw, measurements.time);
+  CheckTorque(raw, measurements);
+  if (measurements.velocity.size() == 0) {
+    measurements.velocity = DeriveVelocity(measurements.time, measurements.position,
+                                           ChooseCutoff(measurements.time, measurements.position));
+  }
+  return measurements;
+}
+
+}  // namespace warmjoint
