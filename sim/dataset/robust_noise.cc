@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace warmjoint {
+namespace {
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+}  // namespace
 
 double MedianInPlace(Eigen::VectorXd& x) {
   double* middle = x.data() + x.size() / 2;
@@ -23,12 +27,20 @@ double WhiteNoise(const Eigen::VectorXd& x) {
 }
 
 double Resolution(const Eigen::VectorXd& x) {
-  double smallest = 0;
-  for (Eigen::Index i = 1; i < x.size(); ++i) {
-    const double step = std::abs(x[i] - x[i - 1]);
-    if (step > 0 && (smallest == 0 || step < smallest)) smallest = step;
+  if (x.size() < 2) return 0;
+  const Eigen::ArrayXd steps = (x.tail(x.size() - 1) - x.head(x.size() - 1)).cwiseAbs();
+  const double rounding = 1e-12 * x.cwiseAbs().maxCoeff();
+  double smallest = kInfinity, largest = 0;
+  for (const double step : steps) {
+    if (step > rounding) smallest = std::min(smallest, step);
+    largest = std::max(largest, step);
   }
-  return smallest;
+
+  // every step a multiple of the smallest, and more than one kind of step
+  const Eigen::ArrayXd multiples = steps / smallest;
+  const bool all_whole = ((multiples - multiples.round()).abs() <= 0.05).all();
+  const bool varied = multiples.minCoeff() < multiples.maxCoeff() - 0.5;
+  return largest > rounding && all_whole && varied ? smallest : 0;
 }
 
 }  // namespace warmjoint

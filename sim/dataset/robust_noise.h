@@ -10,8 +10,9 @@ namespace warmjoint {
 /// not count. x: [N]; 0 for fewer than five samples.
 double WhiteNoise(const Eigen::VectorXd& x);
 
-/// The smallest difference between two neighbours that differ: the resolution of a quantised
-/// signal; for others a number near 0. x: [N]; 0 where all are alike.
+/// Step of a quantised signal: the smallest difference between neighbours, where all differences
+/// are multiples of it (to 5 % of it) and not all the same multiple; 0 for signals that are not
+/// quantised, or too finely to tell. x: [N].
 double Resolution(const Eigen::VectorXd& x);
 
 /// Median of x, which is reordered. x: [N], N at least 1.
