@@ -1,0 +1,117 @@
+#include "identification/fit_data.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "identification/student.h"
+
+namespace warmjoint {
+namespace {
+
+/// Complains of the first number in `values` that is not finite.
+std::optional<std::string> NotFinite(const char* name, const Eigen::VectorXd& values) {
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    if (std::isfinite(values[i])) continue;
+    return fmt::format("{} is {} at sample {}; remove or repair that sample", name, values[i], i);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Eigen::MatrixXd Kept(const Eigen::MatrixXd& all, const Selection& selection) {
+  Eigen::MatrixXd kept(selection.count(), all.cols());
+  Eigen::Index row = 0;
+  for (Eigen::Index i = 0; i < all.rows(); ++i) {
+    if (selection.keep[i]) kept.row(row++) = all.row(i);
+  }
+  return kept;
+}
+
+std::optional<std::string> Unusable(const IdentifierInput& input, int parameters) {
+  const Measurements& m = input.measurements;
+  if (auto why = NotFinite("time", m.time)) return why;
+  if (auto why = NotFinite("velocity", m.velocity)) return why;
+  if (auto why = NotFinite("torque", m.torque)) return why;
+
+  const auto count = input.selection.count();
+  if (count <= parameters) {
+    return fmt::format(
+        "{} of {} samples move at a constant speed, too few for {} parameters; record longer, or "
+        "hold each speed longer",
+        count, m.size(), parameters);
+  }
+
+  const Eigen::VectorXd torque = Kept(m.torque, input.selection);
+  if (torque.maxCoeff() == torque.minCoeff()) {
+    return fmt::format("torque is constant at {} {}; is it the right column?", torque[0],
+                       m.torque_unit);
+  }
+  return std::nullopt;
+}
+
+Estimate Failed(std::string identifier, Status status, std::string message) {
+  Estimate estimate;
+  estimate.identifier = std::move(identifier);
+  estimate.status = status;
+  estimate.message = std::move(message);
+  return estimate;
+}
+
+std::string UnitFor(const ParameterInfo& info, const Measurements& measurements) {
+  const std::string_view table = info.unit.For(measurements.joint);
+  const std::string_view torque = kTorqueUnit.For(measurements.joint);
+  if (measurements.torque_unit == torque) return std::string(table);
+
+  // the thermal gain is torque over torque times velocity
+  if (table == kThermalGainUnit.For(measurements.joint)) {
+    return measurements.joint == JointKind::rotary ? "s/rad" : "s/m";
+  }
+  if (table.substr(0, torque.size()) != torque) return std::string(table);
+  return measurements.torque_unit + std::string(table.substr(torque.size()));
+}
+
+EstimatedParameter WithInterval(std::string name, double value, std::string unit, double std,
+                                double freedom) {
+  const double reach = StudentQuantile(freedom) * std;
+  return {std::move(name), value, std::move(unit), std, {{value - reach, value + reach}}};
+}
+
+std::string Indistinct(const std::vector<std::string>& mixed, const Measurements& measurements,
+                       const Selection& selection) {
+  const Eigen::VectorXd velocity = Kept(measurements.velocity, selection);
+  const std::string names = fmt::format("{}", fmt::join(mixed, ", "));
+  const bool one_way = velocity.minCoeff() > 0 || velocity.maxCoeff() < 0;
+  const Eigen::ArrayXd speed = velocity.cwiseAbs();
+  const std::string_view unit = kVelocityUnit.For(measurements.joint);
+  return fmt::format(
+      "the motion cannot tell apart: {}; speeds from {:.4g} to {:.4g} {}{}; move at two or more "
+      "speeds that differ clearly, for example a tenth of the highest and the highest{}",
+      names, speed.minCoeff(), speed.maxCoeff(), unit, one_way ? " in one direction alone" : "",
+      one_way ? ", in both directions" : "");
+}
+
+void DescribeFriction(const Law& law, const Measurements& measurements, Estimate& estimate) {
+  FrictionDescription friction;
+  friction.law = law.name;
+  friction.gear = measurements.gear;
+  for (const ParameterInfo& info : law.parameters) {
+    const EstimatedParameter& found = *estimate.Find(info.name);
+    friction.parameters[found.name] = found.value;
+    if (found.value >= info.lower && found.value <= info.upper) continue;
+
+    // outside of the bounds beyond doubt: the law is the wrong one
+    const bool beyond = found.interval95 && ((*found.interval95)[1] < info.lower ||
+                                             (*found.interval95)[0] > info.upper);
+    if (beyond && estimate.status == Status::ok) estimate.status = Status::inadequate_model;
+    estimate.message = fmt::format(
+        "{} is {:.4g} {}, outside of [{}, {}]: no friction can be given; try another law, or one "
+        "that warms up",
+        found.name, found.value, found.unit, info.lower, info.upper);
+    return;
+  }
+  estimate.friction = friction;
+}
+
+}  // namespace warmjoint

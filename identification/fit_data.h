@@ -1,0 +1,40 @@
+// What every identifier does first and last: look at the data, and put the law into the estimate.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "identification/identifier.h"
+#include "models/friction/law.h"
+
+namespace warmjoint {
+
+/// The rows of `all` that the selection keeps. all: [N] or [N x d]; returns [n] or [n x d].
+Eigen::MatrixXd Kept(const Eigen::MatrixXd& all, const Selection& selection);
+
+/// Why nothing can be fitted to these data: a number that is not finite, too few kept samples for
+/// `parameters`, or a constant torque. Empty where the data can be used.
+std::optional<std::string> Unusable(const IdentifierInput& input, int parameters);
+
+/// An estimate that failed: its status and one sentence, no numbers.
+Estimate Failed(std::string identifier, Status status, std::string message);
+
+/// The parameter's unit for the recording's joint and torque unit: "A.s/rad" where a current
+/// stands for the torque.
+std::string UnitFor(const ParameterInfo& info, const Measurements& measurements);
+
+/// An estimated parameter with its 95 % interval. freedom: samples less parameters.
+EstimatedParameter WithInterval(std::string name, double value, std::string unit, double std,
+                                double freedom);
+
+/// Names of the columns that cannot be told apart, and the motion that would: one sentence.
+/// mixed: names of law parameters.
+std::string Indistinct(const std::vector<std::string>& mixed, const Measurements& measurements,
+                       const Selection& selection);
+
+/// Puts the law and the parameter values that `estimate` holds into estimate.friction. Where a
+/// value lies outside its table's bounds there is no such friction: it is left out, and status and
+/// message say so.
+void DescribeFriction(const Law& law, const Measurements& measurements, Estimate& estimate);
+
+}  // namespace warmjoint

@@ -1,0 +1,23 @@
+#include "identification/identifier.h"
+#include "identification/nominal_ls.h"
+#include "models/foundation/nearest_name.h"
+
+namespace warmjoint {
+
+const std::vector<Identifier>& Identifiers() {
+  static const std::vector<Identifier> identifiers{
+      NominalLs(),
+  };
+  return identifiers;
+}
+
+const Identifier& FindIdentifier(const std::string& name) {
+  std::vector<std::string> known;
+  for (const Identifier& identifier : Identifiers()) {
+    if (identifier.name == name) return identifier;
+    known.push_back(identifier.name);
+  }
+  Refuse({}, "there is no identifier '{}'{}", name, Suggestion(name, known));
+}
+
+}  // namespace warmjoint

@@ -1,0 +1,91 @@
+#include "identification/score/score.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "identification/score/npe.h"
+
+namespace warmjoint {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+ParameterScore ScoreOne(std::string name, double truth, const Estimate& estimate) {
+  ParameterScore score;
+  score.name = std::move(name);
+  score.truth = truth;
+  score.bound = kNone;
+  if (const EstimatedParameter* found = estimate.Find(score.name)) {
+    score.estimated = true;
+    score.estimate = found->value;
+    if (found->interval95) {
+      const auto [lower, upper] = *found->interval95;
+      score.covered = lower <= truth && truth <= upper;
+    }
+  }
+  return score;
+}
+
+/// Median of the sampling intervals, s.
+double SamplingInterval(const Eigen::VectorXd& time) {
+  const Eigen::Index n = time.size() - 1;
+  Eigen::VectorXd steps = time.tail(n) - time.head(n);
+  std::nth_element(steps.begin(), steps.begin() + n / 2, steps.end());
+  return steps[n / 2];
+}
+
+/// Parameters that the relative error (26) can be formed of.
+std::vector<ParameterScore> Relative(const std::vector<ParameterScore>& all) {
+  std::vector<ParameterScore> relative;
+  for (const ParameterScore& one : all) {
+    if (one.truth != 0) relative.push_back(one);
+  }
+  return relative;
+}
+
+double Npe(const std::vector<ParameterScore>& all) {
+  const std::vector<ParameterScore> scores = Relative(all);
+  Eigen::VectorXd estimate(scores.size()), truth(scores.size());
+  for (size_t i = 0; i < scores.size(); ++i) {
+    estimate[i] = scores[i].estimate;
+    truth[i] = scores[i].truth;
+  }
+  return NormalisedParameterError(estimate, truth);
+}
+
+double BoundNpe(const std::vector<ParameterScore>& all) {
+  double sum = 0;
+  for (const ParameterScore& one : Relative(all)) sum += std::pow(one.bound / one.truth, 2);
+  return std::sqrt(sum);
+}
+
+}  // namespace
+
+Score ScoreEstimate(const Estimate& estimate, const Measurements& measurements,
+                    const Selection& selection, const Truth& truth) {
+  Score score;
+  for (const auto& [name, value] : truth.friction.parameters) {
+    score.continuous.push_back(ScoreOne(name, value, estimate));
+  }
+  score.discrete = score.continuous;
+  static_cast<void>(selection);
+
+  if (truth.friction.thermal) {
+    const Thermal& thermal = *truth.friction.thermal;
+    score.continuous.push_back(ScoreOne("thermal_gain", thermal.gain, estimate));
+    score.continuous.push_back(ScoreOne("thermal_time_constant", thermal.time_constant, estimate));
+
+    const DiscreteThermal discrete = Discretise(thermal, SamplingInterval(measurements.time));
+    score.discrete.push_back(ScoreOne("thermal_gain_discrete", discrete.gain, estimate));
+    score.discrete.push_back(ScoreOne("thermal_pole", discrete.pole, estimate));
+  }
+
+  score.npe_continuous = Npe(score.continuous);
+  score.npe_discrete = Npe(score.discrete);
+  score.bound_npe_continuous = BoundNpe(score.continuous);
+  score.bound_npe_discrete = BoundNpe(score.discrete);
+  return score;
+}
+
+}  // namespace warmjoint
