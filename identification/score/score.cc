@@ -65,8 +65,9 @@ double BoundNpe(const std::vector<ParameterScore>& all) {
 Score ScoreEstimate(const Estimate& estimate, const Measurements& measurements,
                     const Selection& selection, const Truth& truth) {
   Score score;
-  for (const auto& [name, value] : truth.friction.parameters) {
-    score.continuous.push_back(ScoreOne(name, value, estimate));
+  for (const ParameterInfo& info : FindLaw(truth.friction.law)->parameters) {
+    const std::string name(info.name);
+    score.continuous.push_back(ScoreOne(name, truth.friction.parameters.at(name), estimate));
   }
   score.discrete = score.continuous;
   static_cast<void>(selection);
