@@ -1,0 +1,31 @@
+// Configuration attributes of the plugin `warmjoint.friction`.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "models/friction/friction_description.h"
+
+namespace warmjoint {
+
+/// One attribute that <config key= value=> may give.
+struct PluginAttribute {
+  std::string name;
+  std::string unit;   // of rotary joints; empty where it is no quantity
+  std::string bound;  // what is allowed
+  std::string meaning;
+};
+
+/// All attributes: `law`, `file`, the parameters of every law, the thermal ones, `gear`.
+const std::vector<PluginAttribute>& PluginAttributes();
+
+/// Reads the value of an attribute by its name; empty where it was not given.
+using AttributeReader = std::function<std::string(const std::string& name)>;
+
+/// The friction that the attributes describe, checked. Throws BadInput, from `place`, naming
+/// attribute, value and bound for: no number ("5x"), a value out of bounds, a parameter that the
+/// law lacks or needs, `file` beside attributes that it would contradict.
+FrictionDescription ReadAttributes(const AttributeReader& read, const Place& place);
+
+}  // namespace warmjoint

@@ -1,0 +1,48 @@
+// One instance of the plugin: the friction of its joints, bound to a model.
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include <string>
+#include <vector>
+
+#include "models/friction/joint_friction.h"
+
+namespace warmjoint {
+
+/// Name under which MuJoCo knows the plugin.
+inline constexpr char kFrictionPlugin[] = "warmjoint.friction";
+
+/// Entries of mjData.act of each actuator, and so its `actdim`.
+inline constexpr int kFrictionStates = 2;  // FrictionState: bristle, energy
+
+/// Friction of the joints whose actuators share one plugin instance. Keeps no state of its own
+/// beyond scratch: all state is in mjData.act.
+class FrictionInstance {
+ public:
+  /// Reads the instance's attributes and checks them and its actuators against the model.
+  /// Throws BadInput that names actuator, attribute, value and bound.
+  FrictionInstance(const mjModel* m, int instance);
+
+  /// Steps every joint: writes act_dot = (next - now) / h, so that the engine's Euler step of act
+  /// lands on the next state, and keeps the forces for Apply.
+  void Step(const mjModel* m, mjData* d);
+
+  /// Writes actuator_force = -F of the last Step.
+  void Apply(const mjModel* m, mjData* d) const;
+
+ private:
+  /// One actuator and where its joint's numbers stand in the model.
+  struct Joint {
+    int actuator = 0;
+    int dof = 0;
+    int state = 0;     // in act
+    int output = 0;    // in actuator_force
+    double force = 0;  // F of the last step, N.m or N
+  };
+
+  JointFriction friction_;
+  std::vector<Joint> joints_;
+};
+
+}  // namespace warmjoint

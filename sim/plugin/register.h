@@ -1,0 +1,10 @@
+// Making the plugin `warmjoint.friction` known to MuJoCo.
+#pragma once
+
+namespace warmjoint {
+
+/// Registers the plugin; repeating it does nothing. Programs that link the plugin call it before
+/// they load a model; the shared library calls it when it is loaded.
+void RegisterFrictionPlugin();
+
+}  // namespace warmjoint

@@ -1,0 +1,109 @@
+#include "sim/plugin/attributes.h"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "models/foundation/atomic_file.h"
+#include "tests/sim/plugin/friction_models.h"
+
+namespace warmjoint {
+namespace {
+
+using test::Compile;
+using test::Config;
+using test::FrictionSection;
+using test::LinkXml;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+std::string ErrorOf(const Config& config, const std::string& attributes = "",
+                    const std::string& option = test::kNoGravity, const std::string& joint = "") {
+  return Compile(LinkXml(FrictionSection(config, attributes), option, joint)).error;
+}
+
+const Config kGood{{"law", "viscous_coulomb"}, {"viscous", "5"}, {"coulomb", "15"}};
+
+Config With(const std::string& key, const std::string& value) {
+  Config config = kGood;
+  config[key] = value;
+  return config;
+}
+
+TEST(PluginAttributes, LoadWhereTheyAreRight) { EXPECT_EQ(ErrorOf(kGood), ""); }
+
+TEST(PluginAttributes, RefuseATextInANumber) {
+  EXPECT_THAT(ErrorOf(With("viscous", "5x")),
+              AllOf(HasSubstr("actuator 'f'"), HasSubstr("viscous is '5x'"), HasSubstr("number")));
+  EXPECT_THAT(ErrorOf(With("coulomb", "nan")), HasSubstr("coulomb is nan; it must be a finite"));
+}
+
+TEST(PluginAttributes, RefuseAValueOutOfBounds) {
+  EXPECT_THAT(ErrorOf(With("coulomb", "-3")),
+              AllOf(HasSubstr("actuator 'f'"), HasSubstr("coulomb is -3"), HasSubstr("from 0")));
+  EXPECT_THAT(ErrorOf(With("gear", "0")), HasSubstr("gear is 0"));
+}
+
+TEST(PluginAttributes, RefuseAnUnknownKeyLawOrParameter) {
+  EXPECT_THAT(ErrorOf(With("viscos", "5")), HasSubstr("viscos"));
+  EXPECT_THAT(ErrorOf(With("law", "viscous_coulom")), HasSubstr("did you mean 'viscous_coulomb'"));
+  EXPECT_THAT(ErrorOf(With("coulomb_positive", "5")),
+              HasSubstr("law viscous_coulomb has no parameter 'coulomb_positive'"));
+}
+
+TEST(PluginAttributes, RefuseWhatIsMissing) {
+  EXPECT_THAT(ErrorOf({{"law", "viscous_coulomb"}, {"viscous", "5"}}), HasSubstr("lacks its"));
+  EXPECT_THAT(ErrorOf({{"viscous", "5"}}), HasSubstr("law is missing"));
+  EXPECT_THAT(ErrorOf(With("thermal_gain", "-3")), HasSubstr("give both or neither"));
+}
+
+TEST(PluginAttributes, ReadAFrictionFileInstead) {
+  const std::string path = testing::TempDir() + "/friction_of_attributes_test.json";
+  WriteWholeFile(path, R"({"law": "coulomb", "parameters": {"coulomb": 6}})");
+  EXPECT_EQ(ErrorOf({{"file", path}}), "");
+  EXPECT_THAT(ErrorOf({{"file", path}, {"law", "coulomb"}}), HasSubstr("beside file"));
+  EXPECT_THAT(ErrorOf({{"file", path + "x"}}), HasSubstr("cannot be read"));
+}
+
+TEST(PluginActuator, RefusesWhatWouldBreakFriction) {
+  EXPECT_THAT(ErrorOf(kGood, R"(forcerange="-1 1")"), HasSubstr("forcerange"));
+  EXPECT_THAT(ErrorOf(kGood, R"(gear="2")"), HasSubstr("gear is 2"));
+  EXPECT_THAT(ErrorOf(kGood, "", test::kNoGravity, R"(actuatorfrcrange="-9 9")"),
+              HasSubstr("joint 'hinge' has actuatorfrcrange"));
+  EXPECT_THAT(ErrorOf(kGood, "", R"(integrator="RK4")"), HasSubstr("integrator is RK4"));
+}
+
+TEST(PluginActuator, RefusesAnInertiaTooSmallForTheSlopeAndSaysWhatItNeeds) {
+  // inertia 0.25 kg.m^2, 500 N.m.s/rad at 1 ms needs 0.5 kg.m^2
+  const std::string error = ErrorOf(With("viscous", "500"));
+  EXPECT_THAT(error, AllOf(HasSubstr("actuator 'f'"), HasSubstr("armature of 0.25"),
+                           HasSubstr("timestep of at most 0.0005")));
+  EXPECT_EQ(ErrorOf(With("viscous", "500"), "", test::kNoGravity, R"(armature="0.2501")"), "");
+}
+
+TEST(PluginReadme, HasTheTableOfTheCode) {
+  const std::string readme =
+      ReadWholeFile(std::string(WARMJOINT_SOURCE_DIR) + "/sim/plugin/README.md");
+  std::string table = "| attribute | unit | allowed | meaning |\n|---|---|---|---|\n";
+  for (const PluginAttribute& a : PluginAttributes()) {
+    table += fmt::format("| {} | {} | {} | {} |\n", a.name, a.unit, a.bound, a.meaning);
+  }
+  EXPECT_THAT(readme, HasSubstr(table)) << "write this table into sim/plugin/README.md:\n" << table;
+}
+
+TEST(PluginReadme, HasAModelThatRuns) {
+  const std::string readme =
+      ReadWholeFile(std::string(WARMJOINT_SOURCE_DIR) + "/sim/plugin/README.md");
+  const size_t begin = readme.find("```xml\n") + 7;
+  const auto compiled = Compile(readme.substr(begin, readme.find("```", begin) - begin));
+  ASSERT_EQ(compiled.error, "");
+
+  // the link falls, and its friction gets warm
+  const test::Data d(mj_makeData(compiled.model.get()));
+  for (int i = 0; i < 300; ++i) mj_step(compiled.model.get(), d.get());
+  EXPECT_GT(d->qpos[0], 0.01);
+  EXPECT_LT(d->act[1], 0);
+}
+
+}  // namespace
+}  // namespace warmjoint

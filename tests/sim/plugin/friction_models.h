@@ -1,0 +1,81 @@
+// Small models with warm friction, and their engine objects, for the plugin's tests.
+#pragma once
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <mujoco/mujoco.h>
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "sim/plugin/register.h"
+
+namespace warmjoint::test {
+
+struct DeleteModel {
+  void operator()(mjModel* m) const { mj_deleteModel(m); }
+};
+struct DeleteData {
+  void operator()(mjData* d) const { mj_deleteData(d); }
+};
+struct DeleteSpec {
+  void operator()(mjSpec* s) const { mj_deleteSpec(s); }
+};
+using Model = std::unique_ptr<mjModel, DeleteModel>;
+using Data = std::unique_ptr<mjData, DeleteData>;
+using Spec = std::unique_ptr<mjSpec, DeleteSpec>;
+
+/// A model, or nothing and the engine's message.
+struct Compiled {
+  Model model;
+  std::string error;
+};
+
+inline Compiled Compile(const std::string& xml) {
+  RegisterFrictionPlugin();
+  char error[1000] = "";
+  const Spec spec(mj_parseXMLString(xml.c_str(), nullptr, error, sizeof(error)));
+  if (!spec) return {nullptr, error};
+  Model model(mj_compile(spec.get(), nullptr));
+  if (!model) return {nullptr, mjs_getError(spec.get())};
+  return {std::move(model), ""};
+}
+
+using Config = std::map<std::string, std::string>;
+
+/// Friction "f" on the joint "hinge", as an <actuator> section.
+inline std::string FrictionSection(const Config& config, const std::string& attributes = "") {
+  std::string keys;
+  for (const auto& [key, value] : config) {
+    keys += fmt::format(R"(<config key="{}" value="{}"/>)", key, value);
+  }
+  return fmt::format(R"(
+  <actuator>
+    <plugin name="f" joint="hinge" plugin="warmjoint.friction" actdim="2" {}>{}</plugin>
+  </actuator>)",
+                     attributes, keys);
+}
+
+/// One link: inertia 0.25 kg.m^2 and weight 1 kg 0.5 m from the hinge's horizontal axis, or no
+/// gravity. `sections`: further MJCF; `joint`: further attributes of the joint.
+inline std::string LinkXml(const std::string& sections, const std::string& option,
+                           const std::string& joint = "") {
+  return fmt::format(R"(
+<mujoco>
+  <extension><plugin plugin="warmjoint.friction"/></extension>
+  <option {}><flag contact="disable" eulerdamp="disable"/></option>
+  <worldbody>
+    <body>
+      <joint name="hinge" type="hinge" axis="0 1 0" {}/>
+      <inertial pos="0.5 0 0" mass="1" diaginertia="1e-9 1e-9 1e-9"/>
+    </body>
+  </worldbody>
+  {}
+</mujoco>)",
+                     option, joint, sections);
+}
+
+inline constexpr char kNoGravity[] = R"(timestep="0.001" gravity="0 0 0")";
+
+}  // namespace warmjoint::test
