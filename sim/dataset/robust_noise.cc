@@ -9,10 +9,11 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 }  // namespace
 
-double MedianInPlace(Eigen::VectorXd& x) {
-  double* middle = x.data() + x.size() / 2;
-  std::nth_element(x.data(), middle, x.data() + x.size());
-  return *middle;
+double QuantileInPlace(Eigen::VectorXd& x, double quantile) {
+  const auto rank = static_cast<Eigen::Index>(quantile * static_cast<double>(x.size()));
+  double* value = x.data() + std::min(rank, x.size() - 1);
+  std::nth_element(x.data(), value, x.data() + x.size());
+  return *value;
 }
 
 double WhiteNoise(const Eigen::VectorXd& x) {

@@ -15,7 +15,11 @@ double WhiteNoise(const Eigen::VectorXd& x);
 /// quantised, or too finely to tell. x: [N].
 double Resolution(const Eigen::VectorXd& x);
 
+/// The value below which a share `quantile` of x lies; x is reordered. x: [N], N at least 1;
+/// quantile: 0 to 1.
+double QuantileInPlace(Eigen::VectorXd& x, double quantile);
+
 /// Median of x, which is reordered. x: [N], N at least 1.
-double MedianInPlace(Eigen::VectorXd& x);
+inline double MedianInPlace(Eigen::VectorXd& x) { return QuantileInPlace(x, 0.5); }
 
 }  // namespace warmjoint

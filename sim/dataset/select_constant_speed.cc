@@ -1,0 +1,160 @@
+#include <algorithm>
+#include <cmath>
+
+#include "sim/dataset/plateaus.h"
+#include "sim/dataset/robust_noise.h"
+#include "sim/dataset/selection.h"
+
+namespace warmjoint {
+namespace {
+
+using Eigen::Index;
+
+constexpr Index kShortest = 3;  // samples of a segment
+
+Index Length(const Segment& segment) { return segment.end - segment.begin; }
+
+/// Sets the level of a run to its median and cuts its ends where the speed still settles: outwards
+/// from the middle, to the first samples that leave 4 robust standard deviations.
+void Settle(Segment& run, const Eigen::VectorXd& v, const VelocityScale& scale) {
+  Eigen::VectorXd values = v.segment(run.begin, Length(run));
+  run.velocity = MedianInPlace(values);
+  values = (values.array() - run.velocity).abs();
+  const double spread = MedianInPlace(values) / 0.6745;
+  const double allowed = std::max(
+      {4 * spread, 3 * scale.noise, 0.005 * std::abs(run.velocity), 1.5 * scale.resolution});
+
+  const Index patience = 1 + Length(run) / 100;  // samples in a row that end the run
+  const Index middle = (run.begin + run.end) / 2;
+  const auto is_outside = [&](Index i) { return std::abs(v[i] - run.velocity) > allowed; };
+  Index begin = middle, end = middle + 1;
+  for (Index i = middle, outside = 0; i >= run.begin && outside < patience; --i) {
+    outside = is_outside(i) ? outside + 1 : 0;
+    if (outside == 0) begin = i;
+  }
+  for (Index i = middle, outside = 0; i < run.end && outside < patience; ++i) {
+    outside = is_outside(i) ? outside + 1 : 0;
+    if (outside == 0) end = i + 1;
+  }
+  run.begin = begin;
+  run.end = end;
+}
+
+/// Quarters of a run; halves of a short one.
+Index Parts(const Segment& run) { return Length(run) < 8 ? 2 : 4; }
+
+/// Largest difference between the mean speeds of the run's parts.
+double Drift(const Segment& run, const Eigen::VectorXd& v) {
+  const Index part = Length(run) / Parts(run);
+  double lowest = v.segment(run.begin, part).mean(), highest = lowest;
+  for (Index k = 1; k < Parts(run); ++k) {
+    const Index begin = k + 1 < Parts(run) ? run.begin + k * part : run.end - part;
+    const double mean = v.segment(begin, part).mean();
+    lowest = std::min(lowest, mean);
+    highest = std::max(highest, mean);
+  }
+  return highest - lowest;
+}
+
+/// Whether a drift is less than a hundredth of the steepest acceleration of the log.
+bool IsSlow(double drift, const Segment& run, const VelocityScale& scale) {
+  return drift <= 0.01 * scale.steepest * static_cast<double>(Length(run)) * scale.step;
+}
+
+/// Whether the speed drifts by more than the noise of those means and 0.5 % of the level, and not
+/// slowly.
+bool Drifts(const Segment& run, const Eigen::VectorXd& v, const VelocityScale& scale) {
+  const double drift = Drift(run, v);
+  const auto independent = static_cast<double>(Length(run) / Parts(run)) / scale.memory;
+  const double noise = 4 * scale.noise / std::sqrt(std::max(independent, 1.0));
+  const double explained = 0.005 * std::abs(run.velocity) + std::max(noise, 0.5 * scale.resolution);
+  return drift > std::min(explained, 0.6 * scale.Band(run.velocity)) && !IsSlow(drift, run, scale);
+}
+
+bool Rests(const Segment& run, const VelocityScale& scale) {
+  const double smallest = std::max({3 * scale.noise, 1.5 * scale.resolution, 1e-3 * scale.rms});
+  return std::abs(run.velocity) <= smallest;
+}
+
+/// Whether a run differs from a piece of an acceleration: the speed drifts slowly, or at each end
+/// it jumps (by half of the step in level or more), the recording ends, or a run of less than a
+/// third of its length follows.
+bool StandsOut(const std::vector<Segment>& runs, std::size_t i, const Eigen::VectorXd& v,
+               const VelocityScale& scale) {
+  const Segment& run = runs[i];
+  const auto is_clear = [&](const Segment& other, Index boundary) {
+    const double jump = std::abs(v[boundary] - v[boundary - 1]);
+    return 3 * Length(other) <= Length(run) ||
+           jump >= 0.5 * std::abs(other.velocity - run.velocity);
+  };
+  const bool is_clear_in_front = i == 0 || is_clear(runs[i - 1], run.begin);
+  const bool is_clear_behind = i + 1 == runs.size() || is_clear(runs[i + 1], run.end);
+  return (is_clear_in_front && is_clear_behind) || IsSlow(Drift(run, v), run, scale);
+}
+
+/// Samples between run i and its neighbours (or the ends of the recording).
+std::pair<Index, Index> Gaps(const std::vector<Segment>& runs, std::size_t i, Index samples) {
+  const Index before = i == 0 ? 0 : runs[i - 1].end;
+  const Index after = i + 1 == runs.size() ? samples : runs[i + 1].begin;
+  return {runs[i].begin - before, after - runs[i].end};
+}
+
+/// Drops runs shorter than a tenth of the accelerations beside them: turning points of the speed.
+std::vector<Segment> WithoutTurningPoints(const std::vector<Segment>& runs, Index samples) {
+  std::vector<Segment> lasting;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const auto [front, back] = Gaps(runs, i, samples);
+    if (10 * Length(runs[i]) >= front + back) lasting.push_back(runs[i]);
+  }
+  return lasting;
+}
+
+/// The run less a tenth of the acceleration at each end, whose start and end hide in the noise.
+/// Neighbours without a sample between them lose nothing.
+Segment KeptAway(Segment run, std::pair<Index, Index> gaps) {
+  const Index most = Length(run) / 4;
+  const Index front = std::min(gaps.first / 10, most);
+  const Index back = std::min(gaps.second / 10, most);
+  if (Length(run) - front - back < kShortest) return run;
+  return {run.begin + front, run.end - back, run.velocity};
+}
+
+/// The runs at one speed, rests among them, each cut to where the speed has settled.
+std::vector<Segment> SteadyRuns(const Measurements& measurements, const VelocityScale& scale) {
+  const Eigen::VectorXd& v = measurements.velocity;
+  std::vector<Segment> steady;
+  const std::vector<Segment> runs = CutIntoRuns(measurements, scale);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (Length(runs[i]) < kShortest || !StandsOut(runs, i, v, scale)) continue;
+    Segment run = runs[i];
+    Settle(run, v, scale);
+    if (Length(run) < kShortest || Drifts(run, v, scale)) continue;
+    steady.push_back(run);
+  }
+  return WithoutTurningPoints(steady, v.size());
+}
+
+}  // namespace
+
+Selection SelectConstantSpeed(const Measurements& measurements) {
+  const Eigen::VectorXd& v = measurements.velocity;
+  const VelocityScale scale = MeasureVelocity(measurements);
+  const std::vector<Segment> steady = SteadyRuns(measurements, scale);
+
+  Selection selection;
+  selection.keep.setConstant(v.size(), false);
+  for (std::size_t i = 0; i < steady.size(); ++i) {
+    if (Rests(steady[i], scale)) continue;
+    Segment segment = KeptAway(steady[i], Gaps(steady, i, v.size()));
+
+    // outliers within a segment are not kept
+    const auto values = v.segment(segment.begin, Length(segment)).array();
+    selection.keep.segment(segment.begin, Length(segment)) =
+        (values - segment.velocity).abs() <= scale.Band(segment.velocity);
+    segment.velocity = values.mean();
+    selection.segments.push_back(segment);
+  }
+  return selection;
+}
+
+}  // namespace warmjoint
