@@ -1,3 +1,4 @@
+#include "identification/energy_em.h"
 #include "identification/identifier.h"
 #include "identification/nominal_ls.h"
 #include "models/foundation/nearest_name.h"
@@ -7,6 +8,7 @@ namespace warmjoint {
 const std::vector<Identifier>& Identifiers() {
   static const std::vector<Identifier> identifiers{
       NominalLs(),
+      EnergyEm(),
   };
   return identifiers;
 }

@@ -1,0 +1,26 @@
+// First guess of the thermal parameters from the envelope of the torque, Eq. (25).
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "models/friction/thermal.h"
+#include "sim/dataset/selection.h"
+
+namespace warmjoint {
+
+struct FirstGuess {
+  std::optional<Thermal> thermal;
+  std::string why;  // where there is none: one sentence
+};
+
+/// Reads gain and time constant off a recording that starts cold, moves without long rests and
+/// settles. With the friction level c(t) = sign(v) tau - kv |v| averaged over windows:
+///   k = (c(settled) - c(0)) / mean(W)          W = |tau v|, over the settled part
+///   tau = t63 (1 - k mean|v|)                  t63: when 63 % of the change is reached
+/// The paper's (25) takes tau = t63; but losses fall as friction does, so that warming is faster
+/// than the filter by 1 - k |v| (with E in |F v|, Eqs. (19)-(21), at a constant speed).
+/// Refused with a sentence where the level does not change, or has not settled in the last quarter.
+FirstGuess GuessThermal(const Measurements& measurements, const Selection& selection);
+
+}  // namespace warmjoint

@@ -1,0 +1,68 @@
+#include "identification/hold_out.h"
+
+#include "identification/fit_data.h"
+#include "identification/predict.h"
+
+namespace warmjoint {
+namespace {
+
+/// The first n samples.
+Measurements Head(const Measurements& all, Eigen::Index n) {
+  Measurements head = all;
+  for (Eigen::VectorXd* column : {&head.time, &head.position, &head.velocity, &head.torque}) {
+    column->conservativeResize(std::min(n, column->size()));
+  }
+  for (auto* column : {&head.motor_position, &head.load, &head.temperature}) {
+    if (*column) (*column)->conservativeResize(n);
+  }
+  return head;
+}
+
+Selection Head(const Selection& all, Eigen::Index n) {
+  Selection head{all.keep.head(n), {}};
+  for (Segment segment : all.segments) {
+    if (segment.begin >= n) break;
+    segment.end = std::min(segment.end, n);
+    head.segments.push_back(segment);
+  }
+  return head;
+}
+
+/// Figures of an estimate's friction on the samples that `test` keeps.
+std::optional<Metrics> Evaluate(const Estimate& estimate, const Measurements& measurements,
+                                const Selection& test) {
+  if (!estimate.friction || test.count() == 0) return std::nullopt;
+  const Prediction prediction = PredictFriction(*estimate.friction, measurements);
+  const auto parameters =
+      static_cast<int>(estimate.friction->parameters.size() + (estimate.friction->thermal ? 2 : 0));
+  return ComputeMetrics(Kept(measurements.torque, test), Kept(prediction.force, test), parameters,
+                        parameters);
+}
+
+}  // namespace
+
+std::optional<Metrics> HoldOut(const Identifier& identifier, const IdentifierInput& input,
+                               double fraction) {
+  // the first sample of the test part
+  const Measurements& all = input.measurements;
+  const double duration = all.time[all.size() - 1] - all.time[0];
+  const double split = all.time[0] + (1 - fraction) * duration;
+  const Eigen::Index n = (all.time.array() < split).count();
+  if (n < 2) return std::nullopt;
+
+  const Measurements training = Head(all, n);
+  const Selection training_selection = Head(input.selection, n);
+  const Estimate estimate =
+      identifier.identify({training, training_selection, input.options, input.random});
+
+  Selection test = input.selection;
+  test.keep.head(n) = false;
+  return Evaluate(estimate, all, test);
+}
+
+std::optional<Metrics> HoldOut(const Identifier& identifier, const IdentifierInput& input,
+                               const Measurements& other, const Selection& other_selection) {
+  return Evaluate(identifier.identify(input), other, other_selection);
+}
+
+}  // namespace warmjoint

@@ -1,0 +1,22 @@
+// Figures on samples that the fit has not seen.
+#pragma once
+
+#include <optional>
+
+#include "identification/identifier.h"
+
+namespace warmjoint {
+
+/// Fits on the first 1 - fraction of the recording's time and evaluates on the kept samples of the
+/// rest. The prediction starts with the recording, so that the joint comes to the test part as warm
+/// as it was. 0 < fraction < 1. Nothing where that fit gives no friction or the rest keeps no
+/// sample.
+std::optional<Metrics> HoldOut(const Identifier& identifier, const IdentifierInput& input,
+                               double fraction);
+
+/// Fits on all of `input` and evaluates on the kept samples of another recording, which starts
+/// cold. Nothing where the fit gives no friction.
+std::optional<Metrics> HoldOut(const Identifier& identifier, const IdentifierInput& input,
+                               const Measurements& other, const Selection& other_selection);
+
+}  // namespace warmjoint

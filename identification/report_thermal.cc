@@ -1,0 +1,35 @@
+#include "identification/report_thermal.h"
+
+#include <cmath>
+
+#include "identification/fit_data.h"
+
+namespace warmjoint {
+
+void ReportThermal(const Thermal& thermal, const std::optional<Eigen::Matrix2d>& covariance,
+                   double freedom, const Measurements& measurements, Estimate& estimate) {
+  const Eigen::Index n = measurements.size();
+  const double h = (measurements.time[n - 1] - measurements.time[0]) / static_cast<double>(n - 1);
+  const auto& [gain, tau] = thermal;
+  const DiscreteThermal discrete = Discretise(thermal, h);
+
+  // gradient: of the value by (k, ln tau); dte/dln tau = te h/tau
+  const auto append = [&](const char* name, double value, const std::string& unit,
+                          const Eigen::Vector2d& gradient) {
+    if (!covariance) {
+      estimate.parameters.push_back({name, value, unit, {}, {}});
+      return;
+    }
+    const double std = std::sqrt(gradient.dot(*covariance * gradient));
+    estimate.parameters.push_back(WithInterval(name, value, unit, std, freedom));
+  };
+  const std::string gain_unit = UnitFor(Thermal::parameters[0], measurements);
+  const double by_pole = discrete.pole * h / tau;
+  append("thermal_gain", gain, gain_unit, {1, 0});
+  append("thermal_time_constant", tau, "s", {0, tau});
+  append("thermal_gain_discrete", discrete.gain, gain_unit,
+         {-std::expm1(-h / tau), -gain * by_pole});
+  append("thermal_pole", discrete.pole, "1", {0, by_pole});
+}
+
+}  // namespace warmjoint

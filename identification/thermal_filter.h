@@ -1,0 +1,73 @@
+// The thermal filter over a recording, Eq. (22), with its derivatives by the time constant.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "models/friction/thermal.h"
+
+namespace warmjoint {
+
+/// One zero-order-hold step at unit gain and its derivatives by theta = ln tau. a = h/tau:
+/// te = exp(-a), dte/dtheta = a te, d2te/dtheta2 = a (a - 1) te.
+struct HoldStep {
+  HoldStep(double h, double time_constant);
+
+  double pole;       // te
+  double cooling;    // 1 - te, by expm1
+  double slope;      // dte/dtheta
+  double curvature;  // d2te/dtheta2
+};
+
+/// E at unit gain and its derivatives by ln tau, in J; the filter is linear in its gain.
+struct UnitEnergy {
+  double value = 0;
+  double slope = 0;
+  double curvature = 0;
+
+  /// The state one step later. loss: W during the step, W.
+  UnitEnergy After(const HoldStep& hold, double loss) const {
+    const double distance = value - loss;
+    return {hold.pole * value + hold.cooling * loss, hold.pole * slope + hold.slope * distance,
+            hold.pole * curvature + 2 * hold.slope * slope + hold.curvature * distance};
+  }
+};
+
+/// Filters losses through H = gain / (1 + s tau) at the sample times of one recording. Between two
+/// samples the loss holds the value that it had at the first.
+class ThermalFilter {
+ public:
+  /// time: [N] s, strictly increasing. Steps that differ by less than 1e-6 of their mean count as
+  /// even, which saves an exponential a sample.
+  explicit ThermalFilter(const Eigen::VectorXd& time);
+
+  Eigen::Index size() const { return steps_.size() + 1; }
+  /// Mean step, s.
+  double mean_step() const { return mean_step_; }
+
+  /// E over all samples, N.m or N, from E(0) = initial. loss: [N] W; returns [N].
+  Eigen::VectorXd Energy(const Thermal& thermal, const Eigen::VectorXd& loss,
+                         double initial = 0) const;
+
+  /// Calls visit(i, UnitEnergy) for each sample i, from a state of 0. loss: [N] W.
+  template <typename Visit>
+  void ForEach(double time_constant, const Eigen::VectorXd& loss, Visit visit) const;
+
+ private:
+  Eigen::VectorXd steps_;  // [N - 1] s
+  double mean_step_ = 0;   // s
+  bool even_ = false;
+};
+
+template <typename Visit>
+void ThermalFilter::ForEach(double time_constant, const Eigen::VectorXd& loss, Visit visit) const {
+  UnitEnergy energy;
+  visit(Eigen::Index{0}, energy);
+
+  const HoldStep mean(mean_step_, time_constant);
+  for (Eigen::Index i = 0; i < steps_.size(); ++i) {
+    energy = energy.After(even_ ? mean : HoldStep(steps_[i], time_constant), loss[i]);
+    visit(i + 1, energy);
+  }
+}
+
+}  // namespace warmjoint
