@@ -1,0 +1,159 @@
+#include "tools/store/run_store.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "tests/tools/scratch_directory.h"
+
+namespace warmjoint {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+RunDescription TwoIdentifiers() {
+  return {"name: little\nscenario:\n  seed: 7\n", {"first", "second"}, {{"warmjoint", "0.1.0"}}};
+}
+
+Result ScoredResult(int realization) {
+  Result result;
+  result.realization = realization;
+  result.status = "ok";
+  result.message = "fine, \"quoted\"";
+  result.metrics = Metrics{3600, 4, 4.0, 0.1 + realization, 0.4, 95.5, 0.26};
+  result.score = Score{{{"viscous", 5, 5.1, true, true, 0.05}, {"coulomb", 15, 0, false, {}, NAN}},
+                       {{"thermal_pole", 0.9, 0.8, true, false, 0.01}},
+                       0.011,
+                       0.012,
+                       0.013,
+                       0.014};
+  result.trace = {{"iteration", "rmse"}, {0, 1.5f, 1, 0.5f}};
+  result.seconds = 0.25;
+  return result;
+}
+
+Realization TwoResults(int index) {
+  Result failed;
+  failed.realization = index;
+  failed.identifier = 1;
+  failed.status = "not_converged";
+  failed.message = "took too long";
+  return {index, 0.5, {ScoredResult(index), failed}};
+}
+
+TEST(RunStore, ReadsBackWhatWasWritten) {
+  const ScratchDirectory scratch;
+  {
+    RunStore store = RunStore::CreateOrResume(scratch.path() / "run", TwoIdentifiers());
+    store.Write(std::vector{TwoResults(3), TwoResults(1)});
+  }
+  const RunStore store = RunStore::OpenToRead(scratch.path() / "run");
+  EXPECT_EQ(store.ReadDescription().identifiers, TwoIdentifiers().identifiers);
+  EXPECT_EQ(store.ReadDescription().suite_yaml, TwoIdentifiers().suite_yaml);
+  EXPECT_THAT(store.Finished(), ElementsAre(1, 3));
+
+  // rows come in the order of (realization, identifier), numbers bit for bit
+  const std::vector<Result> results = store.ReadResults();
+  ASSERT_EQ(results.size(), 4u);
+  EXPECT_EQ(results[0].realization, 1);
+  EXPECT_EQ(results[2].realization, 3);
+  const Result& result = results[2];
+  EXPECT_EQ(result.message, "fine, \"quoted\"");
+  EXPECT_EQ(result.metrics->rmse, 0.1 + 3);
+  EXPECT_EQ(result.score->bound_npe_discrete, 0.014);
+  ASSERT_EQ(result.score->continuous.size(), 2u);
+  EXPECT_EQ(result.score->continuous[0].covered, std::optional(true));
+  EXPECT_FALSE(result.score->continuous[1].covered);
+  EXPECT_TRUE(std::isnan(result.score->continuous[1].bound));
+  EXPECT_EQ(result.score->discrete[0].estimate, 0.8);
+  EXPECT_EQ(result.seconds, 0.25);
+
+  // a failure has a message and no numbers
+  EXPECT_EQ(results[3].status, "not_converged");
+  EXPECT_EQ(results[3].message, "took too long");
+  EXPECT_FALSE(results[3].score);
+  EXPECT_FALSE(results[3].metrics);
+}
+
+TEST(RunStore, KeepsTracesRowByRow) {
+  const ScratchDirectory scratch;
+  RunStore store = RunStore::CreateOrResume(scratch.path() / "run", TwoIdentifiers());
+  store.Write(std::vector{TwoResults(0)});
+  const TraceTable trace = store.ReadTrace(0, 0);
+  EXPECT_THAT(trace.columns, ElementsAre("iteration", "rmse"));
+  EXPECT_THAT(trace.values, ElementsAre(0, 1.5f, 1, 0.5f));
+  EXPECT_EQ(trace.rows(), 2u);
+  EXPECT_EQ(store.ReadTrace(0, 1).rows(), 0u);
+}
+
+TEST(RunStore, ABatchIsInAsAWholeOrNotAtAll) {
+  const ScratchDirectory scratch;
+  RunStore store = RunStore::CreateOrResume(scratch.path() / "run", TwoIdentifiers());
+  store.Write(std::vector{TwoResults(0)});
+  EXPECT_ANY_THROW(store.Write(std::vector{TwoResults(1), TwoResults(0)}));
+  EXPECT_THAT(store.Finished(), ElementsAre(0));
+  EXPECT_EQ(store.ReadResults().size(), 2u);
+}
+
+TEST(RunStore, GoesOnWithTheSameRunAlone) {
+  const ScratchDirectory scratch;
+  const auto open = [&](const RunDescription& description) {
+    RunStore::CreateOrResume(scratch.path() / "run", description);
+  };
+  open(TwoIdentifiers());
+  EXPECT_NO_THROW(open(TwoIdentifiers()));
+
+  RunDescription other = TwoIdentifiers();
+  other.suite_yaml = "name: little\nscenario:\n  seed: 8\n";
+  EXPECT_THAT([&] { open(other); },
+              ThrowsMessage<BadInput>(HasSubstr("scenario.seed: 7 in the directory, 8 asked")));
+  other = TwoIdentifiers();
+  other.versions = {{"warmjoint", "0.2.0"}};
+  EXPECT_THAT([&] { open(other); }, ThrowsMessage<BadInput>(HasSubstr("warmjoint 0.1.0")));
+}
+
+TEST(RunStore, RefusesAnOlderSchema) {
+  const ScratchDirectory scratch;
+  RunStore::CreateOrResume(scratch.path() / "run", TwoIdentifiers());
+  SQLite::Database(scratch.path() / "run/results.sqlite", SQLite::OPEN_READWRITE)
+      .exec("PRAGMA user_version = 0");
+  const auto message = ThrowsMessage<BadInput>(HasSubstr("schema version 0"));
+  EXPECT_THAT([&] { RunStore::OpenToRead(scratch.path() / "run"); }, message);
+  EXPECT_THAT([&] { RunStore::CreateOrResume(scratch.path() / "run", TwoIdentifiers()); }, message);
+}
+
+TEST(RunStore, RefusesWhatIsNoRunDirectory) {
+  const ScratchDirectory scratch;
+  std::ofstream(scratch.path() / "notes.txt") << "mine";
+  EXPECT_THAT([&] { RunStore::CreateOrResume(scratch.path(), TwoIdentifiers()); },
+              ThrowsMessage<BadInput>(HasSubstr("holds 'notes.txt'")));
+  EXPECT_THAT([&] { RunStore::OpenToRead(scratch.path()); },
+              ThrowsMessage<BadInput>(HasSubstr("is no run directory")));
+
+  std::ofstream(scratch.path() / "results.sqlite") << std::string(4096, 'x');
+  EXPECT_THAT([&] { RunStore::OpenToRead(scratch.path()); },
+              ThrowsMessage<BadInput>(HasSubstr("cannot be opened as a database")));
+}
+
+TEST(RunStore, RefusesASecondWriter) {
+  const ScratchDirectory scratch;
+  const RunStore store = RunStore::CreateOrResume(scratch.path() / "run", TwoIdentifiers());
+  EXPECT_THAT([&] { RunStore::CreateOrResume(scratch.path() / "run", TwoIdentifiers()); },
+              ThrowsMessage<BadInput>(HasSubstr("another run is writing to it")));
+  EXPECT_NO_THROW(RunStore::OpenToRead(scratch.path() / "run"));
+}
+
+TEST(RunStore, StartsAnewWhereNothingWasStoredYet) {
+  const ScratchDirectory scratch;
+  std::filesystem::create_directory(scratch.path() / "run");
+  std::ofstream(scratch.path() / "run/.lock");
+  std::ofstream(scratch.path() / "run/results.sqlite");
+  EXPECT_NO_THROW(RunStore::CreateOrResume(scratch.path() / "run", TwoIdentifiers()));
+}
+
+}  // namespace
+}  // namespace warmjoint

@@ -1,0 +1,20 @@
+// The families of which `list` tells, and their one list.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+namespace warmjoint {
+
+/// A family whose members a user can name.
+struct Family {
+  std::string name;
+  nlohmann::ordered_json (*json)();
+  std::string (*text)();
+};
+
+/// laws, identifiers, robots, suites.
+const std::vector<Family>& Families();
+
+}  // namespace warmjoint

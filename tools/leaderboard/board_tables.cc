@@ -1,0 +1,146 @@
+#include "tools/leaderboard/board_tables.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace warmjoint {
+namespace {
+
+constexpr const char* kUnknown = "-";
+
+/// Two decimals below ten, then fewer: "1.10 %", "23.4 %", "200 %".
+std::string Percent(double share, const char* sign) {
+  if (std::isnan(share)) return kUnknown;
+  const double percent = 100 * share;
+  const int decimals = percent < 9.995 ? 2 : percent < 99.95 ? 1 : 0;
+  return fmt::format("{:.{}f}{}", percent, decimals, sign);
+}
+
+std::string Quartiles(const Summary& summary) {
+  if (std::isnan(summary.median)) return kUnknown;
+  return fmt::format("{} .. {}", Percent(summary.q25, ""), Percent(summary.q75, " %"));
+}
+
+std::string Seconds(double seconds) {
+  if (std::isnan(seconds)) return kUnknown;
+  if (seconds < 1e-3) return fmt::format("{:.3g} us", 1e6 * seconds);
+  if (seconds < 1) return fmt::format("{:.3g} ms", 1e3 * seconds);
+  return fmt::format("{:.3g} s", seconds);
+}
+
+std::string FailedCell(const LeaderboardRow& row) {
+  return row.failed() == 0 ? "0" : fmt::format("{} of {}", row.failed(), row.runs);
+}
+
+std::string ClaimNote(const LeaderboardRow& row, std::string_view unit) {
+  std::string claimed, reached;
+  if (const auto npe = row.claim->npe_continuous) {
+    claimed += fmt::format(" NPE {}", PercentText(*npe));
+    reached += fmt::format(" NPE {}", PercentText(row.npe_continuous.median));
+  }
+  if (const auto rmse = row.claim->rmse) {
+    claimed += fmt::format(" RMSE {} {}", NumberText(*rmse), unit);
+    reached += fmt::format(" RMSE {} {}", NumberText(row.rmse.median), unit);
+  }
+  return fmt::format("{}: {} claims{}; reached in the median:{}", row.identifier, row.claim->source,
+                     claimed, reached);
+}
+
+std::string FailureNote(const LeaderboardRow& row) {
+  std::vector<std::string> counts;
+  for (const auto& [status, count] : row.failures) {
+    counts.push_back(fmt::format("{} {}", count, status));
+  }
+  return fmt::format("{}: of {} runs {}; the first: {}", row.identifier, row.runs,
+                     fmt::join(counts, ", "), row.failure_example);
+}
+
+}  // namespace
+
+std::string PercentText(double share) { return Percent(share, " %"); }
+
+std::string NumberText(double value) {
+  return std::isnan(value) ? kUnknown : fmt::format("{:.3g}", value);
+}
+
+Table RankingTable(const Leaderboard& board) {
+  Table table{{"#", "identifier", "failed", "NPE median", "quartiles", "NPE rms", "x bound",
+               "discrete NPE", "rms"},
+              {}};
+  for (size_t i = 0; i < board.rows.size(); ++i) {
+    const LeaderboardRow& row = board.rows[i];
+    table.rows.push_back({std::to_string(i + 1), row.identifier, FailedCell(row),
+                          PercentText(row.npe_continuous.median), Quartiles(row.npe_continuous),
+                          PercentText(row.npe_continuous.rms),
+                          NumberText(row.npe_continuous.rms / board.bound_npe_continuous),
+                          PercentText(row.npe_discrete.median), PercentText(row.npe_discrete.rms)});
+  }
+  if (!std::isnan(board.bound_npe_continuous)) {
+    table.rows.push_back({"", "Cramer-Rao bound", "", "", "",
+                          PercentText(board.bound_npe_continuous), "1", "",
+                          PercentText(board.bound_npe_discrete)});
+  }
+  return table;
+}
+
+Table AgreementTable(const Leaderboard& board) {
+  Table table{{"identifier", fmt::format("RMSE {}", kTorqueUnit.For(board.joint)),
+               fmt::format("MAE {}", kTorqueUnit.For(board.joint)), "Fit %",
+               fmt::format("FPE ({})^2", kTorqueUnit.For(board.joint)), "time"},
+              {}};
+  for (const LeaderboardRow& row : board.rows) {
+    table.rows.push_back({row.identifier, NumberText(row.rmse.median), NumberText(row.mae.median),
+                          NumberText(row.fit.median), NumberText(row.fpe.median),
+                          Seconds(row.seconds.median)});
+  }
+  return table;
+}
+
+Table ParameterTable(const Leaderboard& board) {
+  Table table{{"identifier", "parameter", "rms error / bound", "95 % intervals that hold it"}, {}};
+  for (const LeaderboardRow& row : board.rows) {
+    std::string label = row.identifier;
+    for (const ParameterRow& parameter : row.parameters) {
+      const std::string coverage =
+          parameter.coverage95 ? PercentText(*parameter.coverage95) : std::string(kUnknown);
+      table.rows.push_back({label, parameter.name, NumberText(parameter.efficiency), coverage});
+      label.clear();
+    }
+  }
+  return table;
+}
+
+std::string Verdict(const Leaderboard& board) {
+  if (board.rows.empty() || std::isnan(board.rows.front().npe_continuous.median)) {
+    return "No identifier gave numbers.";
+  }
+  const LeaderboardRow& best = board.rows.front();
+  std::string verdict = fmt::format("{} is best: median NPE {}", best.identifier,
+                                    PercentText(best.npe_continuous.median));
+  if (!std::isnan(board.bound_npe_continuous)) {
+    verdict += fmt::format(", rms {:.2f} times the Cramer-Rao bound",
+                           best.npe_continuous.rms / board.bound_npe_continuous);
+  }
+  if (best.failed() > 0) verdict += fmt::format(", {} of {} failed", best.failed(), best.runs);
+  return verdict + ".";
+}
+
+std::vector<std::string> Notes(const Leaderboard& board) {
+  std::vector<std::string> notes;
+  for (const LeaderboardRow& row : board.rows) {
+    if (row.claim) notes.push_back(ClaimNote(row, kTorqueUnit.For(board.joint)));
+    if (row.failed() > 0) notes.push_back(FailureNote(row));
+    if (!row.not_estimated.empty()) {
+      notes.push_back(fmt::format("{}: does not estimate {}, counted as 0", row.identifier,
+                                  fmt::join(row.not_estimated, ", ")));
+    }
+  }
+  if (board.finished < board.realizations) {
+    notes.push_back(fmt::format("unfinished: {} of {} realizations; run the suite again to go on",
+                                board.finished, board.realizations));
+  }
+  return notes;
+}
+
+}  // namespace warmjoint

@@ -1,0 +1,52 @@
+#include "tools/recording_options.h"
+
+#include <cmath>
+
+#include "models/foundation/bad_input.h"
+
+namespace warmjoint {
+
+std::map<std::string, std::string> ReadPairs(const std::vector<std::string>& pairs,
+                                             const std::string& option) {
+  std::map<std::string, std::string> map;
+  for (const std::string& pair : pairs) {
+    const size_t equals = pair.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      Refuse({option}, "'{}' is not of the form key=value", pair);
+    }
+    const std::string key = pair.substr(0, equals);
+    if (!map.emplace(key, pair.substr(equals + 1)).second) {
+      Refuse({option}, "'{}' is given twice; leave one", key);
+    }
+  }
+  return map;
+}
+
+void AddRecordingOptions(CLI::App& parser, RecordingArguments& arguments) {
+  parser.add_option("RECORDING", arguments.recording, "CSV or HDF5 file")->required();
+  parser.add_option("--map", arguments.map, "columns of the file, as torque=force_N,time=t_s")
+      ->delimiter(',')
+      ->take_all();
+  parser.add_option("--unit", arguments.unit, "units of the file, as position=deg,time=ms")
+      ->delimiter(',')
+      ->take_all();
+  parser.add_option("--joint", arguments.joint, "rotary or linear")
+      ->check(CLI::IsMember({"rotary", "linear"}))
+      ->capture_default_str();
+  parser.add_option("--gear", arguments.gear, "motor turns for each joint turn")
+      ->capture_default_str();
+}
+
+Measurements ReadRecording(const RecordingArguments& arguments) {
+  if (!std::isfinite(arguments.gear) || arguments.gear == 0) {
+    Refuse({"--gear"}, "is {}; it must be a finite number other than 0", arguments.gear);
+  }
+  CsvLayout layout;
+  layout.column = ReadPairs(arguments.map, "--map");
+  layout.unit = ReadPairs(arguments.unit, "--unit");
+  layout.joint = arguments.joint == "linear" ? JointKind::linear : JointKind::rotary;
+  layout.gear = arguments.gear;
+  return ReadCsv(arguments.recording, layout);
+}
+
+}  // namespace warmjoint

@@ -1,0 +1,33 @@
+// The options that say how a recording is to be read, shared by the subcommands that read one.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "sim/dataset/csv.h"
+
+namespace warmjoint {
+
+/// What stands on the command line.
+struct RecordingArguments {
+  std::string recording;
+  std::vector<std::string> map;   // "torque=force_N"
+  std::vector<std::string> unit;  // "position=deg"
+  std::string joint = "rotary";
+  double gear = 1;
+};
+
+/// Adds RECORDING, --map, --unit, --joint and --gear.
+void AddRecordingOptions(CLI::App& parser, RecordingArguments& arguments);
+
+/// Reads the recording. Throws BadInput.
+Measurements ReadRecording(const RecordingArguments& arguments);
+
+/// "key=value" pairs as a map. option: their name on the command line. Throws BadInput for a pair
+/// without '=', or a key that stands there twice.
+std::map<std::string, std::string> ReadPairs(const std::vector<std::string>& pairs,
+                                             const std::string& option);
+
+}  // namespace warmjoint

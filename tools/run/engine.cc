@@ -1,0 +1,101 @@
+#include "tools/run/engine.h"
+
+#include <algorithm>
+#include <atomic>
+#include <thread>
+
+#include "sim/plant.h"
+#include "tools/run/finished_queue.h"
+#include "tools/run/interrupt.h"
+#include "tools/run/progress.h"
+#include "tools/run/run_realization.h"
+
+namespace warmjoint {
+namespace {
+
+/// Longest time that finished realizations wait for the store, and so what a kill can cost.
+constexpr std::chrono::milliseconds kBatchTime{200};
+
+std::vector<int> Missing(const Suite& suite, const RunStore& store) {
+  const std::set<int> finished = store.Finished();
+  std::vector<int> missing;
+  for (int i = 0; i < suite.realizations; ++i) {
+    if (!finished.count(i)) missing.push_back(i);
+  }
+  return missing;
+}
+
+/// What the workers share.
+struct Work {
+  const Suite& suite;
+  const std::vector<PreparedIdentifier>& identifiers;
+  const std::vector<int>& realizations;
+  std::atomic<size_t> next{0};
+  std::atomic<bool> stop{false};
+  FinishedQueue queue;
+
+  bool Open() const { return !stop && !Interrupted(); }
+};
+
+void Labour(Work& work) {
+  std::exception_ptr error;
+  try {
+    const Scenario& scenario = work.suite.scenario;
+    const std::unique_ptr<Plant> plant = MakePlant(scenario);
+    while (work.Open()) {
+      const size_t i = work.next++;
+      if (i >= work.realizations.size()) break;
+      const RandomKey key{scenario.seed, static_cast<std::uint64_t>(work.realizations[i])};
+      work.queue.Put(RunRealization(*plant, scenario.plant, work.identifiers, key));
+    }
+  } catch (...) {
+    error = std::current_exception();
+    work.stop = true;
+  }
+  work.queue.Leave(error);
+}
+
+void Report(Progress& progress, const std::vector<Realization>& batch) {
+  for (const Realization& realization : batch) {
+    for (const Result& result : realization.results) {
+      if (result.status != "ok") progress.AddFailure(result.status);
+    }
+  }
+  progress.Add(static_cast<int>(batch.size()));
+}
+
+/// Writes batch after batch until the workers are done; stops them when the store fails.
+int Store(Work& work, RunStore& store, Progress& progress) {
+  int stored = 0;
+  try {
+    while (!work.queue.Done()) {
+      const std::vector<Realization> batch = work.queue.Take(kBatchTime);
+      if (!batch.empty()) store.Write(batch);
+      stored += static_cast<int>(batch.size());
+      Report(progress, batch);
+    }
+  } catch (...) {
+    work.stop = true;
+    throw;
+  }
+  return stored;
+}
+
+}  // namespace
+
+RunOutcome RunSuite(const Suite& suite, const std::vector<PreparedIdentifier>& identifiers,
+                    int jobs, RunStore& store) {
+  const std::vector<int> missing = Missing(suite, store);
+  const int already = suite.realizations - static_cast<int>(missing.size());
+  const int workers = std::clamp(jobs, 1, std::max(1, static_cast<int>(missing.size())));
+  Work work{suite, identifiers, missing, 0, false, FinishedQueue(workers)};
+  Progress progress(suite.realizations, already);
+
+  // declared last, so that the threads are joined before anything they use goes
+  std::vector<std::jthread> threads;
+  for (int i = 0; i < workers; ++i) threads.emplace_back(Labour, std::ref(work));
+  const int finished = already + Store(work, store, progress);
+  return {finished, Interrupted() && finished < suite.realizations};
+}
+
+}  // namespace warmjoint

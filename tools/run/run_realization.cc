@@ -1,0 +1,104 @@
+#include "tools/run/run_realization.h"
+
+#include <chrono>
+#include <cmath>
+#include <optional>
+
+#include "tools/run/trace_table.h"
+
+namespace warmjoint {
+namespace {
+
+class Stopwatch {
+ public:
+  double Seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// The ideal plant satisfies Eq. (6) at every moving sample; engines accelerate in between.
+Selection Select(const Measurements& measurements, PlantKind kind) {
+  return kind == PlantKind::ideal ? SelectMoving(measurements) : SelectConstantSpeed(measurements);
+}
+
+/// Name of the first parameter that is no number, or nullptr.
+const std::string* NotFinite(const Estimate& estimate) {
+  for (const EstimatedParameter& parameter : estimate.parameters) {
+    if (!std::isfinite(parameter.value)) return &parameter.name;
+  }
+  return nullptr;
+}
+
+void Fill(Result& result, const Estimate& estimate, const Recording& recording,
+          const Selection& selection) {
+  result.status = StatusName(estimate.status);
+  result.message = estimate.message;
+  if (const std::string* name = NotFinite(estimate)) {
+    throw NoAnswer("bad_answer", *name + " is not a finite number");
+  }
+
+  // no numbers, nothing to score
+  result.metrics = estimate.metrics;
+  if (estimate.parameters.empty()) return;
+  result.score = ScoreEstimate(estimate, recording.measurements, selection, recording.truth);
+  const Eigen::VectorXd& time = recording.measurements.time;
+  result.trace = MakeTraceTable(estimate.trace, *result.score, time[1] - time[0]);
+}
+
+Result RunIdentifier(const PreparedIdentifier& identify, const Recording& recording,
+                     const Selection& selection, RandomKey key) {
+  Result result;
+  const Stopwatch watch;
+  try {
+    const Estimate estimate = identify(recording.measurements, selection, key);
+    result.seconds = watch.Seconds();
+    Fill(result, estimate, recording, selection);
+  } catch (const NoAnswer& failure) {
+    result.seconds = watch.Seconds();
+    result.status = failure.status;
+    result.message = failure.what();
+  } catch (const std::exception& error) {
+    result.seconds = watch.Seconds();
+    result.status = "crashed";
+    result.message = error.what();
+  }
+  return result;
+}
+
+/// The same failure for every identifier: there was nothing to identify.
+std::vector<Result> AllFailed(size_t identifiers, const std::string& message) {
+  Result result;
+  result.status = "not_simulated";
+  result.message = message;
+  return std::vector<Result>(identifiers, result);
+}
+
+}  // namespace
+
+Realization RunRealization(Plant& plant, PlantKind kind,
+                           const std::vector<PreparedIdentifier>& identifiers, RandomKey key) {
+  Realization realization;
+  realization.index = static_cast<int>(key.realization);
+  const Stopwatch watch;
+  try {
+    const Recording recording = plant.Run(key.realization);
+    realization.simulation_seconds = watch.Seconds();
+    const Selection selection = Select(recording.measurements, kind);
+    for (const PreparedIdentifier& identify : identifiers) {
+      realization.results.push_back(RunIdentifier(identify, recording, selection, key));
+    }
+  } catch (const std::exception& error) {
+    realization.results = AllFailed(identifiers.size(), error.what());
+  }
+
+  for (size_t i = 0; i < realization.results.size(); ++i) {
+    realization.results[i].realization = realization.index;
+    realization.results[i].identifier = static_cast<int>(i);
+  }
+  return realization;
+}
+
+}  // namespace warmjoint

@@ -1,0 +1,25 @@
+#include "tools/store/directory_lock.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cstring>
+
+#include "models/foundation/bad_input.h"
+
+namespace warmjoint {
+
+DirectoryLock::DirectoryLock(const std::filesystem::path& directory) {
+  const std::filesystem::path path = directory / ".lock";
+  file_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  if (file_ < 0) Refuse({directory.string()}, "cannot be written to: {}", std::strerror(errno));
+  if (flock(file_, LOCK_EX | LOCK_NB) != 0) {
+    close(file_);
+    Refuse({directory.string()}, "another run is writing to it; wait for it or choose another");
+  }
+}
+
+DirectoryLock::~DirectoryLock() { close(file_); }
+
+}  // namespace warmjoint

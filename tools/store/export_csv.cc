@@ -1,0 +1,98 @@
+#include "tools/store/export_csv.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace warmjoint {
+namespace {
+
+/// Shortest text that reads back bit for bit; empty for NaN.
+std::string Number(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
+
+const std::vector<ParameterScore>& Family(const Score& score, bool discrete) {
+  return discrete ? score.discrete : score.continuous;
+}
+
+const ParameterScore* Find(const Result& result, const std::string& name) {
+  if (!result.score) return nullptr;
+  for (const auto* family : {&result.score->continuous, &result.score->discrete}) {
+    for (const ParameterScore& score : *family) {
+      if (score.name == name) return &score;
+    }
+  }
+  return nullptr;
+}
+
+/// Names of all parameters: the continuous ones, then those that only the discrete family has.
+std::vector<std::string> ParameterNames(const std::vector<Result>& results) {
+  std::vector<std::string> names;
+  for (const bool discrete : {false, true}) {
+    for (const Result& result : results) {
+      if (!result.score) continue;
+      for (const ParameterScore& score : Family(*result.score, discrete)) {
+        if (std::find(names.begin(), names.end(), score.name) == names.end()) {
+          names.push_back(score.name);
+        }
+      }
+    }
+  }
+  return names;
+}
+
+std::string MetricCells(const Result& result) {
+  if (!result.metrics) return ",,,,,,,";  // seven empty cells
+  const Metrics& m = *result.metrics;
+  return fmt::format(",{},{},{},{},{},{},{}", m.n, m.parameters, Number(m.effective_parameters),
+                     Number(m.rmse), Number(m.mae), Number(m.fit), Number(m.fpe));
+}
+
+std::string ScoreCells(const Result& result) {
+  if (!result.score) return ",,,,";
+  const Score& s = *result.score;
+  return fmt::format(",{},{},{},{}", Number(s.npe_continuous), Number(s.npe_discrete),
+                     Number(s.bound_npe_continuous), Number(s.bound_npe_discrete));
+}
+
+std::string ParameterCells(const ParameterScore* score) {
+  if (!score) return ",,,,";
+  const std::string covered = score->covered ? (*score->covered ? "1" : "0") : "";
+  return fmt::format(",{},{},{},{}", score->estimated ? Number(score->estimate) : "",
+                     Number(score->truth), Number(score->bound), covered);
+}
+
+}  // namespace
+
+std::string CsvCell(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"') quoted += '"';
+    quoted += c;
+  }
+  return quoted + "\"";
+}
+
+std::string ResultsToCsv(const std::vector<Result>& results,
+                         const std::vector<std::string>& labels) {
+  std::string csv =
+      "realization,identifier,status,n,parameters,effective_parameters,rmse,mae,fit,fpe,"
+      "npe_continuous,npe_discrete,bound_npe_continuous,bound_npe_discrete";
+  const std::vector<std::string> names = ParameterNames(results);
+  for (const std::string& name : names) {
+    csv += fmt::format(",{0},{0}_truth,{0}_bound,{0}_covered", name);
+  }
+  csv += ",message\n";
+
+  for (const Result& result : results) {
+    const std::string& label = labels[static_cast<size_t>(result.identifier)];
+    csv += fmt::format("{},{},{}", result.realization, CsvCell(label), result.status);
+    csv += MetricCells(result) + ScoreCells(result);
+    for (const std::string& name : names) csv += ParameterCells(Find(result, name));
+    csv += fmt::format(",{}\n", CsvCell(result.message));
+  }
+  return csv;
+}
+
+}  // namespace warmjoint

@@ -1,0 +1,40 @@
+// What a run keeps of each realization.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "identification/estimate.h"
+#include "identification/score/score.h"
+
+namespace warmjoint {
+
+/// The course of an iterative identifier, for pictures: single precision, one row an iteration.
+struct TraceTable {
+  std::vector<std::string> columns;  // iteration, rmse, npe_continuous, npe_discrete, parameters
+  std::vector<float> values;         // [rows x columns], row after row; NaN where unknown
+
+  size_t rows() const { return columns.empty() ? 0 : values.size() / columns.size(); }
+};
+
+/// What one identifier made of one realization.
+struct Result {
+  int realization = 0;
+  int identifier = 0;   // position in the suite's list
+  std::string status;   // a StatusName, or how the identifier failed to answer
+  std::string message;  // one sentence
+  std::optional<Metrics> metrics;
+  std::optional<Score> score;  // where there are numbers to score
+  TraceTable trace;            // empty where the identifier does not iterate
+  double seconds = 0;          // wall time of the identification
+};
+
+/// One finished realization: it enters the store as a whole or not at all.
+struct Realization {
+  int index = 0;
+  double simulation_seconds = 0;  // wall time of the plant
+  std::vector<Result> results;    // one for each identifier of the suite, in its order
+};
+
+}  // namespace warmjoint

@@ -1,0 +1,99 @@
+#include "tools/store/schema.h"
+
+#include <fmt/format.h>
+
+namespace warmjoint {
+namespace {
+
+constexpr const char* kResultTables = R"sql(
+  CREATE TABLE suite(yaml TEXT NOT NULL);
+  CREATE TABLE version(name TEXT PRIMARY KEY, value TEXT NOT NULL);
+  CREATE TABLE identifier(position INTEGER PRIMARY KEY, label TEXT NOT NULL UNIQUE);
+  CREATE TABLE realization(realization INTEGER PRIMARY KEY);
+  CREATE TABLE result(
+    realization INTEGER, identifier INTEGER, status TEXT NOT NULL, message TEXT NOT NULL,
+    n INTEGER, parameters INTEGER, effective_parameters REAL, rmse REAL, mae REAL, fit REAL,
+    fpe REAL, npe_continuous REAL, npe_discrete REAL, bound_npe_continuous REAL,
+    bound_npe_discrete REAL, PRIMARY KEY(realization, identifier)) WITHOUT ROWID;
+  CREATE TABLE parameter(
+    realization INTEGER, identifier INTEGER, discrete INTEGER, position INTEGER,
+    name TEXT NOT NULL, truth REAL, estimate REAL, estimated INTEGER, covered INTEGER, bound REAL,
+    PRIMARY KEY(realization, identifier, discrete, position)) WITHOUT ROWID;
+  CREATE TABLE trace(
+    realization INTEGER, identifier INTEGER, columns TEXT NOT NULL, float32 BLOB NOT NULL,
+    PRIMARY KEY(realization, identifier));
+)sql";
+
+constexpr const char* kTimingTables = R"sql(
+  CREATE TABLE IF NOT EXISTS identification(
+    realization INTEGER, identifier INTEGER, seconds REAL,
+    PRIMARY KEY(realization, identifier)) WITHOUT ROWID;
+  CREATE TABLE IF NOT EXISTS simulation(realization INTEGER PRIMARY KEY, seconds REAL);
+)sql";
+
+int UserVersion(const SQLite::Database& database) {
+  SQLite::Statement query(database, "PRAGMA user_version");
+  query.executeStep();
+  return query.getColumn(0).getInt();
+}
+
+}  // namespace
+
+void CreateResultTables(SQLite::Database& results, const RunDescription& description) {
+  SQLite::Transaction transaction(results);
+  results.exec(kResultTables);
+  results.exec(fmt::format("PRAGMA user_version = {}", kSchemaVersion));
+
+  SQLite::Statement suite(results, "INSERT INTO suite VALUES (?)");
+  suite.bind(1, description.suite_yaml);
+  suite.exec();
+  for (const auto& [name, value] : description.versions) {
+    SQLite::Statement version(results, "INSERT INTO version VALUES (?, ?)");
+    version.bind(1, name);
+    version.bind(2, value);
+    version.exec();
+  }
+  for (size_t i = 0; i < description.identifiers.size(); ++i) {
+    SQLite::Statement identifier(results, "INSERT INTO identifier VALUES (?, ?)");
+    identifier.bind(1, static_cast<int>(i));
+    identifier.bind(2, description.identifiers[i]);
+    identifier.exec();
+  }
+  transaction.commit();
+}
+
+void CreateTimingTables(SQLite::Database& timings) { timings.exec(kTimingTables); }
+
+bool IsEmpty(const SQLite::Database& database) {
+  SQLite::Statement query(database, "SELECT count(*) FROM sqlite_master");
+  query.executeStep();
+  return query.getColumn(0).getInt() == 0;
+}
+
+void CheckSchema(const SQLite::Database& results, const Place& place) {
+  const int version = UserVersion(results);
+  if (version == kSchemaVersion) return;
+  Refuse(place,
+         "its tables are of schema version {}, this program reads version {}; read it with the "
+         "program that made it, or run the suite anew in another directory",
+         version, kSchemaVersion);
+}
+
+RunDescription ReadStoredDescription(const SQLite::Database& results) {
+  RunDescription description;
+  SQLite::Statement suite(results, "SELECT yaml FROM suite");
+  while (suite.executeStep()) description.suite_yaml = suite.getColumn(0).getString();
+
+  SQLite::Statement version(results, "SELECT name, value FROM version ORDER BY name");
+  while (version.executeStep()) {
+    description.versions.emplace_back(version.getColumn(0).getString(),
+                                      version.getColumn(1).getString());
+  }
+  SQLite::Statement identifier(results, "SELECT label FROM identifier ORDER BY position");
+  while (identifier.executeStep()) {
+    description.identifiers.push_back(identifier.getColumn(0).getString());
+  }
+  return description;
+}
+
+}  // namespace warmjoint

@@ -1,0 +1,105 @@
+// Writing whole realizations.
+#include <fmt/format.h>
+
+#include "tools/store/run_store.h"
+
+namespace warmjoint {
+namespace {
+
+/// Binds the arguments from position 1 on and runs the statement once. NaN is stored as NULL.
+template <typename... Args>
+void Insert(SQLite::Statement& statement, const Args&... values) {
+  statement.reset();
+  int position = 0;
+  (statement.bind(++position, values), ...);
+  statement.exec();
+}
+
+/// The statements of one batch.
+struct Inserts {
+  explicit Inserts(SQLite::Database& db)
+      : realization(db, "INSERT INTO realization VALUES (?)"),
+        failure(db,
+                "INSERT INTO result(realization, identifier, status, message)"
+                " VALUES (?, ?, ?, ?)"),
+        metrics(db,
+                "UPDATE result SET n=?3, parameters=?4, effective_parameters=?5, rmse=?6, mae=?7,"
+                " fit=?8, fpe=?9 WHERE realization=?1 AND identifier=?2"),
+        score(db,
+              "UPDATE result SET npe_continuous=?3, npe_discrete=?4, bound_npe_continuous=?5,"
+              " bound_npe_discrete=?6 WHERE realization=?1 AND identifier=?2"),
+        parameter(db, "INSERT INTO parameter VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"),
+        trace(db, "INSERT INTO trace VALUES (?, ?, ?, ?)") {}
+
+  SQLite::Statement realization, failure, metrics, score, parameter, trace;
+};
+
+void InsertParameters(SQLite::Statement& insert, const Result& result, int discrete,
+                      const std::vector<ParameterScore>& scores) {
+  for (size_t i = 0; i < scores.size(); ++i) {
+    const ParameterScore& score = scores[i];
+    insert.reset();
+    insert.clearBindings();
+    if (score.covered) insert.bind(9, *score.covered ? 1 : 0);
+    insert.bind(10, score.bound);
+    Insert(insert, result.realization, result.identifier, discrete, static_cast<int>(i), score.name,
+           score.truth, score.estimate, score.estimated ? 1 : 0);
+  }
+}
+
+void InsertTrace(SQLite::Statement& insert, const Result& result) {
+  if (result.trace.values.empty()) return;
+  insert.reset();
+  insert.bind(1, result.realization);
+  insert.bind(2, result.identifier);
+  insert.bind(3, fmt::format("{}", fmt::join(result.trace.columns, ",")));
+  insert.bind(4, result.trace.values.data(),
+              static_cast<int>(result.trace.values.size() * sizeof(float)));
+  insert.exec();
+}
+
+void InsertResult(Inserts& inserts, const Result& result) {
+  Insert(inserts.failure, result.realization, result.identifier, result.status, result.message);
+  if (const auto& m = result.metrics) {
+    Insert(inserts.metrics, result.realization, result.identifier, m->n, m->parameters,
+           m->effective_parameters, m->rmse, m->mae, m->fit, m->fpe);
+  }
+  if (const auto& s = result.score) {
+    Insert(inserts.score, result.realization, result.identifier, s->npe_continuous, s->npe_discrete,
+           s->bound_npe_continuous, s->bound_npe_discrete);
+    InsertParameters(inserts.parameter, result, 0, s->continuous);
+    InsertParameters(inserts.parameter, result, 1, s->discrete);
+  }
+  InsertTrace(inserts.trace, result);
+}
+
+void WriteTimings(SQLite::Database& timings, std::span<const Realization> realizations) {
+  SQLite::Transaction transaction(timings);
+  SQLite::Statement simulation(timings, "INSERT OR REPLACE INTO simulation VALUES (?, ?)");
+  SQLite::Statement identification(timings,
+                                   "INSERT OR REPLACE INTO identification VALUES (?, ?, ?)");
+  for (const Realization& realization : realizations) {
+    Insert(simulation, realization.index, realization.simulation_seconds);
+    for (const Result& result : realization.results) {
+      Insert(identification, result.realization, result.identifier, result.seconds);
+    }
+  }
+  transaction.commit();
+}
+
+}  // namespace
+
+void RunStore::Write(std::span<const Realization> realizations) {
+  // timings first: a kill between the two leaves timings that the next run replaces
+  WriteTimings(timings_, realizations);
+
+  SQLite::Transaction transaction(results_);
+  Inserts inserts(results_);
+  for (const Realization& realization : realizations) {
+    Insert(inserts.realization, realization.index);
+    for (const Result& result : realization.results) InsertResult(inserts, result);
+  }
+  transaction.commit();
+}
+
+}  // namespace warmjoint
