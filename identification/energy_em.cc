@@ -210,7 +210,7 @@ Identifier EnergyEm() {
           {
               {"law", "viscous_coulomb", LinearLawWords(), "nominal friction law"},
               {"iterations", "50", "integer >= 0", "iterations of the loop"},
-              {"start", "guess", "options|guess|random",
+              {"start", "options", "options|guess|random",
                "start_gain and start_time_constant, the torque's envelope (25), or drawn evenly"},
               {"start_gain", "-0.1", "number", "first thermal gain, N.m/W or N/W"},
               {"start_time_constant", "600", "number > 0", "first time constant, s"},

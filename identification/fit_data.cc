@@ -59,6 +59,16 @@ Estimate Failed(std::string identifier, Status status, std::string message) {
   return estimate;
 }
 
+void Void(Status status, std::string message, Estimate& estimate) {
+  estimate.status = status;
+  estimate.message = std::move(message);
+  estimate.friction.reset();
+  for (EstimatedParameter& parameter : estimate.parameters) {
+    parameter.std.reset();
+    parameter.interval95.reset();
+  }
+}
+
 std::string UnitFor(const ParameterInfo& info, const Measurements& measurements) {
   const std::string_view table = info.unit.For(measurements.joint);
   const std::string_view torque = kTorqueUnit.For(measurements.joint);
@@ -104,11 +114,13 @@ void DescribeFriction(const Law& law, const Measurements& measurements, Estimate
     // outside of the bounds beyond doubt: the law is the wrong one
     const bool beyond = found.interval95 && ((*found.interval95)[1] < info.lower ||
                                              (*found.interval95)[0] > info.upper);
-    if (beyond && estimate.status == Status::ok) estimate.status = Status::inadequate_model;
     estimate.message = fmt::format(
         "{} is {:.4g} {}, outside of [{}, {}]: no friction can be given; try another law, or one "
         "that warms up",
         found.name, found.value, found.unit, info.lower, info.upper);
+    if (beyond && estimate.status == Status::ok) {
+      Void(Status::inadequate_model, estimate.message, estimate);
+    }
     return;
   }
   estimate.friction = friction;

@@ -19,6 +19,10 @@ std::optional<std::string> Unusable(const IdentifierInput& input, int parameters
 /// An estimate that failed: its status and one sentence, no numbers.
 Estimate Failed(std::string identifier, Status status, std::string message);
 
+/// Takes back what an estimate claims: keeps its values, which then can be looked at and scored,
+/// but no standard deviation, interval or friction.
+void Void(Status status, std::string message, Estimate& estimate);
+
 /// The parameter's unit for the recording's joint and torque unit: "A.s/rad" where a current
 /// stands for the torque.
 std::string UnitFor(const ParameterInfo& info, const Measurements& measurements);
@@ -33,8 +37,8 @@ std::string Indistinct(const std::vector<std::string>& mixed, const Measurements
                        const Selection& selection);
 
 /// Puts the law and the parameter values that `estimate` holds into estimate.friction. Where a
-/// value lies outside its table's bounds there is no such friction: it is left out, and status and
-/// message say so.
+/// value lies outside its table's bounds there is no such friction: it is left out, and the message
+/// says so; where its interval does too, the estimate is void (inadequate_model).
 void DescribeFriction(const Law& law, const Measurements& measurements, Estimate& estimate);
 
 }  // namespace warmjoint

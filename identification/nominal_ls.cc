@@ -1,5 +1,7 @@
 #include "identification/nominal_ls.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "identification/fit_data.h"
@@ -40,6 +42,7 @@ Estimate Identify(const IdentifierInput& input) {
                                                std::sqrt(variance * fit.cofactor(i, i)), freedom));
   }
   estimate.metrics = ComputeMetrics(torque, fitted, d, d);
+  estimate.message = fmt::format("law {} by least squares on {} samples", law.name, torque.size());
   DescribeFriction(law, input.measurements, estimate);
   return estimate;
 }
