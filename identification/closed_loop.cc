@@ -1,0 +1,73 @@
+#include "identification/closed_loop.h"
+
+#include <cmath>
+
+#include "identification/closed_loop_kernel.h"
+#include "models/friction/sign.h"
+
+namespace warmjoint {
+
+ClosedLoop::ClosedLoop(const Eigen::VectorXd& time, const Eigen::VectorXd& velocity,
+                       const Eigen::MatrixXd& columns)
+    : speed_(velocity.cwiseAbs()),
+      direction_(velocity.unaryExpr([](double v) { return static_cast<double>(Sign(v)); })),
+      levels_(direction_.asDiagonal() * columns),
+      intervals_(FindIntervals(time)) {}
+
+LoopResponse ClosedLoop::Simulate(const Eigen::VectorXd& parameters, const Thermal& thermal,
+                                  double initial_energy) const {
+  const Eigen::VectorXd nominal = levels_ * parameters;
+  const std::vector<ThermalHold> holds = Holds(intervals_, thermal);
+  LoopResponse response;
+  response.force.resize(size());
+  response.loss.resize(size());
+  response.energy.resize(size());
+
+  double energy = initial_energy;
+  for (Eigen::Index n = 0; n < size(); ++n) {
+    const double moving = std::abs(direction_[n]);
+    const double level = nominal[n] + moving * energy;
+    if (level < 0 && !response.feeds_itself) response.feeds_itself = n;
+    response.energy[n] = energy;
+    response.force[n] = direction_[n] * level;
+    response.loss[n] = Loss(speed_[n], level);
+
+    const ThermalHold& hold = holds[intervals_.which[n]];
+    energy = ThermalStep(hold.gain, hold.pole, energy, response.loss[n]);
+  }
+  return response;
+}
+
+Eigen::MatrixXd ClosedLoop::Jacobian(const Eigen::VectorXd& parameters, const Thermal& thermal,
+                                     double initial_energy) const {
+  const Eigen::Index d = levels_.cols();
+  Eigen::MatrixXd jacobian(size(), d + 3);
+  const auto write = [&](Eigen::Index n, double, const double* g, const double* S) {
+    for (Eigen::Index i = 0; i < d; ++i) jacobian(n, i) = direction_[n] * (g[i] + S[i]);
+    for (Eigen::Index i = d; i < d + 3; ++i) jacobian(n, i) = direction_[n] * S[i];
+  };
+  WithHolds(intervals_, thermal, [&](const auto& hold) {
+    RunWithSensitivities<Eigen::Dynamic>(*this, parameters.data(), thermal.gain, initial_energy,
+                                         hold, write);
+  });
+
+  // from log(tau) to tau
+  jacobian.col(d + 1) /= thermal.time_constant;
+  return jacobian;
+}
+
+Eigen::MatrixXd ByDiscretePair(const Eigen::MatrixXd& jacobian, const Thermal& thermal, double h) {
+  const Eigen::Index d = jacobian.cols() - 3;
+  const DiscreteThermal discrete = Discretise(thermal, h);
+  const double cooling = -std::expm1(-h / thermal.time_constant);
+
+  // k = ke / (1 - te), tau = -h / log(te)
+  Eigen::MatrixXd result = jacobian;
+  result.col(d) = jacobian.col(d) / cooling;
+  result.col(d + 1) =
+      jacobian.col(d) * (thermal.gain / cooling) +
+      jacobian.col(d + 1) * (thermal.time_constant * thermal.time_constant / (h * discrete.pole));
+  return result;
+}
+
+}  // namespace warmjoint

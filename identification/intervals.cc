@@ -1,0 +1,57 @@
+#include "identification/intervals.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace warmjoint {
+namespace {
+
+constexpr double kSame = 1e-6;  // relative
+
+}  // namespace
+
+Intervals FindIntervals(const Eigen::VectorXd& time) {
+  const Eigen::Index n = time.size() - 1;
+  std::vector<double> steps(n);
+  for (Eigen::Index i = 0; i < n; ++i) steps[i] = time[i + 1] - time[i];
+
+  // ascending lengths, one for each group that the rounding of the time stamps makes
+  Intervals intervals;
+  std::vector<double> sorted = steps;
+  std::sort(sorted.begin(), sorted.end());
+  intervals.typical = sorted[n / 2];
+  std::vector<int> count;
+  for (const double step : sorted) {
+    if (count.empty() || step > intervals.length.back() / count.back() * (1 + kSame)) {
+      intervals.length.push_back(0);
+      count.push_back(0);
+    }
+    intervals.length.back() += step;
+    ++count.back();
+  }
+  for (size_t i = 0; i < count.size(); ++i) intervals.length[i] /= count[i];
+
+  // nearest length of each step
+  steps.push_back(intervals.typical);
+  intervals.which.reserve(steps.size());
+  for (const double step : steps) {
+    const auto above =
+        std::upper_bound(intervals.length.begin(), intervals.length.end(), step * (1 + kSame));
+    intervals.which.push_back(
+        static_cast<int>(std::max<std::ptrdiff_t>(0, above - intervals.length.begin() - 1)));
+  }
+  return intervals;
+}
+
+std::vector<ThermalHold> Holds(const Intervals& intervals, const Thermal& thermal) {
+  std::vector<ThermalHold> holds;
+  holds.reserve(intervals.length.size());
+  for (const double h : intervals.length) {
+    const DiscreteThermal discrete = Discretise(thermal, h);
+    const double ratio = h / thermal.time_constant;
+    holds.push_back({discrete.pole, -std::expm1(-ratio), discrete.gain, discrete.pole * ratio});
+  }
+  return holds;
+}
+
+}  // namespace warmjoint

@@ -1,0 +1,32 @@
+// The times between samples, even or not, and the thermal pole over each of them.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "models/friction/thermal.h"
+
+namespace warmjoint {
+
+/// Intervals of a recording. Lengths that differ by less than a millionth count as one.
+struct Intervals {
+  std::vector<double> length;  // [m] distinct intervals, s, ascending
+  std::vector<int> which;      // [N] index into `length` of the interval that follows each sample
+  double typical = 0;          // median, s
+};
+
+/// time: [N] s, strictly increasing, N >= 2. The last sample's interval is the typical one.
+Intervals FindIntervals(const Eigen::VectorXd& time);
+
+/// Eq. (22) over one interval, in the continuous parameters: E <- pole E + gain W.
+struct ThermalHold {
+  double pole = 0;        // te = exp(-h/tau)
+  double cooling = 0;     // 1 - te
+  double gain = 0;        // ke = k (1 - te)
+  double pole_slope = 0;  // dte/dlog(tau) = te h/tau
+};
+
+/// One for each distinct interval.
+std::vector<ThermalHold> Holds(const Intervals& intervals, const Thermal& thermal);
+
+}  // namespace warmjoint
