@@ -82,11 +82,15 @@ double BiquadCascade::Step(double x) {
 }
 
 Eigen::VectorXd FilterZeroPhase(const std::vector<Biquad>& sections, const Eigen::VectorXd& x) {
-  if (x.size() < 2) return x;
-  const Eigen::Index pad = std::min(SettlingLength(sections), x.size() - 1);
-  const Eigen::VectorXd forwards = FilterOnce(sections, Continued(x, pad));
+  const Eigen::Index n = x.size();
+  if (n < 2) return x;
+
+  // a straight line passes unchanged, so only what is left beside it is filtered
+  const Eigen::VectorXd line = Eigen::VectorXd::LinSpaced(n, x[0], x[n - 1]);
+  const Eigen::Index pad = std::min(SettlingLength(sections), n - 1);
+  const Eigen::VectorXd forwards = FilterOnce(sections, Continued(x - line, pad));
   const Eigen::VectorXd backwards = FilterOnce(sections, forwards.reverse());
-  return backwards.reverse().segment(pad, x.size());
+  return line + backwards.reverse().segment(pad, n);
 }
 
 }  // namespace warmjoint
