@@ -71,11 +71,6 @@ bool Drifts(const Segment& run, const Eigen::VectorXd& v, const VelocityScale& s
   return drift > std::min(explained, 0.6 * scale.Band(run.velocity)) && !IsSlow(drift, run, scale);
 }
 
-bool Rests(const Segment& run, const VelocityScale& scale) {
-  const double smallest = std::max({3 * scale.noise, 1.5 * scale.resolution, 1e-3 * scale.rms});
-  return std::abs(run.velocity) <= smallest;
-}
-
 /// Whether a run differs from a piece of an acceleration: the speed drifts slowly, or at each end
 /// it jumps (by half of the step in level or more), the recording ends, or a run of less than a
 /// third of its length follows.
@@ -144,7 +139,7 @@ Selection SelectConstantSpeed(const Measurements& measurements) {
   Selection selection;
   selection.keep.setConstant(v.size(), false);
   for (std::size_t i = 0; i < steady.size(); ++i) {
-    if (Rests(steady[i], scale)) continue;
+    if (std::abs(steady[i].velocity) <= scale.Rest()) continue;
     Segment segment = KeptAway(steady[i], Gaps(steady, i, v.size()));
 
     // outliers within a segment are not kept

@@ -80,6 +80,8 @@ double VelocityScale::Band(double level) const {
   return std::max({4 * noise, 0.02 * std::abs(level), 1.5 * resolution});
 }
 
+double VelocityScale::Rest() const { return std::max({3 * noise, 1.5 * resolution, 1e-3 * rms}); }
+
 VelocityScale MeasureVelocity(const Measurements& measurements) {
   const Eigen::VectorXd& v = measurements.velocity;
   const Index n = v.size();

@@ -18,6 +18,9 @@ struct VelocityScale {
   /// How far samples of a constant speed `level` may lie from it: 4 noise, 2 % of the level, or 1.5
   /// resolutions, whichever is most. rad/s or m/s.
   double Band(double level) const;
+  /// Largest speed that counts as rest: 3 noise, 1.5 resolutions, or a thousandth of rms, whichever
+  /// is most. rad/s or m/s.
+  double Rest() const;
 };
 
 /// noise: differences of the velocity over 1, 2, 4, ... samples spread more and more until the lag
