@@ -1,0 +1,72 @@
+#include "tools/report/draw/reduce.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "tests/report/look.h"
+
+namespace warmjoint::report {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+TEST(ReduceCurve, KeepsEveryExtremeOfEveryColumn) {
+  const Index n = 100000;
+  const VectorXd x = VectorXd::LinSpaced(n, 0, 1);
+  VectorXd y = (200 * x).array().sin();
+  y[4567] = 40;
+  y[80001] = -30;
+  const auto chosen = ReduceCurve(x, y, {0, 1, 500});
+  EXPECT_LE(chosen.size(), 4 * 500u);
+  EXPECT_TRUE(std::is_sorted(chosen.begin(), chosen.end()));
+  for (Index spike : {Index{4567}, Index{80001}, Index{0}, n - 1}) {
+    EXPECT_TRUE(std::binary_search(chosen.begin(), chosen.end(), spike)) << spike;
+  }
+}
+
+TEST(ReduceCurve, KeepsGapsAndLeavesShortOrFoldedCurvesAlone) {
+  VectorXd x = VectorXd::LinSpaced(10000, 0, 1);
+  VectorXd y = VectorXd::Zero(10000);
+  y[5000] = NAN;
+  const auto chosen = ReduceCurve(x, y, {0, 1, 100});
+  EXPECT_TRUE(std::binary_search(chosen.begin(), chosen.end(), Index{5000}));
+  EXPECT_EQ(ReduceCurve(x.head(300), y.head(300), {0, 1, 100}).size(), 300u);
+  x[3] = 2;
+  EXPECT_EQ(ReduceCurve(x, y, {0, 1, 100}).size(), 10000u);
+}
+
+TEST(ReduceScatter, KeepsOneMarkerAPixelAndNoneOutside) {
+  VectorXd x(4), y(4);
+  x << 0.11, 0.12, 0.9, 7;
+  y << 0.11, 0.12, 0.9, 0.5;
+  EXPECT_EQ(ReduceScatter(x, y, {0, 1, 10}, {0, 1, 10}), (std::vector<Index>{0, 2}));
+}
+
+TEST(ReduceCurve, DrawsAMillionPointsWithTheirSpikesInTwoSeconds) {
+  Figure figure;
+  figure.name = "million";
+  figure.finding = "One spike.";
+  const Index n = 1000000;
+  const VectorXd x = VectorXd::LinSpaced(n, 0, 1);
+  VectorXd y = 0.3 * (5000 * x).array().sin();
+  y[n / 4] = 0.95;
+  Plot plot;
+  plot.x = {"x", 0, 1, Scale::linear, {}};
+  plot.y = {"y", -1, 1, Scale::linear, {}};
+  plot.series = {{"", Hue::blue, Line{x, y, 1.5}}};
+  figure.panels = {{"curve", plot}};
+  TestCanvas();
+  const auto begin = std::chrono::steady_clock::now();
+  const Drawn drawn = DrawFigure(TestCanvas(), figure);
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+  EXPECT_LT(seconds.count(), 2.0);
+  EXPECT_TRUE(HasColourNear(drawn.image, PixelOf(drawn.plots[0], 0.25, 0.9),
+                            LightTheme().Colour(Hue::blue)));
+}
+
+}  // namespace
+}  // namespace warmjoint::report

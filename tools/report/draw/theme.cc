@@ -1,0 +1,61 @@
+#include "tools/report/draw/theme.h"
+
+#include <utility>
+
+namespace warmjoint::report {
+
+const Theme& LightTheme() {
+  static const Theme theme{
+      "light",
+      {255, 255, 255},
+      {28, 32, 38},
+      {84, 91, 102},
+      {110, 117, 128},
+      {226, 229, 234},
+      {241, 243, 245},
+      {{28, 32, 38},
+       {128, 134, 143},
+       {0, 114, 178},
+       {213, 94, 0},
+       {0, 140, 102},
+       {170, 77, 140},
+       {214, 143, 0},
+       {67, 165, 222}},
+  };
+  return theme;
+}
+
+const Theme& DarkTheme() {
+  static const Theme theme{
+      "dark",
+      {22, 25, 30},
+      {232, 235, 240},
+      {168, 175, 186},
+      {134, 141, 152},
+      {50, 55, 63},
+      {36, 40, 47},
+      {{232, 235, 240},
+       {146, 152, 162},
+       {76, 166, 226},
+       {240, 128, 60},
+       {48, 184, 142},
+       {216, 138, 190},
+       {236, 176, 62},
+       {140, 204, 244}},
+  };
+  return theme;
+}
+
+Hue IdentifierHue(std::string_view identifier) {
+  static constexpr std::pair<std::string_view, Hue> kKnown[] = {
+      {"nominal-ls", Hue::grey}, {"energy-em", Hue::vermilion}, {"energy-ml", Hue::blue}};
+  for (const auto& [name, hue] : kKnown) {
+    if (name == identifier) return hue;
+  }
+  static constexpr Hue kOthers[] = {Hue::green, Hue::purple, Hue::orange, Hue::sky};
+  std::size_t sum = 0;
+  for (char letter : identifier) sum += static_cast<unsigned char>(letter);
+  return kOthers[sum % std::size(kOthers)];
+}
+
+}  // namespace warmjoint::report

@@ -1,0 +1,77 @@
+#include "tools/report/figures/axes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace warmjoint::report {
+namespace {
+
+constexpr double kSpare = 0.04;
+
+Axis Padded(std::string label, double lower, double upper) {
+  if (!std::isfinite(lower)) lower = 0, upper = 1;
+  if (lower == upper) {
+    const double about = lower == 0 ? 1 : 0.1 * std::abs(lower);
+    lower -= about;
+    upper += about;
+  }
+  const double spare = kSpare * (upper - lower);
+  return {std::move(label), lower - spare, upper + spare, Scale::linear, {}};
+}
+
+}  // namespace
+
+std::pair<double, double> RangeOf(const std::vector<Eigen::VectorXd>& values) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  std::pair<double, double> range{kNone, kNone};
+  for (const Eigen::VectorXd& part : values) {
+    for (double value : part) {
+      if (!std::isfinite(value)) continue;
+      if (!(value >= range.first)) range.first = value;
+      if (!(value <= range.second)) range.second = value;
+    }
+  }
+  return range;
+}
+
+Axis LinearAxis(std::string label, const std::vector<Eigen::VectorXd>& values) {
+  const auto [lower, upper] = RangeOf(values);
+  return Padded(std::move(label), lower, upper);
+}
+
+Axis ZeroAxis(std::string label, const std::vector<Eigen::VectorXd>& values) {
+  const double upper = RangeOf(values).second;
+  const double top = std::isfinite(upper) && upper > 0 ? upper : 1;
+  return {std::move(label), 0, (1 + 2 * kSpare) * top, Scale::linear, {}};
+}
+
+Axis LogarithmicAxis(std::string label, const std::vector<Eigen::VectorXd>& values) {
+  std::vector<Eigen::VectorXd> logarithms;
+  for (const Eigen::VectorXd& part : values) {
+    logarithms.push_back(
+        part.unaryExpr([](double v) { return v > 0 ? std::log10(v) : std::nan(""); }));
+  }
+  const auto [lower, upper] = RangeOf(logarithms);
+  Axis axis = Padded(std::move(label), lower, upper);
+  axis.lower = std::pow(10, axis.lower);
+  axis.upper = std::pow(10, axis.upper);
+  axis.scale = Scale::logarithmic;
+  return axis;
+}
+
+Axis MagnitudeAxis(std::string label, const std::vector<Eigen::VectorXd>& values) {
+  const auto [lower, upper] = RangeOf(values);
+  const bool wide = lower > 0 && upper > 30 * lower;
+  return wide ? LogarithmicAxis(std::move(label), values) : ZeroAxis(std::move(label), values);
+}
+
+Axis CategoryAxis(std::string label, const std::vector<std::string>& names) {
+  Axis axis{std::move(label), -0.5, static_cast<double>(names.size()) - 0.5, Scale::linear, {}};
+  for (const std::string& name : names) {
+    axis.ticks.push_back({static_cast<double>(axis.ticks.size()), name});
+  }
+  return axis;
+}
+
+}  // namespace warmjoint::report

@@ -1,0 +1,113 @@
+#include "tools/report/figures/error_by_iteration.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "tools/report/draw/ticks.h"
+#include "tools/report/figures/axes.h"
+
+namespace warmjoint::report {
+namespace {
+
+using Curve = QuartileCurve IdentifierCourse::*;
+
+bool Iterates(const QuartileCurve& curve) { return curve.x.size() > 1; }
+
+/// The second and later rows of one identifier share its colour and differ in their stroke.
+Dash DashOf(const std::vector<IdentifierCourse>& all, std::size_t place) {
+  static constexpr Dash kOrder[] = {Dash::solid, Dash::dashed, Dash::dotted};
+  std::size_t earlier = 0;
+  for (std::size_t i = 0; i < place; ++i) earlier += all[i].identifier == all[place].identifier;
+  return kOrder[earlier % std::size(kOrder)];
+}
+
+/// The axis over iterations starts at the first that is not 0 where it is logarithmic.
+Axis IterationAxis(const ErrorByIteration& data) {
+  std::vector<Eigen::VectorXd> iterations;
+  for (const IdentifierCourse& course : data.identifiers) {
+    if (Iterates(course.npe)) iterations.push_back(course.npe.x);
+  }
+  const auto [first, last] = RangeOf(iterations);
+  if (!std::isfinite(last)) return {"iteration", 0, 1, Scale::linear, {{0, "–"}}};
+  if (last > 100) return {"iteration", 1, last, Scale::logarithmic, {}};
+  return {"iteration", first, last, Scale::linear, {}};
+}
+
+/// Bands below all lines; identifiers that do not iterate as levels.
+Plot Draw(const ErrorByIteration& data, Curve curve, double factor, const std::string& label) {
+  Plot plot;
+  plot.x = IterationAxis(data);
+  std::vector<Eigen::VectorXd> shown;
+  std::vector<Series> lines;
+  for (std::size_t i = 0; i < data.identifiers.size(); ++i) {
+    const IdentifierCourse& course = data.identifiers[i];
+    const QuartileCurve& c = course.*curve;
+    if (c.x.size() == 0) continue;
+    QuartileCurve wide = c;
+    if (!Iterates(c)) {
+      // over the whole axis
+      wide.x = Eigen::Vector2d(plot.x.lower, plot.x.upper);
+      wide.q25 = Eigen::Vector2d::Constant(c.q25[0]);
+      wide.median = Eigen::Vector2d::Constant(c.median[0]);
+      wide.q75 = Eigen::Vector2d::Constant(c.q75[0]);
+    }
+    const Hue hue = IdentifierHue(course.identifier);
+    plot.series.push_back({"", hue, Band{wide.x, factor * wide.q25, factor * wide.q75}});
+    lines.push_back(
+        {course.label, hue, Line{wide.x, factor * wide.median, 1.8, DashOf(data.identifiers, i)}});
+    shown.insert(shown.end(), {factor * wide.q25, factor * wide.median, factor * wide.q75});
+  }
+  plot.series.insert(plot.series.end(), lines.begin(), lines.end());
+  plot.y = MagnitudeAxis(label, shown);
+  return plot;
+}
+
+/// Adds a dashed level and makes room for it.
+void AddLevel(Plot& plot, const std::string& label, double value) {
+  plot.series.push_back({label, Hue::text, LevelLine{value}});
+  const double room = plot.y.scale == Scale::logarithmic ? 1.25 : 1.05;
+  plot.y.upper = std::max(plot.y.upper, room * value);
+  if (plot.y.scale == Scale::logarithmic) plot.y.lower = std::min(plot.y.lower, value / room);
+}
+
+std::string Finding(const ErrorByIteration& data) {
+  std::string text = "Median NPE after the last iteration: ";
+  for (const IdentifierCourse& course : data.identifiers) {
+    if (course.npe.median.size() == 0) continue;
+    const double last = course.npe.median[course.npe.median.size() - 1];
+    text += fmt::format("{} {} %, ", course.label, SignificantText(100 * last));
+  }
+  if (data.cramer_rao) {
+    return text + fmt::format("Cramér-Rao bound {} %.", SignificantText(100 * *data.cramer_rao));
+  }
+  text.resize(text.size() - 2);
+  return text + ".";
+}
+
+}  // namespace
+
+Figure MakeErrorByIteration(const ErrorByIteration& data) {
+  Figure figure;
+  figure.name = "error_by_iteration";
+  figure.title = "Parameter error and fit by iteration";
+  figure.subtitle =
+      fmt::format("{}: {} realizations; lines are medians, bands reach from quartile to quartile",
+                  data.suite, data.realizations);
+  figure.finding = Finding(data);
+  figure.width = 960;
+  figure.height = 430;
+  figure.columns = {1, 1};
+
+  Plot npe = Draw(data, &IdentifierCourse::npe, 100, "NPE, continuous (%)");
+  if (data.cramer_rao) AddLevel(npe, "Cramér-Rao bound (rms)", 100 * *data.cramer_rao);
+  Plot rmse =
+      Draw(data, &IdentifierCourse::rmse, 1, fmt::format("RMSE ({})", UnitText(data.torque_unit)));
+  if (data.noise) AddLevel(rmse, "noise", *data.noise);
+
+  figure.panels.push_back({"Normalised parameter error", npe, 0, 0});
+  figure.panels.push_back({"Root mean square error of the fit", rmse, 0, 1});
+  return figure;
+}
+
+}  // namespace warmjoint::report

@@ -1,0 +1,103 @@
+#include "tools/report/gl/image.h"
+
+#include <png.h>
+
+#include <algorithm>
+#include <cassert>
+#include <stdexcept>
+
+#include "models/foundation/atomic_file.h"
+
+namespace warmjoint::report {
+
+Image Shrink(const Image& image, int factor) {
+  assert(image.width % factor == 0 && image.height % factor == 0);
+  Image small{image.width / factor, image.height / factor, {}};
+  small.pixels.resize(std::size_t{3} * small.width * small.height);
+  const unsigned area = static_cast<unsigned>(factor * factor);
+  std::size_t target = 0;
+  for (int y = 0; y < small.height; ++y) {
+    for (int x = 0; x < small.width; ++x) {
+      for (int channel = 0; channel < 3; ++channel) {
+        unsigned sum = area / 2;  // rounds to the nearest
+        for (int row = y * factor; row < (y + 1) * factor; ++row) {
+          for (int column = x * factor; column < (x + 1) * factor; ++column) {
+            sum +=
+                image.pixels[3 * (static_cast<std::size_t>(row) * image.width + column) + channel];
+          }
+        }
+        small.pixels[target++] = static_cast<std::uint8_t>(sum / area);
+      }
+    }
+  }
+  return small;
+}
+
+void Paste(const Image& source, int left, int top, int width, int height, Image& target) {
+  // source pixels [begin, end) below pixel i of n
+  const auto begin = [](int i, int n, int size) { return i * size / n; };
+  const auto end = [](int i, int n, int size) {
+    return std::max(i * size / n + 1, (i + 1) * size / n);
+  };
+  for (int y = std::max(0, -top); y < std::min(height, target.height - top); ++y) {
+    for (int x = std::max(0, -left); x < std::min(width, target.width - left); ++x) {
+      unsigned sum[3] = {0, 0, 0}, count = 0;
+      for (int row = begin(y, height, source.height); row < end(y, height, source.height); ++row) {
+        for (int column = begin(x, width, source.width); column < end(x, width, source.width);
+             ++column) {
+          const Rgb pixel = source.At(column, row);
+          sum[0] += pixel.red;
+          sum[1] += pixel.green;
+          sum[2] += pixel.blue;
+          ++count;
+        }
+      }
+      const std::size_t at = 3 * (static_cast<std::size_t>(top + y) * target.width + left + x);
+      for (int c = 0; c < 3; ++c) {
+        target.pixels[at + c] = static_cast<std::uint8_t>((sum[c] + count / 2) / count);
+      }
+    }
+  }
+}
+
+std::string EncodePng(const Image& image, const std::string& description) {
+  std::string bytes;
+  png_structp png = png_create_write_struct(
+      PNG_LIBPNG_VER_STRING, nullptr,
+      [](png_structp, png_const_charp message) { throw std::runtime_error(message); }, nullptr);
+  png_infop info = png_create_info_struct(png);
+  png_set_write_fn(
+      png, &bytes,
+      [](png_structp writer, png_bytep data, png_size_t size) {
+        static_cast<std::string*>(png_get_io_ptr(writer))
+            ->append(reinterpret_cast<const char*>(data), size);
+      },
+      nullptr);
+  png_set_IHDR(png, info, static_cast<png_uint_32>(image.width),
+               static_cast<png_uint_32>(image.height), 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+
+  // the alt text travels with the picture
+  std::string key = "Description";
+  std::string text = description;
+  png_text entry{};
+  entry.compression = PNG_ITXT_COMPRESSION_NONE;
+  entry.key = key.data();
+  entry.text = text.data();
+  if (!description.empty()) png_set_text(png, info, &entry, 1);
+
+  png_write_info(png, info);
+  for (int y = 0; y < image.height; ++y) {
+    png_write_row(png, &image.pixels[std::size_t{3} * image.width * y]);
+  }
+  png_write_end(png, info);
+  png_destroy_write_struct(&png, &info);
+  return bytes;
+}
+
+void WritePng(const Image& image, const std::string& description,
+              const std::filesystem::path& path) {
+  WriteWholeFile(path, EncodePng(image, description));
+}
+
+}  // namespace warmjoint::report

@@ -1,0 +1,45 @@
+// Pictures in memory and as PNG.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace warmjoint::report {
+
+struct Rgb {
+  std::uint8_t red = 0;
+  std::uint8_t green = 0;
+  std::uint8_t blue = 0;
+  bool operator==(const Rgb&) const = default;
+};
+
+/// A picture; pixels: [height x width x 3] bytes, rows from the top.
+struct Image {
+  int width = 0;   // pixels
+  int height = 0;  // pixels
+  std::vector<std::uint8_t> pixels;
+
+  Rgb At(int x, int y) const {
+    const std::uint8_t* p = &pixels[3 * (static_cast<std::size_t>(y) * width + x)];
+    return {p[0], p[1], p[2]};
+  }
+};
+
+/// The mean of each block of factor x factor pixels; width and height must be multiples of factor.
+Image Shrink(const Image& image, int factor);
+
+/// Copies a picture into another, stretched to width x height pixels with its upper left corner at
+/// (left, top); each pixel is the mean of what it covers. What would stand outside is left out.
+void Paste(const Image& source, int left, int top, int width, int height, Image& target);
+
+/// The bytes of a PNG file; `description` goes into its Description entry (the alt text).
+/// The same image and description give the same bytes.
+std::string EncodePng(const Image& image, const std::string& description);
+
+/// Writes a PNG as a whole. Throws BadInput where the folder cannot be written.
+void WritePng(const Image& image, const std::string& description,
+              const std::filesystem::path& path);
+
+}  // namespace warmjoint::report
