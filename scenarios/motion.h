@@ -11,9 +11,16 @@
 
 namespace warmjoint {
 
+/// Which speed and which sign come next.
+///   alternating: the next speed of the list or a new draw; the sign changes with each segment. A
+///     list of even length is shifted by one after each round, so that every speed gets both signs.
+///   in_order: each speed twice, forwards and then backwards, before the next: a ladder.
+///   shuffled: rounds over all speeds in both signs, in an order drawn anew for each round; with
+///     draws, each a new speed with a sign by chance. Where the motion travels between limits the
+///     sign must change with each segment: then only the speeds are shuffled.
 enum class SegmentOrder { alternating, shuffled, in_order };
 
-/// Work and break times that interrupt the motion.
+/// Work and break times that interrupt the motion; it goes on after a break where it stopped.
 struct Rests {
   double run = 0;   // s of motion before each rest
   double rest = 0;  // s of rest
@@ -36,9 +43,17 @@ struct MotionSegment {
   double velocity = 0;  // rad/s or m/s, signed; 0: rest
 };
 
-/// The plan that covers `duration` seconds. Draws come from `random`. limits: of the joint, rad or
-/// m, used by motions that travel.
+/// The limits that the motion travels between, or nothing where it holds speeds for a time.
+/// joint_limits: the robot's own, rad or m.
+std::optional<std::pair<double, double>> TravelLimits(const Motion& motion,
+                                                      std::pair<double, double> joint_limits);
+
+/// Where the motion begins, rad or m: at the lower travel limit; at 0 where it does not travel.
+double StartPosition(const Motion& motion, std::pair<double, double> joint_limits);
+
+/// The plan that covers exactly `duration` seconds: the last segment is cut. Draws come from
+/// `random`. joint_limits: rad or m, used by motions that travel; motion must have been checked.
 std::vector<MotionSegment> PlanMotion(const Motion& motion, double duration,
-                                      std::pair<double, double> limits, RandomStream& random);
+                                      std::pair<double, double> joint_limits, RandomStream& random);
 
 }  // namespace warmjoint

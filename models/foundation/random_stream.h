@@ -10,7 +10,15 @@ namespace warmjoint {
 
 /// What a stream of random numbers is for. Streams of one realization are independent, so that
 /// drawing more of one leaves the others as they are.
-enum class Stream : std::uint32_t { truth = 0, motion = 1, torque_noise = 2, start = 3, test = 4 };
+enum class Stream : std::uint32_t {
+  truth = 0,
+  motion = 1,
+  torque_noise = 2,
+  start = 3,
+  test = 4,
+  velocity_noise = 5,
+  position_noise = 6
+};
 
 /// Key of all the random numbers of one realization.
 struct RandomKey {

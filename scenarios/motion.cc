@@ -1,0 +1,142 @@
+#include "scenarios/motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace warmjoint {
+namespace {
+
+/// Signed velocities, one a segment, without end.
+class VelocitySequence {
+ public:
+  VelocitySequence(const Motion& motion, bool travels, RandomStream& random)
+      : motion_(motion), travels_(travels), random_(random) {}
+
+  double Next() {
+    const double velocity = At(segment_);
+    ++segment_;
+    return velocity;
+  }
+
+ private:
+  double At(size_t segment) {
+    const double turn = segment % 2 == 0 ? 1.0 : -1.0;
+    switch (motion_.order) {
+      case SegmentOrder::alternating:
+        return turn * (motion_.speed_draws ? Draw() : Alternating(segment));
+      case SegmentOrder::in_order:
+        return turn * InOrder(segment);
+      case SegmentOrder::shuffled:
+        return travels_ ? turn * std::abs(Shuffled()) : Shuffled();
+    }
+    return 0;
+  }
+
+  double Draw() { return std::abs(motion_.speed_draws->Draw(random_)); }
+
+  double Alternating(size_t segment) const {
+    const size_t n = motion_.speed_list.size();
+    const size_t shift = n % 2 == 0 ? segment / n : 0;
+    return motion_.speed_list[(segment + shift) % n];
+  }
+
+  double InOrder(size_t segment) {
+    if (!motion_.speed_draws) return motion_.speed_list[segment / 2 % motion_.speed_list.size()];
+    if (segment % 2 == 0) pair_speed_ = Draw();
+    return pair_speed_;
+  }
+
+  double Shuffled() {
+    if (motion_.speed_draws) {
+      const double speed = Draw();
+      return random_.Below(2) == 0 ? speed : -speed;
+    }
+    if (round_.empty()) FillRound();
+    const double velocity = round_.back();
+    round_.pop_back();
+    return velocity;
+  }
+
+  /// All speeds in both signs, in an order by chance (Fisher-Yates).
+  void FillRound() {
+    for (double speed : motion_.speed_list) round_.insert(round_.end(), {speed, -speed});
+    for (size_t i = round_.size() - 1; i > 0; --i)
+      std::swap(round_[i], round_[random_.Below(i + 1)]);
+  }
+
+  const Motion& motion_;
+  bool travels_;
+  RandomStream& random_;
+  size_t segment_ = 0;
+  double pair_speed_ = 0;
+  std::vector<double> round_;  // what is left of a shuffled round
+};
+
+/// Collects segments, cut by the rests and by the end.
+class PlanBuilder {
+ public:
+  PlanBuilder(const std::optional<Rests>& rests, double duration)
+      : rests_(rests),
+        duration_(duration),
+        until_rest_(rests ? rests->run : std::numeric_limits<double>::infinity()) {}
+
+  bool full() const { return time_ >= duration_; }
+
+  void Add(double duration, double velocity) {
+    while (duration > 0 && !full()) {
+      const double moving = std::min(duration, until_rest_);
+      Append(moving, velocity);
+      duration -= moving;
+      until_rest_ -= moving;
+      if (until_rest_ > 0) continue;
+      Append(rests_->rest, 0);
+      until_rest_ = rests_->run;
+    }
+  }
+
+  std::vector<MotionSegment> Take() { return std::move(plan_); }
+
+ private:
+  void Append(double duration, double velocity) {
+    const double left = duration_ - time_;
+    if (left <= 0) return;
+    plan_.push_back({std::min(duration, left), velocity});
+    time_ = duration < left ? time_ + duration : duration_;
+  }
+
+  const std::optional<Rests>& rests_;
+  double duration_;
+  double until_rest_;  // s of motion
+  double time_ = 0;    // s
+  std::vector<MotionSegment> plan_;
+};
+
+}  // namespace
+
+std::optional<std::pair<double, double>> TravelLimits(const Motion& motion,
+                                                      std::pair<double, double> joint_limits) {
+  return motion.travel_between_joint_limits ? joint_limits : motion.travel;
+}
+
+double StartPosition(const Motion& motion, std::pair<double, double> joint_limits) {
+  const auto limits = TravelLimits(motion, joint_limits);
+  return limits ? limits->first : 0.0;
+}
+
+std::vector<MotionSegment> PlanMotion(const Motion& motion, double duration,
+                                      std::pair<double, double> joint_limits,
+                                      RandomStream& random) {
+  const auto limits = TravelLimits(motion, joint_limits);
+  VelocitySequence velocities(motion, limits.has_value(), random);
+
+  PlanBuilder plan(motion.rests, duration);
+  while (!plan.full()) {
+    const double velocity = velocities.Next();
+    plan.Add(limits ? (limits->second - limits->first) / std::abs(velocity) : motion.hold,
+             velocity);
+  }
+  return plan.Take();
+}
+
+}  // namespace warmjoint

@@ -1,0 +1,108 @@
+#include "sim/ideal_plant.h"
+
+#include <cmath>
+
+#include "models/foundation/bad_input.h"
+#include "sim/ideal_friction.h"
+
+namespace warmjoint {
+namespace {
+
+/// Planned velocity and position at the stored samples.
+struct SampledPlan {
+  Eigen::VectorXd time;      // [N] s
+  Eigen::VectorXd velocity;  // [N] rad/s or m/s
+  Eigen::VectorXd position;  // [N] rad or m
+};
+
+SampledPlan SamplePlan(const std::vector<MotionSegment>& plan, double start, double rate,
+                       double duration) {
+  const auto n = static_cast<Eigen::Index>(std::llround(duration * rate));
+  SampledPlan samples{Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n)};
+
+  // a sample on a boundary belongs to the segment that begins there, whatever the rounding
+  const double tolerance = 1e-6 / rate;
+  size_t segment = 0;
+  double begin = 0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double time = static_cast<double>(i) / rate;
+    while (segment + 1 < plan.size() && time >= begin + plan[segment].duration - tolerance) {
+      start += plan[segment].velocity * plan[segment].duration;
+      begin += plan[segment].duration;
+      ++segment;
+    }
+    samples.time[i] = time;
+    samples.velocity[i] = plan[segment].velocity;
+    samples.position[i] = start + plan[segment].velocity * (time - begin);
+  }
+  return samples;
+}
+
+/// values plus white noise of the given standard deviation; no numbers are drawn for 0.
+Eigen::VectorXd WithNoise(Eigen::VectorXd values, double deviation, RandomStream random) {
+  if (deviation == 0) return values;
+  for (double& value : values) value += deviation * random.Normal();
+  return values;
+}
+
+class IdealPlant : public Plant {
+ public:
+  explicit IdealPlant(const Scenario& scenario) : scenario_(scenario) {
+    CheckFriction(scenario.friction, {scenario.name});
+    if (scenario.motion.travel_between_joint_limits) {
+      Refuse({scenario.name},
+             "the ideal plant has no robot, so the motion cannot travel between its joint limits; "
+             "give the limits as numbers, or use the mujoco plant");
+    }
+  }
+
+  Recording Run(std::uint64_t realization) override {
+    const RandomKey key{scenario_.seed, realization};
+    RandomStream motion_stream(key, Stream::motion);
+    const auto plan = PlanMotion(scenario_.motion, scenario_.duration, {}, motion_stream);
+    const SampledPlan samples = SamplePlan(plan, StartPosition(scenario_.motion, {}),
+                                           scenario_.sampling.rate, scenario_.duration);
+    FrictionHistory friction =
+        SimulateFriction(scenario_.friction, scenario_.initial_energy, 1 / scenario_.sampling.rate,
+                         samples.velocity, {scenario_.name});
+
+    Recording recording;
+    recording.measurements = Measure(samples, friction.force, key);
+    Truth& truth = recording.truth;
+    truth.friction = scenario_.friction;
+    truth.initial_energy = scenario_.initial_energy;
+    truth.torque_noise = scenario_.noise.torque;
+    truth.plant = "ideal";
+    truth.velocity = samples.velocity;
+    truth.force = std::move(friction.force);
+    truth.loss = std::move(friction.loss);
+    truth.energy = std::move(friction.energy);
+    return recording;
+  }
+
+ private:
+  Measurements Measure(const SampledPlan& samples, const Eigen::VectorXd& force,
+                       RandomKey key) const {
+    const Noise& noise = scenario_.noise;
+    Measurements log;
+    log.joint = scenario_.joint_kind;
+    log.torque_unit = kTorqueUnit.For(scenario_.joint_kind);
+    log.gear = scenario_.friction.gear;
+    log.source = scenario_.name;
+    log.time = samples.time;
+    log.position = WithNoise(samples.position, noise.position, {key, Stream::position_noise});
+    log.velocity = WithNoise(samples.velocity, noise.velocity, {key, Stream::velocity_noise});
+    log.torque = WithNoise(force, noise.torque, {key, Stream::torque_noise});
+    return log;
+  }
+
+  const Scenario scenario_;
+};
+
+}  // namespace
+
+std::unique_ptr<Plant> MakeIdealPlant(const Scenario& scenario) {
+  return std::make_unique<IdealPlant>(scenario);
+}
+
+}  // namespace warmjoint

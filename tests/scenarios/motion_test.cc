@@ -1,0 +1,160 @@
+#include "scenarios/motion.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace warmjoint {
+namespace {
+
+using testing::ElementsAre;
+
+std::vector<MotionSegment> Plan(const Motion& motion, double duration,
+                                std::uint64_t realization = 0) {
+  RandomStream random({7, realization}, Stream::motion);
+  return PlanMotion(motion, duration, {-1, 2}, random);
+}
+
+std::vector<double> Velocities(const std::vector<MotionSegment>& plan) {
+  std::vector<double> velocities;
+  for (const MotionSegment& segment : plan) velocities.push_back(segment.velocity);
+  return velocities;
+}
+
+std::vector<double> Durations(const std::vector<MotionSegment>& plan) {
+  std::vector<double> durations;
+  for (const MotionSegment& segment : plan) durations.push_back(segment.duration);
+  return durations;
+}
+
+Motion Held(std::vector<double> speeds, SegmentOrder order) {
+  Motion motion;
+  motion.speed_list = std::move(speeds);
+  motion.hold = 1;
+  motion.order = order;
+  return motion;
+}
+
+Motion Drawn(SegmentOrder order) {
+  Motion motion = Held({}, order);
+  motion.speed_draws = Distribution{Distribution::Kind::uniform, 0.1, 1};
+  return motion;
+}
+
+TEST(Motion, AlternatesTheSignOverTheList) {
+  const auto plan = Plan(Held({1, 2, 3}, SegmentOrder::alternating), 6);
+  EXPECT_THAT(Velocities(plan), ElementsAre(1, -2, 3, -1, 2, -3));
+}
+
+TEST(Motion, AlternatingGivesBothSignsToEachSpeedOfAnEvenList) {
+  const auto plan = Plan(Held({1, 2}, SegmentOrder::alternating), 4);
+  EXPECT_THAT(Velocities(plan), ElementsAre(1, -2, 2, -1));
+}
+
+TEST(Motion, InOrderClimbsTheLadderForwardsAndBackwards) {
+  const auto plan = Plan(Held({1, 2}, SegmentOrder::in_order), 6);
+  EXPECT_THAT(Velocities(plan), ElementsAre(1, -1, 2, -2, 1, -1));
+}
+
+TEST(Motion, InOrderRepeatsADrawBackwards) {
+  const auto velocities = Velocities(Plan(Drawn(SegmentOrder::in_order), 10));
+  for (size_t i = 0; i < velocities.size(); i += 2) EXPECT_EQ(velocities[i], -velocities[i + 1]);
+  EXPECT_NE(velocities[0], velocities[2]);
+}
+
+TEST(Motion, ShufflesEachRoundAnew) {
+  const auto plan = Plan(Held({1, 2, 3}, SegmentOrder::shuffled), 60);
+  bool differs = false;
+  for (size_t round = 0; round < 10; ++round) {
+    auto velocities = Velocities({plan.begin() + 6 * round, plan.begin() + 6 * round + 6});
+    differs |= velocities != Velocities({plan.begin(), plan.begin() + 6});
+    std::sort(velocities.begin(), velocities.end());
+    EXPECT_THAT(velocities, ElementsAre(-3, -2, -1, 1, 2, 3));
+  }
+  EXPECT_TRUE(differs);
+}
+
+TEST(Motion, ShufflesEveryVelocityIntoEveryPlaceEquallyOften) {
+  // 6000 rounds of 4 velocities: each place sees each 1500 times, sd sqrt(6000 * 3/16) = 33.5; of
+  // 16 counts none is 5 sd off but for chance 1e-5
+  std::map<std::pair<size_t, double>, int> counts;
+  const auto plan = Plan(Held({1, 2}, SegmentOrder::shuffled), 24000);
+  for (size_t i = 0; i < plan.size(); ++i) ++counts[{i % 4, plan[i].velocity}];
+  EXPECT_EQ(counts.size(), 16);
+  for (const auto& [key, count] : counts) EXPECT_NEAR(count, 1500, 168);
+}
+
+TEST(Motion, DrawsASpeedForEachSegmentFromItsDistribution) {
+  // U(0.1, 1): mean 0.55, sd 0.9 / sqrt(12) = 0.2598; of 10000 draws the mean is within 5 sd / 100
+  const auto plan = Plan(Drawn(SegmentOrder::alternating), 10000);
+  double sum = 0;
+  for (size_t i = 0; i < plan.size(); ++i) {
+    const double velocity = plan[i].velocity;
+    EXPECT_EQ(velocity > 0, i % 2 == 0);
+    EXPECT_GE(std::abs(velocity), 0.1);
+    EXPECT_LT(std::abs(velocity), 1.0);
+    sum += std::abs(velocity);
+  }
+  EXPECT_NEAR(sum / 10000, 0.55, 5 * 0.2598 / 100);
+}
+
+TEST(Motion, ShuffledDrawsHaveAFairSign) {
+  // 10000 signs: sd 50
+  int positive = 0;
+  for (double velocity : Velocities(Plan(Drawn(SegmentOrder::shuffled), 10000))) {
+    positive += velocity > 0;
+  }
+  EXPECT_NEAR(positive, 5000, 250);
+}
+
+TEST(Motion, TravelsFromLimitToLimit) {
+  Motion motion = Held({0.5, 1, 3}, SegmentOrder::alternating);
+  motion.hold = 0;
+  motion.travel_between_joint_limits = true;
+  const auto plan = Plan(motion, 100);
+
+  // the plan's position stays between the limits and ends each segment on one of them
+  double position = StartPosition(motion, {-1, 2});
+  EXPECT_EQ(position, -1);
+  for (size_t i = 0; i + 1 < plan.size(); ++i) {
+    position += plan[i].velocity * plan[i].duration;
+    EXPECT_NEAR(position, i % 2 == 0 ? 2 : -1, 1e-12);
+  }
+}
+
+TEST(Motion, ShuffledTravelStillTurnsAtEachLimit) {
+  Motion motion = Held({0.5, 1, 3}, SegmentOrder::shuffled);
+  motion.hold = 0;
+  motion.travel = {0.0, 1.0};
+  const auto velocities = Velocities(Plan(motion, 100));
+  for (size_t i = 0; i < velocities.size(); ++i) EXPECT_EQ(velocities[i] > 0, i % 2 == 0);
+}
+
+TEST(Motion, GoesOnAfterARestWhereItStopped) {
+  Motion motion = Held({2}, SegmentOrder::alternating);
+  motion.hold = 4;
+  motion.rests = Rests{6, 5};
+  const auto plan = Plan(motion, 21);
+  EXPECT_THAT(Velocities(plan), ElementsAre(2, -2, 0, -2, 2, 0));
+  EXPECT_THAT(Durations(plan), ElementsAre(4, 2, 5, 2, 4, 4));
+}
+
+TEST(Motion, CoversExactlyTheDuration) {
+  Motion motion = Drawn(SegmentOrder::alternating);
+  motion.hold = 0.7;
+  double sum = 0;
+  for (const MotionSegment& segment : Plan(motion, 10)) sum += segment.duration;
+  EXPECT_NEAR(sum, 10, 1e-12);
+}
+
+TEST(Motion, RepeatsItsBitsForTheSameRealizationOnly) {
+  const Motion motion = Drawn(SegmentOrder::alternating);
+  EXPECT_EQ(Velocities(Plan(motion, 50, 3)), Velocities(Plan(motion, 50, 3)));
+  EXPECT_NE(Velocities(Plan(motion, 50, 3)), Velocities(Plan(motion, 50, 4)));
+}
+
+}  // namespace
+}  // namespace warmjoint

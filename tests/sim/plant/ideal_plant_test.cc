@@ -1,0 +1,120 @@
+#include "sim/ideal_plant.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/table1.h"
+
+namespace warmjoint {
+namespace {
+
+using test::Table1;
+
+Recording Simulate(const Scenario& scenario, std::uint64_t realization = 0) {
+  return MakePlant(scenario)->Run(realization);
+}
+
+TEST(IdealPlant, StoresOneSampleForEachPeriod) {
+  const Recording recording = Simulate(Table1());
+  const Measurements& log = recording.measurements;
+  ASSERT_EQ(log.size(), 3600);
+  EXPECT_EQ(log.time[0], 0);
+  EXPECT_EQ(log.time[3599], 3599);
+  EXPECT_EQ(log.torque_unit, "N.m");
+  EXPECT_EQ(log.velocity, recording.truth.velocity);
+  EXPECT_EQ(recording.truth.torque_noise, 0.5);
+  EXPECT_EQ(recording.truth.plant, "ideal");
+}
+
+TEST(IdealPlant, HoldsEachSpeedForItsTime) {
+  const Measurements log = Simulate(Table1()).measurements;
+  for (Eigen::Index i = 0; i < log.size(); ++i) {
+    EXPECT_EQ(log.velocity[i], log.velocity[i / 20 * 20]) << "sample " << i;
+    EXPECT_EQ(log.velocity[i] > 0, i / 20 % 2 == 0);
+  }
+}
+
+TEST(IdealPlant, LogsThePositionThatTheVelocityLeadsTo) {
+  const Measurements log = Simulate(Table1()).measurements;
+  EXPECT_EQ(log.position[0], 0);
+  for (Eigen::Index i = 1; i < log.size(); ++i) {
+    // positions of tens of radians round at 1e-14
+    EXPECT_NEAR(log.position[i] - log.position[i - 1], log.velocity[i - 1], 1e-12);
+  }
+}
+
+TEST(IdealPlant, StaysBetweenTheLimitsItTravels) {
+  Scenario scenario = Table1();
+  scenario.motion.hold = 0;
+  scenario.motion.travel = {-0.5, 2.0};
+  scenario.sampling.rate = 20;
+  const Measurements log = Simulate(scenario).measurements;
+  // 1440 turns of limits added up round at 1e-12
+  EXPECT_GE(log.position.minCoeff(), -0.5 - 1e-9);
+  EXPECT_LE(log.position.maxCoeff(), 2.0 + 1e-9);
+  EXPECT_LT(log.position.minCoeff(), -0.4);
+  EXPECT_GT(log.position.maxCoeff(), 1.9);
+}
+
+TEST(IdealPlant, AddsWhiteNoiseOfTheGivenDeviation) {
+  const Recording recording = Simulate(Table1());
+  const Eigen::ArrayXd noise = recording.measurements.torque - recording.truth.force;
+  const Eigen::Index n = noise.size();
+  const double variance = 0.25;
+  // mean: sd 0.5 / 60; variance: sd 0.25 sqrt(2 / 3600); lag-one product: sd 0.25 / 60; bounds 5 sd
+  EXPECT_NEAR(noise.mean(), 0, 5 * 0.5 / 60);
+  EXPECT_NEAR(noise.square().mean(), variance, 5 * variance * std::sqrt(2.0 / 3600));
+  EXPECT_NEAR((noise.head(n - 1) * noise.tail(n - 1)).mean(), 0, 5 * variance / 60);
+}
+
+TEST(IdealPlant, DrawsTheNoisesIndependently) {
+  Scenario scenario = Table1();
+  scenario.noise = {1.0, 1.0, 1.0};
+  const Recording recording = Simulate(scenario);
+  const Measurements exact = Simulate(Table1()).measurements;
+  const Eigen::ArrayXd torque = recording.measurements.torque - recording.truth.force;
+  const Eigen::ArrayXd velocity = recording.measurements.velocity - recording.truth.velocity;
+  const Eigen::ArrayXd position = recording.measurements.position - exact.position;
+  // a product of two standard normals has sd 1; bounds 5 sd / sqrt(3600)
+  EXPECT_NEAR((torque * velocity).mean(), 0, 5.0 / 60);
+  EXPECT_NEAR((torque * position).mean(), 0, 5.0 / 60);
+  EXPECT_NEAR((velocity * position).mean(), 0, 5.0 / 60);
+  EXPECT_NEAR(velocity.square().mean(), 1, 5 * std::sqrt(2.0 / 3600));
+}
+
+TEST(IdealPlant, KeepsTheMotionWhenTheNoiseChanges) {
+  Scenario loud = Table1();
+  loud.noise.torque = 5;
+  EXPECT_EQ(Simulate(loud).truth.force, Simulate(Table1()).truth.force);
+}
+
+TEST(IdealPlant, RepeatsItsBitsForTheSameSeedAndRealizationOnly) {
+  const auto plant = MakePlant(Table1());
+  const Eigen::VectorXd third = plant->Run(3).measurements.torque;
+  EXPECT_NE(plant->Run(4).measurements.torque, third);
+  EXPECT_EQ(plant->Run(3).measurements.torque, third);
+  Scenario other = Table1();
+  other.seed = 2;
+  EXPECT_NE(Simulate(other, 3).measurements.torque, third);
+}
+
+TEST(IdealPlant, RefusesJointLimitsItDoesNotKnow) {
+  Scenario scenario = Table1();
+  scenario.motion.hold = 0;
+  scenario.motion.travel_between_joint_limits = true;
+  EXPECT_THROW(
+      {
+        try {
+          MakePlant(scenario);
+        } catch (const BadInput& error) {
+          EXPECT_THAT(error.what(), testing::HasSubstr("the ideal plant has no robot"));
+          throw;
+        }
+      },
+      BadInput);
+}
+
+}  // namespace
+}  // namespace warmjoint
