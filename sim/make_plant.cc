@@ -1,5 +1,6 @@
 #include "models/foundation/bad_input.h"
 #include "sim/ideal_plant.h"
+#include "sim/mujoco_plant.h"
 #include "sim/plant.h"
 
 namespace warmjoint {
@@ -9,9 +10,9 @@ std::unique_ptr<Plant> MakePlant(const Scenario& scenario) {
     case PlantKind::ideal:
       return MakeIdealPlant(scenario);
     case PlantKind::mujoco:
-      break;
+      return MakeMujocoPlant(scenario);
   }
-  Refuse({scenario.name}, "the mujoco plant is not part of this build");
+  Refuse({scenario.name}, "there is no such plant");
 }
 
 }  // namespace warmjoint

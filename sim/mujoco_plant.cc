@@ -1,0 +1,187 @@
+#include "sim/mujoco_plant.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "models/foundation/bad_input.h"
+#include "models/robots/robot_folder.h"
+#include "sim/single_joint_model.h"
+#include "sim/velocity_drive.h"
+#include "sim/velocity_reference.h"
+
+namespace warmjoint {
+namespace {
+
+/// Times of the closed loop in units of 1 / bandwidth: of the largest ramp, and until an error has
+/// decayed to e^-10 (1 + 10) = 5e-4 of its first size.
+constexpr double kRampTimes = 4;
+constexpr double kSettlingTimes = 10;
+
+/// Steps in an interval that must hold a whole number of them.
+long WholeSteps(double interval, double timestep, const Scenario& scenario, const char* name) {
+  const double steps = interval / timestep;
+  const long whole = std::lround(steps);
+  if (whole < 1 || std::abs(steps - static_cast<double>(whole)) > 1e-6 * steps) {
+    Refuse({scenario.name}, "{}: {} s is not a whole number of timesteps of {} s", name, interval,
+           timestep);
+  }
+  return whole;
+}
+
+double LargestChange(const std::vector<MotionSegment>& plan) {
+  double largest = 0;
+  double velocity = 0;
+  for (const MotionSegment& segment : plan) {
+    largest = std::max(largest, std::abs(segment.velocity - velocity));
+    velocity = segment.velocity;
+  }
+  return largest;
+}
+
+class MujocoPlant : public Plant {
+ public:
+  explicit MujocoPlant(const Scenario& scenario)
+      : scenario_(scenario),
+        joint_(LoadSingleJoint(FindRobot(scenario.robot, scenario.name), scenario.joint,
+                               scenario.friction, scenario.timestep, scenario.name)),
+        data_(mj_makeData(joint_.model.get())),
+        steps_per_sample_(
+            WholeSteps(1 / scenario.sampling.rate, scenario.timestep, scenario, "sampling.rate")) {
+    // an explicit loop is well damped up to a fifth of the step's rate
+    const double fastest = 0.2 / scenario.timestep;
+    if (!(scenario.controller.bandwidth > 0 && scenario.controller.bandwidth <= fastest)) {
+      Refuse({scenario.name},
+             "controller.bandwidth is {} rad/s; at timestep {} s it must be above "
+             "0 and at most {}",
+             scenario.controller.bandwidth, scenario.timestep, fastest);
+    }
+  }
+
+  Recording Run(std::uint64_t realization) override {
+    const RandomKey key{scenario_.seed, realization};
+    RandomStream motion(key, Stream::motion);
+    const auto plan = PlanMotion(scenario_.motion, scenario_.duration, joint_.limits, motion);
+    const double start = StartPosition(scenario_.motion, joint_.limits);
+    CheckReach(plan, start);
+
+    Recording recording = Empty();
+    Move(MakeReference(plan), start, recording);
+    AddNoise(key, recording.measurements);
+    return recording;
+  }
+
+ private:
+  VelocityReference MakeReference(const std::vector<MotionSegment>& plan) const {
+    const double bandwidth = scenario_.controller.bandwidth;
+    double acceleration = scenario_.controller.acceleration;
+    if (acceleration == 0) acceleration = LargestChange(plan) * bandwidth / kRampTimes;
+    return {plan, acceleration, kSettlingTimes / bandwidth};
+  }
+
+  /// Refuses a plan that leaves the joint's limits.
+  void CheckReach(const std::vector<MotionSegment>& plan, double position) const {
+    const auto [lower, upper] = joint_.limits;
+    const double slack = 1e-9 * std::max(1.0, upper - lower);
+    for (const MotionSegment& segment : plan) {
+      position += segment.velocity * segment.duration;
+      if (position >= lower - slack && position <= upper + slack) continue;
+      Refuse({scenario_.name},
+             "the motion takes joint '{}' to {:.4g}, beyond its limits {:.4g} to "
+             "{:.4g}; let it travel between limits, or hold speeds for less time",
+             scenario_.joint, position, lower, upper);
+    }
+  }
+
+  Recording Empty() const {
+    const auto n =
+        static_cast<Eigen::Index>(std::llround(scenario_.duration * scenario_.sampling.rate));
+    Recording recording;
+    Measurements& log = recording.measurements;
+    log.joint = joint_.kind;
+    log.torque_unit = kTorqueUnit.For(joint_.kind);
+    log.gear = scenario_.friction.gear;
+    log.source = scenario_.name;
+    log.time = log.position = log.velocity = log.torque = Eigen::VectorXd::Zero(n);
+
+    Truth& truth = recording.truth;
+    truth.friction = scenario_.friction;
+    truth.initial_energy = scenario_.initial_energy;
+    truth.torque_noise = scenario_.noise.torque;
+    truth.plant = "mujoco";
+    truth.velocity = truth.force = truth.loss = truth.energy = Eigen::VectorXd::Zero(n);
+    return recording;
+  }
+
+  /// Drives the joint along the reference and records the samples, without noise.
+  void Move(VelocityReference reference, double start, Recording& recording) {
+    const mjModel* m = joint_.model.get();
+    mjData* d = data_.get();
+    const double h = scenario_.timestep;
+    const long run_up = std::lround(std::ceil(-reference.begin() / h));
+    VelocityDrive drive(joint_.inertia, scenario_.controller.bandwidth, h);
+
+    // cold and at rest, so far back that the first sample is at the start
+    mj_resetData(m, d);
+    double& energy = d->act[joint_.friction_state + 1];
+    d->qpos[0] = start - reference.run_up();
+    energy = scenario_.initial_energy;
+
+    const Eigen::Index n = recording.measurements.size();
+    Eigen::Index sample = 0;
+    long next = run_up;
+    for (long step = 0; sample < n; ++step) {
+      if (step == run_up) energy = scenario_.initial_energy;
+      const double time = static_cast<double>(step - run_up) * h;
+      const double wanted = reference.Velocity(time);
+      const double torque = drive.Torque(wanted, reference.acceleration(), d->qvel[0]);
+      d->qfrc_applied[0] = torque;
+
+      if (step != next) {
+        mj_step(m, d);
+        continue;
+      }
+      Measure(sample, time, torque, recording);
+      mj_step(m, d);
+      recording.truth.force[sample] = -d->actuator_force[joint_.friction_actuator];
+      recording.truth.loss[sample] =
+          Loss(recording.truth.velocity[sample], recording.truth.force[sample]);
+      ++sample;
+      next += steps_per_sample_;
+    }
+  }
+
+  /// What is known of a sample before its step is made.
+  void Measure(Eigen::Index sample, double time, double torque, Recording& recording) const {
+    const mjData* d = data_.get();
+    recording.measurements.time[sample] = time;
+    recording.measurements.position[sample] = d->qpos[0];
+    recording.measurements.velocity[sample] = d->qvel[0];
+    recording.measurements.torque[sample] = torque;
+    recording.truth.velocity[sample] = d->qvel[0];
+    recording.truth.energy[sample] = d->act[joint_.friction_state + 1];
+  }
+
+  void AddNoise(RandomKey key, Measurements& log) const {
+    const auto add = [&](Eigen::VectorXd& values, double deviation, Stream stream) {
+      if (deviation == 0) return;
+      RandomStream random(key, stream);
+      for (double& value : values) value += deviation * random.Normal();
+    };
+    add(log.position, scenario_.noise.position, Stream::position_noise);
+    add(log.velocity, scenario_.noise.velocity, Stream::velocity_noise);
+    add(log.torque, scenario_.noise.torque, Stream::torque_noise);
+  }
+
+  const Scenario scenario_;
+  SingleJointModel joint_;
+  DataPtr data_;
+  long steps_per_sample_;
+};
+
+}  // namespace
+
+std::unique_ptr<Plant> MakeMujocoPlant(const Scenario& scenario) {
+  return std::make_unique<MujocoPlant>(scenario);
+}
+
+}  // namespace warmjoint

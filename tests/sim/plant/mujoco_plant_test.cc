@@ -1,0 +1,145 @@
+#include "sim/mujoco_plant.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "models/foundation/atomic_file.h"
+#include "models/foundation/bad_input.h"
+
+namespace warmjoint {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+/// Table I in the engine: 20 s holds at speeds from 0.1 to 1 rad/s, stored at 1 Hz; 200 s.
+Scenario Table1() {
+  Scenario scenario;
+  scenario.name = "table1-mujoco";
+  scenario.plant = PlantKind::mujoco;
+  scenario.robot = "rotary";
+  scenario.joint = "hinge";
+  scenario.friction = {"viscous_coulomb", {{"viscous", 5}, {"coulomb", 15}}, Thermal{-3, 600}};
+  scenario.motion.speed_draws = Distribution{Distribution::Kind::uniform, 0.1, 1};
+  scenario.motion.hold = 20;
+  scenario.sampling.rate = 1;
+  scenario.controller.bandwidth = 100;
+  scenario.timestep = 0.002;
+  scenario.duration = 200;
+  return scenario;
+}
+
+Recording Record(const Scenario& scenario, std::uint64_t realization = 0) {
+  return MakeMujocoPlant(scenario)->Run(realization);
+}
+
+TEST(MujocoPlant, DrivesWithTheTorqueOfFrictionAtConstantSpeed) {
+  const Recording r = Record(Table1());
+  ASSERT_EQ(r.measurements.size(), 200);
+  for (Eigen::Index i = 0; i < 200; ++i) {
+    ASSERT_EQ(r.measurements.time[i], static_cast<double>(i));
+    // settled for ten time constants of the drive when a segment begins, for 100 afterwards
+    const double tolerance = i % 20 == 0 ? 0.05 : 1e-3;
+    EXPECT_NEAR(r.measurements.torque[i], r.truth.force[i], tolerance) << "sample " << i;
+    EXPECT_GE(std::abs(r.truth.velocity[i]), 0.0999);
+  }
+}
+
+TEST(MujocoPlant, RecordsFrictionLossAndEnergyOfTheEngine) {
+  const Recording r = Record(Table1());
+  const DiscreteThermal step = Discretise({-3, 600}, 1);
+  double energy = 0;
+  for (Eigen::Index i = 0; i < 200; ++i) {
+    const double v = r.truth.velocity[i];
+    EXPECT_NEAR(r.truth.force[i], WarmForce(v, 5 * v + 15 * Sign(v), r.truth.energy[i]), 1e-12);
+    EXPECT_DOUBLE_EQ(r.truth.loss[i], Loss(v, r.truth.force[i]));
+
+    // (22) with the loss held from sample to sample; a reversal of 0.14 s costs at most 0.14 W s
+    // of each second in which it happens: k W / tau * 0.14 s, ten times, and the hold's own h^2
+    EXPECT_NEAR(r.truth.energy[i], energy, 10 * 0.14 * 3 * 20 / 600.0);
+    energy = ThermalStep(step.gain, step.pole, energy, r.truth.loss[i]);
+  }
+  EXPECT_LT(energy, -2);
+}
+
+TEST(MujocoPlant, RepeatsItselfBitForBit) {
+  Scenario scenario = Table1();
+  scenario.duration = 30;
+  scenario.noise = {0.5, 0.01, 0.001};
+  const auto plant = MakeMujocoPlant(scenario);
+  const Recording first = plant->Run(3);
+  plant->Run(4);
+  const Recording again = plant->Run(3);
+  const Recording other = Record(scenario, 3);
+  EXPECT_EQ(first.measurements.torque, again.measurements.torque);
+  EXPECT_EQ(first.measurements.torque, other.measurements.torque);
+  EXPECT_EQ(first.measurements.position, other.measurements.position);
+  EXPECT_NE(first.measurements.torque, plant->Run(4).measurements.torque);
+}
+
+TEST(MujocoPlant, AddsNoiseToTheLogAndNotToTheTruth) {
+  Scenario scenario = Table1();
+  const Recording clean = Record(scenario);
+  scenario.noise.torque = 0.5;
+  const Recording noisy = Record(scenario);
+  EXPECT_EQ(noisy.truth.force, clean.truth.force);
+  const Eigen::VectorXd noise = noisy.measurements.torque - clean.measurements.torque;
+  // the mean square of 200 samples has a standard deviation of 10 %: five of them
+  EXPECT_NEAR(noise.squaredNorm() / 200, 0.25, 0.25 * 0.5);
+  EXPECT_EQ(noisy.truth.torque_noise, 0.5);
+}
+
+TEST(MujocoPlant, StandsStillInRests) {
+  Scenario scenario = Table1();
+  scenario.motion.rests = Rests{20, 20};
+  scenario.duration = 60;
+  const Recording r = Record(scenario);
+  for (Eigen::Index i = 22; i < 38; ++i) {
+    EXPECT_LT(std::abs(r.truth.velocity[i]), 1e-9);
+    EXPECT_LT(r.truth.loss[i], 1e-9);
+  }
+  EXPECT_GT(r.truth.energy[38], r.truth.energy[22]) << "the joint cools";
+}
+
+template <typename Edit>
+void ExpectRefusal(const Edit& edit, const std::string& message) {
+  Scenario scenario = Table1();
+  edit(scenario);
+  EXPECT_THAT([&] { Record(scenario); },
+              ThrowsMessage<BadInput>(AllOf(HasSubstr("table1-mujoco"), HasSubstr(message))));
+}
+
+TEST(MujocoPlant, RefusesWhatCannotBe) {
+  ExpectRefusal([](Scenario& s) { s.joint = "hing"; }, "no joint 'hing'; did you mean 'hinge'");
+  ExpectRefusal([](Scenario& s) { s.robot = "rotory"; }, "no robot 'rotory'; did you mean");
+  ExpectRefusal([](Scenario& s) { s.sampling.rate = 30; }, "whole number of timesteps");
+  ExpectRefusal([](Scenario& s) { s.controller.bandwidth = 1000; }, "bandwidth is 1000 rad/s");
+  ExpectRefusal([](Scenario& s) { s.friction.parameters.clear(); }, "lacks its parameter");
+  ExpectRefusal(
+      [](Scenario& s) {
+        s.motion.speed_draws = Distribution{Distribution::Kind::fixed, 1};
+        s.motion.hold = s.duration = 2000;
+      },
+      "beyond its limits");
+}
+
+TEST(MujocoPlant, RefusesAFileThatDoesNotLoad) {
+  Scenario scenario = Table1();
+  scenario.robot = testing::TempDir() + "/broken_robot.xml";
+  WriteWholeFile(scenario.robot, "<mujoco><worldbody><bod/></worldbody></mujoco>");
+  EXPECT_THAT(
+      [&] { Record(scenario); },
+      ThrowsMessage<BadInput>(AllOf(HasSubstr(scenario.robot), HasSubstr("cannot read it"))));
+}
+
+TEST(MujocoPlant, RefusesFrictionThatThePluginRefuses) {
+  Scenario scenario = Table1();
+  scenario.friction.parameters["viscous"] = 5000;
+  EXPECT_THAT([&] { Record(scenario); }, ThrowsMessage<BadInput>(AllOf(HasSubstr("hinge friction"),
+                                                                       HasSubstr("armature of"))));
+}
+
+}  // namespace
+}  // namespace warmjoint
