@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/folders.h"
+
 namespace {
 namespace fs = std::filesystem;
 
@@ -75,7 +77,7 @@ std::vector<std::string> IncludesOf(const fs::path& path) {
 }
 
 TEST(IncludeRules, EveryIncludeGoesDownTheFlow) {
-  const fs::path root = WARMJOINT_SOURCE_DIR;
+  const fs::path root = warmjoint::test::SourceFolder();
   int files = 0;
   for (const std::string folder : {"models", "scenarios", "sim", "identification", "tools"}) {
     for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {

@@ -1,23 +1,15 @@
-// Where the tests find the real recordings, robots and golden numbers that are not part of the
-// project.
+// The golden numbers, and skipping without them.
 #pragma once
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <string>
+
+#include "tests/support/folders.h"
 
 namespace warmjoint::test {
-
-/// The folder named by the environment variable WARMJOINT_SHARED, else the one set at
-/// configuration.
-inline std::filesystem::path SharedFolder() {
-  const char* named = std::getenv("WARMJOINT_SHARED");
-  return named ? named : WARMJOINT_SHARED_DEFAULT;
-}
 
 /// The golden numbers; null where the folder is absent.
 inline const nlohmann::json& Golden() {

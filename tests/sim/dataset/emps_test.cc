@@ -3,12 +3,12 @@
 #include <gmock/gmock.h>
 
 #include <Eigen/Dense>
-#include <filesystem>
 
 #include "models/friction/law.h"
 #include "sim/dataset/check.h"
 #include "sim/dataset/check_report.h"
 #include "sim/dataset/csv.h"
+#include "tests/support/shared_data.h"
 
 namespace warmjoint {
 namespace {
@@ -16,10 +16,8 @@ namespace {
 class Emps : public testing::Test {
  protected:
   void SetUp() override {
-    const char* shared = std::getenv("WARMJOINT_SHARED");
-    const std::string folder = shared ? shared : WARMJOINT_SHARED_DEFAULT;
-    const std::string path = folder + "/data/emps/DATA_EMPS.csv";
-    if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path;
+    WARMJOINT_NEED_SHARED("data/emps/DATA_EMPS.csv");
+    const std::string path = test::SharedFolder() / "data/emps/DATA_EMPS.csv";
 
     CsvLayout layout;
     layout.joint = JointKind::linear;

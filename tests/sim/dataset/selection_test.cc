@@ -3,11 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "models/foundation/random_stream.h"
+#include "tests/support/shared_data.h"
 
 namespace warmjoint {
 namespace {
@@ -102,11 +101,8 @@ TEST(SelectConstantSpeed, KeepsEverySampleBetweenJumps) {
 }
 
 TEST(SelectConstantSpeed, KeepsEverySampleOfTheGoldenData) {
-  const char* shared = std::getenv("WARMJOINT_SHARED");
-  const std::string folder = shared ? shared : WARMJOINT_SHARED_DEFAULT;
-  std::ifstream stream(folder + "/golden/golden.json");
-  if (!stream) GTEST_SKIP() << "no golden.json under " << folder;
-  const nlohmann::json golden = nlohmann::json::parse(stream)["dataset"];
+  WARMJOINT_NEED_SHARED("golden/golden.json");
+  const nlohmann::json& golden = test::Golden()["dataset"];
 
   Motion motion{golden["h"], golden["v"], {}};
   const Selection selection = SelectConstantSpeed(motion.Log());

@@ -6,6 +6,7 @@
 
 #include "models/foundation/atomic_file.h"
 #include "tests/sim/plugin/friction_models.h"
+#include "tests/support/folders.h"
 
 namespace warmjoint {
 namespace {
@@ -82,8 +83,7 @@ TEST(PluginActuator, RefusesAnInertiaTooSmallForTheSlopeAndSaysWhatItNeeds) {
 }
 
 TEST(PluginReadme, HasTheTableOfTheCode) {
-  const std::string readme =
-      ReadWholeFile(std::string(WARMJOINT_SOURCE_DIR) + "/sim/plugin/README.md");
+  const std::string readme = ReadWholeFile(test::SourceFolder() / "sim/plugin/README.md");
   std::string table = "| attribute | unit | allowed | meaning |\n|---|---|---|---|\n";
   for (const PluginAttribute& a : PluginAttributes()) {
     table += fmt::format("| {} | {} | {} | {} |\n", a.name, a.unit, a.bound, a.meaning);
@@ -92,8 +92,7 @@ TEST(PluginReadme, HasTheTableOfTheCode) {
 }
 
 TEST(PluginReadme, HasAModelThatRuns) {
-  const std::string readme =
-      ReadWholeFile(std::string(WARMJOINT_SOURCE_DIR) + "/sim/plugin/README.md");
+  const std::string readme = ReadWholeFile(test::SourceFolder() / "sim/plugin/README.md");
   const size_t begin = readme.find("```xml\n") + 7;
   const auto compiled = Compile(readme.substr(begin, readme.find("```", begin) - begin));
   ASSERT_EQ(compiled.error, "");
