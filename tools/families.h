@@ -14,7 +14,12 @@ struct Family {
   std::string (*text)();
 };
 
-/// laws, identifiers, robots, suites.
+nlohmann::ordered_json LawsJson();
+std::string LawsText();
+nlohmann::ordered_json IdentifiersJson();
+std::string IdentifiersText();
+
+/// laws, identifiers.
 const std::vector<Family>& Families();
 
 }  // namespace warmjoint

@@ -1,8 +1,19 @@
 // The program warmjoint: one subcommand a file, one catch for all of them.
-#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "models/foundation/bad_input.h"
+#include "tools/program.h"
 
 int main(int argc, char** argv) {
-  CLI::App app{"warmjoint: friction of robot joints that warm up"};
-  CLI11_PARSE(app, argc, argv);
-  return 0;
+  using warmjoint::ExitStatus;
+  ExitStatus status = ExitStatus::internal_error;
+  try {
+    status = warmjoint::RunProgram(argc, argv);
+  } catch (const warmjoint::BadInput& error) {
+    fmt::print(stderr, "error: {}\n", error.what());
+    status = ExitStatus::bad_input;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "internal error: {}\n", error.what());
+  }
+  return static_cast<int>(status);
 }

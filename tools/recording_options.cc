@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "models/foundation/bad_input.h"
+#include "sim/dataset/read_recording.h"
 
 namespace warmjoint {
 
@@ -46,7 +47,7 @@ Measurements ReadRecording(const RecordingArguments& arguments) {
   layout.unit = ReadPairs(arguments.unit, "--unit");
   layout.joint = arguments.joint == "linear" ? JointKind::linear : JointKind::rotary;
   layout.gear = arguments.gear;
-  return ReadCsv(arguments.recording, layout);
+  return ReadRecording(arguments.recording, layout);
 }
 
 }  // namespace warmjoint

@@ -1,0 +1,118 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "models/foundation/atomic_file.h"
+#include "models/friction/friction_description.h"
+#include "tests/support/shared_data.h"
+#include "tests/tools/program/recording_file.h"
+#include "tests/tools/program/run_program.h"
+#include "tests/tools/scratch_directory.h"
+
+namespace warmjoint {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// Four speeds in both directions, 30 s each.
+double SeveralSpeeds(int i) { return (i / 30 % 2 ? -1 : 1) * 0.2 * (1 + i / 60 % 4); }
+
+TEST(Identify, WritesTheContractsJsonAndAFrictionFile) {
+  const ScratchDirectory scratch;
+  const std::string recording = scratch.path() / "log.csv";
+  WriteRecordingFile(recording, 480, SeveralSpeeds);
+  const std::string output = scratch.path() / "estimate.json";
+  const Answer answer =
+      RunWarmjoint({"identify", recording, "--identifier", "nominal-ls", "-o", output});
+  ASSERT_EQ(answer.status, 0) << answer.err;
+  EXPECT_THAT(answer.out, HasSubstr("nominal-ls: ok"));
+  EXPECT_THAT(answer.out, HasSubstr("held out"));
+
+  const auto estimate = nlohmann::json::parse(ReadWholeFile(output));
+  EXPECT_EQ(estimate.at("status"), "ok");
+  // the ripple of 0.2 N.m stands in for noise: 0.1 is some five standard deviations of the level
+  EXPECT_NEAR(estimate.at("parameters").at("coulomb").at("value").get<double>(), 15, 0.1);
+  EXPECT_EQ(estimate.at("parameters").at("coulomb").at("unit"), "N.m");
+  EXPECT_EQ(estimate.at("parameters").at("coulomb").at("interval95").size(), 2u);
+  EXPECT_EQ(estimate.at("metrics").at("n"), 480);
+  EXPECT_LT(estimate.at("holdout").at("n").get<int>(), 480);
+  EXPECT_EQ(ReadFrictionFile(output).law, "viscous_coulomb");
+}
+
+TEST(Identify, HoldsNothingOutWhenAsked) {
+  const ScratchDirectory scratch;
+  const std::string recording = scratch.path() / "log.csv";
+  WriteRecordingFile(recording, 480, SeveralSpeeds);
+  const std::string output = scratch.path() / "estimate.json";
+  const std::vector<std::string> command{"identify", recording, "--identifier", "nominal-ls",
+                                         "-o",       output,    "--holdout"};
+  std::vector<std::string> none = command;
+  none.push_back("0");
+  EXPECT_THAT(RunWarmjoint(none).out, Not(HasSubstr("held out")));
+  EXPECT_TRUE(nlohmann::json::parse(ReadWholeFile(output)).at("holdout").is_null());
+
+  // another recording of the same joint
+  std::vector<std::string> other = command;
+  other.push_back(recording);
+  EXPECT_EQ(RunWarmjoint(other).status, 0);
+  EXPECT_EQ(nlohmann::json::parse(ReadWholeFile(output)).at("holdout").at("n"), 480);
+}
+
+TEST(Identify, OneSpeedAloneGivesStatus3AndNoNumbers) {
+  const ScratchDirectory scratch;
+  const std::string recording = scratch.path() / "log.csv";
+  WriteRecordingFile(recording, 400, [](int i) { return i / 20 % 2 ? -0.5 : 0.5; });
+  const auto identifiers =
+      nlohmann::json::parse(RunWarmjoint({"list", "identifiers", "--format", "json"}).out);
+  for (const auto& identifier : identifiers) {
+    const std::string name = identifier.at("name");
+    const std::string output = scratch.path() / (name + ".json");
+    const Answer answer = RunWarmjoint({"identify", recording, "--identifier", name, "-o", output,
+                                        "--mjcf", scratch.path() / (name + ".xml")});
+    EXPECT_EQ(answer.status, 3) << name;
+    EXPECT_THAT(answer.out, HasSubstr("not_identifiable")) << name;
+    const auto estimate = nlohmann::json::parse(ReadWholeFile(output));
+    EXPECT_EQ(estimate.at("status"), "not_identifiable") << name;
+    EXPECT_THAT(estimate.at("message").get<std::string>(), HasSubstr("viscous")) << name;
+    EXPECT_TRUE(estimate.at("parameters").empty()) << name;
+    EXPECT_TRUE(estimate.at("friction").is_null()) << name;
+    EXPECT_FALSE(std::filesystem::exists(scratch.path() / (name + ".xml"))) << name;
+  }
+}
+
+TEST(Identify, WritesAMuJoCoModel) {
+  const ScratchDirectory scratch;
+  const std::string recording = scratch.path() / "log.csv";
+  WriteRecordingFile(recording, 480, SeveralSpeeds);
+  const std::string model = scratch.path() / "friction.xml";
+  ASSERT_EQ(
+      RunWarmjoint({"identify", recording, "--identifier", "nominal-ls", "--mjcf", model}).status,
+      0);
+  EXPECT_THAT(ReadWholeFile(model), HasSubstr("plugin=\"warmjoint.friction\" actdim=\"2\""));
+  EXPECT_THAT(ReadWholeFile(model), HasSubstr("<config key=\"law\" value=\"viscous_coulomb\"/>"));
+}
+
+TEST(Identify, ReadsAForeignLogOfALinearAxis) {
+  WARMJOINT_NEED_SHARED("data/emps/DATA_EMPS.csv");
+  const ScratchDirectory scratch;
+  const std::string output = scratch.path() / "estimate.json";
+  const Answer answer =
+      RunWarmjoint({"identify", test::SharedFolder() / "data/emps/DATA_EMPS.csv", "--map",
+                    "time=t_s,position=q_m,torque=force_N", "--joint", "linear", "--identifier",
+                    "nominal-ls", "--set", "law=asymmetric", "-o", output});
+  ASSERT_EQ(answer.status, 0) << answer.err;
+  const auto estimate = nlohmann::json::parse(ReadWholeFile(output));
+
+  // one unit of the last digit of published figures, which another selection of samples moves
+  const auto& parameters = estimate.at("parameters");
+  EXPECT_NEAR(parameters.at("coulomb_positive").at("value").get<double>(), 18.0, 0.1);
+  EXPECT_NEAR(parameters.at("coulomb_negative").at("value").get<double>(), 25.2, 0.1);
+  EXPECT_NEAR(estimate.at("metrics").at("rmse").get<double>(), 1.78, 0.02);
+  EXPECT_NEAR(estimate.at("metrics").at("fit").get<double>(), 95.5, 0.1);
+  EXPECT_EQ(parameters.at("coulomb_positive").at("unit"), "N");
+}
+
+}  // namespace
+}  // namespace warmjoint

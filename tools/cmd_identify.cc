@@ -1,0 +1,120 @@
+// warmjoint identify RECORDING: friction from a log.
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "identification/hold_out.h"
+#include "identification/identifier.h"
+#include "models/foundation/atomic_file.h"
+#include "models/foundation/parse_number.h"
+#include "tools/command.h"
+#include "tools/estimate_table.h"
+#include "tools/friction_mjcf.h"
+#include "tools/recording_options.h"
+
+namespace warmjoint {
+namespace {
+
+struct IdentifyArguments {
+  RecordingArguments recording;
+  std::string identifier = "energy-ml";
+  std::string gravity = "none";
+  std::string holdout = "0.3";
+  std::vector<std::string> set;
+  std::string output;
+  std::string mjcf;
+};
+
+/// What --holdout asks for: a fraction of the recording, or another recording.
+struct HoldOutSource {
+  double fraction = 0;
+  std::optional<Measurements> other;
+};
+
+HoldOutSource ReadHoldOut(const IdentifyArguments& arguments) {
+  const std::optional<double> fraction = ParseNumber(arguments.holdout);
+  if (!fraction) {
+    RecordingArguments other = arguments.recording;
+    other.recording = arguments.holdout;
+    return {0, ReadRecording(other)};
+  }
+  if (!(*fraction >= 0 && *fraction < 1)) {
+    Refuse({"--holdout"}, "is {}; it must be at least 0 and below 1, or a file", *fraction);
+  }
+  return {*fraction, std::nullopt};
+}
+
+std::optional<Metrics> HoldOutFigures(const Identifier& identifier, const IdentifierInput& input,
+                                      const HoldOutSource& source) {
+  if (source.other) {
+    return HoldOut(identifier, input, *source.other, SelectConstantSpeed(*source.other));
+  }
+  if (source.fraction == 0) return std::nullopt;
+  return HoldOut(identifier, input, source.fraction);
+}
+
+/// Refuses outputs that cannot be written before any time is spent.
+void CheckOutput(const std::string& path) {
+  if (!path.empty()) AtomicFile{path};
+}
+
+void WriteOutputs(const IdentifyArguments& arguments, const Estimate& estimate, JointKind joint) {
+  if (!arguments.output.empty()) {
+    WriteWholeFile(arguments.output, EstimateToJson(estimate).dump(2) + "\n");
+  }
+  if (arguments.mjcf.empty()) return;
+  if (!estimate.friction || estimate.status != Status::ok) {
+    fmt::print(stderr, "{} is not written: there is no friction to trust\n", arguments.mjcf);
+    return;
+  }
+  WriteWholeFile(arguments.mjcf, FrictionToMjcf(*estimate.friction, joint));
+}
+
+ExitStatus Identify(const IdentifyArguments& arguments) {
+  // everything that can be refused is, before any time is spent
+  const Identifier& identifier = FindIdentifier(arguments.identifier);
+  const Options options(identifier.options, ReadPairs(arguments.set, "--set"), {"--set"});
+  if (arguments.gravity != "none") {
+    Refuse({"--gravity"}, "{} is not there yet; remove gravity from the log first, or use none",
+           arguments.gravity);
+  }
+  CheckOutput(arguments.output);
+  CheckOutput(arguments.mjcf);
+  const Measurements measurements = ReadRecording(arguments.recording);
+  const HoldOutSource holdout = ReadHoldOut(arguments);
+
+  const Selection selection = SelectConstantSpeed(measurements);
+  const IdentifierInput input{measurements, selection, options, {}};
+  Estimate estimate = identifier.identify(input);
+  if (estimate.status == Status::ok) estimate.holdout = HoldOutFigures(identifier, input, holdout);
+  WriteOutputs(arguments, estimate, measurements.joint);
+  fmt::print("{}", EstimateToText(estimate, measurements));
+  return estimate.status == Status::ok ? ExitStatus::done : ExitStatus::nothing_trustworthy;
+}
+
+}  // namespace
+
+Command AddIdentifyCommand(CLI::App& program) {
+  auto arguments = std::make_shared<IdentifyArguments>();
+  CLI::App* parser = program.add_subcommand("identify", "Friction from a log of one joint");
+  AddRecordingOptions(*parser, arguments->recording);
+  parser->add_option("--identifier", arguments->identifier, "see: warmjoint list identifiers")
+      ->capture_default_str();
+  parser->add_option("--gravity", arguments->gravity, "none, sincos or paired")
+      ->check(CLI::IsMember({"none", "sincos", "paired"}))
+      ->capture_default_str();
+  parser
+      ->add_option(
+          "--holdout", arguments->holdout,
+          "share of the record's end, or another file, for figures on unseen data; 0: none")
+      ->capture_default_str();
+  parser->add_option("--set", arguments->set, "option of the identifier, as law=asymmetric")
+      ->take_all();
+  parser->add_option("-o,--output", arguments->output, "estimate.json");
+  parser->add_option("--mjcf", arguments->mjcf, "MuJoCo model of a joint with this friction");
+  return {parser, [arguments] { return Identify(*arguments); }};
+}
+
+}  // namespace warmjoint

@@ -1,0 +1,13 @@
+#include "tools/command.h"
+
+namespace warmjoint {
+
+std::vector<Command> AddCommands(CLI::App& program) {
+  return {
+      AddListCommand(program),
+      AddCheckCommand(program),
+      AddIdentifyCommand(program),
+  };
+}
+
+}  // namespace warmjoint
