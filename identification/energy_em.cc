@@ -9,6 +9,7 @@
 #include "identification/first_guess.h"
 #include "identification/fit_data.h"
 #include "identification/linear_laws.h"
+#include "identification/report_law.h"
 #include "identification/report_thermal.h"
 
 namespace warmjoint {
@@ -88,24 +89,38 @@ Eigen::Index FeedsItselfAt(const Measurements& m, const Eigen::VectorXd& fitted)
   return -1;
 }
 
-/// Values, and standard deviations where `covariance` [d + 2 x d + 2] is known.
-void ReportParameters(const Law& law, const DescentState& state,
-                      const std::optional<Eigen::MatrixXd>& covariance, double freedom,
-                      const Measurements& measurements, Estimate& estimate) {
-  const Eigen::Index d = state.nominal.size();
-  for (Eigen::Index i = 0; i < d; ++i) {
-    const ParameterInfo& info = law.parameters[static_cast<size_t>(i)];
-    const std::string unit = UnitFor(info, measurements);
-    if (covariance) {
-      estimate.parameters.push_back(WithInterval(std::string(info.name), state.nominal[i], unit,
-                                                 std::sqrt((*covariance)(i, i)), freedom));
-    } else {
-      estimate.parameters.push_back({std::string(info.name), state.nominal[i], unit, {}, {}});
-    }
+/// Why the last state deserves no numbers; empty where it does. fitted: [N] N.m or N.
+std::optional<Estimate> Refusal(const Measurements& m, const DescentState& last,
+                                const Eigen::VectorXd& fitted) {
+  if (!last.inside) {
+    return Failed(kName, Status::not_identifiable,
+                  fmt::format("thermal_time_constant runs to {:.3g} s, the end of what these "
+                              "samples can tell; record until the friction settles, or with rests",
+                              last.thermal.time_constant));
   }
-  std::optional<Eigen::Matrix2d> thermal;
-  if (covariance) thermal = covariance->bottomRightCorner<2, 2>();
-  ReportThermal(state.thermal, thermal, freedom, measurements, estimate);
+  if (const Eigen::Index i = FeedsItselfAt(m, fitted); i >= 0) {
+    return Failed(kName, Status::inadequate_model,
+                  fmt::format("at {:.6g} s the fitted friction pushes instead of braking and would "
+                              "feed itself; try law asymmetric, or start nearer to the solution",
+                              m.time[i]));
+  }
+  return std::nullopt;
+}
+
+/// Whether the loop has arrived, and a sentence about it.
+std::pair<bool, std::string> Arrival(const std::vector<DescentState>& states,
+                                     const Uncertainty& known, double tolerance) {
+  const Convergence distance = Judge(states, known.covariance.diagonal().cwiseSqrt());
+  const size_t iterations = states.size() - 1;
+  if (distance.remaining <= tolerance) {
+    return {true, fmt::format("converged: after {} iterations, at a rate of {:.4f}, the parameters "
+                              "are within {:.2g} % of where they go",
+                              iterations, distance.rate, 100 * distance.remaining)};
+  }
+  return {false, fmt::format("stopped after {} iterations while the parameters still move: at the "
+                             "observed rate of {:.4f} an iteration they end up to {:.2g} % from "
+                             "here (tolerance {:.2g} %); give more iterations, or use energy-ml",
+                             iterations, distance.rate, 100 * distance.remaining, 100 * tolerance)};
 }
 
 /// The last state as an estimate, with its verdict.
@@ -113,59 +128,36 @@ Estimate Conclude(const IdentifierInput& input, const Law& law, const BlockDesce
                   const Selection& moving, const std::vector<DescentState>& states) {
   const Measurements& m = input.measurements;
   const DescentState& last = states.back();
-  const auto d = static_cast<int>(last.nominal.size()) + 2;
-  const auto fail = [](Status status, std::string message) {
-    return Failed(kName, status, std::move(message));
-  };
-
-  // what no number should be given for
   const Eigen::VectorXd fitted = descent.Fitted(last);
-  if (!last.inside) {
-    return fail(Status::not_identifiable,
-                fmt::format("thermal_time_constant runs to {:.3g} s, the end of what these samples "
-                            "can tell; record until the friction settles, or with rests",
-                            last.thermal.time_constant));
-  }
-  if (const Eigen::Index i = FeedsItselfAt(m, fitted); i >= 0) {
-    return fail(Status::inadequate_model,
-                fmt::format("at {:.6g} s the fitted friction pushes instead of braking and would "
-                            "feed itself; try law asymmetric, or start nearer to the solution",
-                            m.time[i]));
-  }
+  if (auto refusal = Refusal(m, last, fitted)) return *refusal;
+
+  // both blocks together
+  const auto d = static_cast<int>(last.nominal.size()) + 2;
   const Eigen::VectorXd torque = Kept(m.torque, moving);
-  const LeastSquares joint =
-      SolveLeastSquares(Kept(descent.Jacobian(last), moving), torque, kSingular);
+  const Eigen::MatrixXd jacobian = Kept(descent.Jacobian(last), moving);
+  const LeastSquares joint = SolveLeastSquares(jacobian, torque, kSingular);
   if (joint.rank < d) {
-    return fail(Status::not_identifiable,
-                "the motion cannot tell warming from the nominal friction; record from cold, with "
-                "speeds that differ clearly, until the friction settles");
+    return Failed(kName, Status::not_identifiable,
+                  "the motion cannot tell warming from the nominal friction; record from cold, "
+                  "with speeds that differ clearly, until the friction settles");
   }
 
   // what is known now, and how far from the end it is
   Estimate estimate;
   estimate.identifier = kName;
-  const double freedom = static_cast<double>(torque.size()) - d;
-  estimate.metrics = ComputeMetrics(torque, Kept(fitted, moving), d, d);
-  const double variance = last.rmse * last.rmse * static_cast<double>(torque.size()) / freedom;
-  const Eigen::MatrixXd covariance = variance * joint.cofactor;
-  const Convergence distance = Judge(states, covariance.diagonal().cwiseSqrt());
-  const double tolerance = input.options.Number("tolerance");
-  if (!(distance.remaining <= tolerance)) {
-    estimate.status = Status::not_converged;
-    estimate.message = fmt::format(
-        "stopped after {} iterations while the parameters still move: at the observed rate of "
-        "{:.4f} an iteration they end up to {:.2g} % from here (tolerance {:.2g} %); give more "
-        "iterations, or use energy-ml",
-        states.size() - 1, distance.rate, 100 * distance.remaining, 100 * tolerance);
-    ReportParameters(law, last, {}, freedom, m, estimate);
-    return estimate;
+  const Eigen::VectorXd kept = Kept(fitted, moving);
+  estimate.metrics = ComputeMetrics(torque, kept, d, d);
+  const Uncertainty known = JudgeUncertainty(jacobian, joint.cofactor, torque - kept, moving);
+  ReportLaw(law, last.nominal, known, m, estimate);
+  const Eigen::Matrix2d thermal = known.covariance.bottomRightCorner<2, 2>();
+  ReportThermal(last.thermal, thermal, known.freedom, m, estimate);
+  const auto [arrived, message] = Arrival(states, known, input.options.Number("tolerance"));
+  if (arrived) {
+    estimate.message = message + ColourOf(known.noise);
+    DescribeFriction(law, m, estimate);
+  } else {
+    Void(Status::not_converged, message, estimate);
   }
-  estimate.message = fmt::format(
-      "converged: after {} iterations, at a rate of {:.4f}, the parameters are within {:.2g} % of "
-      "where they go",
-      states.size() - 1, distance.rate, 100 * distance.remaining);
-  ReportParameters(law, last, covariance, freedom, m, estimate);
-  DescribeFriction(law, m, estimate);
   return estimate;
 }
 

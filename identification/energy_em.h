@@ -12,7 +12,7 @@ namespace warmjoint {
 /// 0.974 an iteration for steady motion, faster where rests let the joint cool. not_converged,
 /// with the numbers reached so far and without standard deviations, where the observed rate says
 /// that a parameter would still move by more than the option `tolerance`.
-/// Standard deviations and intervals from s^2 (J^T J)^-1 at the fixed point, noise taken as white.
+/// Standard deviations and intervals from the Jacobian at the fixed point (uncertainty.h).
 Identifier EnergyEm();
 
 }  // namespace warmjoint

@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "identification/fit_data.h"
 #include "identification/least_squares.h"
 #include "identification/linear_laws.h"
+#include "identification/report_law.h"
 
 namespace warmjoint {
 namespace {
@@ -33,16 +32,11 @@ Estimate Identify(const IdentifierInput& input) {
   Estimate estimate;
   estimate.identifier = kName;
   const Eigen::VectorXd fitted = A * fit.solution;
-  const auto freedom = static_cast<double>(torque.size() - d);
-  const double variance = (torque - fitted).squaredNorm() / freedom;
-  for (Eigen::Index i = 0; i < d; ++i) {
-    const ParameterInfo& info = law.parameters[i];
-    estimate.parameters.push_back(WithInterval(std::string(info.name), fit.solution[i],
-                                               UnitFor(info, input.measurements),
-                                               std::sqrt(variance * fit.cofactor(i, i)), freedom));
-  }
+  const Uncertainty known = JudgeUncertainty(A, fit.cofactor, torque - fitted, input.selection);
+  ReportLaw(law, fit.solution, known, input.measurements, estimate);
   estimate.metrics = ComputeMetrics(torque, fitted, d, d);
-  estimate.message = fmt::format("law {} by least squares on {} samples", law.name, torque.size());
+  estimate.message = fmt::format("law {} by least squares on {} samples{}", law.name, torque.size(),
+                                 ColourOf(known.noise));
   DescribeFriction(law, input.measurements, estimate);
   return estimate;
 }

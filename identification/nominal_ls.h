@@ -6,7 +6,7 @@
 namespace warmjoint {
 
 /// x = argmin |A x - tau|, rows of A as in Eq. (9): [v, sign v] for law (2). Standard deviations
-/// from s^2 (A^T A)^-1 with s^2 = |A x - tau|^2 / (n - d), noise taken as white.
+/// as in uncertainty.h, right for coloured noise too.
 /// not_identifiable where the motion makes columns of A alike, bad_data where nothing can be
 /// fitted.
 Identifier NominalLs();

@@ -1,0 +1,36 @@
+// The colour of the noise, as the residual of a fit shows it.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "sim/dataset/selection.h"
+
+namespace warmjoint {
+
+/// Autoregressive noise e: e[i] + a_1 e[i-1] + ... + a_p e[i-p] = w[i], w white. White for p = 0.
+struct NoiseModel {
+  Eigen::VectorXd coefficients;  // [p] a
+  double variance = 0;           // of e, (N.m)^2 or N^2
+  double innovation = 0;         // variance of w
+  double correlation = 0;        // of neighbouring samples, -1 to 1
+  /// Samples of white noise that tell a variance as well as one sample of e does: at least 1.
+  /// sum over all lags of the squared autocorrelation.
+  double redundancy = 1;
+
+  Eigen::Index order() const { return coefficients.size(); }
+};
+
+/// Fits the order and the coefficients by Levinson's recursion (Durbin 1960) on the residual's
+/// autocovariance, averaged over the pairs of samples that are both kept. The order is the one of
+/// the smallest BIC; the search ends when 6 orders in a row do not better it, or at order 60.
+/// residual: [n] over the kept samples; selection says where they stand. Neighbouring samples count
+/// as one sampling interval apart.
+NoiseModel FitNoise(const Eigen::VectorXd& residual, const Selection& selection);
+
+/// A^T R A, where R is the covariance of the noise at the kept samples: what A^T e scatters by.
+/// A: [n x d]. Exact for a stationary e: each column is filtered backwards through the inverse of
+/// the model, beyond the first sample until it has died away.
+Eigen::MatrixXd ScatterThrough(const NoiseModel& noise, const Eigen::MatrixXd& A,
+                               const Selection& selection);
+
+}  // namespace warmjoint
