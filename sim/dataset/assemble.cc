@@ -7,11 +7,17 @@
 namespace warmjoint {
 namespace {
 
-void CheckFinite(const RawColumns& raw, const std::string& column, const Eigen::VectorXd& values) {
+constexpr double kLargest = 1e30;       // of any value; beyond it squares and products overflow
+constexpr double kShortestStep = 1e-9;  // s, on average
+
+void CheckValues(const RawColumns& raw, const std::string& column, const Eigen::VectorXd& values) {
   for (Eigen::Index i = 0; i < values.size(); ++i) {
-    if (std::isfinite(values[i])) continue;
-    Refuse(raw.At(i), "{} of sample {} is {}; it must be finite. Cut the log there or repair it",
-           column, i + 1, values[i]);
+    if (std::abs(values[i]) <= kLargest) continue;
+    Refuse(
+        raw.At(i),
+        "{} of sample {} is {}; it must be a finite number of size {} at most. Cut the log there "
+        "or repair it",
+        column, i + 1, values[i], kLargest);
   }
 }
 
@@ -26,6 +32,14 @@ void CheckTime(const RawColumns& raw, const Eigen::VectorXd& time) {
            "time of sample {} is {} s, after {} s: it runs backwards. Split the file there or sort "
            "it by time",
            i + 1, time[i], time[i - 1]);
+  }
+  const Eigen::Index n = time.size();
+  const double step = (time[n - 1] - time[0]) / static_cast<double>(n - 1);
+  if (step < kShortestStep) {
+    Refuse({raw.file},
+           "samples are {} s apart; less than {} s is no log. Give the unit of time, for "
+           "example --unit time=ms",
+           step, kShortestStep);
   }
 }
 
@@ -50,7 +64,7 @@ Measurements AssembleMeasurements(RawColumns raw, const std::vector<ColumnSource
   // to SI, each value checked
   for (std::size_t k = 0; k < sources.size(); ++k) {
     const auto& [column, index, unit] = sources[k];
-    CheckFinite(raw, column->name, raw.values[k]);
+    CheckValues(raw, column->name, raw.values[k]);
     Eigen::VectorXd values = std::move(raw.values[k]);
     if (unit.factor != 1 || unit.offset != 0) {
       values = unit.factor * values.array() + unit.offset;
@@ -66,6 +80,7 @@ Measurements AssembleMeasurements(RawColumns raw, const std::vector<ColumnSource
   if (measurements.velocity.size() == 0) {
     measurements.velocity = DeriveVelocity(measurements.time, measurements.position,
                                            ChooseCutoff(measurements.time, measurements.position));
+    CheckValues(raw, "velocity (derived from position)", measurements.velocity);
   }
   return measurements;
 }

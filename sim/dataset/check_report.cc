@@ -48,7 +48,7 @@ std::string DirectionLine(const MotionCheck& motion, int sign, std::string_view 
     return fmt::format("{}    {} segments at {} speeds {} {}\n", name, segments, speeds.size(),
                        range, unit);
   }
-  return fmt::format("{}    {} segments: {} {} (how many)\n", name, segments,
+  return fmt::format("{}    {} segments: {} {} (segments at each)\n", name, segments,
                      fmt::join(speeds, ", "), unit);
 }
 

@@ -9,8 +9,11 @@
 namespace warmjoint {
 
 Measurements ReadCsv(const std::string& path, const CsvLayout& layout) {
-  const std::string text = ReadWholeFile(path);
-  const CsvText csv(text, path);
+  return ParseCsv(ReadWholeFile(path), path, layout);
+}
+
+Measurements ParseCsv(std::string_view text, const std::string& name, const CsvLayout& layout) {
+  const CsvText csv(text, name);
   const std::vector<ColumnSource> sources = FindColumns(csv.names(), layout, csv.header_place());
 
   std::vector<std::size_t> indices;

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <string_view>
 
 #include "sim/dataset/measurements.h"
 
@@ -10,10 +11,10 @@ namespace warmjoint {
 
 /// How the columns of a foreign file become ours.
 struct CsvLayout {
-  std::map<std::string, std::string>
-      column;  // ours -> theirs, for example torque -> force_N (--map)
-  std::map<std::string, std::string>
-      unit;  // ours -> unit in the file, for example position -> deg (--unit)
+  /// ours -> theirs, for example torque -> force_N (--map); an empty name leaves a column out
+  std::map<std::string, std::string> column;
+  /// ours -> unit in the file, for example position -> deg (--unit)
+  std::map<std::string, std::string> unit;
   JointKind joint = JointKind::rotary;
   double gear = 1;
 };
@@ -23,6 +24,9 @@ struct CsvLayout {
 /// file, a missing column, text in a number, NaN, time that does not increase, fewer than three
 /// samples, a constant torque, an unknown name in `layout`.
 Measurements ReadCsv(const std::string& path, const CsvLayout& layout = {});
+
+/// The same for text in memory; `name` stands for the file in messages.
+Measurements ParseCsv(std::string_view text, const std::string& name, const CsvLayout& layout = {});
 
 /// Writes the columns that are present, SI, numbers that read back bit for bit.
 void WriteCsv(const Measurements& measurements, const std::string& path);

@@ -155,7 +155,7 @@ TEST(ReadCsv, RefusesBadRowsByLine) {
   EXPECT_THAT(Refusal("time;position;torque\n0;0;0,5\n1;1;0,6\n2;2;0,7\n"),
               HasSubstr("write decimals with a point"));
   EXPECT_THAT(Refusal(header + "0,0,1,1\n1,1,nan,2\n2,2,1,3\n"),
-              HasSubstr(":3: velocity of sample 2 is nan; it must be finite"));
+              HasSubstr(":3: velocity of sample 2 is nan; it must be a finite"));
   EXPECT_THAT(Refusal(header + "0,0,1,1\n1,1,1,2\n2,-inf,1,3\n"),
               HasSubstr(":4: position of sample 3 is -inf"));
   EXPECT_THAT(Refusal(header + "0,0,1,1\n1,1,1,1e999\n2,2,1,3\n"),
@@ -170,6 +170,11 @@ TEST(ReadCsv, RefusesTimeThatDoesNotIncrease) {
               AllOf(HasSubstr(":5: time of sample 3 is 0.5 s, after 1 s"), HasSubstr("sort")));
 }
 
+TEST(ReadCsv, RefusesTimesThatAreNoTimes) {
+  EXPECT_THAT(Refusal("time,position,torque\n0,0,1\n1e-300,1,2\n2e-300,2,3\n"),
+              AllOf(HasSubstr("samples are 1e-300 s apart"), HasSubstr("--unit time=ms")));
+}
+
 TEST(ReadCsv, RefusesAConstantTorque) {
   EXPECT_THAT(Refusal("time,position,velocity,torque\n0,0,1,7\n1,1,1,7\n2,2,1,7\n"),
               HasSubstr("torque is 7 N.m in all 3 samples"));
@@ -178,7 +183,7 @@ TEST(ReadCsv, RefusesAConstantTorque) {
 TEST(WriteCsv, ReadsBackBitForBit) {
   Measurements log = Read(kPlain);
   log.velocity = Eigen::Vector3d(1.0 / 3, std::nextafter(1, 2), -4e-320);
-  log.temperature = Eigen::Vector3d(20, 20.1, 1e300);
+  log.temperature = Eigen::Vector3d(20, 20.1, 1e30);
   const TemporaryFile file("copy.csv");
   WriteCsv(log, file.path());
   const Measurements copy = ReadCsv(file.path());
