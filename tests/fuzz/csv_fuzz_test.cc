@@ -6,6 +6,7 @@
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/random_stream.h"
+#include "tests/support/folders.h"
 
 namespace warmjoint {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 std::vector<std::string> Seeds() {
   std::vector<std::string> seeds;
   for (const auto& entry :
-       std::filesystem::directory_iterator(WARMJOINT_SOURCE_DIR "/tests/fuzz/corpus/csv")) {
+       std::filesystem::directory_iterator(test::SourceFolder() / "tests/fuzz/corpus/csv")) {
     seeds.push_back(ReadWholeFile(entry.path()));
   }
   return seeds;

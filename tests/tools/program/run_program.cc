@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "models/foundation/atomic_file.h"
+#include "tests/support/folders.h"
 #include "tests/tools/scratch_directory.h"
 
 namespace warmjoint {
@@ -17,7 +18,7 @@ namespace {
 /// Starts the program with its outputs in files; returns its process number.
 pid_t Start(const std::vector<std::string>& arguments, const std::string& out,
             const std::string& err) {
-  static const std::string program = WARMJOINT_BINARY_DIR "/warmjoint";
+  static const std::string program = test::BuildFolder() / "warmjoint";
   std::vector<const char*> argv{program.c_str()};
   for (const std::string& argument : arguments) argv.push_back(argument.c_str());
   argv.push_back(nullptr);
