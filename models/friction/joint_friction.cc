@@ -27,7 +27,9 @@ double JointFriction::Level(int side, double speed, double energy) const {
 FrictionStep JointFriction::Step(const FrictionState& state, double v, double inertia) const {
   const double speed = std::abs(v);
   const auto level = [&](int side) { return Level(side, speed, state.energy); };
-  const BristleStep bristle = StepBristle(MakeBristle(inertia, h_), state.bristle, v, h_, level);
+  Bristle spring = MakeBristle(inertia, h_);
+  spring.damping = std::max(0.0, spring.damping - viscous_);  // the slope damps already
+  const BristleStep bristle = StepBristle(spring, state.bristle, v, h_, level);
 
   // a level below zero takes from the viscous force, at most all of it
   FrictionStep step;

@@ -40,6 +40,9 @@ class JointFriction {
   /// Slope of the force over speed that no bristle bounds, N.m.s/rad or N.s/m.
   double viscous() const { return viscous_; }
 
+  /// The largest load that a cold joint holds at rest, N.m or N.
+  double HoldingLevel() const { return std::max(Level(1, 0, 0), Level(-1, 0, 0)); }
+
   /// One step at velocity v (rad/s or m/s) of a joint with effective inertia M (kg.m^2 or kg).
   FrictionStep Step(const FrictionState& state, double v, double inertia) const;
 

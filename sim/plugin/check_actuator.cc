@@ -1,10 +1,20 @@
 #include "sim/plugin/check_actuator.h"
 
+#include <cmath>
+
 #include "models/foundation/bad_input.h"
+#include "models/friction/bristle.h"
 #include "sim/plugin/friction_instance.h"
 
 namespace warmjoint {
 namespace {
+
+/// How far a bristle may wind up before it slides.
+constexpr double kLargestWindUp = 0.05;         // rad
+constexpr double kLargestLinearWindUp = 0.005;  // m
+
+/// A little more, so that the three digits of a message are enough.
+double RoundUp(double value) { return 1.01 * value; }
 
 std::string NameOf(const mjModel* m, mjtObj type, const char* what, int id) {
   const char* name = mj_id2name(m, type, id);
@@ -44,23 +54,38 @@ void CheckElement(const mjModel* m, int i, const Place& place) {
   }
 }
 
-void CheckStep(const mjModel* m, int i, const JointFriction& friction, const Place& place) {
-  if (m->opt.integrator == mjINT_RK4) {
-    Refuse(place,
-           "integrator is RK4, whose inner steps would move the bristle four times; use "
-           "Euler, implicit, implicitfast or discrete");
-  }
+void CheckIntegrator(const mjModel* m, const Place& place) {
+  if (m->opt.integrator != mjINT_RK4) return;
+  Refuse(place,
+         "integrator is RK4, whose inner steps would move the bristle four times; use Euler, "
+         "implicit, implicitfast or discrete");
+}
 
-  // an explicit slope of force over speed oscillates above M/h and diverges above 2 M/h
-  const double inertia = EffectiveInertia(m, m->jnt_dofadr[m->actuator_trnid[2 * i]]);
-  const double h = m->opt.timestep;
-  const double needed = friction.viscous() * h;
-  if (inertia > 0 && needed > inertia) {
-    Refuse(place,
-           "viscous is {} on an effective inertia of {:.3g} at timestep {}; the step would "
-           "be unstable: add an armature of {:.3g} or take a timestep of at most {:.3g} s",
-           friction.viscous(), inertia, h, needed - inertia, inertia / friction.viscous());
-  }
+/// An explicit slope of force over speed c is well damped up to c h = M / 2, also where coupled
+/// joints feel lighter than M, and diverges above 2 M.
+void CheckSlope(const JointFriction& friction, double inertia, double h, const Place& place) {
+  const double needed = 2 * friction.viscous() * h;
+  if (needed <= inertia) return;
+  Refuse(place,
+         "viscous is {} on an effective inertia of {:.3g} at timestep {}; the step would be "
+         "unstable: add an armature of {:.3g} or take a timestep of at most {:.3g} s",
+         friction.viscous(), inertia, h, RoundUp(needed - inertia),
+         inertia / (2 * friction.viscous()));
+}
+
+/// How far the bristle winds up before it slides: level h^2 / (0.1 M).
+void CheckWindUp(const JointFriction& friction, double inertia, double h, JointKind kind,
+                 const Place& place) {
+  const double level = friction.HoldingLevel();
+  const double allowed = kind == JointKind::rotary ? kLargestWindUp : kLargestLinearWindUp;
+  const double needed = level * h * h / (kBristleStiffness * allowed);
+  if (needed <= inertia) return;
+  Refuse(place,
+         "friction holds up to {:.3g} on an effective inertia of {:.3g} at timestep {}; it would "
+         "give way by {:.3g} {} before it slides, at most {} are allowed: add an armature of "
+         "{:.3g} or take a timestep of at most {:.3g} s",
+         level, inertia, h, level / MakeBristle(inertia, h).stiffness, kPositionUnit.For(kind),
+         allowed, RoundUp(needed - inertia), h * std::sqrt(inertia / needed));
 }
 
 }  // namespace
@@ -80,7 +105,15 @@ void CheckActuator(const mjModel* m, int actuator, const JointFriction& friction
   const Place place{ActuatorName(m, actuator)};
   CheckTransmission(m, actuator, place);
   CheckElement(m, actuator, place);
-  CheckStep(m, actuator, friction, place);
+  CheckIntegrator(m, place);
+
+  // the compiler asks once before it knows the inertia, and again after
+  const int joint = m->actuator_trnid[2 * actuator];
+  const double inertia = EffectiveInertia(m, m->jnt_dofadr[joint]);
+  if (inertia == 0) return;
+  const JointKind kind = m->jnt_type[joint] == mjJNT_SLIDE ? JointKind::linear : JointKind::rotary;
+  CheckSlope(friction, inertia, m->opt.timestep, place);
+  CheckWindUp(friction, inertia, m->opt.timestep, kind, place);
 }
 
 }  // namespace warmjoint

@@ -34,7 +34,7 @@ void FrictionInstance::Step(const mjModel* m, mjData* d) {
 
   for (Joint& joint : joints_) {
     const FrictionState now{d->act[joint.state], d->act[joint.state + 1]};
-    const double inertia = EffectiveInertia(m, joint.dof);
+    const double inertia = EffectiveInertia(m, d, joint.dof);
     const FrictionStep step = friction_.Step(now, d->qvel[joint.dof], inertia);
     joint.force = step.force;
     d->act_dot[joint.state] = (step.next.bristle - now.bristle) / h;

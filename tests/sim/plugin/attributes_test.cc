@@ -75,11 +75,11 @@ TEST(PluginActuator, RefusesWhatWouldBreakFriction) {
 }
 
 TEST(PluginActuator, RefusesAnInertiaTooSmallForTheSlopeAndSaysWhatItNeeds) {
-  // inertia 0.25 kg.m^2, 500 N.m.s/rad at 1 ms needs 0.5 kg.m^2
-  const std::string error = ErrorOf(With("viscous", "500"));
+  // inertia 0.25 kg.m^2, 250 N.m.s/rad at 1 ms needs 0.5 kg.m^2
+  const std::string error = ErrorOf(With("viscous", "250"));
   EXPECT_THAT(error, AllOf(HasSubstr("actuator 'f'"), HasSubstr("armature of 0.25"),
                            HasSubstr("timestep of at most 0.0005")));
-  EXPECT_EQ(ErrorOf(With("viscous", "500"), "", test::kNoGravity, R"(armature="0.2501")"), "");
+  EXPECT_EQ(ErrorOf(With("viscous", "250"), "", test::kNoGravity, R"(armature="0.253")"), "");
 }
 
 TEST(PluginReadme, HasTheTableOfTheCode) {

@@ -16,6 +16,7 @@ using test::Data;
 using test::FrictionSection;
 using test::LinkXml;
 using test::Model;
+using test::MustCompile;
 
 const Config kTable1{{"law", "viscous_coulomb"},
                      {"viscous", "5"},
@@ -23,17 +24,12 @@ const Config kTable1{{"law", "viscous_coulomb"},
                      {"thermal_gain", "-3"},
                      {"thermal_time_constant", "600"}};
 
-Model MustCompile(const std::string& xml) {
-  auto compiled = Compile(xml);
-  EXPECT_EQ(compiled.error, "");
-  return std::move(compiled.model);
-}
-
 TEST(PluginHeat, FollowsTheClosedFormAtConstantSpeedAtAnyStep) {
   const double v = 0.5, k = -3, tau = 600, level = 5 * v + 15;
   for (const double h : {0.0005, 0.002, 0.02}) {
-    const Model m = MustCompile(
-        LinkXml(FrictionSection(kTable1), fmt::format(R"(timestep="{}" gravity="0 0 0")", h)));
+    const Model m =
+        MustCompile(LinkXml(FrictionSection(kTable1),
+                            fmt::format(R"(timestep="{}" gravity="0 0 0")", h), R"(armature="2")"));
     const Data d(mj_makeData(m.get()));
     const double cooling = -std::expm1(-h / tau);  // 1 - te
     const double settled = k * v * level / (1 - k * v);

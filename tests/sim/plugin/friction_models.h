@@ -42,6 +42,12 @@ inline Compiled Compile(const std::string& xml) {
   return {std::move(model), ""};
 }
 
+inline Model MustCompile(const std::string& xml) {
+  auto compiled = Compile(xml);
+  EXPECT_EQ(compiled.error, "");
+  return std::move(compiled.model);
+}
+
 using Config = std::map<std::string, std::string>;
 
 /// Friction "f" on the joint "hinge", as an <actuator> section.
