@@ -1,0 +1,44 @@
+#include "models/robots/read_urdf.h"
+
+#include <console_bridge/console.h>
+#include <urdf_parser/urdf_parser.h>
+
+#include <mutex>
+#include <string>
+
+#include "models/foundation/atomic_file.h"
+#include "models/foundation/bad_input.h"
+
+namespace warmjoint {
+namespace {
+
+/// Keeps what urdfdom would print.
+class Collector : public console_bridge::OutputHandler {
+ public:
+  Collector() { console_bridge::useOutputHandler(this); }
+  ~Collector() override { console_bridge::restorePreviousOutputHandler(); }
+
+  void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
+    if (level < console_bridge::CONSOLE_BRIDGE_LOG_ERROR) return;
+    if (!errors.empty()) errors += "; ";
+    errors += text;
+  }
+
+  std::string errors;
+};
+
+}  // namespace
+
+urdf::ModelInterfaceSharedPtr ReadUrdf(const std::filesystem::path& path) {
+  // urdfdom reports through one handler of the whole program
+  static std::mutex one_at_a_time;
+  const std::lock_guard lock(one_at_a_time);
+
+  const std::string text = ReadWholeFile(path);
+  Collector collector;
+  urdf::ModelInterfaceSharedPtr robot = urdf::parseURDF(text);
+  if (!robot) Refuse({path.string()}, "is no URDF that can be used: {}", collector.errors);
+  return robot;
+}
+
+}  // namespace warmjoint

@@ -1,0 +1,38 @@
+// The family of robots: what is known of each folder of models/robots.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "models/friction/friction_description.h"
+#include "models/friction/joint_kind.h"
+
+namespace warmjoint {
+
+/// One movable joint, as the robot's URDF gives it.
+struct RobotJoint {
+  std::string name;  // the same in MJCF and URDF
+  JointKind kind = JointKind::rotary;
+  std::pair<double, double> limits;  // lower, upper, rad or m; infinite where there are none
+  double effort = 0;                 // largest force of the motor at the joint, N.m or N
+  double speed = 0;                  // largest, rad/s or m/s
+};
+
+/// A robot of the project: NAME/{NAME.xml, NAME.urdf, friction.json, README.md}.
+struct RobotInfo {
+  std::string name;
+  std::string description;  // the heading of its README.md
+  std::filesystem::path mjcf;
+  std::filesystem::path urdf;
+  std::vector<RobotJoint> joints;  // from the base outwards
+  std::string friction_joint;      // whose friction friction.json holds
+  FrictionDescription friction;
+};
+
+/// All robots, sorted by name, read from their folders: a new robot is its folder alone.
+/// Throws BadInput that names the file that is missing or wrong.
+std::vector<RobotInfo> Robots();
+
+}  // namespace warmjoint

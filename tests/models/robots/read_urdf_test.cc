@@ -1,0 +1,40 @@
+#include "models/robots/read_urdf.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "models/foundation/bad_input.h"
+#include "tests/sim/dataset/temporary_file.h"
+
+namespace warmjoint {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+TEST(ReadUrdf, GivesLinksAndJoints) {
+  const TemporaryFile file("robot.urdf",
+                           "<robot name='r'><link name='a'/><link name='b'/>"
+                           "<joint name='j' type='continuous'><parent link='a'/>"
+                           "<child link='b'/></joint></robot>");
+  EXPECT_EQ(ReadUrdf(file.path())->getJoint("j")->child_link_name, "b");
+}
+
+TEST(ReadUrdf, NamesFileAndJointOfAJointWithoutLimits) {
+  const TemporaryFile file("robot.urdf",
+                           "<robot name='r'><link name='a'/><link name='b'/>"
+                           "<joint name='elbow' type='revolute'><parent link='a'/>"
+                           "<child link='b'/></joint></robot>");
+  EXPECT_THAT([&] { ReadUrdf(file.path()); },
+              ThrowsMessage<BadInput>(AllOf(HasSubstr(file.path()), HasSubstr("elbow"))));
+}
+
+TEST(ReadUrdf, RefusesWhatIsNoXml) {
+  const TemporaryFile file("robot.urdf", "joints, links\n");
+  EXPECT_THAT([&] { ReadUrdf(file.path()); },
+              ThrowsMessage<BadInput>(HasSubstr("is no URDF that can be used")));
+}
+
+}  // namespace
+}  // namespace warmjoint
