@@ -1,7 +1,15 @@
 #include "sim/friction_actuator.h"
 
-#include "models/foundation/bad_input.h"
+#include <algorithm>
+#include <array>
+#include <iterator>
+
+#include "models/foundation/nearest_name.h"
+#include "sim/escape_xml.h"
+#include "sim/mujoco_handles.h"
 #include "sim/plugin/friction_instance.h"
+#include "sim/plugin/register.h"
+#include "sim/spec_elements.h"
 
 namespace warmjoint {
 namespace {
@@ -15,10 +23,33 @@ std::string Config(const std::string& key, double value) {
   return Config(key, fmt::format("{}", value));
 }
 
+std::string ActuatorOf(const std::string& joint) { return joint + "_friction"; }
+
+/// A model of the sections alone. MuJoCo's map of attributes belongs to the C++ library that it was
+/// built with; made here from text, it is only passed on.
+SpecPtr ParseSections(const std::string& sections, const Place& place) {
+  std::array<char, 1000> error{};
+  const std::string text = "<mujoco>\n" + sections + "</mujoco>\n";
+  SpecPtr spec(mj_parseXMLString(text.c_str(), nullptr, error.data(), error.size()));
+  if (!spec) Refuse(place, "the friction cannot be written as MJCF: {}", error.data());
+  return spec;
+}
+
+void RefuseSecond(mjSpec& spec, const std::string& joint, const Place& place) {
+  for (mjsElement* element : SpecElements(spec, mjOBJ_ACTUATOR)) {
+    const mjsActuator* actuator = mjs_asActuator(element);
+    if (mjs_getString(actuator->target) != joint ||
+        mjs_getString(actuator->plugin.plugin_name) != std::string_view(kFrictionPlugin)) {
+      continue;
+    }
+    Refuse(place, "joint '{}' has friction already, by actuator '{}'; remove one of the two", joint,
+           mjs_getString(mjs_getName(element)));
+  }
+}
+
 }  // namespace
 
-std::string FrictionActuator(const std::string& name, const std::string& joint,
-                             const FrictionDescription& friction) {
+std::string FrictionSections(const std::string& joint, const FrictionDescription& friction) {
   std::string configs = Config("law", friction.law);
   for (const auto& [key, value] : friction.parameters) configs += Config(key, value);
   if (friction.thermal) {
@@ -26,22 +57,60 @@ std::string FrictionActuator(const std::string& name, const std::string& joint,
     configs += Config("thermal_time_constant", friction.thermal->time_constant);
   }
   if (friction.gear != 1) configs += Config("gear", friction.gear);
-  return fmt::format(
-      "  <actuator>\n    <plugin name=\"{}\" joint=\"{}\" plugin=\"{}\" actdim=\"{}\">\n{}"
-      "    </plugin>\n  </actuator>\n",
-      name, joint, kFrictionPlugin, kFrictionStates, configs);
+  return fmt::format(R"(  <extension>
+    <plugin plugin="{}"/>
+  </extension>
+  <actuator>
+    <plugin name="{}" joint="{}" plugin="{}" actdim="{}">
+{}    </plugin>
+  </actuator>
+)",
+                     kFrictionPlugin, EscapeXml(ActuatorOf(joint)), EscapeXml(joint),
+                     kFrictionPlugin, kFrictionStates, configs);
 }
 
-std::string FrictionExtension() {
-  return fmt::format("  <extension>\n    <plugin plugin=\"{}\"/>\n  </extension>\n",
-                     kFrictionPlugin);
+mjsJoint* FindJoint(mjSpec& spec, const std::string& joint, const Place& place) {
+  mjsElement* found = mjs_findElement(&spec, mjOBJ_JOINT, joint.c_str());
+  if (found) return mjs_asJoint(found);
+  Refuse(place, "there is no joint '{}'{}", joint, Suggestion(joint, SpecNames(spec, mjOBJ_JOINT)));
 }
 
-std::string WithSections(const std::string& model, const std::string& sections,
-                         const std::string& path) {
-  const size_t end = model.rfind("</mujoco>");
-  if (end == std::string::npos) Refuse({path}, "has no </mujoco>; is it an MJCF model?");
-  return model.substr(0, end) + sections + model.substr(end);
+void AddFriction(mjSpec& spec, const std::string& joint, const FrictionDescription& friction,
+                 const Place& place) {
+  CheckFriction(friction, place);
+  const mjsJoint* target = FindJoint(spec, joint, place);
+  if (target->type != mjJNT_HINGE && target->type != mjJNT_SLIDE) {
+    Refuse(place, "joint '{}' is neither hinge nor slide; friction acts on these alone", joint);
+  }
+  RefuseSecond(spec, joint, place);
+
+  RegisterFrictionPlugin();
+  mjs_activatePlugin(&spec, kFrictionPlugin);
+  mjsActuator* actuator = mjs_addActuator(&spec, nullptr);
+  mjs_setName(actuator->element, ActuatorOf(joint).c_str());
+  mjs_setString(actuator->target, joint.c_str());
+  actuator->trntype = mjTRN_JOINT;
+  actuator->actdim = kFrictionStates;
+
+  // an instance of its own holds the attributes
+  const SpecPtr source = ParseSections(FrictionSections(joint, friction), place);
+  const mjsActuator* written = mjs_asActuator(mjs_firstElement(source.get(), mjOBJ_ACTUATOR));
+  mjsPlugin* instance = mjs_addPlugin(&spec);
+  instance->active = 1;
+  mjs_setString(instance->plugin_name, kFrictionPlugin);
+  mjs_setPluginAttributes(instance, const_cast<void*>(mjs_getPluginAttributes(&written->plugin)));
+  actuator->plugin.active = 1;
+  actuator->plugin.element = instance->element;
+  mjs_setString(actuator->plugin.plugin_name, kFrictionPlugin);
+}
+
+bool ClearOwnFriction(mjsJoint& joint) {
+  const bool damped = std::any_of(std::begin(joint.damping), std::end(joint.damping),
+                                  [](double coefficient) { return coefficient != 0; });
+  const bool any = damped || joint.frictionloss != 0;
+  std::fill(std::begin(joint.damping), std::end(joint.damping), 0.0);
+  joint.frictionloss = 0;
+  return any;
 }
 
 }  // namespace warmjoint

@@ -1,23 +1,33 @@
-// Friction written as MJCF.
+// The one way by which friction is put onto a joint of a model.
 #pragma once
+
+#include <mujoco/mujoco.h>
 
 #include <string>
 
+#include "models/foundation/bad_input.h"
 #include "models/friction/friction_description.h"
 
 namespace warmjoint {
 
-/// The <actuator> section that puts friction on a joint through the plugin, attributes inline.
-/// name: of the actuator. The model must declare the plugin: FrictionExtension().
-std::string FrictionActuator(const std::string& name, const std::string& joint,
-                             const FrictionDescription& friction);
+/// The sections <extension> and <actuator> that put friction onto a joint through the plugin,
+/// attributes inline, as MJCF text. The actuator is named "JOINT_friction".
+std::string FrictionSections(const std::string& joint, const FrictionDescription& friction);
 
-/// The <extension> section that declares the plugin.
-std::string FrictionExtension();
+/// The joint of that name. Throws BadInput, from `place`, with the nearest name, where the model
+/// lacks it.
+mjsJoint* FindJoint(mjSpec& spec, const std::string& joint, const Place& place);
 
-/// The model text with sections added before its end. MJCF allows a section more than once.
-/// Throws BadInput, naming `path`, where the text does not end in </mujoco>.
-std::string WithSections(const std::string& model, const std::string& sections,
-                         const std::string& path);
+/// Adds the plugin's actuator for a joint, "JOINT_friction", after all other actuators, so that
+/// the controls of those keep their places. friction: checked here.
+/// What else would act as friction, or clip it, is the caller's to remove: see ClearOwnFriction.
+/// Throws BadInput from `place` for an unknown joint, one that is neither hinge nor slide, and one
+/// that has such an actuator already.
+void AddFriction(mjSpec& spec, const std::string& joint, const FrictionDescription& friction,
+                 const Place& place);
+
+/// Takes from a joint the friction that the model gives it: damping and frictionloss.
+/// Returns whether there was any.
+bool ClearOwnFriction(mjsJoint& joint);
 
 }  // namespace warmjoint

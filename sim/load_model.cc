@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "models/foundation/atomic_file.h"
-#include "sim/engine_messages.h"
+#include "sim/plugin/friction_instance.h"
 #include "sim/plugin/register.h"
 #include "sim/spec_elements.h"
 
@@ -77,13 +77,20 @@ void CheckInertials(mjSpec& spec, const Place& place) {
   }
 }
 
+/// What the plugin refuses, if it does: MuJoCo's message holds it once for each try to bind it.
+std::string PluginRefusal(const std::string& message) {
+  const std::string mark = std::string(kFrictionPlugin) + ": ";
+  const size_t begin = message.find(mark);
+  if (begin == std::string::npos) return "";
+  return message.substr(begin, message.find("; " + mark, begin) - begin);
+}
+
 }  // namespace
 
 ParsedModel ParseModel(const std::filesystem::path& path) {
   RegisterFrictionPlugin();
   const std::string text = ReadWholeFile(path);
 
-  EngineMessages engine;
   std::array<char, 2000> error{};
   ParsedModel parsed;
   parsed.spec.reset(mj_parse(path.c_str(), nullptr, nullptr, error.data(), error.size()));
@@ -105,13 +112,12 @@ ParsedModel ParseModel(const std::filesystem::path& path) {
 }
 
 ModelPtr CompileModel(mjSpec& spec, const Place& place) {
-  EngineMessages engine;
   ModelPtr model(mj_compile(&spec, nullptr));
   if (model) return model;
-  // a plugin refuses by a warning, MuJoCo then only says that the plugin failed
   const std::string message = Flatten(mjs_getError(&spec));
-  if (engine.messages().empty()) Refuse(place, "MuJoCo cannot compile it: {}", message);
-  Refuse(place, "{}", fmt::join(engine.messages(), "; "));
+  const std::string refusal = PluginRefusal(message);
+  if (!refusal.empty()) Refuse(place, "{}", refusal);
+  Refuse(place, "MuJoCo cannot compile it: {}", message);
 }
 
 LoadedModel LoadModel(const std::filesystem::path& path) {

@@ -1,11 +1,9 @@
 #include "sim/single_joint_model.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <iterator>
 
 #include "models/foundation/bad_input.h"
-#include "models/foundation/nearest_name.h"
 #include "sim/friction_actuator.h"
 #include "sim/load_model.h"
 #include "sim/plugin/check_actuator.h"
@@ -13,14 +11,6 @@
 
 namespace warmjoint {
 namespace {
-
-mjsJoint* FindJoint(mjSpec* spec, const std::string& joint, const std::string& path,
-                    const std::string& asked_by) {
-  mjsElement* found = mjs_findElement(spec, mjOBJ_JOINT, joint.c_str());
-  if (found) return mjs_asJoint(found);
-  Refuse({asked_by}, "robot {} has no joint '{}'{}", path, joint,
-         Suggestion(joint, SpecNames(*spec, mjOBJ_JOINT)));
-}
 
 /// Removes all that acts on the robot, and every joint but one.
 void KeepOnly(mjSpec* spec, mjsJoint* joint) {
@@ -39,35 +29,9 @@ void SetUp(mjSpec* spec, mjsJoint* joint, double timestep) {
   spec->option.integrator = mjINT_EULER;
   spec->option.enableflags = 0;
   spec->option.disableflags = mjDSBL_CONSTRAINT | mjDSBL_CONTACT | mjDSBL_SENSOR | mjDSBL_EULERDAMP;
-  std::fill(std::begin(joint->damping), std::end(joint->damping), 0.0);
   std::fill(std::begin(joint->stiffness), std::end(joint->stiffness), 0.0);
-  joint->frictionloss = 0;
+  ClearOwnFriction(*joint);
   joint->actfrclimited = mjLIMITED_FALSE;
-}
-
-/// The edited robot as MJCF text.
-std::string SaveText(mjSpec* spec, const std::string& path) {
-  CompileModel(*spec, {path});
-
-  // the first call tells how much room the second needs
-  char error[1000] = "";
-  char nothing[1] = "";
-  const int size = mj_saveXMLString(spec, nothing, sizeof(nothing), error, sizeof(error));
-  if (size < 0) Refuse({path}, "cannot be written as MJCF: {}", error);
-  std::string text(static_cast<size_t>(size) + 1, '\0');
-  if (mj_saveXMLString(spec, text.data(), size + 1, error, sizeof(error)) != 0) {
-    Refuse({path}, "cannot be written as MJCF: {}", error);
-  }
-  text.resize(text.find('\0'));
-  return text;
-}
-
-ModelPtr CompileWithFriction(const std::string& text, const std::string& path) {
-  char error[1000] = "";
-  const SpecPtr spec(mj_parseXMLString(text.c_str(), nullptr, error, sizeof(error)));
-  if (!spec) Refuse({path}, "does not load with friction: {}", error);
-  mjs_setString(spec->modelfiledir, std::filesystem::path(path).parent_path().c_str());
-  return CompileModel(*spec, {path});
 }
 
 }  // namespace
@@ -75,20 +39,15 @@ ModelPtr CompileWithFriction(const std::string& text, const std::string& path) {
 SingleJointModel LoadSingleJoint(const std::string& path, const std::string& joint,
                                  const FrictionDescription& friction, double timestep,
                                  const std::string& asked_by) {
-  CheckFriction(friction, {asked_by});
   const ParsedModel parsed = ParseModel(path);
-  const SpecPtr& spec = parsed.spec;
-  mjsJoint* kept = FindJoint(spec.get(), joint, path, asked_by);
-  KeepOnly(spec.get(), kept);
-  SetUp(spec.get(), kept, timestep);
-
-  // the plugin's attributes go in as text: the engine's interface for them is bound to its own C++
-  // library
-  const std::string sections =
-      FrictionExtension() + FrictionActuator(joint + " friction", joint, friction);
+  mjSpec& spec = *parsed.spec;
+  const Place place{fmt::format("{}: robot {}", asked_by, path)};
+  mjsJoint* kept = FindJoint(spec, joint, place);
+  KeepOnly(&spec, kept);
+  SetUp(&spec, kept, timestep);
+  AddFriction(spec, joint, friction, place);
   SingleJointModel result;
-  result.model =
-      CompileWithFriction(WithSections(SaveText(spec.get(), path), sections, path), path);
+  result.model = CompileModel(spec, place);
 
   const mjModel* m = result.model.get();
   result.kind = m->jnt_type[0] == mjJNT_SLIDE ? JointKind::linear : JointKind::rotary;

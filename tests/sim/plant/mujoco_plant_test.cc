@@ -137,7 +137,7 @@ TEST(MujocoPlant, RefusesAFileThatDoesNotLoad) {
 TEST(MujocoPlant, RefusesFrictionThatThePluginRefuses) {
   Scenario scenario = Table1();
   scenario.friction.parameters["viscous"] = 5000;
-  EXPECT_THAT([&] { Record(scenario); }, ThrowsMessage<BadInput>(AllOf(HasSubstr("hinge friction"),
+  EXPECT_THAT([&] { Record(scenario); }, ThrowsMessage<BadInput>(AllOf(HasSubstr("hinge_friction"),
                                                                        HasSubstr("armature of"))));
 }
 
