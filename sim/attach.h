@@ -30,8 +30,4 @@ std::vector<std::string> AttachFriction(const std::filesystem::path& model,
                                         const std::vector<FrictionForJoint>& frictions,
                                         const std::filesystem::path& out);
 
-/// A small model that runs, with the friction on its only joint, "joint": what an identified
-/// friction looks like in MuJoCo, to try out or to copy from.
-std::string MinimalModel(const FrictionDescription& friction, JointKind kind);
-
 }  // namespace warmjoint

@@ -9,9 +9,9 @@
 #include "identification/identifier.h"
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/parse_number.h"
+#include "sim/minimal_model.h"
 #include "tools/command.h"
 #include "tools/estimate_table.h"
-#include "tools/friction_mjcf.h"
 #include "tools/recording_options.h"
 
 namespace warmjoint {
@@ -69,7 +69,7 @@ void WriteOutputs(const IdentifyArguments& arguments, const Estimate& estimate, 
     fmt::print(stderr, "{} is not written: there is no friction to trust\n", arguments.mjcf);
     return;
   }
-  WriteWholeFile(arguments.mjcf, FrictionToMjcf(*estimate.friction, joint));
+  WriteWholeFile(arguments.mjcf, MinimalModel(*estimate.friction, joint));
 }
 
 ExitStatus Identify(const IdentifyArguments& arguments) {

@@ -7,6 +7,7 @@ std::vector<Command> AddCommands(CLI::App& program) {
       AddListCommand(program),
       AddCheckCommand(program),
       AddIdentifyCommand(program),
+      AddAttachCommand(program),
   };
 }
 

@@ -28,5 +28,6 @@ std::vector<Command> AddCommands(CLI::App& program);
 Command AddListCommand(CLI::App& program);
 Command AddCheckCommand(CLI::App& program);
 Command AddIdentifyCommand(CLI::App& program);
+Command AddAttachCommand(CLI::App& program);
 
 }  // namespace warmjoint

@@ -8,6 +8,7 @@ const std::vector<Family>& Families() {
   static const std::vector<Family> families{
       {"laws", LawsJson, LawsText},
       {"identifiers", IdentifiersJson, IdentifiersText},
+      {"robots", RobotsJson, RobotsText},
   };
   return families;
 }

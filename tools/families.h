@@ -18,8 +18,10 @@ nlohmann::ordered_json LawsJson();
 std::string LawsText();
 nlohmann::ordered_json IdentifiersJson();
 std::string IdentifiersText();
+nlohmann::ordered_json RobotsJson();
+std::string RobotsText();
 
-/// laws, identifiers.
+/// laws, identifiers, robots.
 const std::vector<Family>& Families();
 
 }  // namespace warmjoint

@@ -13,6 +13,7 @@
 #include "sim/plugin/friction_instance.h"
 #include "tests/sim/dataset/temporary_file.h"
 #include "tests/support/shared_data.h"
+#include "tests/tools/scratch_directory.h"
 
 namespace warmjoint {
 namespace {
@@ -32,18 +33,6 @@ FrictionDescription Light() {
   friction.thermal = Thermal{-0.1, 60};
   return friction;
 }
-
-/// A folder of the running test, empty at first and gone at its end.
-class TemporaryFolder {
- public:
-  TemporaryFolder() : mark_("folder"), path_(mark_.path() + ".d") { fs::create_directories(path_); }
-  ~TemporaryFolder() { fs::remove_all(path_); }
-  const fs::path& path() const { return path_; }
-
- private:
-  TemporaryFile mark_;
-  fs::path path_;
-};
 
 std::vector<std::string> FrictionJoints(const mjModel* m) {
   std::vector<std::string> joints;
@@ -74,7 +63,7 @@ constexpr char kTwoJoints[] = R"(<mujoco>
 
 class Attach : public testing::Test {
  protected:
-  const TemporaryFolder folder_;
+  const ScratchDirectory folder_;
   const fs::path out_ = folder_.path() / "out.xml";
   const TemporaryFile two_joints_{"two.xml", kTwoJoints};
 };
@@ -189,20 +178,6 @@ TEST_F(Attach, EscapesNames) {
   EXPECT_THAT(FrictionJoints(LoadModel(out_).model.get()), ElementsAre("a&<\"b"));
 }
 
-TEST_F(Attach, WritesAMinimalModelThatRuns) {
-  FrictionDescription friction = Light();
-  friction.law = "asymmetric";
-  friction.parameters = {{"viscous", 203.5}, {"coulomb_positive", 1}, {"coulomb_negative", 2}};
-  for (const JointKind kind : {JointKind::rotary, JointKind::linear}) {
-    WriteWholeFile(out_, MinimalModel(friction, kind));
-    const LoadedModel result = LoadModel(out_);
-    const DataPtr data(mj_makeData(result.model.get()));
-    data->qvel[0] = 1;
-    mj_step(result.model.get(), data.get());
-    EXPECT_LT(data->qvel[0], 1);
-  }
-}
-
 /// A robot file of the shared folder.
 struct RobotFile {
   std::string name;
@@ -226,7 +201,7 @@ std::vector<RobotFile> RobotFiles() {
 class AttachToRobot : public testing::TestWithParam<RobotFile> {
  protected:
   const fs::path& robot_ = GetParam().path;
-  const TemporaryFolder folder_;
+  const ScratchDirectory folder_;
   const fs::path out_ = folder_.path() / "out.xml";
 
   std::vector<FrictionForJoint> EveryJoint(const mjModel* m) {

@@ -1,0 +1,56 @@
+// warmjoint attach MODEL: friction onto the joints of any robot.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "models/robots/robot_folder.h"
+#include "sim/attach.h"
+#include "tools/command.h"
+
+namespace warmjoint {
+namespace {
+
+struct AttachArguments {
+  std::string model;
+  std::vector<std::string> joints;
+  std::string output;
+};
+
+/// NAME=FILE of --joint.
+FrictionForJoint ReadJoint(const std::string& text) {
+  const size_t equals = text.find('=');
+  if (equals == 0 || equals == std::string::npos || equals + 1 == text.size()) {
+    Refuse({"--joint"}, "is '{}'; it must be NAME=FILE, as elbow=estimate.json", text);
+  }
+  return {text.substr(0, equals), ReadFrictionFile(text.substr(equals + 1))};
+}
+
+ExitStatus Attach(const AttachArguments& arguments) {
+  std::vector<FrictionForJoint> frictions;
+  for (const std::string& text : arguments.joints) frictions.push_back(ReadJoint(text));
+  const auto notices =
+      AttachFriction(FindRobot(arguments.model, "MODEL"), frictions, arguments.output);
+  for (const std::string& notice : notices) fmt::print(stderr, "notice: {}\n", notice);
+  fmt::print("{}: friction on {} of its joints; load it with libwarmjoint_friction.so\n",
+             arguments.output, frictions.size());
+  return ExitStatus::done;
+}
+
+}  // namespace
+
+Command AddAttachCommand(CLI::App& program) {
+  auto arguments = std::make_shared<AttachArguments>();
+  CLI::App* parser = program.add_subcommand("attach", "Friction onto the joints of any robot");
+  parser
+      ->add_option("MODEL", arguments->model, "MJCF or URDF file, or one of: warmjoint list robots")
+      ->required();
+  parser
+      ->add_option("--joint", arguments->joints,
+                   "NAME=FILE: estimate.json or another friction file for that joint")
+      ->required()
+      ->take_all();
+  parser->add_option("-o,--output", arguments->output, "the model with friction, MJCF")->required();
+  return {parser, [arguments] { return Attach(*arguments); }};
+}
+
+}  // namespace warmjoint
