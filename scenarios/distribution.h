@@ -1,8 +1,6 @@
 // A number that is fixed or drawn.
 #pragma once
 
-#include <string>
-
 #include "models/foundation/random_stream.h"
 
 namespace warmjoint {
@@ -15,6 +13,8 @@ struct Distribution {
   double b = 0;  // upper bound or standard deviation
 
   double Draw(RandomStream& random) const;
+
+  bool operator==(const Distribution&) const = default;
 };
 
 }  // namespace warmjoint

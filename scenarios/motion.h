@@ -24,6 +24,8 @@ enum class SegmentOrder { alternating, shuffled, in_order };
 struct Rests {
   double run = 0;   // s of motion before each rest
   double rest = 0;  // s of rest
+
+  bool operator==(const Rests&) const = default;
 };
 
 /// Piecewise constant velocity: a speed for each segment, held for a time or until a joint limit.
@@ -35,6 +37,8 @@ struct Motion {
   bool travel_between_joint_limits = false;         // travel between the robot's own limits
   SegmentOrder order = SegmentOrder::alternating;
   std::optional<Rests> rests;
+
+  bool operator==(const Motion&) const = default;
 };
 
 /// One piece of the plan.

@@ -1,24 +1,45 @@
-// Scenarios as YAML.
+// Scenarios as YAML. The layout, with its units and defaults:
+//
+//   name: table1                 file name where not given
+//   plant: ideal                 ideal | mujoco
+//   robot: rotary                name of a robot or path of an MJCF or URDF file (mujoco)
+//   joint: hinge                 name of the robot's joint (mujoco)
+//   joint_kind: rotary           rotary (rad, N.m) | linear (m, N); the robot's where there is one
+//   friction:                    as in a friction file, or the path of one
+//     law: viscous_coulomb       the law and each of its parameters (`list laws`)
+//     parameters: {viscous: 5, coulomb: {uniform: [12, 18]}}
+//     thermal: {thermal_gain: -3, thermal_time_constant: 600}
+//     gear: 1
+//   initial_energy: 0            E(0), N.m or N; a number or a distribution
+//   motion:
+//     speeds: {uniform: [0.1, 1]}     a list or a distribution, rad/s or m/s
+//     hold: 20                        s a segment; or travel: [lower, upper] or joint_limits
+//     order: alternating              alternating | shuffled | in_order
+//     rests: {run: 600, rest: 600}    s; none where not given
+//   controller: {bandwidth: 20, acceleration: 0}           rad/s, rad/s^2 or m/s^2 (mujoco)
+//   noise: {torque: 0.5, velocity: 0, position: 0}         standard deviations
+//   sampling: {rate: 1, sensor_rate: 250, cutoff: 0}       Hz; filter and sensors only in mujoco
+//   timestep: 0.001              s, of the engine (mujoco)
+//   duration: 3600               s
+//   seed: 1
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "scenarios/scenario.h"
+#include "scenarios/setting.h"
+#include "scenarios/yaml_value.h"
 
 namespace warmjoint {
 
-/// A `--set key=value` of the command line: key is a dotted path such as noise.torque.
-struct Setting {
-  std::string key;
-  std::string value;  // YAML
-};
-
 /// Reads a scenario file and applies the settings to it. Unknown keys, wrong types and impossible
 /// values throw BadInput with file:line, the value, the bound and the nearest known key.
-Scenario ReadScenario(const std::string& path, const std::vector<Setting>& settings = {});
+Scenario ReadScenario(const std::string& path, const Settings& settings = {});
 
-/// The whole scenario, defaults written out; ReadScenario of it gives the same scenario.
-std::string ScenarioToYaml(const Scenario& scenario);
+/// The same for a value that is part of a larger file. name: of the scenario where it gives none.
+Scenario ReadScenarioValue(const YamlValue& value, const std::string& name);
+
+/// The scenario with settings applied to it, checked like a file.
+Scenario WithSettings(const Scenario& scenario, const Settings& settings);
 
 }  // namespace warmjoint

@@ -6,6 +6,7 @@
 
 #include "models/friction/friction_description.h"
 #include "scenarios/motion.h"
+#include "scenarios/truth_draws.h"
 
 namespace warmjoint {
 
@@ -18,13 +19,17 @@ struct Controller {
       20;  // rad/s, of the closed velocity loop; gains follow from the joint's inertia
   double acceleration =
       0;  // rad/s^2 or m/s^2 of the reference between segments; 0: chosen by plant
+
+  bool operator==(const Controller&) const = default;
 };
 
 /// How the log is made: sensors, filter, storage.
 struct Sampling {
-  double rate = 20;          // Hz of the stored recording
+  double rate = 20;          // Hz of the stored recording, at most sensor_rate
   double sensor_rate = 250;  // Hz at which sensors are read and filtered
   double cutoff = 0;         // Hz of the low-pass on the sensor samples; 0: none
+
+  bool operator==(const Sampling&) const = default;
 };
 
 /// Standard deviations of white noise on each sensor sample.
@@ -32,6 +37,8 @@ struct Noise {
   double torque = 0;    // N.m or N
   double velocity = 0;  // rad/s or m/s
   double position = 0;  // rad or m
+
+  bool operator==(const Noise&) const = default;
 };
 
 struct Scenario {
@@ -42,6 +49,7 @@ struct Scenario {
   std::string joint;  // name of the joint; mujoco plant only
   FrictionDescription friction;
   double initial_energy = 0;  // E(0), N.m or N
+  TruthDraws draws;           // what is drawn of the truth above for each realization
   Motion motion;
   Controller controller;
   Noise noise;

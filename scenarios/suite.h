@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scenarios/scenario.h"
+#include "scenarios/setting.h"
 
 namespace warmjoint {
 
@@ -15,6 +16,8 @@ struct Claim {
   std::string source;                    // for example "paper, Fig. 6"
   std::optional<double> npe_continuous;  // 0.05 is 5 %
   std::optional<double> rmse;            // N.m or N
+
+  bool operator==(const Claim&) const = default;
 };
 
 /// An identifier as a suite runs it.
@@ -23,17 +26,58 @@ struct SuiteIdentifier {
   std::string label;                           // row of the leaderboard; the name where not given
   std::map<std::string, std::string> options;  // as --set of `identify`
   std::optional<Claim> claim;
+
+  bool operator==(const SuiteIdentifier&) const = default;
+};
+
+/// One rung of a suite's ladder: the scenario with some entries changed.
+struct Variant {
+  std::string name;             // group of the leaderboard
+  std::optional<double> value;  // of the ladder's variable, where it has one
+  Settings settings;            // applied to the suite's scenario
+};
+
+/// Groups of one suite. Every group runs all realizations and identifiers. Realization r of every
+/// group has the same random numbers, so that groups compare in pairs.
+struct Ladder {
+  std::string variable;  // what the rungs climb, for example noise.torque; empty: named variants
+  std::string unit;      // of the variable, for tables and axes
+  std::vector<Variant> variants;
 };
 
 struct Suite {
   std::string name;
   std::string question;
-  int realizations = 1;
-  Scenario scenario;  // its seed is the suite's
+  int realizations = 1;  // of each variant
+  Scenario scenario;     // its seed is the suite's
   std::vector<SuiteIdentifier> identifiers;
+  std::optional<Ladder> ladder;
+
+  /// Number of groups: that of the ladder's variants, 1 without a ladder.
+  int variants() const { return ladder ? static_cast<int>(ladder->variants.size()) : 1; }
 };
 
-/// Reads a suite file; the scenario stands under `scenario:`. Throws BadInput as ReadScenario does.
+/// The scenario of one group, with the suite's seed. variant: from 0. Without a ladder it is the
+/// suite's own scenario.
+Scenario VariantScenario(const Suite& suite, int variant);
+
+/// Reads a suite file, laid out as
+///   name: noise-ladder             file name where not given
+///   question: Which ...?
+///   realizations: 50
+///   seed: 1
+///   scenario: {...}                a scenario (read_scenario.h) without name and seed
+///   ladder:                        none where not given
+///     variable: noise.torque       climbs `values`; `unit` is printed with them
+///     unit: N.m
+///     values: [0.1, 0.2]
+///   or named variants, each with its changed entries:
+///     variants:
+///       one-speed: {motion.speeds: [0.5]}
+///   identifiers:
+///     - {name: energy-em, label: energy-em-50, options: {iterations: 50},
+///        claim: {source: "paper, Fig. 6", npe_continuous: 0.05}}
+/// Throws BadInput as ReadScenario does; every variant is checked.
 Suite ReadSuite(const std::string& path);
 
 /// The whole suite, defaults written out; ReadSuite of it gives the same suite.

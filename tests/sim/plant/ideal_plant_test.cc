@@ -100,6 +100,14 @@ TEST(IdealPlant, RepeatsItsBitsForTheSameSeedAndRealizationOnly) {
   EXPECT_NE(Simulate(other, 3).measurements.torque, third);
 }
 
+TEST(IdealPlant, DrawsATruthForEachRealization) {
+  Scenario scenario = Table1();
+  scenario.draws["friction.parameters.viscous"] = {Distribution::Kind::uniform, 4, 6};
+  const double first = Simulate(scenario, 1).truth.friction.parameters.at("viscous");
+  EXPECT_NE(Simulate(scenario, 2).truth.friction.parameters.at("viscous"), first);
+  EXPECT_EQ(Simulate(scenario, 1).truth.friction.parameters.at("viscous"), first);
+}
+
 TEST(IdealPlant, RefusesJointLimitsItDoesNotKnow) {
   Scenario scenario = Table1();
   scenario.motion.hold = 0;

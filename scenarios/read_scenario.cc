@@ -1,0 +1,139 @@
+#include "scenarios/read_scenario.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "models/foundation/atomic_file.h"
+#include "scenarios/scenario_words.h"
+#include "scenarios/write_scenario.h"
+#include "scenarios/yaml_distribution.h"
+#include "scenarios/yaml_friction.h"
+#include "scenarios/yaml_motion.h"
+
+namespace warmjoint {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Overwrites `number` where the map has the entry.
+void ReadNumber(const YamlValue& map, std::string_view name, Bound bound, double& number) {
+  if (const auto value = map.Find(name)) number = value->Number(bound);
+}
+
+/// A path stands relative to the file that names it; a robot of the project has a name alone.
+std::string ReadRobot(const YamlValue& value) {
+  const std::string robot = value.Text();
+  const fs::path beside = fs::path(value.file()).parent_path() / robot;
+  return fs::path(robot).has_extension() && fs::exists(beside) ? beside.string() : robot;
+}
+
+void ReadInitialEnergy(const YamlValue& value, Scenario& scenario) {
+  const Distribution energy = ReadDistribution(value, Bound::any);
+  scenario.initial_energy = energy.a;
+  if (energy.kind != Distribution::Kind::fixed) scenario.draws["initial_energy"] = energy;
+}
+
+Controller ReadController(const YamlValue& value) {
+  value.RequireKeys({"bandwidth", "acceleration"});
+  Controller controller;
+  ReadNumber(value, "bandwidth", Bound::positive, controller.bandwidth);
+  ReadNumber(value, "acceleration", Bound::not_negative, controller.acceleration);
+  return controller;
+}
+
+Noise ReadNoise(const YamlValue& value) {
+  value.RequireKeys({"torque", "velocity", "position"});
+  Noise noise;
+  ReadNumber(value, "torque", Bound::not_negative, noise.torque);
+  ReadNumber(value, "velocity", Bound::not_negative, noise.velocity);
+  ReadNumber(value, "position", Bound::not_negative, noise.position);
+  return noise;
+}
+
+Sampling ReadSampling(const YamlValue& value) {
+  value.RequireKeys({"rate", "sensor_rate", "cutoff"});
+  Sampling sampling;
+  ReadNumber(value, "rate", Bound::positive, sampling.rate);
+  sampling.sensor_rate = std::max(sampling.sensor_rate, sampling.rate);
+  ReadNumber(value, "sensor_rate", Bound::positive, sampling.sensor_rate);
+  ReadNumber(value, "cutoff", Bound::not_negative, sampling.cutoff);
+
+  if (sampling.rate > sampling.sensor_rate) {
+    Refuse(value.place(),
+           "{}.rate is {} Hz; it must be at most the {} Hz of sensor_rate: sensors cannot be "
+           "stored more often than they are read",
+           value.key(), sampling.rate, sampling.sensor_rate);
+  }
+  if (sampling.cutoff >= sampling.sensor_rate / 2) {
+    Refuse(value.place(),
+           "{}.cutoff is {} Hz; it must be below half the sensor_rate of {} Hz; 0 filters nothing",
+           value.key(), sampling.cutoff, sampling.sensor_rate);
+  }
+  return sampling;
+}
+
+void CheckSampleCount(const YamlValue& value, const Scenario& scenario) {
+  constexpr double fewest = 3, most = 1e8;
+  const double samples = scenario.duration * scenario.sampling.rate;
+  if (samples >= fewest && samples <= most) return;
+  Refuse(value.place(),
+         "{} s at a sampling.rate of {} Hz make {:g} samples; a recording has {:g} to {:g}",
+         scenario.duration, scenario.sampling.rate, samples, fewest, most);
+}
+
+void ReadRobotJoint(const YamlValue& value, Scenario& scenario) {
+  const bool needed = scenario.plant == PlantKind::mujoco;
+  const auto robot = value.Find("robot");
+  const auto joint = value.Find("joint");
+  if (needed && !robot) value.Require("robot", "the mujoco plant needs a robot (`list robots`)");
+  if (needed && !joint) value.Require("joint", "the mujoco plant needs the name of a joint");
+  if (robot) scenario.robot = ReadRobot(*robot);
+  if (joint) scenario.joint = joint->Text();
+}
+
+}  // namespace
+
+Scenario ReadScenarioValue(const YamlValue& value, const std::string& name) {
+  value.RequireKeys({"name", "plant", "robot", "joint", "joint_kind", "friction", "initial_energy",
+                     "motion", "controller", "noise", "sampling", "timestep", "duration", "seed"});
+  Scenario scenario;
+  scenario.name = name;
+  if (const auto given = value.Find("name")) scenario.name = given->Text();
+
+  // what moves
+  if (const auto plant = value.Find("plant")) scenario.plant = ReadChoice(*plant, PlantKinds());
+  if (const auto kind = value.Find("joint_kind")) {
+    scenario.joint_kind = ReadChoice(*kind, JointKinds());
+  }
+  ReadRobotJoint(value, scenario);
+  scenario.friction = ReadFriction(
+      value.Require("friction", "give the true law and its parameters"), scenario.draws);
+  if (const auto energy = value.Find("initial_energy")) ReadInitialEnergy(*energy, scenario);
+
+  // how it moves and is logged
+  scenario.motion = ReadMotion(value.Require("motion", "give speeds, and hold or travel"));
+  if (const auto part = value.Find("controller")) scenario.controller = ReadController(*part);
+  if (const auto part = value.Find("noise")) scenario.noise = ReadNoise(*part);
+  if (const auto part = value.Find("sampling")) scenario.sampling = ReadSampling(*part);
+  ReadNumber(value, "timestep", Bound::positive, scenario.timestep);
+
+  const YamlValue duration = value.Require("duration", "give the seconds to simulate");
+  scenario.duration = duration.Number(Bound::positive);
+  CheckSampleCount(duration, scenario);
+  if (const auto seed = value.Find("seed")) {
+    scenario.seed = static_cast<std::uint64_t>(seed->Integer(Bound::not_negative));
+  }
+  return scenario;
+}
+
+Scenario ReadScenario(const std::string& path, const Settings& settings) {
+  const YamlValue document = YamlValue::Parse(ReadWholeFile(path), path, settings);
+  return ReadScenarioValue(document, fs::path(path).stem().string());
+}
+
+Scenario WithSettings(const Scenario& scenario, const Settings& settings) {
+  const std::string yaml = ScenarioToYaml(scenario);
+  return ReadScenarioValue(YamlValue::Parse(yaml, scenario.name, settings), scenario.name);
+}
+
+}  // namespace warmjoint

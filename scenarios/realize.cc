@@ -1,0 +1,19 @@
+#include "scenarios/realize.h"
+
+#include "scenarios/yaml_friction.h"
+
+namespace warmjoint {
+
+Scenario Realize(const Scenario& scenario, std::uint64_t realization) {
+  Scenario realized = scenario;
+  realized.draws.clear();
+  if (scenario.draws.empty()) return realized;
+
+  RandomStream random({scenario.seed, realization}, Stream::truth);
+  realized.friction = DrawFriction(scenario.friction, scenario.draws, random, {scenario.name});
+  const auto energy = scenario.draws.find("initial_energy");
+  if (energy != scenario.draws.end()) realized.initial_energy = energy->second.Draw(random);
+  return realized;
+}
+
+}  // namespace warmjoint

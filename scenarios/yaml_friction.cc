@@ -1,0 +1,136 @@
+#include "scenarios/yaml_friction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "models/foundation/parse_number.h"
+#include "scenarios/yaml_distribution.h"
+
+namespace warmjoint {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::string_view kPrefix = "friction.";
+
+/// Where the number of a drawn key stands in the friction's JSON.
+json::json_pointer Pointer(const std::string& key) {
+  std::string path = key.substr(kPrefix.size() - 1);
+  std::replace(path.begin(), path.end(), '.', '/');
+  return json::json_pointer(path);
+}
+
+double Middle(const Distribution& range) {
+  return range.kind == Distribution::Kind::log_uniform ? std::sqrt(range.a * range.b)
+                                                       : (range.a + range.b) / 2;
+}
+
+json ScalarToJson(const YamlValue& value) {
+  const std::string text = value.Text();
+  const bool quoted = value.node().Tag() == "!";
+  if (!quoted && ParseNumber(text)) return value.Number();
+  return text;
+}
+
+/// YAML as JSON, distributions replaced by their middles and added to `draws`. key: dotted, from
+/// friction on.
+json ToJson(const YamlValue& value, const std::string& key, TruthDraws& draws) {
+  if (IsDistribution(value)) {
+    const Distribution range = ReadDistribution(value, Bound::any);
+    if (range.kind == Distribution::Kind::normal) {
+      value.RefuseValue("uniform or log_uniform, which keep a truth within its bounds");
+    }
+    draws[key] = range;
+    return Middle(range);
+  }
+  if (value.IsMap()) {
+    json object = json::object();
+    value.RequireKeys(value.Keys());
+    for (const std::string& name : value.Keys()) {
+      const auto entry = value.Find(name);
+      if (entry) object[name] = ToJson(*entry, fmt::format("{}.{}", key, name), draws);
+    }
+    return object;
+  }
+  if (value.IsList()) {
+    json list = json::array();
+    for (const YamlValue& entry : value.List("a list that is not empty")) {
+      list.push_back(ToJson(entry, fmt::format("{}.{}", key, list.size()), draws));
+    }
+    return list;
+  }
+  return ScalarToJson(value);
+}
+
+/// Refuses ranges whose ends the parameter tables do not allow.
+void CheckEnds(const json& middles, const TruthDraws& draws, const Place& place) {
+  json lower = middles;
+  json upper = middles;
+  for (const auto& [key, range] : draws) {
+    if (!key.starts_with(kPrefix)) continue;
+    lower[Pointer(key)] = range.a;
+    upper[Pointer(key)] = range.b;
+  }
+  FrictionFromJson(lower, place);
+  FrictionFromJson(upper, place);
+}
+
+std::string ScalarToYaml(const json& value) {
+  if (value.is_number_float()) return fmt::format("{}", value.get<double>());
+  if (!value.is_string()) return value.dump();
+  const std::string text = value.get<std::string>();
+  return ParseNumber(text) ? value.dump() : text;
+}
+
+/// Maps one entry a line; lists are written as JSON, which is YAML too.
+std::string JsonToYaml(const json& object, const std::string& indent) {
+  std::string yaml;
+  for (const auto& [name, value] : object.items()) {
+    if (value.is_object() && !value.empty()) {
+      yaml += fmt::format("{}{}:\n{}", indent, name, JsonToYaml(value, indent + "  "));
+    } else {
+      yaml += fmt::format("{}{}: {}\n", indent, name, ScalarToYaml(value));
+    }
+  }
+  return yaml;
+}
+
+/// The distribution as YAML reads it.
+json DistributionToJson(const Distribution& range) {
+  const bool logarithmic = range.kind == Distribution::Kind::log_uniform;
+  return {{logarithmic ? "log_uniform" : "uniform", {range.a, range.b}}};
+}
+
+}  // namespace
+
+FrictionDescription ReadFriction(const YamlValue& value, TruthDraws& draws) {
+  if (value.IsScalar()) {
+    const auto folder = std::filesystem::path(value.file()).parent_path();
+    return ReadFrictionFile((folder / value.Text()).string());
+  }
+  const json middles = ToJson(value, "friction", draws);
+  CheckEnds(middles, draws, value.place());
+  return FrictionFromJson(middles, value.place());
+}
+
+std::string FrictionToYaml(const FrictionDescription& friction, const TruthDraws& draws,
+                           const std::string& indent) {
+  json object = FrictionToJson(friction);
+  for (const auto& [key, range] : draws) {
+    if (key.starts_with(kPrefix)) object[Pointer(key)] = DistributionToJson(range);
+  }
+  return JsonToYaml(object, indent);
+}
+
+FrictionDescription DrawFriction(const FrictionDescription& friction, const TruthDraws& draws,
+                                 RandomStream& random, const Place& place) {
+  json object = FrictionToJson(friction);
+  for (const auto& [key, range] : draws) {
+    if (key.starts_with(kPrefix)) object[Pointer(key)] = range.Draw(random);
+  }
+  return FrictionFromJson(object, place);
+}
+
+}  // namespace warmjoint

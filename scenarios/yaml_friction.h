@@ -1,0 +1,25 @@
+// The `friction` part of a scenario file.
+#pragma once
+
+#include <string>
+
+#include "models/friction/friction_description.h"
+#include "scenarios/truth_draws.h"
+#include "scenarios/yaml_value.h"
+
+namespace warmjoint {
+
+/// Reads the layout of a friction file (friction_description.h) written as YAML, or the path of
+/// such a file relative to the scenario's. Numbers may be distributions, uniform or log-uniform,
+/// that join `draws`; the description then holds their middles. Throws BadInput with file:line.
+FrictionDescription ReadFriction(const YamlValue& value, TruthDraws& draws);
+
+/// The YAML of it, each line behind `indent`; draws take the place of the numbers that they set.
+std::string FrictionToYaml(const FrictionDescription& friction, const TruthDraws& draws,
+                           const std::string& indent);
+
+/// The description with the numbers of one realization, drawn in the order of their keys.
+FrictionDescription DrawFriction(const FrictionDescription& friction, const TruthDraws& draws,
+                                 RandomStream& random, const Place& place);
+
+}  // namespace warmjoint

@@ -1,0 +1,90 @@
+#include "scenarios/yaml_motion.h"
+
+#include <fmt/ranges.h>
+
+#include "scenarios/yaml_choice.h"
+#include "scenarios/yaml_distribution.h"
+
+namespace warmjoint {
+namespace {
+
+const Choices<SegmentOrder>& Orders() {
+  static const Choices<SegmentOrder> orders{{"alternating", SegmentOrder::alternating},
+                                            {"shuffled", SegmentOrder::shuffled},
+                                            {"in_order", SegmentOrder::in_order}};
+  return orders;
+}
+
+void ReadSpeeds(const YamlValue& value, Motion& motion) {
+  if (IsDistribution(value)) {
+    motion.speed_draws = ReadDistribution(value, Bound::not_negative);
+    return;
+  }
+  for (const YamlValue& speed : value.List(
+           "a list of speeds, for example [0.1, 1], or a distribution as {uniform: [0.1, 1]}")) {
+    motion.speed_list.push_back(speed.Number(Bound::positive));
+  }
+}
+
+/// Exactly one of hold and travel.
+void ReadEnds(const YamlValue& value, Motion& motion) {
+  const auto hold = value.Find("hold");
+  const auto travel = value.Find("travel");
+  if (hold && travel) {
+    Refuse(travel->place(), "{} stands beside {}; keep one: hold speeds for a time, or travel",
+           travel->key(), hold->key());
+  }
+  if (!hold && !travel) {
+    Refuse(value.place(),
+           "{} has neither hold nor travel; give hold: seconds, or travel: [lower, upper] or "
+           "joint_limits",
+           value.key());
+  }
+  if (hold) {
+    motion.hold = hold->Number(Bound::positive);
+  } else if (travel->IsScalar() && travel->Text() == "joint_limits") {
+    motion.travel_between_joint_limits = true;
+  } else {
+    motion.travel = travel->Interval();
+  }
+}
+
+}  // namespace
+
+Motion ReadMotion(const YamlValue& value) {
+  value.RequireKeys({"speeds", "hold", "travel", "order", "rests"});
+  Motion motion;
+  ReadSpeeds(value.Require("speeds", "give a list of speeds or a distribution"), motion);
+  ReadEnds(value, motion);
+  if (const auto order = value.Find("order")) motion.order = ReadChoice(*order, Orders());
+  if (const auto rests = value.Find("rests")) {
+    rests->RequireKeys({"run", "rest"});
+    motion.rests = Rests{
+        rests->Require("run", "give the seconds of motion before a rest").Number(Bound::positive),
+        rests->Require("rest", "give the seconds of a rest").Number(Bound::positive)};
+  }
+  return motion;
+}
+
+std::string MotionToYaml(const Motion& motion, const std::string& indent) {
+  std::string yaml;
+  const auto add = [&](std::string_view key, const std::string& value) {
+    yaml += fmt::format("{}{}: {}\n", indent, key, value);
+  };
+  add("speeds", motion.speed_draws ? DistributionToYaml(*motion.speed_draws)
+                                   : fmt::format("{}", motion.speed_list));
+  if (motion.travel_between_joint_limits) {
+    add("travel", "joint_limits");
+  } else if (motion.travel) {
+    add("travel", fmt::format("[{}, {}]", motion.travel->first, motion.travel->second));
+  } else {
+    add("hold", fmt::format("{}", motion.hold));
+  }
+  add("order", ChoiceName(motion.order, Orders()));
+  if (motion.rests) {
+    add("rests", fmt::format("{{run: {}, rest: {}}}", motion.rests->run, motion.rests->rest));
+  }
+  return yaml;
+}
+
+}  // namespace warmjoint

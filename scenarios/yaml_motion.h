@@ -1,0 +1,18 @@
+// The `motion` part of a scenario file.
+#pragma once
+
+#include <string>
+
+#include "scenarios/motion.h"
+#include "scenarios/yaml_value.h"
+
+namespace warmjoint {
+
+/// Reads and checks a motion. Throws BadInput with file:line for no speeds, a speed that is not
+/// positive, both or neither of hold and travel, and unknown entries.
+Motion ReadMotion(const YamlValue& value);
+
+/// The YAML of it, one entry a line, each line behind `indent`.
+std::string MotionToYaml(const Motion& motion, const std::string& indent);
+
+}  // namespace warmjoint

@@ -1,0 +1,145 @@
+#include "scenarios/suite.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "scenarios/write_scenario.h"
+
+namespace warmjoint {
+namespace {
+
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+constexpr char kScenario[] = R"(question: Does it?
+realizations: 7
+seed: 5
+scenario:
+  friction: {law: coulomb, parameters: {coulomb: 15}}
+  motion: {speeds: [0.1, 1], hold: 20}
+  duration: 100
+)";
+constexpr char kIdentifiers[] = R"(identifiers:
+  - {name: energy-em, label: em-50, options: {iterations: 50, gain_range: "-9:0"},
+     claim: {source: "paper, Fig. 6", npe_continuous: 0.05}}
+  - {name: nominal-ls}
+)";
+constexpr char kNoiseLadder[] = "ladder: {variable: noise.torque, unit: N.m, values: [0.1, 0.2]}\n";
+constexpr char kMotionLadder[] = R"(ladder:
+  variants:
+    base: {}
+    one speed: {motion.speeds: [0.5], duration: 50}
+    travelling: {motion.hold: null, motion.travel: [0, 1]}
+)";
+
+class SuiteFile : public testing::Test {
+ protected:
+  Suite Read(const std::string& text) {
+    std::ofstream(path_) << text;
+    return ReadSuite(path_.string());
+  }
+  std::string Refusal(const std::string& text) {
+    try {
+      Read(text);
+    } catch (const BadInput& error) {
+      return error.what();
+    }
+    return "(accepted)";
+  }
+  void TearDown() override { fs::remove(path_); }
+
+  fs::path path_ =
+      fs::path(testing::TempDir()) /
+      (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".yaml");
+};
+
+TEST_F(SuiteFile, IsReadWhole) {
+  const Suite suite = Read(std::string(kScenario) + kIdentifiers);
+  EXPECT_EQ(suite.name, "IsReadWhole");
+  EXPECT_EQ(suite.question, "Does it?");
+  EXPECT_EQ(suite.realizations, 7);
+  EXPECT_EQ(suite.scenario.seed, 5);
+  EXPECT_EQ(suite.scenario.duration, 100);
+  EXPECT_EQ(suite.variants(), 1);
+  ASSERT_EQ(suite.identifiers.size(), 2);
+  const SuiteIdentifier expected{"energy-em",
+                                 "em-50",
+                                 {{"iterations", "50"}, {"gain_range", "-9:0"}},
+                                 Claim{"paper, Fig. 6", 0.05, std::nullopt}};
+  EXPECT_EQ(suite.identifiers[0], expected);
+  EXPECT_EQ(suite.identifiers[1].label, "nominal-ls");
+}
+
+TEST_F(SuiteFile, WritesWhatItReads) {
+  for (const char* ladder : {"", kNoiseLadder, kMotionLadder}) {
+    const Suite suite = Read(std::string(kScenario) + ladder + kIdentifiers);
+    const std::string yaml = SuiteToYaml(suite);
+    const Suite back = Read(yaml);
+    EXPECT_EQ(SuiteToYaml(back), yaml);
+    EXPECT_EQ(back.identifiers, suite.identifiers);
+    ASSERT_EQ(back.variants(), suite.variants());
+    for (int i = 0; i < suite.variants(); ++i) {
+      EXPECT_EQ(ScenarioToYaml(VariantScenario(back, i)),
+                ScenarioToYaml(VariantScenario(suite, i)));
+    }
+  }
+}
+
+TEST_F(SuiteFile, ClimbsTheValuesOfItsVariable) {
+  const Suite suite = Read(std::string(kScenario) + kNoiseLadder + kIdentifiers);
+  ASSERT_EQ(suite.variants(), 2);
+  EXPECT_EQ(suite.ladder->unit, "N.m");
+  EXPECT_EQ(suite.ladder->variants[1].name, "0.2");
+  EXPECT_EQ(suite.ladder->variants[1].value, 0.2);
+  EXPECT_EQ(VariantScenario(suite, 0).noise.torque, 0.1);
+  EXPECT_EQ(VariantScenario(suite, 1).noise.torque, 0.2);
+  EXPECT_EQ(VariantScenario(suite, 1).seed, 5);
+}
+
+TEST_F(SuiteFile, ChangesTheEntriesOfANamedVariant) {
+  const Suite suite = Read(std::string(kScenario) + kMotionLadder + kIdentifiers);
+  ASSERT_EQ(suite.variants(), 3);
+  EXPECT_EQ(ScenarioToYaml(VariantScenario(suite, 0)), ScenarioToYaml(suite.scenario));
+  EXPECT_THAT(VariantScenario(suite, 1).motion.speed_list, testing::ElementsAre(0.5));
+  EXPECT_EQ(VariantScenario(suite, 1).duration, 50);
+  EXPECT_EQ(VariantScenario(suite, 2).motion.hold, 0);
+}
+
+TEST_F(SuiteFile, RefusesWhatCannotBe) {
+  const std::string scenario = kScenario, identifiers = kIdentifiers;
+  EXPECT_THAT(Refusal(scenario), HasSubstr("'identifiers' is missing"));
+  EXPECT_THAT(Refusal(identifiers), HasSubstr("'question' is missing"));
+  EXPECT_THAT(Refusal(scenario + "identifiers: []\n"), HasSubstr("a list of identifiers"));
+  EXPECT_THAT(Refusal(scenario + "  seed: 5\n" + identifiers), HasSubstr(":8: scenario.seed"));
+  EXPECT_THAT(Refusal(scenario + identifiers + "  - {name: x, label: em-50}\n"),
+              HasSubstr("two identifiers have the label 'em-50'"));
+  EXPECT_THAT(Refusal(scenario + "  noize: {}\n" + identifiers),
+              HasSubstr(":8: unknown key 'scenario.noize'"));
+  EXPECT_THAT(Refusal(scenario + "ladder: {values: [1]}\n" + identifiers),
+              HasSubstr("'ladder.variable' is missing"));
+  EXPECT_THAT(Refusal(scenario + "ladder: {unit: s}\n" + identifiers), HasSubstr("one of"));
+}
+
+TEST_F(SuiteFile, RefusesAVariantThatCannotRunBeforeAnythingRuns) {
+  const std::string ladder = "ladder: {variants: {loud: {noise.torque: -1}}}\n";
+  EXPECT_THAT(Refusal(std::string(kScenario) + ladder + kIdentifiers),
+              testing::AllOf(HasSubstr(":8: variant 'loud'"), HasSubstr("noise.torque is '-1'")));
+}
+
+TEST(ShippedSuites, AreReadAndWrittenAsTheyAre) {
+  int found = 0;
+  for (const auto& entry : fs::directory_iterator(WARMJOINT_SOURCE_DIR "/scenarios/suites")) {
+    if (entry.path().extension() != ".yaml") continue;
+    ++found;
+    const Suite suite = ReadSuite(entry.path().string());
+    EXPECT_EQ(suite.name, entry.path().stem().string()) << "a suite is found by its file's name";
+    EXPECT_GT(suite.question.size(), 20);
+  }
+  EXPECT_GE(found, 3);
+}
+
+}  // namespace
+}  // namespace warmjoint
