@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "scenarios/write_scenario.h"
+#include "tests/support/folders.h"
 
 namespace warmjoint {
 namespace {
@@ -131,7 +132,7 @@ TEST_F(SuiteFile, RefusesAVariantThatCannotRunBeforeAnythingRuns) {
 
 TEST(ShippedSuites, AreReadAndWrittenAsTheyAre) {
   int found = 0;
-  for (const auto& entry : fs::directory_iterator(WARMJOINT_SOURCE_DIR "/scenarios/suites")) {
+  for (const auto& entry : fs::directory_iterator(test::SourceFolder() / "scenarios/suites")) {
     if (entry.path().extension() != ".yaml") continue;
     ++found;
     const Suite suite = ReadSuite(entry.path().string());
