@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -25,7 +26,6 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::ThrowsMessage;
 
-/// Friction light enough for the lightest wrist at 2 ms, N.m.
 FrictionDescription Light() {
   FrictionDescription friction;
   friction.law = "coulomb";
@@ -204,9 +204,16 @@ class AttachToRobot : public testing::TestWithParam<RobotFile> {
   const ScratchDirectory folder_;
   const fs::path out_ = folder_.path() / "out.xml";
 
+  /// Friction of at most 0.5 N.m, less on joints too light to stick with that at the model's step.
   std::vector<FrictionForJoint> EveryJoint(const mjModel* m) {
     std::vector<FrictionForJoint> all;
-    for (int i = 0; i < m->njnt; ++i) all.push_back({mj_id2name(m, mjOBJ_JOINT, i), Light()});
+    for (int i = 0; i < m->njnt; ++i) {
+      FrictionDescription friction = Light();
+      const double inertia = 1 / m->dof_invweight0[m->jnt_dofadr[i]];
+      double& level = friction.parameters["coulomb"];
+      level = std::min(level, 1e-3 * inertia / (m->opt.timestep * m->opt.timestep));
+      all.push_back({mj_id2name(m, mjOBJ_JOINT, i), friction});
+    }
     return all;
   }
 };
