@@ -1,4 +1,5 @@
 #include "identification/energy_em.h"
+#include "identification/energy_ml.h"
 #include "identification/identifier.h"
 #include "identification/nominal_ls.h"
 #include "models/foundation/nearest_name.h"
@@ -9,6 +10,7 @@ const std::vector<Identifier>& Identifiers() {
   static const std::vector<Identifier> identifiers{
       NominalLs(),
       EnergyEm(),
+      EnergyMl(),
   };
   return identifiers;
 }

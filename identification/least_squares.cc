@@ -1,7 +1,9 @@
 #include "identification/least_squares.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <Eigen/SVD>
+#include <limits>
 
 namespace warmjoint {
 namespace {
@@ -46,6 +48,16 @@ LeastSquares SolveLeastSquares(const Eigen::MatrixXd& A, const Eigen::VectorXd& 
       scale.asDiagonal() * R.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(d, d));
   result.cofactor = inverse * inverse.transpose();
   return result;
+}
+
+Eigen::MatrixXd Cofactor(const Eigen::MatrixXd& normal) {
+  const Eigen::Index p = normal.rows();
+  const Eigen::VectorXd scale = normal.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::LDLT<Eigen::MatrixXd> factors(scale.asDiagonal() * normal * scale.asDiagonal());
+  if (!scale.allFinite() || !(factors.vectorD().minCoeff() > 1e-13)) {
+    return Eigen::MatrixXd::Constant(p, p, std::numeric_limits<double>::infinity());
+  }
+  return scale.asDiagonal() * factors.solve(Eigen::MatrixXd::Identity(p, p)) * scale.asDiagonal();
 }
 
 }  // namespace warmjoint

@@ -24,4 +24,8 @@ struct LeastSquares {
 LeastSquares SolveLeastSquares(const Eigen::MatrixXd& A, const Eigen::VectorXd& y,
                                double indistinct = kIndistinct);
 
+/// The inverse of normal equations J^T J [p x p], formed with columns scaled to norm 1; infinite
+/// throughout where they are singular to rounding.
+Eigen::MatrixXd Cofactor(const Eigen::MatrixXd& normal);
+
 }  // namespace warmjoint

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "identification/fit_data.h"
+#include "identification/student.h"
 
 namespace warmjoint {
 
@@ -30,6 +31,14 @@ void ReportThermal(const Thermal& thermal, const std::optional<Eigen::Matrix2d>&
   append("thermal_gain_discrete", discrete.gain, gain_unit,
          {-std::expm1(-h / tau), -gain * by_pole});
   append("thermal_pole", discrete.pole, "1", {0, by_pole});
+  if (!covariance) return;
+
+  // tau is positive and its logarithm the nearer to normal: the ends of tau and te follow from it
+  const double factor = std::exp(StudentQuantile(freedom) * std::sqrt((*covariance)(1, 1)));
+  auto& parameters = estimate.parameters;
+  (parameters.end() - 3)->interval95 = {{tau / factor, tau * factor}};
+  (parameters.end() - 1)->interval95 = {
+      {std::exp(-h * factor / tau), std::exp(-h / (tau * factor))}};
 }
 
 }  // namespace warmjoint

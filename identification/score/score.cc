@@ -1,9 +1,9 @@
 #include "identification/score/score.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "identification/score/cramer_rao.h"
 #include "identification/score/npe.h"
 
 namespace warmjoint {
@@ -27,12 +27,10 @@ ParameterScore ScoreOne(std::string name, double truth, const Estimate& estimate
   return score;
 }
 
-/// Median of the sampling intervals, s.
+/// Mean of the sampling intervals, s, as in the discrete pair of estimates.
 double SamplingInterval(const Eigen::VectorXd& time) {
-  const Eigen::Index n = time.size() - 1;
-  Eigen::VectorXd steps = time.tail(n) - time.head(n);
-  std::nth_element(steps.begin(), steps.begin() + n / 2, steps.end());
-  return steps[n / 2];
+  const Eigen::Index n = time.size();
+  return (time[n - 1] - time[0]) / static_cast<double>(n - 1);
 }
 
 /// Parameters that the relative error (26) can be formed of.
@@ -70,18 +68,24 @@ Score ScoreEstimate(const Estimate& estimate, const Measurements& measurements,
     score.continuous.push_back(ScoreOne(name, truth.friction.parameters.at(name), estimate));
   }
   score.discrete = score.continuous;
-  static_cast<void>(selection);
-
+  const double step = SamplingInterval(measurements.time);
   if (truth.friction.thermal) {
     const Thermal& thermal = *truth.friction.thermal;
     score.continuous.push_back(ScoreOne("thermal_gain", thermal.gain, estimate));
     score.continuous.push_back(ScoreOne("thermal_time_constant", thermal.time_constant, estimate));
 
-    const DiscreteThermal discrete = Discretise(thermal, SamplingInterval(measurements.time));
+    const DiscreteThermal discrete = Discretise(thermal, step);
     score.discrete.push_back(ScoreOne("thermal_gain_discrete", discrete.gain, estimate));
     score.discrete.push_back(ScoreOne("thermal_pole", discrete.pole, estimate));
   }
 
+  const auto known =
+      estimate.Find("initial_energy") ? KnownInitialEnergy::no : KnownInitialEnergy::yes;
+  const CramerRao bound = CramerRaoBound(measurements, selection, truth, known, step);
+  for (size_t i = 0; i < score.continuous.size(); ++i) {
+    score.continuous[i].bound = bound.continuous[i];
+    score.discrete[i].bound = bound.discrete[i];
+  }
   score.npe_continuous = Npe(score.continuous);
   score.npe_discrete = Npe(score.discrete);
   score.bound_npe_continuous = BoundNpe(score.continuous);

@@ -36,7 +36,8 @@ struct Score {
 /// name: one of the truth that the estimate lacks (another law's, or the thermal ones of an
 /// identifier without warming) counts as estimated 0 in the NPE. Parameters whose truth is 0 are
 /// listed but left out of the NPE, which is relative. The discrete pair is that of the recording's
-/// sampling interval (median), for truth and estimate alike.
+/// mean sampling interval, for truth and estimate alike. The bounds count
+/// E(0) as known unless the estimate holds it.
 Score ScoreEstimate(const Estimate& estimate, const Measurements& measurements,
                     const Selection& selection, const Truth& truth);
 

@@ -1,0 +1,181 @@
+#include "identification/energy_ml.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "identification/fit_data.h"
+#include "identification/least_squares.h"
+#include "identification/linear_laws.h"
+#include "identification/report_thermal.h"
+#include "identification/scan_time_constant.h"
+#include "identification/warm_fit.h"
+
+namespace warmjoint {
+namespace {
+
+constexpr const char* kName = "energy-ml";
+
+// the drop of |e|^2 / s^2 that warming must bring: by chance it exceeds 20 about once in 5000
+// recordings, a chi-square of 2 freedoms at the best of about 5 independent time constants
+constexpr double kVisible = 20;
+constexpr double kVagueLogTau = 0.5;  // standard deviation of log(tau): 95 % within a factor of e
+
+/// Law parameters that the motion alone cannot tell apart; nothing where it can.
+std::optional<std::string> MixedLaw(const IdentifierInput& input, const Law& law,
+                                    const LeastSquares& nominal) {
+  if (nominal.mixed.empty()) return std::nullopt;
+  std::vector<std::string> mixed;
+  for (const Eigen::Index i : nominal.mixed) mixed.emplace_back(law.parameters[i].name);
+  return Indistinct(mixed, input.measurements, input.selection);
+}
+
+/// Why the warm-up cannot be told; nothing where it can. cofactor: of x; squares: of the fit
+/// without warming and with it.
+std::optional<std::string> UnseenWarming(const WarmFit& fit, const WarmStart& scanned,
+                                         double variance, double nominal_squares,
+                                         const Eigen::MatrixXd& cofactor) {
+  const double visible = (nominal_squares - fit.solution.squares) / variance;
+  if (!(visible > kVisible)) {
+    return fmt::format(
+        "no warm-up can be seen: thermal_gain and thermal_time_constant explain {:.3g} times the "
+        "noise variance, below {:.3g}; record from cold until friction settles, or use nominal-ls",
+        std::max(visible, 0.0), kVisible);
+  }
+
+  if (!fit.converged) return std::nullopt;
+  const Eigen::Index i = fit.law_parameters + 1;
+  const double vague = std::sqrt(variance * cofactor(i, i));
+  const double tau = fit.thermal().time_constant;
+  if (!(vague < kVagueLogTau) || tau < scanned.shortest / 4 || tau > scanned.longest * 4) {
+    return fmt::format(
+        "thermal_gain and thermal_time_constant cannot be told apart: tau is known to a factor of "
+        "{:.3g} only; record longer, from cold until friction settles, or with rests",
+        std::exp(1.96 * vague));
+  }
+  return std::nullopt;
+}
+
+std::vector<TraceEntry> Trace(const WarmFit& fit, const Law& law, double step, Eigen::Index n) {
+  std::vector<TraceEntry> trace;
+  for (const WarmIterate& iterate : fit.trace) {
+    TraceEntry entry;
+    entry.iteration = static_cast<int>(trace.size());
+    entry.rmse = std::sqrt(iterate.squares / static_cast<double>(n));
+    const Eigen::Index d = fit.law_parameters;
+    for (Eigen::Index i = 0; i < d; ++i) {
+      entry.parameters.emplace_back(law.parameters[i].name, iterate.x[i]);
+    }
+    const Thermal thermal{iterate.x[d], std::exp(iterate.x[d + 1])};
+    const DiscreteThermal discrete = Discretise(thermal, step);
+    entry.parameters.emplace_back("thermal_gain", thermal.gain);
+    entry.parameters.emplace_back("thermal_time_constant", thermal.time_constant);
+    entry.parameters.emplace_back("thermal_gain_discrete", discrete.gain);
+    entry.parameters.emplace_back("thermal_pole", discrete.pole);
+    trace.push_back(std::move(entry));
+  }
+  return trace;
+}
+
+/// Values, standard deviations and intervals. covariance: of x.
+void ReportParameters(const WarmFit& fit, const Law& law, const Eigen::MatrixXd& covariance,
+                      double freedom, const Measurements& m, Estimate& estimate) {
+  const Eigen::Index d = fit.law_parameters;
+  for (Eigen::Index i = 0; i < d; ++i) {
+    const ParameterInfo& info = law.parameters[i];
+    estimate.parameters.push_back(WithInterval(std::string(info.name), fit.solution.x[i],
+                                               UnitFor(info, m), std::sqrt(covariance(i, i)),
+                                               freedom));
+  }
+  ReportThermal(fit.thermal(), covariance.block<2, 2>(d, d), freedom, m, estimate);
+  if (fit.solution.x.size() > d + 2) {
+    estimate.parameters.push_back(WithInterval("initial_energy", fit.initial_energy(),
+                                               m.torque_unit, std::sqrt(covariance(d + 2, d + 2)),
+                                               freedom));
+  }
+}
+
+/// The verdict on a fit, and its numbers where they can be trusted.
+Estimate Conclude(const IdentifierInput& input, const Law& law, const ClosedLoop& loop,
+                  const WarmStart& scanned, const WarmFit& fit, double nominal_squares) {
+  const Measurements& m = input.measurements;
+  const Eigen::VectorXd torque = Kept(m.torque, input.selection);
+  const auto p = static_cast<int>(fit.solution.x.size());
+  const double freedom = static_cast<double>(torque.size()) - p;
+  const double variance = fit.solution.squares / freedom;
+  const Eigen::MatrixXd cofactor = Cofactor(fit.normal);
+  if (auto why = UnseenWarming(fit, scanned, variance, nominal_squares, cofactor)) {
+    return Failed(kName, Status::not_identifiable, *why);
+  }
+  if (!fit.converged) {
+    return Failed(
+        kName, Status::not_converged,
+        fmt::format("the fit still moves after {} iterations; does the torque column hold "
+                    "friction?",
+                    fit.trace.size() - 1));
+  }
+  const LoopResponse response =
+      loop.Simulate(fit.parameters(), fit.thermal(), fit.initial_energy());
+  if (response.feeds_itself) {
+    return Failed(kName, Status::inadequate_model,
+                  fmt::format("at {:.6g} s the fitted friction pushes instead of braking and would "
+                              "feed itself; try another law",
+                              m.time[*response.feeds_itself]));
+  }
+
+  Estimate estimate;
+  estimate.identifier = kName;
+  estimate.metrics = ComputeMetrics(torque, Kept(response.force, input.selection), p, p);
+  estimate.message = fmt::format("maximum likelihood on {} samples, refined in {} iterations",
+                                 torque.size(), fit.trace.size() - 1);
+  ReportParameters(fit, law, variance * cofactor, freedom, m, estimate);
+  DescribeFriction(law, m, estimate);
+  if (estimate.friction) estimate.friction->thermal = fit.thermal();
+  return estimate;
+}
+
+Estimate Identify(const IdentifierInput& input) {
+  const Measurements& m = input.measurements;
+  const Law& law = *FindLaw(input.options.Text("law"));
+  const auto d = static_cast<int>(law.parameters.size());
+  if (auto why = Unusable(input, d + 3)) return Failed(kName, Status::bad_data, *why);
+
+  // the law's columns must be distinct before any warming is thought of
+  const Eigen::MatrixXd columns = LawColumns(law, m.velocity);
+  const Eigen::MatrixXd kept_columns = Kept(columns, input.selection);
+  const Eigen::VectorXd torque = Kept(m.torque, input.selection);
+  const LeastSquares nominal = SolveLeastSquares(kept_columns, torque);
+  if (auto why = MixedLaw(input, law, nominal)) {
+    return Failed(kName, Status::not_identifiable, *why);
+  }
+  const double nominal_squares = (torque - kept_columns * nominal.solution).squaredNorm();
+
+  // scan tau, then refine everything over the closed loop
+  const ClosedLoop loop(m.time, m.velocity, columns);
+  const Eigen::VectorXd level = loop.direction().cwiseProduct(m.torque);
+  const Eigen::VectorXd kept = (input.selection.keep && m.velocity.array() != 0).cast<double>();
+  const WarmStart start = ScanTimeConstant(loop, level, kept);
+  const auto initial = input.options.Text("initial_energy") == "estimated"
+                           ? InitialEnergy::estimated
+                           : InitialEnergy::zero;
+  const double scale = std::sqrt(nominal_squares / static_cast<double>(torque.size()));
+  const WarmFit fit =
+      FitWarmFriction(loop, level, kept, start.parameters, start.thermal, initial, scale);
+
+  Estimate estimate = Conclude(input, law, loop, start, fit, nominal_squares);
+  estimate.trace = Trace(fit, law, loop.intervals().typical, torque.size());
+  return estimate;
+}
+
+}  // namespace
+
+Identifier EnergyMl() {
+  return {kName,
+          "law and warming together by maximum likelihood over the closed loop; needs no start",
+          {{"law", "viscous_coulomb", LinearLawWords(), "nominal friction law"},
+           {"initial_energy", "zero", "zero|estimated",
+            "E(0): 0 for a cold joint, or estimated at a cost of accuracy"}},
+          &Identify};
+}
+
+}  // namespace warmjoint

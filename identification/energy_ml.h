@@ -1,0 +1,19 @@
+// Identifier `energy-ml`: law and warming together, by maximum likelihood over the closed loop.
+#pragma once
+
+#include "identification/identifier.h"
+
+namespace warmjoint {
+
+/// (p, k, tau) = argmin sum over the kept samples of (tau - F)^2, F the response of the closed loop
+/// (19)-(22) to the recorded velocity: maximum likelihood for white noise on the torque. Needs no
+/// start: tau is scanned, then all parameters are refined together. Any law that is linear in its
+/// parameters; optionally E(0).
+///
+/// Standard deviations and 95 % intervals from s^2 (J^T J)^-1 with the exact Jacobian J at the
+/// solution. not_identifiable where the motion cannot tell the law's parameters apart, or where the
+/// warm-up cannot be seen: its share of the residual is not beyond chance, or tau is not known to
+/// better than a factor of about e.
+Identifier EnergyMl();
+
+}  // namespace warmjoint

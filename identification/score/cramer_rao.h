@@ -1,0 +1,29 @@
+// The accuracy that no unbiased estimate beats.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "sim/dataset/measurements.h"
+#include "sim/dataset/selection.h"
+#include "sim/dataset/truth.h"
+
+namespace warmjoint {
+
+/// Cramer-Rao standard deviations in both parametrisations of the warming.
+struct CramerRao {
+  Eigen::VectorXd continuous;   // [d + 2 or d] law, k, tau
+  Eigen::VectorXd discrete;     // [d + 2 or d] law, ke, te
+  Eigen::MatrixXd information;  // of law, k, tau and, where it is estimated, E(0)
+};
+
+/// Whether the initial energy counts as known.
+enum class KnownInitialEnergy { yes, no };
+
+/// sqrt(diag(I^-1)), I = J^T J / sigma^2 over the kept samples, J = dF/d(parameters) of the closed
+/// loop at the truth and sigma = truth.torque_noise (white). NaN where the bound does not exist: no
+/// noise, parameters that the motion cannot tell apart, or a law that is not linear.
+/// step: sampling interval of the discrete pair, s.
+CramerRao CramerRaoBound(const Measurements& measurements, const Selection& selection,
+                         const Truth& truth, KnownInitialEnergy initial_energy, double step);
+
+}  // namespace warmjoint

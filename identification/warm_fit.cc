@@ -1,0 +1,166 @@
+#include "identification/warm_fit.h"
+
+#include <ceres/tiny_solver.h>
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "identification/closed_loop_kernel.h"
+
+namespace warmjoint {
+namespace {
+
+constexpr int kMostIterations = 50;
+
+/// Sums n, or Dynamic where one of them is.
+constexpr int Plus(int a, int b) { return a == Eigen::Dynamic ? a : a + b; }
+
+/// The condensed least-squares problem, as ceres::TinySolver wants it. D: law parameters, Q: 2 for
+/// (k, log tau), 3 with E(0).
+template <int D, int Q>
+class CondensedProblem {
+ public:
+  using Scalar = double;
+  enum { NUM_PARAMETERS = Plus(D, Q), NUM_RESIDUALS = Plus(D, Q + 1) };
+  using Square = Eigen::Matrix<double, NUM_RESIDUALS, NUM_RESIDUALS>;
+  using Vector = Eigen::Matrix<double, NUM_PARAMETERS, 1>;
+
+  CondensedProblem(const ClosedLoop& loop, const Eigen::VectorXd& level,
+                   const Eigen::VectorXd& kept, double scale)
+      : loop_(loop), level_(level), kept_(kept), scale_(scale), d_(loop.levels().cols()) {}
+
+  int NumParameters() const { return static_cast<int>(d_) + Q; }
+  int NumResiduals() const { return static_cast<int>(d_) + Q + 1; }
+
+  bool operator()(const double* x, double* residuals, double* jacobian) const {
+    Evaluate(Eigen::Map<const Vector>(x, NumParameters()));
+
+    // a factor R of the products, R^T R = [J r]^T [J r] / scale^2
+    const Eigen::Index p = NumParameters();
+    const Eigen::LDLT<Square> factors(products_ / (scale_ * scale_));
+    Square root = factors.transpositionsP() * Square::Identity(p + 1, p + 1);
+    root = factors.matrixU() * root;
+    root = factors.vectorD().cwiseMax(0).cwiseSqrt().asDiagonal() * root;
+    Eigen::Map<Eigen::VectorXd>(residuals, p + 1) = root.col(p);
+    if (jacobian) {
+      Eigen::Map<Eigen::MatrixXd>(jacobian, p + 1, p) = root.leftCols(p);
+      trace_.push_back({x_, products_(p, p)});
+    }
+    return true;
+  }
+
+  /// [J r]^T [J r] at x, r = measured - modelled level.
+  const Square& Evaluate(const Vector& x) const {
+    if (x_.size() == x.size() && x_ == x) return products_;
+    x_ = x;
+    const Thermal thermal{x[d_], std::exp(x[d_ + 1])};
+    const double initial = Q == 3 ? x[d_ + Q - 1] : 0;
+    products_.setZero(NumResiduals(), NumResiduals());
+    WithHolds(loop_.intervals(), thermal, [&](const auto& hold) {
+      RunWithSensitivities<D>(loop_, x.data(), thermal.gain, initial, hold,
+                              [this](Eigen::Index n, double level, const double* g,
+                                     const double* S) { Accumulate(n, level, g, S); });
+    });
+    products_ = Square(products_.template selfadjointView<Eigen::Upper>());
+    return products_;
+  }
+
+  std::vector<WarmIterate>& trace() const { return trace_; }
+
+ private:
+  /// Adds a sample's row [-da/dx, r] to the upper half of the products.
+  void Accumulate(Eigen::Index n, double level, const double* g, const double* S) const {
+    if (kept_[n] == 0) return;
+    const LoopSize<D> size(d_);
+    const Eigen::Index d = size.value();
+    Eigen::Array<double, NUM_RESIDUALS, 1> row(d + Q + 1);
+    for (Eigen::Index i = 0; i < d; ++i) row[i] = -(g[i] + S[i]);
+    for (Eigen::Index i = d; i < d + Q; ++i) row[i] = -S[i];
+    row[d + Q] = level_[n] - level;
+    for (Eigen::Index j = 0; j < d + Q + 1; ++j) {
+      for (Eigen::Index i = 0; i <= j; ++i) products_(i, j) += row[i] * row[j];
+    }
+  }
+
+  const ClosedLoop& loop_;
+  const Eigen::VectorXd& level_;
+  const Eigen::VectorXd& kept_;
+  double scale_;
+  Eigen::Index d_;
+
+  // the latest evaluation: Ceres asks for the residuals at a point, then for the derivatives there
+  mutable Vector x_;
+  mutable Square products_;
+  mutable std::vector<WarmIterate> trace_;
+};
+
+template <int D, int Q>
+WarmFit Solve(const CondensedProblem<D, Q>& problem, const Eigen::VectorXd& start) {
+  using Solver = ceres::TinySolver<CondensedProblem<D, Q>>;
+  Solver solver;
+  solver.options.max_num_iterations = kMostIterations;
+  solver.options.gradient_tolerance = 1e-10;
+  solver.options.parameter_tolerance = 1e-11;
+  solver.options.function_tolerance = 1e-10;  // of |r|^2, which is about the number of samples
+  solver.options.initial_trust_region_radius = 1e8;
+  typename Solver::Parameters x = start;
+  solver.Solve(problem, &x);
+
+  const Eigen::Index p = x.size();
+  const auto& products = problem.Evaluate(x);
+  WarmFit fit;
+  fit.solution = {x, products(p, p)};
+  fit.normal = products.topLeftCorner(p, p);
+  fit.trace = std::move(problem.trace());
+  fit.trace.push_back(fit.solution);
+  fit.converged = solver.summary.status != Solver::HIT_MAX_ITERATIONS &&
+                  std::isfinite(fit.solution.squares) && x.allFinite();
+  return fit;
+}
+
+}  // namespace
+
+Thermal WarmFit::thermal() const {
+  return {solution.x[law_parameters], std::exp(solution.x[law_parameters + 1])};
+}
+
+Eigen::VectorXd WarmFit::parameters() const { return solution.x.head(law_parameters); }
+
+double WarmFit::initial_energy() const {
+  return solution.x.size() > law_parameters + 2 ? solution.x[law_parameters + 2] : 0;
+}
+
+WarmFit FitWarmFriction(const ClosedLoop& loop, const Eigen::VectorXd& level,
+                        const Eigen::VectorXd& kept, const Eigen::VectorXd& parameters,
+                        const Thermal& thermal, InitialEnergy initial_energy, double scale) {
+  const Eigen::Index d = loop.levels().cols();
+  const int q = initial_energy == InitialEnergy::estimated ? 3 : 2;
+  Eigen::VectorXd start = Eigen::VectorXd::Zero(d + q);
+  start.head(d + 2) << parameters, thermal.gain, std::log(thermal.time_constant);
+
+  // sizes known at compile time for the common laws
+  const auto solve = [&]<int D, int Q>() {
+    return Solve(CondensedProblem<D, Q>(loop, level, kept, scale), start);
+  };
+  const auto solve_for = [&]<int D>() {
+    return q == 2 ? solve.template operator()<D, 2>() : solve.template operator()<D, 3>();
+  };
+  WarmFit fit;
+  switch (d) {
+    case 1:
+      fit = solve_for.template operator()<1>();
+      break;
+    case 2:
+      fit = solve_for.template operator()<2>();
+      break;
+    case 3:
+      fit = solve_for.template operator()<3>();
+      break;
+    default:
+      fit = solve_for.template operator()<Eigen::Dynamic>();
+  }
+  fit.law_parameters = d;
+  return fit;
+}
+
+}  // namespace warmjoint
