@@ -7,8 +7,10 @@
 #include "identification/fit_data.h"
 #include "identification/least_squares.h"
 #include "identification/linear_laws.h"
+#include "identification/report_law.h"
 #include "identification/report_thermal.h"
 #include "identification/scan_time_constant.h"
+#include "identification/uncertainty.h"
 #include "identification/warm_fit.h"
 
 namespace warmjoint {
@@ -77,22 +79,13 @@ std::vector<TraceEntry> Trace(const WarmFit& fit, const Law& law, double step, E
   return trace;
 }
 
-/// Values, standard deviations and intervals. covariance: of x.
-void ReportParameters(const WarmFit& fit, const Law& law, const Eigen::MatrixXd& covariance,
-                      double freedom, const Measurements& m, Estimate& estimate) {
-  const Eigen::Index d = fit.law_parameters;
-  for (Eigen::Index i = 0; i < d; ++i) {
-    const ParameterInfo& info = law.parameters[i];
-    estimate.parameters.push_back(WithInterval(std::string(info.name), fit.solution.x[i],
-                                               UnitFor(info, m), std::sqrt(covariance(i, i)),
-                                               freedom));
-  }
-  ReportThermal(fit.thermal(), covariance.block<2, 2>(d, d), freedom, m, estimate);
-  if (fit.solution.x.size() > d + 2) {
-    estimate.parameters.push_back(WithInterval("initial_energy", fit.initial_energy(),
-                                               m.torque_unit, std::sqrt(covariance(d + 2, d + 2)),
-                                               freedom));
-  }
+/// dF/dx over all samples, [N x p].
+Eigen::MatrixXd Jacobian(const ClosedLoop& loop, const WarmFit& fit) {
+  const Thermal thermal = fit.thermal();
+  Eigen::MatrixXd jacobian = loop.Jacobian(fit.parameters(), thermal, fit.initial_energy())
+                                 .leftCols(fit.solution.x.size());
+  jacobian.col(fit.law_parameters + 1) *= thermal.time_constant;  // from tau to log(tau)
+  return jacobian;
 }
 
 /// The verdict on a fit, and its numbers where they can be trusted.
@@ -101,8 +94,8 @@ Estimate Conclude(const IdentifierInput& input, const Law& law, const ClosedLoop
   const Measurements& m = input.measurements;
   const Eigen::VectorXd torque = Kept(m.torque, input.selection);
   const auto p = static_cast<int>(fit.solution.x.size());
-  const double freedom = static_cast<double>(torque.size()) - p;
-  const double variance = fit.solution.squares / freedom;
+  const Eigen::Index d = fit.law_parameters;
+  const double variance = fit.solution.squares / static_cast<double>(torque.size() - p);
   const Eigen::MatrixXd cofactor = Cofactor(fit.normal);
   if (auto why = UnseenWarming(fit, scanned, variance, nominal_squares, cofactor)) {
     return Failed(kName, Status::not_identifiable, *why);
@@ -125,10 +118,23 @@ Estimate Conclude(const IdentifierInput& input, const Law& law, const ClosedLoop
 
   Estimate estimate;
   estimate.identifier = kName;
-  estimate.metrics = ComputeMetrics(torque, Kept(response.force, input.selection), p, p);
-  estimate.message = fmt::format("maximum likelihood on {} samples, refined in {} iterations",
-                                 torque.size(), fit.trace.size() - 1);
-  ReportParameters(fit, law, variance * cofactor, freedom, m, estimate);
+  const Eigen::VectorXd fitted = Kept(response.force, input.selection);
+  estimate.metrics = ComputeMetrics(torque, fitted, p, p);
+  const Uncertainty known =
+      JudgeUncertainty([&] { return Kept(Jacobian(loop, fit), input.selection); }, cofactor,
+                       torque - fitted, input.selection);
+  if (!known.covariance.allFinite()) {
+    return Failed(kName, Status::bad_data, "torque or velocity is too large to square");
+  }
+  ReportLaw(law, fit.parameters(), known, m, estimate);
+  ReportThermal(fit.thermal(), known.covariance.block<2, 2>(d, d), known.freedom, m, estimate);
+  if (p > d + 2) {
+    estimate.parameters.push_back(WithInterval("initial_energy", fit.initial_energy(),
+                                               m.torque_unit, known.Deviation(d + 2),
+                                               known.freedom));
+  }
+  estimate.message = fmt::format("maximum likelihood on {} samples, refined in {} iterations{}",
+                                 torque.size(), fit.trace.size() - 1, ColourOf(known.noise));
   DescribeFriction(law, m, estimate);
   if (estimate.friction) estimate.friction->thermal = fit.thermal();
   return estimate;

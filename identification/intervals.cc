@@ -12,12 +12,15 @@ constexpr double kSame = 1e-6;  // relative
 
 Intervals FindIntervals(const Eigen::VectorXd& time) {
   const Eigen::Index n = time.size() - 1;
-  std::vector<double> steps(n);
-  for (Eigen::Index i = 0; i < n; ++i) steps[i] = time[i + 1] - time[i];
+  const Eigen::ArrayXd steps = time.tail(n) - time.head(n);
+  const double mean = (time[n] - time[0]) / static_cast<double>(n);
+  if ((steps - mean).abs().maxCoeff() <= kSame * mean) {
+    return {{mean}, std::vector<int>(n + 1, 0), mean};
+  }
 
   // ascending lengths, one for each group that the rounding of the time stamps makes
   Intervals intervals;
-  std::vector<double> sorted = steps;
+  std::vector<double> sorted(steps.begin(), steps.end());
   std::sort(sorted.begin(), sorted.end());
   intervals.typical = sorted[n / 2];
   std::vector<int> count;
@@ -32,14 +35,14 @@ Intervals FindIntervals(const Eigen::VectorXd& time) {
   for (size_t i = 0; i < count.size(); ++i) intervals.length[i] /= count[i];
 
   // nearest length of each step
-  steps.push_back(intervals.typical);
-  intervals.which.reserve(steps.size());
-  for (const double step : steps) {
+  const auto index = [&](double step) {
     const auto above =
         std::upper_bound(intervals.length.begin(), intervals.length.end(), step * (1 + kSame));
-    intervals.which.push_back(
-        static_cast<int>(std::max<std::ptrdiff_t>(0, above - intervals.length.begin() - 1)));
-  }
+    return static_cast<int>(std::max<std::ptrdiff_t>(0, above - intervals.length.begin() - 1));
+  };
+  intervals.which.reserve(time.size());
+  for (const double step : steps) intervals.which.push_back(index(step));
+  intervals.which.push_back(index(intervals.typical));
   return intervals;
 }
 

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <functional>
 #include <string>
 
 #include "identification/noise_model.h"
@@ -25,6 +26,11 @@ struct Uncertainty {
 /// jacobian: [n x d] df/dx over the kept samples; cofactor: C; residual: [n] y - f.
 Uncertainty JudgeUncertainty(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& cofactor,
                              const Eigen::VectorXd& residual, const Selection& selection);
+
+/// The same for a Jacobian that is costly to form: called for coloured noise alone.
+Uncertainty JudgeUncertainty(const std::function<Eigen::MatrixXd()>& jacobian,
+                             const Eigen::MatrixXd& cofactor, const Eigen::VectorXd& residual,
+                             const Selection& selection);
 
 /// A half sentence on the colour of the noise, "" for white: "; noise is coloured (correlation 0.90
 /// between neighbours), which the intervals account for".

@@ -55,30 +55,30 @@ class CondensedProblem {
     x_ = x;
     const Thermal thermal{x[d_], std::exp(x[d_ + 1])};
     const double initial = Q == 3 ? x[d_ + Q - 1] : 0;
-    products_.setZero(NumResiduals(), NumResiduals());
+    Square sums = Square::Zero(NumResiduals(), NumResiduals());
     WithHolds(loop_.intervals(), thermal, [&](const auto& hold) {
       RunWithSensitivities<D>(loop_, x.data(), thermal.gain, initial, hold,
-                              [this](Eigen::Index n, double level, const double* g,
-                                     const double* S) { Accumulate(n, level, g, S); });
+                              [&](Eigen::Index n, double level, const double* g, const double* S) {
+                                if (kept_[n] != 0) Accumulate(level_[n] - level, g, S, sums);
+                              });
     });
-    products_ = Square(products_.template selfadjointView<Eigen::Upper>());
+    products_ = sums.template selfadjointView<Eigen::Upper>();
     return products_;
   }
 
   std::vector<WarmIterate>& trace() const { return trace_; }
 
  private:
-  /// Adds a sample's row [-da/dx, r] to the upper half of the products.
-  void Accumulate(Eigen::Index n, double level, const double* g, const double* S) const {
-    if (kept_[n] == 0) return;
+  /// Adds the row [-da/dx, r] of a sample to the upper half of the sums.
+  void Accumulate(double residual, const double* g, const double* S, Square& sums) const {
     const LoopSize<D> size(d_);
     const Eigen::Index d = size.value();
     Eigen::Array<double, NUM_RESIDUALS, 1> row(d + Q + 1);
     for (Eigen::Index i = 0; i < d; ++i) row[i] = -(g[i] + S[i]);
     for (Eigen::Index i = d; i < d + Q; ++i) row[i] = -S[i];
-    row[d + Q] = level_[n] - level;
+    row[d + Q] = residual;
     for (Eigen::Index j = 0; j < d + Q + 1; ++j) {
-      for (Eigen::Index i = 0; i <= j; ++i) products_(i, j) += row[i] * row[j];
+      for (Eigen::Index i = 0; i <= j; ++i) sums(i, j) += row[i] * row[j];
     }
   }
 
