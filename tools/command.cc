@@ -4,10 +4,9 @@ namespace warmjoint {
 
 std::vector<Command> AddCommands(CLI::App& program) {
   return {
-      AddListCommand(program),
-      AddCheckCommand(program),
-      AddIdentifyCommand(program),
-      AddAttachCommand(program),
+      AddListCommand(program),     AddSimulateCommand(program), AddCheckCommand(program),
+      AddIdentifyCommand(program), AddAttachCommand(program),   AddRunCommand(program),
+      AddCompareCommand(program),
   };
 }
 

@@ -26,8 +26,11 @@ struct Command {
 std::vector<Command> AddCommands(CLI::App& program);
 
 Command AddListCommand(CLI::App& program);
+Command AddSimulateCommand(CLI::App& program);
 Command AddCheckCommand(CLI::App& program);
 Command AddIdentifyCommand(CLI::App& program);
 Command AddAttachCommand(CLI::App& program);
+Command AddRunCommand(CLI::App& program);
+Command AddCompareCommand(CLI::App& program);
 
 }  // namespace warmjoint

@@ -9,6 +9,7 @@ const std::vector<Family>& Families() {
       {"laws", LawsJson, LawsText},
       {"identifiers", IdentifiersJson, IdentifiersText},
       {"robots", RobotsJson, RobotsText},
+      {"suites", SuitesJson, SuitesText},
   };
   return families;
 }

@@ -20,8 +20,10 @@ nlohmann::ordered_json IdentifiersJson();
 std::string IdentifiersText();
 nlohmann::ordered_json RobotsJson();
 std::string RobotsText();
+nlohmann::ordered_json SuitesJson();
+std::string SuitesText();
 
-/// laws, identifiers, robots.
+/// laws, identifiers, robots, suites.
 const std::vector<Family>& Families();
 
 }  // namespace warmjoint

@@ -43,8 +43,8 @@ std::string ClaimNote(const LeaderboardRow& row, std::string_view unit) {
     claimed += fmt::format(" RMSE {} {}", NumberText(*rmse), unit);
     reached += fmt::format(" RMSE {} {}", NumberText(row.rmse.median), unit);
   }
-  return fmt::format("{}: {} claims{}; reached in the median:{}", row.identifier, row.claim->source,
-                     claimed, reached);
+  return fmt::format("{}: claimed{} ({}); reached in the median{}", row.identifier, claimed,
+                     row.claim->source, reached);
 }
 
 std::string FailureNote(const LeaderboardRow& row) {

@@ -114,9 +114,10 @@ LeaderboardRow SumUp(const SuiteIdentifier& identifier, const Results& results) 
 /// and the recording alone.
 Results OneOfEachRealization(const std::vector<Result>& results) {
   Results ones;
-  std::set<int> seen;
+  std::set<Unit> seen;
   for (const Result& result : results) {
-    if (result.score && seen.insert(result.realization).second) ones.push_back(&result);
+    if (result.score && seen.insert({result.variant, result.realization}).second)
+      ones.push_back(&result);
   }
   return ones;
 }
@@ -145,11 +146,11 @@ Leaderboard MakeLeaderboard(const Suite& suite, const std::vector<Result>& resul
   Leaderboard board;
   board.suite = suite.name;
   board.question = suite.question;
-  board.realizations = suite.realizations;
+  board.realizations = suite.realizations * suite.variants();
   board.joint = suite.scenario.joint_kind;
 
-  std::set<int> finished;
-  for (const Result& result : results) finished.insert(result.realization);
+  std::set<Unit> finished;
+  for (const Result& result : results) finished.insert({result.variant, result.realization});
   board.finished = static_cast<int>(finished.size());
   const Results ones = OneOfEachRealization(results);
   board.bound_npe_continuous = SummariseScore(ones, &Score::bound_npe_continuous).rms;

@@ -14,6 +14,11 @@ RunDescription Describe(const Suite& suite) {
   for (const SuiteIdentifier& identifier : suite.identifiers) {
     description.identifiers.push_back(identifier.label);
   }
+  if (suite.ladder) {
+    for (const Variant& variant : suite.ladder->variants) {
+      description.variants.push_back(variant.name);
+    }
+  }
   description.versions = {
       {"ceres", CERES_VERSION_STRING},
       {"eigen",

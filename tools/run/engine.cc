@@ -16,11 +16,16 @@ namespace {
 /// Longest time that finished realizations wait for the store, and so what a kill can cost.
 constexpr std::chrono::milliseconds kBatchTime{200};
 
-std::vector<int> Missing(const Suite& suite, const RunStore& store) {
-  const std::set<int> finished = store.Finished();
-  std::vector<int> missing;
-  for (int i = 0; i < suite.realizations; ++i) {
-    if (!finished.count(i)) missing.push_back(i);
+/// Units that the store lacks: each realization of every variant, so that an early look at the
+/// leaderboard compares the variants.
+std::vector<Unit> Missing(const Suite& suite, const RunStore& store) {
+  const std::set<Unit> finished = store.Finished();
+  std::vector<Unit> missing;
+  for (int realization = 0; realization < suite.realizations; ++realization) {
+    for (int variant = 0; variant < suite.variants(); ++variant) {
+      const Unit unit{variant, realization};
+      if (!finished.count(unit)) missing.push_back(unit);
+    }
   }
   return missing;
 }
@@ -29,7 +34,7 @@ std::vector<int> Missing(const Suite& suite, const RunStore& store) {
 struct Work {
   const Suite& suite;
   const std::vector<PreparedIdentifier>& identifiers;
-  const std::vector<int>& realizations;
+  const std::vector<Unit>& units;
   std::atomic<size_t> next{0};
   std::atomic<bool> stop{false};
   FinishedQueue queue;
@@ -40,13 +45,14 @@ struct Work {
 void Labour(Work& work) {
   std::exception_ptr error;
   try {
-    const Scenario& scenario = work.suite.scenario;
-    const std::unique_ptr<Plant> plant = MakePlant(scenario);
+    std::vector<Bench> benches(static_cast<size_t>(work.suite.variants()));
     while (work.Open()) {
       const size_t i = work.next++;
-      if (i >= work.realizations.size()) break;
-      const RandomKey key{scenario.seed, static_cast<std::uint64_t>(work.realizations[i])};
-      work.queue.Put(RunRealization(*plant, scenario.plant, work.identifiers, key));
+      if (i >= work.units.size()) break;
+      const Unit unit = work.units[i];
+      Bench& bench = benches[static_cast<size_t>(unit.variant)];
+      if (!bench.plant) bench = MakeBench(VariantScenario(work.suite, unit.variant));
+      work.queue.Put(RunRealization(bench, work.identifiers, unit));
     }
   } catch (...) {
     error = std::current_exception();
@@ -85,17 +91,18 @@ int Store(Work& work, RunStore& store, Progress& progress) {
 
 RunOutcome RunSuite(const Suite& suite, const std::vector<PreparedIdentifier>& identifiers,
                     int jobs, RunStore& store) {
-  const std::vector<int> missing = Missing(suite, store);
-  const int already = suite.realizations - static_cast<int>(missing.size());
+  const std::vector<Unit> missing = Missing(suite, store);
+  const int total = suite.realizations * suite.variants();
+  const int already = total - static_cast<int>(missing.size());
   const int workers = std::clamp(jobs, 1, std::max(1, static_cast<int>(missing.size())));
   Work work{suite, identifiers, missing, 0, false, FinishedQueue(workers)};
-  Progress progress(suite.realizations, already);
+  Progress progress(total, already);
 
   // declared last, so that the threads are joined before anything they use goes
   std::vector<std::jthread> threads;
   for (int i = 0; i < workers; ++i) threads.emplace_back(Labour, std::ref(work));
   const int finished = already + Store(work, store, progress);
-  return {finished, Interrupted() && finished < suite.realizations};
+  return {finished, Interrupted() && finished < total};
 }
 
 }  // namespace warmjoint

@@ -78,15 +78,18 @@ std::vector<Result> AllFailed(size_t identifiers, const std::string& message) {
 
 }  // namespace
 
-Realization RunRealization(Plant& plant, PlantKind kind,
-                           const std::vector<PreparedIdentifier>& identifiers, RandomKey key) {
+Bench MakeBench(const Scenario& scenario) { return {scenario, MakePlant(scenario)}; }
+
+Realization RunRealization(const Bench& bench, const std::vector<PreparedIdentifier>& identifiers,
+                           Unit unit) {
+  const RandomKey key{bench.scenario.seed, static_cast<std::uint64_t>(unit.realization)};
   Realization realization;
-  realization.index = static_cast<int>(key.realization);
+  realization.unit = unit;
   const Stopwatch watch;
   try {
-    const Recording recording = plant.Run(key.realization);
+    const Recording recording = bench.plant->Run(key.realization);
     realization.simulation_seconds = watch.Seconds();
-    const Selection selection = Select(recording.measurements, kind);
+    const Selection selection = Select(recording.measurements, bench.scenario.plant);
     for (const PreparedIdentifier& identify : identifiers) {
       realization.results.push_back(RunIdentifier(identify, recording, selection, key));
     }
@@ -95,7 +98,8 @@ Realization RunRealization(Plant& plant, PlantKind kind,
   }
 
   for (size_t i = 0; i < realization.results.size(); ++i) {
-    realization.results[i].realization = realization.index;
+    realization.results[i].variant = unit.variant;
+    realization.results[i].realization = unit.realization;
     realization.results[i].identifier = static_cast<int>(i);
   }
   return realization;

@@ -1,6 +1,7 @@
 // One realization from plant to scores.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "scenarios/suite.h"
@@ -10,10 +11,18 @@
 
 namespace warmjoint {
 
-/// Simulates realization `index` and scores every identifier on it. Never throws for what happens
-/// in a plant or an identifier: it becomes the status and message of the results concerned.
-/// key.seed: of the suite.
-Realization RunRealization(Plant& plant, PlantKind kind,
-                           const std::vector<PreparedIdentifier>& identifiers, RandomKey key);
+/// A scenario with its plant, for one thread.
+struct Bench {
+  Scenario scenario;
+  std::unique_ptr<Plant> plant;
+};
+
+/// Throws BadInput where the plant cannot do the scenario.
+Bench MakeBench(const Scenario& scenario);
+
+/// Simulates a unit on its variant's bench and scores every identifier on it. Never throws for what
+/// happens in a plant or an identifier: it becomes the status and message of the results concerned.
+Realization RunRealization(const Bench& bench, const std::vector<PreparedIdentifier>& identifiers,
+                           Unit unit);
 
 }  // namespace warmjoint

@@ -74,9 +74,10 @@ std::string CsvCell(const std::string& text) {
   return quoted + "\"";
 }
 
-std::string ResultsToCsv(const std::vector<Result>& results,
-                         const std::vector<std::string>& labels) {
-  std::string csv =
+std::string ResultsToCsv(const std::vector<Result>& results, const RunDescription& description) {
+  const bool ladder = !description.variants.empty();
+  std::string csv = ladder ? "variant," : "";
+  csv +=
       "realization,identifier,status,n,parameters,effective_parameters,rmse,mae,fit,fpe,"
       "npe_continuous,npe_discrete,bound_npe_continuous,bound_npe_discrete";
   const std::vector<std::string> names = ParameterNames(results);
@@ -86,7 +87,8 @@ std::string ResultsToCsv(const std::vector<Result>& results,
   csv += ",message\n";
 
   for (const Result& result : results) {
-    const std::string& label = labels[static_cast<size_t>(result.identifier)];
+    const std::string& label = description.identifiers[static_cast<size_t>(result.identifier)];
+    if (ladder) csv += CsvCell(description.variants[static_cast<size_t>(result.variant)]) + ",";
     csv += fmt::format("{},{},{}", result.realization, CsvCell(label), result.status);
     csv += MetricCells(result) + ScoreCells(result);
     for (const std::string& name : names) csv += ParameterCells(Find(result, name));

@@ -9,7 +9,12 @@
 namespace warmjoint {
 namespace {
 
-using Key = std::pair<int, int>;  // realization, identifier
+using Key = std::pair<Unit, int>;  // and position of the identifier
+
+/// The key in the first three columns.
+Key KeyOf(SQLite::Statement& row) {
+  return {{row.getColumn(0).getInt(), row.getColumn(1).getInt()}, row.getColumn(2).getInt()};
+}
 
 /// A stored number; NULL stands for NaN.
 double Number(const SQLite::Column& column) {
@@ -32,38 +37,41 @@ std::optional<Metrics> ReadMetrics(SQLite::Statement& row) {
 std::map<Key, Score> ReadParameters(const SQLite::Database& results) {
   std::map<Key, Score> scores;
   SQLite::Statement row(results,
-                        "SELECT realization, identifier, discrete, name, truth, estimate,"
+                        "SELECT variant, realization, identifier, discrete, name, truth, estimate,"
                         " estimated, covered, bound FROM parameter"
-                        " ORDER BY realization, identifier, discrete, position");
+                        " ORDER BY variant, realization, identifier, discrete, position");
   while (row.executeStep()) {
     ParameterScore score;
-    score.name = row.getColumn(3).getString();
-    score.truth = Number(row.getColumn(4));
-    score.estimate = Number(row.getColumn(5));
-    score.estimated = row.getColumn(6).getInt() != 0;
-    if (!row.getColumn(7).isNull()) score.covered = row.getColumn(7).getInt() != 0;
-    score.bound = Number(row.getColumn(8));
-    Score& all = scores[{row.getColumn(0).getInt(), row.getColumn(1).getInt()}];
-    (row.getColumn(2).getInt() != 0 ? all.discrete : all.continuous).push_back(std::move(score));
+    score.name = row.getColumn(4).getString();
+    score.truth = Number(row.getColumn(5));
+    score.estimate = Number(row.getColumn(6));
+    score.estimated = row.getColumn(7).getInt() != 0;
+    if (!row.getColumn(8).isNull()) score.covered = row.getColumn(8).getInt() != 0;
+    score.bound = Number(row.getColumn(9));
+    Score& all = scores[KeyOf(row)];
+    (row.getColumn(3).getInt() != 0 ? all.discrete : all.continuous).push_back(std::move(score));
   }
   return scores;
 }
 
 std::map<Key, double> ReadSeconds(const SQLite::Database& timings) {
   std::map<Key, double> seconds;
-  SQLite::Statement row(timings, "SELECT realization, identifier, seconds FROM identification");
+  SQLite::Statement row(timings,
+                        "SELECT variant, realization, identifier, seconds FROM identification");
   while (row.executeStep()) {
-    seconds[{row.getColumn(0).getInt(), row.getColumn(1).getInt()}] = row.getColumn(2).getDouble();
+    seconds[KeyOf(row)] = Number(row.getColumn(3));
   }
   return seconds;
 }
 
 }  // namespace
 
-std::set<int> RunStore::Finished() const {
-  std::set<int> finished;
-  SQLite::Statement row(results_, "SELECT realization FROM realization");
-  while (row.executeStep()) finished.insert(row.getColumn(0).getInt());
+std::set<Unit> RunStore::Finished() const {
+  std::set<Unit> finished;
+  SQLite::Statement row(results_, "SELECT variant, realization FROM realization");
+  while (row.executeStep()) {
+    finished.insert({row.getColumn(0).getInt(), row.getColumn(1).getInt()});
+  }
   return finished;
 }
 
@@ -72,15 +80,16 @@ std::vector<Result> RunStore::ReadResults() const {
   const std::map<Key, double> seconds = ReadSeconds(timings_);
 
   std::vector<Result> all;
-  SQLite::Statement row(results_, "SELECT * FROM result ORDER BY realization, identifier");
+  SQLite::Statement row(results_, "SELECT * FROM result ORDER BY variant, realization, identifier");
   while (row.executeStep()) {
     Result result;
-    result.realization = row.getColumn("realization");
-    result.identifier = row.getColumn("identifier");
+    const Key key = KeyOf(row);
+    result.variant = key.first.variant;
+    result.realization = key.first.realization;
+    result.identifier = key.second;
     result.status = row.getColumn("status").getString();
     result.message = row.getColumn("message").getString();
     result.metrics = ReadMetrics(row);
-    const Key key{result.realization, result.identifier};
     if (const auto found = scores.find(key); found != scores.end()) {
       result.score = std::move(found->second);
       result.score->npe_continuous = Number(row.getColumn("npe_continuous"));
@@ -96,11 +105,13 @@ std::vector<Result> RunStore::ReadResults() const {
   return all;
 }
 
-TraceTable RunStore::ReadTrace(int realization, int identifier) const {
-  SQLite::Statement row(
-      results_, "SELECT columns, float32 FROM trace WHERE realization = ? AND identifier = ?");
-  row.bind(1, realization);
-  row.bind(2, identifier);
+TraceTable RunStore::ReadTrace(Unit unit, int identifier) const {
+  SQLite::Statement row(results_,
+                        "SELECT columns, float32 FROM trace"
+                        " WHERE variant = ? AND realization = ? AND identifier = ?");
+  row.bind(1, unit.variant);
+  row.bind(2, unit.realization);
+  row.bind(3, identifier);
   TraceTable trace;
   if (!row.executeStep()) return trace;
 
@@ -114,7 +125,7 @@ TraceTable RunStore::ReadTrace(int realization, int identifier) const {
 
 std::vector<double> RunStore::ReadSimulationSeconds() const {
   std::vector<double> seconds;
-  SQLite::Statement row(timings_, "SELECT seconds FROM simulation ORDER BY realization");
+  SQLite::Statement row(timings_, "SELECT seconds FROM simulation ORDER BY variant, realization");
   while (row.executeStep()) seconds.push_back(row.getColumn(0).getDouble());
   return seconds;
 }

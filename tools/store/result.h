@@ -1,6 +1,7 @@
 // What a run keeps of each realization.
 #pragma once
 
+#include <compare>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@ struct TraceTable {
 
 /// What one identifier made of one realization.
 struct Result {
+  int variant = 0;  // position in the suite's ladder; 0 without one
   int realization = 0;
   int identifier = 0;   // position in the suite's list
   std::string status;   // a StatusName, or how the identifier failed to answer
@@ -30,9 +32,17 @@ struct Result {
   double seconds = 0;          // wall time of the identification
 };
 
-/// One finished realization: it enters the store as a whole or not at all.
+/// One realization of one variant of a suite: the unit of work.
+struct Unit {
+  int variant = 0;      // position in the suite's ladder; 0 without one
+  int realization = 0;  // from 0
+
+  auto operator<=>(const Unit&) const = default;
+};
+
+/// A finished unit: it enters the store as a whole or not at all.
 struct Realization {
-  int index = 0;
+  Unit unit;
   double simulation_seconds = 0;  // wall time of the plant
   std::vector<Result> results;    // one for each identifier of the suite, in its order
 };

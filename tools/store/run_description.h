@@ -13,7 +13,8 @@ inline constexpr int kSchemaVersion = 1;
 /// Two runs with equal descriptions have equal results.
 struct RunDescription {
   std::string suite_yaml;  // fully resolved: realizations, seed and identifiers included
-  std::vector<std::string> identifiers;                       // labels, in the suite's order
+  std::vector<std::string> identifiers;  // labels, in the suite's order
+  std::vector<std::string> variants;     // names, in the ladder's order; empty without a ladder
   std::vector<std::pair<std::string, std::string>> versions;  // of all that computes, by name
 };
 

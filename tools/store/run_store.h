@@ -36,16 +36,16 @@ class RunStore {
   /// Adds whole realizations in one transaction.
   void Write(std::span<const Realization> realizations);
 
-  /// Realizations that are in.
-  std::set<int> Finished() const;
+  /// What is in.
+  std::set<Unit> Finished() const;
 
-  /// All results ordered by (realization, identifier), without their traces.
+  /// All results ordered by (variant, realization, identifier), without their traces.
   std::vector<Result> ReadResults() const;
 
   /// The trace of one result; empty where there is none.
-  TraceTable ReadTrace(int realization, int identifier) const;
+  TraceTable ReadTrace(Unit unit, int identifier) const;
 
-  /// Wall time of the plant for each realization in order, s.
+  /// Wall time of the plant for each unit in order, s.
   std::vector<double> ReadSimulationSeconds() const;
 
  private:

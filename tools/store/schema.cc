@@ -9,32 +9,54 @@ constexpr const char* kResultTables = R"sql(
   CREATE TABLE suite(yaml TEXT NOT NULL);
   CREATE TABLE version(name TEXT PRIMARY KEY, value TEXT NOT NULL);
   CREATE TABLE identifier(position INTEGER PRIMARY KEY, label TEXT NOT NULL UNIQUE);
-  CREATE TABLE realization(realization INTEGER PRIMARY KEY);
+  CREATE TABLE variant(position INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE);
+  CREATE TABLE realization(
+    variant INTEGER, realization INTEGER, PRIMARY KEY(variant, realization)) WITHOUT ROWID;
   CREATE TABLE result(
-    realization INTEGER, identifier INTEGER, status TEXT NOT NULL, message TEXT NOT NULL,
+    variant INTEGER, realization INTEGER, identifier INTEGER, status TEXT NOT NULL, message TEXT NOT NULL,
     n INTEGER, parameters INTEGER, effective_parameters REAL, rmse REAL, mae REAL, fit REAL,
     fpe REAL, npe_continuous REAL, npe_discrete REAL, bound_npe_continuous REAL,
-    bound_npe_discrete REAL, PRIMARY KEY(realization, identifier)) WITHOUT ROWID;
+    bound_npe_discrete REAL, PRIMARY KEY(variant, realization, identifier)) WITHOUT ROWID;
   CREATE TABLE parameter(
-    realization INTEGER, identifier INTEGER, discrete INTEGER, position INTEGER,
+    variant INTEGER, realization INTEGER, identifier INTEGER, discrete INTEGER, position INTEGER,
     name TEXT NOT NULL, truth REAL, estimate REAL, estimated INTEGER, covered INTEGER, bound REAL,
-    PRIMARY KEY(realization, identifier, discrete, position)) WITHOUT ROWID;
+    PRIMARY KEY(variant, realization, identifier, discrete, position)) WITHOUT ROWID;
   CREATE TABLE trace(
-    realization INTEGER, identifier INTEGER, columns TEXT NOT NULL, float32 BLOB NOT NULL,
-    PRIMARY KEY(realization, identifier));
+    variant INTEGER, realization INTEGER, identifier INTEGER, columns TEXT NOT NULL, float32 BLOB NOT NULL,
+    PRIMARY KEY(variant, realization, identifier));
 )sql";
 
 constexpr const char* kTimingTables = R"sql(
   CREATE TABLE IF NOT EXISTS identification(
-    realization INTEGER, identifier INTEGER, seconds REAL,
-    PRIMARY KEY(realization, identifier)) WITHOUT ROWID;
-  CREATE TABLE IF NOT EXISTS simulation(realization INTEGER PRIMARY KEY, seconds REAL);
+    variant INTEGER, realization INTEGER, identifier INTEGER, seconds REAL,
+    PRIMARY KEY(variant, realization, identifier)) WITHOUT ROWID;
+  CREATE TABLE IF NOT EXISTS simulation(
+    variant INTEGER, realization INTEGER, seconds REAL,
+    PRIMARY KEY(variant, realization)) WITHOUT ROWID;
 )sql";
 
 int UserVersion(const SQLite::Database& database) {
   SQLite::Statement query(database, "PRAGMA user_version");
   query.executeStep();
   return query.getColumn(0).getInt();
+}
+
+/// Rows of (position, name).
+void InsertNames(SQLite::Database& database, const char* insert,
+                 const std::vector<std::string>& names) {
+  for (size_t i = 0; i < names.size(); ++i) {
+    SQLite::Statement row(database, insert);
+    row.bind(1, static_cast<int>(i));
+    row.bind(2, names[i]);
+    row.exec();
+  }
+}
+
+std::vector<std::string> ReadNames(const SQLite::Database& database, const char* query) {
+  std::vector<std::string> names;
+  SQLite::Statement row(database, query);
+  while (row.executeStep()) names.push_back(row.getColumn(0).getString());
+  return names;
 }
 
 }  // namespace
@@ -53,12 +75,8 @@ void CreateResultTables(SQLite::Database& results, const RunDescription& descrip
     version.bind(2, value);
     version.exec();
   }
-  for (size_t i = 0; i < description.identifiers.size(); ++i) {
-    SQLite::Statement identifier(results, "INSERT INTO identifier VALUES (?, ?)");
-    identifier.bind(1, static_cast<int>(i));
-    identifier.bind(2, description.identifiers[i]);
-    identifier.exec();
-  }
+  InsertNames(results, "INSERT INTO identifier VALUES (?, ?)", description.identifiers);
+  InsertNames(results, "INSERT INTO variant VALUES (?, ?)", description.variants);
   transaction.commit();
 }
 
@@ -89,10 +107,8 @@ RunDescription ReadStoredDescription(const SQLite::Database& results) {
     description.versions.emplace_back(version.getColumn(0).getString(),
                                       version.getColumn(1).getString());
   }
-  SQLite::Statement identifier(results, "SELECT label FROM identifier ORDER BY position");
-  while (identifier.executeStep()) {
-    description.identifiers.push_back(identifier.getColumn(0).getString());
-  }
+  description.identifiers = ReadNames(results, "SELECT label FROM identifier ORDER BY position");
+  description.variants = ReadNames(results, "SELECT name FROM variant ORDER BY position");
   return description;
 }
 

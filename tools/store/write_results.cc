@@ -18,18 +18,18 @@ void Insert(SQLite::Statement& statement, const Args&... values) {
 /// The statements of one batch.
 struct Inserts {
   explicit Inserts(SQLite::Database& db)
-      : realization(db, "INSERT INTO realization VALUES (?)"),
+      : realization(db, "INSERT INTO realization VALUES (?, ?)"),
         failure(db,
-                "INSERT INTO result(realization, identifier, status, message)"
-                " VALUES (?, ?, ?, ?)"),
+                "INSERT INTO result(variant, realization, identifier, status, message)"
+                " VALUES (?, ?, ?, ?, ?)"),
         metrics(db,
-                "UPDATE result SET n=?3, parameters=?4, effective_parameters=?5, rmse=?6, mae=?7,"
-                " fit=?8, fpe=?9 WHERE realization=?1 AND identifier=?2"),
+                "UPDATE result SET n=?4, parameters=?5, effective_parameters=?6, rmse=?7, mae=?8,"
+                " fit=?9, fpe=?10 WHERE variant=?1 AND realization=?2 AND identifier=?3"),
         score(db,
-              "UPDATE result SET npe_continuous=?3, npe_discrete=?4, bound_npe_continuous=?5,"
-              " bound_npe_discrete=?6 WHERE realization=?1 AND identifier=?2"),
-        parameter(db, "INSERT INTO parameter VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"),
-        trace(db, "INSERT INTO trace VALUES (?, ?, ?, ?)") {}
+              "UPDATE result SET npe_continuous=?4, npe_discrete=?5, bound_npe_continuous=?6,"
+              " bound_npe_discrete=?7 WHERE variant=?1 AND realization=?2 AND identifier=?3"),
+        parameter(db, "INSERT INTO parameter VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"),
+        trace(db, "INSERT INTO trace VALUES (?, ?, ?, ?, ?)") {}
 
   SQLite::Statement realization, failure, metrics, score, parameter, trace;
 };
@@ -40,33 +40,35 @@ void InsertParameters(SQLite::Statement& insert, const Result& result, int discr
     const ParameterScore& score = scores[i];
     insert.reset();
     insert.clearBindings();
-    if (score.covered) insert.bind(9, *score.covered ? 1 : 0);
-    insert.bind(10, score.bound);
-    Insert(insert, result.realization, result.identifier, discrete, static_cast<int>(i), score.name,
-           score.truth, score.estimate, score.estimated ? 1 : 0);
+    if (score.covered) insert.bind(10, *score.covered ? 1 : 0);
+    insert.bind(11, score.bound);
+    Insert(insert, result.variant, result.realization, result.identifier, discrete,
+           static_cast<int>(i), score.name, score.truth, score.estimate, score.estimated ? 1 : 0);
   }
 }
 
 void InsertTrace(SQLite::Statement& insert, const Result& result) {
   if (result.trace.values.empty()) return;
   insert.reset();
-  insert.bind(1, result.realization);
-  insert.bind(2, result.identifier);
-  insert.bind(3, fmt::format("{}", fmt::join(result.trace.columns, ",")));
-  insert.bind(4, result.trace.values.data(),
+  insert.bind(1, result.variant);
+  insert.bind(2, result.realization);
+  insert.bind(3, result.identifier);
+  insert.bind(4, fmt::format("{}", fmt::join(result.trace.columns, ",")));
+  insert.bind(5, result.trace.values.data(),
               static_cast<int>(result.trace.values.size() * sizeof(float)));
   insert.exec();
 }
 
 void InsertResult(Inserts& inserts, const Result& result) {
-  Insert(inserts.failure, result.realization, result.identifier, result.status, result.message);
+  Insert(inserts.failure, result.variant, result.realization, result.identifier, result.status,
+         result.message);
   if (const auto& m = result.metrics) {
-    Insert(inserts.metrics, result.realization, result.identifier, m->n, m->parameters,
-           m->effective_parameters, m->rmse, m->mae, m->fit, m->fpe);
+    Insert(inserts.metrics, result.variant, result.realization, result.identifier, m->n,
+           m->parameters, m->effective_parameters, m->rmse, m->mae, m->fit, m->fpe);
   }
   if (const auto& s = result.score) {
-    Insert(inserts.score, result.realization, result.identifier, s->npe_continuous, s->npe_discrete,
-           s->bound_npe_continuous, s->bound_npe_discrete);
+    Insert(inserts.score, result.variant, result.realization, result.identifier, s->npe_continuous,
+           s->npe_discrete, s->bound_npe_continuous, s->bound_npe_discrete);
     InsertParameters(inserts.parameter, result, 0, s->continuous);
     InsertParameters(inserts.parameter, result, 1, s->discrete);
   }
@@ -75,13 +77,14 @@ void InsertResult(Inserts& inserts, const Result& result) {
 
 void WriteTimings(SQLite::Database& timings, std::span<const Realization> realizations) {
   SQLite::Transaction transaction(timings);
-  SQLite::Statement simulation(timings, "INSERT OR REPLACE INTO simulation VALUES (?, ?)");
+  SQLite::Statement simulation(timings, "INSERT OR REPLACE INTO simulation VALUES (?, ?, ?)");
   SQLite::Statement identification(timings,
-                                   "INSERT OR REPLACE INTO identification VALUES (?, ?, ?)");
+                                   "INSERT OR REPLACE INTO identification VALUES (?, ?, ?, ?)");
   for (const Realization& realization : realizations) {
-    Insert(simulation, realization.index, realization.simulation_seconds);
+    Insert(simulation, realization.unit.variant, realization.unit.realization,
+           realization.simulation_seconds);
     for (const Result& result : realization.results) {
-      Insert(identification, result.realization, result.identifier, result.seconds);
+      Insert(identification, result.variant, result.realization, result.identifier, result.seconds);
     }
   }
   transaction.commit();
@@ -96,7 +99,7 @@ void RunStore::Write(std::span<const Realization> realizations) {
   SQLite::Transaction transaction(results_);
   Inserts inserts(results_);
   for (const Realization& realization : realizations) {
-    Insert(inserts.realization, realization.index);
+    Insert(inserts.realization, realization.unit.variant, realization.unit.realization);
     for (const Result& result : realization.results) InsertResult(inserts, result);
   }
   transaction.commit();

@@ -127,7 +127,7 @@ TEST(Leaderboard, TextAnswersFirst) {
   EXPECT_THAT(text, HasSubstr("2 of 4"));
   EXPECT_THAT(text, HasSubstr("Cramer-Rao bound"));
   EXPECT_THAT(text, HasSubstr("a: of 4 runs 2 not_converged; the first: no idea"));
-  EXPECT_THAT(text, HasSubstr("b: someone claims NPE 5.00 %; reached in the median: NPE 7.50 %"));
+  EXPECT_THAT(text, HasSubstr("b: claimed NPE 5.00 % (someone); reached in the median NPE 7.50 %"));
 }
 
 TEST(Leaderboard, MarkdownAndCsvHaveARowForEachIdentifier) {

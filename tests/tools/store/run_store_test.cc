@@ -16,7 +16,8 @@ using testing::HasSubstr;
 using testing::ThrowsMessage;
 
 RunDescription TwoIdentifiers() {
-  return {"name: little\nscenario:\n  seed: 7\n", {"first", "second"}, {{"warmjoint", "0.1.0"}}};
+  return {
+      "name: little\nscenario:\n  seed: 7\n", {"first", "second"}, {}, {{"warmjoint", "0.1.0"}}};
 }
 
 Result ScoredResult(int realization) {
@@ -42,7 +43,7 @@ Realization TwoResults(int index) {
   failed.identifier = 1;
   failed.status = "not_converged";
   failed.message = "took too long";
-  return {index, 0.5, {ScoredResult(index), failed}};
+  return {{0, index}, 0.5, {ScoredResult(index), failed}};
 }
 
 TEST(RunStore, ReadsBackWhatWasWritten) {
@@ -54,7 +55,7 @@ TEST(RunStore, ReadsBackWhatWasWritten) {
   const RunStore store = RunStore::OpenToRead(scratch.path() / "run");
   EXPECT_EQ(store.ReadDescription().identifiers, TwoIdentifiers().identifiers);
   EXPECT_EQ(store.ReadDescription().suite_yaml, TwoIdentifiers().suite_yaml);
-  EXPECT_THAT(store.Finished(), ElementsAre(1, 3));
+  EXPECT_THAT(store.Finished(), ElementsAre(Unit{0, 1}, Unit{0, 3}));
 
   // rows come in the order of (realization, identifier), numbers bit for bit
   const std::vector<Result> results = store.ReadResults();
@@ -83,11 +84,11 @@ TEST(RunStore, KeepsTracesRowByRow) {
   const ScratchDirectory scratch;
   RunStore store = RunStore::CreateOrResume(scratch.path() / "run", TwoIdentifiers());
   store.Write(std::vector{TwoResults(0)});
-  const TraceTable trace = store.ReadTrace(0, 0);
+  const TraceTable trace = store.ReadTrace({0, 0}, 0);
   EXPECT_THAT(trace.columns, ElementsAre("iteration", "rmse"));
   EXPECT_THAT(trace.values, ElementsAre(0, 1.5f, 1, 0.5f));
   EXPECT_EQ(trace.rows(), 2u);
-  EXPECT_EQ(store.ReadTrace(0, 1).rows(), 0u);
+  EXPECT_EQ(store.ReadTrace({0, 0}, 1).rows(), 0u);
 }
 
 TEST(RunStore, ABatchIsInAsAWholeOrNotAtAll) {
@@ -95,7 +96,7 @@ TEST(RunStore, ABatchIsInAsAWholeOrNotAtAll) {
   RunStore store = RunStore::CreateOrResume(scratch.path() / "run", TwoIdentifiers());
   store.Write(std::vector{TwoResults(0)});
   EXPECT_ANY_THROW(store.Write(std::vector{TwoResults(1), TwoResults(0)}));
-  EXPECT_THAT(store.Finished(), ElementsAre(0));
+  EXPECT_THAT(store.Finished(), ElementsAre(Unit{0, 0}));
   EXPECT_EQ(store.ReadResults().size(), 2u);
 }
 

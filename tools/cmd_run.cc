@@ -1,0 +1,93 @@
+// warmjoint run SUITE.yaml: all realizations, all identifiers, on all cores.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include "models/foundation/atomic_file.h"
+#include "sim/plant.h"
+#include "tools/command.h"
+#include "tools/run/choose_identifiers.h"
+#include "tools/run/describe_run.h"
+#include "tools/run/engine.h"
+#include "tools/run/interrupt.h"
+#include "tools/store/export_csv.h"
+#include "tools/store/run_store.h"
+
+namespace warmjoint {
+namespace {
+
+struct RunArguments {
+  std::string suite;
+  std::string output;
+  int jobs = 0;
+  std::optional<int> realizations;
+  std::optional<std::uint64_t> seed;
+  std::vector<std::string> identifiers;
+};
+
+/// The suite with what the command line changes.
+Suite ResolveSuite(const RunArguments& arguments) {
+  Suite suite = ReadSuite(arguments.suite);
+  if (arguments.realizations) suite.realizations = *arguments.realizations;
+  if (arguments.seed) suite.scenario.seed = *arguments.seed;
+  suite.identifiers = ChooseIdentifiers(suite.identifiers, arguments.identifiers);
+  return suite;
+}
+
+ExitStatus Finish(const RunStore& store, const RunDescription& description) {
+  const std::vector<Result> results = store.ReadResults();
+  WriteWholeFile(store.directory() / "results.csv", ResultsToCsv(results, description));
+
+  const auto failed = std::count_if(results.begin(), results.end(),
+                                    [](const Result& result) { return result.status != "ok"; });
+  fmt::print("{}: {} results, {} of them failures; see: warmjoint compare {}\n",
+             store.directory().string(), results.size(), failed, store.directory().string());
+  const bool nothing = failed == static_cast<long>(results.size());
+  if (nothing) fmt::print(stderr, "no identifier succeeded; the first: {}\n", results[0].message);
+  return nothing ? ExitStatus::nothing_trustworthy : ExitStatus::done;
+}
+
+ExitStatus Run(const RunArguments& arguments) {
+  // everything that can be refused is, before anything is written
+  const Suite suite = ResolveSuite(arguments);
+  const std::vector<PreparedIdentifier> identifiers =
+      PrepareIdentifiers(suite.identifiers, {arguments.suite});
+  for (int i = 0; i < suite.variants(); ++i) MakePlant(VariantScenario(suite, i));
+
+  const RunDescription description = Describe(suite);
+  RunStore store = RunStore::CreateOrResume(arguments.output, description);
+  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  CatchInterrupts();
+  const RunOutcome outcome =
+      RunSuite(suite, identifiers, arguments.jobs > 0 ? arguments.jobs : cores, store);
+  if (outcome.interrupted) {
+    fmt::print(stderr, "interrupted: {} of {} realizations are kept; the same command goes on\n",
+               outcome.finished, suite.realizations * suite.variants());
+    return ExitStatus::interrupted;
+  }
+  return Finish(store, description);
+}
+
+}  // namespace
+
+Command AddRunCommand(CLI::App& program) {
+  auto arguments = std::make_shared<RunArguments>();
+  CLI::App* parser = program.add_subcommand(
+      "run", "Run a suite: realizations, identifiers, scores; resumes where it stopped");
+  parser->add_option("SUITE", arguments->suite, "suite file (YAML)")->required();
+  parser->add_option("-o,--output", arguments->output, "run directory, made or resumed")
+      ->required();
+  parser->add_option("--jobs", arguments->jobs, "threads; default: one for each core")
+      ->check(CLI::PositiveNumber);
+  parser->add_option("--realizations", arguments->realizations, "instead of the suite's")
+      ->check(CLI::PositiveNumber);
+  parser->add_option("--seed", arguments->seed, "instead of the suite's");
+  parser->add_option("--identifier", arguments->identifiers,
+                     "only this one of the suite, or another one with its defaults; repeatable");
+  return {parser, [arguments] { return Run(*arguments); }};
+}
+
+}  // namespace warmjoint
