@@ -82,8 +82,8 @@ ExitStatus Identify(const IdentifyArguments& arguments) {
   }
   CheckOutput(arguments.output);
   CheckOutput(arguments.mjcf);
-  const Measurements measurements = ReadRecording(arguments.recording);
   const HoldOutSource holdout = ReadHoldOut(arguments);
+  const Measurements measurements = ReadRecording(arguments.recording);
 
   const Selection selection = SelectConstantSpeed(measurements);
   const IdentifierInput input{measurements, selection, options, {}};

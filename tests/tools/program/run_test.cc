@@ -101,8 +101,9 @@ TEST_F(Run, AnotherRunInTheSameDirectoryIsRefusedWithWhatDiffers) {
 }
 
 TEST_F(Run, TakesTheIdentifiersThatAreNamed) {
-  ASSERT_EQ(RunWarmjoint(Command("em", {"--realizations", "2", "--identifier", "em"})).status, 0);
-  EXPECT_THAT(Results("em"), Not(HasSubstr("nominal-ls")));
+  ASSERT_EQ(
+      RunWarmjoint(Command("ls", {"--realizations", "2", "--identifier", "nominal-ls"})).status, 0);
+  EXPECT_THAT(Results("ls"), Not(HasSubstr("em,")));
   const Answer unknown = RunWarmjoint(Command("none", {"--identifier", "nominal"}));
   EXPECT_EQ(unknown.status, 2);
   EXPECT_THAT(unknown.err, HasSubstr("nominal-ls"));
