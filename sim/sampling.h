@@ -1,0 +1,52 @@
+// How a signal gets into the log: sensor noise, low-pass, storage.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "models/foundation/random_stream.h"
+#include "scenarios/scenario.h"
+#include "sim/dataset/butterworth.h"
+
+namespace warmjoint {
+
+/// Order of the causal Butterworth low-pass on the sensor readings.
+inline constexpr int kSensorFilterOrder = 4;
+
+/// Number of sensor readings, from t = 0 on, behind `stored` samples.
+Eigen::Index SensorReadings(const Sampling& sampling, Eigen::Index stored);
+
+/// Standard deviation of the noise on a stored sample over that on a sensor reading: the root of
+/// the energy of the impulse response from readings to samples, its mean over the samples where
+/// they lie differently between the readings. 1 without a filter and between no readings.
+double NoiseLeft(const Sampling& sampling, Eigen::Index stored);
+
+/// One signal on its way: reading j at t = j / sensor_rate gets white noise, passes the low-pass
+/// (where cutoff > 0; settled on the first reading), and is stored at k / rate. A stored sample
+/// that falls between two readings lies on the line between them.
+class LoggedSignal {
+ public:
+  /// noise: standard deviation on each reading, from `random`; stored: number of samples.
+  LoggedSignal(const Sampling& sampling, double noise, const RandomStream& random,
+               Eigen::Index stored);
+
+  /// The next reading, in order of time.
+  void Read(double value);
+
+  /// The samples, [stored]; all readings must have been made.
+  const Eigen::VectorXd& samples() const { return samples_; }
+
+ private:
+  double Filtered(double reading);
+
+  double readings_per_sample_;
+  double noise_;
+  RandomStream random_;
+  std::optional<BiquadCascade> filter_;
+  Eigen::Index reading_ = 0;  // number of the next reading
+  Eigen::Index next_ = 0;     // number of the next sample
+  double last_ = 0;           // reading before, filtered
+  Eigen::VectorXd samples_;
+};
+
+}  // namespace warmjoint
