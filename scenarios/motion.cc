@@ -112,6 +112,23 @@ class PlanBuilder {
   std::vector<MotionSegment> plan_;
 };
 
+std::vector<MotionSegment> PlanPhases(const std::vector<MotionPhase>& phases, double duration,
+                                      RandomStream& random) {
+  std::vector<MotionSegment> plan;
+  double left = duration;
+  for (size_t i = 0; left > 0; i = (i + 1) % phases.size()) {
+    const double lasts = std::min(phases[i].duration, left);
+    if (phases[i].motion) {
+      const auto part = PlanMotion(*phases[i].motion, lasts, {}, random);
+      plan.insert(plan.end(), part.begin(), part.end());
+    } else {
+      plan.push_back({lasts, 0});
+    }
+    left -= lasts;
+  }
+  return plan;
+}
+
 }  // namespace
 
 std::optional<std::pair<double, double>> TravelLimits(const Motion& motion,
@@ -124,12 +141,15 @@ double StartPosition(const Motion& motion, std::pair<double, double> joint_limit
   return limits ? limits->first : 0.0;
 }
 
+bool Motion::operator==(const Motion&) const = default;
+
 std::vector<MotionSegment> PlanMotion(const Motion& motion, double duration,
                                       std::pair<double, double> joint_limits,
                                       RandomStream& random) {
+  if (!motion.phases.empty()) return PlanPhases(motion.phases, duration, random);
+
   const auto limits = TravelLimits(motion, joint_limits);
   VelocitySequence velocities(motion, limits.has_value(), random);
-
   PlanBuilder plan(motion.rests, duration);
   while (!plan.full()) {
     const double velocity = velocities.Next();

@@ -28,7 +28,10 @@ struct Rests {
   bool operator==(const Rests&) const = default;
 };
 
-/// Piecewise constant velocity: a speed for each segment, held for a time or until a joint limit.
+struct MotionPhase;
+
+/// Piecewise constant velocity: a speed for each segment, held for a time or until a joint limit;
+/// or phases of such motions.
 struct Motion {
   std::vector<double> speed_list;           // rad/s or m/s, positive; used in turn
   std::optional<Distribution> speed_draws;  // instead of the list: a new draw for each segment
@@ -37,8 +40,18 @@ struct Motion {
   bool travel_between_joint_limits = false;         // travel between the robot's own limits
   SegmentOrder order = SegmentOrder::alternating;
   std::optional<Rests> rests;
+  std::vector<MotionPhase> phases;  // instead of all above: in turn, again from the first
 
-  bool operator==(const Motion&) const = default;
+  bool operator==(const Motion&) const;
+};
+
+/// A motion for a time, as part of a longer one. It holds speeds; it neither travels nor has
+/// phases.
+struct MotionPhase {
+  double duration = 0;           // s
+  std::optional<Motion> motion;  // none: a rest
+
+  bool operator==(const MotionPhase&) const = default;
 };
 
 /// One piece of the plan.

@@ -16,6 +16,9 @@
 //     hold: 20                        s a segment; or travel: [lower, upper] or joint_limits
 //     order: alternating              alternating | shuffled | in_order
 //     rests: {run: 600, rest: 600}    s; none where not given
+//     phases:                         or, instead of all these, motions in turn, again from the
+//       - {duration: 3000, speeds: [0.1, 1], hold: 20}             first until the duration is over
+//       - {rest: 600}
 //   controller: {bandwidth: 20, acceleration: 0}           rad/s, rad/s^2 or m/s^2 (mujoco)
 //   noise: {torque: 0.5, velocity: 0, position: 0}         standard deviations
 //   sampling: {rate: 1, sensor_rate: 250, cutoff: 0}       Hz; filter and sensors only in mujoco

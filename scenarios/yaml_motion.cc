@@ -49,10 +49,8 @@ void ReadEnds(const YamlValue& value, Motion& motion) {
   }
 }
 
-}  // namespace
-
-Motion ReadMotion(const YamlValue& value) {
-  value.RequireKeys({"speeds", "hold", "travel", "order", "rests"});
+/// A motion without phases; its keys have been checked.
+Motion ReadSteadyMotion(const YamlValue& value) {
   Motion motion;
   ReadSpeeds(value.Require("speeds", "give a list of speeds or a distribution"), motion);
   ReadEnds(value, motion);
@@ -66,7 +64,7 @@ Motion ReadMotion(const YamlValue& value) {
   return motion;
 }
 
-std::string MotionToYaml(const Motion& motion, const std::string& indent) {
+std::string SteadyMotionToYaml(const Motion& motion, const std::string& indent) {
   std::string yaml;
   const auto add = [&](std::string_view key, const std::string& value) {
     yaml += fmt::format("{}{}: {}\n", indent, key, value);
@@ -83,6 +81,48 @@ std::string MotionToYaml(const Motion& motion, const std::string& indent) {
   add("order", ChoiceName(motion.order, Orders()));
   if (motion.rests) {
     add("rests", fmt::format("{{run: {}, rest: {}}}", motion.rests->run, motion.rests->rest));
+  }
+  return yaml;
+}
+
+/// One entry of phases: {rest: s}, or a motion with its duration.
+MotionPhase ReadPhase(const YamlValue& value) {
+  if (value.IsMap() && value.Find("rest")) {
+    value.RequireKeys({"rest"});
+    return {value.Find("rest")->Number(Bound::positive), std::nullopt};
+  }
+  value.RequireKeys({"duration", "speeds", "hold", "order", "rests"});
+  const double duration =
+      value.Require("duration", "give the seconds of the phase").Number(Bound::positive);
+  return {duration, ReadSteadyMotion(value)};
+}
+
+}  // namespace
+
+Motion ReadMotion(const YamlValue& value) {
+  const auto phases = value.IsMap() ? value.Find("phases") : std::nullopt;
+  if (!phases) {
+    value.RequireKeys({"speeds", "hold", "travel", "order", "rests", "phases"});
+    return ReadSteadyMotion(value);
+  }
+  value.RequireKeys({"phases"});
+  Motion motion;
+  for (const YamlValue& phase : phases->List("a list of motions with a duration, and of rests")) {
+    motion.phases.push_back(ReadPhase(phase));
+  }
+  return motion;
+}
+
+std::string MotionToYaml(const Motion& motion, const std::string& indent) {
+  if (motion.phases.empty()) return SteadyMotionToYaml(motion, indent);
+  std::string yaml = indent + "phases:\n";
+  for (const MotionPhase& phase : motion.phases) {
+    if (!phase.motion) {
+      yaml += fmt::format("{}  - {{rest: {}}}\n", indent, phase.duration);
+      continue;
+    }
+    yaml += fmt::format("{}  - duration: {}\n{}", indent, phase.duration,
+                        SteadyMotionToYaml(*phase.motion, indent + "    "));
   }
   return yaml;
 }

@@ -9,7 +9,7 @@
 namespace warmjoint {
 
 /// Reads and checks a motion. Throws BadInput with file:line for no speeds, a speed that is not
-/// positive, both or neither of hold and travel, and unknown entries.
+/// positive, both or neither of hold and travel, phases beside other entries, and unknown entries.
 Motion ReadMotion(const YamlValue& value);
 
 /// The YAML of it, one entry a line, each line behind `indent`.

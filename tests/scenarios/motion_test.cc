@@ -142,6 +142,14 @@ TEST(Motion, GoesOnAfterARestWhereItStopped) {
   EXPECT_THAT(Durations(plan), ElementsAre(4, 2, 5, 2, 4, 4));
 }
 
+TEST(Motion, RepeatsItsPhasesUntilTheEnd) {
+  Motion motion;
+  motion.phases = {{3, Held({2}, SegmentOrder::alternating)}, {5, std::nullopt}};
+  const auto plan = Plan(motion, 10);
+  EXPECT_THAT(Velocities(plan), ElementsAre(2, -2, 2, 0, 2, -2));
+  EXPECT_THAT(Durations(plan), ElementsAre(1, 1, 1, 5, 1, 1));
+}
+
 TEST(Motion, CoversExactlyTheDuration) {
   Motion motion = Drawn(SegmentOrder::alternating);
   motion.hold = 0.7;

@@ -104,6 +104,19 @@ TEST(ReadScenario, RefusesMotionsThatCannotBe) {
               HasSubstr("'motion.rests.rest' is missing"));
 }
 
+TEST(ReadScenario, RefusesPhasesThatCannotBe) {
+  const auto refusal = [](const std::string& phases) {
+    return Refusal(Lines(), {{"motion", "{phases: " + phases + "}"}});
+  };
+  EXPECT_EQ(refusal("[{duration: 5, speeds: [1], hold: 1}, {rest: 3}]"), "(accepted)");
+  EXPECT_THAT(refusal("[]"), HasSubstr("motion.phases is a list of 0"));
+  EXPECT_THAT(refusal("[{rest: 0}]"), HasSubstr("motion.phases.0.rest is '0'"));
+  EXPECT_THAT(refusal("[{speeds: [1], hold: 1}]"), HasSubstr("'motion.phases.0.duration' is"));
+  EXPECT_THAT(refusal("[{duration: 5, speeds: [1], travel: [0, 1]}]"),
+              HasSubstr("unknown key 'motion.phases.0.travel'"));
+  EXPECT_THAT(refusal("[{rest: 3}], hold: 5"), HasSubstr("unknown key 'motion.hold'"));
+}
+
 TEST(ReadScenario, RefusesSamplingThatCannotBe) {
   EXPECT_THAT(RefusalOf(10, "sampling: {rate: 20, sensor_rate: 10}"),
               HasSubstr("table1.yaml:10: sampling.rate is 20 Hz; it must be at most the 10 Hz"));

@@ -71,7 +71,11 @@ TEST(WriteScenario, IsAFixedPoint) {
   limits.motion.hold = 0;
   limits.motion.travel_between_joint_limits = true;
   limits.friction.thermal.reset();
-  for (const Scenario& scenario : {Unusual(), test::Table1(), limits}) {
+  Scenario phases = test::Table1();
+  phases.motion = {};
+  phases.motion.phases = {{100, test::Table1().motion}, {1.0 / 3, std::nullopt}};
+  for (const Scenario& scenario : {Unusual(), test::Table1(), limits, phases}) {
+    EXPECT_EQ(ReadBack(scenario).motion, scenario.motion);
     EXPECT_EQ(ScenarioToYaml(ReadBack(scenario)), ScenarioToYaml(scenario));
   }
 }
