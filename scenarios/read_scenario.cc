@@ -7,6 +7,7 @@
 #include "scenarios/scenario_words.h"
 #include "scenarios/write_scenario.h"
 #include "scenarios/yaml_distribution.h"
+#include "scenarios/yaml_disturbances.h"
 #include "scenarios/yaml_friction.h"
 #include "scenarios/yaml_motion.h"
 
@@ -95,7 +96,8 @@ void ReadRobotJoint(const YamlValue& value, Scenario& scenario) {
 
 Scenario ReadScenarioValue(const YamlValue& value, const std::string& name) {
   value.RequireKeys({"name", "plant", "robot", "joint", "joint_kind", "friction", "initial_energy",
-                     "motion", "controller", "noise", "sampling", "timestep", "duration", "seed"});
+                     "motion", "controller", "noise", "disturbances", "sampling", "timestep",
+                     "duration", "seed"});
   Scenario scenario;
   scenario.name = name;
   if (const auto given = value.Find("name")) scenario.name = given->Text();
@@ -114,6 +116,14 @@ Scenario ReadScenarioValue(const YamlValue& value, const std::string& name) {
   scenario.motion = ReadMotion(value.Require("motion", "give speeds, and hold or travel"));
   if (const auto part = value.Find("controller")) scenario.controller = ReadController(*part);
   if (const auto part = value.Find("noise")) scenario.noise = ReadNoise(*part);
+  if (const auto part = value.Find("disturbances")) {
+    scenario.disturbances = ReadDisturbances(*part);
+    const std::string_view ideal_only = IdealOnly(scenario.disturbances);
+    if (scenario.plant != PlantKind::ideal && !ideal_only.empty()) {
+      Refuse(part->place(), "{}.{} is known to the ideal plant alone; take it out, or use it",
+             part->key(), ideal_only);
+    }
+  }
   if (const auto part = value.Find("sampling")) scenario.sampling = ReadSampling(*part);
   ReadNumber(value, "timestep", Bound::positive, scenario.timestep);
 

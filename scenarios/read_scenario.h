@@ -21,6 +21,14 @@
 //       - {rest: 600}
 //   controller: {bandwidth: 20, acceleration: 0}           rad/s, rad/s^2 or m/s^2 (mujoco)
 //   noise: {torque: 0.5, velocity: 0, position: 0}         standard deviations
+//   disturbances:                none where not given (disturbances.h)
+//     outliers: {fraction: 0.01, size: 5}                  of the samples; N.m or N
+//     coloured_noise: {deviation: 0.5, correlation_time: 10}         N.m or N; s
+//     periodic_torque: {amplitude: 0.5, period: 30}                  N.m or N; s
+//     gravity: {sine: 5, cosine: 0}                        N.m or N; ideal plant, as all below
+//     ambient_drift: {amplitude: 1, period: 7200}          N.m or N; s
+//     load_change: {load: 10, gain: 0.1, period: 600}      N.m or N; 1; s
+//     second_heat: {thermal_gain: -1, thermal_time_constant: 60}     N.m/W or N/W; s
 //   sampling: {rate: 1, sensor_rate: 250, cutoff: 0}       Hz; filter and sensors only in mujoco
 //   timestep: 0.001              s, of the engine (mujoco)
 //   duration: 3600               s

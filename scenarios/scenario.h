@@ -5,6 +5,7 @@
 #include <string>
 
 #include "models/friction/friction_description.h"
+#include "scenarios/disturbances.h"
 #include "scenarios/motion.h"
 #include "scenarios/truth_draws.h"
 
@@ -53,6 +54,7 @@ struct Scenario {
   Motion motion;
   Controller controller;
   Noise noise;
+  Disturbances disturbances;
   Sampling sampling;
   double timestep = 0.001;  // s, of the engine; mujoco plant only
   double duration = 0;      // s

@@ -6,6 +6,7 @@
 
 #include "scenarios/scenario_words.h"
 #include "scenarios/yaml_distribution.h"
+#include "scenarios/yaml_disturbances.h"
 #include "scenarios/yaml_friction.h"
 #include "scenarios/yaml_motion.h"
 
@@ -46,6 +47,9 @@ std::string ScenarioPartToYaml(const Scenario& scenario, const std::string& inde
                                 scenario.controller.bandwidth, scenario.controller.acceleration));
   add("noise", fmt::format("{{torque: {}, velocity: {}, position: {}}}", scenario.noise.torque,
                            scenario.noise.velocity, scenario.noise.position));
+  const std::string disturbances = DisturbancesToYaml(scenario.disturbances, indent + "  ");
+  if (!disturbances.empty()) begin("disturbances");
+  yaml += disturbances;
   add("sampling", fmt::format("{{rate: {}, sensor_rate: {}, cutoff: {}}}", scenario.sampling.rate,
                               scenario.sampling.sensor_rate, scenario.sampling.cutoff));
   add("timestep", fmt::format("{}", scenario.timestep));

@@ -1,8 +1,10 @@
 #include "sim/ideal_plant.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "models/foundation/bad_input.h"
+#include "sim/disturb_log.h"
 #include "sim/ideal_friction.h"
 
 namespace warmjoint {
@@ -62,9 +64,10 @@ class IdealPlant : public Plant {
     const auto plan = PlanMotion(scenario_.motion, scenario_.duration, {}, motion_stream);
     const SampledPlan samples = SamplePlan(plan, StartPosition(scenario_.motion, {}),
                                            scenario_.sampling.rate, scenario_.duration);
+    const LevelInfluences influences = Influences(samples.time);
     FrictionHistory friction =
         SimulateFriction(scenario_.friction, scenario_.initial_energy, 1 / scenario_.sampling.rate,
-                         samples.velocity, {scenario_.name});
+                         samples.velocity, {scenario_.name}, influences);
 
     Recording recording;
     recording.measurements = Measure(samples, friction.force, key);
@@ -77,10 +80,41 @@ class IdealPlant : public Plant {
     truth.force = std::move(friction.force);
     truth.loss = std::move(friction.loss);
     truth.energy = std::move(friction.energy);
+    DisturbLog(scenario_, realization, recording);
     return recording;
   }
 
  private:
+  /// The load that the joint transmits, [N] N.m or N.
+  Eigen::VectorXd Load(const Eigen::VectorXd& time) const {
+    const LoadChange& change = scenario_.disturbances.load_change;
+    return time.unaryExpr([&](double t) {
+      // half a period without load, half a period with it
+      return std::fmod(t, change.period) < change.period / 2 ? 0.0 : change.load;
+    });
+  }
+
+  LevelInfluences Influences(const Eigen::VectorXd& time) const {
+    const Disturbances& disturbances = scenario_.disturbances;
+    LevelInfluences influences{disturbances.second_heat, {}};
+    const AmbientDrift& drift = disturbances.ambient_drift;
+    if (drift.amplitude != 0) {
+      influences.level =
+          drift.amplitude * (2 * std::numbers::pi / drift.period * time.array()).sin();
+    }
+    if (disturbances.load_change.load != 0) {
+      const Eigen::VectorXd growth = disturbances.load_change.gain * Load(time).cwiseAbs();
+      influences.level = influences.level.size() > 0 ? influences.level + growth : growth;
+    }
+    return influences;
+  }
+
+  /// G(p) of Eq. (6), [N] N.m or N.
+  Eigen::VectorXd GravityAt(const Eigen::VectorXd& position) const {
+    const Gravity& gravity = scenario_.disturbances.gravity;
+    return gravity.sine * position.array().sin() + gravity.cosine * position.array().cos();
+  }
+
   Measurements Measure(const SampledPlan& samples, const Eigen::VectorXd& force,
                        RandomKey key) const {
     const Noise& noise = scenario_.noise;
@@ -93,6 +127,8 @@ class IdealPlant : public Plant {
     log.position = WithNoise(samples.position, noise.position, {key, Stream::position_noise});
     log.velocity = WithNoise(samples.velocity, noise.velocity, {key, Stream::velocity_noise});
     log.torque = WithNoise(force, noise.torque, {key, Stream::torque_noise});
+    if (scenario_.disturbances.gravity != Gravity{}) log.torque += GravityAt(samples.position);
+    if (scenario_.disturbances.load_change.load != 0) log.load = Load(samples.time);
     return log;
   }
 

@@ -17,7 +17,10 @@ enum class Stream : std::uint32_t {
   start = 3,
   test = 4,
   velocity_noise = 5,
-  position_noise = 6
+  position_noise = 6,
+  coloured_noise = 7,
+  periodic_torque = 8,
+  outliers = 9
 };
 
 /// Key of all the random numbers of one realization.

@@ -124,6 +124,25 @@ TEST(ReadScenario, RefusesSamplingThatCannotBe) {
               HasSubstr("below half the sensor_rate of 250 Hz"));
 }
 
+TEST(ReadScenario, RefusesDisturbancesThatCannotBe) {
+  const auto refusal = [](const std::string& disturbances, const std::string& plant = "ideal") {
+    return Refusal(Lines(), {{"disturbances", disturbances},
+                             {"plant", plant},
+                             {"robot", "rotary"},
+                             {"joint", "hinge"}});
+  };
+  EXPECT_EQ(refusal("{gravity: {sine: 5, cosine: 0}}"), "(accepted)");
+  EXPECT_THAT(refusal("{gravity: {sine: 5, cosine: 0}}", "mujoco"),
+              HasSubstr("disturbances.gravity is known to the ideal plant alone"));
+  EXPECT_EQ(refusal("{outliers: {fraction: 0.1, size: 5}}", "mujoco"), "(accepted)");
+  EXPECT_THAT(refusal("{outliers: {fraction: 1, size: 5}}"), HasSubstr("it must be below 1"));
+  EXPECT_THAT(refusal("{outliers: {fraction: 0.1}}"),
+              HasSubstr("'disturbances.outliers.size' is missing"));
+  EXPECT_THAT(refusal("{coloured_noise: {deviation: -1, correlation_time: 1}}"),
+              HasSubstr("disturbances.coloured_noise.deviation is '-1'"));
+  EXPECT_THAT(refusal("{graviti: {}}"), HasSubstr("did you mean 'gravity'?"));
+}
+
 TEST(ReadScenario, RefusesFrictionThatCannotBe) {
   EXPECT_THAT(RefusalOf(3, "  law: viscous_columb"),
               AllOf(HasSubstr("table1.yaml:3"), HasSubstr("did you mean 'viscous_coulomb'?")));

@@ -30,6 +30,9 @@ Scenario Unusual() {
   scenario.motion.rests = Rests{100.0 / 3, 1e3 / 7};
   scenario.controller = {31.4159265358979, 0.1};
   scenario.noise = {0.1, 1e-300, 5e-324};
+  scenario.disturbances.outliers = {1.0 / 3, 5};
+  scenario.disturbances.coloured_noise = {0.1, 10.0 / 3};
+  scenario.disturbances.periodic_torque = {-0.7, 1.0 / 7};
   scenario.sampling = {20, 1000.0 / 3, 10.0 / 3};
   scenario.timestep = 1.0 / 512;
   scenario.duration = 1e3 / 3;
@@ -60,6 +63,7 @@ TEST(WriteScenario, ReadsBackBitForBit) {
   EXPECT_EQ(back.motion, scenario.motion);
   EXPECT_EQ(back.controller, scenario.controller);
   EXPECT_EQ(back.noise, scenario.noise);
+  EXPECT_EQ(back.disturbances, scenario.disturbances);
   EXPECT_EQ(back.sampling, scenario.sampling);
   EXPECT_EQ(back.timestep, scenario.timestep);
   EXPECT_EQ(back.duration, scenario.duration);
@@ -74,7 +78,13 @@ TEST(WriteScenario, IsAFixedPoint) {
   Scenario phases = test::Table1();
   phases.motion = {};
   phases.motion.phases = {{100, test::Table1().motion}, {1.0 / 3, std::nullopt}};
-  for (const Scenario& scenario : {Unusual(), test::Table1(), limits, phases}) {
+  Scenario ideal_only = test::Table1();
+  ideal_only.disturbances.gravity = {5, -1.0 / 3};
+  ideal_only.disturbances.ambient_drift = {1, 7200};
+  ideal_only.disturbances.load_change = {10, 0.1, 600};
+  ideal_only.disturbances.second_heat = Thermal{-1.0 / 3, 60};
+  for (const Scenario& scenario : {Unusual(), test::Table1(), limits, phases, ideal_only}) {
+    EXPECT_EQ(ReadBack(scenario).disturbances, scenario.disturbances);
     EXPECT_EQ(ReadBack(scenario).motion, scenario.motion);
     EXPECT_EQ(ScenarioToYaml(ReadBack(scenario)), ScenarioToYaml(scenario));
   }

@@ -1,0 +1,25 @@
+#include "scenarios/disturbances.h"
+
+#include <utility>
+
+namespace warmjoint {
+
+bool Disturbances::operator==(const Disturbances& other) const {
+  const auto heat = [](const std::optional<Thermal>& thermal) {
+    return std::pair{thermal ? thermal->gain : 0, thermal ? thermal->time_constant : 0};
+  };
+  return outliers == other.outliers && coloured_noise == other.coloured_noise &&
+         periodic_torque == other.periodic_torque && gravity == other.gravity &&
+         ambient_drift == other.ambient_drift && load_change == other.load_change &&
+         heat(second_heat) == heat(other.second_heat);
+}
+
+std::string_view IdealOnly(const Disturbances& disturbances) {
+  if (disturbances.gravity != Gravity{}) return "gravity";
+  if (disturbances.ambient_drift != AmbientDrift{}) return "ambient_drift";
+  if (disturbances.load_change != LoadChange{}) return "load_change";
+  if (disturbances.second_heat) return "second_heat";
+  return "";
+}
+
+}  // namespace warmjoint

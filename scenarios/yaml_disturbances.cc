@@ -1,0 +1,99 @@
+#include "scenarios/yaml_disturbances.h"
+
+namespace warmjoint {
+namespace {
+
+/// A number of a disturbance: where it stands and what it must satisfy.
+struct Entry {
+  std::string name;
+  double* number;
+  Bound bound;
+};
+
+/// A disturbance as the file names it, each entry required once it is named.
+struct Part {
+  std::string name;
+  std::vector<Entry> entries;
+};
+
+/// The one table that reading and writing share. heat: stands for disturbances.second_heat.
+std::vector<Part> Parts(Disturbances& d, Thermal& heat) {
+  return {
+      {"outliers",
+       {{"fraction", &d.outliers.fraction, Bound::not_negative},
+        {"size", &d.outliers.size, Bound::not_negative}}},
+      {"coloured_noise",
+       {{"deviation", &d.coloured_noise.deviation, Bound::not_negative},
+        {"correlation_time", &d.coloured_noise.correlation_time, Bound::positive}}},
+      {"periodic_torque",
+       {{"amplitude", &d.periodic_torque.amplitude, Bound::any},
+        {"period", &d.periodic_torque.period, Bound::positive}}},
+      {"gravity",
+       {{"sine", &d.gravity.sine, Bound::any}, {"cosine", &d.gravity.cosine, Bound::any}}},
+      {"ambient_drift",
+       {{"amplitude", &d.ambient_drift.amplitude, Bound::any},
+        {"period", &d.ambient_drift.period, Bound::positive}}},
+      {"load_change",
+       {{"load", &d.load_change.load, Bound::any},
+        {"gain", &d.load_change.gain, Bound::not_negative},
+        {"period", &d.load_change.period, Bound::positive}}},
+      {"second_heat",
+       {{"thermal_gain", &heat.gain, Bound::any},
+        {"thermal_time_constant", &heat.time_constant, Bound::positive}}},
+  };
+}
+
+void ReadPart(const YamlValue& value, const Part& part) {
+  std::vector<std::string> names;
+  for (const Entry& entry : part.entries) names.push_back(entry.name);
+  value.RequireKeys(names);
+  for (const Entry& entry : part.entries) {
+    *entry.number = value.Require(entry.name, "give a number").Number(entry.bound);
+  }
+}
+
+}  // namespace
+
+Disturbances ReadDisturbances(const YamlValue& value) {
+  Disturbances disturbances;
+  Thermal heat;
+  const std::vector<Part> parts = Parts(disturbances, heat);
+  std::vector<std::string> names;
+  for (const Part& part : parts) names.push_back(part.name);
+  value.RequireKeys(names);
+
+  for (const Part& part : parts) {
+    if (const auto given = value.Find(part.name)) ReadPart(*given, part);
+  }
+  if (value.Find("second_heat")) disturbances.second_heat = heat;
+  if (disturbances.outliers.fraction >= 1) {
+    Refuse(value.Find("outliers")->place(), "{}.outliers.fraction is {}; it must be below 1",
+           value.key(), disturbances.outliers.fraction);
+  }
+  return disturbances;
+}
+
+std::string DisturbancesToYaml(const Disturbances& disturbances, const std::string& indent) {
+  Disturbances written = disturbances;
+  Disturbances nothing;
+  Thermal heat = disturbances.second_heat.value_or(Thermal{});
+  Thermal no_heat;
+  const std::vector<Part> parts = Parts(written, heat);
+  const std::vector<Part> absent = Parts(nothing, no_heat);
+
+  std::string yaml;
+  for (size_t i = 0; i < parts.size(); ++i) {
+    bool given = parts[i].name == "second_heat" && disturbances.second_heat;
+    std::string entries;
+    for (size_t j = 0; j < parts[i].entries.size(); ++j) {
+      const double number = *parts[i].entries[j].number;
+      given |= number != *absent[i].entries[j].number;
+      entries +=
+          fmt::format("{}{}: {}", entries.empty() ? "" : ", ", parts[i].entries[j].name, number);
+    }
+    if (given) yaml += fmt::format("{}{}: {{{}}}\n", indent, parts[i].name, entries);
+  }
+  return yaml;
+}
+
+}  // namespace warmjoint
