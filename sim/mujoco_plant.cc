@@ -5,6 +5,8 @@
 
 #include "models/foundation/bad_input.h"
 #include "models/robots/robot_folder.h"
+#include "sim/disturb_log.h"
+#include "sim/sampling.h"
 #include "sim/single_joint_model.h"
 #include "sim/velocity_drive.h"
 #include "sim/velocity_reference.h"
@@ -46,7 +48,9 @@ class MujocoPlant : public Plant {
                                scenario.friction, scenario.timestep, scenario.name)),
         data_(mj_makeData(joint_.model.get())),
         steps_per_sample_(
-            WholeSteps(1 / scenario.sampling.rate, scenario.timestep, scenario, "sampling.rate")) {
+            WholeSteps(1 / scenario.sampling.rate, scenario.timestep, scenario, "sampling.rate")),
+        steps_per_reading_(WholeSteps(1 / scenario.sampling.sensor_rate, scenario.timestep,
+                                      scenario, "sampling.sensor_rate")) {
     // an explicit loop is well damped up to a fifth of the step's rate
     const double fastest = 0.2 / scenario.timestep;
     if (!(scenario.controller.bandwidth > 0 && scenario.controller.bandwidth <= fastest)) {
@@ -65,8 +69,10 @@ class MujocoPlant : public Plant {
     CheckReach(plan, start);
 
     Recording recording = Empty();
-    Move(MakeReference(plan), start, recording);
-    AddNoise(key, recording.measurements);
+    SensorLog log(scenario_, key, recording.truth.velocity.size());
+    Move(MakeReference(plan), start, log, recording.truth);
+    log.WriteTo(recording.measurements);
+    DisturbLog(scenario_, realization, recording);
     return recording;
   }
 
@@ -101,19 +107,18 @@ class MujocoPlant : public Plant {
     log.torque_unit = kTorqueUnit.For(joint_.kind);
     log.gear = scenario_.friction.gear;
     log.source = scenario_.name;
-    log.time = log.position = log.velocity = log.torque = Eigen::VectorXd::Zero(n);
 
     Truth& truth = recording.truth;
     truth.friction = scenario_.friction;
     truth.initial_energy = scenario_.initial_energy;
-    truth.torque_noise = scenario_.noise.torque;
+    truth.torque_noise = scenario_.noise.torque * NoiseLeft(scenario_.sampling, n);
     truth.plant = "mujoco";
     truth.velocity = truth.force = truth.loss = truth.energy = Eigen::VectorXd::Zero(n);
     return recording;
   }
 
-  /// Drives the joint along the reference and records the samples, without noise.
-  void Move(VelocityReference reference, double start, Recording& recording) {
+  /// Drives the joint along the reference; sensors read and samples are taken before their step.
+  void Move(VelocityReference reference, double start, SensorLog& log, Truth& truth) {
     const mjModel* m = joint_.model.get();
     mjData* d = data_.get();
     const double h = scenario_.timestep;
@@ -126,56 +131,35 @@ class MujocoPlant : public Plant {
     d->qpos[0] = start - reference.run_up();
     energy = scenario_.initial_energy;
 
-    const Eigen::Index n = recording.measurements.size();
+    const Eigen::Index n = truth.velocity.size();
     Eigen::Index sample = 0;
-    long next = run_up;
-    for (long step = 0; sample < n; ++step) {
-      if (step == run_up) energy = scenario_.initial_energy;
-      const double time = static_cast<double>(step - run_up) * h;
-      const double wanted = reference.Velocity(time);
+    for (long step = -run_up; sample < n || !log.Full(); ++step) {
+      if (step == 0) energy = scenario_.initial_energy;
+      const double wanted = reference.Velocity(static_cast<double>(step) * h);
       const double torque = drive.Torque(wanted, reference.acceleration(), d->qvel[0]);
       d->qfrc_applied[0] = torque;
 
-      if (step != next) {
-        mj_step(m, d);
-        continue;
+      const bool reads = step >= 0 && step % steps_per_reading_ == 0 && !log.Full();
+      if (reads) log.Read(d->qpos[0], d->qvel[0], torque);
+      const bool stores = step >= 0 && step % steps_per_sample_ == 0 && sample < n;
+      if (stores) {
+        truth.velocity[sample] = d->qvel[0];
+        truth.energy[sample] = energy;
       }
-      Measure(sample, time, torque, recording);
       mj_step(m, d);
-      recording.truth.force[sample] = -d->actuator_force[joint_.friction_actuator];
-      recording.truth.loss[sample] =
-          Loss(recording.truth.velocity[sample], recording.truth.force[sample]);
-      ++sample;
-      next += steps_per_sample_;
+      if (stores) {
+        truth.force[sample] = -d->actuator_force[joint_.friction_actuator];
+        truth.loss[sample] = Loss(truth.velocity[sample], truth.force[sample]);
+        ++sample;
+      }
     }
-  }
-
-  /// What is known of a sample before its step is made.
-  void Measure(Eigen::Index sample, double time, double torque, Recording& recording) const {
-    const mjData* d = data_.get();
-    recording.measurements.time[sample] = time;
-    recording.measurements.position[sample] = d->qpos[0];
-    recording.measurements.velocity[sample] = d->qvel[0];
-    recording.measurements.torque[sample] = torque;
-    recording.truth.velocity[sample] = d->qvel[0];
-    recording.truth.energy[sample] = d->act[joint_.friction_state + 1];
-  }
-
-  void AddNoise(RandomKey key, Measurements& log) const {
-    const auto add = [&](Eigen::VectorXd& values, double deviation, Stream stream) {
-      if (deviation == 0) return;
-      RandomStream random(key, stream);
-      for (double& value : values) value += deviation * random.Normal();
-    };
-    add(log.position, scenario_.noise.position, Stream::position_noise);
-    add(log.velocity, scenario_.noise.velocity, Stream::velocity_noise);
-    add(log.torque, scenario_.noise.torque, Stream::torque_noise);
   }
 
   const Scenario scenario_;
   SingleJointModel joint_;
   DataPtr data_;
   long steps_per_sample_;
+  long steps_per_reading_;
 };
 
 }  // namespace

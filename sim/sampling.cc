@@ -89,4 +89,27 @@ void LoggedSignal::Read(double value) {
 
 double LoggedSignal::Filtered(double reading) { return filter_ ? filter_->Step(reading) : reading; }
 
+SensorLog::SensorLog(const Scenario& scenario, RandomKey key, Eigen::Index stored)
+    : rate_(scenario.sampling.rate),
+      left_(SensorReadings(scenario.sampling, stored)),
+      position_(scenario.sampling, scenario.noise.position, {key, Stream::position_noise}, stored),
+      velocity_(scenario.sampling, scenario.noise.velocity, {key, Stream::velocity_noise}, stored),
+      torque_(scenario.sampling, scenario.noise.torque, {key, Stream::torque_noise}, stored) {}
+
+void SensorLog::Read(double position, double velocity, double torque) {
+  position_.Read(position);
+  velocity_.Read(velocity);
+  torque_.Read(torque);
+  --left_;
+}
+
+void SensorLog::WriteTo(Measurements& measurements) const {
+  const Eigen::Index n = position_.samples().size();
+  measurements.time.resize(n);
+  for (Eigen::Index k = 0; k < n; ++k) measurements.time[k] = static_cast<double>(k) / rate_;
+  measurements.position = position_.samples();
+  measurements.velocity = velocity_.samples();
+  measurements.torque = torque_.samples();
+}
+
 }  // namespace warmjoint

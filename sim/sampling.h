@@ -7,6 +7,7 @@
 #include "models/foundation/random_stream.h"
 #include "scenarios/scenario.h"
 #include "sim/dataset/butterworth.h"
+#include "sim/dataset/measurements.h"
 
 namespace warmjoint {
 
@@ -47,6 +48,27 @@ class LoggedSignal {
   Eigen::Index next_ = 0;     // number of the next sample
   double last_ = 0;           // reading before, filtered
   Eigen::VectorXd samples_;
+};
+
+/// The three signals of a joint, each with the noise of the scenario from a stream of its own.
+class SensorLog {
+ public:
+  /// stored: number of samples.
+  SensorLog(const Scenario& scenario, RandomKey key, Eigen::Index stored);
+
+  /// Whether all readings have been made.
+  bool Full() const { return left_ == 0; }
+  /// The next reading: rad or m, rad/s or m/s, N.m or N. Must not be full.
+  void Read(double position, double velocity, double torque);
+  /// Time, position, velocity and torque of the stored samples.
+  void WriteTo(Measurements& measurements) const;
+
+ private:
+  double rate_;        // Hz, stored
+  Eigen::Index left_;  // readings to come
+  LoggedSignal position_;
+  LoggedSignal velocity_;
+  LoggedSignal torque_;
 };
 
 }  // namespace warmjoint
