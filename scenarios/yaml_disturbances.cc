@@ -8,9 +8,10 @@ struct Entry {
   std::string name;
   double* number;
   Bound bound;
+  bool has_default = false;  // may be left out
 };
 
-/// A disturbance as the file names it, each entry required once it is named.
+/// A disturbance as the file names it; once it is named, its entries are required.
 struct Part {
   std::string name;
   std::vector<Entry> entries;
@@ -29,7 +30,8 @@ std::vector<Part> Parts(Disturbances& d, Thermal& heat) {
        {{"amplitude", &d.periodic_torque.amplitude, Bound::any},
         {"period", &d.periodic_torque.period, Bound::positive}}},
       {"gravity",
-       {{"sine", &d.gravity.sine, Bound::any}, {"cosine", &d.gravity.cosine, Bound::any}}},
+       {{"sine", &d.gravity.sine, Bound::any, true},
+        {"cosine", &d.gravity.cosine, Bound::any, true}}},
       {"ambient_drift",
        {{"amplitude", &d.ambient_drift.amplitude, Bound::any},
         {"period", &d.ambient_drift.period, Bound::positive}}},
@@ -48,6 +50,7 @@ void ReadPart(const YamlValue& value, const Part& part) {
   for (const Entry& entry : part.entries) names.push_back(entry.name);
   value.RequireKeys(names);
   for (const Entry& entry : part.entries) {
+    if (entry.has_default && !value.Find(entry.name)) continue;
     *entry.number = value.Require(entry.name, "give a number").Number(entry.bound);
   }
 }
