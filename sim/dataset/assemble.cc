@@ -1,8 +1,12 @@
 #include "sim/dataset/assemble.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "sim/dataset/derive_velocity.h"
+#include "sim/dataset/robust_noise.h"
+#include "sim/dataset/unwrap.h"
 
 namespace warmjoint {
 namespace {
@@ -52,6 +56,26 @@ void CheckTorque(const RawColumns& raw, const Measurements& measurements) {
          torque[0], measurements.torque_unit, torque.size());
 }
 
+/// Position without the jumps of a sensor's turn, and a velocity where none was recorded.
+void CompleteMotion(const RawColumns& raw, Measurements& measurements) {
+  const Eigen::VectorXd& time = measurements.time;
+  if (measurements.joint == JointKind::rotary) {
+    const int jumps = UnwrapTurns(time, measurements.velocity, measurements.position);
+    if (jumps > 0) {
+      measurements.notes.push_back(
+          fmt::format("position jumps by a turn {} times; unwrapped", jumps));
+    }
+  }
+  if (measurements.velocity.size() > 0) return;
+  const double cutoff = ChooseCutoff(time, measurements.position);
+  measurements.velocity = DeriveVelocity(time, measurements.position, cutoff);
+  CheckValues(raw, "velocity (derived from position)", measurements.velocity);
+  measurements.notes.push_back(
+      cutoff > 0.4 / MedianStep(time)
+          ? "velocity derived from position by central differences"
+          : fmt::format("velocity derived from position below {:.3g} Hz", cutoff));
+}
+
 }  // namespace
 
 Measurements AssembleMeasurements(RawColumns raw, const std::vector<ColumnSource>& sources,
@@ -77,11 +101,7 @@ Measurements AssembleMeasurements(RawColumns raw, const std::vector<ColumnSource
   if (n < 3) Refuse({raw.file}, "has {} samples; at least 3 are needed", n);
   CheckTime(raw, measurements.time);
   CheckTorque(raw, measurements);
-  if (measurements.velocity.size() == 0) {
-    measurements.velocity = DeriveVelocity(measurements.time, measurements.position,
-                                           ChooseCutoff(measurements.time, measurements.position));
-    CheckValues(raw, "velocity (derived from position)", measurements.velocity);
-  }
+  CompleteMotion(raw, measurements);
   return measurements;
 }
 

@@ -20,7 +20,8 @@ struct RawColumns {
   }
 };
 
-/// Converts to SI, checks, and derives the velocity where there is none. Throws BadInput for fewer
+/// Converts to SI, checks, unwraps a position that stays within one turn, and derives the velocity
+/// where there is none; notes say so. Throws BadInput for fewer
 /// than three samples, a value that is not finite, time that does not increase and a torque that
 /// never changes.
 Measurements AssembleMeasurements(RawColumns raw, const std::vector<ColumnSource>& sources,

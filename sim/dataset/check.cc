@@ -80,6 +80,7 @@ RecordingCheck CheckRecording(const Measurements& measurements) {
   check.source = measurements.source;
   check.joint = measurements.joint;
   check.torque_unit = measurements.torque_unit;
+  check.notes = measurements.notes;
   check.sampling = CheckSampling(measurements.time, scale.step);
   check.motion = CheckMotion(measurements, scale);
   check.excitation = JudgeExcitation(measurements, check.sampling, check.motion);

@@ -49,6 +49,7 @@ struct RecordingCheck {
   std::string source;
   JointKind joint = JointKind::rotary;
   std::string torque_unit;
+  std::vector<std::string> notes;  // what reading made of it
   SamplingCheck sampling;
   MotionCheck motion;
   std::vector<Excitation> excitation;

@@ -59,6 +59,7 @@ std::string CheckToText(const RecordingCheck& check) {
   std::string text =
       fmt::format("recording   {}: {} joint, torque in {}\n", check.source,
                   check.joint == JointKind::rotary ? "rotary" : "linear", check.torque_unit);
+  for (const std::string& note : check.notes) text += fmt::format("            {}\n", note);
   text += SamplingLine(check.sampling);
   text += MotionLine(check.motion, kPositionUnit.For(check.joint));
   text += DirectionLine(check.motion, 1, speed_unit);
@@ -92,6 +93,7 @@ json CheckToJson(const RecordingCheck& check) {
   return {{"source", check.source},
           {"joint", check.joint == JointKind::rotary ? "rotary" : "linear"},
           {"torque_unit", check.torque_unit},
+          {"notes", check.notes},
           {"sampling",
            {{"samples", sampling.samples},
             {"duration", sampling.duration},

@@ -6,8 +6,11 @@
 namespace warmjoint {
 
 /// Velocity of a sampled position: a zero-phase Butterworth low-pass (4th order, run forwards and
-/// backwards) and central differences. time: [N] s, evenly spaced; position: [N] rad or m.
-/// cutoff: Hz; above 0.4 of the sampling rate the filter is left out. Returns [N] rad/s or m/s.
+/// backwards) and central differences. Pieces between gaps (more than three median steps) are
+/// treated one by one. A piece whose steps differ by more than 1 % is put on an even grid of its
+/// mean step by straight lines, filtered there, and read back at its own times. time: [N] s,
+/// increasing; position: [N] rad or m. cutoff: Hz; above 0.4 of the sampling rate the filter is
+/// left out. Returns [N] rad/s or m/s.
 Eigen::VectorXd DeriveVelocity(const Eigen::VectorXd& time, const Eigen::VectorXd& position,
                                double cutoff);
 

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "models/friction/joint_kind.h"
 
@@ -15,6 +16,7 @@ struct Measurements {
   std::string torque_unit = "N.m";  // "N" for linear joints; "A" where a current was logged
   double gear = 1;                  // motor position = gear * joint position
   std::string source;               // file that it came from, for messages
+  std::vector<std::string> notes;   // what reading made of it: one phrase each, for people
 
   Eigen::VectorXd time;                           // [N] s, strictly increasing
   Eigen::VectorXd position;                       // [N] rad or m

@@ -16,6 +16,12 @@ double QuantileInPlace(Eigen::VectorXd& x, double quantile) {
   return *value;
 }
 
+double MedianStep(const Eigen::VectorXd& time) {
+  const Eigen::Index n = time.size() - 1;
+  Eigen::VectorXd steps = time.tail(n) - time.head(n);
+  return MedianInPlace(steps);
+}
+
 double WhiteNoise(const Eigen::VectorXd& x) {
   const Eigen::Index n = x.size() - 4;
   if (n < 1) return 0;

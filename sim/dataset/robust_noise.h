@@ -22,4 +22,7 @@ double QuantileInPlace(Eigen::VectorXd& x, double quantile);
 /// Median of x, which is reordered. x: [N], N at least 1.
 inline double MedianInPlace(Eigen::VectorXd& x) { return QuantileInPlace(x, 0.5); }
 
+/// Median of the steps between sample times. time: [N] s, N at least 2; s.
+double MedianStep(const Eigen::VectorXd& time);
+
 }  // namespace warmjoint

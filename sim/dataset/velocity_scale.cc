@@ -85,10 +85,8 @@ double VelocityScale::Rest() const { return std::max({3 * noise, 1.5 * resolutio
 VelocityScale MeasureVelocity(const Measurements& measurements) {
   const Eigen::VectorXd& v = measurements.velocity;
   const Index n = v.size();
-  Eigen::VectorXd steps = measurements.time.tail(n - 1) - measurements.time.head(n - 1);
-
   VelocityScale scale;
-  scale.step = MedianInPlace(steps);
+  scale.step = MedianStep(measurements.time);
   scale.rms = std::sqrt(v.squaredNorm() / static_cast<double>(n));
   MeasureNoise(v, scale);
   scale.resolution = ToggleStep(v, scale.rms);

@@ -107,6 +107,19 @@ TEST(ReadCsv, DerivesAMissingVelocity) {
   EXPECT_LT((log.velocity.array() - 0.3).abs().maxCoeff(), 1e-12);
 }
 
+TEST(ReadCsv, UnwrapsARotaryPosition) {
+  std::string text = "time,position,torque\n";
+  for (int i = 0; i < 100; ++i) text += fmt::format("{},{},{}\n", i, (7 * i) % 360, i % 3);
+  CsvLayout layout;
+  layout.unit = {{"position", "deg"}};
+  const Measurements log = Read(text, layout);
+  EXPECT_NEAR(log.position[99], 693 * std::numbers::pi / 180, 1e-12);
+  EXPECT_NEAR(log.velocity[50], 7 * std::numbers::pi / 180, 1e-12);
+  ASSERT_EQ(log.notes.size(), 2U);
+  EXPECT_EQ(log.notes[0], "position jumps by a turn 1 times; unwrapped");
+  EXPECT_THAT(log.notes[1], HasSubstr("velocity derived from position"));
+}
+
 TEST(ReadCsv, RefusesWhatIsNoRecording) {
   EXPECT_THAT(Refusal(""), HasSubstr("is empty"));
   EXPECT_THAT(Refusal("\n \r\n"), HasSubstr("is empty"));

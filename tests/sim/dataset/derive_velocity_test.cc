@@ -39,6 +39,26 @@ TEST(DeriveVelocity, LeavesTheFilterOutAboveFourTenthsOfTheRate) {
   EXPECT_GT((DeriveVelocity(time, position, 3.9).array() != 0).count(), 10);
 }
 
+TEST(DeriveVelocity, TakesUnevenSteps) {
+  RandomStream random({9, 1}, Stream::test);
+  VectorXd time = Times(4000, 200);
+  for (double& t : time) t += random.Uniform(-0.002, 0.002);
+  const VectorXd velocity = DeriveVelocity(time, (3 * time.array()).sin(), 20);
+  const VectorXd expected = 3 * (3 * time.array()).cos();
+  // straight lines across 0.009 s cut corners by a h^2 / 8 = 9e-5 rad, which their slope shows over
+  // some hundredths of a second
+  EXPECT_LT((velocity - expected).segment(50, 3900).cwiseAbs().maxCoeff(), 0.005 * 3);
+}
+
+TEST(DeriveVelocity, TreatsPiecesBetweenGapsOneByOne) {
+  VectorXd time = Times(400, 100);
+  VectorXd position = 0.5 * time;
+  time.tail(200).array() += 60;
+  position.tail(200).array() += 1000;
+  const VectorXd velocity = DeriveVelocity(time, position, 10);
+  EXPECT_LT((velocity.array() - 0.5).abs().maxCoeff(), 1e-10) << "the jump in the gap is no speed";
+}
+
 TEST(DeriveVelocity, TakesThreeSamples) {
   const VectorXd velocity = DeriveVelocity(Eigen::Vector3d(0, 1, 2), Eigen::Vector3d(0, 2, 4), 0.1);
   EXPECT_NEAR((velocity.array() - 2).abs().maxCoeff(), 0, 1e-12);
