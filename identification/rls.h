@@ -1,0 +1,15 @@
+// Identifier `rls`: a nominal law online, by recursive least squares.
+#pragma once
+
+#include "identification/identifier.h"
+
+namespace warmjoint {
+
+/// The linear parameters of a law, sample by sample, with a forgetting factor f: the answer is that
+/// of weighted least squares with weight f^age, so that with f = 1 it is nominal-ls. All but the
+/// thermal parameters are linear: with thermal_gain and thermal_time_constant given, E = H |tau v|
+/// is taken off first. The trace holds the parameters at 50 moments of the recording.
+/// Intervals as in uncertainty.h, for the weighted samples.
+Identifier Rls();
+
+}  // namespace warmjoint
