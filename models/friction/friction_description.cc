@@ -76,6 +76,7 @@ void CheckFriction(const FrictionDescription& friction, const Place& place) {
   if (!std::isfinite(friction.gear) || friction.gear == 0) {
     Refuse(place, "gear is {}; it must be a finite number other than 0", friction.gear);
   }
+  for (const FrictionMap& map : friction.maps) CheckMap(map, place);
 }
 
 std::vector<double> LawValues(const FrictionDescription& friction) {
@@ -93,11 +94,12 @@ json FrictionToJson(const FrictionDescription& friction) {
                          {"thermal_time_constant", friction.thermal->time_constant},
                          {"ambient", friction.ambient}};
   }
+  for (const FrictionMap& map : friction.maps) result["maps"].push_back(MapToJson(map));
   return result;
 }
 
 FrictionDescription FrictionFromJson(const json& object, const Place& place) {
-  RefuseUnknownKeys(object, "friction", {"law", "parameters", "thermal", "gear"}, place);
+  RefuseUnknownKeys(object, "friction", {"law", "parameters", "thermal", "gear", "maps"}, place);
   if (!object.contains("law") || !object["law"].is_string()) {
     Refuse(place, "friction lacks its law; give one of its names as text");
   }
@@ -113,6 +115,10 @@ FrictionDescription FrictionFromJson(const json& object, const Place& place) {
   }
   if (object.contains("thermal")) ReadThermal(object["thermal"], friction, place);
   if (object.contains("gear")) friction.gear = NumberMember(object, "gear", place);
+  if (object.contains("maps")) {
+    if (!object["maps"].is_array()) Refuse(place, "friction's maps must be a list");
+    for (const json& map : object["maps"]) friction.maps.push_back(MapFromJson(map, place));
+  }
   CheckFriction(friction, place);
   return friction;
 }

@@ -1,0 +1,84 @@
+// Friction as a map over what a joint knows of itself: position, velocity, energy, load.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json_fwd.hpp>
+#include <string_view>
+#include <vector>
+
+#include "models/foundation/bad_input.h"
+#include "models/friction/gaussian_axis.h"
+
+namespace warmjoint {
+
+/// What a map can depend on.
+enum class MapQuantity { position, motor_position, velocity, energy, load };
+
+/// "position", "motor_position", ...
+std::string_view MapQuantityName(MapQuantity quantity);
+
+/// Where a joint is: one value for each MapQuantity, in its order: rad or m, rad, rad/s or m/s,
+/// N.m or N, N.m or N.
+template <typename T>
+using MapPoint = std::array<T, 5>;
+
+struct MapAxis {
+  MapQuantity quantity = MapQuantity::position;
+  GaussianAxis kernels;
+};
+
+inline constexpr size_t kMostMapAxes = 4;
+inline constexpr size_t kMostMapCentres = 128;  // of one axis
+
+/// A force that is added to the law's: sum_i w_i kappa_i, Eqs. (10)-(16), where kappa_i is the
+/// product of one kernel of each axis (diagonal covariance). A normalised product of kernels is the
+/// product of the normalised ones. As part of F it takes part in the losses W = |F v|, Eq. (19).
+struct FrictionMap {
+  std::vector<MapAxis> axes;
+  KernelKind kernels = KernelKind::normalised;
+  std::vector<double> weights;  // N.m or N; one for each product, the last axis's index the fastest
+
+  /// Number of kernels that the axes span.
+  size_t size() const;
+};
+
+/// Refuses, from `place`, sizes that do not fit, widths or periods that are not positive, centres
+/// that do not ascend, an axis with its sides apart that has a centre at 0, numbers not finite.
+void CheckMap(const FrictionMap& map, const Place& place);
+
+/// {axes: [{quantity, centres, width, period?, sides: together|apart}], kernels: normalised|plain,
+/// weights: [...]}.
+nlohmann::json MapToJson(const FrictionMap& map);
+
+/// The inverse; checked.
+FrictionMap MapFromJson(const nlohmann::json& json, const Place& place);
+
+/// Value of a checked map, N.m or N; allocates nothing. T: double, or a dual number.
+template <typename T>
+T EvaluateMap(const FrictionMap& map, const MapPoint<T>& point) {
+  struct Contraction {
+    const FrictionMap& map;
+    std::array<std::array<T, kMostMapCentres>, kMostMapAxes> phi;
+
+    // sums an axis away under one kernel of each axis before it
+    T Sum(size_t axis, size_t offset) const {
+      if (axis >= std::min(map.axes.size(), kMostMapAxes)) return T(map.weights[offset]);
+      const size_t count = map.axes[axis].kernels.size();
+      T sum(0);
+      for (size_t i = 0; i < count; ++i) {
+        if (phi[axis][i] == T(0)) continue;
+        sum += phi[axis][i] * Sum(axis + 1, offset * count + i);
+      }
+      return sum;
+    }
+  };
+  Contraction contraction{map, {}};
+  for (size_t a = 0; a < map.axes.size(); ++a) {
+    const T& x = point[static_cast<size_t>(map.axes[a].quantity)];
+    AxisKernels(map.axes[a].kernels, map.kernels, x, contraction.phi[a].data());
+  }
+  return contraction.Sum(0, 0);
+}
+
+}  // namespace warmjoint

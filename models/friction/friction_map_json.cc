@@ -1,0 +1,102 @@
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "models/foundation/nearest_name.h"
+#include "models/friction/friction_map.h"
+
+namespace warmjoint {
+namespace {
+
+using nlohmann::json;
+
+constexpr MapQuantity kQuantities[] = {MapQuantity::position, MapQuantity::motor_position,
+                                       MapQuantity::velocity, MapQuantity::energy,
+                                       MapQuantity::load};
+
+/// Refuses what is no object, and keys that are not `known`; the first `needed` must be there.
+void CheckKeys(const json& object, const char* what, const std::vector<std::string>& known,
+               size_t needed, const Place& place) {
+  if (!object.is_object()) Refuse(place, "{} is {}; it must be an object", what, object.dump());
+  for (const auto& [key, value] : object.items()) {
+    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+    Refuse(place, "{} has no key '{}'{}", what, key, Suggestion(key, known));
+  }
+  for (size_t i = 0; i < needed; ++i) {
+    if (!object.contains(known[i])) Refuse(place, "{} lacks its {}", what, known[i]);
+  }
+}
+
+double Number(const json& value, const char* what, const Place& place) {
+  if (!value.is_number()) Refuse(place, "{} is {}; it must be a number", what, value.dump());
+  return value.get<double>();
+}
+
+std::vector<double> Numbers(const json& list, const char* what, const Place& place) {
+  if (!list.is_array()) Refuse(place, "{} must be a list of numbers", what);
+  std::vector<double> numbers;
+  for (const json& value : list) numbers.push_back(Number(value, what, place));
+  return numbers;
+}
+
+/// Index of a word among `words`.
+size_t Word(const json& value, const char* what, const std::vector<std::string>& words,
+            const Place& place) {
+  for (size_t i = 0; i < words.size(); ++i) {
+    if (value == words[i]) return i;
+  }
+  const std::string given = value.is_string() ? value.get<std::string>() : value.dump();
+  Refuse(place, "{} is '{}'{}", what, given, Suggestion(given, words));
+}
+
+MapAxis AxisFromJson(const json& object, const Place& place) {
+  CheckKeys(object, "a map's axis", {"quantity", "centres", "width", "period", "sides"}, 3, place);
+  std::vector<std::string> names;
+  for (const MapQuantity quantity : kQuantities) names.emplace_back(MapQuantityName(quantity));
+
+  MapAxis axis;
+  axis.quantity = kQuantities[Word(object["quantity"], "a map axis's quantity", names, place)];
+  axis.kernels.centres = Numbers(object["centres"], "centres of a map's axis", place);
+  axis.kernels.width = Number(object["width"], "width of a map's axis", place);
+  if (object.contains("period")) {
+    axis.kernels.period = Number(object["period"], "period of a map's axis", place);
+  }
+  if (object.contains("sides")) {
+    const size_t sides =
+        Word(object["sides"], "sides of a map's axis", {"together", "apart"}, place);
+    axis.kernels.sides = sides == 1 ? Sides::apart : Sides::together;
+  }
+  return axis;
+}
+
+}  // namespace
+
+json MapToJson(const FrictionMap& map) {
+  json axes = json::array();
+  for (const MapAxis& axis : map.axes) {
+    json object{{"quantity", MapQuantityName(axis.quantity)},
+                {"centres", axis.kernels.centres},
+                {"width", axis.kernels.width},
+                {"sides", axis.kernels.sides == Sides::apart ? "apart" : "together"}};
+    if (axis.kernels.period) object["period"] = *axis.kernels.period;
+    axes.push_back(object);
+  }
+  return {{"axes", axes},
+          {"kernels", map.kernels == KernelKind::normalised ? "normalised" : "plain"},
+          {"weights", map.weights}};
+}
+
+FrictionMap MapFromJson(const json& object, const Place& place) {
+  CheckKeys(object, "a map", {"axes", "weights", "kernels"}, 2, place);
+  if (!object["axes"].is_array()) Refuse(place, "a map's axes must be a list");
+  FrictionMap map;
+  for (const json& axis : object["axes"]) map.axes.push_back(AxisFromJson(axis, place));
+  map.weights = Numbers(object["weights"], "a map's weights", place);
+  if (object.contains("kernels")) {
+    const size_t kind = Word(object["kernels"], "a map's kernels", {"normalised", "plain"}, place);
+    map.kernels = kind == 1 ? KernelKind::plain : KernelKind::normalised;
+  }
+  CheckMap(map, place);
+  return map;
+}
+
+}  // namespace warmjoint

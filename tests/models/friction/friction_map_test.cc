@@ -1,0 +1,92 @@
+#include "models/friction/friction_map.h"
+
+#include <gmock/gmock.h>
+
+#include <functional>
+
+#include "models/friction/friction_description.h"
+#include "tests/support/shared_data.h"
+
+namespace warmjoint {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// Six kernels over position times velocity.
+FrictionMap SmallMap() {
+  return {{{MapQuantity::position, EvenAxis(-1, 1, 3)},
+           {MapQuantity::velocity, SpeedAxis(0.5, 0.5, 1)}},
+          KernelKind::normalised,
+          {1, 2, 3, 4, 5, 6}};
+}
+
+TEST(FrictionMap, WeighsTheGoldenKernelsOverPositionAndVelocity) {
+  WARMJOINT_NEED_SHARED("golden/golden.json");
+  const nlohmann::json& golden = test::Golden().at("rbf2");
+  FrictionMap map;
+  map.axes = {
+      {MapQuantity::position, {golden.at("mu_p"), golden.at("sigma_p"), {}, Sides::together}},
+      {MapQuantity::velocity, {golden.at("mu_v"), golden.at("sigma_v"), {}, Sides::together}}};
+  for (const auto& [key, kind] :
+       {std::pair("phi", KernelKind::plain), std::pair("phi_normalised", KernelKind::normalised)}) {
+    map.kernels = kind;
+    for (size_t i = 0; i < golden.at("p").size(); ++i) {
+      for (size_t column = 0; column < map.size(); ++column) {
+        // a weight of 1 on one kernel gives that kernel; 1e-12: a closed form
+        map.weights.assign(map.size(), 0);
+        map.weights[column] = 1;
+        const double expected = golden.at(key)[i][column];
+        const MapPoint<double> point{golden.at("p")[i], 0, golden.at("v")[i], 0, 0};
+        EXPECT_NEAR(EvaluateMap(map, point), expected, 1e-12 * expected) << key << i << column;
+      }
+    }
+  }
+}
+
+TEST(FrictionMap, IsZeroAtRestWhereItsSidesAreApart) {
+  EXPECT_EQ(EvaluateMap(SmallMap(), MapPoint<double>{0.3, 0, 0, 0, 0}), 0);
+  EXPECT_GT(EvaluateMap(SmallMap(), MapPoint<double>{0.3, 0, 1e-9, 0, 0}), 2);
+}
+
+TEST(FrictionMap, ReadsBackWhatItWrites) {
+  FrictionDescription friction;
+  friction.parameters = {{"viscous", 1}, {"coulomb", 2}};
+  friction.maps = {
+      SmallMap(),
+      {{{MapQuantity::motor_position, CircleAxis(6.28, 2)}}, KernelKind::plain, {0.1, 0.2}}};
+  const nlohmann::json json = FrictionToJson(friction);
+  const FrictionDescription back = FrictionFromJson(json, {"friction.json"});
+  EXPECT_EQ(FrictionToJson(back), json);
+  EXPECT_EQ(back.maps[1].axes[0].kernels.period, 6.28);
+  EXPECT_EQ(back.maps[0].axes[1].kernels.sides, Sides::apart);
+}
+
+TEST(FrictionMap, RefusesWhatDoesNotFit) {
+  const auto refusal = [](const std::function<void(nlohmann::json&)>& spoil) -> std::string {
+    nlohmann::json json = MapToJson(SmallMap());
+    spoil(json);
+    try {
+      MapFromJson(json, {"friction.json"});
+    } catch (const BadInput& bad) {
+      return bad.what();
+    }
+    return "accepted";
+  };
+  using nlohmann::json;
+  EXPECT_THAT(refusal([](json& j) { j["weights"].push_back(7); }),
+              HasSubstr("friction.json: a map has 7 weights; its axes span 6 kernels"));
+  EXPECT_THAT(refusal([](json& j) { j["axes"][0]["width"] = -1; }), HasSubstr("width -1"));
+  EXPECT_THAT(refusal([](json& j) { j["axes"][0]["width"] = "wide"; }),
+              HasSubstr("must be a number"));
+  EXPECT_THAT(refusal([](json& j) { j["axes"][0]["period"] = 0; }), HasSubstr("period 0"));
+  EXPECT_THAT(refusal([](json& j) { j["axes"][0]["centres"][2] = -5; }), HasSubstr("ascend"));
+  EXPECT_THAT(refusal([](json& j) { j["axes"][1]["centres"][1] = 0; }), HasSubstr("a centre at 0"));
+  EXPECT_THAT(refusal([](json& j) { j["axes"][0]["quantity"] = "positon"; }),
+              HasSubstr("did you mean 'position'"));
+  EXPECT_THAT(refusal([](json& j) { j["axis"] = 1; }), HasSubstr("did you mean 'axes'"));
+  EXPECT_THAT(refusal([](json& j) { j.erase("weights"); }), HasSubstr("lacks its weights"));
+  EXPECT_THAT(refusal([](json& j) { j["axes"] = json::array(); }), HasSubstr("0 axes"));
+}
+
+}  // namespace
+}  // namespace warmjoint
