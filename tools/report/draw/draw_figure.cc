@@ -42,7 +42,7 @@ void DrawPanel(Pen& pen, const Panel& panel, const PanelPlace& place, int number
   }
   if (plot) {
     DrawLegend(pen, *plot, {left, y}, place.cell.right - left);
-    DrawPlot(pen, panel.title, *plot, place.area, number);
+    DrawPlot(pen, panel.title, *plot, place.area, place.cell.left + size::kText / 2 + 2, number);
   } else if (const auto* words = std::get_if<Words>(&panel.content)) {
     DrawWords(pen, *words, place.area);
   } else if (const auto* table = std::get_if<Table>(&panel.content)) {

@@ -15,7 +15,7 @@ namespace {
 
 constexpr Type kTickType{size::kTick};
 constexpr Type kLabelType{size::kText};
-constexpr float kPointsPerTickX = 75, kPointsPerTickY = 38;
+constexpr float kPointsPerTickX = 75, kPointsPerTickY = 26;
 
 std::vector<Tick> TicksX(const Axis& axis, float width) {
   return AxisTicks(axis, static_cast<int>(width / kPointsPerTickX));
@@ -78,7 +78,7 @@ void DrawGrid(Pen& pen, const Plot& plot, const Rectangle& area) {
 }
 
 /// Axis lines, ticks, their labels and the names of the axes.
-void DrawAxes(Pen& pen, const Plot& plot, const Rectangle& area) {
+void DrawAxes(Pen& pen, const Plot& plot, const Rectangle& area, float label_x) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImU32 paint = Pen::Paint(pen.theme().axis);
   list.AddLine({area.left, area.top}, {area.left, area.bottom}, paint, 1);
@@ -106,9 +106,8 @@ void DrawAxes(Pen& pen, const Plot& plot, const Rectangle& area) {
   const ImVec2 name = pen.Measure(plot.x.label, kLabelType);
   pen.Write(list, plot.x.label, kLabelType, {(area.left + area.right - name.x) / 2, lowest + 3},
             pen.theme().text);
-  const float beside = area.left - size::kTickMark - 3 - WidestLabel(pen, ticks) - size::kPad;
-  pen.WriteUpwards(list, plot.y.label, kLabelType,
-                   {beside - kLabelType.size / 2, (area.top + area.bottom) / 2}, pen.theme().text);
+  pen.WriteUpwards(list, plot.y.label, kLabelType, {label_x, (area.top + area.bottom) / 2},
+                   pen.theme().text);
 }
 
 void DrawColourBar(Pen& pen, const HeatMap& map, const Rectangle& area) {
@@ -164,7 +163,7 @@ Margins PlotMargins(const Pen& pen, const Plot& plot, ImVec2 extent) {
 }
 
 void DrawPlot(Pen& pen, const std::string& title, const Plot& plot, const Rectangle& area,
-              int number) {
+              float label_x, int number) {
   ImPlotStyle& style = ImPlot::GetStyle();
   style.PlotPadding = {0, 0};
   style.PlotMinSize = {10, 10};
@@ -189,7 +188,7 @@ void DrawPlot(Pen& pen, const std::string& title, const Plot& plot, const Rectan
   for (const Series& series : plot.series) {
     drawn.series.push_back(DrawSeries(pen, plot, series, area));
   }
-  DrawAxes(pen, plot, area);
+  DrawAxes(pen, plot, area, label_x);
   if (const HeatMap* map = FindHeatMap(plot)) DrawColourBar(pen, *map, area);
   ImPlot::EndPlot();
   pen.drawn().plots.push_back(std::move(drawn));

@@ -23,8 +23,9 @@ float LegendHeight(const Pen& pen, const Plot& plot, float width);
 /// Draws the legend with its upper left corner at `at`.
 void DrawLegend(Pen& pen, const Plot& plot, ImVec2 at, float width);
 
-/// Draws axes and series; `area` is the rectangle between the axes. number: makes names unique.
+/// Draws axes and series; `area` is the rectangle between the axes. label_x: middle of the name of
+/// the upright axis. number: makes names unique.
 void DrawPlot(Pen& pen, const std::string& title, const Plot& plot, const Rectangle& area,
-              int number);
+              float label_x, int number);
 
 }  // namespace warmjoint::report

@@ -6,16 +6,9 @@
 #include <vector>
 
 #include "tools/report/draw/figure.h"
+#include "tools/report/run/quartiles.h"
 
 namespace warmjoint::report {
-
-/// Median and quartiles of all realizations at each x. All: [K].
-struct QuartileCurve {
-  Eigen::VectorXd x;
-  Eigen::VectorXd q25;
-  Eigen::VectorXd median;
-  Eigen::VectorXd q75;
-};
 
 /// One row of the leaderboard by iteration. One that does not iterate has a single iteration, 0,
 /// and is drawn as a level.

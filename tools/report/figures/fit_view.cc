@@ -1,0 +1,98 @@
+#include "tools/report/figures/fit_view.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "identification/predict.h"
+#include "tools/report/draw/ticks.h"
+#include "tools/report/figures/friction_spread.h"
+
+namespace warmjoint::report {
+namespace {
+
+struct TimeScale {
+  double seconds;
+  const char* unit;
+};
+
+TimeScale ScaleOf(const FitView& view) {
+  const double duration = view.time.size() ? view.time.tail(1)[0] : 0;
+  if (duration > 3 * 3600) return {3600, "h"};
+  if (duration > 300) return {60, "min"};
+  return {1, "s"};
+}
+
+double InitialEnergy(const Estimate& estimate) {
+  const EstimatedParameter* found = estimate.Find("initial_energy");
+  return found ? found->value : 0;
+}
+
+}  // namespace
+
+FitView MakeFitView(const Measurements& measurements, const Selection& selection,
+                    const Estimate& estimate) {
+  FitView view;
+  view.source = std::filesystem::path(measurements.source).filename();
+  view.joint = measurements.joint;
+  view.torque_unit = UnitText(measurements.torque_unit);
+  view.estimate = estimate;
+  view.selection = selection;
+  view.time = measurements.time.array() - measurements.time[0];
+  view.position = measurements.position;
+  view.velocity = measurements.velocity;
+  view.torque = measurements.torque;
+
+  view.has_fit = estimate.friction.has_value();
+  if (!view.has_fit) return view;
+  const double initial = InitialEnergy(estimate);
+  const Prediction prediction = PredictFriction(*estimate.friction, measurements, initial);
+  view.fitted = prediction.force;
+  view.energy = prediction.energy;
+  if (view.warms()) {
+    const FrictionSpread spread = SpreadOf(estimate, measurements, selection);
+    view.energy_std = SpreadOfPrediction(
+        spread, *estimate.friction, [&](const FrictionDescription& friction) -> Eigen::VectorXd {
+          return PredictFriction(friction, measurements, initial).energy;
+        });
+  }
+  return view;
+}
+
+Eigen::VectorXd KeptOf(const FitView& view, const Eigen::VectorXd& all) {
+  Eigen::VectorXd kept(view.selection.count());
+  Eigen::Index n = 0;
+  for (Eigen::Index i = 0; i < all.size(); ++i) {
+    if (view.selection.keep[i]) kept[n++] = all[i];
+  }
+  return kept;
+}
+
+Eigen::VectorXd Residuals(const FitView& view) { return KeptOf(view, view.torque - view.fitted); }
+
+Eigen::VectorXd KeptOrGap(const FitView& view, const Eigen::VectorXd& all) {
+  Eigen::VectorXd result = all;
+  for (Eigen::Index i = 0; i < all.size(); ++i) {
+    if (!view.selection.keep[i]) result[i] = std::nan("");
+  }
+  return result;
+}
+
+std::string TimeLabel(const FitView& view) { return fmt::format("time ({})", ScaleOf(view).unit); }
+
+double TimeUnit(const FitView& view) { return ScaleOf(view).seconds; }
+
+std::string PositionLabel(const FitView& view) {
+  return fmt::format("position ({})", UnitText(kPositionUnit.For(view.joint)));
+}
+
+std::string SpeedLabel(const FitView& view) {
+  return fmt::format("velocity ({})", UnitText(kVelocityUnit.For(view.joint)));
+}
+
+std::string TorqueLabel(const FitView& view, const std::string& what) {
+  return fmt::format("{} ({})", what, view.torque_unit);
+}
+
+}  // namespace warmjoint::report

@@ -1,0 +1,59 @@
+// One recording and its estimate, worked out for pictures.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "identification/estimate.h"
+#include "sim/dataset/measurements.h"
+#include "sim/dataset/selection.h"
+
+namespace warmjoint::report {
+
+/// What the panels about one recording share. All vectors: [N] of the recording unless said.
+struct FitView {
+  std::string source;  // file of the recording
+  JointKind joint = JointKind::rotary;
+  std::string torque_unit;  // as set in print
+  Estimate estimate;
+  Selection selection;
+
+  Eigen::VectorXd time;      // s, from the first sample
+  Eigen::VectorXd position;  // rad or m
+  Eigen::VectorXd velocity;  // rad/s or m/s
+  Eigen::VectorXd torque;    // torque_unit
+
+  // with a friction in the estimate alone
+  bool has_fit = false;
+  Eigen::VectorXd fitted;  // F, torque_unit
+  Eigen::VectorXd energy;  // E, torque_unit; 0 where nothing warms
+
+  // standard deviations by the estimate's parameters; empty where they are not known
+  Eigen::VectorXd energy_std;  // of E, torque_unit
+
+  bool warms() const { return has_fit && estimate.friction->thermal.has_value(); }
+};
+
+/// Runs the estimate's friction over the recording.
+FitView MakeFitView(const Measurements& measurements, const Selection& selection,
+                    const Estimate& estimate);
+
+/// The entries of the kept samples. all: [N]; returns [n].
+Eigen::VectorXd KeptOf(const FitView& view, const Eigen::VectorXd& all);
+
+/// Torque less fit at the kept samples, [n].
+Eigen::VectorXd Residuals(const FitView& view);
+
+/// The entries with NaN at the samples that are not kept, so that lines break there. all: [N].
+Eigen::VectorXd KeptOrGap(const FitView& view, const Eigen::VectorXd& all);
+
+/// Axis names with units of the joint: "speed (rad/s)".
+std::string TimeLabel(const FitView& view);
+std::string PositionLabel(const FitView& view);
+std::string SpeedLabel(const FitView& view);
+std::string TorqueLabel(const FitView& view, const std::string& what);
+
+/// Seconds by which TimeLabel's unit is measured: 1, 60 or 3600.
+double TimeUnit(const FitView& view);
+
+}  // namespace warmjoint::report

@@ -1,0 +1,84 @@
+#include <algorithm>
+#include <cmath>
+
+#include "tools/report/figures/axes.h"
+#include "tools/report/figures/fit_panels.h"
+#include "tools/report/figures/friction_spread.h"
+
+namespace warmjoint::report {
+namespace {
+
+constexpr int kPoints = 60;
+constexpr double kNormal95 = 1.96;  // standard deviations of a 95 % interval
+
+/// Fn(v) + sign(v) energy, Eq. (20), at each speed.
+Eigen::VectorXd CurveOf(const FrictionDescription& friction, const Eigen::VectorXd& speeds,
+                        double energy) {
+  const Law& law = *FindLaw(friction.law);
+  const std::vector<double> values = LawValues(friction);
+  return speeds.unaryExpr([&](double v) { return law.force(v, values.data()) + Sign(v) * energy; });
+}
+
+/// Speeds of one direction from the slowest to the fastest kept one; empty where it never moved so.
+Eigen::VectorXd SpeedsOf(const Eigen::VectorXd& kept, int direction) {
+  const Eigen::ArrayXd speeds = kept.array() * direction;
+  const double fastest = speeds.size() ? speeds.maxCoeff() : 0;
+  if (fastest <= 0) return {};
+  double slowest = fastest;
+  for (double speed : speeds) {
+    if (speed > 0) slowest = std::min(slowest, speed);
+  }
+  return direction * Eigen::VectorXd::LinSpaced(kPoints, slowest, fastest);
+}
+
+/// The energy of largest size that the recording reached.
+double WarmestEnergy(const FitView& view) {
+  Eigen::Index at = 0;
+  view.energy.cwiseAbs().maxCoeff(&at);
+  return view.energy[at];
+}
+
+/// One curve for each direction; the label stands in the legend once.
+void AddCurves(Plot& plot, const FitView& view, const FrictionSpread& spread, double energy,
+               Hue hue, std::string label) {
+  const FrictionDescription& friction = *view.estimate.friction;
+  for (int direction : {1, -1}) {
+    const Eigen::VectorXd speeds = SpeedsOf(KeptOf(view, view.velocity), direction);
+    if (speeds.size() == 0) continue;
+    const Eigen::VectorXd force = CurveOf(friction, speeds, energy);
+    const Eigen::VectorXd deviation = SpreadOfPrediction(
+        spread, friction,
+        [&](const FrictionDescription& other) { return CurveOf(other, speeds, energy); });
+    if (deviation.size() > 0) {
+      plot.series.push_back(
+          {"", hue,
+           Band{speeds, force - kNormal95 * deviation, force + kNormal95 * deviation, 0.35}});
+    }
+    plot.series.push_back({label, hue, Line{speeds, force, 2.0}});
+    label.clear();
+  }
+}
+
+}  // namespace
+
+Plot FrictionCurve(const FitView& view) {
+  const Eigen::VectorXd velocity = KeptOf(view, view.velocity);
+  const Eigen::VectorXd torque = KeptOf(view, view.torque);
+  Plot plot;
+  plot.series.push_back({"measured", Hue::grey, Scatter{velocity, torque, 1.1}});
+  if (view.has_fit) {
+    Measurements motion;
+    motion.time = view.time;
+    motion.velocity = view.velocity;
+    const FrictionSpread spread = SpreadOf(view.estimate, motion, view.selection);
+    AddCurves(plot, view, spread, 0, Hue::blue, view.warms() ? "fit, cold" : "fit");
+    if (view.warms()) {
+      AddCurves(plot, view, spread, WarmestEnergy(view), Hue::vermilion, "fit, warmest");
+    }
+  }
+  plot.x = LinearAxis(SpeedLabel(view), {velocity});
+  plot.y = LinearAxis(TorqueLabel(view, "torque"), {torque});
+  return plot;
+}
+
+}  // namespace warmjoint::report

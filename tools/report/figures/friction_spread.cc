@@ -1,0 +1,95 @@
+#include "tools/report/figures/friction_spread.h"
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "identification/predict.h"
+
+namespace warmjoint::report {
+namespace {
+
+constexpr double kRelativeStep = 1e-5;
+
+/// Names of the parameters that the friction has and the estimate knows with a deviation.
+std::vector<std::string> NamesOf(const Estimate& estimate) {
+  std::vector<std::string> names;
+  const auto add = [&](const std::string& name) {
+    const EstimatedParameter* found = estimate.Find(name);
+    if (found && found->std) names.push_back(name);
+  };
+  for (const auto& [name, value] : estimate.friction->parameters) add(name);
+  if (estimate.friction->thermal) {
+    for (const ParameterInfo& info : Thermal::parameters) add(std::string(info.name));
+  }
+  return names;
+}
+
+double ValueOf(const FrictionDescription& friction, const std::string& name) {
+  if (name == "thermal_gain") return friction.thermal->gain;
+  if (name == "thermal_time_constant") return friction.thermal->time_constant;
+  return friction.parameters.at(name);
+}
+
+/// dF/dp at the kept samples by central differences, [n x d].
+Eigen::MatrixXd Derivatives(const Estimate& estimate, const std::vector<std::string>& names,
+                            const Measurements& measurements, const Selection& selection) {
+  const Eigen::Index n = selection.count();
+  Eigen::MatrixXd jacobian(n, static_cast<Eigen::Index>(names.size()));
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const double value = ValueOf(*estimate.friction, names[i]);
+    const double step = kRelativeStep * std::max(std::abs(value), 1e-3);
+    const Eigen::VectorXd up =
+        PredictFriction(Changed(*estimate.friction, names[i], step), measurements).force;
+    const Eigen::VectorXd down =
+        PredictFriction(Changed(*estimate.friction, names[i], -step), measurements).force;
+    Eigen::Index row = 0;
+    for (Eigen::Index k = 0; k < measurements.size(); ++k) {
+      if (selection.keep[k]) {
+        jacobian(row++, static_cast<Eigen::Index>(i)) = (up[k] - down[k]) / (2 * step);
+      }
+    }
+  }
+  return jacobian;
+}
+
+}  // namespace
+
+FrictionDescription Changed(const FrictionDescription& friction, const std::string& name,
+                            double step) {
+  FrictionDescription changed = friction;
+  if (name == "thermal_gain") {
+    changed.thermal->gain += step;
+  } else if (name == "thermal_time_constant") {
+    changed.thermal->time_constant += step;
+  } else {
+    changed.parameters.at(name) += step;
+  }
+  return changed;
+}
+
+FrictionSpread SpreadOf(const Estimate& estimate, const Measurements& measurements,
+                        const Selection& selection) {
+  FrictionSpread spread;
+  if (!estimate.friction) return spread;
+  const std::vector<std::string> names = NamesOf(estimate);
+  if (names.empty()) return spread;
+
+  // correlations from the data, with columns of norm 1 so that units do not matter
+  Eigen::MatrixXd jacobian = Derivatives(estimate, names, measurements, selection);
+  const Eigen::VectorXd norms = jacobian.colwise().norm();
+  jacobian = jacobian * norms.cwiseInverse().asDiagonal();
+  const Eigen::FullPivLU<Eigen::MatrixXd> solver(jacobian.transpose() * jacobian);
+  if (!jacobian.allFinite() || !solver.isInvertible()) return spread;
+  const Eigen::MatrixXd cofactor = solver.inverse();
+
+  // sizes from the estimate
+  Eigen::VectorXd scale(static_cast<Eigen::Index>(names.size()));
+  for (Eigen::Index i = 0; i < scale.size(); ++i) {
+    scale[i] = *estimate.Find(names[static_cast<std::size_t>(i)])->std / std::sqrt(cofactor(i, i));
+  }
+  spread.names = names;
+  spread.covariance = scale.asDiagonal() * cofactor * scale.asDiagonal();
+  return spread;
+}
+
+}  // namespace warmjoint::report

@@ -1,0 +1,117 @@
+#include <algorithm>
+#include <cmath>
+
+#include "tools/report/figures/axes.h"
+#include "tools/report/figures/fit_panels.h"
+
+namespace warmjoint::report {
+namespace {
+
+constexpr int kBins = 40;
+constexpr int kFewest = 8;          // samples that a mean needs to be shown
+constexpr int kLags = 60;           // of the correlation
+constexpr double kNormal95 = 1.96;  // standard deviations of a 95 % interval
+
+struct Abscissa {
+  Eigen::VectorXd values;  // [n], kept samples
+  std::string label;
+};
+
+Abscissa AbscissaOf(const FitView& view, Against what) {
+  switch (what) {
+    case Against::time:
+      return {KeptOf(view, view.time) / TimeUnit(view), TimeLabel(view)};
+    case Against::position:
+      return {KeptOf(view, view.position), PositionLabel(view)};
+    case Against::velocity:
+      return {KeptOf(view, view.velocity), SpeedLabel(view)};
+    case Against::energy:
+      return {KeptOf(view, view.energy), TorqueLabel(view, "E")};
+  }
+  return {};
+}
+
+/// Means of y in bins of equal width over x; NaN where a bin has few samples.
+Line BinnedMean(const Eigen::VectorXd& x, const Eigen::VectorXd& y) {
+  const auto [lower, upper] = RangeOf({x});
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(kBins), count = sum;
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const double share = upper > lower ? (x[i] - lower) / (upper - lower) : 0;
+    const int bin = std::min(kBins - 1, static_cast<int>(share * kBins));
+    sum[bin] += y[i];
+    ++count[bin];
+  }
+  Line line{Eigen::VectorXd(kBins), Eigen::VectorXd(kBins), 2.0};
+  for (int bin = 0; bin < kBins; ++bin) {
+    line.x[bin] = lower + (upper - lower) * (bin + 0.5) / kBins;
+    line.y[bin] = count[bin] < kFewest ? std::nan("") : sum[bin] / count[bin];
+  }
+  return line;
+}
+
+/// Half of the range that holds all residuals.
+double ReachOf(const Eigen::VectorXd& residuals) {
+  const double reach = residuals.size() ? residuals.cwiseAbs().maxCoeff() : 0;
+  return reach > 0 ? 1.05 * reach : 1;
+}
+
+/// Samples of the typical segment: how far back a memory is looked for.
+Eigen::Index TypicalSegment(const FitView& view) {
+  const std::size_t segments = view.selection.segments.size();
+  const Eigen::Index n = view.time.size();
+  if (segments == 0) return n / 4;
+  return std::clamp<Eigen::Index>(view.selection.count() / static_cast<Eigen::Index>(segments), 20,
+                                  n / 4);
+}
+
+}  // namespace
+
+Plot ResidualsOver(const FitView& view, Against what) {
+  const Abscissa across = AbscissaOf(view, what);
+  const Eigen::VectorXd residuals = Residuals(view);
+  Plot plot;
+  plot.series.push_back({"", Hue::grey, Scatter{across.values, residuals, 0.9}});
+  plot.series.push_back({"", Hue::text, LevelLine{0, Dash::dashed}});
+  plot.series.push_back({"", Hue::vermilion, BinnedMean(across.values, residuals)});
+  plot.x = LinearAxis(across.label, {across.values});
+  const double reach = ReachOf(residuals);
+  plot.y = {TorqueLabel(view, "residual"), -reach, reach, Scale::linear, {}};
+  return plot;
+}
+
+double ResidualCorrelation(const FitView& view, Eigen::Index lag) {
+  const Eigen::VectorXd residuals = Residuals(view);
+  const double mean = residuals.mean();
+  const double variance = (residuals.array() - mean).square().mean();
+  const Eigen::VectorXd centred = (view.torque - view.fitted).array() - mean;
+  double sum = 0;
+  Eigen::Index pairs = 0;
+  for (Eigen::Index i = 0; i + lag < centred.size(); ++i) {
+    if (!view.selection.keep[i] || !view.selection.keep[i + lag]) continue;
+    sum += centred[i] * centred[i + lag];
+    ++pairs;
+  }
+  return pairs > 0 && variance > 0 ? sum / (static_cast<double>(pairs) * variance) : 0;
+}
+
+Plot ResidualMemory(const FitView& view) {
+  const Eigen::Index n = view.time.size();
+  const Eigen::Index stride = std::max<Eigen::Index>(1, TypicalSegment(view) / kLags);
+  const double step = view.time.tail(1)[0] / static_cast<double>(n - 1);  // s
+  const Eigen::Index lags = std::max<Eigen::Index>(1, std::min<Eigen::Index>(kLags, n / 4));
+  Eigen::VectorXd lag(lags), correlation(lags);
+  for (Eigen::Index k = 0; k < lags; ++k) {
+    lag[k] = static_cast<double>((k + 1) * stride) * step;
+    correlation[k] = ResidualCorrelation(view, (k + 1) * stride);
+  }
+  const double bound = kNormal95 / std::sqrt(static_cast<double>(view.selection.count()));
+
+  Plot plot;
+  plot.series.push_back({"", Hue::blue, Bars{lag, correlation, 0.6 * lag[0]}});
+  for (double level : {bound, -bound}) plot.series.push_back({"", Hue::text, LevelLine{level}});
+  plot.x = {"lag (s)", 0, lag[lags - 1] + lag[0], Scale::linear, {}};
+  plot.y = LinearAxis("correlation", {correlation, Eigen::Vector3d(0, 2 * bound, -2 * bound)});
+  return plot;
+}
+
+}  // namespace warmjoint::report

@@ -1,0 +1,34 @@
+#include <cmath>
+
+#include "tools/report/figures/axes.h"
+#include "tools/report/figures/fit_panels.h"
+
+namespace warmjoint::report {
+namespace {
+
+constexpr double kNormal95 = 1.96;  // standard deviations of a 95 % interval
+
+}  // namespace
+
+Plot WarmUpCurve(const FitView& view) {
+  // (tau - Fn) sign v, Eq. (23), where Fn sign v = F sign v - E
+  const Eigen::VectorXd direction = view.velocity.array().sign();
+  const Eigen::VectorXd observed =
+      KeptOf(view, (view.torque - view.fitted).cwiseProduct(direction) + view.energy);
+  const Eigen::VectorXd time = view.time / TimeUnit(view);
+
+  Plot plot;
+  plot.series.push_back(
+      {"(torque − Fn) · sign(v)", Hue::grey, Scatter{KeptOf(view, time), observed, 1.1}});
+  if (view.energy_std.size() > 0) {
+    const Eigen::VectorXd reach = kNormal95 * view.energy_std;
+    plot.series.push_back(
+        {"95 %", Hue::vermilion, Band{time, view.energy - reach, view.energy + reach, 0.35}});
+  }
+  plot.series.push_back({"E", Hue::vermilion, Line{time, view.energy, 2.0}});
+  plot.x = {TimeLabel(view), 0, time.tail(1)[0], Scale::linear, {}};
+  plot.y = LinearAxis(TorqueLabel(view, "change of the level, E"), {observed, view.energy});
+  return plot;
+}
+
+}  // namespace warmjoint::report

@@ -1,0 +1,189 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "models/foundation/bad_input.h"
+#include "scenarios/suite.h"
+#include "tools/leaderboard/leaderboard.h"
+#include "tools/report/draw/ticks.h"
+#include "tools/report/run/run_view.h"
+#include "tools/store/run_store.h"
+
+namespace warmjoint::report {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// The results of one identifier, by realization.
+using Own = std::vector<const Result*>;
+
+template <typename Number>
+VectorXd Column(const Own& results, const Number& number) {
+  VectorXd column(results.size());
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    column[static_cast<Index>(i)] = number(*results[i]);
+  }
+  return column;
+}
+
+template <typename Member>
+VectorXd MetricColumn(const Own& results, Member member) {
+  return Column(results, [member](const Result& result) {
+    return result.metrics ? static_cast<double>((*result.metrics).*member) : kUnknown;
+  });
+}
+
+ParameterColumn ReadParameter(const Own& results, std::size_t place, const std::string& unit) {
+  const auto number = [&](auto pick) {
+    return Column(results, [&](const Result& result) {
+      return result.score ? pick(result.score->continuous.at(place)) : kUnknown;
+    });
+  };
+  ParameterColumn column;
+  column.unit = unit;
+  column.truth = number([](const ParameterScore& score) { return score.truth; });
+  column.bound = number([](const ParameterScore& score) { return score.bound; });
+  column.estimate = number(
+      [](const ParameterScore& score) { return score.estimated ? score.estimate : kUnknown; });
+  for (const Result* result : results) {
+    if (!result->score) continue;
+    const ParameterScore& score = result->score->continuous.at(place);
+    column.name = score.name;
+    column.intervals += score.covered.has_value();
+    column.covered += score.covered.value_or(false);
+  }
+  return column;
+}
+
+std::string UnitOf(const std::string& name, const Scenario& scenario) {
+  for (const ParameterInfo& info : FindLaw(scenario.friction.law)->parameters) {
+    if (info.name == name) return UnitText(info.unit.For(scenario.joint_kind));
+  }
+  for (const ParameterInfo& info : Thermal::parameters) {
+    if (info.name == name) return UnitText(info.unit.For(scenario.joint_kind));
+  }
+  return "";
+}
+
+/// Adds realization `row` to the course. traces: all of the identifier.
+void Fill(Course& course, Index row, const TraceTable& trace) {
+  const std::size_t columns = trace.columns.size();
+  const auto value = [&](Index iteration, const std::string& name) {
+    const auto found = std::find(trace.columns.begin(), trace.columns.end(), name);
+    if (found == trace.columns.end()) return kUnknown;
+    // one that stopped keeps its last values
+    const std::size_t last = trace.rows() - 1;
+    const std::size_t at = std::min(static_cast<std::size_t>(iteration), last);
+    const auto column = static_cast<std::size_t>(found - trace.columns.begin());
+    return static_cast<double>(trace.values[at * columns + column]);
+  };
+  for (Index k = 0; k < course.iteration.size(); ++k) {
+    course.npe(row, k) = value(k, "npe_continuous");
+    course.rmse(row, k) = value(k, "rmse");
+    for (std::size_t i = 0; i < course.names.size(); ++i) {
+      course.parameters[i](row, k) = value(k, course.names[i]);
+    }
+  }
+}
+
+Course ReadCourse(const RunStore& store, const Own& results) {
+  std::vector<TraceTable> traces;
+  const TraceTable* longest = nullptr;
+  for (const Result* result : results) {
+    traces.push_back(store.ReadTrace(result->realization, result->identifier));
+  }
+  for (const TraceTable& trace : traces) {
+    if (trace.rows() > (longest ? longest->rows() : 0)) longest = &trace;
+  }
+  Course course;
+  if (!longest) return course;
+
+  const auto rows = static_cast<Index>(traces.size());
+  const auto iterations = static_cast<Index>(longest->rows());
+  course.iteration.resize(iterations);
+  for (Index k = 0; k < iterations; ++k) {
+    course.iteration[k] = longest->values[static_cast<std::size_t>(k) * longest->columns.size()];
+  }
+  for (const std::string& name : longest->columns) {
+    const bool parameter = name != "iteration" && name != "rmse" && !name.starts_with("npe_");
+    if (parameter) course.names.push_back(name);
+  }
+  const Eigen::MatrixXd unknown = Eigen::MatrixXd::Constant(rows, iterations, kUnknown);
+  course.npe = course.rmse = unknown;
+  course.parameters.assign(course.names.size(), unknown);
+  for (Index row = 0; row < rows; ++row) {
+    const TraceTable& trace = traces[static_cast<std::size_t>(row)];
+    if (trace.rows() > 0) Fill(course, row, trace);
+  }
+  return course;
+}
+
+RunRow ReadRow(const RunStore& store, const Suite& suite, const SuiteIdentifier& identifier,
+               const Own& results) {
+  RunRow row;
+  row.label = identifier.label;
+  row.identifier = identifier.name;
+  row.runs = static_cast<int>(results.size());
+  for (const Result* result : results) {
+    if (result->status != "ok") ++row.failures[result->status];
+  }
+  row.npe = Column(results, [](const Result& result) {
+    return result.score ? result.score->npe_continuous : kUnknown;
+  });
+  row.rmse = MetricColumn(results, &Metrics::rmse);
+  row.fit = MetricColumn(results, &Metrics::fit);
+  row.fpe = MetricColumn(results, &Metrics::fpe);
+  row.mae = MetricColumn(results, &Metrics::mae);
+
+  const auto scored = std::find_if(results.begin(), results.end(),
+                                   [](const Result* result) { return result->score.has_value(); });
+  if (scored != results.end()) {
+    for (std::size_t i = 0; i < (*scored)->score->continuous.size(); ++i) {
+      const std::string& name = (*scored)->score->continuous[i].name;
+      row.parameters.push_back(ReadParameter(results, i, UnitOf(name, suite.scenario)));
+    }
+  }
+  row.course = ReadCourse(store, results);
+  return row;
+}
+
+}  // namespace
+
+int RunRow::failed() const {
+  int count = 0;
+  for (const auto& [status, runs_of_it] : failures) count += runs_of_it;
+  return count;
+}
+
+RunView ReadRunView(const std::filesystem::path& directory) {
+  const RunStore store = RunStore::OpenToRead(directory);
+  const Suite suite = ReadSuite(store.suite_file());
+  const std::vector<Result> results = store.ReadResults();
+  if (results.empty()) {
+    Refuse({directory}, "no realization is finished yet; run the suite again to go on");
+  }
+  const Leaderboard board = MakeLeaderboard(suite, results);
+
+  RunView view;
+  view.suite = suite.name;
+  view.question = suite.question;
+  view.realizations = board.finished;
+  view.torque_unit = UnitText(kTorqueUnit.For(suite.scenario.joint_kind));
+  view.bound_npe = board.bound_npe_continuous;
+  // what a filter leaves of the noise is not stored
+  const bool filtered = suite.scenario.sampling.cutoff > 0;
+  view.noise = filtered ? kUnknown : suite.scenario.noise.torque;
+  for (std::size_t i = 0; i < suite.identifiers.size(); ++i) {
+    Own own;
+    for (const Result& result : results) {
+      if (result.identifier == static_cast<int>(i)) own.push_back(&result);
+    }
+    view.rows.push_back(ReadRow(store, suite, suite.identifiers[i], own));
+  }
+  return view;
+}
+
+}  // namespace warmjoint::report

@@ -1,0 +1,59 @@
+// A run of a suite as its pictures need it: plain numbers, one row an identifier.
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace warmjoint::report {
+
+/// One parameter of the truth and what one identifier made of it. All: [R], by realization; NaN
+/// where there is no answer.
+struct ParameterColumn {
+  std::string name;
+  std::string unit;
+  Eigen::VectorXd estimate;  // NaN where not estimated
+  Eigen::VectorXd truth;
+  Eigen::VectorXd bound;  // Cramer-Rao standard deviation
+  int intervals = 0;      // 95 % intervals that were given
+  int covered = 0;        // of them, those that hold the truth
+};
+
+/// The course of an identifier that iterates: K iterations of R realizations. One that stopped
+/// early keeps its last values.
+struct Course {
+  Eigen::VectorXd iteration;                // [K]
+  Eigen::MatrixXd npe;                      // [R x K] continuous, 0.05 is 5 %
+  Eigen::MatrixXd rmse;                     // [R x K] N.m or N
+  std::vector<std::string> names;           // of parameters
+  std::vector<Eigen::MatrixXd> parameters;  // for each name: [R x K]
+};
+
+struct RunRow {
+  std::string label;       // row of the leaderboard
+  std::string identifier;  // name in the list of identifiers: gives the colour
+  int runs = 0;
+  std::map<std::string, int> failures;       // status: count
+  Eigen::VectorXd npe, rmse, fit, fpe, mae;  // [R], NaN without an answer
+  std::vector<ParameterColumn> parameters;   // continuous, in the order of the truth
+  Course course;                             // K = 0 where it does not iterate
+
+  int failed() const;
+};
+
+struct RunView {
+  std::string suite;
+  std::string question;
+  int realizations = 0;  // finished
+  std::string torque_unit;
+  double bound_npe = 0;      // rms continuous NPE at the Cramer-Rao bound, NaN where unknown
+  double noise = 0;          // standard deviation on the stored torque, N.m or N; NaN unknown
+  std::vector<RunRow> rows;  // in the order of the suite
+};
+
+/// Reads a run directory. Throws BadInput where there is none, or nothing is finished yet.
+RunView ReadRunView(const std::filesystem::path& directory);
+
+}  // namespace warmjoint::report
