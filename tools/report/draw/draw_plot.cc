@@ -25,6 +25,11 @@ std::vector<Tick> TicksY(const Axis& axis, float height) {
   return AxisTicks(axis, static_cast<int>(height / kPointsPerTickY));
 }
 
+/// Width at which the labels of categories break; 0 for numbers, which never do.
+float LabelWrap(const Axis& axis, float width) {
+  return axis.ticks.empty() ? 0 : width / static_cast<float>(axis.ticks.size()) - 6;
+}
+
 float WidestLabel(const Pen& pen, const std::vector<Tick>& ticks) {
   float widest = 0;
   for (const Tick& tick : ticks) widest = std::max(widest, pen.Measure(tick.label, kTickType).x);
@@ -85,12 +90,13 @@ void DrawAxes(Pen& pen, const Plot& plot, const Rectangle& area, float label_x) 
   list.AddLine({area.left, area.bottom}, {area.right, area.bottom}, paint, 1);
 
   float lowest = area.bottom;
+  const float wrap = LabelWrap(plot.x, area.width());
   for (const Tick& tick : TicksX(plot.x, area.width())) {
     const float x = ImPlot::PlotToPixels(tick.value, plot.y.lower).x;
     list.AddLine({x, area.bottom}, {x, area.bottom + size::kTickMark}, paint, 1);
-    const ImVec2 extent = pen.Measure(tick.label, kTickType);
+    const ImVec2 extent = pen.Measure(tick.label, kTickType, wrap);
     const float top = area.bottom + size::kTickMark + 2;
-    pen.Write(list, tick.label, kTickType, {x - extent.x / 2, top}, pen.theme().faint_text);
+    pen.Write(list, tick.label, kTickType, {x - extent.x / 2, top}, pen.theme().faint_text, wrap);
     lowest = std::max(lowest, top + extent.y);
   }
   const std::vector<Tick> ticks = TicksY(plot.y, area.height());
@@ -104,8 +110,9 @@ void DrawAxes(Pen& pen, const Plot& plot, const Rectangle& area, float label_x) 
   }
 
   const ImVec2 name = pen.Measure(plot.x.label, kLabelType);
-  pen.Write(list, plot.x.label, kLabelType, {(area.left + area.right - name.x) / 2, lowest + 3},
-            pen.theme().text);
+  if (!plot.x.label.empty())
+    pen.Write(list, plot.x.label, kLabelType, {(area.left + area.right - name.x) / 2, lowest + 3},
+              pen.theme().text);
   pen.WriteUpwards(list, plot.y.label, kLabelType, {label_x, (area.top + area.bottom) / 2},
                    pen.theme().text);
 }
@@ -156,7 +163,8 @@ Margins PlotMargins(const Pen& pen, const Plot& plot, ImVec2 extent) {
   }
   float tallest = 0;
   for (const Tick& tick : across) {
-    tallest = std::max(tallest, pen.Measure(tick.label, kTickType).y);
+    const float wrap = LabelWrap(plot.x, extent.x);
+    tallest = std::max(tallest, pen.Measure(tick.label, kTickType, wrap).y);
   }
   margins.bottom = size::kTickMark + 2 + tallest + 3 + pen.Measure("x", kLabelType).y;
   return margins;

@@ -4,8 +4,11 @@
 
 #include "models/foundation/bad_input.h"
 #include "scenarios/suite.h"
+#include "sim/dataset/selection.h"
+#include "sim/plant.h"
 #include "tools/leaderboard/leaderboard.h"
 #include "tools/report/draw/ticks.h"
+#include "tools/report/figures/friction_spread.h"
 #include "tools/report/run/run_view.h"
 #include "tools/store/run_store.h"
 
@@ -150,6 +153,46 @@ RunRow ReadRow(const RunStore& store, const Suite& suite, const SuiteIdentifier&
   return row;
 }
 
+/// Sizes are the root mean squares of the bounds of all realizations; correlations come from
+/// simulating the first once more. Empty where its plant cannot be made on this machine.
+Eigen::MatrixXd BoundCovariance(const Suite& suite, const RunRow& row) {
+  const auto d = static_cast<Index>(row.parameters.size());
+  Estimate bound;
+  VectorXd relative(d);  // per cent a unit
+  for (Index i = 0; i < d; ++i) {
+    const ParameterColumn& column = row.parameters[static_cast<std::size_t>(i)];
+    const double size = std::sqrt(column.bound.array().square().mean());
+    if (!std::isfinite(size) || !(column.truth.array().abs() > 0).all()) return {};
+    bound.parameters.push_back({column.name, column.truth[0], column.unit, size, {}});
+    relative[i] = 100 / std::sqrt(column.truth.array().square().mean());
+  }
+  FrictionSpread spread;
+  try {
+    const Recording recording = MakePlant(suite.scenario)->Run(0);
+    const Measurements& m = recording.measurements;
+    bound.friction = recording.truth.friction;
+    spread = SpreadOf(
+        bound, m,
+        suite.scenario.plant == PlantKind::ideal ? SelectMoving(m) : SelectConstantSpeed(m));
+  } catch (const BadInput&) {
+    return {};
+  }
+  if (spread.names.size() != row.parameters.size()) return {};
+
+  // from the spread's order to the truth's
+  Eigen::MatrixXd covariance(d, d);
+  const auto place = [&](Index i) {
+    const std::string& name = row.parameters[static_cast<std::size_t>(i)].name;
+    return std::find(spread.names.begin(), spread.names.end(), name) - spread.names.begin();
+  };
+  for (Index i = 0; i < d; ++i) {
+    for (Index j = 0; j < d; ++j) {
+      covariance(i, j) = spread.covariance(place(i), place(j)) * relative[i] * relative[j];
+    }
+  }
+  return covariance;
+}
+
 }  // namespace
 
 int RunRow::failed() const {
@@ -182,6 +225,11 @@ RunView ReadRunView(const std::filesystem::path& directory) {
       if (result.identifier == static_cast<int>(i)) own.push_back(&result);
     }
     view.rows.push_back(ReadRow(store, suite, suite.identifiers[i], own));
+  }
+  for (const RunRow& row : view.rows) {
+    if (view.bound_covariance.size() == 0 && !row.parameters.empty()) {
+      view.bound_covariance = BoundCovariance(suite, row);
+    }
   }
   return view;
 }

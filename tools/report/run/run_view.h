@@ -51,6 +51,9 @@ struct RunView {
   double bound_npe = 0;      // rms continuous NPE at the Cramer-Rao bound, NaN where unknown
   double noise = 0;          // standard deviation on the stored torque, N.m or N; NaN unknown
   std::vector<RunRow> rows;  // in the order of the suite
+  /// Cramer-Rao covariance of the relative errors in per cent, [d x d], in the order of the truth's
+  /// parameters; empty where unknown.
+  Eigen::MatrixXd bound_covariance;
 };
 
 /// Reads a run directory. Throws BadInput where there is none, or nothing is finished yet.

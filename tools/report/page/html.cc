@@ -1,0 +1,109 @@
+#include "tools/report/page/html.h"
+
+#include <fmt/core.h>
+
+#include <cstdint>
+
+namespace warmjoint::report {
+namespace {
+
+/// Names of columns stand left where their cells are words.
+bool IsWords(const warmjoint::Table& table, std::size_t column) {
+  for (const auto& row : table.rows) {
+    const char first = row[column].empty() ? '-' : row[column].front();
+    if (!(first >= '0' && first <= '9') && first != '-') return true;
+  }
+  return false;
+}
+
+std::string DataUrl(std::string_view png) { return "data:image/png;base64," + Base64(png); }
+
+}  // namespace
+
+std::string Escape(std::string_view text) {
+  std::string escaped;
+  for (char letter : text) {
+    switch (letter) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      case '\'':
+        escaped += "&#39;";
+        break;
+      default:
+        escaped += letter;
+    }
+  }
+  return escaped;
+}
+
+std::string Base64(std::string_view bytes) {
+  static constexpr char kLetters[] =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t left = bytes.size() - i;
+    const auto byte = [&](std::size_t k) {
+      return k < left ? static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[i + k])) : 0u;
+    };
+    const std::uint32_t group = byte(0) << 16 | byte(1) << 8 | byte(2);
+    text += kLetters[group >> 18 & 63];
+    text += kLetters[group >> 12 & 63];
+    text += left > 1 ? kLetters[group >> 6 & 63] : '=';
+    text += left > 2 ? kLetters[group & 63] : '=';
+  }
+  return text;
+}
+
+std::string Section(const std::string& id, const std::string& heading, const std::string& body) {
+  return fmt::format(
+      "<section id=\"{0}\" aria-labelledby=\"{0}-h\">\n<h2 id=\"{0}-h\">{1}</h2>\n{2}</section>\n",
+      id, Escape(heading), body);
+}
+
+std::string Paragraph(const std::string& text) { return "<p>" + Escape(text) + "</p>\n"; }
+
+std::string HtmlTable(const std::string& caption, const warmjoint::Table& table) {
+  // wide tables scroll by themselves, with the keyboard too
+  std::string html = fmt::format(
+      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{0}\">\n<table>\n"
+      "<caption>{0}</caption>\n<thead><tr>",
+      Escape(caption));
+  for (std::size_t i = 0; i < table.header.size(); ++i) {
+    html += fmt::format("<th scope=\"col\"{}>{}</th>", IsWords(table, i) ? " class=\"words\"" : "",
+                        Escape(table.header[i]));
+  }
+  html += "</tr></thead>\n<tbody>\n";
+  for (const auto& row : table.rows) {
+    html += "<tr>";
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const char* kind = IsWords(table, i) ? " class=\"words\"" : "";
+      html += i == 0 ? fmt::format("<th scope=\"row\"{}>{}</th>", kind, Escape(row[i]))
+                     : fmt::format("<td{}>{}</td>", kind, Escape(row[i]));
+    }
+    html += "</tr>\n";
+  }
+  return html + "</tbody>\n</table>\n</div>\n";
+}
+
+std::string HtmlPicture(const Figure& figure, std::string_view light, std::string_view dark) {
+  return fmt::format(
+      "<figure id=\"{}\">\n<picture>\n"
+      "<source media=\"(prefers-color-scheme: dark)\" srcset=\"{}\">\n"
+      "<img src=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}\">\n</picture>\n"
+      "<figcaption>{}</figcaption>\n</figure>\n",
+      Escape(figure.name), DataUrl(dark), DataUrl(light), figure.width, figure.height,
+      Escape(figure.title + ". " + figure.finding), Escape(figure.finding));
+}
+
+}  // namespace warmjoint::report

@@ -1,0 +1,107 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/report/figures/axes.h"
+#include "tools/report/run/run_figures.h"
+
+namespace warmjoint::report {
+namespace {
+
+/// 95 % interval of a share (Wilson 1927), in per cent.
+std::pair<double, double> ShareInterval(int hits, int tries) {
+  constexpr double kZ = 1.96;
+  const double n = tries, share = hits / n;
+  const double centre = (share + kZ * kZ / (2 * n)) / (1 + kZ * kZ / n);
+  const double reach =
+      kZ * std::sqrt(share * (1 - share) / n + kZ * kZ / (4 * n * n)) / (1 + kZ * kZ / n);
+  return {100 * std::max(0.0, centre - reach), 100 * std::min(1.0, centre + reach)};
+}
+
+/// One identifier's shares beside the others'.
+struct Drawer {
+  Plot& plot;
+  double lowest = 90;  // per cent
+
+  void Add(const RunRow& row, double offset) {
+    Scatter scatter;
+    scatter.size = 4;
+    std::vector<double> x, y;
+    for (std::size_t i = 0; i < row.parameters.size(); ++i) {
+      const ParameterColumn& column = row.parameters[i];
+      if (column.intervals == 0) continue;
+      const double at = static_cast<double>(i) + offset;
+      const auto [lower, upper] = ShareInterval(column.covered, column.intervals);
+      plot.series.push_back({"", IdentifierHue(row.identifier),
+                             Line{Eigen::Vector2d(at, at), Eigen::Vector2d(lower, upper), 1.5}});
+      x.push_back(at);
+      y.push_back(100.0 * column.covered / column.intervals);
+      lowest = std::min(lowest, lower);
+    }
+    const auto size = static_cast<Eigen::Index>(x.size());
+    scatter.x = Eigen::Map<const Eigen::VectorXd>(x.data(), size);
+    scatter.y = Eigen::Map<const Eigen::VectorXd>(y.data(), size);
+    plot.series.push_back({row.label, IdentifierHue(row.identifier), scatter});
+  }
+};
+
+bool GivesIntervals(const RunRow& row) {
+  return std::any_of(row.parameters.begin(), row.parameters.end(),
+                     [](const ParameterColumn& column) { return column.intervals > 0; });
+}
+
+std::string Finding(const std::vector<const RunRow*>& rows) {
+  std::string text = "Of the 95 % intervals,";
+  for (const RunRow* row : rows) {
+    int hits = 0, tries = 0;
+    for (const ParameterColumn& column : row->parameters) {
+      hits += column.covered;
+      tries += column.intervals;
+    }
+    text +=
+        fmt::format(" {:.0f} % of those of {} hold the truth,", 100.0 * hits / tries, row->label);
+  }
+  text.back() = '.';
+  return text;
+}
+
+}  // namespace
+
+std::optional<Figure> IntervalCoverage(const RunView& run) {
+  std::vector<const RunRow*> rows;
+  for (const RunRow& row : run.rows) {
+    if (GivesIntervals(row)) rows.push_back(&row);
+  }
+  if (rows.empty()) return std::nullopt;
+
+  Plot plot;
+  Drawer drawer{plot};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double middle = (static_cast<double>(rows.size()) - 1) / 2;
+    drawer.Add(*rows[i], 0.16 * (static_cast<double>(i) - middle));
+  }
+  plot.series.push_back({"95 %", Hue::text, LevelLine{95}});
+  std::vector<std::string> names;
+  for (const ParameterColumn& column : rows.front()->parameters) {
+    names.push_back(SymbolOf(column.name));
+  }
+  plot.x = CategoryAxis("parameter", names);
+  plot.y = {"intervals that hold the truth (%)",
+            std::max(0.0, drawer.lowest - 4),
+            102,
+            Scale::linear,
+            {}};
+
+  Figure figure;
+  figure.name = "coverage";
+  figure.title = "Do 95 % intervals hold the truth?";
+  figure.subtitle = RunSubtitle(run, "dots are shares, lines what their number leaves open");
+  figure.finding = Finding(rows);
+  figure.width = 620;
+  figure.height = 420;
+  figure.panels.push_back({"", plot});
+  return figure;
+}
+
+}  // namespace warmjoint::report

@@ -1,0 +1,97 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/leaderboard/statistics.h"
+#include "tools/report/draw/ticks.h"
+#include "tools/report/figures/axes.h"
+#include "tools/report/run/run_figures.h"
+
+namespace warmjoint::report {
+namespace {
+
+/// Whiskers from the 5 % to the 95 % quantile.
+Box BoxOf(double x, const Eigen::VectorXd& values) {
+  std::vector<double> sorted;
+  for (double value : values) {
+    if (std::isfinite(value)) sorted.push_back(value);
+  }
+  std::sort(sorted.begin(), sorted.end());
+  Box box{x,
+          Quantile(sorted, 0.05),
+          Quantile(sorted, 0.25),
+          Quantile(sorted, 0.5),
+          Quantile(sorted, 0.75),
+          Quantile(sorted, 0.95),
+          {}};
+  std::vector<double> outliers;
+  for (double value : sorted) {
+    if (value < box.lower || value > box.upper) outliers.push_back(value);
+  }
+  box.outliers = Eigen::Map<const Eigen::VectorXd>(outliers.data(),
+                                                   static_cast<Eigen::Index>(outliers.size()));
+  return box;
+}
+
+/// Label of a category, with what failed below it.
+std::string LabelOf(const RunRow& row) {
+  std::string label = row.label;
+  for (const auto& [status, count] : row.failures) {
+    label += fmt::format("\n{} of {} {}", count, row.runs, status);
+  }
+  return label;
+}
+
+bool HasNumbers(const RunRow& row) { return row.npe.array().isFinite().any(); }
+
+std::string Finding(const RunView& run) {
+  std::string text = "Median NPE:";
+  for (const RunRow& row : run.rows) {
+    text += fmt::format(
+        " {} {},", row.label,
+        HasNumbers(row) ? SignificantText(100 * BoxOf(0, row.npe).median) + " %" : "none");
+    if (row.failed() > 0) text += fmt::format(" with {} of {} failed,", row.failed(), row.runs);
+  }
+  text.back() = '.';
+  if (std::isfinite(run.bound_npe)) {
+    text += fmt::format(" The Cramér-Rao bound is {} % rms.", SignificantText(100 * run.bound_npe));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::optional<Figure> NpeBoxes(const RunView& run) {
+  Plot plot;
+  std::vector<std::string> labels;
+  std::vector<Eigen::VectorXd> shown;
+  for (const RunRow& row : run.rows) {
+    if (HasNumbers(row)) {
+      const auto place = static_cast<double>(labels.size());
+      plot.series.push_back({"", IdentifierHue(row.identifier), BoxOf(place, 100 * row.npe)});
+      shown.push_back(100 * row.npe);
+    }
+    labels.push_back(LabelOf(row));
+  }
+  if (shown.empty()) return std::nullopt;
+  if (std::isfinite(run.bound_npe)) {
+    const double bound = 100 * run.bound_npe;
+    plot.series.push_back({"Cramér-Rao bound (rms)", Hue::text, LevelLine{bound}});
+    shown.push_back(Eigen::Vector2d(0.9 * bound, 1.1 * bound));
+  }
+  plot.x = CategoryAxis("", labels);
+  plot.y = MagnitudeAxis("NPE, continuous (%)", shown);
+
+  Figure figure;
+  figure.name = "npe_boxes";
+  figure.title = "Parameter error of each identifier";
+  figure.subtitle = RunSubtitle(run, "boxes hold the middle half, whiskers 90 %");
+  figure.finding = Finding(run);
+  figure.width = std::max(560, 150 + 150 * static_cast<int>(labels.size()));
+  figure.height = 440;
+  figure.panels.push_back({"", plot});
+  return figure;
+}
+
+}  // namespace warmjoint::report

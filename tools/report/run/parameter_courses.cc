@@ -1,0 +1,114 @@
+// Parameters by iteration, as in the paper's Fig. 5.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/report/draw/ticks.h"
+#include "tools/report/figures/axes.h"
+#include "tools/report/run/quartiles.h"
+#include "tools/report/run/run_figures.h"
+
+namespace warmjoint::report {
+namespace {
+
+/// The row with the longest course, or nullptr.
+const RunRow* LongestCourse(const RunView& run) {
+  const RunRow* longest = nullptr;
+  for (const RunRow& row : run.rows) {
+    const auto length = row.course.iteration.size();
+    if (length > 1 && (!longest || length > longest->course.iteration.size())) longest = &row;
+  }
+  return longest;
+}
+
+/// Lines of all realizations as one, with gaps between them. values: [R x K].
+Line AllRealizations(const Eigen::VectorXd& x, const Eigen::MatrixXd& values) {
+  const Eigen::Index rows = values.rows(), columns = values.cols() + 1;
+  Line line{Eigen::VectorXd::Constant(rows * columns, std::nan("")),
+            Eigen::VectorXd::Constant(rows * columns, std::nan("")), 0.7};
+  for (Eigen::Index row = 0; row < rows; ++row) {
+    line.x.segment(row * columns, x.size()) = x;
+    line.y.segment(row * columns, x.size()) = values.row(row);
+  }
+  return line;
+}
+
+/// Limits that hold the middle 90 % of the courses and the truth: single wild ones leave.
+std::pair<double, double> LimitsOf(const Eigen::MatrixXd& values, const Eigen::VectorXd& truth) {
+  std::vector<double> sorted;
+  for (double value : values.reshaped()) {
+    if (std::isfinite(value)) sorted.push_back(value);
+  }
+  std::sort(sorted.begin(), sorted.end());
+  const auto at = [&](double share) {
+    return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+  };
+  const auto [lowest, highest] = RangeOf({truth});
+  return {std::min(at(0.02), lowest), std::max(at(0.98), highest)};
+}
+
+Plot PanelOf(const RunRow& row, const ParameterColumn& column, const Eigen::MatrixXd& values) {
+  const Eigen::VectorXd& iteration = row.course.iteration;
+  const Hue hue = IdentifierHue(row.identifier);
+  const QuartileCurve middle = QuartilesOf(iteration, values);
+  const double truth = QuartilesOf(Eigen::VectorXd::Zero(1), column.truth).median[0];
+
+  Plot plot;
+  plot.series.push_back({"realizations", Hue::grey, AllRealizations(iteration, values)});
+  plot.series.push_back({"median", hue, Line{iteration, middle.median, 2.2}});
+  plot.series.push_back({"truth", Hue::text, LevelLine{truth}});
+  const bool long_course = iteration.tail(1)[0] > 100;
+  plot.x = {"iteration",
+            long_course ? std::max(1.0, iteration[0]) : iteration[0],
+            iteration.tail(1)[0],
+            long_course ? Scale::logarithmic : Scale::linear,
+            {}};
+  const auto [lower, upper] = LimitsOf(values, column.truth);
+  const std::string unit = column.unit.empty() ? "" : fmt::format(" ({})", column.unit);
+  plot.y = LinearAxis(SymbolOf(column.name) + unit, {Eigen::Vector2d(lower, upper)});
+  return plot;
+}
+
+}  // namespace
+
+std::optional<Figure> ParameterCourses(const RunView& run) {
+  const RunRow* row = LongestCourse(run);
+  if (!row) return std::nullopt;
+
+  Figure figure;
+  figure.name = "parameters_by_iteration";
+  figure.title = fmt::format("Parameters by iteration: {}", row->label);
+  figure.subtitle = RunSubtitle(run, "each thin line is one of them");
+  figure.width = 960;
+  figure.columns = {1, 1};
+  figure.rows.clear();
+  std::string last;
+  for (const ParameterColumn& column : row->parameters) {
+    const auto& names = row->course.names;
+    const auto found = std::find(names.begin(), names.end(), column.name);
+    if (found == names.end()) continue;
+    const Eigen::MatrixXd& values =
+        row->course.parameters[static_cast<std::size_t>(found - names.begin())];
+    if (!values.array().isFinite().any()) continue;
+    Panel panel{column.name, PanelOf(*row, column, values)};
+    const auto place = static_cast<int>(figure.panels.size());
+    panel.row = place / 2;
+    panel.column = place % 2;
+    if (panel.column == 0) figure.rows.push_back(1);
+    figure.panels.push_back(panel);
+
+    const Eigen::VectorXd end = values.col(values.cols() - 1);
+    const double middle = QuartilesOf(Eigen::VectorXd::Zero(1), end).median[0];
+    const double truth = QuartilesOf(Eigen::VectorXd::Zero(1), column.truth).median[0];
+    last += fmt::format(" {} {} (truth {}),", column.name, SignificantText(middle),
+                        SignificantText(truth));
+  }
+  if (figure.panels.empty()) return std::nullopt;
+  last.back() = '.';
+  figure.finding = "Medians after the last iteration:" + last;
+  figure.height = 80 + 250 * static_cast<int>(figure.rows.size());
+  return figure;
+}
+
+}  // namespace warmjoint::report

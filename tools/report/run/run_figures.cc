@@ -1,0 +1,40 @@
+#include "tools/report/run/run_figures.h"
+
+#include <fmt/core.h>
+
+#include "models/friction/law.h"
+#include "models/friction/thermal.h"
+
+namespace warmjoint::report {
+
+const std::vector<RunFigure>& RunFigures() {
+  static const std::vector<RunFigure> figures{
+      {"npe_boxes", "parameter error of each identifier, beside the Cramér-Rao bound", &NpeBoxes},
+      {"error_by_iteration", "parameter error and fit by iteration", &ErrorCourses},
+      {"parameters_by_iteration", "parameters of all realizations by iteration", &ParameterCourses},
+      {"agreement", "Fit, FPE, RMSE and MAE of each identifier", &AgreementBars},
+      {"coverage", "how often 95 % intervals hold the truth", &IntervalCoverage},
+      {"parameter_pairs", "errors of pairs of parameters with their ellipses", &ParameterPairs},
+  };
+  return figures;
+}
+
+std::string SymbolOf(const std::string& parameter) {
+  std::string symbol = parameter;
+  for (const ParameterInfo& info : Thermal::parameters) {
+    if (info.name == parameter) symbol = info.symbol;
+  }
+  for (const Law& law : Laws()) {
+    for (const ParameterInfo& info : law.parameters) {
+      if (info.name == parameter) symbol = info.symbol;
+    }
+  }
+  return symbol == "tau" ? "τ" : symbol;
+}
+
+std::string RunSubtitle(const RunView& run, const std::string& more) {
+  return fmt::format("{}: {} realization{}; {}", run.suite, run.realizations,
+                     run.realizations == 1 ? "" : "s", more);
+}
+
+}  // namespace warmjoint::report
