@@ -13,6 +13,7 @@
 #include "tools/command.h"
 #include "tools/estimate_table.h"
 #include "tools/recording_options.h"
+#include "tools/report/figures/fit_page.h"
 
 namespace warmjoint {
 namespace {
@@ -25,6 +26,7 @@ struct IdentifyArguments {
   std::vector<std::string> set;
   std::string output;
   std::string mjcf;
+  std::string plot;
 };
 
 /// What --holdout asks for: a fraction of the recording, or another recording.
@@ -82,6 +84,7 @@ ExitStatus Identify(const IdentifyArguments& arguments) {
   }
   CheckOutput(arguments.output);
   CheckOutput(arguments.mjcf);
+  CheckOutput(arguments.plot);
   const HoldOutSource holdout = ReadHoldOut(arguments);
   const Measurements measurements = ReadRecording(arguments.recording);
 
@@ -90,6 +93,9 @@ ExitStatus Identify(const IdentifyArguments& arguments) {
   Estimate estimate = identifier.identify(input);
   if (estimate.status == Status::ok) estimate.holdout = HoldOutFigures(identifier, input, holdout);
   WriteOutputs(arguments, estimate, measurements.joint);
+  if (!arguments.plot.empty()) {
+    report::WriteFitPage(measurements, selection, estimate, arguments.plot);
+  }
   fmt::print("{}", EstimateToText(estimate, measurements));
   return estimate.status == Status::ok ? ExitStatus::done : ExitStatus::nothing_trustworthy;
 }
@@ -113,6 +119,7 @@ Command AddIdentifyCommand(CLI::App& program) {
   parser->add_option("--set", arguments->set, "option of the identifier, as law=asymmetric")
       ->take_all();
   parser->add_option("-o,--output", arguments->output, "estimate.json");
+  parser->add_option("--plot", arguments->plot, "picture of data, fit and verdict (PNG)");
   parser->add_option("--mjcf", arguments->mjcf, "MuJoCo model of a joint with this friction");
   return {parser, [arguments] { return Identify(*arguments); }};
 }

@@ -6,7 +6,7 @@ std::vector<Command> AddCommands(CLI::App& program) {
   return {
       AddListCommand(program),     AddSimulateCommand(program), AddCheckCommand(program),
       AddIdentifyCommand(program), AddAttachCommand(program),   AddRunCommand(program),
-      AddCompareCommand(program),
+      AddCompareCommand(program),  AddPlotCommand(program),     AddReportCommand(program),
   };
 }
 

@@ -29,6 +29,8 @@ Command AddListCommand(CLI::App& program);
 Command AddSimulateCommand(CLI::App& program);
 Command AddCheckCommand(CLI::App& program);
 Command AddIdentifyCommand(CLI::App& program);
+Command AddPlotCommand(CLI::App& program);
+Command AddReportCommand(CLI::App& program);
 Command AddAttachCommand(CLI::App& program);
 Command AddRunCommand(CLI::App& program);
 Command AddCompareCommand(CLI::App& program);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "tools/report/draw/draw_figure.h"
 #include "tools/report/draw/ticks.h"
 #include "tools/report/figures/fit_panels.h"
 
@@ -102,6 +103,13 @@ Figure MakeFitPage(const FitView& view) {
   if (view.has_fit) AddEvidence(page, view);
 
   return figure;
+}
+
+void WriteFitPage(const Measurements& measurements, const Selection& selection,
+                  const Estimate& estimate, const std::string& path) {
+  const Figure page = MakeFitPage(MakeFitView(measurements, selection, estimate));
+  Canvas canvas;
+  WritePng(DrawFigure(canvas, page).image, page.finding, path);
 }
 
 }  // namespace warmjoint::report

@@ -1,6 +1,8 @@
 // The story of one recording on one page.
 #pragma once
 
+#include <string>
+
 #include "tools/report/draw/figure.h"
 #include "tools/report/figures/fit_view.h"
 
@@ -9,5 +11,10 @@ namespace warmjoint::report {
 /// Verdict and parameters, data with fit, cold and warm close-ups, friction over speed, warm-up,
 /// evidence of the residuals. Without a fit: what the data look like and why there is none.
 Figure MakeFitPage(const FitView& view);
+
+/// Draws the page into a PNG file. Throws BadInput where the folder cannot be written, or the
+/// machine has no OpenGL.
+void WriteFitPage(const Measurements& measurements, const Selection& selection,
+                  const Estimate& estimate, const std::string& path);
 
 }  // namespace warmjoint::report

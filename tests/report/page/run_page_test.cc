@@ -1,0 +1,142 @@
+#include "tools/report/page/run_page.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "tests/report/look.h"
+#include "tests/report/run_example.h"
+#include "tools/leaderboard/board_tables.h"
+#include "tools/leaderboard/format_board.h"
+#include "tools/report/page/html.h"
+#include "tools/report/run/run_figures.h"
+
+namespace warmjoint::report {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+Leaderboard ExampleBoard() {
+  Leaderboard board;
+  board.suite = "table1 <script>";
+  board.question = "Which one is right & why?";
+  board.realizations = board.finished = 40;
+  board.bound_npe_continuous = 0.012;
+  LeaderboardRow row;
+  row.identifier = "energy-ml";
+  row.runs = 40;
+  row.failures = {{"not_converged", 2}};
+  row.failure_example = "it <b>moved</b>";
+  row.npe_continuous = {0.011, 0.009, 0.013, 0.0121};
+  row.npe_discrete = row.npe_continuous;
+  row.rmse = {0.5, 0.49, 0.51, 0.5};
+  board.rows = {row};
+  return board;
+}
+
+const std::string& ExamplePage() {
+  static const std::string page =
+      MakeRunPage({ExampleBoard(),
+                   {"name: table1\n", {"energy-ml"}, {{"warmjoint", "0.1.0"}}},
+                   {*NpeBoxes(ExampleRun())}},
+                  TestCanvas());
+  return page;
+}
+
+int Count(const std::string& text, const std::string& what) {
+  int count = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) {
+    ++count;
+  }
+  return count;
+}
+
+TEST(RunPage, AsksNothingOfAnyServer) {
+  const std::string& page = ExamplePage();
+  EXPECT_EQ(Count(page, "http"), 0);
+  EXPECT_EQ(Count(page, "@import"), 0);
+  EXPECT_EQ(Count(page, "url("), 0);
+  // every source and link stays in the page
+  const std::regex reference(R"re((?:src|srcset|href)="([^"]{0,12}))re");
+  for (std::sregex_iterator it(page.begin(), page.end(), reference), end; it != end; ++it) {
+    const std::string target = (*it)[1];
+    EXPECT_TRUE(target.starts_with("data:") || target.starts_with("#")) << target;
+  }
+}
+
+TEST(RunPage, SaysQuestionVerdictNotesAndHowToRepeatIt) {
+  const std::string& page = ExamplePage();
+  EXPECT_THAT(page, HasSubstr("Which one is right &amp; why?"));
+  EXPECT_THAT(page, HasSubstr(Escape(Verdict(ExampleBoard()))));
+  EXPECT_THAT(page, HasSubstr("it &lt;b&gt;moved&lt;/b&gt;"));
+  EXPECT_THAT(page, HasSubstr("warmjoint run suite.yaml"));
+  EXPECT_THAT(page, HasSubstr("name: table1"));
+}
+
+TEST(RunPage, EscapesWhatOthersWrote) {
+  EXPECT_THAT(ExamplePage(), Not(HasSubstr("table1 <script>")));
+  EXPECT_EQ(Escape("<a href=\"x\">'&'</a>"),
+            "&lt;a href=&quot;x&quot;&gt;&#39;&amp;&#39;&lt;/a&gt;");
+}
+
+TEST(RunPage, HoldsTheNumbersOfCompare) {
+  const std::string& page = ExamplePage();
+  // for people: the cells of the ranking
+  for (const std::string& cell : RankingTable(ExampleBoard()).rows[0]) {
+    EXPECT_THAT(page, HasSubstr(">" + Escape(cell) + "</t"));
+  }
+  // for programs: the same JSON
+  const std::string open = "id=\"board\">";
+  const std::size_t begin = page.find(open) + open.size();
+  const std::string json = page.substr(begin, page.find("</script>", begin) - begin);
+  EXPECT_EQ(nlohmann::json::parse(json), nlohmann::json::parse(BoardToJson(ExampleBoard())));
+}
+
+TEST(RunPage, GivesEveryPictureAnAltTextAndBothThemes) {
+  const std::string& page = ExamplePage();
+  EXPECT_EQ(Count(page, "<img "), 1);
+  EXPECT_THAT(page, HasSubstr("alt=\"Parameter error of each identifier. Median NPE: energy-ml"));
+  EXPECT_EQ(Count(page, "media=\"(prefers-color-scheme: dark)\" srcset=\"data:image/png"), 1);
+}
+
+TEST(RunPage, HasTablesWithHeadsAndCaptions) {
+  const std::string& page = ExamplePage();
+  EXPECT_EQ(Count(page, "<table>"), Count(page, "<caption>"));
+  EXPECT_GE(Count(page, "<th scope=\"col\""), 9);
+  EXPECT_GE(Count(page, "<th scope=\"row\""), 2);
+  EXPECT_THAT(page, HasSubstr("<html lang=\"en\">"));
+  EXPECT_THAT(page, HasSubstr("name=\"viewport\""));
+}
+
+TEST(RunPage, ClosesEveryElementThatItOpens) {
+  const std::string& page = ExamplePage();
+  const std::regex tag(R"(<(/?)([a-z0-9]+)[^>]*>)");
+  std::vector<std::string> open;
+  // data inside quotes holds no ">": base 64 and escaped text
+  for (std::sregex_iterator it(page.begin(), page.end(), tag), end; it != end; ++it) {
+    const std::string name = (*it)[2];
+    if (name == "meta" || name == "link" || name == "img" || name == "source") continue;
+    if ((*it)[1].length() == 0) {
+      open.push_back(name);
+    } else {
+      ASSERT_FALSE(open.empty());
+      ASSERT_EQ(open.back(), name);
+      open.pop_back();
+    }
+  }
+  EXPECT_TRUE(open.empty());
+}
+
+TEST(Base64, EncodesTheVectorsOfRfc4648) {
+  EXPECT_EQ(Base64(""), "");
+  EXPECT_EQ(Base64("f"), "Zg==");
+  EXPECT_EQ(Base64("fo"), "Zm8=");
+  EXPECT_EQ(Base64("foo"), "Zm9v");
+  EXPECT_EQ(Base64("foobar"), "Zm9vYmFy");
+}
+
+}  // namespace
+}  // namespace warmjoint::report
