@@ -27,6 +27,7 @@ inline RunRow ExampleRow(const std::string& label, const std::string& identifier
   row.label = label;
   row.identifier = identifier;
   row.runs = kExampleRealizations;
+  row.variant = Eigen::VectorXi::LinSpaced(kExampleRealizations, 0, 1);
   row.npe = row.rmse = row.fit = row.fpe = row.mae = Eigen::VectorXd(kExampleRealizations);
   for (Eigen::Index i = 0; i < kExampleRealizations; ++i) {
     row.npe[i] = npe * std::exp(0.3 * random.Normal());
@@ -62,6 +63,7 @@ inline RunView ExampleRun() {
   run.question = "Which identifier?";
   run.realizations = kExampleRealizations;
   run.torque_unit = "N·m";
+  run.rungs = {"noise.torque", "N.m", Eigen::Vector2d(0.1, 1), {}};
   run.bound_npe = 0.012;
   run.noise = 0.5;
   run.rows = {ExampleRow("energy-ml", "energy-ml", 0.011, random),

@@ -38,11 +38,26 @@ Leaderboard ExampleBoard() {
 }
 
 const std::string& ExamplePage() {
-  static const std::string page =
-      MakeRunPage({ExampleBoard(),
-                   {"name: table1\n", {"energy-ml"}, {{"warmjoint", "0.1.0"}}},
-                   {*NpeBoxes(ExampleRun())}},
-                  TestCanvas());
+  static const std::string page = [] {
+    RunPage example;
+    example.board = ExampleBoard();
+    example.description.suite_yaml = "name: table1\n";
+    example.description.identifiers = {"energy-ml"};
+    example.description.versions = {{"warmjoint", "0.1.0"}};
+    example.figures = {*NpeBoxes(ExampleRun())};
+    return MakeRunPage(example, TestCanvas());
+  }();
+  return page;
+}
+
+/// The page with its pictures' bytes cut out.
+std::string ExampleMarkup() {
+  std::string page = ExamplePage();
+  const std::string mark = "base64,";
+  for (std::size_t at = page.find(mark); at != std::string::npos; at = page.find(mark, at + 1)) {
+    const std::size_t begin = at + mark.size();
+    page.erase(begin, page.find('"', begin) - begin);
+  }
   return page;
 }
 
@@ -55,7 +70,7 @@ int Count(const std::string& text, const std::string& what) {
 }
 
 TEST(RunPage, AsksNothingOfAnyServer) {
-  const std::string& page = ExamplePage();
+  const std::string page = ExampleMarkup();
   EXPECT_EQ(Count(page, "http"), 0);
   EXPECT_EQ(Count(page, "@import"), 0);
   EXPECT_EQ(Count(page, "url("), 0);
@@ -112,10 +127,10 @@ TEST(RunPage, HasTablesWithHeadsAndCaptions) {
 }
 
 TEST(RunPage, ClosesEveryElementThatItOpens) {
-  const std::string& page = ExamplePage();
+  const std::string page = ExampleMarkup();
   const std::regex tag(R"(<(/?)([a-z0-9]+)[^>]*>)");
   std::vector<std::string> open;
-  // data inside quotes holds no ">": base 64 and escaped text
+  // text inside quotes is escaped and holds no ">"
   for (std::sregex_iterator it(page.begin(), page.end(), tag), end; it != end; ++it) {
     const std::string name = (*it)[2];
     if (name == "meta" || name == "link" || name == "img" || name == "source") continue;

@@ -96,7 +96,7 @@ Course ReadCourse(const RunStore& store, const Own& results) {
   std::vector<TraceTable> traces;
   const TraceTable* longest = nullptr;
   for (const Result* result : results) {
-    traces.push_back(store.ReadTrace(result->realization, result->identifier));
+    traces.push_back(store.ReadTrace({result->variant, result->realization}, result->identifier));
   }
   for (const TraceTable& trace : traces) {
     if (trace.rows() > (longest ? longest->rows() : 0)) longest = &trace;
@@ -133,6 +133,7 @@ RunRow ReadRow(const RunStore& store, const Suite& suite, const SuiteIdentifier&
   for (const Result* result : results) {
     if (result->status != "ok") ++row.failures[result->status];
   }
+  row.variant = Column(results, [](const Result& result) { return result.variant; }).cast<int>();
   row.npe = Column(results, [](const Result& result) {
     return result.score ? result.score->npe_continuous : kUnknown;
   });
@@ -193,6 +194,20 @@ Eigen::MatrixXd BoundCovariance(const Suite& suite, const RunRow& row) {
   return covariance;
 }
 
+Rungs ReadRungs(const Suite& suite) {
+  Rungs rungs;
+  if (!suite.ladder) return rungs;
+  const auto& variants = suite.ladder->variants;
+  rungs.variable = suite.ladder->variable;
+  rungs.unit = suite.ladder->unit;
+  rungs.values.resize(static_cast<Index>(variants.size()));
+  for (std::size_t i = 0; i < variants.size(); ++i) {
+    rungs.values[static_cast<Index>(i)] = variants[i].value.value_or(static_cast<double>(i));
+    if (!variants[i].value) rungs.names.push_back(variants[i].name);
+  }
+  return rungs;
+}
+
 }  // namespace
 
 int RunRow::failed() const {
@@ -214,6 +229,7 @@ RunView ReadRunView(const std::filesystem::path& directory) {
   view.suite = suite.name;
   view.question = suite.question;
   view.realizations = board.finished;
+  view.rungs = ReadRungs(suite);
   view.torque_unit = UnitText(kTorqueUnit.For(suite.scenario.joint_kind));
   view.bound_npe = board.bound_npe_continuous;
   // what a filter leaves of the noise is not stored

@@ -10,6 +10,7 @@ namespace warmjoint::report {
 const std::vector<RunFigure>& RunFigures() {
   static const std::vector<RunFigure> figures{
       {"npe_boxes", "parameter error of each identifier, beside the Cramér-Rao bound", &NpeBoxes},
+      {"ladder", "parameter error against what the suite's ladder climbs", &LadderFigure},
       {"error_by_iteration", "parameter error and fit by iteration", &ErrorCourses},
       {"parameters_by_iteration", "parameters of all realizations by iteration", &ParameterCourses},
       {"agreement", "Fit, FPE, RMSE and MAE of each identifier", &AgreementBars},

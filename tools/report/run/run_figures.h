@@ -22,6 +22,7 @@ struct RunFigure {
 const std::vector<RunFigure>& RunFigures();
 
 std::optional<Figure> NpeBoxes(const RunView& run);
+std::optional<Figure> LadderFigure(const RunView& run);
 std::optional<Figure> ErrorCourses(const RunView& run);
 std::optional<Figure> ParameterCourses(const RunView& run);
 std::optional<Figure> AgreementBars(const RunView& run);

@@ -31,11 +31,20 @@ struct Course {
   std::vector<Eigen::MatrixXd> parameters;  // for each name: [R x K]
 };
 
+/// What the variants of a suite are, in the order of its ladder; empty without one.
+struct Rungs {
+  std::string variable;  // what the values are of, with `unit`
+  std::string unit;
+  Eigen::VectorXd values;          // 0, 1, 2, ... where the variants have names alone
+  std::vector<std::string> names;  // empty where they have values
+};
+
 struct RunRow {
   std::string label;       // row of the leaderboard
   std::string identifier;  // name in the list of identifiers: gives the colour
   int runs = 0;
   std::map<std::string, int> failures;       // status: count
+  Eigen::VectorXi variant;                   // [R] position in the ladder
   Eigen::VectorXd npe, rmse, fit, fpe, mae;  // [R], NaN without an answer
   std::vector<ParameterColumn> parameters;   // continuous, in the order of the truth
   Course course;                             // K = 0 where it does not iterate
@@ -47,6 +56,7 @@ struct RunView {
   std::string suite;
   std::string question;
   int realizations = 0;  // finished
+  Rungs rungs;
   std::string torque_unit;
   double bound_npe = 0;      // rms continuous NPE at the Cramer-Rao bound, NaN where unknown
   double noise = 0;          // standard deviation on the stored torque, N.m or N; NaN unknown
