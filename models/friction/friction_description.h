@@ -23,7 +23,7 @@ struct FrictionDescription {
   std::optional<Thermal> thermal;
   double ambient = 0;  // ambient temperature, degC; not used by the energy state
   double gear = 1;     // motor turns for each joint turn (rotary), rad of motor per m (linear)
-  std::vector<FrictionMap> maps;  // friction that depends on position, energy, load
+  std::vector<FrictionMap> maps{};  // friction that depends on position, energy, load
 };
 
 /// Checks names and bounds against the parameter tables; throws BadInput from `place`.

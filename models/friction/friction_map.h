@@ -54,31 +54,43 @@ nlohmann::json MapToJson(const FrictionMap& map);
 /// The inverse; checked.
 FrictionMap MapFromJson(const nlohmann::json& json, const Place& place);
 
-/// Value of a checked map, N.m or N; allocates nothing. T: double, or a dual number.
-template <typename T>
-T EvaluateMap(const FrictionMap& map, const MapPoint<T>& point) {
-  struct Contraction {
-    const FrictionMap& map;
-    std::array<std::array<T, kMostMapCentres>, kMostMapAxes> phi;
+namespace internal {
 
-    // sums an axis away under one kernel of each axis before it
-    T Sum(size_t axis, size_t offset) const {
-      if (axis >= std::min(map.axes.size(), kMostMapAxes)) return T(map.weights[offset]);
-      const size_t count = map.axes[axis].kernels.size();
+/// The kernels of each axis at a point, and the sum of their products times the weights.
+template <typename T>
+struct MapContraction {
+  const FrictionMap& map;
+  std::array<std::array<T, kMostMapCentres>, kMostMapAxes> phi;
+
+  /// Sums the axes from `axis` on, under one kernel (`offset`) of those before it.
+  template <size_t axis>
+  T Sum(size_t offset) const {
+    if constexpr (axis < kMostMapAxes) {
+      if (axis == map.axes.size()) return T(map.weights[offset]);
+      const size_t count = std::min(map.axes[axis].kernels.size(), kMostMapCentres);
       T sum(0);
       for (size_t i = 0; i < count; ++i) {
         if (phi[axis][i] == T(0)) continue;
-        sum += phi[axis][i] * Sum(axis + 1, offset * count + i);
+        sum += phi[axis][i] * Sum<axis + 1>(offset * count + i);
       }
       return sum;
+    } else {
+      return T(map.weights[offset]);
     }
-  };
-  Contraction contraction{map, {}};
+  }
+};
+
+}  // namespace internal
+
+/// Value of a checked map, N.m or N; allocates nothing. T: double, or a dual number.
+template <typename T>
+T EvaluateMap(const FrictionMap& map, const MapPoint<T>& point) {
+  internal::MapContraction<T> contraction{map, {}};
   for (size_t a = 0; a < map.axes.size(); ++a) {
     const T& x = point[static_cast<size_t>(map.axes[a].quantity)];
     AxisKernels(map.axes[a].kernels, map.kernels, x, contraction.phi[a].data());
   }
-  return contraction.Sum(0, 0);
+  return contraction.template Sum<0>(0);
 }
 
 }  // namespace warmjoint
