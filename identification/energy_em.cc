@@ -155,6 +155,7 @@ Estimate Conclude(const IdentifierInput& input, const Law& law, const BlockDesce
   if (arrived) {
     estimate.message = message + ColourOf(known.noise);
     DescribeFriction(law, m, estimate);
+    if (estimate.friction) estimate.friction->thermal = last.thermal;
   } else {
     Void(Status::not_converged, message, estimate);
   }

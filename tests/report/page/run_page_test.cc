@@ -100,7 +100,8 @@ TEST(RunPage, EscapesWhatOthersWrote) {
 TEST(RunPage, HoldsTheNumbersOfCompare) {
   const std::string& page = ExamplePage();
   // for people: the cells of the ranking
-  for (const std::string& cell : RankingTable(ExampleBoard()).rows[0]) {
+  const warmjoint::Table ranking = RankingTable(ExampleBoard());
+  for (const std::string& cell : ranking.rows[0]) {
     EXPECT_THAT(page, HasSubstr(">" + Escape(cell) + "</t"));
   }
   // for programs: the same JSON
