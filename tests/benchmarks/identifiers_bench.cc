@@ -1,0 +1,30 @@
+// Time of one identification of Table I: 3600 samples at 1 s, on one core.
+#include <benchmark/benchmark.h>
+
+#include "identification/identifier.h"
+#include "tests/support/warm_recording.h"
+
+namespace warmjoint {
+namespace {
+
+void Identify(benchmark::State& state, const char* name,
+              const std::map<std::string, std::string>& given) {
+  const Measurements recording =
+      test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 1), 0.5, 1);
+  const Selection selection = SelectMoving(recording);
+  const Identifier& identifier = FindIdentifier(name);
+  const Options options(identifier.options, given, {});
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(identifier.identify({recording, selection, options, {}}));
+  }
+}
+
+BENCHMARK_CAPTURE(Identify, nominal_ls, "nominal-ls", {})->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(Identify, energy_ml, "energy-ml", {})->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(Identify, energy_em_50, "energy-em", {{"iterations", "50"}})
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(Identify, energy_em_500, "energy-em", {{"iterations", "500"}})
+    ->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+}  // namespace warmjoint
