@@ -83,7 +83,7 @@ Words VerdictOf(const FitView& view) {
   if (memory > kMemory) {
     words.paragraphs.push_back(
         {fmt::format("Residuals are alike from one sample to the next (correlation {:.2f}): "
-                     "something in the torque is not in the model, and true intervals are wider.",
+                     "something in the torque is not in the model.",
                      memory)});
   }
   return words;
