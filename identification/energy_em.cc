@@ -153,7 +153,12 @@ Estimate Conclude(const IdentifierInput& input, const Law& law, const BlockDesce
   ReportThermal(last.thermal, thermal, known.freedom, m, estimate);
   const auto [arrived, message] = Arrival(states, known, input.options.Number("tolerance"));
   if (arrived) {
-    estimate.message = message + ColourOf(known.noise);
+    // W is formed of the noisy torque, so the residual understates the errors
+    for (EstimatedParameter& parameter : estimate.parameters) {
+      parameter.std.reset();
+      parameter.interval95.reset();
+    }
+    estimate.message = message + "; gives no intervals, energy-ml does";
     DescribeFriction(law, m, estimate);
     if (estimate.friction) estimate.friction->thermal = last.thermal;
   } else {
