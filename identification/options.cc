@@ -62,6 +62,7 @@ bool IsAllowed(const OptionInfo& option, const std::string& value) {
   std::string kind;
   stream >> kind;
   if (kind == "number" || kind == "integer") return IsNumberWithin(value, kind, stream);
+  if (kind == "text") return true;
   if (kind == "range") return ParseRange(value).has_value();
   const std::vector<std::string> words = Split(option.allowed, '|');
   return std::find(words.begin(), words.end(), value) != words.end();

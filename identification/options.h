@@ -15,7 +15,7 @@ namespace warmjoint {
 struct OptionInfo {
   std::string name;
   std::string default_value;
-  /// "range", words separated by |, or "number" or "integer" and bounds: "number > 0 <= 1".
+  /// "text", "range", words separated by |, or "number" or "integer" and bounds: "number > 0 <= 1".
   std::string allowed;
   std::string meaning;
 };

@@ -86,7 +86,8 @@ Command AddRunCommand(CLI::App& program) {
       ->check(CLI::PositiveNumber);
   parser->add_option("--seed", arguments->seed, "instead of the suite's");
   parser->add_option("--identifier", arguments->identifiers,
-                     "only this one of the suite, or another one with its defaults; repeatable");
+                     "only this one of the suite, another one with its defaults, or your own as\n"
+                     "'name=command {recording} {estimate}'; repeatable");
   return {parser, [arguments] { return Run(*arguments); }};
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "identification/identifier.h"
+#include "tools/run/external_identifier.h"
 
 namespace warmjoint {
 namespace {
@@ -19,6 +20,10 @@ std::vector<SuiteIdentifier> ChooseIdentifiers(const std::vector<SuiteIdentifier
   if (names.empty()) return suite;
   std::vector<SuiteIdentifier> chosen;
   for (const std::string& name : names) {
+    if (IsExternal(name)) {
+      chosen.push_back(ReadExternal(name));
+      continue;
+    }
     bool in_suite = false;
     for (const SuiteIdentifier& one : suite) {
       if (one.label != name && one.name != name) continue;

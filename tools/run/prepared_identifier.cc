@@ -1,6 +1,7 @@
 #include "tools/run/prepared_identifier.h"
 
 #include "identification/identifier.h"
+#include "tools/run/external_identifier.h"
 
 namespace warmjoint {
 
@@ -8,6 +9,10 @@ std::vector<PreparedIdentifier> PrepareIdentifiers(const std::vector<SuiteIdenti
                                                    const Place& place) {
   std::vector<PreparedIdentifier> prepared;
   for (const SuiteIdentifier& one : identifiers) {
+    if (one.name == kExternal) {
+      prepared.push_back(PrepareExternal(one, place));
+      continue;
+    }
     const Identifier& identifier = FindIdentifier(one.name);
     const Options options(identifier.options, one.options, place);
     prepared.emplace_back(
