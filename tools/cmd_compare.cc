@@ -12,15 +12,24 @@ namespace warmjoint {
 namespace {
 
 struct CompareArguments {
-  std::string run;
+  std::vector<std::string> runs;
   std::string format = "text";
 };
 
+std::vector<NamedBoard> ReadBoards(const std::vector<std::string>& runs) {
+  std::vector<NamedBoard> boards;
+  for (const std::string& run : runs) {
+    const RunStore store = RunStore::OpenToRead(run);
+    boards.push_back({run, MakeLeaderboard(ReadSuite(store.suite_file()), store.ReadResults())});
+  }
+  return boards;
+}
+
 ExitStatus Compare(const CompareArguments& arguments) {
-  const RunStore store = RunStore::OpenToRead(arguments.run);
-  const Leaderboard board = MakeLeaderboard(ReadSuite(store.suite_file()), store.ReadResults());
+  const std::vector<NamedBoard> boards = ReadBoards(arguments.runs);
   for (const BoardFormat& format : BoardFormats()) {
-    if (format.name == arguments.format) fmt::print("{}", format.write(board));
+    if (format.name != arguments.format) continue;
+    fmt::print("{}", boards.size() == 1 ? format.write(boards[0].board) : format.join(boards));
   }
   return ExitStatus::done;
 }
@@ -31,7 +40,7 @@ Command AddCompareCommand(CLI::App& program) {
   auto arguments = std::make_shared<CompareArguments>();
   CLI::App* parser =
       program.add_subcommand("compare", "Leaderboard of a run: which identifier to trust");
-  parser->add_option("RUN", arguments->run, "run directory")->required();
+  parser->add_option("RUN", arguments->runs, "run directories")->required();
 
   std::vector<std::string> names;
   for (const BoardFormat& format : BoardFormats()) names.push_back(format.name);

@@ -6,7 +6,6 @@
 #include <optional>
 #include <thread>
 
-#include "models/foundation/atomic_file.h"
 #include "sim/plant.h"
 #include "tools/command.h"
 #include "tools/run/choose_identifiers.h"
@@ -26,6 +25,8 @@ struct RunArguments {
   std::optional<int> realizations;
   std::optional<std::uint64_t> seed;
   std::vector<std::string> identifiers;
+  std::string shard = "1/1";
+  bool keep = false;
 };
 
 /// The suite with what the command line changes.
@@ -37,10 +38,8 @@ Suite ResolveSuite(const RunArguments& arguments) {
   return suite;
 }
 
-ExitStatus Finish(const RunStore& store, const RunDescription& description) {
-  const std::vector<Result> results = store.ReadResults();
-  WriteWholeFile(store.directory() / "results.csv", ResultsToCsv(results, description));
-
+ExitStatus Finish(const RunStore& store) {
+  const std::vector<Result> results = ExportResults(store);
   const auto failed = std::count_if(results.begin(), results.end(),
                                     [](const Result& result) { return result.status != "ok"; });
   fmt::print("{}: {} results, {} of them failures; see: warmjoint compare {}\n",
@@ -57,18 +56,19 @@ ExitStatus Run(const RunArguments& arguments) {
       PrepareIdentifiers(suite.identifiers, {arguments.suite});
   for (int i = 0; i < suite.variants(); ++i) MakePlant(VariantScenario(suite, i));
 
-  const RunDescription description = Describe(suite);
-  RunStore store = RunStore::CreateOrResume(arguments.output, description);
+  const Shard shard = ReadShard(arguments.shard);
+  RunStore store = RunStore::CreateOrResume(arguments.output, Describe(suite));
   const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   CatchInterrupts();
   const RunOutcome outcome =
-      RunSuite(suite, identifiers, arguments.jobs > 0 ? arguments.jobs : cores, store);
+      RunSuite(suite, identifiers,
+               {arguments.jobs > 0 ? arguments.jobs : cores, shard, arguments.keep}, store);
   if (outcome.interrupted) {
     fmt::print(stderr, "interrupted: {} of {} realizations are kept; the same command goes on\n",
-               outcome.finished, suite.realizations * suite.variants());
+               outcome.finished, outcome.total);
     return ExitStatus::interrupted;
   }
-  return Finish(store, description);
+  return Finish(store);
 }
 
 }  // namespace
@@ -88,6 +88,9 @@ Command AddRunCommand(CLI::App& program) {
   parser->add_option("--identifier", arguments->identifiers,
                      "only this one of the suite, another one with its defaults, or your own as\n"
                      "'name=command {recording} {estimate}'; repeatable");
+  parser->add_option("--shard", arguments->shard, "part i of n, to be merged later: i/n")
+      ->capture_default_str();
+  parser->add_flag("--keep-recordings", arguments->keep, "recordings (HDF5) into RUN/recordings");
   return {parser, [arguments] { return Run(*arguments); }};
 }
 

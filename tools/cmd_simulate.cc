@@ -1,11 +1,14 @@
 // warmjoint simulate SCENARIO.yaml: one recording and the truth behind it.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
 #include "models/foundation/atomic_file.h"
+#include "models/foundation/nearest_name.h"
 #include "scenarios/read_scenario.h"
+#include "scenarios/suite.h"
 #include "scenarios/write_scenario.h"
 #include "sim/dataset/read_recording.h"
 #include "sim/dataset/truth_json.h"
@@ -13,12 +16,15 @@
 #include "tools/atomic_directory.h"
 #include "tools/command.h"
 #include "tools/recording_options.h"
+#include "tools/store/run_store.h"
 
 namespace warmjoint {
 namespace {
 
 struct SimulateArguments {
   std::string scenario;
+  std::string from;     // run directory to replay a realization of
+  std::string variant;  // of the run's ladder
   std::vector<std::string> set;
   std::optional<std::uint64_t> seed;
   std::uint64_t realization = 0;
@@ -26,7 +32,30 @@ struct SimulateArguments {
   std::string output;
 };
 
+/// The scenario that a run carried out, by its resolved suite.
+Scenario ScenarioOfRun(const SimulateArguments& arguments) {
+  if (!arguments.scenario.empty() || !arguments.set.empty() || arguments.seed) {
+    Refuse({"--from"}, "replays a run as it was: leave out SCENARIO, --set and --seed");
+  }
+  const RunStore store = RunStore::OpenToRead(arguments.from);
+  const Suite suite = ReadSuite(store.suite_file());
+  if (arguments.realization >= static_cast<std::uint64_t>(suite.realizations)) {
+    Refuse({"--realization"}, "is {}; {} has 0 to {}", arguments.realization, arguments.from,
+           suite.realizations - 1);
+  }
+  const std::vector<std::string> names = store.ReadDescription().variants;
+  if (names.empty() && arguments.variant.empty()) return VariantScenario(suite, 0);
+  const auto named = std::find(names.begin(), names.end(), arguments.variant);
+  if (named == names.end()) {
+    Refuse({"--variant"}, "'{}' is no variant of {}{}", arguments.variant, arguments.from,
+           Suggestion(arguments.variant, names));
+  }
+  return VariantScenario(suite, static_cast<int>(named - names.begin()));
+}
+
 Scenario ResolveScenario(const SimulateArguments& arguments) {
+  if (!arguments.from.empty()) return ScenarioOfRun(arguments);
+  if (arguments.scenario.empty()) Refuse({"simulate"}, "give SCENARIO, or --from RUN");
   std::vector<Setting> settings;
   for (const auto& [key, value] : ReadPairs(arguments.set, "--set")) {
     settings.push_back({key, value});
@@ -59,7 +88,9 @@ Command AddSimulateCommand(CLI::App& program) {
   auto arguments = std::make_shared<SimulateArguments>();
   CLI::App* parser =
       program.add_subcommand("simulate", "Carry out a scenario: a recording and its truth");
-  parser->add_option("SCENARIO", arguments->scenario, "scenario file (YAML)")->required();
+  parser->add_option("SCENARIO", arguments->scenario, "scenario file (YAML)");
+  parser->add_option("--from", arguments->from, "run directory: replay its --realization");
+  parser->add_option("--variant", arguments->variant, "of the run's ladder");
   parser->add_option("--set", arguments->set, "another value for a key, as noise.torque=0.1")
       ->take_all();
   parser->add_option("--seed", arguments->seed, "instead of the scenario's");

@@ -7,6 +7,7 @@ std::vector<Command> AddCommands(CLI::App& program) {
       AddListCommand(program),     AddSimulateCommand(program), AddCheckCommand(program),
       AddIdentifyCommand(program), AddAttachCommand(program),   AddRunCommand(program),
       AddCompareCommand(program),  AddPlotCommand(program),     AddReportCommand(program),
+      AddMergeCommand(program),    AddCompareCommand(program),
   };
 }
 

@@ -33,6 +33,7 @@ Command AddPlotCommand(CLI::App& program);
 Command AddReportCommand(CLI::App& program);
 Command AddAttachCommand(CLI::App& program);
 Command AddRunCommand(CLI::App& program);
+Command AddMergeCommand(CLI::App& program);
 Command AddCompareCommand(CLI::App& program);
 
 }  // namespace warmjoint

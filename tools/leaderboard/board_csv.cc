@@ -25,18 +25,30 @@ std::string Row(const LeaderboardRow& row) {
   return line + Cell(row.seconds.median) + "\n";
 }
 
+std::string Header() {
+  std::string header = "identifier,runs,failed";
+  for (const char* name : {"npe_continuous", "npe_discrete"}) {
+    header += fmt::format(",{0}_median,{0}_q25,{0}_q75,{0}_rms", name);
+  }
+  for (const char* name : {"rmse", "fit", "fpe", "mae"}) {
+    header += fmt::format(",{0}_median,{0}_q25,{0}_q75", name);
+  }
+  return header + ",seconds_median\n";
+}
+
 }  // namespace
 
 std::string BoardToCsv(const Leaderboard& board) {
-  std::string csv = "identifier,runs,failed";
-  for (const char* name : {"npe_continuous", "npe_discrete"}) {
-    csv += fmt::format(",{0}_median,{0}_q25,{0}_q75,{0}_rms", name);
-  }
-  for (const char* name : {"rmse", "fit", "fpe", "mae"}) {
-    csv += fmt::format(",{0}_median,{0}_q25,{0}_q75", name);
-  }
-  csv += ",seconds_median\n";
+  std::string csv = Header();
   for (const LeaderboardRow& row : board.rows) csv += Row(row);
+  return csv;
+}
+
+std::string BoardsToCsv(const std::vector<NamedBoard>& boards) {
+  std::string csv = "run," + Header();
+  for (const NamedBoard& named : boards) {
+    for (const LeaderboardRow& row : named.board.rows) csv += CsvCell(named.run) + "," + Row(row);
+  }
   return csv;
 }
 

@@ -54,21 +54,51 @@ ordered_json RowJson(const LeaderboardRow& row) {
       json["efficiency"][parameter.name] = parameter.efficiency;
     }
   }
+  if (row.behind) {
+    json["behind_best"] = {
+        {"median", Number(row.behind->median)},
+        {"interval95", ordered_json::array({Number(row.behind->lower), Number(row.behind->upper)})},
+        {"tie", row.behind->tie()}};
+  }
   if (row.claim) json["claim"] = ClaimJson(*row.claim);
+  return json;
+}
+
+/// Board or group without its head.
+void AddNumbers(ordered_json& json, const Leaderboard& board) {
+  json["realizations"] = board.finished;
+  json["bound_npe"] = {{"continuous", {{"rms", Number(board.bound_npe_continuous)}}},
+                       {"discrete", {{"rms", Number(board.bound_npe_discrete)}}}};
+  json["rows"] = ordered_json::array();
+  for (const LeaderboardRow& row : board.rows) json["rows"].push_back(RowJson(row));
+}
+
+ordered_json GroupJson(const Leaderboard& group) {
+  ordered_json json{{"variant", group.variant}};
+  json["value"] = group.value ? Number(*group.value) : ordered_json(nullptr);
+  AddNumbers(json, group);
+  return json;
+}
+
+ordered_json BoardJson(const Leaderboard& board) {
+  ordered_json json{{"suite", board.suite}, {"question", board.question}};
+  AddNumbers(json, board);
+  if (!board.groups.empty()) json["variable"] = board.variable;
+  for (const Leaderboard& group : board.groups) json["groups"].push_back(GroupJson(group));
   return json;
 }
 
 }  // namespace
 
-std::string BoardToJson(const Leaderboard& board) {
-  ordered_json json{{"suite", board.suite},
-                    {"question", board.question},
-                    {"realizations", board.finished},
-                    {"bound_npe",
-                     {{"continuous", {{"rms", Number(board.bound_npe_continuous)}}},
-                      {"discrete", {{"rms", Number(board.bound_npe_discrete)}}}}},
-                    {"rows", ordered_json::array()}};
-  for (const LeaderboardRow& row : board.rows) json["rows"].push_back(RowJson(row));
+std::string BoardToJson(const Leaderboard& board) { return BoardJson(board).dump(2) + "\n"; }
+
+std::string BoardsToJson(const std::vector<NamedBoard>& boards) {
+  ordered_json json{{"runs", ordered_json::array()}};
+  for (const NamedBoard& named : boards) {
+    ordered_json run{{"run", named.run}};
+    run.update(BoardJson(named.board));
+    json["runs"].push_back(run);
+  }
   return json.dump(2) + "\n";
 }
 

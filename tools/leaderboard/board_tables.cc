@@ -12,6 +12,7 @@ constexpr const char* kUnknown = "-";
 /// Two decimals below ten, then fewer: "1.10 %", "23.4 %", "200 %".
 std::string Percent(double share, const char* sign) {
   if (std::isnan(share)) return kUnknown;
+  if (std::isinf(share)) return share > 0 ? "inf" : "-inf";
   const double percent = 100 * share;
   const int decimals = percent < 9.995 ? 2 : percent < 99.95 ? 1 : 0;
   return fmt::format("{:.{}f}{}", percent, decimals, sign);
@@ -31,6 +32,24 @@ std::string Seconds(double seconds) {
 
 std::string FailedCell(const LeaderboardRow& row) {
   return row.failed() == 0 ? "0" : fmt::format("{} of {}", row.failed(), row.runs);
+}
+
+/// "tie", or the median distance and its interval.
+std::string BehindCell(const LeaderboardRow& row) {
+  if (!row.behind) return "";
+  if (row.behind->tie()) return "tie";
+  return fmt::format("{} ({} .. {})", PercentText(row.behind->median),
+                     Percent(row.behind->lower, ""), Percent(row.behind->upper, ""));
+}
+
+/// A row's cell in a group: median NPE, and how many failed.
+std::string GroupCell(const Leaderboard& group, const std::string& identifier) {
+  for (const LeaderboardRow& row : group.rows) {
+    if (row.identifier != identifier) continue;
+    const std::string median = PercentText(row.npe_continuous.median);
+    return row.failed() == 0 ? median : fmt::format("{} ({} failed)", median, row.failed());
+  }
+  return kUnknown;
 }
 
 std::string ClaimNote(const LeaderboardRow& row, std::string_view unit) {
@@ -66,7 +85,7 @@ std::string NumberText(double value) {
 
 Table RankingTable(const Leaderboard& board) {
   Table table{{"#", "identifier", "failed", "NPE median", "quartiles", "NPE rms", "x bound",
-               "discrete NPE", "rms"},
+               "behind the best", "discrete NPE", "rms"},
               {}};
   for (size_t i = 0; i < board.rows.size(); ++i) {
     const LeaderboardRow& row = board.rows[i];
@@ -74,12 +93,25 @@ Table RankingTable(const Leaderboard& board) {
                           PercentText(row.npe_continuous.median), Quartiles(row.npe_continuous),
                           PercentText(row.npe_continuous.rms),
                           NumberText(row.npe_continuous.rms / board.bound_npe_continuous),
-                          PercentText(row.npe_discrete.median), PercentText(row.npe_discrete.rms)});
+                          BehindCell(row), PercentText(row.npe_discrete.median),
+                          PercentText(row.npe_discrete.rms)});
   }
   if (!std::isnan(board.bound_npe_continuous)) {
     table.rows.push_back({"", "Cramer-Rao bound", "", "", "",
-                          PercentText(board.bound_npe_continuous), "1", "",
+                          PercentText(board.bound_npe_continuous), "1", "", "",
                           PercentText(board.bound_npe_discrete)});
+  }
+  return table;
+}
+
+Table GroupTable(const Leaderboard& board) {
+  Table table{{board.variable.empty() ? "variant" : board.variable, "bound"}, {}};
+  for (const LeaderboardRow& row : board.rows) table.header.push_back(row.identifier);
+  for (const Leaderboard& group : board.groups) {
+    table.rows.push_back({group.variant, PercentText(group.bound_npe_continuous)});
+    for (const LeaderboardRow& row : board.rows) {
+      table.rows.back().push_back(GroupCell(group, row.identifier));
+    }
   }
   return table;
 }
@@ -122,6 +154,11 @@ std::string Verdict(const Leaderboard& board) {
     verdict += fmt::format(", rms {:.2f} times the Cramer-Rao bound",
                            best.npe_continuous.rms / board.bound_npe_continuous);
   }
+  std::vector<std::string> ties;
+  for (const LeaderboardRow& row : board.rows) {
+    if (row.behind && row.behind->tie()) ties.push_back(row.identifier);
+  }
+  if (!ties.empty()) verdict += fmt::format(", tied with {}", fmt::join(ties, ", "));
   if (best.failed() > 0) verdict += fmt::format(", {} of {} failed", best.failed(), best.runs);
   return verdict + ".";
 }

@@ -12,6 +12,9 @@ namespace warmjoint {
 /// Who wins: a row for each identifier, best first, and one for the Cramer-Rao bound.
 Table RankingTable(const Leaderboard& board);
 
+/// Median NPE of each group of a ladder, one column an identifier; no rows without a ladder.
+Table GroupTable(const Leaderboard& board);
+
 /// Agreement with the data and time: RMSE, Fit, FPE, MAE, seconds.
 Table AgreementTable(const Leaderboard& board);
 

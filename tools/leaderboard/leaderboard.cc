@@ -5,119 +5,20 @@
 #include <limits>
 #include <set>
 
+#include "tools/leaderboard/paired_difference.h"
+#include "tools/leaderboard/sum_up.h"
+
 namespace warmjoint {
 namespace {
 
-using Results = std::vector<const Result*>;
-
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
-double RootMeanSquare(const std::vector<double>& values) { return Summarise(values).rms; }
-
-/// Summary of one number of each result; the number is NaN where a result lacks it.
-template <typename Number>
-Summary SummariseEach(const Results& results, Number number) {
-  std::vector<double> values;
-  for (const Result* result : results) values.push_back(number(*result));
-  return Summarise(std::move(values));
-}
-
-template <typename Member>
-Summary SummariseMetric(const Results& results, Member member) {
-  return SummariseEach(results, [member](const Result& result) {
-    return result.metrics ? (*result.metrics).*member : kUnknown;
-  });
-}
-
-template <typename Member>
-Summary SummariseScore(const Results& results, Member member) {
-  return SummariseEach(results, [member](const Result& result) {
-    return result.score ? (*result.score).*member : kUnknown;
-  });
-}
-
-/// Continuous parameter i of every scored result.
-std::vector<const ParameterScore*> Column(const Results& results, size_t i) {
-  std::vector<const ParameterScore*> column;
-  for (const Result* result : results) {
-    if (result->score) column.push_back(&result->score->continuous.at(i));
-  }
-  return column;
-}
-
-ParameterRow SumUpParameter(const std::vector<const ParameterScore*>& column) {
-  ParameterRow row;
-  row.name = column.front()->name;
-  int intervals = 0;
-  int covered = 0;
-  std::vector<double> errors, bounds;
-  for (const ParameterScore* score : column) {
-    if (score->covered) ++intervals;
-    if (score->covered.value_or(false)) ++covered;
-    if (!score->estimated) continue;
-    errors.push_back(score->estimate - score->truth);
-    bounds.push_back(score->bound);
-  }
-  if (intervals > 0) row.coverage95 = static_cast<double>(covered) / intervals;
-  row.efficiency = RootMeanSquare(errors) / RootMeanSquare(bounds);
-  return row;
-}
-
-void SumUpParameters(const Results& results, LeaderboardRow& row) {
-  const auto scored = std::find_if(results.begin(), results.end(),
-                                   [](const Result* result) { return result->score.has_value(); });
-  if (scored == results.end()) return;
-  for (size_t i = 0; i < (*scored)->score->continuous.size(); ++i) {
-    const std::vector<const ParameterScore*> column = Column(results, i);
-    row.parameters.push_back(SumUpParameter(column));
-    const bool ever = std::any_of(column.begin(), column.end(),
-                                  [](const ParameterScore* score) { return score->estimated; });
-    if (!ever) row.not_estimated.push_back(column.front()->name);
-  }
-}
-
-/// Median continuous NPE where a run without an answer counts as infinitely wrong, so that nobody
-/// wins by answering the easy ones alone.
-double RankNpe(const Results& results) {
-  std::vector<double> npe;
-  for (const Result* result : results) {
-    npe.push_back(result->score ? result->score->npe_continuous
-                                : std::numeric_limits<double>::infinity());
-  }
-  return Summarise(std::move(npe)).median;
-}
-
-LeaderboardRow SumUp(const SuiteIdentifier& identifier, const Results& results) {
-  LeaderboardRow row;
-  row.identifier = identifier.label;
-  row.claim = identifier.claim;
-  row.runs = static_cast<int>(results.size());
-  for (const Result* result : results) {
-    if (result->status == "ok") continue;
-    ++row.failures[result->status];
-    if (row.failure_example.empty()) row.failure_example = result->message;
-  }
-
-  row.npe_continuous = SummariseScore(results, &Score::npe_continuous);
-  row.npe_discrete = SummariseScore(results, &Score::npe_discrete);
-  row.rmse = SummariseMetric(results, &Metrics::rmse);
-  row.fit = SummariseMetric(results, &Metrics::fit);
-  row.fpe = SummariseMetric(results, &Metrics::fpe);
-  row.mae = SummariseMetric(results, &Metrics::mae);
-  row.seconds = SummariseEach(results, [](const Result& result) { return result.seconds; });
-  row.rank_npe = RankNpe(results);
-  SumUpParameters(results, row);
-  return row;
-}
-
-/// One result for each realization: the first that carries a score, for what depends on the truth
-/// and the recording alone.
-Results OneOfEachRealization(const std::vector<Result>& results) {
+/// One result for each unit: the first that carries a score, for what depends on the truth and the
+/// recording alone.
+Results OneOfEachUnit(const Results& results) {
   Results ones;
   std::set<Unit> seen;
-  for (const Result& result : results) {
-    if (result.score && seen.insert({result.variant, result.realization}).second)
-      ones.push_back(&result);
+  for (const Result* result : results) {
+    const Unit unit{result->variant, result->realization};
+    if (result->score && seen.insert(unit).second) ones.push_back(result);
   }
   return ones;
 }
@@ -134,36 +35,74 @@ bool Better(const LeaderboardRow& a, const LeaderboardRow& b) {
   return key(a) < key(b);
 }
 
-}  // namespace
-
-int LeaderboardRow::failed() const {
-  int count = 0;
-  for (const auto& [status, runs_of_it] : failures) count += runs_of_it;
-  return count;
+Results ResultsOf(const Results& results, int identifier) {
+  Results own;
+  for (const Result* result : results) {
+    if (result->identifier == identifier) own.push_back(result);
+  }
+  return own;
 }
 
-Leaderboard MakeLeaderboard(const Suite& suite, const std::vector<Result>& results) {
+/// Rows, best first, each with its distance from the best.
+std::vector<LeaderboardRow> Rank(const Suite& suite, const Results& results) {
+  struct Entry {
+    LeaderboardRow row;
+    std::vector<double> npe;  // in the order of units
+  };
+  std::vector<Entry> entries;
+  for (size_t i = 0; i < suite.identifiers.size(); ++i) {
+    const Results own = ResultsOf(results, static_cast<int>(i));
+    entries.push_back({SumUp(suite.identifiers[i], own), RankedNpe(own)});
+  }
+  std::stable_sort(entries.begin(), entries.end(),
+                   [](const Entry& a, const Entry& b) { return Better(a.row, b.row); });
+
+  std::vector<LeaderboardRow> rows;
+  for (Entry& entry : entries) {
+    if (!rows.empty()) entry.row.behind = PairedDifference(entry.npe, entries.front().npe);
+    rows.push_back(std::move(entry.row));
+  }
+  return rows;
+}
+
+Leaderboard SumUpBoard(const Suite& suite, const Results& results) {
   Leaderboard board;
   board.suite = suite.name;
   board.question = suite.question;
-  board.realizations = suite.realizations * suite.variants();
   board.joint = suite.scenario.joint_kind;
 
   std::set<Unit> finished;
-  for (const Result& result : results) finished.insert({result.variant, result.realization});
+  for (const Result* result : results) finished.insert({result->variant, result->realization});
   board.finished = static_cast<int>(finished.size());
-  const Results ones = OneOfEachRealization(results);
+  const Results ones = OneOfEachUnit(results);
   board.bound_npe_continuous = SummariseScore(ones, &Score::bound_npe_continuous).rms;
   board.bound_npe_discrete = SummariseScore(ones, &Score::bound_npe_discrete).rms;
+  board.rows = Rank(suite, results);
+  return board;
+}
 
-  for (size_t i = 0; i < suite.identifiers.size(); ++i) {
+}  // namespace
+
+Leaderboard MakeLeaderboard(const Suite& suite, const std::vector<Result>& results) {
+  Results all;
+  for (const Result& result : results) all.push_back(&result);
+  Leaderboard board = SumUpBoard(suite, all);
+  board.realizations = suite.realizations * suite.variants();
+  if (!suite.ladder) return board;
+
+  board.variable = suite.ladder->variable;
+  if (!suite.ladder->unit.empty()) board.variable += " " + suite.ladder->unit;
+  for (int i = 0; i < suite.variants(); ++i) {
     Results own;
-    for (const Result& result : results) {
-      if (result.identifier == static_cast<int>(i)) own.push_back(&result);
+    for (const Result* result : all) {
+      if (result->variant == i) own.push_back(result);
     }
-    board.rows.push_back(SumUp(suite.identifiers[i], own));
+    Leaderboard group = SumUpBoard(suite, own);
+    group.realizations = suite.realizations;
+    group.variant = suite.ladder->variants[static_cast<size_t>(i)].name;
+    group.value = suite.ladder->variants[static_cast<size_t>(i)].value;
+    board.groups.push_back(std::move(group));
   }
-  std::stable_sort(board.rows.begin(), board.rows.end(), Better);
   return board;
 }
 

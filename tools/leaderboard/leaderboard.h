@@ -20,6 +20,14 @@ struct ParameterRow {
   double efficiency = 0;             // rms error / rms Cramer-Rao bound; 1 is best, NaN unknown
 };
 
+/// How far a row is behind the best one, by pairs of the same realization.
+struct Difference {
+  double median = 0;  // of NPE - NPE of the best; infinite where mostly this one alone fails
+  double lower = 0;   // 95 % interval of that median, bootstrap
+  double upper = 0;
+  bool tie() const { return lower <= 0 && upper >= 0; }
+};
+
 /// One identifier over all realizations. Summaries run over the realizations that it answered.
 struct LeaderboardRow {
   std::string identifier;  // label
@@ -31,6 +39,7 @@ struct LeaderboardRow {
   std::vector<ParameterRow> parameters;    // continuous, in the order of the truth
   std::vector<std::string> not_estimated;  // continuous parameters that never were; count as 0
   std::optional<Claim> claim;
+  std::optional<Difference> behind;  // empty for the best itself
   double rank_npe = 0;  // median continuous NPE with runs without an answer as infinite
 
   int failed() const;
@@ -45,9 +54,15 @@ struct Leaderboard {
   double bound_npe_continuous = 0;   // rms NPE of an estimate at the Cramer-Rao bound, or NaN
   double bound_npe_discrete = 0;     // the same for the discrete pair
   std::vector<LeaderboardRow> rows;  // best first
+
+  // groups of a suite with a ladder, in its order; those have the following two, too
+  std::vector<Leaderboard> groups;
+  std::string variant;
+  std::optional<double> value;  // of the ladder's variable
+  std::string variable;         // what the ladder climbs, with its unit
 };
 
-/// Sums up the results of a suite.
+/// Sums up the results of a suite over all its variants, and for each of them.
 Leaderboard MakeLeaderboard(const Suite& suite, const std::vector<Result>& results);
 
 }  // namespace warmjoint

@@ -3,20 +3,29 @@
 
 #include "scenarios/suite.h"
 #include "tools/run/prepared_identifier.h"
+#include "tools/run/shard.h"
 #include "tools/store/run_store.h"
 
 namespace warmjoint {
 
+/// How much of a suite is run, and how.
+struct RunOptions {
+  int jobs = 1;  // threads
+  Shard shard;
+  bool keep_recordings = false;  // into DIR/recordings
+};
+
 /// How a run ended.
 struct RunOutcome {
-  int finished = 0;  // realizations of all variants that are in the store now
+  int finished = 0;  // realizations of all variants of the shard that are in the store
+  int total = 0;     // of the shard
   bool interrupted = false;
 };
 
-/// Runs the realizations that the store lacks, in batches of whole realizations, on `jobs` threads
+/// Runs the realizations that the store lacks, in batches of whole realizations, on threads
 /// with plants of their own. Results depend on (suite seed, realization) alone. Ctrl-C ends it
 /// after the realizations in hand, which are kept.
 RunOutcome RunSuite(const Suite& suite, const std::vector<PreparedIdentifier>& identifiers,
-                    int jobs, RunStore& store);
+                    const RunOptions& options, RunStore& store);
 
 }  // namespace warmjoint

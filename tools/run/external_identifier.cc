@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <mutex>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -11,6 +10,7 @@
 #include "identification/predict.h"
 #include "models/foundation/atomic_file.h"
 #include "sim/dataset/read_recording.h"
+#include "tools/run/keep_recording.h"
 #include "tools/run/run_command.h"
 
 namespace warmjoint {
@@ -64,9 +64,7 @@ void WriteMeasurements(const Measurements& measurements, const std::string& comm
     WriteRecording(measurements, directory / "recording.csv");
   }
   if (Contains(command, "{recording.h5}")) {
-    static std::mutex one_at_a_time;  // the HDF5 library is not made for threads
-    const std::lock_guard lock(one_at_a_time);
-    WriteRecording(measurements, directory / "recording.h5");
+    WriteHdf5Alone(measurements, directory / "recording.h5");
   }
 }
 
@@ -76,9 +74,12 @@ Estimate ReadAnswer(const fs::path& file, const std::string& label) {
   try {
     nlohmann::json json = nlohmann::json::parse(ReadWholeFile(file));
     if (!json.is_object()) throw NoAnswer("bad_answer", "the estimate is no JSON object");
-    const nlohmann::json absent{{"identifier", label}, {"message", ""},
-                                {"metrics", nullptr},  {"holdout", nullptr},
-                                {"trace", nlohmann::json::array()}, {"friction", nullptr}};
+    const nlohmann::json absent{{"identifier", label},
+                                {"message", ""},
+                                {"metrics", nullptr},
+                                {"holdout", nullptr},
+                                {"trace", nlohmann::json::array()},
+                                {"friction", nullptr}};
     for (const auto& [key, value] : absent.items()) json.emplace(key, value);
     return EstimateFromJson(json, {"estimate.json"});
   } catch (const nlohmann::json::exception& error) {
@@ -133,7 +134,8 @@ SuiteIdentifier ReadExternal(const std::string& argument) {
   std::string command;
   for (std::string word; words >> word;) {
     const bool file = Contains(word, "/") && fs::is_regular_file(word);
-    command += (command.empty() ? "" : " ") + (file ? fs::absolute(word).string() : word);
+    if (!command.empty()) command += ' ';
+    command += file ? fs::absolute(word).string() : word;
   }
   if (equals == 0) Refuse({"--identifier"}, "'{}' lacks its name before '='", argument);
   if (!Contains(command, "{estimate}")) {

@@ -81,20 +81,25 @@ std::vector<Result> AllFailed(size_t identifiers, const std::string& message) {
 Bench MakeBench(const Scenario& scenario) { return {scenario, MakePlant(scenario)}; }
 
 Realization RunRealization(const Bench& bench, const std::vector<PreparedIdentifier>& identifiers,
-                           Unit unit) {
+                           Unit unit, const RecordingKeeper& keeper) {
   const RandomKey key{bench.scenario.seed, static_cast<std::uint64_t>(unit.realization)};
   Realization realization;
   realization.unit = unit;
   const Stopwatch watch;
+  std::optional<Recording> recording;
   try {
-    const Recording recording = bench.plant->Run(key.realization);
-    realization.simulation_seconds = watch.Seconds();
-    const Selection selection = Select(recording.measurements, bench.scenario.plant);
-    for (const PreparedIdentifier& identify : identifiers) {
-      realization.results.push_back(RunIdentifier(identify, recording, selection, key));
-    }
+    recording = bench.plant->Run(key.realization);
   } catch (const std::exception& error) {
     realization.results = AllFailed(identifiers.size(), error.what());
+  }
+  realization.simulation_seconds = watch.Seconds();
+
+  if (recording) {
+    keeper.Keep(*recording, unit);
+    const Selection selection = Select(recording->measurements, bench.scenario.plant);
+    for (const PreparedIdentifier& identify : identifiers) {
+      realization.results.push_back(RunIdentifier(identify, *recording, selection, key));
+    }
   }
 
   for (size_t i = 0; i < realization.results.size(); ++i) {

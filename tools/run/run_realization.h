@@ -6,6 +6,7 @@
 
 #include "scenarios/suite.h"
 #include "sim/plant.h"
+#include "tools/run/keep_recording.h"
 #include "tools/run/prepared_identifier.h"
 #include "tools/store/result.h"
 
@@ -20,9 +21,10 @@ struct Bench {
 /// Throws BadInput where the plant cannot do the scenario.
 Bench MakeBench(const Scenario& scenario);
 
-/// Simulates a unit on its variant's bench and scores every identifier on it. Never throws for what
-/// happens in a plant or an identifier: it becomes the status and message of the results concerned.
+/// Simulates a unit on its variant's bench, keeps the recording where wanted, and scores every
+/// identifier on it. Never throws for what happens in a plant or an identifier: it becomes the
+/// status and message of the results concerned.
 Realization RunRealization(const Bench& bench, const std::vector<PreparedIdentifier>& identifiers,
-                           Unit unit);
+                           Unit unit, const RecordingKeeper& keeper);
 
 }  // namespace warmjoint

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "models/foundation/atomic_file.h"
+
 namespace warmjoint {
 namespace {
 
@@ -95,6 +97,12 @@ std::string ResultsToCsv(const std::vector<Result>& results, const RunDescriptio
     csv += fmt::format(",{}\n", CsvCell(result.message));
   }
   return csv;
+}
+
+std::vector<Result> ExportResults(const RunStore& store) {
+  std::vector<Result> results = store.ReadResults();
+  WriteWholeFile(store.directory() / "results.csv", ResultsToCsv(results, store.ReadDescription()));
+  return results;
 }
 
 }  // namespace warmjoint

@@ -6,6 +6,7 @@
 
 #include "tools/store/result.h"
 #include "tools/store/run_description.h"
+#include "tools/store/run_store.h"
 
 namespace warmjoint {
 
@@ -18,5 +19,8 @@ std::string CsvCell(const std::string& text);
 /// (1 or 0). The column variant is there when the suite has a ladder. description: names by
 /// position.
 std::string ResultsToCsv(const std::vector<Result>& results, const RunDescription& description);
+
+/// Writes RUN/results.csv from all that the store holds; returns what it wrote.
+std::vector<Result> ExportResults(const RunStore& store);
 
 }  // namespace warmjoint

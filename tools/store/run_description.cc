@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <map>
+
+#include "models/foundation/bad_input.h"
 
 namespace warmjoint {
 namespace {
@@ -47,6 +50,31 @@ std::vector<std::string> SuiteDifferences(const std::string& stored, const std::
         fmt::format("{}: {} in the directory, {} asked", path, old_value, new_value));
   }
   return differences;
+}
+
+namespace {
+
+void RefuseDifferentVersions(const RunDescription& stored, const RunDescription& asked,
+                             const Place& place) {
+  if (stored.versions == asked.versions) return;
+  std::string made;
+  for (const auto& [name, value] : stored.versions) made += fmt::format(" {} {}", name, value);
+  Refuse(place, "was made with{}, which does not mix with this; run in another directory", made);
+}
+
+}  // namespace
+
+void RefuseDifferentRun(const RunDescription& stored, const RunDescription& asked,
+                        const Place& place) {
+  RefuseDifferentVersions(stored, asked, place);
+  std::vector<std::string> differences = SuiteDifferences(stored.suite_yaml, asked.suite_yaml);
+  if (differences.empty()) return;
+  const size_t shown = std::min<size_t>(differences.size(), 5);
+  const std::string more =
+      differences.size() > shown ? fmt::format("; and {} more", differences.size() - shown) : "";
+  differences.resize(shown);
+  Refuse(place, "holds another run ({}{}); resume it as it was started or choose another directory",
+         fmt::join(differences, "; "), more);
 }
 
 }  // namespace warmjoint

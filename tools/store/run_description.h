@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "models/foundation/bad_input.h"
+
 namespace warmjoint {
 
 /// Layout of the stored tables; raised whenever they change.
@@ -20,5 +22,9 @@ struct RunDescription {
 
 /// What differs between two resolved suites, one "path: old in the directory, new asked" each.
 std::vector<std::string> SuiteDifferences(const std::string& stored, const std::string& asked);
+
+/// Throws BadInput from `place`, naming what differs, when the two do not give the same results.
+void RefuseDifferentRun(const RunDescription& stored, const RunDescription& asked,
+                        const Place& place);
 
 }  // namespace warmjoint

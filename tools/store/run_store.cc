@@ -1,7 +1,5 @@
 #include "tools/store/run_store.h"
 
-#include <fmt/format.h>
-
 #include "models/foundation/atomic_file.h"
 #include "tools/store/schema.h"
 
@@ -40,29 +38,6 @@ void MakeRunDirectory(const fs::path& directory) {
     Refuse({directory.string()}, "holds '{}' and is no run directory; choose a new or empty one",
            entry.path().filename().string());
   }
-}
-
-void RefuseDifferentVersions(const RunDescription& stored, const RunDescription& asked,
-                             const Place& place) {
-  if (stored.versions == asked.versions) return;
-  std::string made;
-  for (const auto& [name, value] : stored.versions) made += fmt::format(" {} {}", name, value);
-  Refuse(place, "was made with{}, which this program cannot continue; run in another directory",
-         made);
-}
-
-/// Refuses to mix two runs in one directory.
-void RefuseDifferentRun(const RunDescription& stored, const RunDescription& asked,
-                        const Place& place) {
-  RefuseDifferentVersions(stored, asked, place);
-  std::vector<std::string> differences = SuiteDifferences(stored.suite_yaml, asked.suite_yaml);
-  if (differences.empty()) return;
-  const size_t shown = std::min<size_t>(differences.size(), 5);
-  const std::string more =
-      differences.size() > shown ? fmt::format("; and {} more", differences.size() - shown) : "";
-  differences.resize(shown);
-  Refuse(place, "holds another run ({}{}); resume it as it was started or choose another directory",
-         fmt::join(differences, "; "), more);
 }
 
 }  // namespace

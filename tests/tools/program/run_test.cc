@@ -110,6 +110,57 @@ TEST_F(Run, TakesTheIdentifiersThatAreNamed) {
   EXPECT_FALSE(std::filesystem::exists(Directory("none"))) << "left behind";
 }
 
+TEST_F(Run, ShardsMergeToTheBytesOfTheWhole) {
+  ASSERT_EQ(RunWarmjoint(Command("whole")).status, 0);
+  ASSERT_EQ(RunWarmjoint(Command("first", {"--shard", "1/2"})).status, 0);
+  ASSERT_EQ(RunWarmjoint(Command("second", {"--shard", "2/2"})).status, 0);
+  ASSERT_EQ(
+      RunWarmjoint({"merge", Directory("first"), Directory("second"), "-o", Directory("merged")})
+          .status,
+      0);
+  EXPECT_EQ(Results("merged"), Results("whole"));
+  EXPECT_LT(Results("first").size(), Results("whole").size());
+
+  const Answer twice =
+      RunWarmjoint({"merge", Directory("first"), Directory("first"), "-o", Directory("twice")});
+  EXPECT_EQ(twice.status, 2);
+  EXPECT_THAT(twice.err, HasSubstr("holds realization 0"));
+}
+
+TEST_F(Run, ReplaysOneRealizationBitForBit) {
+  ASSERT_EQ(RunWarmjoint(Command("run", {"--realizations", "4", "--keep-recordings"})).status, 0);
+  ASSERT_EQ(RunWarmjoint({"simulate", "--from", Directory("run"), "--realization", "3", "-o",
+                          Directory("replay")})
+                .status,
+            0);
+  EXPECT_EQ(ReadWholeFile(Directory("replay") + "/truth.json"),
+            ReadWholeFile(Directory("run") + "/recordings/variant-0/realization-3.truth.json"));
+  const Answer beyond = RunWarmjoint(
+      {"simulate", "--from", Directory("run"), "--realization", "4", "-o", Directory("none")});
+  EXPECT_EQ(beyond.status, 2);
+  EXPECT_THAT(beyond.err, HasSubstr("has 0 to 3"));
+}
+
+TEST_F(Run, IdentifiersOfOthersStandBesideOurs) {
+  const std::string theirs =
+      "theirs=echo '{\"status\": \"ok\", \"parameters\": {\"viscous\": {\"value\": 5, \"unit\": "
+      "\"N.m.s/rad\", \"std\": null, \"interval95\": null}}}' > {estimate} < {recording}";
+  const std::string broken = "broken=false {recording} {estimate}";
+  ASSERT_EQ(RunWarmjoint(Command("run", {"--realizations", "3", "--identifier", theirs,
+                                         "--identifier", broken, "--identifier", "nominal-ls"}))
+                .status,
+            0);
+  const auto board =
+      nlohmann::json::parse(RunWarmjoint({"compare", Directory("run"), "--format", "json"}).out);
+  for (const auto& row : board.at("rows")) {
+    if (row.at("identifier") == "broken") {
+      EXPECT_EQ(row.at("failures").at("crashed"), 3);
+    } else {
+      EXPECT_TRUE(row.at("failures").empty());
+    }
+  }
+}
+
 TEST_F(Run, ComparesInEveryFormat) {
   ASSERT_EQ(RunWarmjoint(Command("run", {"--realizations", "5"})).status, 0);
   const auto board =

@@ -1,0 +1,76 @@
+#include "tools/run/external_identifier.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace warmjoint {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+/// Twelve samples at two speeds.
+Measurements Log() {
+  Measurements log;
+  log.time = Eigen::VectorXd::LinSpaced(12, 0, 11);
+  log.velocity = Eigen::VectorXd::Constant(12, 0.5);
+  log.velocity.tail(6).setConstant(-1);
+  log.position = Eigen::VectorXd::Zero(12);
+  log.torque = Eigen::VectorXd::LinSpaced(12, -1, 1);
+  return log;
+}
+
+Estimate Ask(const std::string& command, const std::string& limit = "20") {
+  SuiteIdentifier identifier = ReadExternal("theirs=" + command + " # {recording} {estimate}");
+  identifier.options["time_limit"] = limit;
+  const Measurements log = Log();
+  return PrepareExternal(identifier, {})(log, SelectMoving(log), {});
+}
+
+/// How the command fails, and why: "status: message".
+std::string Failure(const std::string& command, const std::string& limit = "20") {
+  try {
+    Ask(command, limit);
+  } catch (const NoAnswer& failure) {
+    return failure.status + ": " + failure.what();
+  }
+  return "";
+}
+
+TEST(ExternalIdentifier, IsNamedWithItsCommand) {
+  EXPECT_TRUE(IsExternal("me=python me.py {recording} {estimate}"));
+  EXPECT_FALSE(IsExternal("energy-ml"));
+  EXPECT_EQ(ReadExternal("me=run {recording} {estimate}").label, "me");
+  EXPECT_THAT([] { ReadExternal("me=run {recording}"); },
+              ThrowsMessage<BadInput>(HasSubstr("lacks {estimate}")));
+}
+
+TEST(ExternalIdentifier, AnswersWithAnEstimate) {
+  const Estimate estimate = Ask(
+      R"(echo '{"status": "ok", "parameters": {"coulomb": {"value": 2, "unit": "N.m", "std": null,)"
+      R"( "interval95": null}}, "friction": {"law": "coulomb", "parameters": {"coulomb": 2}}}')"
+      " > estimate.json");
+  EXPECT_EQ(estimate.status, Status::ok);
+  EXPECT_EQ(estimate.Find("coulomb")->value, 2);
+  ASSERT_TRUE(estimate.metrics) << "a friction is enough for the figures";
+  EXPECT_EQ(estimate.metrics->n, 12);
+}
+
+TEST(ExternalIdentifier, FindsTheMeasurementsAloneInItsDirectory) {
+  EXPECT_THAT(Failure("ls | tr '\\n' ' '; wc -l < recording.csv; exit 1"),
+              HasSubstr("crashed: exit status 1: 13"));
+  EXPECT_THAT(Failure("ls | tr '\\n' ' '; exit 1"),
+              HasSubstr("crashed: exit status 1: output.txt recording.csv"));
+}
+
+TEST(ExternalIdentifier, FailuresSayHow) {
+  EXPECT_THAT(Failure("echo no licence >&2; exit 7"), HasSubstr("exit status 7: no licence"));
+  EXPECT_THAT(Failure("kill -11 $$"), HasSubstr("crashed: exit status 139"));
+  EXPECT_THAT(Failure("sleep 60", "0.2"), HasSubstr("timeout: took longer than 0.2 s"));
+  EXPECT_THAT(Failure("true"), HasSubstr("bad_answer: wrote no estimate"));
+  EXPECT_THAT(Failure("echo '{' > estimate.json"), HasSubstr("bad_answer: "));
+  EXPECT_THAT(Failure("echo '{}' > estimate.json"), HasSubstr("bad_answer: "));
+}
+
+}  // namespace
+}  // namespace warmjoint
