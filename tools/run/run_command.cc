@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstring>
 #include <stdexcept>
@@ -83,8 +84,8 @@ std::string LastLine(const std::string& text) {
 CommandEnd RunShellCommand(const std::string& command, const std::filesystem::path& directory,
                            double limit) {
   using Clock = std::chrono::steady_clock;
-  const Clock::time_point deadline =
-      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limit));
+  const Clock::time_point deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                                        std::chrono::duration<double>(limit));
   const pid_t child = Start(command, directory);
 
   // poll often at first, for quick commands
