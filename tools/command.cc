@@ -6,8 +6,8 @@ std::vector<Command> AddCommands(CLI::App& program) {
   return {
       AddListCommand(program),     AddSimulateCommand(program), AddCheckCommand(program),
       AddIdentifyCommand(program), AddAttachCommand(program),   AddRunCommand(program),
-      AddCompareCommand(program),  AddPlotCommand(program),     AddReportCommand(program),
-      AddMergeCommand(program),    AddCompareCommand(program),
+      AddMergeCommand(program),    AddCompareCommand(program),  AddPlotCommand(program),
+      AddReportCommand(program),
   };
 }
 

@@ -18,8 +18,9 @@ bool IsExternal(const std::string& argument);
 SuiteIdentifier ReadExternal(const std::string& argument);
 
 /// Runs the command in a fresh directory that holds the measurements alone: {recording} stands for
-/// recording.csv, {recording.h5} for HDF5, {estimate} for the estimate.json to write. A command that
-/// fails, takes too long or writes something else throws NoAnswer: crashed, timeout, bad_answer.
+/// recording.csv, {recording.h5} for HDF5, {estimate} for the estimate.json to write. A command
+/// that fails, takes too long or writes something else throws NoAnswer: crashed, timeout,
+/// bad_answer.
 PreparedIdentifier PrepareExternal(const SuiteIdentifier& identifier, const Place& place);
 
 }  // namespace warmjoint
