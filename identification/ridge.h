@@ -1,0 +1,80 @@
+// Ridge regression with the prior on the kernel weights alone.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace warmjoint {
+
+/// Normal equations of y = A x + e; sums over rows, so that those of parts add up and those of
+/// millions of samples fit into d^2 numbers.
+struct NormalEquations {
+  Eigen::MatrixXd gram;     // [d x d] A^T A
+  Eigen::VectorXd product;  // [d] A^T y
+  double squares = 0;       // y^T y
+  Eigen::Index rows = 0;
+
+  explicit NormalEquations(Eigen::Index d);
+  /// Adds rows. A: [n x d]; y: [n].
+  void Add(const Eigen::MatrixXd& A, const Eigen::VectorXd& y);
+  NormalEquations Minus(const NormalEquations& part) const;
+  /// |y - A x|^2.
+  double Squares(const Eigen::VectorXd& x) const;
+};
+
+/// x(strength) = argmin |A x - y|^2 + strength |w|^2, w the last d - free entries of x, for any
+/// number of strengths. The free columns are projected out; what is left is made tridiagonal once
+/// (Golub and Van Loan, 8.3.1), after which each strength costs a tridiagonal solve.
+class Ridge {
+ public:
+  /// free: number of leading columns without a prior; they must be independent of each other.
+  Ridge(const NormalEquations& normal, Eigen::Index free);
+
+  /// [d]. strength > 0.
+  Eigen::VectorXd Solve(double strength) const;
+  /// Trace of the hat matrix, free + sum s/(s + strength) over the eigenvalues s of what is left.
+  double EffectiveParameters(double strength) const;
+  /// Eigenvalues s, ascending: [d - free].
+  const Eigen::VectorXd& eigenvalues() const { return eigenvalues_; }
+  /// log det of the free columns' Gram matrix.
+  double log_free_determinant() const { return log_free_determinant_; }
+
+ private:
+  Eigen::Index free_;
+  Eigen::MatrixXd slopes_;        // [free x q] free columns' answer to each kernel
+  Eigen::VectorXd intercept_;     // [free] their answer to y
+  Eigen::MatrixXd basis_;         // [q x q] Q of the tridiagonal form Q T Q^T
+  Eigen::VectorXd diagonal_;      // [q] of T
+  Eigen::VectorXd off_diagonal_;  // [q - 1] of T
+  Eigen::VectorXd right_;         // [q] Q^T of the kernels' products with y
+  Eigen::VectorXd eigenvalues_;   // [q]
+  double log_free_determinant_ = 0;
+};
+
+/// Mean squared errors of held-out parts for each strength. parts: normal equations of contiguous
+/// segments of a recording; every part is predicted from all the others.
+Eigen::VectorXd CrossValidate(const std::vector<NormalEquations>& parts, Eigen::Index free,
+                              const std::vector<double>& strengths);
+
+/// Mean squared error of leaving out one row at a time, e_i / (1 - h_i). A: [n x d]; y: [n].
+double LeaveOneOut(const Eigen::MatrixXd& A, const Eigen::VectorXd& y, Eigen::Index free,
+                   double strength);
+
+/// The prior's and the noise's precision that make the data most likely (MacKay 1992), with a flat
+/// prior on the free columns: alpha = gamma / |w|^2, beta = (n - free - gamma) / |r|^2,
+/// gamma = sum s/(s + alpha/beta).
+struct Evidence {
+  double alpha = 0;  // 1 / variance of a kernel's weight
+  double beta = 0;   // 1 / variance of the noise
+  double gamma = 0;  // kernels that the data determine
+  double log_evidence = 0;
+  double strength() const { return alpha / beta; }
+};
+Evidence MaximiseEvidence(const NormalEquations& normal, Eigen::Index free);
+
+/// log evidence at given precisions:
+/// 1/2 [q ln a + n ln b - b |r|^2 - a |w|^2 - ln det(b A^T A + a P) - (n - free) ln 2 pi].
+double LogEvidence(const NormalEquations& normal, const Ridge& ridge, Eigen::Index free,
+                   double alpha, double beta);
+
+}  // namespace warmjoint
