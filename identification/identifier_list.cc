@@ -2,6 +2,7 @@
 #include "identification/energy_ml.h"
 #include "identification/identifier.h"
 #include "identification/nominal_ls.h"
+#include "identification/rls.h"
 #include "models/foundation/nearest_name.h"
 
 namespace warmjoint {
@@ -11,6 +12,7 @@ const std::vector<Identifier>& Identifiers() {
       NominalLs(),
       EnergyEm(),
       EnergyMl(),
+      Rls(),
   };
   return identifiers;
 }
