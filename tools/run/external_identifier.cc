@@ -89,6 +89,21 @@ Estimate ReadAnswer(const fs::path& file, const std::string& label) {
   }
 }
 
+/// The discrete pair (22) of an estimate that brings only the continuous one, without intervals.
+void AddDiscretePair(Estimate& estimate, const Measurements& measurements) {
+  const EstimatedParameter* gain = estimate.Find("thermal_gain");
+  const EstimatedParameter* time_constant = estimate.Find("thermal_time_constant");
+  if (!gain || !time_constant || time_constant->value <= 0) return;
+  if (estimate.Find("thermal_gain_discrete") || estimate.Find("thermal_pole")) return;
+
+  const Eigen::VectorXd& time = measurements.time;
+  const double step = (time[time.size() - 1] - time[0]) / static_cast<double>(time.size() - 1);
+  const std::string unit = gain->unit;
+  const DiscreteThermal pair = Discretise({gain->value, time_constant->value}, step);
+  estimate.parameters.push_back({"thermal_gain_discrete", pair.gain, unit, {}, {}});
+  estimate.parameters.push_back({"thermal_pole", pair.pole, "1", {}, {}});
+}
+
 /// Figures of an estimate that brings a friction but none of its own.
 void AddMetrics(Estimate& estimate, const Measurements& measurements, const Selection& selection) {
   if (estimate.metrics || !estimate.friction || selection.count() == 0) return;
@@ -117,6 +132,7 @@ Estimate Ask(const std::string& command, const std::string& label, double limit,
     throw NoAnswer("crashed", fmt::format("exit status {}: {}", end.status, end.last_output));
   }
   Estimate estimate = ReadAnswer(directory.path() / "estimate.json", label);
+  AddDiscretePair(estimate, measurements);
   AddMetrics(estimate, measurements, selection);
   return estimate;
 }

@@ -56,6 +56,16 @@ TEST(ExternalIdentifier, AnswersWithAnEstimate) {
   EXPECT_EQ(estimate.metrics->n, 12);
 }
 
+TEST(ExternalIdentifier, CompletesTheDiscretePair) {
+  const std::string value = R"("unit": "", "std": null, "interval95": null})";
+  const Estimate estimate =
+      Ask(R"(echo '{"status": "ok", "parameters": {"thermal_gain": {"value": -3, )" + value +
+          R"(, "thermal_time_constant": {"value": 600, )" + value + "}}' > estimate.json");
+  // 1 s between the samples; k (1 - exp(-h/tau)) with k -3 and tau 600 s
+  EXPECT_NEAR(estimate.Find("thermal_gain_discrete")->value, -0.0049958, 5e-8);
+  EXPECT_NEAR(estimate.Find("thermal_pole")->value, std::exp(-1 / 600.0), 1e-15);
+}
+
 TEST(ExternalIdentifier, FindsTheMeasurementsAloneInItsDirectory) {
   // 13 lines: the header and twelve samples
   EXPECT_THAT(Failure("ls | tr '\\n' ' '; wc -l < recording.csv; exit 1"),
