@@ -10,13 +10,16 @@ namespace warmjoint {
 namespace {
 
 Claim ReadClaim(const YamlValue& value) {
-  value.RequireKeys({"source", "npe_continuous", "rmse"});
+  std::vector<std::string> keys(kClaimFigures.begin(), kClaimFigures.end());
+  keys.emplace_back("source");
+  value.RequireKeys(keys);
   Claim claim;
   claim.source = value.Require("source", "say who claims it").Text();
-  if (const auto npe = value.Find("npe_continuous")) {
-    claim.npe_continuous = npe->Number(Bound::not_negative);
+  for (const char* name : kClaimFigures) {
+    if (const auto figure = value.Find(name)) {
+      claim.figures[name] = figure->Number(Bound::not_negative);
+    }
   }
-  if (const auto rmse = value.Find("rmse")) claim.rmse = rmse->Number(Bound::not_negative);
   return claim;
 }
 

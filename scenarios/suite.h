@@ -1,6 +1,7 @@
 // A suite: one scenario, many realizations, several identifiers, one question.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -11,11 +12,14 @@
 
 namespace warmjoint {
 
+/// Figures that a claim can name: relative errors (0.05 is 5 %), N.m or N, N.m or N, %, (N.m)^2.
+inline constexpr std::array<const char*, 6> kClaimFigures{
+    "npe_continuous", "npe_discrete", "rmse", "mae", "fit", "fpe"};
+
 /// What another source claims for a row of the leaderboard, printed beside ours.
 struct Claim {
-  std::string source;                    // for example "paper, Fig. 6"
-  std::optional<double> npe_continuous;  // 0.05 is 5 %
-  std::optional<double> rmse;            // N.m or N
+  std::string source;                     // for example "paper, Fig. 6"
+  std::map<std::string, double> figures;  // by their names in kClaimFigures
 
   bool operator==(const Claim&) const = default;
 };

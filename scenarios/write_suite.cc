@@ -22,8 +22,7 @@ class Lines {
 
 std::string ClaimToYaml(const Claim& claim) {
   std::string yaml = "{source: " + QuotedYaml(claim.source);
-  if (claim.npe_continuous) yaml += fmt::format(", npe_continuous: {}", *claim.npe_continuous);
-  if (claim.rmse) yaml += fmt::format(", rmse: {}", *claim.rmse);
+  for (const auto& [name, value] : claim.figures) yaml += fmt::format(", {}: {}", name, value);
   return yaml + "}";
 }
 

@@ -69,7 +69,7 @@ TEST_F(SuiteFile, IsReadWhole) {
   const SuiteIdentifier expected{"energy-em",
                                  "em-50",
                                  {{"iterations", "50"}, {"gain_range", "-9:0"}},
-                                 Claim{"paper, Fig. 6", 0.05, std::nullopt}};
+                                 Claim{"paper, Fig. 6", {{"npe_continuous", 0.05}}}};
   EXPECT_EQ(suite.identifiers[0], expected);
   EXPECT_EQ(suite.identifiers[1].label, "nominal-ls");
 }

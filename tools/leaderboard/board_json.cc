@@ -27,8 +27,7 @@ ordered_json QuantilesAndRms(const Summary& summary) {
 
 ordered_json ClaimJson(const Claim& claim) {
   ordered_json json{{"source", claim.source}};
-  if (claim.npe_continuous) json["npe_continuous"] = *claim.npe_continuous;
-  if (claim.rmse) json["rmse"] = *claim.rmse;
+  for (const auto& [name, value] : claim.figures) json[name] = value;
   return json;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 
 namespace warmjoint {
 namespace {
@@ -52,18 +53,45 @@ std::string GroupCell(const Leaderboard& group, const std::string& identifier) {
   return kUnknown;
 }
 
+/// A figure of a claim as a reader sees it: "RMSE 0.5 N.m".
+struct FigureText {
+  const char* label;
+  Summary LeaderboardRow::*reached;
+  std::string (*text)(double value, std::string_view unit);
+};
+
+const std::map<std::string, FigureText>& FigureTexts() {
+  const auto share = [](double value, std::string_view) { return PercentText(value); };
+  const auto percent = [](double value, std::string_view) {
+    return fmt::format("{:.3f} %", value);
+  };
+  const auto linear = [](double value, std::string_view unit) {
+    return fmt::format("{} {}", NumberText(value), unit);
+  };
+  const auto squared = [](double value, std::string_view unit) {
+    return fmt::format("{} ({})^2", NumberText(value), unit);
+  };
+  static const std::map<std::string, FigureText> texts{
+      {"npe_continuous", {"NPE", &LeaderboardRow::npe_continuous, share}},
+      {"npe_discrete", {"discrete NPE", &LeaderboardRow::npe_discrete, share}},
+      {"rmse", {"RMSE", &LeaderboardRow::rmse, linear}},
+      {"mae", {"MAE", &LeaderboardRow::mae, linear}},
+      {"fit", {"Fit", &LeaderboardRow::fit, percent}},
+      {"fpe", {"FPE", &LeaderboardRow::fpe, squared}},
+  };
+  return texts;
+}
+
 std::string ClaimNote(const LeaderboardRow& row, std::string_view unit) {
-  std::string claimed, reached;
-  if (const auto npe = row.claim->npe_continuous) {
-    claimed += fmt::format(" NPE {}", PercentText(*npe));
-    reached += fmt::format(" NPE {}", PercentText(row.npe_continuous.median));
+  std::vector<std::string> claimed, reached;
+  for (const auto& [name, value] : row.claim->figures) {
+    const FigureText& figure = FigureTexts().at(name);
+    const Summary& summary = row.*figure.reached;
+    claimed.push_back(fmt::format("{} {}", figure.label, figure.text(value, unit)));
+    reached.push_back(fmt::format("{} {}", figure.label, figure.text(summary.median, unit)));
   }
-  if (const auto rmse = row.claim->rmse) {
-    claimed += fmt::format(" RMSE {} {}", NumberText(*rmse), unit);
-    reached += fmt::format(" RMSE {} {}", NumberText(row.rmse.median), unit);
-  }
-  return fmt::format("{}: claimed{} ({}); reached in the median{}", row.identifier, claimed,
-                     row.claim->source, reached);
+  return fmt::format("{}: claimed {} ({}); reached in the median {}", row.identifier,
+                     fmt::join(claimed, ", "), row.claim->source, fmt::join(reached, ", "));
 }
 
 std::string FailureNote(const LeaderboardRow& row) {

@@ -43,7 +43,8 @@ Suite TwoIdentifiers() {
   suite.name = "little";
   suite.question = "Who is best?";
   suite.realizations = 4;
-  suite.identifiers = {{"a", "a", {}, {}}, {"b", "b", {}, Claim{"someone", 0.05, {}}}};
+  suite.identifiers = {{"a", "a", {}, {}},
+                       {"b", "b", {}, Claim{"someone", {{"npe_continuous", 0.05}}}}};
   return suite;
 }
 
