@@ -5,11 +5,13 @@
 namespace warmjoint {
 
 BlockDescent::BlockDescent(const Measurements& measurements, const Selection& moving,
-                           const Eigen::MatrixXd& columns, const LeastSquares& nominal)
+                           const Eigen::MatrixXd& columns, const LeastSquares& nominal,
+                           const Eigen::VectorXd& gravity)
     : cofactor_(nominal.cofactor),
       // (19) with the measured torque
       output_error_(measurements.time,
-                    measurements.torque.cwiseProduct(measurements.velocity).cwiseAbs(), moving),
+                    (measurements.torque - gravity).cwiseProduct(measurements.velocity).cwiseAbs(),
+                    moving),
       kept_(static_cast<double>(moving.count())) {
   const Eigen::VectorXd keep = moving.keep.cast<double>();
   const Eigen::VectorXd& v = measurements.velocity;

@@ -16,14 +16,15 @@ struct DescentState {
   bool inside = true;  // the time constant lies within the bounds of OutputError
 };
 
-/// Algorithm 1 of the paper, on samples with losses W = |tau v| (19). Only samples that are kept
-/// and move take part in the fits of (22) and (24); the filter runs over all.
+/// Algorithm 1 of the paper, on samples with losses W = |(tau - G) v| (19). Only samples that are
+/// kept and move take part in the fits of (22) and (24); the filter runs over all.
 class BlockDescent {
  public:
-  /// columns: [N x d] regressor of Fn over all samples; nominal: the factorised columns of the kept
-  /// moving samples.
+  /// columns: [N x d] regressor of Fn + G over all samples; nominal: the factorised columns of the
+  /// kept moving samples; gravity: [N] G, which makes no heat, N.m or N.
   BlockDescent(const Measurements& measurements, const Selection& moving,
-               const Eigen::MatrixXd& columns, const LeastSquares& nominal);
+               const Eigen::MatrixXd& columns, const LeastSquares& nominal,
+               const Eigen::VectorXd& gravity);
 
   /// Iteration 0: E = H0 W, then Fn by (24). H0 acts first, because a start from plain least
   /// squares would throw it away.

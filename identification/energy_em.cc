@@ -8,6 +8,7 @@
 #include "identification/convergence.h"
 #include "identification/first_guess.h"
 #include "identification/fit_data.h"
+#include "identification/fit_gravity.h"
 #include "identification/linear_laws.h"
 #include "identification/report_law.h"
 #include "identification/report_thermal.h"
@@ -38,8 +39,8 @@ FirstGuess Start(const IdentifierInput& input) {
 std::vector<std::pair<std::string, double>> Named(const Law& law, const DescentState& state,
                                                   double h) {
   std::vector<std::pair<std::string, double>> named;
-  for (Eigen::Index i = 0; i < state.nominal.size(); ++i) {
-    named.emplace_back(law.parameters[static_cast<size_t>(i)].name, state.nominal[i]);
+  for (size_t i = 0; i < law.parameters.size(); ++i) {
+    named.emplace_back(law.parameters[i].name, state.nominal[static_cast<Eigen::Index>(i)]);
   }
   const DiscreteThermal discrete = Discretise(state.thermal, h);
   named.emplace_back("thermal_gain", state.thermal.gain);
@@ -89,7 +90,7 @@ Eigen::Index FeedsItselfAt(const Measurements& m, const Eigen::VectorXd& fitted)
   return -1;
 }
 
-/// Why the last state deserves no numbers; empty where it does. fitted: [N] N.m or N.
+/// Why the last state deserves no numbers; empty where it does. fitted: [N] friction, N.m or N.
 std::optional<Estimate> Refusal(const Measurements& m, const DescentState& last,
                                 const Eigen::VectorXd& fitted) {
   if (!last.inside) {
@@ -124,12 +125,15 @@ std::pair<bool, std::string> Arrival(const std::vector<DescentState>& states,
 }
 
 /// The last state as an estimate, with its verdict.
-Estimate Conclude(const IdentifierInput& input, const Law& law, const BlockDescent& descent,
-                  const Selection& moving, const std::vector<DescentState>& states) {
+Estimate Conclude(const IdentifierInput& input, const Law& law, const GravityFit& gravity,
+                  const BlockDescent& descent, const Selection& moving,
+                  const std::vector<DescentState>& states) {
   const Measurements& m = input.measurements;
   const DescentState& last = states.back();
   const Eigen::VectorXd fitted = descent.Fitted(last);
-  if (auto refusal = Refusal(m, last, fitted)) return *refusal;
+  const Eigen::VectorXd pull = moving.keep.cast<double>().matrix().cwiseProduct(
+      gravity.columns * last.nominal.tail(gravity.count()));
+  if (auto refusal = Refusal(m, last, fitted - pull)) return *refusal;
 
   // both blocks together
   const auto d = static_cast<int>(last.nominal.size()) + 2;
@@ -148,9 +152,10 @@ Estimate Conclude(const IdentifierInput& input, const Law& law, const BlockDesce
   const Eigen::VectorXd kept = Kept(fitted, moving);
   estimate.metrics = ComputeMetrics(torque, kept, d, d);
   const Uncertainty known = JudgeUncertainty(jacobian, joint.cofactor, torque - kept, moving);
-  ReportLaw(law, last.nominal, known, m, estimate);
+  ReportLaw(law, last.nominal.head(last.nominal.size() - gravity.count()), known, m, estimate);
   const Eigen::Matrix2d thermal = known.covariance.bottomRightCorner<2, 2>();
   ReportThermal(last.thermal, thermal, known.freedom, m, estimate);
+  ReportGravity(gravity, last.nominal, known, m, estimate);
   const auto [arrived, message] = Arrival(states, known, input.options.Number("tolerance"));
   if (arrived) {
     // W is formed of the noisy torque, so the residual understates the errors
@@ -167,32 +172,35 @@ Estimate Conclude(const IdentifierInput& input, const Law& law, const BlockDesce
   return estimate;
 }
 
-Estimate Identify(const IdentifierInput& input) {
-  const Measurements& m = input.measurements;
-  const Law& law = *FindLaw(input.options.Text("law"));
-  const auto d = static_cast<int>(law.parameters.size());
+Estimate Identify(const IdentifierInput& given) {
+  const Measurements& m = given.measurements;
+  const Law& law = *FindLaw(given.options.Text("law"));
+  const GravityFit gravity = PrepareGravity(given);
+  if (gravity.why) return Failed(kName, gravity.status, *gravity.why);
+  const IdentifierInput input = gravity.Of(given);
+  const auto d = static_cast<int>(law.parameters.size() + gravity.count());
   if (auto why = Unusable(input, d + 2)) return Failed(kName, Status::bad_data, *why);
 
-  // the columns of Fn must be distinct before any warming is thought of
+  // the columns of Fn and G must be distinct before any warming is thought of
   const Selection moving{input.selection.keep && m.velocity.array() != 0, {}};
-  const Eigen::MatrixXd columns = LawColumns(law, m.velocity);
+  const Eigen::MatrixXd columns = Beside(LawColumns(law, m.velocity), gravity.columns);
   const LeastSquares nominal = SolveLeastSquares(Kept(columns, moving), Kept(m.torque, moving));
   if (nominal.rank < d) {
-    std::vector<std::string> mixed;
-    for (const Eigen::Index i : nominal.mixed) mixed.emplace_back(law.parameters[i].name);
-    return Failed(kName, Status::not_identifiable, Indistinct(mixed, m, moving));
+    return Failed(kName, Status::not_identifiable,
+                  IndistinctColumns(nominal.mixed, law, gravity, input));
   }
 
   FirstGuess start = Start(input);
   if (!start.thermal) return Failed(kName, Status::not_identifiable, start.why);
 
-  const BlockDescent descent(m, moving, columns, nominal);
+  const BlockDescent descent(m, moving, columns, nominal,
+                             gravity.columns * nominal.solution.tail(gravity.count()));
   const double shortest = descent.output_error().shortest();
   start.thermal->time_constant = std::max(start.thermal->time_constant, shortest);
   const std::vector<DescentState> states =
       Iterate(descent, *start.thermal, input.options.Integer("iterations"));
 
-  Estimate estimate = Conclude(input, law, descent, moving, states);
+  Estimate estimate = Conclude(input, law, gravity, descent, moving, states);
   const double h = descent.output_error().filter().mean_step();
   for (size_t i = 0; i < states.size(); ++i) {
     estimate.trace.push_back({static_cast<int>(i), Named(law, states[i], h), states[i].rmse});
@@ -216,6 +224,7 @@ Identifier EnergyEm() {
               {"time_range", "0:1800", "range", "where a random first time constant is drawn, s"},
               {"tolerance", "0.01", "number > 0",
                "largest distance from the fixed point that counts as converged, relative"},
+              GravityOption(),
           },
           &Identify};
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "identification/fit_data.h"
+#include "identification/fit_gravity.h"
 #include "identification/least_squares.h"
 #include "identification/linear_laws.h"
 #include "identification/report_law.h"
@@ -22,15 +23,6 @@ constexpr const char* kName = "energy-ml";
 // recordings, a chi-square of 2 freedoms at the best of about 5 independent time constants
 constexpr double kVisible = 20;
 constexpr double kVagueLogTau = 0.5;  // standard deviation of log(tau): 95 % within a factor of e
-
-/// Law parameters that the motion alone cannot tell apart; nothing where it can.
-std::optional<std::string> MixedLaw(const IdentifierInput& input, const Law& law,
-                                    const LeastSquares& nominal) {
-  if (nominal.mixed.empty()) return std::nullopt;
-  std::vector<std::string> mixed;
-  for (const Eigen::Index i : nominal.mixed) mixed.emplace_back(law.parameters[i].name);
-  return Indistinct(mixed, input.measurements, input.selection);
-}
 
 /// Why the warm-up cannot be told; nothing where it can. cofactor: of x; squares: of the fit
 /// without warming and with it.
@@ -79,18 +71,19 @@ std::vector<TraceEntry> Trace(const WarmFit& fit, const Law& law, double step, E
   return trace;
 }
 
-/// dF/dx over all samples, [N x p].
-Eigen::MatrixXd Jacobian(const ClosedLoop& loop, const WarmFit& fit) {
+/// d(F + G)/dx over all samples, [N x p].
+Eigen::MatrixXd Jacobian(const ClosedLoop& loop, const GravityFit& gravity, const WarmFit& fit) {
   const Thermal thermal = fit.thermal();
   Eigen::MatrixXd jacobian = loop.Jacobian(fit.parameters(), thermal, fit.initial_energy())
-                                 .leftCols(fit.solution.x.size());
+                                 .leftCols(fit.solution.x.size() - fit.offsets);
   jacobian.col(fit.law_parameters + 1) *= thermal.time_constant;  // from tau to log(tau)
-  return jacobian;
+  return Beside(jacobian, gravity.columns);
 }
 
 /// The verdict on a fit, and its numbers where they can be trusted.
-Estimate Conclude(const IdentifierInput& input, const Law& law, const ClosedLoop& loop,
-                  const WarmStart& scanned, const WarmFit& fit, double nominal_squares) {
+Estimate Conclude(const IdentifierInput& input, const Law& law, const GravityFit& gravity,
+                  const ClosedLoop& loop, const WarmStart& scanned, const WarmFit& fit,
+                  double nominal_squares) {
   const Measurements& m = input.measurements;
   const Eigen::VectorXd torque = Kept(m.torque, input.selection);
   const auto p = static_cast<int>(fit.solution.x.size());
@@ -118,21 +111,23 @@ Estimate Conclude(const IdentifierInput& input, const Law& law, const ClosedLoop
 
   Estimate estimate;
   estimate.identifier = kName;
-  const Eigen::VectorXd fitted = Kept(response.force, input.selection);
+  const Eigen::VectorXd fitted =
+      Kept(response.force + gravity.columns * fit.offset_values(), input.selection);
   estimate.metrics = ComputeMetrics(torque, fitted, p, p);
   const Uncertainty known =
-      JudgeUncertainty([&] { return Kept(Jacobian(loop, fit), input.selection); }, cofactor,
-                       torque - fitted, input.selection);
+      JudgeUncertainty([&] { return Kept(Jacobian(loop, gravity, fit), input.selection); },
+                       cofactor, torque - fitted, input.selection);
   if (!known.covariance.allFinite()) {
     return Failed(kName, Status::bad_data, "torque or velocity is too large to square");
   }
   ReportLaw(law, fit.parameters(), known, m, estimate);
   ReportThermal(fit.thermal(), known.covariance.block<2, 2>(d, d), known.freedom, m, estimate);
-  if (p > d + 2) {
+  if (fit.estimates_initial_energy()) {
     estimate.parameters.push_back(WithInterval("initial_energy", fit.initial_energy(),
                                                m.torque_unit, known.Deviation(d + 2),
                                                known.freedom));
   }
+  ReportGravity(gravity, fit.solution.x, known, m, estimate);
   estimate.message = fmt::format("maximum likelihood on {} samples, refined in {} iterations{}",
                                  torque.size(), fit.trace.size() - 1, ColourOf(known.noise));
   DescribeFriction(law, m, estimate);
@@ -140,35 +135,54 @@ Estimate Conclude(const IdentifierInput& input, const Law& law, const ClosedLoop
   return estimate;
 }
 
-Estimate Identify(const IdentifierInput& input) {
-  const Measurements& m = input.measurements;
-  const Law& law = *FindLaw(input.options.Text("law"));
-  const auto d = static_cast<int>(law.parameters.size());
+/// A start for all linear parameters, law before gravity, and the warming: the scan over tau once
+/// gravity is out of the loss. nominal: the fit without warming.
+WarmStart Scan(const Measurements& m, const GravityFit& gravity, const ClosedLoop& loop,
+               const Eigen::MatrixXd& columns, const LeastSquares& nominal,
+               const Eigen::VectorXd& level, const Eigen::VectorXd& kept) {
+  if (gravity.count() == 0) return ScanTimeConstant(loop, level, kept);
+  const ClosedLoop together(m.time, m.velocity, columns);
+  const Eigen::VectorXd weight = nominal.solution.tail(gravity.count());
+  const Eigen::VectorXd pull = gravity.columns * weight;
+  WarmStart start = ScanTimeConstant(together, level - loop.direction().cwiseProduct(pull), kept);
+  start.parameters.tail(gravity.count()) += weight;
+  return start;
+}
+
+Estimate Identify(const IdentifierInput& given) {
+  const Measurements& m = given.measurements;
+  const Law& law = *FindLaw(given.options.Text("law"));
+  const GravityFit gravity = PrepareGravity(given);
+  if (gravity.why) return Failed(kName, gravity.status, *gravity.why);
+  const IdentifierInput input = gravity.Of(given);
+  const auto d = static_cast<int>(law.parameters.size() + gravity.count());
   if (auto why = Unusable(input, d + 3)) return Failed(kName, Status::bad_data, *why);
 
-  // the law's columns must be distinct before any warming is thought of
-  const Eigen::MatrixXd columns = LawColumns(law, m.velocity);
+  // the columns of law and gravity must be distinct before any warming is thought of
+  const Eigen::MatrixXd law_columns = LawColumns(law, m.velocity);
+  const Eigen::MatrixXd columns = Beside(law_columns, gravity.columns);
   const Eigen::MatrixXd kept_columns = Kept(columns, input.selection);
   const Eigen::VectorXd torque = Kept(m.torque, input.selection);
   const LeastSquares nominal = SolveLeastSquares(kept_columns, torque);
-  if (auto why = MixedLaw(input, law, nominal)) {
-    return Failed(kName, Status::not_identifiable, *why);
+  if (!nominal.mixed.empty()) {
+    return Failed(kName, Status::not_identifiable,
+                  IndistinctColumns(nominal.mixed, law, gravity, input));
   }
   const double nominal_squares = (torque - kept_columns * nominal.solution).squaredNorm();
 
   // scan tau, then refine everything over the closed loop
-  const ClosedLoop loop(m.time, m.velocity, columns);
+  const ClosedLoop loop(m.time, m.velocity, law_columns);
   const Eigen::VectorXd level = loop.direction().cwiseProduct(m.torque);
   const Eigen::VectorXd kept = (input.selection.keep && m.velocity.array() != 0).cast<double>();
-  const WarmStart start = ScanTimeConstant(loop, level, kept);
+  const WarmStart start = Scan(m, gravity, loop, columns, nominal, level, kept);
   const auto initial = input.options.Text("initial_energy") == "estimated"
                            ? InitialEnergy::estimated
                            : InitialEnergy::zero;
   const double scale = std::sqrt(nominal_squares / static_cast<double>(torque.size()));
-  const WarmFit fit =
-      FitWarmFriction(loop, level, kept, start.parameters, start.thermal, initial, scale);
+  const Eigen::MatrixXd offsets = loop.direction().asDiagonal() * gravity.columns;
+  const WarmFit fit = FitWarmFriction(loop, level, offsets, kept, start, initial, scale);
 
-  Estimate estimate = Conclude(input, law, loop, start, fit, nominal_squares);
+  Estimate estimate = Conclude(input, law, gravity, loop, start, fit, nominal_squares);
   estimate.trace = Trace(fit, law, loop.intervals().typical, torque.size());
   return estimate;
 }
@@ -180,7 +194,8 @@ Identifier EnergyMl() {
           "law and warming together by maximum likelihood over the closed loop; needs no start",
           {{"law", "viscous_coulomb", LinearLawWords(), "nominal friction law"},
            {"initial_energy", "zero", "zero|estimated",
-            "E(0): 0 for a cold joint, or estimated at a cost of accuracy"}},
+            "E(0): 0 for a cold joint, or estimated at a cost of accuracy"},
+           GravityOption()},
           &Identify};
 }
 

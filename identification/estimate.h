@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "identification/gravity.h"
 #include "models/friction/friction_description.h"
 
 namespace warmjoint {
@@ -59,13 +60,15 @@ struct Estimate {
   std::optional<Metrics> holdout;
   std::vector<TraceEntry> trace;
   std::optional<FrictionDescription> friction;
+  std::optional<GravityModel> gravity;  // what the fit took for gravity beside friction
 
   /// The parameter of that name, or nullptr.
   const EstimatedParameter* Find(std::string_view name) const;
 };
 
 /// The estimate as JSON: {identifier, status, message, parameters{name: {value, unit, std,
-/// interval95}}, metrics{}, holdout{}, trace[{iteration, rmse, parameters{}}], friction{}}.
+/// interval95}}, metrics{}, holdout{}, trace[{iteration, rmse, parameters{}}], friction{},
+/// gravity{}}.
 /// What is absent, or is not a finite number, is null.
 nlohmann::json EstimateToJson(const Estimate& estimate);
 

@@ -150,7 +150,8 @@ json EstimateToJson(const Estimate& estimate) {
           {"metrics", MetricsToJson(estimate.metrics)},
           {"holdout", MetricsToJson(estimate.holdout)},
           {"trace", TraceToJson(estimate.trace)},
-          {"friction", estimate.friction ? FrictionToJson(*estimate.friction) : json(nullptr)}};
+          {"friction", estimate.friction ? FrictionToJson(*estimate.friction) : json(nullptr)},
+          {"gravity", estimate.gravity ? GravityToJson(*estimate.gravity) : json(nullptr)}};
 }
 
 Estimate EstimateFromJson(const json& object, const Place& place) {
@@ -172,6 +173,9 @@ Estimate EstimateFromJson(const json& object, const Place& place) {
   for (const json& entry : member("trace")) estimate.trace.push_back(ToTraceEntry(entry, place));
   if (!member("friction").is_null()) {
     estimate.friction = FrictionFromJson(member("friction"), place);
+  }
+  if (!member("gravity").is_null()) {
+    estimate.gravity = GravityFromJson(member("gravity"), place);
   }
   return estimate;
 }

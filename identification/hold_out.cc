@@ -30,13 +30,22 @@ Selection Head(const Selection& all, Eigen::Index n) {
 
 /// Figures of an estimate's friction on the samples that `test` keeps.
 std::optional<Metrics> Evaluate(const Estimate& estimate, const Measurements& measurements,
-                                const Selection& test) {
-  if (!estimate.friction || test.count() == 0) return std::nullopt;
-  const Prediction prediction = PredictFriction(*estimate.friction, measurements);
-  const auto parameters =
-      static_cast<int>(estimate.friction->parameters.size() + (estimate.friction->thermal ? 2 : 0));
-  return ComputeMetrics(Kept(measurements.torque, test), Kept(prediction.force, test), parameters,
-                        parameters);
+                                Selection test) {
+  if (!estimate.friction) return std::nullopt;
+  Eigen::VectorXd predicted = PredictFriction(*estimate.friction, measurements).force;
+  auto parameters = estimate.friction->parameters.size() + (estimate.friction->thermal ? 2 : 0);
+
+  // gravity where the fit knows it
+  if (estimate.gravity) {
+    predicted += estimate.gravity->Torque(measurements.position);
+    parameters += estimate.gravity->values.size();
+    for (Eigen::Index i = 0; i < measurements.size(); ++i) {
+      test.keep[i] = test.keep[i] && estimate.gravity->Covers(measurements.position[i]);
+    }
+  }
+  if (test.count() == 0) return std::nullopt;
+  const auto d = static_cast<int>(parameters);
+  return ComputeMetrics(Kept(measurements.torque, test), Kept(predicted, test), d, d);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "identification/fit_data.h"
+#include "identification/fit_gravity.h"
 #include "identification/least_squares.h"
 #include "identification/linear_laws.h"
 #include "identification/recursive_least_squares.h"
@@ -24,10 +25,12 @@ std::optional<Thermal> GivenThermal(const Options& options) {
   return Thermal{gain, options.Number("thermal_time_constant")};
 }
 
-/// sign(v) E over all samples, from the measured losses (19). [N] N.m or N.
-Eigen::VectorXd Warming(const std::optional<Thermal>& thermal, const Measurements& m) {
+/// sign(v) E over all samples, from the measured losses (19). pull: [N] gravity, which makes no
+/// heat. [N] N.m or N.
+Eigen::VectorXd Warming(const std::optional<Thermal>& thermal, const Measurements& m,
+                        const Eigen::VectorXd& pull) {
   if (!thermal) return Eigen::VectorXd::Zero(m.size());
-  const Eigen::VectorXd loss = m.torque.cwiseProduct(m.velocity).cwiseAbs();
+  const Eigen::VectorXd loss = (m.torque - pull).cwiseProduct(m.velocity).cwiseAbs();
   const Eigen::VectorXd energy = ThermalFilter(m.time).Energy(*thermal, loss);
   return m.velocity.array().sign().matrix().cwiseProduct(energy);
 }
@@ -51,8 +54,8 @@ Eigen::VectorXd Run(const Law& law, const Eigen::MatrixXd& A, const Eigen::Vecto
     TraceEntry entry;
     entry.iteration = static_cast<int>(i + 1);
     const Eigen::VectorXd now = state.estimate.cwiseQuotient(scale.transpose());
-    for (Eigen::Index j = 0; j < now.size(); ++j) {
-      entry.parameters.emplace_back(law.parameters[static_cast<size_t>(j)].name, now[j]);
+    for (size_t j = 0; j < law.parameters.size(); ++j) {
+      entry.parameters.emplace_back(law.parameters[j].name, now[static_cast<Eigen::Index>(j)]);
     }
     entry.rmse =
         (y.head(i + 1) - A.topRows(i + 1) * now).norm() / std::sqrt(static_cast<double>(i + 1));
@@ -74,26 +77,39 @@ Uncertainty Judge(const Eigen::MatrixXd& A, const Eigen::VectorXd& weights,
   return known;
 }
 
-Estimate Identify(const IdentifierInput& input) {
-  const Measurements& m = input.measurements;
-  const Law& law = *FindLaw(input.options.Text("law"));
-  const auto d = static_cast<int>(law.parameters.size());
+/// Gravity by plain least squares beside the law, [N] N.m or N; 0 where columns are mixed.
+Eigen::VectorXd Pull(const IdentifierInput& input, const GravityFit& gravity,
+                     const Eigen::MatrixXd& columns) {
+  const LeastSquares plain = SolveLeastSquares(Kept(columns, input.selection),
+                                               Kept(input.measurements.torque, input.selection));
+  if (plain.rank < columns.cols()) return Eigen::VectorXd::Zero(columns.rows());
+  return gravity.columns * plain.solution.tail(gravity.count());
+}
+
+Estimate Identify(const IdentifierInput& given) {
+  const Measurements& m = given.measurements;
+  const Law& law = *FindLaw(given.options.Text("law"));
+  const GravityFit gravity = PrepareGravity(given);
+  if (gravity.why) return Failed(kName, gravity.status, *gravity.why);
+  const IdentifierInput input = gravity.Of(given);
+  const auto d = static_cast<int>(law.parameters.size() + gravity.count());
   if (auto why = Unusable(input, d)) return Failed(kName, Status::bad_data, *why);
 
   // what the remembered samples can tell apart, from their weighted columns
   const double forgetting = input.options.Number("forgetting");
   const std::optional<Thermal> thermal = GivenThermal(input.options);
-  const Eigen::VectorXd warming = Kept(Warming(thermal, m), input.selection);
+  const Eigen::MatrixXd columns = Beside(LawColumns(law, m.velocity), gravity.columns);
+  const Eigen::MatrixXd A = Kept(columns, input.selection);
+  const Eigen::VectorXd warming =
+      Kept(Warming(thermal, m, Pull(input, gravity, columns)), input.selection);
   const Eigen::VectorXd torque = Kept(m.torque, input.selection);
   const Eigen::VectorXd y = torque - warming;
-  const Eigen::MatrixXd A = LawColumns(law, Kept(m.velocity, input.selection));
   const Eigen::VectorXd weights = Weights(y.size(), forgetting);
   const Eigen::VectorXd roots = weights.cwiseSqrt();
   const LeastSquares weighted = SolveLeastSquares(roots.asDiagonal() * A, roots.cwiseProduct(y));
   if (weighted.rank < d) {
-    std::vector<std::string> mixed;
-    for (const Eigen::Index i : weighted.mixed) mixed.emplace_back(law.parameters[i].name);
-    return Failed(kName, Status::not_identifiable, Indistinct(mixed, m, input.selection));
+    return Failed(kName, Status::not_identifiable,
+                  IndistinctColumns(weighted.mixed, law, gravity, input));
   }
 
   Estimate estimate;
@@ -101,7 +117,8 @@ Estimate Identify(const IdentifierInput& input) {
   const Eigen::VectorXd x = Run(law, A, y, forgetting, estimate);
   const Eigen::VectorXd fitted = A * x + warming;
   const Uncertainty known = Judge(A, weights, weighted.cofactor, torque - fitted, input.selection);
-  ReportLaw(law, x, known, m, estimate);
+  ReportLaw(law, x.head(d - gravity.count()), known, m, estimate);
+  ReportGravity(gravity, x, known, m, estimate);
   estimate.metrics = ComputeMetrics(torque, fitted, d, d);
   estimate.message = fmt::format("law {} as the last {:.0f} of {} samples show it{}", law.name,
                                  weights.sum(), y.size(), ColourOf(known.noise));
@@ -118,7 +135,8 @@ Identifier Rls() {
           {{"law", "viscous_coulomb", LinearLawWords(), "nominal friction law"},
            {"forgetting", "0.999", "number > 0 <= 1", "weight of a sample beside its successor"},
            {"thermal_gain", "0", "number", "known thermal gain, N.m/W or N/W; 0: no warming"},
-           {"thermal_time_constant", "600", "number > 0", "known time constant of warming, s"}},
+           {"thermal_time_constant", "600", "number > 0", "known time constant of warming, s"},
+           GravityOption()},
           &Identify};
 }
 

@@ -9,7 +9,7 @@ namespace warmjoint {
 
 /// Law parameters and warming to start from.
 struct WarmStart {
-  Eigen::VectorXd parameters;  // [d] of the law
+  Eigen::VectorXd parameters;  // [d] of the loop's columns
   Thermal thermal;
   double shortest = 0;  // range of time constants that was scanned, s
   double longest = 0;

@@ -16,7 +16,7 @@ constexpr int kMostIterations = 50;
 constexpr int Plus(int a, int b) { return a == Eigen::Dynamic ? a : a + b; }
 
 /// The condensed least-squares problem, as ceres::TinySolver wants it. D: law parameters, Q: 2 for
-/// (k, log tau), 3 with E(0).
+/// (k, log tau), 3 with E(0). Offsets come last, and only where D is Dynamic.
 template <int D, int Q>
 class CondensedProblem {
  public:
@@ -24,13 +24,19 @@ class CondensedProblem {
   enum { NUM_PARAMETERS = Plus(D, Q), NUM_RESIDUALS = Plus(D, Q + 1) };
   using Square = Eigen::Matrix<double, NUM_RESIDUALS, NUM_RESIDUALS>;
   using Vector = Eigen::Matrix<double, NUM_PARAMETERS, 1>;
+  using Row = Eigen::Array<double, NUM_RESIDUALS, 1>;
 
   CondensedProblem(const ClosedLoop& loop, const Eigen::VectorXd& level,
-                   const Eigen::VectorXd& kept, double scale)
-      : loop_(loop), level_(level), kept_(kept), scale_(scale), d_(loop.levels().cols()) {}
+                   const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept, double scale)
+      : loop_(loop),
+        level_(level),
+        offsets_(offsets),
+        kept_(kept),
+        scale_(scale),
+        d_(loop.levels().cols()) {}
 
-  int NumParameters() const { return static_cast<int>(d_) + Q; }
-  int NumResiduals() const { return static_cast<int>(d_) + Q + 1; }
+  int NumParameters() const { return static_cast<int>(d_ + offsets_.cols()) + Q; }
+  int NumResiduals() const { return NumParameters() + 1; }
 
   bool operator()(const double* x, double* residuals, double* jacobian) const {
     Evaluate(Eigen::Map<const Vector>(x, NumParameters()));
@@ -55,11 +61,16 @@ class CondensedProblem {
     x_ = x;
     const Thermal thermal{x[d_], std::exp(x[d_ + 1])};
     const double initial = Q == 3 ? x[d_ + Q - 1] : 0;
+    const Eigen::VectorXd offset = offsets_ * x.tail(offsets_.cols());
     Square sums = Square::Zero(NumResiduals(), NumResiduals());
+    Row row(NumResiduals());
     WithHolds(loop_.intervals(), thermal, [&](const auto& hold) {
       RunWithSensitivities<D>(loop_, x.data(), thermal.gain, initial, hold,
                               [&](Eigen::Index n, double level, const double* g, const double* S) {
-                                if (kept_[n] != 0) Accumulate(level_[n] - level, g, S, sums);
+                                if (kept_[n] == 0) return;
+                                double residual = level_[n] - level;
+                                if (D == Eigen::Dynamic) residual -= offset[n];
+                                Accumulate(n, residual, g, S, row, sums);
                               });
     });
     products_ = sums.template selfadjointView<Eigen::Upper>();
@@ -69,21 +80,24 @@ class CondensedProblem {
   std::vector<WarmIterate>& trace() const { return trace_; }
 
  private:
-  /// Adds the row [-da/dx, r] of a sample to the upper half of the sums.
-  void Accumulate(double residual, const double* g, const double* S, Square& sums) const {
+  /// Adds the row [-da/dx, r] of sample n to the upper half of the sums. row: for this use.
+  void Accumulate(Eigen::Index n, double residual, const double* g, const double* S, Row& row,
+                  Square& sums) const {
     const LoopSize<D> size(d_);
     const Eigen::Index d = size.value();
-    Eigen::Array<double, NUM_RESIDUALS, 1> row(d + Q + 1);
+    const Eigen::Index q = D == Eigen::Dynamic ? offsets_.cols() : 0;
     for (Eigen::Index i = 0; i < d; ++i) row[i] = -(g[i] + S[i]);
     for (Eigen::Index i = d; i < d + Q; ++i) row[i] = -S[i];
-    row[d + Q] = residual;
-    for (Eigen::Index j = 0; j < d + Q + 1; ++j) {
+    for (Eigen::Index i = 0; i < q; ++i) row[d + Q + i] = -offsets_(n, i);
+    row[d + Q + q] = residual;
+    for (Eigen::Index j = 0; j < d + Q + q + 1; ++j) {
       for (Eigen::Index i = 0; i <= j; ++i) sums(i, j) += row[i] * row[j];
     }
   }
 
   const ClosedLoop& loop_;
   const Eigen::VectorXd& level_;
+  const Eigen::MatrixXd& offsets_;
   const Eigen::VectorXd& kept_;
   double scale_;
   Eigen::Index d_;
@@ -127,26 +141,28 @@ Thermal WarmFit::thermal() const {
 Eigen::VectorXd WarmFit::parameters() const { return solution.x.head(law_parameters); }
 
 double WarmFit::initial_energy() const {
-  return solution.x.size() > law_parameters + 2 ? solution.x[law_parameters + 2] : 0;
+  return estimates_initial_energy() ? solution.x[law_parameters + 2] : 0;
 }
 
 WarmFit FitWarmFriction(const ClosedLoop& loop, const Eigen::VectorXd& level,
-                        const Eigen::VectorXd& kept, const Eigen::VectorXd& parameters,
-                        const Thermal& thermal, InitialEnergy initial_energy, double scale) {
-  const Eigen::Index d = loop.levels().cols();
-  const int q = initial_energy == InitialEnergy::estimated ? 3 : 2;
-  Eigen::VectorXd start = Eigen::VectorXd::Zero(d + q);
-  start.head(d + 2) << parameters, thermal.gain, std::log(thermal.time_constant);
+                        const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
+                        const WarmStart& start, InitialEnergy initial_energy, double scale) {
+  const Eigen::Index d = loop.levels().cols(), q = offsets.cols();
+  const int warming = initial_energy == InitialEnergy::estimated ? 3 : 2;
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(d + warming + q);
+  x.head(d + 2) << start.parameters.head(d), start.thermal.gain,
+      std::log(start.thermal.time_constant);
+  x.tail(q) = start.parameters.tail(q);
 
   // sizes known at compile time for the common laws
   const auto solve = [&]<int D, int Q>() {
-    return Solve(CondensedProblem<D, Q>(loop, level, kept, scale), start);
+    return Solve(CondensedProblem<D, Q>(loop, level, offsets, kept, scale), x);
   };
   const auto solve_for = [&]<int D>() {
-    return q == 2 ? solve.template operator()<D, 2>() : solve.template operator()<D, 3>();
+    return warming == 2 ? solve.template operator()<D, 2>() : solve.template operator()<D, 3>();
   };
   WarmFit fit;
-  switch (d) {
+  switch (q == 0 ? d : Eigen::Dynamic) {
     case 1:
       fit = solve_for.template operator()<1>();
       break;
@@ -160,6 +176,7 @@ WarmFit FitWarmFriction(const ClosedLoop& loop, const Eigen::VectorXd& level,
       fit = solve_for.template operator()<Eigen::Dynamic>();
   }
   fit.law_parameters = d;
+  fit.offsets = q;
   return fit;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "identification/closed_loop.h"
+#include "identification/scan_time_constant.h"
 
 namespace warmjoint {
 
@@ -13,7 +14,7 @@ enum class InitialEnergy { zero, estimated };
 
 /// One iterate of the fit.
 struct WarmIterate {
-  Eigen::VectorXd x;   // [d + 2] law parameters, k, log(tau); [d + 3] with E(0)
+  Eigen::VectorXd x;   // [p] law parameters (d), k, log(tau), E(0) if estimated, offsets (q)
   double squares = 0;  // sum of squared residuals over the kept samples
 };
 
@@ -25,18 +26,22 @@ struct WarmFit {
 
   Thermal thermal() const;
   Eigen::VectorXd parameters() const;  // [d] of the law
+  bool estimates_initial_energy() const { return solution.x.size() > law_parameters + 2 + offsets; }
   double initial_energy() const;
-  Eigen::Index law_parameters = 0;  // d
+  Eigen::VectorXd offset_values() const { return solution.x.tail(offsets); }  // [q]
+  Eigen::Index law_parameters = 0;                                            // d
+  Eigen::Index offsets = 0;                                                   // q
 };
 
 /// Minimises the squared residuals of the kept samples by Ceres' Levenberg-Marquardt with exact
 /// derivatives. Each evaluation is condensed: [J r] is replaced by a square factor R of the same
-/// products, R^T R = [J r]^T [J r], so that Ceres sees d + 3 residuals in place of N and steps
+/// products, R^T R = [J r]^T [J r], so that Ceres sees p + 1 residuals in place of N and steps
 /// exactly as it would on all of them.
-/// level: [N] sign(v) torque; kept: [N] 1 or 0; parameters, thermal: the start;
-/// scale: about the residuals' standard deviation, N.m or N.
+/// level: [N] sign(v) torque; offsets: [N x q] sign(v) dG/dg, torque that makes no heat (gravity);
+/// kept: [N] 1 or 0; start: parameters of the law and of the offsets [d + q]; scale: about the
+/// residuals' standard deviation, N.m or N.
 WarmFit FitWarmFriction(const ClosedLoop& loop, const Eigen::VectorXd& level,
-                        const Eigen::VectorXd& kept, const Eigen::VectorXd& parameters,
-                        const Thermal& thermal, InitialEnergy initial_energy, double scale);
+                        const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
+                        const WarmStart& start, InitialEnergy initial_energy, double scale);
 
 }  // namespace warmjoint

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "identification/fit_gravity.h"
 #include "identification/hold_out.h"
 #include "identification/identifier.h"
 #include "models/foundation/atomic_file.h"
@@ -48,6 +49,28 @@ HoldOutSource ReadHoldOut(const IdentifyArguments& arguments) {
   return {*fraction, std::nullopt};
 }
 
+/// --set, and --gravity as one of them.
+std::map<std::string, std::string> GivenOptions(const IdentifyArguments& arguments,
+                                                const Identifier& identifier) {
+  auto given = ReadPairs(arguments.set, "--set");
+  if (arguments.gravity == "none") return given;
+  if (!TellsGravity(identifier)) {
+    std::vector<std::string> able;
+    for (const Identifier& one : Identifiers()) {
+      if (TellsGravity(one)) able.push_back(one.name);
+    }
+    Refuse({"--gravity"}, "{} cannot tell gravity from friction; use one of: {}", identifier.name,
+           fmt::join(able, ", "));
+  }
+  if (arguments.gravity == "sincos" && arguments.recording.joint == "linear") {
+    Refuse({"--gravity"},
+           "sincos needs an angle and the joint is linear, where gravity does not "
+           "depend on position; use paired");
+  }
+  given["gravity"] = arguments.gravity;
+  return given;
+}
+
 std::optional<Metrics> HoldOutFigures(const Identifier& identifier, const IdentifierInput& input,
                                       const HoldOutSource& source) {
   if (source.other) {
@@ -77,11 +100,7 @@ void WriteOutputs(const IdentifyArguments& arguments, const Estimate& estimate, 
 ExitStatus Identify(const IdentifyArguments& arguments) {
   // everything that can be refused is, before any time is spent
   const Identifier& identifier = FindIdentifier(arguments.identifier);
-  const Options options(identifier.options, ReadPairs(arguments.set, "--set"), {"--set"});
-  if (arguments.gravity != "none") {
-    Refuse({"--gravity"}, "{} is not there yet; remove gravity from the log first, or use none",
-           arguments.gravity);
-  }
+  const Options options(identifier.options, GivenOptions(arguments, identifier), {"--set"});
   CheckOutput(arguments.output);
   CheckOutput(arguments.mjcf);
   CheckOutput(arguments.plot);

@@ -19,7 +19,8 @@ class GoldenLoop {
     const Eigen::MatrixXd columns = LawColumns(*FindLaw("viscous_coulomb"), recording_.velocity);
     const LeastSquares nominal =
         SolveLeastSquares(Kept(columns, moving_), Kept(recording_.torque, moving_));
-    loop_.emplace(recording_, moving_, columns, nominal);
+    const Eigen::VectorXd no_gravity = Eigen::VectorXd::Zero(recording_.size());
+    loop_.emplace(recording_, moving_, columns, nominal, no_gravity);
   }
 
   DescentState After(const Thermal& start, int iterations) const {

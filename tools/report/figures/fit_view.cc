@@ -24,6 +24,14 @@ TimeScale ScaleOf(const FitView& view) {
   return {1, "s"};
 }
 
+/// Leaves friction in the torque, where gravity is known.
+void TakeGravityOff(const GravityModel& gravity, FitView& view) {
+  view.torque -= gravity.Torque(view.position);
+  for (Eigen::Index i = 0; i < view.position.size(); ++i) {
+    view.selection.keep[i] = view.selection.keep[i] && gravity.Covers(view.position[i]);
+  }
+}
+
 double InitialEnergy(const Estimate& estimate) {
   const EstimatedParameter* found = estimate.Find("initial_energy");
   return found ? found->value : 0;
@@ -43,6 +51,7 @@ FitView MakeFitView(const Measurements& measurements, const Selection& selection
   view.position = measurements.position;
   view.velocity = measurements.velocity;
   view.torque = measurements.torque;
+  if (estimate.gravity) TakeGravityOff(*estimate.gravity, view);
 
   view.has_fit = estimate.friction.has_value();
   if (!view.has_fit) return view;

@@ -21,7 +21,7 @@ struct FitView {
   Eigen::VectorXd time;      // s, from the first sample
   Eigen::VectorXd position;  // rad or m
   Eigen::VectorXd velocity;  // rad/s or m/s
-  Eigen::VectorXd torque;    // torque_unit
+  Eigen::VectorXd torque;    // torque_unit, less gravity where the estimate has it
 
   // with a friction in the estimate alone
   bool has_fit = false;

@@ -1,0 +1,48 @@
+// Gravity along a joint, G(p) of Eq. (6), as identification finds it.
+#pragma once
+
+#include <Eigen/Core>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "models/foundation/bad_input.h"
+
+namespace warmjoint {
+
+/// How G depends on the position p, linear in its values g:
+///   sincos    g1 sin p + g2 cos p, rotary joints
+///   paired    any periodic G(p), rotary joints: straight lines between 64 knots on the turn
+///   constant  g1: what `paired` is for a linear joint, whose weight does not depend on p
+enum class GravityKind { sincos, paired, constant };
+
+/// "sincos", "paired" or "constant".
+std::string_view GravityName(GravityKind kind);
+
+inline constexpr int kGravityKnots = 64;  // on a turn; a line misses g sin p by g (2 pi/64)^2/8
+
+/// Gravity with its values.
+struct GravityModel {
+  GravityKind kind = GravityKind::sincos;
+  std::vector<int> knots;  // paired: [m] those that are known, ascending; knot i: 2 pi i/64 rad
+  Eigen::VectorXd values;  // sincos: [2]; paired: [m] torque at the knots; constant: [1]. N.m or N
+
+  /// Whether G is known at a position (rad or m): paired knows it between neighbouring knots.
+  bool Covers(double position) const;
+
+  /// G at positions that are covered. position: [N] rad or m; returns [N] N.m or N.
+  Eigen::VectorXd Torque(const Eigen::VectorXd& position) const;
+};
+
+/// dG/dg at each position, one column for each value. A position beside the knots has zeros.
+/// position: [N] rad or m; returns [N x m].
+Eigen::MatrixXd GravityColumns(GravityKind kind, const std::vector<int>& knots,
+                               const Eigen::VectorXd& position);
+
+/// {kind, sine, cosine}, {kind, position[] (rad), torque[]} or {kind, offset}.
+nlohmann::json GravityToJson(const GravityModel& gravity);
+
+/// The inverse. Throws BadInput from `place`.
+GravityModel GravityFromJson(const nlohmann::json& json, const Place& place);
+
+}  // namespace warmjoint
