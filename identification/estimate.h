@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "identification/gravity.h"
+#include "identification/map_band.h"
 #include "models/friction/friction_description.h"
 
 namespace warmjoint {
@@ -61,6 +62,7 @@ struct Estimate {
   std::vector<TraceEntry> trace;
   std::optional<FrictionDescription> friction;
   std::optional<GravityModel> gravity;  // what the fit took for gravity beside friction
+  std::vector<MapBand> bands;           // one for each of the friction's maps
 
   /// The parameter of that name, or nullptr.
   const EstimatedParameter* Find(std::string_view name) const;
@@ -68,8 +70,8 @@ struct Estimate {
 
 /// The estimate as JSON: {identifier, status, message, parameters{name: {value, unit, std,
 /// interval95}}, metrics{}, holdout{}, trace[{iteration, rmse, parameters{}}], friction{},
-/// gravity{}}.
-/// What is absent, or is not a finite number, is null.
+/// gravity{}, bands[{quantities[], points[][], value[], std[], interval95[][]}]}; bands only where
+/// maps are. What is absent, or is not a finite number, is null.
 nlohmann::json EstimateToJson(const Estimate& estimate);
 
 /// The inverse: null numbers become NaN, parameters come sorted by name. Throws BadInput from

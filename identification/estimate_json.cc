@@ -143,15 +143,17 @@ json EstimateToJson(const Estimate& estimate) {
   for (const EstimatedParameter& parameter : estimate.parameters) {
     parameters[parameter.name] = ParameterToJson(parameter);
   }
-  return {{"identifier", estimate.identifier},
-          {"status", StatusName(estimate.status)},
-          {"message", estimate.message},
-          {"parameters", parameters},
-          {"metrics", MetricsToJson(estimate.metrics)},
-          {"holdout", MetricsToJson(estimate.holdout)},
-          {"trace", TraceToJson(estimate.trace)},
-          {"friction", estimate.friction ? FrictionToJson(*estimate.friction) : json(nullptr)},
-          {"gravity", estimate.gravity ? GravityToJson(*estimate.gravity) : json(nullptr)}};
+  json result{{"identifier", estimate.identifier},
+              {"status", StatusName(estimate.status)},
+              {"message", estimate.message},
+              {"parameters", parameters},
+              {"metrics", MetricsToJson(estimate.metrics)},
+              {"holdout", MetricsToJson(estimate.holdout)},
+              {"trace", TraceToJson(estimate.trace)},
+              {"friction", estimate.friction ? FrictionToJson(*estimate.friction) : json(nullptr)},
+              {"gravity", estimate.gravity ? GravityToJson(*estimate.gravity) : json(nullptr)}};
+  for (const MapBand& band : estimate.bands) result["bands"].push_back(BandToJson(band));
+  return result;
 }
 
 Estimate EstimateFromJson(const json& object, const Place& place) {
@@ -171,6 +173,7 @@ Estimate EstimateFromJson(const json& object, const Place& place) {
   estimate.metrics = ToMetrics(member("metrics"), "metrics", place);
   estimate.holdout = ToMetrics(member("holdout"), "holdout", place);
   for (const json& entry : member("trace")) estimate.trace.push_back(ToTraceEntry(entry, place));
+  for (const json& band : member("bands")) estimate.bands.push_back(BandFromJson(band, place));
   if (!member("friction").is_null()) {
     estimate.friction = FrictionFromJson(member("friction"), place);
   }

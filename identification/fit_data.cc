@@ -68,6 +68,7 @@ void Void(Status status, std::string message, Estimate& estimate) {
   estimate.status = status;
   estimate.message = std::move(message);
   estimate.friction.reset();
+  estimate.bands.clear();
   for (EstimatedParameter& parameter : estimate.parameters) {
     parameter.std.reset();
     parameter.interval95.reset();

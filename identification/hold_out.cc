@@ -34,6 +34,7 @@ std::optional<Metrics> Evaluate(const Estimate& estimate, const Measurements& me
   if (!estimate.friction) return std::nullopt;
   Eigen::VectorXd predicted = PredictFriction(*estimate.friction, measurements).force;
   auto parameters = estimate.friction->parameters.size() + (estimate.friction->thermal ? 2 : 0);
+  for (const FrictionMap& map : estimate.friction->maps) parameters += map.weights.size();
 
   // gravity where the fit knows it
   if (estimate.gravity) {
@@ -45,7 +46,8 @@ std::optional<Metrics> Evaluate(const Estimate& estimate, const Measurements& me
   }
   if (test.count() == 0) return std::nullopt;
   const auto d = static_cast<int>(parameters);
-  return ComputeMetrics(Kept(measurements.torque, test), Kept(predicted, test), d, d);
+  return ComputeMetrics(Kept(measurements.torque, test), Kept(predicted, test), d,
+                        estimate.metrics ? estimate.metrics->effective_parameters : d);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "identification/energy_ml.h"
 #include "identification/identifier.h"
 #include "identification/nominal_ls.h"
+#include "identification/position_ridge.h"
 #include "identification/rls.h"
 #include "models/foundation/nearest_name.h"
 
@@ -9,10 +10,7 @@ namespace warmjoint {
 
 const std::vector<Identifier>& Identifiers() {
   static const std::vector<Identifier> identifiers{
-      NominalLs(),
-      EnergyEm(),
-      EnergyMl(),
-      Rls(),
+      NominalLs(), PositionRidge(), EnergyEm(), EnergyMl(), Rls(),
   };
   return identifiers;
 }

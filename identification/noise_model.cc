@@ -9,6 +9,8 @@ namespace {
 
 constexpr Eigen::Index kHighestOrder = 60;
 constexpr Eigen::Index kPatience = 6;  // orders without a better BIC
+constexpr Eigen::Index kBlock = 256;   // samples that are filtered at once
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Autocovariances of a sequence with gaps. values: [N], 0 where not kept; kept: [N] 1 or 0.
 class Autocovariance {
@@ -99,29 +101,45 @@ NoiseModel FitNoise(const Eigen::VectorXd& residual, const Selection& selection)
 
 Eigen::MatrixXd ScatterThrough(const NoiseModel& noise, const Eigen::MatrixXd& A,
                                const Selection& selection) {
-  const Eigen::Index p = noise.order();
-  if (p == 0) return noise.variance * (A.transpose() * A);
+  if (noise.order() == 0) return noise.variance * (A.transpose() * A);
+  const auto rows = [&](Eigen::Index first, Eigen::Index last) -> Eigen::MatrixXd {
+    return A.middleRows(first, last - first);
+  };
+  return ScatterThrough(noise, rows, A.cols(), selection);
+}
 
-  // R = innovation M^-1 M^-T with M e = w, so that A^T R A = innovation Z^T Z, M^T Z = A
-  const Eigen::Index d = A.cols();
-  const Eigen::Index n = selection.keep.size();
-  Eigen::MatrixXd future = Eigen::MatrixXd::Zero(p, d);  // row k: Z at i + 1 + k
+Eigen::MatrixXd ScatterThrough(
+    const NoiseModel& noise,
+    const std::function<Eigen::MatrixXd(Eigen::Index first, Eigen::Index last)>& rows,
+    Eigen::Index d, const Selection& selection) {
+  // R = innovation M^-1 M^-T with M e = w, so that A^T R A = innovation Z^T Z, M^T Z = A;
+  // Z is filled backwards in time, a block of rows after the last p of the block before it
+  const Eigen::Index p = noise.order();
+  const Eigen::RowVectorXd coefficients = noise.coefficients.reverse();
+  RowMajor Z = RowMajor::Zero(p + kBlock, d);
   Eigen::MatrixXd scatter = Eigen::MatrixXd::Zero(d, d);
-  Eigen::Index row = A.rows();
   Eigen::RowVectorXd largest = Eigen::RowVectorXd::Zero(d);
-  for (Eigen::Index i = n - 1; i > -100000; --i) {
-    Eigen::RowVectorXd z = -noise.coefficients.transpose() * future;
-    if (i >= 0 && selection.keep[i]) z += A.row(--row);
-    scatter += z.transpose() * z;
-    for (Eigen::Index k = p - 1; k > 0; --k) future.row(k) = future.row(k - 1);
-    future.row(0) = z;
+  Eigen::Index row = selection.count();
+  for (Eigen::Index end = selection.keep.size(); end > -100000; end -= kBlock) {
+    const Eigen::Index begin = std::max<Eigen::Index>(end - kBlock, 0);
+    const Eigen::Index kept = end > 0 ? selection.keep.segment(begin, end - begin).count() : 0;
+    const Eigen::MatrixXd input = kept > 0 ? rows(row - kept, row) : Eigen::MatrixXd(0, d);
+    Eigen::Index next = kept;
+    for (Eigen::Index k = 0; k < kBlock; ++k) {
+      const Eigen::Index i = end - 1 - k;
+      Z.row(p + k).noalias() = -coefficients * Z.middleRows(k, p);
+      if (i >= 0 && selection.keep[i]) Z.row(p + k) += input.row(--next);
+    }
+    row -= kept;
+    scatter.selfadjointView<Eigen::Lower>().rankUpdate(Z.bottomRows(kBlock).transpose());
 
     // before the first sample: until it has died away
-    largest = largest.cwiseMax(z.cwiseAbs());
-    const bool gone =
-        ((future.cwiseAbs().colwise().maxCoeff() - 1e-4 * largest).array() <= 0).all();
-    if (i <= 0 && gone) break;
+    Z.topRows(p) = Z.bottomRows(p).eval();
+    largest = largest.cwiseMax(Z.cwiseAbs().colwise().maxCoeff());
+    const Eigen::RowVectorXd left = Z.topRows(p).cwiseAbs().colwise().maxCoeff();
+    if (end - kBlock <= 0 && ((left - 1e-4 * largest).array() <= 0).all()) break;
   }
+  scatter.triangularView<Eigen::StrictlyUpper>() = scatter.transpose();
   return noise.innovation * scatter;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 
 #include "sim/dataset/selection.h"
 
@@ -32,5 +33,12 @@ NoiseModel FitNoise(const Eigen::VectorXd& residual, const Selection& selection)
 /// the model, beyond the first sample until it has died away.
 Eigen::MatrixXd ScatterThrough(const NoiseModel& noise, const Eigen::MatrixXd& A,
                                const Selection& selection);
+
+/// The same for an A too large to hold, of coloured noise. rows(first, last): its rows
+/// first <= i < last of the kept samples, [last - first x d].
+Eigen::MatrixXd ScatterThrough(
+    const NoiseModel& noise,
+    const std::function<Eigen::MatrixXd(Eigen::Index first, Eigen::Index last)>& rows,
+    Eigen::Index d, const Selection& selection);
 
 }  // namespace warmjoint

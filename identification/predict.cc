@@ -1,18 +1,36 @@
 #include "identification/predict.h"
 
+#include "identification/map_points.h"
+
 namespace warmjoint {
+namespace {
+
+/// Sum of all maps, N.m or N.
+double MapForce(const std::vector<FrictionMap>& maps, const MapPoint<double>& point) {
+  double force = 0;
+  for (const FrictionMap& map : maps) force += EvaluateMap(map, point);
+  return force;
+}
+
+}  // namespace
 
 Prediction PredictFriction(const FrictionDescription& friction, const Measurements& measurements,
                            double initial_energy) {
   const Law& law = *FindLaw(friction.law);
   const std::vector<double> values = LawValues(friction);
   const Eigen::Index n = measurements.size();
+  const MapPoints points = friction.maps.empty() ? MapPoints() : PointsOf(measurements);
   Prediction prediction{Eigen::VectorXd(n), Eigen::VectorXd(n), n};
 
   double energy = initial_energy;
   for (Eigen::Index i = 0; i < n; ++i) {
     const double v = measurements.velocity[i];
-    const double force = WarmForce(v, law.force(v, values.data()), energy);
+    double force = WarmForce(v, law.force(v, values.data()), energy);
+    if (!friction.maps.empty() && v != 0) {
+      MapPoint<double> point = PointAt(points, i);
+      point[static_cast<size_t>(MapQuantity::energy)] = energy;
+      force += MapForce(friction.maps, point);
+    }
     prediction.force[i] = force;
     prediction.energy[i] = energy;
     if (FeedsItself(v, force) && prediction.feeds_itself == n) prediction.feeds_itself = i;

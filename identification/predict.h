@@ -8,8 +8,8 @@
 
 namespace warmjoint {
 
-/// Friction along a motion: F = Fn(v) + sign(v) E, Eq. (20), with E from the friction's own losses
-/// W = |F v|, Eqs. (19) and (22). All N samples, rests and accelerations too.
+/// Friction along a motion: F = Fn(v) + sign(v) E + maps, Eq. (20), with E from the friction's own
+/// losses W = |F v|, Eqs. (19) and (22). All N samples, rests and accelerations too.
 struct Prediction {
   Eigen::VectorXd force;   // [N] F, N.m or N; 0 at rest
   Eigen::VectorXd energy;  // [N] E, N.m or N; 0 where nothing warms
@@ -17,8 +17,8 @@ struct Prediction {
   Eigen::Index feeds_itself = 0;
 };
 
-/// Uses time and velocity alone. friction must have been checked (CheckFriction).
-/// initial_energy: E at the first sample, N.m or N.
+/// Uses time and velocity and, for maps, positions and load. friction must have been checked
+/// (CheckFriction). initial_energy: E at the first sample, N.m or N.
 Prediction PredictFriction(const FrictionDescription& friction, const Measurements& measurements,
                            double initial_energy = 0);
 

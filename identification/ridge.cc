@@ -38,6 +38,15 @@ void NormalEquations::Add(const Eigen::MatrixXd& A, const Eigen::VectorXd& y) {
   rows += A.rows();
 }
 
+NormalEquations NormalEquations::Plus(const NormalEquations& part) const {
+  NormalEquations sum = *this;
+  sum.gram += part.gram;
+  sum.product += part.product;
+  sum.squares += part.squares;
+  sum.rows += part.rows;
+  return sum;
+}
+
 NormalEquations NormalEquations::Minus(const NormalEquations& part) const {
   NormalEquations rest = *this;
   rest.gram -= part.gram;
@@ -83,39 +92,6 @@ Eigen::VectorXd Ridge::Solve(double strength) const {
 double Ridge::EffectiveParameters(double strength) const {
   return static_cast<double>(free_) +
          (eigenvalues_.array() / (eigenvalues_.array() + strength)).sum();
-}
-
-Eigen::VectorXd CrossValidate(const std::vector<NormalEquations>& parts, Eigen::Index free,
-                              const std::vector<double>& strengths) {
-  NormalEquations all = parts.front();
-  for (size_t i = 1; i < parts.size(); ++i) {
-    all.gram += parts[i].gram;
-    all.product += parts[i].product;
-    all.squares += parts[i].squares;
-    all.rows += parts[i].rows;
-  }
-
-  Eigen::VectorXd errors = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(strengths.size()));
-  for (const NormalEquations& part : parts) {
-    const Ridge ridge(all.Minus(part), free);
-    for (size_t i = 0; i < strengths.size(); ++i) {
-      errors[static_cast<Eigen::Index>(i)] += part.Squares(ridge.Solve(strengths[i]));
-    }
-  }
-  return errors / static_cast<double>(all.rows);
-}
-
-double LeaveOneOut(const Eigen::MatrixXd& A, const Eigen::VectorXd& y, Eigen::Index free,
-                   double strength) {
-  Eigen::MatrixXd gram = A.transpose() * A;
-  gram.diagonal().tail(A.cols() - free).array() += strength;
-  const Eigen::LLT<Eigen::MatrixXd> factors(gram);
-  const Eigen::VectorXd residual = y - A * factors.solve(A.transpose() * y);
-
-  // h_i = |L^-1 a_i|^2
-  const Eigen::MatrixXd halves = factors.matrixL().solve(A.transpose());
-  const Eigen::ArrayXd leverage = halves.colwise().squaredNorm().transpose();
-  return (residual.array() / (1 - leverage)).square().mean();
 }
 
 double LogEvidence(const NormalEquations& normal, const Ridge& ridge, Eigen::Index free,

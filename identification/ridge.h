@@ -17,6 +17,7 @@ struct NormalEquations {
   explicit NormalEquations(Eigen::Index d);
   /// Adds rows. A: [n x d]; y: [n].
   void Add(const Eigen::MatrixXd& A, const Eigen::VectorXd& y);
+  NormalEquations Plus(const NormalEquations& part) const;
   NormalEquations Minus(const NormalEquations& part) const;
   /// |y - A x|^2.
   double Squares(const Eigen::VectorXd& x) const;
@@ -52,13 +53,11 @@ class Ridge {
 };
 
 /// Mean squared errors of held-out parts for each strength. parts: normal equations of contiguous
-/// segments of a recording; every part is predicted from all the others.
+/// segments of a recording; every part is predicted from all the others. Kernels that never meet
+/// cost nothing (local_ridge.h). An error is infinite where the strength is too small to solve.
+/// threads: parts that are worked on at once; the result does not depend on it.
 Eigen::VectorXd CrossValidate(const std::vector<NormalEquations>& parts, Eigen::Index free,
-                              const std::vector<double>& strengths);
-
-/// Mean squared error of leaving out one row at a time, e_i / (1 - h_i). A: [n x d]; y: [n].
-double LeaveOneOut(const Eigen::MatrixXd& A, const Eigen::VectorXd& y, Eigen::Index free,
-                   double strength);
+                              const std::vector<double>& strengths, int threads = 1);
 
 /// The prior's and the noise's precision that make the data most likely (MacKay 1992), with a flat
 /// prior on the free columns: alpha = gamma / |w|^2, beta = (n - free - gamma) / |r|^2,

@@ -49,6 +49,18 @@ std::string_view MapQuantityName(MapQuantity quantity) {
   return "";
 }
 
+std::string_view MapFactorName(MapFactor factor) {
+  switch (factor) {
+    case MapFactor::one:
+      return "one";
+    case MapFactor::direction:
+      return "direction";
+    case MapFactor::velocity:
+      return "velocity";
+  }
+  return "";
+}
+
 size_t FrictionMap::size() const {
   size_t count = 1;
   for (const MapAxis& axis : axes) count *= axis.kernels.size();

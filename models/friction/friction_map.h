@@ -28,16 +28,26 @@ struct MapAxis {
   GaussianAxis kernels;
 };
 
+/// What the kernels are multiplied by: 1, sign(v) (a level that acts against the motion) or v
+/// (viscous friction). With `velocity` a map over energy is kv(E) v of Eq. (27).
+enum class MapFactor { one, direction, velocity };
+
+/// "one", "direction", "velocity".
+std::string_view MapFactorName(MapFactor factor);
+
 inline constexpr size_t kMostMapAxes = 4;
 inline constexpr size_t kMostMapCentres = 128;  // of one axis
 
-/// A force that is added to the law's: sum_i w_i kappa_i, Eqs. (10)-(16), where kappa_i is the
-/// product of one kernel of each axis (diagonal covariance). A normalised product of kernels is the
-/// product of the normalised ones. As part of F it takes part in the losses W = |F v|, Eq. (19).
+/// A force that is added to the law's: factor(v) sum_i w_i kappa_i, Eqs. (10)-(16), where kappa_i
+/// is the product of one kernel of each axis (diagonal covariance). A normalised product of kernels
+/// is the product of the normalised ones. As part of F it takes part in the losses W = |F v|, (19).
 struct FrictionMap {
   std::vector<MapAxis> axes;
   KernelKind kernels = KernelKind::normalised;
-  std::vector<double> weights;  // N.m or N; one for each product, the last axis's index the fastest
+  // one for each product, the last axis's index the fastest; N.m or N, over rad/s or m/s where the
+  // factor is the velocity
+  std::vector<double> weights;
+  MapFactor factor = MapFactor::one;
 
   /// Number of kernels that the axes span.
   size_t size() const;
@@ -48,7 +58,7 @@ struct FrictionMap {
 void CheckMap(const FrictionMap& map, const Place& place);
 
 /// {axes: [{quantity, centres, width, period?, sides: together|apart}], kernels: normalised|plain,
-/// weights: [...]}.
+/// factor: one|direction|velocity, weights: [...]}.
 nlohmann::json MapToJson(const FrictionMap& map);
 
 /// The inverse; checked.
@@ -82,6 +92,13 @@ struct MapContraction {
 
 }  // namespace internal
 
+/// factor(v) of a map.
+template <typename T>
+T EvaluateFactor(MapFactor factor, const T& velocity) {
+  if (factor == MapFactor::velocity) return velocity;
+  return T(factor == MapFactor::direction ? Sign(velocity) : 1);
+}
+
 /// Value of a checked map, N.m or N; allocates nothing. T: double, or a dual number.
 template <typename T>
 T EvaluateMap(const FrictionMap& map, const MapPoint<T>& point) {
@@ -90,7 +107,8 @@ T EvaluateMap(const FrictionMap& map, const MapPoint<T>& point) {
     const T& x = point[static_cast<size_t>(map.axes[a].quantity)];
     AxisKernels(map.axes[a].kernels, map.kernels, x, contraction.phi[a].data());
   }
-  return contraction.template Sum<0>(0);
+  const T& velocity = point[static_cast<size_t>(MapQuantity::velocity)];
+  return EvaluateFactor(map.factor, velocity) * contraction.template Sum<0>(0);
 }
 
 }  // namespace warmjoint

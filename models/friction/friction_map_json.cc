@@ -12,6 +12,7 @@ using nlohmann::json;
 constexpr MapQuantity kQuantities[] = {MapQuantity::position, MapQuantity::motor_position,
                                        MapQuantity::velocity, MapQuantity::energy,
                                        MapQuantity::load};
+constexpr MapFactor kFactors[] = {MapFactor::one, MapFactor::direction, MapFactor::velocity};
 
 /// Refuses what is no object, and keys that are not `known`; the first `needed` must be there.
 void CheckKeys(const json& object, const char* what, const std::vector<std::string>& known,
@@ -82,11 +83,12 @@ json MapToJson(const FrictionMap& map) {
   }
   return {{"axes", axes},
           {"kernels", map.kernels == KernelKind::normalised ? "normalised" : "plain"},
+          {"factor", MapFactorName(map.factor)},
           {"weights", map.weights}};
 }
 
 FrictionMap MapFromJson(const json& object, const Place& place) {
-  CheckKeys(object, "a map", {"axes", "weights", "kernels"}, 2, place);
+  CheckKeys(object, "a map", {"axes", "weights", "kernels", "factor"}, 2, place);
   if (!object["axes"].is_array()) Refuse(place, "a map's axes must be a list");
   FrictionMap map;
   for (const json& axis : object["axes"]) map.axes.push_back(AxisFromJson(axis, place));
@@ -94,6 +96,11 @@ FrictionMap MapFromJson(const json& object, const Place& place) {
   if (object.contains("kernels")) {
     const size_t kind = Word(object["kernels"], "a map's kernels", {"normalised", "plain"}, place);
     map.kernels = kind == 1 ? KernelKind::plain : KernelKind::normalised;
+  }
+  if (object.contains("factor")) {
+    std::vector<std::string> names;
+    for (const MapFactor factor : kFactors) names.emplace_back(MapFactorName(factor));
+    map.factor = kFactors[Word(object["factor"], "a map's factor", names, place)];
   }
   CheckMap(map, place);
   return map;

@@ -4,6 +4,7 @@
 
 #include "identification/least_squares.h"
 #include "identification/linear_laws.h"
+#include "identification/local_rows.h"
 #include "models/friction/gaussian_axis.h"
 #include "tests/support/vectors.h"
 
@@ -63,10 +64,18 @@ TEST_F(GoldenRidge, ReproducesCrossValidationOfContiguousParts) {
 }
 
 TEST_F(GoldenRidge, ReproducesLeaveOneOut) {
+  const std::vector<FrictionMap> maps{
+      {{{MapQuantity::position, {golden_.at("centers"), golden_.at("sigma"), {}, Sides::together}}},
+       KernelKind::normalised,
+       {}}};
+  MapPoints points = MapPoints::Zero(40, 5);
+  points.col(0) = test::ToVector(golden_.at("p"));
+  const std::vector<RowGroup> groups = GroupRows(maps, points, 0, 40);
   const Eigen::VectorXd expected = test::ToVector(golden_.at("loo_mse"));
   const std::vector<double> strengths = golden_.at("lambdas");
   for (int i = 0; i < 4; ++i) {
-    EXPECT_NEAR(LeaveOneOut(A_, y_, 2, strengths[i]), expected[i], kLinear * expected[i]);
+    EXPECT_NEAR(LeaveOneOut(groups, A_.leftCols(2), y_, Normal(0, 40), strengths[i]), expected[i],
+                kLinear * expected[i]);
   }
 }
 

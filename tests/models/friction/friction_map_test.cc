@@ -48,6 +48,22 @@ TEST(FrictionMap, IsZeroAtRestWhereItsSidesAreApart) {
   EXPECT_GT(EvaluateMap(SmallMap(), MapPoint<double>{0.3, 0, 1e-9, 0, 0}), 2);
 }
 
+TEST(FrictionMap, IsMultipliedByItsFactor) {
+  FrictionMap map{{{MapQuantity::energy, EvenAxis(-1, 0, 2)}}, KernelKind::normalised, {2, 2}};
+  const auto at = [&](MapFactor factor, double v) {
+    map.factor = factor;
+    return EvaluateMap(map, MapPoint<double>{0, 0, v, -0.3, 0});
+  };
+  for (const double v : {-3.0, 0.0, 0.5}) {
+    // equal weights of normalised kernels: their value everywhere; 1e-15: rounding of their sum
+    EXPECT_NEAR(at(MapFactor::one, v), 2, 1e-15);
+    EXPECT_NEAR(at(MapFactor::direction, v), 2 * Sign(v), 1e-15);
+    EXPECT_NEAR(at(MapFactor::velocity, v), 2 * v, 1e-14);
+  }
+  const FrictionMap back = MapFromJson(MapToJson(map), {"friction.json"});
+  EXPECT_EQ(back.factor, MapFactor::velocity);
+}
+
 TEST(FrictionMap, ReadsBackWhatItWrites) {
   FrictionDescription friction;
   friction.parameters = {{"viscous", 1}, {"coulomb", 2}};
@@ -83,6 +99,8 @@ TEST(FrictionMap, RefusesWhatDoesNotFit) {
   EXPECT_THAT(refusal([](json& j) { j["axes"][1]["centres"][1] = 0; }), HasSubstr("a centre at 0"));
   EXPECT_THAT(refusal([](json& j) { j["axes"][0]["quantity"] = "positon"; }),
               HasSubstr("did you mean 'position'"));
+  EXPECT_THAT(refusal([](json& j) { j["factor"] = "velocty"; }),
+              HasSubstr("did you mean 'velocity'"));
   EXPECT_THAT(refusal([](json& j) { j["axis"] = 1; }), HasSubstr("did you mean 'axes'"));
   EXPECT_THAT(refusal([](json& j) { j.erase("weights"); }), HasSubstr("lacks its weights"));
   EXPECT_THAT(refusal([](json& j) { j["axes"] = json::array(); }), HasSubstr("0 axes"));

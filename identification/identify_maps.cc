@@ -1,0 +1,173 @@
+#include "identification/identify_maps.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "identification/fit_data.h"
+#include "identification/least_squares.h"
+#include "identification/linear_laws.h"
+#include "identification/report_law.h"
+#include "identification/student.h"
+#include "models/friction/sign.h"
+
+namespace warmjoint {
+namespace {
+
+/// sign(v) E at the kept samples, [n] N.m or N.
+Eigen::VectorXd Warming(const IdentifierInput& input, const Eigen::VectorXd& energy) {
+  const Measurements& m = input.measurements;
+  if (energy.size() == 0) return Eigen::VectorXd::Zero(input.selection.count());
+  const Eigen::VectorXd direction =
+      m.velocity.unaryExpr([](double v) { return static_cast<double>(Sign(v)); });
+  return Kept(direction.cwiseProduct(energy), input.selection);
+}
+
+/// The map's values at its centres. covariance: of its weights.
+MapBand BandOf(const FrictionMap& map, const Eigen::MatrixXd& covariance, double freedom) {
+  // centres of all axes, the last the fastest
+  const auto count = static_cast<Eigen::Index>(map.size());
+  MapBand band;
+  MapPoints points = MapPoints::Zero(count, 5);
+  points.col(static_cast<int>(MapQuantity::velocity)).setOnes();
+  for (Eigen::Index i = 0; i < count; ++i) {
+    std::vector<double> centre(map.axes.size());
+    auto rest = static_cast<size_t>(i);
+    for (size_t a = map.axes.size(); a-- > 0;) {
+      const std::vector<double>& centres = map.axes[a].kernels.centres;
+      centre[a] = centres[rest % centres.size()];
+      points(i, static_cast<int>(map.axes[a].quantity)) = centre[a];
+      rest /= centres.size();
+    }
+    band.points.push_back(std::move(centre));
+  }
+  for (const MapAxis& axis : map.axes) band.quantities.emplace_back(MapQuantityName(axis.quantity));
+
+  band.value.resize(map.size());
+  band.std.resize(map.size());
+  band.interval95.resize(map.size());
+  const double reach = StudentQuantile(freedom);
+  for (const RowGroup& group : GroupRows({map}, points, 0, count)) {
+    const Eigen::MatrixXd own = covariance(group.kernels, group.kernels);
+    for (Eigen::Index i = 0; i < group.values.rows(); ++i) {
+      const auto place = static_cast<size_t>(group.samples[i]);
+      const Eigen::RowVectorXd row = group.values.row(i);
+      const double deviation = std::sqrt(std::max(0.0, (row * own * row.transpose()).value()));
+      const double value = EvaluateMap(map, PointAt(points, group.samples[i]));
+      band.value[place] = value;
+      band.std[place] = deviation;
+      band.interval95[place] = {value - reach * deviation, value + reach * deviation};
+    }
+  }
+  return band;
+}
+
+/// What was chosen: "24 position x 2 velocity kernels 0.7 spacings wide".
+std::string Shape(const FrictionMap& map) {
+  std::vector<std::string> axes;
+  for (const MapAxis& axis : map.axes) {
+    axes.push_back(fmt::format("{} {}", axis.kernels.size(), MapQuantityName(axis.quantity)));
+  }
+  return fmt::format("{} kernels", fmt::join(axes, " x "));
+}
+
+std::string Message(const IdentifierInput& input, const MapTask& task, const MapFit& fit) {
+  const Law& law = *FindLaw(task.settings.law);
+  std::vector<std::string> shapes, soft;
+  for (const FrictionMap& map : fit.maps) shapes.push_back(Shape(map));
+  for (const Eigen::Index i : fit.soft) soft.emplace_back(law.parameters[i].name);
+  std::string message = fmt::format(
+      "law {} and {} on {} samples; prior of strength {:.3g} on their weights leaves {:.1f} "
+      "effective parameters",
+      law.name, fmt::join(shapes, " and "), input.selection.count(), fit.strength, fit.effective);
+  if (!soft.empty()) {
+    message += fmt::format("; the kernels can imitate {}, which the prior alone tells apart",
+                           fmt::join(soft, ", "));
+  }
+  return message + ColourOf(fit.known.noise);
+}
+
+}  // namespace
+
+std::optional<Estimate> RefuseForMaps(const IdentifierInput& input, const std::string& identifier,
+                                      const Law& law) {
+  const auto d = static_cast<int>(law.parameters.size());
+  if (auto why = Unusable(input, d + 2)) return Failed(identifier, Status::bad_data, *why);
+  const Eigen::MatrixXd A =
+      LawColumns(law, Kept(input.measurements.velocity, input.selection).col(0));
+  const LeastSquares fit = SolveLeastSquares(A, Kept(input.measurements.torque, input.selection));
+  if (fit.mixed.empty()) return std::nullopt;
+  std::vector<std::string> mixed;
+  for (const Eigen::Index i : fit.mixed) mixed.emplace_back(law.parameters[i].name);
+  return Failed(identifier, Status::not_identifiable,
+                Indistinct(mixed, input.measurements, input.selection));
+}
+
+std::optional<MapChoice> ChooseAndFit(const IdentifierInput& input, const MapTask& task,
+                                      const Eigen::MatrixXd& columns) {
+  const MapPoints all = PointsOf(input.measurements, task.energy);
+  MapProblem problem{{},
+                     Kept(all, input.selection),
+                     Kept(columns, input.selection),
+                     Kept(input.measurements.torque, input.selection),
+                     input.selection};
+  problem.torque -= Warming(input, task.energy);
+
+  // a choice costs fits, so one is made only where there is something to choose
+  ChosenStrength best{task.settings.strength, 0};
+  size_t candidate = 0;
+  if (task.candidates.size() > 1 || task.settings.strength == 0) {
+    const int folds =
+        std::min(task.settings.folds, std::max(2, static_cast<int>(problem.torque.size()) / 2));
+    best.criterion = std::numeric_limits<double>::infinity();
+    for (size_t i = 0; i < task.candidates.size(); ++i) {
+      problem.maps = task.candidates[i];
+      const ChosenStrength chosen = ChooseStrength(problem, task.settings.rule, folds);
+      if (!(chosen.criterion < best.criterion)) continue;
+      best = chosen;
+      candidate = i;
+    }
+    if (!std::isfinite(best.criterion)) return std::nullopt;
+    if (task.settings.strength > 0) best.strength = task.settings.strength;
+  }
+  problem.maps = task.candidates[candidate];
+  std::optional<MapFit> fit = FitMaps(problem, best.strength);
+  if (!fit || !fit->known.covariance.allFinite()) return std::nullopt;
+  return MapChoice{std::move(*fit), candidate};
+}
+
+Estimate ReportMaps(const IdentifierInput& input, const MapTask& task, const MapFit& fit) {
+  const Measurements& m = input.measurements;
+  const Law& law = *FindLaw(task.settings.law);
+  Estimate estimate;
+  estimate.identifier = task.identifier;
+  ReportLaw(law, fit.x.head(fit.free), fit.known, m, estimate);
+  estimate.metrics =
+      ComputeMetrics(Kept(m.torque, input.selection), fit.fitted + Warming(input, task.energy),
+                     static_cast<int>(fit.x.size()), fit.effective);
+  estimate.message = Message(input, task, fit);
+  DescribeFriction(law, m, estimate);
+  if (!estimate.friction) return estimate;
+  estimate.friction->maps = fit.maps;
+  Eigen::Index first = fit.free;
+  for (const FrictionMap& map : fit.maps) {
+    const auto size = static_cast<Eigen::Index>(map.size());
+    estimate.bands.push_back(
+        BandOf(map, fit.known.covariance.block(first, first, size, size), fit.known.freedom));
+    first += size;
+  }
+  return estimate;
+}
+
+Estimate IdentifyMaps(const IdentifierInput& input, const MapTask& task) {
+  const Law& law = *FindLaw(task.settings.law);
+  const auto choice = ChooseAndFit(input, task, LawColumns(law, input.measurements.velocity));
+  if (!choice) {
+    return Failed(task.identifier, Status::bad_data,
+                  "the normal equations cannot be solved: torque or velocity are too large or too "
+                  "small to square; check their units");
+  }
+  return ReportMaps(input, task, choice->fit);
+}
+
+}  // namespace warmjoint

@@ -1,0 +1,38 @@
+#include "identification/position_maps.h"
+
+namespace warmjoint {
+
+std::vector<OptionInfo> PositionMapOptions() {
+  return {
+      {"basis", "direction", "position|direction|velocity",
+       "kernels over position alone (10), one part for each direction of motion, or over position "
+       "x velocity (14)"},
+      {"kernels", "0", "integer >= 0 <= 128",
+       "kernels over position; 0: chosen from 10, 20, 40 and 80"},
+      {"velocity_kernels", "3", "integer >= 1 <= 64",
+       "kernels over speed for each direction, with basis velocity"},
+  };
+}
+
+std::vector<std::vector<FrictionMap>> PositionMaps(const Options& options,
+                                                   const MapSettings& settings,
+                                                   const MapPoints& points) {
+  const std::string& basis = options.Text("basis");
+  const int given = options.Integer("kernels");
+  const std::vector<int> counts = given > 0 ? std::vector{given} : std::vector{10, 20, 40, 80};
+  std::vector<std::vector<FrictionMap>> candidates;
+  for (const int count : counts) {
+    for (const double width : settings.widths) {
+      FrictionMap map{
+          {RangeAxis(MapQuantity::position, points, count, width)}, settings.kernels, {}};
+      if (basis != "position") {
+        const int speeds = basis == "velocity" ? options.Integer("velocity_kernels") : 1;
+        map.axes.push_back(VelocityAxis(points, speeds, width));
+      }
+      candidates.push_back({map});
+    }
+  }
+  return candidates;
+}
+
+}  // namespace warmjoint
