@@ -5,7 +5,7 @@ set(MUJOCO_ROOT "${PROJECT_BINARY_DIR}/deps/mujoco" CACHE PATH "unpacked wheel o
 
 find_path(MuJoCo_INCLUDE_DIR mujoco/mujoco.h
   PATHS ${MUJOCO_ROOT} PATH_SUFFIXES include mujoco/include NO_DEFAULT_PATH)
-file(GLOB MuJoCo_LIBRARY ${MUJOCO_ROOT}/lib/libmujoco.so.* ${MUJOCO_ROOT}/mujoco/libmujoco.so.* ${MUJOCO_ROOT}/libmujoco.so.*)
+file(GLOB MuJoCo_LIBRARY ${MUJOCO_ROOT}/lib/libmujoco.so.* ${MUJOCO_ROOT}/lib/*/libmujoco.so.* ${MUJOCO_ROOT}/mujoco/libmujoco.so.* ${MUJOCO_ROOT}/libmujoco.so.*)
 if(MuJoCo_LIBRARY)
   list(GET MuJoCo_LIBRARY 0 MuJoCo_LIBRARY)
   get_filename_component(MuJoCo_LIBRARY_DIR ${MuJoCo_LIBRARY} DIRECTORY)

@@ -1,0 +1,42 @@
+# cmake --install: program, plugin, libraries with headers, robots and suites, MuJoCo's library, and a CMake package
+# for find_package(warmjoint). The prefix stands alone: it may be moved, and the build folder may go.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(package ${CMAKE_INSTALL_LIBDIR}/cmake/warmjoint)
+set(headers ${CMAKE_INSTALL_INCLUDEDIR}/warmjoint)
+
+# rooms as warmjoint::models, warmjoint::sim, ...
+set(rooms models robots scenarios dataset plugin sim identification score)
+foreach(room ${rooms})
+  set_target_properties(warmjoint_${room} PROPERTIES EXPORT_NAME ${room})
+  target_compile_features(warmjoint_${room} PUBLIC cxx_std_20)
+  install(TARGETS warmjoint_${room} EXPORT warmjointTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    INCLUDES DESTINATION ${headers})
+endforeach()
+foreach(folder models scenarios sim identification)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION ${headers} FILES_MATCHING PATTERN "*.h")
+endforeach()
+
+# program and plugin find MuJoCo beside them
+set_target_properties(warmjoint PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
+set_target_properties(warmjoint_friction PROPERTIES INSTALL_RPATH "$ORIGIN")
+install(TARGETS warmjoint RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS warmjoint_friction LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(FILES ${MuJoCo_LIBRARY} DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(DIRECTORY ${MuJoCo_INCLUDE_DIR}/mujoco DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+
+# robots and suites, where the program looks for them
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/models/robots DESTINATION ${CMAKE_INSTALL_DATADIR}/warmjoint/models
+  FILES_MATCHING PATTERN "*.xml" PATTERN "*.urdf" PATTERN "*.json" PATTERN "README.md")
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios/suites DESTINATION ${CMAKE_INSTALL_DATADIR}/warmjoint/scenarios)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/warmjoint)
+
+# the package
+configure_package_config_file(${PROJECT_SOURCE_DIR}/tools/cmake/warmjointConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/warmjointConfig.cmake INSTALL_DESTINATION ${package}
+  PATH_VARS CMAKE_INSTALL_LIBDIR)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/warmjointConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(EXPORT warmjointTargets NAMESPACE warmjoint:: DESTINATION ${package})
+install(FILES ${PROJECT_BINARY_DIR}/warmjointConfig.cmake ${PROJECT_BINARY_DIR}/warmjointConfigVersion.cmake
+  ${PROJECT_SOURCE_DIR}/tools/cmake/FindMuJoCo.cmake DESTINATION ${package})
