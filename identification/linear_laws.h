@@ -8,7 +8,8 @@
 
 namespace warmjoint {
 
-/// Whether Fn(v; p) is linear in p, judged by superposition at several speeds and values.
+/// Whether Fn(v; p) is linear in p and depends on all of p, judged by superposition at several
+/// speeds and values.
 bool IsLinear(const Law& law);
 
 /// Names of the laws that are linear in their parameters, separated by |, as an option's words.

@@ -66,7 +66,7 @@ std::string FrictionSections(const std::string& joint, const FrictionDescription
   </actuator>
 )",
                      kFrictionPlugin, EscapeXml(ActuatorOf(joint)), EscapeXml(joint),
-                     kFrictionPlugin, kFrictionStates, configs);
+                     kFrictionPlugin, StateOf(friction).size(), configs);
 }
 
 mjsJoint* FindJoint(mjSpec& spec, const std::string& joint, const Place& place) {
@@ -90,7 +90,7 @@ void AddFriction(mjSpec& spec, const std::string& joint, const FrictionDescripti
   mjs_setName(actuator->element, ActuatorOf(joint).c_str());
   mjs_setString(actuator->target, joint.c_str());
   actuator->trntype = mjTRN_JOINT;
-  actuator->actdim = kFrictionStates;
+  actuator->actdim = static_cast<int>(StateOf(friction).size());
 
   // an instance of its own holds the attributes
   const SpecPtr source = ParseSections(FrictionSections(joint, friction), place);

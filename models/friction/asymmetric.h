@@ -4,6 +4,7 @@
 #include <array>
 
 #include "models/friction/parameter_info.h"
+#include "models/friction/pre_sliding.h"
 #include "models/friction/sign.h"
 
 namespace warmjoint {
@@ -14,11 +15,18 @@ struct Asymmetric {
   static constexpr std::string_view name = "asymmetric";
   static constexpr std::string_view equation =
       "(3) F = kv v + kc+ sign(max(0,v)) + kc- sign(min(0,v))";
+  static constexpr PreSliding pre_sliding = PreSliding::elastoplastic;
   static constexpr std::array parameters{
       ParameterInfo{"viscous", "kv", kViscousUnit, 0, kInfinity, 0, "slope over speed"},
       ParameterInfo{"coulomb_positive", "kc+", kTorqueUnit, 0, kInfinity, 0, "level for v > 0"},
       ParameterInfo{"coulomb_negative", "kc-", kTorqueUnit, 0, kInfinity, 0, "level for v < 0"},
   };
+
+  /// side: direction of motion, 1 or -1; p: {kv, kc+, kc-}; returns N.m or N, at any speed.
+  template <typename T>
+  static T Level(int side, double, const T* p) {
+    return side > 0 ? p[1] : p[2];
+  }
 
   /// v: rad/s or m/s; p: {kv, kc+, kc-}; returns N.m or N.
   template <typename T>

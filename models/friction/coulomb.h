@@ -4,6 +4,7 @@
 #include <array>
 
 #include "models/friction/parameter_info.h"
+#include "models/friction/pre_sliding.h"
 #include "models/friction/sign.h"
 
 namespace warmjoint {
@@ -12,9 +13,16 @@ namespace warmjoint {
 struct Coulomb {
   static constexpr std::string_view name = "coulomb";
   static constexpr std::string_view equation = "(1) F = kc sign(v)";
+  static constexpr PreSliding pre_sliding = PreSliding::elastoplastic;
   static constexpr std::array parameters{
       ParameterInfo{"coulomb", "kc", kTorqueUnit, 0, kInfinity, 0, "level at any speed"},
   };
+
+  /// p: {kc}; returns N.m or N, at any side and speed.
+  template <typename T>
+  static T Level(int, double, const T* p) {
+    return p[0];
+  }
 
   /// v: rad/s or m/s; p: {kc}; returns N.m or N.
   template <typename T>

@@ -18,6 +18,16 @@ void CheckValue(const ParameterInfo& info, double value, const Place& place) {
          info.lower, info.upper, info.unit.rotary);
 }
 
+/// A joint at rest cannot bear less than a sliding one.
+void CheckStaticLevel(const FrictionDescription& friction, const Place& place) {
+  const auto at_rest = friction.parameters.find("static");
+  if (at_rest == friction.parameters.end()) return;
+  const double coulomb = friction.parameters.at("coulomb");
+  if (at_rest->second >= coulomb) return;
+  Refuse(place, "static is {}; it must be at least coulomb, {}: a joint at rest bears no less",
+         at_rest->second, coulomb);
+}
+
 double NumberMember(const json& object, const std::string& key, const Place& place) {
   const json& value = object.at(key);
   if (!value.is_number()) Refuse(place, "{} is {}; it must be a number", key, value.dump());
@@ -66,6 +76,7 @@ void CheckFriction(const FrictionDescription& friction, const Place& place) {
     Refuse(place, "law {} has no parameter '{}'{}", law->name, name, Suggestion(name, known));
   }
 
+  CheckStaticLevel(friction, place);
   if (friction.thermal) {
     CheckValue(Thermal::parameters[0], friction.thermal->gain, place);
     CheckValue(Thermal::parameters[1], friction.thermal->time_constant, place);
@@ -77,6 +88,15 @@ void CheckFriction(const FrictionDescription& friction, const Place& place) {
     Refuse(place, "gear is {}; it must be a finite number other than 0", friction.gear);
   }
   for (const FrictionMap& map : friction.maps) CheckMap(map, place);
+}
+
+void FillDefaults(FrictionDescription& friction) {
+  const Law* law = FindLaw(friction.law);
+  if (!law) return;
+  for (const ParameterInfo& info : law->parameters) {
+    if (info.given == Given::always) continue;
+    friction.parameters.try_emplace(std::string(info.name), info.default_value);
+  }
 }
 
 std::vector<double> LawValues(const FrictionDescription& friction) {
@@ -119,6 +139,7 @@ FrictionDescription FrictionFromJson(const json& object, const Place& place) {
     if (!object["maps"].is_array()) Refuse(place, "friction's maps must be a list");
     for (const json& map : object["maps"]) friction.maps.push_back(MapFromJson(map, place));
   }
+  FillDefaults(friction);
   CheckFriction(friction, place);
   return friction;
 }

@@ -26,6 +26,9 @@ struct FrictionDescription {
   std::vector<FrictionMap> maps{};  // friction that depends on position, energy, load
 };
 
+/// Gives the parameters that may be left out their defaults, where they are missing.
+void FillDefaults(FrictionDescription& friction);
+
 /// Checks names and bounds against the parameter tables; throws BadInput from `place`.
 void CheckFriction(const FrictionDescription& friction, const Place& place);
 

@@ -1,25 +1,29 @@
 #include "models/friction/law.h"
 
-#include "models/friction/asymmetric.h"
-#include "models/friction/coulomb.h"
-#include "models/friction/viscous_coulomb.h"
+#include "models/friction/law_list.h"
 
 namespace warmjoint {
 namespace {
 
 template <typename L>
 Law Describe() {
-  return {L::name, L::equation, L::parameters, &L::template Force<double>};
+  return {L::name,
+          L::equation,
+          L::parameters,
+          &L::template Force<double>,
+          [](int side, const double* p) { return HoldingLevelOf<L>(side, 0, p); },
+          L::pre_sliding};
+}
+
+template <typename... L>
+std::vector<Law> DescribeAll(LawList<L...>) {
+  return {Describe<L>()...};
 }
 
 }  // namespace
 
 const std::vector<Law>& Laws() {
-  static const std::vector<Law> laws{
-      Describe<Coulomb>(),
-      Describe<ViscousCoulomb>(),
-      Describe<Asymmetric>(),
-  };
+  static const std::vector<Law> laws = DescribeAll(AllLaws{});
   return laws;
 }
 

@@ -7,19 +7,24 @@
 #include <vector>
 
 #include "models/friction/parameter_info.h"
+#include "models/friction/pre_sliding.h"
 
 namespace warmjoint {
 
-/// A nominal law Fn(v; p) behind one interface, made from the law's own struct.
+/// A nominal law behind one interface, made from the law's own struct.
 struct Law {
   std::string_view name;
   std::string_view equation;
   std::span<const ParameterInfo> parameters;
-  /// Force in N.m or N at velocity v (rad/s or m/s); p: one value for each of `parameters`.
+  /// Force of steady sliding in N.m or N at velocity v (rad/s or m/s); p: one value for each of
+  /// `parameters`.
   double (*force)(double v, const double* p);
+  /// The load in N.m or N that a joint at rest bears before it slides to `side`, 1 or -1.
+  double (*holding_level)(int side, const double* p);
+  PreSliding pre_sliding;
 };
 
-/// All laws: a new one is its own header and one line in law.cc.
+/// All laws, in the order of law_list.h.
 const std::vector<Law>& Laws();
 
 /// The law of that name, or nullptr.

@@ -8,6 +8,9 @@
 
 namespace warmjoint {
 
+/// Whether files must give a parameter or may leave it at its default.
+enum class Given { always, or_default };
+
 /// What is known of a parameter before any data: every law and the thermal state carry a table of
 /// these, from which checks, regressors, documentation and plots are made.
 struct ParameterInfo {
@@ -18,8 +21,11 @@ struct ParameterInfo {
   double upper;  // largest allowed value
   double default_value;
   std::string_view meaning;  // one short phrase
+  Given given = Given::always;
 };
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Lower bound of what must be positive, in SI.
+inline constexpr double kSmallestPositive = 1e-9;
 
 }  // namespace warmjoint

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "models/friction/parameter_info.h"
+#include "models/friction/pre_sliding.h"
 #include "models/friction/sign.h"
 
 namespace warmjoint {
@@ -12,10 +13,17 @@ namespace warmjoint {
 struct ViscousCoulomb {
   static constexpr std::string_view name = "viscous_coulomb";
   static constexpr std::string_view equation = "(2) F = kv v + kc sign(v)";
+  static constexpr PreSliding pre_sliding = PreSliding::elastoplastic;
   static constexpr std::array parameters{
       ParameterInfo{"viscous", "kv", kViscousUnit, 0, kInfinity, 0, "slope over speed"},
       ParameterInfo{"coulomb", "kc", kTorqueUnit, 0, kInfinity, 0, "level at any speed"},
   };
+
+  /// p: {kv, kc}; returns N.m or N, at any side and speed.
+  template <typename T>
+  static T Level(int, double, const T* p) {
+    return p[1];
+  }
 
   /// v: rad/s or m/s; p: {kv, kc}; returns N.m or N.
   template <typename T>

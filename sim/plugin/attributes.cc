@@ -10,6 +10,8 @@ namespace {
 
 std::string BoundOf(const ParameterInfo& info) {
   if (info.lower == -kInfinity) return "any";
+  if (info.lower == kSmallestPositive) return "> 0";
+  if (info.upper != kInfinity) return fmt::format("{} to {}", info.lower, info.upper);
   return fmt::format(">= {}", info.lower);
 }
 
@@ -92,6 +94,7 @@ FrictionDescription ReadAttributes(const AttributeReader& read, const Place& pla
   }
   friction.thermal = ReadThermal(read, place);
   if (!read("gear").empty()) friction.gear = Number("gear", read("gear"), place);
+  FillDefaults(friction);
   CheckFriction(friction, place);
   return friction;
 }

@@ -43,11 +43,18 @@ void CheckTransmission(const mjModel* m, int i, const Place& place) {
   }
 }
 
-void CheckElement(const mjModel* m, int i, const Place& place) {
-  const int states = m->actuator_actadr[i] < 0 ? 0 : m->actuator_actnum[i];
+void CheckElement(const mjModel* m, int i, const JointFriction& friction, const Place& place) {
+  const auto states = static_cast<size_t>(m->actuator_actadr[i] < 0 ? 0 : m->actuator_actnum[i]);
   if (m->actuator_dyntype[i] != mjDYN_NONE) Refuse(place, "dyntype must be none");
-  if (states != kFrictionStates) {
-    Refuse(place, "actdim is {}; it must be {} (bristle load, energy)", states, kFrictionStates);
+  if (states != friction.state().size()) {
+    std::string names;
+    for (const StateMember& member : friction.state()) {
+      names += fmt::format("{}{}", names.empty() ? "" : ", ", member.name);
+    }
+    Refuse(place, "actdim is {}; it must be {} ({})", states, friction.state().size(), names);
+  }
+  if (m->actuator_actlimited[i]) {
+    Refuse(place, "has an actrange, which would clip the states; leave it out");
   }
   if (m->actuator_forcelimited[i]) {
     Refuse(place, "has a forcerange, which would clip friction; leave it out");
@@ -88,6 +95,23 @@ void CheckWindUp(const JointFriction& friction, double inertia, double h, JointK
          allowed, RoundUp(needed - inertia), h * std::sqrt(inertia / needed));
 }
 
+/// An explicit step carries a law's own bristle while (stiffness + 2 damping) in units of M/h^2 and
+/// M/h is at most that of MakeBristle.
+void CheckBristle(const Bristle& bristle, double inertia, double h, const Place& place) {
+  constexpr double carried = kBristleStiffness + 2 * kBristleDamping;
+  const double needed = h * (bristle.stiffness * h + 2 * bristle.damping) / carried;
+  if (needed <= inertia) return;
+  // largest step: stiffness h^2 + 2 damping h = carried M
+  const double b = bristle.damping;
+  const double longest =
+      carried * inertia / (b + std::sqrt(b * b + carried * inertia * bristle.stiffness));
+  Refuse(place,
+         "bristle_stiffness is {} and bristle_damping {} on an effective inertia of {:.3g} at "
+         "timestep {}; the step would be unstable: add an armature of {:.3g}, take a timestep of "
+         "at most {:.3g} s, or soften the bristle",
+         bristle.stiffness, b, inertia, h, RoundUp(needed - inertia), longest);
+}
+
 }  // namespace
 
 std::string ActuatorName(const mjModel* m, int actuator) {
@@ -104,7 +128,7 @@ std::string InstanceName(const mjModel* m, int instance) {
 void CheckActuator(const mjModel* m, int actuator, const JointFriction& friction) {
   const Place place{ActuatorName(m, actuator)};
   CheckTransmission(m, actuator, place);
-  CheckElement(m, actuator, place);
+  CheckElement(m, actuator, friction, place);
   CheckIntegrator(m, place);
 
   // the compiler asks once before it knows the inertia, and again after
@@ -113,7 +137,11 @@ void CheckActuator(const mjModel* m, int actuator, const JointFriction& friction
   if (inertia == 0) return;
   const JointKind kind = m->jnt_type[joint] == mjJNT_SLIDE ? JointKind::linear : JointKind::rotary;
   CheckSlope(friction, inertia, m->opt.timestep, place);
-  CheckWindUp(friction, inertia, m->opt.timestep, kind, place);
+  if (friction.own_bristle()) {
+    CheckBristle(*friction.own_bristle(), inertia, m->opt.timestep, place);
+  } else {
+    CheckWindUp(friction, inertia, m->opt.timestep, kind, place);
+  }
 }
 
 }  // namespace warmjoint

@@ -33,12 +33,17 @@ void FrictionInstance::Step(const mjModel* m, mjData* d) {
   if (h != friction_.timestep()) friction_.SetTimestep(h);
 
   for (Joint& joint : joints_) {
-    const FrictionState now{d->act[joint.state], d->act[joint.state + 1]};
+    FrictionState now;
+    const mjtNum* act = d->act + joint.state;
+    for (const StateMember& member : friction_.state()) now.*member.value = *act++;
     const double inertia = EffectiveInertia(m, d, joint.dof);
     const FrictionStep step = friction_.Step(now, d->qvel[joint.dof], inertia);
     joint.force = step.force;
-    d->act_dot[joint.state] = (step.next.bristle - now.bristle) / h;
-    d->act_dot[joint.state + 1] = (step.next.energy - now.energy) / h;
+
+    mjtNum* rate = d->act_dot + joint.state;
+    for (const StateMember& member : friction_.state()) {
+      *rate++ = (step.next.*member.value - now.*member.value) / h;
+    }
   }
 }
 

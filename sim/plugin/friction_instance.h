@@ -13,9 +13,6 @@ namespace warmjoint {
 /// Name under which MuJoCo knows the plugin.
 inline constexpr char kFrictionPlugin[] = "warmjoint.friction";
 
-/// Entries of mjData.act of each actuator, and so its `actdim`.
-inline constexpr int kFrictionStates = 2;  // FrictionState: bristle, energy
-
 /// Friction of the joints whose actuators share one plugin instance. Keeps no state of its own
 /// beyond scratch: all state is in mjData.act.
 class FrictionInstance {

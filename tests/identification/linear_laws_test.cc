@@ -17,6 +17,10 @@ TEST(LinearLaws, TellLinearFromNonlinear) {
   EXPECT_FALSE(IsLinear(law));
 }
 
+TEST(LinearLaws, LeaveOutLawsThatSteadySlidingDoesNotShow) {
+  EXPECT_EQ(LinearLawWords(), "coulomb|viscous_coulomb|asymmetric");
+}
+
 TEST(LinearLaws, ColumnsTimesParametersAreTheForce) {
   const Eigen::VectorXd v = Eigen::VectorXd::LinSpaced(9, -1, 1);
   for (const Law& law : Laws()) {

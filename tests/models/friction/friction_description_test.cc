@@ -65,6 +65,13 @@ TEST(FrictionDescription, RefusesUnknownNamesWithTheNearest) {
   EXPECT_THAT(RefusalOf(object), HasSubstr("did you mean 'thermal'?"));
 }
 
+TEST(FrictionDescription, TakesDefaultsForWhatMayBeLeftOut) {
+  json object = Example();
+  object["law"] = "stribeck";
+  object["parameters"].update({{"static", 16.0}, {"stribeck_velocity", 0.1}});
+  EXPECT_EQ(FrictionFromJson(object, {"robot.json"}).parameters.at("stribeck_exponent"), 2);
+}
+
 TEST(FrictionDescription, RefusesImpossibleValues) {
   json object = Example();
   object["parameters"]["coulomb"] = -1;
@@ -75,6 +82,12 @@ TEST(FrictionDescription, RefusesImpossibleValues) {
   object = Example();
   object["thermal"]["thermal_time_constant"] = 0;
   EXPECT_THAT(RefusalOf(object), HasSubstr("must be positive"));
+  object = Example();
+  object["law"] = "stribeck";
+  object["parameters"].update({{"static", 14.0}, {"stribeck_velocity", 0.1}});
+  EXPECT_THAT(RefusalOf(object), HasSubstr("static is 14; it must be at least coulomb, 15"));
+  object["parameters"]["stribeck_exponent"] = 11;
+  EXPECT_THAT(RefusalOf(object), HasSubstr("stribeck_exponent is 11"));
   object = Example();
   object["thermal"]["thermal_gain"] = "much";
   EXPECT_THAT(RefusalOf(object), HasSubstr("thermal_gain is \"much\"; it must be a number"));

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "models/foundation/random_stream.h"
+#include "models/friction/lugre_bristle.h"
 
 namespace warmjoint {
 namespace {
@@ -79,14 +81,35 @@ TEST(JointFriction, TakesALevelBelowZeroFromTheViscousForce) {
   EXPECT_EQ(step.loss, 0);
 }
 
+/// A law of the list with parameters drawn within their bounds.
+FrictionDescription DrawLaw(RandomStream& random) {
+  const Law& law =
+      Laws()[static_cast<size_t>(random.Uniform(0, static_cast<double>(Laws().size())))];
+  FrictionDescription friction;
+  friction.law = law.name;
+  for (const ParameterInfo& info : law.parameters) {
+    friction.parameters[std::string(info.name)] =
+        random.Uniform(std::max(info.lower, 0.01), std::min(info.upper, 3.0));
+  }
+  if (friction.parameters.contains("static")) {
+    friction.parameters["static"] += friction.parameters["coulomb"];
+  }
+  if (friction.parameters.contains("bristle_stiffness")) {
+    friction.parameters["bristle_stiffness"] *= 1e4;
+  }
+  friction.thermal = Thermal{random.Uniform(-2, 2), random.Uniform(0.05, 5)};
+  CheckFriction(friction, {"draw"});
+  return friction;
+}
+
 TEST(JointFriction, NeverGivesEnergyOverRandomLawsAndMotions) {
   for (std::uint64_t run = 0; run < 1000; ++run) {
     RandomStream random({7, run}, Stream::test);
-    FrictionDescription friction =
-        Asymmetric(random.Uniform(0, 2), random.Uniform(0, 10), random.Uniform(0, 10));
-    friction.thermal = Thermal{random.Uniform(-2, 2), random.Uniform(0.05, 5)};
+    const FrictionDescription friction = DrawLaw(random);
     const JointFriction joint = Make(friction);
-    const double stiffness = MakeBristle(kInertia, kStep).stiffness;
+    const Bristle bristle = joint.own_bristle()
+                                ? LimitBristle(*joint.own_bristle(), kInertia, kStep)
+                                : MakeBristle(kInertia, kStep);
 
     // a wild motion: white acceleration, pulled back to rest
     FrictionState state;
@@ -99,12 +122,85 @@ TEST(JointFriction, NeverGivesEnergyOverRandomLawsAndMotions) {
       absorbed += step.force * v * kStep;
       scale += std::abs(step.force * v * kStep);
       state = step.next;
-      const double stored = state.bristle * state.bristle / (2 * stiffness);
+      const double stored = state.bristle * state.bristle / (2 * bristle.stiffness);
       // what is stored was absorbed before; one rounding in each of 2000 sums
-      ASSERT_GE(absorbed - stored, -1e-13 * scale) << "run " << run << " step " << i;
+      ASSERT_GE(absorbed - stored, -1e-13 * scale)
+          << friction.law << " run " << run << " step " << i;
       ASSERT_GE(step.loss, 0);
     }
   }
+}
+
+TEST(JointFriction, EveryLawSlidesAtItsSteadyForce) {
+  for (const Law& law : Laws()) {
+    FrictionDescription friction;
+    friction.law = law.name;
+    double value = 2;
+    for (const ParameterInfo& info : law.parameters) {
+      friction.parameters[std::string(info.name)] = value += 0.3;
+    }
+    if (friction.parameters.contains("static")) friction.parameters["static"] = 5;
+    const JointFriction joint = Make(friction);
+    for (const double v : {-3.0, -0.3, 0.3, 3.0}) {
+      FrictionStep step;
+      // 30 rad of travel: a bristle of 3.7 N.m/rad has relaxed to e^-20 of a level of 5 N.m
+      for (int i = 0; i * kStep * std::abs(v) < 30; ++i) step = joint.Step(step.next, v, kInertia);
+      EXPECT_NEAR(step.force, joint.SlidingForce(v, 0), 1e-8) << law.name << " at " << v;
+      EXPECT_NEAR(step.loss, Loss(v, step.force), 1e-8) << law.name << " at " << v;
+    }
+  }
+}
+
+FrictionDescription Sticky() {
+  FrictionDescription friction;
+  friction.law = "stiction";
+  friction.parameters = {{"viscous", 0}, {"coulomb", 3}, {"static", 5}};
+  return friction;
+}
+
+TEST(JointFriction, BreaksAwayAtTheStaticLevelAndSlidesAtCoulombUntilItStops) {
+  const JointFriction joint = Make(Sticky());
+  FrictionStep step = joint.Step({4.9, 0, 0}, 1e-9, kInertia);
+  EXPECT_GT(step.force, 4.89) << "held above coulomb";
+  EXPECT_EQ(step.next.slip, 0);
+
+  // pulled on, it breaks away at 5 and slides at 3
+  step = joint.Step(step.next, 0.1, kInertia);
+  EXPECT_EQ(step.force, 5);
+  EXPECT_EQ(step.next.slip, 1);
+  step = joint.Step(step.next, 0.1, kInertia);
+  EXPECT_EQ(step.force, 3);
+  EXPECT_EQ(step.next.bristle, 3);
+  EXPECT_NEAR(step.loss, 0.3, 1e-15);
+
+  // the stop restores the static level: 25000 N.m/rad over 7e-5 rad
+  step = joint.Step(step.next, 0, kInertia);
+  EXPECT_EQ(step.next.slip, 0);
+  for (int i = 0; i < 70; ++i) step = joint.Step(step.next, 1e-3, kInertia);
+  EXPECT_GT(step.force, 4.5);
+}
+
+TEST(JointFriction, DahlApproachesItsLevelWithTravelExactlyAtAnyStep) {
+  FrictionDescription friction;
+  friction.law = "dahl";
+  friction.parameters = {{"coulomb", 4}, {"bristle_stiffness", 100}};
+  for (const double h : {0.0005, 0.002}) {
+    JointFriction joint(friction);
+    joint.SetTimestep(h);
+    FrictionStep step;
+    const double v = 0.5;
+    for (int i = 1; i <= 100; ++i) {
+      step = joint.Step(step.next, v, kInertia);
+      // F = kc (1 - exp(-sigma0 x / kc)), rounding of a hundred steps
+      EXPECT_NEAR(step.force, 4 * -std::expm1(-100 * v * i * h / 4), 1e-13);
+    }
+  }
+}
+
+TEST(JointFriction, StatesAreThoseThatTheLawNeeds) {
+  EXPECT_EQ(StateOf(Asymmetric(1, 1, 1)).size(), 2);
+  ASSERT_EQ(StateOf(Sticky()).size(), 3);
+  EXPECT_EQ(StateOf(Sticky())[2].name, "slip");
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <ostream>
 #include <set>
 
@@ -41,7 +42,45 @@ TEST_P(EveryLaw, VanishesAtRestAndBrakesOtherwise) {
   }
 }
 
-TEST_P(EveryLaw, RegressorTimesParametersIsTheForce) {
+/// Parameters that differ from each other, with static above coulomb.
+std::vector<double> SomeParameters(const Law& law) {
+  std::vector<double> p(law.parameters.size());
+  for (size_t i = 0; i < p.size(); ++i) p[i] = 0.5 + 1.5 * static_cast<double>(i);
+  return p;
+}
+
+TEST_P(EveryLaw, IsOddExceptWhereItsSidesDiffer) {
+  const Law& law = GetParam();
+  if (law.name == "asymmetric") GTEST_SKIP() << "its sides differ";
+  const std::vector<double> p = SomeParameters(law);
+  for (const double v : kVelocities) EXPECT_EQ(law.force(-v, p.data()), -law.force(v, p.data()));
+  EXPECT_EQ(law.holding_level(1, p.data()), law.holding_level(-1, p.data()));
+}
+
+TEST_P(EveryLaw, HoldsAtRestAtLeastWhatItBrakesWithAtTheSmallestSpeed) {
+  const std::vector<double> p = SomeParameters(GetParam());
+  for (const int side : {1, -1}) {
+    const double sliding = std::abs(GetParam().force(side * 1e-12, p.data()));
+    // kv |v| at 1e-12 rad/s
+    EXPECT_GE(GetParam().holding_level(side, p.data()), sliding - 1e-11);
+  }
+}
+
+TEST_P(EveryLaw, AllowsItsBoundsAndDefaults) {
+  // every force at the ends of the table is a number that does not push
+  for (const ParameterInfo& info : GetParam().parameters) {
+    for (const double value : {info.lower, std::min(info.upper, 1e9), info.default_value}) {
+      std::vector<double> p = SomeParameters(GetParam());
+      p[&info - GetParam().parameters.data()] = value;
+      for (const double v : kVelocities) EXPECT_GE(GetParam().force(v, p.data()) * v, 0) << v;
+    }
+  }
+}
+
+TEST_P(EveryLaw, RegressorTimesParametersIsTheForceWhereItIsLinear) {
+  if (GetParam().name == "stribeck" || GetParam().name == "lugre") {
+    GTEST_SKIP() << "not linear in its parameters";
+  }
   const size_t d = GetParam().parameters.size();
   std::vector<double> p(d), row(d);
   for (size_t i = 0; i < d; ++i) p[i] = 0.5 + 1.5 * static_cast<double>(i);
@@ -68,6 +107,27 @@ TEST(Laws, FollowTheirEquations) {
   const double asymmetric[] = {5, 18, 25};
   EXPECT_EQ(FindLaw("asymmetric")->force(0.5, asymmetric), 20.5);
   EXPECT_EQ(FindLaw("asymmetric")->force(-0.5, asymmetric), -27.5);
+  const double stiction[] = {5, 15, 18};
+  EXPECT_EQ(FindLaw("stiction")->force(0.5, stiction), 17.5);
+  EXPECT_EQ(FindLaw("stiction")->holding_level(1, stiction), 18);
+  const double dahl[] = {15, 1e4};
+  EXPECT_EQ(FindLaw("dahl")->force(-0.5, dahl), -15);
+}
+
+TEST(Laws, FallFromTheStaticLevelToCoulombOverTheStribeckVelocity) {
+  // at vs, exp(-1) of static - coulomb is left, for any exponent
+  const double left = 15 + (18 - 15) * std::exp(-1);
+  for (const double exponent : {0.5, 1.0, 2.0, 3.0}) {
+    const double p[] = {5, 15, 18, 0.2, exponent};
+    EXPECT_DOUBLE_EQ(FindLaw("stribeck")->force(0.2, p), 5 * 0.2 + left);
+    EXPECT_DOUBLE_EQ(FindLaw("stribeck")->force(-1e3, p), -5e3 - 15);
+    EXPECT_EQ(FindLaw("stribeck")->holding_level(-1, p), 18);
+  }
+  const double lugre[] = {5, 15, 18, 0.2, 1e4, 10};
+  const double stribeck[] = {5, 15, 18, 0.2, 2};
+  for (const double v : kVelocities) {
+    EXPECT_EQ(FindLaw("lugre")->force(v, lugre), FindLaw("stribeck")->force(v, stribeck));
+  }
 }
 
 TEST(Laws, UnknownNameIsNull) { EXPECT_EQ(FindLaw("stribek"), nullptr); }

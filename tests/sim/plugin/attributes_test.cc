@@ -82,6 +82,22 @@ TEST(PluginActuator, RefusesAnInertiaTooSmallForTheSlopeAndSaysWhatItNeeds) {
   EXPECT_EQ(ErrorOf(With("viscous", "250"), "", test::kNoGravity, R"(armature="0.253")"), "");
 }
 
+TEST(PluginActuator, RefusesABristleThatTheStepCannotCarry) {
+  Config config{{"law", "dahl"}, {"coulomb", "5"}, {"bristle_stiffness", "1e6"}};
+  // 1e6 N.m/rad at 1 ms needs 1 / 0.9 kg.m^2 of inertia; the link has 0.25
+  EXPECT_THAT(ErrorOf(config), AllOf(HasSubstr("bristle_stiffness is 1000000"),
+                                     HasSubstr("armature of 0.87"), HasSubstr("0.000474 s")));
+  config["bristle_stiffness"] = "1e4";
+  EXPECT_EQ(ErrorOf(config), "");
+}
+
+TEST(PluginActuator, RefusesTheWrongNumberOfStates) {
+  const Config stiction{{"law", "stiction"}, {"viscous", "1"}, {"coulomb", "5"}, {"static", "6"}};
+  EXPECT_THAT(ErrorOf(stiction),
+              HasSubstr("actdim is 2; it must be 3 (bristle load, energy, slip)"));
+  EXPECT_THAT(ErrorOf(kGood, R"(actlimited="true" actrange="-1 1")"), HasSubstr("actrange"));
+}
+
 TEST(PluginReadme, HasTheTableOfTheCode) {
   const std::string readme = ReadWholeFile(test::SourceFolder() / "sim/plugin/README.md");
   std::string table = "| attribute | unit | allowed | meaning |\n|---|---|---|---|\n";

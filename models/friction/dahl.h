@@ -1,0 +1,37 @@
+// Dahl friction: Coulomb friction that a spring approaches with travel.
+#pragma once
+
+#include <array>
+
+#include "models/friction/parameter_info.h"
+#include "models/friction/pre_sliding.h"
+#include "models/friction/sign.h"
+
+namespace warmjoint {
+
+/// dF/dt = sigma0 (v - |v| F / kc), which is LuGre without damping, Stribeck effect and slope; in
+/// steady sliding F(v) = kc sign(v). Source: Dahl, Aerospace Corp. TOR-158 (1968), exponent 1.
+struct Dahl {
+  static constexpr std::string_view name = "dahl";
+  static constexpr std::string_view equation = "dF/dt = sigma0 (v - |v| F / kc); steady: (1)";
+  static constexpr PreSliding pre_sliding = PreSliding::bristle;
+  static constexpr std::array parameters{
+      ParameterInfo{"coulomb", "kc", kTorqueUnit, 0, kInfinity, 0, "level at any speed"},
+      ParameterInfo{"bristle_stiffness", "sigma0", kStiffnessUnit, kSmallestPositive, kInfinity, 1,
+                    "slope of the force over travel before sliding"},
+  };
+
+  /// p: {kc, sigma0}; returns N.m or N, at any side and speed.
+  template <typename T>
+  static T Level(int, double, const T* p) {
+    return p[0];
+  }
+
+  /// Steady sliding. v: rad/s or m/s; p: {kc, sigma0}; returns N.m or N.
+  template <typename T>
+  static T Force(double v, const T* p) {
+    return p[0] * T(Sign(v));
+  }
+};
+
+}  // namespace warmjoint

@@ -1,0 +1,31 @@
+// The one list of laws, as types: for code that is made anew for each law.
+#pragma once
+
+#include "models/friction/asymmetric.h"
+#include "models/friction/coulomb.h"
+#include "models/friction/dahl.h"
+#include "models/friction/lugre.h"
+#include "models/friction/stiction.h"
+#include "models/friction/stribeck.h"
+#include "models/friction/viscous_coulomb.h"
+
+namespace warmjoint {
+
+/// What a joint at rest bears before it slides, in N.m or N: the static level of laws that break
+/// away, and the level of sliding of all others. side: 1 or -1; speed: rad/s or m/s.
+template <typename L, typename T>
+T HoldingLevelOf(int side, double speed, const T* p) {
+  if constexpr (L::pre_sliding == PreSliding::breakaway) {
+    return L::StaticLevel(side, p);
+  } else {
+    return L::Level(side, speed, p);
+  }
+}
+
+template <typename... L>
+struct LawList {};
+
+/// All laws: a new one is its own header and one line here.
+using AllLaws = LawList<Coulomb, ViscousCoulomb, Asymmetric, Stiction, Stribeck, Dahl, LuGre>;
+
+}  // namespace warmjoint

@@ -1,0 +1,47 @@
+// LuGre friction: bristles that bend before they slide, with the Stribeck effect.
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "models/friction/parameter_info.h"
+#include "models/friction/pre_sliding.h"
+#include "models/friction/sign.h"
+#include "models/friction/stribeck.h"
+
+namespace warmjoint {
+
+/// dz/dt = v - sigma0 |v| z / g(|v|),  F = sigma0 z + sigma1 dz/dt + kv v, with g of StribeckLevel
+/// and exponent 2; in steady sliding F(v) = kv v + g sign(v).
+/// Source: Canudas de Wit, Olsson, Astrom, Lischinsky, IEEE Trans. Automatic Control 40 (1995).
+struct LuGre {
+  static constexpr std::string_view name = "lugre";
+  static constexpr std::string_view equation =
+      "dz/dt = v - sigma0 |v| z/g, F = sigma0 z + sigma1 dz/dt + kv v; steady: stribeck, delta 2";
+  static constexpr PreSliding pre_sliding = PreSliding::bristle;
+  static constexpr std::array parameters{
+      ParameterInfo{"viscous", "kv", kViscousUnit, 0, kInfinity, 0, "slope over speed"},
+      ParameterInfo{"coulomb", "kc", kTorqueUnit, 0, kInfinity, 0, "level at any speed"},
+      ParameterInfo{"static", "ks", kTorqueUnit, 0, kInfinity, 0, "level at rest, >= coulomb"},
+      ParameterInfo{"stribeck_velocity", "vs", kVelocityUnit, kSmallestPositive, kInfinity, 0.1,
+                    "speed over which static falls to coulomb"},
+      ParameterInfo{"bristle_stiffness", "sigma0", kStiffnessUnit, kSmallestPositive, kInfinity, 1,
+                    "slope of the force over travel before sliding"},
+      ParameterInfo{"bristle_damping", "sigma1", kViscousUnit, 0, kInfinity, 0,
+                    "damping of the bristle's motion"},
+  };
+
+  /// speed: |v|; p: {kv, kc, ks, vs, sigma0, sigma1}; returns g, N.m or N.
+  template <typename T>
+  static T Level(int, double speed, const T* p) {
+    return StribeckLevel(speed, p[1], p[2], p[3], T(2));
+  }
+
+  /// Steady sliding. v: rad/s or m/s; p: {kv, kc, ks, vs, sigma0, sigma1}; returns N.m or N.
+  template <typename T>
+  static T Force(double v, const T* p) {
+    return p[0] * v + T(Sign(v)) * Level(Sign(v), std::abs(v), p);
+  }
+};
+
+}  // namespace warmjoint

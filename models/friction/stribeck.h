@@ -1,0 +1,59 @@
+// The Stribeck effect: friction falls with speed before viscous friction makes it rise.
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "models/friction/parameter_info.h"
+#include "models/friction/pre_sliding.h"
+#include "models/friction/sign.h"
+
+namespace warmjoint {
+
+/// g(|v|) = kc + (ks - kc) exp(-(|v| / vs)^delta); g(0) = ks. All N.m or N, |v| and vs rad/s or
+/// m/s. Source: Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30 (1994), Eq. (2).
+template <typename T>
+T StribeckLevel(double speed, const T& coulomb, const T& at_rest, const T& velocity,
+                const T& exponent) {
+  using std::exp;
+  using std::pow;
+  if (speed == 0) return at_rest;
+  return coulomb + (at_rest - coulomb) * exp(-pow(T(speed) / velocity, exponent));
+}
+
+/// F(v) = kv v + g(|v|) sign(v) with g of StribeckLevel. F(0) = 0.
+struct Stribeck {
+  static constexpr std::string_view name = "stribeck";
+  static constexpr std::string_view equation =
+      "F = kv v + g sign(v), g = kc + (ks - kc) exp(-(|v|/vs)^delta)";
+  static constexpr PreSliding pre_sliding = PreSliding::elastoplastic;
+  static constexpr std::array parameters{
+      ParameterInfo{"viscous", "kv", kViscousUnit, 0, kInfinity, 0, "slope over speed"},
+      ParameterInfo{"coulomb", "kc", kTorqueUnit, 0, kInfinity, 0, "level at any speed"},
+      ParameterInfo{"static", "ks", kTorqueUnit, 0, kInfinity, 0, "level at rest, >= coulomb"},
+      ParameterInfo{"stribeck_velocity", "vs", kVelocityUnit, kSmallestPositive, kInfinity, 0.1,
+                    "speed over which static falls to coulomb"},
+      ParameterInfo{"stribeck_exponent",
+                    "delta",
+                    {"1", "1"},
+                    0.1,
+                    10,
+                    2,
+                    "sharpness of that fall",
+                    Given::or_default},
+  };
+
+  /// speed: |v|; p: {kv, kc, ks, vs, delta}; returns g, N.m or N.
+  template <typename T>
+  static T Level(int, double speed, const T* p) {
+    return StribeckLevel(speed, p[1], p[2], p[3], p[4]);
+  }
+
+  /// v: rad/s or m/s; p: {kv, kc, ks, vs, delta}; returns N.m or N.
+  template <typename T>
+  static T Force(double v, const T* p) {
+    return p[0] * v + T(Sign(v)) * Level(Sign(v), std::abs(v), p);
+  }
+};
+
+}  // namespace warmjoint
