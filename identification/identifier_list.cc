@@ -1,6 +1,7 @@
 #include "identification/energy_em.h"
 #include "identification/energy_ml.h"
 #include "identification/identifier.h"
+#include "identification/kalman.h"
 #include "identification/nominal_ls.h"
 #include "identification/position_ridge.h"
 #include "identification/rls.h"
@@ -10,7 +11,7 @@ namespace warmjoint {
 
 const std::vector<Identifier>& Identifiers() {
   static const std::vector<Identifier> identifiers{
-      NominalLs(), PositionRidge(), EnergyEm(), EnergyMl(), Rls(),
+      NominalLs(), PositionRidge(), EnergyEm(), EnergyMl(), Rls(), Kalman(),
   };
   return identifiers;
 }

@@ -1,0 +1,32 @@
+// Whether a recording shows the warm-up, and whether its two parameters can be told apart.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace warmjoint {
+
+/// The drop of |e|^2 / s^2 that warming must bring to count as seen: by chance it exceeds 20 about
+/// once in 5000 recordings, a chi-square of 2 freedoms at the best of about 5 independent time
+/// constants.
+inline constexpr double kVisibleWarming = 20;
+
+/// Standard deviation of ln(tau) from which tau counts as unknown: 95 % within a factor of e.
+inline constexpr double kVagueLogTau = 0.5;
+
+/// What a fit says of its warm-up.
+struct WarmingEvidence {
+  double explained = 0;      // drop of |e|^2 by warming, over the noise's variance
+  double log_deviation = 0;  // standard deviation of ln(tau)
+  double time_constant = 0;  // tau, s
+  double shortest = 0;       // s, range of time constants that the recording can show
+  double longest = 0;
+};
+
+/// Why the warm-up cannot be seen at all: one sentence; nothing where it can.
+std::optional<std::string> UnseenWarming(double explained);
+
+/// Why thermal gain and time constant cannot be told; nothing where they can.
+std::optional<std::string> UnknownWarming(const WarmingEvidence& evidence);
+
+}  // namespace warmjoint
