@@ -138,7 +138,7 @@ std::optional<std::pair<double, double>> TravelLimits(const Motion& motion,
 
 double StartPosition(const Motion& motion, std::pair<double, double> joint_limits) {
   const auto limits = TravelLimits(motion, joint_limits);
-  return limits ? limits->first : 0.0;
+  return limits ? limits->first : motion.start;
 }
 
 bool Motion::operator==(const Motion&) const = default;

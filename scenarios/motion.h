@@ -30,8 +30,16 @@ struct Rests {
 
 struct MotionPhase;
 
+/// A corner of a velocity that is linear from corner to corner.
+struct VelocityCorner {
+  double time = 0;      // s, from the start of the recording
+  double velocity = 0;  // rad/s or m/s, signed
+
+  bool operator==(const VelocityCorner&) const = default;
+};
+
 /// Piecewise constant velocity: a speed for each segment, held for a time or until a joint limit;
-/// or phases of such motions.
+/// or phases of such motions; or a velocity that is given by its corners, as a recorded one is.
 struct Motion {
   std::vector<double> speed_list;           // rad/s or m/s, positive; used in turn
   std::optional<Distribution> speed_draws;  // instead of the list: a new draw for each segment
@@ -40,7 +48,9 @@ struct Motion {
   bool travel_between_joint_limits = false;         // travel between the robot's own limits
   SegmentOrder order = SegmentOrder::alternating;
   std::optional<Rests> rests;
-  std::vector<MotionPhase> phases;  // instead of all above: in turn, again from the first
+  std::vector<MotionPhase> phases;      // instead of all above: in turn, again from the first
+  std::vector<VelocityCorner> corners;  // instead of all above, in order of time; mujoco plant only
+  double start = 0;                     // with corners: position at time 0, rad or m
 
   bool operator==(const Motion&) const;
 };
@@ -65,11 +75,13 @@ struct MotionSegment {
 std::optional<std::pair<double, double>> TravelLimits(const Motion& motion,
                                                       std::pair<double, double> joint_limits);
 
-/// Where the motion begins, rad or m: at the lower travel limit; at 0 where it does not travel.
+/// Where the motion begins, rad or m: at the lower travel limit; at `start` with corners; else at
+/// 0.
 double StartPosition(const Motion& motion, std::pair<double, double> joint_limits);
 
 /// The plan that covers exactly `duration` seconds: the last segment is cut. Draws come from
-/// `random`. joint_limits: rad or m, used by motions that travel; motion must have been checked.
+/// `random`. joint_limits: rad or m, used by motions that travel; motion must have been checked and
+/// has no corners.
 std::vector<MotionSegment> PlanMotion(const Motion& motion, double duration,
                                       std::pair<double, double> joint_limits, RandomStream& random);
 

@@ -19,6 +19,8 @@
 //     phases:                         or, instead of all these, motions in turn, again from the
 //       - {duration: 3000, speeds: [0.1, 1], hold: 20}             first until the duration is over
 //       - {rest: 600}
+//     corners: [[0, 0], [1, 0.5]]     or a velocity that is linear between corners, s and rad/s,
+//     start: 0                        from this position on (mujoco)
 //   controller: {bandwidth: 20, acceleration: 0}           rad/s, rad/s^2 or m/s^2 (mujoco)
 //   noise: {torque: 0.5, velocity: 0, position: 0}         standard deviations
 //   disturbances:                none where not given (disturbances.h)

@@ -97,12 +97,40 @@ MotionPhase ReadPhase(const YamlValue& value) {
   return {duration, ReadSteadyMotion(value)};
 }
 
+std::string CornersToYaml(const std::vector<VelocityCorner>& corners) {
+  std::string yaml;
+  for (const VelocityCorner& corner : corners) {
+    yaml += fmt::format("{}[{}, {}]", yaml.empty() ? "[" : ", ", corner.time, corner.velocity);
+  }
+  return yaml + "]";
+}
+
+/// {corners: [[time, velocity], ...], start: position}.
+Motion ReadCorners(const YamlValue& value, const YamlValue& corners) {
+  value.RequireKeys({"corners", "start"});
+  Motion motion;
+  for (const YamlValue& entry : corners.List("a list of [time, velocity]")) {
+    const std::vector<YamlValue> pair = entry.List("[time, velocity]");
+    if (pair.size() != 2) entry.RefuseValue("[time, velocity]");
+    const VelocityCorner corner{pair[0].Number(Bound::not_negative), pair[1].Number()};
+    if (!motion.corners.empty() && !(corner.time > motion.corners.back().time)) {
+      Refuse(entry.place(), "corner at {} s follows one at {} s; times must ascend", corner.time,
+             motion.corners.back().time);
+    }
+    motion.corners.push_back(corner);
+  }
+  if (const auto start = value.Find("start")) motion.start = start->Number();
+  return motion;
+}
+
 }  // namespace
 
 Motion ReadMotion(const YamlValue& value) {
+  const auto corners = value.IsMap() ? value.Find("corners") : std::nullopt;
+  if (corners) return ReadCorners(value, *corners);
   const auto phases = value.IsMap() ? value.Find("phases") : std::nullopt;
   if (!phases) {
-    value.RequireKeys({"speeds", "hold", "travel", "order", "rests", "phases"});
+    value.RequireKeys({"speeds", "hold", "travel", "order", "rests", "phases", "corners"});
     return ReadSteadyMotion(value);
   }
   value.RequireKeys({"phases"});
@@ -114,6 +142,10 @@ Motion ReadMotion(const YamlValue& value) {
 }
 
 std::string MotionToYaml(const Motion& motion, const std::string& indent) {
+  if (!motion.corners.empty()) {
+    return fmt::format("{0}corners: {1}\n{0}start: {2}\n", indent, CornersToYaml(motion.corners),
+                       motion.start);
+  }
   if (motion.phases.empty()) return SteadyMotionToYaml(motion, indent);
   std::string yaml = indent + "phases:\n";
   for (const MotionPhase& phase : motion.phases) {

@@ -51,6 +51,11 @@ class IdealPlant : public Plant {
  public:
   explicit IdealPlant(const Scenario& scenario) : scenario_(scenario) {
     CheckFriction(scenario.friction, {scenario.name});
+    if (!scenario.motion.corners.empty()) {
+      Refuse({scenario.name},
+             "the ideal plant knows constant speeds alone, and motion.corners accelerate; use the "
+             "mujoco plant");
+    }
     if (scenario.motion.travel_between_joint_limits) {
       Refuse({scenario.name},
              "the ideal plant has no robot, so the motion cannot travel between its joint limits; "

@@ -63,39 +63,63 @@ class MujocoPlant : public Plant {
 
   Recording Run(std::uint64_t realization) override {
     const RandomKey key{scenario_.seed, realization};
-    RandomStream motion(key, Stream::motion);
-    const auto plan = PlanMotion(scenario_.motion, scenario_.duration, joint_.limits, motion);
     const double start = StartPosition(scenario_.motion, joint_.limits);
-    CheckReach(plan, start);
+    const VelocityReference reference = MakeReference(key, start);
 
     Recording recording = Empty();
     SensorLog log(scenario_, key, recording.truth.velocity.size());
-    Move(MakeReference(plan), start, log, recording.truth);
+    Move(reference, start, log, recording.truth);
     log.WriteTo(recording.measurements);
     DisturbLog(scenario_, realization, recording);
     return recording;
   }
 
  private:
-  VelocityReference MakeReference(const std::vector<MotionSegment>& plan) const {
-    const double bandwidth = scenario_.controller.bandwidth;
-    double acceleration = scenario_.controller.acceleration;
-    if (acceleration == 0) acceleration = LargestChange(plan) * bandwidth / kRampTimes;
-    return {plan, acceleration, kSettlingTimes / bandwidth};
+  VelocityReference MakeReference(RandomKey key, double start) const {
+    const double settling = kSettlingTimes / scenario_.controller.bandwidth;
+    const std::vector<VelocityCorner>& corners = scenario_.motion.corners;
+    if (!corners.empty()) {
+      CheckReach(corners, start);
+      return VelocityReference::Through(corners, Acceleration(std::abs(corners.front().velocity)),
+                                        settling);
+    }
+    RandomStream motion(key, Stream::motion);
+    const auto plan = PlanMotion(scenario_.motion, scenario_.duration, joint_.limits, motion);
+    CheckReach(plan, start);
+    return {plan, Acceleration(LargestChange(plan)), settling};
   }
 
-  /// Refuses a plan that leaves the joint's limits.
+  /// Of ramps that change the velocity by up to `change`, rad/s^2 or m/s^2.
+  double Acceleration(double change) const {
+    const Controller& controller = scenario_.controller;
+    if (controller.acceleration != 0) return controller.acceleration;
+    return change * controller.bandwidth / kRampTimes;
+  }
+
+  /// Refuses motions that leave the joint's limits.
   void CheckReach(const std::vector<MotionSegment>& plan, double position) const {
-    const auto [lower, upper] = joint_.limits;
-    const double slack = 1e-9 * std::max(1.0, upper - lower);
     for (const MotionSegment& segment : plan) {
       position += segment.velocity * segment.duration;
-      if (position >= lower - slack && position <= upper + slack) continue;
-      Refuse({scenario_.name},
-             "the motion takes joint '{}' to {:.4g}, beyond its limits {:.4g} to "
-             "{:.4g}; let it travel between limits, or hold speeds for less time",
-             scenario_.joint, position, lower, upper);
+      CheckPosition(position);
     }
+  }
+  void CheckReach(const std::vector<VelocityCorner>& corners, double position) const {
+    for (size_t i = 1; i < corners.size() && corners[i].time <= scenario_.duration; ++i) {
+      const double mean = (corners[i - 1].velocity + corners[i].velocity) / 2;
+      position += (corners[i].time - corners[i - 1].time) * mean;
+      CheckPosition(position);
+    }
+    const VelocityCorner& last = corners.back();
+    CheckPosition(position + std::max(scenario_.duration - last.time, 0.0) * last.velocity);
+  }
+  void CheckPosition(double position) const {
+    const auto [lower, upper] = joint_.limits;
+    const double slack = 1e-9 * std::max(1.0, upper - lower);
+    if (position >= lower - slack && position <= upper + slack) return;
+    Refuse({scenario_.name},
+           "the motion takes joint '{}' to {:.4g}, beyond its limits {:.4g} to "
+           "{:.4g}; let it travel between limits, or hold speeds for less time",
+           scenario_.joint, position, lower, upper);
   }
 
   Recording Empty() const {

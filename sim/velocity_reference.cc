@@ -26,17 +26,33 @@ VelocityReference::VelocityReference(const std::vector<MotionSegment>& plan, dou
   if (corners_.empty()) corners_.push_back({0, 0});
 }
 
+VelocityReference VelocityReference::Through(const std::vector<VelocityCorner>& corners,
+                                             double acceleration, double settling) {
+  VelocityReference reference;
+  const double first = corners.front().velocity;
+  if (first != 0) {
+    reference.corners_.push_back({-settling - std::abs(first) / acceleration, 0});
+    reference.corners_.push_back({-settling, first});
+  } else {
+    reference.corners_.push_back({0, 0});
+  }
+  for (const VelocityCorner& corner : corners) {
+    if (corner.time > reference.corners_.back().time) reference.corners_.push_back(corner);
+  }
+  return reference;
+}
+
 double VelocityReference::run_up() const {
   double way = 0;
   for (size_t i = 0; i + 1 < corners_.size() && corners_[i].time < 0; ++i) {
-    const Corner& from = corners_[i];
-    const Corner& to = corners_[i + 1];
+    const VelocityCorner& from = corners_[i];
+    const VelocityCorner& to = corners_[i + 1];
     const double end = std::min(to.time, 0.0);
     const double share = (end - from.time) / (to.time - from.time);
     const double at_end = from.velocity + share * (to.velocity - from.velocity);
     way += (end - from.time) * (from.velocity + at_end) / 2;
   }
-  const Corner& last = corners_.back();
+  const VelocityCorner& last = corners_.back();
   return last.time < 0 ? way - last.time * last.velocity : way;
 }
 
@@ -44,9 +60,9 @@ double VelocityReference::Velocity(double time) {
   while (next_ < corners_.size() && corners_[next_].time <= time) ++next_;
   slope_ = 0;
   if (next_ == 0) return corners_.front().velocity;
-  const Corner& from = corners_[next_ - 1];
+  const VelocityCorner& from = corners_[next_ - 1];
   if (next_ == corners_.size()) return from.velocity;
-  const Corner& to = corners_[next_];
+  const VelocityCorner& to = corners_[next_];
   slope_ = (to.velocity - from.velocity) / (to.time - from.time);
   return from.velocity + slope_ * (time - from.time);
 }

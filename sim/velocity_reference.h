@@ -16,6 +16,10 @@ class VelocityReference {
   /// A lead is cut to the length of its segment.
   VelocityReference(const std::vector<MotionSegment>& plan, double acceleration, double settling);
 
+  /// Follows corners, from rest: where the first is above 0, a ramp leads it by the settling time.
+  static VelocityReference Through(const std::vector<VelocityCorner>& corners, double acceleration,
+                                   double settling);
+
   /// Time at which it begins, s; not above 0.
   double begin() const { return corners_.front().time; }
   /// Way travelled from begin() to 0, rad or m.
@@ -26,12 +30,9 @@ class VelocityReference {
   double acceleration() const { return slope_; }
 
  private:
-  struct Corner {
-    double time = 0;      // s
-    double velocity = 0;  // rad/s or m/s
-  };
+  VelocityReference() = default;
 
-  std::vector<Corner> corners_;
+  std::vector<VelocityCorner> corners_;
   size_t next_ = 0;  // first corner not before the last time
   double slope_ = 0;
 };

@@ -16,6 +16,7 @@
 #include "tools/atomic_directory.h"
 #include "tools/command.h"
 #include "tools/recording_options.h"
+#include "tools/repeat_motion.h"
 #include "tools/store/run_store.h"
 
 namespace warmjoint {
@@ -23,8 +24,9 @@ namespace {
 
 struct SimulateArguments {
   std::string scenario;
-  std::string from;     // run directory to replay a realization of
-  std::string variant;  // of the run's ladder
+  std::string from;           // run directory to replay a realization of
+  std::string variant;        // of the run's ladder
+  RecordingArguments motion;  // recording to carry out again
   std::vector<std::string> set;
   std::optional<std::uint64_t> seed;
   std::uint64_t realization = 0;
@@ -34,8 +36,10 @@ struct SimulateArguments {
 
 /// The scenario that a run carried out, by its resolved suite.
 Scenario ScenarioOfRun(const SimulateArguments& arguments) {
-  if (!arguments.scenario.empty() || !arguments.set.empty() || arguments.seed) {
-    Refuse({"--from"}, "replays a run as it was: leave out SCENARIO, --set and --seed");
+  const bool changed = !arguments.scenario.empty() || !arguments.set.empty() || arguments.seed ||
+                       !arguments.motion.recording.empty();
+  if (changed) {
+    Refuse({"--from"}, "replays a run as it was: leave out SCENARIO, --set, --seed and --motion");
   }
   const RunStore store = RunStore::OpenToRead(arguments.from);
   const Suite suite = ReadSuite(store.suite_file());
@@ -53,10 +57,13 @@ Scenario ScenarioOfRun(const SimulateArguments& arguments) {
   return VariantScenario(suite, static_cast<int>(named - names.begin()));
 }
 
-Scenario ResolveScenario(const SimulateArguments& arguments) {
+/// log: whose motion is carried out, if any.
+Scenario ResolveScenario(const SimulateArguments& arguments,
+                         const std::optional<Measurements>& log) {
   if (!arguments.from.empty()) return ScenarioOfRun(arguments);
   if (arguments.scenario.empty()) Refuse({"simulate"}, "give SCENARIO, or --from RUN");
-  std::vector<Setting> settings;
+  Settings settings;
+  if (log) settings = MotionSettings(*log);
   for (const auto& [key, value] : ReadPairs(arguments.set, "--set")) {
     settings.push_back({key, value});
   }
@@ -66,7 +73,9 @@ Scenario ResolveScenario(const SimulateArguments& arguments) {
 }
 
 ExitStatus Simulate(const SimulateArguments& arguments) {
-  const Scenario scenario = ResolveScenario(arguments);
+  std::optional<Measurements> log;
+  if (!arguments.motion.recording.empty()) log = ReadRecording(arguments.motion);
+  const Scenario scenario = ResolveScenario(arguments, log);
   const std::unique_ptr<Plant> plant = MakePlant(scenario);
   AtomicDirectory directory(arguments.output,
                             {"recording.csv", "recording.h5", "truth.json", "scenario.yaml"});
@@ -79,6 +88,7 @@ ExitStatus Simulate(const SimulateArguments& arguments) {
   directory.Commit();
   fmt::print("{}: {} samples over {:.6g} s\n", arguments.output, recording.measurements.size(),
              scenario.duration);
+  if (log) fmt::print("{}", CompareTorque(*log, recording.measurements));
   return ExitStatus::done;
 }
 
@@ -91,6 +101,9 @@ Command AddSimulateCommand(CLI::App& program) {
   parser->add_option("SCENARIO", arguments->scenario, "scenario file (YAML)");
   parser->add_option("--from", arguments->from, "run directory: replay its --realization");
   parser->add_option("--variant", arguments->variant, "of the run's ladder");
+  parser->add_option("--motion", arguments->motion.recording,
+                     "CSV or HDF5 file whose motion is carried out again; its torque is compared");
+  AddLayoutOptions(*parser, arguments->motion);
   parser->add_option("--set", arguments->set, "another value for a key, as noise.torque=0.1")
       ->take_all();
   parser->add_option("--seed", arguments->seed, "instead of the scenario's");

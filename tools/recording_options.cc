@@ -25,6 +25,10 @@ std::map<std::string, std::string> ReadPairs(const std::vector<std::string>& pai
 
 void AddRecordingOptions(CLI::App& parser, RecordingArguments& arguments) {
   parser.add_option("RECORDING", arguments.recording, "CSV or HDF5 file")->required();
+  AddLayoutOptions(parser, arguments);
+}
+
+void AddLayoutOptions(CLI::App& parser, RecordingArguments& arguments) {
   parser.add_option("--map", arguments.map, "columns of the file, as torque=force_N,time=t_s")
       ->delimiter(',')
       ->take_all();

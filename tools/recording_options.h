@@ -22,6 +22,9 @@ struct RecordingArguments {
 /// Adds RECORDING, --map, --unit, --joint and --gear.
 void AddRecordingOptions(CLI::App& parser, RecordingArguments& arguments);
 
+/// Adds --map, --unit, --joint and --gear alone.
+void AddLayoutOptions(CLI::App& parser, RecordingArguments& arguments);
+
 /// Reads the recording. Throws BadInput.
 Measurements ReadRecording(const RecordingArguments& arguments);
 

@@ -117,6 +117,18 @@ TEST(ReadScenario, RefusesPhasesThatCannotBe) {
   EXPECT_THAT(refusal("[{rest: 3}], hold: 5"), HasSubstr("unknown key 'motion.hold'"));
 }
 
+TEST(ReadScenario, RefusesCornersThatCannotBe) {
+  const auto refusal = [](const std::string& motion) {
+    return Refusal(Lines(), {{"motion", "{corners: " + motion + "}"}});
+  };
+  EXPECT_EQ(refusal("[[0, 0], [1, -0.5]], start: 2"), "(accepted)");
+  EXPECT_THAT(refusal("[]"), HasSubstr("motion.corners is a list of 0"));
+  EXPECT_THAT(refusal("[[0, 0, 1]]"), HasSubstr("[time, velocity]"));
+  EXPECT_THAT(refusal("[[-1, 0]]"), HasSubstr("motion.corners.0.0 is '-1'"));
+  EXPECT_THAT(refusal("[[0, 0], [0, 1]]"), HasSubstr("times must ascend"));
+  EXPECT_THAT(refusal("[[0, 0]], speeds: [1]"), HasSubstr("unknown key 'motion.speeds'"));
+}
+
 TEST(ReadScenario, RefusesSamplingThatCannotBe) {
   EXPECT_THAT(RefusalOf(10, "sampling: {rate: 20, sensor_rate: 10}"),
               HasSubstr("table1.yaml:10: sampling.rate is 20 Hz; it must be at most the 10 Hz"));

@@ -70,6 +70,14 @@ TEST(WriteScenario, ReadsBackBitForBit) {
   EXPECT_EQ(back.seed, scenario.seed);
 }
 
+TEST(WriteScenario, ReadsCornersBackBitForBit) {
+  Scenario scenario = Unusual();
+  scenario.motion = {};
+  scenario.motion.corners = {{0, 1.0 / 3}, {0.1, 1.0 / 3}, {1e3 / 7, -1e-300}};
+  scenario.motion.start = -1.0 / 7;
+  EXPECT_EQ(ReadBack(scenario).motion, scenario.motion);
+}
+
 TEST(WriteScenario, IsAFixedPoint) {
   Scenario limits = test::Table1();
   limits.motion.hold = 0;

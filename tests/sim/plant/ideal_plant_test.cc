@@ -124,5 +124,13 @@ TEST(IdealPlant, RefusesJointLimitsItDoesNotKnow) {
       BadInput);
 }
 
+TEST(IdealPlant, RefusesToAccelerate) {
+  Scenario scenario = test::Table1();
+  scenario.motion = {};
+  scenario.motion.corners = {{0, 0}, {1, 1}};
+  EXPECT_THAT([&] { MakeIdealPlant(scenario); },
+              testing::ThrowsMessage<BadInput>(testing::HasSubstr("use the mujoco plant")));
+}
+
 }  // namespace
 }  // namespace warmjoint

@@ -29,6 +29,17 @@ TEST(VelocityReference, KnowsItsRunUp) {
   EXPECT_DOUBLE_EQ(VelocityReference({{2, -1}}, 4, 0.1).run_up(), -0.225);
 }
 
+TEST(VelocityReference, GoesThroughCornersAndHasSettledOnTheFirst) {
+  auto reference = VelocityReference::Through({{0, 1}, {2, 1}, {3, -1}}, 4, 0.1);
+  EXPECT_DOUBLE_EQ(reference.begin(), -0.35);
+  EXPECT_DOUBLE_EQ(reference.run_up(), 0.125 + 0.1);
+  EXPECT_EQ(reference.Velocity(-0.05), 1);
+  EXPECT_EQ(reference.Velocity(1.5), 1);
+  EXPECT_DOUBLE_EQ(reference.Velocity(2.25), 0.5);
+  EXPECT_EQ(reference.acceleration(), -2);
+  EXPECT_EQ(reference.Velocity(9), -1);
+}
+
 TEST(VelocityReference, StaysAtRestWithoutMotion) {
   VelocityReference reference({{3, 0}}, 4, 0.1);
   EXPECT_EQ(reference.begin(), 0);
