@@ -85,6 +85,20 @@ void CheckOutput(const std::string& path) {
   if (!path.empty()) AtomicFile{path};
 }
 
+/// The estimate as files hold it: MuJoCo knows torques and forces, so that a friction in amperes is
+/// left out, and said to be.
+Estimate ForFiles(Estimate estimate, const Measurements& measurements) {
+  const std::string_view unit = kTorqueUnit.For(measurements.joint);
+  if (!estimate.friction || measurements.torque_unit == unit) return estimate;
+  fmt::print(
+      stderr,
+      "no `friction` is written for MuJoCo: parameters are in {}; multiply the column by the "
+      "motor's constant to get {}\n",
+      measurements.torque_unit, unit);
+  estimate.friction.reset();
+  return estimate;
+}
+
 void WriteOutputs(const IdentifyArguments& arguments, const Estimate& estimate, JointKind joint) {
   if (!arguments.output.empty()) {
     WriteWholeFile(arguments.output, EstimateToJson(estimate).dump(2) + "\n");
@@ -111,7 +125,7 @@ ExitStatus Identify(const IdentifyArguments& arguments) {
   const IdentifierInput input{measurements, selection, options, {}};
   Estimate estimate = identifier.identify(input);
   if (estimate.status == Status::ok) estimate.holdout = HoldOutFigures(identifier, input, holdout);
-  WriteOutputs(arguments, estimate, measurements.joint);
+  WriteOutputs(arguments, ForFiles(estimate, measurements), measurements.joint);
   if (!arguments.plot.empty()) {
     report::WriteFitPage(measurements, selection, estimate, arguments.plot);
   }

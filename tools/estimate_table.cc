@@ -19,6 +19,14 @@ Table ParameterTable(const Estimate& estimate) {
   return table;
 }
 
+/// One line on gravity that is no parameter.
+std::string PairedGravity(const GravityModel& gravity, const std::string& unit) {
+  const double turn = 360.0 / kGravityKnots;
+  return fmt::format("\ngravity, common to both directions: {:.4g} to {:.4g} {} over {:.0f} deg\n",
+                     gravity.values.minCoeff(), gravity.values.maxCoeff(), unit,
+                     turn * static_cast<double>(gravity.knots.size()));
+}
+
 void AddMetrics(Table& table, const std::string& name, const std::optional<Metrics>& metrics) {
   if (!metrics) return;
   table.rows.push_back({name, std::to_string(metrics->n), fmt::format("{:.4g}", metrics->rmse),
@@ -35,6 +43,9 @@ std::string EstimateToText(const Estimate& estimate, const Measurements& measure
     text += fmt::format("\n{}", TableToText(ParameterTable(estimate), 1));
 
   const std::string& unit = measurements.torque_unit;
+  if (estimate.gravity && estimate.gravity->kind == GravityKind::paired) {
+    text += PairedGravity(*estimate.gravity, unit);
+  }
   Table table{{"fit", "samples", fmt::format("RMSE {}", unit), fmt::format("MAE {}", unit), "Fit %",
                fmt::format("FPE ({})^2", unit)},
               {}};

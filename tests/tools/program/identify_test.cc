@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "models/foundation/atomic_file.h"
@@ -80,6 +81,32 @@ TEST(Identify, OneSpeedAloneGivesStatus3AndNoNumbers) {
     EXPECT_TRUE(estimate.at("friction").is_null()) << name;
     EXPECT_FALSE(std::filesystem::exists(scratch.path() / (name + ".xml"))) << name;
   }
+}
+
+TEST(Identify, TellsGravityFromFrictionOrSaysWhyNot) {
+  const ScratchDirectory scratch;
+  const std::string recording = scratch.path() / "log.csv";
+  WriteRecordingFile(recording, 480, SeveralSpeeds);
+  const std::string output = scratch.path() / "estimate.json";
+  const auto identify = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"identify", recording, "-o", output});
+    return RunWarmjoint(more);
+  };
+  const Answer answer = identify({"--identifier", "nominal-ls", "--gravity", "sincos"});
+  EXPECT_EQ(answer.status, 0) << answer.err;
+  EXPECT_THAT(answer.out, HasSubstr("gravity_cosine"));
+  const auto estimate = nlohmann::json::parse(ReadWholeFile(output));
+  EXPECT_EQ(estimate.at("gravity").at("kind"), "sincos");
+  // nothing pulls: the ripple of 0.2 N.m over 480 samples, four times
+  EXPECT_NEAR(estimate.at("gravity").at("sine").get<double>(), 0, 4 * 0.2 / std::sqrt(480));
+
+  const Answer linear = identify({"--joint", "linear", "--gravity", "sincos"});
+  EXPECT_EQ(linear.status, 2);
+  EXPECT_THAT(linear.err, HasSubstr("use paired"));
+  const Answer unable = identify({"--identifier", "position-ridge", "--gravity", "sincos"});
+  EXPECT_EQ(unable.status, 2);
+  EXPECT_THAT(unable.err,
+              HasSubstr("position-ridge cannot tell gravity from friction; use one of"));
 }
 
 TEST(Identify, WritesAMuJoCoModel) {
