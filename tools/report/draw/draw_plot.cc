@@ -15,10 +15,31 @@ namespace {
 
 constexpr Type kTickType{size::kTick};
 constexpr Type kLabelType{size::kText};
-constexpr float kPointsPerTickX = 75, kPointsPerTickY = 26;
+constexpr float kPointsPerTickX = 45, kPointsPerTickY = 26;
+constexpr float kBetweenLabels = 18;  // points that the labels of ticks stay apart
 
-std::vector<Tick> TicksX(const Axis& axis, float width) {
-  return AxisTicks(axis, static_cast<int>(width / kPointsPerTickX));
+/// Whether the ticks' labels leave room between them on an axis of `width` points.
+bool LabelsFit(const Pen& pen, const Axis& axis, const std::vector<Tick>& ticks, float width) {
+  const auto place = [&](double value) {
+    const double share = axis.scale == Scale::linear
+                             ? (value - axis.lower) / (axis.upper - axis.lower)
+                             : std::log(value / axis.lower) / std::log(axis.upper / axis.lower);
+    return width * static_cast<float>(share);
+  };
+  for (std::size_t i = 1; i < ticks.size(); ++i) {
+    const float words =
+        (pen.Measure(ticks[i - 1].label, kTickType).x + pen.Measure(ticks[i].label, kTickType).x) /
+        2;
+    if (place(ticks[i].value) - place(ticks[i - 1].value) < words + kBetweenLabels) return false;
+  }
+  return true;
+}
+
+/// As many ticks as their labels leave room for.
+std::vector<Tick> TicksX(const Pen& pen, const Axis& axis, float width) {
+  int wanted = static_cast<int>(width / kPointsPerTickX);
+  while (wanted > 1 && !LabelsFit(pen, axis, AxisTicks(axis, wanted), width)) --wanted;
+  return AxisTicks(axis, wanted);
 }
 
 std::vector<Tick> TicksY(const Axis& axis, float height) {
@@ -77,7 +98,8 @@ void DrawGrid(Pen& pen, const Plot& plot, const Rectangle& area) {
   for (double y : MinorTicks(plot.y)) across(y, pen.theme().minor_grid);
   // categories have labels of their own and need no lines
   if (plot.x.ticks.empty()) {
-    for (const Tick& tick : TicksX(plot.x, area.width())) upright(tick.value, pen.theme().grid);
+    for (const Tick& tick : TicksX(pen, plot.x, area.width()))
+      upright(tick.value, pen.theme().grid);
   }
   for (const Tick& tick : TicksY(plot.y, area.height())) across(tick.value, pen.theme().grid);
 }
@@ -91,12 +113,12 @@ void DrawAxes(Pen& pen, const Plot& plot, const Rectangle& area, float label_x) 
 
   float lowest = area.bottom;
   const float wrap = LabelWrap(plot.x, area.width());
-  for (const Tick& tick : TicksX(plot.x, area.width())) {
+  for (const Tick& tick : TicksX(pen, plot.x, area.width())) {
     const float x = ImPlot::PlotToPixels(tick.value, plot.y.lower).x;
     list.AddLine({x, area.bottom}, {x, area.bottom + size::kTickMark}, paint, 1);
-    const ImVec2 extent = pen.Measure(tick.label, kTickType, wrap);
     const float top = area.bottom + size::kTickMark + 2;
-    pen.Write(list, tick.label, kTickType, {x - extent.x / 2, top}, pen.theme().faint_text, wrap);
+    const ImVec2 extent =
+        pen.WriteCentred(list, tick.label, kTickType, {x, top}, pen.theme().faint_text, wrap);
     lowest = std::max(lowest, top + extent.y);
   }
   const std::vector<Tick> ticks = TicksY(plot.y, area.height());
@@ -148,7 +170,7 @@ void CheckAxes(const Plot& plot) {
 }
 
 Margins PlotMargins(const Pen& pen, const Plot& plot, ImVec2 extent) {
-  const std::vector<Tick> across = TicksX(plot.x, extent.x);
+  const std::vector<Tick> across = TicksX(pen, plot.x, extent.x);
   Margins margins;
   margins.left = size::kTickMark + 3 + WidestLabel(pen, TicksY(plot.y, extent.y)) + size::kPad +
                  kLabelType.size + 4;

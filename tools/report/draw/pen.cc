@@ -2,6 +2,7 @@
 
 #include <imgui_internal.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace warmjoint::report {
@@ -37,6 +38,27 @@ ImVec2 Pen::Write(ImDrawList& list, const std::string& text, const Type& type, I
   list.AddText(Font(type), type.size, at, Paint(colour), text.data(), text.data() + text.size(),
                wrap);
   drawn_.texts.push_back({text, {at.x, at.y, at.x + extent.x, at.y + extent.y}});
+  return extent;
+}
+
+ImVec2 Pen::WriteCentred(ImDrawList& list, const std::string& text, const Type& type, ImVec2 top,
+                         Rgb colour, float wrap) {
+  CheckGlyphs(text, type);
+  const ImVec2 extent = Measure(text, type, wrap);
+  const float width = wrap > 0 ? wrap : FLT_MAX;
+  const char* end = text.data() + text.size();
+  float y = top.y;
+  for (const char* at = text.data(); at < end; y += type.size) {
+    // up to the line's own end, or to where it must break
+    const char* line_end = std::find(at, end, '\n');
+    const char* stop = Font(type)->CalcWordWrapPosition(type.size, at, line_end, width);
+    const float reach = Font(type)->CalcTextSizeA(type.size, FLT_MAX, 0, at, stop).x;
+    list.AddText(Font(type), type.size, {top.x - reach / 2, y}, Paint(colour), at, stop);
+    at = stop;
+    while (at < end && (*at == ' ' || *at == '\n')) ++at;
+  }
+  drawn_.texts.push_back(
+      {text, {top.x - extent.x / 2, top.y, top.x + extent.x / 2, top.y + extent.y}});
   return extent;
 }
 

@@ -30,6 +30,9 @@ class Pen {
   /// Words with their upper left corner at `at`. Returns their size.
   ImVec2 Write(ImDrawList& list, const std::string& text, const Type& type, ImVec2 at, Rgb colour,
                float wrap = 0);
+  /// Lines of words, each centred about the upright through `top`. Returns their size.
+  ImVec2 WriteCentred(ImDrawList& list, const std::string& text, const Type& type, ImVec2 top,
+                      Rgb colour, float wrap = 0);
   /// Words centred at `middle`, running upwards.
   void WriteUpwards(ImDrawList& list, const std::string& text, const Type& type, ImVec2 middle,
                     Rgb colour);

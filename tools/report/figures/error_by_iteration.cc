@@ -6,6 +6,7 @@
 
 #include "tools/report/draw/ticks.h"
 #include "tools/report/figures/axes.h"
+#include "tools/report/figures/telling_apart.h"
 
 namespace warmjoint::report {
 namespace {
@@ -14,12 +15,9 @@ using Curve = QuartileCurve IdentifierCourse::*;
 
 bool Iterates(const QuartileCurve& curve) { return curve.x.size() > 1; }
 
-/// The second and later rows of one identifier share its colour and differ in their stroke.
-Dash DashOf(const std::vector<IdentifierCourse>& all, std::size_t place) {
-  static constexpr Dash kOrder[] = {Dash::solid, Dash::dashed, Dash::dotted};
-  std::size_t earlier = 0;
-  for (std::size_t i = 0; i < place; ++i) earlier += all[i].identifier == all[place].identifier;
-  return kOrder[earlier % std::size(kOrder)];
+/// The values at the places that the axis shows.
+Eigen::VectorXd Shown(const Axis& axis, const Eigen::VectorXd& x, const Eigen::VectorXd& values) {
+  return (x.array() >= axis.lower && x.array() <= axis.upper).select(values, std::nan(""));
 }
 
 /// The axis over iterations starts at the first that is not 0 where it is logarithmic.
@@ -56,7 +54,9 @@ Plot Draw(const ErrorByIteration& data, Curve curve, double factor, const std::s
     plot.series.push_back({"", hue, Band{wide.x, factor * wide.q25, factor * wide.q75}});
     lines.push_back(
         {course.label, hue, Line{wide.x, factor * wide.median, 1.8, DashOf(data.identifiers, i)}});
-    shown.insert(shown.end(), {factor * wide.q25, factor * wide.median, factor * wide.q75});
+    for (const Eigen::VectorXd& values : {wide.q25, wide.median, wide.q75}) {
+      shown.push_back(Shown(plot.x, wide.x, factor * values));
+    }
   }
   plot.series.insert(plot.series.end(), lines.begin(), lines.end());
   plot.y = MagnitudeAxis(label, shown);

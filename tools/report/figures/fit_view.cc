@@ -32,6 +32,11 @@ void TakeGravityOff(const GravityModel& gravity, FitView& view) {
   }
 }
 
+/// The file with the folder that it is in: many are called recording.csv.
+std::string NameInFolder(const std::filesystem::path& path) {
+  return path.parent_path().filename() / path.filename();
+}
+
 double InitialEnergy(const Estimate& estimate) {
   const EstimatedParameter* found = estimate.Find("initial_energy");
   return found ? found->value : 0;
@@ -42,7 +47,7 @@ double InitialEnergy(const Estimate& estimate) {
 FitView MakeFitView(const Measurements& measurements, const Selection& selection,
                     const Estimate& estimate) {
   FitView view;
-  view.source = std::filesystem::path(measurements.source).filename();
+  view.source = NameInFolder(measurements.source);
   view.joint = measurements.joint;
   view.torque_unit = UnitText(measurements.torque_unit);
   view.estimate = estimate;

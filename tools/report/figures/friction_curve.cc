@@ -38,9 +38,9 @@ double WarmestEnergy(const FitView& view) {
   return view.energy[at];
 }
 
-/// One curve for each direction; the label stands in the legend once.
+/// One curve for each direction, remembered in `shown`; the label stands in the legend once.
 void AddCurves(Plot& plot, const FitView& view, const FrictionSpread& spread, double energy,
-               Hue hue, std::string label) {
+               Hue hue, std::string label, std::vector<Eigen::VectorXd>& shown) {
   const FrictionDescription& friction = *view.estimate.friction;
   for (int direction : {1, -1}) {
     const Eigen::VectorXd speeds = SpeedsOf(KeptOf(view, view.velocity), direction);
@@ -56,6 +56,7 @@ void AddCurves(Plot& plot, const FitView& view, const FrictionSpread& spread, do
     }
     plot.series.push_back({label, hue, Line{speeds, force, 2.0}});
     label.clear();
+    shown.push_back(force);
   }
 }
 
@@ -66,18 +67,19 @@ Plot FrictionCurve(const FitView& view) {
   const Eigen::VectorXd torque = KeptOf(view, view.torque);
   Plot plot;
   plot.series.push_back({"measured", Hue::grey, Scatter{velocity, torque, 1.1}});
+  std::vector<Eigen::VectorXd> shown{torque};
   if (view.has_fit) {
     Measurements motion;
     motion.time = view.time;
     motion.velocity = view.velocity;
     const FrictionSpread spread = SpreadOf(view.estimate, motion, view.selection);
-    AddCurves(plot, view, spread, 0, Hue::blue, view.warms() ? "fit, cold" : "fit");
+    AddCurves(plot, view, spread, 0, Hue::blue, view.warms() ? "fit, cold" : "fit", shown);
     if (view.warms()) {
-      AddCurves(plot, view, spread, WarmestEnergy(view), Hue::vermilion, "fit, warmest");
+      AddCurves(plot, view, spread, WarmestEnergy(view), Hue::vermilion, "fit, warmest", shown);
     }
   }
   plot.x = LinearAxis(SpeedLabel(view), {velocity});
-  plot.y = LinearAxis(TorqueLabel(view, "torque"), {torque});
+  plot.y = LinearAxis(TorqueLabel(view, "torque"), shown);
   return plot;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tools/report/figures/axes.h"
+#include "tools/report/figures/telling_apart.h"
 #include "tools/report/run/run_figures.h"
 
 namespace warmjoint::report {
@@ -24,9 +25,10 @@ struct Drawer {
   Plot& plot;
   double lowest = 90;  // per cent
 
-  void Add(const RunRow& row, double offset) {
+  void Add(const RunRow& row, double offset, Marker marker) {
     Scatter scatter;
     scatter.size = 4;
+    scatter.marker = marker;
     std::vector<double> x, y;
     for (std::size_t i = 0; i < row.parameters.size(); ++i) {
       const ParameterColumn& column = row.parameters[i];
@@ -51,16 +53,16 @@ bool GivesIntervals(const RunRow& row) {
                      [](const ParameterColumn& column) { return column.intervals > 0; });
 }
 
-std::string Finding(const std::vector<const RunRow*>& rows) {
+std::string Finding(const std::vector<RunRow>& rows) {
   std::string text = "Of the 95 % intervals,";
-  for (const RunRow* row : rows) {
+  for (const RunRow& row : rows) {
     int hits = 0, tries = 0;
-    for (const ParameterColumn& column : row->parameters) {
+    for (const ParameterColumn& column : row.parameters) {
       hits += column.covered;
       tries += column.intervals;
     }
     text +=
-        fmt::format(" {:.0f} % of those of {} hold the truth,", 100.0 * hits / tries, row->label);
+        fmt::format(" {:.0f} % of those of {} hold the truth,", 100.0 * hits / tries, row.label);
   }
   text.back() = '.';
   return text;
@@ -69,9 +71,9 @@ std::string Finding(const std::vector<const RunRow*>& rows) {
 }  // namespace
 
 std::optional<Figure> IntervalCoverage(const RunView& run) {
-  std::vector<const RunRow*> rows;
+  std::vector<RunRow> rows;
   for (const RunRow& row : run.rows) {
-    if (GivesIntervals(row)) rows.push_back(&row);
+    if (GivesIntervals(row)) rows.push_back(row);
   }
   if (rows.empty()) return std::nullopt;
 
@@ -79,16 +81,16 @@ std::optional<Figure> IntervalCoverage(const RunView& run) {
   Drawer drawer{plot};
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const double middle = (static_cast<double>(rows.size()) - 1) / 2;
-    drawer.Add(*rows[i], 0.16 * (static_cast<double>(i) - middle));
+    drawer.Add(rows[i], 0.16 * (static_cast<double>(i) - middle), MarkerOf(rows, i));
   }
   plot.series.push_back({"95 %", Hue::text, LevelLine{95}});
   std::vector<std::string> names;
-  for (const ParameterColumn& column : rows.front()->parameters) {
+  for (const ParameterColumn& column : rows.front().parameters) {
     names.push_back(SymbolOf(column.name));
   }
   plot.x = CategoryAxis("parameter", names);
   plot.y = {"intervals that hold the truth (%)",
-            std::max(0.0, drawer.lowest - 4),
+            std::max(-2.0, drawer.lowest - 4),  // marks at 0 and 100 stand whole
             102,
             Scale::linear,
             {}};

@@ -5,6 +5,7 @@
 
 #include "tools/report/draw/ticks.h"
 #include "tools/report/figures/axes.h"
+#include "tools/report/figures/telling_apart.h"
 #include "tools/report/run/quartiles.h"
 #include "tools/report/run/run_figures.h"
 
@@ -25,6 +26,21 @@ QuartileCurve RungsOf(const RunRow& row, const Rungs& rungs) {
     curve.q75[rung] = one.q75[0];
   }
   return curve;
+}
+
+/// The rms NPE at the Cramer-Rao bound of each rung, per cent; NaN where it is not known.
+Eigen::VectorXd BoundOf(const RunRow& row, const Rungs& rungs) {
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(row.variant.size());
+  for (const ParameterColumn& column : row.parameters) {
+    squares += (100 * column.bound.cwiseQuotient(column.truth)).cwiseAbs2();
+  }
+  Eigen::VectorXd bound(rungs.values.size());
+  for (Eigen::Index rung = 0; rung < bound.size(); ++rung) {
+    const auto here = row.variant.array() == static_cast<int>(rung);
+    const double count = static_cast<double>(here.count());
+    bound[rung] = std::sqrt(here.select(squares, 0).sum() / count);
+  }
+  return row.parameters.empty() ? bound.setConstant(std::nan("")) : bound;
 }
 
 std::string Finding(const RunView& run) {
@@ -48,16 +64,23 @@ std::optional<Figure> LadderFigure(const RunView& run) {
   Plot plot;
   std::vector<Eigen::VectorXd> shown;
   std::vector<Series> lines;
-  for (const RunRow& row : run.rows) {
+  for (std::size_t i = 0; i < run.rows.size(); ++i) {
+    const RunRow& row = run.rows[i];
     const Hue hue = IdentifierHue(row.identifier);
     const QuartileCurve curve = RungsOf(row, rungs);
     plot.series.push_back({"", hue, Band{curve.x, curve.q25, curve.q75}});
-    lines.push_back({row.label, hue, Line{curve.x, curve.median, 1.8}});
-    lines.push_back({"", hue, Scatter{curve.x, curve.median, 3}});
+    lines.push_back({row.label, hue, Line{curve.x, curve.median, 1.8, DashOf(run.rows, i)}});
+    lines.push_back({"", hue, Scatter{curve.x, curve.median, 3, MarkerOf(run.rows, i)}});
     shown.insert(shown.end(), {curve.q25, curve.median, curve.q75});
   }
   if (!std::isfinite(RangeOf(shown).first)) return std::nullopt;
   plot.series.insert(plot.series.end(), lines.begin(), lines.end());
+  const Eigen::VectorXd bound = BoundOf(run.rows.front(), rungs);
+  if (bound.allFinite()) {
+    plot.series.push_back(
+        {"Cramér-Rao bound (rms)", Hue::text, Line{rungs.values, bound, 1.2, Dash::dashed}});
+    shown.push_back(bound);
+  }
 
   const std::string unit = rungs.unit.empty() ? "" : fmt::format(" ({})", UnitText(rungs.unit));
   const bool wide =
@@ -71,7 +94,9 @@ std::optional<Figure> LadderFigure(const RunView& run) {
   figure.name = "ladder";
   figure.title = rungs.names.empty() ? fmt::format("Parameter error against {}", rungs.variable)
                                      : "Parameter error in each variant";
-  figure.subtitle = RunSubtitle(run, "lines are medians, bands reach from quartile to quartile");
+  figure.subtitle =
+      fmt::format("{}: {} realizations; lines are medians, bands reach from quartile to quartile",
+                  run.suite, run.realizations);
   figure.finding = Finding(run);
   figure.width = 720;
   figure.height = 440;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/leaderboard/statistics.h"
 #include "tools/report/draw/ticks.h"
 #include "tools/report/figures/axes.h"
 #include "tools/report/run/quartiles.h"
@@ -34,18 +35,22 @@ Line AllRealizations(const Eigen::VectorXd& x, const Eigen::MatrixXd& values) {
   return line;
 }
 
-/// Limits that hold the middle 90 % of the courses and the truth: single wild ones leave.
-std::pair<double, double> LimitsOf(const Eigen::MatrixXd& values, const Eigen::VectorXd& truth) {
-  std::vector<double> sorted;
-  for (double value : values.reshaped()) {
-    if (std::isfinite(value)) sorted.push_back(value);
+/// Limits that hold the middle 80 % of the realizations wherever one looks on the axis, and the
+/// truth: single wild ones leave. values: [R x K].
+std::pair<double, double> LimitsOf(const Axis& axis, const Eigen::VectorXd& iteration,
+                                   const Eigen::MatrixXd& values, const Eigen::VectorXd& truth) {
+  std::vector<Eigen::VectorXd> shown{truth};
+  for (Eigen::Index k = 0; k < values.cols(); ++k) {
+    if (iteration[k] < axis.lower) continue;
+    std::vector<double> sorted;
+    for (double value : values.col(k)) {
+      if (std::isfinite(value)) sorted.push_back(value);
+    }
+    std::sort(sorted.begin(), sorted.end());
+    if (sorted.empty()) continue;
+    shown.push_back(Eigen::Vector2d(Quantile(sorted, 0.1), Quantile(sorted, 0.9)));
   }
-  std::sort(sorted.begin(), sorted.end());
-  const auto at = [&](double share) {
-    return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
-  };
-  const auto [lowest, highest] = RangeOf({truth});
-  return {std::min(at(0.02), lowest), std::max(at(0.98), highest)};
+  return RangeOf(shown);
 }
 
 Plot PanelOf(const RunRow& row, const ParameterColumn& column, const Eigen::MatrixXd& values) {
@@ -64,7 +69,7 @@ Plot PanelOf(const RunRow& row, const ParameterColumn& column, const Eigen::Matr
             iteration.tail(1)[0],
             long_course ? Scale::logarithmic : Scale::linear,
             {}};
-  const auto [lower, upper] = LimitsOf(values, column.truth);
+  const auto [lower, upper] = LimitsOf(plot.x, iteration, values, column.truth);
   const std::string unit = column.unit.empty() ? "" : fmt::format(" ({})", column.unit);
   plot.y = LinearAxis(SymbolOf(column.name) + unit, {Eigen::Vector2d(lower, upper)});
   return plot;

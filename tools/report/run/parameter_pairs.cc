@@ -68,19 +68,21 @@ const RunRow* BestComplete(const RunView& run) {
   return best;
 }
 
+/// The panel of parameters a and b; the first of all names its series.
 Plot PairOf(const RunView& run, const RunRow& row, const Eigen::MatrixXd& errors, Eigen::Index a,
             Eigen::Index b) {
+  const auto named = [&](const char* label) { return std::string(a == 0 && b == 1 ? label : ""); };
   const Hue hue = IdentifierHue(row.identifier);
   const std::vector<Eigen::Index> pair{a, b};
   const Eigen::MatrixXd both = errors(Eigen::all, pair);
   const Line spread = Ellipse(both.colwise().mean(), CovarianceOf(both), Dash::solid);
   Plot plot;
-  plot.series.push_back({"realizations", hue, Scatter{both.col(0), both.col(1), 2.2}});
-  plot.series.push_back({"their 95 % ellipse", hue, spread});
+  plot.series.push_back({named("realizations"), hue, Scatter{both.col(0), both.col(1), 2.2}});
+  plot.series.push_back({named("their 95 % ellipse"), hue, spread});
   std::vector<Eigen::VectorXd> x{both.col(0), spread.x}, y{both.col(1), spread.y};
   if (run.bound_covariance.rows() == errors.cols()) {
     const Line bound = Ellipse({0, 0}, run.bound_covariance(pair, pair), Dash::dashed);
-    plot.series.push_back({"Cramér-Rao bound", Hue::text, bound});
+    plot.series.push_back({named("Cramér-Rao bound"), Hue::text, bound});
     x.push_back(bound.x);
     y.push_back(bound.y);
   }

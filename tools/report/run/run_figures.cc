@@ -34,8 +34,10 @@ std::string SymbolOf(const std::string& parameter) {
 }
 
 std::string RunSubtitle(const RunView& run, const std::string& more) {
-  return fmt::format("{}: {} realization{}; {}", run.suite, run.realizations,
-                     run.realizations == 1 ? "" : "s", more);
+  const bool climbs = run.rungs.values.size() > 1;
+  return fmt::format(
+      "{}: {} realization{}{}; {}", run.suite, run.realizations, run.realizations == 1 ? "" : "s",
+      climbs ? fmt::format(" of all {} variants together", run.rungs.values.size()) : "", more);
 }
 
 }  // namespace warmjoint::report
