@@ -133,6 +133,18 @@ double TimeTo63(const Envelope& envelope, double cold, double settled) {
   return envelope.width() * (static_cast<double>(i) - 0.5 + part);
 }
 
+/// For people to look at.
+TorqueEnvelope Describe(const Envelope& envelope, double cold, double settled) {
+  const auto count = static_cast<Eigen::Index>(envelope.windows().size());
+  TorqueEnvelope description{Eigen::VectorXd(count), Eigen::VectorXd(count), cold, settled,
+                             TimeTo63(envelope, cold, settled)};
+  for (Eigen::Index i = 0; i < count; ++i) {
+    description.time[i] = envelope.width() * (static_cast<double>(i) + 0.5);
+    description.level[i] = envelope.windows()[static_cast<size_t>(i)].level;
+  }
+  return description;
+}
+
 }  // namespace
 
 FirstGuess GuessThermal(const Measurements& measurements, const Selection& selection) {
@@ -167,13 +179,14 @@ FirstGuess GuessThermal(const Measurements& measurements, const Selection& selec
   // (25), corrected for the feedback of E on W
   const double gain = change / Mean(windows, &Window::loss, count - count / 4, count);
   const double speed = Mean(windows, &Window::motion, count - count / 4, count);
-  const double time_constant = TimeTo63(envelope, cold, settled) * (1 - gain * speed);
+  const TorqueEnvelope description = Describe(envelope, cold, settled);
+  const double time_constant = description.time_to_63 * (1 - gain * speed);
   if (!(time_constant > 0)) {
     return {{},
             "friction grows with its own losses faster than it settles; give start_gain and "
             "start_time_constant"};
   }
-  return {Thermal{gain, time_constant}, ""};
+  return {Thermal{gain, time_constant}, "", description};
 }
 
 }  // namespace warmjoint

@@ -1,6 +1,7 @@
 // First guess of the thermal parameters from the envelope of the torque, Eq. (25).
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
 #include <string>
 
@@ -9,9 +10,20 @@
 
 namespace warmjoint {
 
+/// The level of friction, c(t) = sign(v) tau - kv |v|, averaged over windows of time, and what is
+/// read off it. M windows, up to the first long rest.
+struct TorqueEnvelope {
+  Eigen::VectorXd time;   // [M] s from the first sample, middles of the windows
+  Eigen::VectorXd level;  // [M] N.m or N
+  double cold = 0;        // level at the start, N.m or N
+  double settled = 0;     // mean level of the last quarter, N.m or N
+  double time_to_63 = 0;  // s from the start, to 63 % of the way from cold to settled
+};
+
 struct FirstGuess {
   std::optional<Thermal> thermal;
-  std::string why;  // where there is none: one sentence
+  std::string why;                           // where there is none: one sentence
+  std::optional<TorqueEnvelope> envelope{};  // where there is a guess: what it was read off
 };
 
 /// Reads gain and time constant off a recording that starts cold, moves without long rests and

@@ -101,7 +101,9 @@ Estimate ForFiles(Estimate estimate, const Measurements& measurements) {
 
 void WriteOutputs(const IdentifyArguments& arguments, const Estimate& estimate, JointKind joint) {
   if (!arguments.output.empty()) {
-    WriteWholeFile(arguments.output, EstimateToJson(estimate).dump(2) + "\n");
+    nlohmann::json file = EstimateToJson(estimate);
+    file["recording"] = RecordingToJson(arguments.recording);
+    WriteWholeFile(arguments.output, file.dump(2) + "\n");
   }
   if (arguments.mjcf.empty()) return;
   if (!estimate.friction || estimate.status != Status::ok) {

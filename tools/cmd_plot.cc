@@ -1,32 +1,97 @@
-// warmjoint plot RUN -o DIR: the pictures of a run.
+// warmjoint plot SOURCE... -o DIR: pictures of runs, estimates and simulated recordings.
 #include <fmt/core.h>
 
 #include <memory>
+#include <set>
 
+#include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "tools/command.h"
+#include "tools/plot_sources.h"
 #include "tools/report/draw/draw_figure.h"
-#include "tools/report/run/run_figures.h"
+#include "tools/report/gl/film.h"
+#include "tools/report/page/contact_sheet.h"
 
 namespace warmjoint {
 namespace {
 
+namespace fs = std::filesystem;
+
+constexpr double kFrameSeconds = 0.125;
+constexpr int kSheetColumns = 3;
+constexpr int kSheetWidth = 960;  // points
+
 struct PlotArguments {
-  std::string source;
+  std::vector<std::string> sources;
+  RecordingArguments recording;
   std::string output;
+  std::string sheet;
 };
 
-ExitStatus PlotRun(const PlotArguments& arguments) {
-  const report::RunView view = report::ReadRunView(arguments.source);
-  report::Canvas canvas;
-  std::filesystem::create_directories(arguments.output);
-  for (const report::RunFigure& one : report::RunFigures()) {
-    const std::optional<report::Figure> figure = one.make(view);
-    if (!figure) continue;
-    const auto path = std::filesystem::path(arguments.output) / (one.name + ".png");
-    report::WritePng(report::DrawFigure(canvas, *figure).image, figure->finding, path);
-    fmt::print("{}: {}\n", path.string(), figure->finding);
+/// Draws figures into files and remembers them for the contact sheet.
+class Album {
+ public:
+  explicit Album(report::Canvas& canvas) : canvas_(canvas) {}
+
+  void Draw(const report::Figure& figure, const fs::path& folder) {
+    report::Image image = report::DrawFigure(canvas_, figure).image;
+    const fs::path path = folder / (figure.name + ".png");
+    report::WritePng(image, figure.finding, path);
+    fmt::print("{}: {}\n", path.string(), figure.finding);
+    pages_.emplace_back(figure.name, std::move(image));
   }
+
+  void DrawFilm(const std::vector<report::Figure>& film, const fs::path& folder) {
+    if (film.empty()) return;
+    std::vector<report::Image> frames;
+    for (const report::Figure& frame : film) {
+      frames.push_back(report::Shrink(report::DrawFigure(canvas_, frame).image,
+                                      report::Canvas::kPixelsPerPoint));
+    }
+    const fs::path path = folder / (film.front().name + ".png");
+    WriteWholeFile(path, report::EncodeFilm(frames, kFrameSeconds, film.front().title));
+    fmt::print("{}: {}, {} frames\n", path.string(), film.front().title, frames.size());
+  }
+
+  void WriteSheet(const fs::path& path) {
+    if (pages_.empty()) return;
+    const report::Figure sheet = report::MakeContactSheet(pages_, kSheetColumns, kSheetWidth);
+    report::WritePng(report::DrawFigure(canvas_, sheet).image, sheet.finding, path);
+    fmt::print("{}: {}\n", path.string(), sheet.finding);
+  }
+
+ private:
+  report::Canvas& canvas_;
+  std::vector<std::pair<std::string, report::Image>> pages_;
+};
+
+/// The folder of each source: DIR for one, DIR/NAME for several.
+std::vector<fs::path> FoldersOf(const PlotArguments& arguments) {
+  if (arguments.sources.size() == 1) return {arguments.output};
+  std::vector<fs::path> folders;
+  std::set<fs::path> taken;
+  for (const std::string& source : arguments.sources) {
+    const fs::path name = fs::path(source).lexically_normal();
+    folders.push_back(arguments.output / (name.has_filename() ? name : name.parent_path()).stem());
+    if (!taken.insert(folders.back()).second) {
+      Refuse({source}, "two sources would fill {}: draw them one at a time",
+             folders.back().string());
+    }
+  }
+  return folders;
+}
+
+ExitStatus PlotSources(const PlotArguments& arguments) {
+  const std::vector<fs::path> folders = FoldersOf(arguments);
+  report::Canvas canvas;
+  Album album(canvas);
+  for (std::size_t i = 0; i < folders.size(); ++i) {
+    const SourcePictures pictures = PicturesOf(arguments.sources[i], arguments.recording, canvas);
+    fs::create_directories(folders[i]);
+    for (const report::Figure& figure : pictures.figures) album.Draw(figure, folders[i]);
+    album.DrawFilm(pictures.film, folders[i]);
+  }
+  if (!arguments.sheet.empty()) album.WriteSheet(arguments.sheet);
   return ExitStatus::done;
 }
 
@@ -34,11 +99,19 @@ ExitStatus PlotRun(const PlotArguments& arguments) {
 
 Command AddPlotCommand(CLI::App& program) {
   auto arguments = std::make_shared<PlotArguments>();
-  CLI::App* parser = program.add_subcommand("plot", "Pictures of a run, as PNG files");
-  parser->add_option("RUN", arguments->source, "directory that `run` made")->required();
+  CLI::App* parser = program.add_subcommand("plot", "Pictures as PNG files");
+  parser
+      ->add_option("SOURCE", arguments->sources,
+                   "directory of `run` or `simulate`, estimate file, or `kernels` (normalised and "
+                   "plain kernels); several fill folders of their own")
+      ->required();
   parser->add_option("-o,--output", arguments->output, "directory for the pictures; made if absent")
       ->required();
-  return {parser, [arguments] { return PlotRun(*arguments); }};
+  parser->add_option("--recording", arguments->recording.recording,
+                     "data of an estimate, instead of the file that it remembers");
+  AddLayoutOptions(*parser, arguments->recording);
+  parser->add_option("--sheet", arguments->sheet, "contact sheet of all pictures (PNG)");
+  return {parser, [arguments] { return PlotSources(*arguments); }};
 }
 
 }  // namespace warmjoint

@@ -1,6 +1,7 @@
 #include "tools/recording_options.h"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "models/foundation/bad_input.h"
 #include "sim/dataset/read_recording.h"
@@ -40,6 +41,28 @@ void AddLayoutOptions(CLI::App& parser, RecordingArguments& arguments) {
       ->capture_default_str();
   parser.add_option("--gear", arguments.gear, "motor turns for each joint turn")
       ->capture_default_str();
+}
+
+nlohmann::json RecordingToJson(const RecordingArguments& arguments) {
+  return {{"file", arguments.recording},
+          {"map", arguments.map},
+          {"unit", arguments.unit},
+          {"joint", arguments.joint},
+          {"gear", arguments.gear}};
+}
+
+RecordingArguments RecordingFromJson(const nlohmann::json& json, const Place& place) {
+  RecordingArguments arguments;
+  try {
+    json.at("file").get_to(arguments.recording);
+    json.at("map").get_to(arguments.map);
+    json.at("unit").get_to(arguments.unit);
+    json.at("joint").get_to(arguments.joint);
+    json.at("gear").get_to(arguments.gear);
+  } catch (const nlohmann::json::exception& error) {
+    Refuse(place, "its member `recording` cannot be read ({}): give --recording", error.what());
+  }
+  return arguments;
 }
 
 Measurements ReadRecording(const RecordingArguments& arguments) {

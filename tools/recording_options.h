@@ -3,9 +3,11 @@
 
 #include <CLI/CLI.hpp>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
+#include "models/foundation/bad_input.h"
 #include "sim/dataset/csv.h"
 
 namespace warmjoint {
@@ -24,6 +26,13 @@ void AddRecordingOptions(CLI::App& parser, RecordingArguments& arguments);
 
 /// Adds --map, --unit, --joint and --gear alone.
 void AddLayoutOptions(CLI::App& parser, RecordingArguments& arguments);
+
+/// {file, map[], unit[], joint, gear}: the `recording` member of an estimate file, by which its
+/// pictures find the data again.
+nlohmann::json RecordingToJson(const RecordingArguments& arguments);
+
+/// The inverse. Throws BadInput from `place`.
+RecordingArguments RecordingFromJson(const nlohmann::json& json, const Place& place);
 
 /// Reads the recording. Throws BadInput.
 Measurements ReadRecording(const RecordingArguments& arguments);

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "models/foundation/atomic_file.h"
 #include "models/foundation/nearest_name.h"
+#include "models/foundation/read_json.h"
 
 namespace warmjoint {
 namespace {
@@ -145,15 +145,7 @@ FrictionDescription FrictionFromJson(const json& object, const Place& place) {
 }
 
 FrictionDescription ReadFrictionFile(const std::string& path) {
-  const std::string text = ReadWholeFile(path);
-  json object;
-  try {
-    object = json::parse(text);
-  } catch (const json::parse_error& error) {
-    const auto line =
-        1 + std::count(text.begin(), text.begin() + std::min(error.byte, text.size()), '\n');
-    Refuse({path, static_cast<int>(line)}, "is not JSON: {}", error.what());
-  }
+  const json object = ReadJsonFile(path);
   return FrictionFromJson(object.contains("friction") ? object["friction"] : object, {path});
 }
 

@@ -6,6 +6,7 @@
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/nearest_name.h"
+#include "models/foundation/read_json.h"
 
 namespace warmjoint {
 namespace {
@@ -75,13 +76,6 @@ void WriteTruth(const Truth& truth, const std::string& path) {
   WriteWholeFile(path, TruthToJson(truth).dump() + "\n");
 }
 
-Truth ReadTruth(const std::string& path) {
-  const std::string text = ReadWholeFile(path);
-  try {
-    return TruthFromJson(json::parse(text), {path});
-  } catch (const json::parse_error& error) {
-    Refuse({path}, "is not JSON: {}", error.what());
-  }
-}
+Truth ReadTruth(const std::string& path) { return TruthFromJson(ReadJsonFile(path), {path}); }
 
 }  // namespace warmjoint

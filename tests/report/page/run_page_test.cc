@@ -127,6 +127,16 @@ TEST(RunPage, HasTablesWithHeadsAndCaptions) {
   EXPECT_THAT(page, HasSubstr("name=\"viewport\""));
 }
 
+TEST(RunPage, NamesEveryRowOfATable) {
+  // ranks do not name a row, and a name that stands once for several rows is said in each
+  const warmjoint::Table table{{"#", "identifier", "NPE"},
+                               {{"1", "energy-ml", "1 %"}, {"", "", "2 %"}, {"", "bound", "1 %"}}};
+  const std::string html = HtmlTable("ranking", table);
+  EXPECT_EQ(Count(html, "<th scope=\"row\" class=\"words\">energy-ml</th>"), 2);
+  EXPECT_EQ(Count(html, ">bound</th>"), 1);
+  EXPECT_EQ(Count(html, "<th scope=\"row\""), 3);
+}
+
 TEST(RunPage, ClosesEveryElementThatItOpens) {
   const std::string page = ExampleMarkup();
   const std::regex tag(R"(<(/?)([a-z0-9]+)[^>]*>)");

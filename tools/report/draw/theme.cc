@@ -48,8 +48,10 @@ const Theme& DarkTheme() {
 
 Hue IdentifierHue(std::string_view identifier) {
   static constexpr std::pair<std::string_view, Hue> kKnown[] = {
-      {"nominal-ls", Hue::grey}, {"energy-em", Hue::vermilion}, {"energy-ml", Hue::blue},
-      {"rls", Hue::green},       {"motor-ridge", Hue::purple},  {"kalman", Hue::sky}};
+      {"nominal-ls", Hue::grey},      {"energy-em", Hue::vermilion},
+      {"energy-ml", Hue::blue},       {"rls", Hue::green},
+      {"motor-ridge", Hue::purple},   {"kalman", Hue::sky},
+      {"position-ridge", Hue::orange}};
   for (const auto& [name, hue] : kKnown) {
     if (name == identifier) return hue;
   }

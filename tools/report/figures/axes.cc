@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace warmjoint::report {
 namespace {
@@ -64,6 +65,13 @@ Axis MagnitudeAxis(std::string label, const std::vector<Eigen::VectorXd>& values
   const auto [lower, upper] = RangeOf(values);
   const bool wide = lower > 0 && upper > 30 * lower;
   return wide ? LogarithmicAxis(std::move(label), values) : ZeroAxis(std::move(label), values);
+}
+
+Axis AngleAxis(std::string label) {
+  static constexpr const char* kNames[] = {"0", "π/2", "π", "3π/2", "2π"};
+  Axis axis{std::move(label), 0, 2 * std::numbers::pi, Scale::linear, {}};
+  for (int i = 0; i < 5; ++i) axis.ticks.push_back({i * std::numbers::pi / 2, kNames[i]});
+  return axis;
 }
 
 Axis CategoryAxis(std::string label, const std::vector<std::string>& names) {

@@ -25,6 +25,9 @@ Axis LogarithmicAxis(std::string label, const std::vector<Eigen::VectorXd>& valu
 /// Logarithmic where the values span more than a factor of 30 and none is below 0, else from zero.
 Axis MagnitudeAxis(std::string label, const std::vector<Eigen::VectorXd>& values);
 
+/// One turn, 0 ... 2 pi rad, with ticks at its quarters.
+Axis AngleAxis(std::string label);
+
 /// An axis that names categories at 0, 1, 2, ...
 Axis CategoryAxis(std::string label, const std::vector<std::string>& names);
 

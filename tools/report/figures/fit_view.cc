@@ -4,9 +4,11 @@
 
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 
 #include "identification/predict.h"
 #include "tools/report/draw/ticks.h"
+#include "tools/report/figures/friction_at.h"
 #include "tools/report/figures/friction_spread.h"
 
 namespace warmjoint::report {
@@ -30,6 +32,15 @@ void TakeGravityOff(const GravityModel& gravity, FitView& view) {
   for (Eigen::Index i = 0; i < view.position.size(); ++i) {
     view.selection.keep[i] = view.selection.keep[i] && gravity.Covers(view.position[i]);
   }
+}
+
+Eigen::VectorXd MotorAngle(const Measurements& measurements) {
+  const auto turn = [](double angle) {
+    return angle - 2 * std::numbers::pi * std::floor(angle / (2 * std::numbers::pi));
+  };
+  if (measurements.motor_position) return measurements.motor_position->unaryExpr(turn);
+  if (measurements.gear == 1) return {};
+  return (measurements.gear * measurements.position).unaryExpr(turn);
 }
 
 /// The file with the folder that it is in: many are called recording.csv.
@@ -57,6 +68,7 @@ FitView MakeFitView(const Measurements& measurements, const Selection& selection
   view.velocity = measurements.velocity;
   view.torque = measurements.torque;
   if (estimate.gravity) TakeGravityOff(*estimate.gravity, view);
+  view.motor_angle = MotorAngle(measurements);
 
   view.has_fit = estimate.friction.has_value();
   if (!view.has_fit) return view;
@@ -93,9 +105,23 @@ Eigen::VectorXd KeptOrGap(const FitView& view, const Eigen::VectorXd& all) {
   return result;
 }
 
+double FrictionAtSample(const FitView& view, const std::vector<FrictionMap>& maps, Eigen::Index i) {
+  const double motor = view.motor_angle.size() ? view.motor_angle[i] : 0;
+  return FrictionAt(*view.estimate.friction, maps,
+                    {view.position[i], motor, view.velocity[i], view.energy[i], 0});
+}
+
+double WarmestEnergy(const FitView& view) {
+  Eigen::Index at = 0;
+  view.energy.cwiseAbs().maxCoeff(&at);
+  return view.energy[at];
+}
+
 std::string TimeLabel(const FitView& view) { return fmt::format("time ({})", ScaleOf(view).unit); }
 
 double TimeUnit(const FitView& view) { return ScaleOf(view).seconds; }
+
+std::string TimeUnitName(const FitView& view) { return ScaleOf(view).unit; }
 
 std::string PositionLabel(const FitView& view) {
   return fmt::format("position ({})", UnitText(kPositionUnit.For(view.joint)));

@@ -22,6 +22,8 @@ struct FitView {
   Eigen::VectorXd position;  // rad or m
   Eigen::VectorXd velocity;  // rad/s or m/s
   Eigen::VectorXd torque;    // torque_unit, less gravity where the estimate has it
+  /// Motor angle, rad, 0 ... 2 pi; empty where neither it nor a gear is known.
+  Eigen::VectorXd motor_angle;
 
   // with a friction in the estimate alone
   bool has_fit = false;
@@ -47,6 +49,13 @@ Eigen::VectorXd Residuals(const FitView& view);
 /// The entries with NaN at the samples that are not kept, so that lines break there. all: [N].
 Eigen::VectorXd KeptOrGap(const FitView& view, const Eigen::VectorXd& all);
 
+/// The friction at sample i of the recording, without its maps where `maps` is empty: torque_unit.
+/// maps: of the estimate's friction, or some of them.
+double FrictionAtSample(const FitView& view, const std::vector<FrictionMap>& maps, Eigen::Index i);
+
+/// The energy of largest size that the recording reached, torque_unit.
+double WarmestEnergy(const FitView& view);
+
 /// Axis names with units of the joint: "speed (rad/s)".
 std::string TimeLabel(const FitView& view);
 std::string PositionLabel(const FitView& view);
@@ -55,5 +64,7 @@ std::string TorqueLabel(const FitView& view, const std::string& what);
 
 /// Seconds by which TimeLabel's unit is measured: 1, 60 or 3600.
 double TimeUnit(const FitView& view);
+/// Its name: "s", "min" or "h".
+std::string TimeUnitName(const FitView& view);
 
 }  // namespace warmjoint::report

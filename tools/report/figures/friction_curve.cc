@@ -31,13 +31,6 @@ Eigen::VectorXd SpeedsOf(const Eigen::VectorXd& kept, int direction) {
   return direction * Eigen::VectorXd::LinSpaced(kPoints, slowest, fastest);
 }
 
-/// The energy of largest size that the recording reached.
-double WarmestEnergy(const FitView& view) {
-  Eigen::Index at = 0;
-  view.energy.cwiseAbs().maxCoeff(&at);
-  return view.energy[at];
-}
-
 /// One curve for each direction, remembered in `shown`; the label stands in the legend once.
 void AddCurves(Plot& plot, const FitView& view, const FrictionSpread& spread, double energy,
                Hue hue, std::string label, std::vector<Eigen::VectorXd>& shown) {
@@ -72,6 +65,8 @@ Plot FrictionCurve(const FitView& view) {
     Measurements motion;
     motion.time = view.time;
     motion.velocity = view.velocity;
+    motion.position = view.position;
+    if (view.motor_angle.size() > 0) motion.motor_position = view.motor_angle;
     const FrictionSpread spread = SpreadOf(view.estimate, motion, view.selection);
     AddCurves(plot, view, spread, 0, Hue::blue, view.warms() ? "fit, cold" : "fit", shown);
     if (view.warms()) {

@@ -2,13 +2,13 @@
 #include <cmath>
 
 #include "tools/report/figures/axes.h"
+#include "tools/report/figures/binned_mean.h"
 #include "tools/report/figures/fit_panels.h"
 
 namespace warmjoint::report {
 namespace {
 
 constexpr int kBins = 40;
-constexpr int kFewest = 8;          // samples that a mean needs to be shown
 constexpr int kLags = 60;           // of the correlation
 constexpr double kNormal95 = 1.96;  // standard deviations of a 95 % interval
 
@@ -29,24 +29,6 @@ Abscissa AbscissaOf(const FitView& view, Against what) {
       return {KeptOf(view, view.energy), TorqueLabel(view, "E")};
   }
   return {};
-}
-
-/// Means of y in bins of equal width over x; NaN where a bin has few samples.
-Line BinnedMean(const Eigen::VectorXd& x, const Eigen::VectorXd& y) {
-  const auto [lower, upper] = RangeOf({x});
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(kBins), count = sum;
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
-    const double share = upper > lower ? (x[i] - lower) / (upper - lower) : 0;
-    const int bin = std::min(kBins - 1, static_cast<int>(share * kBins));
-    sum[bin] += y[i];
-    ++count[bin];
-  }
-  Line line{Eigen::VectorXd(kBins), Eigen::VectorXd(kBins), 2.0};
-  for (int bin = 0; bin < kBins; ++bin) {
-    line.x[bin] = lower + (upper - lower) * (bin + 0.5) / kBins;
-    line.y[bin] = count[bin] < kFewest ? std::nan("") : sum[bin] / count[bin];
-  }
-  return line;
 }
 
 /// Half of the range that holds all residuals.
@@ -72,7 +54,7 @@ Plot ResidualsOver(const FitView& view, Against what) {
   Plot plot;
   plot.series.push_back({"", Hue::grey, Scatter{across.values, residuals, 0.9}});
   plot.series.push_back({"", Hue::text, LevelLine{0, Dash::dashed}});
-  plot.series.push_back({"", Hue::vermilion, BinnedMean(across.values, residuals)});
+  plot.series.push_back({"", Hue::vermilion, BinnedMean(across.values, residuals, kBins)});
   plot.x = LinearAxis(across.label, {across.values});
   const double reach = ReachOf(residuals);
   plot.y = {TorqueLabel(view, "residual"), -reach, reach, Scale::linear, {}};

@@ -7,6 +7,18 @@
 namespace warmjoint::report {
 namespace {
 
+/// The column that names the rows: a first one of ranks does not.
+std::size_t HeadColumn(const warmjoint::Table& table) {
+  return !table.header.empty() && table.header[0] == "#" ? 1 : 0;
+}
+
+/// The head of a row; rows that leave it out belong to the one above.
+std::string HeadOf(const warmjoint::Table& table, std::size_t row) {
+  const std::size_t column = HeadColumn(table);
+  while (row > 0 && table.rows[row][column].empty()) --row;
+  return table.rows[row][column];
+}
+
 /// Names of columns stand left where their cells are words.
 bool IsWords(const warmjoint::Table& table, std::size_t column) {
   for (const auto& row : table.rows) {
@@ -84,12 +96,13 @@ std::string HtmlTable(const std::string& caption, const warmjoint::Table& table)
                         Escape(table.header[i]));
   }
   html += "</tr></thead>\n<tbody>\n";
-  for (const auto& row : table.rows) {
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
     html += "<tr>";
-    for (std::size_t i = 0; i < row.size(); ++i) {
+    for (std::size_t i = 0; i < table.rows[row].size(); ++i) {
       const char* kind = IsWords(table, i) ? " class=\"words\"" : "";
-      html += i == 0 ? fmt::format("<th scope=\"row\"{}>{}</th>", kind, Escape(row[i]))
-                     : fmt::format("<td{}>{}</td>", kind, Escape(row[i]));
+      html += i == HeadColumn(table)
+                  ? fmt::format("<th scope=\"row\"{}>{}</th>", kind, Escape(HeadOf(table, row)))
+                  : fmt::format("<td{}>{}</td>", kind, Escape(table.rows[row][i]));
     }
     html += "</tr>\n";
   }

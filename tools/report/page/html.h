@@ -21,7 +21,8 @@ std::string Section(const std::string& id, const std::string& heading, const std
 /// <p>, escaped.
 std::string Paragraph(const std::string& text);
 
-/// A table with its caption; the first column heads the rows, cells with numbers stand right.
+/// A table with its caption; the first column (after one of ranks, "#") heads the rows, cells with
+/// numbers stand right.
 std::string HtmlTable(const std::string& caption, const warmjoint::Table& table);
 
 /// A picture inside the page, for light and for dark screens, with its alt text. PNG bytes.

@@ -26,6 +26,9 @@ std::string Pictures(const std::vector<Figure>& figures, Canvas& canvas) {
 std::string Leaderboards(const Leaderboard& board) {
   std::string html = HtmlTable("Who wins: normalised parameter error, NPE", RankingTable(board)) +
                      HtmlTable("Agreement with the data, medians", AgreementTable(board));
+  if (board.groups.size() > 1) {
+    html += HtmlTable("Median NPE in each variant, beside its bound", GroupTable(board));
+  }
   const warmjoint::Table parameters = ParameterTable(board);
   if (!parameters.rows.empty()) {
     html += HtmlTable("Each parameter beside its Cramér-Rao bound", parameters);

@@ -5,17 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "tools/report/draw/figure.h"
+#include "tools/report/draw/named_figure.h"
 #include "tools/report/run/run_view.h"
 
 namespace warmjoint::report {
 
-/// One picture of a run; nothing where the run has no data for it.
-struct RunFigure {
-  std::string name;     // of the file
-  std::string summary;  // what it shows, one line
-  std::optional<Figure> (*make)(const RunView& run);
-};
+using RunFigure = NamedFigure<RunView>;
 
 /// All pictures, the one that answers first first: a new one is its own file and one line in
 /// run_figures.cc.

@@ -1,0 +1,190 @@
+#!/usr/bin/env python3
+"""Opens a report in headless Chromium and checks what a reader relies on.
+
+    tests/browser/check_report.py RUN [--warmjoint build/warmjoint] [--shots FOLDER]
+
+RUN is a directory of `warmjoint run`; its report is made first. Checked: no error on the console, no request to
+anywhere, every picture there and with an alt text, the table's numbers equal to `compare --format json`, nothing
+wider than a phone, headings and regions named, links that can be reached with the keyboard. --shots keeps pictures
+of the page, narrow and wide, light and dark. Exit status 0: all holds; 1: something does not; 77: no browser here.
+Installs nothing: Debian's package is `chromium`; the environment variable CHROMIUM names another browser.
+"""
+
+import argparse
+import base64
+import json
+import math
+import pathlib
+import subprocess
+import sys
+
+from chromium import Browser, find_browser
+
+SIZES = {"phone": (390, 844), "desktop": (1280, 900)}
+TABLES = """[...document.querySelectorAll('table')].map(table => ({
+  caption: table.caption ? table.caption.innerText : '',
+  head: [...table.tHead.rows[0].cells].map(cell => cell.innerText),
+  rows: [...table.tBodies[0].rows].map(row => [...row.cells].map(cell => cell.innerText)),
+  headed: [...table.tBodies[0].rows].every(row => row.querySelector('th[scope=row]')?.innerText)}))"""
+PICTURES = """[...document.images].map(image => ({alt: image.alt, drawn: image.complete && image.naturalWidth > 0}))"""
+WIDE = """[...document.querySelectorAll('body *')].filter(e => !e.closest('.scroll, pre, .skip') &&
+  e.getBoundingClientRect().right > innerWidth + 1).map(e => e.tagName + ' ' + e.textContent.slice(0, 40))"""
+
+
+class Checks:
+    """Counts what was looked at, and remembers what did not hold."""
+
+    def __init__(self):
+        self.count, self.failures = 0, []
+
+    def expect(self, holds, message):
+        self.count += 1
+        if not holds:
+            self.failures.append(message)
+            print(f"FAIL: {message}", file=sys.stderr)
+
+
+def shown_number(text):
+    """The number that a cell begins with, and half of its last digit; None for words."""
+    digits = text.split()[0] if text.split() else ""
+    try:
+        value = float(digits)
+    except ValueError:
+        return None
+    mantissa, _, exponent = digits.partition("e")
+    decimals = len(mantissa.partition(".")[2])
+    # trailing zeros that %g leaves out: at least three digits are right
+    return value, max(0.5 * 10 ** (int(exponent or 0) - decimals), 0) + 5e-4 * abs(value)
+
+
+def check_silence(browser, checks, url):
+    for event in browser.events:
+        method, what = event["method"], event["params"]
+        if method == "Runtime.exceptionThrown":
+            checks.expect(False, f"exception: {what['exceptionDetails']['text']}")
+        if method == "Runtime.consoleAPICalled":
+            checks.expect(what["type"] not in ("error", "warning"), f"console: {what}")
+        if method == "Log.entryAdded":
+            checks.expect(what["entry"]["level"] not in ("error", "warning"), f"log: {what['entry']['text']}")
+        if method == "Network.requestWillBeSent":
+            target = what["request"]["url"]
+            checks.expect(target == url or target.startswith("data:"), f"request to {target[:100]}")
+
+
+def check_numbers(browser, checks, board):
+    held = json.loads(browser.value("document.getElementById('board').textContent"))
+    checks.expect(held == board, "the page's data block differs from compare --format json")
+    rows = {row["identifier"]: row for row in board["rows"]}
+    tables = browser.value(TABLES)
+    checks.expect(len(tables) >= 2, "the leaderboard's tables are missing")
+    columns = {
+        "NPE median": lambda row: 100 * row["npe"]["continuous"]["median"],
+        "NPE rms": lambda row: 100 * row["npe"]["continuous"]["rms"],
+        "discrete NPE": lambda row: 100 * row["npe"]["discrete"]["median"],
+        "RMSE": lambda row: row["rmse"]["median"],
+        "MAE": lambda row: row["mae"]["median"],
+        "Fit %": lambda row: row["fit"]["median"],
+        "FPE": lambda row: row["fpe"]["median"],
+    }
+    compared = 0
+    for table in tables:
+        checks.expect(table["caption"], "a table has no caption")
+        checks.expect(table["headed"], f"{table['caption']}: a row has no head")
+        name_column = table["head"].index("identifier") if "identifier" in table["head"] else None
+        for cells in table["rows"]:
+            row = rows.get(cells[name_column]) if name_column is not None else None
+            for head, cell in zip(table["head"], cells):
+                key = next((key for key in columns if row and (head == key or head.startswith(key + " "))), None)
+                if key is None or key == "NPE median" and "NPE median" != head:
+                    continue
+                expected, shown = columns[key](row), shown_number(cell)
+                if expected is None or not math.isfinite(expected):
+                    continue
+                compared += 1
+                checks.expect(shown and abs(shown[0] - expected) <= shown[1],
+                              f"{cells[name_column]}, {head}: the page says {cell}, compare {expected}")
+    checks.expect(compared >= 5 * len(rows), f"only {compared} numbers were found in the tables")
+
+
+def check_pictures(browser, checks):
+    pictures = browser.value(PICTURES)
+    checks.expect(pictures, "no pictures")
+    for picture in pictures:
+        checks.expect(picture["drawn"], f"a picture is not drawn: {picture['alt'][:60]}")
+        checks.expect(len(picture["alt"]) > 30, f"an alt text says little: '{picture['alt']}'")
+
+
+def check_reading(browser, checks):
+    """What keyboards and screen readers need."""
+    tree = browser.call("Accessibility.getFullAXTree")["nodes"]
+    seen = [(node["role"]["value"], node.get("name", {}).get("value", "")) for node in tree if not node.get("ignored")]
+    for role in ("main", "navigation", "region", "table", "image", "link", "heading"):
+        checks.expect(any(role == each for each, _ in seen), f"no {role} for screen readers")
+    for role, name in seen:
+        if role in ("navigation", "region", "table", "image", "link", "heading"):
+            checks.expect(name.strip(), f"a {role} has no name")
+    checks.expect(browser.value("document.documentElement.lang") == "en", "the page's language is not said")
+    levels = browser.value("[...document.querySelectorAll('h1,h2,h3,h4')].map(h => +h.tagName[1])")
+    checks.expect(levels.count(1) == 1 and all(b - a <= 1 for a, b in zip(levels, levels[1:])), f"headings jump: {levels}")
+    # every link and every region that scrolls is reached by Tab, and shows it
+    stops = browser.value("document.querySelectorAll('a[href], summary, [tabindex=\"0\"]').length")
+    reached = set()
+    for _ in range(stops + 1):
+        for kind in ("keyDown", "keyUp"):
+            browser.call("Input.dispatchKeyEvent", type=kind, key="Tab", code="Tab", windowsVirtualKeyCode=9)
+        reached.add(browser.value("(e => e.tagName + '|' + e.textContent.slice(0, 40))(document.activeElement)"))
+        outline = browser.value("getComputedStyle(document.activeElement).outlineStyle")
+        checks.expect(outline != "none" or browser.value("document.activeElement === document.body"),
+                      "the focus does not show")
+    checks.expect(len(reached) >= stops - 1, f"Tab reaches {len(reached)} of {stops} places")
+
+
+def look(browser, checks, name, size, scheme, folder):
+    browser.call("Emulation.setDeviceMetricsOverride", width=size[0], height=size[1], deviceScaleFactor=1,
+                 mobile=name == "phone")
+    browser.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
+    wide = browser.value(WIDE)
+    checks.expect(not wide, f"{name}: wider than the screen: {wide[:5]}")
+    browser.value("Promise.all([...document.images].map(image => image.decode()))")
+    paper = browser.value("getComputedStyle(document.body).backgroundColor")
+    checks.expect(("255" in paper) == (scheme == "light"), f"{scheme}: the paper is {paper}")
+    if folder:
+        shot = browser.call("Page.captureScreenshot", captureBeyondViewport=True)
+        (folder / f"report_{name}_{scheme}.png").write_bytes(base64.b64decode(shot["data"]))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("run", type=pathlib.Path)
+    parser.add_argument("--warmjoint", default="build/warmjoint")
+    parser.add_argument("--shots", type=pathlib.Path)
+    arguments = parser.parse_args()
+    path = find_browser()
+    if not path:
+        print("no Chromium here: install the package chromium, or set CHROMIUM", file=sys.stderr)
+        return 77
+    subprocess.run([arguments.warmjoint, "report", str(arguments.run)], check=True, stdout=subprocess.DEVNULL)
+    compared = subprocess.run([arguments.warmjoint, "compare", str(arguments.run), "--format", "json"], check=True,
+                              capture_output=True)
+    if arguments.shots:
+        arguments.shots.mkdir(parents=True, exist_ok=True)
+
+    url = (arguments.run / "report.html").resolve().as_uri()
+    checks, browser = Checks(), Browser(path)
+    try:
+        browser.open(url)
+        for name, size in SIZES.items():
+            for scheme in ("light", "dark"):
+                look(browser, checks, name, size, scheme, arguments.shots)
+        check_numbers(browser, checks, json.loads(compared.stdout))
+        check_pictures(browser, checks)
+        check_reading(browser, checks)
+        check_silence(browser, checks, url)
+    finally:
+        browser.close()
+    print(f"{checks.count - len(checks.failures)} of {checks.count} checks hold")
+    return 1 if checks.failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

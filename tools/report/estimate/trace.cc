@@ -1,0 +1,117 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/report/draw/ticks.h"
+#include "tools/report/estimate/estimate_figures.h"
+#include "tools/report/figures/axes.h"
+#include "tools/report/run/run_figures.h"
+
+namespace warmjoint::report {
+namespace {
+
+constexpr std::size_t kFewSteps = 12;  // up to which every iteration gets a mark
+constexpr double kLongCourse = 100;    // iterations from which the axis is logarithmic
+
+/// The iterations of a trace as an axis.
+Axis IterationAxis(const Eigen::VectorXd& iteration) {
+  const double last = iteration.tail(1)[0];
+  if (last > kLongCourse) return {"iteration", 1, last, Scale::logarithmic, {}};
+  return {"iteration", iteration[0], std::max(last, iteration[0] + 1), Scale::linear, {}};
+}
+
+/// One number over the iterations.
+Plot CourseOf(const Eigen::VectorXd& iteration, const Eigen::VectorXd& values, Hue hue,
+              const std::string& label) {
+  Plot plot;
+  plot.series.push_back({"", hue, Line{iteration, values, 2}});
+  if (static_cast<std::size_t>(iteration.size()) <= kFewSteps) {
+    plot.series.push_back({"", hue, Scatter{iteration, values, 3}});
+  }
+  plot.x = IterationAxis(iteration);
+  plot.y = LinearAxis(label, {values});
+  return plot;
+}
+
+/// The final interval as a band behind the course.
+void AddInterval(Plot& plot, const EstimatedParameter& parameter, Hue hue) {
+  if (!parameter.interval95) return;
+  const auto [lower, upper] = *parameter.interval95;
+  const Eigen::Vector2d across(plot.x.lower, plot.x.upper);
+  plot.series.insert(plot.series.begin(), Series{"final 95 % interval", hue,
+                                                 Band{across, Eigen::Vector2d::Constant(lower),
+                                                      Eigen::Vector2d::Constant(upper)}});
+  const Axis with = LinearAxis("", {Eigen::Vector4d(lower, upper, plot.y.lower, plot.y.upper)});
+  if (lower < plot.y.lower || upper > plot.y.upper) {
+    plot.y.lower = with.lower;
+    plot.y.upper = with.upper;
+  }
+}
+
+Eigen::VectorXd ValuesOf(const Estimate& estimate, const std::string& name) {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(estimate.trace.size()));
+  for (std::size_t k = 0; k < estimate.trace.size(); ++k) {
+    const auto& parameters = estimate.trace[k].parameters;
+    const auto found = std::find_if(parameters.begin(), parameters.end(),
+                                    [&](const auto& entry) { return entry.first == name; });
+    values[static_cast<Eigen::Index>(k)] = found == parameters.end() ? std::nan("") : found->second;
+  }
+  return values;
+}
+
+/// " (N·m)", the unit of its torques; nothing where no parameter tells.
+std::string TorqueUnitIn(const Estimate& estimate) {
+  for (const EstimatedParameter& parameter : estimate.parameters) {
+    if (parameter.name.starts_with("coulomb")) {
+      return fmt::format(" ({})", UnitText(parameter.unit));
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+std::optional<Figure> MakeTrace(const Estimate& estimate, const std::string& what) {
+  const auto steps = static_cast<Eigen::Index>(estimate.trace.size());
+  if (steps < 2) return std::nullopt;
+  Eigen::VectorXd iteration(steps), rmse(steps);
+  for (Eigen::Index k = 0; k < steps; ++k) {
+    iteration[k] = estimate.trace[static_cast<std::size_t>(k)].iteration;
+    rmse[k] = estimate.trace[static_cast<std::size_t>(k)].rmse;
+  }
+
+  Figure figure;
+  figure.name = "trace";
+  figure.title = fmt::format("Parameters by iteration: {}", estimate.identifier);
+  figure.subtitle = what;
+  figure.width = 960;
+  figure.columns = {1, 1};
+  figure.rows.clear();
+  const auto add = [&](const std::string& title, const Plot& plot) {
+    const auto place = static_cast<int>(figure.panels.size());
+    if (place % 2 == 0) figure.rows.push_back(1);
+    figure.panels.push_back({title, plot, place / 2, place % 2});
+  };
+
+  const Hue hue = IdentifierHue(estimate.identifier);
+  figure.finding = "From the first iteration to the last:";
+  for (const auto& [name, value] : estimate.trace.back().parameters) {
+    const Eigen::VectorXd values = ValuesOf(estimate, name);
+    const EstimatedParameter* parameter = estimate.Find(name);
+    const std::string unit = parameter ? fmt::format(" ({})", UnitText(parameter->unit)) : "";
+    Plot plot = CourseOf(iteration, values, hue, SymbolOf(name) + unit);
+    if (parameter) AddInterval(plot, *parameter, hue);
+    add(name, plot);
+    figure.finding += fmt::format(" {} {} to {},", name, SignificantText(values[0]),
+                                  SignificantText(values[steps - 1]));
+  }
+  Plot course = CourseOf(iteration, rmse, hue, "RMSE" + TorqueUnitIn(estimate));
+  course.y = MagnitudeAxis(course.y.label, {rmse});
+  add("Root mean square error of the fit", course);
+  figure.finding.back() = '.';
+  figure.height = 80 + 250 * static_cast<int>(figure.rows.size());
+  return figure;
+}
+
+}  // namespace warmjoint::report

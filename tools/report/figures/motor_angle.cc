@@ -1,0 +1,77 @@
+#include "tools/report/figures/motor_angle.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "tools/report/draw/ticks.h"
+#include "tools/report/figures/axes.h"
+#include "tools/report/figures/binned_mean.h"
+#include "tools/report/figures/speed_groups.h"
+
+namespace warmjoint::report {
+namespace {
+
+constexpr int kBins = 72;
+
+/// Peak to peak of a line's mean, over its finite points.
+double Swing(const Line& mean) {
+  const auto [lowest, highest] = RangeOf({mean.y});
+  return highest - lowest;
+}
+
+struct DirectionPanel {
+  Plot plot;
+  double largest_swing = 0;  // torque unit
+};
+
+DirectionPanel PanelOf(const FitView& view, int direction, const std::string& label) {
+  DirectionPanel panel;
+  std::vector<Eigen::VectorXd> shown;
+  std::vector<Series> means;
+  for (const SpeedGroup& group : GroupBySpeed(view, direction)) {
+    if (group.samples.empty()) continue;
+    Eigen::VectorXd torque = view.torque(group.samples);
+    if (view.warms()) torque -= direction * view.energy(group.samples);
+    const Eigen::VectorXd angle = view.motor_angle(group.samples);
+    const Line mean = BinnedMean(angle, torque, kBins);
+    panel.plot.series.push_back({"", group.hue, Scatter{angle, torque, 0.8}});
+    means.push_back({group.label, group.hue, mean});
+    shown.push_back(torque);
+    panel.largest_swing = std::max(panel.largest_swing, Swing(mean));
+  }
+  panel.plot.series.insert(panel.plot.series.end(), means.begin(), means.end());
+  panel.plot.x = AngleAxis("motor angle (rad)");
+  panel.plot.y = LinearAxis(label, shown);
+  return panel;
+}
+
+}  // namespace
+
+std::optional<Figure> MakeMotorAngle(const FitView& view) {
+  if (view.motor_angle.size() == 0 || view.selection.segments.empty()) return std::nullopt;
+  const std::string label = TorqueLabel(view, view.warms() ? "torque − sign(v) E" : "torque");
+  const DirectionPanel forwards = PanelOf(view, 1, label), backwards = PanelOf(view, -1, label);
+
+  Figure figure;
+  figure.name = "motor_angle";
+  figure.title = "Torque over motor angle";
+  figure.subtitle = fmt::format("{}: samples at constant speed, with their means", view.source);
+  figure.finding =
+      fmt::format("Over one turn of the motor the mean torque varies by up to {} {}.",
+                  SignificantText(std::max(forwards.largest_swing, backwards.largest_swing), 2),
+                  view.torque_unit);
+  figure.width = 960;
+  figure.height = 430;
+  figure.columns = {1, 1};
+  int column = 0;
+  for (const auto& [panel, title] : {std::pair(&forwards, "Forwards"), {&backwards, "Backwards"}}) {
+    if (panel->plot.series.empty()) continue;
+    figure.panels.push_back({title, panel->plot, 0, column++});
+  }
+  if (figure.panels.empty()) return std::nullopt;
+  figure.columns.resize(figure.panels.size());
+  return figure;
+}
+
+}  // namespace warmjoint::report

@@ -1,0 +1,19 @@
+// What a joint's torque owes to the angle of its motor, as in the paper's Figs. 7 and 10.
+#pragma once
+
+#include <optional>
+
+#include "tools/report/draw/figure.h"
+#include "tools/report/figures/fit_view.h"
+
+namespace warmjoint::report {
+
+/// Torque over motor angle at the kept samples, by direction and speed, with means in bins: ripple
+/// of gear and motor. Where the fit warms, its E is taken off. Nothing without a motor angle.
+std::optional<Figure> MakeMotorAngle(const FitView& view);
+
+/// What is left of the torque without the maps over motor angle, the fitted maps over it, and the
+/// torque in time with and without them. Nothing without a fitted map over motor angle.
+std::optional<Figure> MakeMotorMapFit(const FitView& view);
+
+}  // namespace warmjoint::report

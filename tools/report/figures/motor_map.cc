@@ -1,0 +1,143 @@
+// The fit with kernels over motor angle, as in the paper's Fig. 10.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/report/draw/ticks.h"
+#include "tools/report/figures/axes.h"
+#include "tools/report/figures/fit_panels.h"
+#include "tools/report/figures/friction_at.h"
+#include "tools/report/figures/motor_angle.h"
+#include "tools/report/figures/speed_groups.h"
+
+namespace warmjoint::report {
+namespace {
+
+constexpr int kPoints = 241;         // of a map's line over one turn
+constexpr double kTurnsInView = 4;   // of the motor, in the close-up
+constexpr Eigen::Index kFewest = 8;  // samples of a close-up
+
+/// The maps with an axis over motor angle, or the others.
+std::vector<FrictionMap> MapsOverMotor(const FrictionDescription& friction, bool over) {
+  std::vector<FrictionMap> chosen;
+  for (const FrictionMap& map : friction.maps) {
+    if ((FindAxis(map, MapQuantity::motor_position) != nullptr) == over) chosen.push_back(map);
+  }
+  return chosen;
+}
+
+/// The friction at every sample with these maps, NaN where the sample is not kept.
+Eigen::VectorXd ForceWith(const FitView& view, const std::vector<FrictionMap>& maps) {
+  Eigen::VectorXd force = Eigen::VectorXd::Constant(view.time.size(), std::nan(""));
+  for (Eigen::Index i = 0; i < force.size(); ++i) {
+    if (view.selection.keep[i]) force[i] = FrictionAtSample(view, maps, i);
+  }
+  return force;
+}
+
+double RootMeanSquare(const FitView& view, const Eigen::VectorXd& force) {
+  return std::sqrt(KeptOf(view, view.torque - force).array().square().mean());
+}
+
+/// The maps over one turn at a speed, E and position that the group had.
+Line MapLine(const FitView& view, const SpeedGroup& group, const std::vector<FrictionMap>& maps) {
+  Line line{Eigen::VectorXd(kPoints), Eigen::VectorXd::Zero(kPoints), 2.2};
+  const Eigen::Index typical = group.samples[group.samples.size() / 2];
+  for (int i = 0; i < kPoints; ++i) {
+    line.x[i] = 2 * M_PI * i / (kPoints - 1);
+    const MapPoint<double> point{view.position[typical], line.x[i], view.velocity[typical],
+                                 view.energy[typical], 0};
+    for (const FrictionMap& map : maps) line.y[i] += EvaluateMap(map, point);
+  }
+  return line;
+}
+
+Plot OverAngle(const FitView& view, int direction, const Eigen::VectorXd& without) {
+  const std::vector<FrictionMap> maps = MapsOverMotor(*view.estimate.friction, true);
+  Plot plot;
+  std::vector<Eigen::VectorXd> shown;
+  std::vector<Series> lines;
+  for (const SpeedGroup& group : GroupBySpeed(view, direction)) {
+    if (group.samples.empty()) continue;
+    const Eigen::VectorXd left = (view.torque - without)(group.samples);
+    plot.series.push_back({"", group.hue, Scatter{view.motor_angle(group.samples), left, 0.8}});
+    const Line line = MapLine(view, group, maps);
+    lines.push_back({"map at " + group.label, group.hue, line});
+    shown.insert(shown.end(), {left, line.y});
+  }
+  plot.series.insert(plot.series.end(), lines.begin(), lines.end());
+  plot.x = AngleAxis("motor angle (rad)");
+  plot.y = LinearAxis(TorqueLabel(view, "torque not of the law"), shown);
+  return plot;
+}
+
+/// Mean speed of the motor, rad/s, as far as the samples can follow it.
+double MotorSpeed(const FitView& view, const Segment& segment) {
+  double way = 0;
+  for (Eigen::Index i = segment.begin; i + 1 < segment.end; ++i) {
+    const double change = view.motor_angle[i + 1] - view.motor_angle[i];
+    way += std::abs(std::remainder(change, 2 * M_PI));
+  }
+  return way / (view.time[segment.end - 1] - view.time[segment.begin]);
+}
+
+/// A few turns of the motor in the first or the last segment that holds them.
+Window FewTurns(const FitView& view, bool last) {
+  const auto& segments = view.selection.segments;
+  const Segment& segment = last ? segments.back() : segments.front();
+  const double step = view.time.tail(1)[0] / static_cast<double>(view.time.size() - 1);  // s
+  const double turn = 2 * M_PI / std::max(1e-9, MotorSpeed(view, segment));              // s
+  const auto wanted = static_cast<Eigen::Index>(kTurnsInView * turn / step);
+  const Eigen::Index count = std::clamp<Eigen::Index>(
+      wanted, std::min(kFewest, segment.end - segment.begin), segment.end - segment.begin);
+  return {segment.begin, segment.begin + count};
+}
+
+Plot InTime(const FitView& view, const Window& window, const Eigen::VectorXd& without,
+            const Eigen::VectorXd& with) {
+  const auto part = [&](const Eigen::VectorXd& all) {
+    return Eigen::VectorXd(all.segment(window.begin, window.end - window.begin));
+  };
+  const Eigen::VectorXd time = part(view.time);
+  Plot plot;
+  plot.series.push_back({"measured", Hue::grey, Scatter{time, part(view.torque), 1.6}});
+  plot.series.push_back({"fit without the map", Hue::orange, Line{time, part(without), 1.5}});
+  plot.series.push_back({"with it", Hue::blue, Line{time, part(with), 2}});
+  plot.x = {"time (s)", time[0], time.tail(1)[0], Scale::linear, {}};
+  plot.y = LinearAxis(TorqueLabel(view, "torque"), {part(view.torque), part(with), part(without)});
+  return plot;
+}
+
+}  // namespace
+
+std::optional<Figure> MakeMotorMapFit(const FitView& view) {
+  if (!view.has_fit || view.motor_angle.size() == 0 || view.selection.segments.empty() ||
+      MapsOverMotor(*view.estimate.friction, true).empty()) {
+    return std::nullopt;
+  }
+  const Eigen::VectorXd with = ForceWith(view, view.estimate.friction->maps);
+  const Eigen::VectorXd without = ForceWith(view, MapsOverMotor(*view.estimate.friction, false));
+
+  Figure figure;
+  figure.name = "motor_map";
+  figure.title = "Fit with kernels over motor angle";
+  figure.subtitle = fmt::format("{}, identified by {}", view.source, view.estimate.identifier);
+  figure.finding = fmt::format("The map over motor angle takes the RMSE from {} to {} {}.",
+                               SignificantText(RootMeanSquare(view, without)),
+                               SignificantText(RootMeanSquare(view, with)), view.torque_unit);
+  figure.width = 960;
+  figure.height = 700;
+  figure.rows = figure.columns = {1, 1};
+  figure.panels = {
+      {"Forwards: torque less law and warming", OverAngle(view, 1, without), 0, 0},
+      {"Backwards", OverAngle(view, -1, without), 0, 1},
+      {"Cold: the first segment", InTime(view, FewTurns(view, false), without, with), 1, 0},
+      {"Warm: the last segment", InTime(view, FewTurns(view, true), without, with), 1, 1},
+  };
+  std::erase_if(figure.panels,
+                [](const Panel& panel) { return std::get<Plot>(panel.content).series.empty(); });
+  return figure;
+}
+
+}  // namespace warmjoint::report

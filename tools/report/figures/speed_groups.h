@@ -1,0 +1,26 @@
+// Samples sorted by how fast the joint moved.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/report/draw/theme.h"
+#include "tools/report/figures/fit_view.h"
+
+namespace warmjoint::report {
+
+/// Kept samples of like speed.
+struct SpeedGroup {
+  double slowest = 0;  // rad/s or m/s, > 0
+  double fastest = 0;
+  Hue hue = Hue::blue;
+  std::string label;                  // "0.3 rad/s", or "0.3 … 0.6 rad/s"
+  std::vector<Eigen::Index> samples;  // of the recording, in order of time
+};
+
+/// The kept samples of one direction (1 or -1) by speed, slow to fast: a group for each speed where
+/// the whole recording has up to four, else three of equal numbers of samples. Groups of both
+/// directions agree; they may be empty.
+std::vector<SpeedGroup> GroupBySpeed(const FitView& view, int direction);
+
+}  // namespace warmjoint::report

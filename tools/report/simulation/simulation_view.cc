@@ -1,0 +1,41 @@
+#include "tools/report/simulation/simulation_view.h"
+
+#include "scenarios/read_scenario.h"
+#include "sim/dataset/read_recording.h"
+#include "sim/dataset/truth_json.h"
+
+namespace warmjoint::report {
+
+SimulationView MakeSimulationView(const Scenario& scenario, const Recording& recording) {
+  Estimate truth;
+  truth.identifier = "the truth";
+  truth.friction = recording.truth.friction;
+  const Measurements& m = recording.measurements;
+  const Selection selection =
+      scenario.plant == PlantKind::ideal ? SelectMoving(m) : SelectConstantSpeed(m);
+  SimulationView view{scenario, recording, MakeFitView(m, selection, truth)};
+  // the truth's own, not what the sampled motion says of it
+  view.fit.energy = recording.truth.energy;
+  view.fit.fitted = recording.truth.force;
+  return view;
+}
+
+bool IsSimulation(const std::filesystem::path& directory) {
+  return std::filesystem::exists(directory / "scenario.yaml") &&
+         std::filesystem::exists(directory / "truth.json");
+}
+
+SimulationView ReadSimulationView(const std::filesystem::path& directory) {
+  const Scenario scenario = ReadScenario(directory / "scenario.yaml", {});
+  CsvLayout layout;
+  layout.joint = scenario.joint_kind;
+  layout.gear = scenario.friction.gear;
+  const bool hdf5 = std::filesystem::exists(directory / "recording.h5");
+  Recording recording;
+  recording.measurements =
+      ReadRecording(directory / (hdf5 ? "recording.h5" : "recording.csv"), layout);
+  recording.truth = ReadTruth(directory / "truth.json");
+  return MakeSimulationView(scenario, recording);
+}
+
+}  // namespace warmjoint::report

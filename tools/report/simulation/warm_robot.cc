@@ -1,0 +1,183 @@
+#include "tools/report/simulation/warm_robot.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "models/robots/robot_folder.h"
+#include "sim/load_model.h"
+#include "tools/report/draw/draw_series.h"
+#include "tools/report/draw/ticks.h"
+#include "tools/report/figures/axes.h"
+#include "tools/report/gl/robot_renderer.h"
+
+namespace warmjoint::report {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// A robot with one joint that moves and warms.
+class Model {
+ public:
+  Model(const Scenario& scenario, const std::string& path)
+      : model_(LoadModel(path).model), data_(mj_makeData(model_.get())) {
+    const int joint = mj_name2id(model_.get(), mjOBJ_JOINT, scenario.joint.c_str());
+    if (joint < 0) Refuse({path}, "has no joint '{}'", scenario.joint);
+    position_ = model_->jnt_qposadr[joint];
+    body_ = model_->jnt_bodyid[joint];
+  }
+
+  const mjModel& model() const { return *model_; }
+  const mjData& data() const { return *data_; }
+
+  /// Puts the joint somewhere (rad or m) and paints its link.
+  void Set(double position, Rgb colour) {
+    data_->qpos[position_] = position;
+    for (int i = 0; i < model_->body_geomnum[body_]; ++i) {
+      const int geom = model_->body_geomadr[body_] + i;
+      const std::uint8_t parts[3] = {colour.red, colour.green, colour.blue};
+      for (int c = 0; c < 3; ++c) {
+        model_->geom_rgba[4 * geom + c] = static_cast<float>(parts[c]) / 255.0f;
+      }
+      model_->geom_matid[geom] = -1;
+    }
+    mj_forward(model_.get(), data_.get());
+  }
+
+ private:
+  ModelPtr model_;
+  DataPtr data_;
+  int position_ = 0;
+  int body_ = 0;
+};
+
+bool HasWarmRobot(const SimulationView& view) {
+  return view.scenario.plant == PlantKind::mujoco && view.fit.warms() &&
+         view.fit.energy.size() > 1 && view.fit.energy.cwiseAbs().maxCoeff() > 0;
+}
+
+double LargestEnergy(const SimulationView& view) { return view.fit.energy.cwiseAbs().maxCoeff(); }
+
+Index WarmestSample(const SimulationView& view) {
+  Index at = 0;
+  view.fit.energy.cwiseAbs().maxCoeff(&at);
+  return at;
+}
+
+/// sign(v) torque as it was until sample `end`, and sign(v) F as it were without warming.
+Plot TorquePanel(const SimulationView& view, Index end) {
+  const FitView& fit = view.fit;
+  const VectorXd direction = fit.velocity.array().sign();
+  const auto kept = [&](const VectorXd& all) { return KeptOf(fit, all); };
+  const VectorXd time = kept(fit.time) / TimeUnit(fit);
+  const VectorXd measured = kept(fit.torque.cwiseProduct(direction));
+  const VectorXd cold = kept(fit.fitted.cwiseProduct(direction) - fit.energy);
+  const Index shown = fit.selection.keep.head(end).count();
+
+  Plot plot;
+  plot.series.push_back(
+      {"measured", Hue::grey, Scatter{time.head(shown), measured.head(shown), 1}});
+  plot.series.push_back({"friction if it had stayed cold", Hue::blue,
+                         Scatter{time.head(shown), cold.head(shown), 0.9}});
+  plot.x = {TimeLabel(fit), 0, fit.time.tail(1)[0] / TimeUnit(fit), Scale::linear, {}};
+  plot.y = LinearAxis(TorqueLabel(fit, "torque · sign(v)"), {measured, cold});
+  return plot;
+}
+
+/// |E| over time as a strip in the colours of the robot's link.
+Plot HeatStrip(const SimulationView& view) {
+  constexpr Index kCells = 240;
+  const FitView& fit = view.fit;
+  HeatMap map{Eigen::MatrixXd(1, kCells),
+              {0, fit.time.tail(1)[0] / TimeUnit(fit)},
+              {0, 1},
+              {0, LargestEnergy(view)},
+              TorqueLabel(fit, "|E|")};
+  for (Index i = 0; i < kCells; ++i) {
+    map.values(0, i) = std::abs(fit.energy[i * (fit.energy.size() - 1) / (kCells - 1)]);
+  }
+  Plot plot;
+  plot.x = {TimeLabel(fit), map.x.first, map.x.second, Scale::linear, {}};
+  plot.y = {"", 0, 1, Scale::linear, {{0.5, " "}}};
+  plot.series.push_back({"", Hue::text, map});
+  return plot;
+}
+
+std::string TitleAt(const SimulationView& view, Index sample) {
+  const FitView& fit = view.fit;
+  return fmt::format("After {} {}: E = {} {}", SignificantText(fit.time[sample] / TimeUnit(fit), 2),
+                     TimeUnitName(fit), SignificantText(fit.energy[sample], 2), fit.torque_unit);
+}
+
+std::string RobotTitle(const SimulationView& view) {
+  return fmt::format("{}, {}: heat and the torque that it changes",
+                     std::filesystem::path(view.scenario.robot).stem().string(),
+                     view.scenario.joint);
+}
+
+}  // namespace
+
+std::optional<std::vector<Image>> RenderWarmRobot(const SimulationView& view, GlContext& context,
+                                                  const std::vector<Index>& samples, int width,
+                                                  int height, const Theme& theme) {
+  if (!HasWarmRobot(view)) return std::nullopt;
+  Model robot(view.scenario, FindRobot(view.scenario.robot, view.scenario.name));
+  RobotRenderer renderer(context, robot.model(), width, height);
+  std::vector<Image> images;
+  for (Index sample : samples) {
+    const double heat = std::abs(view.fit.energy[sample]) / LargestEnergy(view);
+    robot.Set(view.fit.position[sample], HeatColour(heat));
+    images.push_back(renderer.Draw(robot.data(), {}, theme.background));
+  }
+  return images;
+}
+
+std::optional<Figure> MakeWarmRobot(const SimulationView& view, GlContext& context) {
+  if (!HasWarmRobot(view)) return std::nullopt;
+  const Index warmest = WarmestSample(view);
+  const auto images = RenderWarmRobot(view, context, {0, warmest}, 860, 600, LightTheme());
+
+  Figure figure;
+  figure.name = "warm_robot";
+  figure.title = RobotTitle(view);
+  figure.subtitle = fmt::format("{}; the joint's link has the colour of |E|", view.scenario.name);
+  figure.finding = fmt::format(
+      "The joint's own heat changes its friction by {} {} at most, after {} {}.",
+      SignificantText(view.fit.energy[warmest]), view.fit.torque_unit,
+      SignificantText(view.fit.time[warmest] / TimeUnit(view.fit), 2), TimeUnitName(view.fit));
+  figure.width = 960;
+  figure.height = 800;
+  figure.rows = {2.3, 1.7, 1};
+  figure.columns = {1, 1};
+  figure.panels = {{TitleAt(view, 0), Picture{(*images)[0]}, 0, 0},
+                   {TitleAt(view, warmest), Picture{(*images)[1]}, 0, 1},
+                   {"", TorquePanel(view, view.fit.time.size()), 1, 0, 1, 2},
+                   {"", HeatStrip(view), 2, 0, 1, 2}};
+  return figure;
+}
+
+std::vector<Figure> MakeWarmRobotFilm(const SimulationView& view, GlContext& context, int frames) {
+  if (!HasWarmRobot(view)) return {};
+  std::vector<Index> samples;
+  for (int i = 0; i < frames; ++i) samples.push_back(i * (view.fit.time.size() - 1) / (frames - 1));
+  const auto images = RenderWarmRobot(view, context, samples, 560, 560, LightTheme());
+  std::vector<Figure> film;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    Figure figure;
+    figure.name = "warm_robot_film";
+    figure.title = RobotTitle(view);
+    figure.subtitle = TitleAt(view, samples[i]);
+    figure.finding = figure.subtitle + ".";
+    figure.width = 720;
+    figure.height = 340;
+    figure.columns = {1, 1.4};
+    figure.panels = {{"", Picture{(*images)[i]}, 0, 0},
+                     {"", TorquePanel(view, samples[i] + 1), 0, 1}};
+    film.push_back(figure);
+  }
+  return film;
+}
+
+}  // namespace warmjoint::report
