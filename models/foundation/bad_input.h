@@ -1,7 +1,7 @@
 // Refusal of input that cannot be used: the one exception that users meet.
 #pragma once
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <stdexcept>
 #include <string>
