@@ -1,5 +1,6 @@
 #include "identification/predict.h"
 
+#include "identification/intervals.h"
 #include "identification/map_points.h"
 
 namespace warmjoint {
@@ -21,6 +22,12 @@ Prediction PredictFriction(const FrictionDescription& friction, const Measuremen
   const Eigen::Index n = measurements.size();
   const MapPoints points = friction.maps.empty() ? MapPoints() : PointsOf(measurements);
   Prediction prediction{Eigen::VectorXd(n), Eigen::VectorXd(n), n};
+  Intervals intervals;
+  std::vector<ThermalHold> holds;
+  if (friction.thermal && n > 1) {
+    intervals = FindIntervals(measurements.time);
+    holds = Holds(intervals, *friction.thermal);
+  }
 
   double energy = initial_energy;
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -37,9 +44,8 @@ Prediction PredictFriction(const FrictionDescription& friction, const Measuremen
 
     // hold the loss until the next sample
     if (!friction.thermal || i + 1 == n) continue;
-    const double h = measurements.time[i + 1] - measurements.time[i];
-    const DiscreteThermal step = Discretise(*friction.thermal, h);
-    energy = ThermalStep(step.gain, step.pole, energy, Loss(v, force));
+    const ThermalHold& hold = holds[intervals.which[i]];
+    energy = ThermalStep(hold.gain, hold.pole, energy, Loss(v, force));
   }
   return prediction;
 }

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "identification/adequacy/judge.h"
 #include "identification/fit_gravity.h"
 #include "identification/hold_out.h"
 #include "identification/identifier.h"
@@ -28,6 +29,7 @@ struct IdentifyArguments {
   std::string output;
   std::string mjcf;
   std::string plot;
+  bool force = false;
 };
 
 /// What --holdout asks for: a fraction of the recording, or another recording.
@@ -106,7 +108,7 @@ void WriteOutputs(const IdentifyArguments& arguments, const Estimate& estimate, 
     WriteWholeFile(arguments.output, file.dump(2) + "\n");
   }
   if (arguments.mjcf.empty()) return;
-  if (!estimate.friction || estimate.status != Status::ok) {
+  if (!estimate.friction) {
     fmt::print(stderr, "{} is not written: there is no friction to trust\n", arguments.mjcf);
     return;
   }
@@ -125,8 +127,11 @@ ExitStatus Identify(const IdentifyArguments& arguments) {
 
   const Selection selection = SelectConstantSpeed(measurements);
   const IdentifierInput input{measurements, selection, options, {}};
-  Estimate estimate = identifier.identify(input);
-  if (estimate.status == Status::ok) estimate.holdout = HoldOutFigures(identifier, input, holdout);
+  const Estimate before = identifier.identify(input);
+  Estimate estimate = before;
+  JudgeAdequacy(identifier, input, estimate);
+  if (before.status == Status::ok) estimate.holdout = HoldOutFigures(identifier, input, holdout);
+  if (arguments.force) estimate = WithVoidNumbers(estimate, before);
   WriteOutputs(arguments, ForFiles(estimate, measurements), measurements.joint);
   if (!arguments.plot.empty()) {
     report::WriteFitPage(measurements, selection, estimate, arguments.plot);
@@ -156,6 +161,9 @@ Command AddIdentifyCommand(CLI::App& program) {
   parser->add_option("-o,--output", arguments->output, "estimate.json");
   parser->add_option("--plot", arguments->plot, "picture of data, fit and verdict (PNG)");
   parser->add_option("--mjcf", arguments->mjcf, "MuJoCo model of a joint with this friction");
+  parser->add_flag("--force", arguments->force,
+                   "show the numbers of an inadequate model with their intervals and write its\n"
+                   "friction, all void; status and exit status 3 stay");
   return {parser, [arguments] { return Identify(*arguments); }};
 }
 

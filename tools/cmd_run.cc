@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <set>
 #include <thread>
 
 #include "sim/plant.h"
@@ -38,14 +39,22 @@ Suite ResolveSuite(const RunArguments& arguments) {
   return suite;
 }
 
+/// Whether an identifier answered, be it with a verdict.
+bool IsAnswer(const Result& result) {
+  static const std::set<std::string> none{"crashed", "timeout", "bad_answer", "not_simulated"};
+  return !none.contains(result.status);
+}
+
+/// Verdicts are results: a suite that ends in failures alone is done. One without a single answer
+/// is not.
 ExitStatus Finish(const RunStore& store) {
   const std::vector<Result> results = ExportResults(store);
   const auto failed = std::count_if(results.begin(), results.end(),
                                     [](const Result& result) { return result.status != "ok"; });
   fmt::print("{}: {} results, {} of them failures; see: warmjoint compare {}\n",
              store.directory().string(), results.size(), failed, store.directory().string());
-  const bool nothing = failed == static_cast<long>(results.size());
-  if (nothing) fmt::print(stderr, "no identifier succeeded; the first: {}\n", results[0].message);
+  const bool nothing = std::none_of(results.begin(), results.end(), IsAnswer);
+  if (nothing) fmt::print(stderr, "no identifier answered; the first: {}\n", results[0].message);
   return nothing ? ExitStatus::nothing_trustworthy : ExitStatus::done;
 }
 

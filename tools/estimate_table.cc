@@ -8,7 +8,8 @@ namespace warmjoint {
 namespace {
 
 Table ParameterTable(const Estimate& estimate) {
-  Table table{{"parameter", "value", "unit", "std", "95 % interval"}, {}};
+  const std::string heading = estimate.status == Status::ok ? "parameter" : "void parameter";
+  Table table{{heading, "value", "unit", "std", "95 % interval"}, {}};
   for (const EstimatedParameter& one : estimate.parameters) {
     table.rows.push_back({one.name, fmt::format("{:.6g}", one.value), one.unit,
                           one.std ? fmt::format("{:.2g}", *one.std) : "-",

@@ -1,6 +1,7 @@
 // Time of one identification of Table I: 3600 samples at 1 s, on one core.
 #include <benchmark/benchmark.h>
 
+#include "identification/adequacy/judge.h"
 #include "identification/identifier.h"
 #include "tests/support/warm_recording.h"
 
@@ -18,6 +19,25 @@ void Identify(benchmark::State& state, const char* name,
     benchmark::DoNotOptimize(identifier.identify({recording, selection, options, {}}));
   }
 }
+
+/// What the verdict costs on top.
+void Judge(benchmark::State& state, const char* name) {
+  const Measurements recording =
+      test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 1), 0.5, 1);
+  const Selection selection = SelectMoving(recording);
+  const Identifier& identifier = FindIdentifier(name);
+  const Options options(identifier.options, {}, {});
+  const IdentifierInput input{recording, selection, options, {}};
+  const Estimate estimate = identifier.identify(input);
+  for (auto _ : state) {
+    Estimate judged = estimate;
+    JudgeAdequacy(identifier, input, judged);
+    benchmark::DoNotOptimize(judged);
+  }
+}
+
+BENCHMARK_CAPTURE(Judge, nominal_ls, "nominal-ls")->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(Judge, energy_ml, "energy-ml")->Unit(benchmark::kMicrosecond);
 
 BENCHMARK_CAPTURE(Identify, nominal_ls, "nominal-ls", {})->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(Identify, energy_ml, "energy-ml", {})->Unit(benchmark::kMicrosecond);

@@ -1,6 +1,6 @@
 #include "tools/run/prepared_identifier.h"
 
-#include "identification/identifier.h"
+#include "identification/adequacy/judge.h"
 #include "tools/run/external_identifier.h"
 
 namespace warmjoint {
@@ -15,11 +15,10 @@ std::vector<PreparedIdentifier> PrepareIdentifiers(const std::vector<SuiteIdenti
     }
     const Identifier& identifier = FindIdentifier(one.name);
     const Options options(identifier.options, one.options, place);
-    prepared.emplace_back(
-        [identify = identifier.identify, options](const Measurements& measurements,
-                                                  const Selection& selection, RandomKey random) {
-          return identify({measurements, selection, options, random});
-        });
+    prepared.emplace_back([identifier, options](const Measurements& measurements,
+                                                const Selection& selection, RandomKey random) {
+      return IdentifyAndJudge(identifier, {measurements, selection, options, random});
+    });
   }
   return prepared;
 }

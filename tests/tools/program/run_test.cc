@@ -155,10 +155,25 @@ TEST_F(Run, IdentifiersOfOthersStandBesideOurs) {
   for (const auto& row : board.at("rows")) {
     if (row.at("identifier") == "broken") {
       EXPECT_EQ(row.at("failures").at("crashed"), 3);
+    } else if (row.at("identifier") == "nominal-ls") {
+      // the joint warms up; how far off its values are is told all the same
+      EXPECT_EQ(row.at("failures").at("inadequate_model"), 3);
+      EXPECT_GT(row.at("npe").at("continuous").at("median").get<double>(), 0.5);
     } else {
       EXPECT_TRUE(row.at("failures").empty());
     }
   }
+}
+
+TEST_F(Run, IsDoneWhenAllResultsAreVerdictsButNotWithoutAnyAnswer) {
+  const Answer verdicts =
+      RunWarmjoint(Command("run", {"--realizations", "2", "--identifier", "nominal-ls"}));
+  EXPECT_EQ(verdicts.status, 0) << verdicts.err;
+  EXPECT_THAT(verdicts.out, HasSubstr("2 results, 2 of them failures"));
+  const Answer silence = RunWarmjoint(Command(
+      "silent", {"--realizations", "2", "--identifier", "broken=false {recording} {estimate}"}));
+  EXPECT_EQ(silence.status, 3);
+  EXPECT_THAT(silence.err, HasSubstr("no identifier answered"));
 }
 
 TEST_F(Run, ComparesInEveryFormat) {

@@ -1,0 +1,32 @@
+// The model that an estimate holds, over the recording that it was fitted to.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "identification/identifier.h"
+
+namespace warmjoint {
+
+struct FittedModel {
+  Selection selection;             // samples that took part
+  Eigen::VectorXd torque;          // [N] tau less gravity, N.m or N
+  Eigen::VectorXd residual;        // [N] that less F, N.m or N
+  Eigen::MatrixXd derivatives;     // [N x p] dF/dx at the estimate
+  std::vector<std::string> names;  // [p] of x: the law's parameters, then the estimated ones of
+                                   // thermal_gain, thermal_time_constant, initial_energy,
+                                   // and those of gravity
+  std::optional<Eigen::VectorXd> by_initial_energy;  // [N] dF/dE(0), where it is taken to be known
+};
+
+/// Nothing where the estimate does not hold a whole model.
+std::optional<FittedModel> EvaluateModel(const Identifier& identifier, const IdentifierInput& input,
+                                         const Estimate& estimate);
+
+/// Whether an identifier's table of options has a row of that name.
+bool HasOption(const Identifier& identifier, std::string_view name);
+
+}  // namespace warmjoint

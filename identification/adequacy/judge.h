@@ -1,0 +1,47 @@
+// Whether a model is adequate: what the residual of its fit still shows.
+#pragma once
+
+#include <vector>
+
+#include "identification/adequacy/structure.h"
+#include "identification/identifier.h"
+
+namespace warmjoint {
+
+/// Runs an identifier and judges its answer: what `identify` and `run` report.
+/// Structure in the residual (smooth_structure.h, angle_structure.h) that is certain is large where
+/// it amounts to a twentieth of the friction, rms over the kept samples, or to a fiftieth and a
+/// fifth of the residual's variance, or where a parameter moves beyond its interval, by a twentieth
+/// of the friction, once the structure joins the fit. Then the
+/// estimate is void, inadequate_model, and the message names what the residual depends on and what
+/// to try. Smaller structure is told in the message, and intervals reach as far as it moves them.
+/// Noise that is coloured is no structure: the intervals account for it.
+Estimate IdentifyAndJudge(const Identifier& identifier, const IdentifierInput& input);
+
+/// The same for an answer that is there already.
+void JudgeAdequacy(const Identifier& identifier, const IdentifierInput& input, Estimate& estimate);
+
+/// What --force shows of a judged answer: its status and its figures with the numbers of the answer
+/// before the verdict, and a message that calls them void. An answer that was not voided by the
+/// verdict stays as it is.
+Estimate WithVoidNumbers(const Estimate& judged, const Estimate& before);
+
+/// Structure of the residual, in the order of size.
+struct Adequacy {
+  std::vector<Structure> found;
+  std::vector<std::string> names;   // [p] of the parameters that `moves` are about
+  Eigen::VectorXd moves;            // [p] change of each once the smooth structure joins the fit
+  Eigen::VectorXd move_deviations;  // [p]
+  Eigen::VectorXd reach;            // [p] force of each parameter's unit, rms over the kept samples
+  double friction = 0;              // rms of the kept torque, N.m or N
+  double samples = 0;
+  double squares = 0;  // of the residual
+
+  double Rms(const Structure& structure) const;
+};
+
+/// Looks for structure; nothing where the estimate holds no model, or the samples are too few.
+Adequacy ExamineResidual(const Identifier& identifier, const IdentifierInput& input,
+                         const Estimate& estimate);
+
+}  // namespace warmjoint

@@ -1,0 +1,31 @@
+// What a fit has left in its residual.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+namespace warmjoint {
+
+/// On what a residual depends.
+enum class Dependence { time, energy, initial_energy, speed, direction, position, motor_angle };
+
+/// Structure that stands out of the noise: at least kCertain standard deviations.
+struct Structure {
+  Dependence on = Dependence::time;
+  double explained = 0;   // squares of the residual's samples that it explains, less the noise's
+  double deviations = 0;  // from chance
+  double period = 0;      // of a ripple, in the unit of the angle; 0: none
+  double alike = 0;       // share of an angle's part that acts alike in both directions of motion
+  Eigen::VectorXd
+      moves;  // [p] change of the fit's parameters when the structure joins it; or empty
+  Eigen::VectorXd move_deviations;  // [p] standard deviations of `moves`
+};
+
+/// By chance one block in a million exceeds this, one frequency of a few hundred in ten thousand
+/// recordings.
+inline constexpr double kCertain = 5;
+
+/// Parts of a recording that count as independent of each other: noise may be coloured within them.
+inline constexpr Eigen::Index kParts = 32;
+
+}  // namespace warmjoint

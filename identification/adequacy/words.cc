@@ -1,0 +1,107 @@
+#include "identification/adequacy/words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "identification/adequacy/fitted_model.h"
+#include "models/friction/law.h"
+
+namespace warmjoint {
+namespace {
+
+bool IsListed(std::string_view name) {
+  return std::any_of(Identifiers().begin(), Identifiers().end(),
+                     [name](const Identifier& one) { return one.name == name; });
+}
+
+/// "try NAME" for an identifier that is listed and is not the one that was used; else `otherwise`.
+std::string Try(std::string_view name, const Estimate& estimate, const std::string& otherwise) {
+  if (!IsListed(name) || estimate.identifier == name) return otherwise;
+  return fmt::format("try {}", name);
+}
+
+std::string AgainstHeat(const Identifier& identifier, const IdentifierInput& input,
+                        const Estimate& estimate) {
+  if (!estimate.Find("thermal_gain")) {
+    return Try("energy-ml", estimate, "record it at a steady temperature");
+  }
+  if (HasOption(identifier, "initial_energy") && input.options.Text("initial_energy") == "zero") {
+    return "if the joint was warm at the start, try --set initial_energy=estimated; else one time "
+           "constant is too few, or the surroundings change their temperature";
+  }
+  return "one time constant is too few, or the surroundings change their temperature; record it at "
+         "a steady ambient temperature";
+}
+
+std::string AgainstSpeed(const Estimate& estimate) {
+  return Try("stribeck", estimate, "the law lacks a curve over speed (Stribeck)");
+}
+
+std::string AgainstDirection(const Identifier& identifier, const IdentifierInput& input) {
+  const bool can = HasOption(identifier, "law") && input.options.Text("law") != "asymmetric";
+  return can ? "try --set law=asymmetric" : "friction differs in slope between the directions";
+}
+
+std::string AgainstPosition(const Structure& structure, const IdentifierInput& input,
+                            const Estimate& estimate) {
+  if (structure.alike > 0.8 && !estimate.gravity) {
+    return input.measurements.joint == JointKind::rotary
+               ? "it acts alike in both directions, as gravity does: try --gravity sincos"
+               : "it acts alike in both directions, as a load does that depends on position";
+  }
+  return Try("position-ridge", estimate, "a map over position would follow it");
+}
+
+}  // namespace
+
+std::string DescribeStructure(const Adequacy& adequacy, const Structure& structure,
+                              const Measurements& measurements) {
+  const auto name = [&]() -> std::string {
+    const std::string_view unit = kPositionUnit.For(measurements.joint);
+    switch (structure.on) {
+      case Dependence::time:
+        return "time";
+      case Dependence::energy:
+        return "energy (warming)";
+      case Dependence::initial_energy:
+        return "the energy at the start";
+      case Dependence::speed:
+        return "speed";
+      case Dependence::direction:
+        return "direction";
+      case Dependence::position:
+        return fmt::format("position (period {:.3g} {})", structure.period, unit);
+      case Dependence::motor_angle:
+        break;
+    }
+    return fmt::format("motor angle (period {:.3g} rad)", structure.period);
+  };
+  const double rms = adequacy.Rms(structure);
+  const double share = std::min(structure.explained / adequacy.squares, 1.0);
+  return fmt::format(
+      "{}: {:.3g} {} rms, {:.2g} % of the friction, {:.0f} % of the residual's variance", name(),
+      rms, measurements.torque_unit, 100 * rms / adequacy.friction, 100 * share);
+}
+
+std::string Remedy(const Structure& structure, const Identifier& identifier,
+                   const IdentifierInput& input, const Estimate& estimate) {
+  switch (structure.on) {
+    case Dependence::time:
+    case Dependence::energy:
+      return AgainstHeat(identifier, input, estimate);
+    case Dependence::initial_energy:
+      return "the joint was warm at the start: try --set initial_energy=estimated";
+    case Dependence::speed:
+      return AgainstSpeed(estimate);
+    case Dependence::direction:
+      return AgainstDirection(identifier, input);
+    case Dependence::position:
+      return AgainstPosition(structure, input, estimate);
+    case Dependence::motor_angle:
+      break;
+  }
+  return Try("motor-ridge", estimate, "a map over the motor angle would follow it");
+}
+
+}  // namespace warmjoint

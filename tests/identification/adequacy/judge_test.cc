@@ -1,0 +1,214 @@
+#include "identification/adequacy/judge.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include "identification/predict.h"
+#include "models/friction/sign.h"
+#include "tests/support/warm_recording.h"
+
+namespace warmjoint {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr int kRealizations = 200;
+// of 200: the aims are 95 % power and 5 % false alarms
+constexpr int kNearlyAll = 190, kFew = 10;
+
+FrictionDescription Cold() {
+  FrictionDescription friction = test::TableOne();
+  friction.thermal.reset();
+  return friction;
+}
+
+Measurements Record(const FrictionDescription& friction, std::uint64_t seed, double noise = 0.5) {
+  return test::RecordFriction(friction, 1, test::AlternatingSpeeds(3600, seed), noise, seed);
+}
+
+/// AR(1) noise with the given coefficient and a standard deviation of 0.5 N.m.
+Measurements Coloured(const FrictionDescription& friction, std::uint64_t seed, double a) {
+  Measurements m = Record(friction, seed, 0);
+  RandomStream random({seed, 0}, Stream::coloured_noise);
+  double noise = 0.5 * random.Normal();
+  for (double& torque : m.torque) {
+    torque += noise;
+    noise = a * noise + 0.5 * std::sqrt(1 - a * a) * random.Normal();
+  }
+  return m;
+}
+
+/// Travels to and fro over 5 rad with a speed drawn for each way; h = 0.2 s, 20 min.
+Measurements Travel(std::uint64_t seed) {
+  RandomStream random({seed, 0}, Stream::motion);
+  Eigen::VectorXd velocity(6000);
+  double position = 0, speed = random.Uniform(0.1, 1);
+  for (double& v : velocity) {
+    v = speed;
+    position += 0.2 * v;
+    if (std::abs(position) < 2.5 || position * v < 0) continue;
+    speed = std::copysign(random.Uniform(0.1, 1), -v);
+  }
+  return test::RecordFriction(Cold(), 0.2, velocity, 0.5, seed);
+}
+
+Estimate Answer(const std::string& name, const Measurements& measurements,
+                const std::map<std::string, std::string>& given = {}) {
+  const Identifier& identifier = FindIdentifier(name);
+  const Options options(identifier.options, given, {});
+  return IdentifyAndJudge(identifier, {measurements, SelectMoving(measurements), options, {}});
+}
+
+/// How many realizations end with `status` and name `reason` first.
+int Count(const std::string& name, Status status, const std::string& reason,
+          const std::function<Measurements(std::uint64_t)>& make) {
+  int count = 0;
+  for (std::uint64_t seed = 1; seed <= kRealizations; ++seed) {
+    const Estimate estimate = Answer(name, make(seed));
+    if (estimate.status == status && estimate.message.find(reason) != std::string::npos) ++count;
+  }
+  return count;
+}
+
+const Status kInadequate = Status::inadequate_model;
+
+TEST(Judge, FindsThatAJointWarmsUp) {
+  const auto warm = [](std::uint64_t seed) { return Record(test::TableOne(), seed); };
+  EXPECT_GE(Count("nominal-ls", kInadequate, "the residual depends on energy", warm), kNearlyAll);
+  EXPECT_THAT(Answer("nominal-ls", warm(1)).message, HasSubstr("try energy-ml"));
+}
+
+TEST(Judge, FindsTheRippleOfTheMotor) {
+  // a level that ripples by 1 N.m twice a turn, with gear 100
+  const auto ripple = [](std::uint64_t seed) {
+    Measurements m = Travel(seed);
+    m.gear = 100;
+    for (Eigen::Index i = 0; i < m.size(); ++i) {
+      m.torque[i] += Sign(m.velocity[i]) * std::sin(200 * m.position[i] + 0.4);
+    }
+    return m;
+  };
+  EXPECT_GE(Count("nominal-ls", kInadequate, "depends on motor angle (period 3.14 rad)", ripple),
+            kNearlyAll);
+}
+
+TEST(Judge, FindsRippleAlongTheJoint) {
+  const auto ripple = [](std::uint64_t seed) {
+    Measurements m = Travel(seed);
+    m.torque.array() += (20 * m.position.array()).sin();
+    return m;
+  };
+  const Estimate estimate = Answer("nominal-ls", ripple(1));
+  EXPECT_EQ(estimate.status, kInadequate);
+  // 2 pi / 20; the frequencies that are tried are half a cycle of 16 along the travel apart
+  EXPECT_THAT(estimate.message, HasSubstr("depends on position (period 0.31"));
+  EXPECT_THAT(estimate.message, HasSubstr("alike in both directions"));
+}
+
+TEST(Judge, FindsTheStribeckCurve) {
+  const auto curve = [](std::uint64_t seed) {
+    Measurements m = Record(Cold(), seed);
+    for (Eigen::Index i = 0; i < m.size(); ++i) {
+      const double v = m.velocity[i];
+      m.torque[i] += std::copysign(5 * std::exp(-std::pow(v / 0.2, 2)), v);
+    }
+    return m;
+  };
+  EXPECT_GE(Count("nominal-ls", kInadequate, "the residual depends on speed", curve), kNearlyAll);
+}
+
+TEST(Judge, FindsThatDirectionsDiffer) {
+  Measurements m = Record(Cold(), 1);
+  m.torque.array() += 1.5;
+  const Estimate estimate = Answer("nominal-ls", m);
+  EXPECT_EQ(estimate.status, kInadequate);
+  EXPECT_THAT(estimate.message, HasSubstr("depends on direction"));
+  EXPECT_THAT(estimate.message, HasSubstr("law=asymmetric"));
+  EXPECT_EQ(Answer("nominal-ls", m, {{"law", "asymmetric"}}).status, Status::ok);
+}
+
+TEST(Judge, LetsTheRightModelPass) {
+  const auto warm = [](std::uint64_t seed) { return Record(test::TableOne(), seed); };
+  const auto cold = [](std::uint64_t seed) { return Record(Cold(), seed); };
+  EXPECT_LE(Count("energy-ml", kInadequate, "", warm), kFew);
+  EXPECT_LE(Count("nominal-ls", kInadequate, "", cold), kFew);
+  // not even a warning
+  EXPECT_LE(Count("energy-ml", Status::ok, "the residual depends", warm), kFew);
+  EXPECT_LE(Count("nominal-ls", Status::ok, "the residual depends", Travel), kFew);
+}
+
+TEST(Judge, DoesNotTakeColouredNoiseForStructure) {
+  const auto warm = [](std::uint64_t seed) { return Coloured(test::TableOne(), seed, 0.9); };
+  const auto cold = [](std::uint64_t seed) { return Coloured(Cold(), seed, 0.9); };
+  EXPECT_LE(Count("energy-ml", kInadequate, "", warm), kFew);
+  EXPECT_LE(Count("nominal-ls", kInadequate, "", cold), kFew);
+}
+
+TEST(Judge, DoesNotTakeWhatIsPeriodicInTimeForRipple) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Measurements m = Travel(seed);
+    m.gear = 100;
+    m.torque.array() += 2 * (2 * M_PI / 7 * m.time.array()).sin();
+    EXPECT_THAT(Answer("nominal-ls", m).message, Not(HasSubstr("depends on"))) << seed;
+  }
+}
+
+TEST(Judge, TakesBackEverythingButTheValues) {
+  const Measurements warm = Record(test::TableOne(), 1);
+  const Identifier& identifier = FindIdentifier("nominal-ls");
+  const Options options(identifier.options, {}, {});
+  const Selection selection = SelectMoving(warm);
+  const IdentifierInput input{warm, selection, options, {}};
+  const Estimate before = identifier.identify(input);
+  const Estimate judged = IdentifyAndJudge(identifier, input);
+  EXPECT_FALSE(judged.friction);
+  EXPECT_EQ(judged.Find("coulomb")->value, before.Find("coulomb")->value);
+  EXPECT_FALSE(judged.Find("coulomb")->std || judged.Find("coulomb")->interval95);
+  EXPECT_TRUE(judged.metrics);
+
+  // who insists sees the numbers, beside the verdict
+  const Estimate forced = WithVoidNumbers(judged, before);
+  EXPECT_EQ(forced.status, kInadequate);
+  EXPECT_THAT(forced.message, HasSubstr("void"));
+  EXPECT_EQ(forced.Find("coulomb")->interval95, before.Find("coulomb")->interval95);
+  EXPECT_TRUE(forced.friction);
+}
+
+TEST(Judge, WarnsOfSmallStructureAndLetsIntervalsReachAsFar) {
+  // 0.2 N.m of friction that falls with speed: 1 % of the friction, but certain in 3600 samples
+  Measurements m = Record(Cold(), 1, 0.1);
+  for (Eigen::Index i = 0; i < m.size(); ++i) {
+    const double v = m.velocity[i];
+    m.torque[i] += std::copysign(std::exp(-std::pow(v / 0.2, 2)), v);
+  }
+  const Identifier& identifier = FindIdentifier("nominal-ls");
+  const Options options(identifier.options, {}, {});
+  const Selection selection = SelectMoving(m);
+  const IdentifierInput input{m, selection, options, {}};
+  const Estimate before = identifier.identify(input);
+  const Estimate judged = IdentifyAndJudge(identifier, input);
+  ASSERT_EQ(judged.status, Status::ok) << judged.message;
+  EXPECT_THAT(judged.message, HasSubstr("the residual depends on speed"));
+  const auto& narrow = *before.Find("coulomb")->interval95;
+  const auto& wide = *judged.Find("coulomb")->interval95;
+  EXPECT_GT(narrow[0], 15);  // the true level
+  EXPECT_LT(wide[0], 15);
+  EXPECT_GT(wide[1], 15);
+}
+
+TEST(Judge, SaysThatAJointWasWarmAtTheStart) {
+  Measurements m = Record(test::TableOne(), 1, 0);
+  m.torque = PredictFriction(test::TableOne(), m, -6).force;
+  RandomStream random({1, 0}, Stream::torque_noise);
+  for (double& torque : m.torque) torque += 0.1 * random.Normal();
+  EXPECT_THAT(Answer("energy-ml", m).message, HasSubstr("initial_energy=estimated"));
+  const Estimate right = Answer("energy-ml", m, {{"initial_energy", "estimated"}});
+  EXPECT_EQ(right.status, Status::ok) << right.message;
+}
+
+}  // namespace
+}  // namespace warmjoint
