@@ -8,11 +8,13 @@
 #include "identification/fit_gravity.h"
 #include "identification/least_squares.h"
 #include "identification/linear_laws.h"
+#include "identification/position_maps.h"
 #include "identification/report_law.h"
 #include "identification/report_thermal.h"
 #include "identification/scan_time_constant.h"
 #include "identification/uncertainty.h"
 #include "identification/warm_fit.h"
+#include "identification/warm_maps.h"
 
 namespace warmjoint {
 namespace {
@@ -149,7 +151,29 @@ WarmStart Scan(const Measurements& m, const GravityFit& gravity, const ClosedLoo
   return start;
 }
 
+/// Law, warming and a map over position together.
+Estimate IdentifyWithMap(const IdentifierInput& input) {
+  MapTask task{kName, ReadMapSettings(input.options), {}, {}};
+  if (auto refusal = RefuseForMaps(input, kName, *FindLaw(task.settings.law))) return *refusal;
+  for (const char* option : {"gravity", "initial_energy"}) {
+    const std::string& value = input.options.Text(option);
+    if (value == "none" || value == "zero") continue;
+    return Failed(kName, Status::bad_data,
+                  fmt::format("position=map cannot be had together with {}={}; leave one of them "
+                              "out (basis=position takes gravity up into the map)",
+                              option, value));
+  }
+  const MapPoints points = Kept(PointsOf(input.measurements), input.selection);
+  if (auto why = CannotCarry(MapQuantity::position, points)) {
+    return Failed(kName, Status::bad_data, *why);
+  }
+  task.candidates = PositionMaps(input.options, task.settings, points);
+  const std::optional<WarmMaps> warm = FitWarmMaps(input, task);
+  return warm ? ReportWarmMaps(input, *warm) : Unsolvable(kName);
+}
+
 Estimate Identify(const IdentifierInput& given) {
+  if (given.options.Text("position") == "map") return IdentifyWithMap(given);
   const Measurements& m = given.measurements;
   const Law& law = *FindLaw(given.options.Text("law"));
   const GravityFit gravity = PrepareGravity(given);
@@ -190,13 +214,14 @@ Estimate Identify(const IdentifierInput& given) {
 }  // namespace
 
 Identifier EnergyMl() {
+  std::vector<OptionInfo> options = PositionPartOptions();
+  options.insert(options.begin() + 1,
+                 {{"initial_energy", "zero", "zero|estimated",
+                   "E(0): 0 for a cold joint, or estimated at a cost of accuracy"},
+                  GravityOption()});
   return {kName,
           "law and warming together by maximum likelihood over the closed loop; needs no start",
-          {{"law", "viscous_coulomb", LinearLawWords(), "nominal friction law"},
-           {"initial_energy", "zero", "zero|estimated",
-            "E(0): 0 for a cold joint, or estimated at a cost of accuracy"},
-           GravityOption()},
-          &Identify};
+          options, &Identify};
 }
 
 }  // namespace warmjoint

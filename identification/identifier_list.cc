@@ -1,7 +1,11 @@
 #include "identification/energy_em.h"
+#include "identification/energy_map.h"
 #include "identification/energy_ml.h"
 #include "identification/identifier.h"
 #include "identification/kalman.h"
+#include "identification/load_map.h"
+#include "identification/lpv_energy.h"
+#include "identification/motor_ridge.h"
 #include "identification/nominal_ls.h"
 #include "identification/position_ridge.h"
 #include "identification/rls.h"
@@ -11,7 +15,8 @@ namespace warmjoint {
 
 const std::vector<Identifier>& Identifiers() {
   static const std::vector<Identifier> identifiers{
-      NominalLs(), PositionRidge(), EnergyEm(), EnergyMl(), Rls(), Kalman(),
+      NominalLs(), PositionRidge(), MotorRidge(), EnergyMap(), LoadMap(),
+      LpvEnergy(), EnergyEm(),      EnergyMl(),   Rls(),       Kalman(),
   };
   return identifiers;
 }

@@ -12,10 +12,7 @@
 #include "models/friction/sign.h"
 
 namespace warmjoint {
-namespace {
-
-/// sign(v) E at the kept samples, [n] N.m or N.
-Eigen::VectorXd Warming(const IdentifierInput& input, const Eigen::VectorXd& energy) {
+Eigen::VectorXd TakenByEnergy(const IdentifierInput& input, const Eigen::VectorXd& energy) {
   const Measurements& m = input.measurements;
   if (energy.size() == 0) return Eigen::VectorXd::Zero(input.selection.count());
   const Eigen::VectorXd direction =
@@ -23,7 +20,22 @@ Eigen::VectorXd Warming(const IdentifierInput& input, const Eigen::VectorXd& ene
   return Kept(direction.cwiseProduct(energy), input.selection);
 }
 
-/// The map's values at its centres. covariance: of its weights.
+std::string DescribeMapFit(const IdentifierInput& input, const MapTask& task, const MapFit& fit,
+                           const NoiseModel& noise) {
+  const Law& law = *FindLaw(task.settings.law);
+  std::vector<std::string> soft;
+  for (const Eigen::Index i : ImitatedColumns(fit)) soft.emplace_back(law.parameters[i].name);
+  std::string message = fmt::format(
+      "law {} and {} on {} samples; prior of strength {:.3g} on their weights leaves {:.1f} "
+      "effective parameters",
+      law.name, ShapeOf(fit.maps), input.selection.count(), fit.strength, fit.effective);
+  if (!soft.empty()) {
+    message += fmt::format("; the kernels can imitate {}, which the prior alone tells apart",
+                           fmt::join(soft, ", "));
+  }
+  return message + ColourOf(noise);
+}
+
 MapBand BandOf(const FrictionMap& map, const Eigen::MatrixXd& covariance, double freedom) {
   // centres of all axes, the last the fastest
   const auto count = static_cast<Eigen::Index>(map.size());
@@ -62,32 +74,34 @@ MapBand BandOf(const FrictionMap& map, const Eigen::MatrixXd& covariance, double
   return band;
 }
 
-/// What was chosen: "24 position x 2 velocity kernels 0.7 spacings wide".
-std::string Shape(const FrictionMap& map) {
-  std::vector<std::string> axes;
-  for (const MapAxis& axis : map.axes) {
-    axes.push_back(fmt::format("{} {}", axis.kernels.size(), MapQuantityName(axis.quantity)));
+std::vector<MapBand> BandsOf(const std::vector<FrictionMap>& maps, const Uncertainty& known,
+                             Eigen::Index first) {
+  std::vector<MapBand> bands;
+  for (const FrictionMap& map : maps) {
+    const auto size = static_cast<Eigen::Index>(map.size());
+    bands.push_back(BandOf(map, known.covariance.block(first, first, size, size), known.freedom));
+    first += size;
   }
-  return fmt::format("{} kernels", fmt::join(axes, " x "));
+  return bands;
 }
 
-std::string Message(const IdentifierInput& input, const MapTask& task, const MapFit& fit) {
-  const Law& law = *FindLaw(task.settings.law);
-  std::vector<std::string> shapes, soft;
-  for (const FrictionMap& map : fit.maps) shapes.push_back(Shape(map));
-  for (const Eigen::Index i : fit.soft) soft.emplace_back(law.parameters[i].name);
-  std::string message = fmt::format(
-      "law {} and {} on {} samples; prior of strength {:.3g} on their weights leaves {:.1f} "
-      "effective parameters",
-      law.name, fmt::join(shapes, " and "), input.selection.count(), fit.strength, fit.effective);
-  if (!soft.empty()) {
-    message += fmt::format("; the kernels can imitate {}, which the prior alone tells apart",
-                           fmt::join(soft, ", "));
+std::string ShapeOf(const std::vector<FrictionMap>& maps) {
+  std::vector<std::string> shapes;
+  for (const FrictionMap& map : maps) {
+    std::vector<std::string> axes;
+    for (const MapAxis& axis : map.axes) {
+      axes.push_back(fmt::format("{} {}", axis.kernels.size(), MapQuantityName(axis.quantity)));
+    }
+    shapes.push_back(fmt::format("{} kernels", fmt::join(axes, " x ")));
   }
-  return message + ColourOf(fit.known.noise);
+  return fmt::format("{}", fmt::join(shapes, " and "));
 }
 
-}  // namespace
+Estimate Unsolvable(const std::string& identifier) {
+  return Failed(identifier, Status::bad_data,
+                "the normal equations cannot be solved: torque or velocity are too large or too "
+                "small to square; check their units");
+}
 
 std::optional<Estimate> RefuseForMaps(const IdentifierInput& input, const std::string& identifier,
                                       const Law& law) {
@@ -103,15 +117,16 @@ std::optional<Estimate> RefuseForMaps(const IdentifierInput& input, const std::s
                 Indistinct(mixed, input.measurements, input.selection));
 }
 
-std::optional<MapChoice> ChooseAndFit(const IdentifierInput& input, const MapTask& task,
-                                      const Eigen::MatrixXd& columns) {
+std::optional<MapChoice> ChooseAndFit(const IdentifierInput& input, const MapTask& task) {
+  const Eigen::MatrixXd columns =
+      LawColumns(*FindLaw(task.settings.law), input.measurements.velocity);
   const MapPoints all = PointsOf(input.measurements, task.energy);
   MapProblem problem{{},
                      Kept(all, input.selection),
                      Kept(columns, input.selection),
                      Kept(input.measurements.torque, input.selection),
                      input.selection};
-  problem.torque -= Warming(input, task.energy);
+  problem.torque -= TakenByEnergy(input, task.energy);
 
   // a choice costs fits, so one is made only where there is something to choose
   ChosenStrength best{task.settings.strength, 0};
@@ -132,42 +147,39 @@ std::optional<MapChoice> ChooseAndFit(const IdentifierInput& input, const MapTas
   }
   problem.maps = task.candidates[candidate];
   std::optional<MapFit> fit = FitMaps(problem, best.strength);
-  if (!fit || !fit->known.covariance.allFinite()) return std::nullopt;
-  return MapChoice{std::move(*fit), candidate};
+  if (!fit) return std::nullopt;
+  return MapChoice{std::move(problem), std::move(*fit)};
 }
 
-Estimate ReportMaps(const IdentifierInput& input, const MapTask& task, const MapFit& fit) {
+MapTask Settled(MapTask task, const MapFit& fit) {
+  task.candidates = {fit.maps};
+  task.settings.strength = fit.strength;
+  return task;
+}
+
+Estimate ReportMaps(const IdentifierInput& input, const MapTask& task, const MapFit& fit,
+                    const Uncertainty& known) {
+  if (!known.covariance.allFinite()) return Unsolvable(task.identifier);
   const Measurements& m = input.measurements;
   const Law& law = *FindLaw(task.settings.law);
   Estimate estimate;
   estimate.identifier = task.identifier;
-  ReportLaw(law, fit.x.head(fit.free), fit.known, m, estimate);
-  estimate.metrics =
-      ComputeMetrics(Kept(m.torque, input.selection), fit.fitted + Warming(input, task.energy),
-                     static_cast<int>(fit.x.size()), fit.effective);
-  estimate.message = Message(input, task, fit);
+  ReportLaw(law, fit.x.head(fit.free), known, m, estimate);
+  estimate.metrics = ComputeMetrics(Kept(m.torque, input.selection),
+                                    fit.fitted + TakenByEnergy(input, task.energy),
+                                    static_cast<int>(fit.x.size()), fit.effective);
+  estimate.message = DescribeMapFit(input, task, fit, known.noise);
   DescribeFriction(law, m, estimate);
   if (!estimate.friction) return estimate;
   estimate.friction->maps = fit.maps;
-  Eigen::Index first = fit.free;
-  for (const FrictionMap& map : fit.maps) {
-    const auto size = static_cast<Eigen::Index>(map.size());
-    estimate.bands.push_back(
-        BandOf(map, fit.known.covariance.block(first, first, size, size), fit.known.freedom));
-    first += size;
-  }
+  estimate.bands = BandsOf(fit.maps, known, fit.free);
   return estimate;
 }
 
 Estimate IdentifyMaps(const IdentifierInput& input, const MapTask& task) {
-  const Law& law = *FindLaw(task.settings.law);
-  const auto choice = ChooseAndFit(input, task, LawColumns(law, input.measurements.velocity));
-  if (!choice) {
-    return Failed(task.identifier, Status::bad_data,
-                  "the normal equations cannot be solved: torque or velocity are too large or too "
-                  "small to square; check their units");
-  }
-  return ReportMaps(input, task, choice->fit);
+  const auto choice = ChooseAndFit(input, task);
+  if (!choice) return Unsolvable(task.identifier);
+  return ReportMaps(input, task, choice->fit, JudgeMaps(choice->problem, choice->fit));
 }
 
 }  // namespace warmjoint

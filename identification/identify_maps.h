@@ -19,24 +19,47 @@ struct MapTask {
   Eigen::VectorXd energy;
 };
 
-/// The fit that was chosen.
+/// The fit that was chosen, and what it was made of.
 struct MapChoice {
+  MapProblem problem;
   MapFit fit;
-  size_t candidate = 0;
 };
 
 /// Law and maps on the kept samples: the candidate and the strength with the smallest criterion.
-/// Nothing where none can be solved. columns: [N x p] of the law.
-std::optional<MapChoice> ChooseAndFit(const IdentifierInput& input, const MapTask& task,
-                                      const Eigen::MatrixXd& columns);
+/// Nothing where none can be solved.
+std::optional<MapChoice> ChooseAndFit(const IdentifierInput& input, const MapTask& task);
+
+/// The task with the choice made: one candidate, one strength.
+MapTask Settled(MapTask task, const MapFit& fit);
+
+/// sign(v) E at the kept samples, [n] N.m or N; 0 for an empty energy. energy: [N].
+Eigen::VectorXd TakenByEnergy(const IdentifierInput& input, const Eigen::VectorXd& energy);
+
+/// A sentence on a fit: law, kernels, prior, effective parameters, colour of the noise.
+std::string DescribeMapFit(const IdentifierInput& input, const MapTask& task, const MapFit& fit,
+                           const NoiseModel& noise);
+
+/// The answer where there is no fit: bad_data.
+Estimate Unsolvable(const std::string& identifier);
+
+/// The values of a map at its centres. covariance: [q x q] of its weights.
+MapBand BandOf(const FrictionMap& map, const Eigen::MatrixXd& covariance, double freedom);
+
+/// The bands of maps whose weights begin at `first` of the parameters that `known` is about.
+std::vector<MapBand> BandsOf(const std::vector<FrictionMap>& maps, const Uncertainty& known,
+                             Eigen::Index first);
+
+/// "20 position x 2 velocity kernels and 36 motor_position kernels".
+std::string ShapeOf(const std::vector<FrictionMap>& maps);
 
 /// Why the law alone cannot be fitted, or the data not used, as an estimate that failed; nothing
 /// where all is well.
 std::optional<Estimate> RefuseForMaps(const IdentifierInput& input, const std::string& identifier,
                                       const Law& law);
 
-/// Puts law, maps, bands, metrics and message of a fit into an estimate.
-Estimate ReportMaps(const IdentifierInput& input, const MapTask& task, const MapFit& fit);
+/// Law, maps, bands, metrics and message of a fit as an estimate. known: JudgeMaps.
+Estimate ReportMaps(const IdentifierInput& input, const MapTask& task, const MapFit& fit,
+                    const Uncertainty& known);
 
 /// All of the above.
 Estimate IdentifyMaps(const IdentifierInput& input, const MapTask& task);

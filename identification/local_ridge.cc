@@ -35,8 +35,8 @@ std::optional<Eigen::VectorXd> LocalRidge::Solve(double strength) {
 namespace {
 
 /// Squared errors on `part` of fits to all but it, for each strength.
-Eigen::VectorXd HeldOutSquares(const NormalEquations& all, const NormalEquations& part,
-                               Eigen::Index free, const std::vector<double>& strengths) {
+Eigen::VectorXd SquaresOf(const NormalEquations& part, const NormalEquations& all,
+                          Eigen::Index free, const std::vector<double>& strengths) {
   LocalRidge ridge(all.Minus(part), free);
   Eigen::VectorXd squares(strengths.size());
   for (size_t i = 0; i < strengths.size(); ++i) {
@@ -48,27 +48,32 @@ Eigen::VectorXd HeldOutSquares(const NormalEquations& all, const NormalEquations
 
 }  // namespace
 
-Eigen::VectorXd CrossValidate(const std::vector<NormalEquations>& parts, Eigen::Index free,
-                              const std::vector<double>& strengths, int threads) {
+Eigen::MatrixXd HeldOutSquares(const std::vector<NormalEquations>& parts, Eigen::Index free,
+                               const std::vector<double>& strengths, int threads) {
   NormalEquations all = parts.front();
   for (size_t i = 1; i < parts.size(); ++i) all = all.Plus(parts[i]);
 
-  // each thread takes the next part; the sum is in the parts' order
-  std::vector<Eigen::VectorXd> squares(parts.size());
+  // each thread takes the next part
+  Eigen::MatrixXd squares(strengths.size(), parts.size());
   std::atomic<size_t> next = 0;
   const auto work = [&] {
     for (size_t i = next++; i < parts.size(); i = next++) {
-      squares[i] = HeldOutSquares(all, parts[i], free, strengths);
+      squares.col(static_cast<Eigen::Index>(i)) = SquaresOf(parts[i], all, free, strengths);
     }
   };
   std::vector<std::jthread> helpers;
   for (int i = 1; i < threads; ++i) helpers.emplace_back(work);
   work();
   helpers.clear();
+  return squares;
+}
 
-  Eigen::VectorXd errors = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(strengths.size()));
-  for (const Eigen::VectorXd& part : squares) errors += part;
-  return errors / static_cast<double>(all.rows);
+Eigen::VectorXd CrossValidate(const std::vector<NormalEquations>& parts, Eigen::Index free,
+                              const std::vector<double>& strengths, int threads) {
+  Eigen::Index rows = 0;
+  for (const NormalEquations& part : parts) rows += part.rows;
+  return HeldOutSquares(parts, free, strengths, threads).rowwise().sum() /
+         static_cast<double>(rows);
 }
 
 }  // namespace warmjoint

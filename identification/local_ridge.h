@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <vector>
 
 #include "identification/envelope_cholesky.h"
 #include "identification/ridge.h"
@@ -28,5 +29,9 @@ class LocalRidge {
   Eigen::MatrixXd border_;   // [q x (p + 1)] B, b
   EnvelopeCholesky kernels_;
 };
+
+/// Squared errors of held-out parts, [strengths x parts]: see CrossValidate.
+Eigen::MatrixXd HeldOutSquares(const std::vector<NormalEquations>& parts, Eigen::Index free,
+                               const std::vector<double>& strengths, int threads = 1);
 
 }  // namespace warmjoint

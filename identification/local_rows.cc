@@ -95,8 +95,13 @@ class AxisTable {
     const double* phi = phi_.row(sample - first_).data();
     Eigen::Index m = 0;
     for (const FrictionMap& map : maps_) {
-      Eigen::Index count = 1;
-      row[0] = factors_(sample - first_, m++);
+      // one empty window leaves no product
+      const auto axes = static_cast<Eigen::Index>(map.axes.size());
+      const bool any = std::all_of(windows, windows + axes,
+                                   [](const Window& window) { return window.count > 0; });
+      const double factor = factors_(sample - first_, m++);
+      Eigen::Index count = any ? 1 : 0;
+      if (any) row[0] = factor;
       for (const MapAxis& axis : map.axes) {
         count = Multiply(phi, *windows++, axis.kernels.size(), row, count);
         phi += axis.kernels.size();
@@ -168,16 +173,26 @@ std::vector<RowGroup> GroupRows(const std::vector<FrictionMap>& maps, const MapP
     group.samples.assign(begin, end);
     group.kernels = table.Kernels(*begin);
     group.values.resize(end - begin, static_cast<Eigen::Index>(group.kernels.size()));
-    // a map with an empty window has no kernel here, but needs room for its factor
-    std::vector<double> row(group.kernels.size() + maps.size());
     for (Eigen::Index i = 0; i < group.values.rows(); ++i) {
-      table.Values(group.samples[i], row.data());
-      std::copy_n(row.begin(), group.kernels.size(), group.values.row(i).begin());
+      table.Values(group.samples[i], group.values.row(i).data());
     }
     groups.push_back(std::move(group));
     begin = end;
   }
   return groups;
+}
+
+Eigen::MatrixXd DenseKernels(const std::vector<FrictionMap>& maps, const MapPoints& points,
+                             Eigen::Index first, Eigen::Index last) {
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(last - first, KernelCount(maps));
+  for (const RowGroup& group : GroupRows(maps, points, first, last)) {
+    for (size_t i = 0; i < group.samples.size(); ++i) {
+      for (size_t k = 0; k < group.kernels.size(); ++k) {
+        rows(group.samples[i] - first, group.kernels[k]) = group.values(i, k);
+      }
+    }
+  }
+  return rows;
 }
 
 void AddGroups(const std::vector<RowGroup>& groups, const Eigen::MatrixXd& free,

@@ -29,6 +29,10 @@ Eigen::Index KernelCount(const std::vector<FrictionMap>& maps);
 std::vector<RowGroup> GroupRows(const std::vector<FrictionMap>& maps, const MapPoints& points,
                                 Eigen::Index first, Eigen::Index last);
 
+/// The same rows with their zeros: [last - first x kernels].
+Eigen::MatrixXd DenseKernels(const std::vector<FrictionMap>& maps, const MapPoints& points,
+                             Eigen::Index first, Eigen::Index last);
+
 /// Adds the rows [free columns, kernels] of the groups. free: [N x p]; y: [N]; both over the
 /// points' rows. normal: of size p + kernels.
 void AddGroups(const std::vector<RowGroup>& groups, const Eigen::MatrixXd& free,

@@ -1,16 +1,18 @@
 #include "identification/map_fit.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "identification/local_ridge.h"
+#include "identification/penalised_uncertainty.h"
 
 namespace warmjoint {
 namespace {
 
 constexpr int kStrengths = 20;
-constexpr double kSoft = 1e-3;  // share of a column's squares that kernels leave, beside 1
+constexpr double kImitated = 1e-3;  // share of a column's squares
 
 NormalEquations AllNormal(const MapProblem& problem) {
   return LocalNormal(problem.maps, problem.points, problem.free, problem.torque, 0,
@@ -33,6 +35,14 @@ ChosenStrength Best(const std::vector<double>& strengths, const std::vector<doub
   return best;
 }
 
+/// Whether the errors are those of the best within one standard error of the parts' differences.
+bool AsGood(const Eigen::ArrayXd& squares, const Eigen::ArrayXd& best) {
+  const Eigen::ArrayXd worse = squares - best;
+  const auto parts = static_cast<double>(worse.size());
+  const double deviation = std::sqrt((worse - worse.mean()).square().sum() / (parts - 1));
+  return worse.sum() <= std::sqrt(parts) * deviation;
+}
+
 ChosenStrength ByCrossValidation(const MapProblem& problem, int folds) {
   const Eigen::Index n = problem.torque.size();
   std::vector<NormalEquations> parts;
@@ -43,8 +53,17 @@ ChosenStrength ByCrossValidation(const MapProblem& problem, int folds) {
   NormalEquations all = parts[0];
   for (size_t i = 1; i < parts.size(); ++i) all = all.Plus(parts[i]);
   const std::vector<double> strengths = Strengths(all, problem.free.cols());
-  const Eigen::VectorXd errors = CrossValidate(parts, problem.free.cols(), strengths);
-  return Best(strengths, {errors.begin(), errors.end()});
+  const Eigen::MatrixXd squares = HeldOutSquares(parts, problem.free.cols(), strengths);
+  const Eigen::VectorXd errors = squares.rowwise().sum() / static_cast<double>(n);
+  ChosenStrength chosen = Best(strengths, {errors.begin(), errors.end()});
+  const auto best = std::find(strengths.begin(), strengths.end(), chosen.strength);
+  for (auto i = strengths.end(); i-- > best;) {
+    const auto row = i - strengths.begin();
+    if (!AsGood(squares.row(row), squares.row(best - strengths.begin()))) continue;
+    chosen.strength = *i;
+    break;
+  }
+  return chosen;
 }
 
 ChosenStrength ByLeavingOut(const MapProblem& problem) {
@@ -72,72 +91,6 @@ ChosenStrength ByEvidence(const MapProblem& problem) {
   return {strength, criterion};
 }
 
-/// Free columns of which the kernels, nearly unpenalised, leave less than kSoft.
-std::vector<Eigen::Index> SoftColumns(const NormalEquations& normal, Eigen::Index free) {
-  const Eigen::Index q = normal.product.size() - free;
-  EnvelopeCholesky kernels(normal.gram.bottomRightCorner(q, q));
-  const double scale = normal.gram.diagonal().tail(q).mean();
-  std::vector<Eigen::Index> soft;
-  if (!kernels.Factor(1e-9 * scale)) return soft;
-  const Eigen::MatrixXd border = normal.gram.bottomLeftCorner(q, free);
-  const Eigen::VectorXd taken = border.cwiseProduct(kernels.Solve(border)).colwise().sum();
-  for (Eigen::Index j = 0; j < free; ++j) {
-    if (normal.gram(j, j) - taken[j] < kSoft * normal.gram(j, j)) soft.push_back(j);
-  }
-  return soft;
-}
-
-/// Rows [free columns, kernels] of some kept samples.
-Eigen::MatrixXd DenseRows(const MapProblem& problem, Eigen::Index first, Eigen::Index last) {
-  const Eigen::Index p = problem.free.cols();
-  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(last - first, p + KernelCount(problem.maps));
-  rows.leftCols(p) = problem.free.middleRows(first, last - first);
-  for (const RowGroup& group : GroupRows(problem.maps, problem.points, first, last)) {
-    for (size_t i = 0; i < group.samples.size(); ++i) {
-      for (size_t k = 0; k < group.kernels.size(); ++k) {
-        rows(group.samples[i] - first, p + group.kernels[k]) = group.values(i, k);
-      }
-    }
-  }
-  return rows;
-}
-
-/// Covariance of the errors, degrees of freedom and noise. C: (A^T A + s P)^-1.
-Uncertainty Judge(const MapProblem& problem, const NormalEquations& normal,
-                  const Eigen::MatrixXd& C, const MapFit& fit) {
-  const Eigen::VectorXd residual = problem.torque - fit.fitted;
-  const auto n = static_cast<double>(residual.size());
-  const Eigen::Index q = fit.x.size() - fit.free;
-  Uncertainty result;
-  result.noise = FitNoise(residual, problem.selection);
-  const NoiseModel& noise = result.noise;
-  const Eigen::MatrixXd scatter =
-      noise.order() == 0
-          ? Eigen::MatrixXd(noise.variance * normal.gram)
-          : ScatterThrough(
-                noise, [&](auto first, auto last) { return DenseRows(problem, first, last); },
-                fit.x.size(), problem.selection);
-
-  // E|r|^2 = tr R - 2 tr(C S) + tr(C G C S), in samples of which at most half are taken up
-  const Eigen::MatrixXd taken_up = C * scatter;
-  const Eigen::MatrixXd hat = C * normal.gram;
-  const double taken = std::clamp(
-      (2 * taken_up.trace() - hat.cwiseProduct(taken_up.transpose()).sum()) / noise.variance, 0.0,
-      0.5 * n);
-  const Eigen::MatrixXd by_noise = n / (n - taken) * taken_up * C;
-
-  // what the prior pulls away
-  const Eigen::MatrixXd pull = fit.strength * C.rightCols(q);
-  const Eigen::MatrixXd kept = Eigen::MatrixXd::Identity(q, q) - pull.bottomRows(q);
-  const auto weights = by_noise.bottomRightCorner(q, q);
-  const double seen = fit.x.tail(q).squaredNorm() - weights.trace();
-  const double unseen = std::sqrt(2.0) * weights.norm();
-  const double prior = std::max(seen, unseen) / std::max(kept.squaredNorm(), 1e-12);
-  result.covariance = by_noise + prior * pull * pull.transpose();
-  result.freedom = std::max(n / noise.redundancy - fit.effective, 1.0);
-  return result;
-}
-
 }  // namespace
 
 ChosenStrength ChooseStrength(const MapProblem& problem, StrengthRule rule, int folds) {
@@ -157,30 +110,58 @@ std::optional<MapFit> FitMaps(const MapProblem& problem, double strength) {
   MapFit fit;
   fit.free = problem.free.cols();
   fit.strength = strength;
+  fit.gram = normal.gram;
   const Eigen::Index d = normal.product.size();
   Eigen::MatrixXd gram = normal.gram;
   gram.diagonal().tail(d - fit.free).array() += strength;
   const Eigen::LLT<Eigen::MatrixXd> factors(gram);
   if (factors.info() != Eigen::Success || !std::isfinite(normal.squares)) return std::nullopt;
-  const Eigen::MatrixXd C = factors.solve(Eigen::MatrixXd::Identity(d, d));
+  fit.inverse = factors.solve(Eigen::MatrixXd::Identity(d, d));
   fit.x = factors.solve(normal.product);
-  fit.effective = C.cwiseProduct(normal.gram).sum();
+  fit.effective = fit.inverse.cwiseProduct(fit.gram).sum();
   if (!fit.x.allFinite()) return std::nullopt;
 
-  // the maps, and what they give
   fit.maps = problem.maps;
   const double* weight = fit.x.data() + fit.free;
-  fit.fitted = problem.free * fit.x.head(fit.free);
   for (FrictionMap& map : fit.maps) {
     map.weights.assign(weight, weight + map.size());
     weight += map.size();
-    for (Eigen::Index i = 0; i < fit.fitted.size(); ++i) {
-      fit.fitted[i] += EvaluateMap(map, PointAt(problem.points, i));
-    }
   }
-  fit.soft = SoftColumns(normal, fit.free);
-  fit.known = Judge(problem, normal, C, fit);
+  fit.fitted = problem.free * fit.x.head(fit.free) + EvaluateMaps(fit.maps, problem.points);
   return fit;
+}
+
+Uncertainty JudgeMaps(const MapProblem& problem, const MapFit& fit) {
+  const Eigen::Index d = fit.x.size();
+  const auto rows = [&](Eigen::Index first, Eigen::Index last) {
+    Eigen::MatrixXd dense(last - first, d);
+    dense << problem.free.middleRows(first, last - first),
+        DenseKernels(problem.maps, problem.points, first, last);
+    return dense;
+  };
+  return JudgePenalised({fit.gram, fit.inverse, fit.free, fit.x.tail(d - fit.free), fit.strength},
+                        rows, problem.torque - fit.fitted, problem.selection);
+}
+
+std::vector<Eigen::Index> ImitatedColumns(const MapFit& fit) {
+  const Eigen::Index q = fit.x.size() - fit.free;
+  EnvelopeCholesky kernels(fit.gram.bottomRightCorner(q, q));
+  std::vector<Eigen::Index> imitated;
+  if (!kernels.Factor(1e-9 * fit.gram.diagonal().tail(q).mean())) return imitated;
+  const Eigen::MatrixXd border = fit.gram.bottomLeftCorner(q, fit.free);
+  const Eigen::VectorXd taken = border.cwiseProduct(kernels.Solve(border)).colwise().sum();
+  for (Eigen::Index j = 0; j < fit.free; ++j) {
+    if (fit.gram(j, j) - taken[j] < kImitated * fit.gram(j, j)) imitated.push_back(j);
+  }
+  return imitated;
+}
+
+Eigen::VectorXd EvaluateMaps(const std::vector<FrictionMap>& maps, const MapPoints& points) {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(points.rows());
+  for (const FrictionMap& map : maps) {
+    for (Eigen::Index i = 0; i < sum.size(); ++i) sum[i] += EvaluateMap(map, PointAt(points, i));
+  }
+  return sum;
 }
 
 }  // namespace warmjoint

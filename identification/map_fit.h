@@ -17,7 +17,7 @@ struct MapProblem {
   MapPoints points;               // [n x 5]
   Eigen::MatrixXd free;           // [n x p]
   Eigen::VectorXd torque;         // [n] y, N.m or N
-  const Selection& selection;     // n of its samples are kept
+  Selection selection;            // n of its samples are kept
 };
 
 /// By what the strength s of the prior is chosen.
@@ -30,32 +30,37 @@ struct ChosenStrength {
   double criterion = 0;
 };
 
-/// The best of 20 strengths, half a decade apart, from 1e-7 of the mean diagonal of the kernels'
-/// Gram matrix on, or the one of the most evidence. folds: contiguous parts of the kept samples for
-/// cross validation. Neighbours resemble each other, so that leaving out one sample or the evidence
-/// of white noise take coloured noise for friction: cross validation over long parts does not.
+/// One of 20 strengths, half a decade apart, from 1e-7 of the mean diagonal of the kernels' Gram
+/// matrix on: the best, or the one of the most evidence. Cross validation takes the strongest that
+/// is as good as the best within one standard error of the parts' differences (Breiman and others
+/// 1984, 3.4.3): a motion that repeats itself hides in every part what a weak prior does to columns
+/// that kernels can imitate. folds: contiguous parts of the kept samples for cross validation.
+/// Neighbours resemble each other, so that leaving out one sample or the evidence of white noise
+/// take coloured noise for friction: cross validation over long parts does not.
 ChosenStrength ChooseStrength(const MapProblem& problem, StrengthRule rule, int folds);
 
 struct MapFit {
-  Eigen::Index free = 0;           // p
-  Eigen::VectorXd x;               // [p + q] parameters, weights
-  double strength = 0;             // s
-  double effective = 0;            // trace of the hat matrix
-  Eigen::VectorXd fitted;          // [n] N.m or N
-  Uncertainty known;               // covariance [p + q]^2 of the errors x - truth
-  std::vector<Eigen::Index> soft;  // free columns that kernels can imitate: the prior decides
-  /// The maps with their weights.
-  std::vector<FrictionMap> maps;
+  Eigen::Index free = 0;          // p
+  Eigen::VectorXd x;              // [p + q] parameters, weights
+  double strength = 0;            // s
+  double effective = 0;           // trace of the hat matrix
+  Eigen::VectorXd fitted;         // [n] N.m or N
+  Eigen::MatrixXd gram;           // [p + q]^2 A^T A
+  Eigen::MatrixXd inverse;        // [p + q]^2 (A^T A + s P)^-1
+  std::vector<FrictionMap> maps;  // with their weights
 };
 
-/// argmin |y - A x|^2 + s |w|^2. Its errors come from the noise and from the prior's pull,
-///   cov = C A^T R A C + s^2 s_w^2 C P C,  C = (A^T A + s P)^-1, P = diag(0, I),
-/// R the covariance of the noise by an autoregressive model of the residual, so that intervals are
-/// right for coloured noise too; for white noise and s = s_e^2 / s_w^2 this is the posterior
-/// s_e^2 C. s_w^2 comes from the weights themselves: E|w|^2 = s_w^2 tr(I - s C_ww)^2 +
-/// tr(C A^T R A C)_ww; where that leaves less than its own scatter, the scatter is taken, so that a
-/// map that cannot be seen is not reported as surely 0.
-/// Nothing where the system is singular to rounding or overflows.
+/// argmin |y - A x|^2 + s |w|^2. Nothing where the system is singular to rounding or overflows.
 std::optional<MapFit> FitMaps(const MapProblem& problem, double strength);
+
+/// How sure its parameters and weights are (penalised_uncertainty.h).
+Uncertainty JudgeMaps(const MapProblem& problem, const MapFit& fit);
+
+/// Free columns that the kernels can imitate, to a thousandth of their squares: the prior alone
+/// tells these apart from a map.
+std::vector<Eigen::Index> ImitatedColumns(const MapFit& fit);
+
+/// Sum of maps at some points, [n] N.m or N.
+Eigen::VectorXd EvaluateMaps(const std::vector<FrictionMap>& maps, const MapPoints& points);
 
 }  // namespace warmjoint

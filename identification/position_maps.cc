@@ -14,6 +14,17 @@ std::vector<OptionInfo> PositionMapOptions() {
   };
 }
 
+std::vector<OptionInfo> PositionPartOptions() {
+  std::vector<OptionInfo> options = MapOptions();
+  options.insert(options.begin() + 1,
+                 {"position", "none", "none|map", "a map over position beside the law"});
+  for (OptionInfo& option : PositionMapOptions()) options.push_back(std::move(option));
+  for (size_t i = 2; i < options.size(); ++i) {
+    options[i].meaning = "of the map: " + options[i].meaning;
+  }
+  return options;
+}
+
 std::vector<std::vector<FrictionMap>> PositionMaps(const Options& options,
                                                    const MapSettings& settings,
                                                    const MapPoints& points) {
