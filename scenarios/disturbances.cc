@@ -1,8 +1,14 @@
 #include "scenarios/disturbances.h"
 
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace warmjoint {
+
+double AmbientTemperature::RiseAt(double t) const {
+  return amplitude == 0 ? 0 : amplitude * std::sin(2 * std::numbers::pi * t / period);
+}
 
 bool Disturbances::operator==(const Disturbances& other) const {
   const auto heat = [](const std::optional<Thermal>& thermal) {
@@ -11,6 +17,7 @@ bool Disturbances::operator==(const Disturbances& other) const {
   return outliers == other.outliers && coloured_noise == other.coloured_noise &&
          periodic_torque == other.periodic_torque && gravity == other.gravity &&
          ambient_drift == other.ambient_drift && load_change == other.load_change &&
+         ambient_temperature == other.ambient_temperature &&
          heat(second_heat) == heat(other.second_heat);
 }
 

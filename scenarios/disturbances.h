@@ -51,6 +51,18 @@ struct AmbientDrift {
   bool operator==(const AmbientDrift&) const = default;
 };
 
+/// The ambient temperature swings about the one at which the law's parameters hold: a rise of
+/// amplitude sin(2 pi t / period), which acts through friction.level_per_temperature. Both plants.
+struct AmbientTemperature {
+  double amplitude = 0;  // K
+  double period = 1;     // s
+
+  /// Ts - T0 at t (s), K.
+  double RiseAt(double t) const;
+
+  bool operator==(const AmbientTemperature&) const = default;
+};
+
 /// The load that the joint transmits: 0 and `load` in turn, each for half a period; friction grows
 /// by gain |load|, and the log holds the load. Ideal plant only.
 struct LoadChange {
@@ -67,6 +79,7 @@ struct Disturbances {
   PeriodicTorque periodic_torque;
   Gravity gravity;
   AmbientDrift ambient_drift;
+  AmbientTemperature ambient_temperature;
   LoadChange load_change;
   std::optional<Thermal> second_heat;  // a second energy state fed by the same W; ideal plant only
 

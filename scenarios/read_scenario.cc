@@ -123,6 +123,12 @@ Scenario ReadScenarioValue(const YamlValue& value, const std::string& name) {
       Refuse(part->place(), "{}.{} is known to the ideal plant alone; take it out, or use it",
              part->key(), ideal_only);
     }
+    if (scenario.disturbances.ambient_temperature.amplitude != 0 &&
+        scenario.friction.level_per_temperature == 0) {
+      Refuse(part->place(),
+             "{}.ambient_temperature changes nothing while friction.level_per_temperature is 0",
+             part->key());
+    }
   }
   if (const auto part = value.Find("sampling")) scenario.sampling = ReadSampling(*part);
   ReadNumber(value, "timestep", Bound::positive, scenario.timestep);

@@ -29,6 +29,7 @@
 //     periodic_torque: {amplitude: 0.5, period: 30}                  N.m or N; s
 //     gravity: {sine: 5, cosine: 0}                        N.m or N; ideal plant, as all below
 //     ambient_drift: {amplitude: 1, period: 7200}          N.m or N; s
+//     ambient_temperature: {amplitude: 10, period: 7200}   K; s; both plants
 //     load_change: {load: 10, gain: 0.1, period: 600}      N.m or N; 1; s
 //     second_heat: {thermal_gain: -1, thermal_time_constant: 60}     N.m/W or N/W; s
 //   sampling: {rate: 1, sensor_rate: 250, cutoff: 0}       Hz; filter and sensors only in mujoco

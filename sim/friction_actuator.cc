@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
 #include "models/foundation/nearest_name.h"
 #include "sim/escape_xml.h"
@@ -56,7 +57,20 @@ std::string FrictionSections(const std::string& joint, const FrictionDescription
     configs += Config("thermal_gain", friction.thermal->gain);
     configs += Config("thermal_time_constant", friction.thermal->time_constant);
   }
+  if (friction.second_thermal) {
+    configs += Config("second_thermal_gain", friction.second_thermal->gain);
+    configs += Config("second_thermal_time_constant", friction.second_thermal->time_constant);
+  }
+  for (const FrictionOption& option : FrictionOptions()) {
+    const double value = friction.*option.value;
+    if (value != 0) configs += Config(std::string(option.info.name), value);
+  }
   if (friction.gear != 1) configs += Config("gear", friction.gear);
+  if (!friction.maps.empty()) {
+    nlohmann::json maps = nlohmann::json::array();
+    for (const FrictionMap& map : friction.maps) maps.push_back(MapToJson(map));
+    configs += Config("maps", EscapeXml(maps.dump()));
+  }
   return fmt::format(R"(  <extension>
     <plugin plugin="{}"/>
   </extension>

@@ -1,33 +1,31 @@
 #include "sim/ideal_friction.h"
 
-#include "models/friction/thermal.h"
+#include "models/friction/joint_friction.h"
 
 namespace warmjoint {
 namespace {
 
-DiscreteThermal DiscretiseOrNone(const std::optional<Thermal>& thermal, double step) {
-  return thermal ? Discretise(*thermal, step) : DiscreteThermal{0, 1};
+double At(const Eigen::VectorXd& values, Eigen::Index i) {
+  return values.size() > 0 ? values[i] : 0.0;
 }
 
 }  // namespace
 
 FrictionHistory SimulateFriction(const FrictionDescription& friction, double initial_energy,
-                                 double step, const Eigen::VectorXd& velocity, const Place& place,
-                                 const LevelInfluences& influences) {
-  const Law& law = *FindLaw(friction.law);
-  const std::vector<double> values = LawValues(friction);
-  const DiscreteThermal first = DiscretiseOrNone(friction.thermal, step);
-  const DiscreteThermal second = DiscretiseOrNone(influences.second_heat, step);
+                                 double step, const JointCourse& course, const Place& place) {
+  const JointFriction joint(friction);
+  const Heat heat = DiscretiseHeat(friction, step);
 
-  const Eigen::Index n = velocity.size();
+  const Eigen::Index n = course.velocity.size();
   FrictionHistory history{Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n)};
   double energy = initial_energy;
   double second_energy = 0;
   for (Eigen::Index i = 0; i < n; ++i) {
-    const double v = velocity[i];
-    const double extra = influences.level.size() > 0 ? influences.level[i] : 0.0;
-    const double level = energy + second_energy + extra;
-    const double force = WarmForce(v, law.force(v, values.data()), level);
+    const double v = course.velocity[i];
+    const double stored = energy + second_energy;
+    const double level = stored + At(course.level, i);
+    const JointPlace here{At(course.position, i), stored, At(course.load, i)};
+    const double force = joint.SlidingForce(v, here) + Sign(v) * At(course.level, i);
     if (FeedsItself(v, force)) {
       Refuse(place,
              "at {:g} s friction feeds itself: at a velocity of {:g} the energy state {:g} exceeds "
@@ -38,9 +36,9 @@ FrictionHistory SimulateFriction(const FrictionDescription& friction, double ini
     const double loss = Loss(v, force);
     history.force[i] = force;
     history.loss[i] = loss;
-    history.energy[i] = energy + second_energy;
-    energy = ThermalStep(first.gain, first.pole, energy, loss);
-    second_energy = ThermalStep(second.gain, second.pole, second_energy, loss);
+    history.energy[i] = stored;
+    energy = heat.First(energy, loss, At(course.ambient_rise, i));
+    second_energy = heat.Second(second_energy, loss);
   }
   return history;
 }

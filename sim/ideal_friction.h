@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 
 #include "models/friction/friction_description.h"
 
@@ -15,21 +14,23 @@ struct FrictionHistory {
   Eigen::VectorXd energy;  // [N] E, N.m or N
 };
 
-/// What else shapes the level of friction. Absent and empty: nothing.
-struct LevelInfluences {
-  std::optional<Thermal> second_heat;  // a second energy state E2, fed by the same W
-  Eigen::VectorXd level;               // [N] A, N.m or N: ambient temperature, load
+/// What a joint does and meets at N samples. Empty: 0 throughout.
+struct JointCourse {
+  Eigen::VectorXd velocity;        // [N] rad/s or m/s
+  Eigen::VectorXd position{};      // [N] rad or m
+  Eigen::VectorXd load{};          // [N] that the joint transmits, N.m or N
+  Eigen::VectorXd ambient_rise{};  // [N] Ts - T0, K
+  Eigen::VectorXd level{};         // [N] A, what else joins E, N.m or N
 };
 
-/// Closes the loop between friction and heat, from sample to sample:
-///   F = Fn(v) + sign(v) (E + E2 + A)     (20)
-///   W = |F v|                            (19)
-///   E[i+1] = te E[i] + ke W[i]           (22), E2 likewise from 0
-/// friction: checked; initial_energy: E[0], N.m or N; step: h, s; velocity: [N] rad/s or m/s.
-/// The history's energy is E + E2. Throws BadInput from `place` where friction changes its sign and
-/// feeds itself (E below -Fn sign(v)): from there on the model has left its domain.
+/// Closes the loop between friction and heat, from sample to sample, always sliding steadily:
+///   F = Fn(v) + sign(v) (E + A) + maps and load (LevelTerms)     (20)
+///   W = |F v|                                                    (19)
+///   E[i+1] by Heat                                               (22)
+/// friction: checked; initial_energy: E1[0], N.m or N, E2[0] is 0; step: h, s.
+/// The history's energy is E1 + E2. Throws BadInput from `place` where friction changes its sign
+/// and feeds itself (E below -Fn sign(v)): from there on the model has left its domain.
 FrictionHistory SimulateFriction(const FrictionDescription& friction, double initial_energy,
-                                 double step, const Eigen::VectorXd& velocity, const Place& place,
-                                 const LevelInfluences& influences = {});
+                                 double step, const JointCourse& course, const Place& place);
 
 }  // namespace warmjoint

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "models/foundation/bad_input.h"
+#include "models/friction/level_terms.h"
 #include "sim/disturb_log.h"
 #include "sim/ideal_friction.h"
 
@@ -56,6 +57,11 @@ class IdealPlant : public Plant {
              "the ideal plant knows constant speeds alone, and motion.corners accelerate; use the "
              "mujoco plant");
     }
+    if (scenario.friction.second_thermal && scenario.disturbances.second_heat) {
+      Refuse({scenario.name},
+             "friction.thermal.second and disturbances.second_heat are both given; the joint has "
+             "one second stage, so leave one out");
+    }
     if (scenario.motion.travel_between_joint_limits) {
       Refuse({scenario.name},
              "the ideal plant has no robot, so the motion cannot travel between its joint limits; "
@@ -69,10 +75,9 @@ class IdealPlant : public Plant {
     const auto plan = PlanMotion(scenario_.motion, scenario_.duration, {}, motion_stream);
     const SampledPlan samples = SamplePlan(plan, StartPosition(scenario_.motion, {}),
                                            scenario_.sampling.rate, scenario_.duration);
-    const LevelInfluences influences = Influences(samples.time);
     FrictionHistory friction =
-        SimulateFriction(scenario_.friction, scenario_.initial_energy, 1 / scenario_.sampling.rate,
-                         samples.velocity, {scenario_.name}, influences);
+        SimulateFriction(FrictionOfPlant(), scenario_.initial_energy, 1 / scenario_.sampling.rate,
+                         CourseOf(samples), {scenario_.name});
 
     Recording recording;
     recording.measurements = Measure(samples, friction.force, key);
@@ -99,19 +104,37 @@ class IdealPlant : public Plant {
     });
   }
 
-  LevelInfluences Influences(const Eigen::VectorXd& time) const {
+  /// The friction that the joint has, disturbances included; the truth is told without them.
+  FrictionDescription FrictionOfPlant() const {
+    FrictionDescription friction = scenario_.friction;
+    if (scenario_.disturbances.second_heat) {
+      friction.second_thermal = scenario_.disturbances.second_heat;
+    }
+    return friction;
+  }
+
+  JointCourse CourseOf(const SampledPlan& samples) const {
     const Disturbances& disturbances = scenario_.disturbances;
-    LevelInfluences influences{disturbances.second_heat, {}};
+    JointCourse course{samples.velocity, samples.position};
+    course.load = TransmittedLoad(samples);
+    course.ambient_rise = samples.time.unaryExpr(
+        [&](double t) { return disturbances.ambient_temperature.RiseAt(t); });
+
     const AmbientDrift& drift = disturbances.ambient_drift;
     if (drift.amplitude != 0) {
-      influences.level =
-          drift.amplitude * (2 * std::numbers::pi / drift.period * time.array()).sin();
+      course.level =
+          drift.amplitude * (2 * std::numbers::pi / drift.period * samples.time.array()).sin();
     }
     if (disturbances.load_change.load != 0) {
-      const Eigen::VectorXd growth = disturbances.load_change.gain * Load(time).cwiseAbs();
-      influences.level = influences.level.size() > 0 ? influences.level + growth : growth;
+      const Eigen::VectorXd growth = disturbances.load_change.gain * Load(samples.time).cwiseAbs();
+      course.level = course.level.size() > 0 ? course.level + growth : growth;
     }
-    return influences;
+    return course;
+  }
+
+  /// Load of the scenario and gravity, [N] N.m or N.
+  Eigen::VectorXd TransmittedLoad(const SampledPlan& samples) const {
+    return Load(samples.time) + GravityAt(samples.position);
   }
 
   /// G(p) of Eq. (6), [N] N.m or N.
@@ -133,7 +156,11 @@ class IdealPlant : public Plant {
     log.velocity = WithNoise(samples.velocity, noise.velocity, {key, Stream::velocity_noise});
     log.torque = WithNoise(force, noise.torque, {key, Stream::torque_noise});
     if (scenario_.disturbances.gravity != Gravity{}) log.torque += GravityAt(samples.position);
-    if (scenario_.disturbances.load_change.load != 0) log.load = Load(samples.time);
+    if (NeedsLoad(scenario_.friction)) {
+      log.load = TransmittedLoad(samples);
+    } else if (scenario_.disturbances.load_change.load != 0) {
+      log.load = Load(samples.time);
+    }
     return log;
   }
 

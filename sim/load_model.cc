@@ -9,6 +9,7 @@
 
 #include "models/foundation/atomic_file.h"
 #include "sim/plugin/friction_instance.h"
+#include "sim/plugin/model_folder.h"
 #include "sim/plugin/register.h"
 #include "sim/spec_elements.h"
 
@@ -91,6 +92,7 @@ ParsedModel ParseModel(const std::filesystem::path& path) {
   RegisterFrictionPlugin();
   const std::string text = ReadWholeFile(path);
 
+  ModelFolder() = std::filesystem::absolute(path).parent_path();
   std::array<char, 2000> error{};
   ParsedModel parsed;
   parsed.spec.reset(mj_parse(path.c_str(), nullptr, nullptr, error.data(), error.size()));

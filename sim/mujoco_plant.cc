@@ -44,6 +44,7 @@ class MujocoPlant : public Plant {
  public:
   explicit MujocoPlant(const Scenario& scenario)
       : scenario_(scenario),
+        two_stages_(scenario.friction.second_thermal.has_value()),
         joint_(LoadSingleJoint(FindRobot(scenario.robot, scenario.name), scenario.joint,
                                scenario.friction, scenario.timestep, scenario.name)),
         data_(mj_makeData(joint_.model.get())),
@@ -151,26 +152,30 @@ class MujocoPlant : public Plant {
 
     // cold and at rest, so far back that the first sample is at the start
     mj_resetData(m, d);
-    double& energy = d->act[joint_.friction_state + 1];
+    mjtNum* const state = d->act + joint_.friction_state;
     d->qpos[0] = start - reference.run_up();
-    energy = scenario_.initial_energy;
+    SetEnergy(state);
 
     const Eigen::Index n = truth.velocity.size();
     Eigen::Index sample = 0;
     for (long step = -run_up; sample < n || !log.Full(); ++step) {
-      if (step == 0) energy = scenario_.initial_energy;
-      const double wanted = reference.Velocity(static_cast<double>(step) * h);
+      if (step == 0) SetEnergy(state);
+      const double time = static_cast<double>(step) * h;
+      const double wanted = reference.Velocity(time);
+      d->ctrl[joint_.friction_control] = scenario_.disturbances.ambient_temperature.RiseAt(time);
       const double torque = drive.Torque(wanted, reference.acceleration(), d->qvel[0]);
       d->qfrc_applied[0] = torque;
 
       const bool reads = step >= 0 && step % steps_per_reading_ == 0 && !log.Full();
-      if (reads) log.Read(d->qpos[0], d->qvel[0], torque);
       const bool stores = step >= 0 && step % steps_per_sample_ == 0 && sample < n;
+      const double position = d->qpos[0], velocity = d->qvel[0];
       if (stores) {
-        truth.velocity[sample] = d->qvel[0];
-        truth.energy[sample] = energy;
+        truth.velocity[sample] = velocity;
+        truth.energy[sample] = state[1] + (two_stages_ ? state[2] : 0);
       }
       mj_step(m, d);
+      if (reads) log.Read(position, velocity, torque, d->qfrc_bias[0]);
+      RefusePush(time);
       if (stores) {
         truth.force[sample] = -d->actuator_force[joint_.friction_actuator];
         truth.loss[sample] = Loss(truth.velocity[sample], truth.force[sample]);
@@ -179,7 +184,22 @@ class MujocoPlant : public Plant {
     }
   }
 
+  /// E1 as the scenario begins, and no other heat.
+  void SetEnergy(mjtNum* state) const {
+    state[1] = scenario_.initial_energy;
+    if (two_stages_) state[2] = 0;
+  }
+
+  void RefusePush(double time) const {
+    if (data_->plugin_state[joint_.friction_report] == 0) return;
+    Refuse({scenario_.name},
+           "at {:g} s friction feeds itself: its level fell below 0, so that it would push; move "
+           "slower before, rest, or lower the thermal gain",
+           time);
+  }
+
   const Scenario scenario_;
+  const bool two_stages_;
   SingleJointModel joint_;
   DataPtr data_;
   long steps_per_sample_;

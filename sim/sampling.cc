@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "models/friction/level_terms.h"
+
 namespace warmjoint {
 namespace {
 
@@ -94,12 +96,16 @@ SensorLog::SensorLog(const Scenario& scenario, RandomKey key, Eigen::Index store
       left_(SensorReadings(scenario.sampling, stored)),
       position_(scenario.sampling, scenario.noise.position, {key, Stream::position_noise}, stored),
       velocity_(scenario.sampling, scenario.noise.velocity, {key, Stream::velocity_noise}, stored),
-      torque_(scenario.sampling, scenario.noise.torque, {key, Stream::torque_noise}, stored) {}
+      torque_(scenario.sampling, scenario.noise.torque, {key, Stream::torque_noise}, stored) {
+  if (!NeedsLoad(scenario.friction)) return;
+  load_.emplace(scenario.sampling, 0, RandomStream({key, Stream::torque_noise}), stored);
+}
 
-void SensorLog::Read(double position, double velocity, double torque) {
+void SensorLog::Read(double position, double velocity, double torque, double load) {
   position_.Read(position);
   velocity_.Read(velocity);
   torque_.Read(torque);
+  if (load_) load_->Read(load);
   --left_;
 }
 
@@ -110,6 +116,7 @@ void SensorLog::WriteTo(Measurements& measurements) const {
   measurements.position = position_.samples();
   measurements.velocity = velocity_.samples();
   measurements.torque = torque_.samples();
+  if (load_) measurements.load = load_->samples();
 }
 
 }  // namespace warmjoint

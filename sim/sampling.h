@@ -50,7 +50,8 @@ class LoggedSignal {
   Eigen::VectorXd samples_;
 };
 
-/// The three signals of a joint, each with the noise of the scenario from a stream of its own.
+/// The signals of a joint, each with the noise of the scenario from a stream of its own; the load,
+/// which is logged where friction depends on it, without noise.
 class SensorLog {
  public:
   /// stored: number of samples.
@@ -58,9 +59,9 @@ class SensorLog {
 
   /// Whether all readings have been made.
   bool Full() const { return left_ == 0; }
-  /// The next reading: rad or m, rad/s or m/s, N.m or N. Must not be full.
-  void Read(double position, double velocity, double torque);
-  /// Time, position, velocity and torque of the stored samples.
+  /// The next reading: rad or m, rad/s or m/s, N.m or N, N.m or N. Must not be full.
+  void Read(double position, double velocity, double torque, double load);
+  /// Time, position, velocity, torque and, where it is logged, load of the stored samples.
   void WriteTo(Measurements& measurements) const;
 
  private:
@@ -69,6 +70,7 @@ class SensorLog {
   LoggedSignal position_;
   LoggedSignal velocity_;
   LoggedSignal torque_;
+  std::optional<LoggedSignal> load_;
 };
 
 }  // namespace warmjoint

@@ -56,6 +56,8 @@ SingleJointModel LoadSingleJoint(const std::string& path, const std::string& joi
   result.inertia = EffectiveInertia(m, 0);
   result.friction_actuator = m->actuator_outadr[0];
   result.friction_state = m->actuator_actadr[0];
+  result.friction_control = m->actuator_ctrladr[0];
+  result.friction_report = m->plugin_stateadr[m->actuator_plugin[0]];
   return result;
 }
 

@@ -16,7 +16,9 @@ struct SingleJointModel {
   std::pair<double, double> limits;  // rad or m; infinite where the joint has none
   double inertia = 0;                // effective, kg.m^2 or kg
   int friction_actuator = 0;         // its output in actuator_force
-  int friction_state = 0;            // its first entry in act: bristle, energy
+  int friction_state = 0;            // its first entry in act (StateOf)
+  int friction_control = 0;          // the ambient temperature's rise in ctrl, K
+  int friction_report = 0;           // in plugin_state: whether friction would have pushed
 };
 
 /// Loads an MJCF or URDF file, holds every joint but `joint` at its reference position, removes

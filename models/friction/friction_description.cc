@@ -1,16 +1,14 @@
 #include "models/friction/friction_description.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "models/foundation/nearest_name.h"
-#include "models/foundation/read_json.h"
 
 namespace warmjoint {
 namespace {
-
-using nlohmann::json;
 
 void CheckValue(const ParameterInfo& info, double value, const Place& place) {
   if (std::isfinite(value) && value >= info.lower && value <= info.upper) return;
@@ -28,29 +26,69 @@ void CheckStaticLevel(const FrictionDescription& friction, const Place& place) {
          at_rest->second, coulomb);
 }
 
-double NumberMember(const json& object, const std::string& key, const Place& place) {
-  const json& value = object.at(key);
-  if (!value.is_number()) Refuse(place, "{} is {}; it must be a number", key, value.dump());
-  return value.get<double>();
+void CheckThermal(const Thermal& thermal, const Place& place) {
+  CheckValue(Thermal::parameters[0], thermal.gain, place);
+  CheckValue(Thermal::parameters[1], thermal.time_constant, place);
+  if (thermal.time_constant > 0) return;
+  Refuse(place, "thermal_time_constant is 0 s; it must be positive");
 }
 
-void RefuseUnknownKeys(const json& object, const std::string& what,
-                       const std::vector<std::string>& known, const Place& place) {
-  if (!object.is_object()) Refuse(place, "{} is {}; it must be an object", what, object.dump());
-  for (const auto& [key, value] : object.items()) {
-    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
-    Refuse(place, "{} has no key '{}'{}", what, key, Suggestion(key, known));
+/// What depends on the heat makes sense only where there is heat.
+void CheckHeat(const FrictionDescription& friction, const Place& place) {
+  if (friction.thermal) {
+    CheckThermal(*friction.thermal, place);
+    if (friction.level_per_temperature * friction.thermal->gain < 0) {
+      Refuse(place,
+             "level_per_temperature is {} and thermal_gain {}: losses would cool the joint; their "
+             "signs must agree",
+             friction.level_per_temperature, friction.thermal->gain);
+    }
+    if (friction.second_thermal) CheckThermal(*friction.second_thermal, place);
+    return;
+  }
+  const auto needs = [&](const char* what) {
+    Refuse(place, "{} needs thermal, which is not given; give it a gain and a time constant", what);
+  };
+  if (friction.second_thermal) needs("a second stage of warming");
+  if (friction.level_per_temperature != 0) needs("level_per_temperature");
+  if (friction.viscous_per_energy != 0) needs("viscous_per_energy");
+  for (const FrictionMap& map : friction.maps) {
+    for (const MapAxis& axis : map.axes) {
+      if (axis.quantity == MapQuantity::energy) needs("a map over energy");
+    }
   }
 }
 
-void ReadThermal(const json& object, FrictionDescription& friction, const Place& place) {
-  RefuseUnknownKeys(object, "thermal", {"thermal_gain", "thermal_time_constant", "ambient"}, place);
-  for (const char* key : {"thermal_gain", "thermal_time_constant"}) {
-    if (!object.contains(key)) Refuse(place, "thermal lacks {}; give a number", key);
+/// Eq. (27): a slope that rises with the loss that it causes has no bound.
+void CheckSlopeOverEnergy(const FrictionDescription& friction, const Place& place) {
+  const double slope = friction.viscous_per_energy;
+  if (slope == 0) return;
+  if (!friction.parameters.contains("viscous")) {
+    Refuse(place, "viscous_per_energy is {}, but law {} has no viscous that it could change", slope,
+           friction.law);
   }
-  friction.thermal = Thermal{NumberMember(object, "thermal_gain", place),
-                             NumberMember(object, "thermal_time_constant", place)};
-  if (object.contains("ambient")) friction.ambient = NumberMember(object, "ambient", place);
+  for (const auto& thermal : {friction.thermal, friction.second_thermal}) {
+    if (!thermal || slope * thermal->gain <= 0) continue;
+    Refuse(place,
+           "viscous_per_energy is {} and thermal_gain {}: the slope would rise with its own losses "
+           "without a bound; their signs must differ",
+           slope, thermal->gain);
+  }
+}
+
+void CheckMaps(const FrictionDescription& friction, const Place& place) {
+  for (const FrictionMap& map : friction.maps) {
+    CheckMap(map, place);
+    for (const MapAxis& axis : map.axes) {
+      if (axis.quantity != MapQuantity::motor_position) continue;
+      const double period = axis.kernels.period.value_or(0);
+      if (std::abs(period - 2 * std::numbers::pi) <= 1e-9) continue;
+      Refuse(place,
+             "a map over motor_position has the period {}; the motor's angle lies on a circle, so "
+             "that it must be 2 pi, {}",
+             period, 2 * std::numbers::pi);
+    }
+  }
 }
 
 }  // namespace
@@ -77,17 +115,35 @@ void CheckFriction(const FrictionDescription& friction, const Place& place) {
   }
 
   CheckStaticLevel(friction, place);
-  if (friction.thermal) {
-    CheckValue(Thermal::parameters[0], friction.thermal->gain, place);
-    CheckValue(Thermal::parameters[1], friction.thermal->time_constant, place);
-    if (friction.thermal->time_constant == 0) {
-      Refuse(place, "thermal_time_constant is 0 s; it must be positive");
-    }
+  for (const FrictionOption& option : FrictionOptions()) {
+    CheckValue(option.info, friction.*option.value, place);
   }
+  CheckHeat(friction, place);
+  CheckSlopeOverEnergy(friction, place);
   if (!std::isfinite(friction.gear) || friction.gear == 0) {
     Refuse(place, "gear is {}; it must be a finite number other than 0", friction.gear);
   }
-  for (const FrictionMap& map : friction.maps) CheckMap(map, place);
+  CheckMaps(friction, place);
+}
+
+std::span<const FrictionOption> FrictionOptions() {
+  static const std::array options{
+      FrictionOption{{"level_per_temperature", "kT", kLevelPerTemperatureUnit, -kInfinity,
+                      kInfinity, 0, "change of the level for each K of the ambient, once settled"},
+                     &FrictionDescription::level_per_temperature},
+      FrictionOption{{"viscous_per_energy", "b", kTimePerPositionUnit, -kInfinity, kInfinity, 0,
+                      "(27) change of viscous for each unit of the energy state"},
+                     &FrictionDescription::viscous_per_energy},
+      FrictionOption{{"load_gain",
+                      "c",
+                      {"1", "1"},
+                      0,
+                      kInfinity,
+                      0,
+                      "growth of the level for each unit of the load's size"},
+                     &FrictionDescription::load_gain},
+  };
+  return options;
 }
 
 void FillDefaults(FrictionDescription& friction) {
@@ -105,48 +161,6 @@ std::vector<double> LawValues(const FrictionDescription& friction) {
     values.push_back(friction.parameters.at(std::string(info.name)));
   }
   return values;
-}
-
-json FrictionToJson(const FrictionDescription& friction) {
-  json result{{"law", friction.law}, {"parameters", friction.parameters}, {"gear", friction.gear}};
-  if (friction.thermal) {
-    result["thermal"] = {{"thermal_gain", friction.thermal->gain},
-                         {"thermal_time_constant", friction.thermal->time_constant},
-                         {"ambient", friction.ambient}};
-  }
-  for (const FrictionMap& map : friction.maps) result["maps"].push_back(MapToJson(map));
-  return result;
-}
-
-FrictionDescription FrictionFromJson(const json& object, const Place& place) {
-  RefuseUnknownKeys(object, "friction", {"law", "parameters", "thermal", "gear", "maps"}, place);
-  if (!object.contains("law") || !object["law"].is_string()) {
-    Refuse(place, "friction lacks its law; give one of its names as text");
-  }
-
-  FrictionDescription friction;
-  friction.law = object["law"].get<std::string>();
-  if (object.contains("parameters")) {
-    const json& parameters = object["parameters"];
-    if (!parameters.is_object()) Refuse(place, "friction's parameters must be an object");
-    for (const auto& [name, value] : parameters.items()) {
-      friction.parameters[name] = NumberMember(parameters, name, place);
-    }
-  }
-  if (object.contains("thermal")) ReadThermal(object["thermal"], friction, place);
-  if (object.contains("gear")) friction.gear = NumberMember(object, "gear", place);
-  if (object.contains("maps")) {
-    if (!object["maps"].is_array()) Refuse(place, "friction's maps must be a list");
-    for (const json& map : object["maps"]) friction.maps.push_back(MapFromJson(map, place));
-  }
-  FillDefaults(friction);
-  CheckFriction(friction, place);
-  return friction;
-}
-
-FrictionDescription ReadFrictionFile(const std::string& path) {
-  const json object = ReadJsonFile(path);
-  return FrictionFromJson(object.contains("friction") ? object["friction"] : object, {path});
 }
 
 }  // namespace warmjoint

@@ -25,6 +25,9 @@ double ValueOf(const FrictionDescription& friction, const char* name) {
 std::vector<StateMember> StateOf(const FrictionDescription& friction) {
   std::vector<StateMember> members{{"bristle load", &FrictionState::bristle},
                                    {"energy", &FrictionState::energy}};
+  if (friction.second_thermal) {
+    members.push_back({"second energy", &FrictionState::second_energy});
+  }
   if (FindLaw(friction.law)->pre_sliding == PreSliding::breakaway) {
     members.push_back({"slip", &FrictionState::slip});
   }
@@ -32,12 +35,14 @@ std::vector<StateMember> StateOf(const FrictionDescription& friction) {
 }
 
 JointFriction::JointFriction(const FrictionDescription& friction)
-    : law_(*FindLaw(friction.law)),
+    : friction_(friction),
+      law_(*FindLaw(friction.law)),
       values_(LawValues(friction)),
       state_(StateOf(friction)),
+      terms_(friction),
+      has_terms_(!terms_.empty()),
       viscous_(ValueOf(friction, "viscous")),
-      warms_(friction.thermal.has_value()),
-      thermal_(friction.thermal.value_or(Thermal{})) {
+      per_energy_(friction.viscous_per_energy) {
   if (law_.pre_sliding == PreSliding::bristle) {
     own_bristle_ =
         Bristle{ValueOf(friction, "bristle_stiffness"), ValueOf(friction, "bristle_damping")};
@@ -47,61 +52,83 @@ JointFriction::JointFriction(const FrictionDescription& friction)
 
 template <typename... L>
 void JointFriction::ChooseStep(LawList<L...>) {
-  ((law_.name == L::name ? step_ = &StepOf<L> : nullptr), ...);
+  ((law_.name == L::name ? void(step_ = &StepOf<L>) : void()), ...);
 }
 
 void JointFriction::SetTimestep(double h) {
   h_ = h;
-  discrete_ = Discretise(thermal_, h);
+  heat_ = DiscretiseHeat(friction_, h);
 }
 
 double JointFriction::HoldingLevel() const {
-  return std::max(law_.holding_level(1, values_.data()), law_.holding_level(-1, values_.data()));
+  const double* p = values_.data();
+  return std::max(law_.holding_level(1, p), law_.holding_level(-1, p)) + terms_.LargestAtRest();
 }
 
+double JointFriction::SlidingForce(double v, const JointPlace& place) const {
+  const int side = Sign(v);
+  const double level = place.energy + terms_.At(side, std::abs(v), place);
+  const double slope = Slope(place.energy) - viscous_;
+  return law_.force(v, values_.data()) + slope * v + side * level;
+}
+
+/// L on each side of motion, N.m or N.
 template <typename L>
-FrictionStep JointFriction::StepOf(const JointFriction& joint, const FrictionState& state, double v,
-                                   double inertia) {
-  const double speed = std::abs(v);
-  const double h = joint.h_;
-  const bool slips = state.slip * Sign(v) > 0.5;
-  const auto level = [&](int side) {
+struct JointFriction::Level {
+  const JointFriction& joint;
+  JointPlace place;
+  double v;
+  bool slips;  // broke away in the direction of v
+
+  double operator()(int side) const {
     const double* p = joint.values_.data();
+    const double speed = std::abs(v);
     const bool slides = slips && side * v > 0;
-    return (slides ? L::Level(side, speed, p) : HoldingLevelOf<L>(side, speed, p)) + state.energy;
-  };
+    double level = slides ? L::Level(side, speed, p) : HoldingLevelOf<L>(side, speed, p);
+    level += place.energy;
+    if (joint.has_terms_) level += joint.terms_.At(side, speed, place);
+    return level;
+  }
+};
+
+template <typename L>
+FrictionStep JointFriction::StepOf(const JointFriction& joint, const FrictionState& state,
+                                   const JointMotion& motion) {
+  const double v = motion.velocity, h = joint.h_;
+  const double energy = state.energy + state.second_energy;
+  const double viscous = joint.Slope(energy) * v;
+  const Level<L> level{
+      joint, {motion.position, energy, motion.load}, v, state.slip * Sign(v) > 0.5};
 
   // held by a bristle: the law's own, or one that the step chooses; the slope damps already
-  BristleStep bristle;
   FrictionStep step;
+  BristleStep bristle;
   if constexpr (L::pre_sliding == PreSliding::bristle) {
-    const Bristle own = LimitBristle(*joint.own_bristle_, inertia, h);
+    const Bristle own = LimitBristle(*joint.own_bristle_, motion.inertia, h);
     bristle = StepLugreBristle(own, state.bristle, v, h, level);
-    step.loss = joint.viscous_ * v * v + BristleLoss(own, state.bristle, bristle, v, h);
+    step.loss = viscous * v + BristleLoss(own, state.bristle, bristle, v, h);
   } else {
-    Bristle spring = MakeBristle(inertia, h);
-    spring.damping = std::max(0.0, spring.damping - joint.viscous_);
+    Bristle spring = MakeBristle(motion.inertia, h);
+    spring.damping = std::max(0.0, spring.damping - joint.Slope(energy));
     bristle = StepBristle(spring, state.bristle, v, h, level);
     step.next.slip = bristle.sliding ? Sign(v) : 0;
+    // only what slides gets warm
+    step.loss = viscous * v + (bristle.sliding ? Loss(v, bristle.force) : 0.0);
   }
+  step.force = viscous + bristle.force;
 
   // a level below zero takes from the viscous force, at most all of it
-  step.force = joint.viscous_ * v + bristle.force;
   const double deficit = bristle.force == 0 && v != 0 ? std::min(0.0, level(Sign(v))) : 0.0;
   if (deficit < 0) {
-    step.feeds_itself = joint.viscous_ * speed + deficit < 0;
-    step.force = Sign(v) * std::max(0.0, joint.viscous_ * speed + deficit);
+    const double left = std::abs(viscous) + deficit;
+    step.feeds_itself = left < 0;
+    step.force = Sign(v) * std::max(0.0, left);
+    step.loss = Loss(v, step.force);
   }
 
-  // only what slides gets warm
-  if (L::pre_sliding != PreSliding::bristle || deficit < 0) {
-    const bool slides = bristle.sliding || bristle.force == 0;
-    step.loss = slides ? Loss(v, step.force) : joint.viscous_ * v * v;
-  }
   step.next.bristle = bristle.load;
-  step.next.energy = joint.warms_ ? ThermalStep(joint.discrete_.gain, joint.discrete_.pole,
-                                                state.energy, step.loss)
-                                  : state.energy;
+  step.next.energy = joint.heat_.First(state.energy, step.loss, motion.ambient_rise);
+  step.next.second_energy = joint.heat_.Second(state.second_energy, step.loss);
   return step;
 }
 

@@ -1,4 +1,4 @@
-// Friction of one joint from step to step: law, bristle and heat together.
+// Friction of one joint from step to step: law, bristle, maps and heat together.
 #pragma once
 
 #include <string_view>
@@ -6,8 +6,9 @@
 
 #include "models/friction/bristle.h"
 #include "models/friction/friction_description.h"
+#include "models/friction/heat.h"
 #include "models/friction/law.h"
-#include "models/friction/thermal.h"
+#include "models/friction/level_terms.h"
 
 namespace warmjoint {
 
@@ -16,9 +17,10 @@ struct LawList;
 
 /// What one joint's friction remembers.
 struct FrictionState {
-  double bristle = 0;  // load that the bristle carries, N.m or N
-  double energy = 0;   // E, N.m or N
-  double slip = 0;     // -1, 0 or 1: direction in which a joint that broke away slides
+  double bristle = 0;        // load that the bristle carries, N.m or N
+  double energy = 0;         // E1, N.m or N
+  double second_energy = 0;  // E2, N.m or N
+  double slip = 0;           // -1, 0 or 1: direction in which a joint that broke away slides
 };
 
 /// One member of the state: its name for people, and where it is.
@@ -27,33 +29,42 @@ struct StateMember {
   double FrictionState::*value;
 };
 
-/// The members of the state that a friction needs, in the order of mjData.act: bristle and energy
-/// always, slip for laws that break away.
+/// The members of the state that a friction needs, in the order of mjData.act: bristle load and
+/// energy always, second energy for two stages of warming, slip for laws that break away.
 std::vector<StateMember> StateOf(const FrictionDescription& friction);
+
+/// What a joint does during one step.
+struct JointMotion {
+  double position = 0;      // rad or m
+  double velocity = 0;      // rad/s or m/s
+  double inertia = 0;       // effective inertia M, kg.m^2 or kg
+  double load = 0;          // that the joint transmits, N.m or N
+  double ambient_rise = 0;  // Ts - T0, K
+};
 
 /// What one step of friction yields.
 struct FrictionStep {
   double force = 0;           // F, N.m or N; acts against the motion as -F
   double loss = 0;            // W, W
-  bool feeds_itself = false;  // the sliding force of Eq. (20) would push; 0 was used instead
+  bool feeds_itself = false;  // the sliding force would push; 0 was used instead
   FrictionState next;
 };
 
-/// Steps F = kv v + bristle, whose level on the side of motion is that of Eq. (20):
-///   L(side) = g(side, |v|) + E.
-/// Sliding, F is Eq. (20) exactly and W = |F v| (19); at rest the bristle holds and W = 0.
+/// Steps F = (kv + b E) v + bristle, whose level on the side of motion is
+///   L(side) = g(side, |v|) + E + maps and load (LevelTerms),   E = E1 + E2.
+/// Sliding, F is Eq. (20) with maps exactly and W = |F v| (19); at rest the bristle holds, W = 0.
 /// E takes the exact zero-order-hold step (22) and does not see the loss of its own step.
 class JointFriction {
  public:
   /// friction: checked (CheckFriction).
   explicit JointFriction(const FrictionDescription& friction);
 
-  /// Sets the step, s. Must precede Step; costs an exponential.
+  /// Sets the step, s. Must precede Step; costs exponentials.
   void SetTimestep(double h);
   double timestep() const { return h_; }
 
-  /// Slope of the force over speed that no bristle bounds, N.m.s/rad or N.s/m.
-  double viscous() const { return viscous_; }
+  /// Slope of a cold joint's force over speed, at most, N.m.s/rad or N.s/m: kv and the maps'.
+  double SteepestSlope() const { return viscous_ + terms_.SteepestSlope(); }
 
   /// The law's own bristle; none where the step chooses it (MakeBristle).
   const std::optional<Bristle>& own_bristle() const { return own_bristle_; }
@@ -61,36 +72,39 @@ class JointFriction {
   /// The members of the state that it needs (StateOf).
   const std::vector<StateMember>& state() const { return state_; }
 
-  /// The largest load that a cold joint holds at rest, N.m or N.
+  /// The largest load that a cold joint holds at rest, at most, N.m or N; without load_gain's part.
   double HoldingLevel() const;
 
-  /// One step at velocity v (rad/s or m/s) of a joint with effective inertia M (kg.m^2 or kg).
-  FrictionStep Step(const FrictionState& state, double v, double inertia) const {
-    return step_(*this, state, v, inertia);
+  FrictionStep Step(const FrictionState& state, const JointMotion& motion) const {
+    return step_(*this, state, motion);
   }
 
-  /// The force of steady sliding at v != 0, Eq. (20), N.m or N.
-  double SlidingForce(double v, double energy) const {
-    return WarmForce(v, law_.force(v, values_.data()), energy);
-  }
+  /// The force of steady sliding at v != 0, Eq. (20) with maps, N.m or N; pushes where the level
+  /// is below 0. v: rad/s or m/s.
+  double SlidingForce(double v, const JointPlace& place) const;
 
  private:
   template <typename L>
-  static FrictionStep StepOf(const JointFriction& joint, const FrictionState& state, double v,
-                             double inertia);
+  struct Level;
+  template <typename L>
+  static FrictionStep StepOf(const JointFriction& joint, const FrictionState& state,
+                             const JointMotion& motion);
   template <typename... L>
   void ChooseStep(LawList<L...>);
+  double Slope(double energy) const { return std::max(0.0, viscous_ + per_energy_ * energy); }
 
+  FrictionDescription friction_;
   Law law_;
   std::vector<double> values_;  // of the law's table
   std::vector<StateMember> state_;
+  LevelTerms terms_;
+  bool has_terms_;
   double viscous_ = 0;
+  double per_energy_ = 0;
   std::optional<Bristle> own_bristle_;
-  bool warms_ = false;
-  Thermal thermal_;
-  DiscreteThermal discrete_;
+  Heat heat_;
   double h_ = 0;
-  FrictionStep (*step_)(const JointFriction&, const FrictionState&, double, double) = nullptr;
+  FrictionStep (*step_)(const JointFriction&, const FrictionState&, const JointMotion&) = nullptr;
 };
 
 }  // namespace warmjoint

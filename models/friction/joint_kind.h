@@ -22,6 +22,8 @@ inline constexpr JointUnit kVelocityUnit{"rad/s", "m/s"};
 inline constexpr JointUnit kTorqueUnit{"N.m", "N"};
 inline constexpr JointUnit kViscousUnit{"N.m.s/rad", "N.s/m"};
 inline constexpr JointUnit kStiffnessUnit{"N.m/rad", "N/m"};
+inline constexpr JointUnit kLevelPerTemperatureUnit{"N.m/K", "N/K"};
+inline constexpr JointUnit kTimePerPositionUnit{"s/rad", "s/m"};
 inline constexpr JointUnit kThermalGainUnit{"N.m/W", "N/W"};
 
 }  // namespace warmjoint

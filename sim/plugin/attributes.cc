@@ -1,12 +1,17 @@
 #include "sim/plugin/attributes.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "models/foundation/parse_number.h"
 #include "models/friction/law.h"
+#include "sim/plugin/model_folder.h"
 
 namespace warmjoint {
 namespace {
+
+namespace fs = std::filesystem;
 
 std::string BoundOf(const ParameterInfo& info) {
   if (info.lower == -kInfinity) return "any";
@@ -26,12 +31,19 @@ std::vector<PluginAttribute> MakeAttributes() {
   std::vector<PluginAttribute> attributes{
       {"law", "", fmt::format("{}", fmt::join(LawNames(), ", ")), "the nominal law"},
       {"file", "", "path", "friction file instead of all the other attributes"},
+      {"folder", "", "path", "folder from which file starts where it is relative"},
       {"gear", "rad/rad", "not 0", "motor turns for each joint turn; 1 where not given"},
   };
   for (const Law& law : Laws()) {
     for (const ParameterInfo& info : law.parameters) AddParameter(info, attributes);
   }
   for (const ParameterInfo& info : Thermal::parameters) AddParameter(info, attributes);
+  for (const ParameterInfo& info : Thermal::parameters) {
+    attributes.push_back({"second_" + std::string(info.name), std::string(info.unit.rotary),
+                          BoundOf(info), "the same of a second stage"});
+  }
+  for (const FrictionOption& option : FrictionOptions()) AddParameter(option.info, attributes);
+  attributes.push_back({"maps", "", "JSON", "list of maps as in a friction file"});
   return attributes;
 }
 
@@ -41,30 +53,58 @@ double Number(const std::string& name, const std::string& text, const Place& pla
   return *value;
 }
 
-FrictionDescription ReadFile(const std::string& path, const AttributeReader& read,
+/// Where a relative file lies: in `folder`, in the model's folder where this program loaded it, or
+/// in the working directory. MuJoCo does not tell a plugin where its model comes from.
+fs::path Locate(const fs::path& file, const fs::path& folder) {
+  if (file.is_absolute()) return file;
+  const fs::path inside = folder / file;
+  const fs::path beside = ModelFolder() / inside;
+  return !ModelFolder().empty() && fs::exists(beside) ? beside : inside;
+}
+
+FrictionDescription ReadFile(const std::string& file, const AttributeReader& read,
                              const Place& place) {
   for (const PluginAttribute& attribute : PluginAttributes()) {
-    if (attribute.name == "file" || read(attribute.name).empty()) continue;
+    if (attribute.name == "file" || attribute.name == "folder") continue;
+    if (read(attribute.name).empty()) continue;
     Refuse(place, "{} is '{}' beside file '{}'; give the file or the other attributes",
-           attribute.name, read(attribute.name), path);
+           attribute.name, read(attribute.name), file);
   }
+  const fs::path path = Locate(file, read("folder"));
   try {
     return ReadFrictionFile(path);
   } catch (const BadInput& refusal) {
-    Refuse(place, "file: {}", refusal.what());
+    const bool lost = !path.is_absolute() && !fs::exists(path);
+    Refuse(place, "file: {}{}", refusal.what(),
+           lost ? fmt::format(" (relative to the working directory {}; give folder, or an absolute "
+                              "path)",
+                              fs::current_path().string())
+                : "");
   }
 }
 
-std::optional<Thermal> ReadThermal(const AttributeReader& read, const Place& place) {
-  const std::string gain = read("thermal_gain");
-  const std::string time_constant = read("thermal_time_constant");
+/// A gain and a time constant; nothing where neither is given.
+std::optional<Thermal> ReadThermal(const std::string& prefix, const AttributeReader& read,
+                                   const Place& place) {
+  const std::string gain = read(prefix + "thermal_gain");
+  const std::string time_constant = read(prefix + "thermal_time_constant");
   if (gain.empty() && time_constant.empty()) return std::nullopt;
   if (gain.empty() || time_constant.empty()) {
-    Refuse(place, "thermal_gain is '{}' and thermal_time_constant '{}'; give both or neither", gain,
-           time_constant);
+    Refuse(place,
+           "{0}thermal_gain is '{1}' and {0}thermal_time_constant '{2}'; give both or neither",
+           prefix, gain, time_constant);
   }
-  return Thermal{Number("thermal_gain", gain, place),
-                 Number("thermal_time_constant", time_constant, place)};
+  return Thermal{Number(prefix + "thermal_gain", gain, place),
+                 Number(prefix + "thermal_time_constant", time_constant, place)};
+}
+
+std::vector<FrictionMap> ReadMaps(const std::string& text, const Place& place) {
+  using nlohmann::json;
+  const json list = json::parse(text, nullptr, false);
+  if (!list.is_array()) Refuse(place, "maps is no JSON list");
+  std::vector<FrictionMap> maps;
+  for (const json& map : list) maps.push_back(MapFromJson(map, place));
+  return maps;
 }
 
 }  // namespace
@@ -92,7 +132,13 @@ FrictionDescription ReadAttributes(const AttributeReader& read, const Place& pla
       if (!text.empty()) friction.parameters[name] = Number(name, text, place);
     }
   }
-  friction.thermal = ReadThermal(read, place);
+  friction.thermal = ReadThermal("", read, place);
+  friction.second_thermal = ReadThermal("second_", read, place);
+  for (const FrictionOption& option : FrictionOptions()) {
+    const std::string name(option.info.name);
+    if (!read(name).empty()) friction.*option.value = Number(name, read(name), place);
+  }
+  if (!read("maps").empty()) friction.maps = ReadMaps(read("maps"), place);
   if (!read("gear").empty()) friction.gear = Number("gear", read("gear"), place);
   FillDefaults(friction);
   CheckFriction(friction, place);

@@ -17,7 +17,8 @@ struct PluginAttribute {
   std::string meaning;
 };
 
-/// All attributes: `law`, `file`, the parameters of every law, the thermal ones, `gear`.
+/// All attributes: `law`, `file`, `folder`, `gear`, the parameters of every law, the thermal ones,
+/// the options (FrictionOptions), `maps`.
 const std::vector<PluginAttribute>& PluginAttributes();
 
 /// Reads the value of an attribute by its name; empty where it was not given.

@@ -71,13 +71,14 @@ void CheckIntegrator(const mjModel* m, const Place& place) {
 /// An explicit slope of force over speed c is well damped up to c h = M / 2, also where coupled
 /// joints feel lighter than M, and diverges above 2 M.
 void CheckSlope(const JointFriction& friction, double inertia, double h, const Place& place) {
-  const double needed = 2 * friction.viscous() * h;
+  const double slope = friction.SteepestSlope();
+  const double needed = 2 * slope * h;
   if (needed <= inertia) return;
   Refuse(place,
-         "viscous is {} on an effective inertia of {:.3g} at timestep {}; the step would be "
+         "friction rises by up to {:.4g} over speed on an effective inertia of {:.3g} at timestep "
+         "{}; the step would be "
          "unstable: add an armature of {:.3g} or take a timestep of at most {:.3g} s",
-         friction.viscous(), inertia, h, RoundUp(needed - inertia),
-         inertia / (2 * friction.viscous()));
+         slope, inertia, h, RoundUp(needed - inertia), inertia / (2 * slope));
 }
 
 /// How far the bristle winds up before it slides: level h^2 / (0.1 M).

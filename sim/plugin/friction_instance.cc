@@ -18,14 +18,33 @@ FrictionDescription ReadInstance(const mjModel* m, int instance) {
 }  // namespace
 
 FrictionInstance::FrictionInstance(const mjModel* m, int instance)
-    : friction_(ReadInstance(m, instance)) {
+    : FrictionInstance(m, instance, ReadInstance(m, instance)) {}
+
+FrictionInstance::FrictionInstance(const mjModel* m, int instance,
+                                   const FrictionDescription& friction)
+    : instance_(instance),
+      friction_(friction),
+      needs_load_(NeedsLoad(friction)),
+      needs_ambient_(friction.level_per_temperature != 0) {
   friction_.SetTimestep(m->opt.timestep);
   for (int i = 0; i < m->nactuator; ++i) {
     if (m->actuator_plugin[i] != instance) continue;
     CheckActuator(m, i, friction_);
-    joints_.push_back({i, m->jnt_dofadr[m->actuator_trnid[2 * i]], m->actuator_actadr[i],
-                       m->actuator_outadr[i], 0});
+    const int joint = m->actuator_trnid[2 * i];
+    joints_.push_back({i, m->jnt_dofadr[joint], m->jnt_qposadr[joint], m->actuator_actadr[i],
+                       m->actuator_ctrladr[i], m->actuator_outadr[i], 0});
   }
+}
+
+JointMotion FrictionInstance::MotionOf(const mjModel* m, const mjData* d,
+                                       const Joint& joint) const {
+  JointMotion motion;
+  motion.position = d->qpos[joint.position];
+  motion.velocity = d->qvel[joint.dof];
+  motion.inertia = EffectiveInertia(m, d, joint.dof);
+  if (needs_load_) motion.load = d->qfrc_bias[joint.dof];
+  if (needs_ambient_) motion.ambient_rise = d->ctrl[joint.control];
+  return motion;
 }
 
 void FrictionInstance::Step(const mjModel* m, mjData* d) {
@@ -36,15 +55,25 @@ void FrictionInstance::Step(const mjModel* m, mjData* d) {
     FrictionState now;
     const mjtNum* act = d->act + joint.state;
     for (const StateMember& member : friction_.state()) now.*member.value = *act++;
-    const double inertia = EffectiveInertia(m, d, joint.dof);
-    const FrictionStep step = friction_.Step(now, d->qvel[joint.dof], inertia);
+    const FrictionStep step = friction_.Step(now, MotionOf(m, d, joint));
     joint.force = step.force;
 
     mjtNum* rate = d->act_dot + joint.state;
     for (const StateMember& member : friction_.state()) {
       *rate++ = (step.next.*member.value - now.*member.value) / h;
     }
+    if (step.feeds_itself) Report(m, d, joint);
   }
+}
+
+void FrictionInstance::Report(const mjModel* m, mjData* d, const Joint& joint) {
+  mjtNum& reported = d->plugin_state[m->plugin_stateadr[instance_]];
+  if (reported != 0) return;
+  reported = 1;
+  mju_warning(
+      "%s: %s: at %g s friction would push the joint (its level is below 0 at %g rad/s or m/s); it "
+      "is held at 0 from here on, and friction is outside its domain",
+      kFrictionPlugin, ActuatorName(m, joint.actuator).c_str(), d->time, d->qvel[joint.dof]);
 }
 
 void FrictionInstance::Apply(const mjModel* m, mjData* d) const {

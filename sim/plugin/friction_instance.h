@@ -3,7 +3,6 @@
 
 #include <mujoco/mujoco.h>
 
-#include <string>
 #include <vector>
 
 #include "models/friction/joint_friction.h"
@@ -12,6 +11,10 @@ namespace warmjoint {
 
 /// Name under which MuJoCo knows the plugin.
 inline constexpr char kFrictionPlugin[] = "warmjoint.friction";
+
+/// Entries of mjData.plugin_state of each instance: 1 once friction would have pushed in one of its
+/// joints, else 0. It reports and is never read by the plugin's dynamics.
+inline constexpr int kFrictionReports = 1;
 
 /// Friction of the joints whose actuators share one plugin instance. Keeps no state of its own
 /// beyond scratch: all state is in mjData.act.
@@ -22,7 +25,7 @@ class FrictionInstance {
   FrictionInstance(const mjModel* m, int instance);
 
   /// Steps every joint: writes act_dot = (next - now) / h, so that the engine's Euler step of act
-  /// lands on the next state, and keeps the forces for Apply.
+  /// lands on the next state, and keeps the forces for Apply. Allocates and locks nothing.
   void Step(const mjModel* m, mjData* d);
 
   /// Writes actuator_force = -F of the last Step.
@@ -33,12 +36,21 @@ class FrictionInstance {
   struct Joint {
     int actuator = 0;
     int dof = 0;
+    int position = 0;  // in qpos
     int state = 0;     // in act
+    int control = 0;   // in ctrl
     int output = 0;    // in actuator_force
     double force = 0;  // F of the last step, N.m or N
   };
 
+  FrictionInstance(const mjModel* m, int instance, const FrictionDescription& friction);
+  JointMotion MotionOf(const mjModel* m, const mjData* d, const Joint& joint) const;
+  void Report(const mjModel* m, mjData* d, const Joint& joint);
+
+  int instance_;
   JointFriction friction_;
+  bool needs_load_;
+  bool needs_ambient_;
   std::vector<Joint> joints_;
 };
 

@@ -47,10 +47,10 @@ mjpPlugin MakePlugin() {
   plugin.nattribute = static_cast<int>(names.size());
   plugin.attributes = names.data();
   plugin.capabilityflags = mjPLUGIN_ACTUATOR;
-  plugin.nstate = [](const mjModel*, int) { return 0; };
+  plugin.nstate = [](const mjModel*, int) { return kFrictionReports; };
   plugin.init = Init;
   plugin.destroy = Destroy;
-  plugin.reset = [](const mjModel*, mjtNum*, void*, int) {};
+  plugin.reset = [](const mjModel*, mjtNum* reports, void*, int) { reports[0] = 0; };
   plugin.actuator_act_dot = [](const mjModel* m, mjData* d, int instance) {
     InstanceOf(d, instance)->Step(m, d);
   };

@@ -72,6 +72,59 @@ TEST(FrictionDescription, TakesDefaultsForWhatMayBeLeftOut) {
   EXPECT_EQ(FrictionFromJson(object, {"robot.json"}).parameters.at("stribeck_exponent"), 2);
 }
 
+TEST(FrictionDescription, SurvivesARoundTripWithAllItsParts) {
+  json object = Example();
+  object["thermal"]["second"] = {{"thermal_gain", -1.0}, {"thermal_time_constant", 20.0}};
+  object["load_gain"] = 0.1;
+  object["level_per_temperature"] = -0.2;
+  object["viscous_per_energy"] = 0.3;
+  object["maps"] = {{{"axes",
+                      {{{"quantity", "energy"},
+                        {"centres", {-1.0, 0.0}},
+                        {"width", 1.0},
+                        {"sides", "together"}}}},
+                     {"kernels", "plain"},
+                     {"factor", "direction"},
+                     {"weights", {0.5, 0.25}}}};
+  EXPECT_EQ(FrictionToJson(FrictionFromJson(object, {"robot.json"})), object);
+}
+
+TEST(FrictionDescription, RefusesPartsThatMakeNoSenseTogether) {
+  json cold = Example();
+  cold.erase("thermal");
+  for (const char* option : {"level_per_temperature", "viscous_per_energy"}) {
+    json object = cold;
+    object[option] = -0.1;
+    EXPECT_THAT(RefusalOf(object), HasSubstr(std::string(option) + " needs thermal"));
+  }
+  const json axis{{"quantity", "energy"}, {"centres", {-1.0, 0.0}}, {"width", 1.0}};
+  cold["maps"] = {{{"axes", {axis}}, {"weights", {0.5, 0.25}}}};
+  EXPECT_THAT(RefusalOf(cold), HasSubstr("a map over energy needs thermal"));
+
+  json object = Example();
+  object["viscous_per_energy"] = -0.1;
+  EXPECT_THAT(RefusalOf(object), HasSubstr("their signs must differ"));
+  object = Example();
+  object["level_per_temperature"] = 0.1;
+  EXPECT_THAT(RefusalOf(object), HasSubstr("losses would cool the joint"));
+  object = Example();
+  object["law"] = "coulomb";
+  object["parameters"].erase("viscous");
+  object["viscous_per_energy"] = 0.1;
+  EXPECT_THAT(RefusalOf(object), HasSubstr("law coulomb has no viscous"));
+  object = Example();
+  object["load_gain"] = -1;
+  EXPECT_THAT(RefusalOf(object), HasSubstr("load_gain is -1"));
+  object = Example();
+  object["maps"] = {{{"axes",
+                      {{{"quantity", "motor_position"},
+                        {"centres", {0.0, 3.0}},
+                        {"width", 1.0},
+                        {"period", 6.0}}}},
+                     {"weights", {0.5, 0.25}}}};
+  EXPECT_THAT(RefusalOf(object), HasSubstr("has the period 6; the motor's angle lies on a circle"));
+}
+
 TEST(FrictionDescription, RefusesImpossibleValues) {
   json object = Example();
   object["parameters"]["coulomb"] = -1;

@@ -28,12 +28,16 @@ JointFriction Make(const FrictionDescription& friction) {
   return joint;
 }
 
+FrictionStep Step(const JointFriction& joint, const FrictionState& state, double v) {
+  return joint.Step(state, {.velocity = v, .inertia = kInertia});
+}
+
 /// Steps at constant velocity until the bristle has yielded.
 FrictionStep Slide(const JointFriction& joint, double v, double energy) {
   FrictionStep step;
   FrictionState state{0, energy};
   for (int i = 0; i < 10000 && !(step.loss > 0 && i > 1000); ++i) {
-    step = joint.Step(state, v, kInertia);
+    step = Step(joint, state, v);
     state.bristle = step.next.bristle;
   }
   return step;
@@ -45,25 +49,25 @@ TEST(JointFriction, SlidesAtTheForceOfEquation20) {
     for (const double energy : {-2.0, 0.0, 1.5}) {
       const FrictionStep step = Slide(joint, v, energy);
       // one rounding in each of three sums
-      EXPECT_NEAR(step.force, joint.SlidingForce(v, energy), 1e-15 * 10);
-      EXPECT_NEAR(step.loss, Loss(v, joint.SlidingForce(v, energy)), 1e-14);
+      EXPECT_NEAR(step.force, joint.SlidingForce(v, {0, energy, 0}), 1e-15 * 10);
+      EXPECT_NEAR(step.loss, Loss(v, joint.SlidingForce(v, {0, energy, 0})), 1e-14);
     }
   }
 }
 
 TEST(JointFriction, HoldsWithoutLossAndWithoutDriftBelowItsLevel) {
   const JointFriction joint = Make(Asymmetric(0.7, 3, 5));
-  FrictionStep step = joint.Step({2.9, 0}, 0, kInertia);
+  FrictionStep step = Step(joint, {2.9, 0}, 0);
   EXPECT_EQ(step.force, 2.9);
   EXPECT_EQ(step.next.bristle, 2.9);
   EXPECT_EQ(step.loss, 0);
-  step = joint.Step({-4.9, 0}, 0, kInertia);
+  step = Step(joint, {-4.9, 0}, 0);
   EXPECT_EQ(step.force, -4.9);
 }
 
 TEST(JointFriction, LetsGoWhereWarmingLowersTheLevelBelowTheLoad) {
   const JointFriction joint = Make(Asymmetric(0, 3, 5));
-  const FrictionStep step = joint.Step({2.9, -1}, 0, kInertia);
+  const FrictionStep step = Step(joint, {2.9, -1}, 0);
   EXPECT_EQ(step.force, 2.0);
   EXPECT_EQ(step.next.bristle, 2.0);
 }
@@ -71,14 +75,33 @@ TEST(JointFriction, LetsGoWhereWarmingLowersTheLevelBelowTheLoad) {
 TEST(JointFriction, TakesALevelBelowZeroFromTheViscousForce) {
   // kc + E = -2: at 4 rad/s the viscous 0.7 * 4 leaves 0.8; at 2 rad/s nothing is left
   const JointFriction joint = Make(Asymmetric(0.7, 3, 3));
-  FrictionStep step = joint.Step({0, -5}, 4, kInertia);
+  FrictionStep step = Step(joint, {0, -5}, 4);
   EXPECT_NEAR(step.force, 0.8, 1e-15);
   EXPECT_FALSE(step.feeds_itself);
   EXPECT_NEAR(step.loss, 3.2, 1e-14);
-  step = joint.Step({0, -5}, -2, kInertia);
+  step = Step(joint, {0, -5}, -2);
   EXPECT_EQ(step.force, 0);
   EXPECT_TRUE(step.feeds_itself);
   EXPECT_EQ(step.loss, 0);
+}
+
+/// A map over one or two quantities whose weights may well push.
+FrictionMap DrawMap(RandomStream& random) {
+  const std::vector<MapAxis> choices{
+      {MapQuantity::position, EvenAxis(-1, 1, 9)},
+      {MapQuantity::motor_position, CircleAxis(6.283185307179586, 12)},
+      {MapQuantity::velocity, SpeedAxis(0.05, 0.5, 3)},
+      {MapQuantity::energy, EvenAxis(-2, 2, 3)},
+      {MapQuantity::load, EvenAxis(-5, 5, 4)}};
+  FrictionMap map;
+  const auto first = static_cast<size_t>(random.Uniform(0, 5));
+  map.axes = {choices[first]};
+  if (random.Uniform(0, 1) < 0.5) map.axes.push_back(choices[(first + 2) % 5]);
+  map.kernels = random.Uniform(0, 1) < 0.5 ? KernelKind::plain : KernelKind::normalised;
+  map.factor = std::array{MapFactor::one, MapFactor::direction,
+                          MapFactor::velocity}[static_cast<size_t>(random.Uniform(0, 3))];
+  for (size_t i = 0; i < map.size(); ++i) map.weights.push_back(random.Uniform(-3, 3));
+  return map;
 }
 
 /// A law of the list with parameters drawn within their bounds.
@@ -98,6 +121,12 @@ FrictionDescription DrawLaw(RandomStream& random) {
     friction.parameters["bristle_stiffness"] *= 1e4;
   }
   friction.thermal = Thermal{random.Uniform(-2, 2), random.Uniform(0.05, 5)};
+  if (random.Uniform(0, 1) < 0.5) friction.second_thermal = Thermal{random.Uniform(-1, 1), 0.02};
+  friction.load_gain = random.Uniform(0, 0.5);
+  friction.level_per_temperature = 0.1 * friction.thermal->gain;
+  friction.gear = random.Uniform(1, 50);
+  for (double left = random.Uniform(0, 3); left > 1; --left)
+    friction.maps.push_back(DrawMap(random));
   CheckFriction(friction, {"draw"});
   return friction;
 }
@@ -113,12 +142,15 @@ TEST(JointFriction, NeverGivesEnergyOverRandomLawsAndMotions) {
 
     // a wild motion: white acceleration, pulled back to rest
     FrictionState state;
-    double v = 0;
+    JointMotion motion{.inertia = kInertia};
     double absorbed = 0;  // J
     double scale = 0;     // J moved to and fro
     for (int i = 0; i < 2000; ++i) {
-      v = 0.97 * v + 0.1 * random.Normal();
-      const FrictionStep step = joint.Step(state, v, kInertia);
+      const double v = motion.velocity = 0.97 * motion.velocity + 0.1 * random.Normal();
+      motion.position += v * kStep;
+      motion.load = 5 * std::sin(0.01 * i);
+      motion.ambient_rise = 10 * std::cos(0.003 * i);
+      const FrictionStep step = joint.Step(state, motion);
       absorbed += step.force * v * kStep;
       scale += std::abs(step.force * v * kStep);
       state = step.next;
@@ -144,8 +176,8 @@ TEST(JointFriction, EveryLawSlidesAtItsSteadyForce) {
     for (const double v : {-3.0, -0.3, 0.3, 3.0}) {
       FrictionStep step;
       // 30 rad of travel: a bristle of 3.7 N.m/rad has relaxed to e^-20 of a level of 5 N.m
-      for (int i = 0; i * kStep * std::abs(v) < 30; ++i) step = joint.Step(step.next, v, kInertia);
-      EXPECT_NEAR(step.force, joint.SlidingForce(v, 0), 1e-8) << law.name << " at " << v;
+      for (int i = 0; i * kStep * std::abs(v) < 30; ++i) step = Step(joint, step.next, v);
+      EXPECT_NEAR(step.force, joint.SlidingForce(v, {}), 1e-8) << law.name << " at " << v;
       EXPECT_NEAR(step.loss, Loss(v, step.force), 1e-8) << law.name << " at " << v;
     }
   }
@@ -160,23 +192,23 @@ FrictionDescription Sticky() {
 
 TEST(JointFriction, BreaksAwayAtTheStaticLevelAndSlidesAtCoulombUntilItStops) {
   const JointFriction joint = Make(Sticky());
-  FrictionStep step = joint.Step({4.9, 0, 0}, 1e-9, kInertia);
+  FrictionStep step = Step(joint, {4.9}, 1e-9);
   EXPECT_GT(step.force, 4.89) << "held above coulomb";
   EXPECT_EQ(step.next.slip, 0);
 
   // pulled on, it breaks away at 5 and slides at 3
-  step = joint.Step(step.next, 0.1, kInertia);
+  step = Step(joint, step.next, 0.1);
   EXPECT_EQ(step.force, 5);
   EXPECT_EQ(step.next.slip, 1);
-  step = joint.Step(step.next, 0.1, kInertia);
+  step = Step(joint, step.next, 0.1);
   EXPECT_EQ(step.force, 3);
   EXPECT_EQ(step.next.bristle, 3);
   EXPECT_NEAR(step.loss, 0.3, 1e-15);
 
   // the stop restores the static level: 25000 N.m/rad over 7e-5 rad
-  step = joint.Step(step.next, 0, kInertia);
+  step = Step(joint, step.next, 0);
   EXPECT_EQ(step.next.slip, 0);
-  for (int i = 0; i < 70; ++i) step = joint.Step(step.next, 1e-3, kInertia);
+  for (int i = 0; i < 70; ++i) step = Step(joint, step.next, 1e-3);
   EXPECT_GT(step.force, 4.5);
 }
 
@@ -190,17 +222,56 @@ TEST(JointFriction, DahlApproachesItsLevelWithTravelExactlyAtAnyStep) {
     FrictionStep step;
     const double v = 0.5;
     for (int i = 1; i <= 100; ++i) {
-      step = joint.Step(step.next, v, kInertia);
+      step = Step(joint, step.next, v);
       // F = kc (1 - exp(-sigma0 x / kc)), rounding of a hundred steps
       EXPECT_NEAR(step.force, 4 * -std::expm1(-100 * v * i * h / 4), 1e-13);
     }
   }
 }
 
+TEST(JointFriction, SlidesWithItsMapsLoadAndSlopeOverEnergy) {
+  FrictionDescription friction = Asymmetric(0.7, 3, 5);
+  friction.thermal = Thermal{-1, 100};
+  friction.viscous_per_energy = 0.2;
+  friction.load_gain = 0.1;
+  // 1.5 N.m at any position, the same in both directions
+  friction.maps = {
+      {{{MapQuantity::position, EvenAxis(-1, 1, 3)}}, KernelKind::normalised, {1.5, 1.5, 1.5}}};
+  CheckFriction(friction, {"test"});
+  const JointFriction joint = Make(friction);
+  const JointPlace place{0.3, -2, -4};
+  // slope 0.7 - 0.4; levels 3 and 5, each - 2 + 0.4
+  EXPECT_NEAR(joint.SlidingForce(0.5, place), 0.3 * 0.5 + 1.4 + 1.5, 1e-14);
+  EXPECT_NEAR(joint.SlidingForce(-0.5, place), -0.3 * 0.5 - 3.4 + 1.5, 1e-14);
+
+  FrictionState state{0, -2, 0, 0};
+  FrictionStep step;
+  for (int i = 0; i < 2000; ++i) {
+    step = joint.Step(state, {.position = 0.3, .velocity = -0.5, .inertia = 0.25, .load = -4});
+    state.bristle = step.next.bristle;
+  }
+  EXPECT_NEAR(step.force, joint.SlidingForce(-0.5, place), 1e-14);
+}
+
+TEST(JointFriction, HoldsWithinTheIntervalThatAMapShifts) {
+  FrictionDescription friction = Asymmetric(0, 3, 3);
+  friction.maps = {
+      {{{MapQuantity::position, EvenAxis(-1, 1, 3)}}, KernelKind::normalised, {2, 2, 2}}};
+  const JointFriction joint = Make(friction);
+  // 3 + 2 forwards, 3 - 2 backwards
+  EXPECT_EQ(Step(joint, {4.9}, 0).force, 4.9);
+  EXPECT_NEAR(Step(joint, {5.1}, 0).force, 5, 1e-15);
+  EXPECT_NEAR(Step(joint, {-1.1}, 0).force, -1, 1e-15);
+}
+
 TEST(JointFriction, StatesAreThoseThatTheLawNeeds) {
   EXPECT_EQ(StateOf(Asymmetric(1, 1, 1)).size(), 2);
   ASSERT_EQ(StateOf(Sticky()).size(), 3);
   EXPECT_EQ(StateOf(Sticky())[2].name, "slip");
+  FrictionDescription warm = Sticky();
+  warm.thermal = warm.second_thermal = Thermal{-1, 100};
+  ASSERT_EQ(StateOf(warm).size(), 4);
+  EXPECT_EQ(StateOf(warm)[2].name, "second energy");
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ TEST(IdealFriction, RunsThroughRestsAndReversalsAsTheGoldenLoop) {
   const auto& golden = test::Golden()["closed_sim"];
   const Thermal thermal = Continuous({golden["ke"], golden["te"]}, 1.0);
   const auto friction = Warm(golden["kv"], golden["kc"], thermal.gain, thermal.time_constant);
-  const auto history = SimulateFriction(friction, golden["E0"], 1.0, Vector(golden["v"]), {});
+  const auto history = SimulateFriction(friction, golden["E0"], 1.0, {Vector(golden["v"])}, {});
   ExpectClose(history.force, Vector(golden["F"]));
   ExpectClose(history.loss, Vector(golden["W"]));
   ExpectClose(history.energy, Vector(golden["E"]));
@@ -43,7 +43,7 @@ TEST(IdealFriction, WarmsAtConstantSpeedAsTheGoldenClosedForm) {
   const auto& golden = test::Golden()["constant_speed"];
   const double v = golden["v"];
   const auto history =
-      SimulateFriction(Warm(5, 15, -3, 600), 0, 1.0, Eigen::VectorXd::Constant(3601, v), {});
+      SimulateFriction(Warm(5, 15, -3, 600), 0, 1.0, {Eigen::VectorXd::Constant(3601, v)}, {});
   for (size_t i = 0; i < golden["k"].size(); ++i) {
     // a recursion of n steps rounds n times
     const int step = golden["k"][i];
@@ -54,7 +54,7 @@ TEST(IdealFriction, WarmsAtConstantSpeedAsTheGoldenClosedForm) {
 
 TEST(IdealFriction, CoolsAtRestWithItsOwnTimeConstant) {
   const auto history =
-      SimulateFriction(Warm(5, 15, -3, 600), -8, 1.0, Eigen::VectorXd::Zero(601), {});
+      SimulateFriction(Warm(5, 15, -3, 600), -8, 1.0, {Eigen::VectorXd::Zero(601)}, {});
   EXPECT_NEAR(history.energy[600], -8 * std::exp(-1.0), 1e-12 * 8);
   EXPECT_EQ(history.force.lpNorm<Eigen::Infinity>(), 0);
 }
@@ -62,7 +62,8 @@ TEST(IdealFriction, CoolsAtRestWithItsOwnTimeConstant) {
 TEST(IdealFriction, KeepsTheLevelWithoutAThermalPart) {
   FrictionDescription friction = Warm(5, 15, 0, 1);
   friction.thermal.reset();
-  const auto history = SimulateFriction(friction, 0, 1.0, Eigen::VectorXd::Constant(100, 0.5), {});
+  const auto history =
+      SimulateFriction(friction, 0, 1.0, {Eigen::VectorXd::Constant(100, 0.5)}, {});
   EXPECT_EQ(history.force[99], 17.5);
   EXPECT_EQ(history.energy[99], 0);
 }
@@ -72,7 +73,7 @@ TEST(IdealFriction, RefusesWhatFeedsItself) {
   Eigen::VectorXd velocity(4000);
   velocity << Eigen::VectorXd::Constant(3000, 2.0), Eigen::VectorXd::Constant(1000, 0.05);
   try {
-    SimulateFriction(Warm(5, 15, -3, 600), 0, 1.0, velocity, {"hot"});
+    SimulateFriction(Warm(5, 15, -3, 600), 0, 1.0, {velocity}, {"hot"});
     FAIL() << "self-feeding friction was simulated";
   } catch (const BadInput& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("hot: at 3000 s friction feeds itself"));

@@ -1,0 +1,105 @@
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "models/foundation/nearest_name.h"
+#include "models/foundation/read_json.h"
+#include "models/friction/friction_description.h"
+
+namespace warmjoint {
+namespace {
+
+using nlohmann::json;
+
+double NumberMember(const json& object, const std::string& key, const Place& place) {
+  const json& value = object.at(key);
+  if (!value.is_number()) Refuse(place, "{} is {}; it must be a number", key, value.dump());
+  return value.get<double>();
+}
+
+void RefuseUnknownKeys(const json& object, const std::string& what,
+                       const std::vector<std::string>& known, const Place& place) {
+  if (!object.is_object()) Refuse(place, "{} is {}; it must be an object", what, object.dump());
+  for (const auto& [key, value] : object.items()) {
+    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+    Refuse(place, "{} has no key '{}'{}", what, key, Suggestion(key, known));
+  }
+}
+
+Thermal ThermalFromJson(const json& object, const Place& place) {
+  for (const char* key : {"thermal_gain", "thermal_time_constant"}) {
+    if (!object.contains(key)) Refuse(place, "thermal lacks {}; give a number", key);
+  }
+  return {NumberMember(object, "thermal_gain", place),
+          NumberMember(object, "thermal_time_constant", place)};
+}
+
+void ReadThermal(const json& object, FrictionDescription& friction, const Place& place) {
+  RefuseUnknownKeys(object, "thermal",
+                    {"thermal_gain", "thermal_time_constant", "ambient", "second"}, place);
+  friction.thermal = ThermalFromJson(object, place);
+  if (object.contains("ambient")) friction.ambient = NumberMember(object, "ambient", place);
+  if (!object.contains("second")) return;
+  RefuseUnknownKeys(object["second"], "thermal.second", {"thermal_gain", "thermal_time_constant"},
+                    place);
+  friction.second_thermal = ThermalFromJson(object["second"], place);
+}
+
+}  // namespace
+
+json FrictionToJson(const FrictionDescription& friction) {
+  json result{{"law", friction.law}, {"parameters", friction.parameters}, {"gear", friction.gear}};
+  if (friction.thermal) {
+    result["thermal"] = {{"thermal_gain", friction.thermal->gain},
+                         {"thermal_time_constant", friction.thermal->time_constant},
+                         {"ambient", friction.ambient}};
+  }
+  if (friction.second_thermal) {
+    result["thermal"]["second"] = {
+        {"thermal_gain", friction.second_thermal->gain},
+        {"thermal_time_constant", friction.second_thermal->time_constant}};
+  }
+  for (const FrictionOption& option : FrictionOptions()) {
+    if (friction.*option.value != 0) result[std::string(option.info.name)] = friction.*option.value;
+  }
+  for (const FrictionMap& map : friction.maps) result["maps"].push_back(MapToJson(map));
+  return result;
+}
+
+FrictionDescription FrictionFromJson(const json& object, const Place& place) {
+  std::vector<std::string> known{"law", "parameters", "thermal", "gear", "maps"};
+  for (const FrictionOption& option : FrictionOptions()) known.emplace_back(option.info.name);
+  RefuseUnknownKeys(object, "friction", known, place);
+  if (!object.contains("law") || !object["law"].is_string()) {
+    Refuse(place, "friction lacks its law; give one of its names as text");
+  }
+
+  FrictionDescription friction;
+  friction.law = object["law"].get<std::string>();
+  if (object.contains("parameters")) {
+    const json& parameters = object["parameters"];
+    if (!parameters.is_object()) Refuse(place, "friction's parameters must be an object");
+    for (const auto& [name, value] : parameters.items()) {
+      friction.parameters[name] = NumberMember(parameters, name, place);
+    }
+  }
+  if (object.contains("thermal")) ReadThermal(object["thermal"], friction, place);
+  if (object.contains("gear")) friction.gear = NumberMember(object, "gear", place);
+  for (const FrictionOption& option : FrictionOptions()) {
+    const std::string name(option.info.name);
+    if (object.contains(name)) friction.*option.value = NumberMember(object, name, place);
+  }
+  if (object.contains("maps")) {
+    if (!object["maps"].is_array()) Refuse(place, "friction's maps must be a list");
+    for (const json& map : object["maps"]) friction.maps.push_back(MapFromJson(map, place));
+  }
+  FillDefaults(friction);
+  CheckFriction(friction, place);
+  return friction;
+}
+
+FrictionDescription ReadFrictionFile(const std::string& path) {
+  const json object = ReadJsonFile(path);
+  return FrictionFromJson(object.contains("friction") ? object["friction"] : object, {path});
+}
+
+}  // namespace warmjoint

@@ -1,0 +1,41 @@
+// The heat of a joint's own losses and of its surroundings, sampled.
+#pragma once
+
+#include <cmath>
+#include <optional>
+
+#include "models/friction/friction_description.h"
+#include "models/friction/thermal.h"
+
+namespace warmjoint {
+
+/// Energy states of up to two stages, both fed by the same loss W:
+///   E1' = te1 E1 + ke1 W + (1 - te1) kT (Ts - T0),   E2' = te2 E2 + ke2 W            (22)
+/// With kT (level_per_temperature) given, the first stage is the temperature form (17) of a joint
+/// at T = T0 + E1 / kT in surroundings at Ts: dT/dt = -(T - Ts) / tau + (k / kT) W / tau. T0 is the
+/// temperature at which the law's parameters hold. Exact for W and Ts constant during a step.
+struct Heat {
+  DiscreteThermal first{0, 1};
+  DiscreteThermal second{0, 1};
+  double ambient_gain = 0;  // (1 - te1) kT, N.m/K or N/K
+
+  double First(double energy, double loss, double ambient_rise) const {
+    return ThermalStep(first.gain, first.pole, energy, loss) + ambient_gain * ambient_rise;
+  }
+  double Second(double energy, double loss) const {
+    return ThermalStep(second.gain, second.pole, energy, loss);
+  }
+};
+
+/// h: step, s. Without thermal, energies stay as they are.
+inline Heat DiscretiseHeat(const FrictionDescription& friction, double h) {
+  Heat heat;
+  if (!friction.thermal) return heat;
+  heat.first = Discretise(*friction.thermal, h);
+  heat.ambient_gain =
+      friction.level_per_temperature * -std::expm1(-h / friction.thermal->time_constant);
+  if (friction.second_thermal) heat.second = Discretise(*friction.second_thermal, h);
+  return heat;
+}
+
+}  // namespace warmjoint

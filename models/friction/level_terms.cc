@@ -1,0 +1,98 @@
+#include "models/friction/level_terms.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace warmjoint {
+namespace {
+
+/// A speed that is on its side of 0 and changes nothing else.
+constexpr double kStill = std::numeric_limits<double>::min();
+
+bool Depends(const FrictionMap& map, MapQuantity quantity) {
+  return std::any_of(map.axes.begin(), map.axes.end(),
+                     [&](const MapAxis& axis) { return axis.quantity == quantity; });
+}
+
+/// Values of one quantity between which a map is sampled: its centres and three widths beyond;
+/// speeds four to a width. 0 alone where the map does not depend on it.
+std::vector<double> SamplesOf(const FrictionMap& map, MapQuantity quantity) {
+  for (const MapAxis& axis : map.axes) {
+    if (axis.quantity != quantity) continue;
+    const GaussianAxis& kernels = axis.kernels;
+    if (quantity != MapQuantity::velocity) return kernels.centres;
+    const double reach = 3 * kernels.width + std::max(std::abs(kernels.centres.front()),
+                                                      std::abs(kernels.centres.back()));
+    const int count = static_cast<int>(std::min(500.0, std::ceil(4 * reach / kernels.width)));
+    std::vector<double> speeds;
+    for (int i = 0; i <= count; ++i) speeds.push_back(reach * i / count);
+    return speeds;
+  }
+  if (quantity == MapQuantity::velocity) return {0, 1};
+  return {0};
+}
+
+}  // namespace
+
+bool NeedsLoad(const FrictionDescription& friction) {
+  return friction.load_gain != 0 ||
+         std::any_of(friction.maps.begin(), friction.maps.end(),
+                     [](const FrictionMap& map) { return Depends(map, MapQuantity::load); });
+}
+
+LevelTerms::LevelTerms(const FrictionDescription& friction)
+    : gear_(friction.gear), load_gain_(friction.load_gain) {
+  for (const FrictionMap& map : friction.maps) maps_.emplace_back(map);
+  Survey(friction);
+}
+
+double LevelTerms::Maps(int side, double speed, const JointPlace& place) const {
+  const double turn = 2 * std::numbers::pi;
+  const double motor = gear_ * place.position;
+  const MapPoint<double> point{place.position, motor - turn * std::floor(motor / turn),
+                               side * std::max(speed, kStill), place.energy, place.load};
+  double sum = 0;
+  for (const PreparedMap& map : maps_) sum += map.Value(point);
+  return sum;
+}
+
+double LevelTerms::At(int side, double speed, const JointPlace& place) const {
+  double terms = load_gain_ * std::abs(place.load);
+  if (!maps_.empty()) terms += side * Maps(side, speed, place);
+  return terms;
+}
+
+void LevelTerms::Survey(const FrictionDescription& friction) {
+  for (size_t i = 0; i < maps_.size(); ++i) {
+    const FrictionMap& map = friction.maps[i];
+    const auto samples = [&](MapQuantity quantity) { return SamplesOf(map, quantity); };
+    const std::vector<double> speeds = samples(MapQuantity::velocity);
+    double slope = 0, at_rest = 0;
+    const auto along_speed = [&](MapPoint<double> point, int side) {
+      double before = 0;
+      for (size_t k = 0; k < speeds.size(); ++k) {
+        point[static_cast<size_t>(MapQuantity::velocity)] = side * std::max(speeds[k], kStill);
+        const double value = side * maps_[i].Value(point);
+        if (k == 0) at_rest = std::max(at_rest, value);
+        if (k > 0) slope = std::max(slope, (value - before) / (speeds[k] - speeds[k - 1]));
+        before = value;
+      }
+    };
+    for (const double position : samples(MapQuantity::position)) {
+      for (const double motor : samples(MapQuantity::motor_position)) {
+        for (const double energy : samples(MapQuantity::energy)) {
+          for (const double load : samples(MapQuantity::load)) {
+            along_speed({position, motor, 0, energy, load}, 1);
+            along_speed({position, motor, 0, energy, load}, -1);
+          }
+        }
+      }
+    }
+    steepest_slope_ += slope;
+    largest_at_rest_ += at_rest;
+  }
+}
+
+}  // namespace warmjoint

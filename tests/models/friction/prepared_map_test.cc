@@ -1,0 +1,87 @@
+#include "models/friction/prepared_map.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "models/foundation/random_stream.h"
+
+namespace warmjoint {
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;
+
+GaussianAxis Wide(GaussianAxis axis, double factor) {
+  axis.width *= factor;
+  return axis;
+}
+
+GaussianAxis Uneven() {
+  GaussianAxis axis;
+  axis.centres = {-2, -0.5, 0.1, 0.2, 3};
+  axis.width = 0.4;
+  return axis;
+}
+
+std::vector<GaussianAxis> Axes() {
+  return {EvenAxis(-3, 3, 40),   EvenAxis(-3, 3, 1),   Wide(EvenAxis(-3, 3, 12), 4),
+          CircleAxis(kTurn, 36), CircleAxis(kTurn, 7), Wide(CircleAxis(kTurn, 8), 3),
+          SpeedAxis(0.2, 2, 3),  SpeedAxis(0.2, 2, 1), Uneven()};
+}
+
+/// Compares with EvaluateMap at points within and far beyond the centres.
+void Compare(const FrictionMap& map, MapQuantity first, MapQuantity second) {
+  const PreparedMap prepared(map);
+  RandomStream random({3, 1}, Stream::test);
+  for (int i = 0; i < 400; ++i) {
+    MapPoint<double> point{};
+    const double scale = i % 4 == 0 ? 40 : 4;
+    point[static_cast<size_t>(first)] = random.Uniform(-scale, scale);
+    point[static_cast<size_t>(second)] = random.Uniform(-scale, scale);
+    const double expected = EvaluateMap(map, point);
+    // 1e-16 for each of 80 kernels left out, 1e-13 of a spacing for centres that are off the grid
+    const double speed = std::abs(point[static_cast<size_t>(MapQuantity::velocity)]);
+    EXPECT_NEAR(prepared.Value(point), expected, 1e-12 * (1 + speed)) << "point " << i;
+  }
+}
+
+TEST(PreparedMap, IsTheSameOverOneAxisOfAnyKind) {
+  for (const GaussianAxis& axis : Axes()) {
+    for (const KernelKind kind : {KernelKind::plain, KernelKind::normalised}) {
+      SCOPED_TRACE(testing::Message()
+                   << axis.size() << " centres, kind " << static_cast<int>(kind));
+      FrictionMap map{{{MapQuantity::position, axis}}, kind, {}, MapFactor::one};
+      for (size_t i = 0; i < map.size(); ++i) {
+        map.weights.push_back(std::sin(1.0 + 2.0 * static_cast<double>(i)));
+      }
+      Compare(map, MapQuantity::position, MapQuantity::velocity);
+    }
+  }
+}
+
+TEST(PreparedMap, IsTheSameOverProductsOfAxesWithAFactor) {
+  for (const MapFactor factor : {MapFactor::one, MapFactor::direction, MapFactor::velocity}) {
+    for (const GaussianAxis& axis : Axes()) {
+      FrictionMap map{{{MapQuantity::motor_position, axis},
+                       {MapQuantity::velocity, SpeedAxis(0.1, 3, 6)},
+                       {MapQuantity::energy, EvenAxis(-1, 1, 3)}},
+                      KernelKind::normalised,
+                      {},
+                      factor};
+      for (size_t i = 0; i < map.size(); ++i) {
+        map.weights.push_back(std::sin(1.0 + 2.0 * static_cast<double>(i)));
+      }
+      Compare(map, MapQuantity::motor_position, MapQuantity::velocity);
+    }
+  }
+}
+
+TEST(PreparedMap, VanishesAtRestWhereItsSidesAreApart) {
+  const FrictionMap map{
+      {{MapQuantity::velocity, SpeedAxis(0.1, 1, 2)}}, KernelKind::normalised, {1, 2, 3, 4}};
+  EXPECT_EQ(PreparedMap(map).Value({}), 0);
+}
+
+}  // namespace
+}  // namespace warmjoint

@@ -1,0 +1,101 @@
+// Many simulations on several threads.
+#include <gmock/gmock.h>
+#include <mujoco/mjbatch.h>
+
+#include <cmath>
+#include <vector>
+
+#include "tests/sim/plugin/friction_models.h"
+
+namespace warmjoint {
+namespace {
+
+using test::Data;
+using test::FrictionSection;
+using test::LinkXml;
+using test::Model;
+using test::MustCompile;
+
+const test::Config kWarm{{"law", "stribeck"},
+                         {"viscous", "0.5"},
+                         {"coulomb", "3"},
+                         {"static", "4"},
+                         {"stribeck_velocity", "0.1"},
+                         {"thermal_gain", "-0.3"},
+                         {"thermal_time_constant", "10"}};
+constexpr int kSimulations = 16;
+constexpr int kHalf = 300;  // steps
+
+struct DeleteBatch {
+  void operator()(mjBatch* batch) const { mjb_deleteBatch(batch); }
+};
+
+Model Motor() {
+  // ctrl: the friction's ambient, the motor's torque
+  const std::string section = FrictionSection(kWarm);
+  const size_t end = section.find("</actuator>");
+  return MustCompile(LinkXml(section.substr(0, end) + R"(<motor joint="hinge"/></actuator>)",
+                             R"(timestep="0.001" integrator="implicitfast")"));
+}
+
+/// Controls of every simulation and step, [simulations x steps x 2].
+std::vector<mjtNum> Controls(int first, int steps) {
+  std::vector<mjtNum> controls;
+  for (int sim = 0; sim < kSimulations; ++sim) {
+    for (int i = first; i < first + steps; ++i) {
+      controls.push_back(0);
+      controls.push_back(20 * std::sin(0.01 * i + sim));
+    }
+  }
+  return controls;
+}
+
+TEST(PluginBatch, ContinuesBitForBitOnAnyNumberOfThreads) {
+  const Model m = Motor();
+  const int size = static_cast<int>(mj_stateSize(m.get(), mjSTATE_INTEGRATION));
+
+  // one simulation after the other, by mj_step
+  const std::vector<mjtNum> all = Controls(0, 2 * kHalf);
+  std::vector<mjtNum> expected;
+  for (int sim = 0; sim < kSimulations; ++sim) {
+    const Data d(mj_makeData(m.get()));
+    for (int i = 0; i < 2 * kHalf; ++i) {
+      d->ctrl[1] = all[static_cast<size_t>(2 * (2 * kHalf * sim + i) + 1)];
+      mj_step(m.get(), d.get());
+    }
+    expected.push_back(d->act[0]);
+    expected.push_back(d->act[1]);
+    expected.push_back(d->qpos[0]);
+    EXPECT_LT(d->act[1], -0.01) << "should be warm";
+  }
+
+  for (const int threads : {1, 4}) {
+    mjBatchConfig config;
+    mjb_defaultConfig(&config);
+    config.nthread = threads;
+    char error[500] = "";
+    const std::unique_ptr<mjBatch, DeleteBatch> batch(
+        mjb_makeBatch(m.get(), kSimulations, &config, error, sizeof(error)));
+    ASSERT_TRUE(batch) << error;
+    ASSERT_EQ(mjb_nstate(batch.get()), size);
+    ASSERT_EQ(mjb_reset(batch.get(), nullptr, kSimulations, nullptr, mjSTAGE_NONE), 0);
+
+    // in two halves: the state between them is all that is kept
+    for (const int first : {0, kHalf}) {
+      const std::vector<mjtNum> controls = Controls(first, kHalf);
+      ASSERT_EQ(mjb_rollout(batch.get(), nullptr, kSimulations, kHalf, controls.data(),
+                            mjSTATE_CTRL, nullptr, 0),
+                0);
+    }
+    const Data d(mj_makeData(m.get()));
+    std::vector<mjtNum> got;
+    for (int sim = 0; sim < kSimulations; ++sim) {
+      mjb_getData(batch.get(), sim, d.get());
+      got.insert(got.end(), {d->act[0], d->act[1], d->qpos[0]});
+    }
+    EXPECT_EQ(got, expected) << threads << " threads";
+  }
+}
+
+}  // namespace
+}  // namespace warmjoint

@@ -1,0 +1,122 @@
+// Heat of surroundings and of two stages in the engine, and friction that feeds itself.
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "tests/sim/plugin/friction_models.h"
+
+namespace warmjoint {
+namespace {
+
+using test::Config;
+using test::Data;
+using test::FrictionSection;
+using test::LinkXml;
+using test::Model;
+using test::MustCompile;
+
+const Config kThermometer{{"law", "coulomb"},
+                          {"coulomb", "10"},
+                          {"thermal_gain", "-3"},
+                          {"thermal_time_constant", "20"},
+                          {"level_per_temperature", "-0.2"}};
+
+TEST(PluginAmbient, IsTheControlAndMovesTheLevelOfAJointAtRest) {
+  const Model m = MustCompile(LinkXml(FrictionSection(kThermometer), test::kNoGravity));
+  const Data d(mj_makeData(m.get()));
+  // 15 K above the temperature of the parameters for 30 s, then back: (17) with W = 0
+  const auto rest = [&](double rise, double seconds) {
+    d->ctrl[0] = rise;
+    for (int i = 0; i < std::lround(1000 * seconds); ++i) mj_step(m.get(), d.get());
+  };
+  rest(15, 30);
+  const double warm = -0.2 * 15 * -std::expm1(-30.0 / 20);
+  // 1e-16 of te against 1 - te = 5e-5, over 3e4 steps
+  EXPECT_NEAR(d->act[1], warm, 1e-10);
+  rest(0, 10);
+  EXPECT_NEAR(d->act[1], warm * std::exp(-10.0 / 20), 1e-10);
+}
+
+TEST(PluginAmbient, IsIgnoredWhereNoTemperatureFormIsGiven) {
+  Config config = kThermometer;
+  config.erase("level_per_temperature");
+  const Model m = MustCompile(LinkXml(FrictionSection(config), test::kNoGravity));
+  const Data d(mj_makeData(m.get()));
+  d->ctrl[0] = 15;
+  for (int i = 0; i < 100; ++i) mj_step(m.get(), d.get());
+  EXPECT_EQ(d->act[1], 0);
+}
+
+TEST(PluginHeat, HasTwoStagesThatSettleEachAtItsGain) {
+  Config config = kThermometer;
+  config["second_thermal_gain"] = "-0.5";
+  config["second_thermal_time_constant"] = "2";
+  std::string section = FrictionSection(config);
+  section.replace(section.find("actdim=\"2\""), 10, "actdim=\"3\"");
+  const Model m = MustCompile(LinkXml(section, test::kNoGravity, R"(armature="2")"));
+  const Data d(mj_makeData(m.get()));
+  d->act[0] = 10;
+  const double v = 0.1, h = 0.001;
+
+  // the same two recursions by hand: W = v (10 + E1 + E2)
+  double first = 0, second = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const double loss = v * (10 + first + second);
+    first = std::exp(-h / 20) * first - 3 * -std::expm1(-h / 20) * loss;
+    second = std::exp(-h / 2) * second - 0.5 * -std::expm1(-h / 2) * loss;
+    d->qvel[0] = v;
+    mj_step(m.get(), d.get());
+  }
+  // rounding of 2e4 steps
+  EXPECT_NEAR(d->act[1], first, 1e-11);
+  EXPECT_NEAR(d->act[2], second, 1e-11);
+}
+
+/// The last warning of the engine, while it lives.
+class Warnings {
+ public:
+  Warnings() {
+    text() = "", mju_user_warning = [](const char* message) { text() += message; };
+  }
+  ~Warnings() { mju_user_warning = nullptr; }
+  static std::string& text() {
+    static std::string all;
+    return all;
+  }
+};
+
+TEST(PluginReport, TellsOnceWhereFrictionWouldFeedItself) {
+  // Table I, long above 1 rad/s and then slow: E = -3 v F0 / (1 + 3 v) exceeds 15 in size
+  const Config config{{"law", "viscous_coulomb"},
+                      {"viscous", "5"},
+                      {"coulomb", "15"},
+                      {"thermal_gain", "-3"},
+                      {"thermal_time_constant", "1"}};
+  const Model m =
+      MustCompile(LinkXml(FrictionSection(config), test::kNoGravity, R"(armature="9")"));
+  const Data d(mj_makeData(m.get()));
+  const mjtNum* report = d->plugin_state + m->plugin_stateadr[0];
+  const Warnings warnings;
+  const auto slide = [&](double v, int steps) {
+    for (int i = 0; i < steps; ++i) {
+      d->qvel[0] = v;
+      mj_step(m.get(), d.get());
+    }
+  };
+  slide(4, 5000);
+  EXPECT_EQ(*report, 0);
+  EXPECT_LT(d->act[1], -15);
+  slide(0.05, 100);
+  EXPECT_EQ(*report, 1);
+  EXPECT_EQ(d->actuator_force[0], 0) << "it must not push";
+  const std::string once = Warnings::text();
+  EXPECT_THAT(once, testing::AllOf(testing::HasSubstr("actuator 'f'"), testing::HasSubstr("at 5")));
+  slide(0.05, 100);
+  EXPECT_EQ(Warnings::text(), once);
+
+  mj_resetData(m.get(), d.get());
+  EXPECT_EQ(*report, 0);
+}
+
+}  // namespace
+}  // namespace warmjoint

@@ -1,0 +1,149 @@
+// Maps, load and friction files in the engine.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "models/foundation/atomic_file.h"
+#include "models/friction/joint_friction.h"
+#include "sim/friction_actuator.h"
+#include "sim/load_model.h"
+#include "tests/sim/plugin/friction_models.h"
+
+namespace warmjoint {
+namespace {
+
+using test::Compile;
+using test::Config;
+using test::Data;
+using test::LinkXml;
+using test::Model;
+using test::MustCompile;
+using ::testing::HasSubstr;
+
+/// Law (3) with heat, a ripple over the motor's angle, and a level that grows with the load.
+FrictionDescription Rippled() {
+  FrictionDescription friction;
+  friction.law = "asymmetric";
+  friction.parameters = {{"viscous", 0.4}, {"coulomb_positive", 3}, {"coulomb_negative", 4}};
+  friction.thermal = Thermal{-0.3, 50};
+  friction.second_thermal = Thermal{-0.1, 5};
+  friction.gear = 20;
+  friction.load_gain = 0.1;
+  FrictionMap map{{{MapQuantity::motor_position, CircleAxis(2 * std::numbers::pi, 12)},
+                   {MapQuantity::velocity, SpeedAxis(0.2, 2, 2)}},
+                  KernelKind::normalised,
+                  {}};
+  for (size_t i = 0; i < map.size(); ++i) {
+    map.weights.push_back(std::sin(static_cast<double>(i)));
+  }
+  friction.maps = {map};
+  CheckFriction(friction, {"test"});
+  return friction;
+}
+
+std::string ActuatorXml(const std::string& configs) {
+  return fmt::format(
+      R"(<actuator><plugin name="f" joint="hinge" plugin="warmjoint.friction" actdim="3">{}</plugin></actuator>)",
+      configs);
+}
+
+/// The sections that `attach` writes.
+std::string InlineXml(const FrictionDescription& friction) {
+  const std::string sections = FrictionSections("hinge", friction);
+  return sections.substr(sections.find("<actuator>"));
+}
+
+constexpr char kSwing[] = R"(timestep="0.001" gravity="0 0 -9.81")";
+
+/// Where the link is after it was driven to and fro, and its states.
+std::vector<double> Swing(const mjModel* m) {
+  const Data d(mj_makeData(m));
+  while (d->time < 3) {
+    d->qfrc_applied[0] = d->qfrc_bias[0] + 15 * std::sin(5 * d->time);
+    mj_step(m, d.get());
+  }
+  return {d->qpos[0], d->qvel[0], d->act[0], d->act[1], d->act[2]};
+}
+
+TEST(PluginMaps, SlideAtTheForceOfTheModel) {
+  const FrictionDescription friction = Rippled();
+  const JointFriction expected(friction);
+  const Model m = MustCompile(LinkXml(InlineXml(friction), kSwing, R"(armature="1")"));
+  const Data d(mj_makeData(m.get()));
+  for (int i = 0; i < 500; ++i) {
+    d->qvel[0] = 0.8;
+    mj_step(m.get(), d.get());
+  }
+  for (int i = 0; i < 200; ++i) {
+    d->qvel[0] = 0.8;
+    const double energy = d->act[1] + d->act[2];
+    mj_forward(m.get(), d.get());
+    const JointPlace place{d->qpos[0], energy, d->qfrc_bias[0]};
+    // the bristle follows the level within a step; sums of a few terms of 5 N.m
+    ASSERT_NEAR(-d->actuator_force[0], expected.SlidingForce(0.8, place), 1e-13);
+    mj_step(m.get(), d.get());
+  }
+}
+
+TEST(PluginMaps, AreTheSameFromAFileAndInline) {
+  const std::string path = testing::TempDir() + "/rippled.json";
+  WriteWholeFile(path, FrictionToJson(Rippled()).dump());
+  const Model inline_model = MustCompile(LinkXml(InlineXml(Rippled()), kSwing));
+  const Model from_file = MustCompile(
+      LinkXml(ActuatorXml(fmt::format(R"(<config key="file" value="{}"/>)", path)), kSwing));
+  const Model in_folder =
+      MustCompile(LinkXml(ActuatorXml(fmt::format(R"(<config key="file" value="rippled.json"/>)"
+                                                  R"(<config key="folder" value="{}"/>)",
+                                                  testing::TempDir())),
+                          kSwing));
+  const std::vector<double> state = Swing(inline_model.get());
+  EXPECT_LT(state[3], -0.01) << "should be warm";
+  EXPECT_EQ(Swing(from_file.get()), state);
+  EXPECT_EQ(Swing(in_folder.get()), state);
+  std::filesystem::remove(path);
+}
+
+TEST(PluginMaps, AFileLiesBesideTheModelThatThisProgramLoads) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "beside";
+  std::filesystem::create_directories(folder);
+  WriteWholeFile(folder / "rippled.json", FrictionToJson(Rippled()).dump());
+  const std::string actuator = ActuatorXml(R"(<config key="file" value="rippled.json"/>)");
+  WriteWholeFile(folder / "link.xml", LinkXml(actuator, kSwing));
+  const LoadedModel loaded = LoadModel(folder / "link.xml");
+  EXPECT_EQ(Swing(loaded.model.get()),
+            Swing(MustCompile(LinkXml(InlineXml(Rippled()), kSwing)).get()));
+
+  // elsewhere the refusal says where it looked and what to do
+  const std::string lost = ActuatorXml(R"(<config key="file" value="lost.json"/>)");
+  EXPECT_THAT(Compile(LinkXml(lost, kSwing)).error,
+              testing::AllOf(HasSubstr("lost.json"), HasSubstr("give folder")));
+  std::filesystem::remove_all(folder);
+}
+
+TEST(PluginMaps, AreRefusedWhereTheyMakeNoSense) {
+  Config config{{"law", "coulomb"}, {"coulomb", "3"}, {"maps", "{}"}};
+  const auto error = [&] {
+    return Compile(LinkXml(test::FrictionSection(config), test::kNoGravity)).error;
+  };
+  EXPECT_THAT(error(), HasSubstr("maps is no JSON list"));
+  config["maps"] = "[{&quot;axes&quot;: []}]";
+  EXPECT_THAT(error(), HasSubstr("a map lacks its weights"));
+}
+
+TEST(PluginLoad, RaisesTheLevelByTheLoadThatTheJointTransmits) {
+  // 1 kg at 0.5 m: 4.905 N.m; level 4 + 0.25 * 4.905 = 5.23 holds it, 4 alone would not
+  for (const bool holds : {true, false}) {
+    const Config config{
+        {"law", "coulomb"}, {"coulomb", "4"}, {"load_gain", holds ? "0.25" : "0.1"}};
+    const Model m = MustCompile(LinkXml(test::FrictionSection(config), kSwing));
+    const Data d(mj_makeData(m.get()));
+    while (d->time < 2) mj_step(m.get(), d.get());
+    EXPECT_EQ(std::abs(d->qpos[0]) < 0.01, holds) << d->qpos[0];
+  }
+}
+
+}  // namespace
+}  // namespace warmjoint
