@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <type_traits>
 
 #include "models/friction/parameter_info.h"
 #include "models/friction/pre_sliding.h"
@@ -18,6 +19,12 @@ T StribeckLevel(double speed, const T& coulomb, const T& at_rest, const T& veloc
   using std::exp;
   using std::pow;
   if (speed == 0) return at_rest;
+  if constexpr (std::is_same_v<T, double>) {
+    // the usual exponent without a power; exp(-40) is beyond the last digit
+    const double ratio = speed / velocity;
+    if (exponent == 2 && ratio * ratio > 40) return coulomb;
+    if (exponent == 2) return coulomb + (at_rest - coulomb) * exp(-ratio * ratio);
+  }
   return coulomb + (at_rest - coulomb) * exp(-pow(T(speed) / velocity, exponent));
 }
 

@@ -30,6 +30,9 @@ FrictionInstance::FrictionInstance(const mjModel* m, int instance,
   for (int i = 0; i < m->nactuator; ++i) {
     if (m->actuator_plugin[i] != instance) continue;
     CheckActuator(m, i, friction_);
+    if (needs_ambient_ && m->actuator_ctrlnum[i] == 0) {
+      Refuse({ActuatorName(m, i)}, "has no control, which would be the ambient temperature's rise");
+    }
     const int joint = m->actuator_trnid[2 * i];
     joints_.push_back({i, m->jnt_dofadr[joint], m->jnt_qposadr[joint], m->actuator_actadr[i],
                        m->actuator_ctrladr[i], m->actuator_outadr[i], 0});

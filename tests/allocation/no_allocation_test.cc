@@ -19,8 +19,8 @@ std::atomic<long> allocations{0};
 
 extern "C" void* __libc_malloc(size_t size);
 
-// what operator new and every library call
-extern "C" void* malloc(size_t size) {
+// what operator new calls
+extern "C" void* malloc(size_t size) noexcept {
   ++allocations;
   return __libc_malloc(size);
 }

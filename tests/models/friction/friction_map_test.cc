@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <functional>
+#include <numbers>
 
 #include "models/friction/friction_description.h"
 #include "tests/support/shared_data.h"
@@ -67,13 +68,14 @@ TEST(FrictionMap, IsMultipliedByItsFactor) {
 TEST(FrictionMap, ReadsBackWhatItWrites) {
   FrictionDescription friction;
   friction.parameters = {{"viscous", 1}, {"coulomb", 2}};
+  const double turn = 2 * std::numbers::pi;
   friction.maps = {
       SmallMap(),
-      {{{MapQuantity::motor_position, CircleAxis(6.28, 2)}}, KernelKind::plain, {0.1, 0.2}}};
+      {{{MapQuantity::motor_position, CircleAxis(turn, 2)}}, KernelKind::plain, {0.1, 0.2}}};
   const nlohmann::json json = FrictionToJson(friction);
   const FrictionDescription back = FrictionFromJson(json, {"friction.json"});
   EXPECT_EQ(FrictionToJson(back), json);
-  EXPECT_EQ(back.maps[1].axes[0].kernels.period, 6.28);
+  EXPECT_EQ(back.maps[1].axes[0].kernels.period, turn);
   EXPECT_EQ(back.maps[0].axes[1].kernels.sides, Sides::apart);
 }
 
