@@ -61,8 +61,9 @@ TEST_P(RichFriction, IsTheForceOfTheModelAtEverySampleThatSlides) {
     // rounding of sums of a few terms of 10 N.m
     if (std::abs(truth.force[i] - model.SlidingForce(v, place)) > 1e-12) ++held;
   }
-  // after each of ten reversals the bristle of the engine's joint turns over: some 10 ms
-  EXPECT_LE(held, truth.plant == "ideal" ? 0 : 40);
+  // at each of ten reversals the engine's joint rests until the controller has turned its torque
+  // by 20 N.m, in two times of its loop of 20 rad/s: 0.1 s, ten samples
+  EXPECT_LE(held, truth.plant == "ideal" ? 0 : 100);
   EXPECT_LT(truth.energy.minCoeff(), -1) << "should be warm";
 }
 
@@ -75,7 +76,7 @@ TEST(RichFriction, WarmsInTheEngineAsInTheFormulas) {
   // 0.4 / 120 + 0.2 / 10 N.m per J
   const double allowed = 10 * 0.25 * 7 * (0.4 / 120 + 0.2 / 10);
   EXPECT_NEAR(engine.truth.energy[1999], ideal.truth.energy[1999], allowed);
-  EXPECT_LT(allowed, 0.3 * std::abs(ideal.truth.energy[1999]));
+  EXPECT_LT(allowed, 0.5 * std::abs(ideal.truth.energy[1999]));
 }
 
 TEST(RichFriction, RefusesAnAmbientTemperatureThatChangesNothing) {
