@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Opens a report in headless Chromium and checks what a reader relies on.
 
-    tests/browser/check_report.py RUN [--warmjoint build/warmjoint] [--shots FOLDER]
+    tests/browser/check_report.py RUN|SUITE.yaml [--warmjoint build/warmjoint] [--shots FOLDER]
 
-RUN is a directory of `warmjoint run`; its report is made first. Checked: no error on the console, no request to
+RUN is a directory of `warmjoint run`; its report is made first. Of a suite, three realizations are run. Checked: no error on the console, no request to
 anywhere, every picture there and with an alt text, the table's numbers equal to `compare --format json`, nothing
 wider than a phone, headings and regions named, links that can be reached with the keyboard. --shots keeps pictures
 of the page, narrow and wide, light and dark. Exit status 0: all holds; 1: something does not; 77: no browser here.
@@ -11,12 +11,15 @@ Installs nothing: Debian's package is `chromium`; the environment variable CHROM
 """
 
 import argparse
+import atexit
 import base64
 import json
 import math
 import pathlib
+import shutil
 import subprocess
 import sys
+import tempfile
 
 from chromium import Browser, find_browser
 
@@ -163,6 +166,12 @@ def main():
     if not path:
         print("no Chromium here: install the package chromium, or set CHROMIUM", file=sys.stderr)
         return 77
+    if arguments.run.is_file():
+        scratch = pathlib.Path(tempfile.mkdtemp(prefix="warmjoint-report-"))
+        atexit.register(shutil.rmtree, scratch, ignore_errors=True)
+        subprocess.run([arguments.warmjoint, "run", str(arguments.run), "--realizations", "3", "-o", str(scratch / "run")],
+                       check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        arguments.run = scratch / "run"
     subprocess.run([arguments.warmjoint, "report", str(arguments.run)], check=True, stdout=subprocess.DEVNULL)
     compared = subprocess.run([arguments.warmjoint, "compare", str(arguments.run), "--format", "json"], check=True,
                               capture_output=True)

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "tools/report/draw/reduce.h"
 #include "tools/report/draw/strokes.h"
@@ -187,10 +188,20 @@ DrawnSeries DrawSeries(Pen& pen, const Plot& plot, const Series& series, const R
 }
 
 Rgb HeatColour(double fraction) {
-  const ImVec4 c = ImPlot::SampleColormap(static_cast<float>(std::clamp(fraction, 0.0, 1.0)),
-                                          ImPlotColormap_Viridis);
-  const auto byte = [](float part) { return static_cast<std::uint8_t>(255 * part + 0.5f); };
-  return {byte(c.x), byte(c.y), byte(c.z)};
+  // viridis at each tenth
+  static constexpr Rgb kTenths[] = {{68, 1, 84},    {72, 36, 117},  {65, 68, 135},  {53, 95, 141},
+                                    {42, 120, 142}, {33, 145, 140}, {34, 168, 132}, {68, 191, 112},
+                                    {122, 209, 81}, {189, 223, 38}, {253, 231, 37}};
+  constexpr int kSteps = static_cast<int>(std::size(kTenths)) - 1;
+  const double place = kSteps * std::clamp(fraction, 0.0, 1.0);
+  const int lower = std::min(kSteps - 1, static_cast<int>(place));
+  const auto mix = [&](std::uint8_t Rgb::*channel) {
+    const double share = place - lower;
+    const double value =
+        (1 - share) * (kTenths[lower].*channel) + share * (kTenths[lower + 1].*channel);
+    return static_cast<std::uint8_t>(value + 0.5);
+  };
+  return {mix(&Rgb::red), mix(&Rgb::green), mix(&Rgb::blue)};
 }
 
 }  // namespace warmjoint::report

@@ -10,7 +10,8 @@ namespace warmjoint::report {
 /// area: of the plot, points.
 DrawnSeries DrawSeries(Pen& pen, const Plot& plot, const Series& series, const Rectangle& area);
 
-/// Colour of a value of a heat-map; fraction: 0 ... 1 on its scale.
+/// Colour of a value of a heat-map, from the scale viridis (van der Walt and Smith 2015), which
+/// grows lighter all along; fraction: 0 ... 1 on its scale.
 Rgb HeatColour(double fraction);
 
 }  // namespace warmjoint::report

@@ -75,7 +75,7 @@ Figure MakeKernels() {
                  {"plain kernels", Hue::orange, Line{t, plain, 2}},
                  {"normalised kernels", Hue::blue, Line{t, normalised, 2}}};
   fits.x = {"t", -kView, kView, Scale::linear, {}};
-  fits.y = {"value", -0.7, 1.3, Scale::linear, {}};
+  fits.y = {"value", -0.7, 1.8, Scale::linear, {}};
 
   Figure figure;
   figure.name = "kernels";

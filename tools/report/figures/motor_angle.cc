@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tools/report/draw/ticks.h"
@@ -12,7 +13,8 @@
 namespace warmjoint::report {
 namespace {
 
-constexpr int kBins = 72;
+constexpr Eigen::Index kMostBins = 72, kFewestBins = 8;
+constexpr Eigen::Index kSamplesPerBin = 12;
 
 /// Peak to peak of a line's mean, over its finite points.
 double Swing(const Line& mean) {
@@ -34,7 +36,8 @@ DirectionPanel PanelOf(const FitView& view, int direction, const std::string& la
     Eigen::VectorXd torque = view.torque(group.samples);
     if (view.warms()) torque -= direction * view.energy(group.samples);
     const Eigen::VectorXd angle = view.motor_angle(group.samples);
-    const Line mean = BinnedMean(angle, torque, kBins);
+    const Eigen::Index bins = std::clamp(angle.size() / kSamplesPerBin, kFewestBins, kMostBins);
+    const Line mean = BinnedMean(angle, torque, static_cast<int>(bins));
     panel.plot.series.push_back({"", group.hue, Scatter{angle, torque, 0.8}});
     means.push_back({group.label, group.hue, mean});
     shown.push_back(torque);
