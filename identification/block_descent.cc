@@ -11,7 +11,7 @@ BlockDescent::BlockDescent(const Measurements& measurements, const Selection& mo
       // (19) with the measured torque
       output_error_(measurements.time,
                     (measurements.torque - gravity).cwiseProduct(measurements.velocity).cwiseAbs(),
-                    moving),
+                    moving, measurements.starts),
       kept_(static_cast<double>(moving.count())) {
   const Eigen::VectorXd keep = moving.keep.cast<double>();
   const Eigen::VectorXd& v = measurements.velocity;

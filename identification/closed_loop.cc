@@ -8,11 +8,11 @@
 namespace warmjoint {
 
 ClosedLoop::ClosedLoop(const Eigen::VectorXd& time, const Eigen::VectorXd& velocity,
-                       const Eigen::MatrixXd& columns)
+                       const Eigen::MatrixXd& columns, const std::vector<Eigen::Index>& starts)
     : speed_(velocity.cwiseAbs()),
       direction_(velocity.unaryExpr([](double v) { return static_cast<double>(Sign(v)); })),
       levels_(direction_.asDiagonal() * columns),
-      intervals_(FindIntervals(time)) {}
+      intervals_(FindIntervals(time, starts)) {}
 
 LoopResponse ClosedLoop::Simulate(const Eigen::VectorXd& parameters, const Thermal& thermal,
                                   double initial_energy) const {

@@ -31,9 +31,10 @@ class ClosedLoop {
  public:
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-  /// columns: [N x d] dFn/dp (LawColumns); time: [N] s; velocity: [N] rad/s or m/s.
+  /// columns: [N x d] dFn/dp (LawColumns); time: [N] s; velocity: [N] rad/s or m/s; starts: samples
+  /// at which the joint is cold again.
   ClosedLoop(const Eigen::VectorXd& time, const Eigen::VectorXd& velocity,
-             const Eigen::MatrixXd& columns);
+             const Eigen::MatrixXd& columns, const std::vector<Eigen::Index>& starts = {});
 
   /// parameters: [d] of the law; initial_energy: E(0), N.m or N.
   LoopResponse Simulate(const Eigen::VectorXd& parameters, const Thermal& thermal,

@@ -143,7 +143,7 @@ WarmStart Scan(const Measurements& m, const GravityFit& gravity, const ClosedLoo
                const Eigen::MatrixXd& columns, const LeastSquares& nominal,
                const Eigen::VectorXd& level, const Eigen::VectorXd& kept) {
   if (gravity.count() == 0) return ScanTimeConstant(loop, level, kept);
-  const ClosedLoop together(m.time, m.velocity, columns);
+  const ClosedLoop together(m.time, m.velocity, columns, m.starts);
   const Eigen::VectorXd weight = nominal.solution.tail(gravity.count());
   const Eigen::VectorXd pull = gravity.columns * weight;
   WarmStart start = ScanTimeConstant(together, level - loop.direction().cwiseProduct(pull), kept);
@@ -195,7 +195,7 @@ Estimate Identify(const IdentifierInput& given) {
   const double nominal_squares = (torque - kept_columns * nominal.solution).squaredNorm();
 
   // scan tau, then refine everything over the closed loop
-  const ClosedLoop loop(m.time, m.velocity, law_columns);
+  const ClosedLoop loop(m.time, m.velocity, law_columns, m.starts);
   const Eigen::VectorXd level = loop.direction().cwiseProduct(m.torque);
   const Eigen::VectorXd kept = (input.selection.keep && m.velocity.array() != 0).cast<double>();
   const WarmStart start = Scan(m, gravity, loop, columns, nominal, level, kept);

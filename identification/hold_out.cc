@@ -12,6 +12,7 @@ Measurements Head(const Measurements& all, Eigen::Index n) {
   for (Eigen::VectorXd* column : {&head.time, &head.position, &head.velocity, &head.torque}) {
     column->conservativeResize(std::min(n, column->size()));
   }
+  std::erase_if(head.starts, [n](Eigen::Index start) { return start >= n; });
   for (auto* column : {&head.motor_position, &head.load, &head.temperature}) {
     if (*column) (*column)->conservativeResize(n);
   }

@@ -2,15 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace warmjoint {
 namespace {
 
 constexpr double kSame = 1e-6;  // relative
 
-}  // namespace
-
-Intervals FindIntervals(const Eigen::VectorXd& time) {
+/// Intervals without cold starts.
+Intervals FindSteps(const Eigen::VectorXd& time) {
   const Eigen::Index n = time.size() - 1;
   const Eigen::ArrayXd steps = time.tail(n) - time.head(n);
   const double mean = (time[n] - time[0]) / static_cast<double>(n);
@@ -46,10 +46,25 @@ Intervals FindIntervals(const Eigen::VectorXd& time) {
   return intervals;
 }
 
+}  // namespace
+
+Intervals FindIntervals(const Eigen::VectorXd& time, const std::vector<Eigen::Index>& starts) {
+  Intervals intervals = FindSteps(time);
+  if (starts.empty()) return intervals;
+  const auto cold = static_cast<int>(intervals.length.size());
+  intervals.length.push_back(std::numeric_limits<double>::infinity());
+  for (const Eigen::Index start : starts) intervals.which[static_cast<size_t>(start) - 1] = cold;
+  return intervals;
+}
+
 std::vector<ThermalHold> Holds(const Intervals& intervals, const Thermal& thermal) {
   std::vector<ThermalHold> holds;
   holds.reserve(intervals.length.size());
   for (const double h : intervals.length) {
+    if (std::isinf(h)) {
+      holds.push_back({0, 0, 0, 0});
+      continue;
+    }
     const DiscreteThermal discrete = Discretise(thermal, h);
     const double ratio = h / thermal.time_constant;
     holds.push_back({discrete.pole, -std::expm1(-ratio), discrete.gain, discrete.pole * ratio});

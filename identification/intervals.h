@@ -10,13 +10,14 @@ namespace warmjoint {
 
 /// Intervals of a recording. Lengths that differ by less than a millionth count as one.
 struct Intervals {
-  std::vector<double> length;  // [m] distinct intervals, s, ascending
+  std::vector<double> length;  // [m] distinct intervals, s, ascending; infinite before a cold start
   std::vector<int> which;      // [N] index into `length` of the interval that follows each sample
   double typical = 0;          // median, s
 };
 
 /// time: [N] s, strictly increasing, N >= 2. The last sample's interval is the typical one.
-Intervals FindIntervals(const Eigen::VectorXd& time);
+/// starts: samples, above 0, at which the joint is cold again.
+Intervals FindIntervals(const Eigen::VectorXd& time, const std::vector<Eigen::Index>& starts = {});
 
 /// Eq. (22) over one interval, in the continuous parameters: E <- pole E + gain W.
 struct ThermalHold {
@@ -26,7 +27,7 @@ struct ThermalHold {
   double pole_slope = 0;  // dte/dlog(tau) = te h/tau
 };
 
-/// One for each distinct interval.
+/// One for each distinct interval. After an infinite one nothing is left of energy or loss.
 std::vector<ThermalHold> Holds(const Intervals& intervals, const Thermal& thermal);
 
 }  // namespace warmjoint

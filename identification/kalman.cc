@@ -104,6 +104,10 @@ Estimate Identify(const IdentifierInput& input) {
   const Measurements& m = input.measurements;
   const Law& law = *FindLaw(input.options.Text("law"));
   const auto d = static_cast<int>(law.parameters.size());
+  if (!m.starts.empty()) {
+    return Failed(kName, Status::bad_data,
+                  "kalman follows one recording; give one, or use energy-ml for several");
+  }
   if (auto why = Unusable(input, d + 2)) return Failed(kName, Status::bad_data, *why);
 
   // the law's columns must be distinct before any warming is thought of

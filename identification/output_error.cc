@@ -22,8 +22,8 @@ struct OutputError::Slice {
 };
 
 OutputError::OutputError(const Eigen::VectorXd& time, const Eigen::VectorXd& loss,
-                         const Selection& selection)
-    : filter_(time),
+                         const Selection& selection, const std::vector<Eigen::Index>& starts)
+    : filter_(time, starts),
       loss_(loss),
       kept_(selection.keep.cast<double>()),
       shortest_(0.1 * filter_.mean_step()),

@@ -22,8 +22,9 @@ class OutputError {
     bool inside = false;  // tau lies within [shortest, longest]; where it does not, it is at one
   };
 
-  /// time: [N] s; loss: [N] W; keep: [N].
-  OutputError(const Eigen::VectorXd& time, const Eigen::VectorXd& loss, const Selection& selection);
+  /// time: [N] s; loss: [N] W; keep: [N]; starts: samples at which the joint is cold again.
+  OutputError(const Eigen::VectorXd& time, const Eigen::VectorXd& loss, const Selection& selection,
+              const std::vector<Eigen::Index>& starts = {});
 
   /// Smallest and largest time constant tried, s: a tenth of a step, and 100 times the recording.
   /// Beyond them the samples cannot tell one from another.

@@ -30,7 +30,12 @@ Prediction PredictFriction(const FrictionDescription& friction, const Measuremen
   }
 
   double energy = initial_energy;
+  size_t start = 0;  // the next cold one
   for (Eigen::Index i = 0; i < n; ++i) {
+    if (start < measurements.starts.size() && measurements.starts[start] == i) {
+      energy = 0;
+      ++start;
+    }
     const double v = measurements.velocity[i];
     double force = WarmForce(v, law.force(v, values.data()), energy);
     if (!friction.maps.empty() && v != 0) {

@@ -18,7 +18,8 @@ struct Prediction {
 };
 
 /// Uses time and velocity and, for maps, positions and load. friction must have been checked
-/// (CheckFriction). initial_energy: E at the first sample, N.m or N.
+/// (CheckFriction). initial_energy: E at the first sample, N.m or N; further recordings that were
+/// joined to it start cold.
 Prediction PredictFriction(const FrictionDescription& friction, const Measurements& measurements,
                            double initial_energy = 0);
 

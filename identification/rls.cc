@@ -31,7 +31,7 @@ Eigen::VectorXd Warming(const std::optional<Thermal>& thermal, const Measurement
                         const Eigen::VectorXd& pull) {
   if (!thermal) return Eigen::VectorXd::Zero(m.size());
   const Eigen::VectorXd loss = (m.torque - pull).cwiseProduct(m.velocity).cwiseAbs();
-  const Eigen::VectorXd energy = ThermalFilter(m.time).Energy(*thermal, loss);
+  const Eigen::VectorXd energy = ThermalFilter(m.time, m.starts).Energy(*thermal, loss);
   return m.velocity.array().sign().matrix().cwiseProduct(energy);
 }
 

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace warmjoint {
 namespace {
@@ -18,6 +19,7 @@ struct Blocks {
   Eigen::VectorXd weight;   // [m] number of kept samples
   ClosedLoop::Rows levels;  // [m x d] mean of g over the kept samples
   Eigen::VectorXd level;    // [m] mean of the measured level over them
+  std::vector<bool> last;   // [m] whether the joint is cold after the block
 };
 
 Blocks MakeBlocks(const ClosedLoop& loop, const Eigen::VectorXd& level,
@@ -25,13 +27,18 @@ Blocks MakeBlocks(const ClosedLoop& loop, const Eigen::VectorXd& level,
   const Eigen::Index size = 1 + (loop.size() - 1) / kBlocks;
   const Eigen::Index m = (loop.size() + size - 1) / size;
   const Intervals& intervals = loop.intervals();
-  Blocks blocks{Eigen::VectorXd::Zero(m), Eigen::VectorXd::Zero(m), Eigen::VectorXd::Zero(m),
-                ClosedLoop::Rows::Zero(m, loop.levels().cols()), Eigen::VectorXd::Zero(m)};
+  Blocks blocks{Eigen::VectorXd::Zero(m), Eigen::VectorXd::Zero(m),
+                Eigen::VectorXd::Zero(m), ClosedLoop::Rows::Zero(m, loop.levels().cols()),
+                Eigen::VectorXd::Zero(m), std::vector<bool>(static_cast<size_t>(m))};
 
   for (Eigen::Index b = 0; b < m; ++b) {
     const Eigen::Index end = std::min(loop.size(), (b + 1) * size);
     for (Eigen::Index n = b * size; n < end; ++n) {
-      const double h = intervals.length[intervals.which[n]];
+      double h = intervals.length[intervals.which[n]];
+      if (std::isinf(h)) {
+        h = intervals.typical;
+        blocks.last[static_cast<size_t>(b)] = true;
+      }
       blocks.length[b] += h;
       blocks.loss[b] += h * loop.speed()[n] * level[n];
       blocks.weight[b] += kept[n];
@@ -72,6 +79,7 @@ Products Filter(const Blocks& blocks, const Taus& tau) {
     products.self += weighted * x;
     for (Eigen::Index i = 0; i < d; ++i) products.columns.col(i) += weighted * blocks.levels(b, i);
     x = loss + half * (x - loss);
+    if (blocks.last[static_cast<size_t>(b)]) x = Taus::Zero();
   }
   return products;
 }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <utility>
+#include <vector>
 
 #include "models/friction/thermal.h"
 
@@ -32,13 +34,13 @@ struct UnitEnergy {
   }
 };
 
-/// Filters losses through H = gain / (1 + s tau) at the sample times of one recording. Between two
+/// Filters losses through H = gain / (1 + s tau) at the sample times of a recording. Between two
 /// samples the loss holds the value that it had at the first.
 class ThermalFilter {
  public:
   /// time: [N] s, strictly increasing. Steps that differ by less than 1e-6 of their mean count as
-  /// even, which saves an exponential a sample.
-  explicit ThermalFilter(const Eigen::VectorXd& time);
+  /// even, which saves an exponential a sample. starts: samples at which the joint is cold again.
+  explicit ThermalFilter(const Eigen::VectorXd& time, std::vector<Eigen::Index> starts = {});
 
   Eigen::Index size() const { return steps_.size() + 1; }
   /// Mean step, s.
@@ -53,19 +55,29 @@ class ThermalFilter {
   void ForEach(double time_constant, const Eigen::VectorXd& loss, Visit visit) const;
 
  private:
+  /// Whether sample i is the next start; counts on in `next`.
+  bool Starts(Eigen::Index i, size_t& next) const {
+    if (next == starts_.size() || starts_[next] != i) return false;
+    ++next;
+    return true;
+  }
+
   Eigen::VectorXd steps_;  // [N - 1] s
-  double mean_step_ = 0;   // s
+  std::vector<Eigen::Index> starts_;
+  double mean_step_ = 0;  // s
   bool even_ = false;
 };
 
 template <typename Visit>
 void ThermalFilter::ForEach(double time_constant, const Eigen::VectorXd& loss, Visit visit) const {
   UnitEnergy energy;
+  size_t next = 0;
   visit(Eigen::Index{0}, energy);
 
   const HoldStep mean(mean_step_, time_constant);
   for (Eigen::Index i = 0; i < steps_.size(); ++i) {
     energy = energy.After(even_ ? mean : HoldStep(steps_[i], time_constant), loss[i]);
+    if (Starts(i + 1, next)) energy = {};
     visit(i + 1, energy);
   }
 }

@@ -17,12 +17,18 @@ struct CheckArguments {
 };
 
 ExitStatus Check(const CheckArguments& arguments) {
-  const RecordingCheck check = CheckRecording(ReadRecording(arguments.recording));
-  if (arguments.format == "json") {
-    fmt::print("{}\n", CheckToJson(check).dump(2));
-  } else {
-    fmt::print("{}", CheckToText(check));
+  // an object for one recording, a list of them for several
+  nlohmann::json checks = nlohmann::json::array();
+  std::string text;
+  for (const Measurements& recording : ReadRecordings(arguments.recording)) {
+    const RecordingCheck check = CheckRecording(recording);
+    checks.push_back(CheckToJson(check));
+    text += (text.empty() ? "" : "\n") + CheckToText(check);
   }
+  if (arguments.format == "json") {
+    text = (checks.size() == 1 ? checks.front() : checks).dump(2) + "\n";
+  }
+  fmt::print("{}", text);
   return ExitStatus::done;
 }
 

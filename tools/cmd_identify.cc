@@ -42,7 +42,7 @@ HoldOutSource ReadHoldOut(const IdentifyArguments& arguments) {
   const std::optional<double> fraction = ParseNumber(arguments.holdout);
   if (!fraction) {
     RecordingArguments other = arguments.recording;
-    other.recording = arguments.holdout;
+    other.recordings = {arguments.holdout};
     return {0, ReadRecording(other)};
   }
   if (!(*fraction >= 0 && *fraction < 1)) {

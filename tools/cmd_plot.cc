@@ -107,8 +107,8 @@ Command AddPlotCommand(CLI::App& program) {
       ->required();
   parser->add_option("-o,--output", arguments->output, "directory for the pictures; made if absent")
       ->required();
-  parser->add_option("--recording", arguments->recording.recording,
-                     "data of an estimate, instead of the file that it remembers");
+  parser->add_option("--recording", arguments->recording.recordings,
+                     "data of an estimate, instead of the files that it remembers");
   AddLayoutOptions(*parser, arguments->recording);
   parser->add_option("--sheet", arguments->sheet, "contact sheet of all pictures (PNG)");
   return {parser, [arguments] { return PlotSources(*arguments); }};

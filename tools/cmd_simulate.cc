@@ -37,7 +37,7 @@ struct SimulateArguments {
 /// The scenario that a run carried out, by its resolved suite.
 Scenario ScenarioOfRun(const SimulateArguments& arguments) {
   const bool changed = !arguments.scenario.empty() || !arguments.set.empty() || arguments.seed ||
-                       !arguments.motion.recording.empty();
+                       !arguments.motion.recordings.empty();
   if (changed) {
     Refuse({"--from"}, "replays a run as it was: leave out SCENARIO, --set, --seed and --motion");
   }
@@ -74,7 +74,7 @@ Scenario ResolveScenario(const SimulateArguments& arguments,
 
 ExitStatus Simulate(const SimulateArguments& arguments) {
   std::optional<Measurements> log;
-  if (!arguments.motion.recording.empty()) log = ReadRecording(arguments.motion);
+  if (!arguments.motion.recordings.empty()) log = ReadRecording(arguments.motion);
   const Scenario scenario = ResolveScenario(arguments, log);
   const std::unique_ptr<Plant> plant = MakePlant(scenario);
   AtomicDirectory directory(arguments.output,
@@ -101,8 +101,10 @@ Command AddSimulateCommand(CLI::App& program) {
   parser->add_option("SCENARIO", arguments->scenario, "scenario file (YAML)");
   parser->add_option("--from", arguments->from, "run directory: replay its --realization");
   parser->add_option("--variant", arguments->variant, "of the run's ladder");
-  parser->add_option("--motion", arguments->motion.recording,
-                     "CSV or HDF5 file whose motion is carried out again; its torque is compared");
+  parser
+      ->add_option("--motion", arguments->motion.recordings,
+                   "CSV or HDF5 file whose motion is carried out again; its torque is compared")
+      ->expected(1);
   AddLayoutOptions(*parser, arguments->motion);
   parser->add_option("--set", arguments->set, "another value for a key, as noise.torque=0.1")
       ->take_all();

@@ -35,20 +35,21 @@ std::vector<report::Figure> Make(const std::vector<report::NamedFigure<View>>& f
 /// named there or beside it.
 std::optional<Measurements> RecordingOf(const nlohmann::json& file, const fs::path& path,
                                         const RecordingArguments& given) {
-  if (!given.recording.empty()) return ReadRecording(given);
+  if (!given.recordings.empty()) return ReadRecording(given);
   if (!file.contains("recording")) {
     fmt::print(stderr, "{}: names no recording; give --recording for the pictures that need it\n",
                path.string());
     return std::nullopt;
   }
   RecordingArguments remembered = RecordingFromJson(file["recording"], {path});
-  const fs::path beside = path.parent_path() / fs::path(remembered.recording).filename();
-  if (!fs::exists(remembered.recording) && fs::exists(beside)) remembered.recording = beside;
-  if (!fs::exists(remembered.recording)) {
+  for (std::string& recording : remembered.recordings) {
+    const fs::path beside = path.parent_path() / fs::path(recording).filename();
+    if (!fs::exists(recording) && fs::exists(beside)) recording = beside;
+    if (fs::exists(recording)) continue;
     fmt::print(
         stderr,
         "{}: its recording {} is not there; give --recording for the pictures that need it\n",
-        path.string(), remembered.recording);
+        path.string(), recording);
     return std::nullopt;
   }
   return ReadRecording(remembered);

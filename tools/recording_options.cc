@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "models/foundation/bad_input.h"
+#include "sim/dataset/join_recordings.h"
 #include "sim/dataset/read_recording.h"
 
 namespace warmjoint {
@@ -25,7 +26,10 @@ std::map<std::string, std::string> ReadPairs(const std::vector<std::string>& pai
 }
 
 void AddRecordingOptions(CLI::App& parser, RecordingArguments& arguments) {
-  parser.add_option("RECORDING", arguments.recording, "CSV or HDF5 file")->required();
+  parser
+      .add_option("RECORDING", arguments.recordings,
+                  "CSV or HDF5 file; several of one joint, each from a cold start")
+      ->required();
   AddLayoutOptions(parser, arguments);
 }
 
@@ -44,7 +48,7 @@ void AddLayoutOptions(CLI::App& parser, RecordingArguments& arguments) {
 }
 
 nlohmann::json RecordingToJson(const RecordingArguments& arguments) {
-  return {{"file", arguments.recording},
+  return {{"files", arguments.recordings},
           {"map", arguments.map},
           {"unit", arguments.unit},
           {"joint", arguments.joint},
@@ -54,7 +58,7 @@ nlohmann::json RecordingToJson(const RecordingArguments& arguments) {
 RecordingArguments RecordingFromJson(const nlohmann::json& json, const Place& place) {
   RecordingArguments arguments;
   try {
-    json.at("file").get_to(arguments.recording);
+    json.at("files").get_to(arguments.recordings);
     json.at("map").get_to(arguments.map);
     json.at("unit").get_to(arguments.unit);
     json.at("joint").get_to(arguments.joint);
@@ -66,6 +70,10 @@ RecordingArguments RecordingFromJson(const nlohmann::json& json, const Place& pl
 }
 
 Measurements ReadRecording(const RecordingArguments& arguments) {
+  return JoinRecordings(ReadRecordings(arguments));
+}
+
+std::vector<Measurements> ReadRecordings(const RecordingArguments& arguments) {
   if (!std::isfinite(arguments.gear) || arguments.gear == 0) {
     Refuse({"--gear"}, "is {}; it must be a finite number other than 0", arguments.gear);
   }
@@ -74,7 +82,11 @@ Measurements ReadRecording(const RecordingArguments& arguments) {
   layout.unit = ReadPairs(arguments.unit, "--unit");
   layout.joint = arguments.joint == "linear" ? JointKind::linear : JointKind::rotary;
   layout.gear = arguments.gear;
-  return ReadRecording(arguments.recording, layout);
+  std::vector<Measurements> recordings;
+  for (const std::string& path : arguments.recordings) {
+    recordings.push_back(ReadRecording(path, layout));
+  }
+  return recordings;
 }
 
 }  // namespace warmjoint

@@ -26,6 +26,10 @@ struct Measurements {
   std::optional<Eigen::VectorXd> load;            // [N] N.m or N
   std::optional<Eigen::VectorXd> temperature;     // [N] degC
 
+  /// Of several recordings joined (join_recordings.h): the first sample of each but the first. The
+  /// joint is cold there again.
+  std::vector<Eigen::Index> starts;
+
   Eigen::Index size() const { return time.size(); }
 };
 

@@ -83,6 +83,24 @@ TEST(Identify, OneSpeedAloneGivesStatus3AndNoNumbers) {
   }
 }
 
+TEST(Identify, TakesSeveralRecordingsAtOnce) {
+  const ScratchDirectory scratch;
+  const std::string first = scratch.path() / "monday.csv", second = scratch.path() / "tuesday.csv";
+  WriteRecordingFile(first, 480, SeveralSpeeds);
+  WriteRecordingFile(second, 240, SeveralSpeeds);
+  const std::string output = scratch.path() / "estimate.json";
+  const Answer answer =
+      RunWarmjoint({"identify", first, second, "--identifier", "nominal-ls", "-o", output});
+  ASSERT_EQ(answer.status, 0) << answer.err;
+  EXPECT_EQ(nlohmann::json::parse(ReadWholeFile(output)).at("metrics").at("n"), 720);
+
+  const Answer check = RunWarmjoint({"check", first, second, "--format", "json"});
+  ASSERT_EQ(check.status, 0) << check.err;
+  EXPECT_EQ(nlohmann::json::parse(check.out).size(), 2u);
+  EXPECT_THAT(RunWarmjoint({"check", first, second}).out,
+              testing::AllOf(HasSubstr("monday.csv"), HasSubstr("tuesday.csv")));
+}
+
 TEST(Identify, TellsGravityFromFrictionOrSaysWhyNot) {
   const ScratchDirectory scratch;
   const std::string recording = scratch.path() / "log.csv";

@@ -79,6 +79,9 @@ Words VerdictOf(const FitView& view) {
   words.paragraphs.push_back(
       {fmt::format("{:.0f} % of the {} samples are at a constant speed and kept.", 100 * share,
                    view.time.size())});
+  if (estimate.gravity) {
+    words.paragraphs.push_back({"Gravity is taken off the torque that is shown."});
+  }
   const double memory = view.has_fit ? ResidualCorrelation(view, 1) : 0;
   if (memory > kMemory) {
     words.paragraphs.push_back(
