@@ -6,8 +6,9 @@
 #include "identification/identifier.h"
 #include "models/foundation/atomic_file.h"
 #include "scenarios/scenario.h"
+#include "sim/dataset/read_recording.h"
 #include "sim/plant.h"
-#include "tests/support/folders.h"
+#include "tests/support/shared_data.h"
 #include "tests/tools/scratch_directory.h"
 
 namespace warmjoint {
@@ -69,6 +70,26 @@ TEST(Gravity, OfAPendulumIsTakenOffBothWays) {
     const Eigen::VectorXd level = Eigen::VectorXd::Constant(1, std::acos(0.0));
     EXPECT_NEAR(estimate.gravity->Torque(level)[0], 4.905, 0.03) << gravity;
   }
+}
+
+TEST(Gravity, OfTheEmpsAxisIsItsPublishedOffset) {
+  WARMJOINT_NEED_SHARED("data/emps/DATA_EMPS.csv");
+  CsvLayout layout;
+  layout.column = {{"time", "t_s"}, {"position", "q_m"}, {"torque", "force_N"}};
+  layout.joint = JointKind::linear;
+  const Measurements log =
+      ReadRecording(test::SharedFolder() / "data" / "emps" / "DATA_EMPS.csv", layout);
+  const Identifier& identifier = FindIdentifier("nominal-ls");
+  const Options options(identifier.options, {{"gravity", "paired"}}, {});
+  const Selection selection = SelectConstantSpeed(log);
+  const Estimate estimate = identifier.identify({log, selection, options, {}});
+  ASSERT_TRUE(estimate.Find("gravity_offset")) << estimate.message;
+
+  // Janot, Gautier, Brunot 2019, from all samples: within our interval
+  const auto [lower, upper] = *estimate.Find("gravity_offset")->interval95;
+  EXPECT_LT(lower, -3.1648);
+  EXPECT_GT(upper, -3.1648);
+  EXPECT_LT(upper, 0);
 }
 
 }  // namespace
