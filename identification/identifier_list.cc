@@ -1,3 +1,4 @@
+#include "identification/auto.h"
 #include "identification/energy_em.h"
 #include "identification/energy_map.h"
 #include "identification/energy_ml.h"
@@ -9,14 +10,15 @@
 #include "identification/nominal_ls.h"
 #include "identification/position_ridge.h"
 #include "identification/rls.h"
+#include "identification/stribeck.h"
 #include "models/foundation/nearest_name.h"
 
 namespace warmjoint {
 
 const std::vector<Identifier>& Identifiers() {
   static const std::vector<Identifier> identifiers{
-      NominalLs(), PositionRidge(), MotorRidge(), EnergyMap(), LoadMap(),
-      LpvEnergy(), EnergyEm(),      EnergyMl(),   Rls(),       Kalman(),
+      NominalLs(), PositionRidge(), MotorRidge(), EnergyMap(), LoadMap(),         LpvEnergy(),
+      EnergyEm(),  EnergyMl(),      Rls(),        Kalman(),    StribeckByCeres(), Auto(),
   };
   return identifiers;
 }
