@@ -52,7 +52,7 @@ double SquaresWithout(const StribeckProblem& problem) {
   const double squares = (torque - kept * cold.solution).squaredNorm();
   if (problem.warming == Warming::none) return squares;
 
-  const ClosedLoop loop(m.time, m.velocity, columns);
+  const ClosedLoop loop(m.time, m.velocity, columns, m.starts);
   const Eigen::VectorXd level = loop.direction().cwiseProduct(m.torque);
   const Eigen::VectorXd weight = problem.selection.keep.cast<double>();
   const WarmStart start = ScanTimeConstant(loop, level, weight);

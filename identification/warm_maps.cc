@@ -40,7 +40,7 @@ struct WarmStep {
 WarmStep FitWarming(const IdentifierInput& input, const Law& law, const MapFit& maps,
                     const std::optional<Thermal>& start) {
   const Measurements& m = input.measurements;
-  const ClosedLoop loop(m.time, m.velocity, Columns(input, law, maps));
+  const ClosedLoop loop(m.time, m.velocity, Columns(input, law, maps), m.starts);
   const Eigen::VectorXd level = loop.direction().cwiseProduct(m.torque);
   const Eigen::VectorXd kept = (input.selection.keep && m.velocity.array() != 0).cast<double>();
   WarmStart from = ScanTimeConstant(loop, level, kept);
@@ -70,7 +70,7 @@ Eigen::MatrixXd JointJacobian(const IdentifierInput& input, const WarmMaps& warm
   const Eigen::MatrixXd kernels = DenseKernels(warm.fit.maps, PointsOf(m), 0, m.size());
   Eigen::MatrixXd columns(m.size(), law.cols() + kernels.cols());
   columns << law, kernels;
-  const ClosedLoop loop(m.time, m.velocity, columns);
+  const ClosedLoop loop(m.time, m.velocity, columns, m.starts);
   Eigen::MatrixXd jacobian = loop.Jacobian(warm.fit.x, warm.thermal).leftCols(columns.cols() + 2);
   jacobian.rightCols(1) *= warm.thermal.time_constant;
   return Kept(jacobian, input.selection);

@@ -98,7 +98,7 @@ std::optional<FittedModel> EvaluateModel(const Identifier& identifier, const Ide
   for (const ParameterInfo& info : law.parameters) model.names.emplace_back(info.name);
   if (friction->thermal && estimate.Find("thermal_gain")) {
     // beside a warming that was estimated, the law's parameters act through the losses too
-    const ClosedLoop loop(m.time, m.velocity, model.derivatives);
+    const ClosedLoop loop(m.time, m.velocity, model.derivatives, m.starts);
     const auto d = static_cast<Eigen::Index>(values.size());
     const Eigen::Map<const Eigen::VectorXd> parameters(values.data(), d);
     const Eigen::MatrixXd all = loop.Jacobian(parameters, *friction->thermal, energy);

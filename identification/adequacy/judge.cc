@@ -32,7 +32,7 @@ constexpr double kFinestPosition = 128;  // cycles over the travel
 Eigen::MatrixXd Energies(const Measurements& m, const Eigen::VectorXd& torque) {
   const double duration = m.time[m.size() - 1] - m.time[0];
   const Eigen::VectorXd loss = torque.cwiseProduct(m.velocity).cwiseAbs();
-  const ThermalFilter filter(m.time);
+  const ThermalFilter filter(m.time, m.starts);
   Eigen::MatrixXd energies(m.size(), 3);
   for (int i = 0; i < 3; ++i) {
     energies.col(i) = filter.Energy({1, duration / std::array{40.0, 12.0, 3.0}[i]}, loss);

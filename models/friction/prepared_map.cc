@@ -147,8 +147,8 @@ PreparedMap::PreparedMap(const FrictionMap& map) : weights_(map.weights), factor
   }
 }
 
-double PreparedMap::Sum(const std::array<Active, kMostMapAxes>& active, size_t axis,
-                        size_t offset) const {
+template <size_t axis>
+double PreparedMap::Sum(const std::array<Active, kMostMapAxes>& active, size_t offset) const {
   const Active& kernels = active[axis];
   const size_t stride = strides_[axis];
   double sum = 0;
@@ -158,9 +158,11 @@ double PreparedMap::Sum(const std::array<Active, kMostMapAxes>& active, size_t a
     }
     return sum;
   }
-  for (int i = 0; i < kernels.count; ++i) {
-    const size_t next = offset + static_cast<size_t>(kernels.index[i]) * stride;
-    sum += kernels.value[i] * Sum(active, axis + 1, next);
+  if constexpr (axis + 1 < kMostMapAxes) {
+    for (int i = 0; i < kernels.count; ++i) {
+      const size_t next = offset + static_cast<size_t>(kernels.index[i]) * stride;
+      sum += kernels.value[i] * Sum<axis + 1>(active, next);
+    }
   }
   return sum;
 }
@@ -173,7 +175,7 @@ double PreparedMap::Value(const MapPoint<double>& point) const {
     if (active[a].count == 0) return 0;
   }
   const double velocity = point[static_cast<size_t>(MapQuantity::velocity)];
-  return EvaluateFactor(factor_, velocity) * Sum(active, 0, 0);
+  return EvaluateFactor(factor_, velocity) * Sum<0>(active, 0);
 }
 
 }  // namespace warmjoint

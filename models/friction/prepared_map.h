@@ -48,7 +48,8 @@ class PreparedMap {
 
  private:
   struct Active;
-  double Sum(const std::array<Active, kMostMapAxes>& active, size_t axis, size_t offset) const;
+  template <size_t axis>
+  double Sum(const std::array<Active, kMostMapAxes>& active, size_t offset) const;
 
   std::vector<MapQuantity> quantities_;
   std::vector<PreparedAxis> axes_;
