@@ -54,6 +54,17 @@ TEST(FitPage, ExplainsWhyThereIsNoFit) {
   DrawLight(MakeFitPage(view));
 }
 
+TEST(FitPage, GivesALongMessageTheRoomItNeeds) {
+  WarmRecording warm;
+  const auto height = [&] {
+    return MakeFitPage(MakeFitView(warm.measurements, warm.selection, warm.estimate)).rows[0];
+  };
+  warm.estimate.message = "short";
+  const double usual = height();
+  for (int i = 0; i < 30; ++i) warm.estimate.message += " and another thing that the data shows";
+  EXPECT_GT(height(), usual + 100);
+}
+
 TEST(FitPage, WarnsOfResidualsThatRemember) {
   WarmRecording warm;
   FitView view = MakeFitView(warm.measurements, warm.selection, warm.estimate);

@@ -12,10 +12,12 @@ namespace warmjoint::report {
 namespace {
 
 constexpr int kColumns = 6;
-constexpr int kHead = 65;                       // points, title and margins
-constexpr int kPlotRow = 200;                   // points
-constexpr int kWordsRow = 150;                  // points
-constexpr int kTableHead = 50, kTableRow = 19;  // points
+constexpr int kHead = 65;                        // points, title and margins
+constexpr int kPlotRow = 200;                    // points
+constexpr int kWordsRow = 150;                   // points
+constexpr int kTableHead = 50, kTableRow = 19;   // points
+constexpr int kWordsHead = 30, kWordsLine = 13;  // points
+constexpr size_t kLettersInHalf = 72;            // of a line of words over half the page
 
 /// The page, and the row that is filled next.
 class Page {
@@ -54,6 +56,16 @@ std::string Finding(const FitView& view) {
   return text + ".";
 }
 
+/// Points that words need, with some to spare. letters: of a line.
+int HeightOf(const Words& words, size_t letters) {
+  size_t height = kWordsHead;
+  for (const Words::Paragraph& paragraph : words.paragraphs) {
+    const size_t lines = paragraph.text.size() / letters + 1;
+    height += lines * kWordsLine + static_cast<size_t>(size::kPad);
+  }
+  return static_cast<int>(height);
+}
+
 void AddEvidence(Page& page, const FitView& view) {
   page.Row(kPlotRow);
   page.Add("Residuals over time, with their mean", ResidualsOver(view, Against::time), 0, 3);
@@ -82,9 +94,10 @@ Figure MakeFitPage(const FitView& view) {
 
   Page page(figure);
   const bool has_numbers = !view.estimate.parameters.empty();
-  page.Row(std::max(kWordsRow,
-                    kTableHead + kTableRow * static_cast<int>(view.estimate.parameters.size())));
-  page.Add("Verdict", VerdictOf(view), 0, has_numbers ? 3 : kColumns);
+  const Words verdict = VerdictOf(view);
+  page.Row(std::max({kWordsRow, HeightOf(verdict, (has_numbers ? 1 : 2) * kLettersInHalf),
+                     kTableHead + kTableRow * static_cast<int>(view.estimate.parameters.size())}));
+  page.Add("Verdict", verdict, 0, has_numbers ? 3 : kColumns);
   if (has_numbers) page.Add("Parameters", ParametersOf(view), 3, 3);
 
   page.Row(kPlotRow + 25);
