@@ -108,6 +108,21 @@ std::string Indistinct(const std::vector<std::string>& mixed, const Measurements
       one_way ? ", in both directions" : "");
 }
 
+std::string Indistinct(const std::vector<Eigen::Index>& mixed, const Law& law,
+                       const Measurements& measurements, const Selection& selection) {
+  std::vector<std::string> names;
+  for (const Eigen::Index i : mixed) {
+    names.emplace_back(law.parameters[static_cast<size_t>(i)].name);
+  }
+  return Indistinct(names, measurements, selection);
+}
+
+std::string WouldFeedItself(double time, std::string_view remedy) {
+  return fmt::format(
+      "at {:.6g} s the fitted friction pushes instead of braking and would feed itself; {}", time,
+      remedy);
+}
+
 void DescribeFriction(const Law& law, const Measurements& measurements, Estimate& estimate) {
   FrictionDescription friction;
   friction.law = law.name;

@@ -3,6 +3,8 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "identification/identifier.h"
 #include "models/friction/law.h"
@@ -35,6 +37,13 @@ EstimatedParameter WithInterval(std::string name, double value, std::string unit
 /// mixed: names of law parameters.
 std::string Indistinct(const std::vector<std::string>& mixed, const Measurements& measurements,
                        const Selection& selection);
+
+/// The same of a law's columns. mixed: their indices.
+std::string Indistinct(const std::vector<Eigen::Index>& mixed, const Law& law,
+                       const Measurements& measurements, const Selection& selection);
+
+/// The sentence on a fitted friction that pushes at a time (s) and so would feed itself.
+std::string WouldFeedItself(double time, std::string_view remedy);
 
 /// Puts the law and the parameter values that `estimate` holds into estimate.friction. Where a
 /// value lies outside its table's bounds there is no such friction: it is left out, and the message

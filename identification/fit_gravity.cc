@@ -139,11 +139,13 @@ GravityFit PrepareGravity(const IdentifierInput& input) {
 std::string IndistinctColumns(const std::vector<Eigen::Index>& mixed, const Law& law,
                               const GravityFit& gravity, const IdentifierInput& input) {
   const auto d = static_cast<Eigen::Index>(law.parameters.size());
+  if (std::all_of(mixed.begin(), mixed.end(), [d](Eigen::Index i) { return i < d; })) {
+    return Indistinct(mixed, law, input.measurements, input.selection);
+  }
   std::vector<std::string> names;
   for (const Eigen::Index i : mixed) {
     if (i < d) names.emplace_back(law.parameters[static_cast<size_t>(i)].name);
   }
-  if (names.size() == mixed.size()) return Indistinct(names, input.measurements, input.selection);
 
   const std::string parts = names.empty() ? "" : fmt::format("{} and ", fmt::join(names, ", "));
   const bool turns = gravity.kind != GravityKind::constant;

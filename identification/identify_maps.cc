@@ -111,10 +111,8 @@ std::optional<Estimate> RefuseForMaps(const IdentifierInput& input, const std::s
       LawColumns(law, Kept(input.measurements.velocity, input.selection).col(0));
   const LeastSquares fit = SolveLeastSquares(A, Kept(input.measurements.torque, input.selection));
   if (fit.mixed.empty()) return std::nullopt;
-  std::vector<std::string> mixed;
-  for (const Eigen::Index i : fit.mixed) mixed.emplace_back(law.parameters[i].name);
   return Failed(identifier, Status::not_identifiable,
-                Indistinct(mixed, input.measurements, input.selection));
+                Indistinct(fit.mixed, law, input.measurements, input.selection));
 }
 
 std::optional<MapChoice> ChooseAndFit(const IdentifierInput& input, const MapTask& task) {

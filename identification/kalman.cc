@@ -76,9 +76,7 @@ Estimate Conclude(const KalmanTrack& track, const std::vector<KalmanPass>& passe
   }
   if (response.feeds_itself) {
     return Failed(kName, Status::inadequate_model,
-                  fmt::format("at {:.6g} s the estimated friction pushes instead of braking and "
-                              "would feed itself; try another law",
-                              m.time[*response.feeds_itself]));
+                  WouldFeedItself(m.time[*response.feeds_itself], "try another law"));
   }
 
   Estimate estimate;
@@ -116,9 +114,8 @@ Estimate Identify(const IdentifierInput& input) {
   const Eigen::MatrixXd kept = Kept(columns, input.selection);
   const LeastSquares nominal = SolveLeastSquares(kept, torque);
   if (nominal.rank < d) {
-    std::vector<std::string> mixed;
-    for (const Eigen::Index i : nominal.mixed) mixed.emplace_back(law.parameters[i].name);
-    return Failed(kName, Status::not_identifiable, Indistinct(mixed, m, input.selection));
+    return Failed(kName, Status::not_identifiable,
+                  Indistinct(nominal.mixed, law, m, input.selection));
   }
 
   const double root = std::sqrt(static_cast<double>(torque.size()));

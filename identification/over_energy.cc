@@ -42,10 +42,9 @@ Estimate Complete(const IdentifierInput& input, const KnownEnergy& known, int ro
   metrics = ComputeMetrics(torque, Kept(prediction.force, input.selection), metrics.parameters + 2,
                            metrics.effective_parameters + 2);
   if (prediction.feeds_itself < m.size()) {
-    return Failed(estimate.identifier, Status::inadequate_model,
-                  fmt::format("at {:.6g} s the fitted friction pushes instead of braking and would "
-                              "feed itself; use fewer kernels, or another law",
-                              m.time[prediction.feeds_itself]));
+    return Failed(
+        estimate.identifier, Status::inadequate_model,
+        WouldFeedItself(m.time[prediction.feeds_itself], "use fewer kernels, or another law"));
   }
   estimate.message += fmt::format("; its own heat agrees with E after {} rounds", rounds);
   return estimate;

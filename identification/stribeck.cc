@@ -23,7 +23,6 @@ namespace {
 
 constexpr const char* kName = "stribeck";
 constexpr size_t kRefined = 3;       // starts
-constexpr double kVisible = 20;      // drop of |e|^2 / s^2, as kVisibleWarming: two more parameters
 constexpr double kVagueLogVs = 0.5;  // standard deviation: 95 % within a factor of e
 constexpr double kVagueFall = 0.5;   // standard deviation of ks - kc over itself
 constexpr Eigen::Index kStatic = 2, kLogVs = 3, kGain = 4;  // in x
@@ -73,7 +72,7 @@ std::string Unseen(const IdentifierInput& input, double explained) {
   return fmt::format(
       "no Stribeck effect can be seen: static and stribeck_velocity explain {:.3g} times the noise "
       "variance, below {:.3g}; {}",
-      explained > 0 ? explained : 0.0, kVisible, SlowSpeeds(input));
+      explained > 0 ? explained : 0.0, kVisibleWarming, SlowSpeeds(input));
 }
 
 /// Why the parameters of a fit cannot be told, though the effect is seen; nothing where they can.
@@ -146,9 +145,7 @@ void Describe(const IdentifierInput& input, const StribeckProblem& problem, cons
   const Prediction predicted = PredictFriction(*estimate.friction, input.measurements);
   if (predicted.feeds_itself == input.measurements.size()) return;
   Void(Status::inadequate_model,
-       fmt::format("at {:.6g} s the fitted friction pushes instead of braking and would feed "
-                   "itself; try another law",
-                   input.measurements.time[predicted.feeds_itself]),
+       WouldFeedItself(input.measurements.time[predicted.feeds_itself], "try another law"),
        estimate);
 }
 
@@ -197,7 +194,7 @@ Estimate Conclude(const IdentifierInput& input, const StribeckProblem& problem,
         "the fit still moves after 100 iterations; does the torque column hold friction?");
   }
   const double explained = Explained(input, without, fit.solution);
-  if (!(explained > kVisible)) {
+  if (!(explained > kVisibleWarming)) {
     return Failed(kName, Status::not_identifiable, Unseen(input, explained));
   }
   const Eigen::VectorXd torque = Kept(input.measurements.torque, input.selection);
@@ -254,7 +251,7 @@ Estimate Identify(const IdentifierInput& input) {
   // where the scan, within a few per cent of the best, sees next to nothing, so will the fit
   const double seen = Explained(input, without, scan[0]);
   Estimate estimate =
-      problem.warming == Warming::none && seen < 0.5 * kVisible
+      problem.warming == Warming::none && seen < 0.5 * kVisibleWarming
           ? Failed(kName, Status::not_identifiable, Unseen(input, seen))
           : Conclude(input, problem, FitFrom(problem, scan), without, ColdSquares(problem));
   estimate.trace = Trace(scan, torque.size());

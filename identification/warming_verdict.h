@@ -1,8 +1,10 @@
 // Whether a recording shows the warm-up, and whether its two parameters can be told apart.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace warmjoint {
 
@@ -20,13 +22,20 @@ struct WarmingEvidence {
   double log_deviation = 0;  // standard deviation of ln(tau)
   double time_constant = 0;  // tau, s
   double shortest = 0;       // s, range of time constants that the recording can show
-  double longest = 0;
+  double longest = std::numeric_limits<double>::infinity();
+};
+
+/// What stands beside the warming in a fit, and what to use where no warming can be seen.
+struct WarmingContext {
+  std::string_view beside;  // "", or words that begin with a blank
+  std::string_view instead = "nominal-ls";
 };
 
 /// Why the warm-up cannot be seen at all: one sentence; nothing where it can.
-std::optional<std::string> UnseenWarming(double explained);
+std::optional<std::string> UnseenWarming(double explained, const WarmingContext& context = {});
 
 /// Why thermal gain and time constant cannot be told; nothing where they can.
-std::optional<std::string> UnknownWarming(const WarmingEvidence& evidence);
+std::optional<std::string> UnknownWarming(const WarmingEvidence& evidence,
+                                          const WarmingContext& context = {});
 
 }  // namespace warmjoint

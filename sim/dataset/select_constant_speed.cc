@@ -14,15 +14,24 @@ constexpr Index kShortest = 3;  // samples of a segment
 
 Index Length(const Segment& segment) { return segment.end - segment.begin; }
 
+/// How far the speed strays from `level` in the middle half of a run, where it has settled: as far
+/// as all but 2 % of the samples there do. A drive lets ripple of the load through to the speed.
+double Wobble(const Segment& run, double level, const Eigen::VectorXd& v) {
+  const Index quarter = Length(run) / 4;
+  Eigen::VectorXd strays =
+      (v.segment(run.begin + quarter, Length(run) - 2 * quarter).array() - level).abs();
+  return QuantileInPlace(strays, 0.98);
+}
+
 /// Sets the level of a run to its median and cuts its ends where the speed still settles: outwards
-/// from the middle, to the first samples that leave 4 robust standard deviations.
+/// from the middle, to the first samples that leave 4 robust standard deviations and the wobble.
 void Settle(Segment& run, const Eigen::VectorXd& v, const VelocityScale& scale) {
   Eigen::VectorXd values = v.segment(run.begin, Length(run));
   run.velocity = MedianInPlace(values);
   values = (values.array() - run.velocity).abs();
   const double spread = MedianInPlace(values) / 0.6745;
-  const double allowed = std::max(
-      {4 * spread, 3 * scale.noise, 0.005 * std::abs(run.velocity), 1.5 * scale.resolution});
+  const double allowed = std::max({4 * spread, Wobble(run, run.velocity, v), 3 * scale.noise,
+                                   0.005 * std::abs(run.velocity), 1.5 * scale.resolution});
 
   const Index patience = 1 + Length(run) / 100;  // samples in a row that end the run
   const Index middle = (run.begin + run.end) / 2;

@@ -161,6 +161,22 @@ TEST(SelectConstantSpeed, WaitsUntilAControllerHasSettled) {
   }
 }
 
+TEST(SelectConstantSpeed, KeepsASpeedThatRippleOfTheLoadLetsWobbleInTheMiddle) {
+  // 1.5 % of the speed, in the middle third of each way, without any noise
+  Plan plan;
+  plan.step = 0.05;
+  plan.settling = 0.05;
+  Motion motion = Alternating(plan);
+  for (std::size_t i = 0; i < motion.velocity.size(); ++i) {
+    const auto within = static_cast<double>(i % 400);
+    if (within < 133 || within >= 266) continue;
+    motion.velocity[i] *= 1 + 0.015 * std::sin(2 * std::numbers::pi * (within - 133) / 133);
+  }
+  const Outcome outcome = Judge(motion);
+  EXPECT_GT(outcome.kept, 0.97);
+  EXPECT_LT(outcome.wrong, 0.002);
+}
+
 TEST(SelectConstantSpeed, KeepsNothingOfASinusoid) {
   for (const double rate : {10.0, 100.0, 1000.0}) {
     Motion motion{1 / rate, {}, {}};
