@@ -5,9 +5,9 @@
 namespace warmjoint {
 
 BlockDescent::BlockDescent(const Measurements& measurements, const Selection& moving,
-                           const Eigen::MatrixXd& columns, const LeastSquares& nominal,
+                           const Eigen::MatrixXd& columns, const Eigen::MatrixXd& cofactor,
                            const Eigen::VectorXd& gravity)
-    : cofactor_(nominal.cofactor),
+    : cofactor_(cofactor),
       // (19) with the measured torque
       output_error_(measurements.time,
                     (measurements.torque - gravity).cwiseProduct(measurements.velocity).cwiseAbs(),

@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 
-#include "identification/least_squares.h"
 #include "identification/output_error.h"
 
 namespace warmjoint {
@@ -20,10 +19,11 @@ struct DescentState {
 /// kept and move take part in the fits of (22) and (24); the filter runs over all.
 class BlockDescent {
  public:
-  /// columns: [N x d] regressor of Fn + G over all samples; nominal: the factorised columns of the
-  /// kept moving samples; gravity: [N] G, which makes no heat, N.m or N.
+  /// columns: [N x d] regressor of Fn + G over all samples; cofactor: [d x d] (A^T A)^-1 of the
+  /// kept moving ones, with the prior's strength where there are kernels; gravity: [N] G, which
+  /// makes no heat, N.m or N.
   BlockDescent(const Measurements& measurements, const Selection& moving,
-               const Eigen::MatrixXd& columns, const LeastSquares& nominal,
+               const Eigen::MatrixXd& columns, const Eigen::MatrixXd& cofactor,
                const Eigen::VectorXd& gravity);
 
   /// Iteration 0: E = H0 W, then Fn by (24). H0 acts first, because a start from plain least

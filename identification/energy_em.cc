@@ -8,8 +8,8 @@
 #include "identification/convergence.h"
 #include "identification/first_guess.h"
 #include "identification/fit_data.h"
-#include "identification/fit_gravity.h"
-#include "identification/linear_laws.h"
+#include "identification/nominal_part.h"
+#include "identification/position_maps.h"
 #include "identification/report_law.h"
 #include "identification/report_thermal.h"
 
@@ -100,10 +100,9 @@ std::optional<Estimate> Refusal(const Measurements& m, const DescentState& last,
                               last.thermal.time_constant));
   }
   if (const Eigen::Index i = FeedsItselfAt(m, fitted); i >= 0) {
-    return Failed(kName, Status::inadequate_model,
-                  fmt::format("at {:.6g} s the fitted friction pushes instead of braking and would "
-                              "feed itself; try law asymmetric, or start nearer to the solution",
-                              m.time[i]));
+    return Failed(
+        kName, Status::inadequate_model,
+        WouldFeedItself(m.time[i], "try law asymmetric, or start nearer to the solution"));
   }
   return std::nullopt;
 }
@@ -124,23 +123,39 @@ std::pair<bool, std::string> Arrival(const std::vector<DescentState>& states,
                              iterations, distance.rate, 100 * distance.remaining, 100 * tolerance)};
 }
 
+/// (J^T J + s P)^-1 of both blocks together; nothing where the motion cannot tell them apart.
+/// jacobian: [n x (p + 2)]
+std::optional<Eigen::MatrixXd> JointCofactor(const NominalPart& part,
+                                             const Eigen::MatrixXd& jacobian,
+                                             const Eigen::VectorXd& torque) {
+  if (part.maps.empty()) {
+    const LeastSquares joint = SolveLeastSquares(jacobian, torque, kSingular);
+    if (joint.rank < jacobian.cols()) return std::nullopt;
+    return joint.cofactor;
+  }
+  Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
+  const Eigen::Index q = part.kernels();
+  normal.diagonal().segment(jacobian.cols() - 2 - q, q).array() += part.strength;
+  const Eigen::MatrixXd cofactor = Cofactor(normal);
+  if (!cofactor.allFinite()) return std::nullopt;
+  return cofactor;
+}
+
 /// The last state as an estimate, with its verdict.
-Estimate Conclude(const IdentifierInput& input, const Law& law, const GravityFit& gravity,
-                  const BlockDescent& descent, const Selection& moving,
-                  const std::vector<DescentState>& states) {
+Estimate Conclude(const IdentifierInput& input, const Law& law, const NominalPart& part,
+                  const BlockDescent& descent, const std::vector<DescentState>& states) {
   const Measurements& m = input.measurements;
   const DescentState& last = states.back();
   const Eigen::VectorXd fitted = descent.Fitted(last);
-  const Eigen::VectorXd pull = moving.keep.cast<double>().matrix().cwiseProduct(
-      gravity.columns * last.nominal.tail(gravity.count()));
+  const Eigen::VectorXd pull = part.moving.keep.cast<double>().matrix().cwiseProduct(
+      part.gravity.columns * last.nominal.tail(part.gravity.count()));
   if (auto refusal = Refusal(m, last, fitted - pull)) return *refusal;
 
   // both blocks together
-  const auto d = static_cast<int>(last.nominal.size()) + 2;
-  const Eigen::VectorXd torque = Kept(m.torque, moving);
-  const Eigen::MatrixXd jacobian = Kept(descent.Jacobian(last), moving);
-  const LeastSquares joint = SolveLeastSquares(jacobian, torque, kSingular);
-  if (joint.rank < d) {
+  const Eigen::VectorXd torque = Kept(m.torque, part.moving);
+  const Eigen::MatrixXd jacobian = Kept(descent.Jacobian(last), part.moving);
+  const auto cofactor = JointCofactor(part, jacobian, torque);
+  if (!cofactor) {
     return Failed(kName, Status::not_identifiable,
                   "the motion cannot tell warming from the nominal friction; record from cold, "
                   "with speeds that differ clearly, until the friction settles");
@@ -149,58 +164,52 @@ Estimate Conclude(const IdentifierInput& input, const Law& law, const GravityFit
   // what is known now, and how far from the end it is
   Estimate estimate;
   estimate.identifier = kName;
-  const Eigen::VectorXd kept = Kept(fitted, moving);
-  estimate.metrics = ComputeMetrics(torque, kept, d, d);
-  const Uncertainty known = JudgeUncertainty(jacobian, joint.cofactor, torque - kept, moving);
-  ReportLaw(law, last.nominal.head(last.nominal.size() - gravity.count()), known, m, estimate);
+  const Eigen::VectorXd kept = Kept(fitted, part.moving);
+  estimate.metrics =
+      ComputeMetrics(torque, kept, static_cast<int>(last.nominal.size()) + 2, part.effective + 2);
+  const Uncertainty known = JudgeUncertainty(jacobian, *cofactor, torque - kept, part.moving);
+  const auto d = static_cast<Eigen::Index>(law.parameters.size());
+  ReportLaw(law, last.nominal.head(d), known, m, estimate);
   const Eigen::Matrix2d thermal = known.covariance.bottomRightCorner<2, 2>();
   ReportThermal(last.thermal, thermal, known.freedom, m, estimate);
-  ReportGravity(gravity, last.nominal, known, m, estimate);
+  ReportGravity(part.gravity, last.nominal, known, m, estimate);
   const auto [arrived, message] = Arrival(states, known, input.options.Number("tolerance"));
-  if (arrived) {
-    // W is formed of the noisy torque, so the residual understates the errors
-    for (EstimatedParameter& parameter : estimate.parameters) {
-      parameter.std.reset();
-      parameter.interval95.reset();
-    }
-    estimate.message = message + "; gives no intervals, energy-ml does";
-    DescribeFriction(law, m, estimate);
-    if (estimate.friction) estimate.friction->thermal = last.thermal;
-  } else {
+  if (!arrived) {
     Void(Status::not_converged, message, estimate);
+    return estimate;
   }
+
+  // W is formed of the noisy torque, so the residual understates the errors
+  for (EstimatedParameter& parameter : estimate.parameters) {
+    parameter.std.reset();
+    parameter.interval95.reset();
+  }
+  estimate.message = message + "; gives no intervals, energy-ml does";
+  DescribeFriction(law, m, estimate);
+  if (!estimate.friction) return estimate;
+  estimate.friction->thermal = last.thermal;
+  estimate.friction->maps = part.MapsOf(last.nominal);
   return estimate;
 }
 
-Estimate Identify(const IdentifierInput& given) {
-  const Measurements& m = given.measurements;
-  const Law& law = *FindLaw(given.options.Text("law"));
-  const GravityFit gravity = PrepareGravity(given);
-  if (gravity.why) return Failed(kName, gravity.status, *gravity.why);
-  const IdentifierInput input = gravity.Of(given);
-  const auto d = static_cast<int>(law.parameters.size() + gravity.count());
-  if (auto why = Unusable(input, d + 2)) return Failed(kName, Status::bad_data, *why);
+Estimate Identify(const IdentifierInput& input) {
+  const Measurements& m = input.measurements;
+  const Law& law = *FindLaw(input.options.Text("law"));
+  const NominalPart part = PrepareNominalPart(input, kName);
+  if (part.refusal) return *part.refusal;
+  const GravityFit& gravity = part.gravity;
 
-  // the columns of Fn and G must be distinct before any warming is thought of
-  const Selection moving{input.selection.keep && m.velocity.array() != 0, {}};
-  const Eigen::MatrixXd columns = Beside(LawColumns(law, m.velocity), gravity.columns);
-  const LeastSquares nominal = SolveLeastSquares(Kept(columns, moving), Kept(m.torque, moving));
-  if (nominal.rank < d) {
-    return Failed(kName, Status::not_identifiable,
-                  IndistinctColumns(nominal.mixed, law, gravity, input));
-  }
-
-  FirstGuess start = Start(input);
+  FirstGuess start = Start(gravity.Of(input));
   if (!start.thermal) return Failed(kName, Status::not_identifiable, start.why);
 
-  const BlockDescent descent(m, moving, columns, nominal,
-                             gravity.columns * nominal.solution.tail(gravity.count()));
+  const BlockDescent descent(m, part.moving, part.columns, part.cofactor,
+                             gravity.columns * part.solution.tail(gravity.count()));
   const double shortest = descent.output_error().shortest();
   start.thermal->time_constant = std::max(start.thermal->time_constant, shortest);
   const std::vector<DescentState> states =
       Iterate(descent, *start.thermal, input.options.Integer("iterations"));
 
-  Estimate estimate = Conclude(input, law, gravity, descent, moving, states);
+  Estimate estimate = Conclude(input, law, part, descent, states);
   const double h = descent.output_error().filter().mean_step();
   for (size_t i = 0; i < states.size(); ++i) {
     estimate.trace.push_back({static_cast<int>(i), Named(law, states[i], h), states[i].rmse});
@@ -211,22 +220,26 @@ Estimate Identify(const IdentifierInput& given) {
 }  // namespace
 
 Identifier EnergyEm() {
-  return {kName,
-          "Algorithm 1: energy filter and nominal law fitted in turn, a trace per iteration",
-          {
-              {"law", "viscous_coulomb", LinearLawWords(), "nominal friction law"},
-              {"iterations", "50", "integer >= 0", "iterations of the loop"},
-              {"start", "options", "options|guess|random",
-               "start_gain and start_time_constant, the torque's envelope (25), or drawn evenly"},
-              {"start_gain", "-0.1", "number", "first thermal gain, N.m/W or N/W"},
-              {"start_time_constant", "600", "number > 0", "first time constant, s"},
-              {"gain_range", "-9:0", "range", "where a random first gain is drawn, N.m/W or N/W"},
-              {"time_range", "0:1800", "range", "where a random first time constant is drawn, s"},
-              {"tolerance", "0.01", "number > 0",
-               "largest distance from the fixed point that counts as converged, relative"},
-              GravityOption(),
-          },
-          &Identify};
+  std::vector<OptionInfo> options{
+      {"iterations", "50", "integer >= 0", "iterations of the loop"},
+      {"start", "options", "options|guess|random",
+       "start_gain and start_time_constant, the torque's envelope (25), or drawn evenly"},
+      {"start_gain", "-0.1", "number", "first thermal gain, N.m/W or N/W"},
+      {"start_time_constant", "600", "number > 0", "first time constant, s"},
+      {"gain_range", "-9:0", "range", "where a random first gain is drawn, N.m/W or N/W"},
+      {"time_range", "0:1800", "range", "where a random first time constant is drawn, s"},
+      {"tolerance", "0.01", "number > 0",
+       "largest distance from the fixed point that counts as converged, relative"},
+      GravityOption(),
+  };
+  std::vector<OptionInfo> part =
+      PositionPartOptions({"none", "none|map", "a map over position beside the law"});
+  options.insert(options.begin(), std::make_move_iterator(part.begin()),
+                 std::make_move_iterator(part.begin() + 1));
+  options.insert(options.end(), std::make_move_iterator(part.begin() + 1),
+                 std::make_move_iterator(part.end()));
+  return {kName, "Algorithm 1: energy filter and nominal law fitted in turn, a trace per iteration",
+          options, &Identify};
 }
 
 }  // namespace warmjoint

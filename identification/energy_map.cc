@@ -15,28 +15,13 @@ std::vector<std::vector<FrictionMap>> Shapes(const Options& options, const MapSe
                                              const MapPoints& points) {
   std::vector<std::vector<FrictionMap>> shapes;
   for (const double width : settings.widths) {
-    shapes.push_back(
-        {{{RangeAxis(MapQuantity::position, points, options.Integer("kernels"), width),
-           VelocityAxis(points, options.Integer("velocity_kernels"), width),
-           RangeAxis(MapQuantity::energy, points, options.Integer("energy_kernels"), width)},
-          settings.kernels,
-          {}}});
+    FrictionMap map = PositionMap(points, settings.kernels, options.Integer("kernels"), width,
+                                  options.Integer("velocity_kernels"));
+    map.axes.push_back(
+        RangeAxis(MapQuantity::energy, points, options.Integer("energy_kernels"), width));
+    shapes.push_back({map});
   }
   return shapes;
-}
-
-/// Position parts for the first fit: one part for each direction of motion.
-std::vector<std::vector<FrictionMap>> PositionParts(const Options& options,
-                                                    const MapSettings& settings,
-                                                    const MapPoints& points) {
-  std::vector<std::vector<FrictionMap>> parts;
-  for (const double width : settings.widths) {
-    parts.push_back({{{RangeAxis(MapQuantity::position, points, options.Integer("kernels"), width),
-                       VelocityAxis(points, 1, width)},
-                      settings.kernels,
-                      {}}});
-  }
-  return parts;
 }
 
 Estimate Identify(const IdentifierInput& input) {
@@ -47,8 +32,11 @@ Estimate Identify(const IdentifierInput& input) {
     return Failed(kName, Status::bad_data, *why);
   }
 
-  // E, with position parts beside it
-  task.candidates = PositionParts(input.options, task.settings, points);
+  // E, with position parts beside it, one for each direction of motion
+  for (const double width : task.settings.widths) {
+    task.candidates.push_back(
+        {PositionMap(points, task.settings.kernels, input.options.Integer("kernels"), width)});
+  }
   const std::optional<WarmMaps> warm = FitWarmMaps(input, task);
   if (!warm) return Unsolvable(kName);
   Estimate first = ReportWarmMaps(input, *warm);

@@ -4,52 +4,34 @@
 
 #include <cmath>
 
+#include "identification/energy_ml_maps.h"
 #include "identification/fit_data.h"
 #include "identification/fit_gravity.h"
 #include "identification/least_squares.h"
 #include "identification/linear_laws.h"
-#include "identification/position_maps.h"
 #include "identification/report_law.h"
 #include "identification/report_thermal.h"
+#include "identification/robust.h"
+#include "identification/robust_warm_fit.h"
 #include "identification/scan_time_constant.h"
 #include "identification/uncertainty.h"
-#include "identification/warm_fit.h"
-#include "identification/warm_maps.h"
+#include "identification/warming_verdict.h"
 
 namespace warmjoint {
 namespace {
 
 constexpr const char* kName = "energy-ml";
 
-// the drop of |e|^2 / s^2 that warming must bring: by chance it exceeds 20 about once in 5000
-// recordings, a chi-square of 2 freedoms at the best of about 5 independent time constants
-constexpr double kVisible = 20;
-constexpr double kVagueLogTau = 0.5;  // standard deviation of log(tau): 95 % within a factor of e
-
-/// Why the warm-up cannot be told; nothing where it can. cofactor: of x; squares: of the fit
-/// without warming and with it.
-std::optional<std::string> UnseenWarming(const WarmFit& fit, const WarmStart& scanned,
+/// Why the warm-up cannot be told; nothing where it can. variance: of the noise; cofactor: of x;
+/// nominal_squares: of the fit without warming.
+std::optional<std::string> UntoldWarming(const WarmFit& fit, const WarmStart& scanned,
                                          double variance, double nominal_squares,
                                          const Eigen::MatrixXd& cofactor) {
-  const double visible = (nominal_squares - fit.solution.squares) / variance;
-  if (!(visible > kVisible)) {
-    return fmt::format(
-        "no warm-up can be seen: thermal_gain and thermal_time_constant explain {:.3g} times the "
-        "noise variance, below {:.3g}; record from cold until friction settles, or use nominal-ls",
-        std::max(visible, 0.0), kVisible);
-  }
-
-  if (!fit.converged) return std::nullopt;
+  const double explained = (nominal_squares - fit.solution.squares) / variance;
+  if (!fit.converged) return UnseenWarming(explained);
   const Eigen::Index i = fit.law_parameters + 1;
-  const double vague = std::sqrt(variance * cofactor(i, i));
-  const double tau = fit.thermal().time_constant;
-  if (!(vague < kVagueLogTau) || tau < scanned.shortest / 4 || tau > scanned.longest * 4) {
-    return fmt::format(
-        "thermal_gain and thermal_time_constant cannot be told apart: tau is known to a factor of "
-        "{:.3g} only; record longer, from cold until friction settles, or with rests",
-        std::exp(1.96 * vague));
-  }
-  return std::nullopt;
+  return UnknownWarming({explained, std::sqrt(variance * cofactor(i, i)),
+                         fit.thermal().time_constant, scanned.shortest, scanned.longest});
 }
 
 std::vector<TraceEntry> Trace(const WarmFit& fit, const Law& law, double step, Eigen::Index n) {
@@ -82,17 +64,40 @@ Eigen::MatrixXd Jacobian(const ClosedLoop& loop, const GravityFit& gravity, cons
   return Beside(jacobian, gravity.columns);
 }
 
-/// The verdict on a fit, and its numbers where they can be trusted.
-Estimate Conclude(const IdentifierInput& input, const Law& law, const GravityFit& gravity,
-                  const ClosedLoop& loop, const WarmStart& scanned, const WarmFit& fit,
-                  double nominal_squares) {
-  const Measurements& m = input.measurements;
-  const Eigen::VectorXd torque = Kept(m.torque, input.selection);
+/// What a fit is made of, and the fit.
+struct Task {
+  const IdentifierInput& input;
+  const Law& law;
+  const GravityFit& gravity;
+  const ClosedLoop& loop;
+  const WarmStart& scanned;
+};
+
+/// How sure a fit is, whatever its loss. residual: [n]
+Uncertainty Judge(const Task& task, const RobustWarmFit& robust, const Eigen::VectorXd& residual) {
+  const Selection& selection = task.input.selection;
+  const auto jacobian = [&] {
+    return Kept(Jacobian(task.loop, task.gravity, robust.fit), selection);
+  };
+  if (std::isinf(robust.threshold)) {
+    return JudgeUncertainty(jacobian, Cofactor(robust.fit.normal), residual, selection);
+  }
+  const Eigen::MatrixXd rows = jacobian();
+  return JudgeUncertainty(rows, Cofactor(rows.transpose() * rows),
+                          HuberScores(residual, robust.threshold), selection);
+}
+
+/// The verdict on a fit, and its numbers where they can be trusted. nominal_squares: of the fit
+/// without warming.
+Estimate Conclude(const Task& task, const RobustWarmFit& robust, double nominal_squares) {
+  const Measurements& m = task.input.measurements;
+  const WarmFit& fit = robust.fit;
+  const Eigen::VectorXd torque = Kept(m.torque, task.input.selection);
   const auto p = static_cast<int>(fit.solution.x.size());
   const Eigen::Index d = fit.law_parameters;
   const double variance = fit.solution.squares / static_cast<double>(torque.size() - p);
-  const Eigen::MatrixXd cofactor = Cofactor(fit.normal);
-  if (auto why = UnseenWarming(fit, scanned, variance, nominal_squares, cofactor)) {
+  if (auto why =
+          UntoldWarming(fit, task.scanned, variance, nominal_squares, Cofactor(fit.normal))) {
     return Failed(kName, Status::not_identifiable, *why);
   }
   if (!fit.converged) {
@@ -103,36 +108,33 @@ Estimate Conclude(const IdentifierInput& input, const Law& law, const GravityFit
                     fit.trace.size() - 1));
   }
   const LoopResponse response =
-      loop.Simulate(fit.parameters(), fit.thermal(), fit.initial_energy());
+      task.loop.Simulate(fit.parameters(), fit.thermal(), fit.initial_energy());
   if (response.feeds_itself) {
     return Failed(kName, Status::inadequate_model,
-                  fmt::format("at {:.6g} s the fitted friction pushes instead of braking and would "
-                              "feed itself; try another law",
-                              m.time[*response.feeds_itself]));
+                  WouldFeedItself(m.time[*response.feeds_itself], "try another law"));
   }
 
   Estimate estimate;
   estimate.identifier = kName;
   const Eigen::VectorXd fitted =
-      Kept(response.force + gravity.columns * fit.offset_values(), input.selection);
+      Kept(response.force + task.gravity.columns * fit.offset_values(), task.input.selection);
   estimate.metrics = ComputeMetrics(torque, fitted, p, p);
-  const Uncertainty known =
-      JudgeUncertainty([&] { return Kept(Jacobian(loop, gravity, fit), input.selection); },
-                       cofactor, torque - fitted, input.selection);
+  const Uncertainty known = Judge(task, robust, torque - fitted);
   if (!known.covariance.allFinite()) {
     return Failed(kName, Status::bad_data, "torque or velocity is too large to square");
   }
-  ReportLaw(law, fit.parameters(), known, m, estimate);
+  ReportLaw(task.law, fit.parameters(), known, m, estimate);
   ReportThermal(fit.thermal(), known.covariance.block<2, 2>(d, d), known.freedom, m, estimate);
   if (fit.estimates_initial_energy()) {
     estimate.parameters.push_back(WithInterval("initial_energy", fit.initial_energy(),
                                                m.torque_unit, known.Deviation(d + 2),
                                                known.freedom));
   }
-  ReportGravity(gravity, fit.solution.x, known, m, estimate);
-  estimate.message = fmt::format("maximum likelihood on {} samples, refined in {} iterations{}",
-                                 torque.size(), fit.trace.size() - 1, ColourOf(known.noise));
-  DescribeFriction(law, m, estimate);
+  ReportGravity(task.gravity, fit.solution.x, known, m, estimate);
+  estimate.message = fmt::format(
+      "maximum likelihood on {} samples, refined in {} iterations{}{}", torque.size(),
+      fit.trace.size() - 1, DescribeLoss(torque - fitted, robust.threshold), ColourOf(known.noise));
+  DescribeFriction(task.law, m, estimate);
   if (estimate.friction) estimate.friction->thermal = fit.thermal();
   return estimate;
 }
@@ -151,29 +153,14 @@ WarmStart Scan(const Measurements& m, const GravityFit& gravity, const ClosedLoo
   return start;
 }
 
-/// Law, warming and a map over position together.
-Estimate IdentifyWithMap(const IdentifierInput& input) {
-  MapTask task{kName, ReadMapSettings(input.options), {}, {}};
-  if (auto refusal = RefuseForMaps(input, kName, *FindLaw(task.settings.law))) return *refusal;
-  for (const char* option : {"gravity", "initial_energy"}) {
-    const std::string& value = input.options.Text(option);
-    if (value == "none" || value == "zero") continue;
-    return Failed(kName, Status::bad_data,
-                  fmt::format("position=map cannot be had together with {}={}; leave one of them "
-                              "out (basis=position takes gravity up into the map)",
-                              option, value));
-  }
-  const MapPoints points = Kept(PointsOf(input.measurements), input.selection);
-  if (auto why = CannotCarry(MapQuantity::position, points)) {
-    return Failed(kName, Status::bad_data, *why);
-  }
-  task.candidates = PositionMaps(input.options, task.settings, points);
-  const std::optional<WarmMaps> warm = FitWarmMaps(input, task);
-  return warm ? ReportWarmMaps(input, *warm) : Unsolvable(kName);
+/// Squares that linear least squares leave. A: [n x d]; y: [n]
+double LeftOver(const Eigen::MatrixXd& A, const Eigen::VectorXd& y) {
+  const LeastSquares fit = SolveLeastSquares(A, y);
+  return fit.mixed.empty() ? (y - A * fit.solution).squaredNorm() : kInfinity;
 }
 
 Estimate Identify(const IdentifierInput& given) {
-  if (given.options.Text("position") == "map") return IdentifyWithMap(given);
+  if (given.options.Text("position") != "none") return IdentifyWithMaps(kName, given);
   const Measurements& m = given.measurements;
   const Law& law = *FindLaw(given.options.Text("law"));
   const GravityFit gravity = PrepareGravity(given);
@@ -192,7 +179,7 @@ Estimate Identify(const IdentifierInput& given) {
     return Failed(kName, Status::not_identifiable,
                   IndistinctColumns(nominal.mixed, law, gravity, input));
   }
-  const double nominal_squares = (torque - kept_columns * nominal.solution).squaredNorm();
+  double nominal_squares = (torque - kept_columns * nominal.solution).squaredNorm();
 
   // scan tau, then refine everything over the closed loop
   const ClosedLoop loop(m.time, m.velocity, law_columns, m.starts);
@@ -204,21 +191,28 @@ Estimate Identify(const IdentifierInput& given) {
                            : InitialEnergy::zero;
   const double scale = std::sqrt(nominal_squares / static_cast<double>(torque.size()));
   const Eigen::MatrixXd offsets = loop.direction().asDiagonal() * gravity.columns;
-  const WarmFit fit = FitWarmFriction(loop, level, offsets, kept, start, initial, scale);
+  RobustWarmFit robust{FitWarmFriction(loop, level, offsets, kept, start, initial, scale), kept,
+                       kInfinity};
+  if (given.options.Text("loss") == "huber") {
+    robust = RefineByHuber(loop, level, offsets, kept, std::move(robust.fit));
+    const Eigen::VectorXd root = Kept(robust.weight, input.selection).col(0).cwiseSqrt();
+    nominal_squares = LeftOver(root.asDiagonal() * kept_columns, root.cwiseProduct(torque));
+  }
 
-  Estimate estimate = Conclude(input, law, gravity, loop, start, fit, nominal_squares);
-  estimate.trace = Trace(fit, law, loop.intervals().typical, torque.size());
+  Estimate estimate = Conclude({input, law, gravity, loop, start}, robust, nominal_squares);
+  estimate.trace = Trace(robust.fit, law, loop.intervals().typical, torque.size());
   return estimate;
 }
 
 }  // namespace
 
 Identifier EnergyMl() {
-  std::vector<OptionInfo> options = PositionPartOptions();
+  std::vector<OptionInfo> options = WarmMapOptions();
   options.insert(options.begin() + 1,
                  {{"initial_energy", "zero", "zero|estimated",
                    "E(0): 0 for a cold joint, or estimated at a cost of accuracy"},
-                  GravityOption()});
+                  GravityOption(),
+                  LossOption()});
   return {kName,
           "law and warming together by maximum likelihood over the closed loop; needs no start",
           options, &Identify};

@@ -121,14 +121,19 @@ std::optional<MapFit> FitMaps(const MapProblem& problem, double strength) {
   fit.effective = fit.inverse.cwiseProduct(fit.gram).sum();
   if (!fit.x.allFinite()) return std::nullopt;
 
-  fit.maps = problem.maps;
-  const double* weight = fit.x.data() + fit.free;
-  for (FrictionMap& map : fit.maps) {
+  fit.maps = WithWeights(problem.maps, fit.x.tail(d - fit.free));
+  fit.fitted = problem.free * fit.x.head(fit.free) + EvaluateMaps(fit.maps, problem.points);
+  return fit;
+}
+
+std::vector<FrictionMap> WithWeights(std::vector<FrictionMap> maps,
+                                     const Eigen::VectorXd& weights) {
+  const double* weight = weights.data();
+  for (FrictionMap& map : maps) {
     map.weights.assign(weight, weight + map.size());
     weight += map.size();
   }
-  fit.fitted = problem.free * fit.x.head(fit.free) + EvaluateMaps(fit.maps, problem.points);
-  return fit;
+  return maps;
 }
 
 Uncertainty JudgeMaps(const MapProblem& problem, const MapFit& fit) {

@@ -53,6 +53,9 @@ struct MapFit {
 /// argmin |y - A x|^2 + s |w|^2. Nothing where the system is singular to rounding or overflows.
 std::optional<MapFit> FitMaps(const MapProblem& problem, double strength);
 
+/// The maps with their weights, one map's after the other's. weights: [q]
+std::vector<FrictionMap> WithWeights(std::vector<FrictionMap> maps, const Eigen::VectorXd& weights);
+
 /// How sure its parameters and weights are (penalised_uncertainty.h).
 Uncertainty JudgeMaps(const MapProblem& problem, const MapFit& fit);
 

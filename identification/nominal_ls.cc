@@ -7,6 +7,7 @@
 #include "identification/least_squares.h"
 #include "identification/linear_laws.h"
 #include "identification/report_law.h"
+#include "identification/robust.h"
 
 namespace warmjoint {
 namespace {
@@ -25,21 +26,31 @@ Estimate Identify(const IdentifierInput& given) {
   const Eigen::MatrixXd A =
       Kept(Beside(LawColumns(law, input.measurements.velocity), gravity.columns), input.selection);
   const Eigen::VectorXd torque = Kept(input.measurements.torque, input.selection);
-  const LeastSquares fit = SolveLeastSquares(A, torque);
+  const bool huber = input.options.Text("loss") == "huber";
+  const RobustLeastSquares robust =
+      huber ? SolveHuber(A, torque)
+            : RobustLeastSquares{SolveLeastSquares(A, torque), kInfinity, true};
+  const LeastSquares& fit = robust.fit;
   if (fit.rank < d) {
     return Failed(kName, Status::not_identifiable,
                   IndistinctColumns(fit.mixed, law, gravity, input));
+  }
+  if (!robust.converged) {
+    return Failed(kName, Status::not_converged,
+                  "the weights of Huber's loss still move after 100 rounds; use loss squares");
   }
 
   Estimate estimate;
   estimate.identifier = kName;
   const Eigen::VectorXd fitted = A * fit.solution;
-  const Uncertainty known = JudgeUncertainty(A, fit.cofactor, torque - fitted, input.selection);
+  const Eigen::VectorXd score = HuberScores(torque - fitted, robust.threshold);
+  const Uncertainty known = JudgeUncertainty(A, fit.cofactor, score, input.selection);
   ReportLaw(law, fit.solution.head(d - gravity.count()), known, input.measurements, estimate);
   ReportGravity(gravity, fit.solution, known, input.measurements, estimate);
   estimate.metrics = ComputeMetrics(torque, fitted, d, d);
-  estimate.message = fmt::format("law {} by least squares on {} samples{}", law.name, torque.size(),
-                                 ColourOf(known.noise));
+  estimate.message =
+      fmt::format("law {} by least squares on {} samples{}{}", law.name, torque.size(),
+                  DescribeLoss(torque - fitted, robust.threshold), ColourOf(known.noise));
   DescribeFriction(law, input.measurements, estimate);
   return estimate;
 }
@@ -49,7 +60,9 @@ Estimate Identify(const IdentifierInput& given) {
 Identifier NominalLs() {
   return {kName,
           "a nominal law by linear least squares, without warming",
-          {{"law", "viscous_coulomb", LinearLawWords(), "nominal friction law"}, GravityOption()},
+          {{"law", "viscous_coulomb", LinearLawWords(), "nominal friction law"},
+           GravityOption(),
+           LossOption()},
           &Identify};
 }
 

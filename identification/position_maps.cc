@@ -14,15 +14,22 @@ std::vector<OptionInfo> PositionMapOptions() {
   };
 }
 
-std::vector<OptionInfo> PositionPartOptions() {
+std::vector<OptionInfo> PositionPartOptions(const PositionPart& position) {
   std::vector<OptionInfo> options = MapOptions();
   options.insert(options.begin() + 1,
-                 {"position", "none", "none|map", "a map over position beside the law"});
+                 {"position", position.default_value, position.allowed, position.meaning});
   for (OptionInfo& option : PositionMapOptions()) options.push_back(std::move(option));
   for (size_t i = 2; i < options.size(); ++i) {
     options[i].meaning = "of the map: " + options[i].meaning;
   }
   return options;
+}
+
+FrictionMap PositionMap(const MapPoints& points, KernelKind kernels, int count, double width,
+                        int speeds) {
+  FrictionMap map{{RangeAxis(MapQuantity::position, points, count, width)}, kernels, {}};
+  if (speeds > 0) map.axes.push_back(VelocityAxis(points, speeds, width));
+  return map;
 }
 
 std::vector<std::vector<FrictionMap>> PositionMaps(const Options& options,
@@ -31,16 +38,13 @@ std::vector<std::vector<FrictionMap>> PositionMaps(const Options& options,
   const std::string& basis = options.Text("basis");
   const int given = options.Integer("kernels");
   const std::vector<int> counts = given > 0 ? std::vector{given} : std::vector{10, 20, 40, 80};
+  const int speeds = basis == "position"   ? 0
+                     : basis == "velocity" ? options.Integer("velocity_kernels")
+                                           : 1;
   std::vector<std::vector<FrictionMap>> candidates;
   for (const int count : counts) {
     for (const double width : settings.widths) {
-      FrictionMap map{
-          {RangeAxis(MapQuantity::position, points, count, width)}, settings.kernels, {}};
-      if (basis != "position") {
-        const int speeds = basis == "velocity" ? options.Integer("velocity_kernels") : 1;
-        map.axes.push_back(VelocityAxis(points, speeds, width));
-      }
-      candidates.push_back({map});
+      candidates.push_back({PositionMap(points, settings.kernels, count, width, speeds)});
     }
   }
   return candidates;

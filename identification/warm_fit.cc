@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
+#include <limits>
 
 #include "identification/closed_loop_kernel.h"
 
@@ -11,6 +12,7 @@ namespace warmjoint {
 namespace {
 
 constexpr int kMostIterations = 50;
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();  // equals nothing
 
 /// Sums n, or Dynamic where one of them is.
 constexpr int Plus(int a, int b) { return a == Eigen::Dynamic ? a : a + b; }
@@ -33,7 +35,8 @@ class CondensedProblem {
         offsets_(offsets),
         kept_(kept),
         scale_(scale),
-        d_(loop.levels().cols()) {}
+        d_(loop.levels().cols()),
+        x_(Vector::Constant(NumParameters(), kNaN)) {}
 
   int NumParameters() const { return static_cast<int>(d_ + offsets_.cols()) + Q; }
   int NumResiduals() const { return NumParameters() + 1; }
@@ -57,7 +60,7 @@ class CondensedProblem {
 
   /// [J r]^T [J r] at x, r = measured - modelled level.
   const Square& Evaluate(const Vector& x) const {
-    if (x_.size() == x.size() && x_ == x) return products_;
+    if (x_ == x) return products_;
     x_ = x;
     const Thermal thermal{x[d_], std::exp(x[d_ + 1])};
     const double initial = Q == 3 ? x[d_ + Q - 1] : 0;
@@ -90,6 +93,7 @@ class CondensedProblem {
     for (Eigen::Index i = d; i < d + Q; ++i) row[i] = -S[i];
     for (Eigen::Index i = 0; i < q; ++i) row[d + Q + i] = -offsets_(n, i);
     row[d + Q + q] = residual;
+    if (kept_[n] != 1) row *= std::sqrt(kept_[n]);
     for (Eigen::Index j = 0; j < d + Q + q + 1; ++j) {
       for (Eigen::Index i = 0; i <= j; ++i) sums(i, j) += row[i] * row[j];
     }

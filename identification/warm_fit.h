@@ -38,8 +38,8 @@ struct WarmFit {
 /// products, R^T R = [J r]^T [J r], so that Ceres sees p + 1 residuals in place of N and steps
 /// exactly as it would on all of them.
 /// level: [N] sign(v) torque; offsets: [N x q] sign(v) dG/dg, torque that makes no heat (gravity);
-/// kept: [N] 1 or 0; start: parameters of the law and of the offsets [d + q]; scale: about the
-/// residuals' standard deviation, N.m or N.
+/// kept: [N] weight of each sample, 1 or 0 or between; start: parameters of the law and of the
+/// offsets [d + q]; scale: about the residuals' standard deviation, N.m or N.
 WarmFit FitWarmFriction(const ClosedLoop& loop, const Eigen::VectorXd& level,
                         const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
                         const WarmStart& start, InitialEnergy initial_energy, double scale);

@@ -7,18 +7,19 @@
 
 #include "identification/fit_data.h"
 #include "identification/linear_laws.h"
+#include "identification/motor_maps.h"
 #include "identification/penalised_uncertainty.h"
 #include "identification/predict.h"
 #include "identification/report_law.h"
 #include "identification/report_thermal.h"
+#include "identification/warming_verdict.h"
 
 namespace warmjoint {
 namespace {
 
 constexpr int kMostRounds = 50;
-constexpr double kAtRest = 1e-6;      // of gain and time constant between rounds, relative
-constexpr double kVisible = 20;       // see energy_ml.cc
-constexpr double kVagueLogTau = 0.5;  // standard deviation of log(tau)
+constexpr double kAtRest = 1e-6;  // of gain and time constant between rounds, relative
+constexpr WarmingContext kContext{" beside the maps", "position-ridge"};
 
 /// Law columns and the maps' values, [N x p] or, with maps that are not 0, [N x (p + 1)].
 Eigen::MatrixXd Columns(const IdentifierInput& input, const Law& law, const MapFit& fit) {
@@ -100,21 +101,6 @@ Uncertainty JudgeAll(const IdentifierInput& input, const WarmMaps& warm,
                         residual, input.selection);
 }
 
-std::optional<std::string> Unseen(const WarmMaps& warm, double vague) {
-  if (!(warm.visible > kVisible)) {
-    return fmt::format(
-        "no warm-up can be seen beside the maps: thermal_gain and thermal_time_constant explain "
-        "{:.3g} times the noise variance, below {:.3g}; record from cold until friction settles, "
-        "or use position-ridge",
-        std::max(warm.visible, 0.0), kVisible);
-  }
-  if (vague < kVagueLogTau) return std::nullopt;
-  return fmt::format(
-      "thermal_gain and thermal_time_constant cannot be told apart: tau is known to a factor of "
-      "{:.3g} only; record longer, from cold until friction settles, or with rests",
-      std::exp(1.96 * vague));
-}
-
 }  // namespace
 
 std::optional<WarmMaps> FitWarmMaps(const IdentifierInput& input, const MapTask& task) {
@@ -154,7 +140,8 @@ Estimate ReportWarmMaps(const IdentifierInput& input, const WarmMaps& warm) {
   const Measurements& m = input.measurements;
   const Law& law = *FindLaw(warm.task.settings.law);
   const Eigen::Index d = warm.fit.x.size();
-  if (auto why = Unseen(warm, 0)) return Failed(name, Status::not_identifiable, *why);
+  if (auto why = UnseenWarming(warm.visible, kContext))
+    return Failed(name, Status::not_identifiable, *why);
   if (!warm.converged) {
     return Failed(name, Status::not_converged,
                   fmt::format("maps and warming still move after {} rounds; does the torque column "
@@ -169,7 +156,8 @@ Estimate ReportWarmMaps(const IdentifierInput& input, const WarmMaps& warm) {
                                    TakenByEnergy(input, warm.task.energy);
   const Uncertainty known = JudgeAll(input, warm, residual);
   if (!known.covariance.allFinite()) return Unsolvable(name);
-  if (auto why = Unseen(warm, known.Deviation(d + 1))) {
+  if (auto why = UnknownWarming({warm.visible, known.Deviation(d + 1), warm.thermal.time_constant},
+                                kContext)) {
     return Failed(name, Status::not_identifiable, *why);
   }
   ReportLaw(law, warm.fit.x.head(warm.fit.free), known, m, estimate);
@@ -186,11 +174,14 @@ Estimate ReportWarmMaps(const IdentifierInput& input, const WarmMaps& warm) {
   estimate.friction->thermal = warm.thermal;
   estimate.friction->maps = warm.fit.maps;
   estimate.bands = BandsOf(warm.fit.maps, known, warm.fit.free);
+  if (warm.fit.maps[0].axes[0].quantity == MapQuantity::motor_position) {
+    const auto count = static_cast<Eigen::Index>(warm.fit.maps[0].size());
+    estimate.message += DescribeMotorRipple(
+        warm.fit.maps[0], known.covariance.block(warm.fit.free, warm.fit.free, count, count), m);
+  }
   if (const auto at = PredictFriction(*estimate.friction, m).feeds_itself; at < m.size()) {
     return Failed(name, Status::inadequate_model,
-                  fmt::format("at {:.6g} s the fitted friction pushes instead of braking and would "
-                              "feed itself; try another law, or --gravity",
-                              m.time[at]));
+                  WouldFeedItself(m.time[at], "try another law, or --gravity"));
   }
   return estimate;
 }

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "identification/fit_data.h"
+#include "identification/least_squares.h"
 #include "identification/linear_laws.h"
 #include "tests/support/vectors.h"
 
@@ -20,7 +21,7 @@ class GoldenLoop {
     const LeastSquares nominal =
         SolveLeastSquares(Kept(columns, moving_), Kept(recording_.torque, moving_));
     const Eigen::VectorXd no_gravity = Eigen::VectorXd::Zero(recording_.size());
-    loop_.emplace(recording_, moving_, columns, nominal, no_gravity);
+    loop_.emplace(recording_, moving_, columns, nominal.cofactor, no_gravity);
   }
 
   DescentState After(const Thermal& start, int iterations) const {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tests/support/warm_recording.h"
+#include "tests/support/travelling.h"
 
 namespace warmjoint {
 namespace {
@@ -153,6 +153,38 @@ TEST(EnergyEm, RefusesAFitThatFeedsItself) {
   EXPECT_EQ(estimate.status, Status::inadequate_model) << estimate.message;
   EXPECT_THAT(estimate.message, HasSubstr("pushes instead of braking"));
   EXPECT_TRUE(estimate.parameters.empty());
+}
+
+TEST(EnergyEm, FitsAMapOverPositionBesideTheLaw) {
+  FrictionDescription truth{
+      "viscous_coulomb", {{"viscous", 0.0527}, {"coulomb", 0.48}}, Thermal{-0.194, 180}, 0, 1};
+  truth.maps = {test::PositionLevel(1.5, 0.06)};
+  const Eigen::VectorXd motion = test::Travel(6000, 0.2, 1.5, {0.3, 0.6, 1, 1.5, 2});
+  const Measurements m = test::RecordFriction(truth, 0.2, motion, 0.01, 11);
+  const Given given{{"position", "map"},
+                    {"kernels", "30"},
+                    {"width", "1"},
+                    {"iterations", "500"},
+                    {"start_gain", "-0.1"}};
+  const Estimate estimate = Identify(m, given);
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+  ASSERT_EQ(estimate.friction->maps.size(), 1u);
+  EXPECT_NEAR(estimate.metrics->rmse, 0.01, 0.01 * 0.05);  // 1 / sqrt(2 n) is 0.9 %
+  // energy-ml gives them with a deviation of 1.5 % (gain) and 1 % (time constant): 4 of these
+  EXPECT_NEAR(estimate.Find("thermal_gain")->value, -0.194, 0.06 * 0.194);
+  EXPECT_NEAR(estimate.Find("thermal_time_constant")->value, 180, 0.04 * 180);
+
+  // the friction that it gives is the one that it fitted
+  const Prediction prediction = PredictFriction(*estimate.friction, m);
+  const double rmse = std::sqrt((m.torque - prediction.force).squaredNorm() / 6000);
+  EXPECT_NEAR(rmse, 0.01, 0.01 * 0.1);
+}
+
+TEST(EnergyEm, RefusesAMapBesideGravity) {
+  const Estimate estimate =
+      Identify(TableOneRecording(1), {{"position", "map"}, {"gravity", "sincos"}});
+  EXPECT_EQ(estimate.status, Status::bad_data);
+  EXPECT_THAT(estimate.message, HasSubstr("leave one of them out"));
 }
 
 }  // namespace

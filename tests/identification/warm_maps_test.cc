@@ -79,6 +79,33 @@ TEST(WarmMaps, SayWhereNothingWarms) {
   EXPECT_THAT(estimate.message, ::testing::HasSubstr("no warm-up can be seen"));
 }
 
+TEST(WarmMaps, FindTheWarmingBesideAMotorMap) {
+  FrictionDescription truth = YumiLike();
+  truth.gear = 100;
+  truth.maps.push_back(test::MotorRipple(2, 0.05));
+  const Measurements fresh = [&] {
+    Measurements m = test::Record(0.05, test::Travel(12000, 0.05, 1.5, {0.31, 0.57, 0.93, 1.4}),
+                                  Eigen::VectorXd::Zero(12000));
+    m.gear = 100;
+    m.torque = PredictFriction(truth, m).force;
+    test::AddNoise(m, 0.01, 0, 8);
+    return m;
+  }();
+  const Estimate estimate =
+      Identify(fresh, "energy-ml", {{"position", "motor"}, {"kernels", "30"}, {"width", "1"}});
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+  EXPECT_THAT(estimate.message, ::testing::ContainsRegex("motor ripple for v > 0: 0.0[45][0-9.]* "
+                                                         "N.m at 2 a turn; .* at 2 a turn"));
+  for (const auto& [name, value] :
+       {std::pair("thermal_gain", -0.194), std::pair("thermal_time_constant", 180.0)}) {
+    const EstimatedParameter& found = *estimate.Find(name);
+    EXPECT_NEAR(found.value, value, 4 * *found.std)
+        << name;  // its own deviations, small themselves
+    EXPECT_LT(*found.std, 0.05 * std::abs(value)) << name;
+  }
+  EXPECT_NEAR(estimate.metrics->rmse, 0.01, 0.01 * 0.05);
+}
+
 TEST(EnergyMap, FollowsRippleThatFadesAsTheJointWarms) {
   // ripple that is gone once the joint is warm: E is about -0.09 N.m then
   FrictionDescription truth = YumiLike();

@@ -1,0 +1,67 @@
+#include "identification/energy_ml_maps.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "identification/fit_data.h"
+#include "identification/motor_maps.h"
+#include "identification/position_maps.h"
+#include "identification/warm_maps.h"
+
+namespace warmjoint {
+namespace {
+
+/// Options that say something about fits without maps, and the value that says nothing.
+constexpr std::array<std::array<const char*, 2>, 3> kAlone{
+    {{"gravity", "none"}, {"initial_energy", "zero"}, {"loss", "squares"}}};
+
+/// Kernels over the joint's position beside the motor's map where none are asked for.
+constexpr int kArmKernels = 20;
+
+/// The shapes that the option `position` names; or why there are none.
+std::optional<std::string> MakeCandidates(const Options& options, const MapPoints& points,
+                                          MapTask& task) {
+  if (options.Text("position") == "map") {
+    task.candidates = PositionMaps(options, task.settings, points);
+    return CannotCarry(MapQuantity::position, points);
+  }
+  const int arm = options.Integer("kernels");
+  task.candidates = MotorMaps({options.Integer("motor_kernels"),
+                               options.Integer("velocity_kernels"), arm > 0 ? arm : kArmKernels},
+                              task.settings, points);
+  return CannotCarryMotorMaps(points);
+}
+
+}  // namespace
+
+std::vector<OptionInfo> WarmMapOptions() {
+  std::vector<OptionInfo> options = PositionPartOptions(
+      {"none", "none|map|motor",
+       "beside the law a map over position, or one over the motor's angle and one over position"});
+  options.push_back({"motor_kernels", "36", "integer >= 3 <= 128",
+                     "of the map: kernels over the motor's turn, with position motor"});
+  return options;
+}
+
+Estimate IdentifyWithMaps(const std::string& identifier, const IdentifierInput& input) {
+  MapTask task{identifier, ReadMapSettings(input.options), {}, {}};
+  if (auto refusal = RefuseForMaps(input, identifier, *FindLaw(task.settings.law))) return *refusal;
+  const std::string& position = input.options.Text("position");
+  for (const auto& [option, nothing] : kAlone) {
+    const std::string& value = input.options.Text(option);
+    if (value == nothing) continue;
+    return Failed(identifier, Status::bad_data,
+                  fmt::format("position={} cannot be had together with {}={}; leave one of them "
+                              "out (basis=position takes gravity up into the map)",
+                              position, option, value));
+  }
+  const MapPoints points = Kept(PointsOf(input.measurements), input.selection);
+  if (auto why = MakeCandidates(input.options, points, task)) {
+    return Failed(identifier, Status::bad_data, *why);
+  }
+  const std::optional<WarmMaps> warm = FitWarmMaps(input, task);
+  return warm ? ReportWarmMaps(input, *warm) : Unsolvable(identifier);
+}
+
+}  // namespace warmjoint
