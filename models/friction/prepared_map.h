@@ -8,6 +8,14 @@
 
 namespace warmjoint {
 
+/// Neighbouring kernels of one axis, those that count at a point, before they are normalised.
+struct ActiveKernels {
+  int first = 0;  // place of the first one in the row that PreparedAxis::Row describes
+  int count = 0;
+  double sum = 1;                             // that they are to be divided by
+  std::array<double, kMostMapCentres> value;  // [count]
+};
+
 /// One axis of Gaussian kernels, evaluated near x alone: kernels below 1e-16 of the nearest are
 /// left out, and those of an even grid cost one exponential together, by
 ///   kappa_(j+i) / kappa_j = exp(d r)^i exp(-(i r)^2 / 2),
@@ -16,24 +24,27 @@ class PreparedAxis {
  public:
   PreparedAxis(const GaussianAxis& axis, KernelKind kind);
 
-  /// Kernels at x that count: their indices and values, into arrays of kMostMapCentres. Returns
-  /// how many there are.
-  int Kernels(double x, int* index, double* value) const;
+  /// The centre at each place of a row in which the kernels that count are always neighbours: all
+  /// centres, twice on a circle.
+  std::vector<size_t> Row() const;
+
+  /// The kernels that count at x; count is 0 where there are none.
+  void Kernels(double x, ActiveKernels& active) const;
 
  private:
   /// Centres on one side of 0, or all of them.
   struct Segment {
-    int begin = 0, end = 0;  // indices of the axis
-    bool even = false;
+    int begin = 0, end = 0;      // indices of the axis
+    double spacing = 0;          // of an even grid
+    std::vector<double> bell{};  // exp(-(i r)^2 / 2), i = 0, 1, ...; empty unless even
   };
-  int EvenKernels(const Segment& segment, double x, int* index, double* value) const;
-  int FreeKernels(const Segment& segment, double x, int* index, double* value) const;
   Segment MakeSegment(int begin, int end) const;
+  bool IsEven(const Segment& segment) const;
+  void EvenKernels(const Segment& segment, double x, ActiveKernels& active) const;
+  void FreeKernels(const Segment& segment, double x, ActiveKernels& active) const;
 
   GaussianAxis axis_;
   KernelKind kind_;
-  double spacing_ = 0;        // of an even axis
-  std::vector<double> bell_;  // exp(-(i r)^2 / 2), i = 0, 1, ...
   std::vector<Segment> segments_;
 };
 
@@ -47,14 +58,16 @@ class PreparedMap {
   double Value(const MapPoint<double>& point) const;
 
  private:
-  struct Active;
+  using Active = std::array<ActiveKernels, kMostMapAxes>;
+  void LayOut(const FrictionMap& map);
   template <size_t axis>
-  double Sum(const std::array<Active, kMostMapAxes>& active, size_t offset) const;
+  double Sum(const Active& active, const double* weights) const;
 
+  // the axis with the most centres is the last, whose sums are the longest
   std::vector<MapQuantity> quantities_;
   std::vector<PreparedAxis> axes_;
   std::vector<size_t> strides_;  // of the weights, for each axis
-  std::vector<double> weights_;
+  std::vector<double> weights_;  // over the axes' rows, the last one's index the fastest
   MapFactor factor_;
 };
 

@@ -111,8 +111,9 @@ void WithDcMotors(mjSpec& spec, const std::vector<std::string>& joints) {
   for (const std::string& joint : joints) {
     mjsActuator* motor = AddActuator(spec, joint);
     double constants[2] = {0, 0}, lugre[5] = {1000, 10, kLevel, 1.3 * kLevel, 0.05};
-    mjs_setToDCMotor(motor, constants, 1, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr,
-                     lugre, 0);
+    const std::string refusal = mjs_setToDCMotor(motor, constants, 1, nullptr, nullptr, nullptr,
+                                                 nullptr, nullptr, nullptr, lugre, mjINPUT_NONE);
+    if (!refusal.empty()) Refuse({"bench"}, "{}", refusal);
   }
 }
 
