@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "models/foundation/atomic_file.h"
-#include "sim/friction_actuator.h"
 #include "sim/load_model.h"
 #include "sim/save_model.h"
 #include "sim/spec_elements.h"
@@ -97,7 +96,7 @@ std::vector<std::string> AttachFriction(const fs::path& model,
   Note(moved, "the joint's effort limit now limits its motor alone; it would clip friction too",
        parsed.notices);
 
-  for (const auto& [name, friction] : frictions) AddFriction(spec, name, friction, place);
+  AddFriction(spec, frictions, place);
   CompileModel(spec, place);
 
   // the result must load from where it will lie

@@ -5,15 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "models/friction/friction_description.h"
+#include "sim/friction_actuator.h"
 
 namespace warmjoint {
-
-/// Friction for one joint of a model.
-struct FrictionForJoint {
-  std::string joint;
-  FrictionDescription friction;
-};
 
 /// Reads an MJCF or URDF model and writes it to `out` as MJCF, with the plugin on the given joints:
 /// - the joint's own damping and frictionloss, which the friction replaces, are removed;

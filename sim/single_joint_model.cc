@@ -45,7 +45,7 @@ SingleJointModel LoadSingleJoint(const std::string& path, const std::string& joi
   mjsJoint* kept = FindJoint(spec, joint, place);
   KeepOnly(&spec, kept);
   SetUp(&spec, kept, timestep);
-  AddFriction(spec, joint, friction, place);
+  AddFriction(spec, {{joint, friction}}, place);
   SingleJointModel result;
   result.model = CompileModel(spec, place);
 

@@ -21,9 +21,17 @@ struct Bristle {
 inline constexpr double kBristleStiffness = 0.1;
 inline constexpr double kBristleDamping = 0.4;
 
+/// The bristle of a joint whose effective inertia is 1 kg.m^2 or kg, at step h (s).
+inline Bristle UnitBristle(double h) { return {kBristleStiffness / (h * h), kBristleDamping / h}; }
+
+/// `unit` for a joint with effective inertia M, kg.m^2 or kg.
+inline Bristle ScaleBristle(const Bristle& unit, double inertia) {
+  return {inertia * unit.stiffness, inertia * unit.damping};
+}
+
 /// The bristle of a joint with effective inertia M (kg.m^2 or kg) at step h (s).
 inline Bristle MakeBristle(double inertia, double h) {
-  return {kBristleStiffness * inertia / (h * h), kBristleDamping * inertia / h};
+  return ScaleBristle(UnitBristle(h), inertia);
 }
 
 struct BristleStep {

@@ -57,6 +57,7 @@ void JointFriction::ChooseStep(LawList<L...>) {
 
 void JointFriction::SetTimestep(double h) {
   h_ = h;
+  unit_ = UnitBristle(h);
   heat_ = DiscretiseHeat(friction_, h);
 }
 
@@ -108,7 +109,7 @@ FrictionStep JointFriction::StepOf(const JointFriction& joint, const FrictionSta
     bristle = StepLugreBristle(own, state.bristle, v, h, level);
     step.loss = viscous * v + BristleLoss(own, state.bristle, bristle, v, h);
   } else {
-    Bristle spring = MakeBristle(motion.inertia, h);
+    Bristle spring = ScaleBristle(joint.unit_, motion.inertia);
     spring.damping = std::max(0.0, spring.damping - joint.Slope(energy));
     bristle = StepBristle(spring, state.bristle, v, h, level);
     step.next.slip = bristle.sliding ? Sign(v) : 0;

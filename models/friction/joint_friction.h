@@ -104,6 +104,7 @@ class JointFriction {
   std::optional<Bristle> own_bristle_;
   Heat heat_;
   double h_ = 0;
+  Bristle unit_;  // of an effective inertia of 1
   FrictionStep (*step_)(const JointFriction&, const FrictionState&, const JointMotion&) = nullptr;
 };
 

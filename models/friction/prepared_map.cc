@@ -6,20 +6,21 @@
 #include <limits>
 #include <numeric>
 
+#include "models/friction/even_grid.h"
+
 namespace warmjoint {
 namespace {
 
-/// exp(-x^2 / 2) is 1e-16 of its peak here.
-constexpr double kReach = 8.6;  // widths
+/// exp(-x^2 / 2) is 3e-13 of its peak here.
+constexpr double kReach = 7.6;  // widths
 
-/// How far centres of an even grid may be off, in spacings, beyond their own rounding.
-constexpr double kEvenness = 1e-13;
-constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();
+using Numbers = Eigen::Map<const Eigen::VectorXd>;
 
 }  // namespace
 
 PreparedAxis::PreparedAxis(const GaussianAxis& axis, KernelKind kind) : axis_(axis), kind_(kind) {
   const int n = static_cast<int>(axis.size());
+
   // with the sides apart, each side is an axis by itself
   const auto zero = std::upper_bound(axis.centres.begin(), axis.centres.end(), 0.0);
   const int negative = static_cast<int>(zero - axis.centres.begin());
@@ -28,38 +29,49 @@ PreparedAxis::PreparedAxis(const GaussianAxis& axis, KernelKind kind) : axis_(ax
   } else {
     segments_ = {MakeSegment(0, n)};
   }
+  int row = 0;
+  for (Segment& segment : segments_) {
+    segment.row = row + segment.pad;
+    row = segment.row + segment.size() + segment.pad + 1;
+  }
 }
 
 PreparedAxis::Segment PreparedAxis::MakeSegment(int begin, int end) const {
   Segment segment{begin, end};
-  const int n = end - begin;
-  if (n < 2) return segment;
-  segment.spacing = (axis_.centres[end - 1] - axis_.centres[begin]) / (n - 1);
-  if (!IsEven(segment)) return segment;
-  const double ratio = segment.spacing / axis_.width;
-  for (int i = 0; i < n && (i - 1) * ratio < kReach; ++i) {
+  const int n = segment.size();
+  const auto from = static_cast<size_t>(begin), to = static_cast<size_t>(end);
+  if (!IsEvenGrid(axis_, from, to)) return segment;
+  const double spacing = SpacingOf(axis_, from, to), ratio = spacing / axis_.width;
+  segment.ratio = ratio;
+  segment.per_spacing = 1 / spacing;
+  for (int i = 0; i < n && (i - 0.5) * ratio < kReach; ++i) {
     segment.bell.push_back(std::exp(-i * ratio * i * ratio / 2));
+  }
+  // kernels that reach around a circle to themselves are not neighbours
+  const int most = axis_.period ? n : static_cast<int>(kMostMapCentres);
+  if (2 * segment.reach() + 1 > most) segment.bell.clear();
+  const int reach = segment.reach();
+  segment.pad = !axis_.period && n <= 2 * reach ? 0 : reach;
+  for (int place = -reach; place <= n + reach; ++place) {
+    segment.present.push_back(IndexAt(segment, place) >= 0);
   }
   return segment;
 }
 
-bool PreparedAxis::IsEven(const Segment& segment) const {
-  const auto near = [&](double a, double b) {
-    const double size = std::max(std::abs(a), std::abs(b));
-    return std::abs(a - b) <= kEvenness * segment.spacing + kRounding * size;
-  };
-  for (int i = segment.begin; i < segment.end; ++i) {
-    const double even = axis_.centres[segment.begin] + (i - segment.begin) * segment.spacing;
-    if (!near(axis_.centres[i], even)) return false;
-  }
-  // a circle must close evenly too
-  const double around = (segment.end - segment.begin) * segment.spacing;
-  return !axis_.period || near(around, *axis_.period);
+/// The centre at a place counted from the segment's first; -1 where there is none.
+int PreparedAxis::IndexAt(const Segment& segment, int place) const {
+  const int n = segment.size();
+  if (axis_.period && !segment.bell.empty()) return segment.begin + (place + n) % n;
+  return place >= 0 && place < n ? segment.begin + place : -1;
 }
 
-std::vector<size_t> PreparedAxis::Row() const {
-  std::vector<size_t> row(axis_.period ? 2 * axis_.size() : axis_.size());
-  for (size_t i = 0; i < row.size(); ++i) row[i] = i % axis_.size();
+std::vector<int> PreparedAxis::Row() const {
+  std::vector<int> row;
+  for (const Segment& segment : segments_) {
+    for (int place = -segment.pad; place <= segment.size() + segment.pad; ++place) {
+      row.push_back(IndexAt(segment, place));
+    }
+  }
   return row;
 }
 
@@ -67,51 +79,53 @@ void PreparedAxis::Kernels(double x, ActiveKernels& active) const {
   active.count = 0;
   if (axis_.sides == Sides::apart && x == 0) return;
   const Segment& segment = segments_.size() > 1 && x > 0 ? segments_[1] : segments_[0];
-  if (segment.begin == segment.end) return;
-  if (segment.bell.empty()) {
-    FreeKernels(segment, x, active);
-  } else {
-    EvenKernels(segment, x, active);
-  }
+  if (segment.size() == 0) return;
+  if (segment.bell.empty() || !EvenKernels(segment, x, active)) FreeKernels(segment, x, active);
 }
 
-void PreparedAxis::EvenKernels(const Segment& segment, double x, ActiveKernels& active) const {
-  const int n = segment.end - segment.begin;
-  const bool circle = axis_.period.has_value();
-
-  // the nearest centre, and the distance from it
+/// Kernels of an even grid, as many at every x, so that no branch depends on it; false, and
+/// nothing done, more than half a spacing outside of the grid.
+bool PreparedAxis::EvenKernels(const Segment& segment, double x, ActiveKernels& active) const {
   double offset = x - axis_.centres[segment.begin];
+  const bool circle = axis_.period.has_value();
   if (circle && (offset < 0 || offset >= *axis_.period)) {
     offset -= *axis_.period * std::floor(offset / *axis_.period);
   }
-  const double place = std::clamp(offset / segment.spacing, 0.0, circle ? double(n) : n - 1.0);
+  const double place = offset * segment.per_spacing;
+  if (place < -0.5 || place >= segment.size() - 0.5 + circle) return false;
+
+  // the nearest centre, and the distance from it in widths
   const int centre = static_cast<int>(place + 0.5);
-  const double distance = (offset - centre * segment.spacing) / axis_.width;
+  const double distance = (place - centre) * segment.ratio;
+  const int reach = segment.reach();
+  const bool all = segment.pad < reach;
+  active.first = all ? segment.row : segment.row + centre - reach;
+  active.count = all ? segment.size() : 2 * reach + 1;
+  active.begin = all ? reach - centre : 0;
 
-  // the neighbours that count, up and down; a circle has half of its centres on each side, the
-  // opposite one on the side that is nearer
-  const int reach = static_cast<int>(segment.bell.size()) - 1;
-  const int nearer = distance > 0 ? n / 2 : (n - 1) / 2;
-  const int above = std::min(reach, circle ? nearer : n - 1 - centre);
-  const int below = std::min(reach, circle ? n - 1 - nearer : centre);
-  const int first = centre - below;
-  active.first = segment.begin + (first < 0 ? first + n : first >= n ? first - n : first);
-  active.count = below + 1 + above;
-
+  // its neighbours up and down; places without a centre meet weights of 0
   const bool normalised = kind_ == KernelKind::normalised;
-  const double up = std::exp(distance * segment.spacing / axis_.width);
+  const double up = std::exp(distance * segment.ratio);
   const double down = 1 / up;
-  double* kernel = active.value.data() + below;
+  const double* bell = segment.bell.data();
+  const double* present = segment.present.data() + centre + reach;
+  double* kernel = active.value.data() + reach;
   kernel[0] = normalised ? 1.0 : std::exp(-distance * distance / 2);
-  double upward = kernel[0], downward = kernel[0], sum = kernel[0];
-  for (int i = 1; i <= above; ++i) sum += kernel[i] = (upward *= up) * segment.bell[i];
-  for (int i = 1; i <= below; ++i) sum += kernel[-i] = (downward *= down) * segment.bell[i];
-  active.sum = normalised ? sum : 1;
+  double upward = kernel[0], downward = kernel[0], sum_above = kernel[0], sum_below = 0;
+  for (int i = 1; i <= reach; ++i) {
+    kernel[i] = (upward *= up) * bell[i];
+    kernel[-i] = (downward *= down) * bell[i];
+    sum_above += kernel[i] * present[i];
+    sum_below += kernel[-i] * present[-i];
+  }
+  active.sum = normalised ? sum_above + sum_below : 1;
+  return true;
 }
 
 void PreparedAxis::FreeKernels(const Segment& segment, double x, ActiveKernels& active) const {
-  active.first = segment.begin;
-  active.count = segment.end - segment.begin;
+  active.first = segment.row;
+  active.count = segment.size();
+  active.begin = 0;
   double* kernel = active.value.data();
 
   // distances in widths, squared; the nearest is what normalised kernels are seen from
@@ -133,54 +147,68 @@ void PreparedAxis::FreeKernels(const Segment& segment, double x, ActiveKernels& 
   active.sum = normalised ? sum : 1;
 }
 
-PreparedMap::PreparedMap(const FrictionMap& map) : factor_(map.factor) { LayOut(map); }
-
-void PreparedMap::LayOut(const FrictionMap& map) {
+PreparedMap::PreparedMap(const FrictionMap& map) : factor_(map.factor) {
   const size_t dimensions = map.axes.size();
   std::vector<size_t> order(dimensions);
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) {
     return map.axes[a].kernels.size() < map.axes[b].kernels.size();
   });
-  std::vector<std::vector<size_t>> rows;
   for (const size_t a : order) {
     quantities_.push_back(map.axes[a].quantity);
     axes_.emplace_back(map.axes[a].kernels, map.kernels);
-    rows.push_back(axes_.back().Row());
   }
-  strides_.assign(dimensions, 1);
-  for (size_t a = dimensions - 1; a > 0; --a) strides_[a - 1] = strides_[a] * rows[a].size();
 
-  // strides of the map's own weights, in the new order
-  std::vector<size_t> own(dimensions);
-  for (size_t a = 0; a < dimensions; ++a) {
+  // the rows of the last axis's weights; none where one of the others has no centre
+  const std::vector<int> last = axes_.back().Row();
+  const size_t centres = map.axes[order.back()].kernels.size();
+  std::vector<double> own;
+  ForEachRow(map, order, [&](const auto& weight) {
+    for (const int i : last) weights_.push_back(i < 0 ? 0 : weight(static_cast<size_t>(i)));
+    for (size_t i = 0; i < centres; ++i) own.push_back(weight(i));
+  });
+  length_ = last.size();
+  table_ = RowTable(map.axes[order.back()].kernels, map.kernels, own);
+}
+
+template <typename Visit>
+void PreparedMap::ForEachRow(const FrictionMap& map, const std::vector<size_t>& order,
+                             const Visit& visit) {
+  const size_t dimensions = order.size();
+  const auto own_stride = [&](size_t a) {
     size_t stride = 1;
     for (size_t b = order[a] + 1; b < dimensions; ++b) stride *= map.axes[b].kernels.size();
-    own[a] = stride;
-  }
-  weights_.resize(strides_[0] * rows[0].size());
-  for (size_t i = 0; i < weights_.size(); ++i) {
+    return stride;
+  };
+  std::vector<std::vector<int>> outer;
+  for (size_t a = 0; a + 1 < dimensions; ++a) outer.push_back(axes_[a].Row());
+  strides_.assign(outer.size(), 1);
+  for (size_t a = outer.size(); a-- > 1;) strides_[a - 1] = strides_[a] * outer[a].size();
+  const size_t rows = outer.empty() ? 1 : strides_[0] * outer[0].size();
+
+  for (size_t row = 0; row < rows; ++row) {
     size_t from = 0;
-    for (size_t a = 0; a < dimensions; ++a) {
-      from += own[a] * rows[a][i / strides_[a] % rows[a].size()];
+    bool present = true;
+    for (size_t a = 0; a < outer.size(); ++a) {
+      const int index = outer[a][row / strides_[a] % outer[a].size()];
+      present = present && index >= 0;
+      from += own_stride(a) * static_cast<size_t>(std::max(0, index));
     }
-    weights_[i] = map.weights[from];
+    const size_t stride = own_stride(dimensions - 1);
+    visit([&](size_t i) { return present ? map.weights[from + i * stride] : 0.0; });
   }
 }
 
-template <size_t axis>
-double PreparedMap::Sum(const Active& active, const double* weights) const {
-  const ActiveKernels& kernels = active[axis];
-  weights += static_cast<size_t>(kernels.first) * strides_[axis];
-  if (axis + 1 == axes_.size()) {
-    using Row = Eigen::Map<const Eigen::VectorXd>;
-    return Row(kernels.value.data(), kernels.count).dot(Row(weights, kernels.count));
-  }
+template <size_t axis, typename RowSum>
+double PreparedMap::Sum(const Active& active, size_t row, const RowSum& row_sum) const {
+  if (axis + 1 == axes_.size()) return row_sum(row);
   double sum = 0;
   if constexpr (axis + 1 < kMostMapAxes) {
-    for (int i = 0; i < kernels.count; ++i) {
-      sum += kernels.value[static_cast<size_t>(i)] * Sum<axis + 1>(active, weights);
-      weights += strides_[axis];
+    const ActiveKernels& kernels = active[axis];
+    const double* value = kernels.value.data() + kernels.begin;
+    row += static_cast<size_t>(kernels.first) * strides_[axis];
+    for (int i = 0; i < kernels.count; ++i, row += strides_[axis]) {
+      sum += value[i] * Sum<axis + 1>(active, row, row_sum);
     }
   }
   return sum;
@@ -189,13 +217,30 @@ double PreparedMap::Sum(const Active& active, const double* weights) const {
 double PreparedMap::Value(const MapPoint<double>& point) const {
   Active active;
   double divisor = 1;
-  for (size_t a = 0; a < axes_.size(); ++a) {
+  const size_t last = axes_.size() - 1;
+  const auto prepare = [&](size_t a) {
     axes_[a].Kernels(point[static_cast<size_t>(quantities_[a])], active[a]);
-    if (active[a].count == 0) return 0;
     divisor *= active[a].sum;
+    return active[a].count > 0;
+  };
+  for (size_t a = 0; a < last; ++a) {
+    if (!prepare(a)) return 0;
   }
-  const double velocity = point[static_cast<size_t>(MapQuantity::velocity)];
-  return EvaluateFactor(factor_, velocity) * Sum<0>(active, weights_.data()) / divisor;
+
+  const double factor = EvaluateFactor(factor_, point[static_cast<size_t>(MapQuantity::velocity)]);
+  RowTable::Spot spot;
+  if (table_.Locate(point[static_cast<size_t>(quantities_[last])], spot)) {
+    const auto from_table = [&](size_t row) { return table_.Value(row, spot); };
+    return factor * Sum<0>(active, 0, from_table) / divisor;
+  }
+  if (!prepare(last)) return 0;
+  const ActiveKernels& kernels = active[last];
+  const Numbers value(kernels.value.data() + kernels.begin, kernels.count);
+  const auto from_kernels = [&](size_t row) {
+    const double* weights = weights_.data() + row * length_ + kernels.first;
+    return value.dot(Numbers(weights, kernels.count));
+  };
+  return factor * Sum<0>(active, 0, from_kernels) / divisor;
 }
 
 }  // namespace warmjoint

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "models/friction/friction_map.h"
+#include "models/friction/row_table.h"
 
 namespace warmjoint {
 
@@ -12,11 +13,12 @@ namespace warmjoint {
 struct ActiveKernels {
   int first = 0;  // place of the first one in the row that PreparedAxis::Row describes
   int count = 0;
+  int begin = 0;                              // of them in `value`
   double sum = 1;                             // that they are to be divided by
-  std::array<double, kMostMapCentres> value;  // [count]
+  std::array<double, kMostMapCentres> value;  // [begin + count]
 };
 
-/// One axis of Gaussian kernels, evaluated near x alone: kernels below 1e-16 of the nearest are
+/// One axis of Gaussian kernels, evaluated near x alone: kernels below 3e-13 of the peak are
 /// left out, and those of an even grid cost one exponential together, by
 ///   kappa_(j+i) / kappa_j = exp(d r)^i exp(-(i r)^2 / 2),
 /// r: spacing in widths, d: distance from the nearest centre j in widths.
@@ -24,9 +26,9 @@ class PreparedAxis {
  public:
   PreparedAxis(const GaussianAxis& axis, KernelKind kind);
 
-  /// The centre at each place of a row in which the kernels that count are always neighbours: all
-  /// centres, twice on a circle.
-  std::vector<size_t> Row() const;
+  /// A row in which the kernels that count are always neighbours: the index of the centre at each
+  /// place, a circle's repeated beyond its ends, -1 where there is none.
+  std::vector<int> Row() const;
 
   /// The kernels that count at x; count is 0 where there are none.
   void Kernels(double x, ActiveKernels& active) const;
@@ -34,13 +36,20 @@ class PreparedAxis {
  private:
   /// Centres on one side of 0, or all of them.
   struct Segment {
-    int begin = 0, end = 0;      // indices of the axis
-    double spacing = 0;          // of an even grid
-    std::vector<double> bell{};  // exp(-(i r)^2 / 2), i = 0, 1, ...; empty unless even
+    int begin = 0, end = 0;         // indices of the axis
+    int row = 0;                    // place of the first centre in the row
+    int pad = 0;                    // places beside the centres, to both sides
+    double per_spacing = 0;         // 1 over that of an even grid
+    double ratio = 0;               // r, of the spacing to the width
+    std::vector<double> bell{};     // exp(-(i r)^2 / 2), i = 0, 1, ...; empty unless even
+    std::vector<double> present{};  // 1 or 0: whether there is a centre, from bell.size() - 1
+                                    // places before the first on
+    int size() const { return end - begin; }
+    int reach() const { return bell.empty() ? 0 : static_cast<int>(bell.size()) - 1; }
   };
   Segment MakeSegment(int begin, int end) const;
-  bool IsEven(const Segment& segment) const;
-  void EvenKernels(const Segment& segment, double x, ActiveKernels& active) const;
+  int IndexAt(const Segment& segment, int place) const;
+  bool EvenKernels(const Segment& segment, double x, ActiveKernels& active) const;
   void FreeKernels(const Segment& segment, double x, ActiveKernels& active) const;
 
   GaussianAxis axis_;
@@ -59,15 +68,21 @@ class PreparedMap {
 
  private:
   using Active = std::array<ActiveKernels, kMostMapAxes>;
-  void LayOut(const FrictionMap& map);
-  template <size_t axis>
-  double Sum(const Active& active, const double* weights) const;
 
-  // the axis with the most centres is the last, whose sums are the longest
+  /// Sets the strides and visits, in the order of the rows, the weights of the last axis: a
+  /// function of the index of its centre.
+  template <typename Visit>
+  void ForEachRow(const FrictionMap& map, const std::vector<size_t>& order, const Visit& visit);
+  template <size_t axis, typename RowSum>
+  double Sum(const Active& active, size_t row, const RowSum& row_sum) const;
+
+  // the axis with the most centres is the last; its sums are the longest, and tabulated
   std::vector<MapQuantity> quantities_;
   std::vector<PreparedAxis> axes_;
-  std::vector<size_t> strides_;  // of the weights, for each axis
-  std::vector<double> weights_;  // over the axes' rows, the last one's index the fastest
+  std::vector<size_t> strides_;  // of the rows, for each axis but the last
+  std::vector<double> weights_;  // [rows x length_], over the last axis's row
+  size_t length_ = 0;
+  RowTable table_;
   MapFactor factor_;
 };
 

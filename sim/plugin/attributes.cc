@@ -31,6 +31,7 @@ std::vector<PluginAttribute> MakeAttributes() {
   std::vector<PluginAttribute> attributes{
       {"law", "", fmt::format("{}", fmt::join(LawNames(), ", ")), "the nominal law"},
       {"file", "", "path", "friction file instead of all the other attributes"},
+      {"joints", "", "JSON", "friction of each joint by its name, instead of all the others"},
       {"folder", "", "path", "folder from which file starts where it is relative"},
       {"gear", "rad/rad", "not 0", "motor turns for each joint turn; 1 where not given"},
   };
@@ -62,14 +63,19 @@ fs::path Locate(const fs::path& file, const fs::path& folder) {
   return !ModelFolder().empty() && fs::exists(beside) ? beside : inside;
 }
 
+/// Refuses every attribute that is given beside `whole`, which stands for all of friction.
+void RefuseBeside(const std::string& whole, const AttributeReader& read, const Place& place) {
+  for (const PluginAttribute& attribute : PluginAttributes()) {
+    if (attribute.name == whole || attribute.name == "folder") continue;
+    if (read(attribute.name).empty()) continue;
+    Refuse(place, "{0} is '{1}' beside {2} '{3}'; give {2} or the other attributes", attribute.name,
+           read(attribute.name), whole, read(whole));
+  }
+}
+
 FrictionDescription ReadFile(const std::string& file, const AttributeReader& read,
                              const Place& place) {
-  for (const PluginAttribute& attribute : PluginAttributes()) {
-    if (attribute.name == "file" || attribute.name == "folder") continue;
-    if (read(attribute.name).empty()) continue;
-    Refuse(place, "{} is '{}' beside file '{}'; give the file or the other attributes",
-           attribute.name, read(attribute.name), file);
-  }
+  RefuseBeside("file", read, place);
   const fs::path path = Locate(file, read("folder"));
   try {
     return ReadFrictionFile(path);
@@ -107,17 +113,21 @@ std::vector<FrictionMap> ReadMaps(const std::string& text, const Place& place) {
   return maps;
 }
 
-}  // namespace
-
-const std::vector<PluginAttribute>& PluginAttributes() {
-  static const std::vector<PluginAttribute> attributes = MakeAttributes();
-  return attributes;
+FrictionOfJoints ReadJoints(const AttributeReader& read, const Place& place) {
+  using nlohmann::json;
+  RefuseBeside("joints", read, place);
+  const json object = json::parse(read("joints"), nullptr, false);
+  if (!object.is_object() || object.empty()) {
+    Refuse(place, "joints is no JSON object of joint names and their friction");
+  }
+  FrictionOfJoints joints;
+  for (const auto& [name, friction] : object.items()) {
+    joints[name] = FrictionFromJson(friction, {fmt::format("{}: joints: {}", place.file, name)});
+  }
+  return joints;
 }
 
-FrictionDescription ReadAttributes(const AttributeReader& read, const Place& place) {
-  const std::string path = read("file");
-  if (!path.empty()) return ReadFile(path, read, place);
-
+FrictionDescription ReadInline(const AttributeReader& read, const Place& place) {
   FrictionDescription friction;
   if (read("law").empty()) {
     Refuse(place, "law is missing; give one of {}", fmt::join(LawNames(), ", "));
@@ -143,6 +153,19 @@ FrictionDescription ReadAttributes(const AttributeReader& read, const Place& pla
   FillDefaults(friction);
   CheckFriction(friction, place);
   return friction;
+}
+
+}  // namespace
+
+const std::vector<PluginAttribute>& PluginAttributes() {
+  static const std::vector<PluginAttribute> attributes = MakeAttributes();
+  return attributes;
+}
+
+FrictionOfJoints ReadAttributes(const AttributeReader& read, const Place& place) {
+  if (!read("joints").empty()) return ReadJoints(read, place);
+  const std::string file = read("file");
+  return {{"", file.empty() ? ReadInline(read, place) : ReadFile(file, read, place)}};
 }
 
 }  // namespace warmjoint

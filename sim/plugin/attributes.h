@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -17,16 +18,19 @@ struct PluginAttribute {
   std::string meaning;
 };
 
-/// All attributes: `law`, `file`, `folder`, `gear`, the parameters of every law, the thermal ones,
-/// the options (FrictionOptions), `maps`.
+/// All attributes: `law`, `file`, `joints`, `folder`, `gear`, the parameters of every law, the
+/// thermal ones, the options (FrictionOptions), `maps`.
 const std::vector<PluginAttribute>& PluginAttributes();
 
 /// Reads the value of an attribute by its name; empty where it was not given.
 using AttributeReader = std::function<std::string(const std::string& name)>;
 
+/// Friction by the name of its joint; under "" that of every joint.
+using FrictionOfJoints = std::map<std::string, FrictionDescription>;
+
 /// The friction that the attributes describe, checked. Throws BadInput, from `place`, naming
 /// attribute, value and bound for: no number ("5x"), a value out of bounds, a parameter that the
-/// law lacks or needs, `file` beside attributes that it would contradict.
-FrictionDescription ReadAttributes(const AttributeReader& read, const Place& place);
+/// law lacks or needs, `file` or `joints` beside attributes that they would contradict.
+FrictionOfJoints ReadAttributes(const AttributeReader& read, const Place& place);
 
 }  // namespace warmjoint

@@ -6,14 +6,16 @@
 #include <vector>
 
 #include "models/friction/joint_friction.h"
+#include "sim/plugin/attributes.h"
 
 namespace warmjoint {
 
 /// Name under which MuJoCo knows the plugin.
 inline constexpr char kFrictionPlugin[] = "warmjoint.friction";
 
-/// Entries of mjData.plugin_state of each instance: 1 once friction would have pushed in one of its
-/// joints, else 0. It reports and is never read by the plugin's dynamics.
+/// Entries of mjData.plugin_state of each instance: the sum of 2^i over those of its joints,
+/// counted from 0 in the order of their actuators, in which friction would have pushed. It reports
+/// and is never read by the plugin's dynamics.
 inline constexpr int kFrictionReports = 1;
 
 /// Friction of the joints whose actuators share one plugin instance. Keeps no state of its own
@@ -40,17 +42,18 @@ class FrictionInstance {
     int state = 0;     // in act
     int control = 0;   // in ctrl
     int output = 0;    // in actuator_force
+    bool needs_load = false;
+    bool needs_ambient = false;
+    JointFriction friction;
     double force = 0;  // F of the last step, N.m or N
   };
 
-  FrictionInstance(const mjModel* m, int instance, const FrictionDescription& friction);
-  JointMotion MotionOf(const mjModel* m, const mjData* d, const Joint& joint) const;
+  void Bind(const mjModel* m, int actuator, const FrictionDescription& friction);
+  static JointMotion MotionOf(const mjModel* m, const mjData* d, const Joint& joint);
   void Report(const mjModel* m, mjData* d, const Joint& joint);
 
   int instance_;
-  JointFriction friction_;
-  bool needs_load_;
-  bool needs_ambient_;
+  double timestep_;
   std::vector<Joint> joints_;
 };
 

@@ -1,7 +1,9 @@
 // What friction costs in a step of MuJoCo: one 6-axis arm, one thread, ratios of one run.
 //
-// Every arm has the same joint damping and the same swinging drive. Rounds of the variants take
-// turns, and the fastest round of each counts, so that a busy machine disturbs all of them alike.
+// Ratios are to the arm without actuators, and to that with six motors that do nothing, which is
+// what the engine takes for actuators as such. Every arm has the same joint damping and the same
+// swinging drive. Rounds of the variants take turns, and the fastest round of each counts, so that
+// a busy machine disturbs all of them alike.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,7 +30,7 @@ constexpr double kAmplitude = 60;  // N.m, of the drive
 using Change = std::function<void(mjSpec&, const std::vector<std::string>&)>;
 
 /// The arm without actuators and contacts, changed, compiled.
-ModelPtr MakeArm(const Change& change) {
+ModelPtr MakeArm(mjtIntegrator integrator, const Change& change) {
   const auto file = test::SourceFolder() / "models/robots/irb140_like/irb140_like.xml";
   const ParsedModel parsed = ParseModel(file);
   mjSpec& spec = *parsed.spec;
@@ -43,7 +45,7 @@ ModelPtr MakeArm(const Change& change) {
     joint->actfrclimited = mjLIMITED_FALSE;
   }
   spec.option.timestep = kStep;
-  spec.option.integrator = mjINT_IMPLICITFAST;
+  spec.option.integrator = integrator;
   spec.option.disableflags |= mjDSBL_CONTACT;
   change(spec, SpecNames(spec, mjOBJ_JOINT));
   return CompileModel(spec, {file.string()});
@@ -89,7 +91,9 @@ FrictionDescription Full() {
 
 Change WithFriction(const FrictionDescription& friction) {
   return [friction](mjSpec& spec, const std::vector<std::string>& joints) {
-    for (const std::string& joint : joints) AddFriction(spec, joint, friction, {"bench"});
+    std::vector<FrictionForJoint> frictions;
+    for (const std::string& joint : joints) frictions.push_back({joint, friction});
+    AddFriction(spec, frictions, {"bench"});
   };
 }
 
@@ -139,10 +143,10 @@ void Run(Variant& variant) {
   variant.fastest = std::min(variant.fastest, time.count() / kSteps);
 }
 
-void Compare() {
+void Compare(const char* title, mjtIntegrator integrator) {
   std::vector<Variant> variants;
   const auto add = [&](const char* name, const Change& change) {
-    ModelPtr model = MakeArm(change);
+    ModelPtr model = MakeArm(integrator, change);
     DataPtr data(mj_makeData(model.get()));
     variants.push_back({name, std::move(model), std::move(data)});
   };
@@ -157,14 +161,15 @@ void Compare() {
   for (int round = 0; round < kRounds; ++round) {
     for (Variant& variant : variants) Run(variant);
   }
-  fmt::print("{:<18} {:>9} {:>7} {:>12}\n", "variant", "us/step", "ratio", "speed rad/s");
+  fmt::print("{:<18} {:>9} {:>11} {:>10} {:>12}\n", title, "us/step", "to nothing", "to motors",
+             "speed rad/s");
   for (const Variant& variant : variants) {
     double speed = 0;
     for (int j = 0; j < variant.model->nv; ++j) {
       speed = std::max(speed, std::abs(variant.data->qvel[j]));
     }
-    fmt::print("{:<18} {:9.3f} {:7.3f} {:12.3f}\n", variant.name, 1e6 * variant.fastest,
-               variant.fastest / variants[0].fastest, speed);
+    fmt::print("{:<18} {:9.3f} {:11.3f} {:10.3f} {:12.3f}\n", variant.name, 1e6 * variant.fastest,
+               variant.fastest / variants[0].fastest, variant.fastest / variants[1].fastest, speed);
   }
 }
 
@@ -172,6 +177,7 @@ void Compare() {
 }  // namespace warmjoint
 
 int main() {
-  warmjoint::Compare();
+  warmjoint::Compare("implicitfast", mjINT_IMPLICITFAST);
+  warmjoint::Compare("Euler", mjINT_EULER);
   return 0;
 }

@@ -40,7 +40,8 @@ void Compare(const FrictionMap& map, MapQuantity first, MapQuantity second) {
     point[static_cast<size_t>(first)] = random.Uniform(-scale, scale);
     point[static_cast<size_t>(second)] = random.Uniform(-scale, scale);
     const double expected = EvaluateMap(map, point);
-    // 1e-16 for each of 80 kernels left out, 1e-13 of a spacing for centres that are off the grid
+    // 3e-13 for the nearest kernel left out on each side, and 1e-13 of a spacing for centres that
+    // are off the grid
     const double speed = std::abs(point[static_cast<size_t>(MapQuantity::velocity)]);
     EXPECT_NEAR(prepared.Value(point), expected, 1e-12 * (1 + speed)) << "point " << i;
   }

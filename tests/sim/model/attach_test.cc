@@ -224,6 +224,7 @@ TEST_P(AttachToRobot, EveryJointCarriesFrictionAndTheRobotRuns) {
   const LoadedModel after = LoadModel(out_);
   const mjModel* m = after.model.get();
   EXPECT_EQ(FrictionJoints(m).size(), static_cast<size_t>(m->njnt));
+  EXPECT_EQ(m->nplugin, 1) << "all joints share one instance";
 
   const DataPtr data(mj_makeData(m));
   for (int i = 0; i < 1000; ++i) mj_step(m, data.get());

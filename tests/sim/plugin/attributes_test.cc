@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "models/foundation/atomic_file.h"
+#include "sim/escape_xml.h"
 #include "tests/sim/plugin/friction_models.h"
 #include "tests/support/folders.h"
 
@@ -64,6 +65,22 @@ TEST(PluginAttributes, ReadAFrictionFileInstead) {
   EXPECT_EQ(ErrorOf({{"file", path}}), "");
   EXPECT_THAT(ErrorOf({{"file", path}, {"law", "coulomb"}}), HasSubstr("beside file"));
   EXPECT_THAT(ErrorOf({{"file", path + "x"}}), HasSubstr("cannot be read"));
+}
+
+TEST(PluginAttributes, HoldTheFrictionOfSeveralJoints) {
+  const auto error = [](const std::string& joints) {
+    return ErrorOf({{"joints", EscapeXml(joints)}});
+  };
+  EXPECT_EQ(error(R"({"hinge": {"law": "coulomb", "parameters": {"coulomb": 6}}})"), "");
+  EXPECT_THAT(error("[]"), HasSubstr("joints is no JSON object"));
+  EXPECT_THAT(error(R"({"hinge": {"law": "coulomb", "parameters": {"coulomb": -6}}})"),
+              AllOf(HasSubstr("actuator 'f': joints: hinge"), HasSubstr("coulomb is -6")));
+  EXPECT_THAT(error(R"({"hing": {"law": "coulomb", "parameters": {"coulomb": 6}}})"),
+              HasSubstr("joints has no joint 'hinge'; did you mean 'hing'"));
+  EXPECT_THAT(error(R"({"hinge": {"law": "coulomb", "parameters": {"coulomb": 6}},
+                        "elbow": {"law": "coulomb", "parameters": {"coulomb": 6}}})"),
+              HasSubstr("joints names 'elbow', which no actuator"));
+  EXPECT_THAT(ErrorOf({{"joints", "{}"}, {"law", "coulomb"}}), HasSubstr("beside joints"));
 }
 
 TEST(PluginActuator, RefusesWhatWouldBreakFriction) {

@@ -64,12 +64,14 @@ ModelPtr WithFriction(const Robot& robot, double timestep, mjtIntegrator integra
   spec->option.timestep = timestep;
   spec->option.integrator = integrator;
   const std::vector<std::string> joints = SpecNames(*spec, mjOBJ_JOINT);
+  std::vector<FrictionForJoint> frictions;
   for (size_t i = 0; i < joints.size(); ++i) {
     FrictionDescription friction;
     friction.law = "coulomb";
     friction.parameters = {{"coulomb", robot.level[i]}};
-    AddFriction(*spec, joints[i], friction, {robot.path});
+    frictions.push_back({joints[i], friction});
   }
+  AddFriction(*spec, frictions, {robot.path});
   return CompileModel(*spec, {robot.path});
 }
 

@@ -1,0 +1,84 @@
+// Several joints that share one instance of the plugin.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "sim/friction_actuator.h"
+#include "sim/load_model.h"
+#include "tests/sim/plugin/friction_models.h"
+
+namespace warmjoint {
+namespace {
+
+constexpr char kTwoLinks[] = R"(
+<mujoco>
+  <option timestep="0.001" integrator="implicitfast"><flag contact="disable"/></option>
+  <worldbody>
+    <body>
+      <joint name="shoulder" axis="0 1 0"/>
+      <geom type="capsule" fromto="0 0 0 0.4 0 0" size="0.04" mass="2"/>
+      <body pos="0.4 0 0">
+        <joint name="elbow" axis="0 1 0"/>
+        <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.04" mass="1"/>
+      </body>
+    </body>
+  </worldbody>
+</mujoco>)";
+
+FrictionDescription Shoulder() {
+  FrictionDescription friction;
+  friction.law = "coulomb";
+  friction.parameters = {{"coulomb", 3}};
+  friction.thermal = Thermal{-0.2, 5};
+  return friction;
+}
+
+/// Another law, with another number of states, that feeds itself once warm.
+FrictionDescription Elbow() {
+  FrictionDescription friction;
+  friction.law = "stiction";
+  friction.parameters = {{"viscous", 0.1}, {"coulomb", 0.5}, {"static", 0.7}};
+  friction.thermal = Thermal{-3, 0.2};
+  return friction;
+}
+
+/// The model with the frictions added in these groups, each of which shares an instance.
+ModelPtr TwoLinks(const std::vector<std::vector<FrictionForJoint>>& groups) {
+  char error[500] = "";
+  const SpecPtr spec(mj_parseXMLString(kTwoLinks, nullptr, error, sizeof(error)));
+  EXPECT_TRUE(spec) << error;
+  for (const auto& group : groups) AddFriction(*spec, group, {"test"});
+  return CompileModel(*spec, {"test"});
+}
+
+std::vector<double> Fall(const mjModel* m, mjData* d) {
+  while (d->time < 2) mj_step(m, d);
+  std::vector<double> state(d->qpos, d->qpos + m->nq);
+  state.insert(state.end(), d->qvel, d->qvel + m->nv);
+  state.insert(state.end(), d->act, d->act + m->na);
+  return state;
+}
+
+TEST(PluginJoints, MoveInOneInstanceAsInInstancesOfTheirOwn) {
+  const FrictionForJoint shoulder{"shoulder", Shoulder()}, elbow{"elbow", Elbow()};
+  const ModelPtr shared = TwoLinks({{shoulder, elbow}});
+  const ModelPtr own = TwoLinks({{shoulder}, {elbow}});
+  ASSERT_EQ(shared->nplugin, 1);
+  ASSERT_EQ(own->nplugin, 2);
+
+  mju_user_warning = [](const char*) {};
+  const DataPtr a(mj_makeData(shared.get())), b(mj_makeData(own.get()));
+  const std::vector<double> state = Fall(shared.get(), a.get());
+  EXPECT_EQ(state, Fall(own.get(), b.get()));
+  EXPECT_LT(state[5], -0.1) << "the shoulder should be warm";
+
+  // the elbow alone left its law's domain: bit 1 of the shared instance, bit 0 of its own
+  EXPECT_EQ(a->plugin_state[shared->plugin_stateadr[0]], 2);
+  EXPECT_EQ(b->plugin_state[own->plugin_stateadr[0]], 0);
+  EXPECT_EQ(b->plugin_state[own->plugin_stateadr[1]], 1);
+  mju_user_warning = nullptr;
+}
+
+}  // namespace
+}  // namespace warmjoint
