@@ -11,6 +11,7 @@
 #include "identification/report_thermal.h"
 #include "identification/scan_time_constant.h"
 #include "identification/stribeck_fit.h"
+#include "identification/stribeck_verdict.h"
 #include "identification/student.h"
 #include "identification/uncertainty.h"
 #include "identification/warm_fit.h"
@@ -22,23 +23,8 @@ namespace warmjoint {
 namespace {
 
 constexpr const char* kName = "stribeck";
-constexpr size_t kRefined = 3;       // starts
-constexpr double kVagueLogVs = 0.5;  // standard deviation: 95 % within a factor of e
-constexpr double kVagueFall = 0.5;   // standard deviation of ks - kc over itself
+constexpr size_t kRefined = 3;                              // starts
 constexpr Eigen::Index kStatic = 2, kLogVs = 3, kGain = 4;  // in x
-
-/// "the slowest is 0.1 rad/s; move at constant speeds from ... to ... as well", for all verdicts on
-/// missing slow speeds.
-std::string SlowSpeeds(const IdentifierInput& input) {
-  const Eigen::ArrayXd speed =
-      Kept(input.measurements.velocity, input.selection).col(0).array().abs();
-  const std::string_view unit = kVelocityUnit.For(input.measurements.joint);
-  const double slowest = speed.minCoeff();
-  return fmt::format(
-      "the slowest constant speed is {:.3g} {}; hold several slower ones in both directions as "
-      "well, down to about {:.2g} {}, or use a law without these parameters",
-      slowest, unit, slowest / 10, unit);
-}
 
 /// What the law without the Stribeck effect leaves, with the same warming. (N.m)^2 or N^2
 double SquaresWithout(const StribeckProblem& problem) {
@@ -72,21 +58,15 @@ std::string Unseen(const IdentifierInput& input, double explained) {
   return fmt::format(
       "no Stribeck effect can be seen: static and stribeck_velocity explain {:.3g} times the noise "
       "variance, below {:.3g}; {}",
-      explained > 0 ? explained : 0.0, kVisibleWarming, SlowSpeeds(input));
+      explained > 0 ? explained : 0.0, kVisibleWarming,
+      SlowSpeeds(input.measurements, input.selection));
 }
 
-/// Why the parameters of a fit cannot be told, though the effect is seen; nothing where they can.
-std::optional<std::string> VagueStribeck(const IdentifierInput& input, const StribeckFit& fit,
-                                         const Uncertainty& known) {
+/// What the fit says of the two parameters of the effect.
+StribeckEvidence EvidenceOf(const StribeckFit& fit, const Uncertainty& known) {
   const Eigen::VectorXd& x = fit.solution.x;
   const Eigen::Matrix2d c = known.covariance.block<2, 2>(1, 1);
-  const double fall = std::sqrt(c(0, 0) + c(1, 1) - 2 * c(0, 1));
-  const double log_vs = known.Deviation(kLogVs);
-  if (log_vs < kVagueLogVs && fall < kVagueFall * std::abs(x[2] - x[1])) return std::nullopt;
-  return fmt::format(
-      "static and stribeck_velocity cannot be told apart: stribeck_velocity is known to a factor "
-      "of {:.3g} only, static less coulomb to {:.3g}; {}",
-      std::exp(1.96 * log_vs), 1.96 * fall, SlowSpeeds(input));
+  return {x[2] - x[1], std::sqrt(c(0, 0) + c(1, 1) - 2 * c(0, 1)), known.Deviation(kLogVs)};
 }
 
 /// Why the warming cannot be told; nothing where it can, or is not asked for.
@@ -201,7 +181,7 @@ Estimate Conclude(const IdentifierInput& input, const StribeckProblem& problem,
   const Uncertainty known =
       JudgeUncertainty(fit.jacobian, Cofactor(fit.jacobian.transpose() * fit.jacobian),
                        torque - fit.fitted, input.selection);
-  if (auto why = VagueStribeck(input, fit, known)) {
+  if (auto why = VagueStribeck(EvidenceOf(fit, known), input.measurements, input.selection)) {
     return Failed(kName, Status::not_identifiable, *why);
   }
   if (auto why = VagueWarming(problem, fit, known, cold_squares)) {
@@ -237,7 +217,7 @@ Estimate Identify(const IdentifierInput& input) {
   StribeckProblem problem{
       m,
       input.selection,
-      FindIntervals(m.time),
+      FindIntervals(m.time, m.starts),
       input.options.Number("exponent"),
       input.options.Text("warming") == "estimated" ? Warming::estimated : Warming::none,
       torque.norm() / std::sqrt(static_cast<double>(torque.size()))};
@@ -245,7 +225,8 @@ Estimate Identify(const IdentifierInput& input) {
   const std::vector<StribeckPoint> scan = ScanStribeckVelocity(problem);
   if (scan.empty() || !std::isfinite(without)) {
     return Failed(kName, Status::not_identifiable,
-                  "static and stribeck_velocity cannot be told from coulomb; " + SlowSpeeds(input));
+                  "static and stribeck_velocity cannot be told from coulomb; " +
+                      SlowSpeeds(input.measurements, input.selection));
   }
 
   // where the scan, within a few per cent of the best, sees next to nothing, so will the fit

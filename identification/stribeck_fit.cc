@@ -43,6 +43,7 @@ class Residuals {
         const Hold<T>& hold = holds[problem_.intervals.which[i]];
         energy = ThermalStep(hold.gain, hold.pole, energy, Loss(v, force));
       }
+      if (!isfinite(force)) return false;
       if (problem_.selection.keep[i]) *residuals++ = (force - m.torque[i]) / problem_.scale;
     }
     return isfinite(energy) && isfinite(law[3]);
@@ -62,6 +63,11 @@ class Residuals {
       using std::exp;
       using std::expm1;
       for (const double h : problem_.intervals.length) {
+        // nothing is left where another recording starts cold
+        if (std::isinf(h)) {
+          holds.push_back({T(0), T(0)});
+          continue;
+        }
         const T a = -h * exp(-x[5]);
         holds.push_back({-x[4] * expm1(a), exp(a)});
       }

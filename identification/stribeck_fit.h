@@ -17,7 +17,7 @@ enum class Warming { none, estimated };
 struct StribeckProblem {
   const Measurements& measurements;
   const Selection& selection;  // E runs over all samples, the fit is to those kept
-  Intervals intervals;         // FindIntervals(time)
+  Intervals intervals;         // FindIntervals(time, starts)
   double exponent = 2;         // delta, fixed
   Warming warming = Warming::none;
   double scale = 1;  // about the torque's rms, N.m or N

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "identification/stribeck_fit.h"
+#include "sim/dataset/join_recordings.h"
 #include "tests/support/slow_recording.h"
 
 namespace warmjoint {
@@ -55,6 +56,25 @@ TEST(Stribeck, FindsTheWarmingToo) {
   EXPECT_NEAR(estimate.Find("thermal_time_constant")->value, 60,
               5 * *estimate.Find("thermal_time_constant")->std);
   EXPECT_NEAR(estimate.metrics->rmse, 0.3, 0.3 * 5 / std::sqrt(2 * 6000.0));
+}
+
+TEST(Stribeck, TakesEachOfSeveralRecordingsFromCold) {
+  // the same warm-up twice tells what it tells once, a root of two more surely
+  FrictionDescription warm = StribeckJoint();
+  warm.thermal = Thermal{-3, 60};
+  const Measurements once = test::RecordFriction(warm, 0.1, test::SlowAndFast(4000, 3), 0.3, 3);
+  const Estimate one = Answer(once, {{"warming", "estimated"}});
+  const Estimate two = Answer(JoinRecordings({once, once}), {{"warming", "estimated"}});
+  ASSERT_EQ(one.status, Status::ok) << one.message;
+  ASSERT_EQ(two.status, Status::ok) << two.message;
+  for (const EstimatedParameter& parameter : one.parameters) {
+    const EstimatedParameter& other = *two.Find(parameter.name);
+    // 1e-6: iterative optimisers (golden/README)
+    EXPECT_NEAR(other.value, parameter.value, 1e-6 * std::abs(parameter.value)) << parameter.name;
+    if (!parameter.std) continue;
+    // white noise over n - 6 and 2 n - 6 freedoms: one in 4000
+    EXPECT_NEAR(*other.std, *parameter.std / std::sqrt(2), 1e-3 * *parameter.std) << parameter.name;
+  }
 }
 
 TEST(Stribeck, NamesWhatNeedsSlowSpeedsAndTheMotionThatHelps) {

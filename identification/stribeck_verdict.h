@@ -1,0 +1,29 @@
+// Whether a motion shows the Stribeck effect well enough to tell its two parameters.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "sim/dataset/measurements.h"
+#include "sim/dataset/selection.h"
+
+namespace warmjoint {
+
+/// What a fit says of its Stribeck effect.
+struct StribeckEvidence {
+  double fall = 0;            // ks - kc, N.m or N
+  double fall_deviation = 0;  // its standard deviation
+  double log_deviation = 0;   // standard deviation of ln(vs)
+};
+
+/// "the slowest constant speed is ...; hold several slower ones ...": the remedy of all verdicts on
+/// missing slow speeds. selection: samples at constant speed.
+std::string SlowSpeeds(const Measurements& measurements, const Selection& selection);
+
+/// Why static and stribeck_velocity cannot be told apart: vs is not known to a factor of e, or
+/// ks - kc not to a half of itself. Nothing where they can.
+std::optional<std::string> VagueStribeck(const StribeckEvidence& evidence,
+                                         const Measurements& measurements,
+                                         const Selection& selection);
+
+}  // namespace warmjoint
