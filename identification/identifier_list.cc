@@ -6,6 +6,7 @@
 #include "identification/kalman.h"
 #include "identification/load_map.h"
 #include "identification/lpv_energy.h"
+#include "identification/lugre.h"
 #include "identification/motor_ridge.h"
 #include "identification/nominal_ls.h"
 #include "identification/position_ridge.h"
@@ -17,8 +18,9 @@ namespace warmjoint {
 
 const std::vector<Identifier>& Identifiers() {
   static const std::vector<Identifier> identifiers{
-      NominalLs(), PositionRidge(), MotorRidge(), EnergyMap(), LoadMap(),         LpvEnergy(),
-      EnergyEm(),  EnergyMl(),      Rls(),        Kalman(),    StribeckByCeres(), Auto(),
+      NominalLs(),       PositionRidge(), MotorRidge(), EnergyMap(), LoadMap(),
+      LpvEnergy(),       EnergyEm(),      EnergyMl(),   Rls(),       Kalman(),
+      StribeckByCeres(), LuGreByCeres(),  Auto(),
   };
   return identifiers;
 }

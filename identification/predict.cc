@@ -1,5 +1,6 @@
 #include "identification/predict.h"
 
+#include "identification/bristle_course.h"
 #include "identification/intervals.h"
 #include "identification/map_points.h"
 
@@ -11,6 +12,17 @@ double MapForce(const std::vector<FrictionMap>& maps, const MapPoint<double>& po
   double force = 0;
   for (const FrictionMap& map : maps) force += EvaluateMap(map, point);
   return force;
+}
+
+/// What the bristle of LuGre adds to its steady force, N.m or N. [N]
+Eigen::VectorXd PreSlidingForce(const std::vector<double>& values, const Measurements& m) {
+  const auto n = static_cast<size_t>(m.size());
+  std::vector<double> force(n), load(n);
+  BristleCourse(m.time, m.velocity, m.starts).Run(values.data(), force.data(), load.data());
+  for (size_t i = 0; i < n; ++i) {
+    force[i] -= LuGre::Force(m.velocity[static_cast<Eigen::Index>(i)], values.data());
+  }
+  return Eigen::Map<const Eigen::VectorXd>(force.data(), m.size());
 }
 
 }  // namespace
@@ -52,6 +64,7 @@ Prediction PredictFriction(const FrictionDescription& friction, const Measuremen
     const ThermalHold& hold = holds[intervals.which[i]];
     energy = ThermalStep(hold.gain, hold.pole, energy, Loss(v, force));
   }
+  if (law.name == LuGre::name && n > 1) prediction.force += PreSlidingForce(values, measurements);
   return prediction;
 }
 

@@ -9,9 +9,10 @@
 namespace warmjoint {
 
 /// Friction along a motion: F = Fn(v) + sign(v) E + maps, Eq. (20), with E from the friction's own
-/// losses W = |F v|, Eqs. (19) and (22). All N samples, rests and accelerations too.
+/// losses W = |F v|, Eqs. (19) and (22). All N samples, rests and accelerations too. F is that of
+/// steady sliding, but LuGre's bristle follows the motion (bristle_course.h).
 struct Prediction {
-  Eigen::VectorXd force;   // [N] F, N.m or N; 0 at rest
+  Eigen::VectorXd force;   // [N] F, N.m or N; 0 at rest, but for a bristle's load
   Eigen::VectorXd energy;  // [N] E, N.m or N; 0 where nothing warms
   /// First sample at which warm friction pushes instead of braking and so feeds itself; N if none.
   Eigen::Index feeds_itself = 0;

@@ -34,7 +34,14 @@ struct LuGre {
   /// speed: |v|; p: {kv, kc, ks, vs, sigma0, sigma1}; returns g, N.m or N.
   template <typename T>
   static T Level(int, double speed, const T* p) {
-    return StribeckLevel(speed, p[1], p[2], p[3], T(2));
+    return StribeckLevel(speed, p[1], p[2], p[3]);
+  }
+
+  /// F of a bristle that carries the load s = sigma0 z: s + sigma1 dz/dt + kv v.
+  /// v: rad/s or m/s; load: s, level: g(|v|), N.m or N; returns N.m or N.
+  template <typename T>
+  static T BristleForce(double v, const T& load, const T& level, const T* p) {
+    return load + p[5] * (v - std::abs(v) * load / level) + p[0] * v;
   }
 
   /// Steady sliding. v: rad/s or m/s; p: {kv, kc, ks, vs, sigma0, sigma1}; returns N.m or N.

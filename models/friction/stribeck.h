@@ -11,6 +11,18 @@
 
 namespace warmjoint {
 
+/// StribeckLevel with delta = 2, without a power.
+template <typename T>
+T StribeckLevel(double speed, const T& coulomb, const T& at_rest, const T& velocity) {
+  using std::exp;
+  if (speed == 0) return at_rest;
+  // exp(-40) is beyond the last digit
+  const T ratio = speed / velocity;
+  const T square = ratio * ratio;
+  if (square > T(40)) return coulomb;
+  return coulomb + (at_rest - coulomb) * exp(-square);
+}
+
 /// g(|v|) = kc + (ks - kc) exp(-(|v| / vs)^delta); g(0) = ks. All N.m or N, |v| and vs rad/s or
 /// m/s. Source: Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30 (1994), Eq. (2).
 template <typename T>
@@ -20,10 +32,7 @@ T StribeckLevel(double speed, const T& coulomb, const T& at_rest, const T& veloc
   using std::pow;
   if (speed == 0) return at_rest;
   if constexpr (std::is_same_v<T, double>) {
-    // the usual exponent without a power; exp(-40) is beyond the last digit
-    const double ratio = speed / velocity;
-    if (exponent == 2 && ratio * ratio > 40) return coulomb;
-    if (exponent == 2) return coulomb + (at_rest - coulomb) * exp(-ratio * ratio);
+    if (exponent == 2) return StribeckLevel(speed, coulomb, at_rest, velocity);
   }
   return coulomb + (at_rest - coulomb) * exp(-pow(T(speed) / velocity, exponent));
 }

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "identification/identifier.h"
-#include "tests/support/slow_recording.h"
+#include "tests/support/bristle_recording.h"
 
 namespace warmjoint {
 namespace {
@@ -45,7 +45,10 @@ class Contract : public ::testing::TestWithParam<Identifier> {
   Estimate IdentifyRich() const { return Identify(Rich()); }
 
   /// What shows all that the identifier identifies.
-  static const Measurements& Rich() { return GetParam().name == "stribeck" ? Slow() : Warm(); }
+  static const Measurements& Rich() {
+    if (GetParam().name == "lugre") return Turning();
+    return GetParam().name == "stribeck" ? Slow() : Warm();
+  }
 
   /// Two hours at 1 s, from cold, with rests of 10 min that let the joint cool.
   static const Measurements& Warm() {
@@ -57,6 +60,12 @@ class Contract : public ::testing::TestWithParam<Identifier> {
   static const Measurements& Slow() {
     static const Measurements recording =
         test::RecordFriction(test::StribeckJoint(), 0.1, test::SlowAndFast(7200, 1), 0.1, 1);
+    return recording;
+  }
+  /// Two minutes at 0.01 s of a cold joint with a bristle, with turns that show it.
+  static const Measurements& Turning() {
+    static const Measurements recording =
+        test::RecordBristle(test::LuGreJoint(), test::TurningMotion(120, 1), 120, 100, 0.3, 0.1, 1);
     return recording;
   }
   /// The motion of Warm, of a joint that does not warm.
@@ -71,14 +80,16 @@ class Contract : public ::testing::TestWithParam<Identifier> {
   }
 };
 
-/// Truth of Table I and of its joint with the Stribeck effect by name; each sign of the Coulomb
-/// level alike.
+/// Truth of Table I, of its joint with the Stribeck effect and of that with a bristle, by name;
+/// each sign of the Coulomb level alike.
 double TruthOf(const std::string& name) {
   const DiscreteThermal discrete = Discretise(*test::TableOne().thermal, 1);
   if (name == "viscous") return 5;
   if (name.starts_with("coulomb")) return 15;
   if (name == "static") return 20;
   if (name == "stribeck_velocity") return 0.05;
+  if (name == "bristle_stiffness") return 2000;
+  if (name == "bristle_damping") return 40;
   if (name == "thermal_gain") return -3;
   if (name == "thermal_time_constant") return 600;
   if (name == "thermal_gain_discrete") return discrete.gain;
