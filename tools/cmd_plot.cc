@@ -1,6 +1,8 @@
 // warmjoint plot SOURCE... -o DIR: pictures of runs, estimates and simulated recordings.
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <set>
 
@@ -18,8 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kFrameSeconds = 0.125;
-constexpr int kSheetColumns = 3;
-constexpr int kSheetWidth = 960;  // points
+constexpr int kSheetColumn = 200;    // points
+constexpr double kSheetShape = 1.6;  // columns for each row
 
 struct PlotArguments {
   std::vector<std::string> sources;
@@ -28,7 +30,7 @@ struct PlotArguments {
   std::string sheet;
 };
 
-/// Draws figures into files and remembers them for the contact sheet.
+/// Draws figures into files and remembers the first of each kind for the contact sheet.
 class Album {
  public:
   explicit Album(report::Canvas& canvas) : canvas_(canvas) {}
@@ -38,7 +40,9 @@ class Album {
     const fs::path path = folder / (figure.name + ".png");
     report::WritePng(image, figure.finding, path);
     fmt::print("{}: {}\n", path.string(), figure.finding);
-    pages_.emplace_back(figure.name, std::move(image));
+    const bool is_new = std::none_of(pages_.begin(), pages_.end(),
+                                     [&](const auto& page) { return page.first == figure.name; });
+    if (is_new) pages_.emplace_back(figure.name, std::move(image));
   }
 
   void DrawFilm(const std::vector<report::Figure>& film, const fs::path& folder) {
@@ -55,7 +59,11 @@ class Album {
 
   void WriteSheet(const fs::path& path) {
     if (pages_.empty()) return;
-    const report::Figure sheet = report::MakeContactSheet(pages_, kSheetColumns, kSheetWidth);
+    // wider than high
+    const double count = static_cast<double>(pages_.size());
+    const int columns = static_cast<int>(std::ceil(std::sqrt(kSheetShape * count)));
+    const report::Figure sheet =
+        report::MakeContactSheet(pages_, columns, std::max(2, columns) * kSheetColumn);
     report::WritePng(report::DrawFigure(canvas_, sheet).image, sheet.finding, path);
     fmt::print("{}: {}\n", path.string(), sheet.finding);
   }
@@ -110,7 +118,8 @@ Command AddPlotCommand(CLI::App& program) {
   parser->add_option("--recording", arguments->recording.recordings,
                      "data of an estimate, instead of the files that it remembers");
   AddLayoutOptions(*parser, arguments->recording);
-  parser->add_option("--sheet", arguments->sheet, "contact sheet of all pictures (PNG)");
+  parser->add_option("--sheet", arguments->sheet,
+                     "contact sheet (PNG): the first picture of each kind");
   return {parser, [arguments] { return PlotSources(*arguments); }};
 }
 

@@ -30,6 +30,12 @@ TABLES = """[...document.querySelectorAll('table')].map(table => ({
   rows: [...table.tBodies[0].rows].map(row => [...row.cells].map(cell => cell.innerText)),
   headed: [...table.tBodies[0].rows].every(row => row.querySelector('th[scope=row]')?.innerText)}))"""
 PICTURES = """[...document.images].map(image => ({alt: image.alt, drawn: image.complete && image.naturalWidth > 0}))"""
+# a change of scheme changes the sources: decoding what was there before fails, and is tried again
+DECODED = """Promise.all([...document.images].map(async image => {
+  for (let tries = 0; tries < 50; ++tries) {
+    try { return await image.decode() } catch { await new Promise(done => setTimeout(done, 100)) }
+  }
+  throw new Error('not decoded: ' + image.alt)}))"""
 WIDE = """[...document.querySelectorAll('body *')].filter(e => !e.closest('.scroll, pre, .skip') &&
   e.getBoundingClientRect().right > innerWidth + 1).map(e => e.tagName + ' ' + e.textContent.slice(0, 40))"""
 
@@ -148,7 +154,7 @@ def look(browser, checks, name, size, scheme, folder):
     browser.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
     wide = browser.value(WIDE)
     checks.expect(not wide, f"{name}: wider than the screen: {wide[:5]}")
-    browser.value("Promise.all([...document.images].map(image => image.decode()))")
+    browser.value(DECODED)
     paper = browser.value("getComputedStyle(document.body).backgroundColor")
     checks.expect(("255" in paper) == (scheme == "light"), f"{scheme}: the paper is {paper}")
     if folder:

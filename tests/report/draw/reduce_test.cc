@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "models/foundation/random_stream.h"
 #include "tests/report/look.h"
 
 namespace warmjoint::report {
@@ -42,7 +43,49 @@ TEST(ReduceScatter, KeepsOneMarkerAPixelAndNoneOutside) {
   VectorXd x(4), y(4);
   x << 0.11, 0.12, 0.9, 7;
   y << 0.11, 0.12, 0.9, 0.5;
-  EXPECT_EQ(ReduceScatter(x, y, {0, 1, 10}, {0, 1, 10}), (std::vector<Index>{0, 2}));
+  EXPECT_EQ(ReduceScatter(x, y, {0, 1, 10}, {0, 1, 10}, 1), (std::vector<Index>{0, 2}));
+}
+
+TEST(ReduceScatter, DrawsTheSameCloudWithAQuarterOfTheMarkers) {
+  // a dense disc and stray samples about it
+  constexpr Index kPoints = 60000;
+  RandomStream random({4, 0}, Stream::test);
+  VectorXd x(kPoints), y(kPoints);
+  for (Index i = 0; i < kPoints; ++i) {
+    const double radius = i % 500 == 0 ? 1.5 : 0.6 * std::sqrt(random.Uniform(0, 1));
+    const double angle = random.Uniform(0, 2 * M_PI);
+    x[i] = radius * std::cos(angle);
+    y[i] = radius * std::sin(angle);
+  }
+  Figure figure;
+  figure.width = figure.height = 200;
+  Plot plot;
+  plot.x = plot.y = {"x", -1.6, 1.6, Scale::linear, {}};
+  plot.series = {{"", Hue::blue, Scatter{x, y, 1}}};
+  figure.panels = {{"cloud", plot}};
+  const Drawn reduced = DrawFigure(TestCanvas(), figure);
+
+  // parts so thin that nothing in them covers anything
+  constexpr Index kParts = 100;
+  plot.series.clear();
+  for (Index part = 0; part < kParts; ++part) {
+    const auto own = Eigen::seqN(part, kPoints / kParts, kParts);
+    plot.series.push_back({"", Hue::blue, Scatter{x(own), y(own), 1}});
+  }
+  figure.panels = {{"cloud", plot}};
+  const Drawn whole = DrawFigure(TestCanvas(), figure);
+  Index markers = 0;
+  for (const DrawnSeries& series : whole.plots[0].series) markers += series.points;
+  EXPECT_LT(reduced.plots[0].series[0].points, markers / 4);
+  int differing = 0, inked = 0;
+  for (int row = 0; row < whole.image.height; ++row) {
+    for (int column = 0; column < whole.image.width; ++column) {
+      const Rgb pixel = whole.image.At(column, row);
+      inked += Distance(pixel, LightTheme().background) > 60;
+      differing += Distance(pixel, reduced.image.At(column, row)) > 60;
+    }
+  }
+  EXPECT_LT(differing, inked / 100);
 }
 
 TEST(ReduceCurve, DrawsAMillionPointsWithTheirSpikes) {

@@ -30,6 +30,18 @@ TEST(AxisTicks, AreDecadesOnLogarithmicAxes) {
               ElementsAre("10⁻⁶", "10⁻⁵", "10⁻⁴", "0.001", "0.01"));
 }
 
+TEST(AxisTicks, ShareOnePowerOfTen) {
+  EXPECT_THAT(Labels({"", 0, 2.2e-4, Scale::linear, {}}, 5),
+              ElementsAre("0", "0.5·10⁻⁴", "1.0·10⁻⁴", "1.5·10⁻⁴", "2.0·10⁻⁴"));
+}
+
+TEST(AxisTicks, AreWholeNumbersWhereTheAxisCounts) {
+  EXPECT_THAT(Labels({"", -0.1, 4.1, Scale::linear, {}, 1}, 20),
+              ElementsAre("0", "1", "2", "3", "4"));
+  EXPECT_THAT(Labels({"", -1, 51, Scale::linear, {}, 1}, 6),
+              ElementsAre("0", "10", "20", "30", "40", "50"));
+}
+
 TEST(AxisTicks, OfTheAxisItselfAreKept) {
   EXPECT_THAT(Labels({"", 0, 1, Scale::linear, {{0.5, "middle"}}}, 5), ElementsAre("middle"));
 }
@@ -40,6 +52,8 @@ TEST(SignificantText, RoundsAsPeopleDo) {
   EXPECT_EQ(SignificantText(603.2), "603");
   EXPECT_EQ(SignificantText(-5.4e-5, 2), "−5.4·10⁻⁵");
   EXPECT_EQ(SignificantText(0), "0");
+  EXPECT_EQ(SignificantText(0.09999, 2), "0.10") << "one more digit before the point";
+  EXPECT_EQ(SignificantText(9.999e-5, 2), "1.0·10⁻⁴");
 }
 
 TEST(UnitText, SetsDotsInTheMiddle) { EXPECT_EQ(UnitText("N.m.s/rad"), "N·m·s/rad"); }

@@ -74,6 +74,49 @@ TEST(FitPage, WarnsOfResidualsThatRemember) {
   EXPECT_THAT(AllText(VerdictOf(view)), HasSubstr("alike from one sample to the next"));
 }
 
+TEST(FitPage, ShowsWarningsInAmberWhereTheNumbersPass) {
+  WarmRecording warm;
+  const auto verdict = [&] {
+    return VerdictOf(MakeFitView(warm.measurements, warm.selection, warm.estimate)).paragraphs;
+  };
+  EXPECT_EQ(verdict()[0].hue, Hue::green);
+  warm.estimate.message =
+      "maximum likelihood; noise is coloured; the residual depends on time: 0.4 N.m rms; and on "
+      "direction: 0.1 N.m rms: the intervals reach as far as that moves them; try lpv-energy";
+  EXPECT_EQ(verdict()[0].hue, Hue::caution);
+  EXPECT_EQ(verdict()[0].text, "energy-ml: the numbers can be used, with a warning.");
+  EXPECT_EQ(verdict()[1].hue, Hue::caution);
+  EXPECT_EQ(
+      verdict()[1].text,
+      "Warning: The residual depends on time: 0.4 N·m rms; and on direction: 0.1 N·m rms: the "
+      "intervals reach as far as that moves them; try lpv-energy.");
+  EXPECT_EQ(verdict()[2].text, "Maximum likelihood; noise is coloured.");
+  const Figure page = MakeFitPage(MakeFitView(warm.measurements, warm.selection, warm.estimate));
+  EXPECT_THAT(page.finding, HasSubstr("with a warning"));
+  DrawLight(page);
+
+  // a failure says it all: nothing passes, so nothing is parted off
+  warm.estimate.status = Status::inadequate_model;
+  EXPECT_EQ(verdict()[0].hue, Hue::vermilion);
+  EXPECT_THAT(verdict()[1].text, HasSubstr("Maximum likelihood; noise is coloured; the residual"));
+}
+
+TEST(FrictionCurve, HasNoBandWhereMapsCarryPartOfTheFriction) {
+  WarmRecording warm;
+  const auto bands = [&] {
+    const Plot plot = FrictionCurve(MakeFitView(warm.measurements, warm.selection, warm.estimate));
+    return std::count_if(plot.series.begin(), plot.series.end(), [](const Series& series) {
+      return std::holds_alternative<Band>(series.shape);
+    });
+  };
+  EXPECT_EQ(bands(), 4) << "cold and warm, either way";
+  FrictionMap map;
+  map.axes = {{MapQuantity::position, EvenAxis(-10, 10, 3)}};
+  map.weights = {0.1, 0, -0.1};
+  warm.estimate.friction->maps = {map};
+  EXPECT_EQ(bands(), 0);
+}
+
 TEST(FitPage, LooksAtTheFirstAndTheLastSegments) {
   const WarmRecording warm;
   const FitView view = MakeFitView(warm.measurements, warm.selection, warm.estimate);

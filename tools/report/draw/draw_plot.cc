@@ -8,6 +8,7 @@
 
 #include "models/foundation/bad_input.h"
 #include "tools/report/draw/draw_series.h"
+#include "tools/report/draw/strokes.h"
 #include "tools/report/draw/ticks.h"
 
 namespace warmjoint::report {
@@ -88,11 +89,11 @@ void DrawGrid(Pen& pen, const Plot& plot, const Rectangle& area) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const auto across = [&](double y, Rgb colour) {
     const float at = ImPlot::PlotToPixels(plot.x.lower, y).y;
-    list.AddLine({area.left, at}, {area.right, at}, Pen::Paint(colour), 1);
+    StrokeLine(list, {area.left, at}, {area.right, at}, Pen::Paint(colour), 1);
   };
   const auto upright = [&](double x, Rgb colour) {
     const float at = ImPlot::PlotToPixels(x, plot.y.lower).x;
-    list.AddLine({at, area.top}, {at, area.bottom}, Pen::Paint(colour), 1);
+    StrokeLine(list, {at, area.top}, {at, area.bottom}, Pen::Paint(colour), 1);
   };
   for (double x : MinorTicks(plot.x)) upright(x, pen.theme().minor_grid);
   for (double y : MinorTicks(plot.y)) across(y, pen.theme().minor_grid);
@@ -101,21 +102,24 @@ void DrawGrid(Pen& pen, const Plot& plot, const Rectangle& area) {
     for (const Tick& tick : TicksX(pen, plot.x, area.width()))
       upright(tick.value, pen.theme().grid);
   }
-  for (const Tick& tick : TicksY(plot.y, area.height())) across(tick.value, pen.theme().grid);
+  for (const Tick& tick : TicksY(plot.y, area.height())) {
+    if (!tick.label.empty()) across(tick.value, pen.theme().grid);
+  }
 }
 
 /// Axis lines, ticks, their labels and the names of the axes.
 void DrawAxes(Pen& pen, const Plot& plot, const Rectangle& area, float label_x) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImU32 paint = Pen::Paint(pen.theme().axis);
-  list.AddLine({area.left, area.top}, {area.left, area.bottom}, paint, 1);
-  list.AddLine({area.left, area.bottom}, {area.right, area.bottom}, paint, 1);
+  StrokeLine(list, {area.left, area.top}, {area.left, area.bottom}, paint, 1);
+  StrokeLine(list, {area.left, area.bottom}, {area.right, area.bottom}, paint, 1);
 
   float lowest = area.bottom;
   const float wrap = LabelWrap(plot.x, area.width());
   for (const Tick& tick : TicksX(pen, plot.x, area.width())) {
+    if (tick.label.empty()) continue;
     const float x = ImPlot::PlotToPixels(tick.value, plot.y.lower).x;
-    list.AddLine({x, area.bottom}, {x, area.bottom + size::kTickMark}, paint, 1);
+    StrokeLine(list, {x, area.bottom}, {x, area.bottom + size::kTickMark}, paint, 1);
     const float top = area.bottom + size::kTickMark + 2;
     const ImVec2 extent =
         pen.WriteCentred(list, tick.label, kTickType, {x, top}, pen.theme().faint_text, wrap);
@@ -123,8 +127,9 @@ void DrawAxes(Pen& pen, const Plot& plot, const Rectangle& area, float label_x) 
   }
   const std::vector<Tick> ticks = TicksY(plot.y, area.height());
   for (const Tick& tick : ticks) {
+    if (tick.label.empty()) continue;
     const float y = ImPlot::PlotToPixels(plot.x.lower, tick.value).y;
-    list.AddLine({area.left - size::kTickMark, y}, {area.left, y}, paint, 1);
+    StrokeLine(list, {area.left - size::kTickMark, y}, {area.left, y}, paint, 1);
     const ImVec2 extent = pen.Measure(tick.label, kTickType);
     pen.Write(list, tick.label, kTickType,
               {area.left - size::kTickMark - 3 - extent.x, y - extent.y / 2},
@@ -153,7 +158,7 @@ void DrawColourBar(Pen& pen, const HeatMap& map, const Rectangle& area) {
   for (const Tick& tick : ticks) {
     const double share = (tick.value - axis.lower) / (axis.upper - axis.lower);
     const float y = area.bottom - area.height() * static_cast<float>(share);
-    list.AddLine({right, y}, {right + 3, y}, Pen::Paint(pen.theme().axis), 1);
+    StrokeLine(list, {right, y}, {right + 3, y}, Pen::Paint(pen.theme().axis), 1);
     pen.Write(list, tick.label, kTickType,
               {right + 6, y - pen.Measure(tick.label, kTickType).y / 2}, pen.theme().faint_text);
   }

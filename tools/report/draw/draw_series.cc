@@ -56,11 +56,13 @@ class Draughtsman {
   }
 
   void operator()(const Scatter& scatter) {
-    const auto chosen = ReduceScatter(OnAxis(scatter.x, plot_.x), OnAxis(scatter.y, plot_.y),
-                                      AcrossSpan(), SpanOf(plot_.y, area_.height()));
+    const auto chosen =
+        ReduceScatter(OnAxis(scatter.x, plot_.x), OnAxis(scatter.y, plot_.y), AcrossSpan(),
+                      SpanOf(plot_.y, area_.height()), scatter.size * Canvas::kPixelsPerPoint);
+    const ImU32 paint = Pen::Paint(drawn_.colour, scatter.opacity);
     for (Index i : chosen) {
       StampMarker(list_, Put(scatter.x[i], scatter.y[i]), scatter.marker,
-                  static_cast<float>(scatter.size), paint_);
+                  static_cast<float>(scatter.size), paint);
     }
   }
 
@@ -73,19 +75,29 @@ class Draughtsman {
     std::set_union(chosen.begin(), chosen.end(), more.begin(), more.end(),
                    std::back_inserter(both));
     std::vector<double> x, lower, upper;
+    ImPlotSpec spec;
+    spec.FillColor = ImGui::ColorConvertU32ToFloat4(Pen::Paint(drawn_.colour, band.opacity));
+    spec.LineWeight = 0;
+    const auto fill = [&] {
+      if (x.size() > 1) {
+        ImPlot::PlotShaded("##band", x.data(), lower.data(), upper.data(),
+                           static_cast<int>(x.size()), spec);
+      }
+      for (auto* part : {&x, &lower, &upper}) part->clear();
+    };
     for (Index i : both) {
-      if (!Shown(band.x[i], band.lower[i]) || !Shown(band.x[i], band.upper[i])) continue;
+      // a gap ends the area, as it ends a line
+      if (!Shown(band.x[i], band.lower[i]) || !Shown(band.x[i], band.upper[i])) {
+        fill();
+        continue;
+      }
       Put(band.x[i], band.lower[i]);
       Put(band.x[i], band.upper[i]);
       x.push_back(band.x[i]);
       lower.push_back(band.lower[i]);
       upper.push_back(band.upper[i]);
     }
-    ImPlotSpec spec;
-    spec.FillColor = ImGui::ColorConvertU32ToFloat4(Pen::Paint(drawn_.colour, band.opacity));
-    spec.LineWeight = 0;
-    ImPlot::PlotShaded("##band", x.data(), lower.data(), upper.data(), static_cast<int>(x.size()),
-                       spec);
+    fill();
   }
 
   void operator()(const Bars& bars) {
@@ -107,12 +119,13 @@ class Draughtsman {
     const ImVec2 middle = Put(box.x, box.median);
     const float cap = 0.25f * (foot.x - corner.x);
     for (const auto& [from, to] : {std::pair(low, foot), std::pair(high, corner)}) {
-      list_.AddLine(from, {from.x, to.y}, paint_, 1.3f);
-      list_.AddLine({from.x - cap, from.y}, {from.x + cap, from.y}, paint_, 1.3f);
+      StrokeLine(list_, from, {from.x, to.y}, paint_, 1.3f);
+      StrokeLine(list_, {from.x - cap, from.y}, {from.x + cap, from.y}, paint_, 1.3f);
     }
     list_.AddRectFilled(corner, foot, Pen::Paint(drawn_.colour, 0.25));
-    list_.AddRect(corner, foot, paint_, 0, 0, 1.3f);
-    list_.AddLine({corner.x, middle.y}, {foot.x, middle.y}, paint_, 2.5f);
+    const ImVec2 outline[] = {corner, {foot.x, corner.y}, foot, {corner.x, foot.y}};
+    list_.AddPolyline(outline, 4, paint_, ImDrawFlags_Closed, 1.3f);
+    StrokeLine(list_, {corner.x, middle.y}, {foot.x, middle.y}, paint_, 2.5f);
     for (double value : box.outliers)
       StampMarker(list_, Put(box.x, value), Marker::circle, 1.8f, paint_);
   }

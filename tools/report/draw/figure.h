@@ -20,7 +20,7 @@ enum class Side { left, centre, right };
 /// A named place on an axis.
 struct Tick {
   double value = 0;
-  std::string label;
+  std::string label;  // empty: no mark either
 };
 
 struct Axis {
@@ -29,6 +29,7 @@ struct Axis {
   double upper = 1;
   Scale scale = Scale::linear;
   std::vector<Tick> ticks;  // empty: round numbers
+  double finest = 0;        // ticks stand no closer: 1 on an axis that counts
 };
 
 /// y over x; NaN interrupts. x, y: [N].
@@ -45,6 +46,7 @@ struct Scatter {
   Eigen::VectorXd y;
   double size = 2.5;  // radius, points
   Marker marker = Marker::circle;
+  double opacity = 1;
 };
 
 /// The area between two curves. x, lower, upper: [N].

@@ -37,6 +37,38 @@ void AddColumn(const Eigen::VectorXd& y, Index begin, Index end, std::vector<Ind
   chosen.insert(chosen.end(), marks.begin(), marks.end());
 }
 
+/// Which pixels of a plot have a marker.
+class TakenPixels {
+ public:
+  TakenPixels(int columns, int rows)
+      : columns_(columns), rows_(rows), taken_(static_cast<std::size_t>(columns) * rows) {}
+
+  /// Whether the pixel is in the plot and had no marker before.
+  bool Take(int column, int row) {
+    if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return false;
+    const std::size_t cell = static_cast<std::size_t>(row) * columns_ + column;
+    if (taken_[cell]) return false;
+    return taken_[cell] = true;
+  }
+
+  /// Whether the marker of a pixel is below those of even rows and columns about it.
+  bool Covers(int column, int row) const {
+    if (column % 2 == 0 && row % 2 == 0) return false;
+    if (column == 0 || row == 0 || column + 1 >= columns_ || row + 1 >= rows_) return false;
+    for (int r = row - 1; r <= row + 1; ++r) {
+      for (int c = column - 1; c <= column + 1; ++c) {
+        if (!taken_[static_cast<std::size_t>(r) * columns_ + c]) return false;
+      }
+    }
+    return true;
+  }
+
+ private:
+  int columns_;
+  int rows_;
+  std::vector<bool> taken_;
+};
+
 }  // namespace
 
 std::vector<Index> ReduceCurve(const Eigen::VectorXd& x, const Eigen::VectorXd& y,
@@ -59,17 +91,16 @@ std::vector<Index> ReduceCurve(const Eigen::VectorXd& x, const Eigen::VectorXd& 
 }
 
 std::vector<Index> ReduceScatter(const Eigen::VectorXd& x, const Eigen::VectorXd& y,
-                                 const PixelSpan& columns, const PixelSpan& rows) {
-  std::vector<bool> taken(static_cast<std::size_t>(columns.count) * rows.count);
+                                 const PixelSpan& columns, const PixelSpan& rows, double radius) {
+  TakenPixels taken(columns.count, rows.count);
   std::vector<Index> chosen;
   for (Index i = 0; i < x.size(); ++i) {
-    const int column = CellOf(x[i], columns);
-    const int row = CellOf(y[i], rows);
-    if (column < 0 || row < 0 || column == columns.count || row == rows.count) continue;
-    const std::size_t cell = static_cast<std::size_t>(row) * columns.count + column;
-    if (!taken[cell]) chosen.push_back(i);
-    taken[cell] = true;
+    if (taken.Take(CellOf(x[i], columns), CellOf(y[i], rows))) chosen.push_back(i);
   }
+  constexpr double kCovering = 1.4;  // pixels to the next in the other rows and columns
+  if (radius < kCovering) return chosen;
+  std::erase_if(chosen,
+                [&](Index i) { return taken.Covers(CellOf(x[i], columns), CellOf(y[i], rows)); });
   return chosen;
 }
 

@@ -20,8 +20,11 @@ struct PixelSpan {
 std::vector<Eigen::Index> ReduceCurve(const Eigen::VectorXd& x, const Eigen::VectorXd& y,
                                       const PixelSpan& columns);
 
-/// Which markers draw the same cloud: one for each pixel that has any. x, y: [N]; returns indices.
+/// Which markers draw the same cloud: one for each pixel that has any. Where a pixel and all eight
+/// about it have one, those of every other row and column cover the others, if a marker's radius
+/// is more than a pixel. x, y: [N]; radius: pixels; returns indices, increasing.
 std::vector<Eigen::Index> ReduceScatter(const Eigen::VectorXd& x, const Eigen::VectorXd& y,
-                                        const PixelSpan& columns, const PixelSpan& rows);
+                                        const PixelSpan& columns, const PixelSpan& rows,
+                                        double radius);
 
 }  // namespace warmjoint::report

@@ -34,7 +34,7 @@ void StrokePath(ImDrawList& list, const std::vector<ImVec2>& path, ImU32 colour,
       const float step = std::min(left, rest);
       const float share = step / rest;
       const ImVec2 to{from.x + share * (path[i].x - from.x), from.y + share * (path[i].y - from.y)};
-      if (on) list.AddLine(from, to, colour, width);
+      if (on) StrokeLine(list, from, to, colour, width);
       from = to;
       rest -= step;
       left -= step;
@@ -46,11 +46,17 @@ void StrokePath(ImDrawList& list, const std::vector<ImVec2>& path, ImU32 colour,
   }
 }
 
+void StrokeLine(ImDrawList& list, ImVec2 from, ImVec2 to, ImU32 colour, float width) {
+  const ImVec2 ends[] = {from, to};
+  list.AddPolyline(ends, 2, colour, 0, width);
+}
+
 void StampMarker(ImDrawList& list, ImVec2 c, Marker marker, float r, ImU32 colour) {
   const float s = 0.88f * r;  // squares and triangles of the same weight as circles
   switch (marker) {
     case Marker::circle:
-      return list.AddCircleFilled(c, r, colour, 16);
+      // the corners of eight are a tenth of a pixel off where the radius is a point
+      return list.AddCircleFilled(c, r, colour, r < 1.5f ? 8 : 16);
     case Marker::square:
       return list.AddRectFilled({c.x - s, c.y - s}, {c.x + s, c.y + s}, colour);
     case Marker::diamond:
@@ -63,8 +69,8 @@ void StampMarker(ImDrawList& list, ImVec2 c, Marker marker, float r, ImU32 colou
       return list.AddTriangleFilled({c.x, c.y + 1.3f * r}, {c.x - 1.2f * r, c.y - 0.8f * r},
                                     {c.x + 1.2f * r, c.y - 0.8f * r}, colour);
     case Marker::cross:
-      list.AddLine({c.x - r, c.y - r}, {c.x + r, c.y + r}, colour, 0.6f * r);
-      return list.AddLine({c.x - r, c.y + r}, {c.x + r, c.y - r}, colour, 0.6f * r);
+      StrokeLine(list, {c.x - r, c.y - r}, {c.x + r, c.y + r}, colour, 0.6f * r);
+      return StrokeLine(list, {c.x - r, c.y + r}, {c.x + r, c.y - r}, colour, 0.6f * r);
   }
 }
 

@@ -13,6 +13,9 @@ namespace warmjoint::report {
 void StrokePath(ImDrawList& list, const std::vector<ImVec2>& path, ImU32 colour, float width,
                 Dash dash);
 
+/// A straight line whose middle runs through both points (ImGui's own AddLine is half a point off).
+void StrokeLine(ImDrawList& list, ImVec2 from, ImVec2 to, ImU32 colour, float width);
+
 /// A filled marker; radius in points.
 void StampMarker(ImDrawList& list, ImVec2 centre, Marker marker, float radius, ImU32 colour);
 

@@ -8,8 +8,8 @@
 namespace warmjoint::report {
 
 /// Colours by role. Blue to sky are the palette of Okabe and Ito (2008), which colour-blind readers
-/// tell apart; a theme says how each looks.
-enum class Hue { text, grey, blue, vermilion, green, purple, orange, sky };
+/// tell apart; caution is for words alone. A theme says how each looks.
+enum class Hue { text, grey, blue, vermilion, green, purple, orange, sky, caution };
 
 struct Theme {
   std::string_view name;
@@ -19,7 +19,7 @@ struct Theme {
   Rgb axis;
   Rgb grid;
   Rgb minor_grid;
-  Rgb hues[8];  // by Hue
+  Rgb hues[9];  // by Hue
 
   Rgb Colour(Hue hue) const { return hues[static_cast<int>(hue)]; }
 };

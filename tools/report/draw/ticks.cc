@@ -21,12 +21,22 @@ std::string Superscript(int value) {
   return text;
 }
 
-/// value = mantissa 10^exponent, mantissa with `decimals` digits.
+/// mantissa 10^exponent, the mantissa with `decimals` digits.
+std::string WithPower(double mantissa, int decimals, int exponent) {
+  const std::string digits = fmt::format("{:.{}f}", mantissa, decimals);
+  if (digits == "1") return "10" + Superscript(exponent);
+  return WithTrueMinus(digits) + "·10" + Superscript(exponent);
+}
+
+/// The power of ten of a number that is rounded to so many decimals of its mantissa.
+int ExponentOf(double value, int decimals) {
+  const std::string text = fmt::format("{:.{}e}", value, decimals);
+  return std::stoi(text.substr(text.find('e') + 1));
+}
+
 std::string PowerText(double value, int decimals) {
-  const int exponent = static_cast<int>(std::floor(std::log10(std::abs(value)) + 1e-9));
-  const std::string mantissa = fmt::format("{:.{}f}", value / std::pow(10, exponent), decimals);
-  if (mantissa == "1") return "10" + Superscript(exponent);
-  return WithTrueMinus(mantissa) + "·10" + Superscript(exponent);
+  const int exponent = ExponentOf(value, decimals);
+  return WithPower(value / std::pow(10, exponent), decimals, exponent);
 }
 
 bool NeedsPower(double value) {
@@ -44,21 +54,21 @@ double RoundStep(double span, int wanted) {
 }
 
 std::vector<Tick> LinearTicks(const Axis& axis, int wanted) {
-  const double step = RoundStep(axis.upper - axis.lower, wanted);
+  const double step = std::max(axis.finest, RoundStep(axis.upper - axis.lower, wanted));
   const double largest = std::max(std::abs(axis.lower), std::abs(axis.upper));
   const bool power = NeedsPower(largest);
   const int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));
-  // digits of the mantissa that tell neighbours apart
-  const int digits = std::max(0, static_cast<int>(std::floor(std::log10(largest) + 1e-9)) -
-                                     static_cast<int>(std::floor(std::log10(step) + 1e-9)));
+  // one power for the whole axis, and digits of the mantissa that tell neighbours apart
+  const int exponent = static_cast<int>(std::floor(std::log10(largest) + 1e-9));
+  const int digits = std::max(0, exponent - static_cast<int>(std::floor(std::log10(step) + 1e-9)));
   std::vector<Tick> ticks;
   const double margin = 1e-6 * step;
   for (double i = std::ceil((axis.lower - margin) / step); i * step <= axis.upper + margin; ++i) {
     const double value = i * step;
-    const std::string text = i == 0
-                                 ? "0"
-                                 : (power ? PowerText(value, digits)
-                                          : WithTrueMinus(fmt::format("{:.{}f}", value, decimals)));
+    const std::string text =
+        i == 0 ? "0"
+               : (power ? WithPower(value / std::pow(10, exponent), digits, exponent)
+                        : WithTrueMinus(fmt::format("{:.{}f}", value, decimals)));
     ticks.push_back({value, text});
   }
   return ticks;
@@ -114,7 +124,7 @@ std::string SignificantText(double value, int digits) {
   if (!std::isfinite(value)) return "–";
   if (value == 0) return "0";
   if (NeedsPower(value)) return PowerText(value, digits - 1);
-  const int exponent = static_cast<int>(std::floor(std::log10(std::abs(value)) + 1e-9));
+  const int exponent = ExponentOf(value, digits - 1);
   return WithTrueMinus(fmt::format("{:.{}f}", value, std::max(0, digits - 1 - exponent)));
 }
 

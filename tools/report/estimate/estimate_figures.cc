@@ -2,30 +2,22 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "tools/report/draw/ticks.h"
 #include "tools/report/figures/envelope.h"
 #include "tools/report/figures/fit_page.h"
 #include "tools/report/figures/fit_panels.h"
 #include "tools/report/figures/friction_map.h"
 #include "tools/report/figures/motor_angle.h"
+#include "tools/report/figures/single_plot.h"
 
 namespace warmjoint::report {
 namespace {
 
-/// A figure of one plot.
-Figure Single(const std::string& name, const std::string& title, const FitView& view,
-              const Plot& plot) {
-  Figure figure;
-  figure.name = name;
-  figure.title = title;
-  figure.subtitle = fmt::format("{}, identified by {}", view.source, view.estimate.identifier);
-  figure.width = 720;
-  figure.height = 440;
-  figure.panels.push_back({"", plot});
-  return figure;
-}
+constexpr int kWidth = 720, kHeight = 440;  // points
 
-std::string IntervalsOf(const Estimate& estimate) {
+std::string ValuesOf(const Estimate& estimate) {
   std::string text;
   for (const EstimatedParameter& parameter : estimate.parameters) {
     text += fmt::format(" {} {} {},", parameter.name, SignificantText(parameter.value),
@@ -49,21 +41,25 @@ std::optional<Figure> FitPageOf(const EstimateView& view) {
 
 std::optional<Figure> CurveOf(const EstimateView& view) {
   if (!view.fit || !view.fit->has_fit || view.fit->selection.count() == 0) return std::nullopt;
-  Figure figure =
-      Single("friction_curve", "Friction over velocity", *view.fit, FrictionCurve(*view.fit));
-  figure.subtitle += "; bands are 95 % intervals of the curve";
-  figure.finding = "Friction over velocity from these parameters:" + IntervalsOf(view.estimate);
-  return figure;
+  const Plot plot = FrictionCurve(*view.fit);
+  const bool has_band = std::any_of(plot.series.begin(), plot.series.end(), [](const auto& series) {
+    return std::holds_alternative<Band>(series.shape);
+  });
+  return SinglePlot(
+      {"friction_curve", "Friction over velocity",
+       OriginOf(*view.fit) + (has_band ? "; bands are 95 % intervals of the curve" : ""),
+       "Friction over velocity from these parameters:" + ValuesOf(view.estimate)},
+      plot, kWidth, kHeight);
 }
 
 std::optional<Figure> WarmUpOf(const EstimateView& view) {
   if (!view.fit || !view.fit->warms() || view.fit->selection.count() == 0) return std::nullopt;
   const FitView& fit = *view.fit;
-  Figure figure = Single("warm_up", "Change of friction by its own heat", fit, WarmUpCurve(fit));
-  figure.finding = fmt::format(
+  const std::string finding = fmt::format(
       "Friction changes by E = {} {} at most, after {} {}.", SignificantText(WarmestEnergy(fit)),
       fit.torque_unit, SignificantText(WarmestTime(fit) / TimeUnit(fit)), TimeUnitName(fit));
-  return figure;
+  return SinglePlot({"warm_up", "Change of friction by its own heat", OriginOf(fit), finding},
+                    WarmUpCurve(fit), kWidth, kHeight);
 }
 
 std::optional<Figure> TraceOf(const EstimateView& view) {

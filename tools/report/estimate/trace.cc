@@ -12,14 +12,6 @@ namespace warmjoint::report {
 namespace {
 
 constexpr std::size_t kFewSteps = 12;  // up to which every iteration gets a mark
-constexpr double kLongCourse = 100;    // iterations from which the axis is logarithmic
-
-/// The iterations of a trace as an axis.
-Axis IterationAxis(const Eigen::VectorXd& iteration) {
-  const double last = iteration.tail(1)[0];
-  if (last > kLongCourse) return {"iteration", 1, last, Scale::logarithmic, {}};
-  return {"iteration", iteration[0], std::max(last, iteration[0] + 1), Scale::linear, {}};
-}
 
 /// One number over the iterations.
 Plot CourseOf(const Eigen::VectorXd& iteration, const Eigen::VectorXd& values, Hue hue,
@@ -29,7 +21,7 @@ Plot CourseOf(const Eigen::VectorXd& iteration, const Eigen::VectorXd& values, H
   if (static_cast<std::size_t>(iteration.size()) <= kFewSteps) {
     plot.series.push_back({"", hue, Scatter{iteration, values, 3}});
   }
-  plot.x = IterationAxis(iteration);
+  plot.x = IterationAxis(iteration[0], iteration.tail(1)[0]);
   plot.y = LinearAxis(label, {values});
   return plot;
 }
@@ -99,7 +91,9 @@ std::optional<Figure> MakeTrace(const Estimate& estimate, const std::string& wha
   for (const auto& [name, value] : estimate.trace.back().parameters) {
     const Eigen::VectorXd values = ValuesOf(estimate, name);
     const EstimatedParameter* parameter = estimate.Find(name);
-    const std::string unit = parameter ? fmt::format(" ({})", UnitText(parameter->unit)) : "";
+    // numbers without a dimension have the unit 1
+    const bool has_unit = parameter && parameter->unit != "1";
+    const std::string unit = has_unit ? fmt::format(" ({})", UnitText(parameter->unit)) : "";
     Plot plot = CourseOf(iteration, values, hue, SymbolOf(name) + unit);
     if (parameter) AddInterval(plot, *parameter, hue);
     add(name, plot);

@@ -2,13 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
+
+#include "tools/leaderboard/statistics.h"
 
 namespace warmjoint::report {
 namespace {
 
 constexpr double kSpare = 0.04;
+constexpr double kOutermost = 0.001;  // share of the values at either end that BulkAxis may lose
+constexpr double kBulkSpare = 0.15;   // of the range that it keeps
 
 Axis Padded(std::string label, double lower, double upper) {
   if (!std::isfinite(lower)) lower = 0, upper = 1;
@@ -59,6 +64,37 @@ Axis LogarithmicAxis(std::string label, const std::vector<Eigen::VectorXd>& valu
   axis.upper = std::pow(10, axis.upper);
   axis.scale = Scale::logarithmic;
   return axis;
+}
+
+Axis BulkAxis(std::string label, const std::vector<Eigen::VectorXd>& values) {
+  std::vector<double> sorted;
+  for (const Eigen::VectorXd& part : values) {
+    std::copy_if(part.begin(), part.end(), std::back_inserter(sorted),
+                 [](double value) { return std::isfinite(value); });
+  }
+  if (sorted.empty()) return LinearAxis(std::move(label), values);
+  std::sort(sorted.begin(), sorted.end());
+  const double lower = Quantile(sorted, kOutermost), upper = Quantile(sorted, 1 - kOutermost);
+  const double spare = kBulkSpare * (upper - lower);
+  return LinearAxis(std::move(label), {Eigen::Vector2d(std::max(sorted.front(), lower - spare),
+                                                       std::min(sorted.back(), upper + spare))});
+}
+
+Eigen::Index CountBeyond(const Axis& axis, const std::vector<Eigen::VectorXd>& values) {
+  Eigen::Index beyond = 0;
+  for (const Eigen::VectorXd& part : values) {
+    beyond += (part.array() < axis.lower || part.array() > axis.upper).count();
+  }
+  return beyond;
+}
+
+Axis IterationAxis(double first, double last) {
+  constexpr double kMostLinear = 100;
+  if (last > kMostLinear) {
+    return {"iteration", std::max(1.0, first), last, Scale::logarithmic, {}, 1};
+  }
+  const double spare = 0.02 * std::max(1.0, last - first);
+  return {"iteration", first - spare, std::max(last, first + 1) + spare, Scale::linear, {}, 1};
 }
 
 Axis MagnitudeAxis(std::string label, const std::vector<Eigen::VectorXd>& values) {

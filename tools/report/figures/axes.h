@@ -22,6 +22,17 @@ Axis ZeroAxis(std::string label, const std::vector<Eigen::VectorXd>& values);
 /// A logarithmic axis over the positive values, with some to spare.
 Axis LogarithmicAxis(std::string label, const std::vector<Eigen::VectorXd>& values);
 
+/// A linear axis over all but the outermost 0.1 % of the values at either end, with 15 % to spare:
+/// single wild ones leave the picture. The whole range where that holds everything.
+Axis BulkAxis(std::string label, const std::vector<Eigen::VectorXd>& values);
+
+/// How many finite values an axis leaves out: what a subtitle owes its reader.
+Eigen::Index CountBeyond(const Axis& axis, const std::vector<Eigen::VectorXd>& values);
+
+/// Iterations `first` to `last`: whole numbers, logarithmic beyond 100 (from 1 on), with room for
+/// the marks at both ends where linear.
+Axis IterationAxis(double first, double last);
+
 /// Logarithmic where the values span more than a factor of 30 and none is below 0, else from zero.
 Axis MagnitudeAxis(std::string label, const std::vector<Eigen::VectorXd>& values);
 

@@ -46,10 +46,10 @@ std::pair<double, double> TorqueLimits(const FitView& view, const Window& a, con
 Plot CloseUp(const FitView& view, const Window& window, const std::pair<double, double>& limits) {
   const Eigen::VectorXd time = Part(view.time, window) / TimeUnit(view);
   Plot plot;
-  plot.series.push_back({"measured", Hue::grey, Line{time, Part(view.torque, window), 1.0}});
+  plot.series.push_back({"measured", Hue::grey, Line{time, Part(view.torque, window), 2.0}});
   if (view.has_fit) {
     const Eigen::VectorXd fitted = Part(KeptOrGap(view, view.fitted), window);
-    plot.series.push_back({"fit at the kept samples", Hue::blue, Line{time, fitted, 2.0}});
+    plot.series.push_back({"fit at the kept samples", Hue::blue, Line{time, fitted, 1.0}});
   }
   plot.x = {TimeLabel(view), time[0], time.tail(1)[0], Scale::linear, {}};
   plot.y = {TorqueLabel(view, "torque"), limits.first, limits.second, Scale::linear, {}};

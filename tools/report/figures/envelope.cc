@@ -69,7 +69,7 @@ std::optional<Figure> MakeEnvelope(const std::string& what, const Measurements& 
 
   Figure figure;
   figure.name = "envelope";
-  figure.title = "Warming seen in the torque alone";
+  figure.title = "The torque's envelope and the first guess of its warming";
   const std::string read = ThermalText(*guess.thermal, measurements.joint);
   figure.subtitle = fmt::format("{}; first guess (25): {}", what, read);
   figure.finding = fmt::format(

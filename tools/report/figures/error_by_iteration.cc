@@ -20,22 +20,21 @@ Eigen::VectorXd Shown(const Axis& axis, const Eigen::VectorXd& x, const Eigen::V
   return (x.array() >= axis.lower && x.array() <= axis.upper).select(values, std::nan(""));
 }
 
-/// The axis over iterations starts at the first that is not 0 where it is logarithmic.
-Axis IterationAxis(const ErrorByIteration& data) {
+/// The axis over the iterations of all identifiers.
+Axis AxisOf(const ErrorByIteration& data) {
   std::vector<Eigen::VectorXd> iterations;
   for (const IdentifierCourse& course : data.identifiers) {
     if (Iterates(course.npe)) iterations.push_back(course.npe.x);
   }
   const auto [first, last] = RangeOf(iterations);
   if (!std::isfinite(last)) return {"iteration", 0, 1, Scale::linear, {{0, "–"}}};
-  if (last > 100) return {"iteration", 1, last, Scale::logarithmic, {}};
-  return {"iteration", first, last, Scale::linear, {}};
+  return IterationAxis(first, last);
 }
 
 /// Bands below all lines; identifiers that do not iterate as levels.
 Plot Draw(const ErrorByIteration& data, Curve curve, double factor, const std::string& label) {
   Plot plot;
-  plot.x = IterationAxis(data);
+  plot.x = AxisOf(data);
   std::vector<Eigen::VectorXd> shown;
   std::vector<Series> lines;
   for (std::size_t i = 0; i < data.identifiers.size(); ++i) {
@@ -91,9 +90,7 @@ Figure MakeErrorByIteration(const ErrorByIteration& data) {
   Figure figure;
   figure.name = "error_by_iteration";
   figure.title = "Parameter error and fit by iteration";
-  figure.subtitle =
-      fmt::format("{}: {} realizations; lines are medians, bands reach from quartile to quartile",
-                  data.suite, data.realizations);
+  figure.subtitle = MediansSubtitle(data.suite, data.realizations);
   figure.finding = Finding(data);
   figure.width = 960;
   figure.height = 430;

@@ -117,6 +117,18 @@ double WarmestEnergy(const FitView& view) {
   return view.energy[at];
 }
 
+std::string OriginOf(const FitView& view) {
+  const std::string& identifier = view.estimate.identifier;
+  return identifier.empty() ? fmt::format("{}, the truth", view.source)
+                            : fmt::format("{}, identified by {}", view.source, identifier);
+}
+
+std::string BeyondText(Eigen::Index samples) {
+  if (samples == 0) return "";
+  return fmt::format("; {} of the samples {} beyond the axes", samples,
+                     samples == 1 ? "is" : "are");
+}
+
 std::string TimeLabel(const FitView& view) { return fmt::format("time ({})", ScaleOf(view).unit); }
 
 double TimeUnit(const FitView& view) { return ScaleOf(view).seconds; }

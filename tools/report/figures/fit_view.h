@@ -56,6 +56,13 @@ double FrictionAtSample(const FitView& view, const std::vector<FrictionMap>& map
 /// The energy of largest size that the recording reached, torque_unit.
 double WarmestEnergy(const FitView& view);
 
+/// Where the numbers come from: "day/log.csv, identified by energy-ml", or "..., the truth" where
+/// no identifier is named.
+std::string OriginOf(const FitView& view);
+
+/// "; 3 of the samples are beyond the axes" for a subtitle, nothing where there are none.
+std::string BeyondText(Eigen::Index samples);
+
 /// Axis names with units of the joint: "speed (rad/s)".
 std::string TimeLabel(const FitView& view);
 std::string PositionLabel(const FitView& view);

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <iterator>
+#include <string_view>
+#include <vector>
 
 #include "tools/report/draw/ticks.h"
 #include "tools/report/figures/fit_panels.h"
@@ -49,24 +52,79 @@ std::string MetricsSentence(const Metrics& metrics, const std::string& unit) {
                      metrics.n);
 }
 
-/// With a capital letter and a full stop.
+/// As set in print: with a capital letter, a full stop, and units that no line break parts.
 std::string Sentence(std::string text) {
   text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  for (std::size_t at; (at = text.find("N.m")) != std::string::npos;) text.replace(at, 3, "N·m");
   return text.ends_with('.') ? text : text + '.';
+}
+
+/// An identifier's message, parted into what it says of the fit and what it warns of.
+struct Message {
+  std::string plain;
+  std::vector<std::string> warnings;
+};
+
+/// Clauses stand between semicolons; what the residual depends on takes all that follow.
+Message PartMessage(const std::string& message) {
+  static constexpr std::string_view kEnd = "; ", kResidual = "the residual depends on ";
+  static constexpr std::string_view kWarnings[] = {kResidual, "the kernels can imitate ",
+                                                   "the motor is taken to turn with the joint"};
+  Message parts;
+  for (std::size_t at = 0; at < message.size();) {
+    const std::string_view rest = std::string_view(message).substr(at);
+    const auto begins = [&](std::string_view words) { return rest.starts_with(words); };
+    const std::size_t end =
+        begins(kResidual) ? rest.size() : std::min(rest.find(kEnd), rest.size());
+    const std::string clause(rest.substr(0, end));
+    if (std::any_of(std::begin(kWarnings), std::end(kWarnings), begins)) {
+      parts.warnings.push_back(clause);
+    } else {
+      parts.plain += (parts.plain.empty() ? "" : std::string(kEnd)) + clause;
+    }
+    at += end + kEnd.size();
+  }
+  return parts;
+}
+
+/// What a reader must know before using numbers that passed: warnings of the identifier, and
+/// residuals with a memory. Empty where the verdict is a failure, which says it all.
+std::vector<std::string> WarningsOf(const FitView& view) {
+  if (view.estimate.status != Status::ok) return {};
+  std::vector<std::string> warnings = PartMessage(view.estimate.message).warnings;
+  const double memory = view.has_fit ? ResidualCorrelation(view, 1) : 0;
+  if (memory > kMemory) {
+    warnings.push_back(
+        fmt::format("residuals are alike from one sample to the next (correlation {:.2f}): "
+                    "something in the torque is not in the model",
+                    memory));
+  }
+  return warnings;
 }
 
 }  // namespace
 
 std::string VerdictSentence(const FitView& view) {
-  return fmt::format("{}: {}", view.estimate.identifier, PlainVerdict(view.estimate.status));
+  const std::size_t warnings = WarningsOf(view).size();
+  const std::string beside = warnings == 0   ? ""
+                             : warnings == 1 ? ", with a warning"
+                                             : fmt::format(", with {} warnings", warnings);
+  return fmt::format("{}: {}{}", view.estimate.identifier, PlainVerdict(view.estimate.status),
+                     beside);
 }
 
 Words VerdictOf(const FitView& view) {
   const Estimate& estimate = view.estimate;
-  const Hue hue = estimate.status == Status::ok ? Hue::green : Hue::vermilion;
+  const bool passed = estimate.status == Status::ok;
+  const std::vector<std::string> warnings = WarningsOf(view);
+  const Hue hue = !passed ? Hue::vermilion : warnings.empty() ? Hue::green : Hue::caution;
   Words words;
   words.paragraphs.push_back({VerdictSentence(view) + ".", true, hue});
-  if (!estimate.message.empty()) words.paragraphs.push_back({Sentence(estimate.message)});
+  for (const std::string& warning : warnings) {
+    words.paragraphs.push_back({"Warning: " + Sentence(warning), false, Hue::caution});
+  }
+  const std::string message = passed ? PartMessage(estimate.message).plain : estimate.message;
+  if (!message.empty()) words.paragraphs.push_back({Sentence(message)});
   if (estimate.metrics) {
     words.paragraphs.push_back({MetricsSentence(*estimate.metrics, view.torque_unit) + "."});
   }
@@ -81,13 +139,6 @@ Words VerdictOf(const FitView& view) {
                    view.time.size())});
   if (estimate.gravity) {
     words.paragraphs.push_back({"Gravity is taken off the torque that is shown."});
-  }
-  const double memory = view.has_fit ? ResidualCorrelation(view, 1) : 0;
-  if (memory > kMemory) {
-    words.paragraphs.push_back(
-        {fmt::format("Residuals are alike from one sample to the next (correlation {:.2f}): "
-                     "something in the torque is not in the model.",
-                     memory)});
   }
   return words;
 }

@@ -67,10 +67,14 @@ Plot FrictionCurve(const FitView& view) {
     motion.velocity = view.velocity;
     motion.position = view.position;
     if (view.motor_angle.size() > 0) motion.motor_position = view.motor_angle;
-    const FrictionSpread spread = SpreadOf(view.estimate, motion, view.selection);
-    AddCurves(plot, view, spread, 0, Hue::blue, view.warms() ? "fit, cold" : "fit", shown);
+    // parameters and maps stand in for each other: the spread of the law alone says nothing then
+    const bool has_maps = !view.estimate.friction->maps.empty();
+    const FrictionSpread spread =
+        has_maps ? FrictionSpread{} : SpreadOf(view.estimate, motion, view.selection);
+    const std::string what = has_maps ? "law without its maps" : "fit";
+    AddCurves(plot, view, spread, 0, Hue::blue, view.warms() ? what + ", cold" : what, shown);
     if (view.warms()) {
-      AddCurves(plot, view, spread, WarmestEnergy(view), Hue::vermilion, "fit, warmest", shown);
+      AddCurves(plot, view, spread, WarmestEnergy(view), Hue::vermilion, what + ", warmest", shown);
     }
   }
   plot.x = LinearAxis(SpeedLabel(view), {velocity});

@@ -95,8 +95,7 @@ std::optional<Figure> MakeFrictionMap(const FitView& view) {
   Figure figure;
   figure.name = "friction_map";
   figure.title = "Friction over angle and velocity";
-  figure.subtitle = fmt::format("{}, identified by {}; empty where the joint never moved so slowly",
-                                view.source, view.estimate.identifier);
+  figure.subtitle = OriginOf(view) + "; empty where the joint never moved so slowly";
   const auto range = [](const HeatMap& map) { return RangeOf({map.values.reshaped()}); };
   figure.finding = "Friction";
   for (const auto& [title, map] : maps) {

@@ -14,6 +14,7 @@ namespace warmjoint::report {
 namespace {
 
 constexpr Eigen::Index kMostBins = 72, kFewestBins = 8;
+constexpr double kFaint = 0.3;  // opacity of samples behind lines of the same colour
 constexpr Eigen::Index kSamplesPerBin = 12;
 
 /// Peak to peak of a line's mean, over its finite points.
@@ -25,6 +26,7 @@ double Swing(const Line& mean) {
 struct DirectionPanel {
   Plot plot;
   double largest_swing = 0;  // torque unit
+  Eigen::Index beyond = 0;   // samples that the axis leaves out
 };
 
 DirectionPanel PanelOf(const FitView& view, int direction, const std::string& label) {
@@ -38,14 +40,16 @@ DirectionPanel PanelOf(const FitView& view, int direction, const std::string& la
     const Eigen::VectorXd angle = view.motor_angle(group.samples);
     const Eigen::Index bins = std::clamp(angle.size() / kSamplesPerBin, kFewestBins, kMostBins);
     const Line mean = BinnedMean(angle, torque, static_cast<int>(bins));
-    panel.plot.series.push_back({"", group.hue, Scatter{angle, torque, 0.8}});
+    panel.plot.series.push_back(
+        {"", group.hue, Scatter{angle, torque, 0.8, Marker::circle, kFaint}});
     means.push_back({group.label, group.hue, mean});
     shown.push_back(torque);
     panel.largest_swing = std::max(panel.largest_swing, Swing(mean));
   }
   panel.plot.series.insert(panel.plot.series.end(), means.begin(), means.end());
   panel.plot.x = AngleAxis("motor angle (rad)");
-  panel.plot.y = LinearAxis(label, shown);
+  panel.plot.y = BulkAxis(label, shown);
+  panel.beyond = CountBeyond(panel.plot.y, shown);
   return panel;
 }
 
@@ -59,9 +63,10 @@ std::optional<Figure> MakeMotorAngle(const FitView& view) {
   Figure figure;
   figure.name = "motor_angle";
   figure.title = "Torque over motor angle";
-  figure.subtitle = fmt::format("{}: samples at constant speed, with their means", view.source);
+  figure.subtitle = fmt::format("{}: samples at constant speed, with their means", view.source) +
+                    BeyondText(forwards.beyond + backwards.beyond);
   figure.finding =
-      fmt::format("Over one turn of the motor the mean torque varies by up to {} {}.",
+      fmt::format("Over one turn of the motor the mean torque at a speed varies by up to {} {}.",
                   SignificantText(std::max(forwards.largest_swing, backwards.largest_swing), 2),
                   view.torque_unit);
   figure.width = 960;

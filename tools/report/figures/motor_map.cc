@@ -14,6 +14,7 @@
 namespace warmjoint::report {
 namespace {
 
+constexpr double kFaint = 0.3;       // opacity of samples behind lines of the same colour
 constexpr int kPoints = 241;         // of a map's line over one turn
 constexpr double kTurnsInView = 4;   // of the motor, in the close-up
 constexpr Eigen::Index kFewest = 8;  // samples of a close-up
@@ -53,23 +54,32 @@ Line MapLine(const FitView& view, const SpeedGroup& group, const std::vector<Fri
   return line;
 }
 
-Plot OverAngle(const FitView& view, int direction, const Eigen::VectorXd& without) {
-  const std::vector<FrictionMap> maps = MapsOverMotor(*view.estimate.friction, true);
+struct AnglePanel {
   Plot plot;
+  Eigen::Index beyond = 0;  // samples that the axis leaves out
+};
+
+AnglePanel OverAngle(const FitView& view, int direction, const Eigen::VectorXd& without) {
+  const std::vector<FrictionMap> maps = MapsOverMotor(*view.estimate.friction, true);
+  AnglePanel panel;
+  Plot& plot = panel.plot;
   std::vector<Eigen::VectorXd> shown;
   std::vector<Series> lines;
   for (const SpeedGroup& group : GroupBySpeed(view, direction)) {
     if (group.samples.empty()) continue;
     const Eigen::VectorXd left = (view.torque - without)(group.samples);
-    plot.series.push_back({"", group.hue, Scatter{view.motor_angle(group.samples), left, 0.8}});
+    plot.series.push_back(
+        {"", group.hue,
+         Scatter{view.motor_angle(group.samples), left, 0.8, Marker::circle, kFaint}});
     const Line line = MapLine(view, group, maps);
     lines.push_back({"map at " + group.label, group.hue, line});
     shown.insert(shown.end(), {left, line.y});
   }
   plot.series.insert(plot.series.end(), lines.begin(), lines.end());
   plot.x = AngleAxis("motor angle (rad)");
-  plot.y = LinearAxis(TorqueLabel(view, "torque not of the law"), shown);
-  return plot;
+  plot.y = BulkAxis(TorqueLabel(view, "torque not of the law"), shown);
+  panel.beyond = CountBeyond(plot.y, shown);
+  return panel;
 }
 
 /// Mean speed of the motor, rad/s, as far as the samples can follow it.
@@ -82,10 +92,18 @@ double MotorSpeed(const FitView& view, const Segment& segment) {
   return way / (view.time[segment.end - 1] - view.time[segment.begin]);
 }
 
-/// A few turns of the motor in the first or the last segment that holds them.
-Window FewTurns(const FitView& view, bool last) {
-  const auto& segments = view.selection.segments;
-  const Segment& segment = last ? segments.back() : segments.front();
+/// Segments slow enough for samples to follow the motor's turns: those near the slowest speed.
+std::vector<Segment> SlowSegments(const FitView& view) {
+  std::vector<SpeedGroup> groups = GroupBySpeed(view, 1);
+  std::vector<Segment> slow;
+  for (const Segment& segment : view.selection.segments) {
+    if (std::abs(segment.velocity) <= groups.front().fastest) slow.push_back(segment);
+  }
+  return slow;
+}
+
+/// A few turns of the motor from the begin of a segment.
+Window FewTurns(const FitView& view, const Segment& segment) {
   const double step = view.time.tail(1)[0] / static_cast<double>(view.time.size() - 1);  // s
   const double turn = 2 * M_PI / std::max(1e-9, MotorSpeed(view, segment));              // s
   const auto wanted = static_cast<Eigen::Index>(kTurnsInView * turn / step);
@@ -118,11 +136,13 @@ std::optional<Figure> MakeMotorMapFit(const FitView& view) {
   }
   const Eigen::VectorXd with = ForceWith(view, view.estimate.friction->maps);
   const Eigen::VectorXd without = ForceWith(view, MapsOverMotor(*view.estimate.friction, false));
+  const std::vector<Segment> slow = SlowSegments(view);
+  const AnglePanel forwards = OverAngle(view, 1, without), backwards = OverAngle(view, -1, without);
 
   Figure figure;
   figure.name = "motor_map";
   figure.title = "Fit with kernels over motor angle";
-  figure.subtitle = fmt::format("{}, identified by {}", view.source, view.estimate.identifier);
+  figure.subtitle = OriginOf(view) + BeyondText(forwards.beyond + backwards.beyond);
   figure.finding = fmt::format("The map over motor angle takes the RMSE from {} to {} {}.",
                                SignificantText(RootMeanSquare(view, without)),
                                SignificantText(RootMeanSquare(view, with)), view.torque_unit);
@@ -130,10 +150,11 @@ std::optional<Figure> MakeMotorMapFit(const FitView& view) {
   figure.height = 700;
   figure.rows = figure.columns = {1, 1};
   figure.panels = {
-      {"Forwards: torque less law and warming", OverAngle(view, 1, without), 0, 0},
-      {"Backwards", OverAngle(view, -1, without), 0, 1},
-      {"Cold: the first segment", InTime(view, FewTurns(view, false), without, with), 1, 0},
-      {"Warm: the last segment", InTime(view, FewTurns(view, true), without, with), 1, 1},
+      {"Forwards: torque less law and warming", forwards.plot, 0, 0},
+      {"Backwards", backwards.plot, 0, 1},
+      {"Cold: in the first slow segment", InTime(view, FewTurns(view, slow.front()), without, with),
+       1, 0},
+      {"Warm: in the last one", InTime(view, FewTurns(view, slow.back()), without, with), 1, 1},
   };
   std::erase_if(figure.panels,
                 [](const Panel& panel) { return std::get<Plot>(panel.content).series.empty(); });

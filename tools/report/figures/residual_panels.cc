@@ -54,7 +54,9 @@ Plot ResidualsOver(const FitView& view, Against what) {
   Plot plot;
   plot.series.push_back({"", Hue::grey, Scatter{across.values, residuals, 0.9}});
   plot.series.push_back({"", Hue::text, LevelLine{0, Dash::dashed}});
-  plot.series.push_back({"", Hue::vermilion, BinnedMean(across.values, residuals, kBins)});
+  const Line mean = BinnedMean(across.values, residuals, kBins);
+  plot.series.push_back({"", Hue::vermilion, mean});
+  plot.series.push_back({"", Hue::vermilion, Scatter{mean.x, mean.y, 1.8}});
   plot.x = LinearAxis(across.label, {across.values});
   const double reach = ReachOf(residuals);
   plot.y = {TorqueLabel(view, "residual"), -reach, reach, Scale::linear, {}};

@@ -4,20 +4,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
+#include "tools/leaderboard/statistics.h"
 #include "tools/report/draw/ticks.h"
 
 namespace warmjoint::report {
 namespace {
 
-constexpr double kAlike = 0.05;  // relative difference of speeds that count as one
-constexpr std::size_t kMostSpeeds = 4;
-constexpr std::size_t kGroups = 3;
-constexpr Hue kHues[kMostSpeeds] = {Hue::blue, Hue::green, Hue::orange, Hue::vermilion};
+constexpr double kAlike = 0.05;    // relative difference of speeds that count as one
+constexpr double kStray = 0.02;    // share of the samples below which a speed joins its neighbour
+constexpr double kLabelled = 0.9;  // share of the samples that a label speaks of
+constexpr std::size_t kBins = 3;   // where there are too many speeds for a colour each
+constexpr Hue kHues[] = {Hue::blue, Hue::green, Hue::orange, Hue::vermilion, Hue::purple, Hue::sky};
 
-/// Mean speeds of the segments, one for each kept sample, ascending.
-std::vector<double> SpeedsOfSamples(const FitView& view) {
-  std::vector<double> speeds;
+/// Samples of one speed: the mean of a segment, once for each kept sample, ascending.
+using Speeds = std::vector<double>;
+
+Speeds SpeedsOfSamples(const FitView& view) {
+  Speeds speeds;
   for (const Segment& segment : view.selection.segments) {
     const auto kept = view.selection.keep.segment(segment.begin, segment.end - segment.begin);
     speeds.insert(speeds.end(), static_cast<std::size_t>(kept.count()), std::abs(segment.velocity));
@@ -26,40 +31,70 @@ std::vector<double> SpeedsOfSamples(const FitView& view) {
   return speeds;
 }
 
-/// [slowest, fastest] of each group of ascending speeds.
-std::vector<std::pair<double, double>> RangesOf(const std::vector<double>& speeds) {
-  std::vector<std::pair<double, double>> ranges;
-  for (double speed : speeds) {
-    if (ranges.empty() || speed > (1 + kAlike) * ranges.back().second) {
-      ranges.emplace_back(speed, speed);
-    }
-    ranges.back().second = speed;
-  }
-  if (ranges.size() <= kMostSpeeds) return ranges;
+double Distance(const Speeds& slower, const Speeds& faster) {
+  return std::log(faster.front() / slower.back());
+}
 
-  ranges.clear();
-  for (std::size_t i = 0; i < kGroups; ++i) {
-    const std::size_t first = i * speeds.size() / kGroups;
-    const std::size_t last = (i + 1) * speeds.size() / kGroups - 1;
-    const double from = i == 0 ? speeds[first] : ranges.back().second;
-    if (speeds[last] > from || i == 0) ranges.emplace_back(from, speeds[last]);
+/// Adds what strays into the nearer neighbour.
+void JoinStrays(std::size_t all, std::vector<Speeds>& clusters) {
+  for (std::size_t i = 0; i < clusters.size() && clusters.size() > 1;) {
+    if (static_cast<double>(clusters[i].size()) >= kStray * static_cast<double>(all)) {
+      ++i;
+      continue;
+    }
+    const bool upwards =
+        i == 0 || (i + 1 < clusters.size() &&
+                   Distance(clusters[i], clusters[i + 1]) < Distance(clusters[i - 1], clusters[i]));
+    const std::size_t slower = upwards ? i : i - 1;
+    clusters[slower].insert(clusters[slower].end(), clusters[slower + 1].begin(),
+                            clusters[slower + 1].end());
+    clusters.erase(clusters.begin() + static_cast<std::ptrdiff_t>(slower) + 1);
+    i = slower;
   }
-  return ranges;
+}
+
+/// One cluster for each speed; where colours do not suffice, bins of about equal numbers of samples
+/// that never part a speed.
+std::vector<Speeds> ClustersOf(const Speeds& speeds) {
+  std::vector<Speeds> single;
+  for (double speed : speeds) {
+    if (single.empty() || speed > (1 + kAlike) * single.back().front()) single.emplace_back();
+    single.back().push_back(speed);
+  }
+  std::vector<Speeds> clusters = single;
+  JoinStrays(speeds.size(), clusters);
+  if (clusters.size() <= std::size(kHues)) return clusters;
+
+  clusters.clear();
+  std::size_t before = 0;  // samples in the bins so far
+  for (const Speeds& speed : single) {
+    const std::size_t bin = before * kBins / speeds.size();
+    if (clusters.size() <= bin) clusters.emplace_back();
+    clusters.back().insert(clusters.back().end(), speed.begin(), speed.end());
+    before += speed.size();
+  }
+  return clusters;
+}
+
+/// "0.30 rad/s" where nearly all samples are about so fast, else "0.30 … 0.60 rad/s".
+std::string LabelOf(const Speeds& speeds, const std::string& unit) {
+  const double slow = Quantile(speeds, (1 - kLabelled) / 2);
+  const double fast = Quantile(speeds, (1 + kLabelled) / 2);
+  if (fast <= (1 + 2 * kAlike) * slow) {
+    return fmt::format("{} {}", SignificantText(Quantile(speeds, 0.5), 2), unit);
+  }
+  return fmt::format("{} … {} {}", SignificantText(speeds.front(), 2),
+                     SignificantText(speeds.back(), 2), unit);
 }
 
 }  // namespace
 
 std::vector<SpeedGroup> GroupBySpeed(const FitView& view, int direction) {
-  const auto ranges = RangesOf(SpeedsOfSamples(view));
   const std::string unit = UnitText(kVelocityUnit.For(view.joint));
   std::vector<SpeedGroup> groups;
-  for (const auto& [slowest, fastest] : ranges) {
-    SpeedGroup group{slowest, fastest, kHues[groups.size()], "", {}};
-    const std::string from = SignificantText(slowest, 2), to = SignificantText(fastest, 2);
-    group.label = from == to || fastest <= (1 + kAlike) * slowest
-                      ? fmt::format("{} {}", to, unit)
-                      : fmt::format("{} … {} {}", from, to, unit);
-    groups.push_back(group);
+  for (const Speeds& speeds : ClustersOf(SpeedsOfSamples(view))) {
+    groups.push_back(
+        {speeds.front(), speeds.back(), kHues[groups.size()], LabelOf(speeds, unit), {}});
   }
   for (const Segment& segment : view.selection.segments) {
     if (segment.velocity * direction <= 0) continue;

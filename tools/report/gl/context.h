@@ -18,6 +18,9 @@ class GlContext {
   virtual Procedure Find(const char* function) const = 0;
   /// Makes it the thread's current context again.
   virtual void MakeCurrent() = 0;
+  /// Lets MuJoCo's GL loader find this context: it takes the first of EGL and OSMesa among the
+  /// symbols of the process, so that only one kind can serve it in a process.
+  virtual void Publish() const = 0;
 };
 
 /// The first that this machine has of: OSMesa, EGL surfaceless, an EGL device. The environment

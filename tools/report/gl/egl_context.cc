@@ -74,6 +74,7 @@ class EglContext : public GlContext {
   }
 
   std::string Name() const override { return name_; }
+  void Publish() const override { egl_.library.Publish(); }
   Procedure Find(const char* function) const override { return egl_.find(function); }
   void MakeCurrent() override {
     egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_);

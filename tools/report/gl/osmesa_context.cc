@@ -37,6 +37,7 @@ class OsMesaContext : public GlContext {
 
   bool is_valid() const { return context_ != nullptr; }
   std::string Name() const override { return "osmesa"; }
+  void Publish() const override { mesa_.library.Publish(); }
   Procedure Find(const char* function) const override { return mesa_.find(function); }
   void MakeCurrent() override {
     mesa_.make_current(context_, window_.data(), GL_UNSIGNED_BYTE, kSide, kSide);

@@ -1,5 +1,7 @@
 #include "tools/report/gl/robot_renderer.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "models/foundation/bad_input.h"
@@ -9,6 +11,9 @@ namespace {
 
 constexpr int kOversampling = 2;  // drawn pixels for each pixel of the picture, each way
 constexpr int kMostGeoms = 2000;
+
+/// Whether a pixel of the geoms' numbers shows none.
+bool IsEmpty(const unsigned char* pixel) { return pixel[0] == 0 && pixel[1] == 0 && pixel[2] == 0; }
 
 }  // namespace
 
@@ -32,6 +37,7 @@ struct RobotRenderer::Scene {
 RobotRenderer::RobotRenderer(GlContext& context, const mjModel& model, int width, int height)
     : context_(context), model_(model), width_(width), height_(height) {
   context_.MakeCurrent();
+  context_.Publish();
   scene_ = std::make_unique<Scene>(model);
   mjrContext& renderer = scene_->renderer;
   mjr_makeContext(&model, &renderer, mjFONTSCALE_100);
@@ -45,12 +51,9 @@ RobotRenderer::RobotRenderer(GlContext& context, const mjModel& model, int width
 
 RobotRenderer::~RobotRenderer() { context_.MakeCurrent(); }
 
-Image RobotRenderer::Draw(const mjData& data, const ViewFrom& from, Rgb background) {
+void RobotRenderer::SetUp(const mjData& data, const ViewFrom& from) {
   context_.MakeCurrent();
-  mjvScene& scene = scene_->scene;
-  mjrContext& renderer = scene_->renderer;
-  mjr_setBuffer(mjFB_OFFSCREEN, &renderer);
-
+  mjr_setBuffer(mjFB_OFFSCREEN, &scene_->renderer);
   mjvCamera camera;
   mjv_defaultCamera(&camera);
   std::memcpy(camera.lookat, model_.stat.center, sizeof camera.lookat);
@@ -61,27 +64,46 @@ Image RobotRenderer::Draw(const mjData& data, const ViewFrom& from, Rgb backgrou
   mjv_defaultOption(&option);
   // MuJoCo fills a scene from data that it takes as changeable, and leaves them as they are
   mjv_updateScene(&model_, const_cast<mjData*>(&data), &option, nullptr, &camera, mjCAT_ALL,
-                  &scene);
+                  &scene_->scene);
+}
 
+std::vector<unsigned char> RobotRenderer::Render(Paint paint) {
   const mjrRect area{0, 0, kOversampling * width_, kOversampling * height_};
-  const std::size_t row = std::size_t{3} * static_cast<std::size_t>(area.width);
-  std::vector<unsigned char> colours(row * area.height), mask(colours.size());
-  scene.flags[mjRND_SEGMENT] = scene.flags[mjRND_IDCOLOR] = 0;
-  mjr_render(area, &scene, &renderer);
-  mjr_readPixels(colours.data(), nullptr, area, &renderer);
-  // once more by number of the geom: 0 where there is none
-  scene.flags[mjRND_SEGMENT] = scene.flags[mjRND_IDCOLOR] = 1;
-  mjr_render(area, &scene, &renderer);
-  mjr_readPixels(mask.data(), nullptr, area, &renderer);
+  std::vector<unsigned char> pixels(std::size_t{3} * area.width * area.height);
+  mjvScene& scene = scene_->scene;
+  scene.flags[mjRND_SEGMENT] = scene.flags[mjRND_IDCOLOR] = paint == Paint::geoms;
+  mjr_render(area, &scene, &scene_->renderer);
+  mjr_readPixels(pixels.data(), nullptr, area, &scene_->renderer);
+  return pixels;
+}
 
+double RobotRenderer::Reach(const mjData& data, const ViewFrom& from) {
+  SetUp(data, from);
+  const std::vector<unsigned char> mask = Render(Paint::geoms);
+  const int width = kOversampling * width_, height = kOversampling * height_;
+  double reach = 0;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      if (IsEmpty(&mask[3 * (static_cast<std::size_t>(y) * width + x)])) continue;
+      reach = std::max(
+          {reach, std::abs((2.0 * x + 1) / width - 1), std::abs((2.0 * y + 1) / height - 1)});
+    }
+  }
+  return reach;
+}
+
+Image RobotRenderer::Draw(const mjData& data, const ViewFrom& from, Rgb background) {
+  SetUp(data, from);
+  const std::vector<unsigned char> colours = Render(Paint::colours), mask = Render(Paint::geoms);
+  Image image{kOversampling * width_, kOversampling * height_,
+              std::vector<std::uint8_t>(colours.size())};
   // GL counts rows from the bottom
-  Image image{area.width, area.height, std::vector<std::uint8_t>(colours.size())};
-  for (int y = 0; y < area.height; ++y) {
+  const std::size_t row = std::size_t{3} * image.width;
+  const std::uint8_t plain[3] = {background.red, background.green, background.blue};
+  for (int y = 0; y < image.height; ++y) {
     for (std::size_t x = 0; x < row; x += 3) {
-      const std::size_t source = row * (area.height - 1 - y) + x;
-      const bool empty = mask[source] == 0 && mask[source + 1] == 0 && mask[source + 2] == 0;
-      const std::uint8_t plain[3] = {background.red, background.green, background.blue};
-      std::memcpy(&image.pixels[row * y + x], empty ? plain : &colours[source], 3);
+      const std::size_t source = row * (image.height - 1 - y) + x;
+      std::memcpy(&image.pixels[row * y + x], IsEmpty(&mask[source]) ? plain : &colours[source], 3);
     }
   }
   return Shrink(image, kOversampling);

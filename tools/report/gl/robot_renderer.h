@@ -4,6 +4,7 @@
 #include <mujoco/mujoco.h>
 
 #include <memory>
+#include <vector>
 
 #include "tools/report/gl/context.h"
 #include "tools/report/gl/image.h"
@@ -27,8 +28,19 @@ class RobotRenderer {
   /// The model as `data` has it (after mj_forward), before a plain background.
   Image Draw(const mjData& data, const ViewFrom& from, Rgb background);
 
+  /// How far from its middle the model reaches in the picture: 1 touches an edge, 0 is nothing.
+  double Reach(const mjData& data, const ViewFrom& from);
+
  private:
   struct Scene;
+
+  /// Makes the scene current and fills it.
+  void SetUp(const mjData& data, const ViewFrom& from);
+  /// Pixels of the scene, RGB, rows from the bottom: colours, or the numbers of the geoms (0:
+  /// none).
+  enum class Paint { colours, geoms };
+  std::vector<unsigned char> Render(Paint paint);
+
   std::unique_ptr<Scene> scene_;
   GlContext& context_;
   const mjModel& model_;

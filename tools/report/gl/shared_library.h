@@ -8,18 +8,22 @@
 namespace warmjoint::report {
 
 /// Libraries stay open for the life of the process: drivers leave threads and exit handlers behind.
-/// Symbols are global, because MuJoCo's GL loader looks for them among the symbols of the process.
 class SharedLibrary {
  public:
   /// Opens the first of the named libraries that is there; see is_open().
   template <typename... Names>
   explicit SharedLibrary(Names... names) {
     for (const char* name : {names...}) {
-      if (!handle_) handle_ = dlopen(name, RTLD_NOW | RTLD_GLOBAL);
+      if (handle_) break;
+      handle_ = dlopen(name, RTLD_NOW | RTLD_LOCAL);
+      name_ = name;
     }
   }
 
   bool is_open() const { return handle_ != nullptr; }
+
+  /// Puts the library's symbols among those of the process, for loaders that look there.
+  void Publish() const { dlopen(name_, RTLD_NOW | RTLD_GLOBAL | RTLD_NOLOAD); }
 
   /// The function of that name, or nullptr.
   template <typename Function>
@@ -29,6 +33,7 @@ class SharedLibrary {
 
  private:
   void* handle_ = nullptr;
+  const char* name_ = nullptr;
 };
 
 }  // namespace warmjoint::report

@@ -3,11 +3,17 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cstdint>
 
 namespace warmjoint::report {
 
-Figure MakeContactSheet(const std::vector<std::pair<std::string, Image>>& pictures, int across,
+Figure MakeContactSheet(std::vector<std::pair<std::string, Image>> pictures, int across,
                         int width) {
+  // pictures of like proportions share a row
+  std::stable_sort(pictures.begin(), pictures.end(), [](const auto& a, const auto& b) {
+    return std::int64_t{a.second.height} * b.second.width <
+           std::int64_t{b.second.height} * a.second.width;
+  });
   constexpr double kTitle = 20;  // points
   const double margins = 2.0 * size::kMargin + (across - 1.0) * size::kGap;
   const double cell = (width - margins) / across;

@@ -11,7 +11,6 @@ namespace warmjoint::report {
 
 /// Named pictures in rows of `across`, each kept in proportion. width: points.
 /// pictures: at least one.
-Figure MakeContactSheet(const std::vector<std::pair<std::string, Image>>& pictures, int across,
-                        int width);
+Figure MakeContactSheet(std::vector<std::pair<std::string, Image>> pictures, int across, int width);
 
 }  // namespace warmjoint::report

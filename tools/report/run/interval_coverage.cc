@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tools/report/figures/axes.h"
+#include "tools/report/figures/single_plot.h"
 #include "tools/report/figures/telling_apart.h"
 #include "tools/report/run/run_figures.h"
 
@@ -25,13 +26,15 @@ struct Drawer {
   Plot& plot;
   double lowest = 90;  // per cent
 
-  void Add(const RunRow& row, double offset, Marker marker) {
+  /// columns: of the parameters that the axis names.
+  void Add(const RunRow& row, const std::vector<std::size_t>& columns, double offset,
+           Marker marker) {
     Scatter scatter;
     scatter.size = 4;
     scatter.marker = marker;
     std::vector<double> x, y;
-    for (std::size_t i = 0; i < row.parameters.size(); ++i) {
-      const ParameterColumn& column = row.parameters[i];
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const ParameterColumn& column = row.parameters[columns[i]];
       if (column.intervals == 0) continue;
       const double at = static_cast<double>(i) + offset;
       const auto [lower, upper] = ShareInterval(column.covered, column.intervals);
@@ -51,6 +54,16 @@ struct Drawer {
 bool GivesIntervals(const RunRow& row) {
   return std::any_of(row.parameters.begin(), row.parameters.end(),
                      [](const ParameterColumn& column) { return column.intervals > 0; });
+}
+
+/// The parameters that any row gives an interval of.
+std::vector<std::size_t> ColumnsOf(const std::vector<RunRow>& rows) {
+  std::vector<std::size_t> columns;
+  for (std::size_t i = 0; i < rows.front().parameters.size(); ++i) {
+    const auto gives = [i](const RunRow& row) { return row.parameters[i].intervals > 0; };
+    if (std::any_of(rows.begin(), rows.end(), gives)) columns.push_back(i);
+  }
+  return columns;
 }
 
 std::string Finding(const std::vector<RunRow>& rows) {
@@ -79,15 +92,14 @@ std::optional<Figure> IntervalCoverage(const RunView& run) {
 
   Plot plot;
   Drawer drawer{plot};
+  const std::vector<std::size_t> columns = ColumnsOf(rows);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const double middle = (static_cast<double>(rows.size()) - 1) / 2;
-    drawer.Add(rows[i], 0.16 * (static_cast<double>(i) - middle), MarkerOf(rows, i));
+    drawer.Add(rows[i], columns, 0.16 * (static_cast<double>(i) - middle), MarkerOf(rows, i));
   }
   plot.series.push_back({"95 %", Hue::text, LevelLine{95}});
   std::vector<std::string> names;
-  for (const ParameterColumn& column : rows.front().parameters) {
-    names.push_back(SymbolOf(column.name));
-  }
+  for (std::size_t i : columns) names.push_back(SymbolOf(rows.front().parameters[i].name));
   plot.x = CategoryAxis("parameter", names);
   plot.y = {"intervals that hold the truth (%)",
             std::max(-2.0, drawer.lowest - 4),  // marks at 0 and 100 stand whole
@@ -95,15 +107,10 @@ std::optional<Figure> IntervalCoverage(const RunView& run) {
             Scale::linear,
             {}};
 
-  Figure figure;
-  figure.name = "coverage";
-  figure.title = "Do 95 % intervals hold the truth?";
-  figure.subtitle = RunSubtitle(run, "dots are shares, lines what their number leaves open");
-  figure.finding = Finding(rows);
-  figure.width = 620;
-  figure.height = 420;
-  figure.panels.push_back({"", plot});
-  return figure;
+  return SinglePlot(
+      {"coverage", "Do 95 % intervals hold the truth?",
+       RunSubtitle(run, "dots are shares, lines what their number leaves open"), Finding(rows)},
+      plot, 620, 420);
 }
 
 }  // namespace warmjoint::report

@@ -6,6 +6,7 @@
 #include "tools/leaderboard/statistics.h"
 #include "tools/report/draw/ticks.h"
 #include "tools/report/figures/axes.h"
+#include "tools/report/figures/single_plot.h"
 #include "tools/report/run/run_figures.h"
 
 namespace warmjoint::report {
@@ -83,15 +84,9 @@ std::optional<Figure> NpeBoxes(const RunView& run) {
   plot.x = CategoryAxis("", labels);
   plot.y = MagnitudeAxis("NPE, continuous (%)", shown);
 
-  Figure figure;
-  figure.name = "npe_boxes";
-  figure.title = "Parameter error of each identifier";
-  figure.subtitle = RunSubtitle(run, "boxes hold the middle half, whiskers 90 %");
-  figure.finding = Finding(run);
-  figure.width = std::max(560, 150 + 150 * static_cast<int>(labels.size()));
-  figure.height = 440;
-  figure.panels.push_back({"", plot});
-  return figure;
+  return SinglePlot({"npe_boxes", "Parameter error of each identifier",
+                     RunSubtitle(run, "boxes hold the middle half, whiskers 90 %"), Finding(run)},
+                    plot, std::max(560, 150 + 150 * static_cast<int>(labels.size())), 440);
 }
 
 }  // namespace warmjoint::report

@@ -63,12 +63,7 @@ Plot PanelOf(const RunRow& row, const ParameterColumn& column, const Eigen::Matr
   plot.series.push_back({"realizations", Hue::grey, AllRealizations(iteration, values)});
   plot.series.push_back({"median", hue, Line{iteration, middle.median, 2.2}});
   plot.series.push_back({"truth", Hue::text, LevelLine{truth}});
-  const bool long_course = iteration.tail(1)[0] > 100;
-  plot.x = {"iteration",
-            long_course ? std::max(1.0, iteration[0]) : iteration[0],
-            iteration.tail(1)[0],
-            long_course ? Scale::logarithmic : Scale::linear,
-            {}};
+  plot.x = IterationAxis(iteration[0], iteration.tail(1)[0]);
   const auto [lower, upper] = LimitsOf(plot.x, iteration, values, column.truth);
   const std::string unit = column.unit.empty() ? "" : fmt::format(" ({})", column.unit);
   plot.y = LinearAxis(SymbolOf(column.name) + unit, {Eigen::Vector2d(lower, upper)});

@@ -1,10 +1,18 @@
 #include "tools/report/run/quartiles.h"
 
+#include <fmt/core.h>
+
 #include <vector>
 
 #include "tools/leaderboard/statistics.h"
 
 namespace warmjoint::report {
+
+std::string MediansSubtitle(const std::string& suite, int realizations) {
+  return fmt::format(
+      "{}: {} realization{}; lines are medians, bands reach from quartile to quartile", suite,
+      realizations, realizations == 1 ? "" : "s");
+}
 
 QuartileCurve QuartilesOf(const Eigen::VectorXd& x, const Eigen::MatrixXd& values) {
   const Eigen::Index columns = values.cols();

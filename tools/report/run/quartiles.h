@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 
 namespace warmjoint::report {
 
@@ -12,6 +13,10 @@ struct QuartileCurve {
   Eigen::VectorXd median;
   Eigen::VectorXd q75;
 };
+
+/// What a subtitle says of lines and bands of such curves: "table1: 50 realizations; lines are
+/// medians, bands reach from quartile to quartile".
+std::string MediansSubtitle(const std::string& suite, int realizations);
 
 /// values: [R x K], NaN left out; x: [K].
 QuartileCurve QuartilesOf(const Eigen::VectorXd& x, const Eigen::MatrixXd& values);

@@ -208,6 +208,16 @@ Rungs ReadRungs(const Suite& suite) {
   return rungs;
 }
 
+/// The noise that all variants have; NaN where they differ, or a filter leaves only some of it.
+double NoiseOf(const Suite& suite) {
+  const double noise = VariantScenario(suite, 0).noise.torque;
+  for (int variant = 0; variant < suite.variants(); ++variant) {
+    const Scenario scenario = VariantScenario(suite, variant);
+    if (scenario.sampling.cutoff > 0 || scenario.noise.torque != noise) return kUnknown;
+  }
+  return noise;
+}
+
 }  // namespace
 
 int RunRow::failed() const {
@@ -232,9 +242,7 @@ RunView ReadRunView(const std::filesystem::path& directory) {
   view.rungs = ReadRungs(suite);
   view.torque_unit = UnitText(kTorqueUnit.For(suite.scenario.joint_kind));
   view.bound_npe = board.bound_npe_continuous;
-  // what a filter leaves of the noise is not stored
-  const bool filtered = suite.scenario.sampling.cutoff > 0;
-  view.noise = filtered ? kUnknown : suite.scenario.noise.torque;
+  view.noise = NoiseOf(suite);
   for (std::size_t i = 0; i < suite.identifiers.size(); ++i) {
     Own own;
     for (const Result& result : results) {

@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <map>
+
 #include "models/friction/law.h"
 #include "models/friction/thermal.h"
 
@@ -30,7 +32,12 @@ std::string SymbolOf(const std::string& parameter) {
       if (info.name == parameter) symbol = info.symbol;
     }
   }
-  return symbol == "tau" ? "τ" : symbol;
+  static const std::map<std::string, std::string> kInPrint{
+      {"tau", "τ"},          {"kc-", "kc−"},   {"sigma0", "σ₀"},
+      {"sigma1", "σ₁"},      {"sigma2", "σ₂"}, {"thermal_gain_discrete", "ke"},
+      {"thermal_pole", "te"}};
+  const auto found = kInPrint.find(symbol);
+  return found == kInPrint.end() ? symbol : found->second;
 }
 
 std::string RunSubtitle(const RunView& run, const std::string& more) {

@@ -27,7 +27,8 @@ std::optional<Figure> ParameterPairs(const RunView& run);
 /// Symbol of a parameter, as set in print: "τ" for thermal_time_constant.
 std::string SymbolOf(const std::string& parameter);
 
-/// "table1: 50 realizations" and what else is worth a word.
+/// "table1: 50 realizations" and what else is worth a word. Of a suite with a ladder: "of all its
+/// variants together".
 std::string RunSubtitle(const RunView& run, const std::string& more);
 
 }  // namespace warmjoint::report

@@ -1,18 +1,35 @@
 #include "tools/report/simulation/simulation_view.h"
 
+#include <cmath>
+
 #include "scenarios/read_scenario.h"
 #include "sim/dataset/read_recording.h"
 #include "sim/dataset/truth_json.h"
 
 namespace warmjoint::report {
+namespace {
+
+/// Leaves out what only seems to move at a constant speed: the truth knows where a filter smears a
+/// reversal over its neighbours.
+void KeepTrulyConstant(const Truth& truth, Selection& selection) {
+  constexpr double kAlike = 0.1;  // of the segment's speed
+  for (const Segment& segment : selection.segments) {
+    for (Eigen::Index i = segment.begin; i < segment.end; ++i) {
+      const double off = std::abs(truth.velocity[i] - segment.velocity);
+      if (off > kAlike * std::abs(segment.velocity)) selection.keep[i] = false;
+    }
+  }
+}
+
+}  // namespace
 
 SimulationView MakeSimulationView(const Scenario& scenario, const Recording& recording) {
   Estimate truth;
-  truth.identifier = "the truth";
   truth.friction = recording.truth.friction;
   const Measurements& m = recording.measurements;
-  const Selection selection =
+  Selection selection =
       scenario.plant == PlantKind::ideal ? SelectMoving(m) : SelectConstantSpeed(m);
+  KeepTrulyConstant(recording.truth, selection);
   SimulationView view{scenario, recording, MakeFitView(m, selection, truth)};
   // the truth's own, not what the sampled motion says of it
   view.fit.energy = recording.truth.energy;

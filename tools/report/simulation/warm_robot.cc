@@ -18,6 +18,8 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
+constexpr double kFilled = 0.85;  // share of the picture that the robot reaches over
+
 /// A robot with one joint that moves and warms.
 class Model {
  public:
@@ -27,6 +29,12 @@ class Model {
     if (joint < 0) Refuse({path}, "has no joint '{}'", scenario.joint);
     position_ = model_->jnt_qposadr[joint];
     body_ = model_->jnt_bodyid[joint];
+    // light from everywhere, so that shades stay near the colours of the scale
+    for (int c = 0; c < 3; ++c) {
+      model_->vis.headlight.ambient[c] = 0.65f;
+      model_->vis.headlight.diffuse[c] = 0.4f;
+      model_->vis.headlight.specular[c] = 0;
+    }
   }
 
   const mjModel& model() const { return *model_; }
@@ -66,23 +74,44 @@ Index WarmestSample(const SimulationView& view) {
   return at;
 }
 
+/// Means over the kept samples of each segment that begins before sample `end`, as strokes.
+/// values: [N]; times in the view's unit.
+Line SegmentMeans(const FitView& fit, const VectorXd& values, Index end) {
+  std::vector<double> x, y;
+  for (const Segment& segment : fit.selection.segments) {
+    const auto keep = fit.selection.keep.segment(segment.begin, segment.end - segment.begin);
+    if (segment.begin >= end || !keep.any()) continue;
+    const auto own = values.segment(segment.begin, segment.end - segment.begin).array();
+    const double mean = keep.select(own, 0).sum() / static_cast<double>(keep.count());
+    const double last = fit.time[std::min(segment.end, end) - 1];
+    for (double time : {fit.time[segment.begin], last, std::nan("")}) {
+      x.push_back(time / TimeUnit(fit));
+      y.push_back(std::isnan(time) ? time : mean);
+    }
+  }
+  const auto vector = [](const std::vector<double>& list) {
+    return VectorXd(Eigen::Map<const VectorXd>(list.data(), static_cast<Index>(list.size())));
+  };
+  return {vector(x), vector(y), 2.0};
+}
+
 /// sign(v) torque as it was until sample `end`, and sign(v) F as it were without warming.
 Plot TorquePanel(const SimulationView& view, Index end) {
   const FitView& fit = view.fit;
   const VectorXd direction = fit.velocity.array().sign();
   const auto kept = [&](const VectorXd& all) { return KeptOf(fit, all); };
   const VectorXd time = kept(fit.time) / TimeUnit(fit);
-  const VectorXd measured = kept(fit.torque.cwiseProduct(direction));
-  const VectorXd cold = kept(fit.fitted.cwiseProduct(direction) - fit.energy);
+  const VectorXd torque = fit.torque.cwiseProduct(direction), measured = kept(torque);
+  const VectorXd cold = fit.fitted.cwiseProduct(direction) - fit.energy;
   const Index shown = fit.selection.keep.head(end).count();
 
   Plot plot;
-  plot.series.push_back(
-      {"measured", Hue::grey, Scatter{time.head(shown), measured.head(shown), 1}});
-  plot.series.push_back({"friction if it had stayed cold", Hue::blue,
-                         Scatter{time.head(shown), cold.head(shown), 0.9}});
+  plot.series = {{"measured", Hue::grey, Scatter{time.head(shown), measured.head(shown), 1}},
+                 {"its mean at each speed", Hue::text, SegmentMeans(fit, torque, end)},
+                 {"the mean if it had stayed cold", Hue::blue, SegmentMeans(fit, cold, end)}};
   plot.x = {TimeLabel(fit), 0, fit.time.tail(1)[0] / TimeUnit(fit), Scale::linear, {}};
-  plot.y = LinearAxis(TorqueLabel(fit, "torque · sign(v)"), {measured, cold});
+  plot.y = LinearAxis(TorqueLabel(fit, "torque · sign(v)"),
+                      {measured, SegmentMeans(fit, cold, fit.time.size()).y});
   return plot;
 }
 
@@ -100,7 +129,7 @@ Plot HeatStrip(const SimulationView& view) {
   }
   Plot plot;
   plot.x = {TimeLabel(fit), map.x.first, map.x.second, Scale::linear, {}};
-  plot.y = {"", 0, 1, Scale::linear, {{0.5, " "}}};
+  plot.y = {"", 0, 1, Scale::linear, {{0.5, ""}}};
   plot.series.push_back({"", Hue::text, map});
   return plot;
 }
@@ -125,11 +154,19 @@ std::optional<std::vector<Image>> RenderWarmRobot(const SimulationView& view, Gl
   if (!HasWarmRobot(view)) return std::nullopt;
   Model robot(view.scenario, FindRobot(view.scenario.robot, view.scenario.name));
   RobotRenderer renderer(context, robot.model(), width, height);
+  // near enough to fill the picture, far enough for all of its positions
+  ViewFrom from;
+  double reach = 0;
+  for (Index sample : samples) {
+    robot.Set(view.fit.position[sample], {});
+    reach = std::max(reach, renderer.Reach(robot.data(), from));
+  }
+  from.distance *= reach / kFilled;
   std::vector<Image> images;
   for (Index sample : samples) {
     const double heat = std::abs(view.fit.energy[sample]) / LargestEnergy(view);
     robot.Set(view.fit.position[sample], HeatColour(heat));
-    images.push_back(renderer.Draw(robot.data(), {}, theme.background));
+    images.push_back(renderer.Draw(robot.data(), from, theme.background));
   }
   return images;
 }
@@ -149,7 +186,7 @@ std::optional<Figure> MakeWarmRobot(const SimulationView& view, GlContext& conte
       SignificantText(view.fit.time[warmest] / TimeUnit(view.fit), 2), TimeUnitName(view.fit));
   figure.width = 960;
   figure.height = 800;
-  figure.rows = {2.3, 1.7, 1};
+  figure.rows = {2.3, 1.9, 0.8};
   figure.columns = {1, 1};
   figure.panels = {{TitleAt(view, 0), Picture{(*images)[0]}, 0, 0},
                    {TitleAt(view, warmest), Picture{(*images)[1]}, 0, 1},

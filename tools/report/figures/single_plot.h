@@ -1,0 +1,21 @@
+// Figures of one plot.
+#pragma once
+
+#include <string>
+
+#include "tools/report/draw/figure.h"
+
+namespace warmjoint::report {
+
+/// What stands around a plot: see Figure.
+struct Caption {
+  std::string name;
+  std::string title;
+  std::string subtitle;
+  std::string finding;
+};
+
+/// A figure of that one plot. width, height: points.
+Figure SinglePlot(const Caption& caption, const Plot& plot, int width, int height);
+
+}  // namespace warmjoint::report
