@@ -12,6 +12,7 @@
 #include "identification/position_maps.h"
 #include "identification/report_law.h"
 #include "identification/report_thermal.h"
+#include "sim/dataset/robust_noise.h"
 
 namespace warmjoint {
 namespace {
@@ -210,7 +211,7 @@ Estimate Identify(const IdentifierInput& input) {
       Iterate(descent, *start.thermal, input.options.Integer("iterations"));
 
   Estimate estimate = Conclude(input, law, part, descent, states);
-  const double h = descent.output_error().filter().mean_step();
+  const double h = MedianStep(m.time);
   for (size_t i = 0; i < states.size(); ++i) {
     estimate.trace.push_back({static_cast<int>(i), Named(law, states[i], h), states[i].rmse});
   }

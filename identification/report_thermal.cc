@@ -4,13 +4,13 @@
 
 #include "identification/fit_data.h"
 #include "identification/student.h"
+#include "sim/dataset/robust_noise.h"
 
 namespace warmjoint {
 
 void ReportThermal(const Thermal& thermal, const std::optional<Eigen::Matrix2d>& covariance,
                    double freedom, const Measurements& measurements, Estimate& estimate) {
-  const Eigen::Index n = measurements.size();
-  const double h = (measurements.time[n - 1] - measurements.time[0]) / static_cast<double>(n - 1);
+  const double h = MedianStep(measurements.time);
   const auto& [gain, tau] = thermal;
   const DiscreteThermal discrete = Discretise(thermal, h);
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "identification/adequacy/judge.h"
+#include "identification/finer_input.h"
 #include "identification/fit_gravity.h"
 #include "identification/hold_out.h"
 #include "identification/identifier.h"
@@ -126,10 +127,12 @@ ExitStatus Identify(const IdentifyArguments& arguments) {
   const Measurements measurements = ReadRecording(arguments.recording);
 
   const Selection selection = SelectConstantSpeed(measurements);
-  const IdentifierInput input{measurements, selection, options, {}};
+  const FinerInput finer({measurements, selection, options, {}});
+  const IdentifierInput& input = finer.input();
   const Estimate before = identifier.identify(input);
   Estimate estimate = before;
   JudgeAdequacy(identifier, input, estimate);
+  TellUnseenReversals(finer.unseen(), estimate);
   if (before.status == Status::ok) estimate.holdout = HoldOutFigures(identifier, input, holdout);
   if (arguments.force) estimate = WithVoidNumbers(estimate, before);
   WriteOutputs(arguments, ForFiles(estimate, measurements), measurements.joint);

@@ -12,6 +12,7 @@
 #include "identification/adequacy/fitted_model.h"
 #include "identification/adequacy/smooth_structure.h"
 #include "identification/adequacy/words.h"
+#include "identification/finer_input.h"
 #include "identification/fit_data.h"
 #include "identification/thermal_filter.h"
 
@@ -207,9 +208,11 @@ Estimate WithVoidNumbers(const Estimate& judged, const Estimate& before) {
   return shown;
 }
 
-Estimate IdentifyAndJudge(const Identifier& identifier, const IdentifierInput& input) {
-  Estimate estimate = identifier.identify(input);
-  JudgeAdequacy(identifier, input, estimate);
+Estimate IdentifyAndJudge(const Identifier& identifier, const IdentifierInput& given) {
+  const FinerInput finer(given);
+  Estimate estimate = identifier.identify(finer.input());
+  JudgeAdequacy(identifier, finer.input(), estimate);
+  TellUnseenReversals(finer.unseen(), estimate);
   return estimate;
 }
 

@@ -16,7 +16,7 @@ namespace warmjoint {
 /// estimate is void, inadequate_model, and the message names what the residual depends on and what
 /// to try. Smaller structure is told in the message, and intervals reach as far as it moves them.
 /// Noise that is coloured is no structure: the intervals account for it.
-Estimate IdentifyAndJudge(const Identifier& identifier, const IdentifierInput& input);
+Estimate IdentifyAndJudge(const Identifier& identifier, const IdentifierInput& given);
 
 /// The same for an answer that is there already.
 void JudgeAdequacy(const Identifier& identifier, const IdentifierInput& input, Estimate& estimate);

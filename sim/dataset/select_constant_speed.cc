@@ -113,6 +113,24 @@ std::vector<Segment> WithoutTurningPoints(const std::vector<Segment>& runs, Inde
   return lasting;
 }
 
+/// Whether a run lies on the way from one direction of motion to the other: slower than both
+/// neighbours, which move apart, and shorter than a tenth of each. A joint that turns under a slow
+/// drive creeps there at a constant speed while its friction still builds up.
+bool TurnsRound(const Segment& before, const Segment& run, const Segment& after) {
+  const double slower = std::min(std::abs(before.velocity), std::abs(after.velocity));
+  return before.velocity * after.velocity < 0 && std::abs(run.velocity) < slower &&
+         10 * Length(run) <= std::min(Length(before), Length(after));
+}
+
+std::vector<Segment> WithoutReversals(const std::vector<Segment>& runs) {
+  std::vector<Segment> lasting;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const bool has_both = i > 0 && i + 1 < runs.size();
+    if (!has_both || !TurnsRound(runs[i - 1], runs[i], runs[i + 1])) lasting.push_back(runs[i]);
+  }
+  return lasting;
+}
+
 /// The run less a tenth of the acceleration at each end, whose start and end hide in the noise.
 /// Neighbours without a sample between them lose nothing.
 Segment KeptAway(Segment run, std::pair<Index, Index> gaps) {
@@ -135,7 +153,7 @@ std::vector<Segment> SteadyRuns(const Measurements& measurements, const Velocity
     if (Length(run) < kShortest || Drifts(run, v, scale)) continue;
     steady.push_back(run);
   }
-  return WithoutTurningPoints(steady, v.size());
+  return WithoutReversals(WithoutTurningPoints(steady, v.size()));
 }
 
 }  // namespace

@@ -177,6 +177,21 @@ TEST(SelectConstantSpeed, KeepsASpeedThatRippleOfTheLoadLetsWobbleInTheMiddle) {
   EXPECT_LT(outcome.wrong, 0.002);
 }
 
+TEST(SelectConstantSpeed, LeavesOutTheCreepOfAReversal) {
+  // at 20 Hz: presliding holds the speed for half a second on the way from each speed to the next
+  Plan plan;
+  plan.step = 0.05;
+  Motion motion = Alternating(plan);
+  for (std::size_t i = 400; i < motion.velocity.size(); ++i) {
+    if (i % 400 >= 10) continue;
+    motion.velocity[i] = 0.1 * motion.velocity[i + 20];
+    motion.constant[i] = false;
+  }
+  const Outcome outcome = Judge(motion);
+  EXPECT_GT(outcome.kept, 0.99);
+  EXPECT_EQ(outcome.wrong, 0);
+}
+
 TEST(SelectConstantSpeed, KeepsNothingOfASinusoid) {
   for (const double rate : {10.0, 100.0, 1000.0}) {
     Motion motion{1 / rate, {}, {}};

@@ -1,0 +1,36 @@
+// What identifiers see of a log: with the switches of speed that happen between two samples.
+#pragma once
+
+#include <optional>
+
+#include "identification/identifier.h"
+#include "sim/dataset/split_at_switches.h"
+
+namespace warmjoint {
+
+/// An input whose log has a sample at each switch of speed (split_at_switches.h). Holds the log it
+/// refers to; `given` must outlive it.
+class FinerInput {
+ public:
+  explicit FinerInput(const IdentifierInput& given)
+      : split_(SplitAtSwitches(given.measurements, given.selection)),
+        input_{split_ ? split_->measurements : given.measurements,
+               split_ ? split_->selection : given.selection, given.options, given.random} {}
+  FinerInput(const FinerInput&) = delete;
+  FinerInput& operator=(const FinerInput&) = delete;
+
+  const IdentifierInput& input() const { return input_; }
+
+  /// Share of the path that the log cannot tell from standing still (SplitLog::unseen).
+  double unseen() const { return split_ ? split_->unseen : 0; }
+
+ private:
+  std::optional<SplitLog> split_;
+  IdentifierInput input_;
+};
+
+/// Says in the message of an estimate with warming how far the gain may be off where reversals
+/// happen between two samples. Nothing where that is below half a per cent.
+void TellUnseenReversals(double unseen, Estimate& estimate);
+
+}  // namespace warmjoint
