@@ -1,9 +1,12 @@
-// How joints stick: ours beside frictionloss and the LuGre of dcmotor, as a table.
+// How joints stick: ours beside frictionloss and the LuGre of dcmotor, as two tables.
 //
 // A link of 0.25 kg.m^2 with 1 kg 0.5 m from a horizontal axis asks 4.9 N.m of a joint whose
-// friction is 6 N.m. Creep is measured over a minute after two seconds of settling; break-away by a
-// load that rises by 2 N.m/s without gravity, as the load at which the joint has moved by 0.02 rad;
-// drift by 3 N.m and 2.5 N.m of 20 Hz about it, over half a minute.
+// friction is 6 N.m. Creep and the fastest speed are measured over a minute after two seconds of
+// settling; break-away, without gravity, by a load that rises from 3 N.m by 0.1 N.m/s, as the load
+// at which the joint exceeds 0.05 rad/s; drift by 3 N.m and 2.5 N.m of 20 Hz about it, over half a
+// minute; chatter by 12 N.m at 1 Hz, as the changes of direction beyond 1 mrad/s at each reversal.
+// Robots: every joint with a level of 1.5 times its gravity load plus 2 N.m, the worst joint over
+// ten seconds after ten of settling, over three steps and three integrators.
 #include <fmt/format.h>
 #include <mujoco/mujoco.h>
 
@@ -13,49 +16,75 @@
 #include <string>
 
 #include "models/foundation/bad_input.h"
+#include "sim/friction_actuator.h"
 #include "sim/mujoco_handles.h"
 #include "sim/plugin/register.h"
+#include "tests/sim/plugin/friction_robots.h"
 
 namespace warmjoint {
 namespace {
 
+constexpr double kSteps[] = {0.0005, 0.001, 0.002};  // s
+constexpr mjtIntegrator kIntegrators[] = {mjINT_EULER, mjINT_IMPLICITFAST, mjINT_DISCRETE};
+
+const char* NameOf(mjtIntegrator integrator) {
+  if (integrator == mjINT_EULER) return "Euler";
+  return integrator == mjINT_DISCRETE ? "discrete" : "implicitfast";
+}
+
+/// A friction and how a joint of a model gets it. level: N.m; inertia: effective, kg.m^2.
 struct Kind {
   const char* name;
-  const char* joint;     // attributes of the joint
-  const char* actuator;  // the <actuator> section
+  void (*add)(mjSpec& spec, const std::string& joint, double level, double inertia);
 };
 
+void AddOurs(mjSpec& spec, const std::string& joint, double level, double) {
+  FrictionDescription friction;
+  friction.law = "coulomb";
+  friction.parameters = {{"coulomb", level}};
+  AddFriction(spec, {{joint, friction}}, {"sticking_table"});
+}
+
+void AddFrictionLoss(mjSpec& spec, const std::string& joint, double level, double) {
+  FindJoint(spec, joint, {"sticking_table"})->frictionloss = level;
+}
+
+/// A bristle that gives way by 0.6 mrad at the level, with a damping ratio of 0.6.
+void AddLugre(mjSpec& spec, const std::string& joint, double level, double inertia) {
+  mjsActuator* motor = mjs_addActuator(&spec, nullptr);
+  mjs_setString(motor->target, joint.c_str());
+  motor->trntype = mjTRN_JOINT;
+  const double stiffness = level / 0.0006, damping = 1.2 * std::sqrt(stiffness * inertia);
+  double constants[2] = {0, 0}, lugre[5] = {stiffness, damping, level, level, 0.01};
+  const std::string refusal = mjs_setToDCMotor(motor, constants, 1, nullptr, nullptr, nullptr,
+                                               nullptr, nullptr, nullptr, lugre, mjINPUT_NONE);
+  if (!refusal.empty()) Refuse({"sticking_table"}, "{}", refusal);
+}
+
 constexpr Kind kKinds[] = {
-    {"ours", "",
-     R"(<plugin joint="hinge" plugin="warmjoint.friction" actdim="2">
-          <config key="law" value="coulomb"/><config key="coulomb" value="6"/></plugin>)"},
-    {"frictionloss", R"(frictionloss="6")", ""},
-    {"dcmotor LuGre", "",
-     R"(<dcmotor joint="hinge" input="none" motorconst="0 0" resistance="1"
-                 lugre="10000 60 6 6 0.01"/>)"},
-};
+    {"ours", AddOurs}, {"frictionloss", AddFrictionLoss}, {"dcmotor LuGre", AddLugre}};
 
 class Link {
  public:
-  Link(const Kind& kind, double step, const char* integrator, double gravity) {
-    const std::string xml = fmt::format(R"(
+  Link(const Kind& kind, double step, mjtIntegrator integrator, double gravity) {
+    constexpr char xml[] = R"(
 <mujoco>
-  <extension><plugin plugin="warmjoint.friction"/></extension>
-  <option timestep="{}" integrator="{}" gravity="0 0 {}"><flag contact="disable"/></option>
+  <option><flag contact="disable"/></option>
   <worldbody>
     <body>
-      <joint name="hinge" axis="0 1 0" {}/>
+      <joint name="hinge" axis="0 1 0"/>
       <inertial pos="0.5 0 0" mass="1" diaginertia="1e-9 1e-9 1e-9"/>
     </body>
   </worldbody>
-  <actuator>{}</actuator>
-</mujoco>)",
-                                        step, integrator, -gravity, kind.joint, kind.actuator);
+</mujoco>)";
     char error[1000] = "";
-    const SpecPtr spec(mj_parseXMLString(xml.c_str(), nullptr, error, sizeof(error)));
+    const SpecPtr spec(mj_parseXMLString(xml, nullptr, error, sizeof(error)));
     if (!spec) Refuse({kind.name}, "{}", error);
-    model_.reset(mj_compile(spec.get(), nullptr));
-    if (!model_) Refuse({kind.name}, "{}", mjs_getError(spec.get()));
+    spec->option.timestep = step;
+    spec->option.integrator = integrator;
+    spec->option.gravity[2] = -gravity;
+    kind.add(*spec, "hinge", 6, 0.25);
+    model_ = CompileModel(*spec, {kind.name});
     data_.reset(mj_makeData(model_.get()));
   }
 
@@ -67,33 +96,35 @@ class Link {
   DataPtr data_;
 };
 
-/// Creep in rad/min and the fastest speed in rad/s, under gravity.
-std::pair<double, double> Creep(const Kind& kind, double step, const char* integrator) {
-  Link link(kind, step, integrator, 9.81);
+struct Creeping {
+  double creep = 0;    // rad/min
+  double fastest = 0;  // rad/s
+};
+
+Creeping Creep(Link link) {
   while (link.data().time < 2) link.Step();
   const double settled = link.data().qpos[0];
-  double fastest = 0;
+  Creeping result;
   while (link.data().time < 62) {
     link.Step();
-    fastest = std::max(fastest, std::abs(link.data().qvel[0]));
+    result.fastest = std::max(result.fastest, std::abs(link.data().qvel[0]));
   }
-  return {std::abs(link.data().qpos[0] - settled), fastest};
+  result.creep = std::abs(link.data().qpos[0] - settled);
+  return result;
 }
 
 /// Load at break-away, N.m.
-double BreakAway(const Kind& kind, double step, const char* integrator) {
-  Link link(kind, step, integrator, 0);
+double BreakAway(Link link) {
   mjData& d = link.data();
-  while (std::abs(d.qpos[0]) < 0.02 && d.time < 10) {
-    d.qfrc_applied[0] = 2 * d.time;
+  while (std::abs(d.qvel[0]) < 0.05 && d.time < 60) {
+    d.qfrc_applied[0] = 3 + 0.1 * d.time;
     link.Step();
   }
   return d.qfrc_applied[0];
 }
 
 /// Drift under a swinging load, rad/min.
-double Drift(const Kind& kind, double step, const char* integrator) {
-  Link link(kind, step, integrator, 0);
+double Drift(Link link, double step) {
   mjData& d = link.data();
   const auto shake = [&](double seconds) {
     for (int i = 0; i < std::lround(seconds / step); ++i) {
@@ -107,19 +138,105 @@ double Drift(const Kind& kind, double step, const char* integrator) {
   return 2 * std::abs(d.qpos[0] - settled);
 }
 
-void Print() {
-  RegisterFrictionPlugin();
-  fmt::print("{:<14} {:>5} {:<13} {:>13} {:>12} {:>11} {:>13}\n", "friction", "step", "integrator",
-             "creep rad/min", "speed rad/s", "break-away", "drift rad/min");
+/// Changes of direction for each reversal of the drive: 1 without chatter.
+double Chatter(Link link) {
+  mjData& d = link.data();
+  int changes = 0, direction = 1;
+  while (d.time < 10.5) {
+    d.qfrc_applied[0] = 12 * std::sin(2 * std::numbers::pi * d.time);
+    link.Step();
+    if (std::abs(d.qvel[0]) < 1e-3 || (d.qvel[0] > 0) == (direction > 0)) continue;
+    direction = -direction;
+    ++changes;
+  }
+  return changes / 20.0;
+}
+
+void PrintLink() {
+  fmt::print("{:<14} {:>5} {:<13} {:>13} {:>12} {:>11} {:>13} {:>8}\n", "friction", "step",
+             "integrator", "creep rad/min", "speed rad/s", "break-away", "drift rad/min",
+             "chatter");
   for (const Kind& kind : kKinds) {
-    for (const double step : {0.0005, 0.001, 0.002}) {
-      for (const char* integrator : {"Euler", "implicitfast", "discrete"}) {
-        const auto [creep, fastest] = Creep(kind, step, integrator);
-        fmt::print("{:<14} {:5.1f} {:<13} {:13.2e} {:12.2e} {:11.3f} {:13.2e}\n", kind.name,
-                   1e3 * step, integrator, creep, fastest, BreakAway(kind, step, integrator),
-                   Drift(kind, step, integrator));
+    for (const double step : kSteps) {
+      for (const mjtIntegrator integrator : kIntegrators) {
+        const auto link = [&](double gravity) { return Link(kind, step, integrator, gravity); };
+        const Creeping rest = Creep(link(9.81));
+        fmt::print("{:<14} {:5.1f} {:<13} {:13.2e} {:12.2e} {:11.3f} {:13.2e} {:8.2f}\n", kind.name,
+                   1e3 * step, NameOf(integrator), rest.creep, rest.fastest, BreakAway(link(0)),
+                   Drift(link(0), step), Chatter(link(0)));
       }
     }
+  }
+}
+
+/// The robot at its pose with one kind of friction on every joint.
+ModelPtr WithFriction(const test::Robot& robot, const Kind& kind, double step,
+                      mjtIntegrator integrator) {
+  const ModelPtr bare = CompileModel(*robot.spec, {robot.path});
+  const SpecPtr spec(mj_copySpec(robot.spec.get()));
+  spec->option.timestep = step;
+  spec->option.integrator = integrator;
+  for (int i = 0; i < bare->njnt; ++i) {
+    kind.add(*spec, mj_id2name(bare.get(), mjOBJ_JOINT, i), robot.level[static_cast<size_t>(i)],
+             1 / bare->dof_invweight0[bare->jnt_dofadr[i]]);
+  }
+  return CompileModel(*spec, {robot.path});
+}
+
+/// The worst joint; nothing where the robot went unstable, which resets its time.
+std::optional<Creeping> Creep(const mjModel* m, const std::vector<double>& pose) {
+  const DataPtr d(mj_makeData(m));
+  std::copy(pose.begin(), pose.end(), d->qpos);
+  const long steps = std::lround(10 / m->opt.timestep);
+  for (long i = 0; i < steps; ++i) mj_step(m, d.get());
+  const std::vector<double> settled(d->qpos, d->qpos + m->nq);
+  Creeping worst;
+  for (long i = 0; i < steps; ++i) {
+    mj_step(m, d.get());
+    for (int k = 0; k < m->nv; ++k) worst.fastest = std::max(worst.fastest, std::abs(d->qvel[k]));
+  }
+  for (const mjtWarning warning : {mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC}) {
+    if (d->warning[warning].number > 0) return std::nullopt;
+  }
+  if (d->time < 19) return std::nullopt;
+  for (int i = 0; i < m->nq; ++i) {
+    worst.creep = std::max(worst.creep, 6 * std::abs(d->qpos[i] - settled[static_cast<size_t>(i)]));
+  }
+  return worst;
+}
+
+void PrintRobots() {
+  fmt::print("\n{:<24} {:<14} {:>13} {:>12} {:>9}\n", "robot", "friction", "creep rad/min",
+             "speed rad/s", "unstable");
+  mju_user_warning = [](const char*) {};
+  for (const test::RobotCase& known : test::kRobots) {
+    const test::Robot robot = test::LoadRobot(known.file, known.armature);
+    for (const Kind& kind : kKinds) {
+      Creeping worst;
+      int unstable = 0;
+      for (const double step : kSteps) {
+        for (const mjtIntegrator integrator : kIntegrators) {
+          const ModelPtr m = WithFriction(robot, kind, step, integrator);
+          const std::optional<Creeping> creeping = Creep(m.get(), robot.pose);
+          if (!creeping) ++unstable;
+          worst.creep = std::max(worst.creep, creeping.value_or(Creeping{}).creep);
+          worst.fastest = std::max(worst.fastest, creeping.value_or(Creeping{}).fastest);
+        }
+      }
+      fmt::print("{:<24} {:<14} {:13.2e} {:12.2e} {:>4} of 9\n", known.name(), kind.name,
+                 worst.creep, worst.fastest, unstable);
+    }
+  }
+}
+
+void Print() {
+  RegisterFrictionPlugin();
+  PrintLink();
+  if (std::filesystem::exists(test::SharedFolder() / "robots")) {
+    PrintRobots();
+  } else {
+    fmt::print("\nno robots: {} is absent; set WARMJOINT_SHARED\n",
+               (test::SharedFolder() / "robots").string());
   }
 }
 
