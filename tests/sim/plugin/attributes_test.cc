@@ -12,16 +12,13 @@
 namespace warmjoint {
 namespace {
 
-using test::Compile;
-using test::Config;
-using test::FrictionSection;
-using test::LinkXml;
+using namespace test;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 std::string ErrorOf(const Config& config, const std::string& attributes = "",
-                    const std::string& option = test::kNoGravity, const std::string& joint = "") {
-  return Compile(LinkXml(FrictionSection(config, attributes), option, joint)).error;
+                    const std::string& option = kNoGravity, const std::string& joint = "") {
+  return Compile(LinkXml(FrictionSection(config, {attributes}), option, joint)).error;
 }
 
 const Config kGood{{"law", "viscous_coulomb"}, {"viscous", "5"}, {"coulomb", "15"}};
@@ -86,7 +83,7 @@ TEST(PluginAttributes, HoldTheFrictionOfSeveralJoints) {
 TEST(PluginActuator, RefusesWhatWouldBreakFriction) {
   EXPECT_THAT(ErrorOf(kGood, R"(forcerange="-1 1")"), HasSubstr("forcerange"));
   EXPECT_THAT(ErrorOf(kGood, R"(gear="2")"), HasSubstr("gear is 2"));
-  EXPECT_THAT(ErrorOf(kGood, "", test::kNoGravity, R"(actuatorfrcrange="-9 9")"),
+  EXPECT_THAT(ErrorOf(kGood, "", kNoGravity, R"(actuatorfrcrange="-9 9")"),
               HasSubstr("joint 'hinge' has actuatorfrcrange"));
   EXPECT_THAT(ErrorOf(kGood, "", R"(integrator="RK4")"), HasSubstr("integrator is RK4"));
 }
@@ -96,7 +93,7 @@ TEST(PluginActuator, RefusesAnInertiaTooSmallForTheSlopeAndSaysWhatItNeeds) {
   const std::string error = ErrorOf(With("viscous", "250"));
   EXPECT_THAT(error, AllOf(HasSubstr("actuator 'f'"), HasSubstr("armature of 0.25"),
                            HasSubstr("timestep of at most 0.0005")));
-  EXPECT_EQ(ErrorOf(With("viscous", "250"), "", test::kNoGravity, R"(armature="0.253")"), "");
+  EXPECT_EQ(ErrorOf(With("viscous", "250"), "", kNoGravity, R"(armature="0.253")"), "");
 }
 
 TEST(PluginActuator, RefusesABristleThatTheStepCannotCarry) {
@@ -131,7 +128,7 @@ TEST(PluginReadme, HasAModelThatRuns) {
   ASSERT_EQ(compiled.error, "");
 
   // the link falls, and its friction gets warm
-  const test::Data d(mj_makeData(compiled.model.get()));
+  const Data d(mj_makeData(compiled.model.get()));
   for (int i = 0; i < 300; ++i) mj_step(compiled.model.get(), d.get());
   EXPECT_GT(d->qpos[0], 0.01);
   EXPECT_LT(d->act[1], 0);

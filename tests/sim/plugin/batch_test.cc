@@ -10,19 +10,15 @@
 namespace warmjoint {
 namespace {
 
-using test::Data;
-using test::FrictionSection;
-using test::LinkXml;
-using test::Model;
-using test::MustCompile;
+using namespace test;
 
-const test::Config kWarm{{"law", "stribeck"},
-                         {"viscous", "0.5"},
-                         {"coulomb", "3"},
-                         {"static", "4"},
-                         {"stribeck_velocity", "0.1"},
-                         {"thermal_gain", "-0.3"},
-                         {"thermal_time_constant", "10"}};
+const Config kWarm{{"law", "stribeck"},
+                   {"viscous", "0.5"},
+                   {"coulomb", "3"},
+                   {"static", "4"},
+                   {"stribeck_velocity", "0.1"},
+                   {"thermal_gain", "-0.3"},
+                   {"thermal_time_constant", "10"}};
 constexpr int kSimulations = 16;
 constexpr int kHalf = 300;  // steps
 

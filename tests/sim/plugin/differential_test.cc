@@ -10,12 +10,7 @@
 namespace warmjoint {
 namespace {
 
-using test::Config;
-using test::Data;
-using test::FrictionSection;
-using test::LinkXml;
-using test::Model;
-using test::MustCompile;
+using namespace test;
 
 const Config kLugre{{"law", "lugre"},
                     {"viscous", "0"},

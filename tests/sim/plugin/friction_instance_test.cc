@@ -10,13 +10,7 @@
 namespace warmjoint {
 namespace {
 
-using test::Compile;
-using test::Config;
-using test::Data;
-using test::FrictionSection;
-using test::LinkXml;
-using test::Model;
-using test::MustCompile;
+using namespace test;
 
 const Config kTable1{{"law", "viscous_coulomb"},
                      {"viscous", "5"},
@@ -54,8 +48,8 @@ TEST(PluginHeat, FollowsTheClosedFormAtConstantSpeedAtAnyStep) {
 TEST(PluginViscous, MovesAsNativeDampingDoes) {
   const Model ours = MustCompile(
       LinkXml(FrictionSection({{"law", "viscous_coulomb"}, {"viscous", "2"}, {"coulomb", "0"}}),
-              test::kNoGravity));
-  const Model native = MustCompile(LinkXml("", test::kNoGravity, R"(damping="2")"));
+              kNoGravity));
+  const Model native = MustCompile(LinkXml("", kNoGravity, R"(damping="2")"));
   const Data a(mj_makeData(ours.get())), b(mj_makeData(native.get()));
   a->qvel[0] = b->qvel[0] = 3;
   for (int i = 0; i < 1000; ++i) {
@@ -68,9 +62,9 @@ TEST(PluginViscous, MovesAsNativeDampingDoes) {
 }
 
 TEST(PluginCoulomb, SlidesAsFrictionlossDoes) {
-  const Model ours = MustCompile(
-      LinkXml(FrictionSection({{"law", "coulomb"}, {"coulomb", "6"}}), test::kNoGravity));
-  const Model native = MustCompile(LinkXml("", test::kNoGravity, R"(frictionloss="6")"));
+  const Model ours =
+      MustCompile(LinkXml(FrictionSection({{"law", "coulomb"}, {"coulomb", "6"}}), kNoGravity));
+  const Model native = MustCompile(LinkXml("", kNoGravity, R"(frictionloss="6")"));
   const Data a(mj_makeData(ours.get())), b(mj_makeData(native.get()));
   a->qvel[0] = b->qvel[0] = 30;
   // 24 rad/s^2 stop the joint after 1.25 s; until 1.2 s it slides
@@ -132,7 +126,7 @@ TEST(PluginState, ContinuesBitForBitFromACopyAndFromAStateVector) {
 TEST(PluginState, StartsWarmFromAKeyframeAndColdFromAReset) {
   const Model m = MustCompile(
       LinkXml(FrictionSection(kTable1) + R"(<keyframe><key name="warm" act="0 -9"/></keyframe>)",
-              test::kNoGravity));
+              kNoGravity));
   const Data d(mj_makeData(m.get()));
   mj_resetDataKeyframe(m.get(), d.get(), 0);
   d->qvel[0] = 1;

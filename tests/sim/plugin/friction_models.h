@@ -6,25 +6,15 @@
 #include <mujoco/mujoco.h>
 
 #include <map>
-#include <memory>
 #include <string>
 
+#include "sim/mujoco_handles.h"
 #include "sim/plugin/register.h"
 
 namespace warmjoint::test {
 
-struct DeleteModel {
-  void operator()(mjModel* m) const { mj_deleteModel(m); }
-};
-struct DeleteData {
-  void operator()(mjData* d) const { mj_deleteData(d); }
-};
-struct DeleteSpec {
-  void operator()(mjSpec* s) const { mj_deleteSpec(s); }
-};
-using Model = std::unique_ptr<mjModel, DeleteModel>;
-using Data = std::unique_ptr<mjData, DeleteData>;
-using Spec = std::unique_ptr<mjSpec, DeleteSpec>;
+using Model = ModelPtr;
+using Data = DataPtr;
 
 /// A model, or nothing and the engine's message.
 struct Compiled {
@@ -35,7 +25,7 @@ struct Compiled {
 inline Compiled Compile(const std::string& xml) {
   RegisterFrictionPlugin();
   char error[1000] = "";
-  const Spec spec(mj_parseXMLString(xml.c_str(), nullptr, error, sizeof(error)));
+  const SpecPtr spec(mj_parseXMLString(xml.c_str(), nullptr, error, sizeof(error)));
   if (!spec) return {nullptr, error};
   Model model(mj_compile(spec.get(), nullptr));
   if (!model) return {nullptr, mjs_getError(spec.get())};
@@ -50,17 +40,24 @@ inline Model MustCompile(const std::string& xml) {
 
 using Config = std::map<std::string, std::string>;
 
-/// Friction "f" on the joint "hinge", as an <actuator> section.
-inline std::string FrictionSection(const Config& config, const std::string& attributes = "") {
+/// What else the actuator of FrictionSection has.
+struct ActuatorExtras {
+  std::string attributes{};
+  int states = 2;
+  std::string joint = "hinge";
+};
+
+/// Friction "f" on a joint, as an <actuator> section.
+inline std::string FrictionSection(const Config& config, const ActuatorExtras& extras = {}) {
   std::string keys;
   for (const auto& [key, value] : config) {
     keys += fmt::format(R"(<config key="{}" value="{}"/>)", key, value);
   }
   return fmt::format(R"(
   <actuator>
-    <plugin name="f" joint="hinge" plugin="warmjoint.friction" actdim="2" {}>{}</plugin>
+    <plugin name="f" joint="{}" plugin="warmjoint.friction" actdim="{}" {}>{}</plugin>
   </actuator>)",
-                     attributes, keys);
+                     extras.joint, extras.states, extras.attributes, keys);
 }
 
 /// One link: inertia 0.25 kg.m^2 and weight 1 kg 0.5 m from the hinge's horizontal axis, or no
@@ -80,6 +77,23 @@ inline std::string LinkXml(const std::string& sections, const std::string& optio
   {}
 </mujoco>)",
                      option, joint, sections);
+}
+
+/// A carriage of 3 kg on the vertical joint "slide". `sections`: further MJCF.
+inline std::string CarriageXml(const std::string& sections, const std::string& option) {
+  return fmt::format(R"(
+<mujoco>
+  <extension><plugin plugin="warmjoint.friction"/></extension>
+  <option {}><flag contact="disable" eulerdamp="disable"/></option>
+  <worldbody>
+    <body>
+      <joint name="slide" type="slide" axis="0 0 1"/>
+      <inertial pos="0 0 0" mass="3" diaginertia="1e-3 1e-3 1e-3"/>
+    </body>
+  </worldbody>
+  {}
+</mujoco>)",
+                     option, sections);
 }
 
 inline constexpr char kNoGravity[] = R"(timestep="0.001" gravity="0 0 0")";

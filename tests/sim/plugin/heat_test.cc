@@ -8,12 +8,7 @@
 namespace warmjoint {
 namespace {
 
-using test::Config;
-using test::Data;
-using test::FrictionSection;
-using test::LinkXml;
-using test::Model;
-using test::MustCompile;
+using namespace test;
 
 const Config kThermometer{{"law", "coulomb"},
                           {"coulomb", "10"},
@@ -22,7 +17,7 @@ const Config kThermometer{{"law", "coulomb"},
                           {"level_per_temperature", "-0.2"}};
 
 TEST(PluginAmbient, IsTheControlAndMovesTheLevelOfAJointAtRest) {
-  const Model m = MustCompile(LinkXml(FrictionSection(kThermometer), test::kNoGravity));
+  const Model m = MustCompile(LinkXml(FrictionSection(kThermometer), kNoGravity));
   const Data d(mj_makeData(m.get()));
   // 15 K above the temperature of the parameters for 30 s, then back: (17) with W = 0
   const auto rest = [&](double rise, double seconds) {
@@ -40,7 +35,7 @@ TEST(PluginAmbient, IsTheControlAndMovesTheLevelOfAJointAtRest) {
 TEST(PluginAmbient, IsIgnoredWhereNoTemperatureFormIsGiven) {
   Config config = kThermometer;
   config.erase("level_per_temperature");
-  const Model m = MustCompile(LinkXml(FrictionSection(config), test::kNoGravity));
+  const Model m = MustCompile(LinkXml(FrictionSection(config), kNoGravity));
   const Data d(mj_makeData(m.get()));
   d->ctrl[0] = 15;
   for (int i = 0; i < 100; ++i) mj_step(m.get(), d.get());
@@ -51,9 +46,8 @@ TEST(PluginHeat, HasTwoStagesThatSettleEachAtItsGain) {
   Config config = kThermometer;
   config["second_thermal_gain"] = "-0.5";
   config["second_thermal_time_constant"] = "2";
-  std::string section = FrictionSection(config);
-  section.replace(section.find("actdim=\"2\""), 10, "actdim=\"3\"");
-  const Model m = MustCompile(LinkXml(section, test::kNoGravity, R"(armature="2")"));
+  const Model m =
+      MustCompile(LinkXml(FrictionSection(config, {.states = 3}), kNoGravity, R"(armature="2")"));
   const Data d(mj_makeData(m.get()));
   d->act[0] = 10;
   const double v = 0.1, h = 0.001;
@@ -70,6 +64,28 @@ TEST(PluginHeat, HasTwoStagesThatSettleEachAtItsGain) {
   // rounding of 2e4 steps
   EXPECT_NEAR(d->act[1], first, 1e-11);
   EXPECT_NEAR(d->act[2], second, 1e-11);
+}
+
+TEST(PluginHeat, StartsWarmInBothStagesFromAKeyframe) {
+  Config config = kThermometer;
+  config["second_thermal_gain"] = "-0.5";
+  config["second_thermal_time_constant"] = "2";
+  const Model m = MustCompile(LinkXml(
+      FrictionSection(config, {.states = 3}) + R"(<keyframe><key act="0 -4 -3"/></keyframe>)",
+      kNoGravity));
+  const Data d(mj_makeData(m.get()));
+  mj_resetDataKeyframe(m.get(), d.get(), 0);
+
+  // at rest each stage cools by its own time constant; rounding of 5000 steps
+  for (int i = 0; i < 5000; ++i) mj_step(m.get(), d.get());
+  EXPECT_NEAR(d->act[1], -4 * std::exp(-5.0 / 20), 1e-11);
+  EXPECT_NEAR(d->act[2], -3 * std::exp(-5.0 / 2), 1e-11);
+
+  // sliding at once, the level is lower by both: 10 - 4 - 3
+  mj_resetDataKeyframe(m.get(), d.get(), 0);
+  d->qvel[0] = 1;
+  mj_forward(m.get(), d.get());
+  EXPECT_DOUBLE_EQ(d->actuator_force[0], -(10 - 4 - 3));
 }
 
 /// The last warning of the engine, while it lives.
@@ -92,8 +108,7 @@ TEST(PluginReport, TellsOnceWhereFrictionWouldFeedItself) {
                       {"coulomb", "15"},
                       {"thermal_gain", "-3"},
                       {"thermal_time_constant", "1"}};
-  const Model m =
-      MustCompile(LinkXml(FrictionSection(config), test::kNoGravity, R"(armature="9")"));
+  const Model m = MustCompile(LinkXml(FrictionSection(config), kNoGravity, R"(armature="9")"));
   const Data d(mj_makeData(m.get()));
   const mjtNum* report = d->plugin_state + m->plugin_stateadr[0];
   const Warnings warnings;

@@ -15,12 +15,7 @@
 namespace warmjoint {
 namespace {
 
-using test::Compile;
-using test::Config;
-using test::Data;
-using test::LinkXml;
-using test::Model;
-using test::MustCompile;
+using namespace test;
 using ::testing::HasSubstr;
 
 /// Law (3) with heat, a ripple over the motor's angle, and a level that grows with the load.
@@ -125,9 +120,7 @@ TEST(PluginMaps, AFileLiesBesideTheModelThatThisProgramLoads) {
 
 TEST(PluginMaps, AreRefusedWhereTheyMakeNoSense) {
   Config config{{"law", "coulomb"}, {"coulomb", "3"}, {"maps", "{}"}};
-  const auto error = [&] {
-    return Compile(LinkXml(test::FrictionSection(config), test::kNoGravity)).error;
-  };
+  const auto error = [&] { return Compile(LinkXml(FrictionSection(config), kNoGravity)).error; };
   EXPECT_THAT(error(), HasSubstr("maps is no JSON list"));
   config["maps"] = "[{&quot;axes&quot;: []}]";
   EXPECT_THAT(error(), HasSubstr("a map lacks its weights"));
@@ -138,7 +131,7 @@ TEST(PluginLoad, RaisesTheLevelByTheLoadThatTheJointTransmits) {
   for (const bool holds : {true, false}) {
     const Config config{
         {"law", "coulomb"}, {"coulomb", "4"}, {"load_gain", holds ? "0.25" : "0.1"}};
-    const Model m = MustCompile(LinkXml(test::FrictionSection(config), kSwing));
+    const Model m = MustCompile(LinkXml(FrictionSection(config), kSwing));
     const Data d(mj_makeData(m.get()));
     while (d->time < 2) mj_step(m.get(), d.get());
     EXPECT_EQ(std::abs(d->qpos[0]) < 0.01, holds) << d->qpos[0];

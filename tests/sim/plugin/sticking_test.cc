@@ -10,13 +10,9 @@
 namespace warmjoint {
 namespace {
 
-using test::Data;
-using test::FrictionSection;
-using test::LinkXml;
-using test::Model;
-using test::MustCompile;
+using namespace test;
 
-const test::Config kSixNewtonMetres{{"law", "coulomb"}, {"coulomb", "6"}};
+const Config kSixNewtonMetres{{"law", "coulomb"}, {"coulomb", "6"}};
 
 /// Step (s) and integrator.
 class Sticking : public testing::TestWithParam<std::tuple<double, const char*>> {

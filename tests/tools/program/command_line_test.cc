@@ -67,6 +67,19 @@ TEST(CommandLine, ListsEveryFamilyAsTextAndJson) {
   }
 }
 
+TEST(CommandLine, ListsWhatAFrictionCanCarryBesideItsLaw) {
+  const std::string text = RunWarmjoint({"list", "laws"}).out;
+  for (const char* part :
+       {"thermal.second", "load_gain", "level_per_temperature", "viscous_per_energy",
+        "quantities: position, motor_position, velocity, energy, load",
+        "kernels: normalised, plain", "factors: one, direction, velocity"}) {
+    EXPECT_THAT(text, HasSubstr(part));
+  }
+  const auto laws = nlohmann::json::parse(RunWarmjoint({"list", "laws", "--format", "json"}).out);
+  EXPECT_EQ(laws.back().at("name"), "maps");
+  EXPECT_EQ(laws.back().at("quantities").size(), 5);
+}
+
 TEST(CommandLine, ListsParametersOfLawsAndOptionsOfIdentifiers) {
   EXPECT_THAT(RunWarmjoint({"list", "laws"}).out, HasSubstr("coulomb_positive"));
   const auto identifiers =
