@@ -126,24 +126,20 @@ std::optional<MapChoice> ChooseAndFit(const IdentifierInput& input, const MapTas
                      input.selection};
   problem.torque -= TakenByEnergy(input, task.energy);
 
+  for (const ParameterInfo& info : FindLaw(task.settings.law)->parameters) {
+    problem.lower.push_back(info.lower);
+  }
+
   // a choice costs fits, so one is made only where there is something to choose
-  ChosenStrength best{task.settings.strength, 0};
-  size_t candidate = 0;
+  ChosenMaps best{0, task.settings.strength, 0};
   if (task.candidates.size() > 1 || task.settings.strength == 0) {
     const int folds =
         std::min(task.settings.folds, std::max(2, static_cast<int>(problem.torque.size()) / 2));
-    best.criterion = std::numeric_limits<double>::infinity();
-    for (size_t i = 0; i < task.candidates.size(); ++i) {
-      problem.maps = task.candidates[i];
-      const ChosenStrength chosen = ChooseStrength(problem, task.settings.rule, folds);
-      if (!(chosen.criterion < best.criterion)) continue;
-      best = chosen;
-      candidate = i;
-    }
+    best = ChooseMaps(problem, task.candidates, task.settings.rule, folds);
     if (!std::isfinite(best.criterion)) return std::nullopt;
     if (task.settings.strength > 0) best.strength = task.settings.strength;
   }
-  problem.maps = task.candidates[candidate];
+  problem.maps = task.candidates[best.candidate];
   std::optional<MapFit> fit = FitMaps(problem, best.strength);
   if (!fit) return std::nullopt;
   return MapChoice{std::move(problem), std::move(*fit)};

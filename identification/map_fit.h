@@ -1,4 +1,4 @@
-// Law and maps fitted together: how strong the prior is, the fit, and how sure it is.
+// Law and maps fitted together, and how sure the fit is.
 #pragma once
 
 #include <optional>
@@ -18,26 +18,11 @@ struct MapProblem {
   Eigen::MatrixXd free;           // [n x p]
   Eigen::VectorXd torque;         // [n] y, N.m or N
   Selection selection;            // n of its samples are kept
+  std::vector<double> lower{};    // [p] bounds of the parameters; or empty: none
 };
 
-/// By what the strength s of the prior is chosen.
-enum class StrengthRule { cross_validation, leave_one_out, evidence };
-
-struct ChosenStrength {
-  double strength = 0;
-  /// Mean squared error held out, or -2 log evidence / n: the smaller, the better. Infinite where
-  /// no strength can be solved.
-  double criterion = 0;
-};
-
-/// One of 20 strengths, half a decade apart, from 1e-7 of the mean diagonal of the kernels' Gram
-/// matrix on: the best, or the one of the most evidence. Cross validation takes the strongest that
-/// is as good as the best within one standard error of the parts' differences (Breiman and others
-/// 1984, 3.4.3): a motion that repeats itself hides in every part what a weak prior does to columns
-/// that kernels can imitate. folds: contiguous parts of the kept samples for cross validation.
-/// Neighbours resemble each other, so that leaving out one sample or the evidence of white noise
-/// take coloured noise for friction: cross validation over long parts does not.
-ChosenStrength ChooseStrength(const MapProblem& problem, StrengthRule rule, int folds);
+/// The normal equations of all rows [free, kernels].
+NormalEquations NormalOf(const MapProblem& problem);
 
 struct MapFit {
   Eigen::Index free = 0;          // p

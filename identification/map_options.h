@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "identification/map_fit.h"
+#include "identification/map_choice.h"
 #include "identification/options.h"
 
 namespace warmjoint {
