@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 """Opens a report in headless Chromium and checks what a reader relies on.
 
-    tests/browser/check_report.py RUN|SUITE.yaml [--warmjoint build/warmjoint] [--shots FOLDER]
+    tests/browser/check_report.py RUN|SUITE.yaml [--warmjoint build/warmjoint] [--shots FOLDER] [--opt-in]
 
-RUN is a directory of `warmjoint run`; its report is made first. Of a suite, three realizations are run. Checked: no error on the console, no request to
-anywhere, every picture there and with an alt text, the table's numbers equal to `compare --format json`, nothing
-wider than a phone, headings and regions named, links that can be reached with the keyboard. --shots keeps pictures
-of the page, narrow and wide, light and dark. Exit status 0: all holds; 1: something does not; 77: no browser here.
+RUN is a directory of `warmjoint run`; its report is made first. Of a suite, three realizations are run. Checked: no
+error on the console, no request to anywhere, every picture there, with an alt text, and large enough to read, the
+table's numbers equal to `compare --format json`, nothing wider than a phone but what scrolls by itself, rows that keep
+their names in sight, headings and regions named, links that can be reached with the keyboard. --shots keeps pictures of
+the page, narrow and wide, light and dark. --opt-in, for ctest: only where WARMJOINT_BROWSER_TEST is set. Exit status 0:
+all holds; 1: something does not; 77: not opted in, or no browser here.
 Installs nothing: Debian's package is `chromium`; the environment variable CHROMIUM names another browser.
 """
 
@@ -15,6 +17,7 @@ import atexit
 import base64
 import json
 import math
+import os
 import pathlib
 import shutil
 import subprocess
@@ -38,6 +41,15 @@ DECODED = """Promise.all([...document.images].map(async image => {
   throw new Error('not decoded: ' + image.alt)}))"""
 WIDE = """[...document.querySelectorAll('body *')].filter(e => !e.closest('.scroll, pre, .skip') &&
   e.getBoundingClientRect().right > innerWidth + 1).map(e => e.tagName + ' ' + e.textContent.slice(0, 40))"""
+
+
+# scrolled to its end, a table still shows what its rows are of; afterwards it is as it was
+NAMELESS = """[...document.querySelectorAll('.scroll')].filter(box => box.querySelector('table')).filter(box => {
+  box.scrollLeft = box.scrollWidth;
+  const left = box.getBoundingClientRect().left, name = box.querySelector('tbody th').getBoundingClientRect();
+  box.scrollLeft = 0;
+  return name.left < left - 1 || name.left > left + 40}).map(box => box.getAttribute('aria-label'))"""
+SMALL = "[...document.images].filter(image => image.width < 600 && image.width < image.naturalWidth / 2).map(i => i.alt)"
 
 
 class Checks:
@@ -154,6 +166,10 @@ def look(browser, checks, name, size, scheme, folder):
     browser.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
     wide = browser.value(WIDE)
     checks.expect(not wide, f"{name}: wider than the screen: {wide[:5]}")
+    nameless = browser.value(NAMELESS)
+    checks.expect(not nameless, f"{name}: rows lose their names where {nameless} scroll")
+    small = browser.value(SMALL)
+    checks.expect(not small, f"{name}: too small to read: {small}")
     browser.value(DECODED)
     paper = browser.value("getComputedStyle(document.body).backgroundColor")
     checks.expect(("255" in paper) == (scheme == "light"), f"{scheme}: the paper is {paper}")
@@ -167,7 +183,11 @@ def main():
     parser.add_argument("run", type=pathlib.Path)
     parser.add_argument("--warmjoint", default="build/warmjoint")
     parser.add_argument("--shots", type=pathlib.Path)
+    parser.add_argument("--opt-in", action="store_true")
     arguments = parser.parse_args()
+    if arguments.opt_in and not os.environ.get("WARMJOINT_BROWSER_TEST"):
+        print("not asked for: set WARMJOINT_BROWSER_TEST=1 to open a report in Chromium", file=sys.stderr)
+        return 77
     path = find_browser()
     if not path:
         print("no Chromium here: install the package chromium, or set CHROMIUM", file=sys.stderr)

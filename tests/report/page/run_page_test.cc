@@ -132,7 +132,7 @@ TEST(RunPage, NamesEveryRowOfATable) {
   const warmjoint::Table table{{"#", "identifier", "NPE"},
                                {{"1", "energy-ml", "1 %"}, {"", "", "2 %"}, {"", "bound", "1 %"}}};
   const std::string html = HtmlTable("ranking", table);
-  EXPECT_EQ(Count(html, "<th scope=\"row\" class=\"words\">energy-ml</th>"), 2);
+  EXPECT_EQ(Count(html, "<th scope=\"row\" class=\"name words\">energy-ml</th>"), 2);
   EXPECT_EQ(Count(html, ">bound</th>"), 1);
   EXPECT_EQ(Count(html, "<th scope=\"row\""), 3);
 }

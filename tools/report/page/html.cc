@@ -28,6 +28,13 @@ bool IsWords(const warmjoint::Table& table, std::size_t column) {
   return false;
 }
 
+/// Cells of words stand left; the column that names the rows stays in sight when a table scrolls.
+std::string ClassOf(const warmjoint::Table& table, std::size_t column) {
+  std::string classes = column == HeadColumn(table) ? "name" : "";
+  if (IsWords(table, column)) classes += classes.empty() ? "words" : " words";
+  return classes.empty() ? "" : fmt::format(" class=\"{}\"", classes);
+}
+
 std::string DataUrl(std::string_view png) { return "data:image/png;base64," + Base64(png); }
 
 }  // namespace
@@ -92,14 +99,13 @@ std::string HtmlTable(const std::string& caption, const warmjoint::Table& table)
       "<caption>{0}</caption>\n<thead><tr>",
       Escape(caption));
   for (std::size_t i = 0; i < table.header.size(); ++i) {
-    html += fmt::format("<th scope=\"col\"{}>{}</th>", IsWords(table, i) ? " class=\"words\"" : "",
-                        Escape(table.header[i]));
+    html += fmt::format("<th scope=\"col\"{}>{}</th>", ClassOf(table, i), Escape(table.header[i]));
   }
   html += "</tr></thead>\n<tbody>\n";
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     html += "<tr>";
     for (std::size_t i = 0; i < table.rows[row].size(); ++i) {
-      const char* kind = IsWords(table, i) ? " class=\"words\"" : "";
+      const std::string kind = ClassOf(table, i);
       html += i == HeadColumn(table)
                   ? fmt::format("<th scope=\"row\"{}>{}</th>", kind, Escape(HeadOf(table, row)))
                   : fmt::format("<td{}>{}</td>", kind, Escape(table.rows[row][i]));
@@ -111,12 +117,13 @@ std::string HtmlTable(const std::string& caption, const warmjoint::Table& table)
 
 std::string HtmlPicture(const Figure& figure, std::string_view light, std::string_view dark) {
   return fmt::format(
-      "<figure id=\"{}\">\n<picture>\n"
-      "<source media=\"(prefers-color-scheme: dark)\" srcset=\"{}\">\n"
-      "<img src=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}\">\n</picture>\n"
-      "<figcaption>{}</figcaption>\n</figure>\n",
+      "<figure id=\"{0}\">\n"
+      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{6}\">\n<picture>\n"
+      "<source media=\"(prefers-color-scheme: dark)\" srcset=\"{1}\">\n"
+      "<img src=\"{2}\" width=\"{3}\" height=\"{4}\" alt=\"{5}\">\n</picture>\n</div>\n"
+      "<figcaption>{7}</figcaption>\n</figure>\n",
       Escape(figure.name), DataUrl(dark), DataUrl(light), figure.width, figure.height,
-      Escape(figure.title + ". " + figure.finding), Escape(figure.finding));
+      Escape(figure.title + ". " + figure.finding), Escape(figure.title), Escape(figure.finding));
 }
 
 }  // namespace warmjoint::report

@@ -9,7 +9,7 @@ inline constexpr const char* kStyle = R"(
 @media (prefers-color-scheme: dark) { :root { --ink: #e8ebf0; --faint: #a8afba; --paper: #16191e;
   --rule: #3a404a; --accent: #6cb8ec; --soft: #1f242b; } }
 * { box-sizing: border-box; }
-body { margin: 0 auto; max-width: 62rem; padding: 1.5rem 1rem 4rem; color: var(--ink);
+body { margin: 0 auto; max-width: 70rem; padding: 1.5rem 1rem 4rem; color: var(--ink);
   background: var(--paper); font: 1rem/1.55 system-ui, "DejaVu Sans", sans-serif; }
 h1 { font-size: 1.7rem; line-height: 1.2; margin: 0 0 .4rem; }
 h2 { font-size: 1.2rem; margin: 2.4rem 0 .6rem; border-bottom: 1px solid var(--rule); padding-bottom: .2rem; }
@@ -21,16 +21,22 @@ a:focus-visible, .scroll:focus-visible, summary:focus-visible { outline: 3px sol
 nav ul { list-style: none; padding: 0; display: flex; flex-wrap: wrap; gap: .2rem 1.2rem; }
 .skip { position: absolute; left: -999rem; }
 .skip:focus { position: static; }
-.scroll { overflow-x: auto; margin: .8rem 0; }
+.scroll { overflow-x: auto; margin: .8rem 0; background:
+  linear-gradient(to right, var(--paper) 40%, transparent) left / 2rem 100% no-repeat local,
+  linear-gradient(to left, var(--paper) 40%, transparent) right / 2rem 100% no-repeat local,
+  linear-gradient(to right, var(--rule), transparent) left / .8rem 100% no-repeat scroll,
+  linear-gradient(to left, var(--rule), transparent) right / .8rem 100% no-repeat scroll; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; white-space: nowrap; }
 caption { text-align: left; color: var(--faint); padding-bottom: .3rem; }
 th, td { padding: .3rem .8rem .3rem 0; text-align: right; border-bottom: 1px solid var(--rule); }
 .words { text-align: left; }
+.name { position: sticky; left: 0; background: var(--paper); }
 tbody th { font-weight: 400; }
 figure { margin: 1.4rem 0; }
-img { max-width: 100%; height: auto; }
+img { max-width: 100%; height: auto; display: block; }
 figcaption { color: var(--faint); font-size: .92rem; max-width: 46rem; }
 pre { overflow-x: auto; background: var(--soft); padding: .8rem; font-size: .88rem; }
+@media (max-width: 44rem) { img { max-width: none; width: 40rem; } }
 @media print { nav, .skip { display: none; } figure { break-inside: avoid; } }
 )";
 
