@@ -60,40 +60,36 @@ inline std::string FrictionSection(const Config& config, const ActuatorExtras& e
                      extras.joint, extras.states, extras.attributes, keys);
 }
 
+/// A model of one body, given as its joint and inertial, without contacts.
+inline std::string OneBodyXml(const std::string& body, const std::string& sections,
+                              const std::string& option) {
+  return fmt::format(R"(
+<mujoco>
+  <extension><plugin plugin="warmjoint.friction"/></extension>
+  <option {}><flag contact="disable" eulerdamp="disable"/></option>
+  <worldbody><body>{}</body></worldbody>
+  {}
+</mujoco>)",
+                     option, body, sections);
+}
+
 /// One link: inertia 0.25 kg.m^2 and weight 1 kg 0.5 m from the hinge's horizontal axis, or no
 /// gravity. `sections`: further MJCF; `joint`: further attributes of the joint.
 inline std::string LinkXml(const std::string& sections, const std::string& option,
                            const std::string& joint = "") {
-  return fmt::format(R"(
-<mujoco>
-  <extension><plugin plugin="warmjoint.friction"/></extension>
-  <option {}><flag contact="disable" eulerdamp="disable"/></option>
-  <worldbody>
-    <body>
-      <joint name="hinge" type="hinge" axis="0 1 0" {}/>
-      <inertial pos="0.5 0 0" mass="1" diaginertia="1e-9 1e-9 1e-9"/>
-    </body>
-  </worldbody>
-  {}
-</mujoco>)",
-                     option, joint, sections);
+  const std::string body = fmt::format(R"(
+    <joint name="hinge" type="hinge" axis="0 1 0" {}/>
+    <inertial pos="0.5 0 0" mass="1" diaginertia="1e-9 1e-9 1e-9"/>)",
+                                       joint);
+  return OneBodyXml(body, sections, option);
 }
 
 /// A carriage of 3 kg on the vertical joint "slide". `sections`: further MJCF.
 inline std::string CarriageXml(const std::string& sections, const std::string& option) {
-  return fmt::format(R"(
-<mujoco>
-  <extension><plugin plugin="warmjoint.friction"/></extension>
-  <option {}><flag contact="disable" eulerdamp="disable"/></option>
-  <worldbody>
-    <body>
-      <joint name="slide" type="slide" axis="0 0 1"/>
-      <inertial pos="0 0 0" mass="3" diaginertia="1e-3 1e-3 1e-3"/>
-    </body>
-  </worldbody>
-  {}
-</mujoco>)",
-                     option, sections);
+  return OneBodyXml(R"(
+    <joint name="slide" type="slide" axis="0 0 1"/>
+    <inertial pos="0 0 0" mass="3" diaginertia="1e-3 1e-3 1e-3"/>)",
+                    sections, option);
 }
 
 inline constexpr char kNoGravity[] = R"(timestep="0.001" gravity="0 0 0")";
