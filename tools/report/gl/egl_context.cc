@@ -15,7 +15,6 @@ struct Egl {
   SharedLibrary library{"libEGL.so.1", "libEGL.so"};
   decltype(&eglGetProcAddress) find{};
   decltype(&eglInitialize) initialize{};
-  decltype(&eglTerminate) terminate{};
   decltype(&eglBindAPI) bind_api{};
   decltype(&eglChooseConfig) choose_config{};
   decltype(&eglCreateContext) create_context{};
@@ -28,13 +27,12 @@ struct Egl {
     if (!library.is_open()) return false;
     find = library.Find<decltype(find)>("eglGetProcAddress");
     initialize = library.Find<decltype(initialize)>("eglInitialize");
-    terminate = library.Find<decltype(terminate)>("eglTerminate");
     bind_api = library.Find<decltype(bind_api)>("eglBindAPI");
     choose_config = library.Find<decltype(choose_config)>("eglChooseConfig");
     create_context = library.Find<decltype(create_context)>("eglCreateContext");
     destroy_context = library.Find<decltype(destroy_context)>("eglDestroyContext");
     make_current = library.Find<decltype(make_current)>("eglMakeCurrent");
-    if (!find || !initialize || !terminate || !bind_api || !choose_config || !create_context ||
+    if (!find || !initialize || !bind_api || !choose_config || !create_context ||
         !destroy_context || !make_current) {
       return false;
     }
@@ -46,6 +44,8 @@ struct Egl {
   }
 };
 
+/// Displays belong to the process and are never terminated: other contexts may use the same, and
+/// drivers that were unloaded would leave threads behind.
 class EglContext : public GlContext {
  public:
   EglContext(const Egl& egl, EGLDisplay display, std::string name)
@@ -55,13 +55,12 @@ class EglContext : public GlContext {
       egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
       egl_.destroy_context(display_, context_);
     }
-    if (initialized_) egl_.terminate(display_);
   }
 
   /// Whether a context came into being and is current.
   bool Open() {
-    initialized_ = egl_.initialize(display_, nullptr, nullptr) == EGL_TRUE;
-    if (!initialized_ || !egl_.bind_api(EGL_OPENGL_API)) return false;
+    if (!egl_.initialize(display_, nullptr, nullptr) || !egl_.bind_api(EGL_OPENGL_API))
+      return false;
     const std::array<EGLint, 5> wanted{EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,
                                        EGL_NONE};
     EGLConfig config{};
@@ -85,7 +84,6 @@ class EglContext : public GlContext {
   EGLDisplay display_;
   std::string name_;
   EGLContext context_ = EGL_NO_CONTEXT;
-  bool initialized_ = false;
 };
 
 std::unique_ptr<GlContext> Try(const Egl& egl, EGLDisplay display, std::string name) {
