@@ -7,8 +7,8 @@
 #include "identification/fit_data.h"
 #include "identification/least_squares.h"
 #include "identification/linear_laws.h"
+#include "identification/make_bands.h"
 #include "identification/report_law.h"
-#include "identification/student.h"
 #include "models/friction/sign.h"
 
 namespace warmjoint {
@@ -36,55 +36,6 @@ std::string DescribeMapFit(const IdentifierInput& input, const MapTask& task, co
   return message + ColourOf(noise);
 }
 
-MapBand BandOf(const FrictionMap& map, const Eigen::MatrixXd& covariance, double freedom) {
-  // centres of all axes, the last the fastest
-  const auto count = static_cast<Eigen::Index>(map.size());
-  MapBand band;
-  MapPoints points = MapPoints::Zero(count, 5);
-  points.col(static_cast<int>(MapQuantity::velocity)).setOnes();
-  for (Eigen::Index i = 0; i < count; ++i) {
-    std::vector<double> centre(map.axes.size());
-    auto rest = static_cast<size_t>(i);
-    for (size_t a = map.axes.size(); a-- > 0;) {
-      const std::vector<double>& centres = map.axes[a].kernels.centres;
-      centre[a] = centres[rest % centres.size()];
-      points(i, static_cast<int>(map.axes[a].quantity)) = centre[a];
-      rest /= centres.size();
-    }
-    band.points.push_back(std::move(centre));
-  }
-  for (const MapAxis& axis : map.axes) band.quantities.emplace_back(MapQuantityName(axis.quantity));
-
-  band.value.resize(map.size());
-  band.std.resize(map.size());
-  band.interval95.resize(map.size());
-  const double reach = StudentQuantile(freedom);
-  for (const RowGroup& group : GroupRows({map}, points, 0, count)) {
-    const Eigen::MatrixXd own = covariance(group.kernels, group.kernels);
-    for (Eigen::Index i = 0; i < group.values.rows(); ++i) {
-      const auto place = static_cast<size_t>(group.samples[i]);
-      const Eigen::RowVectorXd row = group.values.row(i);
-      const double deviation = std::sqrt(std::max(0.0, (row * own * row.transpose()).value()));
-      const double value = EvaluateMap(map, PointAt(points, group.samples[i]));
-      band.value[place] = value;
-      band.std[place] = deviation;
-      band.interval95[place] = {value - reach * deviation, value + reach * deviation};
-    }
-  }
-  return band;
-}
-
-std::vector<MapBand> BandsOf(const std::vector<FrictionMap>& maps, const Uncertainty& known,
-                             Eigen::Index first) {
-  std::vector<MapBand> bands;
-  for (const FrictionMap& map : maps) {
-    const auto size = static_cast<Eigen::Index>(map.size());
-    bands.push_back(BandOf(map, known.covariance.block(first, first, size, size), known.freedom));
-    first += size;
-  }
-  return bands;
-}
-
 std::string ShapeOf(const std::vector<FrictionMap>& maps) {
   std::vector<std::string> shapes;
   for (const FrictionMap& map : maps) {
@@ -95,6 +46,17 @@ std::string ShapeOf(const std::vector<FrictionMap>& maps) {
     shapes.push_back(fmt::format("{} kernels", fmt::join(axes, " x ")));
   }
   return fmt::format("{}", fmt::join(shapes, " and "));
+}
+
+void ReportLawBesideMaps(const Law& law, const MapFit& fit, const Uncertainty& known,
+                         const Measurements& measurements, Estimate& estimate) {
+  const size_t first = estimate.parameters.size();
+  ReportLaw(law, fit.x.head(fit.free), known, measurements, estimate);
+  for (const Eigen::Index i : ImitatedColumns(fit)) {
+    EstimatedParameter& parameter = estimate.parameters[first + static_cast<size_t>(i)];
+    parameter.std.reset();
+    parameter.interval95.reset();
+  }
 }
 
 Estimate Unsolvable(const std::string& identifier) {
@@ -158,7 +120,7 @@ Estimate ReportMaps(const IdentifierInput& input, const MapTask& task, const Map
   const Law& law = *FindLaw(task.settings.law);
   Estimate estimate;
   estimate.identifier = task.identifier;
-  ReportLaw(law, fit.x.head(fit.free), known, m, estimate);
+  ReportLawBesideMaps(law, fit, known, m, estimate);
   estimate.metrics = ComputeMetrics(Kept(m.torque, input.selection),
                                     fit.fitted + TakenByEnergy(input, task.energy),
                                     static_cast<int>(fit.x.size()), fit.effective);
@@ -166,7 +128,7 @@ Estimate ReportMaps(const IdentifierInput& input, const MapTask& task, const Map
   DescribeFriction(law, m, estimate);
   if (!estimate.friction) return estimate;
   estimate.friction->maps = fit.maps;
-  estimate.bands = BandsOf(fit.maps, known, fit.free);
+  estimate.bands = MakeBands(law, fit, known, Kept(PointsOf(m, task.energy), input.selection));
   return estimate;
 }
 

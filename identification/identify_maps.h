@@ -42,12 +42,10 @@ std::string DescribeMapFit(const IdentifierInput& input, const MapTask& task, co
 /// The answer where there is no fit: bad_data.
 Estimate Unsolvable(const std::string& identifier);
 
-/// The values of a map at its centres. covariance: [q x q] of its weights.
-MapBand BandOf(const FrictionMap& map, const Eigen::MatrixXd& covariance, double freedom);
-
-/// The bands of maps whose weights begin at `first` of the parameters that `known` is about.
-std::vector<MapBand> BandsOf(const std::vector<FrictionMap>& maps, const Uncertainty& known,
-                             Eigen::Index first);
+/// Appends the law's parameters; those that the kernels can imitate get no interval, for only the
+/// prior's taste tells them from a map.
+void ReportLawBesideMaps(const Law& law, const MapFit& fit, const Uncertainty& known,
+                         const Measurements& measurements, Estimate& estimate);
 
 /// "20 position x 2 velocity kernels and 36 motor_position kernels".
 std::string ShapeOf(const std::vector<FrictionMap>& maps);

@@ -1,4 +1,4 @@
-// A map's values with their uncertainty.
+// Friction along a map, with its uncertainty.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace warmjoint {
 
-/// Values of one map at its centres, each by itself with 95 %.
+/// Law and maps together at one map's centres (make_bands.h), each by itself with 95 %.
 struct MapBand {
   std::vector<std::string> quantities;            // of the axes
   std::vector<std::vector<double>> points;        // [g][axes] rad or m, ...

@@ -7,10 +7,10 @@
 
 #include "identification/fit_data.h"
 #include "identification/linear_laws.h"
+#include "identification/make_bands.h"
 #include "identification/motor_maps.h"
 #include "identification/penalised_uncertainty.h"
 #include "identification/predict.h"
-#include "identification/report_law.h"
 #include "identification/report_thermal.h"
 #include "identification/warming_verdict.h"
 
@@ -160,7 +160,7 @@ Estimate ReportWarmMaps(const IdentifierInput& input, const WarmMaps& warm) {
                                 kContext)) {
     return Failed(name, Status::not_identifiable, *why);
   }
-  ReportLaw(law, warm.fit.x.head(warm.fit.free), known, m, estimate);
+  ReportLawBesideMaps(law, warm.fit, known, m, estimate);
   ReportThermal(warm.thermal, Eigen::Matrix2d(known.covariance.block<2, 2>(d, d)), known.freedom, m,
                 estimate);
   const Eigen::VectorXd torque = Kept(m.torque, input.selection);
@@ -173,7 +173,8 @@ Estimate ReportWarmMaps(const IdentifierInput& input, const WarmMaps& warm) {
   if (!estimate.friction) return estimate;
   estimate.friction->thermal = warm.thermal;
   estimate.friction->maps = warm.fit.maps;
-  estimate.bands = BandsOf(warm.fit.maps, known, warm.fit.free);
+  estimate.bands =
+      MakeBands(law, warm.fit, known, Kept(PointsOf(m, warm.task.energy), input.selection));
   if (warm.fit.maps[0].axes[0].quantity == MapQuantity::motor_position) {
     const auto count = static_cast<Eigen::Index>(warm.fit.maps[0].size());
     estimate.message += DescribeMotorRipple(

@@ -47,6 +47,10 @@ TEST(WarmMaps, FindTheWarmingBesideAMap) {
        {std::pair("viscous", 0.0527), std::pair("coulomb", 0.48), std::pair("thermal_gain", -0.194),
         std::pair("thermal_time_constant", 180.0)}) {
     const EstimatedParameter& found = *estimate.Find(name);
+    if (!found.std) {
+      EXPECT_STREQ(name, "coulomb") << "which the kernels can imitate";
+      continue;
+    }
     // 4 of its own standard deviations, which must be small themselves
     EXPECT_NEAR(found.value, value, 4 * *found.std) << name;
     EXPECT_LT(*found.std, 0.05 * std::abs(value)) << name;
