@@ -71,7 +71,8 @@ TEST(PluginCoulomb, SlidesAsFrictionlossDoes) {
   for (int i = 0; i < 1200; ++i) {
     mj_step(ours.get(), a.get());
     mj_step(native.get(), b.get());
-    ASSERT_NEAR(a->qvel[0], b->qvel[0], 1e-9);
+    // a saturated frictionloss is the same number: rounding of 30 rad/s in 1200 steps
+    ASSERT_NEAR(a->qvel[0], b->qvel[0], 5e-12);
   }
 }
 
