@@ -10,8 +10,8 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kLeastChange = 0.01;  // of the velocity's rms
-constexpr double kInside = 1e-6;       // of an interval: a switch nearer to a sample is at it
+constexpr double kLeastChange = 0.1;  // of the velocity's rms
+constexpr double kInside = 1e-6;      // of an interval: a switch nearer to a sample is at it
 
 /// A sample to put in after sample `after`.
 struct Switch {
