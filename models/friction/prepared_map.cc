@@ -92,7 +92,7 @@ bool PreparedAxis::EvenKernels(const Segment& segment, double x, ActiveKernels& 
     offset -= *axis_.period * std::floor(offset / *axis_.period);
   }
   const double place = offset * segment.per_spacing;
-  if (place < -0.5 || place >= segment.size() - 0.5 + circle) return false;
+  if (!(place >= -0.5 && place < segment.size() - 0.5 + circle)) return false;
 
   // the nearest centre, and the distance from it in widths
   const int centre = static_cast<int>(place + 0.5);

@@ -99,7 +99,7 @@ bool RowTable::Locate(double x, Spot& spot) const {
   const double place = offset * per_cell_;
   if (!(place >= 0 && place < static_cast<double>(cells_))) {
     // rounding may put the end of a circle beyond its last cell
-    if (period_ == 0 || empty()) return false;
+    if (period_ == 0 || std::isnan(place)) return false;
     spot = {cells_ - 1, 1};
     return true;
   }

@@ -78,6 +78,15 @@ TEST(PreparedMap, IsTheSameOverProductsOfAxesWithAFactor) {
   }
 }
 
+TEST(PreparedMap, PassesOnWhatIsNoNumber) {
+  for (const GaussianAxis& axis : Axes()) {
+    const FrictionMap map{{{MapQuantity::position, axis}},
+                          KernelKind::normalised,
+                          std::vector<double>(axis.size(), 1.0)};
+    EXPECT_TRUE(std::isnan(PreparedMap(map).Value({std::nan("")}))) << axis.size() << " centres";
+  }
+}
+
 TEST(PreparedMap, VanishesAtRestWhereItsSidesAreApart) {
   const FrictionMap map{
       {{MapQuantity::velocity, SpeedAxis(0.1, 1, 2)}}, KernelKind::normalised, {1, 2, 3, 4}};

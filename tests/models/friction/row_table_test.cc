@@ -68,6 +68,7 @@ TEST(RowTable, EndsHalfASpacingOutsideOfTheGridAndNeverOnACircle) {
   EXPECT_FALSE(table.Locate(std::nan(""), spot));
   const GaussianAxis circle = CircleAxis(kTurn, 12);
   const RowTable around(circle, KernelKind::normalised, Weights(circle));
+  EXPECT_FALSE(around.Locate(std::nan(""), spot));
   for (const double x : {-1e-18, 0.0, kTurn, -100.0, 1e6}) EXPECT_TRUE(around.Locate(x, spot)) << x;
 }
 
