@@ -10,8 +10,8 @@ constexpr double kConstant = 0.02;  // change of the speed below which it counts
 }  // namespace
 
 BristleCourse::BristleCourse(const Eigen::VectorXd& time, const Eigen::VectorXd& velocity,
-                             const std::vector<Eigen::Index>& starts)
-    : velocity_(velocity), begins_(static_cast<size_t>(velocity.size()), false) {
+                             const std::vector<Eigen::Index>& starts, const Eigen::VectorXd& torque)
+    : velocity_(velocity), torque_(torque), begins_(static_cast<size_t>(velocity.size()), false) {
   begins_[0] = true;
   for (const Eigen::Index start : starts) begins_[static_cast<size_t>(start)] = true;
   end_.reserve(begins_.size());

@@ -17,14 +17,15 @@ class BristleCourse {
 
   /// time: [N] s, strictly increasing; velocity: [N] rad/s or m/s; starts: samples, above 0, at
   /// which another recording begins.
+  /// torque: [N] N.m or N, which tells how the bristle is bent at each start; or empty.
   BristleCourse(const Eigen::VectorXd& time, const Eigen::VectorXd& velocity,
-                const std::vector<Eigen::Index>& starts);
+                const std::vector<Eigen::Index>& starts, const Eigen::VectorXd& torque = {});
 
   Eigen::Index size() const { return velocity_.size(); }
 
   /// F of LuGre::BristleForce and the bristle's load s at every sample. At the start of each
-  /// recording the bristle is bent as in steady sliding. Over a piece of travel dx, on which the
-  /// level g goes linearly from g0 to g1,
+  /// recording s = tau - kv v, within +-g, or without a torque as in steady sliding. Over a piece
+  /// of travel dx, on which the level g goes linearly from g0 to g1,
   ///   s' = t1 + (s - t0) exp(-q) - (t1 - t0) (1 - exp(-q)) / q,   q = sigma0 |dx| 2 / (g0 + g1),
   /// t = g sign(v), solves ds/dx = sigma0 (1 - s / t) sign(v): exact at constant speed, of second
   /// order else, and stable for any q.
@@ -42,6 +43,7 @@ class BristleCourse {
   void Cut(double step, double from, double to);
 
   Eigen::VectorXd velocity_;
+  Eigen::VectorXd torque_;    // [N] or empty
   std::vector<bool> begins_;  // [N] whether a recording begins at the sample
   std::vector<Piece> pieces_;
   std::vector<size_t> end_;  // [N] one past the last piece before each sample
@@ -59,6 +61,10 @@ void BristleCourse::Run(const T* p, T* force, T* load) const {
     if (begins_[k]) {
       level = LuGre::Level(Sign(v), std::abs(v), p);
       s = static_cast<double>(Sign(v)) * level;
+      if (torque_.size() > 0) {
+        const T carried = torque_[i] - p[0] * v;
+        s = carried > level ? level : carried < -level ? T(-level) : carried;
+      }
     }
     for (; next < end_[k]; ++next) {
       const Piece& piece = pieces_[next];

@@ -3,17 +3,21 @@
 
 #include <optional>
 
+#include "identification/adequacy/fitted_model.h"
 #include "identification/identifier.h"
 #include "sim/dataset/split_at_switches.h"
 
 namespace warmjoint {
 
-/// An input whose log has a sample at each switch of speed (split_at_switches.h). Holds the log it
-/// refers to; `given` must outlive it.
+/// An input whose log has a sample at each switch of speed (split_at_switches.h), or the log as it
+/// is for an identifier with an option `inertia`: it follows the acceleration from sample to sample
+/// itself. Holds the log it refers to; `given` must outlive it.
 class FinerInput {
  public:
-  explicit FinerInput(const IdentifierInput& given)
-      : split_(SplitAtSwitches(given.measurements, given.selection)),
+  FinerInput(const Identifier& identifier, const IdentifierInput& given)
+      : split_(HasOption(identifier, "inertia")
+                   ? std::nullopt
+                   : SplitAtSwitches(given.measurements, given.selection)),
         input_{split_ ? split_->measurements : given.measurements,
                split_ ? split_->selection : given.selection, given.options, given.random} {}
   FinerInput(const FinerInput&) = delete;

@@ -15,13 +15,16 @@
 #include "identification/uncertainty.h"
 #include "identification/warming_verdict.h"
 #include "models/friction/viscous_coulomb.h"
+#include "sim/dataset/robust_noise.h"
 
 namespace warmjoint {
 namespace {
 
 constexpr const char* kName = "lugre";
 constexpr size_t kRefined = 3;         // starts
-constexpr int kPasses = 2;             // of weighing the samples
+constexpr double kOutlier = 4;         // standard deviations
+constexpr int kPasses = 3;             // of weighing the samples
+constexpr double kNotable = 0.02;      // of the torque's rms
 constexpr double kMissed = 2;          // rms around turns over that at constant speeds
 constexpr double kVagueBristle = 0.5;  // standard deviation of a logarithm: a factor of e
 
@@ -81,34 +84,49 @@ LugreFit FitFrom(const LugreProblem& problem, const std::vector<LugrePoint>& sca
   return *best;
 }
 
-/// Rms residual of the kept samples and of the others, N.m or N.
+/// Standard deviation of the residual of the kept samples and of the others, N.m or N.
 struct NoiseOfGroups {
   double kept = 0;
   double others = 0;
 };
 
-/// Weighs both groups of samples by what a fit leaves of them.
+/// Rms of residuals, those beyond kOutlier robust standard deviations left out. [n]
+double RobustRms(std::vector<double> residuals) {
+  if (residuals.empty()) return 0;
+  Eigen::VectorXd sizes = Eigen::Map<const Eigen::ArrayXd>(
+                              residuals.data(), static_cast<Eigen::Index>(residuals.size()))
+                              .abs();
+  const double most = kOutlier * MedianInPlace(sizes) / 0.6745;
+  double squares = 0, count = 0;
+  for (const double residual : residuals) {
+    if (std::abs(residual) > most) continue;
+    squares += residual * residual;
+    count += 1;
+  }
+  return std::sqrt(squares / std::max(count, 1.0));
+}
+
+/// Weighs both groups of samples by what a fit leaves of them, and outliers as Huber (1964) does:
+/// where the drive's torque jumps, the acceleration between samples is not known.
 NoiseOfGroups Weigh(const Selection& selection, const LugreFit& fit, LugreProblem& problem) {
-  double squares[2] = {0, 0};
-  double count[2] = {0, 0};
+  const Eigen::VectorXd residual = fit.residual.cwiseProduct(problem.deviation);
+  std::vector<double> kept, others;
   Eigen::Index row = 0;
   for (Eigen::Index i = 0; i < problem.used.keep.size(); ++i) {
-    if (!problem.used.keep[i]) continue;
-    const int group = selection.keep[i] ? 0 : 1;
-    const double residual = fit.residual[row] * problem.deviation[row];
-    squares[group] += residual * residual;
-    count[group] += 1;
-    ++row;
+    if (problem.used.keep[i]) (selection.keep[i] ? kept : others).push_back(residual[row++]);
   }
   NoiseOfGroups noise;
-  noise.kept = std::sqrt(squares[0] / std::max(count[0], 1.0));
+  noise.kept = RobustRms(kept);
   // a handful of samples tells no noise
-  noise.others = count[1] < 3 * kLugreSize ? noise.kept : std::sqrt(squares[1] / count[1]);
+  noise.others = others.size() < 3 * kLugreSize ? noise.kept : RobustRms(others);
   const double least = 1e-12 * problem.torque.cwiseAbs().maxCoeff();
   row = 0;
   for (Eigen::Index i = 0; i < problem.used.keep.size(); ++i) {
     if (!problem.used.keep[i]) continue;
-    problem.deviation[row++] = std::max(selection.keep[i] ? noise.kept : noise.others, least);
+    const double deviation = std::max(selection.keep[i] ? noise.kept : noise.others, least);
+    problem.deviation[row] = std::max(deviation, std::abs(residual[row]) / kOutlier);
+    if (std::abs(residual[row]) <= kOutlier * deviation) problem.deviation[row] = deviation;
+    ++row;
   }
   return noise;
 }
@@ -295,7 +313,8 @@ Estimate Conclude(const IdentifierInput& input, const LugreProblem& problem,
                               turns, noise.others, m.torque_unit, noise.kept)
                 : "",
       ColourOf(answer.known.noise));
-  if (noise.others > kMissed * noise.kept) {
+  const double friction = torque.norm() / std::sqrt(static_cast<double>(torque.size()));
+  if (noise.others > kMissed * noise.kept && noise.others > kNotable * friction) {
     Void(Status::inadequate_model,
          fmt::format("around turns the law leaves {:.3g} {} rms, at constant speeds {:.3g}: it "
                      "misses what happens there; move more softly, log faster, or use the law "

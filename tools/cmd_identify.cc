@@ -127,7 +127,7 @@ ExitStatus Identify(const IdentifyArguments& arguments) {
   const Measurements measurements = ReadRecording(arguments.recording);
 
   const Selection selection = SelectConstantSpeed(measurements);
-  const FinerInput finer({measurements, selection, options, {}});
+  const FinerInput finer(identifier, {measurements, selection, options, {}});
   const IdentifierInput& input = finer.input();
   const Estimate before = identifier.identify(input);
   Estimate estimate = before;

@@ -209,7 +209,7 @@ Estimate WithVoidNumbers(const Estimate& judged, const Estimate& before) {
 }
 
 Estimate IdentifyAndJudge(const Identifier& identifier, const IdentifierInput& given) {
-  const FinerInput finer(given);
+  const FinerInput finer(identifier, given);
   Estimate estimate = identifier.identify(finer.input());
   JudgeAdequacy(identifier, finer.input(), estimate);
   TellUnseenReversals(finer.unseen(), estimate);
