@@ -2,10 +2,12 @@
 #include <fmt/format.h>
 
 #include "models/foundation/bad_input.h"
+#include "models/foundation/keep_memory.h"
 #include "tools/program.h"
 
 int main(int argc, char** argv) {
   using warmjoint::ExitStatus;
+  warmjoint::KeepFreedMemory();
   ExitStatus status = ExitStatus::internal_error;
   try {
     status = warmjoint::RunProgram(argc, argv);

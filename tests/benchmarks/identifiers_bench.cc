@@ -3,6 +3,7 @@
 
 #include "identification/adequacy/judge.h"
 #include "identification/identifier.h"
+#include "models/foundation/keep_memory.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint {
@@ -19,6 +20,9 @@ void Identify(benchmark::State& state, const char* name,
     benchmark::DoNotOptimize(identifier.identify({recording, selection, options, {}}));
   }
 }
+
+// as the program does
+const bool kKeeps = (KeepFreedMemory(), true);
 
 /// What the verdict costs on top.
 void Judge(benchmark::State& state, const char* name) {
