@@ -8,21 +8,19 @@
 #include "identification/fit_data.h"
 #include "identification/least_squares.h"
 #include "identification/linear_laws.h"
+#include "identification/lugre_answer.h"
 #include "identification/lugre_data.h"
 #include "identification/stribeck_fit.h"
 #include "identification/stribeck_verdict.h"
 #include "identification/student.h"
-#include "identification/uncertainty.h"
 #include "identification/warming_verdict.h"
 #include "models/friction/viscous_coulomb.h"
-#include "sim/dataset/robust_noise.h"
 
 namespace warmjoint {
 namespace {
 
 constexpr const char* kName = "lugre";
 constexpr size_t kRefined = 3;         // starts
-constexpr double kOutlier = 4;         // standard deviations
 constexpr int kPasses = 3;             // of weighing the samples
 constexpr double kNotable = 0.02;      // of the torque's rms
 constexpr double kMissed = 2;          // rms around turns over that at constant speeds
@@ -30,21 +28,6 @@ constexpr double kVagueBristle = 0.5;  // standard deviation of a logarithm: a f
 
 constexpr ParameterInfo kInertiaInfo{"inertia", "M", {"N.m.s^2/rad", "N.s^2/m"}, 0,
                                      kInfinity, 0,   "torque over acceleration"};
-
-/// A fit with what is known of it.
-struct LugreAnswer {
-  LugreFit fit;
-  Uncertainty known;               // of the parameters that are not constant
-  std::vector<Eigen::Index> rows;  // [kLugreSize] of each parameter in `known`, or -1
-
-  double Deviation(Eigen::Index i) const {
-    const Eigen::Index row = rows[static_cast<size_t>(i)];
-    return row < 0 ? 0 : known.Deviation(row);
-  }
-  double Variance(Eigen::Index i, Eigen::Index j) const {
-    return known.covariance(rows[static_cast<size_t>(i)], rows[static_cast<size_t>(j)]);
-  }
-};
 
 /// {kv, kc, ks, ln vs} of the Stribeck curve, were presliding over after `distance`, rad or m;
 /// nothing where the samples do not show one. A start, so that ks is kept within 1 and 3 kc.
@@ -82,107 +65,6 @@ LugreFit FitFrom(const LugreProblem& problem, const std::vector<LugrePoint>& sca
   RefineBest(problem, scan, best);
   RefineBest(problem, ScanFall(problem, best->solution, fastest), best);
   return *best;
-}
-
-/// Standard deviation of the residual of the kept samples and of the others, N.m or N.
-struct NoiseOfGroups {
-  double kept = 0;
-  double others = 0;
-};
-
-/// Rms of residuals, those beyond kOutlier robust standard deviations left out. [n]
-double RobustRms(std::vector<double> residuals) {
-  if (residuals.empty()) return 0;
-  Eigen::VectorXd sizes = Eigen::Map<const Eigen::ArrayXd>(
-                              residuals.data(), static_cast<Eigen::Index>(residuals.size()))
-                              .abs();
-  const double most = kOutlier * MedianInPlace(sizes) / 0.6745;
-  double squares = 0, count = 0;
-  for (const double residual : residuals) {
-    if (std::abs(residual) > most) continue;
-    squares += residual * residual;
-    count += 1;
-  }
-  return std::sqrt(squares / std::max(count, 1.0));
-}
-
-/// Weighs both groups of samples by what a fit leaves of them, and outliers as Huber (1964) does:
-/// where the drive's torque jumps, the acceleration between samples is not known.
-NoiseOfGroups Weigh(const Selection& selection, const LugreFit& fit, LugreProblem& problem) {
-  const Eigen::VectorXd residual = fit.residual.cwiseProduct(problem.deviation);
-  std::vector<double> kept, others;
-  Eigen::Index row = 0;
-  for (Eigen::Index i = 0; i < problem.used.keep.size(); ++i) {
-    if (problem.used.keep[i]) (selection.keep[i] ? kept : others).push_back(residual[row++]);
-  }
-  NoiseOfGroups noise;
-  noise.kept = RobustRms(kept);
-  // a handful of samples tells no noise
-  noise.others = others.size() < 3 * kLugreSize ? noise.kept : RobustRms(others);
-  const double least = 1e-12 * problem.torque.cwiseAbs().maxCoeff();
-  row = 0;
-  for (Eigen::Index i = 0; i < problem.used.keep.size(); ++i) {
-    if (!problem.used.keep[i]) continue;
-    const double deviation = std::max(selection.keep[i] ? noise.kept : noise.others, least);
-    problem.deviation[row] = std::max(deviation, std::abs(residual[row]) / kOutlier);
-    if (std::abs(residual[row]) <= kOutlier * deviation) problem.deviation[row] = deviation;
-    ++row;
-  }
-  return noise;
-}
-
-/// The columns of the Jacobian that belong to parameters which are not constant.
-Eigen::MatrixXd FreeColumns(const LugreProblem& problem, const Eigen::MatrixXd& jacobian) {
-  Eigen::MatrixXd free(jacobian.rows(), kLugreSize - problem.constant.size());
-  Eigen::Index column = 0;
-  for (int i = 0; i < kLugreSize; ++i) {
-    if (!problem.IsConstant(i)) free.col(column++) = jacobian.col(i);
-  }
-  return free;
-}
-
-/// By how much the sampling shifts the parameters: linear motion between samples errs with the
-/// square of the interval, so that the error is a third of what leaving out every other sample
-/// changes (Richardson). jacobian: [n x d] of the free parameters, over the deviations.
-Eigen::VectorXd SamplingShift(const IdentifierInput& input, const LugreProblem& problem,
-                              const LugreFit& fit, const Eigen::MatrixXd& jacobian) {
-  const HalvedProblem halved = Halve(input, problem);
-  const Eigen::VectorXd full = LugreTorque(problem, fit.solution);
-  const Eigen::VectorXd half = LugreTorque(halved.problem, fit.solution);
-  std::vector<Eigen::Index> row(static_cast<size_t>(full.size()), -1);
-  Eigen::Index rows = 0;
-  for (Eigen::Index i = 0; i < full.size(); ++i) {
-    if (problem.used.keep[i]) row[static_cast<size_t>(i)] = rows++;
-  }
-
-  const Eigen::Index n = halved.problem.used.count();
-  Eigen::MatrixXd J(n, jacobian.cols());
-  Eigen::VectorXd error(n);
-  Eigen::Index k = 0;
-  for (size_t j = 0; j < halved.samples.size(); ++j) {
-    const Eigen::Index i = halved.samples[j], r = row[static_cast<size_t>(i)];
-    if (r < 0) continue;
-    J.row(k) = jacobian.row(r);
-    error[k++] = (half[static_cast<Eigen::Index>(j)] - full[i]) / (3 * problem.deviation[r]);
-  }
-  return Cofactor(J.transpose() * J) * (J.transpose() * error);
-}
-
-/// Covariance of the parameters that are not constant: noise and, as if it were one standard
-/// deviation, what the sampling shifts them by.
-LugreAnswer Judge(const IdentifierInput& input, const LugreProblem& problem, LugreFit fit) {
-  LugreAnswer answer;
-  for (int i = 0, row = 0; i < kLugreSize; ++i) {
-    answer.rows.push_back(problem.IsConstant(i) ? -1 : row++);
-  }
-  const Eigen::MatrixXd jacobian = FreeColumns(problem, fit.jacobian);
-  answer.known = JudgeUncertainty(jacobian, Cofactor(jacobian.transpose() * jacobian), fit.residual,
-                                  problem.used);
-  const Eigen::VectorXd shift = SamplingShift(input, problem, fit, jacobian);
-
-  answer.known.covariance += shift * shift.transpose();
-  answer.fit = std::move(fit);
-  return answer;
 }
 
 /// Why bristle_stiffness cannot be told, or bristle_damping; nothing where they can.
@@ -364,11 +246,11 @@ Estimate Identify(const IdentifierInput& input) {
   LugreFit fit = FitFrom(problem, scan, m.velocity.cwiseAbs().maxCoeff());
   NoiseOfGroups noise;
   for (int pass = 0; pass < kPasses; ++pass) {
-    noise = Weigh(input.selection, fit, problem);
+    noise = WeighLugre(input.selection, fit, problem);
     fit = RefineLugre(problem, fit.solution);
   }
 
-  Estimate estimate = Conclude(input, problem, Judge(input, problem, std::move(fit)), noise);
+  Estimate estimate = Conclude(input, problem, JudgeLugre(input, problem, std::move(fit)), noise);
   estimate.trace = trace;
   return estimate;
 }
