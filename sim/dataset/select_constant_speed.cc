@@ -14,17 +14,22 @@ constexpr Index kShortest = 3;  // samples of a segment
 
 Index Length(const Segment& segment) { return segment.end - segment.begin; }
 
-/// How far the speed strays from `level` in the middle half of a run, where it has settled: as far
-/// as all but 2 % of the samples there do. A drive lets ripple of the load through to the speed.
+/// How far the speed strays from `level` all along a run, for a drive lets ripple of the load
+/// through: as far as all but 2 % of the samples of its second or its third quarter, whichever is
+/// less, since a slow drive may still settle in the second.
 double Wobble(const Segment& run, double level, const Eigen::VectorXd& v) {
   const Index quarter = Length(run) / 4;
-  Eigen::VectorXd strays =
-      (v.segment(run.begin + quarter, Length(run) - 2 * quarter).array() - level).abs();
-  return QuantileInPlace(strays, 0.98);
+  if (quarter == 0) return 0;
+  const auto stray = [&](Index begin) {
+    Eigen::VectorXd strays = (v.segment(begin, quarter).array() - level).abs();
+    return QuantileInPlace(strays, 0.98);
+  };
+  return std::min(stray(run.begin + quarter), stray(run.begin + 2 * quarter));
 }
 
-/// Sets the level of a run to its median and cuts its ends where the speed still settles: outwards
-/// from the middle, to the first samples that leave 4 robust standard deviations and the wobble.
+/// Sets the level of a run to its median and cuts its ends where the speed still settles: inwards,
+/// to the first samples in a row within 4 robust standard deviations, or the wobble. What strays
+/// further inside is left: there the load ripples. Empty where it never settles.
 void Settle(Segment& run, const Eigen::VectorXd& v, const VelocityScale& scale) {
   Eigen::VectorXd values = v.segment(run.begin, Length(run));
   run.velocity = MedianInPlace(values);
@@ -33,17 +38,24 @@ void Settle(Segment& run, const Eigen::VectorXd& v, const VelocityScale& scale) 
   const double allowed = std::max({4 * spread, Wobble(run, run.velocity, v), 3 * scale.noise,
                                    0.005 * std::abs(run.velocity), 1.5 * scale.resolution});
 
-  const Index patience = 1 + Length(run) / 100;  // samples in a row that end the run
-  const Index middle = (run.begin + run.end) / 2;
-  const auto is_outside = [&](Index i) { return std::abs(v[i] - run.velocity) > allowed; };
-  Index begin = middle, end = middle + 1;
-  for (Index i = middle, outside = 0; i >= run.begin && outside < patience; --i) {
-    outside = is_outside(i) ? outside + 1 : 0;
-    if (outside == 0) begin = i;
+  const Index calm = std::max(kShortest, 1 + Length(run) / 50);  // samples in a row
+  const auto is_inside = [&](Index i) { return std::abs(v[i] - run.velocity) <= allowed; };
+  Index begin = run.begin, end = run.end;
+  for (Index inside = 0; begin + inside < run.end && inside < calm;) {
+    if (is_inside(begin + inside)) {
+      ++inside;
+    } else {
+      begin += inside + 1;
+      inside = 0;
+    }
   }
-  for (Index i = middle, outside = 0; i < run.end && outside < patience; ++i) {
-    outside = is_outside(i) ? outside + 1 : 0;
-    if (outside == 0) end = i + 1;
+  for (Index inside = 0; end - inside > begin && inside < calm;) {
+    if (is_inside(end - 1 - inside)) {
+      ++inside;
+    } else {
+      end -= inside + 1;
+      inside = 0;
+    }
   }
   run.begin = begin;
   run.end = end;

@@ -11,13 +11,21 @@ namespace {
 using Eigen::Index;
 
 constexpr double kLeastChange = 0.1;  // of the velocity's rms
-constexpr double kInside = 1e-6;      // of an interval: a switch nearer to a sample is at it
+constexpr double kSteady = 0.25;  // of the change: what the speed may change by before and behind
+constexpr double kInside = 1e-6;  // of an interval: a switch nearer to a sample is at it
 
 /// A sample to put in after sample `after`.
 struct Switch {
   Index after = 0;
   double delay = 0;  // s behind it
 };
+
+/// Whether the change of speed behind sample n stands alone: no ramp that the samples show.
+bool StandsAlone(const Eigen::VectorXd& v, Index n) {
+  const double before = n > 0 ? std::abs(v[n] - v[n - 1]) : 0;
+  const double behind = n + 2 < v.size() ? std::abs(v[n + 2] - v[n + 1]) : 0;
+  return std::max(before, behind) <= kSteady * std::abs(v[n + 1] - v[n]);
+}
 
 std::vector<Switch> FindSwitches(const Measurements& m) {
   const double rms = std::sqrt(m.velocity.squaredNorm() / static_cast<double>(m.size()));
@@ -27,6 +35,7 @@ std::vector<Switch> FindSwitches(const Measurements& m) {
     const double v0 = m.velocity[n], v1 = m.velocity[n + 1];
     const double h = m.time[n + 1] - m.time[n];
     if (std::abs(v1 - v0) <= kLeastChange * rms || h > longest) continue;
+    if (!StandsAlone(m.velocity, n)) continue;
     const double s = (m.position[n + 1] - m.position[n] - v1 * h) / (v0 - v1);
     const bool is_inside = s > kInside * h && s < (1 - kInside) * h;
     if (is_inside && !std::ranges::binary_search(m.starts, n + 1)) switches.push_back({n, s});

@@ -22,9 +22,9 @@ struct SplitLog {
 /// between two samples at v0 and v1, that charges the rest of the old speed and none of the new
 /// one. The positions tell when it changed: a switch at t0 + s, v0 s + v1 (h - s) = p1 - p0, gets a
 /// sample of its own, with the speed and the torque of the sample behind it. Nothing is put in
-/// where the speed changes by less than a tenth of its rms, where the positions contradict the
-/// speeds (s outside of the interval), or across a gap or a cold start. Values of other columns are
-/// those of the sample behind. Nothing where no switch is found.
+/// where the speed changes by less than a tenth of its rms or in a ramp that samples show, where
+/// the positions contradict the speeds (s outside of the interval), or across a gap or a cold
+/// start. Values of other columns are those of the sample behind. Nothing where no switch is found.
 std::optional<SplitLog> SplitAtSwitches(const Measurements& measurements,
                                         const Selection& selection);
 

@@ -66,6 +66,11 @@ TEST(SplitAtSwitches, LeavesALogAloneWhoseSamplesShowTheSwitches) {
   EXPECT_FALSE(SplitAtSwitches(m, All(m)));
 }
 
+TEST(SplitAtSwitches, LeavesARampAloneThatSamplesShow) {
+  const Measurements m = Log({{0.5, 4.3}, {0.2, 5.3}, {-0.1, 6.3}, {-0.4, 7.3}, {-0.7, 12}});
+  EXPECT_FALSE(SplitAtSwitches(m, All(m)));
+}
+
 TEST(SplitAtSwitches, LeavesALogAloneWhosePositionsContradictItsSpeeds) {
   Measurements m = Log({{0.5, 4.3}, {-1, 8}});
   m.position *= -1;
