@@ -11,6 +11,7 @@ namespace {
 using Eigen::Index;
 
 constexpr Index kShortest = 3;  // samples of a segment
+constexpr Index kHandful = 20;  // samples
 
 Index Length(const Segment& segment) { return segment.end - segment.begin; }
 
@@ -27,19 +28,11 @@ double Wobble(const Segment& run, double level, const Eigen::VectorXd& v) {
   return std::min(stray(run.begin + quarter), stray(run.begin + 2 * quarter));
 }
 
-/// Sets the level of a run to its median and cuts its ends where the speed still settles: inwards,
-/// to the first samples in a row within 4 robust standard deviations, or the wobble. What strays
-/// further inside is left: there the load ripples. Empty where it never settles.
-void Settle(Segment& run, const Eigen::VectorXd& v, const VelocityScale& scale) {
-  Eigen::VectorXd values = v.segment(run.begin, Length(run));
-  run.velocity = MedianInPlace(values);
-  values = (values.array() - run.velocity).abs();
-  const double spread = MedianInPlace(values) / 0.6745;
-  const double allowed = std::max({4 * spread, Wobble(run, run.velocity, v), 3 * scale.noise,
-                                   0.005 * std::abs(run.velocity), 1.5 * scale.resolution});
-
+/// Cuts the ends of a run inwards, to the first few samples in a row that are inside. What strays
+/// between them is left: there the load ripples. Empty where it never settles.
+template <typename IsInside>
+void CutInwards(Segment& run, const IsInside& is_inside) {
   const Index calm = std::max(kShortest, 1 + Length(run) / 50);  // samples in a row
-  const auto is_inside = [&](Index i) { return std::abs(v[i] - run.velocity) <= allowed; };
   Index begin = run.begin, end = run.end;
   for (Index inside = 0; begin + inside < run.end && inside < calm;) {
     if (is_inside(begin + inside)) {
@@ -57,8 +50,34 @@ void Settle(Segment& run, const Eigen::VectorXd& v, const VelocityScale& scale) 
       inside = 0;
     }
   }
-  run.begin = begin;
-  run.end = end;
+  run = {begin, end, run.velocity};
+}
+
+/// What is inside around the middle of a run.
+template <typename IsInside>
+void CutOutwards(Segment& run, const IsInside& is_inside) {
+  const Index middle = (run.begin + run.end) / 2;
+  Index begin = middle, end = middle;
+  while (begin > run.begin && is_inside(begin - 1)) --begin;
+  while (end < run.end && is_inside(end)) ++end;
+  run = {begin, end, run.velocity};
+}
+
+/// Sets the level of a run to its median and cuts its ends where the speed still settles: to within
+/// 4 robust standard deviations, or the wobble. A handful of samples shows no ripple.
+void Settle(Segment& run, const Eigen::VectorXd& v, const VelocityScale& scale) {
+  Eigen::VectorXd values = v.segment(run.begin, Length(run));
+  run.velocity = MedianInPlace(values);
+  values = (values.array() - run.velocity).abs();
+  const double spread = MedianInPlace(values) / 0.6745;
+  const double allowed = std::max({4 * spread, Wobble(run, run.velocity, v), 3 * scale.noise,
+                                   0.005 * std::abs(run.velocity), 1.5 * scale.resolution});
+  const auto is_inside = [&](Index i) { return std::abs(v[i] - run.velocity) <= allowed; };
+  if (Length(run) < kHandful) {
+    CutOutwards(run, is_inside);
+  } else {
+    CutInwards(run, is_inside);
+  }
 }
 
 /// Quarters of a run; halves of a short one.
@@ -115,12 +134,12 @@ std::pair<Index, Index> Gaps(const std::vector<Segment>& runs, std::size_t i, In
   return {runs[i].begin - before, after - runs[i].end};
 }
 
-/// Drops runs shorter than a tenth of the accelerations beside them: turning points of the speed.
+/// Drops runs shorter than a fifth of the accelerations beside them: turning points of the speed.
 std::vector<Segment> WithoutTurningPoints(const std::vector<Segment>& runs, Index samples) {
   std::vector<Segment> lasting;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const auto [front, back] = Gaps(runs, i, samples);
-    if (10 * Length(runs[i]) >= front + back) lasting.push_back(runs[i]);
+    if (5 * Length(runs[i]) >= front + back) lasting.push_back(runs[i]);
   }
   return lasting;
 }
