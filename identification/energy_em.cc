@@ -234,7 +234,7 @@ Identifier EnergyEm() {
       GravityOption(),
   };
   std::vector<OptionInfo> part =
-      PositionPartOptions({"none", "none|map", "a map over position beside the law"});
+      PositionPartOptions("none|map", "a map over position beside the law");
   options.insert(options.begin(), std::make_move_iterator(part.begin()),
                  std::make_move_iterator(part.begin() + 1));
   options.insert(options.end(), std::make_move_iterator(part.begin() + 1),

@@ -37,8 +37,8 @@ std::optional<std::string> MakeCandidates(const Options& options, const MapPoint
 
 std::vector<OptionInfo> WarmMapOptions() {
   std::vector<OptionInfo> options = PositionPartOptions(
-      {"none", "none|map|motor",
-       "beside the law a map over position, or one over the motor's angle and one over position"});
+      "none|map|motor",
+      "beside the law a map over position, or one over the motor's angle and one over position");
   options.push_back({"motor_kernels", "36", "integer >= 3 <= 128",
                      "of the map: kernels over the motor's turn, with position motor"});
   return options;

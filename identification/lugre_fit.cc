@@ -2,13 +2,12 @@
 
 #include <ceres/autodiff_cost_function.h>
 #include <ceres/manifold.h>
-#include <ceres/problem.h>
-#include <ceres/solver.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "identification/fit_data.h"
+#include "identification/solve_by_ceres.h"
 
 namespace warmjoint {
 namespace {
@@ -146,27 +145,12 @@ LugreFit RefineLugre(const LugreProblem& problem, const LugrePoint& start) {
     ceres_problem.SetManifold(x.data(), new ceres::SubsetManifold(kLugreSize, problem.constant));
   }
 
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_QR;
-  options.max_num_iterations = 100;
-  options.function_tolerance = 1e-13;
-  options.parameter_tolerance = 1e-11;
-  options.gradient_tolerance = 1e-14;
-  options.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &ceres_problem, &summary);
-
-  // residuals and derivatives at the solution
+  const auto solution = SolveByCeres<kLugreSize>(ceres_problem, *cost, x.data());
   LugreFit fit;
-  Eigen::VectorXd residuals(n);
-  Eigen::Matrix<double, Eigen::Dynamic, kLugreSize, Eigen::RowMajor> jacobian(n, kLugreSize);
-  const double* at = x.data();
-  double* into = jacobian.data();
-  fit.converged = cost->Evaluate(&at, residuals.data(), &into) &&
-                  summary.termination_type == ceres::CONVERGENCE && x.allFinite();
-  fit.residual = -residuals;
-  fit.jacobian = jacobian;
-  fit.solution = {x, residuals.squaredNorm()};
+  fit.converged = solution.converged;
+  fit.residual = -solution.residuals;
+  fit.jacobian = solution.jacobian;
+  fit.solution = {x, solution.residuals.squaredNorm()};
   return fit;
 }
 

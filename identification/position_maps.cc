@@ -14,10 +14,10 @@ std::vector<OptionInfo> PositionMapOptions() {
   };
 }
 
-std::vector<OptionInfo> PositionPartOptions(const PositionPart& position) {
+std::vector<OptionInfo> PositionPartOptions(const std::string& allowed,
+                                            const std::string& meaning) {
   std::vector<OptionInfo> options = MapOptions();
-  options.insert(options.begin() + 1,
-                 {"position", position.default_value, position.allowed, position.meaning});
+  options.insert(options.begin() + 1, {"position", "none", allowed, meaning});
   for (OptionInfo& option : PositionMapOptions()) options.push_back(std::move(option));
   for (size_t i = 2; i < options.size(); ++i) {
     options[i].meaning = "of the map: " + options[i].meaning;

@@ -8,15 +8,9 @@ namespace warmjoint {
 /// basis, kernels, velocity_kernels.
 std::vector<OptionInfo> PositionMapOptions();
 
-/// What the option `position` takes, for identifiers that can do without a map.
-struct PositionPart {
-  std::string default_value;
-  std::string allowed;
-  std::string meaning;
-};
-
-/// law, position, and what says how the map is made.
-std::vector<OptionInfo> PositionPartOptions(const PositionPart& position);
+/// law, position, and what says how the map is made: for identifiers that can do without, which
+/// `none`, the default, says. allowed, meaning: of the option position.
+std::vector<OptionInfo> PositionPartOptions(const std::string& allowed, const std::string& meaning);
 
 /// `count` kernels over position for each of `speeds` bins of either direction of motion; alike in
 /// both directions where there are none. points: [n x 5] kept; width: in spacings.

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <vector>
+
+#include "sim/dataset/robust_noise.h"
 
 namespace warmjoint {
 namespace {
@@ -22,11 +22,8 @@ OptionInfo LossOption() {
 }
 
 double HuberThreshold(const Eigen::VectorXd& residual) {
-  std::vector<double> size(residual.data(), residual.data() + residual.size());
-  for (double& r : size) r = std::abs(r);
-  const auto middle = size.begin() + static_cast<std::ptrdiff_t>(size.size() / 2);
-  std::nth_element(size.begin(), middle, size.end());
-  return kHuberBend * kNormal * *middle;
+  Eigen::VectorXd size = residual.cwiseAbs();
+  return kHuberBend * kNormal * MedianInPlace(size);
 }
 
 Eigen::VectorXd HuberWeights(const Eigen::VectorXd& residual, double threshold) {

@@ -1,8 +1,6 @@
 #include "identification/stribeck_fit.h"
 
 #include <ceres/autodiff_cost_function.h>
-#include <ceres/problem.h>
-#include <ceres/solver.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +10,7 @@
 #include "identification/fit_data.h"
 #include "identification/least_squares.h"
 #include "identification/scan_time_constant.h"
+#include "identification/solve_by_ceres.h"
 #include "models/friction/stribeck.h"
 
 namespace warmjoint {
@@ -89,27 +88,13 @@ StribeckFit Refine(const StribeckProblem& problem, const StribeckPoint& start) {
   auto* cost = new Cost<P>(new Residuals<P>(problem), n);  // owned by ceres_problem
   ceres_problem.AddResidualBlock(cost, nullptr, x.data());
 
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_QR;
-  options.max_num_iterations = 100;
-  options.function_tolerance = 1e-13;
-  options.parameter_tolerance = 1e-11;
-  options.gradient_tolerance = 1e-14;
-  options.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &ceres_problem, &summary);
-
-  // residuals and derivatives at the solution
+  const auto solution = SolveByCeres<P>(ceres_problem, *cost, x.data());
   StribeckFit fit;
-  Eigen::VectorXd residuals(n);
-  Eigen::Matrix<double, Eigen::Dynamic, P, Eigen::RowMajor> jacobian(n, P);
-  const double* at = x.data();
-  double* into = jacobian.data();
-  fit.converged = cost->Evaluate(&at, residuals.data(), &into) &&
-                  summary.termination_type == ceres::CONVERGENCE && x.allFinite();
-  fit.jacobian = problem.scale * jacobian;
-  fit.fitted = Kept(problem.measurements.torque, problem.selection) + problem.scale * residuals;
-  fit.solution = {x, problem.scale * problem.scale * residuals.squaredNorm()};
+  fit.converged = solution.converged;
+  fit.jacobian = problem.scale * solution.jacobian;
+  fit.fitted =
+      Kept(problem.measurements.torque, problem.selection) + problem.scale * solution.residuals;
+  fit.solution = {x, problem.scale * problem.scale * solution.residuals.squaredNorm()};
   return fit;
 }
 
