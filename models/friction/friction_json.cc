@@ -1,7 +1,6 @@
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "models/foundation/nearest_name.h"
+#include "models/foundation/json_members.h"
 #include "models/foundation/read_json.h"
 #include "models/friction/friction_description.h"
 
@@ -11,18 +10,7 @@ namespace {
 using nlohmann::json;
 
 double NumberMember(const json& object, const std::string& key, const Place& place) {
-  const json& value = object.at(key);
-  if (!value.is_number()) Refuse(place, "{} is {}; it must be a number", key, value.dump());
-  return value.get<double>();
-}
-
-void RefuseUnknownKeys(const json& object, const std::string& what,
-                       const std::vector<std::string>& known, const Place& place) {
-  if (!object.is_object()) Refuse(place, "{} is {}; it must be an object", what, object.dump());
-  for (const auto& [key, value] : object.items()) {
-    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
-    Refuse(place, "{} has no key '{}'{}", what, key, Suggestion(key, known));
-  }
+  return NumberFrom(object.at(key), key, place);
 }
 
 Thermal ThermalFromJson(const json& object, const Place& place) {

@@ -1,6 +1,6 @@
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "models/foundation/json_members.h"
 #include "models/foundation/nearest_name.h"
 #include "models/friction/friction_map.h"
 
@@ -17,35 +17,26 @@ constexpr MapFactor kFactors[] = {MapFactor::one, MapFactor::direction, MapFacto
 /// Refuses what is no object, and keys that are not `known`; the first `needed` must be there.
 void CheckKeys(const json& object, const char* what, const std::vector<std::string>& known,
                size_t needed, const Place& place) {
-  if (!object.is_object()) Refuse(place, "{} is {}; it must be an object", what, object.dump());
-  for (const auto& [key, value] : object.items()) {
-    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
-    Refuse(place, "{} has no key '{}'{}", what, key, Suggestion(key, known));
-  }
+  RefuseUnknownKeys(object, what, known, place);
   for (size_t i = 0; i < needed; ++i) {
     if (!object.contains(known[i])) Refuse(place, "{} lacks its {}", what, known[i]);
   }
 }
 
-double Number(const json& value, const char* what, const Place& place) {
-  if (!value.is_number()) Refuse(place, "{} is {}; it must be a number", what, value.dump());
-  return value.get<double>();
-}
-
 std::vector<double> Numbers(const json& list, const char* what, const Place& place) {
   if (!list.is_array()) Refuse(place, "{} must be a list of numbers", what);
   std::vector<double> numbers;
-  for (const json& value : list) numbers.push_back(Number(value, what, place));
+  for (const json& value : list) numbers.push_back(NumberFrom(value, what, place));
   return numbers;
 }
 
 /// Index of a word among `words`.
 size_t Word(const json& value, const char* what, const std::vector<std::string>& words,
             const Place& place) {
-  for (size_t i = 0; i < words.size(); ++i) {
-    if (value == words[i]) return i;
-  }
   const std::string given = value.is_string() ? value.get<std::string>() : value.dump();
+  for (size_t i = 0; value.is_string() && i < words.size(); ++i) {
+    if (given == words[i]) return i;
+  }
   Refuse(place, "{} is '{}'{}", what, given, Suggestion(given, words));
 }
 
@@ -57,9 +48,9 @@ MapAxis AxisFromJson(const json& object, const Place& place) {
   MapAxis axis;
   axis.quantity = kQuantities[Word(object["quantity"], "a map axis's quantity", names, place)];
   axis.kernels.centres = Numbers(object["centres"], "centres of a map's axis", place);
-  axis.kernels.width = Number(object["width"], "width of a map's axis", place);
+  axis.kernels.width = NumberFrom(object["width"], "width of a map's axis", place);
   if (object.contains("period")) {
-    axis.kernels.period = Number(object["period"], "period of a map's axis", place);
+    axis.kernels.period = NumberFrom(object["period"], "period of a map's axis", place);
   }
   if (object.contains("sides")) {
     const size_t sides =

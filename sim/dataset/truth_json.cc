@@ -1,11 +1,10 @@
 #include "sim/dataset/truth_json.h"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "models/foundation/atomic_file.h"
-#include "models/foundation/nearest_name.h"
+#include "models/foundation/json_members.h"
 #include "models/foundation/read_json.h"
 
 namespace warmjoint {
@@ -24,10 +23,7 @@ void CheckKeys(const json& object, const Place& place) {
   static const std::vector<std::string> known{
       "friction", "initial_energy", "torque_noise", "plant", "velocity", "force", "loss", "energy"};
   if (!object.is_object()) Refuse(place, "holds no object; a truth file is one");
-  for (const auto& [key, value] : object.items()) {
-    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
-    Refuse(place, "truth has no key '{}'{}", key, Suggestion(key, known));
-  }
+  RefuseUnknownKeys(object, "truth", known, place);
   for (const std::string& key : known) {
     if (!object.contains(key)) Refuse(place, "lacks '{}'; is it a truth file?", key);
   }
