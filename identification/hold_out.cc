@@ -29,11 +29,13 @@ Selection Head(const Selection& all, Eigen::Index n) {
   return head;
 }
 
-/// Figures of an estimate's friction on the samples that `test` keeps.
+/// Figures of an estimate's friction on the samples that `test` keeps. initial_energy: E at the
+/// first sample, N.m or N.
 std::optional<Metrics> Evaluate(const Estimate& estimate, const Measurements& measurements,
-                                Selection test) {
+                                Selection test, double initial_energy) {
   if (!estimate.friction) return std::nullopt;
-  Eigen::VectorXd predicted = PredictFriction(*estimate.friction, measurements).force;
+  Eigen::VectorXd predicted =
+      PredictFriction(*estimate.friction, measurements, initial_energy).force;
   auto parameters = estimate.friction->parameters.size() + (estimate.friction->thermal ? 2 : 0);
   for (const FrictionMap& map : estimate.friction->maps) parameters += map.weights.size();
 
@@ -69,12 +71,14 @@ std::optional<Metrics> HoldOut(const Identifier& identifier, const IdentifierInp
 
   Selection test = input.selection;
   test.keep.head(n) = false;
-  return Evaluate(estimate, all, test);
+  const EstimatedParameter* start = estimate.Find("initial_energy");
+  return Evaluate(estimate, all, test, start ? start->value : 0);
 }
 
 std::optional<Metrics> HoldOut(const Identifier& identifier, const IdentifierInput& input,
                                const Measurements& other, const Selection& other_selection) {
-  return Evaluate(identifier.identify(input), other, other_selection);
+  constexpr double cold = 0;
+  return Evaluate(identifier.identify(input), other, other_selection, cold);
 }
 
 }  // namespace warmjoint

@@ -8,9 +8,9 @@
 namespace warmjoint {
 
 /// Fits on the first 1 - fraction of the recording's time and evaluates on the kept samples of the
-/// rest. The prediction starts with the recording, so that the joint comes to the test part as warm
-/// as it was. 0 < fraction < 1. Nothing where that fit gives no friction or the rest keeps no
-/// sample.
+/// rest. The prediction starts with the recording, at E(0) where the fit estimates it, so that the
+/// joint comes to the test part as warm as it was. 0 < fraction < 1. Nothing where that fit gives
+/// no friction or the rest keeps no sample.
 std::optional<Metrics> HoldOut(const Identifier& identifier, const IdentifierInput& input,
                                double fraction);
 

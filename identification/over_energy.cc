@@ -33,8 +33,9 @@ Estimate Complete(const IdentifierInput& input, const KnownEnergy& known, int ro
   if (!estimate.friction || !known.friction) return estimate;
   const Measurements& m = input.measurements;
   estimate.friction->thermal = known.friction->thermal;
-  for (const EstimatedParameter& parameter : known.thermal) {
-    estimate.parameters.push_back(parameter);
+  for (EstimatedParameter parameter : known.thermal) {
+    parameter.std = {}, parameter.interval95 = {};
+    estimate.parameters.push_back(std::move(parameter));
   }
   Metrics& metrics = *estimate.metrics;
   const Eigen::VectorXd torque = Kept(m.torque, input.selection);
@@ -46,7 +47,10 @@ Estimate Complete(const IdentifierInput& input, const KnownEnergy& known, int ro
         estimate.identifier, Status::inadequate_model,
         WouldFeedItself(m.time[prediction.feeds_itself], "use fewer kernels, or another law"));
   }
-  estimate.message += fmt::format("; its own heat agrees with E after {} rounds", rounds);
+  estimate.message += fmt::format(
+      "; its own heat agrees with E after {} rounds; gain and time constant have no interval: maps "
+      "over the energy take part in what they do",
+      rounds);
   return estimate;
 }
 

@@ -24,7 +24,8 @@ using MapMaker = std::function<std::vector<std::vector<FrictionMap>>(const MapPo
 /// F = Fn(v) + sign(v) E + maps over E and other quantities. E comes from the first fit; law and
 /// maps are fitted to what it leaves of the torque; then the whole friction predicts E anew, until
 /// E rests to 1e-4 of its range: the friction that is reported is consistent with its own heat.
-/// Gain and time constant stay those of the first fit. task: candidates and energy are not read.
+/// Gain and time constant stay those of the first fit, without its intervals: the maps share what
+/// they do. task: candidates and energy are not read.
 Estimate IdentifyOverEnergy(const IdentifierInput& input, MapTask task, const KnownEnergy& known,
                             const MapMaker& maker);
 

@@ -52,6 +52,17 @@ Eigen::MatrixXd NominalDerivatives(const Law& law, const std::vector<double>& va
   return derivatives;
 }
 
+/// What maps add to law and warming. [N]
+Eigen::VectorXd MapForce(const Law& law, const std::vector<double>& values, const Measurements& m,
+                         const Prediction& prediction) {
+  Eigen::VectorXd force = prediction.force;
+  for (Eigen::Index i = 0; i < force.size(); ++i) {
+    const double v = m.velocity[i];
+    force[i] -= WarmForce(v, law.force(v, values.data()), prediction.energy[i]);
+  }
+  return force;
+}
+
 void TakeOff(const GravityModel& gravity, const Eigen::VectorXd& position, FittedModel& model) {
   model.torque -= gravity.Torque(position);
   for (Eigen::Index i = 0; i < position.size(); ++i) {
@@ -79,6 +90,10 @@ bool HasOption(const Identifier& identifier, std::string_view name) {
                      [name](const OptionInfo& option) { return option.name == name; });
 }
 
+bool FittedModel::KnowsWarming() const {
+  return std::find(names.begin(), names.end(), "thermal_gain") != names.end();
+}
+
 std::optional<FittedModel> EvaluateModel(const Identifier& identifier, const IdentifierInput& input,
                                          const Estimate& estimate) {
   const std::optional<FrictionDescription> friction = Described(identifier, input, estimate);
@@ -93,7 +108,10 @@ std::optional<FittedModel> EvaluateModel(const Identifier& identifier, const Ide
   model.selection = input.selection;
   model.torque = m.torque;
   if (estimate.gravity) TakeOff(*estimate.gravity, m.position, model);
-  model.residual = model.torque - PredictFriction(*friction, m, energy).force;
+  const Prediction prediction = PredictFriction(*friction, m, energy);
+  model.residual = model.torque - prediction.force;
+  model.warmest = prediction.energy.cwiseAbs().maxCoeff();
+  if (!friction->maps.empty()) model.maps = MapForce(law, values, m, prediction);
   model.derivatives = NominalDerivatives(law, values, m.velocity);
   for (const ParameterInfo& info : law.parameters) model.names.emplace_back(info.name);
   if (friction->thermal && estimate.Find("thermal_gain")) {

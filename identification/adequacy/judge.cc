@@ -4,96 +4,33 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <optional>
+#include <map>
 
-#include "identification/adequacy/angle_structure.h"
-#include "identification/adequacy/cells.h"
-#include "identification/adequacy/fitted_model.h"
-#include "identification/adequacy/smooth_structure.h"
+#include "identification/adequacy/examine.h"
 #include "identification/adequacy/words.h"
 #include "identification/finer_input.h"
 #include "identification/fit_data.h"
-#include "identification/thermal_filter.h"
+#include "sim/dataset/robust_noise.h"
 
 namespace warmjoint {
 namespace {
 
 using Eigen::Index;
 
-constexpr double kLarge = 0.05;     // of the friction, rms
-constexpr double kNotable = 0.02;   // of the friction, rms, where it also is
-constexpr double kVisible = 0.2;    // of the residual's variance
-constexpr Index kFewestCells = 40;  // below, nothing can be said of structure
-constexpr int kMotorHarmonics = 8;
-constexpr double kFinestPosition = 128;  // cycles over the travel
-
-/// The measured losses filtered with three time constants that span those of a recording.
-/// torque: [N] less gravity; returns [N x 3].
-Eigen::MatrixXd Energies(const Measurements& m, const Eigen::VectorXd& torque) {
-  const double duration = m.time[m.size() - 1] - m.time[0];
-  const Eigen::VectorXd loss = torque.cwiseProduct(m.velocity).cwiseAbs();
-  const ThermalFilter filter(m.time, m.starts);
-  Eigen::MatrixXd energies(m.size(), 3);
-  for (int i = 0; i < 3; ++i) {
-    energies.col(i) = filter.Energy({1, duration / std::array{40.0, 12.0, 3.0}[i]}, loss);
-  }
-  return energies;
-}
-
-std::optional<AngleAxis> MotorAxis(const Measurements& m) {
-  if (!m.motor_position && std::abs(m.gear) == 1) return std::nullopt;
-  AngleAxis axis{Dependence::motor_angle, {}, 2 * std::numbers::pi, 1, kMotorHarmonics};
-  const Eigen::ArrayXd turns =
-      (m.motor_position ? *m.motor_position : Eigen::VectorXd(m.gear * m.position)).array() /
-      axis.length;
-  axis.phase = turns - turns.floor();
-  return axis;
-}
-
-/// The travel of the kept samples, down to periods that they show at half of the highest speed.
-std::optional<AngleAxis> PositionAxis(const Measurements& m, const Selection& selection) {
-  const Eigen::VectorXd kept = Kept(m.position, selection);
-  const double lower = kept.minCoeff(), travel = kept.maxCoeff() - lower;
-  const double step = (m.time[m.size() - 1] - m.time[0]) / static_cast<double>(m.size() - 1);
-  const double finest = m.velocity.cwiseAbs().maxCoeff() * step;  // half a period
-  if (!(travel > 0) || !std::isfinite(travel) || !(finest > 0)) return std::nullopt;
-  const double cycles = std::min(
-      {travel / finest, kFinestPosition, 0.5 * std::sqrt(static_cast<double>(kept.size()))});
-  if (cycles < 1) return std::nullopt;
-  AngleAxis axis{Dependence::position, {}, travel, 0.5, static_cast<int>(2 * cycles)};
-  axis.phase = (m.position.array() - lower) / travel;
-  return axis;
-}
-
-/// Adds the structure over angles to what is found; residual: [N], smooth structure taken off.
-void FindRipple(const Measurements& m, const Selection& selection, Eigen::VectorXd residual,
-                Adequacy& adequacy) {
-  for (const auto& axis : {MotorAxis(m), PositionAxis(m, selection)}) {
-    if (!axis) continue;
-    // of one axis as one: the strongest frequency stands for all
-    std::vector<Structure> found = FindAngleStructure(*axis, m.velocity, selection, residual);
-    if (found.empty()) continue;
-    for (size_t i = 1; i < found.size(); ++i) found[0].explained += found[i].explained;
-    adequacy.found.push_back(std::move(found[0]));
-  }
-}
-
-/// Sums up how the smooth structure moves the parameters.
-void SumMoves(Index p, Adequacy& adequacy) {
-  adequacy.moves.setZero(p);
-  Eigen::VectorXd variance = Eigen::VectorXd::Zero(p);
-  for (const Structure& structure : adequacy.found) {
-    adequacy.moves += structure.moves;
-    variance += structure.move_deviations.cwiseAbs2();
-  }
-  adequacy.move_deviations = variance.cwiseSqrt();
-}
+constexpr double kLarge = 0.05;    // of the friction, rms
+constexpr double kNotable = 0.02;  // of the friction, rms, where it also is
+constexpr double kVisible = 0.2;   // of the residual's variance
 
 /// Whether structure that explains so much is more than a detail.
 bool IsLarge(double explained, const Adequacy& adequacy) {
   const double size = std::sqrt(explained / adequacy.samples) / adequacy.friction;
   return size > kLarge || (size > kNotable && explained > kVisible * adequacy.squares);
+}
+
+/// Of the interval; 0 where there is none.
+double HalfWidth(const EstimatedParameter& parameter) {
+  if (!parameter.interval95) return 0;
+  return 0.5 * ((*parameter.interval95)[1] - (*parameter.interval95)[0]);
 }
 
 /// The parameter that structure moves farthest beyond its interval, by a twentieth of the friction
@@ -104,10 +41,7 @@ Index Misled(const Adequacy& adequacy, const Estimate& estimate) {
   for (Index i = 0; i < adequacy.moves.size(); ++i) {
     const EstimatedParameter* parameter = estimate.Find(adequacy.names[static_cast<size_t>(i)]);
     const double move = std::abs(adequacy.moves[i]);
-    const double half = parameter->interval95
-                            ? 0.5 * ((*parameter->interval95)[1] - (*parameter->interval95)[0])
-                            : 0;
-    if (move < kCertain * adequacy.move_deviations[i] || move < half) continue;
+    if (move < kCertainMove * adequacy.move_deviations[i] || move < HalfWidth(*parameter)) continue;
     if (move * adequacy.reach[i] < most) continue;
     most = move * adequacy.reach[i];
     worst = i;
@@ -115,64 +49,81 @@ Index Misled(const Adequacy& adequacy, const Estimate& estimate) {
   return worst;
 }
 
-/// Lets intervals reach as far as the structure moves the parameters.
-void Widen(const Adequacy& adequacy, Estimate& estimate) {
-  for (EstimatedParameter& parameter : estimate.parameters) {
-    if (!parameter.interval95) continue;
-    const auto named = std::find(adequacy.names.begin(), adequacy.names.end(), parameter.name);
-    if (named == adequacy.names.end()) continue;
-    const double move = std::abs(adequacy.moves[named - adequacy.names.begin()]);
-    (*parameter.interval95)[0] -= move;
-    (*parameter.interval95)[1] += move;
+/// Whether something changes that the warming may have taken up in part.
+bool Drifts(const Adequacy& adequacy) {
+  return std::any_of(adequacy.found.begin(), adequacy.found.end(), [](const Structure& structure) {
+    return structure.on == Dependence::time || structure.on == Dependence::energy;
+  });
+}
+
+bool IsOfHeat(const EstimatedParameter& parameter) {
+  return parameter.name.starts_with("thermal_") || parameter.name == "initial_energy";
+}
+
+/// How far the structure moves each parameter, the discrete warming's too. (4): k, tau to ke, te.
+std::map<std::string, double> Moves(const Adequacy& adequacy, const Estimate& estimate,
+                                    const Measurements& m) {
+  std::map<std::string, double> moves;
+  for (size_t i = 0; i < adequacy.names.size(); ++i) {
+    moves[adequacy.names[i]] = std::abs(adequacy.moves[static_cast<Index>(i)]);
   }
+  if (!moves.contains("thermal_gain")) return moves;
+  const Thermal thermal{estimate.Find("thermal_gain")->value,
+                        estimate.Find("thermal_time_constant")->value};
+  const double h = MedianStep(m.time), gain = moves["thermal_gain"];
+  const DiscreteThermal discrete = Discretise(thermal, h);
+  const double pole =
+      discrete.pole * h / std::pow(thermal.time_constant, 2) * moves["thermal_time_constant"];
+  moves["thermal_pole"] = pole;
+  moves["thermal_gain_discrete"] = (1 - discrete.pole) * gain + std::abs(thermal.gain) * pole;
+  return moves;
+}
+
+/// Lets intervals reach as far as the structure moves the parameters. What drifts is partly taken
+/// up by the warming, by how much cannot be known: no interval of it is left.
+void Widen(const Adequacy& adequacy, const Measurements& m, Estimate& estimate) {
+  const bool drifts = Drifts(adequacy);
+  const std::map<std::string, double> moves = Moves(adequacy, estimate, m);
+  for (EstimatedParameter& parameter : estimate.parameters) {
+    if (drifts && IsOfHeat(parameter)) parameter.std = {}, parameter.interval95 = {};
+    const auto move = moves.find(parameter.name);
+    if (!parameter.interval95 || move == moves.end()) continue;
+    (*parameter.interval95)[0] -= move->second;
+    (*parameter.interval95)[1] += move->second;
+  }
+}
+
+/// "; taken to be cold at the start: ..." where a warm one would move a parameter beyond its
+/// interval; else nothing.
+std::string OnTheStart(const Adequacy& adequacy, const Identifier& identifier,
+                       const IdentifierInput& input, const Estimate& estimate) {
+  const EstimatedParameter* worst = nullptr;
+  double most = 1, move = 0;
+  for (Index i = 0; i < adequacy.by_start.size(); ++i) {
+    const EstimatedParameter* parameter = estimate.Find(adequacy.names[static_cast<size_t>(i)]);
+    const double beyond = std::abs(adequacy.by_start[i]) / HalfWidth(*parameter);
+    if (!std::isfinite(beyond) || beyond <= most) continue;
+    most = beyond;
+    worst = parameter;
+    move = adequacy.by_start[i];
+  }
+  if (!worst) return "";
+  return fmt::format(
+      "; taken to be cold at the start: a tenth of the warmth that it reaches would move {} by "
+      "{:.2g} {}; {}",
+      worst->name, move, worst->unit, AgainstWarmStart(identifier, input));
 }
 
 }  // namespace
 
-double Adequacy::Rms(const Structure& structure) const {
-  return std::sqrt(structure.explained / samples);
-}
-
-Adequacy ExamineResidual(const Identifier& identifier, const IdentifierInput& input,
-                         const Estimate& estimate) {
-  Adequacy adequacy;
-  const std::optional<FittedModel> model = EvaluateModel(identifier, input, estimate);
-  if (!model || !model->residual.allFinite() || !model->derivatives.allFinite()) return adequacy;
-  const Measurements& m = input.measurements;
-  const Cells cells = MakeCells(m, model->selection);
-  if (cells.size() < kFewestCells) return adequacy;
-
-  adequacy.samples = cells.weight.sum();
-  adequacy.friction =
-      std::sqrt(Kept(model->torque, model->selection).squaredNorm() / adequacy.samples);
-  adequacy.squares = Kept(model->residual, model->selection).squaredNorm();
-  adequacy.names = model->names;
-  const Eigen::MatrixXd derivatives = cells.Means(model->derivatives);
-  adequacy.reach = (cells.weight.cwiseSqrt().asDiagonal() * derivatives).colwise().norm() /
-                   std::sqrt(adequacy.samples);
-
-  // what changes from segment to segment, then what changes within
-  Eigen::MatrixXd initial(cells.size(), 0);
-  if (model->by_initial_energy) initial = cells.Means(*model->by_initial_energy);
-  SmoothFindings smooth = FindSmoothStructure(cells, cells.Means(model->residual), derivatives,
-                                              cells.Means(Energies(m, model->torque)), initial);
-  adequacy.found = std::move(smooth.found);
-  SumMoves(static_cast<Index>(model->names.size()), adequacy);
-  Eigen::VectorXd rest = model->residual;
-  for (Index c = 0; c < cells.size(); ++c) {
-    const auto i = static_cast<size_t>(c);
-    rest.segment(cells.begin[i], cells.end[i] - cells.begin[i]).array() -= smooth.explained[c];
-  }
-  FindRipple(m, model->selection, std::move(rest), adequacy);
-  std::sort(adequacy.found.begin(), adequacy.found.end(),
-            [](const Structure& a, const Structure& b) { return a.explained > b.explained; });
-  return adequacy;
-}
-
 void JudgeAdequacy(const Identifier& identifier, const IdentifierInput& input, Estimate& estimate) {
   if (estimate.status != Status::ok) return;
   const Adequacy adequacy = ExamineResidual(identifier, input, estimate);
-  if (adequacy.found.empty()) return;
+  const std::string start = OnTheStart(adequacy, identifier, input, estimate);
+  if (adequacy.found.empty()) {
+    estimate.message += start;
+    return;
+  }
 
   std::vector<std::string> words;
   double explained = 0;
@@ -193,9 +144,12 @@ void JudgeAdequacy(const Identifier& identifier, const IdentifierInput& input, E
     Void(Status::inadequate_model, fmt::format("{}{}; {}", depends, moves, remedy), estimate);
     return;
   }
-  estimate.message +=
-      fmt::format("; {}: the intervals reach as far as that moves them; {}", depends, remedy);
-  Widen(adequacy, estimate);
+  const bool unknown = Drifts(adequacy) && estimate.Find("thermal_gain");
+  estimate.message += start;
+  estimate.message += fmt::format(
+      "; {}: the intervals reach as far as that moves them{}; {}", depends,
+      unknown ? ", and the warming has none, since it may have taken up part of that" : "", remedy);
+  Widen(adequacy, input.measurements, estimate);
 }
 
 Estimate WithVoidNumbers(const Estimate& judged, const Estimate& before) {

@@ -1,9 +1,6 @@
 // Whether a model is adequate: what the residual of its fit still shows.
 #pragma once
 
-#include <vector>
-
-#include "identification/adequacy/structure.h"
 #include "identification/identifier.h"
 
 namespace warmjoint {
@@ -14,7 +11,10 @@ namespace warmjoint {
 /// fifth of the residual's variance, or where a parameter moves beyond its interval, by a twentieth
 /// of the friction, once the structure joins the fit. Then the
 /// estimate is void, inadequate_model, and the message names what the residual depends on and what
-/// to try. Smaller structure is told in the message, and intervals reach as far as it moves them.
+/// to try. Smaller structure is told in the message, and intervals reach as far as it moves them;
+/// none is given of warming beside structure in time or energy, since nobody can tell how much of
+/// that the warming took up. Where a start that is taken to be cold matters, the message says how
+/// much.
 /// Noise that is coloured is no structure: the intervals account for it.
 Estimate IdentifyAndJudge(const Identifier& identifier, const IdentifierInput& given);
 
@@ -25,23 +25,5 @@ void JudgeAdequacy(const Identifier& identifier, const IdentifierInput& input, E
 /// before the verdict, and a message that calls them void. An answer that was not voided by the
 /// verdict stays as it is.
 Estimate WithVoidNumbers(const Estimate& judged, const Estimate& before);
-
-/// Structure of the residual, in the order of size.
-struct Adequacy {
-  std::vector<Structure> found;
-  std::vector<std::string> names;   // [p] of the parameters that `moves` are about
-  Eigen::VectorXd moves;            // [p] change of each once the smooth structure joins the fit
-  Eigen::VectorXd move_deviations;  // [p]
-  Eigen::VectorXd reach;            // [p] force of each parameter's unit, rms over the kept samples
-  double friction = 0;              // rms of the kept torque, N.m or N
-  double samples = 0;
-  double squares = 0;  // of the residual
-
-  double Rms(const Structure& structure) const;
-};
-
-/// Looks for structure; nothing where the estimate holds no model, or the samples are too few.
-Adequacy ExamineResidual(const Identifier& identifier, const IdentifierInput& input,
-                         const Estimate& estimate);
 
 }  // namespace warmjoint

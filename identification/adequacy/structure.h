@@ -7,12 +7,24 @@
 namespace warmjoint {
 
 /// On what a residual depends.
-enum class Dependence { time, energy, initial_energy, speed, direction, position, motor_angle };
+enum class Dependence {
+  time,
+  energy,
+  initial_energy,
+  speed,
+  speed_by_energy,  // a slope that warms
+  direction,
+  position,
+  position_by_energy,  // a map that fades or grows as the joint warms
+  motor_angle
+};
 
 /// Structure that stands out of the noise: at least kCertain standard deviations.
 struct Structure {
   Dependence on = Dependence::time;
-  double explained = 0;   // squares of the residual's samples that it explains, less the noise's
+  double explained = 0;  // squares of the residual's samples that it explains, less the noise's
+  double merit = 0;      // the same less ln(m) times the noise's variance for each of its features,
+                         // as BIC has it: what needs fewer features says more
   double deviations = 0;  // from chance
   double period = 0;      // of a ripple, in the unit of the angle; 0: none
   double alike = 0;       // share of an angle's part that acts alike in both directions of motion
@@ -24,6 +36,13 @@ struct Structure {
 /// By chance one block in a million exceeds this, one frequency of a few hundred in ten thousand
 /// recordings.
 inline constexpr double kCertain = 5;
+
+/// The same for E(0), a single coefficient that is asked for by name: one cold start in 80 exceeds
+/// it. A start that is warm by a few deviations moves all else far beyond its interval.
+inline constexpr double kCertainStart = 2.5;
+
+/// From here on structure that is there counts as moving a parameter.
+inline constexpr double kCertainMove = 3;
 
 /// Parts of a recording that count as independent of each other: noise may be coloured within them.
 inline constexpr Eigen::Index kParts = 32;

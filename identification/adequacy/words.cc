@@ -21,12 +21,17 @@ std::string Try(std::string_view name, const Estimate& estimate, const std::stri
   return fmt::format("try {}", name);
 }
 
+/// Whether E(0) can be estimated: the fits with maps cannot.
+bool TakesStart(const Identifier& identifier, const IdentifierInput& input) {
+  return HasOption(identifier, "initial_energy") && input.options.Text("position") == "none";
+}
+
 std::string AgainstHeat(const Identifier& identifier, const IdentifierInput& input,
                         const Estimate& estimate) {
   if (!estimate.Find("thermal_gain")) {
     return Try("energy-ml", estimate, "record it at a steady temperature");
   }
-  if (HasOption(identifier, "initial_energy") && input.options.Text("initial_energy") == "zero") {
+  if (TakesStart(identifier, input) && input.options.Text("initial_energy") == "zero") {
     return "if the joint was warm at the start, try --set initial_energy=estimated; else one time "
            "constant is too few, or the surroundings change their temperature";
   }
@@ -36,6 +41,13 @@ std::string AgainstHeat(const Identifier& identifier, const IdentifierInput& inp
 
 std::string AgainstSpeed(const Estimate& estimate) {
   return Try("stribeck", estimate, "the law lacks a curve over speed (Stribeck)");
+}
+
+/// Beside a map over position, the map over energy has to follow the slope too.
+std::string AgainstWarmingSlope(const Estimate& estimate) {
+  const bool mapped = estimate.friction && !estimate.friction->maps.empty();
+  return Try(mapped ? "energy-map" : "lpv-energy", estimate,
+             "more kernels over energy would follow it");
 }
 
 std::string AgainstDirection(const Identifier& identifier, const IdentifierInput& input) {
@@ -68,10 +80,14 @@ std::string DescribeStructure(const Adequacy& adequacy, const Structure& structu
         return "the energy at the start";
       case Dependence::speed:
         return "speed";
+      case Dependence::speed_by_energy:
+        return "speed x energy (the slope warms)";
       case Dependence::direction:
         return "direction";
       case Dependence::position:
         return fmt::format("position (period {:.3g} {})", structure.period, unit);
+      case Dependence::position_by_energy:
+        return "position x energy (the map fades or grows as the joint warms)";
       case Dependence::motor_angle:
         break;
     }
@@ -84,6 +100,11 @@ std::string DescribeStructure(const Adequacy& adequacy, const Structure& structu
       rms, measurements.torque_unit, 100 * rms / adequacy.friction, 100 * share);
 }
 
+std::string AgainstWarmStart(const Identifier& identifier, const IdentifierInput& input) {
+  if (TakesStart(identifier, input)) return "try --set initial_energy=estimated";
+  return "record it from cold, or learn E(0) by energy-ml with --set initial_energy=estimated";
+}
+
 std::string Remedy(const Structure& structure, const Identifier& identifier,
                    const IdentifierInput& input, const Estimate& estimate) {
   switch (structure.on) {
@@ -91,13 +112,17 @@ std::string Remedy(const Structure& structure, const Identifier& identifier,
     case Dependence::energy:
       return AgainstHeat(identifier, input, estimate);
     case Dependence::initial_energy:
-      return "the joint was warm at the start: try --set initial_energy=estimated";
+      return "was the joint warm at the start? " + AgainstWarmStart(identifier, input);
     case Dependence::speed:
       return AgainstSpeed(estimate);
+    case Dependence::speed_by_energy:
+      return AgainstWarmingSlope(estimate);
     case Dependence::direction:
       return AgainstDirection(identifier, input);
     case Dependence::position:
       return AgainstPosition(structure, input, estimate);
+    case Dependence::position_by_energy:
+      return Try("energy-map", estimate, "more kernels over energy would follow it");
     case Dependence::motor_angle:
       break;
   }

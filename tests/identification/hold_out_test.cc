@@ -51,6 +51,17 @@ TEST(HoldOut, ComesToTheTestPartWarm) {
   EXPECT_LT(HoldOut(fit.identifier, fit.input(), 0.25)->rmse, 1e-12);
 }
 
+TEST(HoldOut, StartsAsWarmAsTheFitSays) {
+  const auto identify = [](const IdentifierInput& input) {
+    Estimate estimate = KnowTableOne(input);
+    estimate.parameters.push_back({"initial_energy", -6, "N.m", {}, {}});
+    return estimate;
+  };
+  Fit fit{{"started", "", {}, identify}, Recording(2, 0)};
+  fit.measurements.torque = PredictFriction(test::TableOne(), fit.measurements, -6).force;
+  EXPECT_LT(HoldOut(fit.identifier, fit.input(), 0.25)->rmse, 1e-12);
+}
+
 TEST(HoldOut, EvaluatesOnAnotherRecordingFromCold) {
   const Fit fit{kKnowing, Recording(3, 0.5)};
   const Measurements other = Recording(4, 0.5);

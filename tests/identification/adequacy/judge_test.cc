@@ -3,12 +3,9 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <functional>
-#include <map>
 
-#include "identification/predict.h"
 #include "models/friction/sign.h"
-#include "tests/support/warm_recording.h"
+#include "tests/support/judging.h"
 
 namespace warmjoint {
 namespace {
@@ -16,23 +13,17 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr int kRealizations = 200;
-// of 200: the aims are 95 % power and 5 % false alarms
-constexpr int kNearlyAll = 190, kFew = 10;
-
-FrictionDescription Cold() {
-  FrictionDescription friction = test::TableOne();
-  friction.thermal.reset();
-  return friction;
-}
-
-Measurements Record(const FrictionDescription& friction, std::uint64_t seed, double noise = 0.5) {
-  return test::RecordFriction(friction, 1, test::AlternatingSpeeds(3600, seed), noise, seed);
-}
+using test::Answer;
+using test::Cold;
+using test::Count;
+using test::kFew;
+using test::kInadequate;
+using test::kNearlyAll;
+using test::RecordHour;
 
 /// AR(1) noise with the given coefficient and a standard deviation of 0.5 N.m.
 Measurements Coloured(const FrictionDescription& friction, std::uint64_t seed, double a) {
-  Measurements m = Record(friction, seed, 0);
+  Measurements m = RecordHour(friction, seed, 0);
   RandomStream random({seed, 0}, Stream::coloured_noise);
   double noise = 0.5 * random.Normal();
   for (double& torque : m.torque) {
@@ -56,28 +47,8 @@ Measurements Travel(std::uint64_t seed) {
   return test::RecordFriction(Cold(), 0.2, velocity, 0.5, seed);
 }
 
-Estimate Answer(const std::string& name, const Measurements& measurements,
-                const std::map<std::string, std::string>& given = {}) {
-  const Identifier& identifier = FindIdentifier(name);
-  const Options options(identifier.options, given, {});
-  return IdentifyAndJudge(identifier, {measurements, SelectMoving(measurements), options, {}});
-}
-
-/// How many realizations end with `status` and name `reason` first.
-int Count(const std::string& name, Status status, const std::string& reason,
-          const std::function<Measurements(std::uint64_t)>& make) {
-  int count = 0;
-  for (std::uint64_t seed = 1; seed <= kRealizations; ++seed) {
-    const Estimate estimate = Answer(name, make(seed));
-    if (estimate.status == status && estimate.message.find(reason) != std::string::npos) ++count;
-  }
-  return count;
-}
-
-const Status kInadequate = Status::inadequate_model;
-
 TEST(Judge, FindsThatAJointWarmsUp) {
-  const auto warm = [](std::uint64_t seed) { return Record(test::TableOne(), seed); };
+  const auto warm = [](std::uint64_t seed) { return RecordHour(test::TableOne(), seed); };
   EXPECT_GE(Count("nominal-ls", kInadequate, "the residual depends on energy", warm), kNearlyAll);
   EXPECT_THAT(Answer("nominal-ls", warm(1)).message, HasSubstr("try energy-ml"));
 }
@@ -111,7 +82,7 @@ TEST(Judge, FindsRippleAlongTheJoint) {
 
 TEST(Judge, FindsTheStribeckCurve) {
   const auto curve = [](std::uint64_t seed) {
-    Measurements m = Record(Cold(), seed);
+    Measurements m = RecordHour(Cold(), seed);
     for (Eigen::Index i = 0; i < m.size(); ++i) {
       const double v = m.velocity[i];
       m.torque[i] += std::copysign(5 * std::exp(-std::pow(v / 0.2, 2)), v);
@@ -122,7 +93,7 @@ TEST(Judge, FindsTheStribeckCurve) {
 }
 
 TEST(Judge, FindsThatDirectionsDiffer) {
-  Measurements m = Record(Cold(), 1);
+  Measurements m = RecordHour(Cold(), 1);
   m.torque.array() += 1.5;
   const Estimate estimate = Answer("nominal-ls", m);
   EXPECT_EQ(estimate.status, kInadequate);
@@ -132,8 +103,8 @@ TEST(Judge, FindsThatDirectionsDiffer) {
 }
 
 TEST(Judge, LetsTheRightModelPass) {
-  const auto warm = [](std::uint64_t seed) { return Record(test::TableOne(), seed); };
-  const auto cold = [](std::uint64_t seed) { return Record(Cold(), seed); };
+  const auto warm = [](std::uint64_t seed) { return RecordHour(test::TableOne(), seed); };
+  const auto cold = [](std::uint64_t seed) { return RecordHour(Cold(), seed); };
   EXPECT_LE(Count("energy-ml", kInadequate, "", warm), kFew);
   EXPECT_LE(Count("nominal-ls", kInadequate, "", cold), kFew);
   // not even a warning
@@ -158,7 +129,7 @@ TEST(Judge, DoesNotTakeWhatIsPeriodicInTimeForRipple) {
 }
 
 TEST(Judge, TakesBackEverythingButTheValues) {
-  const Measurements warm = Record(test::TableOne(), 1);
+  const Measurements warm = RecordHour(test::TableOne(), 1);
   const Identifier& identifier = FindIdentifier("nominal-ls");
   const Options options(identifier.options, {}, {});
   const Selection selection = SelectMoving(warm);
@@ -180,7 +151,7 @@ TEST(Judge, TakesBackEverythingButTheValues) {
 
 TEST(Judge, WarnsOfSmallStructureAndLetsIntervalsReachAsFar) {
   // 0.2 N.m of friction that falls with speed: 1 % of the friction, but certain in 3600 samples
-  Measurements m = Record(Cold(), 1, 0.1);
+  Measurements m = RecordHour(Cold(), 1, 0.1);
   for (Eigen::Index i = 0; i < m.size(); ++i) {
     const double v = m.velocity[i];
     m.torque[i] += std::copysign(std::exp(-std::pow(v / 0.2, 2)), v);
@@ -198,16 +169,6 @@ TEST(Judge, WarnsOfSmallStructureAndLetsIntervalsReachAsFar) {
   EXPECT_GT(narrow[0], 15);  // the true level
   EXPECT_LT(wide[0], 15);
   EXPECT_GT(wide[1], 15);
-}
-
-TEST(Judge, SaysThatAJointWasWarmAtTheStart) {
-  Measurements m = Record(test::TableOne(), 1, 0);
-  m.torque = PredictFriction(test::TableOne(), m, -6).force;
-  RandomStream random({1, 0}, Stream::torque_noise);
-  for (double& torque : m.torque) torque += 0.1 * random.Normal();
-  EXPECT_THAT(Answer("energy-ml", m).message, HasSubstr("initial_energy=estimated"));
-  const Estimate right = Answer("energy-ml", m, {{"initial_energy", "estimated"}});
-  EXPECT_EQ(right.status, Status::ok) << right.message;
 }
 
 }  // namespace

@@ -1,0 +1,33 @@
+// What the residual of a fit still shows.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "identification/adequacy/structure.h"
+#include "identification/identifier.h"
+
+namespace warmjoint {
+
+/// Structure of the residual, in the order of size.
+struct Adequacy {
+  std::vector<Structure> found;
+  std::vector<std::string> names;   // [p] of the parameters that `moves` are about
+  Eigen::VectorXd moves;            // [p] change of each once the smooth structure joins the fit
+  Eigen::VectorXd move_deviations;  // [p]
+  Eigen::VectorXd reach;            // [p] force of each parameter's unit, rms over the kept samples
+  Eigen::VectorXd by_start;  // [p] change of each had the joint been a tenth as warm at the start
+                             // as it ever gets; empty where its start is no matter
+  double friction = 0;       // rms of the kept torque, N.m or N
+  double samples = 0;
+  double squares = 0;  // of the residual
+
+  double Rms(const Structure& structure) const;
+};
+
+/// Looks for structure; nothing where the estimate holds no model, or the samples are too few.
+Adequacy ExamineResidual(const Identifier& identifier, const IdentifierInput& input,
+                         const Estimate& estimate);
+
+}  // namespace warmjoint

@@ -1,0 +1,120 @@
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "identification/predict.h"
+#include "identification/thermal_filter.h"
+#include "tests/support/judging.h"
+#include "tests/support/travelling.h"
+
+namespace warmjoint {
+namespace {
+
+using test::Answer;
+using test::Count;
+using test::kInadequate;
+using test::kNearlyAll;
+using test::RecordHour;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// Table I with E(0), N.m.
+Measurements Started(double energy, std::uint64_t seed) {
+  Measurements m = RecordHour(test::TableOne(), seed, 0);
+  m.torque = PredictFriction(test::TableOne(), m, energy).force;
+  RandomStream random({seed, 0}, Stream::torque_noise);
+  for (double& torque : m.torque) torque += 0.5 * random.Normal();
+  return m;
+}
+
+TEST(JudgeHeat, FindsASecondStageOfHeat) {
+  // a film of grease, 60 s, beside the housing, 600 s
+  const auto two = [](std::uint64_t seed) {
+    Measurements m = RecordHour(test::TableOne(), seed);
+    const ThermalFilter filter(m.time, m.starts);
+    const Eigen::VectorXd loss = m.torque.cwiseProduct(m.velocity).cwiseAbs();
+    m.torque += m.velocity.array().sign().matrix().asDiagonal() * filter.Energy({-0.5, 60}, loss);
+    return m;
+  };
+  EXPECT_GE(Count("energy-ml", kInadequate, "one time constant is too few", two), kNearlyAll);
+}
+
+TEST(JudgeHeat, FindsAWarmStart) {
+  // E(0) is known to 0.33 N.m here: -3 is nine deviations, -1 is three
+  const auto warm = [](std::uint64_t seed) { return Started(-3, seed); };
+  EXPECT_GE(Count("energy-ml", kInadequate, "depends on the energy at the start", warm),
+            kNearlyAll);
+}
+
+TEST(JudgeHeat, SaysHowMuchAColdStartMatters) {
+  const Estimate estimate = Answer("energy-ml", RecordHour(test::TableOne(), 1));
+  EXPECT_THAT(estimate.message, HasSubstr("taken to be cold at the start"));
+  EXPECT_THAT(estimate.message, HasSubstr("initial_energy=estimated"));
+  const auto estimated = std::map<std::string, std::string>{{"initial_energy", "estimated"}};
+  EXPECT_THAT(Answer("energy-ml", RecordHour(test::TableOne(), 1), estimated).message,
+              Not(HasSubstr("taken to be cold")));
+}
+
+TEST(JudgeHeat, GivesNoIntervalOfAWarmingBesideADrift) {
+  // half a sine in the hour, of which the warming takes up a part that nobody can tell
+  Measurements m = RecordHour(test::TableOne(), 1);
+  const Eigen::ArrayXd phase = M_PI / 3600 * m.time.array();
+  m.torque.array() += 0.5 * m.velocity.array().sign() * phase.sin();
+  const Estimate estimate = Answer("energy-ml", m);
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+  EXPECT_THAT(estimate.message, HasSubstr("the residual depends on time"));
+  EXPECT_FALSE(estimate.Find("thermal_gain")->std || estimate.Find("thermal_gain")->interval95);
+  EXPECT_FALSE(estimate.Find("thermal_pole")->interval95);
+  EXPECT_TRUE(estimate.Find("viscous")->interval95);
+}
+
+TEST(JudgeHeat, FindsAMapThatFadesWithTheHeat) {
+  // 0.06 N.m of ripple over the position when cold, less with every degree; 0.01 N.m of noise
+  FrictionDescription fading{
+      "viscous_coulomb", {{"viscous", 0.05}, {"coulomb", 0.5}}, Thermal{-0.2, 180}, 0, 1};
+  FrictionMap ripple = test::PositionLevel(1.5, 0.06);
+  FrictionDescription steady = fading;
+  steady.maps = {ripple};
+  ripple.axes.push_back({MapQuantity::energy, EvenAxis(-0.1, 0, 2)});
+  FrictionMap faded = ripple;
+  faded.weights.clear();
+  for (const double weight : ripple.weights) faded.weights.insert(faded.weights.end(), {0, weight});
+  fading.maps = {faded};
+  const auto record = [](const FrictionDescription& friction) {
+    return test::RecordFriction(friction, 0.2, test::Travel(6000, 0.2, 1.5, {0.3, 0.6, 1, 1.5}),
+                                0.01, 1);
+  };
+  const std::map<std::string, std::string> few{{"kernels", "30"}, {"width", "1"}};
+  auto map = few;
+  map["position"] = "map";
+  const Estimate told = Answer("energy-ml", record(fading), map);
+  EXPECT_THAT(told.message, HasSubstr("depends on position x energy"));
+  EXPECT_THAT(told.message, HasSubstr("try energy-map"));
+  EXPECT_THAT(Answer("energy-ml", record(steady), map).message, Not(HasSubstr("depends on")));
+
+  // the map over the energy follows it; gain and maps then share what fades
+  const Estimate followed = Answer("energy-map", record(fading), few);
+  ASSERT_EQ(followed.status, Status::ok) << followed.message;
+  EXPECT_FALSE(followed.Find("thermal_gain")->interval95);
+}
+
+TEST(JudgeHeat, FindsASlopeThatWarms) {
+  Measurements m = RecordHour(test::TableOne(), 1);
+  m.torque += 0.1 * m.velocity.cwiseProduct(PredictFriction(test::TableOne(), m).energy);
+  const Estimate estimate = Answer("energy-ml", m);
+  EXPECT_THAT(estimate.message, HasSubstr("speed x energy"));
+  EXPECT_THAT(estimate.message, HasSubstr("try lpv-energy"));
+}
+
+TEST(JudgeHeat, SaysThatAJointWasWarmAtTheStart) {
+  Measurements m = RecordHour(test::TableOne(), 1, 0);
+  m.torque = PredictFriction(test::TableOne(), m, -6).force;
+  RandomStream random({1, 0}, Stream::torque_noise);
+  for (double& torque : m.torque) torque += 0.1 * random.Normal();
+  EXPECT_THAT(Answer("energy-ml", m).message, HasSubstr("initial_energy=estimated"));
+  const Estimate right = Answer("energy-ml", m, {{"initial_energy", "estimated"}});
+  EXPECT_EQ(right.status, Status::ok) << right.message;
+}
+
+}  // namespace
+}  // namespace warmjoint
