@@ -15,10 +15,12 @@ double MapForce(const std::vector<FrictionMap>& maps, const MapPoint<double>& po
 }
 
 /// What the bristle of LuGre adds to its steady force, N.m or N. [N]
-Eigen::VectorXd PreSlidingForce(const std::vector<double>& values, const Measurements& m) {
+Eigen::VectorXd PreSlidingForce(const std::vector<double>& values, const Measurements& m,
+                                BristleStart start) {
   const auto n = static_cast<size_t>(m.size());
   std::vector<double> force(n), load(n);
-  BristleCourse(m.time, m.velocity, m.starts).Run(values.data(), force.data(), load.data());
+  const Eigen::VectorXd torque = start == BristleStart::torque ? m.torque : Eigen::VectorXd();
+  BristleCourse(m.time, m.velocity, m.starts, torque).Run(values.data(), force.data(), load.data());
   for (size_t i = 0; i < n; ++i) {
     force[i] -= LuGre::Force(m.velocity[static_cast<Eigen::Index>(i)], values.data());
   }
@@ -28,7 +30,7 @@ Eigen::VectorXd PreSlidingForce(const std::vector<double>& values, const Measure
 }  // namespace
 
 Prediction PredictFriction(const FrictionDescription& friction, const Measurements& measurements,
-                           double initial_energy) {
+                           double initial_energy, BristleStart bristle) {
   const Law& law = *FindLaw(friction.law);
   const std::vector<double> values = LawValues(friction);
   const Eigen::Index n = measurements.size();
@@ -64,7 +66,8 @@ Prediction PredictFriction(const FrictionDescription& friction, const Measuremen
     const ThermalHold& hold = holds[intervals.which[i]];
     energy = ThermalStep(hold.gain, hold.pole, energy, Loss(v, force));
   }
-  if (law.name == LuGre::name && n > 1) prediction.force += PreSlidingForce(values, measurements);
+  if (law.name == LuGre::name && n > 1)
+    prediction.force += PreSlidingForce(values, measurements, bristle);
   return prediction;
 }
 

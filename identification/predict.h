@@ -18,10 +18,14 @@ struct Prediction {
   Eigen::Index feeds_itself = 0;
 };
 
+/// How LuGre's bristle is bent at the start of each recording: as in steady sliding, or as the
+/// measured torque tells.
+enum class BristleStart { sliding, torque };
+
 /// Uses time and velocity and, for maps, positions and load. friction must have been checked
 /// (CheckFriction). initial_energy: E at the first sample, N.m or N; further recordings that were
 /// joined to it start cold.
 Prediction PredictFriction(const FrictionDescription& friction, const Measurements& measurements,
-                           double initial_energy = 0);
+                           double initial_energy = 0, BristleStart start = BristleStart::sliding);
 
 }  // namespace warmjoint

@@ -108,7 +108,7 @@ std::optional<FittedModel> EvaluateModel(const Identifier& identifier, const Ide
   model.selection = input.selection;
   model.torque = m.torque;
   if (estimate.gravity) TakeOff(*estimate.gravity, m.position, model);
-  const Prediction prediction = PredictFriction(*friction, m, energy);
+  const Prediction prediction = PredictFriction(*friction, m, energy, BristleStart::torque);
   model.residual = model.torque - prediction.force;
   model.warmest = prediction.energy.cwiseAbs().maxCoeff();
   if (!friction->maps.empty()) model.maps = MapForce(law, values, m, prediction);

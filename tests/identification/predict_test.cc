@@ -58,5 +58,27 @@ TEST(PredictFriction, SaysWhereFrictionFeedsItself) {
   EXPECT_EQ(prediction.feeds_itself, 2600);
 }
 
+TEST(PredictFriction, BendsTheBristleAsTheTorqueTells) {
+  // 1 s at 0.001 rad/s: the bristle of 2000 N.m/rad takes up 2 N.m on the way, from 3 N.m on
+  FrictionDescription friction;
+  friction.law = "lugre";
+  friction.parameters = {{"viscous", 0},
+                         {"coulomb", 15},
+                         {"static", 15},
+                         {"stribeck_velocity", 0.1},
+                         {"bristle_stiffness", 2000},
+                         {"bristle_damping", 0}};
+  Measurements m =
+      test::Record(0.01, Eigen::VectorXd::Constant(101, 0.001), Eigen::VectorXd::Zero(101));
+  m.torque[0] = 3;
+  const Eigen::VectorXd sliding = PredictFriction(friction, m).force;
+  EXPECT_NEAR(sliding[0], 15, 1e-9);
+  EXPECT_NEAR(sliding[100], 15, 1e-9);
+  const Eigen::VectorXd bent = PredictFriction(friction, m, 0, BristleStart::torque).force;
+  EXPECT_NEAR(bent[0], 3, 1e-9);
+  // ds/dx = sigma0 (1 - s/15)
+  EXPECT_NEAR(bent[100], 15 - 12 * std::exp(-2000 * 0.001 / 15), 1e-9);
+}
+
 }  // namespace
 }  // namespace warmjoint

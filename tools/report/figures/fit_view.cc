@@ -73,7 +73,8 @@ FitView MakeFitView(const Measurements& measurements, const Selection& selection
   view.has_fit = estimate.friction.has_value();
   if (!view.has_fit) return view;
   const double initial = InitialEnergy(estimate);
-  const Prediction prediction = PredictFriction(*estimate.friction, measurements, initial);
+  const Prediction prediction =
+      PredictFriction(*estimate.friction, measurements, initial, BristleStart::torque);
   view.fitted = prediction.force;
   view.energy = prediction.energy;
   if (view.warms()) {
