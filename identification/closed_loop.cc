@@ -17,24 +17,26 @@ ClosedLoop::ClosedLoop(const Eigen::VectorXd& time, const Eigen::VectorXd& veloc
 LoopResponse ClosedLoop::Simulate(const Eigen::VectorXd& parameters, const Thermal& thermal,
                                   double initial_energy) const {
   const Eigen::VectorXd nominal = levels_ * parameters;
-  const std::vector<ThermalHold> holds = Holds(intervals_, thermal);
   LoopResponse response;
   response.force.resize(size());
   response.loss.resize(size());
   response.energy.resize(size());
-
-  double energy = initial_energy;
-  for (Eigen::Index n = 0; n < size(); ++n) {
-    const double moving = std::abs(direction_[n]);
-    const double level = nominal[n] + moving * energy;
-    if (level < 0 && !response.feeds_itself) response.feeds_itself = n;
-    response.energy[n] = energy;
-    response.force[n] = direction_[n] * level;
-    response.loss[n] = Loss(speed_[n], level);
-
-    const ThermalHold& hold = holds[intervals_.which[n]];
-    energy = ThermalStep(hold.gain, hold.pole, energy, response.loss[n]);
-  }
+  WithHolds(intervals_, thermal, [&](const auto& hold_after) {
+    double energy = initial_energy;
+    for (Eigen::Index n = 0; n < size(); ++n) {
+      const double level = nominal[n] + std::abs(direction_[n]) * energy;
+      const ThermalHold& hold = hold_after[n];
+      double feedback = hold.gain * speed_[n];
+      if (level < 0) {  // W = -|v| a
+        if (!response.feeds_itself) response.feeds_itself = n;
+        feedback = -feedback;
+      }
+      response.energy[n] = energy;
+      response.force[n] = direction_[n] * level;
+      response.loss[n] = Loss(speed_[n], level);
+      energy = (hold.pole + feedback) * energy + feedback * nominal[n];
+    }
+  });
   return response;
 }
 

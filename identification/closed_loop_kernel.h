@@ -34,6 +34,17 @@ struct UnevenHold {
   const ThermalHold& operator[](Eigen::Index n) const { return holds[which[n]]; }
 };
 
+/// Derivatives of E by (p, k, log tau, E0), 0 at first. Plain numbers where D is known, so that
+/// they stay in registers.
+template <int D>
+struct Sensitivities : std::array<double, D + 3> {
+  explicit Sensitivities(Eigen::Index) : std::array<double, D + 3>{} {}
+};
+template <>
+struct Sensitivities<Eigen::Dynamic> : std::vector<double> {
+  explicit Sensitivities(Eigen::Index size) : std::vector<double>(static_cast<size_t>(size)) {}
+};
+
 /// Runs the loop with its derivatives. parameters: [d] of the law; visit(n, a, g, S) sees the level
 /// a, its direct derivatives g [d] and the derivatives S [d + 3] of E by (p, k, log tau, E0), all
 /// at sample n: da/dp = g + S.
@@ -42,18 +53,19 @@ void RunWithSensitivities(const ClosedLoop& loop, const double* parameters, doub
                           double initial_energy, const Hold& hold_after, Visit&& visit) {
   const LoopSize<D> size(loop.levels().cols());
   const Eigen::Index d = size.value();
-  Eigen::Array<double, D == Eigen::Dynamic ? D : D + 3, 1> S(d + 3);
-  S.setZero();
+  Sensitivities<D> S(d + 3);
   S[d + 2] = 1;
   double energy = initial_energy;
   const double* g = loop.levels().data();
   const double* speed = loop.speed().data();
 
   for (Eigen::Index n = 0; n < loop.size(); ++n, g += d) {
-    double level = energy;
-    for (Eigen::Index i = 0; i < d; ++i) level += g[i] * parameters[i];
+    double nominal = g[0] * parameters[0];
+    for (Eigen::Index i = 1; i < d; ++i) nominal += g[i] * parameters[i];
+    const double level = nominal + energy;
     visit(n, level, g, S.data());
 
+    // one product and one sum from each state to its next: what waits for the state before is short
     const ThermalHold& hold = hold_after[n];
     const double feedback = hold.gain * speed[n];
     const double lambda = hold.pole + feedback;
@@ -62,7 +74,7 @@ void RunWithSensitivities(const ClosedLoop& loop, const double* parameters, doub
     S[d] = lambda * S[d] + hold.cooling * loss;
     S[d + 1] = lambda * S[d + 1] + hold.pole_slope * (energy - gain * loss);
     S[d + 2] = lambda * S[d + 2];
-    energy = hold.pole * energy + hold.gain * loss;
+    energy = lambda * energy + feedback * nominal;
   }
 }
 

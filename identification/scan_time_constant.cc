@@ -26,29 +26,36 @@ Blocks MakeBlocks(const ClosedLoop& loop, const Eigen::VectorXd& level,
                   const Eigen::VectorXd& kept) {
   const Eigen::Index size = 1 + (loop.size() - 1) / kBlocks;
   const Eigen::Index m = (loop.size() + size - 1) / size;
+  const Eigen::Index d = loop.levels().cols();
   const Intervals& intervals = loop.intervals();
   Blocks blocks{Eigen::VectorXd::Zero(m), Eigen::VectorXd::Zero(m),
-                Eigen::VectorXd::Zero(m), ClosedLoop::Rows::Zero(m, loop.levels().cols()),
+                Eigen::VectorXd::Zero(m), ClosedLoop::Rows::Zero(m, d),
                 Eigen::VectorXd::Zero(m), std::vector<bool>(static_cast<size_t>(m))};
 
   for (Eigen::Index b = 0; b < m; ++b) {
-    const Eigen::Index end = std::min(loop.size(), (b + 1) * size);
-    for (Eigen::Index n = b * size; n < end; ++n) {
+    const Eigen::Index begin = b * size, end = std::min(loop.size(), begin + size);
+    double length = 0, loss = 0, weight = 0, mean = 0;
+    for (Eigen::Index n = begin; n < end; ++n) {
       double h = intervals.length[intervals.which[n]];
       if (std::isinf(h)) {
         h = intervals.typical;
         blocks.last[static_cast<size_t>(b)] = true;
       }
-      blocks.length[b] += h;
-      blocks.loss[b] += h * loop.speed()[n] * level[n];
-      blocks.weight[b] += kept[n];
-      blocks.level[b] += kept[n] * level[n];
-      blocks.levels.row(b) += kept[n] * loop.levels().row(n);
+      length += h;
+      loss += h * loop.speed()[n] * level[n];
+      weight += kept[n];
+      mean += kept[n] * level[n];
     }
-    blocks.loss[b] /= blocks.length[b];
-    if (blocks.weight[b] == 0) continue;
-    blocks.level[b] /= blocks.weight[b];
-    blocks.levels.row(b) /= blocks.weight[b];
+    blocks.length[b] = length;
+    blocks.loss[b] = loss / length;
+    if (weight == 0) continue;
+    blocks.weight[b] = weight;
+    blocks.level[b] = mean / weight;
+    for (Eigen::Index i = 0; i < d; ++i) {
+      double sum = 0;
+      for (Eigen::Index n = begin; n < end; ++n) sum += kept[n] * loop.levels()(n, i);
+      blocks.levels(b, i) = sum / weight;
+    }
   }
   return blocks;
 }
@@ -84,11 +91,21 @@ Products Filter(const Blocks& blocks, const Taus& tau) {
   return products;
 }
 
-/// Offset in steps, within half a step, of the maximum of a parabola through three even points.
-double Peak(double before, double at, double after) {
-  const double bend = before - 2 * at + after;
-  return bend < 0 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0;
-}
+/// A parabola through three even points, a step apart.
+struct Parabola {
+  double before, at, after;
+
+  /// Offset of the maximum in steps, within half a step; 0 where there is none.
+  double Peak() const {
+    const double bend = before - 2 * at + after;
+    return bend < 0 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0;
+  }
+
+  /// Value at an offset in steps from the middle point.
+  double Value(double offset) const {
+    return at + 0.5 * offset * ((after - before) + offset * (before - 2 * at + after));
+  }
+};
 
 }  // namespace
 
@@ -117,14 +134,19 @@ WarmStart ScanTimeConstant(const ClosedLoop& loop, const Eigen::VectorXd& level,
   Eigen::Index best = 0;
   explained.maxCoeff(&best);
   start.thermal = {gain[best], tau[best]};
+  Eigen::VectorXd slope = slopes.col(best);
   if (best > 0 && best + 1 < kTaus) {
-    start.thermal.time_constant *=
-        std::exp(step * Peak(explained[best - 1], explained[best], explained[best + 1]));
+    const auto through = [best](const auto& values) {
+      return Parabola{values[best - 1], values[best], values[best + 1]};
+    };
+    const double offset = through(explained).Peak();
+    start.thermal = {through(gain).Value(offset), tau[best] * std::exp(step * offset)};
+    for (Eigen::Index i = 0; i < slope.size(); ++i) slope[i] = through(slopes.row(i)).Value(offset);
   }
 
   // no more feedback than a loop that settles can have, k |v| < 1
   start.thermal.gain = std::min(start.thermal.gain, 0.9 / loop.speed().maxCoeff());
-  start.parameters = nominal - start.thermal.gain * slopes.col(best);
+  start.parameters = nominal - start.thermal.gain * slope;
   return start;
 }
 
