@@ -11,11 +11,12 @@ std::optional<Structure> FindFading(const FittedModel& model, const Eigen::Matri
   const Selection& selection = model.selection;
   const Eigen::MatrixXd maps = Kept(*model.maps, selection);
   const Eigen::MatrixXd left = Kept(residual, selection);
-  GrowingFit fit(Eigen::VectorXd::Ones(left.rows()), left, Kept(model.derivatives, selection),
-                 selection);
-  fit.Take({Dependence::position, maps});
+  const Block steady{Dependence::position, maps};
   const Block fading{Dependence::position_by_energy,
                      maps.col(0).asDiagonal() * Kept(energies, selection)};
+  GrowingFit fit(Eigen::VectorXd::Ones(left.rows()), left, Kept(model.derivatives, selection),
+                 selection, {steady, fading});
+  fit.Take(steady);
   std::optional<Structure> found = fit.Test(fading);
   if (!found) return std::nullopt;
 

@@ -1,11 +1,12 @@
 #include "identification/adequacy/growing_fit.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "identification/adequacy/significance.h"
-#include "identification/noise_model.h"
+#include "identification/fit_gravity.h"
 
 namespace warmjoint {
 namespace {
@@ -16,7 +17,7 @@ using Eigen::VectorXd;
 
 // what is left of a feature of norm 1 beside the fit, below which it counts as part of the fit
 constexpr double kDistinct = 0.02;
-constexpr double kFewestFree = 8;  // parts beyond the columns of a fit
+constexpr double kFewestFree = 8;  // parts, or samples, beyond the columns of a fit
 
 Basis Orthonormal(const MatrixXd& columns, double distinct) {
   const Eigen::ColPivHouseholderQR<MatrixXd> qr(columns);
@@ -43,29 +44,6 @@ Eigen::VectorXi PartOf(const VectorXd& weight, Index parts) {
     before += weight[i];
   }
   return part;
-}
-
-/// How coefficients scatter, and how far from chance that puts them.
-struct Evidence {
-  MatrixXd scatter;  // [q x q]
-  double deviations = 0;
-};
-
-/// By the colour that the rest shows. coefficients: [q]; own: [m x q], fit: [m x p] orthonormal
-/// together; rest: [m] what both leave of the residual.
-Evidence ByColour(const VectorXd& coefficients, const MatrixXd& own, const MatrixXd& fit,
-                  const VectorXd& rest, const Selection& place) {
-  MatrixXd columns(rest.size(), own.cols() + fit.cols());
-  columns << own, fit;
-  const NoiseModel noise = FitNoise(rest, place);
-  const MatrixXd through = ScatterThrough(noise, columns, place);
-
-  // what the fit took up counts in samples, at most half of them
-  const auto m = static_cast<double>(rest.size());
-  const double taken = std::min(through.trace() / noise.variance, 0.5 * m);
-  const MatrixXd scatter = m / (m - taken) * through.topLeftCorner(own.cols(), own.cols());
-  const double samples = m / noise.redundancy - static_cast<double>(columns.cols());
-  return {scatter, HotellingDeviations(coefficients, scatter, samples)};
 }
 
 /// How many parts carry features: all of them where each carries as much, one where that one
@@ -95,14 +73,39 @@ Evidence ByParts(const VectorXd& coefficients, const MatrixXd& own, Index p, con
 }  // namespace
 
 GrowingFit::GrowingFit(const VectorXd& weight, const VectorXd& residual,
-                       const MatrixXd& derivatives, const Selection& place)
+                       const MatrixXd& derivatives, const Selection& place,
+                       const std::vector<Block>& candidates)
     : place_(place),
       part_(PartOf(weight, std::min(kParts, weight.size() / 2))),
       roots_(weight.cwiseSqrt()),
       norms_((roots_.asDiagonal() * derivatives).colwise().norm().cwiseMax(1e-300)),
       columns_(Normed(derivatives)),
       residual_(roots_.cwiseProduct(residual)) {
+  LearnNoise(candidates);
   Refit();
+}
+
+void GrowingFit::LearnNoise(const std::vector<Block>& candidates) {
+  MatrixXd all = columns_;
+  for (const Block& block : candidates) all = Beside(all, Normed(block.features));
+  const MatrixXd basis = Orthonormal(all, kDistinct).basis;
+  noise_ = FitNoise(residual_ - basis * (basis.transpose() * residual_), place_);
+
+  // what all of them took up counts in samples, at most half of them
+  const auto m = static_cast<double>(residual_.size());
+  const double taken =
+      std::min(ScatterThrough(noise_, basis, place_).trace() / noise_.variance, 0.5 * m);
+  noise_.variance *= m / (m - taken);
+  noise_.innovation *= m / (m - taken);
+  taken_ = static_cast<double>(basis.cols());
+}
+
+Evidence GrowingFit::ByColour(const VectorXd& coefficients, const MatrixXd& own) const {
+  const MatrixXd scatter = ScatterThrough(noise_, own, place_);
+  const double red = scatter.selfadjointView<Eigen::Lower>().operatorNorm() / noise_.variance;
+  const double samples = static_cast<double>(own.rows()) / std::max(2 * red - 1, 1.0) - taken_;
+  const double fewest = kFewestFree + static_cast<double>(own.cols());
+  return {scatter, HotellingDeviations(coefficients, scatter, std::max(samples, fewest))};
 }
 
 std::optional<Structure> GrowingFit::Test(const Block& block) const {
@@ -115,7 +118,7 @@ std::optional<Structure> GrowingFit::Test(const Block& block) const {
 
   const VectorXd b = own.basis.transpose() * left_;
   const VectorXd rest = left_ - own.basis * b;
-  Evidence evidence = ByColour(b, own.basis, fit_.basis, rest, place_);
+  Evidence evidence = ByColour(b, own.basis);
   const bool start = block.on == Dependence::initial_energy;
   if (!start) {
     Evidence parts = ByParts(b, own.basis, columns_.cols(), rest, part_);
@@ -124,12 +127,13 @@ std::optional<Structure> GrowingFit::Test(const Block& block) const {
   Structure structure;
   structure.on = block.on;
   structure.explained = b.squaredNorm() - evidence.scatter.trace();
-  const auto m = static_cast<double>(rest.size());
-  structure.merit =
-      b.squaredNorm() - static_cast<double>(b.size()) * std::log(m) * rest.squaredNorm() / m;
+  structure.merit = b.squaredNorm() - static_cast<double>(b.size()) *
+                                          std::log(static_cast<double>(rest.size())) *
+                                          noise_.variance;
   structure.deviations = evidence.deviations;
-  if (evidence.deviations < (start ? kCertainStart : kCertain)) return std::nullopt;
-  if (structure.explained <= 0) return std::nullopt;
+  const bool most = structure.explained > 0.5 * left_.squaredNorm();
+  const double certain = start ? kCertainStart : most ? kCertainMost : kCertain;
+  if (evidence.deviations < certain || structure.explained <= 0) return std::nullopt;
 
   // the parameters give way: basis = features mix, whose share within the fit is `shared`
   const Index p = norms_.size();
@@ -144,8 +148,7 @@ std::optional<Structure> GrowingFit::Test(const Block& block) const {
 }
 
 void GrowingFit::Take(const Block& block) {
-  columns_.conservativeResize(Eigen::NoChange, columns_.cols() + block.features.cols());
-  columns_.rightCols(block.features.cols()) = Normed(block.features);
+  columns_ = Beside(columns_, Normed(block.features));
   Refit();
 }
 

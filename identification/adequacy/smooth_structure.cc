@@ -39,8 +39,8 @@ std::vector<Block> MakeBlocks(const Cells& cells, const Heat& heat) {
 SmoothFindings FindSmoothStructure(const Cells& cells, const VectorXd& residual,
                                    const MatrixXd& derivatives, const Heat& heat) {
   const Selection all{Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(cells.size(), true), {}};
-  GrowingFit fit(cells.weight, residual, derivatives, all);
   std::vector<Block> blocks = MakeBlocks(cells, heat);
+  GrowingFit fit(cells.weight, residual, derivatives, all, blocks);
   SmoothFindings findings;
   while (!blocks.empty()) {
     // the block that explains what is left best

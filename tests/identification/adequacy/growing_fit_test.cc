@@ -39,7 +39,7 @@ MatrixXd Wave() { return (VectorXd::LinSpaced(kRows, 0, 40).array()).sin().matri
 const MatrixXd kLevel = MatrixXd::Ones(kRows, 1);
 
 std::optional<Structure> Ask(const VectorXd& residual, const Block& block) {
-  return GrowingFit(VectorXd::Ones(kRows), residual, kLevel, All()).Test(block);
+  return GrowingFit(VectorXd::Ones(kRows), residual, kLevel, All(), {block}).Test(block);
 }
 
 /// How many of 300 residuals are said to hold a feature. height: of it
@@ -92,8 +92,8 @@ TEST(GrowingFit, FindsWhatWouldPassForColouredNoise) {
 }
 
 TEST(GrowingFit, TakesWhatWasFound) {
-  GrowingFit fit(VectorXd::Ones(kRows), 3 * Wave() + 0.01 * Noise(0, 1), kLevel, All());
   const Block wave{Dependence::time, Wave()};
+  GrowingFit fit(VectorXd::Ones(kRows), 3 * Wave() + 0.01 * Noise(0, 1), kLevel, All(), {wave});
   EXPECT_TRUE(fit.Test(wave));
   fit.Take(wave);
   EXPECT_FALSE(fit.Test(wave));
