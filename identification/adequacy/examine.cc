@@ -13,6 +13,7 @@
 #include "identification/adequacy/fitted_model.h"
 #include "identification/adequacy/smooth_structure.h"
 #include "identification/fit_data.h"
+#include "identification/fit_gravity.h"
 #include "identification/thermal_filter.h"
 
 namespace warmjoint {
@@ -39,13 +40,16 @@ Eigen::MatrixXd Energies(const Measurements& m, const Eigen::VectorXd& torque) {
 }
 
 /// energies: [N x 3]
-Heat HeatOf(const FittedModel& model, const Measurements& m, const Eigen::MatrixXd& energies,
-            const Cells& cells) {
+Circumstances CircumstancesOf(const FittedModel& model, const Measurements& m,
+                              const Eigen::MatrixXd& energies, const Cells& cells) {
   const Index c = cells.size();
-  Heat heat{cells.Means(energies), Eigen::MatrixXd(c, 0), Eigen::MatrixXd(c, 0)};
-  if (model.KnowsWarming()) heat.slopes = cells.Means(m.velocity.asDiagonal() * energies);
-  if (model.by_initial_energy) heat.initial = cells.Means(*model.by_initial_energy);
-  return heat;
+  const Eigen::MatrixXd none(c, 0);
+  Circumstances known{cells.Means(energies), none, none, none, none};
+  if (model.KnowsWarming()) known.slopes = cells.Means(m.velocity.asDiagonal() * energies);
+  if (model.by_initial_energy) known.initial = cells.Means(*model.by_initial_energy);
+  if (m.load) known.loads = cells.Means(Beside(*m.load, m.load->cwiseAbs()));
+  if (m.temperature) known.temperatures = cells.Means(*m.temperature);
+  return known;
 }
 
 std::optional<AngleAxis> MotorAxis(const Measurements& m) {
@@ -132,7 +136,7 @@ Adequacy ExamineResidual(const Identifier& identifier, const IdentifierInput& in
   // what changes from segment to segment, then what changes within
   const Eigen::MatrixXd energies = Energies(m, model->torque);
   SmoothFindings smooth = FindSmoothStructure(cells, cells.Means(model->residual), derivatives,
-                                              HeatOf(*model, m, energies, cells));
+                                              CircumstancesOf(*model, m, energies, cells));
   adequacy.found = std::move(smooth.found);
   Eigen::VectorXd rest = model->residual;
   for (Index c = 0; c < cells.size(); ++c) {

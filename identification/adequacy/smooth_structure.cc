@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "identification/adequacy/growing_fit.h"
+#include "identification/fit_gravity.h"
 
 namespace warmjoint {
 namespace {
@@ -13,7 +14,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-std::vector<Block> MakeBlocks(const Cells& cells, const Heat& heat) {
+std::vector<Block> MakeBlocks(const Cells& cells, const Circumstances& known) {
   const Eigen::ArrayXd sign = cells.velocity.array().sign();
   const Eigen::ArrayXd speed = cells.velocity.array().abs();
   const Eigen::ArrayXd u = speed / speed.maxCoeff();
@@ -26,20 +27,26 @@ std::vector<Block> MakeBlocks(const Cells& cells, const Heat& heat) {
   const Eigen::ArrayXd phase = std::numbers::pi * cells.time.array();
   for (int k = 1; k <= 4; ++k) drift.col(k - 1) = sign * (k * phase).cos();
   for (int k = 1; k <= 2; ++k) drift.col(3 + k) = (k * phase).cos();
-  return {{Dependence::direction, direction},
-          {Dependence::speed, curve},
-          {Dependence::energy, sign.matrix().asDiagonal() * heat.energies},
-          {Dependence::speed_by_energy, heat.slopes},
-          {Dependence::initial_energy, heat.initial},
-          {Dependence::time, drift}};
+  const auto Signed = [&](const MatrixXd& columns) -> MatrixXd {
+    return sign.matrix().asDiagonal() * columns;
+  };
+  return {
+      {Dependence::direction, direction},
+      {Dependence::speed, curve},
+      {Dependence::energy, Signed(known.energies)},
+      {Dependence::speed_by_energy, known.slopes},
+      {Dependence::initial_energy, known.initial},
+      {Dependence::load, Beside(Signed(known.loads), known.loads.leftCols(known.loads.cols() / 2))},
+      {Dependence::temperature, Signed(known.temperatures)},
+      {Dependence::time, drift}};
 }
 
 }  // namespace
 
 SmoothFindings FindSmoothStructure(const Cells& cells, const VectorXd& residual,
-                                   const MatrixXd& derivatives, const Heat& heat) {
+                                   const MatrixXd& derivatives, const Circumstances& known) {
   const Selection all{Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(cells.size(), true), {}};
-  std::vector<Block> blocks = MakeBlocks(cells, heat);
+  std::vector<Block> blocks = MakeBlocks(cells, known);
   GrowingFit fit(cells.weight, residual, derivatives, all, blocks);
   SmoothFindings findings;
   while (!blocks.empty()) {

@@ -15,11 +15,14 @@ struct SmoothFindings {
   Eigen::VectorXd explained;     // [m] what they and the parameters take up in each cell, N.m or N
 };
 
-/// What warms, as means over each cell.
-struct Heat {
-  Eigen::MatrixXd energies;  // [m x 3] the measured losses, filtered; N.m or N per unit of gain
-  Eigen::MatrixXd slopes;    // [m x 3] v times these where the fit knows warming, or [m x 0]
-  Eigen::MatrixXd initial;   // [m x 1] dF/dE(0), or [m x 0] where there is no E(0) to look for
+/// What the joint went through, as means over each cell; [m x 0] where it is not known or not
+/// asked.
+struct Circumstances {
+  Eigen::MatrixXd energies;      // [m x 3] the measured losses, filtered; N.m or N per unit of gain
+  Eigen::MatrixXd slopes;        // [m x 3] v times these, where the fit knows warming
+  Eigen::MatrixXd initial;       // [m x 1] dF/dE(0), where it is taken to be known
+  Eigen::MatrixXd loads;         // [m x 2] L, |L|; N.m or N
+  Eigen::MatrixXd temperatures;  // [m x 1] degC
 };
 
 /// Tests blocks of features against the residual, beside the fit's own derivatives (growing_fit.h):
@@ -32,6 +35,7 @@ struct Heat {
 /// Found is the block of the largest merit; it joins the fit, and the others are tested again.
 /// residual: [m] mean tau - F of each cell; derivatives: [m x p] mean dF/dx.
 SmoothFindings FindSmoothStructure(const Cells& cells, const Eigen::VectorXd& residual,
-                                   const Eigen::MatrixXd& derivatives, const Heat& heat);
+                                   const Eigen::MatrixXd& derivatives,
+                                   const Circumstances& circumstances);
 
 }  // namespace warmjoint

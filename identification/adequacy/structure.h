@@ -14,6 +14,8 @@ enum class Dependence {
   speed,
   speed_by_energy,  // a slope that warms
   direction,
+  load,
+  temperature,
   position,
   position_by_energy,  // a map that fades or grows as the joint warms
   motor_angle

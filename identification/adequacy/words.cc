@@ -84,6 +84,10 @@ std::string DescribeStructure(const Adequacy& adequacy, const Structure& structu
         return "speed x energy (the slope warms)";
       case Dependence::direction:
         return "direction";
+      case Dependence::load:
+        return "load";
+      case Dependence::temperature:
+        return "temperature";
       case Dependence::position:
         return fmt::format("position (period {:.3g} {})", structure.period, unit);
       case Dependence::position_by_energy:
@@ -119,6 +123,10 @@ std::string Remedy(const Structure& structure, const Identifier& identifier,
       return AgainstWarmingSlope(estimate);
     case Dependence::direction:
       return AgainstDirection(identifier, input);
+    case Dependence::load:
+      return Try("load-map", estimate, "more kernels over load would follow it");
+    case Dependence::temperature:
+      return "record it at a steady temperature";
     case Dependence::position:
       return AgainstPosition(structure, input, estimate);
     case Dependence::position_by_energy:

@@ -106,6 +106,33 @@ TEST(JudgeHeat, FindsASlopeThatWarms) {
   EXPECT_THAT(estimate.message, HasSubstr("try lpv-energy"));
 }
 
+TEST(JudgeHeat, FindsALoadThatTheLogHolds) {
+  // a tenth of 0 and 20 N.m in turn of five minutes
+  const auto loaded = [](std::uint64_t seed) {
+    Measurements m = RecordHour(test::TableOne(), seed);
+    m.load = Eigen::VectorXd::Zero(m.size());
+    for (Eigen::Index i = 0; i < m.size(); ++i) (*m.load)[i] = i / 300 % 2 == 0 ? 0 : 20;
+    m.torque.array() += 0.1 * m.velocity.array().sign() * m.load->array();
+    return m;
+  };
+  EXPECT_GE(Count("energy-ml", kInadequate, "depends on load", loaded), kNearlyAll);
+  EXPECT_THAT(Answer("energy-ml", loaded(1)).message, HasSubstr("try load-map"));
+  Measurements unmoved = RecordHour(test::TableOne(), 1);
+  unmoved.load = loaded(1).load;
+  EXPECT_THAT(Answer("energy-ml", unmoved).message, Not(HasSubstr("depends on")));
+}
+
+TEST(JudgeHeat, FindsATemperatureThatTheLogHolds) {
+  // a room of 20 to 26 degrees, 0.3 N.m for each
+  Measurements m = RecordHour(test::TableOne(), 1);
+  m.temperature = (23 + 3 * (2 * M_PI / 1800 * m.time.array()).sin()).matrix();
+  m.torque.array() -= 0.3 * m.velocity.array().sign() * (m.temperature->array() - 20);
+  const Estimate estimate = Answer("energy-ml", m);
+  EXPECT_EQ(estimate.status, kInadequate);
+  EXPECT_THAT(estimate.message, HasSubstr("depends on temperature"));
+  EXPECT_THAT(estimate.message, HasSubstr("record it at a steady temperature"));
+}
+
 TEST(JudgeHeat, SaysThatAJointWasWarmAtTheStart) {
   Measurements m = RecordHour(test::TableOne(), 1, 0);
   m.torque = PredictFriction(test::TableOne(), m, -6).force;
