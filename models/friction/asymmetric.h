@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "models/friction/parameter_info.h"
+#include "models/friction/parameter_rows.h"
 #include "models/friction/pre_sliding.h"
 #include "models/friction/sign.h"
 
@@ -17,7 +17,7 @@ struct Asymmetric {
       "(3) F = kv v + kc+ sign(max(0,v)) + kc- sign(min(0,v))";
   static constexpr PreSliding pre_sliding = PreSliding::elastoplastic;
   static constexpr std::array parameters{
-      ParameterInfo{"viscous", "kv", kViscousUnit, 0, kInfinity, 0, "slope over speed"},
+      kViscousRow,
       ParameterInfo{"coulomb_positive", "kc+", kTorqueUnit, 0, kInfinity, 0, "level for v > 0"},
       ParameterInfo{"coulomb_negative", "kc-", kTorqueUnit, 0, kInfinity, 0, "level for v < 0"},
   };

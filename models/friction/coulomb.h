@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "models/friction/parameter_info.h"
+#include "models/friction/parameter_rows.h"
 #include "models/friction/pre_sliding.h"
 #include "models/friction/sign.h"
 
@@ -15,7 +15,7 @@ struct Coulomb {
   static constexpr std::string_view equation = "(1) F = kc sign(v)";
   static constexpr PreSliding pre_sliding = PreSliding::elastoplastic;
   static constexpr std::array parameters{
-      ParameterInfo{"coulomb", "kc", kTorqueUnit, 0, kInfinity, 0, "level at any speed"},
+      kCoulombRow,
   };
 
   /// p: {kc}; returns N.m or N, at any side and speed.

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "models/friction/parameter_info.h"
+#include "models/friction/parameter_rows.h"
 #include "models/friction/pre_sliding.h"
 #include "models/friction/sign.h"
 
@@ -16,9 +16,8 @@ struct Dahl {
   static constexpr std::string_view equation = "dF/dt = sigma0 (v - |v| F / kc); steady: (1)";
   static constexpr PreSliding pre_sliding = PreSliding::bristle;
   static constexpr std::array parameters{
-      ParameterInfo{"coulomb", "kc", kTorqueUnit, 0, kInfinity, 0, "level at any speed"},
-      ParameterInfo{"bristle_stiffness", "sigma0", kStiffnessUnit, kSmallestPositive, kInfinity, 1,
-                    "slope of the force over travel before sliding"},
+      kCoulombRow,
+      kBristleStiffnessRow,
   };
 
   /// p: {kc, sigma0}; returns N.m or N, at any side and speed.

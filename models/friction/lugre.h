@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "models/friction/parameter_info.h"
+#include "models/friction/parameter_rows.h"
 #include "models/friction/pre_sliding.h"
 #include "models/friction/sign.h"
 #include "models/friction/stribeck.h"
@@ -20,13 +20,11 @@ struct LuGre {
       "dz/dt = v - sigma0 |v| z/g, F = sigma0 z + sigma1 dz/dt + kv v; steady: stribeck, delta 2";
   static constexpr PreSliding pre_sliding = PreSliding::bristle;
   static constexpr std::array parameters{
-      ParameterInfo{"viscous", "kv", kViscousUnit, 0, kInfinity, 0, "slope over speed"},
-      ParameterInfo{"coulomb", "kc", kTorqueUnit, 0, kInfinity, 0, "level at any speed"},
-      ParameterInfo{"static", "ks", kTorqueUnit, 0, kInfinity, 0, "level at rest, >= coulomb"},
-      ParameterInfo{"stribeck_velocity", "vs", kVelocityUnit, kSmallestPositive, kInfinity, 0.1,
-                    "speed over which static falls to coulomb"},
-      ParameterInfo{"bristle_stiffness", "sigma0", kStiffnessUnit, kSmallestPositive, kInfinity, 1,
-                    "slope of the force over travel before sliding"},
+      kViscousRow,
+      kCoulombRow,
+      kStaticRow,
+      kStribeckVelocityRow,
+      kBristleStiffnessRow,
       ParameterInfo{"bristle_damping", "sigma1", kViscousUnit, 0, kInfinity, 0,
                     "damping of the bristle's motion"},
   };

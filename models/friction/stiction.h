@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "models/friction/parameter_info.h"
+#include "models/friction/parameter_rows.h"
 #include "models/friction/pre_sliding.h"
 #include "models/friction/sign.h"
 
@@ -16,9 +16,9 @@ struct Stiction {
   static constexpr std::string_view equation = "(4) F = kv v + kc sign(v); at rest the load, to ks";
   static constexpr PreSliding pre_sliding = PreSliding::breakaway;
   static constexpr std::array parameters{
-      ParameterInfo{"viscous", "kv", kViscousUnit, 0, kInfinity, 0, "slope over speed"},
-      ParameterInfo{"coulomb", "kc", kTorqueUnit, 0, kInfinity, 0, "level at any speed"},
-      ParameterInfo{"static", "ks", kTorqueUnit, 0, kInfinity, 0, "level at rest, >= coulomb"},
+      kViscousRow,
+      kCoulombRow,
+      kStaticRow,
   };
 
   /// p: {kv, kc, ks}; returns N.m or N, of sliding at any side and speed.

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <type_traits>
 
-#include "models/friction/parameter_info.h"
+#include "models/friction/parameter_rows.h"
 #include "models/friction/pre_sliding.h"
 #include "models/friction/sign.h"
 
@@ -44,11 +44,10 @@ struct Stribeck {
       "F = kv v + g sign(v), g = kc + (ks - kc) exp(-(|v|/vs)^delta)";
   static constexpr PreSliding pre_sliding = PreSliding::elastoplastic;
   static constexpr std::array parameters{
-      ParameterInfo{"viscous", "kv", kViscousUnit, 0, kInfinity, 0, "slope over speed"},
-      ParameterInfo{"coulomb", "kc", kTorqueUnit, 0, kInfinity, 0, "level at any speed"},
-      ParameterInfo{"static", "ks", kTorqueUnit, 0, kInfinity, 0, "level at rest, >= coulomb"},
-      ParameterInfo{"stribeck_velocity", "vs", kVelocityUnit, kSmallestPositive, kInfinity, 0.1,
-                    "speed over which static falls to coulomb"},
+      kViscousRow,
+      kCoulombRow,
+      kStaticRow,
+      kStribeckVelocityRow,
       ParameterInfo{"stribeck_exponent",
                     "delta",
                     {"1", "1"},

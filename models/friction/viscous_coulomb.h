@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "models/friction/parameter_info.h"
+#include "models/friction/parameter_rows.h"
 #include "models/friction/pre_sliding.h"
 #include "models/friction/sign.h"
 
@@ -15,8 +15,8 @@ struct ViscousCoulomb {
   static constexpr std::string_view equation = "(2) F = kv v + kc sign(v)";
   static constexpr PreSliding pre_sliding = PreSliding::elastoplastic;
   static constexpr std::array parameters{
-      ParameterInfo{"viscous", "kv", kViscousUnit, 0, kInfinity, 0, "slope over speed"},
-      ParameterInfo{"coulomb", "kc", kTorqueUnit, 0, kInfinity, 0, "level at any speed"},
+      kViscousRow,
+      kCoulombRow,
   };
 
   /// p: {kv, kc}; returns N.m or N, at any side and speed.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <ostream>
 #include <set>
+#include <tuple>
 
 namespace warmjoint {
 
@@ -31,6 +32,22 @@ TEST_P(EveryLaw, HasACompleteTable) {
     EXPECT_LE(info.default_value, info.upper);
   }
   EXPECT_FALSE(GetParam().equation.empty());
+}
+
+TEST_P(EveryLaw, MeansTheSameByANameAsEveryOtherLaw) {
+  const auto row = [](const ParameterInfo& info) {
+    return std::tuple(info.symbol, info.unit.rotary, info.unit.linear, info.lower, info.upper,
+                      info.default_value, info.meaning, info.given);
+  };
+  for (const Law& other : Laws()) {
+    for (const ParameterInfo& theirs : other.parameters) {
+      for (const ParameterInfo& ours : GetParam().parameters) {
+        if (ours.name == theirs.name) {
+          EXPECT_EQ(row(ours), row(theirs)) << ours.name << other.name;
+        }
+      }
+    }
+  }
 }
 
 TEST_P(EveryLaw, VanishesAtRestAndBrakesOtherwise) {
