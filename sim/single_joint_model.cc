@@ -7,6 +7,7 @@
 #include "sim/friction_actuator.h"
 #include "sim/load_model.h"
 #include "sim/plugin/check_actuator.h"
+#include "sim/plugin/friction_instance.h"
 #include "sim/spec_elements.h"
 
 namespace warmjoint {
@@ -57,7 +58,7 @@ SingleJointModel LoadSingleJoint(const std::string& path, const std::string& joi
   result.friction_actuator = m->actuator_outadr[0];
   result.friction_state = m->actuator_actadr[0];
   result.friction_control = m->actuator_ctrladr[0];
-  result.friction_report = m->plugin_stateadr[m->actuator_plugin[0]];
+  result.friction_report = m->plugin_stateadr[m->actuator_plugin[0]] + kReportsPush;
   return result;
 }
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "models/foundation/excerpt.h"
+
 namespace warmjoint {
 
 int EditDistance(std::string_view a, std::string_view b) {
@@ -23,8 +25,9 @@ int EditDistance(std::string_view a, std::string_view b) {
   return table[a.size()][b.size()];
 }
 
-std::string Suggestion(std::string_view name, const std::vector<std::string>& known) {
+std::string Suggestion(std::string_view given, const std::vector<std::string>& known) {
   if (known.empty()) return "";
+  const std::string name = Excerpt(given);
 
   const auto nearer = [&](const std::string& x, const std::string& y) {
     return EditDistance(name, x) < EditDistance(name, y);
@@ -33,9 +36,9 @@ std::string Suggestion(std::string_view name, const std::vector<std::string>& kn
 
   // suggest only what a slip of the fingers explains
   const int allowed = std::max<int>(2, static_cast<int>(name.size()) / 3);
-  const std::string known_names = fmt::format("{}", fmt::join(known, ", "));
+  const std::string known_names = ExcerptOfList(known);
   if (EditDistance(name, nearest) > allowed) return fmt::format("; known: {}", known_names);
-  return fmt::format("; did you mean '{}'? Known: {}", nearest, known_names);
+  return fmt::format("; did you mean '{}'? Known: {}", Excerpt(nearest), known_names);
 }
 
 }  // namespace warmjoint

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "models/foundation/bad_input.h"
+#include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
 #include "sim/plugin/check_actuator.h"
 
@@ -29,7 +30,7 @@ FrictionDescription FrictionOf(const mjModel* m, int actuator, const FrictionOfJ
   if (name.empty() || friction == all.end()) {
     std::vector<std::string> names;
     for (const auto& [known, unused] : all) names.push_back(known);
-    Refuse({ActuatorName(m, actuator)}, "joints has no joint '{}'{}", name,
+    Refuse({ActuatorName(m, actuator)}, "joints has no joint '{}'{}", Excerpt(name),
            Suggestion(name, names));
   }
   std::erase(waiting, name);
@@ -51,7 +52,7 @@ FrictionInstance::FrictionInstance(const mjModel* m, int instance)
   if (joints_.empty() || waiting.empty()) return;
   Refuse({InstanceName(m, instance)},
          "joints names '{}', which no actuator of the instance drives; add one, or take it out",
-         waiting.front());
+         Excerpt(waiting.front()));
 }
 
 void FrictionInstance::Bind(const mjModel* m, int actuator, const FrictionDescription& friction) {
@@ -85,6 +86,7 @@ JointMotion FrictionInstance::MotionOf(const mjModel* m, const mjData* d, const 
 }
 
 void FrictionInstance::Step(const mjModel* m, mjData* d) {
+  if (m->opt.integrator == mjINT_RK4) return LetGo(m, d);
   if (timestep_ != m->opt.timestep) {
     timestep_ = m->opt.timestep;
     for (Joint& joint : joints_) joint.friction.SetTimestep(timestep_);
@@ -109,7 +111,7 @@ void FrictionInstance::Report(const mjModel* m, mjData* d, const Joint& joint) {
   // a double counts 52 joints; those beyond share the last place
   const auto place = std::min<ptrdiff_t>(&joint - joints_.data(), 51);
   const uint64_t bit = uint64_t{1} << place;
-  mjtNum& reported = d->plugin_state[m->plugin_stateadr[instance_]];
+  mjtNum& reported = d->plugin_state[m->plugin_stateadr[instance_] + kReportsPush];
   const auto before = static_cast<uint64_t>(reported);
   if (before & bit) return;
   reported = static_cast<mjtNum>(before | bit);
@@ -117,6 +119,20 @@ void FrictionInstance::Report(const mjModel* m, mjData* d, const Joint& joint) {
       "%s: %s: at %g s friction would push the joint (its level is below 0 at %g rad/s or m/s); it "
       "is held at 0 from here on, and friction is outside its domain",
       kFrictionPlugin, ActuatorName(m, joint.actuator).c_str(), d->time, d->qvel[joint.dof]);
+}
+
+void FrictionInstance::LetGo(const mjModel* m, mjData* d) {
+  for (Joint& joint : joints_) {
+    joint.force = 0;
+    std::fill_n(d->act_dot + joint.state, joint.friction.state().size(), 0.0);
+  }
+  mjtNum& reported = d->plugin_state[m->plugin_stateadr[instance_] + kReportsIntegrator];
+  if (reported != 0) return;
+  reported = 1;
+  mju_warning(
+      "%s: the integrator was set to RK4, whose inner steps would move the bristle four times: "
+      "there is no friction until it is Euler, implicit, implicitfast or discrete again",
+      kFrictionPlugin);
 }
 
 void FrictionInstance::Apply(const mjModel* m, mjData* d) const {

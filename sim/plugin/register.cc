@@ -2,6 +2,7 @@
 
 #include <mujoco/mujoco.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <exception>
 #include <memory>
@@ -47,10 +48,12 @@ mjpPlugin MakePlugin() {
   plugin.nattribute = static_cast<int>(names.size());
   plugin.attributes = names.data();
   plugin.capabilityflags = mjPLUGIN_ACTUATOR;
-  plugin.nstate = [](const mjModel*, int) { return kFrictionReports; };
+  plugin.nstate = [](const mjModel*, int) -> int { return kFrictionReports; };
   plugin.init = Init;
   plugin.destroy = Destroy;
-  plugin.reset = [](const mjModel*, mjtNum* reports, void*, int) { reports[0] = 0; };
+  plugin.reset = [](const mjModel*, mjtNum* reports, void*, int) {
+    std::fill_n(reports, kFrictionReports, 0.0);
+  };
   plugin.actuator_act_dot = [](const mjModel* m, mjData* d, int instance) {
     InstanceOf(d, instance)->Step(m, d);
   };

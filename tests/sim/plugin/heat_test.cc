@@ -3,7 +3,9 @@
 
 #include <cmath>
 
+#include "sim/plugin/friction_instance.h"
 #include "tests/sim/plugin/friction_models.h"
+#include "tests/sim/plugin/warnings.h"
 
 namespace warmjoint {
 namespace {
@@ -88,19 +90,6 @@ TEST(PluginHeat, StartsWarmInBothStagesFromAKeyframe) {
   EXPECT_DOUBLE_EQ(d->actuator_force[0], -(10 - 4 - 3));
 }
 
-/// The last warning of the engine, while it lives.
-class Warnings {
- public:
-  Warnings() {
-    text() = "", mju_user_warning = [](const char* message) { text() += message; };
-  }
-  ~Warnings() { mju_user_warning = nullptr; }
-  static std::string& text() {
-    static std::string all;
-    return all;
-  }
-};
-
 TEST(PluginReport, TellsOnceWhereFrictionWouldFeedItself) {
   // Table I, long above 1 rad/s and then slow: E = -3 v F0 / (1 + 3 v) exceeds 15 in size
   const Config config{{"law", "viscous_coulomb"},
@@ -110,7 +99,7 @@ TEST(PluginReport, TellsOnceWhereFrictionWouldFeedItself) {
                       {"thermal_time_constant", "1"}};
   const Model m = MustCompile(LinkXml(FrictionSection(config), kNoGravity, R"(armature="9")"));
   const Data d(mj_makeData(m.get()));
-  const mjtNum* report = d->plugin_state + m->plugin_stateadr[0];
+  const mjtNum* report = d->plugin_state + m->plugin_stateadr[0] + kReportsPush;
   const Warnings warnings;
   const auto slide = [&](double v, int steps) {
     for (int i = 0; i < steps; ++i) {

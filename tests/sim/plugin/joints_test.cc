@@ -6,7 +6,9 @@
 
 #include "sim/friction_actuator.h"
 #include "sim/load_model.h"
+#include "sim/plugin/friction_instance.h"
 #include "tests/sim/plugin/friction_models.h"
+#include "tests/sim/plugin/warnings.h"
 
 namespace warmjoint {
 namespace {
@@ -67,17 +69,16 @@ TEST(PluginJoints, MoveInOneInstanceAsInInstancesOfTheirOwn) {
   ASSERT_EQ(shared->nplugin, 1);
   ASSERT_EQ(own->nplugin, 2);
 
-  mju_user_warning = [](const char*) {};
+  const test::Warnings warnings;
   const DataPtr a(mj_makeData(shared.get())), b(mj_makeData(own.get()));
   const std::vector<double> state = Fall(shared.get(), a.get());
   EXPECT_EQ(state, Fall(own.get(), b.get()));
   EXPECT_LT(state[5], -0.1) << "the shoulder should be warm";
 
   // the elbow alone left its law's domain: bit 1 of the shared instance, bit 0 of its own
-  EXPECT_EQ(a->plugin_state[shared->plugin_stateadr[0]], 2);
-  EXPECT_EQ(b->plugin_state[own->plugin_stateadr[0]], 0);
-  EXPECT_EQ(b->plugin_state[own->plugin_stateadr[1]], 1);
-  mju_user_warning = nullptr;
+  EXPECT_EQ(a->plugin_state[shared->plugin_stateadr[0] + kReportsPush], 2);
+  EXPECT_EQ(b->plugin_state[own->plugin_stateadr[0] + kReportsPush], 0);
+  EXPECT_EQ(b->plugin_state[own->plugin_stateadr[1] + kReportsPush], 1);
 }
 
 }  // namespace
