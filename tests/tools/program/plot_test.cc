@@ -7,6 +7,7 @@
 
 #include "models/foundation/atomic_file.h"
 #include "tests/tools/program/run_program.h"
+#include "tests/tools/program/table_one_yaml.h"
 #include "tests/tools/scratch_directory.h"
 #include "tools/report/page/html.h"
 
@@ -17,24 +18,12 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::UnorderedElementsAre;
 
-constexpr const char* kScenario = R"(
-  plant: ideal
-  friction:
-    law: viscous_coulomb
-    parameters: {viscous: 5, coulomb: 15}
-    thermal: {thermal_gain: -3, thermal_time_constant: 600}
-  motion: {speeds: {uniform: [0.1, 1]}, hold: 20, order: alternating}
-  noise: {torque: 0.5}
-  sampling: {rate: 1}
-  duration: 1800
-)";
-
 /// Six realizations of two identifiers, one of which iterates.
 std::string SuiteText() {
-  return std::string("name: little\nquestion: Which one?\nrealizations: 6\nseed: 3\nscenario:") +
-         kScenario +
-         "identifiers:\n  - {name: energy-ml}\n"
-         "  - {name: energy-em, options: {iterations: 20}}\n  - {name: nominal-ls}\n";
+  return TableOneSuite(6,
+                       "  - {name: energy-ml}\n"
+                       "  - {name: energy-em, options: {iterations: 20}}\n"
+                       "  - {name: nominal-ls}\n");
 }
 
 /// The bytes of every file of a folder, by name.
@@ -102,7 +91,7 @@ TEST(Plot, DrawsARunToTheSameBytesBesideTheNumbersOfCompare) {
 TEST(Plot, DrawsWhatASimulationAndItsEstimateTell) {
   const ScratchDirectory scratch;
   const auto at = [&](const std::string& name) { return std::string(scratch.path() / name); };
-  WriteWholeFile(at("warm.yaml"), kScenario);
+  WriteWholeFile(at("warm.yaml"), TableOneYaml(1800));
   Call({"simulate", at("warm.yaml"), "-o", at("warm")});
   Call({"identify", at("warm/recording.csv"), "-o", at("estimate.json"), "--plot", at("fit.png")});
   const Answer plotted = Call({"plot", at("warm"), at("estimate.json"), "-o", at("both")});

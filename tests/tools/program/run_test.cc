@@ -7,6 +7,7 @@
 
 #include "models/foundation/atomic_file.h"
 #include "tests/tools/program/run_program.h"
+#include "tests/tools/program/table_one_yaml.h"
 #include "tests/tools/scratch_directory.h"
 
 namespace warmjoint {
@@ -16,28 +17,16 @@ using testing::HasSubstr;
 using testing::Not;
 
 /// 40 realizations of Algorithm 1 and least squares: long enough to be hit in the middle.
-constexpr const char* kSuite = R"(name: little
-question: Are runs repeatable?
-realizations: 40
-seed: 3
-scenario:
-  plant: ideal
-  friction:
-    law: viscous_coulomb
-    parameters: {viscous: 5, coulomb: 15}
-    thermal: {thermal_gain: -3, thermal_time_constant: 600}
-  motion: {speeds: {uniform: [0.1, 1]}, hold: 20, order: alternating}
-  noise: {torque: 0.5}
-  sampling: {rate: 1}
-  duration: 1800
-identifiers:
-  - {name: nominal-ls}
-  - {name: energy-em, label: em, options: {iterations: 20}, claim: {source: us, rmse: 0.5}}
-)";
+std::string SuiteText() {
+  return TableOneSuite(40,
+                       "  - {name: nominal-ls}\n"
+                       "  - {name: energy-em, label: em, options: {iterations: 20},\n"
+                       "     claim: {source: us, rmse: 0.5}}\n");
+}
 
 class Run : public testing::Test {
  protected:
-  void SetUp() override { WriteWholeFile(suite_, kSuite); }
+  void SetUp() override { WriteWholeFile(suite_, SuiteText()); }
 
   std::string Directory(const std::string& name) const { return scratch_.path() / name; }
 
@@ -192,7 +181,7 @@ TEST_F(Run, ComparesInEveryFormat) {
 }
 
 TEST_F(Run, BadSuitesLeaveNothingBehind) {
-  std::string text = kSuite;
+  std::string text = SuiteText();
   text.replace(text.find("name: nominal-ls"), 16, "name: nominal-sl");
   WriteWholeFile(suite_, text);
   const Answer answer = RunWarmjoint(Command("run"));

@@ -6,6 +6,7 @@
 #include "models/foundation/atomic_file.h"
 #include "sim/dataset/truth_json.h"
 #include "tests/tools/program/run_program.h"
+#include "tests/tools/program/table_one_yaml.h"
 #include "tests/tools/scratch_directory.h"
 
 namespace warmjoint {
@@ -13,17 +14,8 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr const char* kScenario = R"(plant: ideal
-friction:
-  law: viscous_coulomb
-  parameters: {viscous: 5, coulomb: 15}
-  thermal: {thermal_gain: -3, thermal_time_constant: 600}
-motion: {speeds: {uniform: [0.1, 1]}, hold: 20, order: alternating}
-noise: {torque: 0.5}
-sampling: {rate: 1}
-duration: 600
-seed: 1
-)";
+/// Ten minutes of Table I, ten lines long.
+const std::string kScenario = TableOneYaml(600) + "seed: 1\n";
 
 class Simulate : public testing::Test {
  protected:
@@ -104,7 +96,7 @@ TEST_F(Simulate, RefusesWhatCannotBeAndLeavesNothingBehind) {
   ExpectRefusal({"--set", "plant=mujoco", "--set", "robot=pendulum", "--set", "joint=elbow"},
                 "elbow");
   ExpectRefusal({"--set", "friction.parameters.viscous=fast"}, "fast");
-  WriteWholeFile(scenario_, std::string(kScenario) + "speeed: 3\n");
+  WriteWholeFile(scenario_, kScenario + "speeed: 3\n");
   ExpectRefusal({}, "scenario.yaml:11: ");
 }
 
