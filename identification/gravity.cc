@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
 
 namespace warmjoint {
@@ -54,7 +55,7 @@ GravityKind KindOf(const nlohmann::json& json, const Place& place) {
     if (name == GravityName(kind)) return kind;
     known.emplace_back(GravityName(kind));
   }
-  Refuse(place, "gravity has no kind '{}'{}", name, Suggestion(name, known));
+  Refuse(place, "gravity has no kind '{}'{}", Excerpt(name), Suggestion(name, known));
 }
 
 }  // namespace

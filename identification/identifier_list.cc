@@ -12,6 +12,7 @@
 #include "identification/position_ridge.h"
 #include "identification/rls.h"
 #include "identification/stribeck.h"
+#include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
 
 namespace warmjoint {
@@ -31,7 +32,7 @@ const Identifier& FindIdentifier(const std::string& name) {
     if (identifier.name == name) return identifier;
     known.push_back(identifier.name);
   }
-  Refuse({}, "there is no identifier '{}'{}", name, Suggestion(name, known));
+  Refuse({}, "there is no identifier '{}'{}", Excerpt(name), Suggestion(name, known));
 }
 
 }  // namespace warmjoint

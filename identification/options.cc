@@ -7,6 +7,7 @@
 #include <optional>
 #include <sstream>
 
+#include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
 #include "models/foundation/parse_number.h"
 
@@ -72,13 +73,13 @@ void CheckValue(const OptionInfo& option, const std::string& value, const Place&
   if (IsAllowed(option, value)) return;
   if (option.allowed == "range") {
     Refuse(place, "option {} is '{}'; give two numbers lower:upper, for example {} ({})",
-           option.name, value, option.default_value, option.meaning);
+           option.name, Excerpt(value), option.default_value, option.meaning);
   }
   if (option.allowed.find('|') != std::string::npos) {
-    Refuse(place, "option {} is '{}'{}", option.name, value,
+    Refuse(place, "option {} is '{}'{}", option.name, Excerpt(value),
            Suggestion(value, Split(option.allowed, '|')));
   }
-  Refuse(place, "option {} is '{}'; it must be: {} ({}; default {})", option.name, value,
+  Refuse(place, "option {} is '{}'; it must be: {} ({}; default {})", option.name, Excerpt(value),
          option.allowed, option.meaning, option.default_value);
 }
 
@@ -98,7 +99,7 @@ Options::Options(const std::vector<OptionInfo>& table,
     const auto row = std::find(names.begin(), names.end(), name);
     if (row == names.end()) {
       const std::string known = names.empty() ? "; there are none here" : Suggestion(name, names);
-      Refuse(place, "there is no option '{}'{}", name, known);
+      Refuse(place, "there is no option '{}'{}", Excerpt(name), known);
     }
     CheckValue(table[static_cast<size_t>(row - names.begin())], value, place);
     values_[name] = value;

@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "models/foundation/atomic_file.h"
+#include "models/foundation/excerpt.h"
 #include "scenarios/read_scenario.h"
 #include "scenarios/suite.h"
 #include "scenarios/write_scenario.h"
@@ -46,7 +47,7 @@ std::vector<SuiteIdentifier> ReadIdentifiers(const YamlValue& value) {
     for (const SuiteIdentifier& other : identifiers) {
       if (other.label != identifier.label) continue;
       Refuse(entry.place(), "two identifiers have the label '{}'; give each its own `label`",
-             identifier.label);
+             Excerpt(identifier.label));
     }
     identifiers.push_back(identifier);
   }
@@ -105,8 +106,8 @@ void CheckVariants(const Suite& suite, const Place& place) {
     try {
       VariantScenario(suite, i);
     } catch (const BadInput& error) {
-      Refuse(place, "variant '{}': {}", suite.ladder->variants[static_cast<size_t>(i)].name,
-             error.what());
+      Refuse(place, "variant '{}': {}",
+             Excerpt(suite.ladder->variants[static_cast<size_t>(i)].name), error.what());
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
 #include "scenarios/yaml_value.h"
 
@@ -22,7 +23,7 @@ T ReadChoice(const YamlValue& value, const Choices<T>& choices) {
     if (name == word) return choice;
     known.push_back(name);
   }
-  Refuse(value.place(), "{} is '{}'{}", value.key(), word, Suggestion(word, known));
+  Refuse(value.place(), "{} is '{}'{}", value.key(), Excerpt(word), Suggestion(word, known));
 }
 
 /// The inverse.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
 #include "models/foundation/parse_number.h"
 
@@ -23,7 +24,7 @@ void Set(YAML::Node map, std::string_view path, const YAML::Node& value, const P
   const std::string name(path.substr(0, dot));
   if (name.empty()) Refuse(place, "the key has an empty part; write it as noise.torque");
   if (!map.IsMap() && !map.IsNull()) {
-    Refuse(place, "there is no entry '{}' below a value that is no map", path);
+    Refuse(place, "there is no entry '{}' below a value that is no map", Excerpt(path));
   }
   if (dot != std::string_view::npos) {
     if (!map[name] || map[name].IsNull()) map[name] = YAML::Node(YAML::NodeType::Map);
@@ -36,7 +37,9 @@ void Set(YAML::Node map, std::string_view path, const YAML::Node& value, const P
   }
 }
 
-Place PlaceOf(const Setting& setting) { return {"--set " + setting.key + "=" + setting.value}; }
+Place PlaceOf(const Setting& setting) {
+  return {fmt::format("--set {}", Excerpt(setting.key + "=" + setting.value))};
+}
 
 /// Whether the value of `key` is that of `outer` or stands within it.
 bool Leads(const std::string& outer, const std::string& key) {
@@ -87,7 +90,7 @@ Place YamlValue::place() const {
 }
 
 std::string YamlValue::Shown() const {
-  if (node_.IsScalar()) return "'" + node_.Scalar() + "'";
+  if (node_.IsScalar()) return fmt::format("'{}'", Excerpt(node_.Scalar()));
   if (node_.IsSequence()) return fmt::format("a list of {}", node_.size());
   if (node_.IsMap()) return "a map";
   return "nothing";
@@ -107,10 +110,10 @@ void YamlValue::RequireKeys(const std::vector<std::string>& known) const {
     const std::string name = entry.first.Scalar();
     const Place where = YamlValue(entry.first, KeyOf(name), document_).place();
     if (std::find(known.begin(), known.end(), name) == known.end()) {
-      Refuse(where, "unknown key '{}'{}", KeyOf(name), Suggestion(name, known));
+      Refuse(where, "unknown key '{}'{}", Excerpt(KeyOf(name)), Suggestion(name, known));
     }
     if (std::find(seen.begin(), seen.end(), name) != seen.end()) {
-      Refuse(where, "the key '{}' stands twice; keep one", KeyOf(name));
+      Refuse(where, "the key '{}' stands twice; keep one", Excerpt(KeyOf(name)));
     }
     seen.push_back(name);
   }

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
 #include "sim/escape_xml.h"
 #include "sim/mujoco_handles.h"
@@ -65,8 +66,8 @@ void RefuseSecond(mjSpec& spec, const std::string& joint, const Place& place) {
         mjs_getString(actuator->plugin.plugin_name) != std::string_view(kFrictionPlugin)) {
       continue;
     }
-    Refuse(place, "joint '{}' has friction already, by actuator '{}'; remove one of the two", joint,
-           mjs_getString(mjs_getName(element)));
+    Refuse(place, "joint '{}' has friction already, by actuator '{}'; remove one of the two",
+           Excerpt(joint), mjs_getString(mjs_getName(element)));
   }
 }
 
@@ -143,7 +144,8 @@ std::string FrictionSections(const std::string& joint, const FrictionDescription
 mjsJoint* FindJoint(mjSpec& spec, const std::string& joint, const Place& place) {
   mjsElement* found = mjs_findElement(&spec, mjOBJ_JOINT, joint.c_str());
   if (found) return mjs_asJoint(found);
-  Refuse(place, "there is no joint '{}'{}", joint, Suggestion(joint, SpecNames(spec, mjOBJ_JOINT)));
+  Refuse(place, "there is no joint '{}'{}", Excerpt(joint),
+         Suggestion(joint, SpecNames(spec, mjOBJ_JOINT)));
 }
 
 void AddFriction(mjSpec& spec, const std::vector<FrictionForJoint>& frictions, const Place& place) {
@@ -152,7 +154,8 @@ void AddFriction(mjSpec& spec, const std::vector<FrictionForJoint>& frictions, c
     CheckFriction(friction, place);
     const mjsJoint* target = FindJoint(spec, joint, place);
     if (target->type != mjJNT_HINGE && target->type != mjJNT_SLIDE) {
-      Refuse(place, "joint '{}' is neither hinge nor slide; friction acts on these alone", joint);
+      Refuse(place, "joint '{}' is neither hinge nor slide; friction acts on these alone",
+             Excerpt(joint));
     }
     RefuseSecond(spec, joint, place);
     AddActuator(spec, joint, static_cast<int>(StateOf(friction).size()));

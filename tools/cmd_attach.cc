@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "models/foundation/excerpt.h"
 #include "models/robots/robot_folder.h"
 #include "sim/attach.h"
 #include "tools/command.h"
@@ -20,7 +21,7 @@ struct AttachArguments {
 FrictionForJoint ReadJoint(const std::string& text) {
   const size_t equals = text.find('=');
   if (equals == 0 || equals == std::string::npos || equals + 1 == text.size()) {
-    Refuse({"--joint"}, "is '{}'; it must be NAME=FILE, as elbow=estimate.json", text);
+    Refuse({"--joint"}, "is '{}'; it must be NAME=FILE, as elbow=estimate.json", Excerpt(text));
   }
   return {text.substr(0, equals), ReadFrictionFile(text.substr(equals + 1))};
 }

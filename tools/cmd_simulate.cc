@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "models/foundation/atomic_file.h"
+#include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
 #include "scenarios/read_scenario.h"
 #include "scenarios/suite.h"
@@ -51,7 +52,7 @@ Scenario ScenarioOfRun(const SimulateArguments& arguments) {
   if (names.empty() && arguments.variant.empty()) return VariantScenario(suite, 0);
   const auto named = std::find(names.begin(), names.end(), arguments.variant);
   if (named == names.end()) {
-    Refuse({"--variant"}, "'{}' is no variant of {}{}", arguments.variant, arguments.from,
+    Refuse({"--variant"}, "'{}' is no variant of {}{}", Excerpt(arguments.variant), arguments.from,
            Suggestion(arguments.variant, names));
   }
   return VariantScenario(suite, static_cast<int>(named - names.begin()));

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "models/foundation/bad_input.h"
+#include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
 
 namespace warmjoint {
@@ -47,13 +48,14 @@ void RefuseLeftovers(const CLI::App& program) {
   const Place place{"warmjoint" + (chosen.empty() ? "" : " " + parser.get_name())};
   if (name.size() > 1 && name[0] == '-') {
     const std::string option = name.substr(0, name.find('='));
-    Refuse(place, "there is no option '{}'{}", option, Suggestion(option, OptionNames(parser)));
+    Refuse(place, "there is no option '{}'{}", Excerpt(option),
+           Suggestion(option, OptionNames(parser)));
   }
   if (chosen.empty()) {
-    Refuse(place, "there is no subcommand '{}'{}", name,
+    Refuse(place, "there is no subcommand '{}'{}", Excerpt(name),
            Suggestion(name, SubcommandNames(program)));
   }
-  Refuse(place, "does not expect the argument '{}'; see --help", name);
+  Refuse(place, "does not expect the argument '{}'; see --help", Excerpt(name));
 }
 
 /// Help and version end the program well; every other parse error is bad input.
@@ -65,7 +67,7 @@ ExitStatus AnswerOrRefuse(const CLI::App& program, const CLI::ParseError& error)
   RefuseLeftovers(program);
   const std::vector<CLI::App*> chosen = program.get_subcommands();
   Refuse({"warmjoint" + (chosen.empty() ? "" : " " + chosen.front()->get_name())}, "{}; see --help",
-         error.what());
+         Excerpt(error.what(), kLongestComplaint));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "models/foundation/bad_input.h"
+#include "models/foundation/excerpt.h"
 #include "sim/dataset/join_recordings.h"
 #include "sim/dataset/read_recording.h"
 
@@ -15,11 +16,11 @@ std::map<std::string, std::string> ReadPairs(const std::vector<std::string>& pai
   for (const std::string& pair : pairs) {
     const size_t equals = pair.find('=');
     if (equals == std::string::npos || equals == 0) {
-      Refuse({option}, "'{}' is not of the form key=value", pair);
+      Refuse({option}, "'{}' is not of the form key=value", Excerpt(pair));
     }
     const std::string key = pair.substr(0, equals);
     if (!map.emplace(key, pair.substr(equals + 1)).second) {
-      Refuse({option}, "'{}' is given twice; leave one", key);
+      Refuse({option}, "'{}' is given twice; leave one", Excerpt(key));
     }
   }
   return map;

@@ -5,6 +5,7 @@
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
+#include "models/foundation/excerpt.h"
 
 namespace warmjoint {
 
@@ -15,7 +16,8 @@ nlohmann::json ReadJsonFile(const std::filesystem::path& path) {
   } catch (const nlohmann::json::parse_error& error) {
     const auto line =
         1 + std::count(text.begin(), text.begin() + std::min(error.byte, text.size()), '\n');
-    Refuse({path, static_cast<int>(line)}, "is not JSON: {}", error.what());
+    Refuse({path, static_cast<int>(line)}, "is not JSON: {}",
+           Excerpt(error.what(), kLongestComplaint));
   }
 }
 

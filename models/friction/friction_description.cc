@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
 
 namespace warmjoint {
@@ -96,7 +97,8 @@ void CheckMaps(const FrictionDescription& friction, const Place& place) {
 void CheckFriction(const FrictionDescription& friction, const Place& place) {
   const Law* law = FindLaw(friction.law);
   if (!law) {
-    Refuse(place, "there is no law '{}'{}", friction.law, Suggestion(friction.law, LawNames()));
+    Refuse(place, "there is no law '{}'{}", Excerpt(friction.law),
+           Suggestion(friction.law, LawNames()));
   }
 
   // each parameter of the law once, and no other
@@ -111,7 +113,8 @@ void CheckFriction(const FrictionDescription& friction, const Place& place) {
   }
   for (const auto& [name, value] : friction.parameters) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-    Refuse(place, "law {} has no parameter '{}'{}", law->name, name, Suggestion(name, known));
+    Refuse(place, "law {} has no parameter '{}'{}", law->name, Excerpt(name),
+           Suggestion(name, known));
   }
 
   CheckStaticLevel(friction, place);

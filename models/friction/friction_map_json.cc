@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "models/foundation/excerpt.h"
 #include "models/foundation/json_members.h"
 #include "models/foundation/nearest_name.h"
 #include "models/friction/friction_map.h"
@@ -37,7 +38,7 @@ size_t Word(const json& value, const char* what, const std::vector<std::string>&
   for (size_t i = 0; value.is_string() && i < words.size(); ++i) {
     if (given == words[i]) return i;
   }
-  Refuse(place, "{} is '{}'{}", what, given, Suggestion(given, words));
+  Refuse(place, "{} is '{}'{}", what, Excerpt(given), Suggestion(given, words));
 }
 
 MapAxis AxisFromJson(const json& object, const Place& place) {

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "models/foundation/bad_input.h"
+#include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
 
 namespace warmjoint {
@@ -52,7 +53,8 @@ fs::path FindRobot(const std::string& name_or_path, const std::string& asked_by)
   }
   const std::vector<std::string> names = RobotNames();
   if (std::find(names.begin(), names.end(), name_or_path) == names.end()) {
-    Refuse({asked_by}, "there is no robot '{}'{}", name_or_path, Suggestion(name_or_path, names));
+    Refuse({asked_by}, "there is no robot '{}'{}", Excerpt(name_or_path),
+           Suggestion(name_or_path, names));
   }
   return DataFolder() / "models" / "robots" / name_or_path /
          fs::path(name_or_path).replace_extension(".xml");

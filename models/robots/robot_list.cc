@@ -5,6 +5,8 @@
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
+#include "models/foundation/excerpt.h"
+#include "models/foundation/read_json.h"
 #include "models/robots/read_urdf.h"
 #include "models/robots/robot_folder.h"
 
@@ -46,12 +48,13 @@ void CollectJoints(const urdf::Link& link, std::vector<RobotJoint>& joints) {
 }
 
 std::string ReadFrictionJoint(const fs::path& path, const std::vector<RobotJoint>& joints) {
-  const nlohmann::json file = nlohmann::json::parse(ReadWholeFile(path));
+  const nlohmann::json file = ReadJsonFile(path);
   const std::string name =
       file.contains("joint") && file["joint"].is_string() ? file["joint"].get<std::string>() : "";
   const bool known = std::any_of(joints.begin(), joints.end(),
                                  [&](const RobotJoint& joint) { return joint.name == name; });
-  if (!known) Refuse({path.string()}, "joint is '{}', which is none of the robot's joints", name);
+  if (!known)
+    Refuse({path.string()}, "joint is '{}', which is none of the robot's joints", Excerpt(name));
   return name;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "models/foundation/excerpt.h"
 #include "models/foundation/parse_number.h"
 
 namespace warmjoint {
@@ -61,9 +62,9 @@ char SeparatorOf(std::string_view header) {
 }
 
 [[noreturn]] void RefuseText(const Place& place, const std::string& column, std::string_view text) {
-  if (text.empty()) Refuse(place, "{} is empty; every sample needs a number", column);
+  if (text.empty()) Refuse(place, "{} is empty; every sample needs a number", Excerpt(column));
   const bool has_comma = text.find(',') != std::string_view::npos;
-  Refuse(place, "{} is '{}', which is no number{}", column, text.substr(0, 40),
+  Refuse(place, "{} is '{}', which is no number{}", Excerpt(column), Excerpt(text),
          has_comma ? "; write decimals with a point" : "");
 }
 

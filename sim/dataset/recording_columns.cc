@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cctype>
 
+#include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
+#include "models/foundation/parse_number.h"
 
 namespace warmjoint {
 namespace {
@@ -38,8 +40,8 @@ void CheckNames(const std::map<std::string, std::string>& given, std::string_vie
   const std::vector<std::string> known = OurNames();
   for (const auto& [ours, theirs] : given) {
     if (std::find(known.begin(), known.end(), ours) != known.end()) continue;
-    Refuse(place, "{} {}={}: recordings have no column '{}'{}", option, ours, theirs, ours,
-           Suggestion(ours, known));
+    Refuse(place, "{} {}={}: recordings have no column '{}'{}", option, Excerpt(ours),
+           Excerpt(theirs), Excerpt(ours), Suggestion(ours, known));
   }
 }
 
@@ -54,7 +56,7 @@ std::string LikelyName(const RecordingColumn& column, const std::vector<std::str
       const bool fits =
           is_letter ? lower.substr(0, 1) == hint && (lower.size() == 1 || !std::isalpha(lower[1]))
                     : lower.find(hint) != std::string::npos;
-      if (fits) return name;
+      if (fits) return Excerpt(name);
     }
   }
   return "NAME";
@@ -67,8 +69,14 @@ std::string LikelyName(const RecordingColumn& column, const std::vector<std::str
     lacking.push_back(fmt::format("'{}'", column->name));
     remedy.push_back(column->name + "=" + LikelyName(*column, names));
   }
+  if (std::any_of(names.begin(), names.end(), [](auto& name) { return ParseNumber(name); })) {
+    Refuse(place,
+           "has no column {}; its first row is '{}'. Where that is no header row, add one, for "
+           "example time,position,velocity,torque",
+           fmt::join(lacking, " and no "), Excerpt(fmt::format("{}", fmt::join(names, ","))));
+  }
   Refuse(place, "has no column {}; it has: {}. Say which it is, for example --map {}",
-         fmt::join(lacking, " and no "), fmt::join(names, ", "), fmt::join(remedy, ","));
+         fmt::join(lacking, " and no "), ExcerptOfList(names), fmt::join(remedy, ","));
 }
 
 /// Index of `theirs`, or the number of names where it is not there.
@@ -76,7 +84,7 @@ std::size_t IndexOf(const std::string& theirs, const std::vector<std::string>& n
                     const Place& place) {
   const auto found = std::find(names.begin(), names.end(), theirs);
   if (found != names.end() && std::find(found + 1, names.end(), theirs) != names.end()) {
-    Refuse(place, "has column '{}' twice; rename one", theirs);
+    Refuse(place, "has column '{}' twice; rename one", Excerpt(theirs));
   }
   return static_cast<std::size_t>(found - names.begin());
 }
@@ -152,7 +160,7 @@ std::vector<ColumnSource> FindColumns(const std::vector<std::string>& names,
       const std::string& name = unit == layout.unit.end() ? bases.front() : unit->second;
       sources.push_back({&column, index, FindUnit(name, bases, column.name, place)});
     } else if (is_mapped && !theirs.empty()) {
-      Refuse(place, "has no column '{}' (for {}){}", theirs, column.name,
+      Refuse(place, "has no column '{}' (for {}){}", Excerpt(theirs), column.name,
              Suggestion(theirs, names));
     } else if (column.required) {
       missing.push_back(&column);

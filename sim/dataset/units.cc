@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
 
 namespace warmjoint {
@@ -64,7 +65,7 @@ const Unit& FindUnit(std::string_view name, const std::vector<std::string>& base
     if (unit.name == name) return unit;
     fitting.emplace_back(unit.name);
   }
-  Refuse(place, "{} cannot be in '{}'{}", column, name, Suggestion(name, fitting));
+  Refuse(place, "{} cannot be in '{}'{}", column, Excerpt(name), Suggestion(name, fitting));
 }
 
 }  // namespace warmjoint

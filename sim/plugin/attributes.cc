@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "models/foundation/excerpt.h"
 #include "models/foundation/parse_number.h"
 #include "models/friction/law.h"
 #include "sim/plugin/model_folder.h"
@@ -50,7 +51,7 @@ std::vector<PluginAttribute> MakeAttributes() {
 
 double Number(const std::string& name, const std::string& text, const Place& place) {
   const std::optional<double> value = ParseNumber(text);
-  if (!value) Refuse(place, "{} is '{}'; it must be a number", name, text);
+  if (!value) Refuse(place, "{} is '{}'; it must be a number", name, Excerpt(text));
   return *value;
 }
 
@@ -69,7 +70,7 @@ void RefuseBeside(const std::string& whole, const AttributeReader& read, const P
     if (attribute.name == whole || attribute.name == "folder") continue;
     if (read(attribute.name).empty()) continue;
     Refuse(place, "{0} is '{1}' beside {2} '{3}'; give {2} or the other attributes", attribute.name,
-           read(attribute.name), whole, read(whole));
+           Excerpt(read(attribute.name)), whole, Excerpt(read(whole)));
   }
 }
 
@@ -98,7 +99,7 @@ std::optional<Thermal> ReadThermal(const std::string& prefix, const AttributeRea
   if (gain.empty() || time_constant.empty()) {
     Refuse(place,
            "{0}thermal_gain is '{1}' and {0}thermal_time_constant '{2}'; give both or neither",
-           prefix, gain, time_constant);
+           prefix, Excerpt(gain), Excerpt(time_constant));
   }
   return Thermal{Number(prefix + "thermal_gain", gain, place),
                  Number(prefix + "thermal_time_constant", time_constant, place)};

@@ -9,6 +9,7 @@
 #include "identification/options.h"
 #include "identification/predict.h"
 #include "models/foundation/atomic_file.h"
+#include "models/foundation/excerpt.h"
 #include "sim/dataset/read_recording.h"
 #include "tools/run/keep_recording.h"
 #include "tools/run/run_command.h"
@@ -153,10 +154,10 @@ SuiteIdentifier ReadExternal(const std::string& argument) {
     if (!command.empty()) command += ' ';
     command += file ? fs::absolute(word).string() : word;
   }
-  if (equals == 0) Refuse({"--identifier"}, "'{}' lacks its name before '='", argument);
+  if (equals == 0) Refuse({"--identifier"}, "'{}' lacks its name before '='", Excerpt(argument));
   if (!Contains(command, "{estimate}")) {
     Refuse({"--identifier"}, "the command of {} lacks {{estimate}}, the file that it has to write",
-           argument.substr(0, equals));
+           Excerpt(argument.substr(0, equals)));
   }
   return {kExternal, argument.substr(0, equals), {{"command", command}}, {}};
 }

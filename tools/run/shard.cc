@@ -1,6 +1,7 @@
 #include "tools/run/shard.h"
 
 #include "models/foundation/bad_input.h"
+#include "models/foundation/excerpt.h"
 #include "models/foundation/parse_number.h"
 
 namespace warmjoint {
@@ -14,7 +15,7 @@ Shard ReadShard(const std::string& text) {
       return {static_cast<int>(*index), static_cast<int>(*count)};
     }
   }
-  Refuse({"--shard"}, "is '{}'; give i/n with 1 <= i <= n, for example 1/4", text);
+  Refuse({"--shard"}, "is '{}'; give i/n with 1 <= i <= n, for example 1/4", Excerpt(text));
 }
 
 }  // namespace warmjoint

@@ -54,6 +54,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadRecording{"TimeBackwards", kHeader + "0,0,1,2\n2,1,1,2\n1,2,1,3\n", ":4: "},
         BadRecording{"DuplicateTimes", kHeader + "0,0,1,2\n1,1,1,2\n1,2,1,3\n", ":4: "},
         BadRecording{"TwoSamples", kHeader + "0,0,1,2\n1,1,1,3\n", "at least 3"},
+        BadRecording{"NoHeader", "0 s,0,1,2\n1 s,1,1,2\n2 s,2,1,3\n",
+                     "its first row is '0 s,0,1,2'. Where that is no header row, add one"},
         BadRecording{"ConstantTorque", kHeader + "0,0,1,2\n1,1,1,2\n2,2,1,2\n", "torque"}),
     [](const auto& suite) { return suite.param.name; });
 

@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "models/foundation/bad_input.h"
+#include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
 
 namespace warmjoint::report {
@@ -23,7 +24,7 @@ std::unique_ptr<GlContext> MakeGlContext() {
            "libegl-mesa0, or unset the variable");
   }
   if (!forced.empty()) {
-    Refuse(place, "unknown value '{}'{}", forced, Suggestion(forced, {"osmesa", "egl"}));
+    Refuse(place, "unknown value '{}'{}", Excerpt(forced), Suggestion(forced, {"osmesa", "egl"}));
   }
 
   if (auto context = MakeOsMesaContext()) return context;
