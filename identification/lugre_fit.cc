@@ -1,10 +1,10 @@
 #include "identification/lugre_fit.h"
 
 #include <ceres/autodiff_cost_function.h>
-#include <ceres/manifold.h>
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "identification/fit_data.h"
 #include "identification/solve_by_ceres.h"
@@ -138,14 +138,8 @@ std::vector<LugrePoint> ScanFall(const LugreProblem& problem, const LugrePoint& 
 LugreFit RefineLugre(const LugreProblem& problem, const LugrePoint& start) {
   const auto n = static_cast<int>(problem.used.count());
   Eigen::Matrix<double, kLugreSize, 1> x = start.x;
-  ceres::Problem ceres_problem;
-  auto* cost = new Cost(new Residuals(problem), n);  // owned by ceres_problem
-  ceres_problem.AddResidualBlock(cost, nullptr, x.data());
-  if (!problem.constant.empty()) {
-    ceres_problem.SetManifold(x.data(), new ceres::SubsetManifold(kLugreSize, problem.constant));
-  }
-
-  const auto solution = SolveByCeres<kLugreSize>(ceres_problem, *cost, x.data());
+  const auto solution = SolveByCeres<kLugreSize>(std::make_unique<Cost>(new Residuals(problem), n),
+                                                 problem.constant, x.data());
   LugreFit fit;
   fit.converged = solution.converged;
   fit.residual = -solution.residuals;

@@ -84,11 +84,8 @@ template <int P>
 StribeckFit Refine(const StribeckProblem& problem, const StribeckPoint& start) {
   const auto n = static_cast<int>(problem.selection.count());
   Eigen::VectorXd x = start.x;
-  ceres::Problem ceres_problem;
-  auto* cost = new Cost<P>(new Residuals<P>(problem), n);  // owned by ceres_problem
-  ceres_problem.AddResidualBlock(cost, nullptr, x.data());
-
-  const auto solution = SolveByCeres<P>(ceres_problem, *cost, x.data());
+  const auto solution =
+      SolveByCeres<P>(std::make_unique<Cost<P>>(new Residuals<P>(problem), n), {}, x.data());
   StribeckFit fit;
   fit.converged = solution.converged;
   fit.jacobian = problem.scale * solution.jacobian;
