@@ -6,6 +6,7 @@
 
 #include "identification/block_descent.h"
 #include "identification/convergence.h"
+#include "identification/describe_friction.h"
 #include "identification/first_guess.h"
 #include "identification/fit_data.h"
 #include "identification/nominal_part.h"

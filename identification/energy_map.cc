@@ -1,6 +1,5 @@
 #include "identification/energy_map.h"
 
-#include "identification/fit_data.h"
 #include "identification/over_energy.h"
 #include "identification/position_maps.h"
 #include "identification/warm_maps.h"
@@ -25,28 +24,23 @@ std::vector<std::vector<FrictionMap>> Shapes(const Options& options, const MapSe
 }
 
 Estimate Identify(const IdentifierInput& input) {
-  MapTask task{kName, ReadMapSettings(input.options), {}, {}};
-  if (auto refusal = RefuseForMaps(input, kName, *FindLaw(task.settings.law))) return *refusal;
-  const MapPoints points = Kept(PointsOf(input.measurements), input.selection);
-  if (auto why = CannotCarry(MapQuantity::position, points)) {
-    return Failed(kName, Status::bad_data, *why);
-  }
+  MapBeginning begin = BeginMaps(input, kName, {MapQuantity::position});
+  if (begin.refusal) return *begin.refusal;
+  MapTask& task = begin.task;
 
   // E, with position parts beside it, one for each direction of motion
   for (const double width : task.settings.widths) {
-    task.candidates.push_back(
-        {PositionMap(points, task.settings.kernels, input.options.Integer("kernels"), width)});
+    task.candidates.push_back({PositionMap(begin.points, task.settings.kernels,
+                                           input.options.Integer("kernels"), width)});
   }
   const std::optional<WarmMaps> warm = FitWarmMaps(input, task);
   if (!warm) return Unsolvable(kName);
   Estimate first = ReportWarmMaps(input, *warm);
   if (first.status != Status::ok || !first.friction) return first;
 
-  Estimate estimate =
-      IdentifyOverEnergy(input, task, EnergyOf(first), [&](const MapPoints& warm_points) {
-        return Shapes(input.options, task.settings, warm_points);
-      });
-  return estimate;
+  return IdentifyOverEnergy(input, task, EnergyOf(first), [&](const MapPoints& points) {
+    return Shapes(input.options, task.settings, points);
+  });
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "identification/describe_friction.h"
 #include "identification/energy_ml_maps.h"
 #include "identification/fit_data.h"
 #include "identification/fit_gravity.h"

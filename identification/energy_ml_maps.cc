@@ -19,18 +19,23 @@ constexpr std::array<std::array<const char*, 2>, 3> kAlone{
 /// Kernels over the joint's position beside the motor's map where none are asked for.
 constexpr int kArmKernels = 20;
 
-/// The shapes that the option `position` names; or why there are none.
-std::optional<std::string> MakeCandidates(const Options& options, const MapPoints& points,
-                                          MapTask& task) {
-  if (options.Text("position") == "map") {
-    task.candidates = PositionMaps(options, task.settings, points);
-    return CannotCarry(MapQuantity::position, points);
+/// What a law with a map over position, or over the motor's angle, begins with.
+MapBeginning Begin(const std::string& identifier, const IdentifierInput& input) {
+  if (input.options.Text("position") == "map") {
+    return BeginMaps(input, identifier, {MapQuantity::position});
   }
+  return BeginMaps(input, identifier, {MapQuantity::position, MapQuantity::motor_position});
+}
+
+/// The shapes that the option `position` names.
+std::vector<std::vector<FrictionMap>> Candidates(const Options& options,
+                                                 const MapBeginning& begin) {
+  const MapSettings& settings = begin.task.settings;
+  if (options.Text("position") == "map") return PositionMaps(options, settings, begin.points);
   const int arm = options.Integer("kernels");
-  task.candidates = MotorMaps({options.Integer("motor_kernels"),
-                               options.Integer("velocity_kernels"), arm > 0 ? arm : kArmKernels},
-                              task.settings, points);
-  return CannotCarryMotorMaps(points);
+  return MotorMaps({options.Integer("motor_kernels"), options.Integer("velocity_kernels"),
+                    arm > 0 ? arm : kArmKernels},
+                   settings, begin.points);
 }
 
 }  // namespace
@@ -45,8 +50,8 @@ std::vector<OptionInfo> WarmMapOptions() {
 }
 
 Estimate IdentifyWithMaps(const std::string& identifier, const IdentifierInput& input) {
-  MapTask task{identifier, ReadMapSettings(input.options), {}, {}};
-  if (auto refusal = RefuseForMaps(input, identifier, *FindLaw(task.settings.law))) return *refusal;
+  MapBeginning begin = Begin(identifier, input);
+  if (begin.refusal) return *begin.refusal;
   const std::string& position = input.options.Text("position");
   for (const auto& [option, nothing] : kAlone) {
     const std::string& value = input.options.Text(option);
@@ -56,11 +61,8 @@ Estimate IdentifyWithMaps(const std::string& identifier, const IdentifierInput& 
                               "out (basis=position takes gravity up into the map)",
                               position, option, value));
   }
-  const MapPoints points = Kept(PointsOf(input.measurements), input.selection);
-  if (auto why = MakeCandidates(input.options, points, task)) {
-    return Failed(identifier, Status::bad_data, *why);
-  }
-  const std::optional<WarmMaps> warm = FitWarmMaps(input, task);
+  begin.task.candidates = Candidates(input.options, begin);
+  const std::optional<WarmMaps> warm = FitWarmMaps(input, begin.task);
   return warm ? ReportWarmMaps(input, *warm) : Unsolvable(identifier);
 }
 

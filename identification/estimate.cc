@@ -25,4 +25,10 @@ const EstimatedParameter* Estimate::Find(std::string_view name) const {
   return nullptr;
 }
 
+std::string Estimate::FullMessage() const {
+  std::string full = message;
+  for (const std::string& warning : warnings) full += (full.empty() ? "" : "; ") + warning;
+  return full;
+}
+
 }  // namespace warmjoint

@@ -56,6 +56,9 @@ struct Estimate {
   std::string identifier;
   Status status = Status::ok;
   std::string message;  // one sentence; for a failure: what is wrong and what would help
+  /// What must be known before numbers that pass are used, each a clause: "the kernels can imitate
+  /// coulomb, ...". Empty where nothing passes.
+  std::vector<std::string> warnings;
   std::vector<EstimatedParameter> parameters;  // empty where nothing trustworthy is known
   std::optional<Metrics> metrics;
   std::optional<Metrics> holdout;
@@ -66,12 +69,16 @@ struct Estimate {
 
   /// The parameter of that name, or nullptr.
   const EstimatedParameter* Find(std::string_view name) const;
+
+  /// The message and the warnings behind it, with semicolons between them.
+  std::string FullMessage() const;
 };
 
 /// The estimate as JSON: {identifier, status, message, parameters{name: {value, unit, std,
 /// interval95}}, metrics{}, holdout{}, trace[{iteration, rmse, parameters{}}], friction{},
-/// gravity{}, bands[{quantities[], points[][], value[], std[], interval95[][]}]}; bands only where
-/// maps are. What is absent, or is not a finite number, is null.
+/// gravity{}, warnings[], bands[{quantities[], points[][], value[], std[], interval95[][]}]};
+/// message is the full one, and `warnings` repeats its last clauses where there are any; bands only
+/// where maps are. What is absent, or is not a finite number, is null.
 nlohmann::json EstimateToJson(const Estimate& estimate);
 
 /// The inverse: null numbers become NaN, parameters come sorted by name. Throws BadInput from

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "identification/estimate.h"
+#include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
 
 namespace warmjoint {
@@ -58,7 +59,8 @@ json TraceToJson(const std::vector<TraceEntry>& trace) {
 // reading: a member that is absent counts as null
 
 const json& Member(const json& object, const char* key, const char* owner, const Place& place) {
-  if (!object.is_object()) Refuse(place, "{} is {}; it must be an object", owner, object.dump());
+  if (!object.is_object())
+    Refuse(place, "{} is {}; it must be an object", owner, Excerpt(object.dump()));
   static const json null;
   const auto found = object.find(key);
   return found == object.end() ? null : *found;
@@ -66,19 +68,20 @@ const json& Member(const json& object, const char* key, const char* owner, const
 
 double ToNumber(const json& value, const char* name, const Place& place) {
   if (value.is_null()) return std::numeric_limits<double>::quiet_NaN();
-  if (!value.is_number()) Refuse(place, "{} is {}; it must be a number", name, value.dump());
+  if (!value.is_number())
+    Refuse(place, "{} is {}; it must be a number", name, Excerpt(value.dump()));
   return value.get<double>();
 }
 
 int ToInteger(const json& value, const char* name, const Place& place) {
   if (!value.is_number_integer()) {
-    Refuse(place, "{} is {}; it must be a whole number", name, value.dump());
+    Refuse(place, "{} is {}; it must be a whole number", name, Excerpt(value.dump()));
   }
   return value.get<int>();
 }
 
 std::string ToText(const json& value, const char* name, const Place& place) {
-  if (!value.is_string()) Refuse(place, "{} is {}; it must be text", name, value.dump());
+  if (!value.is_string()) Refuse(place, "{} is {}; it must be text", name, Excerpt(value.dump()));
   return value.get<std::string>();
 }
 
@@ -89,7 +92,17 @@ Status ToStatus(const json& value, const Place& place) {
     if (name == StatusName(status)) return status;
     known.emplace_back(StatusName(status));
   }
-  Refuse(place, "there is no status '{}'{}", name, Suggestion(name, known));
+  Refuse(place, "there is no status '{}'{}", Excerpt(name), Suggestion(name, known));
+}
+
+/// The message without the clauses that repeat the warnings at its end, the last first.
+void TakeOffWarnings(Estimate& estimate) {
+  for (auto warning = estimate.warnings.rbegin(); warning != estimate.warnings.rend(); ++warning) {
+    std::string& message = estimate.message;
+    if (!message.ends_with(*warning)) return;
+    message.resize(message.size() - warning->size());
+    if (message.ends_with("; ")) message.resize(message.size() - 2);
+  }
 }
 
 EstimatedParameter ToParameter(const std::string& name, const json& object, const Place& place) {
@@ -103,7 +116,8 @@ EstimatedParameter ToParameter(const std::string& name, const json& object, cons
   const json& interval = Member(object, "interval95", name.c_str(), place);
   if (interval.is_null()) return parameter;
   if (!interval.is_array() || interval.size() != 2) {
-    Refuse(place, "interval95 of {} is {}; it must be [lower, upper]", name, interval.dump());
+    Refuse(place, "interval95 of {} is {}; it must be [lower, upper]", Excerpt(name),
+           Excerpt(interval.dump()));
   }
   parameter.interval95 = {ToNumber(interval[0], "interval95", place),
                           ToNumber(interval[1], "interval95", place)};
@@ -145,13 +159,14 @@ json EstimateToJson(const Estimate& estimate) {
   }
   json result{{"identifier", estimate.identifier},
               {"status", StatusName(estimate.status)},
-              {"message", estimate.message},
+              {"message", estimate.FullMessage()},
               {"parameters", parameters},
               {"metrics", MetricsToJson(estimate.metrics)},
               {"holdout", MetricsToJson(estimate.holdout)},
               {"trace", TraceToJson(estimate.trace)},
               {"friction", estimate.friction ? FrictionToJson(*estimate.friction) : json(nullptr)},
               {"gravity", estimate.gravity ? GravityToJson(*estimate.gravity) : json(nullptr)}};
+  if (!estimate.warnings.empty()) result["warnings"] = estimate.warnings;
   for (const MapBand& band : estimate.bands) result["bands"].push_back(BandToJson(band));
   return result;
 }
@@ -164,6 +179,10 @@ Estimate EstimateFromJson(const json& object, const Place& place) {
   estimate.identifier = ToText(member("identifier"), "identifier", place);
   estimate.status = ToStatus(member("status"), place);
   estimate.message = ToText(member("message"), "message", place);
+  for (const json& warning : member("warnings")) {
+    estimate.warnings.push_back(ToText(warning, "a warning", place));
+  }
+  TakeOffWarnings(estimate);
 
   const json& parameters = member("parameters");
   if (!parameters.is_object()) Refuse(place, "parameters must be an object");

@@ -4,12 +4,12 @@
 
 namespace warmjoint {
 
-void TellUnseenReversals(double unseen, Estimate& estimate) {
+void WarnOfUnseenReversals(double unseen, Estimate& estimate) {
   if (unseen < 0.005 || !estimate.Find("thermal_gain")) return;
-  estimate.message += fmt::format(
-      "; reversals happen between two samples, so that a slow drive could have travelled {:.1f} % "
+  estimate.warnings.push_back(fmt::format(
+      "reversals happen between two samples, so that a slow drive could have travelled {:.1f} % "
       "less than is charged: thermal_gain may be too small by as much; log faster to see them",
-      100 * unseen);
+      100 * unseen));
 }
 
 }  // namespace warmjoint

@@ -3,19 +3,17 @@
 
 #include <optional>
 
-#include "identification/adequacy/fitted_model.h"
 #include "identification/identifier.h"
 #include "sim/dataset/split_at_switches.h"
 
 namespace warmjoint {
 
 /// An input whose log has a sample at each switch of speed (split_at_switches.h), or the log as it
-/// is for an identifier with an option `inertia`: it follows the acceleration from sample to sample
-/// itself. Holds the log it refers to; `given` must outlive it.
+/// is for an identifier of transient motion. Holds the log it refers to; `given` must outlive it.
 class FinerInput {
  public:
   FinerInput(const Identifier& identifier, const IdentifierInput& given)
-      : split_(HasOption(identifier, "inertia")
+      : split_(identifier.regime == Regime::transient
                    ? std::nullopt
                    : SplitAtSwitches(given.measurements, given.selection)),
         input_{split_ ? split_->measurements : given.measurements,
@@ -33,8 +31,8 @@ class FinerInput {
   IdentifierInput input_;
 };
 
-/// Says in the message of an estimate with warming how far the gain may be off where reversals
-/// happen between two samples. Nothing where that is below half a per cent.
-void TellUnseenReversals(double unseen, Estimate& estimate);
+/// Warns in an estimate with warming how far the gain may be off where reversals happen between two
+/// samples. Nothing where that is below half a per cent.
+void WarnOfUnseenReversals(double unseen, Estimate& estimate);
 
 }  // namespace warmjoint

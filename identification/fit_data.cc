@@ -68,6 +68,7 @@ Estimate Failed(std::string identifier, Status status, std::string message) {
 void Void(Status status, std::string message, Estimate& estimate) {
   estimate.status = status;
   estimate.message = std::move(message);
+  estimate.warnings.clear();
   estimate.friction.reset();
   estimate.bands.clear();
   for (EstimatedParameter& parameter : estimate.parameters) {
@@ -122,30 +123,6 @@ std::string WouldFeedItself(double time, std::string_view remedy) {
   return fmt::format(
       "at {:.6g} s the fitted friction pushes instead of braking and would feed itself; {}", time,
       remedy);
-}
-
-void DescribeFriction(const Law& law, const Measurements& measurements, Estimate& estimate) {
-  FrictionDescription friction;
-  friction.law = law.name;
-  friction.gear = measurements.gear;
-  for (const ParameterInfo& info : law.parameters) {
-    const EstimatedParameter& found = *estimate.Find(info.name);
-    friction.parameters[found.name] = found.value;
-    if (found.value >= info.lower && found.value <= info.upper) continue;
-
-    // outside of the bounds beyond doubt: the law is the wrong one
-    const bool beyond = found.interval95 && ((*found.interval95)[1] < info.lower ||
-                                             (*found.interval95)[0] > info.upper);
-    estimate.message = fmt::format(
-        "{} is {:.4g} {}, outside of [{}, {}]: no friction can be given; try another law, or one "
-        "that warms up",
-        found.name, found.value, found.unit, info.lower, info.upper);
-    if (beyond && estimate.status == Status::ok) {
-      Void(Status::inadequate_model, estimate.message, estimate);
-    }
-    return;
-  }
-  estimate.friction = friction;
 }
 
 }  // namespace warmjoint

@@ -1,4 +1,4 @@
-// What every identifier does first and last: look at the data, and put the law into the estimate.
+// What every identifier does first and last: look at the data, and put numbers into the estimate.
 #pragma once
 
 #include <optional>
@@ -44,10 +44,5 @@ std::string Indistinct(const std::vector<Eigen::Index>& mixed, const Law& law,
 
 /// The sentence on a fitted friction that pushes at a time (s) and so would feed itself.
 std::string WouldFeedItself(double time, std::string_view remedy);
-
-/// Puts the law and the parameter values that `estimate` holds into estimate.friction. Where a
-/// value lies outside its table's bounds there is no such friction: it is left out, and the message
-/// says so; where its interval does too, the estimate is void (inadequate_model).
-void DescribeFriction(const Law& law, const Measurements& measurements, Estimate& estimate);
 
 }  // namespace warmjoint

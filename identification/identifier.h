@@ -20,12 +20,24 @@ struct IdentifierInput {
   RandomKey random;  // for identifiers that draw their start
 };
 
+/// The motion that an identifier learns from, and with it how a log must reach it.
+enum class Regime {
+  /// Sliding at constant speeds, tau = G + F, Eq. (6). Speed switches between two samples of a slow
+  /// log; such a log is split there first, so that no sample's way or loss is charged to two
+  /// speeds.
+  steady,
+  /// Changes of speed too, tau = M a + G + F, Eq. (5): the acceleration is followed from sample to
+  /// sample, so that the log stays as it was taken.
+  transient,
+};
+
 struct Identifier {
   std::string name;
   std::string summary;
   std::vector<OptionInfo> options;
   /// Mathematics that fails gives a status and a sentence; it does not throw.
   Estimate (*identify)(const IdentifierInput& input);
+  Regime regime = Regime::steady;
 };
 
 /// All identifiers: a new one is its own file pair and one line in identifier_list.cc.

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "identification/describe_friction.h"
 #include "identification/fit_data.h"
 #include "identification/least_squares.h"
 #include "identification/linear_laws.h"
@@ -12,6 +13,49 @@
 #include "models/friction/sign.h"
 
 namespace warmjoint {
+namespace {
+
+/// Why the law alone cannot be fitted, or the data not used, as an estimate that failed; nothing
+/// where all is well.
+std::optional<Estimate> RefuseForMaps(const IdentifierInput& input, const std::string& identifier,
+                                      const Law& law) {
+  const auto d = static_cast<int>(law.parameters.size());
+  if (auto why = Unusable(input, d + 2)) return Failed(identifier, Status::bad_data, *why);
+  const Eigen::MatrixXd A =
+      LawColumns(law, Kept(input.measurements.velocity, input.selection).col(0));
+  const LeastSquares fit = SolveLeastSquares(A, Kept(input.measurements.torque, input.selection));
+  if (fit.mixed.empty()) return std::nullopt;
+  return Failed(identifier, Status::not_identifiable,
+                Indistinct(fit.mixed, law, input.measurements, input.selection));
+}
+
+/// Why no map over a quantity can be told from the kept samples, [n x 5] `points`.
+std::optional<std::string> Unseen(MapQuantity quantity, const Measurements& measurements,
+                                  const MapPoints& points) {
+  if (quantity == MapQuantity::load && !measurements.load) {
+    return "the recording has no column load; log the load that the joint transmits, or use "
+           "energy-map";
+  }
+  return CannotCarry(quantity, points);
+}
+
+}  // namespace
+
+MapBeginning BeginMaps(const IdentifierInput& input, const std::string& identifier,
+                       std::initializer_list<MapQuantity> quantities) {
+  MapBeginning begin{{identifier, ReadMapSettings(input.options), {}, {}}, {}, {}};
+  begin.refusal = RefuseForMaps(input, identifier, *FindLaw(begin.task.settings.law));
+  if (begin.refusal) return begin;
+  begin.points = Kept(PointsOf(input.measurements), input.selection);
+  for (const MapQuantity quantity : quantities) {
+    const auto why = Unseen(quantity, input.measurements, begin.points);
+    if (!why) continue;
+    begin.refusal = Failed(identifier, Status::bad_data, *why);
+    break;
+  }
+  return begin;
+}
+
 Eigen::VectorXd TakenByEnergy(const IdentifierInput& input, const Eigen::VectorXd& energy) {
   const Measurements& m = input.measurements;
   if (energy.size() == 0) return Eigen::VectorXd::Zero(input.selection.count());
@@ -22,18 +66,11 @@ Eigen::VectorXd TakenByEnergy(const IdentifierInput& input, const Eigen::VectorX
 
 std::string DescribeMapFit(const IdentifierInput& input, const MapTask& task, const MapFit& fit,
                            const NoiseModel& noise) {
-  const Law& law = *FindLaw(task.settings.law);
-  std::vector<std::string> soft;
-  for (const Eigen::Index i : ImitatedColumns(fit)) soft.emplace_back(law.parameters[i].name);
-  std::string message = fmt::format(
+  return fmt::format(
       "law {} and {} on {} samples; prior of strength {:.3g} on their weights leaves {:.1f} "
-      "effective parameters",
-      law.name, ShapeOf(fit.maps), input.selection.count(), fit.strength, fit.effective);
-  if (!soft.empty()) {
-    message += fmt::format("; the kernels can imitate {}, which the prior alone tells apart",
-                           fmt::join(soft, ", "));
-  }
-  return message + ColourOf(noise);
+      "effective parameters{}",
+      task.settings.law, ShapeOf(fit.maps), input.selection.count(), fit.strength, fit.effective,
+      ColourOf(noise));
 }
 
 std::string ShapeOf(const std::vector<FrictionMap>& maps) {
@@ -52,29 +89,22 @@ void ReportLawBesideMaps(const Law& law, const MapFit& fit, const Uncertainty& k
                          const Measurements& measurements, Estimate& estimate) {
   const size_t first = estimate.parameters.size();
   ReportLaw(law, fit.x.head(fit.free), known, measurements, estimate);
+  std::vector<std::string> imitated;
   for (const Eigen::Index i : ImitatedColumns(fit)) {
     EstimatedParameter& parameter = estimate.parameters[first + static_cast<size_t>(i)];
     parameter.std.reset();
     parameter.interval95.reset();
+    imitated.push_back(parameter.name);
   }
+  if (imitated.empty()) return;
+  estimate.warnings.push_back(fmt::format(
+      "the kernels can imitate {}, which the prior alone tells apart", fmt::join(imitated, ", ")));
 }
 
 Estimate Unsolvable(const std::string& identifier) {
   return Failed(identifier, Status::bad_data,
                 "the normal equations cannot be solved: torque or velocity are too large or too "
                 "small to square; check their units");
-}
-
-std::optional<Estimate> RefuseForMaps(const IdentifierInput& input, const std::string& identifier,
-                                      const Law& law) {
-  const auto d = static_cast<int>(law.parameters.size());
-  if (auto why = Unusable(input, d + 2)) return Failed(identifier, Status::bad_data, *why);
-  const Eigen::MatrixXd A =
-      LawColumns(law, Kept(input.measurements.velocity, input.selection).col(0));
-  const LeastSquares fit = SolveLeastSquares(A, Kept(input.measurements.torque, input.selection));
-  if (fit.mixed.empty()) return std::nullopt;
-  return Failed(identifier, Status::not_identifiable,
-                Indistinct(fit.mixed, law, input.measurements, input.selection));
 }
 
 std::optional<MapChoice> ChooseAndFit(const IdentifierInput& input, const MapTask& task) {

@@ -1,6 +1,7 @@
 // What identifiers with maps share: from candidates of maps to an estimate.
 #pragma once
 
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +19,19 @@ struct MapTask {
   /// [N] E, N.m or N, as far as it is known: sign(v) E is taken off the torque. Empty: 0.
   Eigen::VectorXd energy;
 };
+
+/// Where an identifier with maps begins: its settings, and the samples that it fits.
+struct MapBeginning {
+  MapTask task;                     // without candidates
+  MapPoints points;                 // [n x 5] of the kept samples
+  std::optional<Estimate> refusal;  // instead of both, where law or maps cannot be fitted
+};
+
+/// Reads the options that all identifiers with maps share (map_options.h) and looks whether the
+/// data tell the law's parameters apart and vary in each of the quantities that maps are wanted
+/// over. identifier: its name.
+MapBeginning BeginMaps(const IdentifierInput& input, const std::string& identifier,
+                       std::initializer_list<MapQuantity> quantities);
 
 /// The fit that was chosen, and what it was made of.
 struct MapChoice {
@@ -42,18 +56,13 @@ std::string DescribeMapFit(const IdentifierInput& input, const MapTask& task, co
 /// The answer where there is no fit: bad_data.
 Estimate Unsolvable(const std::string& identifier);
 
-/// Appends the law's parameters; those that the kernels can imitate get no interval, for only the
-/// prior's taste tells them from a map.
+/// Appends the law's parameters; those that the kernels can imitate get no interval and a
+/// warning, for only the prior's taste tells them from a map.
 void ReportLawBesideMaps(const Law& law, const MapFit& fit, const Uncertainty& known,
                          const Measurements& measurements, Estimate& estimate);
 
 /// "20 position x 2 velocity kernels and 36 motor_position kernels".
 std::string ShapeOf(const std::vector<FrictionMap>& maps);
-
-/// Why the law alone cannot be fitted, or the data not used, as an estimate that failed; nothing
-/// where all is well.
-std::optional<Estimate> RefuseForMaps(const IdentifierInput& input, const std::string& identifier,
-                                      const Law& law);
 
 /// Law, maps, bands, metrics and message of a fit as an estimate. known: JudgeMaps.
 Estimate ReportMaps(const IdentifierInput& input, const MapTask& task, const MapFit& fit,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "identification/describe_friction.h"
 #include "identification/fit_data.h"
 #include "identification/kalman_passes.h"
 #include "identification/least_squares.h"
@@ -94,7 +95,7 @@ Estimate Conclude(const KalmanTrack& track, const std::vector<KalmanPass>& passe
   DescribeFriction(track.law, m, estimate);
   if (estimate.friction) estimate.friction->thermal = thermal;
 
-  JudgePasses(passes, known, estimate);
+  if (estimate.status == Status::ok) JudgePasses(passes, known, estimate);
   return estimate;
 }
 

@@ -28,20 +28,12 @@ std::vector<std::vector<FrictionMap>> Shapes(const Options& options, const MapSe
 }
 
 Estimate Identify(const IdentifierInput& input) {
-  MapTask task{kName, ReadMapSettings(input.options), {}, {}};
-  if (auto refusal = RefuseForMaps(input, kName, *FindLaw(task.settings.law))) return *refusal;
-  if (!input.measurements.load) {
-    return Failed(kName, Status::bad_data,
-                  "the recording has no column load; log the load that the joint transmits, or use "
-                  "energy-map");
-  }
-  const MapPoints points = Kept(PointsOf(input.measurements), input.selection);
-  for (const MapQuantity quantity : {MapQuantity::position, MapQuantity::load}) {
-    if (auto why = CannotCarry(quantity, points)) return Failed(kName, Status::bad_data, *why);
-  }
+  MapBeginning begin = BeginMaps(input, kName, {MapQuantity::position, MapQuantity::load});
+  if (begin.refusal) return *begin.refusal;
+  MapTask& task = begin.task;
 
   // E, with the load's part beside it
-  task.candidates = Shapes(input.options, task.settings, points, {MapQuantity::load});
+  task.candidates = Shapes(input.options, task.settings, begin.points, {MapQuantity::load});
   const std::optional<WarmMaps> warm = FitWarmMaps(input, task);
   if (!warm) return Unsolvable(kName);
   const Estimate first = ReportWarmMaps(input, *warm);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "identification/describe_friction.h"
 #include "identification/fit_data.h"
 #include "identification/least_squares.h"
 #include "identification/linear_laws.h"
@@ -205,13 +206,6 @@ Estimate Conclude(const IdentifierInput& input, const LugreProblem& problem,
          estimate);
     return estimate;
   }
-  if (fit.solution.x[kLugreStatic] < fit.solution.x[kLugreCoulomb]) {
-    Void(Status::inadequate_model,
-         "static is below coulomb: friction rises from rest with speed, where the LuGre law lets "
-         "it fall",
-         estimate);
-    return estimate;
-  }
   DescribeFriction(*FindLaw(LuGre::name), m, estimate);
   return estimate;
 }
@@ -263,7 +257,8 @@ Identifier LuGreByCeres() {
           {{"damping", "estimated", "estimated|none", "bristle_damping, or 0"},
            {"inertia", "estimated", "estimated|none",
             "torque for acceleration, beside the friction, or none"}},
-          &Identify};
+          &Identify,
+          Regime::transient};
 }
 
 }  // namespace warmjoint

@@ -22,14 +22,8 @@ std::vector<std::vector<FrictionMap>> MotorMaps(const MotorMapSize& size,
   return candidates;
 }
 
-std::optional<std::string> CannotCarryMotorMaps(const MapPoints& points) {
-  if (auto why = CannotCarry(MapQuantity::position, points)) return why;
-  return CannotCarry(MapQuantity::motor_position, points);
-}
-
-std::string DescribeMotorRipple(const FrictionMap& motor, const Eigen::MatrixXd& covariance,
-                                const Measurements& measurements) {
-  std::string words;
+void DescribeMotorRipple(const FrictionMap& motor, const Eigen::MatrixXd& covariance,
+                         const Measurements& measurements, Estimate& estimate) {
   for (const int direction : {1, 0}) {
     std::vector<std::string> found;
     for (const MotorHarmonic& harmonic :
@@ -37,16 +31,14 @@ std::string DescribeMotorRipple(const FrictionMap& motor, const Eigen::MatrixXd&
       found.push_back(fmt::format("{:.3g} {} at {} a turn", harmonic.amplitude,
                                   measurements.torque_unit, harmonic.multiple));
     }
-    words += fmt::format(
+    estimate.message += fmt::format(
         "; motor ripple for v {} 0: {}", direction ? ">" : "<",
         found.empty() ? "none above the noise" : fmt::format("{}", fmt::join(found, ", ")));
   }
   if (measurements.gear == 1 && !measurements.motor_position) {
-    words +=
-        "; the motor is taken to turn with the joint: give --gear, or log "
-        "motor_position";
+    estimate.warnings.emplace_back(
+        "the motor is taken to turn with the joint: give --gear, or log motor_position");
   }
-  return words;
 }
 
 }  // namespace warmjoint

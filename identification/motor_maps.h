@@ -1,6 +1,7 @@
 // Maps over the motor's angle beside one over the joint's.
 #pragma once
 
+#include "identification/estimate.h"
 #include "identification/map_options.h"
 
 namespace warmjoint {
@@ -17,13 +18,10 @@ std::vector<std::vector<FrictionMap>> MotorMaps(const MotorMapSize& size,
                                                 const MapSettings& settings,
                                                 const MapPoints& points);
 
-/// Why motor or joint cannot carry a map; nothing where they can.
-std::optional<std::string> CannotCarryMotorMaps(const MapPoints& points);
-
-/// What was found in the motor's map, the first of a fit: "; motor ripple for v > 0: 0.052 N.m at 2
-/// a turn" and so on; and a word where the motor's angle is not known.
-/// weights: of all maps [q], with their covariance [q x q].
-std::string DescribeMotorRipple(const FrictionMap& motor, const Eigen::MatrixXd& covariance,
-                                const Measurements& measurements);
+/// Appends to the message what was found in the motor's map: "; motor ripple for v > 0: 0.052 N.m
+/// at 2 a turn" and so on; and a warning where the motor's angle is not known.
+/// covariance: of the map's weights, [q x q].
+void DescribeMotorRipple(const FrictionMap& motor, const Eigen::MatrixXd& covariance,
+                         const Measurements& measurements, Estimate& estimate);
 
 }  // namespace warmjoint

@@ -1,6 +1,5 @@
 #include "identification/motor_ridge.h"
 
-#include "identification/fit_data.h"
 #include "identification/identify_maps.h"
 #include "identification/motor_maps.h"
 
@@ -10,16 +9,14 @@ namespace {
 constexpr const char* kName = "motor-ridge";
 
 Estimate Identify(const IdentifierInput& input) {
-  MapTask task{kName, ReadMapSettings(input.options), {}, {}};
-  const Law& law = *FindLaw(task.settings.law);
-  if (auto refusal = RefuseForMaps(input, kName, law)) return *refusal;
-  const Measurements& m = input.measurements;
-  const MapPoints points = Kept(PointsOf(m), input.selection);
-  if (auto why = CannotCarryMotorMaps(points)) return Failed(kName, Status::bad_data, *why);
+  MapBeginning begin =
+      BeginMaps(input, kName, {MapQuantity::position, MapQuantity::motor_position});
+  if (begin.refusal) return *begin.refusal;
+  MapTask& task = begin.task;
   const MotorMapSize size{input.options.Integer("kernels"),
                           input.options.Integer("velocity_kernels"),
                           input.options.Integer("arm_kernels")};
-  task.candidates = MotorMaps(size, task.settings, points);
+  task.candidates = MotorMaps(size, task.settings, begin.points);
   const auto choice = ChooseAndFit(input, task);
   if (!choice) return Unsolvable(kName);
   const MapFit& fit = choice->fit;
@@ -27,8 +24,8 @@ Estimate Identify(const IdentifierInput& input) {
   Estimate estimate = ReportMaps(input, task, fit, known);
   if (!estimate.friction) return estimate;
   const auto count = static_cast<Eigen::Index>(fit.maps[0].size());
-  estimate.message +=
-      DescribeMotorRipple(fit.maps[0], known.covariance.block(fit.free, fit.free, count, count), m);
+  DescribeMotorRipple(fit.maps[0], known.covariance.block(fit.free, fit.free, count, count),
+                      input.measurements, estimate);
   return estimate;
 }
 

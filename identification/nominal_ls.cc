@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "identification/describe_friction.h"
 #include "identification/fit_data.h"
 #include "identification/fit_gravity.h"
 #include "identification/least_squares.h"

@@ -8,31 +8,26 @@ namespace warmjoint {
 namespace {
 
 /// Law and kernels over position.
-void AddMap(const IdentifierInput& input, const std::string& identifier, const Law& law,
-            NominalPart& part) {
+void AddMap(const IdentifierInput& input, const std::string& identifier, NominalPart& part) {
   if (input.options.Text("gravity") != "none") {
     part.refusal = Failed(identifier, Status::bad_data,
                           "position=map cannot be had together with gravity; leave one of them out "
                           "(basis=position takes gravity up into the map)");
     return;
   }
-  MapTask task{identifier, ReadMapSettings(input.options), {}, {}};
-  const MapPoints all = PointsOf(input.measurements);
-  const MapPoints points = Kept(all, part.moving);
-  part.refusal = RefuseForMaps(input, identifier, law);
+  const IdentifierInput moving{input.measurements, part.moving, input.options, input.random};
+  MapBeginning begin = BeginMaps(moving, identifier, {MapQuantity::position});
+  part.refusal = begin.refusal;
   if (part.refusal) return;
-  if (auto why = CannotCarry(MapQuantity::position, points)) {
-    part.refusal = Failed(identifier, Status::bad_data, *why);
-    return;
-  }
-  task.candidates = PositionMaps(input.options, task.settings, points);
-  const auto choice =
-      ChooseAndFit({input.measurements, part.moving, input.options, input.random}, task);
+  MapTask& task = begin.task;
+  task.candidates = PositionMaps(input.options, task.settings, begin.points);
+  const auto choice = ChooseAndFit(moving, task);
   if (!choice) {
     part.refusal = Unsolvable(identifier);
     return;
   }
   part.maps = choice->fit.maps;
+  const MapPoints all = PointsOf(input.measurements);
   part.columns = Beside(part.columns, DenseKernels(part.maps, all, 0, all.rows()));
   part.cofactor = choice->fit.inverse;
   part.solution = choice->fit.x;
@@ -70,7 +65,7 @@ NominalPart PrepareNominalPart(const IdentifierInput& given, const std::string& 
   part.moving = {input.selection.keep && m.velocity.array() != 0, {}};
   part.columns = LawColumns(law, m.velocity);
   if (given.options.Text("position") == "map") {
-    AddMap(input, identifier, law, part);
+    AddMap(input, identifier, part);
     return part;
   }
 

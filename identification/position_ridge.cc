@@ -1,6 +1,5 @@
 #include "identification/position_ridge.h"
 
-#include "identification/fit_data.h"
 #include "identification/identify_maps.h"
 #include "identification/position_maps.h"
 
@@ -10,13 +9,10 @@ namespace {
 constexpr const char* kName = "position-ridge";
 
 Estimate Identify(const IdentifierInput& input) {
-  MapTask task{kName, ReadMapSettings(input.options), {}, {}};
-  if (auto refusal = RefuseForMaps(input, kName, *FindLaw(task.settings.law))) return *refusal;
-  const MapPoints points = Kept(PointsOf(input.measurements), input.selection);
-  if (auto why = CannotCarry(MapQuantity::position, points)) {
-    return Failed(kName, Status::bad_data, *why);
-  }
-  task.candidates = PositionMaps(input.options, task.settings, points);
+  MapBeginning begin = BeginMaps(input, kName, {MapQuantity::position});
+  if (begin.refusal) return *begin.refusal;
+  MapTask& task = begin.task;
+  task.candidates = PositionMaps(input.options, task.settings, begin.points);
   return IdentifyMaps(input, task);
 }
 

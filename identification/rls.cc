@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "identification/describe_friction.h"
 #include "identification/fit_data.h"
 #include "identification/fit_gravity.h"
 #include "identification/least_squares.h"

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "identification/describe_friction.h"
 #include "identification/fit_data.h"
 #include "identification/least_squares.h"
 #include "identification/linear_laws.h"
@@ -112,13 +113,6 @@ void Report(const StribeckProblem& problem, const StribeckFit& fit, const Uncert
 void Describe(const IdentifierInput& input, const StribeckProblem& problem, const StribeckFit& fit,
               Estimate& estimate) {
   const Eigen::VectorXd& x = fit.solution.x;
-  if (x[kStatic] < x[1]) {
-    Void(Status::inadequate_model,
-         "static is below coulomb: friction rises from rest with speed, where the Stribeck law "
-         "lets it fall; try law viscous_coulomb, or another",
-         estimate);
-    return;
-  }
   DescribeFriction(*FindLaw(Stribeck::name), input.measurements, estimate);
   if (!estimate.friction || problem.warming == Warming::none) return;
   estimate.friction->thermal = Thermal{x[kGain], std::exp(x[kGain + 1])};

@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
+#include "identification/describe_friction.h"
 #include "identification/fit_data.h"
 #include "identification/linear_laws.h"
 #include "identification/make_bands.h"
@@ -177,8 +178,9 @@ Estimate ReportWarmMaps(const IdentifierInput& input, const WarmMaps& warm) {
       MakeBands(law, warm.fit, known, Kept(PointsOf(m, warm.task.energy), input.selection));
   if (warm.fit.maps[0].axes[0].quantity == MapQuantity::motor_position) {
     const auto count = static_cast<Eigen::Index>(warm.fit.maps[0].size());
-    estimate.message += DescribeMotorRipple(
-        warm.fit.maps[0], known.covariance.block(warm.fit.free, warm.fit.free, count, count), m);
+    DescribeMotorRipple(warm.fit.maps[0],
+                        known.covariance.block(warm.fit.free, warm.fit.free, count, count), m,
+                        estimate);
   }
   if (const auto at = PredictFriction(*estimate.friction, m).feeds_itself; at < m.size()) {
     return Failed(name, Status::inadequate_model,

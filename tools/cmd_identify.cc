@@ -132,7 +132,7 @@ ExitStatus Identify(const IdentifyArguments& arguments) {
   const Estimate before = identifier.identify(input);
   Estimate estimate = before;
   JudgeAdequacy(identifier, input, estimate);
-  TellUnseenReversals(finer.unseen(), estimate);
+  WarnOfUnseenReversals(finer.unseen(), estimate);
   if (before.status == Status::ok) estimate.holdout = HoldOutFigures(identifier, input, holdout);
   if (arguments.force) estimate = WithVoidNumbers(estimate, before);
   WriteOutputs(arguments, ForFiles(estimate, measurements), measurements.joint);

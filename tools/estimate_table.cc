@@ -39,7 +39,7 @@ void AddMetrics(Table& table, const std::string& name, const std::optional<Metri
 
 std::string EstimateToText(const Estimate& estimate, const Measurements& measurements) {
   std::string text = fmt::format("{}: {}", estimate.identifier, StatusName(estimate.status));
-  text += estimate.message.empty() ? "\n" : fmt::format(". {}\n", estimate.message);
+  text += estimate.FullMessage().empty() ? "\n" : fmt::format(". {}\n", estimate.FullMessage());
   if (!estimate.parameters.empty())
     text += fmt::format("\n{}", TableToText(ParameterTable(estimate), 1));
 

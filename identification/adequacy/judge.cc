@@ -146,9 +146,10 @@ void JudgeAdequacy(const Identifier& identifier, const IdentifierInput& input, E
   }
   const bool unknown = Drifts(adequacy) && estimate.Find("thermal_gain");
   estimate.message += start;
-  estimate.message += fmt::format(
-      "; {}: the intervals reach as far as that moves them{}; {}", depends,
-      unknown ? ", and the warming has none, since it may have taken up part of that" : "", remedy);
+  estimate.warnings.push_back(fmt::format(
+      "{}: the intervals reach as far as that moves them{}; {}", depends,
+      unknown ? ", and the warming has none, since it may have taken up part of that" : "",
+      remedy));
   Widen(adequacy, input.measurements, estimate);
 }
 
@@ -166,7 +167,7 @@ Estimate IdentifyAndJudge(const Identifier& identifier, const IdentifierInput& g
   const FinerInput finer(identifier, given);
   Estimate estimate = identifier.identify(finer.input());
   JudgeAdequacy(identifier, finer.input(), estimate);
-  TellUnseenReversals(finer.unseen(), estimate);
+  WarnOfUnseenReversals(finer.unseen(), estimate);
   return estimate;
 }
 

@@ -11,7 +11,7 @@ namespace warmjoint {
 /// fifth of the residual's variance, or where a parameter moves beyond its interval, by a twentieth
 /// of the friction, once the structure joins the fit. Then the
 /// estimate is void, inadequate_model, and the message names what the residual depends on and what
-/// to try. Smaller structure is told in the message, and intervals reach as far as it moves them;
+/// to try. Of smaller structure the estimate warns, and intervals reach as far as it moves them;
 /// none is given of warming beside structure in time or energy, since nobody can tell how much of
 /// that the warming took up. Where a start that is taken to be cold matters, the message says how
 /// much.

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "identification/finer_input.h"
 #include "identification/identifier.h"
 #include "tests/support/bristle_recording.h"
 
@@ -68,15 +69,36 @@ class Contract : public ::testing::TestWithParam<Identifier> {
         test::RecordBristle(test::LuGreJoint(), test::TurningMotion(120, 1), 120, 100, 0.3, 0.1, 1);
     return recording;
   }
+  /// The same motions of joints whose friction falls by 5 N.m a rad/s, which no law allows.
+  static Measurements Falling(const FrictionDescription& warm_or_cold) {
+    const auto falling = [](FrictionDescription friction) {
+      friction.parameters["viscous"] = -5;
+      return friction;
+    };
+    if (GetParam().name == "lugre") {
+      Measurements recording = Turning();
+      recording.torque -= 10 * recording.velocity;
+      return recording;
+    }
+    if (GetParam().name == "stribeck") {
+      return test::RecordFriction(falling(test::StribeckJoint()), 0.1, test::SlowAndFast(7200, 1),
+                                  0.1, 1);
+    }
+    FrictionDescription friction = falling(warm_or_cold);
+    friction.parameters["coulomb"] = 30;
+    return WithLoad(
+        test::RecordFriction(friction, 1, test::AlternatingSpeeds(7200, 1, 600), 0.1, 1));
+  }
   /// The motion of Warm, of a joint that does not warm.
   static const Measurements& Cold() {
-    static const Measurements recording = [] {
-      FrictionDescription friction = test::TableOne();
-      friction.thermal.reset();
-      return WithLoad(
-          test::RecordFriction(friction, 1, test::AlternatingSpeeds(7200, 1, 600), 0.1, 1));
-    }();
+    static const Measurements recording = WithLoad(
+        test::RecordFriction(ColdTableOne(), 1, test::AlternatingSpeeds(7200, 1, 600), 0.1, 1));
     return recording;
+  }
+  static FrictionDescription ColdTableOne() {
+    FrictionDescription friction = test::TableOne();
+    friction.thermal.reset();
+    return friction;
   }
 };
 
@@ -166,6 +188,25 @@ TEST_P(Contract, RecoversTheTruthOfRichData) {
   EXPECT_NEAR(estimate.metrics->rmse, 0.1, 0.1 * 0.06);
 }
 
+TEST_P(Contract, GivesNoFrictionOutsideOfPhysicalBounds) {
+  // an identifier without warming is shown a joint that does not warm
+  const bool warms = IdentifyRich().Find("thermal_gain") != nullptr;
+  const Estimate estimate = Identify(Falling(warms ? test::TableOne() : ColdTableOne()));
+  if (GetParam().name == "auto" && !estimate.Find("viscous")) return;  // a law without it is left
+  EXPECT_FALSE(estimate.friction);
+  EXPECT_THAT(estimate.FullMessage(),
+              ::testing::ContainsRegex("viscous is -[0-9.]+ N.m.s/rad, below its bound 0, "));
+  ExpectHonest(estimate);
+  if (estimate.status == Status::inadequate_model) return;
+
+  // only one that gives no intervals cannot be sure
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+  for (const EstimatedParameter& parameter : estimate.parameters) {
+    EXPECT_FALSE(parameter.interval95) << parameter.name;
+  }
+  EXPECT_THAT(estimate.warnings, ::testing::Contains(::testing::StartsWith("viscous is -")));
+}
+
 TEST_P(Contract, GivesNoNumbersForOneSpeed) {
   Eigen::VectorXd velocity(3600);
   for (Eigen::Index i = 0; i < 3600; ++i) velocity[i] = i / 20 % 2 ? 0.5 : -0.5;
@@ -198,7 +239,9 @@ TEST_P(Contract, AnswersAwkwardDataWithAStatusAndASentence) {
     SCOPED_TRACE(i);
     Measurements spoilt = Rich();
     spoilers[i](spoilt);
+    ::testing::internal::CaptureStderr();
     EXPECT_NO_THROW(ExpectHonest(Identify(spoilt)));
+    EXPECT_EQ(::testing::internal::GetCapturedStderr(), "") << "the sentence is all that users get";
   }
 }
 
@@ -286,6 +329,33 @@ TEST_P(Contract, DoesNotMindWhenTheClockStarted) {
                 1e-6 * std::abs(parameter.value))
         << parameter.name;
   }
+}
+
+TEST_P(Contract, GetsASlowLogSplitAtItsSwitchesOnlyForSteadyMotion) {
+  // forwards for 19.5 s, then backwards, at 1 Hz
+  Measurements log = test::RecordFriction(test::TableOne(), 1, Eigen::VectorXd::Ones(40), 0, 1);
+  log.velocity.tail(20).setConstant(-1);
+  log.position = 19.5 - (log.time.array() - 19.5).abs();
+  const Selection selection = SelectMoving(log);
+  const Options options(GetParam().options, {}, {});
+  const FinerInput finer(GetParam(), {log, selection, options, {}});
+  const bool steady = GetParam().regime == Regime::steady;
+  EXPECT_EQ(finer.input().measurements.size(), steady ? 41 : 40);
+  EXPECT_EQ(finer.unseen() > 0, steady);
+}
+
+TEST_P(Contract, LearnsFromChangesOfSpeedOnlyWhereItsRegimeIsTransient) {
+  // the first has rests, the second turns that are no constant speed
+  const bool steady = GetParam().regime == Regime::steady;
+  const Measurements& log = steady ? Warm() : Turning();
+  const Selection selection = SelectConstantSpeed(log);
+  ASSERT_LT(selection.count(), log.size());
+  Measurements other = log;
+  other.torque = selection.keep.select(other.torque, 0);
+  const auto answer = [&](const Measurements& m) {
+    return EstimateToJson(Identify(m, selection)).dump();
+  };
+  EXPECT_EQ(answer(other) == answer(log), steady);
 }
 
 INSTANTIATE_TEST_SUITE_P(Identifiers, Contract, ::testing::ValuesIn(Identifiers()),

@@ -57,6 +57,26 @@ TEST(EstimateJson, ReadsBackBitForBit) {
   EXPECT_EQ(back.Find("gain"), nullptr);
 }
 
+TEST(EstimateJson, KeepsWarningsApartAndInTheMessage) {
+  Estimate estimate = Example();
+  EXPECT_FALSE(EstimateToJson(estimate).contains("warnings"));
+  estimate.warnings = {"the kernels can imitate coulomb; so", "time; is short"};
+  const json object = EstimateToJson(estimate);
+  EXPECT_EQ(object["message"],
+            "The parameters still move.; the kernels can imitate coulomb; so; time; is short");
+  const Estimate back = EstimateFromJson(object, {});
+  EXPECT_EQ(back.message, estimate.message);
+  EXPECT_EQ(back.warnings, estimate.warnings);
+
+  // others may warn without repeating themselves
+  json theirs = object;
+  theirs["message"] = "done";
+  EXPECT_EQ(EstimateFromJson(theirs, {}).FullMessage(),
+            "done; the kernels can imitate coulomb; so; time; is short");
+  theirs["warnings"] = {1};
+  EXPECT_THAT(Refusal(theirs), HasSubstr("a warning is 1; it must be text"));
+}
+
 TEST(EstimateJson, NeverWritesNanOrInfinityAsANumber) {
   Estimate estimate = Example();
   estimate.parameters[0].value = std::numeric_limits<double>::quiet_NaN();

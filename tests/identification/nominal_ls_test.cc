@@ -96,7 +96,8 @@ TEST(NominalLs, GivesNoFrictionWhereTheLawForbidsTheValue) {
   falling.torque -= 3 * falling.velocity;
   const Estimate estimate = Fit(falling, "viscous_coulomb");
   EXPECT_EQ(estimate.status, Status::inadequate_model);
-  EXPECT_THAT(estimate.message, HasSubstr("viscous is -1 N.m.s/rad"));
+  EXPECT_THAT(estimate.message,
+              HasSubstr("viscous is -1 N.m.s/rad, below its bound 0, with its whole 95 %"));
   EXPECT_FALSE(estimate.friction);
 }
 

@@ -35,7 +35,7 @@ const std::string* NotFinite(const Estimate& estimate) {
 void Fill(Result& result, const Estimate& estimate, const Recording& recording,
           const Selection& selection) {
   result.status = StatusName(estimate.status);
-  result.message = estimate.message;
+  result.message = estimate.FullMessage();
   if (const std::string* name = NotFinite(estimate)) {
     throw NoAnswer("bad_answer", *name + " is not a finite number");
   }

@@ -80,9 +80,10 @@ TEST(FitPage, ShowsWarningsInAmberWhereTheNumbersPass) {
     return VerdictOf(MakeFitView(warm.measurements, warm.selection, warm.estimate)).paragraphs;
   };
   EXPECT_EQ(verdict()[0].hue, Hue::green);
-  warm.estimate.message =
-      "maximum likelihood; noise is coloured; the residual depends on time: 0.4 N.m rms; and on "
-      "direction: 0.1 N.m rms: the intervals reach as far as that moves them; try lpv-energy";
+  warm.estimate.message = "maximum likelihood; noise is coloured";
+  warm.estimate.warnings = {
+      "the residual depends on time: 0.4 N.m rms; and on direction: 0.1 N.m rms: the intervals "
+      "reach as far as that moves them; try lpv-energy"};
   EXPECT_EQ(verdict()[0].hue, Hue::caution);
   EXPECT_EQ(verdict()[0].text, "energy-ml: the numbers can be used, with a warning.");
   EXPECT_EQ(verdict()[1].hue, Hue::caution);

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <iterator>
-#include <string_view>
 #include <vector>
 
 #include "tools/report/draw/ticks.h"
@@ -59,39 +57,11 @@ std::string Sentence(std::string text) {
   return text.ends_with('.') ? text : text + '.';
 }
 
-/// An identifier's message, parted into what it says of the fit and what it warns of.
-struct Message {
-  std::string plain;
-  std::vector<std::string> warnings;
-};
-
-/// Clauses stand between semicolons; what the residual depends on takes all that follow.
-Message PartMessage(const std::string& message) {
-  static constexpr std::string_view kEnd = "; ", kResidual = "the residual depends on ";
-  static constexpr std::string_view kWarnings[] = {kResidual, "the kernels can imitate ",
-                                                   "the motor is taken to turn with the joint"};
-  Message parts;
-  for (std::size_t at = 0; at < message.size();) {
-    const std::string_view rest = std::string_view(message).substr(at);
-    const auto begins = [&](std::string_view words) { return rest.starts_with(words); };
-    const std::size_t end =
-        begins(kResidual) ? rest.size() : std::min(rest.find(kEnd), rest.size());
-    const std::string clause(rest.substr(0, end));
-    if (std::any_of(std::begin(kWarnings), std::end(kWarnings), begins)) {
-      parts.warnings.push_back(clause);
-    } else {
-      parts.plain += (parts.plain.empty() ? "" : std::string(kEnd)) + clause;
-    }
-    at += end + kEnd.size();
-  }
-  return parts;
-}
-
 /// What a reader must know before using numbers that passed: warnings of the identifier, and
 /// residuals with a memory. Empty where the verdict is a failure, which says it all.
 std::vector<std::string> WarningsOf(const FitView& view) {
   if (view.estimate.status != Status::ok) return {};
-  std::vector<std::string> warnings = PartMessage(view.estimate.message).warnings;
+  std::vector<std::string> warnings = view.estimate.warnings;
   const double memory = view.has_fit ? ResidualCorrelation(view, 1) : 0;
   if (memory > kMemory) {
     warnings.push_back(
@@ -123,7 +93,7 @@ Words VerdictOf(const FitView& view) {
   for (const std::string& warning : warnings) {
     words.paragraphs.push_back({"Warning: " + Sentence(warning), false, Hue::caution});
   }
-  const std::string message = passed ? PartMessage(estimate.message).plain : estimate.message;
+  const std::string message = passed ? estimate.message : estimate.FullMessage();
   if (!message.empty()) words.paragraphs.push_back({Sentence(message)});
   if (estimate.metrics) {
     words.paragraphs.push_back({MetricsSentence(*estimate.metrics, view.torque_unit) + "."});
