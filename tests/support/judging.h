@@ -43,7 +43,8 @@ inline int Count(const std::string& name, Status status, const std::string& reas
   int count = 0;
   for (std::uint64_t seed = 1; seed <= kRealizations; ++seed) {
     const Estimate estimate = Answer(name, make(seed));
-    if (estimate.status == status && estimate.message.find(reason) != std::string::npos) ++count;
+    if (estimate.status == status && estimate.FullMessage().find(reason) != std::string::npos)
+      ++count;
   }
   return count;
 }

@@ -48,10 +48,10 @@ TEST(JudgeHeat, FindsAWarmStart) {
 
 TEST(JudgeHeat, SaysHowMuchAColdStartMatters) {
   const Estimate estimate = Answer("energy-ml", RecordHour(test::TableOne(), 1));
-  EXPECT_THAT(estimate.message, HasSubstr("taken to be cold at the start"));
-  EXPECT_THAT(estimate.message, HasSubstr("initial_energy=estimated"));
+  EXPECT_THAT(estimate.FullMessage(), HasSubstr("taken to be cold at the start"));
+  EXPECT_THAT(estimate.FullMessage(), HasSubstr("initial_energy=estimated"));
   const auto estimated = std::map<std::string, std::string>{{"initial_energy", "estimated"}};
-  EXPECT_THAT(Answer("energy-ml", RecordHour(test::TableOne(), 1), estimated).message,
+  EXPECT_THAT(Answer("energy-ml", RecordHour(test::TableOne(), 1), estimated).FullMessage(),
               Not(HasSubstr("taken to be cold")));
 }
 
@@ -62,7 +62,7 @@ TEST(JudgeHeat, GivesNoIntervalOfAWarmingBesideADrift) {
   m.torque.array() += 0.5 * m.velocity.array().sign() * phase.sin();
   const Estimate estimate = Answer("energy-ml", m);
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
-  EXPECT_THAT(estimate.message, HasSubstr("the residual depends on time"));
+  EXPECT_THAT(estimate.FullMessage(), HasSubstr("the residual depends on time"));
   EXPECT_FALSE(estimate.Find("thermal_gain")->std || estimate.Find("thermal_gain")->interval95);
   EXPECT_FALSE(estimate.Find("thermal_pole")->interval95);
   EXPECT_TRUE(estimate.Find("viscous")->interval95);
@@ -88,9 +88,9 @@ TEST(JudgeHeat, FindsAMapThatFadesWithTheHeat) {
   auto map = few;
   map["position"] = "map";
   const Estimate told = Answer("energy-ml", record(fading), map);
-  EXPECT_THAT(told.message, HasSubstr("depends on position x energy"));
-  EXPECT_THAT(told.message, HasSubstr("try energy-map"));
-  EXPECT_THAT(Answer("energy-ml", record(steady), map).message, Not(HasSubstr("depends on")));
+  EXPECT_THAT(told.FullMessage(), HasSubstr("depends on position x energy"));
+  EXPECT_THAT(told.FullMessage(), HasSubstr("try energy-map"));
+  EXPECT_THAT(Answer("energy-ml", record(steady), map).FullMessage(), Not(HasSubstr("depends on")));
 
   // the map over the energy follows it; gain and maps then share what fades
   const Estimate followed = Answer("energy-map", record(fading), few);
@@ -102,8 +102,8 @@ TEST(JudgeHeat, FindsASlopeThatWarms) {
   Measurements m = RecordHour(test::TableOne(), 1);
   m.torque += 0.1 * m.velocity.cwiseProduct(PredictFriction(test::TableOne(), m).energy);
   const Estimate estimate = Answer("energy-ml", m);
-  EXPECT_THAT(estimate.message, HasSubstr("speed x energy"));
-  EXPECT_THAT(estimate.message, HasSubstr("try lpv-energy"));
+  EXPECT_THAT(estimate.FullMessage(), HasSubstr("speed x energy"));
+  EXPECT_THAT(estimate.FullMessage(), HasSubstr("try lpv-energy"));
 }
 
 TEST(JudgeHeat, FindsALoadThatTheLogHolds) {
@@ -116,10 +116,10 @@ TEST(JudgeHeat, FindsALoadThatTheLogHolds) {
     return m;
   };
   EXPECT_GE(Count("energy-ml", kInadequate, "depends on load", loaded), kNearlyAll);
-  EXPECT_THAT(Answer("energy-ml", loaded(1)).message, HasSubstr("try load-map"));
+  EXPECT_THAT(Answer("energy-ml", loaded(1)).FullMessage(), HasSubstr("try load-map"));
   Measurements unmoved = RecordHour(test::TableOne(), 1);
   unmoved.load = loaded(1).load;
-  EXPECT_THAT(Answer("energy-ml", unmoved).message, Not(HasSubstr("depends on")));
+  EXPECT_THAT(Answer("energy-ml", unmoved).FullMessage(), Not(HasSubstr("depends on")));
 }
 
 TEST(JudgeHeat, FindsATemperatureThatTheLogHolds) {
@@ -129,8 +129,8 @@ TEST(JudgeHeat, FindsATemperatureThatTheLogHolds) {
   m.torque.array() -= 0.3 * m.velocity.array().sign() * (m.temperature->array() - 20);
   const Estimate estimate = Answer("energy-ml", m);
   EXPECT_EQ(estimate.status, kInadequate);
-  EXPECT_THAT(estimate.message, HasSubstr("depends on temperature"));
-  EXPECT_THAT(estimate.message, HasSubstr("record it at a steady temperature"));
+  EXPECT_THAT(estimate.FullMessage(), HasSubstr("depends on temperature"));
+  EXPECT_THAT(estimate.FullMessage(), HasSubstr("record it at a steady temperature"));
 }
 
 TEST(JudgeHeat, SaysThatAJointWasWarmAtTheStart) {
@@ -138,7 +138,7 @@ TEST(JudgeHeat, SaysThatAJointWasWarmAtTheStart) {
   m.torque = PredictFriction(test::TableOne(), m, -6).force;
   RandomStream random({1, 0}, Stream::torque_noise);
   for (double& torque : m.torque) torque += 0.1 * random.Normal();
-  EXPECT_THAT(Answer("energy-ml", m).message, HasSubstr("initial_energy=estimated"));
+  EXPECT_THAT(Answer("energy-ml", m).FullMessage(), HasSubstr("initial_energy=estimated"));
   const Estimate right = Answer("energy-ml", m, {{"initial_energy", "estimated"}});
   EXPECT_EQ(right.status, Status::ok) << right.message;
 }

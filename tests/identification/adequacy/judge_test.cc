@@ -50,7 +50,7 @@ Measurements Travel(std::uint64_t seed) {
 TEST(Judge, FindsThatAJointWarmsUp) {
   const auto warm = [](std::uint64_t seed) { return RecordHour(test::TableOne(), seed); };
   EXPECT_GE(Count("nominal-ls", kInadequate, "the residual depends on energy", warm), kNearlyAll);
-  EXPECT_THAT(Answer("nominal-ls", warm(1)).message, HasSubstr("try energy-ml"));
+  EXPECT_THAT(Answer("nominal-ls", warm(1)).FullMessage(), HasSubstr("try energy-ml"));
 }
 
 TEST(Judge, FindsTheRippleOfTheMotor) {
@@ -76,8 +76,8 @@ TEST(Judge, FindsRippleAlongTheJoint) {
   const Estimate estimate = Answer("nominal-ls", ripple(1));
   EXPECT_EQ(estimate.status, kInadequate);
   // 2 pi / 20; the frequencies that are tried are half a cycle of 16 along the travel apart
-  EXPECT_THAT(estimate.message, HasSubstr("depends on position (period 0.31"));
-  EXPECT_THAT(estimate.message, HasSubstr("alike in both directions"));
+  EXPECT_THAT(estimate.FullMessage(), HasSubstr("depends on position (period 0.31"));
+  EXPECT_THAT(estimate.FullMessage(), HasSubstr("alike in both directions"));
 }
 
 TEST(Judge, FindsTheStribeckCurve) {
@@ -97,8 +97,8 @@ TEST(Judge, FindsThatDirectionsDiffer) {
   m.torque.array() += 1.5;
   const Estimate estimate = Answer("nominal-ls", m);
   EXPECT_EQ(estimate.status, kInadequate);
-  EXPECT_THAT(estimate.message, HasSubstr("depends on direction"));
-  EXPECT_THAT(estimate.message, HasSubstr("law=asymmetric"));
+  EXPECT_THAT(estimate.FullMessage(), HasSubstr("depends on direction"));
+  EXPECT_THAT(estimate.FullMessage(), HasSubstr("law=asymmetric"));
   EXPECT_EQ(Answer("nominal-ls", m, {{"law", "asymmetric"}}).status, Status::ok);
 }
 
@@ -144,7 +144,7 @@ TEST(Judge, TakesBackEverythingButTheValues) {
   // who insists sees the numbers, beside the verdict
   const Estimate forced = WithVoidNumbers(judged, before);
   EXPECT_EQ(forced.status, kInadequate);
-  EXPECT_THAT(forced.message, HasSubstr("void"));
+  EXPECT_THAT(forced.FullMessage(), HasSubstr("void"));
   EXPECT_EQ(forced.Find("coulomb")->interval95, before.Find("coulomb")->interval95);
   EXPECT_TRUE(forced.friction);
 }
