@@ -50,9 +50,13 @@ std::string AgainstWarmingSlope(const Estimate& estimate) {
              "more kernels over energy would follow it");
 }
 
-std::string AgainstDirection(const Identifier& identifier, const IdentifierInput& input) {
+std::string AgainstDirection(const Identifier& identifier, const IdentifierInput& input,
+                             const Estimate& estimate) {
   const bool can = HasOption(identifier, "law") && input.options.Text("law") != "asymmetric";
-  return can ? "try --set law=asymmetric" : "friction differs in slope between the directions";
+  if (can) return "try --set law=asymmetric";
+  const std::string slope = "friction differs in slope between the directions";
+  const std::string next = Try("position-ridge", estimate, "");
+  return next.empty() ? slope : fmt::format("{}: {} with --set basis=velocity", slope, next);
 }
 
 std::string AgainstPosition(const Structure& structure, const IdentifierInput& input,
@@ -122,7 +126,7 @@ std::string Remedy(const Structure& structure, const Identifier& identifier,
     case Dependence::speed_by_energy:
       return AgainstWarmingSlope(estimate);
     case Dependence::direction:
-      return AgainstDirection(identifier, input);
+      return AgainstDirection(identifier, input, estimate);
     case Dependence::load:
       return Try("load-map", estimate, "more kernels over load would follow it");
     case Dependence::temperature:
