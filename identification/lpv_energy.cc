@@ -3,6 +3,8 @@
 #include "identification/energy_ml.h"
 #include "identification/fit_data.h"
 #include "identification/over_energy.h"
+#include "identification/report_thermal.h"
+#include "identification/slope_heat.h"
 
 namespace warmjoint {
 namespace {
@@ -22,6 +24,17 @@ std::vector<std::vector<FrictionMap>> Shapes(const Options& options, const MapSe
   return shapes;
 }
 
+/// The warming of a first fit whose slope did not follow the heat, corrected for that.
+KnownEnergy Corrected(const IdentifierInput& input, const Law& law, KnownEnergy known) {
+  if (!known.friction) return known;
+  const Thermal thermal = FitSlopeHeat(input, law, *known.friction->thermal);
+  known.friction->thermal = thermal;
+  Estimate reported;
+  ReportThermal(thermal, {}, 0, input.measurements, reported);
+  known.thermal = reported.parameters;
+  return known;
+}
+
 Estimate Identify(const IdentifierInput& input) {
   MapTask task{kName, ReadMapSettings(input.options), {}, {}};
   const Identifier warm = EnergyMl();
@@ -29,7 +42,8 @@ Estimate Identify(const IdentifierInput& input) {
   Estimate first = warm.identify({input.measurements, input.selection, options, input.random});
   first.identifier = kName;
   if (first.status != Status::ok || !first.friction) return first;
-  return IdentifyOverEnergy(input, task, EnergyOf(first), [&](const MapPoints& points) {
+  const KnownEnergy known = Corrected(input, *FindLaw(task.settings.law), EnergyOf(first));
+  return IdentifyOverEnergy(input, task, known, [&](const MapPoints& points) {
     return Shapes(input.options, task.settings, points);
   });
 }

@@ -10,6 +10,7 @@ namespace warmjoint {
 namespace {
 
 constexpr int kStrengths = 20;
+constexpr Eigen::Index kSpans = 8;  // of each fold, of maps over the energy
 
 /// Half decades from 1e-7 of the mean diagonal of the kernels' Gram matrix.
 std::vector<double> Strengths(const NormalEquations& normal, Eigen::Index free) {
@@ -47,14 +48,36 @@ bool IsPossible(LocalRidge& ridge, double strength, const std::vector<double>& l
   return true;
 }
 
+bool IsOverEnergy(const std::vector<FrictionMap>& maps) {
+  return std::any_of(maps.begin(), maps.end(), [](const FrictionMap& map) {
+    return std::any_of(map.axes.begin(), map.axes.end(),
+                       [](const MapAxis& axis) { return axis.quantity == MapQuantity::energy; });
+  });
+}
+
+/// The normal equations of each fold: one part of the recording, or, since a joint warms up but
+/// once, of maps over the energy kSpans shorter ones that lie a fold's turn apart.
+std::vector<NormalEquations> Folds(const MapProblem& problem, int folds) {
+  const Eigen::Index n = problem.torque.size();
+  const Eigen::Index spans = folds * (IsOverEnergy(problem.maps) ? kSpans : 1);
+  std::vector<NormalEquations> parts;
+  for (Eigen::Index i = 0; i < spans; ++i) {
+    const NormalEquations span = LocalNormal(problem.maps, problem.points, problem.free,
+                                             problem.torque, i * n / spans, (i + 1) * n / spans);
+    if (i < folds) {
+      parts.push_back(span);
+    } else {
+      NormalEquations& part = parts[static_cast<size_t>(i % folds)];
+      part = part.Plus(span);
+    }
+  }
+  return parts;
+}
+
 /// The trials of problem.maps by cross validation, the strongest prior last.
 void AddTrials(const MapProblem& problem, size_t candidate, int folds, std::vector<Trial>& trials) {
-  const Eigen::Index n = problem.torque.size(), free = problem.free.cols();
-  std::vector<NormalEquations> parts;
-  for (Eigen::Index i = 0; i < folds; ++i) {
-    parts.push_back(LocalNormal(problem.maps, problem.points, problem.free, problem.torque,
-                                i * n / folds, (i + 1) * n / folds));
-  }
+  const Eigen::Index free = problem.free.cols();
+  const std::vector<NormalEquations> parts = Folds(problem, folds);
   NormalEquations all = parts[0];
   for (size_t i = 1; i < parts.size(); ++i) all = all.Plus(parts[i]);
   const std::vector<double> strengths = Strengths(all, free);

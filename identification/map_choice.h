@@ -29,9 +29,10 @@ struct ChosenMaps {
 /// parameter of the wrong sign, and what is fitted is how the controller answers to small errors of
 /// the speed.
 /// problem.maps is not read. candidates: at least one; folds: contiguous parts of the kept samples
-/// for cross validation. Neighbours resemble each other, so that leaving out one sample or the
-/// evidence of white noise take coloured noise for friction: cross validation over long parts does
-/// not.
+/// for cross validation; with maps over the energy eight shorter ones make a fold, since a joint
+/// warms up but once and one part alone has seen it cold. Neighbours resemble each other, so that
+/// leaving out one sample or the evidence of white noise take coloured noise for friction: cross
+/// validation over long parts does not.
 ChosenMaps ChooseMaps(MapProblem problem, const std::vector<std::vector<FrictionMap>>& candidates,
                       StrengthRule rule, int folds);
 

@@ -45,7 +45,7 @@ Circumstances CircumstancesOf(const FittedModel& model, const Measurements& m,
   const Index c = cells.size();
   const Eigen::MatrixXd none(c, 0);
   Circumstances known{cells.Means(energies), none, none, none, none};
-  if (model.KnowsWarming()) known.slopes = cells.Means(m.velocity.asDiagonal() * energies);
+  if (model.KnowsWarming()) known.slopes = cells.Means(m.velocity.cwiseProduct(model.energy));
   if (model.by_initial_energy) known.initial = cells.Means(*model.by_initial_energy);
   if (m.load) known.loads = cells.Means(Beside(*m.load, m.load->cwiseAbs()));
   if (m.temperature) known.temperatures = cells.Means(*m.temperature);
@@ -143,11 +143,11 @@ Adequacy ExamineResidual(const Identifier& identifier, const IdentifierInput& in
     const auto i = static_cast<size_t>(c);
     rest.segment(cells.begin[i], cells.end[i] - cells.begin[i]).array() -= smooth.explained[c];
   }
-  if (auto fading = FindFading(*model, energies, rest)) adequacy.found.push_back(*fading);
+  if (auto fading = FindFading(*model, rest)) adequacy.found.push_back(*fading);
   SumMoves(static_cast<Index>(model->names.size()), adequacy);
   if (model->by_initial_energy) {
     adequacy.by_start = MovesByStart(cells, derivatives, cells.Means(*model->by_initial_energy),
-                                     kWarmStart * model->warmest);
+                                     kWarmStart * model->energy.cwiseAbs().maxCoeff());
   }
   FindRipple(m, model->selection, std::move(rest), adequacy);
   std::sort(adequacy.found.begin(), adequacy.found.end(),

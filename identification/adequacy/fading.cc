@@ -5,15 +5,14 @@
 
 namespace warmjoint {
 
-std::optional<Structure> FindFading(const FittedModel& model, const Eigen::MatrixXd& energies,
-                                    Eigen::VectorXd& residual) {
+std::optional<Structure> FindFading(const FittedModel& model, Eigen::VectorXd& residual) {
   if (!model.maps || !model.KnowsWarming()) return std::nullopt;
   const Selection& selection = model.selection;
   const Eigen::MatrixXd maps = Kept(*model.maps, selection);
   const Eigen::MatrixXd left = Kept(residual, selection);
   const Block steady{Dependence::position, maps};
   const Block fading{Dependence::position_by_energy,
-                     maps.col(0).asDiagonal() * Kept(energies, selection)};
+                     maps.cwiseProduct(Kept(model.energy, selection))};
   GrowingFit fit(Eigen::VectorXd::Ones(left.rows()), left, Kept(model.derivatives, selection),
                  selection, {steady, fading});
   fit.Take(steady);

@@ -9,11 +9,10 @@
 
 namespace warmjoint {
 
-/// Tests whether the part of the fit that its maps give, m(x), fades or grows with the heat: m E of
-/// each column of `energies`, beside law, warming and m (growing_fit.h), sample by sample.
-/// residual: [N] tau - F, smooth structure taken off; what is found is taken off it.
-/// energies: [N x e] N.m or N. Nothing where the fit has no maps or knows no warming.
-std::optional<Structure> FindFading(const FittedModel& model, const Eigen::MatrixXd& energies,
-                                    Eigen::VectorXd& residual);
+/// Tests whether the part of the fit that its maps give, m(x), fades or grows with the heat: m E,
+/// beside law, warming and m (growing_fit.h), sample by sample.
+/// residual: [N] tau - F, smooth structure taken off; what is found is taken off it. Nothing where
+/// the fit has no maps or knows no warming.
+std::optional<Structure> FindFading(const FittedModel& model, Eigen::VectorXd& residual);
 
 }  // namespace warmjoint

@@ -110,7 +110,7 @@ std::optional<FittedModel> EvaluateModel(const Identifier& identifier, const Ide
   if (estimate.gravity) TakeOff(*estimate.gravity, m.position, model);
   const Prediction prediction = PredictFriction(*friction, m, energy, BristleStart::torque);
   model.residual = model.torque - prediction.force;
-  model.warmest = prediction.energy.cwiseAbs().maxCoeff();
+  model.energy = prediction.energy;
   if (!friction->maps.empty()) model.maps = MapForce(law, values, m, prediction);
   model.derivatives = NominalDerivatives(law, values, m.velocity);
   for (const ParameterInfo& info : law.parameters) model.names.emplace_back(info.name);

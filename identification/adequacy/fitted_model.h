@@ -20,7 +20,7 @@ struct FittedModel {
                                    // thermal_gain, thermal_time_constant, initial_energy,
                                    // and those of gravity
   std::optional<Eigen::VectorXd> by_initial_energy;  // [N] dF/dE(0), where it is taken to be known
-  double warmest = 0;                                // largest |E| of the recording, N.m or N
+  Eigen::VectorXd energy;                            // [N] E, N.m or N
   std::optional<Eigen::VectorXd> maps;  // [N] what they give, N.m or N, where there are any
 
   /// Whether the warming was estimated.

@@ -70,6 +70,13 @@ Evidence ByParts(const VectorXd& coefficients, const MatrixXd& own, Index p, con
   return {scatter, HotellingDeviations(coefficients, scatter, parts)};
 }
 
+/// Deviations from which a block counts as found. most: whether it explains half of what is left.
+double Certain(const Block& block, bool most) {
+  if (block.on == Dependence::initial_energy) return kCertainStart;
+  if (block.features.cols() == 1) return kCertainNamed;
+  return most ? kCertainMost : kCertain;
+}
+
 }  // namespace
 
 GrowingFit::GrowingFit(const VectorXd& weight, const VectorXd& residual,
@@ -132,8 +139,7 @@ std::optional<Structure> GrowingFit::Test(const Block& block) const {
                                           noise_.variance;
   structure.deviations = evidence.deviations;
   const bool most = structure.explained > 0.5 * left_.squaredNorm();
-  const double certain = start ? kCertainStart : most ? kCertainMost : kCertain;
-  if (evidence.deviations < certain || structure.explained <= 0) return std::nullopt;
+  if (evidence.deviations < Certain(block, most) || structure.explained <= 0) return std::nullopt;
 
   // the parameters give way: basis = features mix, whose share within the fit is `shared`
   const Index p = norms_.size();

@@ -17,6 +17,7 @@ namespace {
 
 using Eigen::Index;
 
+constexpr double kNormal95 = 1.96;
 constexpr double kLarge = 0.05;    // of the friction, rms
 constexpr double kNotable = 0.02;  // of the friction, rms, where it also is
 constexpr double kVisible = 0.2;   // of the residual's variance
@@ -60,12 +61,15 @@ bool IsOfHeat(const EstimatedParameter& parameter) {
   return parameter.name.starts_with("thermal_") || parameter.name == "initial_energy";
 }
 
-/// How far the structure moves each parameter, the discrete warming's too. (4): k, tau to ke, te.
+/// How far the structure may move each parameter (95 %), the discrete warming's too. (4): k, tau to
+/// ke, te.
 std::map<std::string, double> Moves(const Adequacy& adequacy, const Estimate& estimate,
                                     const Measurements& m) {
   std::map<std::string, double> moves;
   for (size_t i = 0; i < adequacy.names.size(); ++i) {
-    moves[adequacy.names[i]] = std::abs(adequacy.moves[static_cast<Index>(i)]);
+    const auto k = static_cast<Index>(i);
+    moves[adequacy.names[i]] =
+        std::abs(adequacy.moves[k]) + kNormal95 * adequacy.move_deviations[k];
   }
   if (!moves.contains("thermal_gain")) return moves;
   const Thermal thermal{estimate.Find("thermal_gain")->value,
@@ -79,8 +83,8 @@ std::map<std::string, double> Moves(const Adequacy& adequacy, const Estimate& es
   return moves;
 }
 
-/// Lets intervals reach as far as the structure moves the parameters. What drifts is partly taken
-/// up by the warming, by how much cannot be known: no interval of it is left.
+/// Lets intervals reach as far as the structure may move the parameters. What drifts is partly
+/// taken up by the warming, by how much cannot be known: no interval of it is left.
 void Widen(const Adequacy& adequacy, const Measurements& m, Estimate& estimate) {
   const bool drifts = Drifts(adequacy);
   const std::map<std::string, double> moves = Moves(adequacy, estimate, m);

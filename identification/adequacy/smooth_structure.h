@@ -19,7 +19,7 @@ struct SmoothFindings {
 /// asked.
 struct Circumstances {
   Eigen::MatrixXd energies;      // [m x 3] the measured losses, filtered; N.m or N per unit of gain
-  Eigen::MatrixXd slopes;        // [m x 3] v times these, where the fit knows warming
+  Eigen::MatrixXd slopes;        // [m x 1] v E, E that of the fit, where it knows warming
   Eigen::MatrixXd initial;       // [m x 1] dF/dE(0), where it is taken to be known
   Eigen::MatrixXd loads;         // [m x 2] L, |L|; N.m or N
   Eigen::MatrixXd temperatures;  // [m x 1] degC
@@ -29,7 +29,7 @@ struct Circumstances {
 /// what a block explains is what the fit cannot take up itself. Blocks, s = sign(v),
 /// u = |v|/max|v|:
 ///   direction  1, |v|                           speed           s u^2, s exp(-u/0.1), s
-///   exp(-u/0.3) energy     s E of three time constants      speed x energy  v E of these initial
+///   exp(-u/0.3) energy     s E of three time constants      speed x energy  v E of the fit initial
 ///   energy  dF/dE(0)                    time            s cos(k pi t), k = 1..4;
 ///                                                               cos(k pi t), k = 1, 2
 /// Found is the block of the largest merit; it joins the fit, and the others are tested again.

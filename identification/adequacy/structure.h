@@ -42,8 +42,12 @@ inline constexpr double kCertain = 5;
 /// The same for what explains most of a residual's variance, as noise of few waves hardly does.
 inline constexpr double kCertainMost = 3.5;
 
-/// The same for E(0), a single coefficient that is asked for by name: one cold start in 80 exceeds
-/// it. A start that is warm by a few deviations moves all else far beyond its interval.
+/// The same for a single coefficient that is asked for by name: one recording in two thousand
+/// exceeds it by chance.
+inline constexpr double kCertainNamed = 3.5;
+
+/// The same for E(0): one cold start in 80 exceeds it. A start that is warm by a few deviations
+/// moves all else far beyond its interval.
 inline constexpr double kCertainStart = 2.5;
 
 /// From here on structure that is there counts as moving a parameter.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "identification/adequacy/fitted_model.h"
 #include "models/friction/law.h"
@@ -59,12 +60,20 @@ std::string AgainstDirection(const Identifier& identifier, const IdentifierInput
   return next.empty() ? slope : fmt::format("{}: {} with --set basis=velocity", slope, next);
 }
 
-std::string AgainstPosition(const Structure& structure, const IdentifierInput& input,
-                            const Estimate& estimate) {
-  if (structure.alike > 0.8 && !estimate.gravity) {
-    return input.measurements.joint == JointKind::rotary
-               ? "it acts alike in both directions, as gravity does: try --gravity sincos"
-               : "it acts alike in both directions, as a load does that depends on position";
+std::string AgainstPosition(const Structure& structure, const Identifier& identifier,
+                            const IdentifierInput& input, const Estimate& estimate) {
+  if (structure.alike > 0.8) {
+    // gravity turns once with the joint: along the travel it is one slow wave
+    const Eigen::VectorXd& position = input.measurements.position;
+    const double travel = position.maxCoeff() - position.minCoeff();
+    const bool slow = structure.period > std::min(std::numbers::pi, 0.9 * travel);
+    const bool gravity = input.measurements.joint == JointKind::rotary && slow &&
+                         HasOption(identifier, "gravity") && !estimate.gravity;
+    const std::string alike = "it acts alike in both directions, as ";
+    if (gravity) return alike + "gravity does: try --gravity sincos";
+    const std::string next = Try("position-ridge", estimate, "");
+    return alike + "a load does that depends on position" +
+           (next.empty() ? next : ": " + next + " with --set basis=position");
   }
   return Try("position-ridge", estimate, "a map over position would follow it");
 }
@@ -132,7 +141,7 @@ std::string Remedy(const Structure& structure, const Identifier& identifier,
     case Dependence::temperature:
       return "record it at a steady temperature";
     case Dependence::position:
-      return AgainstPosition(structure, input, estimate);
+      return AgainstPosition(structure, identifier, input, estimate);
     case Dependence::position_by_energy:
       return Try("energy-map", estimate, "more kernels over energy would follow it");
     case Dependence::motor_angle:

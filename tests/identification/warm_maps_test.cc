@@ -176,5 +176,27 @@ TEST(LpvEnergy, FollowsViscousFrictionThatFades) {
   EXPECT_LT(estimate.metrics->rmse, fixed.metrics->rmse);
 }
 
+TEST(WarmMaps, FindGainAndTimeConstantOfALawWhoseSlopeWarms) {
+  // Eq. (27): F = (5 + 0.1 E) v + (15 + E) sign(v); E from these losses
+  const Eigen::VectorXd velocity = test::AlternatingSpeeds(3600, 4);
+  Measurements m = test::Record(1, velocity, Eigen::VectorXd::Zero(3600));
+  const DiscreteThermal thermal = Discretise({-3, 600}, 1);
+  RandomStream random({4, 0}, Stream::torque_noise);
+  double energy = 0;
+  for (Eigen::Index i = 0; i < 3600; ++i) {
+    const double v = velocity[i], level = 15 + energy + (5 + 0.1 * energy) * std::abs(v);
+    m.torque[i] = std::copysign(level, v) + 0.1 * random.Normal();
+    energy = ThermalStep(thermal.gain, thermal.pole, energy, Loss(v, level));
+  }
+  const Estimate fixed = Identify(m, "energy-ml", {});
+  const Estimate estimate = Identify(m, "lpv-energy", {});
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+  // without the slope the gain takes it up; with it the noise leaves 0.3 % (of k) and 0.4 % (tau)
+  EXPECT_GT(std::abs(fixed.Find("thermal_gain")->value + 3), 0.1);
+  EXPECT_NEAR(estimate.Find("thermal_gain")->value, -3, 4 * 0.003 * 3);
+  EXPECT_NEAR(estimate.Find("thermal_time_constant")->value, 600, 4 * 0.004 * 600);
+  EXPECT_FALSE(estimate.Find("thermal_gain")->interval95);
+}
+
 }  // namespace
 }  // namespace warmjoint

@@ -46,7 +46,7 @@ std::optional<Structure> Ask(const VectorXd& residual, const Block& block) {
 int Count(Dependence on, const MatrixXd& feature, double height, double coefficient) {
   int count = 0;
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
-    const VectorXd residual = height * feature + Noise(coefficient, seed);
+    const VectorXd residual = height * feature.col(0) + Noise(coefficient, seed);
     count += Ask(residual, {on, feature}).has_value();
   }
   return count;
@@ -67,10 +67,14 @@ TEST(GrowingFit, SaysHowTheParametersMove) {
 }
 
 TEST(GrowingFit, FindsNothingInNoiseOfAnyColour) {
-  // chance: one in a million
+  // chance: for a single coefficient one in 2000, of 300 more than 2 in 1000 tests; for several one
+  // in a million
+  MatrixXd waves(kRows, 3);
+  waves << Wave(), Wave().array().square().matrix(), Transient();
   for (const double coefficient : {-0.5, 0.0, 0.5, 0.9}) {
-    EXPECT_EQ(Count(Dependence::time, Wave(), 0, coefficient), 0) << coefficient;
-    EXPECT_EQ(Count(Dependence::energy, Transient(), 0, coefficient), 0) << coefficient;
+    EXPECT_LE(Count(Dependence::time, Wave(), 0, coefficient), 2) << coefficient;
+    EXPECT_LE(Count(Dependence::energy, Transient(), 0, coefficient), 2) << coefficient;
+    EXPECT_EQ(Count(Dependence::energy, waves, 0, coefficient), 0) << coefficient;
   }
 }
 
