@@ -13,8 +13,9 @@
 namespace warmjoint {
 namespace {
 
-constexpr double kWidest = 4;  // factor on tau to both sides
-constexpr int kSteps = 24;     // each leaves 0.618 of the bracket: 3e-5 of log(tau) in the end
+constexpr double kWidest = 4;   // factor on tau to both sides
+constexpr double kSame = 1e-6;  // columns that count as the same
+constexpr int kSteps = 24;      // each leaves 0.618 of the bracket: 3e-5 of log(tau) in the end
 
 /// Where a function has its minimum between a and b: golden section.
 template <typename F>
@@ -44,20 +45,22 @@ Thermal FitSlopeHeat(const IdentifierInput& input, const Law& law, const Thermal
   const Eigen::VectorXd loss = m.torque.cwiseProduct(m.velocity).cwiseAbs();
   const ThermalFilter filter(m.time, m.starts);
 
-  // law, k and c at a given tau
+  // law, k and c at a given tau: k and the squares that are left
   const auto fit = [&](double time_constant) {
     const Eigen::VectorXd x = Kept(filter.Energy({1, time_constant}, loss), input.selection);
     Eigen::MatrixXd heat(x.size(), 2);
     heat << velocity.array().sign() * x.array(), velocity.array() * x.array();
     const Eigen::MatrixXd all = Beside(columns, heat);
-    const LeastSquares solved = SolveLeastSquares(all, torque);
-    return std::pair((torque - all * solved.solution).squaredNorm(),
-                     solved.solution[columns.cols()]);
+    const LeastSquares solved = SolveLeastSquares(all, torque, kSame);
+    if (!solved.mixed.empty()) return std::pair(start.gain, kInfinity);
+    return std::pair(solved.solution[columns.cols()],
+                     (torque - all * solved.solution).squaredNorm());
   };
   const double around = std::log(start.time_constant), reach = std::log(kWidest);
-  const auto squares = [&](double log_tau) { return fit(std::exp(log_tau)).first; };
+  const auto squares = [&](double log_tau) { return fit(std::exp(log_tau)).second; };
   const double best = std::exp(Lowest(squares, around - reach, around + reach));
-  return {fit(best).second, best};
+  const auto [gain, left] = fit(best);
+  return std::isfinite(left) && std::isfinite(gain) ? Thermal{gain, best} : start;
 }
 
 }  // namespace warmjoint
