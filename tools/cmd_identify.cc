@@ -128,13 +128,12 @@ ExitStatus Identify(const IdentifyArguments& arguments) {
 
   const Selection selection = SelectConstantSpeed(measurements);
   const FinerInput finer(identifier, {measurements, selection, options, {}});
-  const IdentifierInput& input = finer.input();
-  const Estimate before = identifier.identify(input);
-  Estimate estimate = before;
-  JudgeAdequacy(identifier, input, estimate);
-  WarnOfUnseenReversals(finer.unseen(), estimate);
-  if (before.status == Status::ok) estimate.holdout = HoldOutFigures(identifier, input, holdout);
-  if (arguments.force) estimate = WithVoidNumbers(estimate, before);
+  const Judgement judgement = IdentifyAndJudge(identifier, finer);
+  Estimate estimate = judgement.judged;
+  if (judgement.before.status == Status::ok) {
+    estimate.holdout = HoldOutFigures(identifier, finer.input(), holdout);
+  }
+  if (arguments.force) estimate = WithVoidNumbers(estimate, judgement.before);
   WriteOutputs(arguments, ForFiles(estimate, measurements), measurements.joint);
   if (!arguments.plot.empty()) {
     report::WriteFitPage(measurements, selection, estimate, arguments.plot);

@@ -10,6 +10,7 @@
 #include "identification/adequacy/words.h"
 #include "identification/finer_input.h"
 #include "identification/fit_data.h"
+#include "sim/dataset/log_faults.h"
 #include "sim/dataset/robust_noise.h"
 
 namespace warmjoint {
@@ -167,12 +168,22 @@ Estimate WithVoidNumbers(const Estimate& judged, const Estimate& before) {
   return shown;
 }
 
+Judgement IdentifyAndJudge(const Identifier& identifier, const FinerInput& finer) {
+  Judgement judgement{identifier.identify(finer.input()), {}};
+  judgement.judged = judgement.before;
+  const IdentifierInput& given = finer.given();
+  const std::vector<std::string> faults = FindFaults(given.measurements, given.selection);
+  if (faults.empty()) {
+    JudgeAdequacy(identifier, finer.input(), judgement.judged);
+    WarnOfUnseenReversals(finer.unseen(), judgement.judged);
+  } else {
+    Void(Status::bad_data, fmt::format("{}", fmt::join(faults, "; and ")), judgement.judged);
+  }
+  return judgement;
+}
+
 Estimate IdentifyAndJudge(const Identifier& identifier, const IdentifierInput& given) {
-  const FinerInput finer(identifier, given);
-  Estimate estimate = identifier.identify(finer.input());
-  JudgeAdequacy(identifier, finer.input(), estimate);
-  WarnOfUnseenReversals(finer.unseen(), estimate);
-  return estimate;
+  return IdentifyAndJudge(identifier, FinerInput(identifier, given)).judged;
 }
 
 }  // namespace warmjoint

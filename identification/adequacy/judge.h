@@ -1,6 +1,7 @@
 // Whether a model is adequate: what the residual of its fit still shows.
 #pragma once
 
+#include "identification/finer_input.h"
 #include "identification/identifier.h"
 
 namespace warmjoint {
@@ -16,7 +17,18 @@ namespace warmjoint {
 /// that the warming took up. Where a start that is taken to be cold matters, the message says how
 /// much.
 /// Noise that is coloured is no structure: the intervals account for it.
+/// A log with faults (sim/dataset/log_faults.h) makes the estimate void, bad_data, and the message
+/// names them.
 Estimate IdentifyAndJudge(const Identifier& identifier, const IdentifierInput& given);
+
+/// An answer before its verdict and after.
+struct Judgement {
+  Estimate before;
+  Estimate judged;
+};
+
+/// The same, of an input that is prepared already.
+Judgement IdentifyAndJudge(const Identifier& identifier, const FinerInput& finer);
 
 /// The same for an answer that is there already.
 void JudgeAdequacy(const Identifier& identifier, const IdentifierInput& input, Estimate& estimate);

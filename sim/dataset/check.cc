@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/dataset/log_faults.h"
 #include "sim/dataset/velocity_scale.h"
 
 namespace warmjoint {
@@ -56,8 +57,8 @@ std::vector<SpeedLevel> Levels(std::vector<Segment> segments) {
   return levels;
 }
 
-MotionCheck CheckMotion(const Measurements& measurements, const VelocityScale& scale) {
-  const Selection selection = SelectConstantSpeed(measurements);
+MotionCheck CheckMotion(const Measurements& measurements, const VelocityScale& scale,
+                        const Selection& selection) {
   const auto n = static_cast<double>(measurements.size());
   MotionCheck check;
   check.constant_share = static_cast<double>(selection.count()) / n;
@@ -76,13 +77,15 @@ MotionCheck CheckMotion(const Measurements& measurements, const VelocityScale& s
 
 RecordingCheck CheckRecording(const Measurements& measurements) {
   const VelocityScale scale = MeasureVelocity(measurements);
+  const Selection selection = SelectConstantSpeed(measurements);
   RecordingCheck check;
   check.source = measurements.source;
   check.joint = measurements.joint;
   check.torque_unit = measurements.torque_unit;
   check.notes = measurements.notes;
   check.sampling = CheckSampling(measurements.time, scale.step);
-  check.motion = CheckMotion(measurements, scale);
+  check.motion = CheckMotion(measurements, scale, selection);
+  check.faults = FindFaults(measurements, selection);
   check.excitation = JudgeExcitation(measurements, check.sampling, check.motion);
   return check;
 }

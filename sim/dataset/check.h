@@ -52,6 +52,7 @@ struct RecordingCheck {
   std::vector<std::string> notes;  // what reading made of it
   SamplingCheck sampling;
   MotionCheck motion;
+  std::vector<std::string> faults;  // log_faults.h
   std::vector<Excitation> excitation;
 };
 

@@ -69,7 +69,9 @@ std::string CheckToText(const RecordingCheck& check) {
   if (check.motion.speed_resolution > 0) {
     text += fmt::format("; velocity comes in steps of {:.3g}", check.motion.speed_resolution);
   }
-  text += "\ncan be identified\n";
+  text += "\n";
+  for (const std::string& fault : check.faults) text += fmt::format("fault       {}\n", fault);
+  text += check.faults.empty() ? "can be identified\n" : "could be identified without the faults\n";
   for (const Excitation& excitation : check.excitation) {
     text += fmt::format("  {:<4}{}: {}\n", excitation.sufficient ? "yes" : "no", excitation.what,
                         excitation.reason);
@@ -110,6 +112,7 @@ json CheckToJson(const RecordingCheck& check) {
             {"travel", {motion.lower, motion.upper}},
             {"speed_noise", motion.speed_noise},
             {"speed_resolution", motion.speed_resolution}}},
+          {"faults", check.faults},
           {"excitation", excitation}};
 }
 

@@ -1,0 +1,14 @@
+#include "sim/dataset/log_faults.h"
+
+namespace warmjoint {
+
+std::vector<std::string> FindFaults(const Measurements& measurements, const Selection& selection) {
+  std::vector<std::string> faults;
+  for (const auto find :
+       {&VelocityAgainstPosition, &ClippedTorque, &StuckTorque, &DroppedTorque, &AbsurdTorque}) {
+    if (auto fault = find(measurements, selection)) faults.push_back(*std::move(fault));
+  }
+  return faults;
+}
+
+}  // namespace warmjoint
