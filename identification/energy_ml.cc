@@ -10,6 +10,7 @@
 #include "identification/fit_gravity.h"
 #include "identification/least_squares.h"
 #include "identification/linear_laws.h"
+#include "identification/linear_task.h"
 #include "identification/report_law.h"
 #include "identification/report_thermal.h"
 #include "identification/robust.h"
@@ -163,16 +164,12 @@ double LeftOver(const Eigen::MatrixXd& A, const Eigen::VectorXd& y) {
 Estimate Identify(const IdentifierInput& given) {
   if (given.options.Text("position") != "none") return IdentifyWithMaps(kName, given);
   const Measurements& m = given.measurements;
-  const Law& law = *FindLaw(given.options.Text("law"));
-  const GravityFit gravity = PrepareGravity(given);
-  if (gravity.why) return Failed(kName, gravity.status, *gravity.why);
+  const LinearTask task = BeginLinear(given, kName, 3);
+  if (task.refusal) return *task.refusal;
+  const auto& [law, gravity, columns, refusal] = task;
   const IdentifierInput input = gravity.Of(given);
-  const auto d = static_cast<int>(law.parameters.size() + gravity.count());
-  if (auto why = Unusable(input, d + 3)) return Failed(kName, Status::bad_data, *why);
 
   // the columns of law and gravity must be distinct before any warming is thought of
-  const Eigen::MatrixXd law_columns = LawColumns(law, m.velocity);
-  const Eigen::MatrixXd columns = Beside(law_columns, gravity.columns);
   const Eigen::MatrixXd kept_columns = Kept(columns, input.selection);
   const Eigen::VectorXd torque = Kept(m.torque, input.selection);
   const LeastSquares nominal = SolveLeastSquares(kept_columns, torque);
@@ -183,7 +180,7 @@ Estimate Identify(const IdentifierInput& given) {
   double nominal_squares = (torque - kept_columns * nominal.solution).squaredNorm();
 
   // scan tau, then refine everything over the closed loop
-  const ClosedLoop loop(m.time, m.velocity, law_columns, m.starts);
+  const ClosedLoop loop(m.time, m.velocity, columns.leftCols(task.law_count()), m.starts);
   const Eigen::VectorXd level = loop.direction().cwiseProduct(m.torque);
   const Eigen::VectorXd kept = (input.selection.keep && m.velocity.array() != 0).cast<double>();
   const WarmStart start = Scan(m, gravity, loop, columns, nominal, level, kept);

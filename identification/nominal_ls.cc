@@ -4,9 +4,9 @@
 
 #include "identification/describe_friction.h"
 #include "identification/fit_data.h"
-#include "identification/fit_gravity.h"
 #include "identification/least_squares.h"
 #include "identification/linear_laws.h"
+#include "identification/linear_task.h"
 #include "identification/report_law.h"
 #include "identification/robust.h"
 
@@ -16,16 +16,14 @@ namespace {
 constexpr const char* kName = "nominal-ls";
 
 Estimate Identify(const IdentifierInput& given) {
-  const Law& law = *FindLaw(given.options.Text("law"));
-  const GravityFit gravity = PrepareGravity(given);
-  if (gravity.why) return Failed(kName, gravity.status, *gravity.why);
+  const LinearTask task = BeginLinear(given, kName, 0);
+  if (task.refusal) return *task.refusal;
+  const auto& [law, gravity, columns, refusal] = task;
   const IdentifierInput input = gravity.Of(given);
-  const auto d = static_cast<int>(law.parameters.size() + gravity.count());
-  if (auto why = Unusable(input, d)) return Failed(kName, Status::bad_data, *why);
+  const int d = task.count();
 
   // rows of (9) on the samples that satisfy (6)
-  const Eigen::MatrixXd A =
-      Kept(Beside(LawColumns(law, input.measurements.velocity), gravity.columns), input.selection);
+  const Eigen::MatrixXd A = Kept(columns, input.selection);
   const Eigen::VectorXd torque = Kept(input.measurements.torque, input.selection);
   const bool huber = input.options.Text("loss") == "huber";
   const RobustLeastSquares robust =
@@ -46,7 +44,7 @@ Estimate Identify(const IdentifierInput& given) {
   const Eigen::VectorXd fitted = A * fit.solution;
   const Eigen::VectorXd score = HuberScores(torque - fitted, robust.threshold);
   const Uncertainty known = JudgeUncertainty(A, fit.cofactor, score, input.selection);
-  ReportLaw(law, fit.solution.head(d - gravity.count()), known, input.measurements, estimate);
+  ReportLaw(law, fit.solution.head(task.law_count()), known, input.measurements, estimate);
   ReportGravity(gravity, fit.solution, known, input.measurements, estimate);
   estimate.metrics = ComputeMetrics(torque, fitted, d, d);
   estimate.message =

@@ -6,9 +6,9 @@
 
 #include "identification/describe_friction.h"
 #include "identification/fit_data.h"
-#include "identification/fit_gravity.h"
 #include "identification/least_squares.h"
 #include "identification/linear_laws.h"
+#include "identification/linear_task.h"
 #include "identification/recursive_least_squares.h"
 #include "identification/report_law.h"
 #include "identification/thermal_filter.h"
@@ -89,17 +89,15 @@ Eigen::VectorXd Pull(const IdentifierInput& input, const GravityFit& gravity,
 
 Estimate Identify(const IdentifierInput& given) {
   const Measurements& m = given.measurements;
-  const Law& law = *FindLaw(given.options.Text("law"));
-  const GravityFit gravity = PrepareGravity(given);
-  if (gravity.why) return Failed(kName, gravity.status, *gravity.why);
+  const LinearTask task = BeginLinear(given, kName, 0);
+  if (task.refusal) return *task.refusal;
+  const auto& [law, gravity, columns, refusal] = task;
   const IdentifierInput input = gravity.Of(given);
-  const auto d = static_cast<int>(law.parameters.size() + gravity.count());
-  if (auto why = Unusable(input, d)) return Failed(kName, Status::bad_data, *why);
+  const int d = task.count();
 
   // what the remembered samples can tell apart, from their weighted columns
   const double forgetting = input.options.Number("forgetting");
   const std::optional<Thermal> thermal = GivenThermal(input.options);
-  const Eigen::MatrixXd columns = Beside(LawColumns(law, m.velocity), gravity.columns);
   const Eigen::MatrixXd A = Kept(columns, input.selection);
   const Eigen::VectorXd warming =
       Kept(Warming(thermal, m, Pull(input, gravity, columns)), input.selection);
@@ -118,7 +116,7 @@ Estimate Identify(const IdentifierInput& given) {
   const Eigen::VectorXd x = Run(law, A, y, forgetting, estimate);
   const Eigen::VectorXd fitted = A * x + warming;
   const Uncertainty known = Judge(A, weights, weighted.cofactor, torque - fitted, input.selection);
-  ReportLaw(law, x.head(d - gravity.count()), known, m, estimate);
+  ReportLaw(law, x.head(task.law_count()), known, m, estimate);
   ReportGravity(gravity, x, known, m, estimate);
   estimate.metrics = ComputeMetrics(torque, fitted, d, d);
   estimate.message = fmt::format("law {} as the last {:.0f} of {} samples show it{}", law.name,
