@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "identification/student.h"
+#include "identification/uncertainty/student.h"
 
 namespace warmjoint {
 namespace {

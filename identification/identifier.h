@@ -40,7 +40,8 @@ struct Identifier {
   Regime regime = Regime::steady;
 };
 
-/// All identifiers: a new one is its own file pair and one line in identifier_list.cc.
+/// All identifiers: a new one is its own file pair in identifiers/ and one line in its
+/// identifier_list.cc.
 const std::vector<Identifier>& Identifiers();
 
 /// The identifier of that name. Throws BadInput with the nearest name.

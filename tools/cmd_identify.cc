@@ -7,9 +7,9 @@
 
 #include "identification/adequacy/judge.h"
 #include "identification/finer_input.h"
-#include "identification/fit_gravity.h"
-#include "identification/hold_out.h"
+#include "identification/holdout/hold_out.h"
 #include "identification/identifier.h"
+#include "identification/linear/fit_gravity.h"
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/parse_number.h"
 #include "sim/minimal_model.h"

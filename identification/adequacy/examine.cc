@@ -13,8 +13,8 @@
 #include "identification/adequacy/fitted_model.h"
 #include "identification/adequacy/smooth_structure.h"
 #include "identification/fit_data.h"
-#include "identification/fit_gravity.h"
-#include "identification/thermal_filter.h"
+#include "identification/forward/thermal_filter.h"
+#include "identification/linear/fit_gravity.h"
 
 namespace warmjoint {
 namespace {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "identification/closed_loop.h"
-#include "identification/fit_gravity.h"
-#include "identification/linear_laws.h"
-#include "identification/predict.h"
+#include "identification/forward/closed_loop.h"
+#include "identification/forward/predict.h"
+#include "identification/linear/fit_gravity.h"
+#include "identification/linear/linear_laws.h"
 
 namespace warmjoint {
 namespace {

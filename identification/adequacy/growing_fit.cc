@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "identification/adequacy/significance.h"
-#include "identification/fit_gravity.h"
+#include "identification/linear/fit_gravity.h"
 
 namespace warmjoint {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "identification/adequacy/structure.h"
-#include "identification/noise_model.h"
+#include "identification/uncertainty/noise_model.h"
 
 namespace warmjoint {
 

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "identification/adequacy/growing_fit.h"
-#include "identification/fit_gravity.h"
+#include "identification/linear/fit_gravity.h"
 
 namespace warmjoint {
 namespace {

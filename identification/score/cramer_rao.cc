@@ -2,10 +2,10 @@
 
 #include <limits>
 
-#include "identification/closed_loop.h"
 #include "identification/fit_data.h"
-#include "identification/least_squares.h"
-#include "identification/linear_laws.h"
+#include "identification/forward/closed_loop.h"
+#include "identification/linear/least_squares.h"
+#include "identification/linear/linear_laws.h"
 
 namespace warmjoint {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "identification/kalman_bank.h"
-#include "identification/recursive_least_squares.h"
+#include "identification/online/kalman_bank.h"
+#include "identification/online/recursive_least_squares.h"
 #include "models/foundation/random_stream.h"
 
 namespace warmjoint {

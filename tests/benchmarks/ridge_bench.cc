@@ -11,8 +11,8 @@
 #include <string>
 #include <thread>
 
-#include "identification/linear_laws.h"
-#include "identification/local_rows.h"
+#include "identification/linear/linear_laws.h"
+#include "identification/ridge/local_rows.h"
 
 namespace warmjoint {
 namespace {

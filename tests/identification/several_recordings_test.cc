@@ -1,8 +1,8 @@
 // Several recordings of one joint at once: heat starts again with each.
 #include <gmock/gmock.h>
 
-#include "identification/hold_out.h"
-#include "identification/thermal_filter.h"
+#include "identification/forward/thermal_filter.h"
+#include "identification/holdout/hold_out.h"
 #include "sim/dataset/join_recordings.h"
 #include "tests/support/warm_recording.h"
 

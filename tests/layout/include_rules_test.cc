@@ -2,9 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <regex>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -93,6 +95,41 @@ TEST(IncludeRules, EveryIncludeGoesDownTheFlow) {
   EXPECT_GT(files, 20) << "the rooms were not found";
 }
 
+/// Folders of identification in the order in which data flows; "" is its top.
+const std::vector<std::string> kIdentificationOrder{
+    "forward",     "uncertainty", "",       "linear",  "warming",     "ridge",    "maps",
+    "alternating", "nonlinear",   "online", "holdout", "identifiers", "adequacy", "score"};
+
+/// Place in that order of a file's folder; the number of folders where it is none of them.
+size_t PlaceInIdentification(const std::string& file) {
+  const std::string inside = file.substr(std::string("identification/").size());
+  const size_t slash = inside.find('/');
+  const std::string folder = slash == std::string::npos ? "" : inside.substr(0, slash);
+  const auto found = std::find(kIdentificationOrder.begin(), kIdentificationOrder.end(), folder);
+  return static_cast<size_t>(found - kIdentificationOrder.begin());
+}
+
+TEST(IncludeRules, FoldersOfIdentificationIncludeOnlyThoseBeforeThem) {
+  const fs::path root = warmjoint::test::SourceFolder();
+  std::stringstream readme;
+  readme << std::ifstream(root / "identification/README.md").rdbuf();
+  for (const auto& entry : fs::recursive_directory_iterator(root / "identification")) {
+    const std::string extension = entry.path().extension();
+    if (extension != ".cc" && extension != ".h") continue;
+    const std::string file = fs::relative(entry.path(), root);
+    const size_t place = PlaceInIdentification(file);
+    ASSERT_LT(place, kIdentificationOrder.size()) << file << " stands in a folder without a place";
+    for (const std::string& header : IncludesOf(entry.path())) {
+      if (!StartsWith(header, "identification/")) continue;
+      EXPECT_LE(PlaceInIdentification(header), place) << file << " includes " << header;
+    }
+  }
+  for (const std::string& folder : kIdentificationOrder) {
+    if (folder.empty()) continue;
+    EXPECT_NE(readme.str().find("| `" + folder + "` |"), std::string::npos) << folder;
+  }
+}
+
 TEST(IncludeRules, KnowWhatIsForbidden) {
   EXPECT_NE(Breach("models/friction/law.cc", "scenarios/scenario.h"), "");
   EXPECT_NE(Breach("models/friction/law.cc", "mujoco/mujoco.h"), "");
@@ -100,9 +137,9 @@ TEST(IncludeRules, KnowWhatIsForbidden) {
   EXPECT_NE(Breach("sim/dataset/csv.cc", "sim/plant.h"), "");
   EXPECT_NE(Breach("sim/plugin/plugin.cc", "sim/plant.h"), "");
   EXPECT_NE(Breach("sim/ideal_plant.cc", "identification/estimate.h"), "");
-  EXPECT_NE(Breach("identification/energy_ml.cc", "sim/dataset/truth.h"), "");
-  EXPECT_NE(Breach("identification/energy_ml.cc", "identification/score/npe.h"), "");
-  EXPECT_NE(Breach("identification/energy_ml.cc", "scenarios/scenario.h"), "");
+  EXPECT_NE(Breach("identification/identifiers/energy_ml.cc", "sim/dataset/truth.h"), "");
+  EXPECT_NE(Breach("identification/identifiers/energy_ml.cc", "identification/score/npe.h"), "");
+  EXPECT_NE(Breach("identification/identifiers/energy_ml.cc", "scenarios/scenario.h"), "");
   EXPECT_NE(Breach("identification/score/npe.cc", "tools/store/store.h"), "");
   EXPECT_NE(Breach("identification/score/npe.cc", "mujoco/mujoco.h"), "");
   EXPECT_EQ(Breach("identification/score/npe.cc", "sim/dataset/truth.h"), "");

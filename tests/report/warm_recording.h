@@ -2,7 +2,7 @@
 #pragma once
 
 #include "identification/estimate.h"
-#include "identification/predict.h"
+#include "identification/forward/predict.h"
 #include "models/foundation/random_stream.h"
 #include "sim/dataset/measurements.h"
 #include "sim/dataset/selection.h"

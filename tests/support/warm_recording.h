@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "identification/predict.h"
+#include "identification/forward/predict.h"
 #include "models/foundation/random_stream.h"
 #include "tests/support/vectors.h"
 

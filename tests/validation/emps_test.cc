@@ -4,7 +4,7 @@
 #include <iostream>
 #include <numbers>
 
-#include "identification/hold_out.h"
+#include "identification/holdout/hold_out.h"
 #include "sim/dataset/read_recording.h"
 #include "tests/support/shared_data.h"
 

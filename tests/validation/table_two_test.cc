@@ -3,7 +3,7 @@
 
 #include <iostream>
 
-#include "identification/hold_out.h"
+#include "identification/holdout/hold_out.h"
 #include "scenarios/suite.h"
 #include "sim/plant.h"
 #include "tests/support/folders.h"

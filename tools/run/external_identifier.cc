@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "identification/forward/predict.h"
 #include "identification/options.h"
-#include "identification/predict.h"
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/excerpt.h"
 #include "sim/dataset/read_recording.h"

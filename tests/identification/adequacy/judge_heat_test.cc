@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "identification/predict.h"
-#include "identification/thermal_filter.h"
+#include "identification/forward/predict.h"
+#include "identification/forward/thermal_filter.h"
 #include "tests/support/judging.h"
 #include "tests/support/travelling.h"
 

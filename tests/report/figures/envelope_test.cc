@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "identification/first_guess.h"
+#include "identification/alternating/first_guess.h"
 #include "tests/report/look.h"
 #include "tests/report/warm_recording.h"
 

@@ -5,8 +5,8 @@
 
 #include <Eigen/LU>
 
+#include "identification/forward/predict.h"
 #include "identification/identifier.h"
-#include "identification/predict.h"
 #include "tests/report/look.h"
 #include "tests/report/warm_recording.h"
 #include "tools/report/figures/fit_panels.h"

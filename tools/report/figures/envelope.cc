@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include "identification/first_guess.h"
+#include "identification/alternating/first_guess.h"
 #include "tools/report/draw/ticks.h"
 #include "tools/report/figures/axes.h"
 #include "tools/report/figures/fit_view.h"

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <numbers>
 
-#include "identification/predict.h"
+#include "identification/forward/predict.h"
 #include "tools/report/draw/ticks.h"
 #include "tools/report/figures/friction_at.h"
 #include "tools/report/figures/friction_spread.h"

@@ -3,7 +3,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "identification/predict.h"
+#include "identification/forward/predict.h"
 
 namespace warmjoint::report {
 namespace {

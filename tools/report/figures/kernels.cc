@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "identification/ridge.h"
+#include "identification/ridge/ridge.h"
 #include "models/foundation/random_stream.h"
 #include "models/friction/gaussian_axis.h"
 #include "tools/report/draw/ticks.h"

@@ -1,0 +1,86 @@
+#include "identification/alternating/nominal_part.h"
+
+#include "identification/fit_data.h"
+#include "identification/linear/linear_laws.h"
+#include "identification/maps/position_maps.h"
+
+namespace warmjoint {
+namespace {
+
+/// Law and kernels over position.
+void AddMap(const IdentifierInput& input, const std::string& identifier, NominalPart& part) {
+  if (input.options.Text("gravity") != "none") {
+    part.refusal = Failed(identifier, Status::bad_data,
+                          "position=map cannot be had together with gravity; leave one of them out "
+                          "(basis=position takes gravity up into the map)");
+    return;
+  }
+  const IdentifierInput moving{input.measurements, part.moving, input.options, input.random};
+  MapBeginning begin = BeginMaps(moving, identifier, {MapQuantity::position});
+  part.refusal = begin.refusal;
+  if (part.refusal) return;
+  MapTask& task = begin.task;
+  task.candidates = PositionMaps(input.options, task.settings, begin.points);
+  const auto choice = ChooseAndFit(moving, task);
+  if (!choice) {
+    part.refusal = Unsolvable(identifier);
+    return;
+  }
+  part.maps = choice->fit.maps;
+  const MapPoints all = PointsOf(input.measurements);
+  part.columns = Beside(part.columns, DenseKernels(part.maps, all, 0, all.rows()));
+  part.cofactor = choice->fit.inverse;
+  part.solution = choice->fit.x;
+  part.strength = choice->fit.strength;
+  part.effective = choice->fit.effective;
+}
+
+}  // namespace
+
+Eigen::Index NominalPart::kernels() const {
+  Eigen::Index count = 0;
+  for (const FrictionMap& map : maps) count += static_cast<Eigen::Index>(map.size());
+  return count;
+}
+
+std::vector<FrictionMap> NominalPart::MapsOf(const Eigen::VectorXd& nominal) const {
+  return WithWeights(maps, nominal.tail(kernels()));
+}
+
+NominalPart PrepareNominalPart(const IdentifierInput& given, const std::string& identifier) {
+  const Measurements& m = given.measurements;
+  const Law& law = *FindLaw(given.options.Text("law"));
+  NominalPart part;
+  part.gravity = PrepareGravity(given);
+  if (part.gravity.why) {
+    part.refusal = Failed(identifier, part.gravity.status, *part.gravity.why);
+    return part;
+  }
+  const IdentifierInput input = part.gravity.Of(given);
+  const auto d = static_cast<int>(law.parameters.size() + part.gravity.count());
+  if (auto why = Unusable(input, d + 2)) {
+    part.refusal = Failed(identifier, Status::bad_data, *why);
+    return part;
+  }
+  part.moving = {input.selection.keep && m.velocity.array() != 0, {}};
+  part.columns = LawColumns(law, m.velocity);
+  if (given.options.Text("position") == "map") {
+    AddMap(input, identifier, part);
+    return part;
+  }
+
+  // the columns of Fn and G must be distinct before any warming is thought of
+  part.columns = Beside(part.columns, part.gravity.columns);
+  const LeastSquares fit =
+      SolveLeastSquares(Kept(part.columns, part.moving), Kept(m.torque, part.moving));
+  if (fit.rank < d) {
+    part.refusal = Failed(identifier, Status::not_identifiable,
+                          IndistinctColumns(fit.mixed, law, part.gravity, input));
+  }
+  part.cofactor = fit.cofactor;
+  part.solution = fit.solution;
+  part.effective = d;
+  return part;
+}
+
+}  // namespace warmjoint

@@ -1,0 +1,33 @@
+// What Algorithm 1 fits by Eq. (24): a nominal law with gravity or with a map over position beside
+// it.
+#pragma once
+
+#include "identification/linear/fit_gravity.h"
+#include "identification/linear/least_squares.h"
+#include "identification/maps/identify_maps.h"
+
+namespace warmjoint {
+
+struct NominalPart {
+  Selection moving;         // samples that take part: kept, and not at rest
+  GravityFit gravity;       // none beside a map
+  Eigen::MatrixXd columns;  // [N x p] over all samples: law (d), then gravity or kernels (q)
+  /// [p x p] (A^T A + s P)^-1 over the moving samples; P: 1 on the kernels' diagonal.
+  Eigen::MatrixXd cofactor;
+  Eigen::VectorXd solution;         // [p] the fit without warming
+  std::vector<FrictionMap> maps;    // shapes
+  double strength = 0;              // s
+  double effective = 0;             // of the p parameters
+  std::optional<Estimate> refusal;  // why there is no such part
+
+  Eigen::Index kernels() const;
+
+  /// Maps with their weights. nominal: [p]
+  std::vector<FrictionMap> MapsOf(const Eigen::VectorXd& nominal) const;
+};
+
+/// As the options law, gravity and position ask for it. The map's shape and strength are chosen on
+/// the torque as it is, warming included.
+NominalPart PrepareNominalPart(const IdentifierInput& given, const std::string& identifier);
+
+}  // namespace warmjoint

@@ -1,0 +1,64 @@
+// Warm friction over a recorded motion: the loop that Eqs. (19)-(22) close, and its derivatives.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "identification/forward/intervals.h"
+#include "models/friction/law.h"
+
+namespace warmjoint {
+
+/// What the loop does for one set of parameters.
+struct LoopResponse {
+  Eigen::VectorXd force;   // [N] F, Eq. (20), N.m or N
+  Eigen::VectorXd loss;    // [N] W, Eq. (19), W
+  Eigen::VectorXd energy;  // [N] E, Eq. (22), N.m or N
+  /// First sample where friction pushes instead of braking (E < -Fn sign v). From there on the
+  /// losses feed themselves: neither response nor derivatives mean anything.
+  std::optional<Eigen::Index> feeds_itself;
+};
+
+/// The loop E -> F -> W -> E over N samples of a velocity, for a law that is linear in its d
+/// parameters p. In its domain (F v >= 0) the loop is linear in E with the pole
+/// lambda = te + ke |v|: written with the level a = F sign(v) = g p + E, g = sign(v) dFn/dp,
+///     E[n+1] = te E[n] + ke |v[n]| a[n],
+/// so that the derivatives S of E by all parameters share lambda:
+///     p:  S[n+1] = lambda S[n] + ke |v| g          k:        lambda S[n] + (1 - te) |v| a
+///     E0: S[n+1] = lambda S[n], S[0] = 1           log tau:  lambda S[n] + te h/tau (E - k |v| a)
+/// Samples at rest have W = 0 and keep cooling. Uneven sampling holds each interval exactly.
+class ClosedLoop {
+ public:
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+  /// columns: [N x d] dFn/dp (LawColumns); time: [N] s; velocity: [N] rad/s or m/s; starts: samples
+  /// at which the joint is cold again.
+  ClosedLoop(const Eigen::VectorXd& time, const Eigen::VectorXd& velocity,
+             const Eigen::MatrixXd& columns, const std::vector<Eigen::Index>& starts = {});
+
+  /// parameters: [d] of the law; initial_energy: E(0), N.m or N.
+  LoopResponse Simulate(const Eigen::VectorXd& parameters, const Thermal& thermal,
+                        double initial_energy = 0) const;
+
+  /// dF/d(p, k, tau, E0): [N x (d + 3)], exact.
+  Eigen::MatrixXd Jacobian(const Eigen::VectorXd& parameters, const Thermal& thermal,
+                           double initial_energy = 0) const;
+
+  Eigen::Index size() const { return speed_.size(); }
+  const Eigen::VectorXd& speed() const { return speed_; }          // [N] |v|, rad/s or m/s
+  const Eigen::VectorXd& direction() const { return direction_; }  // [N] sign(v)
+  const Rows& levels() const { return levels_; }                   // [N x d] g
+  const Intervals& intervals() const { return intervals_; }
+
+ private:
+  Eigen::VectorXd speed_;
+  Eigen::VectorXd direction_;
+  Rows levels_;
+  Intervals intervals_;
+};
+
+/// Derivatives by the discrete pair from those by the continuous one: columns k and tau (the last
+/// three are k, tau, E0) become ke and te. h: the even sampling interval, s.
+Eigen::MatrixXd ByDiscretePair(const Eigen::MatrixXd& jacobian, const Thermal& thermal, double h);
+
+}  // namespace warmjoint

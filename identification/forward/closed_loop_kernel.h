@@ -1,0 +1,92 @@
+// The inner loop of closed_loop.h, for whatever is to be done with each sample.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "identification/forward/closed_loop.h"
+
+namespace warmjoint {
+
+/// Number of law parameters known at compile time (D), or only at run time (Eigen::Dynamic).
+template <int D>
+struct LoopSize {
+  explicit LoopSize(Eigen::Index) {}
+  static constexpr Eigen::Index value() { return D; }
+};
+template <>
+struct LoopSize<Eigen::Dynamic> {
+  explicit LoopSize(Eigen::Index d) : d_(d) {}
+  Eigen::Index value() const { return d_; }
+
+ private:
+  Eigen::Index d_;
+};
+
+/// The hold that follows each sample: one for all, or one of a table.
+struct EvenHold {
+  ThermalHold hold;
+  const ThermalHold& operator[](Eigen::Index) const { return hold; }
+};
+struct UnevenHold {
+  const std::vector<ThermalHold>& holds;
+  const std::vector<int>& which;
+  const ThermalHold& operator[](Eigen::Index n) const { return holds[which[n]]; }
+};
+
+/// Derivatives of E by (p, k, log tau, E0), 0 at first. Plain numbers where D is known, so that
+/// they stay in registers.
+template <int D>
+struct Sensitivities : std::array<double, D + 3> {
+  explicit Sensitivities(Eigen::Index) : std::array<double, D + 3>{} {}
+};
+template <>
+struct Sensitivities<Eigen::Dynamic> : std::vector<double> {
+  explicit Sensitivities(Eigen::Index size) : std::vector<double>(static_cast<size_t>(size)) {}
+};
+
+/// Runs the loop with its derivatives. parameters: [d] of the law; visit(n, a, g, S) sees the level
+/// a, its direct derivatives g [d] and the derivatives S [d + 3] of E by (p, k, log tau, E0), all
+/// at sample n: da/dp = g + S.
+template <int D, typename Hold, typename Visit>
+void RunWithSensitivities(const ClosedLoop& loop, const double* parameters, double gain,
+                          double initial_energy, const Hold& hold_after, Visit&& visit) {
+  const LoopSize<D> size(loop.levels().cols());
+  const Eigen::Index d = size.value();
+  Sensitivities<D> S(d + 3);
+  S[d + 2] = 1;
+  double energy = initial_energy;
+  const double* g = loop.levels().data();
+  const double* speed = loop.speed().data();
+
+  for (Eigen::Index n = 0; n < loop.size(); ++n, g += d) {
+    double nominal = g[0] * parameters[0];
+    for (Eigen::Index i = 1; i < d; ++i) nominal += g[i] * parameters[i];
+    const double level = nominal + energy;
+    visit(n, level, g, S.data());
+
+    // one product and one sum from each state to its next: what waits for the state before is short
+    const ThermalHold& hold = hold_after[n];
+    const double feedback = hold.gain * speed[n];
+    const double lambda = hold.pole + feedback;
+    const double loss = speed[n] * level;
+    for (Eigen::Index i = 0; i < d; ++i) S[i] = lambda * S[i] + feedback * g[i];
+    S[d] = lambda * S[d] + hold.cooling * loss;
+    S[d + 1] = lambda * S[d + 1] + hold.pole_slope * (energy - gain * loss);
+    S[d + 2] = lambda * S[d + 2];
+    energy = lambda * energy + feedback * nominal;
+  }
+}
+
+/// Calls run(hold) with the kind of hold that the intervals need.
+template <typename Run>
+void WithHolds(const Intervals& intervals, const Thermal& thermal, Run&& run) {
+  const std::vector<ThermalHold> holds = Holds(intervals, thermal);
+  if (holds.size() == 1) {
+    run(EvenHold{holds[0]});
+  } else {
+    run(UnevenHold{holds, intervals.which});
+  }
+}
+
+}  // namespace warmjoint

@@ -1,0 +1,37 @@
+#include "identification/forward/thermal_filter.h"
+
+#include <cmath>
+
+namespace warmjoint {
+
+HoldStep::HoldStep(double h, double time_constant) {
+  const double a = h / time_constant;
+  pole = std::exp(-a);
+  cooling = -std::expm1(-a);
+  slope = a * pole;
+  curvature = (a - 1) * slope;
+}
+
+ThermalFilter::ThermalFilter(const Eigen::VectorXd& time, std::vector<Eigen::Index> starts)
+    : starts_(std::move(starts)) {
+  const Eigen::Index count = time.size() - 1;
+  steps_ = time.tail(count) - time.head(count);
+  mean_step_ = (time[count] - time[0]) / static_cast<double>(count);
+  even_ = ((steps_.array() - mean_step_).abs() < 1e-6 * mean_step_).all();
+}
+
+Eigen::VectorXd ThermalFilter::Energy(const Thermal& thermal, const Eigen::VectorXd& loss,
+                                      double initial) const {
+  Eigen::VectorXd energy(size());
+  energy[0] = initial;
+  size_t next = 0;
+  const HoldStep mean(mean_step_, thermal.time_constant);
+  for (Eigen::Index i = 0; i < steps_.size(); ++i) {
+    const HoldStep& hold = even_ ? mean : HoldStep(steps_[i], thermal.time_constant);
+    energy[i + 1] = ThermalStep(thermal.gain * hold.cooling, hold.pole, energy[i], loss[i]);
+    if (Starts(i + 1, next)) energy[i + 1] = 0;
+  }
+  return energy;
+}
+
+}  // namespace warmjoint

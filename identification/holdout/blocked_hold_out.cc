@@ -1,0 +1,44 @@
+#include "identification/holdout/blocked_hold_out.h"
+
+#include "identification/fit_data.h"
+#include "identification/forward/predict.h"
+
+namespace warmjoint {
+
+std::vector<Eigen::Index> CutIntoBlocks(const Selection& selection, int blocks) {
+  std::vector<Eigen::Index> bounds{0};
+  const Eigen::Index n = selection.keep.size();
+  const Eigen::Index kept = selection.count();
+  Eigen::Index seen = 0;
+  for (Eigen::Index i = 0; i < n && static_cast<int>(bounds.size()) < blocks; ++i) {
+    if (seen * blocks >= kept * static_cast<Eigen::Index>(bounds.size())) bounds.push_back(i);
+    seen += selection.keep[i];
+  }
+  bounds.push_back(n);
+  return bounds;
+}
+
+std::optional<Eigen::VectorXd> BlockedErrors(const Identifier& identifier,
+                                             const IdentifierInput& input,
+                                             const std::vector<Eigen::Index>& bounds) {
+  const auto blocks = static_cast<Eigen::Index>(bounds.size()) - 1;
+  Eigen::VectorXd errors(blocks);
+  for (Eigen::Index b = 0; b < blocks; ++b) {
+    // fit to all but the block, evaluate on the block alone
+    const Eigen::Index length = bounds[b + 1] - bounds[b];
+    Selection others = input.selection;
+    others.keep.segment(bounds[b], length) = false;
+    Selection block = input.selection;
+    block.keep = block.keep && !others.keep;
+    const Estimate estimate =
+        identifier.identify({input.measurements, others, input.options, input.random});
+    if (!estimate.friction || block.count() == 0) return std::nullopt;
+
+    const Prediction prediction = PredictFriction(*estimate.friction, input.measurements);
+    const Eigen::VectorXd residual = Kept(input.measurements.torque - prediction.force, block);
+    errors[b] = residual.squaredNorm() / static_cast<double>(residual.size());
+  }
+  return errors;
+}
+
+}  // namespace warmjoint

@@ -1,0 +1,247 @@
+#include "identification/identifiers/energy_em.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "identification/alternating/block_descent.h"
+#include "identification/alternating/convergence.h"
+#include "identification/alternating/first_guess.h"
+#include "identification/alternating/nominal_part.h"
+#include "identification/describe_friction.h"
+#include "identification/fit_data.h"
+#include "identification/linear/report_law.h"
+#include "identification/maps/position_maps.h"
+#include "identification/warming/report_thermal.h"
+#include "sim/dataset/robust_noise.h"
+
+namespace warmjoint {
+namespace {
+
+constexpr const char* kName = "energy-em";
+constexpr double kSingular = 1e-6;  // of the joint Jacobian; short of it the intervals tell
+
+/// Where the loop starts: from the options, from (25) corrected, or drawn at random.
+FirstGuess Start(const IdentifierInput& input) {
+  const std::string& start = input.options.Text("start");
+  if (start == "guess") return GuessThermal(input.measurements, input.selection);
+  if (start == "options") {
+    return {
+        Thermal{input.options.Number("start_gain"), input.options.Number("start_time_constant")},
+        ""};
+  }
+  RandomStream random(input.random, Stream::start);
+  const auto [least_gain, greatest_gain] = input.options.Range("gain_range");
+  const auto [shortest, longest] = input.options.Range("time_range");
+  const double gain = random.Uniform(least_gain, greatest_gain);
+  return {Thermal{gain, random.Uniform(shortest, longest)}, ""};
+}
+
+/// Names and values of all parameters, continuous and discrete.
+std::vector<std::pair<std::string, double>> Named(const Law& law, const DescentState& state,
+                                                  double h) {
+  std::vector<std::pair<std::string, double>> named;
+  for (size_t i = 0; i < law.parameters.size(); ++i) {
+    named.emplace_back(law.parameters[i].name, state.nominal[static_cast<Eigen::Index>(i)]);
+  }
+  const DiscreteThermal discrete = Discretise(state.thermal, h);
+  named.emplace_back("thermal_gain", state.thermal.gain);
+  named.emplace_back("thermal_time_constant", state.thermal.time_constant);
+  named.emplace_back("thermal_gain_discrete", discrete.gain);
+  named.emplace_back("thermal_pole", discrete.pole);
+  return named;
+}
+
+/// (nominal, gain, ln tau): the parameters in which the covariance is known.
+Eigen::VectorXd Vector(const DescentState& state) {
+  const Eigen::Index d = state.nominal.size();
+  Eigen::VectorXd x(d + 2);
+  x << state.nominal, state.thermal.gain, std::log(state.thermal.time_constant);
+  return x;
+}
+
+/// All iterations, the start included.
+std::vector<DescentState> Iterate(const BlockDescent& descent, const Thermal& start,
+                                  int iterations) {
+  std::vector<DescentState> states{descent.Start(start)};
+  for (int i = 0; i < iterations; ++i) {
+    DescentState from = states.back();
+    if (i == 0) from.thermal.time_constant = descent.ScanFrom(from);
+    states.push_back(descent.Next(from));
+  }
+  return states;
+}
+
+/// Distance to the fixed point, each parameter relative to its value or, where that is smaller, to
+/// its standard deviation; tau by its logarithm, which is relative already.
+Convergence Judge(const std::vector<DescentState>& states, const Eigen::VectorXd& deviations) {
+  Eigen::VectorXd scale = Vector(states.back()).cwiseAbs().cwiseMax(deviations);
+  scale.tail(1).setOnes();
+  std::vector<Eigen::VectorXd> iterates;
+  for (const DescentState& state : states) {
+    iterates.push_back(Vector(state).cwiseQuotient(scale));
+  }
+  return JudgeConvergence(iterates);
+}
+
+/// First kept sample whose fitted friction pushes instead of braking, or -1.
+Eigen::Index FeedsItselfAt(const Measurements& m, const Eigen::VectorXd& fitted) {
+  for (Eigen::Index i = 0; i < fitted.size(); ++i) {
+    if (FeedsItself(m.velocity[i], fitted[i])) return i;
+  }
+  return -1;
+}
+
+/// Why the last state deserves no numbers; empty where it does. fitted: [N] friction, N.m or N.
+std::optional<Estimate> Refusal(const Measurements& m, const DescentState& last,
+                                const Eigen::VectorXd& fitted) {
+  if (!last.inside) {
+    return Failed(kName, Status::not_identifiable,
+                  fmt::format("thermal_time_constant runs to {:.3g} s, the end of what these "
+                              "samples can tell; record until the friction settles, or with rests",
+                              last.thermal.time_constant));
+  }
+  if (const Eigen::Index i = FeedsItselfAt(m, fitted); i >= 0) {
+    return Failed(
+        kName, Status::inadequate_model,
+        WouldFeedItself(m.time[i], "try law asymmetric, or start nearer to the solution"));
+  }
+  return std::nullopt;
+}
+
+/// Whether the loop has arrived, and a sentence about it.
+std::pair<bool, std::string> Arrival(const std::vector<DescentState>& states,
+                                     const Uncertainty& known, double tolerance) {
+  const Convergence distance = Judge(states, known.covariance.diagonal().cwiseSqrt());
+  const size_t iterations = states.size() - 1;
+  if (distance.remaining <= tolerance) {
+    return {true, fmt::format("converged: after {} iterations, at a rate of {:.4f}, the parameters "
+                              "are within {:.2g} % of where they go",
+                              iterations, distance.rate, 100 * distance.remaining)};
+  }
+  return {false, fmt::format("stopped after {} iterations while the parameters still move: at the "
+                             "observed rate of {:.4f} an iteration they end up to {:.2g} % from "
+                             "here (tolerance {:.2g} %); give more iterations, or use energy-ml",
+                             iterations, distance.rate, 100 * distance.remaining, 100 * tolerance)};
+}
+
+/// (J^T J + s P)^-1 of both blocks together; nothing where the motion cannot tell them apart.
+/// jacobian: [n x (p + 2)]
+std::optional<Eigen::MatrixXd> JointCofactor(const NominalPart& part,
+                                             const Eigen::MatrixXd& jacobian,
+                                             const Eigen::VectorXd& torque) {
+  if (part.maps.empty()) {
+    const LeastSquares joint = SolveLeastSquares(jacobian, torque, kSingular);
+    if (joint.rank < jacobian.cols()) return std::nullopt;
+    return joint.cofactor;
+  }
+  Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
+  const Eigen::Index q = part.kernels();
+  normal.diagonal().segment(jacobian.cols() - 2 - q, q).array() += part.strength;
+  const Eigen::MatrixXd cofactor = Cofactor(normal);
+  if (!cofactor.allFinite()) return std::nullopt;
+  return cofactor;
+}
+
+/// The last state as an estimate, with its verdict.
+Estimate Conclude(const IdentifierInput& input, const Law& law, const NominalPart& part,
+                  const BlockDescent& descent, const std::vector<DescentState>& states) {
+  const Measurements& m = input.measurements;
+  const DescentState& last = states.back();
+  const Eigen::VectorXd fitted = descent.Fitted(last);
+  const Eigen::VectorXd pull = part.moving.keep.cast<double>().matrix().cwiseProduct(
+      part.gravity.columns * last.nominal.tail(part.gravity.count()));
+  if (auto refusal = Refusal(m, last, fitted - pull)) return *refusal;
+
+  // both blocks together
+  const Eigen::VectorXd torque = Kept(m.torque, part.moving);
+  const Eigen::MatrixXd jacobian = Kept(descent.Jacobian(last), part.moving);
+  const auto cofactor = JointCofactor(part, jacobian, torque);
+  if (!cofactor) {
+    return Failed(kName, Status::not_identifiable,
+                  "the motion cannot tell warming from the nominal friction; record from cold, "
+                  "with speeds that differ clearly, until the friction settles");
+  }
+
+  // what is known now, and how far from the end it is
+  Estimate estimate;
+  estimate.identifier = kName;
+  const Eigen::VectorXd kept = Kept(fitted, part.moving);
+  estimate.metrics =
+      ComputeMetrics(torque, kept, static_cast<int>(last.nominal.size()) + 2, part.effective + 2);
+  const Uncertainty known = JudgeUncertainty(jacobian, *cofactor, torque - kept, part.moving);
+  const auto d = static_cast<Eigen::Index>(law.parameters.size());
+  ReportLaw(law, last.nominal.head(d), known, m, estimate);
+  const Eigen::Matrix2d thermal = known.covariance.bottomRightCorner<2, 2>();
+  ReportThermal(last.thermal, thermal, known.freedom, m, estimate);
+  ReportGravity(part.gravity, last.nominal, known, m, estimate);
+  const auto [arrived, message] = Arrival(states, known, input.options.Number("tolerance"));
+  if (!arrived) {
+    Void(Status::not_converged, message, estimate);
+    return estimate;
+  }
+
+  // W is formed of the noisy torque, so the residual understates the errors
+  for (EstimatedParameter& parameter : estimate.parameters) {
+    parameter.std.reset();
+    parameter.interval95.reset();
+  }
+  estimate.message = message + "; gives no intervals, energy-ml does";
+  DescribeFriction(law, m, estimate);
+  if (!estimate.friction) return estimate;
+  estimate.friction->thermal = last.thermal;
+  estimate.friction->maps = part.MapsOf(last.nominal);
+  return estimate;
+}
+
+Estimate Identify(const IdentifierInput& input) {
+  const Measurements& m = input.measurements;
+  const Law& law = *FindLaw(input.options.Text("law"));
+  const NominalPart part = PrepareNominalPart(input, kName);
+  if (part.refusal) return *part.refusal;
+  const GravityFit& gravity = part.gravity;
+
+  FirstGuess start = Start(gravity.Of(input));
+  if (!start.thermal) return Failed(kName, Status::not_identifiable, start.why);
+
+  const BlockDescent descent(m, part.moving, part.columns, part.cofactor,
+                             gravity.columns * part.solution.tail(gravity.count()));
+  const double shortest = descent.output_error().shortest();
+  start.thermal->time_constant = std::max(start.thermal->time_constant, shortest);
+  const std::vector<DescentState> states =
+      Iterate(descent, *start.thermal, input.options.Integer("iterations"));
+
+  Estimate estimate = Conclude(input, law, part, descent, states);
+  const double h = MedianStep(m.time);
+  for (size_t i = 0; i < states.size(); ++i) {
+    estimate.trace.push_back({static_cast<int>(i), Named(law, states[i], h), states[i].rmse});
+  }
+  return estimate;
+}
+
+}  // namespace
+
+Identifier EnergyEm() {
+  std::vector<OptionInfo> options{
+      {"iterations", "50", "integer >= 0", "iterations of the loop"},
+      {"start", "options", "options|guess|random",
+       "start_gain and start_time_constant, the torque's envelope (25), or drawn evenly"},
+      {"start_gain", "-0.1", "number", "first thermal gain, N.m/W or N/W"},
+      {"start_time_constant", "600", "number > 0", "first time constant, s"},
+      {"gain_range", "-9:0", "range", "where a random first gain is drawn, N.m/W or N/W"},
+      {"time_range", "0:1800", "range", "where a random first time constant is drawn, s"},
+      {"tolerance", "0.01", "number > 0",
+       "largest distance from the fixed point that counts as converged, relative"},
+      GravityOption(),
+  };
+  std::vector<OptionInfo> part =
+      PositionPartOptions("none|map", "a map over position beside the law");
+  options.insert(options.begin(), std::make_move_iterator(part.begin()),
+                 std::make_move_iterator(part.begin() + 1));
+  options.insert(options.end(), std::make_move_iterator(part.begin() + 1),
+                 std::make_move_iterator(part.end()));
+  return {kName, "Algorithm 1: energy filter and nominal law fitted in turn, a trace per iteration",
+          options, &Identify};
+}
+
+}  // namespace warmjoint

@@ -1,0 +1,38 @@
+#include "identification/identifier.h"
+#include "identification/identifiers/auto.h"
+#include "identification/identifiers/energy_em.h"
+#include "identification/identifiers/energy_map.h"
+#include "identification/identifiers/energy_ml.h"
+#include "identification/identifiers/kalman.h"
+#include "identification/identifiers/load_map.h"
+#include "identification/identifiers/lpv_energy.h"
+#include "identification/identifiers/lugre.h"
+#include "identification/identifiers/motor_ridge.h"
+#include "identification/identifiers/nominal_ls.h"
+#include "identification/identifiers/position_ridge.h"
+#include "identification/identifiers/rls.h"
+#include "identification/identifiers/stribeck.h"
+#include "models/foundation/excerpt.h"
+#include "models/foundation/nearest_name.h"
+
+namespace warmjoint {
+
+const std::vector<Identifier>& Identifiers() {
+  static const std::vector<Identifier> identifiers{
+      NominalLs(),       PositionRidge(), MotorRidge(), EnergyMap(), LoadMap(),
+      LpvEnergy(),       EnergyEm(),      EnergyMl(),   Rls(),       Kalman(),
+      StribeckByCeres(), LuGreByCeres(),  Auto(),
+  };
+  return identifiers;
+}
+
+const Identifier& FindIdentifier(const std::string& name) {
+  std::vector<std::string> known;
+  for (const Identifier& identifier : Identifiers()) {
+    if (identifier.name == name) return identifier;
+    known.push_back(identifier.name);
+  }
+  Refuse({}, "there is no identifier '{}'{}", Excerpt(name), Suggestion(name, known));
+}
+
+}  // namespace warmjoint

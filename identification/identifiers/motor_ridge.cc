@@ -1,0 +1,47 @@
+#include "identification/identifiers/motor_ridge.h"
+
+#include "identification/maps/identify_maps.h"
+#include "identification/maps/motor_maps.h"
+
+namespace warmjoint {
+namespace {
+
+constexpr const char* kName = "motor-ridge";
+
+Estimate Identify(const IdentifierInput& input) {
+  MapBeginning begin =
+      BeginMaps(input, kName, {MapQuantity::position, MapQuantity::motor_position});
+  if (begin.refusal) return *begin.refusal;
+  MapTask& task = begin.task;
+  const MotorMapSize size{input.options.Integer("kernels"),
+                          input.options.Integer("velocity_kernels"),
+                          input.options.Integer("arm_kernels")};
+  task.candidates = MotorMaps(size, task.settings, begin.points);
+  const auto choice = ChooseAndFit(input, task);
+  if (!choice) return Unsolvable(kName);
+  const MapFit& fit = choice->fit;
+  const Uncertainty known = JudgeMaps(choice->problem, fit);
+  Estimate estimate = ReportMaps(input, task, fit, known);
+  if (!estimate.friction) return estimate;
+  const auto count = static_cast<Eigen::Index>(fit.maps[0].size());
+  DescribeMotorRipple(fit.maps[0], known.covariance.block(fit.free, fit.free, count, count),
+                      input.measurements, estimate);
+  return estimate;
+}
+
+}  // namespace
+
+Identifier MotorRidge() {
+  std::vector<OptionInfo> options = MapOptions();
+  options.push_back({"kernels", "36", "integer >= 3 <= 128", "kernels over the motor's turn"});
+  options.push_back({"velocity_kernels", "3", "integer >= 1 <= 64",
+                     "kernels over speed for each direction, beside those over the turn"});
+  options.push_back({"arm_kernels", "20", "integer >= 0 <= 128",
+                     "kernels over the joint's position for each direction; 0: no such map"});
+  return {kName,
+          "a nominal law and maps over the motor's angle and the joint's, without warming; tells "
+          "the ripple's multiples of the motor's turn",
+          options, &Identify};
+}
+
+}  // namespace warmjoint

@@ -1,0 +1,28 @@
+#include "identification/identifiers/position_ridge.h"
+
+#include "identification/maps/identify_maps.h"
+#include "identification/maps/position_maps.h"
+
+namespace warmjoint {
+namespace {
+
+constexpr const char* kName = "position-ridge";
+
+Estimate Identify(const IdentifierInput& input) {
+  MapBeginning begin = BeginMaps(input, kName, {MapQuantity::position});
+  if (begin.refusal) return *begin.refusal;
+  MapTask& task = begin.task;
+  task.candidates = PositionMaps(input.options, task.settings, begin.points);
+  return IdentifyMaps(input, task);
+}
+
+}  // namespace
+
+Identifier PositionRidge() {
+  std::vector<OptionInfo> options = MapOptions();
+  for (const OptionInfo& option : PositionMapOptions()) options.push_back(option);
+  return {kName, "a nominal law and a map over position by ridge regression, without warming",
+          options, &Identify};
+}
+
+}  // namespace warmjoint

@@ -1,0 +1,142 @@
+#include "identification/identifiers/rls.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "identification/describe_friction.h"
+#include "identification/fit_data.h"
+#include "identification/forward/thermal_filter.h"
+#include "identification/linear/least_squares.h"
+#include "identification/linear/linear_laws.h"
+#include "identification/linear/linear_task.h"
+#include "identification/linear/report_law.h"
+#include "identification/online/recursive_least_squares.h"
+
+namespace warmjoint {
+namespace {
+
+constexpr const char* kName = "rls";
+constexpr Eigen::Index kMoments = 50;  // of the trace
+
+/// The thermal part that the options give, if any.
+std::optional<Thermal> GivenThermal(const Options& options) {
+  const double gain = options.Number("thermal_gain");
+  if (gain == 0) return std::nullopt;
+  return Thermal{gain, options.Number("thermal_time_constant")};
+}
+
+/// sign(v) E over all samples, from the measured losses (19). pull: [N] gravity, which makes no
+/// heat. [N] N.m or N.
+Eigen::VectorXd Warming(const std::optional<Thermal>& thermal, const Measurements& m,
+                        const Eigen::VectorXd& pull) {
+  if (!thermal) return Eigen::VectorXd::Zero(m.size());
+  const Eigen::VectorXd loss = (m.torque - pull).cwiseProduct(m.velocity).cwiseAbs();
+  const Eigen::VectorXd energy = ThermalFilter(m.time, m.starts).Energy(*thermal, loss);
+  return m.velocity.array().sign().matrix().cwiseProduct(energy);
+}
+
+/// Weight of each sample, f^age. [n]
+Eigen::VectorXd Weights(Eigen::Index n, double forgetting) {
+  return Eigen::VectorXd::LinSpaced(n, static_cast<double>(n - 1), 0)
+      .unaryExpr([forgetting](double age) { return std::pow(forgetting, age); });
+}
+
+/// Runs through the samples; notes the parameters at some moments. A: [n x d], y: [n].
+Eigen::VectorXd Run(const Law& law, const Eigen::MatrixXd& A, const Eigen::VectorXd& y,
+                    double forgetting, Estimate& estimate) {
+  constexpr double kDoubt = 1e8;  // prior variance over noise variance of columns of mean square 1
+  const Eigen::RowVectorXd scale = A.colwise().norm() / std::sqrt(static_cast<double>(A.rows()));
+  auto state = KnowNothing<Eigen::Dynamic>(A.cols(), kDoubt);
+  for (Eigen::Index i = 0; i < A.rows(); ++i) {
+    const Eigen::VectorXd row = A.row(i).cwiseQuotient(scale);
+    TakeIn<Eigen::Dynamic>(row, y[i], forgetting, state);
+    if ((i + 1) % std::max<Eigen::Index>(A.rows() / kMoments, 1) != 0) continue;
+    TraceEntry entry;
+    entry.iteration = static_cast<int>(i + 1);
+    const Eigen::VectorXd now = state.estimate.cwiseQuotient(scale.transpose());
+    for (size_t j = 0; j < law.parameters.size(); ++j) {
+      entry.parameters.emplace_back(law.parameters[j].name, now[static_cast<Eigen::Index>(j)]);
+    }
+    entry.rmse =
+        (y.head(i + 1) - A.topRows(i + 1) * now).norm() / std::sqrt(static_cast<double>(i + 1));
+    estimate.trace.push_back(std::move(entry));
+  }
+  return state.estimate.cwiseQuotient(scale.transpose());
+}
+
+/// Covariance of the weighted answer: C (W A)^T R (W A) C with C = (A^T W A)^-1.
+Uncertainty Judge(const Eigen::MatrixXd& A, const Eigen::VectorXd& weights,
+                  const Eigen::MatrixXd& cofactor, const Eigen::VectorXd& residual,
+                  const Selection& selection) {
+  Uncertainty known;
+  known.noise = FitNoise(residual, selection);
+  const Eigen::MatrixXd scatter = ScatterThrough(known.noise, weights.asDiagonal() * A, selection);
+  known.covariance = cofactor * scatter * cofactor;
+  const double effective = weights.sum() * weights.sum() / weights.squaredNorm();
+  known.freedom = std::max(effective / known.noise.redundancy - static_cast<double>(A.cols()), 1.0);
+  return known;
+}
+
+/// Gravity by plain least squares beside the law, [N] N.m or N; 0 where columns are mixed.
+Eigen::VectorXd Pull(const IdentifierInput& input, const GravityFit& gravity,
+                     const Eigen::MatrixXd& columns) {
+  const LeastSquares plain = SolveLeastSquares(Kept(columns, input.selection),
+                                               Kept(input.measurements.torque, input.selection));
+  if (plain.rank < columns.cols()) return Eigen::VectorXd::Zero(columns.rows());
+  return gravity.columns * plain.solution.tail(gravity.count());
+}
+
+Estimate Identify(const IdentifierInput& given) {
+  const Measurements& m = given.measurements;
+  const LinearTask task = BeginLinear(given, kName, 0);
+  if (task.refusal) return *task.refusal;
+  const auto& [law, gravity, columns, refusal] = task;
+  const IdentifierInput input = gravity.Of(given);
+  const int d = task.count();
+
+  // what the remembered samples can tell apart, from their weighted columns
+  const double forgetting = input.options.Number("forgetting");
+  const std::optional<Thermal> thermal = GivenThermal(input.options);
+  const Eigen::MatrixXd A = Kept(columns, input.selection);
+  const Eigen::VectorXd warming =
+      Kept(Warming(thermal, m, Pull(input, gravity, columns)), input.selection);
+  const Eigen::VectorXd torque = Kept(m.torque, input.selection);
+  const Eigen::VectorXd y = torque - warming;
+  const Eigen::VectorXd weights = Weights(y.size(), forgetting);
+  const Eigen::VectorXd roots = weights.cwiseSqrt();
+  const LeastSquares weighted = SolveLeastSquares(roots.asDiagonal() * A, roots.cwiseProduct(y));
+  if (weighted.rank < d) {
+    return Failed(kName, Status::not_identifiable,
+                  IndistinctColumns(weighted.mixed, law, gravity, input));
+  }
+
+  Estimate estimate;
+  estimate.identifier = kName;
+  const Eigen::VectorXd x = Run(law, A, y, forgetting, estimate);
+  const Eigen::VectorXd fitted = A * x + warming;
+  const Uncertainty known = Judge(A, weights, weighted.cofactor, torque - fitted, input.selection);
+  ReportLaw(law, x.head(task.law_count()), known, m, estimate);
+  ReportGravity(gravity, x, known, m, estimate);
+  estimate.metrics = ComputeMetrics(torque, fitted, d, d);
+  estimate.message = fmt::format("law {} as the last {:.0f} of {} samples show it{}", law.name,
+                                 weights.sum(), y.size(), ColourOf(known.noise));
+  DescribeFriction(law, m, estimate);
+  if (estimate.friction) estimate.friction->thermal = thermal;
+  return estimate;
+}
+
+}  // namespace
+
+Identifier Rls() {
+  return {kName,
+          "a nominal law online, by recursive least squares with forgetting",
+          {{"law", "viscous_coulomb", LinearLawWords(), "nominal friction law"},
+           {"forgetting", "0.999", "number > 0 <= 1", "weight of a sample beside its successor"},
+           {"thermal_gain", "0", "number", "known thermal gain, N.m/W or N/W; 0: no warming"},
+           {"thermal_time_constant", "600", "number > 0", "known time constant of warming, s"},
+           GravityOption()},
+          &Identify};
+}
+
+}  // namespace warmjoint

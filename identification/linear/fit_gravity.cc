@@ -1,0 +1,179 @@
+#include "identification/linear/fit_gravity.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "identification/fit_data.h"
+
+namespace warmjoint {
+namespace {
+
+constexpr double kCell = 2 * std::numbers::pi / kGravityKnots;  // rad
+constexpr int kFewest = 3;       // samples of each direction in a cell
+constexpr int kFewestCells = 4;  // 0.4 rad
+constexpr double kFewestShare = 0.5;
+
+int CellOf(double position) {
+  const auto cell = static_cast<int>(std::fmod(std::floor(position / kCell), kGravityKnots));
+  return (cell + kGravityKnots) % kGravityKnots;
+}
+
+/// Whether each cell of the turn is passed in both directions.
+std::array<bool, kGravityKnots> PairedCells(const IdentifierInput& input) {
+  const Measurements& m = input.measurements;
+  std::array<int, kGravityKnots> forwards{}, backwards{};
+  for (Eigen::Index i = 0; i < m.size(); ++i) {
+    if (!input.selection.keep[i]) continue;
+    if (m.velocity[i] > 0) ++forwards[CellOf(m.position[i])];
+    if (m.velocity[i] < 0) ++backwards[CellOf(m.position[i])];
+  }
+  std::array<bool, kGravityKnots> paired{};
+  for (int i = 0; i < kGravityKnots; ++i) {
+    paired[i] = std::min(forwards[i], backwards[i]) >= kFewest;
+  }
+  return paired;
+}
+
+/// Keeps paired samples; says why not where they are too few.
+void SelectPairs(const IdentifierInput& input, GravityFit& fit) {
+  const Measurements& m = input.measurements;
+  const auto paired = PairedCells(input);
+  for (Eigen::Index i = 0; i < m.size(); ++i) {
+    fit.selection.keep[i] = fit.selection.keep[i] && paired[CellOf(m.position[i])];
+  }
+  for (int i = 0; i < kGravityKnots; ++i) {
+    if (paired[i] || paired[(i + kGravityKnots - 1) % kGravityKnots]) fit.knots.push_back(i);
+  }
+
+  const auto cells = std::count(paired.begin(), paired.end(), true);
+  const double share = static_cast<double>(fit.selection.count()) /
+                       static_cast<double>(std::max<Eigen::Index>(input.selection.count(), 1));
+  if (cells >= kFewestCells && share >= kFewestShare) return;
+  fit.status = Status::not_identifiable;
+  fit.why = fmt::format(
+      "gravity paired: {:.3g} % of the samples have one of the other direction at their position, "
+      "over {:.2g} rad; at least {:.0f} % over {:.2g} rad are needed. Sweep one range in both "
+      "directions, or use gravity sincos",
+      100 * share, static_cast<double>(cells) * kCell, 100 * kFewestShare, kFewestCells * kCell);
+}
+
+/// Combinations of the hats that the kept samples fill, orthogonal over them and of mean square 1.
+/// hats: [n x m]; returns [m x q].
+Eigen::MatrixXd FilledDirections(const Eigen::MatrixXd& hats) {
+  const auto n = static_cast<double>(hats.rows());
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(hats.transpose() * hats / n);
+  const Eigen::VectorXd& values = solver.eigenvalues();
+  const Eigen::Index q = (values.array() > 1e-6 * values.maxCoeff()).count();
+  return solver.eigenvectors().rightCols(q) *
+         values.tail(q).cwiseSqrt().cwiseInverse().asDiagonal();
+}
+
+std::vector<std::string> NamesOf(const GravityFit& gravity) {
+  switch (gravity.kind) {
+    case GravityKind::sincos:
+      return {"gravity_sine", "gravity_cosine"};
+    case GravityKind::constant:
+      return {"gravity_offset"};
+    case GravityKind::paired:
+      return {};
+  }
+  return {};
+}
+
+}  // namespace
+
+OptionInfo GravityOption() {
+  return {"gravity", "none", "none|sincos|paired",
+          "gravity beside friction: none, by sin and cos of the position, or whatever both "
+          "directions have in common at one position"};
+}
+
+bool TellsGravity(const Identifier& identifier) {
+  return std::any_of(identifier.options.begin(), identifier.options.end(),
+                     [](const OptionInfo& option) { return option.name == "gravity"; });
+}
+
+IdentifierInput GravityFit::Of(const IdentifierInput& given) const {
+  return {given.measurements, selection, given.options, given.random};
+}
+
+GravityFit PrepareGravity(const IdentifierInput& input) {
+  const Measurements& m = input.measurements;
+  GravityFit fit;
+  fit.selection = input.selection;
+  fit.columns.resize(m.size(), 0);
+  const std::string& asked = input.options.Text("gravity");
+  if (asked == "none") return fit;
+
+  // a linear joint carries one weight wherever it is
+  const bool linear = m.joint == JointKind::linear;
+  fit.kind = asked == "sincos" ? GravityKind::sincos
+             : linear          ? GravityKind::constant
+                               : GravityKind::paired;
+  if (linear && asked == "sincos") {
+    fit.status = Status::bad_data;
+    fit.why = "gravity sincos needs an angle and the joint is linear; use gravity paired";
+    return fit;
+  }
+  if (!m.position.allFinite()) {
+    fit.status = Status::bad_data;
+    fit.why = "position is not finite throughout, and gravity depends on it; repair it";
+    return fit;
+  }
+
+  if (fit.kind == GravityKind::paired) SelectPairs(input, fit);
+  if (fit.why) return fit;
+  const Eigen::MatrixXd columns = GravityColumns(fit.kind, fit.knots, m.position);
+  fit.transform = fit.kind == GravityKind::paired
+                      ? FilledDirections(Kept(columns, fit.selection))
+                      : Eigen::MatrixXd::Identity(columns.cols(), columns.cols());
+  fit.columns = columns * fit.transform;
+  return fit;
+}
+
+std::string IndistinctColumns(const std::vector<Eigen::Index>& mixed, const Law& law,
+                              const GravityFit& gravity, const IdentifierInput& input) {
+  const auto d = static_cast<Eigen::Index>(law.parameters.size());
+  if (std::all_of(mixed.begin(), mixed.end(), [d](Eigen::Index i) { return i < d; })) {
+    return Indistinct(mixed, law, input.measurements, input.selection);
+  }
+  std::vector<std::string> names;
+  for (const Eigen::Index i : mixed) {
+    if (i < d) names.emplace_back(law.parameters[static_cast<size_t>(i)].name);
+  }
+
+  const std::string parts = names.empty() ? "" : fmt::format("{} and ", fmt::join(names, ", "));
+  const bool turns = gravity.kind != GravityKind::constant;
+  return fmt::format(
+      "the motion cannot tell apart: {}gravity ({}); {}at two or more speeds in both directions, "
+      "or "
+      "use a law that is alike in both directions, as viscous_coulomb",
+      parts, GravityName(gravity.kind), turns ? "move over a larger part of a turn, " : "move ");
+}
+
+void ReportGravity(const GravityFit& gravity, const Eigen::VectorXd& x, const Uncertainty& known,
+                   const Measurements& measurements, Estimate& estimate) {
+  const Eigen::Index q = gravity.count();
+  if (q == 0) return;
+  const Eigen::Index first = x.size() - q;
+  estimate.gravity = GravityModel{gravity.kind, gravity.knots, gravity.transform * x.tail(q)};
+  const std::vector<std::string> names = NamesOf(gravity);
+  for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(names.size()); ++i) {
+    estimate.parameters.push_back(WithInterval(names[static_cast<size_t>(i)], x[first + i],
+                                               measurements.torque_unit, known.Deviation(first + i),
+                                               known.freedom));
+  }
+}
+
+Eigen::MatrixXd Beside(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  Eigen::MatrixXd both(a.rows(), a.cols() + b.cols());
+  both << a, b;
+  return both;
+}
+
+}  // namespace warmjoint

@@ -1,0 +1,63 @@
+#include "identification/linear/least_squares.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <limits>
+
+namespace warmjoint {
+namespace {
+
+/// Columns with a share of at least a tenth in any direction that the data leave open.
+/// directions: [d x q], of norm 1.
+std::vector<Eigen::Index> ColumnsOf(const Eigen::MatrixXd& directions) {
+  std::vector<Eigen::Index> columns;
+  for (Eigen::Index i = 0; i < directions.rows(); ++i) {
+    if (directions.row(i).norm() > 0.1) columns.push_back(i);
+  }
+  return columns;
+}
+
+}  // namespace
+
+LeastSquares SolveLeastSquares(const Eigen::MatrixXd& A, const Eigen::VectorXd& y,
+                               double indistinct) {
+  const Eigen::Index d = A.cols();
+  LeastSquares result;
+
+  // columns of norm 1; a column of zeros stays as it is
+  Eigen::VectorXd scale = A.colwise().norm();
+  for (double& norm : scale) norm = norm > 0 ? 1 / norm : 1;
+
+  // A S = Q R, R = U D V^T
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(A * scale.asDiagonal());
+  const Eigen::MatrixXd R = qr.matrixQR().topRows(d).triangularView<Eigen::Upper>();
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(R, Eigen::ComputeFullV);
+
+  // directions that the data leave open
+  const Eigen::VectorXd& singular = svd.singularValues();
+  result.rank = (singular.array() > indistinct * singular[0]).count();
+  if (result.rank < d) {
+    result.mixed = ColumnsOf(svd.matrixV().rightCols(d - result.rank));
+    return result;
+  }
+
+  const Eigen::VectorXd projected = (qr.householderQ().adjoint() * y).head(d);
+  result.solution = scale.asDiagonal() * R.triangularView<Eigen::Upper>().solve(projected);
+  const Eigen::MatrixXd inverse =
+      scale.asDiagonal() * R.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(d, d));
+  result.cofactor = inverse * inverse.transpose();
+  return result;
+}
+
+Eigen::MatrixXd Cofactor(const Eigen::MatrixXd& normal) {
+  const Eigen::Index p = normal.rows();
+  const Eigen::VectorXd scale = normal.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::LDLT<Eigen::MatrixXd> factors(scale.asDiagonal() * normal * scale.asDiagonal());
+  if (!scale.allFinite() || !(factors.vectorD().minCoeff() > 1e-13)) {
+    return Eigen::MatrixXd::Constant(p, p, std::numeric_limits<double>::infinity());
+  }
+  return scale.asDiagonal() * factors.solve(Eigen::MatrixXd::Identity(p, p)) * scale.asDiagonal();
+}
+
+}  // namespace warmjoint

@@ -1,0 +1,59 @@
+#include "identification/linear/linear_laws.h"
+
+#include <cmath>
+#include <vector>
+
+namespace warmjoint {
+
+bool IsLinear(const Law& law) {
+  // a parameter that steady sliding does not show is nothing to fit
+  const size_t d = law.parameters.size();
+  std::vector<double> p(d), q(d), sum(d);
+  for (size_t i = 0; i < d; ++i) {
+    std::vector<double> unit(d, 0.0);
+    unit[i] = 1;
+    if (law.force(1, unit.data()) == 0 && law.force(-1, unit.data()) == 0) return false;
+  }
+
+  for (size_t i = 0; i < d; ++i) {
+    p[i] = 1.0 + 0.37 * static_cast<double>(i);
+    q[i] = 0.6 + 0.23 * static_cast<double>(i * i);
+    sum[i] = p[i] + 2 * q[i];
+  }
+
+  // F(p + 2 q) = F(p) + 2 F(q), up to rounding
+  for (const double v : {-3.0, -0.4, -0.01, 0.02, 0.7, 5.0}) {
+    const double together = law.force(v, sum.data());
+    const double apart = law.force(v, p.data()) + 2 * law.force(v, q.data());
+    if (!(std::abs(together - apart) <= 1e-12 * (std::abs(together) + std::abs(apart)))) {
+      return false;
+    }
+  }
+  return true;
+}
+
+std::string LinearLawWords() {
+  std::string words;
+  for (const Law& law : Laws()) {
+    if (!IsLinear(law)) continue;
+    if (!words.empty()) words += '|';
+    words += law.name;
+  }
+  return words;
+}
+
+Eigen::MatrixXd LawColumns(const Law& law, const Eigen::VectorXd& velocity) {
+  const auto d = static_cast<Eigen::Index>(law.parameters.size());
+  Eigen::MatrixXd columns(velocity.size(), d);
+  Eigen::VectorXd unit = Eigen::VectorXd::Zero(d);
+  for (Eigen::Index i = 0; i < d; ++i) {
+    unit[i] = 1;
+    for (Eigen::Index n = 0; n < velocity.size(); ++n) {
+      columns(n, i) = law.force(velocity[n], unit.data());
+    }
+    unit[i] = 0;
+  }
+  return columns;
+}
+
+}  // namespace warmjoint

@@ -1,0 +1,23 @@
+// What a fit of a linear law begins with.
+#pragma once
+
+#include "identification/linear/fit_gravity.h"
+
+namespace warmjoint {
+
+/// Law and gravity, both linear in their parameters, on usable data.
+struct LinearTask {
+  const Law& law;
+  GravityFit gravity;
+  Eigen::MatrixXd columns;          // [N x d] over all samples: law, then gravity
+  std::optional<Estimate> refusal;  // why nothing can be fitted; then there are no columns
+
+  int count() const { return static_cast<int>(columns.cols()); }
+  Eigen::Index law_count() const { return columns.cols() - gravity.count(); }
+};
+
+/// As the options `law` and `gravity` ask for it. identifier: its name; more: parameters of the fit
+/// beside those of law and gravity.
+LinearTask BeginLinear(const IdentifierInput& given, const std::string& identifier, int more);
+
+}  // namespace warmjoint

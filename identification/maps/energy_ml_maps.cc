@@ -1,0 +1,69 @@
+#include "identification/maps/energy_ml_maps.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "identification/fit_data.h"
+#include "identification/maps/motor_maps.h"
+#include "identification/maps/position_maps.h"
+#include "identification/maps/warm_maps.h"
+
+namespace warmjoint {
+namespace {
+
+/// Options that say something about fits without maps, and the value that says nothing.
+constexpr std::array<std::array<const char*, 2>, 3> kAlone{
+    {{"gravity", "none"}, {"initial_energy", "zero"}, {"loss", "squares"}}};
+
+/// Kernels over the joint's position beside the motor's map where none are asked for.
+constexpr int kArmKernels = 20;
+
+/// What a law with a map over position, or over the motor's angle, begins with.
+MapBeginning Begin(const std::string& identifier, const IdentifierInput& input) {
+  if (input.options.Text("position") == "map") {
+    return BeginMaps(input, identifier, {MapQuantity::position});
+  }
+  return BeginMaps(input, identifier, {MapQuantity::position, MapQuantity::motor_position});
+}
+
+/// The shapes that the option `position` names.
+std::vector<std::vector<FrictionMap>> Candidates(const Options& options,
+                                                 const MapBeginning& begin) {
+  const MapSettings& settings = begin.task.settings;
+  if (options.Text("position") == "map") return PositionMaps(options, settings, begin.points);
+  const int arm = options.Integer("kernels");
+  return MotorMaps({options.Integer("motor_kernels"), options.Integer("velocity_kernels"),
+                    arm > 0 ? arm : kArmKernels},
+                   settings, begin.points);
+}
+
+}  // namespace
+
+std::vector<OptionInfo> WarmMapOptions() {
+  std::vector<OptionInfo> options = PositionPartOptions(
+      "none|map|motor",
+      "beside the law a map over position, or one over the motor's angle and one over position");
+  options.push_back({"motor_kernels", "36", "integer >= 3 <= 128",
+                     "of the map: kernels over the motor's turn, with position motor"});
+  return options;
+}
+
+Estimate IdentifyWithMaps(const std::string& identifier, const IdentifierInput& input) {
+  MapBeginning begin = Begin(identifier, input);
+  if (begin.refusal) return *begin.refusal;
+  const std::string& position = input.options.Text("position");
+  for (const auto& [option, nothing] : kAlone) {
+    const std::string& value = input.options.Text(option);
+    if (value == nothing) continue;
+    return Failed(identifier, Status::bad_data,
+                  fmt::format("position={} cannot be had together with {}={}; leave one of them "
+                              "out (basis=position takes gravity up into the map)",
+                              position, option, value));
+  }
+  begin.task.candidates = Candidates(input.options, begin);
+  const std::optional<WarmMaps> warm = FitWarmMaps(input, begin.task);
+  return warm ? ReportWarmMaps(input, *warm) : Unsolvable(identifier);
+}
+
+}  // namespace warmjoint

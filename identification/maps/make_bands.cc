@@ -1,0 +1,103 @@
+#include "identification/maps/make_bands.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "identification/linear/linear_laws.h"
+#include "identification/ridge/local_rows.h"
+#include "identification/uncertainty/student.h"
+#include "models/friction/sign.h"
+#include "sim/dataset/robust_noise.h"
+
+namespace warmjoint {
+namespace {
+
+using Eigen::Index;
+
+constexpr Index kEnough = 1000;  // samples that tell the mean of a map
+constexpr int kVelocity = static_cast<int>(MapQuantity::velocity);
+
+bool IsAlikeBothWays(const FrictionMap& map) {
+  return map.factor == MapFactor::one && std::ranges::none_of(map.axes, [](const MapAxis& axis) {
+           return axis.quantity == MapQuantity::velocity;
+         });
+}
+
+/// The map's centres, the last axis the fastest, as places at `speed` where it has no velocity.
+MapPoints Places(const FrictionMap& map, double speed, MapBand& band) {
+  const auto count = static_cast<Index>(map.size());
+  MapPoints places = MapPoints::Zero(count, 5);
+  places.col(kVelocity).setConstant(speed);
+  for (Index i = 0; i < count; ++i) {
+    std::vector<double> centre(map.axes.size());
+    auto rest = static_cast<size_t>(i);
+    for (size_t a = map.axes.size(); a-- > 0;) {
+      const std::vector<double>& centres = map.axes[a].kernels.centres;
+      centre[a] = centres[rest % centres.size()];
+      places(i, static_cast<int>(map.axes[a].quantity)) = centre[a];
+      rest /= centres.size();
+    }
+    band.points.push_back(std::move(centre));
+  }
+  for (const MapAxis& axis : map.axes) band.quantities.emplace_back(MapQuantityName(axis.quantity));
+  return places;
+}
+
+/// Mean row of all kernels over the samples of one direction, from some of them. [q]
+Eigen::RowVectorXd MeanRow(const std::vector<FrictionMap>& maps, const MapPoints& kept,
+                           int direction) {
+  std::vector<Index> of_direction;
+  for (Index i = 0; i < kept.rows(); ++i) {
+    if (Sign(kept(i, kVelocity)) == direction) of_direction.push_back(i);
+  }
+  const Index all = static_cast<Index>(of_direction.size());
+  const Index some = std::min(all, kEnough);
+  MapPoints points(some, 5);
+  for (Index i = 0; i < some; ++i) {
+    points.row(i) = kept.row(of_direction[static_cast<size_t>(i * all / some)]);
+  }
+  if (some == 0) return Eigen::RowVectorXd();
+  return DenseKernels(maps, points, 0, some).colwise().mean();
+}
+
+}  // namespace
+
+std::vector<MapBand> MakeBands(const Law& law, const MapFit& fit, const Uncertainty& known,
+                               const MapPoints& kept) {
+  Eigen::VectorXd speeds = kept.col(kVelocity).cwiseAbs();
+  const double speed = MedianInPlace(speeds);
+  const Index q = fit.x.size() - fit.free;
+  const Eigen::MatrixXd covariance = known.covariance.topLeftCorner(fit.x.size(), fit.x.size());
+  const double reach = StudentQuantile(known.freedom);
+  std::vector<MapBand> bands;
+  Index first = fit.free;
+  for (const FrictionMap& map : fit.maps) {
+    MapBand& band = bands.emplace_back();
+    const MapPoints places = Places(map, speed, band);
+    const Index size = places.rows();
+    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(size, fit.x.size());
+    if (!IsAlikeBothWays(map)) {
+      rows.leftCols(fit.free) = LawColumns(law, places.col(kVelocity));
+      for (const int direction : {-1, 1}) {
+        const Eigen::RowVectorXd others = MeanRow(fit.maps, kept, direction);
+        for (Index i = 0; others.size() > 0 && i < size; ++i) {
+          if (Sign(places(i, kVelocity)) == direction) rows.row(i).tail(q) = others;
+        }
+      }
+    }
+    rows.middleCols(first, size) = DenseKernels({map}, places, 0, size);
+    first += size;
+
+    const Eigen::VectorXd value = rows * fit.x;
+    const Eigen::VectorXd variance = (rows * covariance).cwiseProduct(rows).rowwise().sum();
+    for (Index i = 0; i < size; ++i) {
+      const double deviation = std::sqrt(std::max(0.0, variance[i]));
+      band.value.push_back(value[i]);
+      band.std.push_back(deviation);
+      band.interval95.push_back({value[i] - reach * deviation, value[i] + reach * deviation});
+    }
+  }
+  return bands;
+}
+
+}  // namespace warmjoint

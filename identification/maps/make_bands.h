@@ -1,0 +1,20 @@
+// How sure the friction along a map is.
+#pragma once
+
+#include "identification/map_band.h"
+#include "identification/maps/map_fit.h"
+#include "models/friction/law.h"
+
+namespace warmjoint {
+
+/// One band for each map: law and all maps together at the map's centres, with 95 % for each place
+/// by itself. Law and maps share constants that a prior alone splits, so that neither is known as
+/// well as their sum is. A place is at the speed of its centre or, where the map has no axis of
+/// velocity, at the median speed forwards; the other maps count with their mean over the samples of
+/// that direction. A map that is alike in both directions stands alone: no law imitates it. The
+/// warming E is left out.
+/// known: about law, weights and maybe more; kept: [n x 5] points of the fit.
+std::vector<MapBand> MakeBands(const Law& law, const MapFit& fit, const Uncertainty& known,
+                               const MapPoints& kept);
+
+}  // namespace warmjoint

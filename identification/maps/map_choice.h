@@ -1,0 +1,39 @@
+// Which maps, and how strong a prior on their weights.
+#pragma once
+
+#include <vector>
+
+#include "identification/maps/map_fit.h"
+
+namespace warmjoint {
+
+/// By what maps and the strength s of the prior are chosen.
+enum class StrengthRule { cross_validation, leave_one_out, evidence };
+
+struct ChosenMaps {
+  size_t candidate = 0;
+  double strength = 0;
+  /// Mean squared error held out, or -2 log evidence / n: the smaller, the better. Infinite where
+  /// nothing can be solved.
+  double criterion = 0;
+};
+
+/// The best of the candidates with one of 20 strengths each, half a decade apart, from 1e-7 of the
+/// mean diagonal of the kernels' Gram matrix on; or with the strength of the most evidence.
+///
+/// Cross validation takes the fewest kernels and then the strongest prior that are as good as the
+/// best within one standard error of the parts' differences (Breiman and others 1984, 3.4.3). And
+/// it takes only what leaves the parameters above problem.lower, where anything does: a motion that
+/// repeats itself, so that in both directions each position has its one speed, hides in every part
+/// what a weak prior does to columns that kernels can imitate. Large weights then cancel against a
+/// parameter of the wrong sign, and what is fitted is how the controller answers to small errors of
+/// the speed.
+/// problem.maps is not read. candidates: at least one; folds: contiguous parts of the kept samples
+/// for cross validation; with maps over the energy eight shorter ones make a fold, since a joint
+/// warms up but once and one part alone has seen it cold. Neighbours resemble each other, so that
+/// leaving out one sample or the evidence of white noise take coloured noise for friction: cross
+/// validation over long parts does not.
+ChosenMaps ChooseMaps(MapProblem problem, const std::vector<std::vector<FrictionMap>>& candidates,
+                      StrengthRule rule, int folds);
+
+}  // namespace warmjoint

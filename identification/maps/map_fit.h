@@ -1,0 +1,54 @@
+// Law and maps fitted together, and how sure the fit is.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "identification/ridge/local_rows.h"
+#include "identification/uncertainty/uncertainty.h"
+
+namespace warmjoint {
+
+/// A law that is linear in its parameters, and kernels with a Gaussian prior N(0, s_w^2) on their
+/// weights alone, on the n samples that a selection keeps:
+///   y = free p + sum_i w_i kappa_i + e.
+struct MapProblem {
+  std::vector<FrictionMap> maps;  // shapes; their weights are not read
+  MapPoints points;               // [n x 5]
+  Eigen::MatrixXd free;           // [n x p]
+  Eigen::VectorXd torque;         // [n] y, N.m or N
+  Selection selection;            // n of its samples are kept
+  std::vector<double> lower{};    // [p] bounds of the parameters; or empty: none
+};
+
+/// The normal equations of all rows [free, kernels].
+NormalEquations NormalOf(const MapProblem& problem);
+
+struct MapFit {
+  Eigen::Index free = 0;          // p
+  Eigen::VectorXd x;              // [p + q] parameters, weights
+  double strength = 0;            // s
+  double effective = 0;           // trace of the hat matrix
+  Eigen::VectorXd fitted;         // [n] N.m or N
+  Eigen::MatrixXd gram;           // [p + q]^2 A^T A
+  Eigen::MatrixXd inverse;        // [p + q]^2 (A^T A + s P)^-1
+  std::vector<FrictionMap> maps;  // with their weights
+};
+
+/// argmin |y - A x|^2 + s |w|^2. Nothing where the system is singular to rounding or overflows.
+std::optional<MapFit> FitMaps(const MapProblem& problem, double strength);
+
+/// The maps with their weights, one map's after the other's. weights: [q]
+std::vector<FrictionMap> WithWeights(std::vector<FrictionMap> maps, const Eigen::VectorXd& weights);
+
+/// How sure its parameters and weights are (penalised_uncertainty.h).
+Uncertainty JudgeMaps(const MapProblem& problem, const MapFit& fit);
+
+/// Free columns that the kernels can imitate, to a thousandth of their squares: the prior alone
+/// tells these apart from a map.
+std::vector<Eigen::Index> ImitatedColumns(const MapFit& fit);
+
+/// Sum of maps at some points, [n] N.m or N.
+Eigen::VectorXd EvaluateMaps(const std::vector<FrictionMap>& maps, const MapPoints& points);
+
+}  // namespace warmjoint

@@ -1,0 +1,27 @@
+// Maps over the motor's angle beside one over the joint's.
+#pragma once
+
+#include "identification/estimate.h"
+#include "identification/maps/map_options.h"
+
+namespace warmjoint {
+
+/// How many kernels each map has.
+struct MotorMapSize {
+  int turn = 36;  // over the motor's turn, on a circle
+  int speed = 3;  // over speed, for each direction, beside those over the turn
+  int arm = 20;   // over the joint's position, for each direction; 0: no such map
+};
+
+/// The motor's map, first, and the joint's, for every width. points: [n x 5] kept.
+std::vector<std::vector<FrictionMap>> MotorMaps(const MotorMapSize& size,
+                                                const MapSettings& settings,
+                                                const MapPoints& points);
+
+/// Appends to the message what was found in the motor's map: "; motor ripple for v > 0: 0.052 N.m
+/// at 2 a turn" and so on; and a warning where the motor's angle is not known.
+/// covariance: of the map's weights, [q x q].
+void DescribeMotorRipple(const FrictionMap& motor, const Eigen::MatrixXd& covariance,
+                         const Measurements& measurements, Estimate& estimate);
+
+}  // namespace warmjoint

@@ -1,0 +1,192 @@
+#include "identification/maps/warm_maps.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "identification/describe_friction.h"
+#include "identification/fit_data.h"
+#include "identification/forward/predict.h"
+#include "identification/linear/linear_laws.h"
+#include "identification/maps/make_bands.h"
+#include "identification/maps/motor_maps.h"
+#include "identification/uncertainty/penalised_uncertainty.h"
+#include "identification/warming/report_thermal.h"
+#include "identification/warming/warming_verdict.h"
+
+namespace warmjoint {
+namespace {
+
+constexpr int kMostRounds = 50;
+constexpr double kAtRest = 1e-6;  // of gain and time constant between rounds, relative
+constexpr WarmingContext kContext{" beside the maps", "position-ridge"};
+
+/// Law columns and the maps' values, [N x p] or, with maps that are not 0, [N x (p + 1)].
+Eigen::MatrixXd Columns(const IdentifierInput& input, const Law& law, const MapFit& fit) {
+  const Measurements& m = input.measurements;
+  const Eigen::MatrixXd columns = LawColumns(law, m.velocity);
+  const Eigen::VectorXd values = EvaluateMaps(fit.maps, PointsOf(m));
+  if (!(values.norm() > 1e-9 * (columns * fit.x.head(fit.free)).norm())) return columns;
+  Eigen::MatrixXd both(columns.rows(), columns.cols() + 1);
+  both << columns, values;
+  return both;
+}
+
+/// The warming beside a law and maps, refined from `start`, or from a scan where there is none.
+struct WarmStep {
+  WarmFit fit;
+  Eigen::VectorXd energy;  // [N] N.m or N
+};
+
+WarmStep FitWarming(const IdentifierInput& input, const Law& law, const MapFit& maps,
+                    const std::optional<Thermal>& start) {
+  const Measurements& m = input.measurements;
+  const ClosedLoop loop(m.time, m.velocity, Columns(input, law, maps), m.starts);
+  const Eigen::VectorXd level = loop.direction().cwiseProduct(m.torque);
+  const Eigen::VectorXd kept = (input.selection.keep && m.velocity.array() != 0).cast<double>();
+  WarmStart from = ScanTimeConstant(loop, level, kept);
+  if (start) from.thermal = *start;
+  const double scale = (Kept(m.torque, input.selection).col(0) - maps.fitted).norm() /
+                       std::sqrt(static_cast<double>(input.selection.count()));
+  WarmStep step;
+  step.fit = FitWarmFriction(loop, level, Eigen::MatrixXd(m.size(), 0), kept, from,
+                             InitialEnergy::zero, scale);
+  step.energy = loop.Simulate(step.fit.parameters(), step.fit.thermal()).energy;
+  return step;
+}
+
+bool AtRest(const Thermal& a, const Thermal& b) {
+  return std::abs(a.gain - b.gain) <= kAtRest * std::abs(b.gain) &&
+         std::abs(a.time_constant - b.time_constant) <= kAtRest * b.time_constant;
+}
+
+double Squares(const MapChoice& choice) {
+  return (choice.problem.torque - choice.fit.fitted).squaredNorm();
+}
+
+/// d(F)/d(law, weights, k, log tau) at the kept samples, [n x (p + q + 2)].
+Eigen::MatrixXd JointJacobian(const IdentifierInput& input, const WarmMaps& warm) {
+  const Measurements& m = input.measurements;
+  const Eigen::MatrixXd law = LawColumns(*FindLaw(warm.task.settings.law), m.velocity);
+  const Eigen::MatrixXd kernels = DenseKernels(warm.fit.maps, PointsOf(m), 0, m.size());
+  Eigen::MatrixXd columns(m.size(), law.cols() + kernels.cols());
+  columns << law, kernels;
+  const ClosedLoop loop(m.time, m.velocity, columns, m.starts);
+  Eigen::MatrixXd jacobian = loop.Jacobian(warm.fit.x, warm.thermal).leftCols(columns.cols() + 2);
+  jacobian.rightCols(1) *= warm.thermal.time_constant;
+  return Kept(jacobian, input.selection);
+}
+
+/// Of law, weights, k and log tau together.
+Uncertainty JudgeAll(const IdentifierInput& input, const WarmMaps& warm,
+                     const Eigen::VectorXd& residual) {
+  const Eigen::MatrixXd jacobian = JointJacobian(input, warm);
+  const Eigen::Index d = jacobian.cols();
+  const Eigen::Index q = warm.fit.x.size() - warm.fit.free;
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(d, d);
+  gram.selfadjointView<Eigen::Lower>().rankUpdate(jacobian.transpose());
+  gram.triangularView<Eigen::StrictlyUpper>() = gram.transpose();
+
+  // columns of norm 1 for the inverse: the gain's are far from the others'
+  Eigen::MatrixXd penalised = gram;
+  penalised.diagonal().segment(warm.fit.free, q).array() += warm.fit.strength;
+  const Eigen::VectorXd scale = penalised.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::LLT<Eigen::MatrixXd> factors(scale.asDiagonal() * penalised * scale.asDiagonal());
+  const Eigen::MatrixXd inverse =
+      scale.asDiagonal() * factors.solve(Eigen::MatrixXd::Identity(d, d)) * scale.asDiagonal();
+  const auto rows = [&](Eigen::Index first, Eigen::Index last) -> Eigen::MatrixXd {
+    return jacobian.middleRows(first, last - first);
+  };
+  return JudgePenalised({gram, inverse, warm.fit.free, warm.fit.x.tail(q), warm.fit.strength}, rows,
+                        residual, input.selection);
+}
+
+}  // namespace
+
+std::optional<WarmMaps> FitWarmMaps(const IdentifierInput& input, const MapTask& task) {
+  const Law& law = *FindLaw(task.settings.law);
+  MapTask current = task;
+  current.energy = Eigen::VectorXd();
+  std::optional<MapChoice> choice = ChooseAndFit(input, current);
+  if (!choice) return std::nullopt;
+  const double cold = Squares(*choice);
+
+  WarmMaps warm;
+  std::optional<Thermal> before;
+  for (warm.rounds = 1; warm.rounds <= kMostRounds; ++warm.rounds) {
+    const WarmStep step = FitWarming(input, law, choice->fit, before);
+    if (!step.fit.converged || !step.energy.allFinite()) break;
+    warm.thermal = step.fit.thermal();
+    warm.converged = before && AtRest(*before, warm.thermal);
+    if (warm.converged) break;
+    before = warm.thermal;
+
+    // shape and strength are chosen once more now that E is known, then kept
+    current.energy = step.energy;
+    if (warm.rounds > 2) current = Settled(current, choice->fit);
+    choice = ChooseAndFit(input, current);
+    if (!choice) return std::nullopt;
+  }
+  const auto n = static_cast<double>(choice->problem.torque.size());
+  const double variance = Squares(*choice) / std::max(n - choice->fit.effective - 2, 1.0);
+  warm.visible = (cold - Squares(*choice)) / variance;
+  warm.task = Settled(current, choice->fit);
+  warm.fit = std::move(choice->fit);
+  return warm;
+}
+
+Estimate ReportWarmMaps(const IdentifierInput& input, const WarmMaps& warm) {
+  const std::string& name = warm.task.identifier;
+  const Measurements& m = input.measurements;
+  const Law& law = *FindLaw(warm.task.settings.law);
+  const Eigen::Index d = warm.fit.x.size();
+  if (auto why = UnseenWarming(warm.visible, kContext))
+    return Failed(name, Status::not_identifiable, *why);
+  if (!warm.converged) {
+    return Failed(name, Status::not_converged,
+                  fmt::format("maps and warming still move after {} rounds; does the torque column "
+                              "hold friction?",
+                              warm.rounds));
+  }
+
+  // the friction predicts its own energy from here on
+  Estimate estimate;
+  estimate.identifier = name;
+  const Eigen::VectorXd residual = Kept(m.torque, input.selection).col(0) - warm.fit.fitted -
+                                   TakenByEnergy(input, warm.task.energy);
+  const Uncertainty known = JudgeAll(input, warm, residual);
+  if (!known.covariance.allFinite()) return Unsolvable(name);
+  if (auto why = UnknownWarming({warm.visible, known.Deviation(d + 1), warm.thermal.time_constant},
+                                kContext)) {
+    return Failed(name, Status::not_identifiable, *why);
+  }
+  ReportLawBesideMaps(law, warm.fit, known, m, estimate);
+  ReportThermal(warm.thermal, Eigen::Matrix2d(known.covariance.block<2, 2>(d, d)), known.freedom, m,
+                estimate);
+  const Eigen::VectorXd torque = Kept(m.torque, input.selection);
+  estimate.metrics =
+      ComputeMetrics(torque, torque - residual, static_cast<int>(d) + 2, warm.fit.effective + 2);
+  estimate.message =
+      fmt::format("{}; warming beside them in {} rounds",
+                  DescribeMapFit(input, warm.task, warm.fit, known.noise), warm.rounds);
+  DescribeFriction(law, m, estimate);
+  if (!estimate.friction) return estimate;
+  estimate.friction->thermal = warm.thermal;
+  estimate.friction->maps = warm.fit.maps;
+  estimate.bands =
+      MakeBands(law, warm.fit, known, Kept(PointsOf(m, warm.task.energy), input.selection));
+  if (warm.fit.maps[0].axes[0].quantity == MapQuantity::motor_position) {
+    const auto count = static_cast<Eigen::Index>(warm.fit.maps[0].size());
+    DescribeMotorRipple(warm.fit.maps[0],
+                        known.covariance.block(warm.fit.free, warm.fit.free, count, count), m,
+                        estimate);
+  }
+  if (const auto at = PredictFriction(*estimate.friction, m).feeds_itself; at < m.size()) {
+    return Failed(name, Status::inadequate_model,
+                  WouldFeedItself(m.time[at], "try another law, or --gravity"));
+  }
+  return estimate;
+}
+
+}  // namespace warmjoint

@@ -1,0 +1,30 @@
+// Law, maps and warming together.
+#pragma once
+
+#include "identification/maps/identify_maps.h"
+#include "identification/warming/warm_fit.h"
+
+namespace warmjoint {
+
+/// A fit of F = Fn(v) + maps + sign(v) E over the closed loop.
+struct WarmMaps {
+  MapTask task;  // with the choice made, and E
+  MapFit fit;    // law and maps beside E
+  Thermal thermal;
+  double visible = 0;  // drop of |e|^2 that warming brings, over the noise's variance
+  bool converged = false;
+  int rounds = 0;
+};
+
+/// Two blocks in turn, each exact for the other: maps and their strength by ridge on what E leaves
+/// of the torque; the warming, the law and one factor on the maps by maximum likelihood over the
+/// closed loop (warm_fit.h), until gain and time constant rest to 1e-6. The blocks hardly overlap:
+/// a map repeats itself with every pass, warming does not. task.energy is not read. Nothing where
+/// no fit can be solved.
+std::optional<WarmMaps> FitWarmMaps(const IdentifierInput& input, const MapTask& task);
+
+/// The fit as an estimate: law, warming, maps and bands with intervals of all of them together;
+/// not_identifiable where no warming can be seen or its time constant is vague.
+Estimate ReportWarmMaps(const IdentifierInput& input, const WarmMaps& warm);
+
+}  // namespace warmjoint

@@ -1,0 +1,140 @@
+#include "identification/nonlinear/lugre_data.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/dataset/velocity_scale.h"
+
+namespace warmjoint {
+namespace {
+
+using Eigen::Index;
+using Mask = Eigen::Array<bool, Eigen::Dynamic, 1>;
+
+constexpr Index kRest = 5;        // samples
+constexpr double kSteady = 0.05;  // change of the speed over two samples, relative
+
+/// Samples of rests. [N]
+Mask Rests(const Measurements& m) {
+  const double most = MeasureVelocity(m).Rest();
+  Mask rests = Mask::Constant(m.size(), false);
+  for (Index i = 0; i < m.size();) {
+    Index end = i;
+    while (end < m.size() && std::abs(m.velocity[end]) <= most) ++end;
+    if (end - i >= kRest) rests.segment(i, end - i) = true;
+    i = std::max(end, i + 1);
+  }
+  return rests;
+}
+
+/// First sample of each recording, and N.
+std::vector<Index> Bounds(const Measurements& m) {
+  std::vector<Index> bounds{0};
+  bounds.insert(bounds.end(), m.starts.begin(), m.starts.end());
+  bounds.push_back(m.size());
+  return bounds;
+}
+
+/// The samples in order, and which of them begin a recording.
+struct Grid {
+  std::vector<Index> samples;
+  std::vector<Index> starts;  // index into `samples`, above 0
+};
+
+/// Every so manieth sample of each recording.
+Grid EverySample(const Measurements& m, Index every) {
+  Grid grid;
+  const std::vector<Index> bounds = Bounds(m);
+  for (size_t r = 0; r + 1 < bounds.size(); ++r) {
+    if (r > 0) grid.starts.push_back(static_cast<Index>(grid.samples.size()));
+    for (Index i = bounds[r]; i < bounds[r + 1]; i += every) grid.samples.push_back(i);
+  }
+  return grid;
+}
+
+/// dv/dt between the neighbours of each sample that belong to its recording. [N]
+Eigen::VectorXd Acceleration(const Eigen::VectorXd& time, const Eigen::VectorXd& velocity,
+                             const std::vector<Index>& starts) {
+  const Index n = time.size();
+  Eigen::VectorXd acceleration = Eigen::VectorXd::Zero(n);
+  for (Index i = 0; i < n; ++i) {
+    const bool first = i == 0 || std::binary_search(starts.begin(), starts.end(), i);
+    const bool last = i + 1 == n || std::binary_search(starts.begin(), starts.end(), i + 1);
+    const Index before = first ? i : i - 1, after = last ? i : i + 1;
+    if (after == before) continue;
+    acceleration[i] = (velocity[after] - velocity[before]) / (time[after] - time[before]);
+  }
+  return acceleration;
+}
+
+/// The problem on a grid. used: [N] of all samples; scale: N.m or N.
+LugreProblem ProblemOn(const Grid& grid, const IdentifierInput& input, const Mask& used,
+                       double scale) {
+  const Measurements& m = input.measurements;
+  const Eigen::VectorXd still = Rests(m).select(0.0, m.velocity.array());
+  const Eigen::VectorXd time = m.time(grid.samples);
+  Eigen::VectorXd acceleration = Acceleration(time, m.velocity(grid.samples), grid.starts);
+  if (!input.selection.segments.empty()) {
+    for (Index i = 0; i < time.size(); ++i) {
+      if (input.selection.keep[grid.samples[static_cast<size_t>(i)]]) acceleration[i] = 0;
+    }
+  }
+  const Mask use = used(grid.samples);
+  return {BristleCourse(time, still(grid.samples), grid.starts, m.torque(grid.samples)),
+          std::move(acceleration),
+          m.torque(grid.samples),
+          {use, {}},
+          Eigen::VectorXd::Constant(use.count(), scale),
+          {}};
+}
+
+}  // namespace
+
+LugreProblem MakeLugreProblem(const IdentifierInput& input, double scale) {
+  const Measurements& m = input.measurements;
+  const Mask& keep = input.selection.keep;
+  const Mask rests = Rests(m);
+
+  // each recording from its first kept sample to the last one
+  Mask used = Mask::Constant(m.size(), false);
+  const std::vector<Index> bounds = Bounds(m);
+  for (size_t r = 0; r + 1 < bounds.size(); ++r) {
+    Index first = bounds[r], last = bounds[r + 1] - 1;
+    while (first <= last && !keep[first]) ++first;
+    while (last > first && !keep[last]) --last;
+    if (first > last) continue;
+    const Index n = last - first + 1;
+    used.segment(first, n) = keep.segment(first, n) || !rests.segment(first, n);
+  }
+  return ProblemOn(EverySample(m, 1), input, used, scale);
+}
+
+HalvedProblem Halve(const IdentifierInput& input, const LugreProblem& problem) {
+  Grid grid = EverySample(input.measurements, 2);
+  LugreProblem halved = ProblemOn(grid, input, problem.used.keep, 1);
+  return {std::move(grid.samples), std::move(halved)};
+}
+
+Selection SteadySamples(const IdentifierInput& input, double distance) {
+  const Measurements& m = input.measurements;
+  const Eigen::VectorXd& v = m.velocity;
+  Selection steady{Mask::Constant(m.size(), false), {}};
+  double way = 0;  // since the last turn
+  for (Index i = 1; i + 1 < m.size(); ++i) {
+    way = v[i] * v[i - 1] > 0 ? way + 0.5 * std::abs(v[i] + v[i - 1]) * (m.time[i] - m.time[i - 1])
+                              : 0;
+    const double most = kSteady * std::abs(v[i]);
+    steady.keep[i] = input.selection.keep[i] && way >= 4 * distance &&
+                     std::abs(v[i + 1] - v[i]) <= most && std::abs(v[i - 1] - v[i]) <= most;
+  }
+
+  // every so manieth of them
+  const Index every = 1 + steady.count() / kSteadySamples;
+  Index seen = 0;
+  for (Index i = 0; i < m.size() && every > 1; ++i) {
+    if (steady.keep[i]) steady.keep[i] = seen++ % every == 0;
+  }
+  return steady;
+}
+
+}  // namespace warmjoint

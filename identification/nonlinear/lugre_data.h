@@ -1,0 +1,34 @@
+// What of a recording shows the LuGre law, and how it is laid out for its fit.
+#pragma once
+
+#include "identification/identifier.h"
+#include "identification/nonlinear/lugre_fit.h"
+
+namespace warmjoint {
+
+/// The problem of a recording, its deviations at `scale` throughout.
+///   used      from the first kept sample of each recording to its last one: those kept, and those
+///             in between that are not at rest, which are starts, stops and turns
+///   bristle   runs over all samples; in rests of five samples and more, whose speed is noise
+///             (VelocityScale::Rest), it stays as it is; at each start the torque tells its bend
+///   a         central differences of the velocity; 0 in segments of constant speed, where they
+///             would be noise alone
+LugreProblem MakeLugreProblem(const IdentifierInput& input, double scale);
+
+/// Every other sample of each recording, and its problem as if the log held no others.
+struct HalvedProblem {
+  std::vector<Eigen::Index> samples;  // of the whole recording
+  LugreProblem problem;
+};
+
+/// For finding out how much the sampling matters: uses those samples that `problem` uses.
+HalvedProblem Halve(const IdentifierInput& input, const LugreProblem& problem);
+
+/// The kept samples that slide steadily, were presliding over after `distance`, rad or m: four
+/// times that from the last turn or rest, at the speed of both neighbours to 5 %. At most
+/// kSteadySamples, evenly chosen.
+Selection SteadySamples(const IdentifierInput& input, double distance);
+
+inline constexpr Eigen::Index kSteadySamples = 4000;
+
+}  // namespace warmjoint

@@ -1,0 +1,160 @@
+#include "identification/nonlinear/stribeck_fit.h"
+
+#include <ceres/autodiff_cost_function.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "identification/fit_data.h"
+#include "identification/forward/closed_loop.h"
+#include "identification/linear/least_squares.h"
+#include "identification/nonlinear/solve_by_ceres.h"
+#include "identification/warming/scan_time_constant.h"
+#include "models/friction/stribeck.h"
+
+namespace warmjoint {
+namespace {
+
+constexpr int kVelocities = 16;  // of the grid
+constexpr int kParameters = 4;   // kv, kc, ks, ln vs
+
+/// Residuals (F - tau) / scale of the kept samples, as Ceres' automatic derivatives want them. P: 4
+/// without warming, 6 with it.
+template <int P>
+class Residuals {
+ public:
+  explicit Residuals(const StribeckProblem& problem) : problem_(problem) {}
+
+  template <typename T>
+  bool operator()(const T* x, T* residuals) const {
+    using std::exp;
+    using std::isfinite;
+    const Measurements& m = problem_.measurements;
+    const T law[] = {x[0], x[1], x[2], exp(x[3]), T(problem_.exponent)};
+    const std::vector<Hold<T>> holds = HoldsOf(x);
+    T energy(0);
+    for (Eigen::Index i = 0; i < m.size(); ++i) {
+      const double v = m.velocity[i];
+      T force = Stribeck::Force(v, law);
+      if constexpr (P > kParameters) {
+        force = WarmForce(v, force, energy);
+        const Hold<T>& hold = holds[problem_.intervals.which[i]];
+        energy = ThermalStep(hold.gain, hold.pole, energy, Loss(v, force));
+      }
+      if (!isfinite(force)) return false;
+      if (problem_.selection.keep[i]) *residuals++ = (force - m.torque[i]) / problem_.scale;
+    }
+    return isfinite(energy) && isfinite(law[3]);
+  }
+
+ private:
+  template <typename T>
+  struct Hold {
+    T gain, pole;
+  };
+
+  /// Eq. (22) over each distinct interval; none without warming.
+  template <typename T>
+  std::vector<Hold<T>> HoldsOf(const T* x) const {
+    std::vector<Hold<T>> holds;
+    if constexpr (P > kParameters) {
+      using std::exp;
+      using std::expm1;
+      for (const double h : problem_.intervals.length) {
+        // nothing is left where another recording starts cold
+        if (std::isinf(h)) {
+          holds.push_back({T(0), T(0)});
+          continue;
+        }
+        const T a = -h * exp(-x[5]);
+        holds.push_back({-x[4] * expm1(a), exp(a)});
+      }
+    }
+    return holds;
+  }
+
+  const StribeckProblem& problem_;
+};
+
+template <int P>
+using Cost = ceres::AutoDiffCostFunction<Residuals<P>, ceres::DYNAMIC, P>;
+
+template <int P>
+StribeckFit Refine(const StribeckProblem& problem, const StribeckPoint& start) {
+  const auto n = static_cast<int>(problem.selection.count());
+  Eigen::VectorXd x = start.x;
+  const auto solution =
+      SolveByCeres<P>(std::make_unique<Cost<P>>(new Residuals<P>(problem), n), {}, x.data());
+  StribeckFit fit;
+  fit.converged = solution.converged;
+  fit.jacobian = problem.scale * solution.jacobian;
+  fit.fitted =
+      Kept(problem.measurements.torque, problem.selection) + problem.scale * solution.residuals;
+  fit.solution = {x, problem.scale * problem.scale * solution.residuals.squaredNorm()};
+  return fit;
+}
+
+/// dF/d(kv, kc, ks) at a given vs. [N x 3]
+Eigen::MatrixXd LinearColumns(const StribeckProblem& problem, double velocity) {
+  const Eigen::VectorXd& v = problem.measurements.velocity;
+  Eigen::MatrixXd columns(v.size(), 3);
+  for (int j = 0; j < 3; ++j) {
+    double p[] = {0, 0, 0, velocity, problem.exponent};
+    p[j] = 1;
+    for (Eigen::Index i = 0; i < v.size(); ++i) columns(i, j) = Stribeck::Force(v[i], p);
+  }
+  return columns;
+}
+
+/// The start at one vs: everything else from it.
+std::optional<StribeckPoint> StartAt(const StribeckProblem& problem, double velocity) {
+  const Measurements& m = problem.measurements;
+  const Eigen::MatrixXd columns = LinearColumns(problem, velocity);
+  const Eigen::MatrixXd kept = Kept(columns, problem.selection);
+  const Eigen::VectorXd torque = Kept(m.torque, problem.selection);
+  const LeastSquares cold = SolveLeastSquares(kept, torque, 1e-3);
+  if (cold.rank < 3) return std::nullopt;
+
+  StribeckPoint point;
+  if (problem.warming == Warming::none) {
+    point.x = Eigen::Vector4d(cold.solution[0], cold.solution[1], cold.solution[2], 0);
+    point.squares = (torque - kept * cold.solution).squaredNorm();
+  } else {
+    const ClosedLoop loop(m.time, m.velocity, columns, m.starts);
+    const Eigen::VectorXd level = loop.direction().cwiseProduct(m.torque);
+    const Eigen::VectorXd weight = problem.selection.keep.cast<double>();
+    const WarmStart start = ScanTimeConstant(loop, level, weight);
+    point.x.resize(6);
+    point.x << start.parameters, 0, start.thermal.gain, std::log(start.thermal.time_constant);
+    const Eigen::VectorXd force = loop.Simulate(start.parameters, start.thermal).force;
+    point.squares = (torque - Kept(force, problem.selection)).squaredNorm();
+  }
+  point.x[3] = std::log(velocity);
+  if (!point.x.allFinite() || !std::isfinite(point.squares)) return std::nullopt;
+  return point;
+}
+
+}  // namespace
+
+std::vector<StribeckPoint> ScanStribeckVelocity(const StribeckProblem& problem) {
+  const Eigen::ArrayXd speed =
+      Kept(problem.measurements.velocity, problem.selection).col(0).array().abs();
+  const double fastest = speed.maxCoeff();
+  const double slowest = (speed > 0).select(speed, fastest).minCoeff();
+  const double from = std::max(slowest / 3, 1e-4 * fastest);
+  std::vector<StribeckPoint> points;
+  for (int i = 0; i < kVelocities; ++i) {
+    const double velocity = from * std::pow(fastest / from, i / (kVelocities - 1.0));
+    if (auto point = StartAt(problem, velocity)) points.push_back(*point);
+  }
+  std::stable_sort(points.begin(), points.end(),
+                   [](const auto& a, const auto& b) { return a.squares < b.squares; });
+  return points;
+}
+
+StribeckFit RefineStribeck(const StribeckProblem& problem, const StribeckPoint& start) {
+  return problem.warming == Warming::none ? Refine<4>(problem, start) : Refine<6>(problem, start);
+}
+
+}  // namespace warmjoint

@@ -1,0 +1,48 @@
+// Least squares of the Stribeck law over a recorded motion, with or without warming, by Ceres.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "identification/forward/intervals.h"
+#include "sim/dataset/measurements.h"
+#include "sim/dataset/selection.h"
+
+namespace warmjoint {
+
+/// Whether E of Eqs. (19)-(22) is part of the fit.
+enum class Warming { none, estimated };
+
+/// What is fitted to what.
+struct StribeckProblem {
+  const Measurements& measurements;
+  const Selection& selection;  // E runs over all samples, the fit is to those kept
+  Intervals intervals;         // FindIntervals(time, starts)
+  double exponent = 2;         // delta, fixed
+  Warming warming = Warming::none;
+  double scale = 1;  // about the torque's rms, N.m or N
+};
+
+/// Where a fit begins or ends. x: kv, kc, ks, ln vs, and with warming k, ln tau.
+struct StribeckPoint {
+  Eigen::VectorXd x;   // [4 or 6]
+  double squares = 0;  // sum of squared residuals over the kept samples, (N.m)^2 or N^2
+};
+
+/// The best x on a grid of 16 values of vs, even in ln vs from a third of the slowest kept speed to
+/// the fastest one. Given vs the law is linear in the rest (Golub and Pereyra 1973); with warming,
+/// tau is scanned as well (scan_time_constant.h). Best first; values of vs for which the law's
+/// columns are alike are left out.
+std::vector<StribeckPoint> ScanStribeckVelocity(const StribeckProblem& problem);
+
+struct StribeckFit {
+  StribeckPoint solution;
+  Eigen::VectorXd fitted;    // [n] N.m or N, over the kept samples
+  Eigen::MatrixXd jacobian;  // [n x p] of `fitted` by x, exact (dual numbers)
+  bool converged = false;
+};
+
+/// Minimises the sum of squares from a start by Levenberg-Marquardt.
+StribeckFit RefineStribeck(const StribeckProblem& problem, const StribeckPoint& start);
+
+}  // namespace warmjoint

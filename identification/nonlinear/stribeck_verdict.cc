@@ -1,0 +1,41 @@
+#include "identification/nonlinear/stribeck_verdict.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "identification/fit_data.h"
+
+namespace warmjoint {
+namespace {
+
+constexpr double kVagueLogVs = 0.5;  // standard deviation: 95 % within a factor of e
+constexpr double kVagueFall = 0.5;   // standard deviation of ks - kc over itself
+
+}  // namespace
+
+std::string SlowSpeeds(const Measurements& measurements, const Selection& selection) {
+  const Eigen::ArrayXd speed = Kept(measurements.velocity, selection).col(0).array().abs();
+  const std::string_view unit = kVelocityUnit.For(measurements.joint);
+  const double slowest = speed.minCoeff();
+  return fmt::format(
+      "the slowest constant speed is {:.3g} {}; hold several slower ones in both directions as "
+      "well, down to about {:.2g} {}, or use a law without these parameters",
+      slowest, unit, slowest / 10, unit);
+}
+
+std::optional<std::string> VagueStribeck(const StribeckEvidence& evidence,
+                                         const Measurements& measurements,
+                                         const Selection& selection) {
+  if (evidence.log_deviation < kVagueLogVs &&
+      evidence.fall_deviation < kVagueFall * std::abs(evidence.fall)) {
+    return std::nullopt;
+  }
+  return fmt::format(
+      "static and stribeck_velocity cannot be told apart: stribeck_velocity is known to a factor "
+      "of {:.3g} only, static less coulomb to {:.3g}; {}",
+      std::exp(1.96 * evidence.log_deviation), 1.96 * evidence.fall_deviation,
+      SlowSpeeds(measurements, selection));
+}
+
+}  // namespace warmjoint

@@ -1,0 +1,79 @@
+#include "identification/ridge/local_ridge.h"
+
+#include <Eigen/Cholesky>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <thread>
+
+namespace warmjoint {
+
+LocalRidge::LocalRidge(const NormalEquations& normal, Eigen::Index free)
+    : free_(free),
+      corner_(normal.gram.topLeftCorner(free, free)),
+      product_(normal.product.head(free)),
+      kernels_(normal.gram.bottomRightCorner(normal.product.size() - free,
+                                             normal.product.size() - free)) {
+  const Eigen::Index q = normal.product.size() - free;
+  border_.resize(q, free + 1);
+  border_ << normal.gram.bottomLeftCorner(q, free), normal.product.tail(q);
+}
+
+std::optional<Eigen::VectorXd> LocalRidge::Solve(double strength) {
+  if (!kernels_.Factor(strength)) return std::nullopt;
+  const Eigen::MatrixXd solved = kernels_.Solve(border_);
+  const auto columns = border_.leftCols(free_);
+  const Eigen::MatrixXd left = corner_ - columns.transpose() * solved.leftCols(free_);
+  const Eigen::LLT<Eigen::MatrixXd> factors(left);
+  if (factors.info() != Eigen::Success) return std::nullopt;
+  Eigen::VectorXd x(free_ + border_.rows());
+  x.head(free_) = factors.solve(product_ - columns.transpose() * solved.col(free_));
+  x.tail(border_.rows()) = solved.col(free_) - solved.leftCols(free_) * x.head(free_);
+  return x;
+}
+
+namespace {
+
+/// Squared errors on `part` of fits to all but it, for each strength.
+Eigen::VectorXd SquaresOf(const NormalEquations& part, const NormalEquations& all,
+                          Eigen::Index free, const std::vector<double>& strengths) {
+  LocalRidge ridge(all.Minus(part), free);
+  Eigen::VectorXd squares(strengths.size());
+  for (size_t i = 0; i < strengths.size(); ++i) {
+    const std::optional<Eigen::VectorXd> x = ridge.Solve(strengths[i]);
+    squares[i] = x ? part.Squares(*x) : std::numeric_limits<double>::infinity();
+  }
+  return squares;
+}
+
+}  // namespace
+
+Eigen::MatrixXd HeldOutSquares(const std::vector<NormalEquations>& parts, Eigen::Index free,
+                               const std::vector<double>& strengths, int threads) {
+  NormalEquations all = parts.front();
+  for (size_t i = 1; i < parts.size(); ++i) all = all.Plus(parts[i]);
+
+  // each thread takes the next part
+  Eigen::MatrixXd squares(strengths.size(), parts.size());
+  std::atomic<size_t> next = 0;
+  const auto work = [&] {
+    for (size_t i = next++; i < parts.size(); i = next++) {
+      squares.col(static_cast<Eigen::Index>(i)) = SquaresOf(parts[i], all, free, strengths);
+    }
+  };
+  std::vector<std::jthread> helpers;
+  for (int i = 1; i < threads; ++i) helpers.emplace_back(work);
+  work();
+  helpers.clear();
+  return squares;
+}
+
+Eigen::VectorXd CrossValidate(const std::vector<NormalEquations>& parts, Eigen::Index free,
+                              const std::vector<double>& strengths, int threads) {
+  Eigen::Index rows = 0;
+  for (const NormalEquations& part : parts) rows += part.rows;
+  return HeldOutSquares(parts, free, strengths, threads).rowwise().sum() /
+         static_cast<double>(rows);
+}
+
+}  // namespace warmjoint

@@ -1,0 +1,130 @@
+#include "identification/ridge/ridge.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <numbers>
+
+namespace warmjoint {
+namespace {
+
+constexpr int kMostRounds = 100000;
+
+/// Solves (T + shift) x = b by elimination without pivoting; T is symmetric, at least semidefinite.
+Eigen::VectorXd SolveTridiagonal(const Eigen::VectorXd& diagonal, const Eigen::VectorXd& off,
+                                 double shift, Eigen::VectorXd b) {
+  const Eigen::Index q = diagonal.size();
+  Eigen::VectorXd pivot(q);
+  pivot[0] = diagonal[0] + shift;
+  for (Eigen::Index i = 1; i < q; ++i) {
+    const double factor = off[i - 1] / pivot[i - 1];
+    pivot[i] = diagonal[i] + shift - factor * off[i - 1];
+    b[i] -= factor * b[i - 1];
+  }
+  b[q - 1] /= pivot[q - 1];
+  for (Eigen::Index i = q - 2; i >= 0; --i) b[i] = (b[i] - off[i] * b[i + 1]) / pivot[i];
+  return b;
+}
+
+}  // namespace
+
+NormalEquations::NormalEquations(Eigen::Index d)
+    : gram(Eigen::MatrixXd::Zero(d, d)), product(Eigen::VectorXd::Zero(d)) {}
+
+void NormalEquations::Add(const Eigen::MatrixXd& A, const Eigen::VectorXd& y) {
+  gram += A.transpose() * A;
+  product += A.transpose() * y;
+  squares += y.squaredNorm();
+  rows += A.rows();
+}
+
+NormalEquations NormalEquations::Plus(const NormalEquations& part) const {
+  NormalEquations sum = *this;
+  sum.gram += part.gram;
+  sum.product += part.product;
+  sum.squares += part.squares;
+  sum.rows += part.rows;
+  return sum;
+}
+
+NormalEquations NormalEquations::Minus(const NormalEquations& part) const {
+  NormalEquations rest = *this;
+  rest.gram -= part.gram;
+  rest.product -= part.product;
+  rest.squares -= part.squares;
+  rest.rows -= part.rows;
+  return rest;
+}
+
+double NormalEquations::Squares(const Eigen::VectorXd& x) const {
+  return squares - 2 * x.dot(product) + x.dot(gram * x);
+}
+
+Ridge::Ridge(const NormalEquations& normal, Eigen::Index free) : free_(free) {
+  const Eigen::Index q = normal.product.size() - free;
+  const Eigen::LLT<Eigen::MatrixXd> factors(normal.gram.topLeftCorner(free, free));
+  slopes_ = factors.solve(normal.gram.topRightCorner(free, q));
+  intercept_ = factors.solve(normal.product.head(free));
+  log_free_determinant_ = 2 * factors.matrixLLT().diagonal().array().log().sum();
+
+  // kernels beside the free columns, made tridiagonal
+  const Eigen::MatrixXd left =
+      normal.gram.bottomRightCorner(q, q) - normal.gram.bottomLeftCorner(q, free) * slopes_;
+  const Eigen::Tridiagonalization<Eigen::MatrixXd> tridiagonal(left);
+  basis_ = tridiagonal.matrixQ();
+  diagonal_ = tridiagonal.diagonal();
+  off_diagonal_ = tridiagonal.subDiagonal();
+  right_ = basis_.transpose() *
+           (normal.product.tail(q) - slopes_.transpose() * normal.product.head(free));
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen;
+  eigen.computeFromTridiagonal(diagonal_, off_diagonal_, Eigen::EigenvaluesOnly);
+  eigenvalues_ = eigen.eigenvalues().cwiseMax(0);
+}
+
+Eigen::VectorXd Ridge::Solve(double strength) const {
+  const Eigen::VectorXd weights =
+      basis_ * SolveTridiagonal(diagonal_, off_diagonal_, strength, right_);
+  Eigen::VectorXd x(free_ + weights.size());
+  x << intercept_ - slopes_ * weights, weights;
+  return x;
+}
+
+double Ridge::EffectiveParameters(double strength) const {
+  return static_cast<double>(free_) +
+         (eigenvalues_.array() / (eigenvalues_.array() + strength)).sum();
+}
+
+double LogEvidence(const NormalEquations& normal, const Ridge& ridge, Eigen::Index free,
+                   double alpha, double beta) {
+  const Eigen::VectorXd x = ridge.Solve(alpha / beta);
+  const Eigen::Index q = x.size() - free;
+  const auto n = static_cast<double>(normal.rows);
+  const auto p = static_cast<double>(free);
+  const double log_determinant = p * std::log(beta) + ridge.log_free_determinant() +
+                                 (beta * ridge.eigenvalues().array() + alpha).log().sum();
+  return 0.5 * (static_cast<double>(q) * std::log(alpha) + n * std::log(beta) -
+                beta * normal.Squares(x) - alpha * x.tail(q).squaredNorm() - log_determinant -
+                (n - p) * std::log(2 * std::numbers::pi));
+}
+
+Evidence MaximiseEvidence(const NormalEquations& normal, Eigen::Index free) {
+  const Ridge ridge(normal, free);
+  const auto n = static_cast<double>(normal.rows);
+  const auto p = static_cast<double>(free);
+  Evidence evidence;
+  double strength = 1e-3 * ridge.eigenvalues().maxCoeff();
+  for (int round = 0; round < kMostRounds; ++round) {
+    const Eigen::VectorXd x = ridge.Solve(strength);
+    evidence.gamma = ridge.EffectiveParameters(strength) - p;
+    evidence.alpha = evidence.gamma / x.tail(x.size() - free).squaredNorm();
+    evidence.beta = (n - p - evidence.gamma) / normal.Squares(x);
+    const double next = evidence.strength();
+    const bool settled = std::abs(next - strength) <= 1e-12 * strength;
+    strength = next;
+    if (settled) break;
+  }
+  evidence.log_evidence = LogEvidence(normal, ridge, free, evidence.alpha, evidence.beta);
+  return evidence;
+}
+
+}  // namespace warmjoint

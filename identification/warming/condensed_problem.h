@@ -1,0 +1,108 @@
+// Warm friction's least squares over N samples, condensed to as many residuals as parameters.
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "identification/forward/closed_loop_kernel.h"
+#include "identification/forward/row_products.h"
+#include "identification/warming/warm_fit.h"
+
+namespace warmjoint {
+
+/// Sums n, or Dynamic where one of them is.
+constexpr int Plus(int a, int b) { return a == Eigen::Dynamic ? a : a + b; }
+
+/// The condensed least-squares problem, as ceres::TinySolver wants it. D: law parameters, Q: 2 for
+/// (k, log tau), 3 with E(0). Offsets come last, and only where D is Dynamic.
+template <int D, int Q>
+class CondensedProblem {
+ public:
+  using Scalar = double;
+  enum { NUM_PARAMETERS = Plus(D, Q), NUM_RESIDUALS = Plus(D, Q + 1) };
+  using Square = Eigen::Matrix<double, NUM_RESIDUALS, NUM_RESIDUALS>;
+  using Vector = Eigen::Matrix<double, NUM_PARAMETERS, 1>;
+
+  CondensedProblem(const ClosedLoop& loop, const Eigen::VectorXd& level,
+                   const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept, double scale)
+      : loop_(loop),
+        level_(level),
+        offsets_(offsets),
+        weight_(kept.cwiseSqrt()),
+        scale_(scale),
+        d_(loop.levels().cols()),
+        x_(Vector::Constant(NumParameters(), std::numeric_limits<double>::quiet_NaN())) {}
+
+  int NumParameters() const { return static_cast<int>(d_ + offsets_.cols()) + Q; }
+  int NumResiduals() const { return NumParameters() + 1; }
+
+  bool operator()(const double* x, double* residuals, double* jacobian) const {
+    Evaluate(Eigen::Map<const Vector>(x, NumParameters()));
+
+    // a factor R of the products, R^T R = [J r]^T [J r] / scale^2
+    const Eigen::Index p = NumParameters();
+    const Eigen::LDLT<Square> factors(products_ / (scale_ * scale_));
+    Square root = factors.transpositionsP() * Square::Identity(p + 1, p + 1);
+    root = factors.matrixU() * root;
+    root = factors.vectorD().cwiseMax(0).cwiseSqrt().asDiagonal() * root;
+    Eigen::Map<Eigen::VectorXd>(residuals, p + 1) = root.col(p);
+    if (jacobian) {
+      Eigen::Map<Eigen::MatrixXd>(jacobian, p + 1, p) = root.leftCols(p);
+      trace_.push_back({x_, products_(p, p)});
+    }
+    return true;
+  }
+
+  /// [J r]^T [J r] at x, r = measured - modelled level.
+  const Square& Evaluate(const Vector& x) const {
+    if (x_ == x) return products_;
+    x_ = x;
+    const Thermal thermal{x[d_], std::exp(x[d_ + 1])};
+    const double initial = Q == 3 ? x[d_ + Q - 1] : 0;
+    if (D == Eigen::Dynamic) measured_ = level_ - offsets_ * x.tail(offsets_.cols());
+    const double* measured = D == Eigen::Dynamic ? measured_.data() : level_.data();
+    RowProducts<NUM_RESIDUALS> products(NumResiduals());
+    WithHolds(loop_.intervals(), thermal, [&](const auto& hold) {
+      RunWithSensitivities<D>(loop_, x.data(), thermal.gain, initial, hold,
+                              [&](Eigen::Index n, double level, const double* g, const double* S) {
+                                if (weight_[n] == 0) return;
+                                Fill(n, measured[n] - level, g, S, products.Next());
+                              });
+    });
+    products_ = products.Sums();
+    return products_;
+  }
+
+  std::vector<WarmIterate>& trace() const { return trace_; }
+
+ private:
+  /// Sets the row [-da/dx, r] of sample n.
+  template <typename Row>
+  void Fill(Eigen::Index n, double residual, const double* g, const double* S, Row row) const {
+    const LoopSize<D> size(d_);
+    const Eigen::Index d = size.value();
+    const Eigen::Index q = D == Eigen::Dynamic ? offsets_.cols() : 0;
+    const double w = weight_[n];
+    for (Eigen::Index i = 0; i < d; ++i) row[i] = -w * (g[i] + S[i]);
+    for (Eigen::Index i = d; i < d + Q; ++i) row[i] = -w * S[i];
+    for (Eigen::Index i = 0; i < q; ++i) row[d + Q + i] = -w * offsets_(n, i);
+    row[d + Q + q] = w * residual;
+  }
+
+  const ClosedLoop& loop_;
+  const Eigen::VectorXd& level_;
+  const Eigen::MatrixXd& offsets_;
+  Eigen::VectorXd weight_;  // [N] of each row, the root of its square's
+  double scale_;
+  Eigen::Index d_;
+
+  // the latest evaluation: Ceres asks for the residuals at a point, then for the derivatives there
+  mutable Vector x_;
+  mutable Eigen::VectorXd measured_;  // [N] level less what the offsets explain
+  mutable Square products_;
+  mutable std::vector<WarmIterate> trace_;
+};
+
+}  // namespace warmjoint

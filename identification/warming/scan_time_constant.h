@@ -1,0 +1,27 @@
+// A start for the warm-up without any guess: variable projection over log(tau).
+#pragma once
+
+#include <Eigen/Core>
+
+#include "identification/forward/closed_loop.h"
+
+namespace warmjoint {
+
+/// Law parameters and warming to start from.
+struct WarmStart {
+  Eigen::VectorXd parameters;  // [d] of the loop's columns
+  Thermal thermal;
+  double shortest = 0;  // range of time constants that was scanned, s
+  double longest = 0;
+};
+
+/// With the loss taken from the measured torque, W = tau v, the level is linear in all but tau:
+///     sign(v) tau_measured = g p + k x,  x = W filtered by 1/(1 + s tau).
+/// Sixteen values of tau, even in log(tau), are tried; for each the rest is a linear solve (Golub
+/// and Pereyra 1973); a parabola through the best and its neighbours refines it. Samples are taken
+/// together in at most a thousand blocks, since a start need not be exact.
+/// level: [N] sign(v) torque, N.m or N; kept: [N] 1 where a sample takes part in fits, else 0.
+WarmStart ScanTimeConstant(const ClosedLoop& loop, const Eigen::VectorXd& level,
+                           const Eigen::VectorXd& kept);
+
+}  // namespace warmjoint

@@ -1,0 +1,86 @@
+#include "identification/warming/warm_fit.h"
+
+#include <ceres/tiny_solver.h>
+
+#include <cmath>
+
+#include "identification/warming/condensed_problem.h"
+
+namespace warmjoint {
+namespace {
+
+constexpr int kMostIterations = 50;
+
+template <int D, int Q>
+WarmFit Solve(const CondensedProblem<D, Q>& problem, const Eigen::VectorXd& start) {
+  using Solver = ceres::TinySolver<CondensedProblem<D, Q>>;
+  Solver solver;
+  solver.options.max_num_iterations = kMostIterations;
+  solver.options.gradient_tolerance = 1e-10;
+  solver.options.parameter_tolerance = 1e-11;
+  solver.options.function_tolerance = 1e-10;  // of |r|^2, which is about the number of samples
+  solver.options.initial_trust_region_radius = 1e8;
+  typename Solver::Parameters x = start;
+  solver.Solve(problem, &x);
+
+  const Eigen::Index p = x.size();
+  const auto& products = problem.Evaluate(x);
+  WarmFit fit;
+  fit.solution = {x, products(p, p)};
+  fit.normal = products.topLeftCorner(p, p);
+  fit.trace = std::move(problem.trace());
+  fit.trace.push_back(fit.solution);
+  fit.converged = solver.summary.status != Solver::HIT_MAX_ITERATIONS &&
+                  std::isfinite(fit.solution.squares) && x.allFinite();
+  return fit;
+}
+
+}  // namespace
+
+Thermal WarmFit::thermal() const {
+  return {solution.x[law_parameters], std::exp(solution.x[law_parameters + 1])};
+}
+
+Eigen::VectorXd WarmFit::parameters() const { return solution.x.head(law_parameters); }
+
+double WarmFit::initial_energy() const {
+  return estimates_initial_energy() ? solution.x[law_parameters + 2] : 0;
+}
+
+WarmFit FitWarmFriction(const ClosedLoop& loop, const Eigen::VectorXd& level,
+                        const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
+                        const WarmStart& start, InitialEnergy initial_energy, double scale) {
+  const Eigen::Index d = loop.levels().cols(), q = offsets.cols();
+  const int warming = initial_energy == InitialEnergy::estimated ? 3 : 2;
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(d + warming + q);
+  x.head(d + 2) << start.parameters.head(d), start.thermal.gain,
+      std::log(start.thermal.time_constant);
+  x.tail(q) = start.parameters.tail(q);
+
+  // sizes known at compile time for the common laws
+  const auto solve = [&]<int D, int Q>() {
+    return Solve(CondensedProblem<D, Q>(loop, level, offsets, kept, scale), x);
+  };
+  const auto solve_for = [&]<int D>() {
+    return warming == 2 ? solve.template operator()<D, 2>() : solve.template operator()<D, 3>();
+  };
+  WarmFit fit;
+  switch (q == 0 ? d : Eigen::Dynamic) {
+    case 1:
+      fit = solve_for.template operator()<1>();
+      break;
+    case 2:
+      fit = solve_for.template operator()<2>();
+      break;
+    case 3:
+      fit = solve_for.template operator()<3>();
+      break;
+    default:
+      fit = solve_for.template operator()<Eigen::Dynamic>();
+  }
+  fit.law_parameters = d;
+  fit.offsets = q;
+  return fit;
+}
+
+}  // namespace warmjoint

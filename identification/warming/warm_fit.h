@@ -1,0 +1,47 @@
+// Joint maximum likelihood of law and warming over the closed loop.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "identification/forward/closed_loop.h"
+#include "identification/warming/scan_time_constant.h"
+
+namespace warmjoint {
+
+/// What is known of the initial energy.
+enum class InitialEnergy { zero, estimated };
+
+/// One iterate of the fit.
+struct WarmIterate {
+  Eigen::VectorXd x;   // [p] law parameters (d), k, log(tau), E(0) if estimated, offsets (q)
+  double squares = 0;  // sum of squared residuals over the kept samples
+};
+
+struct WarmFit {
+  WarmIterate solution;
+  Eigen::MatrixXd normal;  // J^T J at the solution, by x
+  std::vector<WarmIterate> trace;
+  bool converged = false;
+
+  Thermal thermal() const;
+  Eigen::VectorXd parameters() const;  // [d] of the law
+  bool estimates_initial_energy() const { return solution.x.size() > law_parameters + 2 + offsets; }
+  double initial_energy() const;
+  Eigen::VectorXd offset_values() const { return solution.x.tail(offsets); }  // [q]
+  Eigen::Index law_parameters = 0;                                            // d
+  Eigen::Index offsets = 0;                                                   // q
+};
+
+/// Minimises the squared residuals of the kept samples by Ceres' Levenberg-Marquardt with exact
+/// derivatives. Each evaluation is condensed: [J r] is replaced by a square factor R of the same
+/// products, R^T R = [J r]^T [J r], so that Ceres sees p + 1 residuals in place of N and steps
+/// exactly as it would on all of them.
+/// level: [N] sign(v) torque; offsets: [N x q] sign(v) dG/dg, torque that makes no heat (gravity);
+/// kept: [N] weight of each sample, 1 or 0 or between; start: parameters of the law and of the
+/// offsets [d + q]; scale: about the residuals' standard deviation, N.m or N.
+WarmFit FitWarmFriction(const ClosedLoop& loop, const Eigen::VectorXd& level,
+                        const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
+                        const WarmStart& start, InitialEnergy initial_energy, double scale);
+
+}  // namespace warmjoint

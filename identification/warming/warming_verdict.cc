@@ -1,0 +1,32 @@
+#include "identification/warming/warming_verdict.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace warmjoint {
+
+std::optional<std::string> UnseenWarming(double explained, const WarmingContext& context) {
+  if (explained > kVisibleWarming) return std::nullopt;
+  return fmt::format(
+      "no warm-up can be seen{}: thermal_gain and thermal_time_constant explain {:.3g} times the "
+      "noise variance, below {:.3g}; record from cold until friction settles, or use {}",
+      context.beside, std::max(explained, 0.0), kVisibleWarming, context.instead);
+}
+
+std::optional<std::string> UnknownWarming(const WarmingEvidence& evidence,
+                                          const WarmingContext& context) {
+  if (auto why = UnseenWarming(evidence.explained, context)) return why;
+  const double tau = evidence.time_constant;
+  if (evidence.log_deviation < kVagueLogTau && tau >= evidence.shortest / 4 &&
+      tau <= evidence.longest * 4) {
+    return std::nullopt;
+  }
+  return fmt::format(
+      "thermal_gain and thermal_time_constant cannot be told apart: tau is known to a factor of "
+      "{:.3g} only; record longer, from cold until friction settles, or with rests",
+      std::exp(1.96 * evidence.log_deviation));
+}
+
+}  // namespace warmjoint

@@ -1,0 +1,135 @@
+#include "identification/forward/closed_loop.h"
+
+#include <ceres/jet.h>
+#include <gtest/gtest.h>
+
+#include "identification/linear/linear_laws.h"
+#include "models/friction/viscous_coulomb.h"
+#include "tests/support/vectors.h"
+
+namespace warmjoint {
+namespace {
+
+constexpr double kStep = 1;  // s
+
+Eigen::VectorXd EvenTime(Eigen::Index n) {
+  return Eigen::VectorXd::LinSpaced(n, 0, kStep * static_cast<double>(n - 1));
+}
+
+ClosedLoop Loop(const Eigen::VectorXd& time, const Eigen::VectorXd& velocity) {
+  return ClosedLoop(time, velocity, LawColumns(*FindLaw("viscous_coulomb"), velocity));
+}
+
+/// Each entry within `tolerance`, relative to the largest.
+void ExpectNear(const Eigen::MatrixXd& actual, const Eigen::MatrixXd& expected, double tolerance) {
+  ASSERT_EQ(actual.rows(), expected.rows());
+  ASSERT_EQ(actual.cols(), expected.cols());
+  EXPECT_LE((actual - expected).cwiseAbs().maxCoeff(), tolerance * expected.cwiseAbs().maxCoeff())
+      << actual << "\n\n"
+      << expected;
+}
+
+TEST(ClosedLoop, ReproducesTheGoldenSimulation) {
+  WARMJOINT_NEED_SHARED("golden/golden.json");
+  const nlohmann::json& golden = test::Golden().at("closed_sim");
+  const Eigen::VectorXd v = test::ToVector(golden.at("v"));
+  const Eigen::Vector2d p(golden.at("kv"), golden.at("kc"));
+  const Thermal thermal = Continuous(DiscreteThermal{golden.at("ke"), golden.at("te")}, kStep);
+  const ClosedLoop loop = Loop(EvenTime(v.size()), v);
+  const LoopResponse response = loop.Simulate(p, thermal, golden.at("E0"));
+
+  // 1e-12: a recursion of ten closed forms
+  ExpectNear(response.force, test::ToVector(golden.at("F")), 1e-12);
+  ExpectNear(response.loss, test::ToVector(golden.at("W")), 1e-12);
+  ExpectNear(response.energy, test::ToVector(golden.at("E")), 1e-12);
+  EXPECT_FALSE(response.feeds_itself);
+  ExpectNear(ByDiscretePair(loop.Jacobian(p, thermal, golden.at("E0")), thermal, kStep),
+             test::ToMatrix(golden.at("dF_dkv_dkc_dke_dte_dE0")), 1e-12);
+}
+
+TEST(ClosedLoop, WarmsAtConstantSpeedAsTheClosedForm) {
+  WARMJOINT_NEED_SHARED("golden/golden.json");
+  const nlohmann::json& golden = test::Golden().at("constant_speed");
+  const double v = golden.at("v");
+  const Thermal thermal = Continuous(DiscreteThermal{golden.at("ke"), golden.at("te")}, kStep);
+  const Eigen::VectorXd velocity = Eigen::VectorXd::Constant(3601, v);
+  const LoopResponse response =
+      Loop(EvenTime(3601), velocity).Simulate(Eigen::Vector2d(5, 15), thermal);
+  const std::vector<int> samples = golden.at("k");
+  const Eigen::VectorXd expected = test::ToVector(golden.at("E_closed"));
+
+  // 1e-12 times the settled level: 3600 steps of rounding on both sides
+  for (size_t i = 0; i < samples.size(); ++i) {
+    EXPECT_NEAR(response.energy[samples[i]], expected[i], 1e-12 * 10.5) << samples[i];
+  }
+}
+
+/// F at the last sample by the models' own functions; parameters: kv, kc, k, tau, E0.
+template <typename T>
+T LastForce(const Eigen::VectorXd& time, const Eigen::VectorXd& v, const std::array<T, 5>& p) {
+  T energy = p[4];
+  for (Eigen::Index n = 0;; ++n) {
+    const T force = WarmForce(v[n], ViscousCoulomb::Force(v[n], p.data()), energy);
+    if (n == v.size() - 1) return force;
+    using std::exp;
+    const T pole = exp(-(time[n + 1] - time[n]) / p[3]);
+    energy = ThermalStep(T(p[2] * (1.0 - pole)), pole, energy, Loss(v[n], force));
+  }
+}
+
+TEST(ClosedLoop, AgreesWithDualNumbersOnUnevenSamples) {
+  const Eigen::VectorXd time = (Eigen::VectorXd(8) << 0, 1, 1.5, 4, 4.1, 9, 10, 20).finished();
+  const Eigen::VectorXd v =
+      (Eigen::VectorXd(8) << 0.5, -0.2, -0.8, 0, 0.9, 0.4, -0.7, 0.3).finished();
+  using Jet = ceres::Jet<double, 5>;
+  const std::array<Jet, 5> p{Jet(5, 0), Jet(15, 1), Jet(-3, 2), Jet(7, 3), Jet(-0.5, 4)};
+  const ClosedLoop loop = Loop(time, v);
+  const Thermal thermal{-3, 7};
+
+  // 1e-12: rounding, the Jet's pole loses digits in 1 - exp
+  for (Eigen::Index last = 0; last < time.size(); ++last) {
+    const Jet force = LastForce(time, v.head(last + 1), p);
+    const Eigen::MatrixXd jacobian = loop.Jacobian(Eigen::Vector2d(5, 15), thermal, -0.5);
+    EXPECT_NEAR(loop.Simulate(Eigen::Vector2d(5, 15), thermal, -0.5).force[last], force.a, 1e-12);
+    ExpectNear(jacobian.row(last), force.v.transpose(), v[last] == 0 ? 0 : 1e-12);
+  }
+}
+
+TEST(ClosedLoop, AgreesWithFiniteDifferences) {
+  Eigen::VectorXd v(200);  // 0.1 to 1 rad/s, held 20 s, alternating
+  for (int i = 0; i < 200; ++i) v[i] = (i / 20 % 2 ? -0.1 : 0.1) * (1 + i / 20);
+  const ClosedLoop loop = Loop(EvenTime(200), v);
+  const Eigen::VectorXd x = (Eigen::VectorXd(5) << 5, 15, -0.6, 40, -0.3).finished();
+  const auto force = [&](const Eigen::VectorXd& at) {
+    return loop.Simulate(at.head(2), {at[2], at[3]}, at[4]).force;
+  };
+  Eigen::MatrixXd differences(200, 5);
+  for (int i = 0; i < 5; ++i) {
+    // central differences: the error is of order step^2 = 1e-10
+    Eigen::VectorXd step = Eigen::VectorXd::Zero(5);
+    step[i] = 1e-5 * std::abs(x[i]);
+    differences.col(i) = (force(x + step) - force(x - step)) / (2 * step[i]);
+  }
+  ExpectNear(loop.Jacobian(x.head(2), {x[2], x[3]}, x[4]), differences, 1e-8);
+}
+
+TEST(ClosedLoop, CoolsThroughRests) {
+  Eigen::VectorXd v = Eigen::VectorXd::Zero(11);
+  v[0] = 1;
+  const LoopResponse response = Loop(EvenTime(11), v).Simulate(Eigen::Vector2d(5, 15), {-0.3, 10});
+  EXPECT_LT(response.energy[1], 0);
+  EXPECT_NEAR(response.energy[10], response.energy[1] * std::exp(-0.9), 1e-14);
+  EXPECT_EQ(response.force[5], 0);
+}
+
+TEST(ClosedLoop, ReportsFrictionThatFeedsItself) {
+  // a minute at 2 rad/s drives E far below -kc, then a slow motion meets it
+  Eigen::VectorXd v = Eigen::VectorXd::Constant(400, 2);
+  v.tail(100).setConstant(0.05);
+  const LoopResponse response = Loop(EvenTime(400), v).Simulate(Eigen::Vector2d(20, 2), {-3, 100});
+  ASSERT_TRUE(response.feeds_itself);
+  EXPECT_EQ(*response.feeds_itself, 300);
+}
+
+}  // namespace
+}  // namespace warmjoint

@@ -1,0 +1,148 @@
+#include "identification/identifiers/lugre.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "identification/adequacy/judge.h"
+#include "identification/identifiers/stribeck.h"
+#include "identification/nonlinear/lugre_data.h"
+#include "sim/dataset/join_recordings.h"
+#include "tests/support/bristle_recording.h"
+
+namespace warmjoint {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::AnyOf;
+using ::testing::HasSubstr;
+
+constexpr double kInertia = 0.3;  // kg.m^2
+
+/// A minute of the joint with a bristle. rate: Hz; noise: N.m.
+Measurements Minute(std::uint64_t seed, double rate = 100, double noise = 0.5) {
+  return test::RecordBristle(test::LuGreJoint(), test::TurningMotion(60, seed), 60, rate, kInertia,
+                             noise, seed);
+}
+
+/// The answer of an identifier, judged where `verdict` says so.
+enum class Verdict { judged, unjudged };
+Estimate Answer(const Measurements& m, const Selection& selection,
+                const std::map<std::string, std::string>& given = {},
+                Verdict verdict = Verdict::judged) {
+  const Identifier identifier = LuGreByCeres();
+  const Options options(identifier.options, given, {});
+  const IdentifierInput input{m, selection, options, {}};
+  return verdict == Verdict::judged ? IdentifyAndJudge(identifier, input)
+                                    : identifier.identify(input);
+}
+
+const std::map<std::string, double> kTruth{{"viscous", 5},
+                                           {"coulomb", 15},
+                                           {"static", 20},
+                                           {"stribeck_velocity", 0.05},
+                                           {"bristle_stiffness", 2000},
+                                           {"bristle_damping", 40},
+                                           {"inertia", kInertia}};
+
+TEST(Lugre, HoldsTheTruthInItsIntervals) {
+  std::map<std::string, int> held;
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    const Measurements m = Minute(seed);
+    const Estimate estimate = Answer(m, SelectMoving(m));
+    ASSERT_EQ(estimate.status, Status::ok) << seed << estimate.message;
+    for (const auto& [name, truth] : kTruth) {
+      const auto& [lower, upper] = *estimate.Find(name)->interval95;
+      held[name] += lower <= truth && truth <= upper;
+    }
+  }
+  // 28.5 of 30 expected, binomial deviation 1.2; four of them
+  for (const auto& [name, count] : held) EXPECT_GE(count, 24) << name;
+}
+
+TEST(Lugre, LetsIntervalsGrowWithTheSamplingError) {
+  // no noise: all that is left is motion between samples that is not linear, which repeats itself
+  for (const double rate : {50.0, 100.0, 200.0}) {
+    const Measurements m = Minute(1, rate, 0);
+    const Estimate estimate = Answer(m, SelectMoving(m), {}, Verdict::unjudged);
+    ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+    for (const auto& [name, truth] : kTruth) {
+      const EstimatedParameter& found = *estimate.Find(name);
+      EXPECT_NEAR(found.value, truth, 4 * *found.std) << name << " at " << rate << " Hz";
+      EXPECT_LT(*found.std, 0.1 * truth) << name << " at " << rate << " Hz";
+    }
+  }
+}
+
+TEST(Lugre, AgreesWithStribeckWhereTheJointSlidesSteadily) {
+  const Measurements m = test::RecordBristle(test::LuGreJoint(), test::TurningMotion(200, 5), 200,
+                                             100, kInertia, 0.5, 5);
+  const Estimate estimate = Answer(m, SelectMoving(m));
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+
+  const Identifier stribeck = StribeckByCeres();
+  const Options options(stribeck.options, {}, {});
+  const Selection moving = SelectMoving(m);
+  const Selection steady = SteadySamples({m, moving, options, {}}, 0.01);
+  const Estimate other = stribeck.identify({m, steady, options, {}});
+  ASSERT_EQ(other.status, Status::ok) << other.message;
+  for (const char* name : {"viscous", "coulomb", "static", "stribeck_velocity"}) {
+    const EstimatedParameter &one = *estimate.Find(name), &two = *other.Find(name);
+    // the second has a part of the samples of the first; a hundredth for bristles still bending
+    EXPECT_NEAR(one.value, two.value, 4 * *two.std + 0.01 * two.value) << name;
+    EXPECT_LT(*two.std, 0.1 * two.value) << name;
+  }
+}
+
+TEST(Lugre, SaysWhatTurnsBetweenTwoSamplesCannotTell) {
+  // speeds that jump from one sample to the next, of joints that have no bristle to show
+  for (const double step : {1.0, 0.1, 0.02}) {
+    const Measurements m =
+        test::RecordFriction(test::StribeckJoint(), step, test::SlowAndFast(3600, 1), 0.5, 1);
+    for (const char* damping : {"estimated", "none"}) {
+      const Estimate estimate = Answer(m, SelectMoving(m), {{"damping", damping}});
+      EXPECT_EQ(estimate.status, Status::not_identifiable) << estimate.message;
+      EXPECT_TRUE(estimate.parameters.empty());
+      EXPECT_FALSE(estimate.friction);
+      EXPECT_THAT(estimate.message,
+                  AllOf(HasSubstr("bristle_stiffness"), HasSubstr("turn slowly")));
+    }
+  }
+}
+
+TEST(Lugre, GivesNoNumbersForTableOne) {
+  const Measurements m =
+      test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 1), 0.5, 1);
+  for (const char* damping : {"estimated", "none"}) {
+    const Estimate estimate = Answer(m, SelectMoving(m), {{"damping", damping}});
+    EXPECT_EQ(estimate.status, Status::not_identifiable) << estimate.message;
+    EXPECT_TRUE(estimate.parameters.empty());
+  }
+}
+
+TEST(Lugre, ShowsWarmingInItsResidual) {
+  // eight minutes in which the level falls from 15 N.m to about 11
+  FrictionDescription warm = test::LuGreJoint();
+  warm.thermal = Thermal{-3, 100};
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const Measurements m =
+        test::RecordBristle(warm, test::TurningMotion(480, seed), 480, 50, kInertia, 0.5, seed);
+    const Estimate estimate = Answer(m, SelectConstantSpeed(m));
+    EXPECT_EQ(estimate.status, Status::inadequate_model) << estimate.message;
+    EXPECT_THAT(estimate.message, AnyOf(HasSubstr("energy"), HasSubstr("time")));
+    EXPECT_FALSE(estimate.friction);
+  }
+}
+
+TEST(Lugre, JoinsRecordings) {
+  const Measurements joined = JoinRecordings({Minute(1), Minute(2)});
+  const Estimate estimate = Answer(joined, SelectMoving(joined));
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+  for (const auto& [name, truth] : kTruth) {
+    const EstimatedParameter& found = *estimate.Find(name);
+    EXPECT_NEAR(found.value, truth, 4 * *found.std) << name;
+  }
+}
+
+}  // namespace
+}  // namespace warmjoint

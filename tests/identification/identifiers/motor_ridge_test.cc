@@ -1,0 +1,62 @@
+#include "identification/identifiers/motor_ridge.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/support/travelling.h"
+
+namespace warmjoint {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// 10 min at 20 Hz of a joint with a gear of 100.
+Measurements Geared(std::vector<FrictionMap> maps, double noise) {
+  FrictionDescription friction{"viscous_coulomb", {{"viscous", 0.5}, {"coulomb", 2}}, {}, 0, 100};
+  friction.maps = std::move(maps);
+  Measurements m = test::Record(0.05, test::Travel(12000, 0.05, 1, {0.31, 0.57, 0.83}),
+                                Eigen::VectorXd::Zero(12000));
+  m.gear = 100;
+  m.torque = PredictFriction(friction, m).force;
+  test::AddNoise(m, noise, 0, 9);
+  return m;
+}
+
+Estimate Identify(const Measurements& m) {
+  const Identifier identifier = MotorRidge();
+  const Options options(identifier.options, {{"width", "1"}, {"arm_kernels", "10"}}, {});
+  const Selection selection = SelectMoving(m);
+  return identifier.identify({m, selection, options, {}});
+}
+
+TEST(MotorRidge, FindsTheMultiplesOfTheMotorsTurn) {
+  const Estimate estimate =
+      Identify(Geared({test::MotorRipple(2, 0.2), test::MotorRipple(6, 0.1)}, 0.1));
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+  for (const char* direction : {"v > 0: 0.", "v < 0: 0."}) {
+    EXPECT_THAT(estimate.message, HasSubstr(direction));
+  }
+  EXPECT_THAT(estimate.message,
+              ::testing::ContainsRegex("N.m at 2 a turn, 0\\.[0-9]+ N.m at 6 a turn; motor ripple "
+                                       "for v < 0: 0\\.[0-9]+ N.m at 2 a turn, 0\\.[0-9]+ N.m at "
+                                       "6 a turn"));
+  EXPECT_NEAR(estimate.metrics->rmse, 0.1, 0.1 * 0.05);
+}
+
+TEST(MotorRidge, DoesNotTakeATorqueThatIsPeriodicInTimeForRipple) {
+  Measurements m = Geared({}, 0.1);
+  for (Eigen::Index i = 0; i < m.size(); ++i) {
+    m.torque[i] += 0.3 * std::sin(2 * std::numbers::pi / 7 * m.time[i] + 0.4);
+  }
+  const Estimate estimate = Identify(m);
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+  EXPECT_THAT(estimate.message, HasSubstr("v > 0: none above the noise"));
+  EXPECT_THAT(estimate.message, HasSubstr("v < 0: none above the noise"));
+}
+
+TEST(MotorRidge, FindsNothingWhereThereIsNone) {
+  const Estimate estimate = Identify(Geared({test::PositionLevel(1, 0.3)}, 0.1));
+  EXPECT_THAT(estimate.message, HasSubstr("v > 0: none above the noise"));
+}
+
+}  // namespace
+}  // namespace warmjoint

@@ -1,0 +1,113 @@
+#include "identification/identifiers/nominal_ls.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/support/vectors.h"
+
+namespace warmjoint {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+Estimate Fit(const Measurements& measurements, const std::string& law) {
+  const Identifier identifier = NominalLs();
+  const Options options(identifier.options, {{"law", law}}, {});
+  return identifier.identify({measurements, SelectMoving(measurements), options, {}});
+}
+
+/// Speeds `speeds` (rad/s) in turn, 10 samples each, under kv = 2 N.m.s/rad and kc = 7 N.m.
+Measurements Steps(const std::vector<double>& speeds) {
+  Eigen::VectorXd v(10 * speeds.size());
+  for (Eigen::Index i = 0; i < v.size(); ++i) v[i] = speeds[i / 10];
+  return test::Record(0.1, v, v.unaryExpr([](double x) { return 2 * x + 7 * Sign(x); }));
+}
+
+TEST(NominalLs, ReproducesTheGoldenSolutions) {
+  WARMJOINT_NEED_SHARED("golden/golden.json");
+  const nlohmann::json& golden = test::Golden().at("dataset");
+  const Measurements recording = test::GoldenRecording();
+
+  // 1e-9: linear solve of a well-conditioned problem in another order of operations
+  const Eigen::VectorXd law2 = test::ToVector(golden.at("LS_nominal_(2)"));
+  const Estimate two = Fit(recording, "viscous_coulomb");
+  EXPECT_NEAR(two.Find("viscous")->value, law2[0], 1e-9 * law2[0]);
+  EXPECT_NEAR(two.Find("coulomb")->value, law2[1], 1e-9 * law2[1]);
+
+  const Eigen::VectorXd law3 = test::ToVector(golden.at("LS_nominal_(3)"));
+  const Estimate three = Fit(recording, "asymmetric");
+  EXPECT_NEAR(three.Find("viscous")->value, law3[0], 1e-9 * law3[0]);
+  EXPECT_NEAR(three.Find("coulomb_positive")->value, law3[1], 1e-9 * law3[1]);
+  EXPECT_NEAR(three.Find("coulomb_negative")->value, law3[2], 1e-9 * law3[2]);
+
+  // the golden variance counts the samples at rest too, where the law gives 0
+  const Metrics& metrics = *two.metrics;
+  const double rests = (recording.velocity.array() == 0).select(recording.torque, 0).squaredNorm();
+  const double squares = metrics.rmse * metrics.rmse * metrics.n + rests;
+  const double variance = golden.at("sigma2_hat_LS2");
+  EXPECT_NEAR(squares / (240 - 2), variance, 1e-9 * variance);
+}
+
+TEST(NominalLs, RecoversAnExactLawWithoutError) {
+  const Estimate estimate = Fit(Steps({0.2, -0.5, 1.0, -1.0}), "viscous_coulomb");
+  EXPECT_EQ(estimate.status, Status::ok);
+  EXPECT_NEAR(estimate.Find("viscous")->value, 2, 1e-12);  // rounding of a 2 x 2 problem
+  EXPECT_NEAR(estimate.Find("coulomb")->value, 7, 1e-12);
+  EXPECT_EQ(estimate.friction->law, "viscous_coulomb");
+  EXPECT_EQ(estimate.friction->parameters.at("coulomb"), estimate.Find("coulomb")->value);
+}
+
+TEST(NominalLs, SaysThatOneSpeedAloneIsNotIdentifiable) {
+  const Estimate estimate = Fit(Steps({0.5, -0.5}), "viscous_coulomb");
+  EXPECT_EQ(estimate.status, Status::not_identifiable);
+  EXPECT_TRUE(estimate.parameters.empty());
+  EXPECT_FALSE(estimate.friction || estimate.metrics);
+  EXPECT_THAT(estimate.message,
+              AllOf(HasSubstr("viscous, coulomb"), HasSubstr("two or more speeds"),
+                    Not(HasSubstr("direction"))));
+}
+
+TEST(NominalLs, SaysThatAnUnseenDirectionIsNotIdentifiable) {
+  const Estimate estimate = Fit(Steps({0.2, 1.0}), "asymmetric");
+  EXPECT_EQ(estimate.status, Status::not_identifiable);
+  EXPECT_THAT(estimate.message, AllOf(HasSubstr("coulomb_negative"), HasSubstr("both directions"),
+                                      Not(HasSubstr("viscous"))));
+}
+
+TEST(NominalLs, CallsUnusableDataBad) {
+  Measurements not_a_number = Steps({0.2, 1.0});
+  not_a_number.torque[3] = std::numeric_limits<double>::quiet_NaN();
+  const Estimate nan = Fit(not_a_number, "coulomb");
+  EXPECT_EQ(nan.status, Status::bad_data);
+  EXPECT_THAT(nan.message, HasSubstr("torque is nan at sample 3"));
+
+  Measurements constant = Steps({0.2, 1.0});
+  constant.torque.setConstant(4);
+  EXPECT_EQ(Fit(constant, "coulomb").status, Status::bad_data);
+  EXPECT_EQ(Fit(Steps({0.0}), "coulomb").status, Status::bad_data);
+}
+
+TEST(NominalLs, GivesNoFrictionWhereTheLawForbidsTheValue) {
+  Measurements falling = Steps({0.2, -0.5, 1.0, -1.0});
+  falling.torque -= 3 * falling.velocity;
+  const Estimate estimate = Fit(falling, "viscous_coulomb");
+  EXPECT_EQ(estimate.status, Status::inadequate_model);
+  EXPECT_THAT(estimate.message,
+              HasSubstr("viscous is -1 N.m.s/rad, below its bound 0, with its whole 95 %"));
+  EXPECT_FALSE(estimate.friction);
+}
+
+TEST(NominalLs, CarriesTheUnitOfALoggedCurrent) {
+  Measurements current = Steps({0.2, -0.5, 1.0});
+  current.torque_unit = "A";
+  const Estimate estimate = Fit(current, "viscous_coulomb");
+  EXPECT_EQ(estimate.Find("viscous")->unit, "A.s/rad");
+  EXPECT_EQ(estimate.Find("coulomb")->unit, "A");
+}
+
+}  // namespace
+}  // namespace warmjoint

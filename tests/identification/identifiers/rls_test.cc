@@ -1,0 +1,55 @@
+#include "identification/identifiers/rls.h"
+
+#include <gmock/gmock.h>
+
+#include "identification/identifiers/nominal_ls.h"
+#include "tests/support/warm_recording.h"
+
+namespace warmjoint {
+namespace {
+
+Estimate Answer(const Identifier& identifier, const Measurements& m,
+                const std::map<std::string, std::string>& given) {
+  const Options options(identifier.options, given, {});
+  return identifier.identify({m, SelectMoving(m), options, {}});
+}
+
+TEST(Rls, IsNominalLsWhereItForgetsNothing) {
+  FrictionDescription friction = test::TableOne();
+  friction.thermal.reset();
+  const Measurements m =
+      test::RecordFriction(friction, 1, test::AlternatingSpeeds(2000, 1, 300), 0.5, 1);
+  const Estimate online = Answer(Rls(), m, {{"forgetting", "1"}});
+  const Estimate batch = Answer(NominalLs(), m, {});
+  for (const char* name : {"viscous", "coulomb"}) {
+    // 1e-9: linear solve; the first doubt counts as 1e-8 of 1400 samples
+    EXPECT_NEAR(online.Find(name)->value, batch.Find(name)->value, 1e-9 * 15) << name;
+    EXPECT_NEAR(*online.Find(name)->std, *batch.Find(name)->std, 0.01 * *batch.Find(name)->std);
+  }
+}
+
+TEST(Rls, FollowsFrictionThatWarms) {
+  // settled, E = k W makes F = F0 / (1 - k |v|): near 0.5 rad/s the level has fallen by half
+  const Measurements m =
+      test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 2), 0.1, 2);
+  const Estimate online = Answer(Rls(), m, {{"forgetting", "0.995"}});
+  ASSERT_EQ(online.trace.size(), 50u);
+  const double first = online.trace[1].parameters[1].second;
+  const double last = online.trace[49].parameters[1].second;
+  EXPECT_LT(last, first - 3);
+}
+
+TEST(Rls, TakesOffTheWarmingThatIsKnown) {
+  const Measurements m =
+      test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 3), 0.1, 3);
+  const Estimate online =
+      Answer(Rls(), m, {{"thermal_gain", "-3"}, {"thermal_time_constant", "600"}});
+  // noise of 0.1 N.m over the last 1000 samples; 5 standard deviations
+  EXPECT_NEAR(online.Find("viscous")->value, 5, 5 * 0.1 / std::sqrt(1000) / 0.26);
+  EXPECT_NEAR(online.Find("coulomb")->value, 15, 5 * 0.1 / std::sqrt(1000) / 0.4);
+  ASSERT_TRUE(online.friction);
+  EXPECT_EQ(online.friction->thermal->gain, -3);
+}
+
+}  // namespace
+}  // namespace warmjoint

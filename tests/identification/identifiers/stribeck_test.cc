@@ -1,0 +1,141 @@
+#include "identification/identifiers/stribeck.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "identification/nonlinear/stribeck_fit.h"
+#include "sim/dataset/join_recordings.h"
+#include "tests/support/slow_recording.h"
+
+namespace warmjoint {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+Estimate Answer(const Measurements& m, const std::map<std::string, std::string>& given = {}) {
+  const Identifier identifier = StribeckByCeres();
+  const Options options(identifier.options, given, {});
+  return identifier.identify({m, SelectMoving(m), options, {}});
+}
+
+using test::StribeckJoint;
+
+const std::map<std::string, double> kTruth{
+    {"viscous", 5}, {"coulomb", 15}, {"static", 20}, {"stribeck_velocity", 0.05}};
+
+TEST(Stribeck, HoldsTheTruthInItsIntervals) {
+  std::map<std::string, int> held;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const Measurements m =
+        test::RecordFriction(StribeckJoint(), 0.1, test::SlowAndFast(4000, seed), 0.5, seed);
+    const Estimate estimate = Answer(m);
+    ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+    for (const auto& [name, truth] : kTruth) {
+      const auto& [lower, upper] = *estimate.Find(name)->interval95;
+      held[name] += lower <= truth && truth <= upper;
+    }
+  }
+  // 38 of 40 expected, binomial deviation 1.4; four of them
+  for (const auto& [name, count] : held) EXPECT_GE(count, 32) << name;
+}
+
+TEST(Stribeck, FindsTheWarmingToo) {
+  FrictionDescription warm = StribeckJoint();
+  warm.thermal = Thermal{-3, 60};
+  const Measurements m = test::RecordFriction(warm, 0.1, test::SlowAndFast(6000, 3), 0.3, 3);
+  const Estimate estimate = Answer(m, {{"warming", "estimated"}});
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+  ASSERT_TRUE(estimate.friction && estimate.friction->thermal);
+  for (const auto& [name, truth] : kTruth) {
+    const EstimatedParameter& parameter = *estimate.Find(name);
+    EXPECT_NEAR(parameter.value, truth, 5 * *parameter.std) << name;
+  }
+  EXPECT_NEAR(estimate.Find("thermal_gain")->value, -3, 5 * *estimate.Find("thermal_gain")->std);
+  EXPECT_NEAR(estimate.Find("thermal_time_constant")->value, 60,
+              5 * *estimate.Find("thermal_time_constant")->std);
+  EXPECT_NEAR(estimate.metrics->rmse, 0.3, 0.3 * 5 / std::sqrt(2 * 6000.0));
+}
+
+TEST(Stribeck, TakesEachOfSeveralRecordingsFromCold) {
+  // the same warm-up twice tells what it tells once, a root of two more surely
+  FrictionDescription warm = StribeckJoint();
+  warm.thermal = Thermal{-3, 60};
+  const Measurements once = test::RecordFriction(warm, 0.1, test::SlowAndFast(4000, 3), 0.3, 3);
+  const Estimate one = Answer(once, {{"warming", "estimated"}});
+  const Estimate two = Answer(JoinRecordings({once, once}), {{"warming", "estimated"}});
+  ASSERT_EQ(one.status, Status::ok) << one.message;
+  ASSERT_EQ(two.status, Status::ok) << two.message;
+  for (const EstimatedParameter& parameter : one.parameters) {
+    const EstimatedParameter& other = *two.Find(parameter.name);
+    // 1e-6: iterative optimisers (golden/README)
+    EXPECT_NEAR(other.value, parameter.value, 1e-6 * std::abs(parameter.value)) << parameter.name;
+    if (!parameter.std) continue;
+    // white noise over n - 6 and 2 n - 6 freedoms: one in 4000
+    EXPECT_NEAR(*other.std, *parameter.std / std::sqrt(2), 1e-3 * *parameter.std) << parameter.name;
+  }
+}
+
+TEST(Stribeck, NamesWhatNeedsSlowSpeedsAndTheMotionThatHelps) {
+  // nothing below 0.2 rad/s, four times vs: exp(-16) of the fall is left
+  Eigen::VectorXd velocity = test::SlowAndFast(4000, 7);
+  for (double& v : velocity) v = std::copysign(std::max(std::abs(v), 0.2), v);
+  const Estimate estimate = Answer(test::RecordFriction(StribeckJoint(), 0.1, velocity, 0.5, 7));
+  EXPECT_EQ(estimate.status, Status::not_identifiable);
+  EXPECT_TRUE(estimate.parameters.empty());
+  EXPECT_THAT(estimate.message, AllOf(HasSubstr("static and stribeck_velocity"),
+                                      HasSubstr("0.2 rad/s"), HasSubstr("down to about 0.02")));
+}
+
+TEST(Stribeck, RefusesFrictionThatRisesFromRest) {
+  Eigen::VectorXd velocity = test::SlowAndFast(4000, 9);
+  // written out, as no friction file may say so
+  Measurements m = test::Record(0.1, velocity, velocity);
+  RandomStream random({9, 0}, Stream::torque_noise);
+  for (Eigen::Index i = 0; i < m.size(); ++i) {
+    const double v = velocity[i];
+    m.torque[i] =
+        5 * v + Sign(v) * (20 - 5 * std::exp(-std::pow(v / 0.05, 2))) + 0.5 * random.Normal();
+  }
+  const Estimate estimate = Answer(m);
+  EXPECT_EQ(estimate.status, Status::inadequate_model);
+  EXPECT_THAT(estimate.message, HasSubstr("friction rises from rest"));
+  EXPECT_FALSE(estimate.friction);
+}
+
+TEST(StribeckFit, HasTheJacobianOfFiniteDifferences) {
+  FrictionDescription warm = StribeckJoint();
+  warm.thermal = Thermal{-3, 60};
+  const Measurements m = test::RecordFriction(warm, 0.1, test::SlowAndFast(500, 3), 0.3, 3);
+  const Selection selection = SelectMoving(m);
+  const StribeckProblem problem{m, selection, FindIntervals(m.time), 2, Warming::estimated, 10};
+  StribeckPoint start;
+  start.x.resize(6);
+  start.x << 5, 15, 20, std::log(0.05), -3, std::log(60);
+  const StribeckFit fit = RefineStribeck(problem, start);
+
+  // the same forces by the model that predicts
+  const auto force = [&](const Eigen::VectorXd& x) {
+    const FrictionDescription friction{"stribeck",
+                                       {{"viscous", x[0]},
+                                        {"coulomb", x[1]},
+                                        {"static", x[2]},
+                                        {"stribeck_velocity", std::exp(x[3])},
+                                        {"stribeck_exponent", 2}},
+                                       Thermal{x[4], std::exp(x[5])}};
+    return PredictFriction(friction, m).force;
+  };
+  EXPECT_LT((force(fit.solution.x) - fit.fitted).cwiseAbs().maxCoeff(), 1e-10);
+  for (Eigen::Index j = 0; j < 6; ++j) {
+    Eigen::VectorXd above = fit.solution.x, below = fit.solution.x;
+    above[j] += 1e-5;
+    below[j] -= 1e-5;
+    const Eigen::VectorXd slope = (force(above) - force(below)) / 2e-5;
+    // rounding 20 eps / 1e-5 and third derivatives of size 100 times 1e-10 / 6
+    EXPECT_LT((slope - fit.jacobian.col(j)).cwiseAbs().maxCoeff(), 1e-7) << j;
+  }
+}
+
+}  // namespace
+}  // namespace warmjoint

@@ -1,0 +1,126 @@
+#include "identification/maps/make_bands.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "identification/identifier.h"
+#include "tests/support/travelling.h"
+
+namespace warmjoint {
+namespace {
+
+/// A joint whose level varies over its position.
+FrictionDescription Truth(FrictionMap map) {
+  FrictionDescription friction{"viscous_coulomb", {{"viscous", 0.5}, {"coulomb", 2}}, {}, 0, 100};
+  friction.maps = {std::move(map)};
+  return friction;
+}
+
+struct Trial {
+  Measurements measurements;
+  Estimate estimate;
+};
+
+Trial Identify(const FrictionDescription& truth, const char* name, std::uint64_t seed,
+               double colour, const std::map<std::string, std::string>& given) {
+  Trial trial;
+  Measurements& m = trial.measurements;
+  m = test::Record(0.1, test::Travel(6000, 0.1, 1, {0.31, 0.57, 0.83}),
+                   Eigen::VectorXd::Zero(6000));
+  m.gear = 100;
+  m.position.array() -= 1;  // between the limits
+  m.torque = PredictFriction(truth, m).force;
+  test::AddNoise(m, 0.1, colour, seed);
+  const Identifier& identifier = FindIdentifier(name);
+  const Options options(identifier.options, given, {});
+  trial.estimate = identifier.identify({m, SelectMoving(m), options, {}});
+  return trial;
+}
+
+/// What the places of bands over position and direction make of the truth there.
+struct Cover {
+  int held = 0;
+  int all = 0;
+  double errors = 0;     // sum of squares, (N.m)^2
+  double variances = 0;  // sum, (N.m)^2
+
+  void Add(const Trial& trial, const FrictionDescription& truth) {
+    const MapBand& band = trial.estimate.bands[0];
+    Measurements at = trial.measurements;
+    const auto size = static_cast<Eigen::Index>(band.points.size());
+    at.time = Eigen::VectorXd::LinSpaced(size, 0, 1);
+    at.position.resize(size);
+    at.velocity.resize(size);
+    at.torque = Eigen::VectorXd::Zero(size);
+    for (Eigen::Index i = 0; i < size; ++i) {
+      at.position[i] = band.points[static_cast<size_t>(i)][0];
+      at.velocity[i] = band.points[static_cast<size_t>(i)][1];
+    }
+    const Eigen::VectorXd force = PredictFriction(truth, at).force;
+    for (size_t i = 0; i < band.points.size(); ++i) {
+      const double f = force[static_cast<Eigen::Index>(i)];
+      held += band.interval95[i][0] <= f && f <= band.interval95[i][1];
+      errors += std::pow(band.value[i] - f, 2);
+      variances += std::pow(band.std[i], 2);
+      ++all;
+    }
+  }
+};
+
+// the prior allows for a map as rough as its kernels; a smooth one is held more often than in 95 %,
+// but by bands that are at most twice as wide as the errors
+void ExpectTheTruthIsHeld(double colour) {
+  const FrictionDescription truth = Truth(test::PositionLevel(1, 0.3));
+  Cover cover;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    const Trial trial =
+        Identify(truth, "position-ridge", seed, colour, {{"kernels", "20"}, {"width", "1"}});
+    ASSERT_EQ(trial.estimate.bands.size(), 1u) << trial.estimate.message;
+    cover.Add(trial, truth);
+  }
+  EXPECT_GT(cover.held, 0.93 * cover.all);
+  EXPECT_LT(cover.variances, 4 * cover.errors);
+}
+
+TEST(Bands, HoldTheTruthAsOftenAsTheySay) { ExpectTheTruthIsHeld(0); }
+
+TEST(Bands, HoldItInColouredNoiseAsWell) { ExpectTheTruthIsHeld(0.9); }
+
+TEST(Bands, OfLawAndMapAreFarNarrowerThanTheConstantThatTheyShare) {
+  const Trial trial = Identify(Truth(test::PositionLevel(1, 0.3)), "position-ridge", 1, 0,
+                               {{"kernels", "20"}, {"width", "1"}});
+  const MapBand& band = trial.estimate.bands[0];
+  std::vector<double> deviations = band.std;
+  std::ranges::sort(deviations);
+  EXPECT_LT(deviations[deviations.size() / 2], 0.03);
+  EXPECT_FALSE(trial.estimate.Find("coulomb")->interval95) << "the kernels can imitate it";
+  EXPECT_TRUE(trial.estimate.Find("viscous")->interval95);
+}
+
+TEST(Bands, OfAMapThatIsAlikeBothWaysStandAlone) {
+  FrictionMap even = test::PositionLevel(1, 0.3);
+  even.factor = MapFactor::one;
+  const Trial trial = Identify(Truth(even), "position-ridge", 2, 0,
+                               {{"kernels", "20"}, {"width", "1"}, {"basis", "position"}});
+  const MapBand& band = trial.estimate.bands[0];
+  for (size_t i = 0; i < band.points.size(); ++i) {
+    EXPECT_NEAR(band.value[i], 0.3 * std::sin(4 * band.points[i][0] + 0.5), 0.05);
+  }
+}
+
+TEST(Bands, OfTwoMapsEachHoldTheWholeFriction) {
+  const Trial trial = Identify(Truth(test::MotorRipple(2, 0.2)), "motor-ridge", 3, 0,
+                               {{"width", "1"}, {"arm_kernels", "10"}});
+  ASSERT_EQ(trial.estimate.bands.size(), 2u) << trial.estimate.message;
+  const MapBand& arm = trial.estimate.bands[1];
+  for (size_t i = 0; i < arm.points.size(); ++i) {
+    // ripple averages out over the arm's places: law alone is left
+    const double v = arm.points[i][1];
+    EXPECT_NEAR(arm.value[i], 0.5 * v + 2 * Sign(v), 0.06);
+  }
+}
+
+}  // namespace
+}  // namespace warmjoint

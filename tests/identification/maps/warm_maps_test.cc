@@ -1,0 +1,202 @@
+#include "identification/maps/warm_maps.h"
+
+#include <gmock/gmock.h>
+
+#include "identification/holdout/hold_out.h"
+#include "identification/identifier.h"
+#include "tests/support/travelling.h"
+
+namespace warmjoint {
+namespace {
+
+/// 20 min at 5 Hz of a YuMi-like joint: levels of about 0.5 N.m that fade by 40 %, ripple over the
+/// position.
+FrictionDescription YumiLike() {
+  FrictionDescription friction{
+      "viscous_coulomb", {{"viscous", 0.0527}, {"coulomb", 0.48}}, Thermal{-0.194, 180}, 0, 1};
+  friction.maps = {test::PositionLevel(1.5, 0.06)};
+  return friction;
+}
+
+Measurements Recorded(const FrictionDescription& friction, double noise, std::uint64_t seed) {
+  return test::RecordFriction(friction, 0.2, test::Travel(6000, 0.2, 1.5, {0.3, 0.6, 1, 1.5, 2}),
+                              noise, seed);
+}
+
+Estimate Identify(const Measurements& m, const char* name,
+                  const std::map<std::string, std::string>& given) {
+  const Identifier& identifier = FindIdentifier(name);
+  const Options options(identifier.options, given, {});
+  const Selection selection = SelectMoving(m);
+  const IdentifierInput input{m, selection, options, {}};
+  Estimate estimate = identifier.identify(input);
+  estimate.holdout = HoldOut(identifier, input, 0.3);
+  return estimate;
+}
+
+const std::map<std::string, std::string> kFew{{"kernels", "30"}, {"width", "1"}};
+
+TEST(WarmMaps, FindTheWarmingBesideAMap) {
+  const FrictionDescription truth = YumiLike();
+  const Measurements m = Recorded(truth, 0.01, 1);
+  auto given = kFew;
+  given["position"] = "map";
+  const Estimate estimate = Identify(m, "energy-ml", given);
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+  for (const auto& [name, value] :
+       {std::pair("viscous", 0.0527), std::pair("coulomb", 0.48), std::pair("thermal_gain", -0.194),
+        std::pair("thermal_time_constant", 180.0)}) {
+    const EstimatedParameter& found = *estimate.Find(name);
+    if (!found.std) {
+      EXPECT_STREQ(name, "coulomb") << "which the kernels can imitate";
+      continue;
+    }
+    // 4 of its own standard deviations, which must be small themselves
+    EXPECT_NEAR(found.value, value, 4 * *found.std) << name;
+    EXPECT_LT(*found.std, 0.05 * std::abs(value)) << name;
+  }
+  EXPECT_NEAR(estimate.metrics->rmse, 0.01, 0.01 * 0.05);  // 1 / sqrt(2 n) is 0.9 %
+}
+
+TEST(WarmMaps, EachPartOfTheFrictionBettersTheFitAlsoOnHeldOutTime) {
+  const Measurements m = Recorded(YumiLike(), 0.01, 2);
+  auto given = kFew;
+  const Estimate nominal = Identify(m, "nominal-ls", {});
+  const Estimate position = Identify(m, "position-ridge", given);
+  given["position"] = "map";
+  const Estimate energy = Identify(m, "energy-ml", given);
+  EXPECT_LT(nominal.metrics->fit, position.metrics->fit - 1);
+  EXPECT_LT(position.metrics->fit, energy.metrics->fit - 1);
+  ASSERT_TRUE(energy.holdout);
+  EXPECT_LT(nominal.holdout->fit, position.holdout->fit);
+  EXPECT_LT(position.holdout->fit, energy.holdout->fit - 1);
+  EXPECT_LT(energy.holdout->rmse, 0.01 * 1.15);
+}
+
+TEST(WarmMaps, SayWhereNothingWarms) {
+  FrictionDescription cold = YumiLike();
+  cold.thermal.reset();
+  auto given = kFew;
+  given["position"] = "map";
+  const Estimate estimate = Identify(Recorded(cold, 0.01, 3), "energy-ml", given);
+  EXPECT_EQ(estimate.status, Status::not_identifiable);
+  EXPECT_THAT(estimate.message, ::testing::HasSubstr("no warm-up can be seen"));
+}
+
+TEST(WarmMaps, FindTheWarmingBesideAMotorMap) {
+  FrictionDescription truth = YumiLike();
+  truth.gear = 100;
+  truth.maps.push_back(test::MotorRipple(2, 0.05));
+  const Measurements fresh = [&] {
+    Measurements m = test::Record(0.05, test::Travel(12000, 0.05, 1.5, {0.31, 0.57, 0.93, 1.4}),
+                                  Eigen::VectorXd::Zero(12000));
+    m.gear = 100;
+    m.torque = PredictFriction(truth, m).force;
+    test::AddNoise(m, 0.01, 0, 8);
+    return m;
+  }();
+  const Estimate estimate =
+      Identify(fresh, "energy-ml", {{"position", "motor"}, {"kernels", "30"}, {"width", "1"}});
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+  EXPECT_THAT(estimate.message, ::testing::ContainsRegex("motor ripple for v > 0: 0.0[45][0-9.]* "
+                                                         "N.m at 2 a turn; .* at 2 a turn"));
+  for (const auto& [name, value] :
+       {std::pair("thermal_gain", -0.194), std::pair("thermal_time_constant", 180.0)}) {
+    const EstimatedParameter& found = *estimate.Find(name);
+    EXPECT_NEAR(found.value, value, 4 * *found.std)
+        << name;  // its own deviations, small themselves
+    EXPECT_LT(*found.std, 0.05 * std::abs(value)) << name;
+  }
+  EXPECT_NEAR(estimate.metrics->rmse, 0.01, 0.01 * 0.05);
+}
+
+TEST(EnergyMap, FollowsRippleThatFadesAsTheJointWarms) {
+  // ripple that is gone once the joint is warm: E is about -0.09 N.m then
+  FrictionDescription truth = YumiLike();
+  FrictionMap fading{{{MapQuantity::position, EvenAxis(-1.5, 1.5, 24)},
+                      {MapQuantity::energy, EvenAxis(-0.09, 0, 2)}},
+                     KernelKind::normalised,
+                     {},
+                     MapFactor::direction};
+  for (const double p : fading.axes[0].kernels.centres) {
+    fading.weights.push_back(0);
+    fading.weights.push_back(0.1 * std::sin(3 * p));
+  }
+  truth.maps = {fading};
+  const Measurements m = Recorded(truth, 0.01, 4);
+  auto given = kFew;
+  const Estimate fixed = [&] {
+    auto with = given;
+    with["position"] = "map";
+    return Identify(m, "energy-ml", with);
+  }();
+  const Estimate estimate = Identify(m, "energy-map", given);
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+  EXPECT_LT(estimate.metrics->rmse, fixed.metrics->rmse);
+  EXPECT_LT(estimate.metrics->rmse, 0.01 * 1.05);  // the noise floor
+}
+
+TEST(LoadMap, FindsALevelThatGrowsWithTheLoad) {
+  FrictionDescription truth = YumiLike();
+  truth.maps = {{{{MapQuantity::load, EvenAxis(0, 10, 11)}},
+                 KernelKind::normalised,
+                 {},
+                 MapFactor::direction}};
+  for (const double load : truth.maps[0].axes[0].kernels.centres) {
+    truth.maps[0].weights.push_back(0.01 * load);
+  }
+  Measurements m = Recorded(truth, 0, 5);
+  m.load = Eigen::VectorXd(m.size());
+  for (Eigen::Index i = 0; i < m.size(); ++i) (*m.load)[i] = 5 + 5 * std::sin(0.013 * m.time[i]);
+  m.torque = PredictFriction(truth, m).force;
+  test::AddNoise(m, 0.01, 0, 5);
+  const Estimate estimate = Identify(m, "load-map", {{"width", "1"}});
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+  EXPECT_NEAR(estimate.metrics->rmse, 0.01, 0.01 * 0.05);
+  EXPECT_LT(estimate.holdout->rmse, 0.01 * 1.15);
+
+  m.load.reset();
+  EXPECT_EQ(Identify(m, "load-map", {}).status, Status::bad_data);
+}
+
+TEST(LpvEnergy, FollowsViscousFrictionThatFades) {
+  // kv(E) = 0.0527 + 0.5 E, E from 0 to about -0.09 N.m
+  FrictionDescription truth = YumiLike();
+  truth.maps = {{{{MapQuantity::energy, EvenAxis(-0.3, 0, 4)}},
+                 KernelKind::normalised,
+                 {},
+                 MapFactor::velocity}};
+  for (const double energy : truth.maps[0].axes[0].kernels.centres) {
+    truth.maps[0].weights.push_back(0.5 * energy);
+  }
+  const Measurements m = Recorded(truth, 0.002, 6);
+  const Estimate fixed = Identify(m, "energy-ml", {});
+  const Estimate estimate = Identify(m, "lpv-energy", {});
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+  EXPECT_LT(estimate.metrics->rmse, fixed.metrics->rmse);
+}
+
+TEST(WarmMaps, FindGainAndTimeConstantOfALawWhoseSlopeWarms) {
+  // Eq. (27): F = (5 + 0.1 E) v + (15 + E) sign(v); E from these losses
+  const Eigen::VectorXd velocity = test::AlternatingSpeeds(3600, 4);
+  Measurements m = test::Record(1, velocity, Eigen::VectorXd::Zero(3600));
+  const DiscreteThermal thermal = Discretise({-3, 600}, 1);
+  RandomStream random({4, 0}, Stream::torque_noise);
+  double energy = 0;
+  for (Eigen::Index i = 0; i < 3600; ++i) {
+    const double v = velocity[i], level = 15 + energy + (5 + 0.1 * energy) * std::abs(v);
+    m.torque[i] = std::copysign(level, v) + 0.1 * random.Normal();
+    energy = ThermalStep(thermal.gain, thermal.pole, energy, Loss(v, level));
+  }
+  const Estimate fixed = Identify(m, "energy-ml", {});
+  const Estimate estimate = Identify(m, "lpv-energy", {});
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+  // without the slope the gain takes it up; with it the noise leaves 0.3 % (of k) and 0.4 % (tau)
+  EXPECT_GT(std::abs(fixed.Find("thermal_gain")->value + 3), 0.1);
+  EXPECT_NEAR(estimate.Find("thermal_gain")->value, -3, 4 * 0.003 * 3);
+  EXPECT_NEAR(estimate.Find("thermal_time_constant")->value, 600, 4 * 0.004 * 600);
+  EXPECT_FALSE(estimate.Find("thermal_gain")->interval95);
+}
+
+}  // namespace
+}  // namespace warmjoint
