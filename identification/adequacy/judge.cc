@@ -176,6 +176,7 @@ Judgement IdentifyAndJudge(const Identifier& identifier, const FinerInput& finer
   if (faults.empty()) {
     JudgeAdequacy(identifier, finer.input(), judgement.judged);
     WarnOfUnseenReversals(finer.unseen(), judgement.judged);
+    if (finer.velocity()) TellSegmentVelocity(*finer.velocity(), judgement.judged);
   } else {
     Void(Status::bad_data, fmt::format("{}", fmt::join(faults, "; and ")), judgement.judged);
   }
