@@ -11,6 +11,7 @@
 #include "identification/adequacy/cells.h"
 #include "identification/adequacy/fading.h"
 #include "identification/adequacy/fitted_model.h"
+#include "identification/adequacy/lag.h"
 #include "identification/adequacy/smooth_structure.h"
 #include "identification/fit_data.h"
 #include "identification/forward/thermal_filter.h"
@@ -149,6 +150,7 @@ Adequacy ExamineResidual(const Identifier& identifier, const IdentifierInput& in
     adequacy.by_start = MovesByStart(cells, derivatives, cells.Means(*model->by_initial_energy),
                                      kWarmStart * model->energy.cwiseAbs().maxCoeff());
   }
+  if (auto lag = FindLag(*model, m, rest)) adequacy.found.push_back(*lag);
   FindRipple(m, model->selection, std::move(rest), adequacy);
   std::sort(adequacy.found.begin(), adequacy.found.end(),
             [](const Structure& a, const Structure& b) { return a.explained > b.explained; });

@@ -14,6 +14,7 @@ enum class Dependence {
   speed,
   speed_by_energy,  // a slope that warms
   direction,
+  lag,  // of the torque behind the velocity
   load,
   temperature,
   position,
@@ -28,7 +29,7 @@ struct Structure {
   double merit = 0;      // the same less ln(m) times the noise's variance for each of its features,
                          // as BIC has it: what needs fewer features says more
   double deviations = 0;  // from chance
-  double period = 0;      // of a ripple, in the unit of the angle; 0: none
+  double period = 0;      // of a ripple, in the unit of the angle; 0: none. Of a lag: the lag, s
   double alike = 0;       // share of an angle's part that acts alike in both directions of motion
   Eigen::VectorXd
       moves;  // [p] change of the fit's parameters when the structure joins it; or empty

@@ -97,6 +97,10 @@ std::string DescribeStructure(const Adequacy& adequacy, const Structure& structu
         return "speed x energy (the slope warms)";
       case Dependence::direction:
         return "direction";
+      case Dependence::lag:
+        return fmt::format(
+            "the time since the last change of speed (the torque lags by some {:.1g} s)",
+            structure.period);
       case Dependence::load:
         return "load";
       case Dependence::temperature:
@@ -136,6 +140,8 @@ std::string Remedy(const Structure& structure, const Identifier& identifier,
       return AgainstWarmingSlope(estimate);
     case Dependence::direction:
       return AgainstDirection(identifier, input, estimate);
+    case Dependence::lag:
+      return "is the torque filtered or late? shift it against the velocity, or log both alike";
     case Dependence::load:
       return Try("load-map", estimate, "more kernels over load would follow it");
     case Dependence::temperature:
