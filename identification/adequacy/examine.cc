@@ -16,6 +16,7 @@
 #include "identification/fit_data.h"
 #include "identification/forward/thermal_filter.h"
 #include "identification/linear/fit_gravity.h"
+#include "identification/linear/least_squares.h"
 
 namespace warmjoint {
 namespace {
@@ -96,18 +97,40 @@ void SumMoves(Index p, Adequacy& adequacy) {
   adequacy.moves.setZero(p);
   Eigen::VectorXd variance = Eigen::VectorXd::Zero(p);
   for (const Structure& structure : adequacy.found) {
-    adequacy.moves += structure.moves;
-    variance += structure.move_deviations.cwiseAbs2();
+    adequacy.moves += structure.moves.head(p);
+    variance += structure.move_deviations.head(p).cwiseAbs2();
   }
   adequacy.move_deviations = variance.cwiseSqrt();
 }
 
-/// How the parameters of a fit move when its start is warm by `energy`. by_start: [m x 1] dF/dE(0)
-Eigen::VectorXd MovesByStart(const Cells& cells, const Eigen::MatrixXd& derivatives,
-                             const Eigen::MatrixXd& by_start, double energy) {
+/// How the parameters of a fit move with each force that it leaves out, N.m or N. derivatives: [m x
+/// p]; forces: [m x q]; [p x q]
+Eigen::MatrixXd MovesBy(const Eigen::MatrixXd& forces, const Cells& cells,
+                        const Eigen::MatrixXd& derivatives) {
   const Eigen::VectorXd root = cells.weight.cwiseSqrt();
   const Eigen::MatrixXd weighted = root.asDiagonal() * derivatives;
-  return -energy * weighted.colPivHouseholderQr().solve(root.asDiagonal() * by_start);
+  return -weighted.colPivHouseholderQr().solve(root.asDiagonal() * forces);
+}
+
+/// What following the heat within the steps of the log would change, and whether the residual
+/// tells that it does; its force joins the derivatives. derivatives: [m x (p + ...)]
+void LearnHeat(const FittedModel& model, const Cells& cells, Index p, Eigen::MatrixXd& derivatives,
+               Adequacy& adequacy) {
+  if (!model.held_loss) return;
+  const Eigen::MatrixXd force = cells.Means(*model.held_loss);
+  adequacy.by_heat = MovesBy(force, cells, derivatives).topRows(p);
+  derivatives = Beside(derivatives, force);
+  const Eigen::VectorXd root = cells.weight.cwiseSqrt();
+  const Eigen::MatrixXd weighted = root.asDiagonal() * derivatives;
+  const Eigen::VectorXd residual = root.asDiagonal() * cells.Means(model.residual);
+  const LeastSquares fit = SolveLeastSquares(weighted, residual);
+  adequacy.heat_deviation = kInfinity;
+  const Index q = derivatives.cols() - 1, free = cells.size() - q - 1;
+  if (!fit.mixed.empty() || free < 1) return;
+  const double variance =
+      (residual - weighted * fit.solution).squaredNorm() / static_cast<double>(free);
+  adequacy.heat_share = fit.solution[q];
+  adequacy.heat_deviation = std::sqrt(variance * fit.cofactor(q, q));
 }
 
 }  // namespace
@@ -130,9 +153,13 @@ Adequacy ExamineResidual(const Identifier& identifier, const IdentifierInput& in
       std::sqrt(Kept(model->torque, model->selection).squaredNorm() / adequacy.samples);
   adequacy.squares = Kept(model->residual, model->selection).squaredNorm();
   adequacy.names = model->names;
-  const Eigen::MatrixXd derivatives = cells.Means(model->derivatives);
-  adequacy.reach = (cells.weight.cwiseSqrt().asDiagonal() * derivatives).colwise().norm() /
-                   std::sqrt(adequacy.samples);
+  Eigen::MatrixXd derivatives = cells.Means(model->derivatives);
+  const Index jumps = model->jump_spread.size(), p = derivatives.cols() - jumps;
+  adequacy.reach =
+      (cells.weight.cwiseSqrt().asDiagonal() * derivatives.leftCols(p)).colwise().norm() /
+      std::sqrt(adequacy.samples);
+
+  LearnHeat(*model, cells, p, derivatives, adequacy);
 
   // what changes from segment to segment, then what changes within
   const Eigen::MatrixXd energies = Energies(m, model->torque);
@@ -145,10 +172,16 @@ Adequacy ExamineResidual(const Identifier& identifier, const IdentifierInput& in
     rest.segment(cells.begin[i], cells.end[i] - cells.begin[i]).array() -= smooth.explained[c];
   }
   if (auto fading = FindFading(*model, rest)) adequacy.found.push_back(*fading);
-  SumMoves(static_cast<Index>(model->names.size()), adequacy);
+  SumMoves(p, adequacy);
   if (model->by_initial_energy) {
-    adequacy.by_start = MovesByStart(cells, derivatives, cells.Means(*model->by_initial_energy),
-                                     kWarmStart * model->energy.cwiseAbs().maxCoeff());
+    const double energy = kWarmStart * model->energy.cwiseAbs().maxCoeff();
+    adequacy.by_start =
+        MovesBy(energy * cells.Means(*model->by_initial_energy), cells, derivatives).topRows(p);
+  }
+  if (jumps > 0 && !estimate.Find("energy_jump_1")) {
+    const Eigen::MatrixXd forces =
+        derivatives.middleCols(p, jumps) * model->jump_spread.asDiagonal();
+    adequacy.by_gaps = MovesBy(forces, cells, derivatives.leftCols(p)).cwiseAbs().rowwise().sum();
   }
   if (auto lag = FindLag(*model, m, rest)) adequacy.found.push_back(*lag);
   FindRipple(m, model->selection, std::move(rest), adequacy);

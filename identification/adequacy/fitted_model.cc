@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "identification/adequacy/held_loss.h"
 #include "identification/forward/closed_loop.h"
 #include "identification/forward/predict.h"
 #include "identification/linear/fit_gravity.h"
 #include "identification/linear/linear_laws.h"
+#include "identification/warming/gaps.h"
 
 namespace warmjoint {
 namespace {
@@ -114,18 +116,28 @@ std::optional<FittedModel> EvaluateModel(const Identifier& identifier, const Ide
   if (!friction->maps.empty()) model.maps = MapForce(law, values, m, prediction);
   model.derivatives = NominalDerivatives(law, values, m.velocity);
   for (const ParameterInfo& info : law.parameters) model.names.emplace_back(info.name);
+  Eigen::MatrixXd by_jumps(m.size(), 0);
   if (friction->thermal && estimate.Find("thermal_gain")) {
     // beside a warming that was estimated, the law's parameters act through the losses too
-    const ClosedLoop loop(m.time, m.velocity, model.derivatives, m.starts);
+    const std::vector<LogGap> gaps = FindGaps(m);
+    const auto jumps = static_cast<Eigen::Index>(gaps.size());
+    const ClosedLoop loop =
+        ClosedLoop(m.time, m.velocity, model.derivatives, m.starts).WithJumps(Behind(gaps));
     const auto d = static_cast<Eigen::Index>(values.size());
     const Eigen::Map<const Eigen::VectorXd> parameters(values.data(), d);
-    const Eigen::MatrixXd all = loop.Jacobian(parameters, *friction->thermal, energy);
+    const Eigen::MatrixXd all =
+        loop.Jacobian(parameters, *friction->thermal, energy, Eigen::VectorXd::Zero(jumps));
+    by_jumps = all.rightCols(jumps);
+    if (StepMatters(estimate, m)) model.held_loss = ForceOfHeldLoss(*friction, m, energy);
+    model.jump_spread =
+        JumpSpread(gaps, model.energy.cwiseAbs().maxCoeff(), friction->thermal->time_constant);
     model.derivatives = all.leftCols(start ? d + 3 : d + 2);
     model.names.insert(model.names.end(), {"thermal_gain", "thermal_time_constant"});
     if (start) model.names.emplace_back("initial_energy");
     if (!start) model.by_initial_energy = all.col(d + 2);
   }
   if (estimate.gravity) AddGravity(*estimate.gravity, m.position, model);
+  model.derivatives = Beside(model.derivatives, by_jumps);
   return model;
 }
 

@@ -10,6 +10,7 @@
 #include "identification/adequacy/words.h"
 #include "identification/finer_input.h"
 #include "identification/fit_data.h"
+#include "identification/warming/gaps.h"
 #include "sim/dataset/log_faults.h"
 #include "sim/dataset/robust_noise.h"
 
@@ -62,15 +63,12 @@ bool IsOfHeat(const EstimatedParameter& parameter) {
   return parameter.name.starts_with("thermal_") || parameter.name == "initial_energy";
 }
 
-/// How far the structure may move each parameter (95 %), the discrete warming's too. (4): k, tau to
-/// ke, te.
-std::map<std::string, double> Moves(const Adequacy& adequacy, const Estimate& estimate,
-                                    const Measurements& m) {
+/// How far each parameter moves by name, the discrete warming's too. (4): k, tau to ke, te. by: [p]
+std::map<std::string, double> Moves(const Adequacy& adequacy, const Eigen::VectorXd& by,
+                                    const Estimate& estimate, const Measurements& m) {
   std::map<std::string, double> moves;
   for (size_t i = 0; i < adequacy.names.size(); ++i) {
-    const auto k = static_cast<Index>(i);
-    moves[adequacy.names[i]] =
-        std::abs(adequacy.moves[k]) + kNormal95 * adequacy.move_deviations[k];
+    moves[adequacy.names[i]] = std::abs(by[static_cast<Index>(i)]);
   }
   if (!moves.contains("thermal_gain")) return moves;
   const Thermal thermal{estimate.Find("thermal_gain")->value,
@@ -84,18 +82,81 @@ std::map<std::string, double> Moves(const Adequacy& adequacy, const Estimate& es
   return moves;
 }
 
-/// Lets intervals reach as far as the structure may move the parameters. What drifts is partly
-/// taken up by the warming, by how much cannot be known: no interval of it is left.
-void Widen(const Adequacy& adequacy, const Measurements& m, Estimate& estimate) {
-  const bool drifts = Drifts(adequacy);
-  const std::map<std::string, double> moves = Moves(adequacy, estimate, m);
+/// What drifts is partly taken up by the warming, by how much cannot be known: no interval of it is
+/// left.
+void DropWarming(Estimate& estimate) {
   for (EstimatedParameter& parameter : estimate.parameters) {
-    if (drifts && IsOfHeat(parameter)) parameter.std = {}, parameter.interval95 = {};
+    if (IsOfHeat(parameter)) parameter.std = {}, parameter.interval95 = {};
+  }
+}
+
+/// Lets intervals reach as far as something moves the parameters. by: [p]
+void Widen(const Adequacy& adequacy, const Eigen::VectorXd& by, const Measurements& m,
+           Estimate& estimate) {
+  const std::map<std::string, double> moves = Moves(adequacy, by, estimate, m);
+  for (EstimatedParameter& parameter : estimate.parameters) {
     const auto move = moves.find(parameter.name);
     if (!parameter.interval95 || move == moves.end()) continue;
     (*parameter.interval95)[0] -= move->second;
     (*parameter.interval95)[1] += move->second;
   }
+}
+
+/// Moves the parameters with their intervals. by: [p]
+void Shift(const Adequacy& adequacy, const Eigen::VectorXd& by, const Measurements& m,
+           Estimate& estimate) {
+  const auto shift = [&](std::string_view name, double move) {
+    for (EstimatedParameter& parameter : estimate.parameters) {
+      if (parameter.name != name) continue;
+      parameter.value += move;
+      if (!parameter.interval95) continue;
+      for (double& end : *parameter.interval95) end += move;
+    }
+  };
+  const auto value = [&](std::string_view name) { return estimate.Find(name)->value; };
+  for (size_t i = 0; i < adequacy.names.size(); ++i) {
+    shift(adequacy.names[i], by[static_cast<Index>(i)]);
+  }
+  const Thermal thermal{value("thermal_gain"), value("thermal_time_constant")};
+  const DiscreteThermal discrete = Discretise(thermal, MedianStep(m.time));
+  if (estimate.Find("thermal_pole")) {
+    shift("thermal_pole", discrete.pole - value("thermal_pole"));
+    shift("thermal_gain_discrete", discrete.gain - value("thermal_gain_discrete"));
+  }
+  if (!estimate.friction) return;
+  estimate.friction->thermal = thermal;
+  for (auto& [name, number] : estimate.friction->parameters) number = value(name);
+}
+
+/// Where the log's step matters to the warming: the parameters of heat that is followed within the
+/// steps where the residual tells that it is; where it cannot tell, intervals that hold both.
+void FollowHeat(const Adequacy& adequacy, const Measurements& m, Estimate& estimate) {
+  if (adequacy.by_heat.size() == 0) return;
+  const double share = adequacy.heat_share, sure = kCertain * adequacy.heat_deviation;
+  const double fits = kCertainMove * adequacy.heat_deviation;
+  if (1 - share > sure && std::abs(share) < fits) return;
+  const auto tau = std::ranges::find(adequacy.names, "thermal_time_constant");
+  const std::string what = fmt::format(
+      "Eq. (22) holds the losses over each step of {:.3g} s; losses that follow the "
+      "heat within it move thermal_time_constant by {:.2g} s",
+      MedianStep(m.time), adequacy.by_heat[tau - adequacy.names.begin()]);
+  if (share > sure && std::abs(1 - share) < fits) {
+    estimate.warnings.push_back(fmt::format("{}, and fit better: the numbers are theirs", what));
+    Shift(adequacy, adequacy.by_heat, m, estimate);
+  } else {
+    estimate.warnings.push_back(fmt::format("{}: the intervals hold both; log faster", what));
+    Widen(adequacy, adequacy.by_heat, m, estimate);
+  }
+}
+
+/// Lets intervals reach as far as the gaps of the log may have moved the parameters.
+void WidenByGaps(const Adequacy& adequacy, const Measurements& m, Estimate& estimate) {
+  if (adequacy.by_gaps.size() == 0) return;
+  estimate.warnings.push_back(fmt::format(
+      "{}: what the joint lost there is not known: the intervals reach as far as that may move "
+      "them; record without gaps",
+      DescribeGaps(FindGaps(m), m)));
+  Widen(adequacy, adequacy.by_gaps, m, estimate);
 }
 
 /// "; taken to be cold at the start: ..." where a warm one would move a parameter beyond its
@@ -125,6 +186,8 @@ void JudgeAdequacy(const Identifier& identifier, const IdentifierInput& input, E
   if (estimate.status != Status::ok) return;
   const Adequacy adequacy = ExamineResidual(identifier, input, estimate);
   const std::string start = OnTheStart(adequacy, identifier, input, estimate);
+  FollowHeat(adequacy, input.measurements, estimate);
+  WidenByGaps(adequacy, input.measurements, estimate);
   if (adequacy.found.empty()) {
     estimate.message += start;
     return;
@@ -155,7 +218,9 @@ void JudgeAdequacy(const Identifier& identifier, const IdentifierInput& input, E
       "{}: the intervals reach as far as that moves them{}; {}", depends,
       unknown ? ", and the warming has none, since it may have taken up part of that" : "",
       remedy));
-  Widen(adequacy, input.measurements, estimate);
+  if (Drifts(adequacy)) DropWarming(estimate);
+  const Eigen::VectorXd most = adequacy.moves.cwiseAbs() + kNormal95 * adequacy.move_deviations;
+  Widen(adequacy, most, input.measurements, estimate);
 }
 
 Estimate WithVoidNumbers(const Estimate& judged, const Estimate& before) {

@@ -15,7 +15,7 @@ ClosedLoop::ClosedLoop(const Eigen::VectorXd& time, const Eigen::VectorXd& veloc
       intervals_(FindIntervals(time, starts)) {}
 
 LoopResponse ClosedLoop::Simulate(const Eigen::VectorXd& parameters, const Thermal& thermal,
-                                  double initial_energy) const {
+                                  double initial_energy, const Eigen::VectorXd& jumps) const {
   const Eigen::VectorXd nominal = levels_ * parameters;
   LoopResponse response;
   response.force.resize(size());
@@ -23,7 +23,10 @@ LoopResponse ClosedLoop::Simulate(const Eigen::VectorXd& parameters, const Therm
   response.energy.resize(size());
   WithHolds(intervals_, thermal, [&](const auto& hold_after) {
     double energy = initial_energy;
+    size_t next = 0;
     for (Eigen::Index n = 0; n < size(); ++n) {
+      if (next < jumps_.size() && jumps_[next] == n)
+        energy += jumps[static_cast<Eigen::Index>(next++)];
       const double level = nominal[n] + std::abs(direction_[n]) * energy;
       const ThermalHold& hold = hold_after[n];
       double feedback = hold.gain * speed_[n];
@@ -41,21 +44,27 @@ LoopResponse ClosedLoop::Simulate(const Eigen::VectorXd& parameters, const Therm
 }
 
 Eigen::MatrixXd ClosedLoop::Jacobian(const Eigen::VectorXd& parameters, const Thermal& thermal,
-                                     double initial_energy) const {
-  const Eigen::Index d = levels_.cols();
-  Eigen::MatrixXd jacobian(size(), d + 3);
+                                     double initial_energy, const Eigen::VectorXd& jumps) const {
+  const Eigen::Index d = levels_.cols(), all = d + 3 + static_cast<Eigen::Index>(jumps_.size());
+  Eigen::MatrixXd jacobian(size(), all);
   const auto write = [&](Eigen::Index n, double, const double* g, const double* S) {
     for (Eigen::Index i = 0; i < d; ++i) jacobian(n, i) = direction_[n] * (g[i] + S[i]);
-    for (Eigen::Index i = d; i < d + 3; ++i) jacobian(n, i) = direction_[n] * S[i];
+    for (Eigen::Index i = d; i < all; ++i) jacobian(n, i) = direction_[n] * S[i];
   };
   WithHolds(intervals_, thermal, [&](const auto& hold) {
     RunWithSensitivities<Eigen::Dynamic>(*this, parameters.data(), thermal.gain, initial_energy,
-                                         hold, write);
+                                         jumps.data(), hold, write);
   });
 
   // from log(tau) to tau
   jacobian.col(d + 1) /= thermal.time_constant;
   return jacobian;
+}
+
+ClosedLoop ClosedLoop::WithJumps(std::vector<Eigen::Index> samples) const {
+  ClosedLoop loop = *this;
+  loop.jumps_ = std::move(samples);
+  return loop;
 }
 
 Eigen::MatrixXd ByDiscretePair(const Eigen::MatrixXd& jacobian, const Thermal& thermal, double h) {

@@ -27,6 +27,7 @@ struct LoopResponse {
 ///     p:  S[n+1] = lambda S[n] + ke |v| g          k:        lambda S[n] + (1 - te) |v| a
 ///     E0: S[n+1] = lambda S[n], S[0] = 1           log tau:  lambda S[n] + te h/tau (E - k |v| a)
 /// Samples at rest have W = 0 and keep cooling. Uneven sampling holds each interval exactly.
+/// Where E jumps by b at a sample (WithJumps): b: S = 0 before, 1 there, then lambda S[n].
 class ClosedLoop {
  public:
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -37,24 +38,30 @@ class ClosedLoop {
              const Eigen::MatrixXd& columns, const std::vector<Eigen::Index>& starts = {});
 
   /// parameters: [d] of the law; initial_energy: E(0), N.m or N.
+  /// jumps: [J] N.m or N, of E at the samples of WithJumps.
   LoopResponse Simulate(const Eigen::VectorXd& parameters, const Thermal& thermal,
-                        double initial_energy = 0) const;
+                        double initial_energy = 0, const Eigen::VectorXd& jumps = {}) const;
 
-  /// dF/d(p, k, tau, E0): [N x (d + 3)], exact.
+  /// dF/d(p, k, tau, E0, jumps): [N x (d + 3 + J)], exact.
   Eigen::MatrixXd Jacobian(const Eigen::VectorXd& parameters, const Thermal& thermal,
-                           double initial_energy = 0) const;
+                           double initial_energy = 0, const Eigen::VectorXd& jumps = {}) const;
+
+  /// The same loop whose E jumps at samples, ascending: [J]
+  ClosedLoop WithJumps(std::vector<Eigen::Index> samples) const;
 
   Eigen::Index size() const { return speed_.size(); }
   const Eigen::VectorXd& speed() const { return speed_; }          // [N] |v|, rad/s or m/s
   const Eigen::VectorXd& direction() const { return direction_; }  // [N] sign(v)
   const Rows& levels() const { return levels_; }                   // [N x d] g
   const Intervals& intervals() const { return intervals_; }
+  const std::vector<Eigen::Index>& jumps() const { return jumps_; }  // [J] samples
 
  private:
   Eigen::VectorXd speed_;
   Eigen::VectorXd direction_;
   Rows levels_;
   Intervals intervals_;
+  std::vector<Eigen::Index> jumps_;
 };
 
 /// Derivatives by the discrete pair from those by the continuous one: columns k and tau (the last

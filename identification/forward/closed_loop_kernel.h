@@ -34,8 +34,8 @@ struct UnevenHold {
   const ThermalHold& operator[](Eigen::Index n) const { return holds[which[n]]; }
 };
 
-/// Derivatives of E by (p, k, log tau, E0), 0 at first. Plain numbers where D is known, so that
-/// they stay in registers.
+/// Derivatives of E by (p, k, log tau, E0, jumps), 0 at first. Plain numbers where D is known, so
+/// that they stay in registers.
 template <int D>
 struct Sensitivities : std::array<double, D + 3> {
   explicit Sensitivities(Eigen::Index) : std::array<double, D + 3>{} {}
@@ -45,21 +45,31 @@ struct Sensitivities<Eigen::Dynamic> : std::vector<double> {
   explicit Sensitivities(Eigen::Index size) : std::vector<double>(static_cast<size_t>(size)) {}
 };
 
-/// Runs the loop with its derivatives. parameters: [d] of the law; visit(n, a, g, S) sees the level
-/// a, its direct derivatives g [d] and the derivatives S [d + 3] of E by (p, k, log tau, E0), all
-/// at sample n: da/dp = g + S.
+/// Runs the loop with its derivatives. parameters: [d] of the law; jumps: [J] of E at the loop's
+/// jumps, for a D that is Dynamic alone; visit(n, a, g, S) sees the level a, its direct derivatives
+/// g [d] and the derivatives S [d + 3 + J] of E by (p, k, log tau, E0, jumps), all at sample n:
+/// da/dp = g + S.
 template <int D, typename Hold, typename Visit>
 void RunWithSensitivities(const ClosedLoop& loop, const double* parameters, double gain,
-                          double initial_energy, const Hold& hold_after, Visit&& visit) {
+                          double initial_energy, const double* jumps, const Hold& hold_after,
+                          Visit&& visit) {
   const LoopSize<D> size(loop.levels().cols());
   const Eigen::Index d = size.value();
-  Sensitivities<D> S(d + 3);
+  const std::vector<Eigen::Index>& jump_at = loop.jumps();
+  Sensitivities<D> S(d + 3 + static_cast<Eigen::Index>(jump_at.size()));
   S[d + 2] = 1;
   double energy = initial_energy;
   const double* g = loop.levels().data();
   const double* speed = loop.speed().data();
 
+  size_t jumped = 0;
   for (Eigen::Index n = 0; n < loop.size(); ++n, g += d) {
+    if constexpr (D == Eigen::Dynamic) {
+      if (jumped < jump_at.size() && jump_at[jumped] == n) {
+        energy += jumps[jumped];
+        S[static_cast<size_t>(d) + 3 + jumped++] = 1;
+      }
+    }
     double nominal = g[0] * parameters[0];
     for (Eigen::Index i = 1; i < d; ++i) nominal += g[i] * parameters[i];
     const double level = nominal + energy;
@@ -74,6 +84,9 @@ void RunWithSensitivities(const ClosedLoop& loop, const double* parameters, doub
     S[d] = lambda * S[d] + hold.cooling * loss;
     S[d + 1] = lambda * S[d + 1] + hold.pole_slope * (energy - gain * loss);
     S[d + 2] = lambda * S[d + 2];
+    if constexpr (D == Eigen::Dynamic) {
+      for (size_t i = 0; i < jumped; ++i) S[static_cast<size_t>(d) + 3 + i] *= lambda;
+    }
     energy = lambda * energy + feedback * nominal;
   }
 }

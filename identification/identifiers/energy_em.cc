@@ -169,7 +169,7 @@ Estimate Conclude(const IdentifierInput& input, const Law& law, const NominalPar
   const Eigen::VectorXd kept = Kept(fitted, part.moving);
   estimate.metrics =
       ComputeMetrics(torque, kept, static_cast<int>(last.nominal.size()) + 2, part.effective + 2);
-  const Uncertainty known = JudgeUncertainty(jacobian, *cofactor, torque - kept, part.moving);
+  const Uncertainty known = JudgeUncertainty(jacobian, *cofactor, torque - kept, part.moving, kept);
   const auto d = static_cast<Eigen::Index>(law.parameters.size());
   ReportLaw(law, last.nominal.head(d), known, m, estimate);
   const Eigen::Matrix2d thermal = known.covariance.bottomRightCorner<2, 2>();

@@ -12,6 +12,7 @@
 #include "identification/linear/report_law.h"
 #include "identification/online/kalman_passes.h"
 #include "identification/warming/report_thermal.h"
+#include "identification/warming/unsettled.h"
 #include "identification/warming/warming_verdict.h"
 
 namespace warmjoint {
@@ -52,7 +53,7 @@ Estimate Conclude(const KalmanTrack& track, const std::vector<KalmanPass>& passe
   if (!last.mean.allFinite() || !(thermal.time_constant > 0) ||
       !std::isfinite(thermal.time_constant)) {
     return Failed(kName, Status::not_converged,
-                  "the filters ran away; does the torque column hold friction?");
+                  "the filters ran away; " + WhyUnsettled(m, "warm-up"));
   }
 
   // what the whole recording knows of these parameters
@@ -63,7 +64,7 @@ Estimate Conclude(const KalmanTrack& track, const std::vector<KalmanPass>& passe
   jacobian.col(d + 1) *= thermal.time_constant;  // by ln tau
   if (!fitted.allFinite() || !jacobian.allFinite()) {
     return Failed(kName, Status::not_converged,
-                  "the filters ran away; does the torque column hold friction?");
+                  "the filters ran away; " + WhyUnsettled(m, "warm-up"));
   }
   const double squares = (torque - fitted).squaredNorm();
   const double variance = squares / static_cast<double>(torque.size() - d - 2);
@@ -71,8 +72,9 @@ Estimate Conclude(const KalmanTrack& track, const std::vector<KalmanPass>& passe
   const bool distinct = joint.rank == d + 2;
   const auto [shortest, longest] = TimeConstantRange(track);
   const double vague = distinct ? std::sqrt(variance * joint.cofactor(d + 1, d + 1)) : kInfinity;
-  if (auto why = UnknownWarming({(nominal_squares - squares) / variance, vague,
-                                 thermal.time_constant, shortest, longest})) {
+  if (auto why =
+          UnknownWarming({(nominal_squares - squares) / variance, vague, thermal.time_constant,
+                          shortest, longest, m.time[m.size() - 1] - m.time[0]})) {
     return Failed(kName, Status::not_identifiable, *why);
   }
   if (response.feeds_itself) {
@@ -83,15 +85,15 @@ Estimate Conclude(const KalmanTrack& track, const std::vector<KalmanPass>& passe
   Estimate estimate;
   estimate.identifier = kName;
   const Uncertainty known =
-      JudgeUncertainty(jacobian, joint.cofactor, torque - fitted, track.selection);
+      JudgeUncertainty(jacobian, joint.cofactor, torque - fitted, track.selection, fitted);
   ReportLaw(track.law, x, known, m, estimate);
   const Eigen::Matrix2d covariance = known.covariance.bottomRightCorner<2, 2>();
   ReportThermal(thermal, covariance, known.freedom, m, estimate);
   const auto parameters = static_cast<int>(d) + 2;
   estimate.metrics = ComputeMetrics(torque, fitted, parameters, parameters);
-  estimate.message = fmt::format(
-      "filtered in {} passes over {} samples; at the end E is {:.4g} {}{}", passes.size(),
-      torque.size(), last.mean[d + 2], m.torque_unit, ColourOf(known.noise));
+  estimate.message =
+      fmt::format("filtered in {} passes over {} samples; at the end E is {:.4g} {}{}",
+                  passes.size(), torque.size(), last.mean[d + 2], m.torque_unit, NoiseOf(known));
   DescribeFriction(track.law, m, estimate);
   if (estimate.friction) estimate.friction->thermal = thermal;
 

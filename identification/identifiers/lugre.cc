@@ -14,6 +14,7 @@
 #include "identification/nonlinear/stribeck_fit.h"
 #include "identification/nonlinear/stribeck_verdict.h"
 #include "identification/uncertainty/student.h"
+#include "identification/warming/unsettled.h"
 #include "identification/warming/warming_verdict.h"
 #include "models/friction/viscous_coulomb.h"
 
@@ -74,10 +75,12 @@ std::optional<std::string> VagueBristle(const Measurements& m, const LugreAnswer
   const double stiffness = answer.Deviation(kLugreLogStiffness);
   if (!(stiffness < kVagueBristle)) {
     return fmt::format(
-        "bristle_stiffness and bristle_damping cannot be told: the samples around turns know the "
-        "stiffness to a factor of {:.3g} only; turn slowly and over small ways, such that several "
+        "bristle_stiffness and bristle_damping cannot be told: the samples around turns {}; turn "
+        "slowly and over small ways, such that several "
         "samples fall between standstill and sliding, or use the law stribeck",
-        std::exp(1.96 * std::min(stiffness, 100.0)));
+        std::isfinite(stiffness) ? fmt::format("know the stiffness to a factor of {:.3g} only",
+                                               std::exp(1.96 * std::min(stiffness, 100.0)))
+                                 : "say nothing of the stiffness");
   }
   if (answer.rows[kLugreDamping] < 0) return std::nullopt;
   const double damping = answer.Deviation(kLugreDamping);
@@ -175,9 +178,9 @@ Estimate Conclude(const IdentifierInput& input, const LugreProblem& problem,
   }
   const LugreFit& fit = answer.fit;
   if (!fit.converged) {
-    return Failed(
-        kName, Status::not_converged,
-        "the fit still moves after 100 iterations; does the torque column hold friction?");
+    return Failed(kName, Status::not_converged,
+                  "the fit still moves after 100 iterations; " +
+                      WhyUnsettled(input.measurements, "law stribeck"));
   }
 
   const Measurements& m = input.measurements;

@@ -43,13 +43,13 @@ Estimate Identify(const IdentifierInput& given) {
   estimate.identifier = kName;
   const Eigen::VectorXd fitted = A * fit.solution;
   const Eigen::VectorXd score = HuberScores(torque - fitted, robust.threshold);
-  const Uncertainty known = JudgeUncertainty(A, fit.cofactor, score, input.selection);
+  const Uncertainty known = JudgeUncertainty(A, fit.cofactor, score, input.selection, fitted);
   ReportLaw(law, fit.solution.head(task.law_count()), known, input.measurements, estimate);
   ReportGravity(gravity, fit.solution, known, input.measurements, estimate);
   estimate.metrics = ComputeMetrics(torque, fitted, d, d);
   estimate.message =
       fmt::format("law {} by least squares on {} samples{}{}", law.name, torque.size(),
-                  DescribeLoss(torque - fitted, robust.threshold), ColourOf(known.noise));
+                  DescribeLoss(torque - fitted, robust.threshold), NoiseOf(known));
   DescribeFriction(law, input.measurements, estimate);
   return estimate;
 }

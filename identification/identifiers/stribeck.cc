@@ -15,6 +15,7 @@
 #include "identification/uncertainty/uncertainty.h"
 #include "identification/warming/report_thermal.h"
 #include "identification/warming/scan_time_constant.h"
+#include "identification/warming/unsettled.h"
 #include "identification/warming/warm_fit.h"
 #include "identification/warming/warming_verdict.h"
 #include "models/friction/stribeck.h"
@@ -163,9 +164,9 @@ double ColdSquares(const StribeckProblem& problem) {
 Estimate Conclude(const IdentifierInput& input, const StribeckProblem& problem,
                   const StribeckFit& fit, double without, double cold_squares) {
   if (!fit.converged) {
-    return Failed(
-        kName, Status::not_converged,
-        "the fit still moves after 100 iterations; does the torque column hold friction?");
+    return Failed(kName, Status::not_converged,
+                  "the fit still moves after 100 iterations; " +
+                      WhyUnsettled(input.measurements, "law stribeck"));
   }
   const double explained = Explained(input, without, fit.solution);
   if (!(explained > kVisibleWarming)) {
@@ -174,7 +175,7 @@ Estimate Conclude(const IdentifierInput& input, const StribeckProblem& problem,
   const Eigen::VectorXd torque = Kept(input.measurements.torque, input.selection);
   const Uncertainty known =
       JudgeUncertainty(fit.jacobian, Cofactor(fit.jacobian.transpose() * fit.jacobian),
-                       torque - fit.fitted, input.selection);
+                       torque - fit.fitted, input.selection, fit.fitted);
   if (auto why = VagueStribeck(EvidenceOf(fit, known), input.measurements, input.selection)) {
     return Failed(kName, Status::not_identifiable, *why);
   }
@@ -188,7 +189,7 @@ Estimate Conclude(const IdentifierInput& input, const StribeckProblem& problem,
   estimate.metrics = ComputeMetrics(torque, fit.fitted, p, p);
   Report(problem, fit, known, estimate);
   estimate.message = fmt::format("least squares on {} samples, exponent {:.3g} given{}",
-                                 torque.size(), problem.exponent, ColourOf(known.noise));
+                                 torque.size(), problem.exponent, NoiseOf(known));
   Describe(input, problem, fit, estimate);
   return estimate;
 }

@@ -2,36 +2,99 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/QR>
 #include <algorithm>
 
 namespace warmjoint {
+namespace {
+
+constexpr double kUneven = 4;        // deviations
+constexpr double kLeastLevel = 0.2;  // of the line through |r|, of its mean
+
+double Correlation(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  const Eigen::VectorXd x = a.array() - a.mean(), y = b.array() - b.mean();
+  const double norm = x.norm() * y.norm();
+  return norm > 0 ? x.dot(y) / norm : 0;
+}
+
+/// [n x 2] or [n x 1]: time, |f|
+Eigen::MatrixXd Circumstances(Eigen::Index n, const Eigen::VectorXd& fitted) {
+  Eigen::MatrixXd known(n, fitted.size() > 0 ? 2 : 1);
+  known.col(0).setLinSpaced(0, 1);
+  if (fitted.size() > 0) known.col(1) = fitted.cwiseAbs();
+  return known;
+}
+
+/// By how many deviations r^2 goes with a column. Of coloured noise, fewer samples count.
+double Unevenness(const Eigen::VectorXd& residual, const Eigen::MatrixXd& known,
+                  const NoiseModel& noise) {
+  const Eigen::VectorXd squares = residual.cwiseAbs2();
+  double most = 0;
+  for (const auto& column : known.colwise()) {
+    most = std::max(most, std::abs(Correlation(squares, column)));
+  }
+  return most * std::sqrt(static_cast<double>(residual.size()) / noise.redundancy);
+}
+
+/// The line through |r|, as a share of the residual's rms. [n]
+Eigen::VectorXd Levels(const Eigen::VectorXd& residual, const Eigen::MatrixXd& known) {
+  Eigen::MatrixXd columns(known.rows(), known.cols() + 1);
+  columns << Eigen::VectorXd::Ones(known.rows()), known;
+  const Eigen::VectorXd size = residual.cwiseAbs();
+  const Eigen::VectorXd line = columns * columns.colPivHouseholderQr().solve(size);
+  const Eigen::VectorXd level = line.cwiseMax(kLeastLevel * size.mean());
+  return level / std::sqrt(level.squaredNorm() / static_cast<double>(level.size()));
+}
+
+}  // namespace
 
 Uncertainty JudgeUncertainty(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& cofactor,
-                             const Eigen::VectorXd& residual, const Selection& selection) {
-  return JudgeUncertainty([&] { return jacobian; }, cofactor, residual, selection);
+                             const Eigen::VectorXd& residual, const Selection& selection,
+                             const Eigen::VectorXd& fitted, const Eigen::VectorXd& prior) {
+  return JudgeUncertainty([&] { return jacobian; }, cofactor, residual, selection, fitted, prior);
 }
 
 Uncertainty JudgeUncertainty(const std::function<Eigen::MatrixXd()>& jacobian,
                              const Eigen::MatrixXd& cofactor, const Eigen::VectorXd& residual,
-                             const Selection& selection) {
+                             const Selection& selection, const Eigen::VectorXd& fitted,
+                             const Eigen::VectorXd& prior) {
   Uncertainty result;
   result.noise = FitNoise(residual, selection);
-  const NoiseModel& noise = result.noise;
   const auto n = static_cast<double>(residual.size());
   const auto d = static_cast<double>(cofactor.rows());
+  const Eigen::MatrixXd known = Circumstances(residual.size(), fitted);
+  const double uneven = Unevenness(residual, known, result.noise);
+  if (uneven > kUneven) result.uneven = uneven;
 
-  // white: (J^T R J) C is s^2 times the identity
-  if (noise.order() == 0) {
+  // white and even: (J^T R J) C is s^2 times the identity
+  if (result.noise.order() == 0 && result.uneven == 0) {
     result.freedom = n - d;
     result.covariance = residual.squaredNorm() / result.freedom * cofactor;
     return result;
   }
 
+  Eigen::MatrixXd rows = jacobian();
+  const auto spread = [&](Eigen::MatrixXd scatter) -> Eigen::MatrixXd {
+    if (prior.size() > 0) scatter.diagonal() += result.noise.variance * prior;
+    return cofactor * scatter * cofactor;
+  };
+  if (result.noise.order() == 0) {
+    rows = residual.asDiagonal() * rows;
+    result.freedom = n - d;
+    result.covariance = n / result.freedom * spread(rows.transpose() * rows);
+    return result;
+  }
+
   // coloured: what the fit took up counts in samples, at most half of them
-  const Eigen::MatrixXd scatter = ScatterThrough(noise, jacobian(), selection);
-  const double taken = std::min((cofactor * scatter).trace() / noise.variance, 0.5 * n);
-  result.freedom = std::max(n / noise.redundancy - d, 1.0);
-  result.covariance = n / (n - taken) * cofactor * scatter * cofactor;
+  if (result.uneven > 0) {
+    const Eigen::VectorXd level = Levels(residual, known);
+    result.noise = FitNoise(residual.cwiseQuotient(level), selection);
+    rows = level.asDiagonal() * rows;
+  }
+  const Eigen::MatrixXd scatter = ScatterThrough(result.noise, rows, selection);
+  const double taken = std::min((cofactor * scatter).trace() / result.noise.variance, 0.5 * n);
+  result.freedom = std::max(n / result.noise.redundancy - d, 1.0);
+  result.covariance = n / (n - taken) * spread(scatter);
   return result;
 }
 
@@ -41,6 +104,15 @@ std::string ColourOf(const NoiseModel& noise) {
       "; noise is coloured (correlation {:.2f} between neighbours), which the intervals account "
       "for",
       noise.correlation);
+}
+
+std::string NoiseOf(const Uncertainty& known) {
+  if (known.uneven == 0) return ColourOf(known.noise);
+  return fmt::format(
+             "; noise is uneven (its variance goes with torque or time by {:.2g} deviations), "
+             "which the intervals account for",
+             known.uneven) +
+         ColourOf(known.noise);
 }
 
 }  // namespace warmjoint

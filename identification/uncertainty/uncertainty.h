@@ -14,6 +14,7 @@ struct Uncertainty {
   Eigen::MatrixXd covariance;  // [d x d] of the parameters
   double freedom = 1;          // degrees of freedom of the noise's variance
   NoiseModel noise;
+  double uneven = 0;  // deviations by which the noise's variance changes; 0 where it may be even
 
   /// Standard deviation of parameter i.
   double Deviation(Eigen::Index i) const { return std::sqrt(covariance(i, i)); }
@@ -23,17 +24,30 @@ struct Uncertainty {
 /// R from an autoregressive model of the residual (noise_model.h). For white noise it is s^2 C.
 /// The residual is smaller than the noise by what the fit took up, tr(C J^T R J): the variance is
 /// scaled up by that, as n/(n - d) does for white noise.
-/// jacobian: [n x d] df/dx over the kept samples; cofactor: C; residual: [n] y - f.
+/// Where r^2 goes with |f| or with time, by more than 4 deviations of n^(1/2) times their
+/// correlation (Koenker 1981), the noise's variance is not even. Then white noise takes
+/// n/(n - d) C (sum of r^2 j^T j over the rows j of J) C (HC1, White 1980). Coloured noise is taken
+/// for s(|f|, t) u with a stationary u: s is the line through |r|, R that of u, and J is weighted
+/// by s.
+/// jacobian: [n x d] df/dx over the kept samples; cofactor: C; residual: [n] y - f; fitted: [n] f,
+/// or empty where only time is asked about; prior: [d] what
+/// is known of x beforehand, P = diag(prior): the noise's variance over the variance of each
+/// parameter, or 0. With it C = (J^T J + P)^-1, and P times the noise's variance joins J^T R J.
 Uncertainty JudgeUncertainty(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& cofactor,
-                             const Eigen::VectorXd& residual, const Selection& selection);
+                             const Eigen::VectorXd& residual, const Selection& selection,
+                             const Eigen::VectorXd& fitted = {}, const Eigen::VectorXd& prior = {});
 
 /// The same for a Jacobian that is costly to form: called for coloured noise alone.
 Uncertainty JudgeUncertainty(const std::function<Eigen::MatrixXd()>& jacobian,
                              const Eigen::MatrixXd& cofactor, const Eigen::VectorXd& residual,
-                             const Selection& selection);
+                             const Selection& selection, const Eigen::VectorXd& fitted = {},
+                             const Eigen::VectorXd& prior = {});
 
 /// A half sentence on the colour of the noise, "" for white: "; noise is coloured (correlation 0.90
 /// between neighbours), which the intervals account for".
 std::string ColourOf(const NoiseModel& noise);
+
+/// The same, after one on noise that is not even: "; noise is uneven (...), which ...".
+std::string NoiseOf(const Uncertainty& known);
 
 }  // namespace warmjoint

@@ -16,7 +16,7 @@ namespace warmjoint {
 constexpr int Plus(int a, int b) { return a == Eigen::Dynamic ? a : a + b; }
 
 /// The condensed least-squares problem, as ceres::TinySolver wants it. D: law parameters, Q: 2 for
-/// (k, log tau), 3 with E(0). Offsets come last, and only where D is Dynamic.
+/// (k, log tau), 3 with E(0). Jumps of E and offsets come last, and only where D is Dynamic.
 template <int D, int Q>
 class CondensedProblem {
  public:
@@ -25,17 +25,22 @@ class CondensedProblem {
   using Square = Eigen::Matrix<double, NUM_RESIDUALS, NUM_RESIDUALS>;
   using Vector = Eigen::Matrix<double, NUM_PARAMETERS, 1>;
 
+  /// jump_weights: [J] what each jump's square counts beside the squared residuals.
   CondensedProblem(const ClosedLoop& loop, const Eigen::VectorXd& level,
-                   const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept, double scale)
+                   const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
+                   const Eigen::VectorXd& jump_weights, double scale)
       : loop_(loop),
         level_(level),
         offsets_(offsets),
         weight_(kept.cwiseSqrt()),
+        jump_weights_(jump_weights),
         scale_(scale),
         d_(loop.levels().cols()),
         x_(Vector::Constant(NumParameters(), std::numeric_limits<double>::quiet_NaN())) {}
 
-  int NumParameters() const { return static_cast<int>(d_ + offsets_.cols()) + Q; }
+  int NumParameters() const {
+    return static_cast<int>(d_ + jump_weights_.size() + offsets_.cols()) + Q;
+  }
   int NumResiduals() const { return NumParameters() + 1; }
 
   bool operator()(const double* x, double* residuals, double* jacobian) const {
@@ -65,36 +70,52 @@ class CondensedProblem {
     const double* measured = D == Eigen::Dynamic ? measured_.data() : level_.data();
     RowProducts<NUM_RESIDUALS> products(NumResiduals());
     WithHolds(loop_.intervals(), thermal, [&](const auto& hold) {
-      RunWithSensitivities<D>(loop_, x.data(), thermal.gain, initial, hold,
+      RunWithSensitivities<D>(loop_, x.data(), thermal.gain, initial, x.data() + d_ + Q, hold,
                               [&](Eigen::Index n, double level, const double* g, const double* S) {
                                 if (weight_[n] == 0) return;
                                 Fill(n, measured[n] - level, g, S, products.Next());
                               });
     });
     products_ = products.Sums();
+    if (D == Eigen::Dynamic) AddJumps(x);
     return products_;
   }
 
   std::vector<WarmIterate>& trace() const { return trace_; }
 
  private:
+  /// Adds the rows sqrt(w) [-1, -b] of the jumps b, which are 0 but for their spread.
+  void AddJumps(const Vector& x) const {
+    const Eigen::Index first = d_ + Q, last = products_.rows() - 1;
+    for (Eigen::Index i = 0; i < jump_weights_.size(); ++i) {
+      const double w = jump_weights_[i], jump = x[first + i];
+      products_(first + i, first + i) += w;
+      products_(first + i, last) += w * jump;
+      products_(last, first + i) += w * jump;
+      products_(last, last) += w * jump * jump;
+    }
+  }
+
   /// Sets the row [-da/dx, r] of sample n.
   template <typename Row>
   void Fill(Eigen::Index n, double residual, const double* g, const double* S, Row row) const {
     const LoopSize<D> size(d_);
     const Eigen::Index d = size.value();
     const Eigen::Index q = D == Eigen::Dynamic ? offsets_.cols() : 0;
+    const Eigen::Index j = D == Eigen::Dynamic ? jump_weights_.size() : 0;
     const double w = weight_[n];
     for (Eigen::Index i = 0; i < d; ++i) row[i] = -w * (g[i] + S[i]);
     for (Eigen::Index i = d; i < d + Q; ++i) row[i] = -w * S[i];
-    for (Eigen::Index i = 0; i < q; ++i) row[d + Q + i] = -w * offsets_(n, i);
-    row[d + Q + q] = w * residual;
+    for (Eigen::Index i = 0; i < j; ++i) row[d + Q + i] = -w * S[d + 3 + i];
+    for (Eigen::Index i = 0; i < q; ++i) row[d + Q + j + i] = -w * offsets_(n, i);
+    row[d + Q + j + q] = w * residual;
   }
 
   const ClosedLoop& loop_;
   const Eigen::VectorXd& level_;
   const Eigen::MatrixXd& offsets_;
-  Eigen::VectorXd weight_;  // [N] of each row, the root of its square's
+  Eigen::VectorXd weight_;        // [N] of each row, the root of its square's
+  Eigen::VectorXd jump_weights_;  // [J]
   double scale_;
   Eigen::Index d_;
 

@@ -15,7 +15,7 @@ Eigen::VectorXd Residual(const ClosedLoop& loop, const Eigen::VectorXd& level,
                          const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
                          const WarmFit& fit) {
   const LoopResponse response =
-      loop.Simulate(fit.parameters(), fit.thermal(), fit.initial_energy());
+      loop.Simulate(fit.parameters(), fit.thermal(), fit.initial_energy(), fit.jump_values());
   const Eigen::VectorXd modelled = loop.direction().cwiseProduct(response.force);
   return (kept.array() > 0).select(level - modelled - offsets * fit.offset_values(), 0);
 }
@@ -41,7 +41,7 @@ bool AtRest(const WarmFit& before, const WarmFit& after, double threshold) {
 
 RobustWarmFit RefineByHuber(const ClosedLoop& loop, const Eigen::VectorXd& level,
                             const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
-                            WarmFit fit) {
+                            WarmFit fit, const Eigen::VectorXd& spread) {
   RobustWarmFit robust{std::move(fit), kept, 0};
   const auto initial =
       robust.fit.estimates_initial_energy() ? InitialEnergy::estimated : InitialEnergy::zero;
@@ -59,7 +59,8 @@ RobustWarmFit RefineByHuber(const ClosedLoop& loop, const Eigen::VectorXd& level
     start.parameters << robust.fit.parameters(), robust.fit.offset_values();
     start.thermal = robust.fit.thermal();
     WarmFit next = FitWarmFriction(loop, level, offsets, robust.weight, start, initial,
-                                   robust.threshold / kHuberBend);
+                                   robust.threshold / kHuberBend,
+                                   JumpWeights(robust.threshold / kHuberBend, spread));
     rests = AtRest(robust.fit, next, robust.threshold);
     next.trace.insert(next.trace.begin(), robust.fit.trace.begin(), robust.fit.trace.end());
     robust.fit = std::move(next);

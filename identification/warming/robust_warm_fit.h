@@ -14,9 +14,10 @@ struct RobustWarmFit {
 
 /// FitWarmFriction again and again, each sample weighted by what Huber's loss makes of its residual
 /// in the fit before (robust.h), until the parameters rest; converged says whether they do.
-/// Arguments: as of FitWarmFriction; fit: the plain one.
+/// Arguments: as of FitWarmFriction; fit: the plain one; spread: [J] standard deviation that each
+/// jump of the loop is known to have, N.m or N.
 RobustWarmFit RefineByHuber(const ClosedLoop& loop, const Eigen::VectorXd& level,
                             const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
-                            WarmFit fit);
+                            WarmFit fit, const Eigen::VectorXd& spread = {});
 
 }  // namespace warmjoint

@@ -115,7 +115,7 @@ WarmStart ScanTimeConstant(const ClosedLoop& loop, const Eigen::VectorXd& level,
   const double total = blocks.length.sum();
   WarmStart start;
   start.shortest = std::max(2 * loop.intervals().typical, total / 500);
-  start.longest = 5 * total;
+  start.longest = kScannedBeyond * total;
   const double step = std::log(start.longest / start.shortest) / (kTaus - 1);
   const Taus tau = start.shortest * (step * Taus::LinSpaced(0, kTaus - 1)).exp();
   const Products products = Filter(blocks, tau);

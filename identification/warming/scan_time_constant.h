@@ -7,6 +7,9 @@
 
 namespace warmjoint {
 
+/// The longest time constant that is scanned, in durations of the recording.
+inline constexpr double kScannedBeyond = 5;
+
 /// Law parameters and warming to start from.
 struct WarmStart {
   Eigen::VectorXd parameters;  // [d] of the loop's columns

@@ -47,25 +47,37 @@ double WarmFit::initial_energy() const {
   return estimates_initial_energy() ? solution.x[law_parameters + 2] : 0;
 }
 
+Eigen::VectorXd WarmFit::jump_values() const {
+  const Eigen::Index count = jump_weights.size();
+  return solution.x.segment(solution.x.size() - offsets - count, count);
+}
+
+Eigen::VectorXd WarmFit::prior() const {
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(solution.x.size());
+  all.segment(all.size() - offsets - jump_weights.size(), jump_weights.size()) = jump_weights;
+  return all;
+}
+
 WarmFit FitWarmFriction(const ClosedLoop& loop, const Eigen::VectorXd& level,
                         const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
-                        const WarmStart& start, InitialEnergy initial_energy, double scale) {
-  const Eigen::Index d = loop.levels().cols(), q = offsets.cols();
+                        const WarmStart& start, InitialEnergy initial_energy, double scale,
+                        const Eigen::VectorXd& jump_weights) {
+  const Eigen::Index d = loop.levels().cols(), q = offsets.cols(), jumps = jump_weights.size();
   const int warming = initial_energy == InitialEnergy::estimated ? 3 : 2;
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(d + warming + q);
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(d + warming + jumps + q);
   x.head(d + 2) << start.parameters.head(d), start.thermal.gain,
       std::log(start.thermal.time_constant);
   x.tail(q) = start.parameters.tail(q);
 
   // sizes known at compile time for the common laws
   const auto solve = [&]<int D, int Q>() {
-    return Solve(CondensedProblem<D, Q>(loop, level, offsets, kept, scale), x);
+    return Solve(CondensedProblem<D, Q>(loop, level, offsets, kept, jump_weights, scale), x);
   };
   const auto solve_for = [&]<int D>() {
     return warming == 2 ? solve.template operator()<D, 2>() : solve.template operator()<D, 3>();
   };
   WarmFit fit;
-  switch (q == 0 ? d : Eigen::Dynamic) {
+  switch (q + jumps == 0 ? d : Eigen::Dynamic) {
     case 1:
       fit = solve_for.template operator()<1>();
       break;
@@ -79,6 +91,7 @@ WarmFit FitWarmFriction(const ClosedLoop& loop, const Eigen::VectorXd& level,
       fit = solve_for.template operator()<Eigen::Dynamic>();
   }
   fit.law_parameters = d;
+  fit.jump_weights = jump_weights;
   fit.offsets = q;
   return fit;
 }

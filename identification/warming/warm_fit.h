@@ -14,22 +14,28 @@ enum class InitialEnergy { zero, estimated };
 
 /// One iterate of the fit.
 struct WarmIterate {
-  Eigen::VectorXd x;   // [p] law parameters (d), k, log(tau), E(0) if estimated, offsets (q)
+  Eigen::VectorXd
+      x;  // [p] law parameters (d), k, log(tau), E(0) if estimated, jumps (J), offsets (q)
   double squares = 0;  // sum of squared residuals over the kept samples
 };
 
 struct WarmFit {
   WarmIterate solution;
-  Eigen::MatrixXd normal;  // J^T J at the solution, by x
+  Eigen::MatrixXd normal;  // J^T J at the solution, by x, and the jumps' weights
   std::vector<WarmIterate> trace;
   bool converged = false;
 
   Thermal thermal() const;
   Eigen::VectorXd parameters() const;  // [d] of the law
-  bool estimates_initial_energy() const { return solution.x.size() > law_parameters + 2 + offsets; }
+  bool estimates_initial_energy() const {
+    return solution.x.size() > law_parameters + 2 + jump_weights.size() + offsets;
+  }
   double initial_energy() const;
+  Eigen::VectorXd jump_values() const;  // [J] of E, N.m or N
+  Eigen::VectorXd prior() const;        // [p] what `normal` has on its diagonal beside J^T J
   Eigen::VectorXd offset_values() const { return solution.x.tail(offsets); }  // [q]
   Eigen::Index law_parameters = 0;                                            // d
+  Eigen::VectorXd jump_weights;                                               // [J]
   Eigen::Index offsets = 0;                                                   // q
 };
 
@@ -39,9 +45,17 @@ struct WarmFit {
 /// exactly as it would on all of them.
 /// level: [N] sign(v) torque; offsets: [N x q] sign(v) dG/dg, torque that makes no heat (gravity);
 /// kept: [N] weight of each sample, 1 or 0 or between; start: parameters of the law and of the
-/// offsets [d + q]; scale: about the residuals' standard deviation, N.m or N.
+/// offsets [d + q]; scale: about the residuals' standard deviation, N.m or N; jump_weights: [J] of
+/// the loop's jumps (JumpWeights): each counts as a sample that measured 0.
 WarmFit FitWarmFriction(const ClosedLoop& loop, const Eigen::VectorXd& level,
                         const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
-                        const WarmStart& start, InitialEnergy initial_energy, double scale);
+                        const WarmStart& start, InitialEnergy initial_energy, double scale,
+                        const Eigen::VectorXd& jump_weights = {});
+
+/// The residuals' variance over the variance of each jump. scale: of the residuals, N.m or N;
+/// spread: [J] standard deviation that each jump is known to have, N.m or N.
+inline Eigen::VectorXd JumpWeights(double scale, const Eigen::VectorXd& spread) {
+  return (scale / spread.array().max(1e-9 * scale)).square();
+}
 
 }  // namespace warmjoint

@@ -19,14 +19,25 @@ std::optional<std::string> UnknownWarming(const WarmingEvidence& evidence,
                                           const WarmingContext& context) {
   if (auto why = UnseenWarming(evidence.explained, context)) return why;
   const double tau = evidence.time_constant;
-  if (evidence.log_deviation < kVagueLogTau && tau >= evidence.shortest / 4 &&
-      tau <= evidence.longest * 4) {
+  const bool beyond = tau * std::exp(1.96 * evidence.log_deviation) > evidence.duration;
+  if (evidence.log_deviation < (beyond ? kVagueLongLogTau : kVagueLogTau) &&
+      tau >= evidence.shortest / 4 && tau <= evidence.longest * 4) {
     return std::nullopt;
   }
+  if (auto why = RunawayWarming(tau, evidence.duration)) return why;
   return fmt::format(
       "thermal_gain and thermal_time_constant cannot be told apart: tau is known to a factor of "
       "{:.3g} only; record longer, from cold until friction settles, or with rests",
       std::exp(1.96 * evidence.log_deviation));
+}
+
+std::optional<std::string> RunawayWarming(double time_constant, double duration) {
+  if (!(time_constant > 5 * duration)) return std::nullopt;
+  return fmt::format(
+      "thermal_gain and thermal_time_constant cannot be told apart: the friction still changes at "
+      "the same rate at the end of the {:.4g} s, so that any longer tau fits as well; record "
+      "longer, from cold until friction settles, or with rests",
+      duration);
 }
 
 }  // namespace warmjoint

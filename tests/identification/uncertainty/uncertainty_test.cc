@@ -7,6 +7,7 @@
 
 #include "identification/identifier.h"
 #include "identification/linear/least_squares.h"
+#include "identification/uncertainty/student.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint {
@@ -53,6 +54,40 @@ TEST(Uncertainty, IntervalsHoldTheTruthUnderColouredNoise) { ExpectNominal(Cover
 
 TEST(Uncertainty, IntervalsHoldTheTruthUnderColouredNoiseWithRests) {
   ExpectNominal(Coverage(0.9, 600));
+}
+
+/// Share of 500 intervals of a line's level and slope that hold the truth, 0. Noise of standard
+/// deviation 0.2 + 2 x^2, x over -1 to 1 in turn, autoregressive with a pole.
+Eigen::Vector2d CoverageUneven(double pole) {
+  constexpr Eigen::Index n = 2000;
+  const Selection all{Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(n, true), {}};
+  Eigen::MatrixXd A(n, 2);
+  for (Eigen::Index i = 0; i < n; ++i)
+    A.row(i) << 1, std::abs(static_cast<double>(i % 400) / 200 - 1);
+  const Eigen::MatrixXd cofactor = (A.transpose() * A).inverse();
+  Eigen::Vector2d covered = Eigen::Vector2d::Zero();
+  for (std::uint64_t seed = 0; seed < 500; ++seed) {
+    RandomStream random({seed, 0}, Stream::test);
+    Eigen::VectorXd y(n);
+    double noise = random.Normal();
+    for (Eigen::Index i = 0; i < n; ++i) {
+      noise = pole * noise + std::sqrt(1 - pole * pole) * random.Normal();
+      y[i] = (0.2 + 2 * std::pow(A(i, 1), 2)) * noise;
+    }
+    const Eigen::VectorXd x = cofactor * (A.transpose() * y);
+    const Uncertainty known = JudgeUncertainty(A, cofactor, y - A * x, all, 20 * A.col(1));
+    EXPECT_GT(known.uneven, 0);
+    const double reach = StudentQuantile(known.freedom);
+    for (int i = 0; i < 2; ++i) covered[i] += std::abs(x[i]) < reach * known.Deviation(i);
+  }
+  return covered / 500;
+}
+
+TEST(Uncertainty, IntervalsHoldTheTruthUnderUnevenNoise) { ExpectNominal(CoverageUneven(0)); }
+
+// the line through |r| is not quite the parabola that the noise follows
+TEST(Uncertainty, IntervalsHoldTheTruthUnderUnevenColouredNoise) {
+  ExpectNominal(CoverageUneven(0.7));
 }
 
 TEST(Uncertainty, IsTheUsualOneForWhiteNoise) {

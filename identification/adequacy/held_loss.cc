@@ -1,0 +1,64 @@
+#include "identification/adequacy/held_loss.h"
+
+#include <cmath>
+
+#include "identification/forward/predict.h"
+#include "sim/dataset/robust_noise.h"
+
+namespace warmjoint {
+namespace {
+
+using Eigen::Index;
+
+constexpr Index kParts = 8;        // of each step
+constexpr double kMatters = 0.25;  // of the standard deviation of tau
+
+/// The same log with kParts samples for each. [N kParts]
+Measurements Finer(const Measurements& m) {
+  Measurements finer = m;
+  const Index n = m.size();
+  const double last = m.time[n - 1] - m.time[n - 2];
+  for (Eigen::VectorXd* column : {&finer.time, &finer.position, &finer.velocity, &finer.torque}) {
+    column->resize(n * kParts);
+  }
+  const auto repeat = [](std::optional<Eigen::VectorXd>& column) {
+    if (column) column = column->transpose().replicate(kParts, 1).reshaped().eval();
+  };
+  repeat(finer.motor_position);
+  repeat(finer.load);
+  repeat(finer.temperature);
+  for (Index i = 0; i < n * kParts; ++i) {
+    const Index from = i / kParts;
+    const double h = from + 1 < n ? m.time[from + 1] - m.time[from] : last;
+    const double since = h * static_cast<double>(i % kParts) / static_cast<double>(kParts);
+    finer.time[i] = m.time[from] + since;
+    finer.position[i] = m.position[from] + since * m.velocity[from];
+    finer.velocity[i] = m.velocity[from];
+    finer.torque[i] = m.torque[from];
+    if (m.motor_position) (*finer.motor_position)[i] += m.gear * since * m.velocity[from];
+  }
+  for (Index& start : finer.starts) start *= kParts;
+  return finer;
+}
+
+}  // namespace
+
+bool StepMatters(const Estimate& estimate, const Measurements& measurements) {
+  const EstimatedParameter* gain = estimate.Find("thermal_gain");
+  const EstimatedParameter* tau = estimate.Find("thermal_time_constant");
+  if (!gain || !tau || !tau->std || measurements.size() < 2) return false;
+  const double power = std::abs(gain->value) * measurements.velocity.cwiseAbs().mean();
+  return 0.5 * MedianStep(measurements.time) * power > kMatters * *tau->std;
+}
+
+Eigen::VectorXd ForceOfHeldLoss(const FrictionDescription& friction,
+                                const Measurements& measurements, double initial_energy) {
+  const Measurements finer = Finer(measurements);
+  const Eigen::VectorXd fine = PredictFriction(friction, finer, initial_energy).force;
+  const Eigen::VectorXd held = PredictFriction(friction, measurements, initial_energy).force;
+  Eigen::VectorXd difference(held.size());
+  for (Index n = 0; n < held.size(); ++n) difference[n] = fine[n * kParts] - held[n];
+  return difference * static_cast<double>(kParts) / static_cast<double>(kParts - 1);
+}
+
+}  // namespace warmjoint

@@ -1,0 +1,22 @@
+// What Eq. (22) leaves out: losses that follow the heat within a sampling interval.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "identification/estimate.h"
+#include "sim/dataset/measurements.h"
+
+namespace warmjoint {
+
+/// Whether the step h of a log matters to its warming: (22) holds W over a step, in which E and
+/// with it W changes, so that tau comes out too large by h |k v|/2 (to first order in h/tau); where
+/// that is more than a quarter of the standard deviation of tau.
+bool StepMatters(const Estimate& estimate, const Measurements& measurements);
+
+/// The force of a friction whose losses follow its heat all the time, less its force by (22): 8/7
+/// of what (22) with an eighth of each step makes of it. Constant speed over each step.
+/// initial_energy: N.m or N; returns [N] N.m or N.
+Eigen::VectorXd ForceOfHeldLoss(const FrictionDescription& friction,
+                                const Measurements& measurements, double initial_energy);
+
+}  // namespace warmjoint

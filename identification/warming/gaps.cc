@@ -1,0 +1,64 @@
+#include "identification/warming/gaps.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/dataset/robust_noise.h"
+
+namespace warmjoint {
+namespace {
+
+constexpr double kLong = 10;  // median steps
+constexpr size_t kMostGaps = 50;
+
+bool RestsOver(const Measurements& m, Eigen::Index behind) {
+  return m.velocity[behind - 1] == 0 && m.velocity[behind] == 0 &&
+         m.position[behind - 1] == m.position[behind];
+}
+
+bool IsLonger(const LogGap& a, const LogGap& b) { return a.length > b.length; }
+
+}  // namespace
+
+std::vector<LogGap> FindGaps(const Measurements& measurements) {
+  const Measurements& m = measurements;
+  if (m.size() < 2) return {};
+  const double longest = kLong * MedianStep(m.time);
+  std::vector<LogGap> gaps;
+  for (Eigen::Index n = 1; n < m.size(); ++n) {
+    const double length = m.time[n] - m.time[n - 1];
+    if (length <= longest || RestsOver(m, n)) continue;
+    if (!std::ranges::binary_search(m.starts, n)) gaps.push_back({n, length});
+  }
+  if (gaps.size() <= kMostGaps) return gaps;
+  std::nth_element(gaps.begin(), gaps.begin() + kMostGaps, gaps.end(), IsLonger);
+  gaps.resize(kMostGaps);
+  std::ranges::sort(gaps, {}, &LogGap::behind);
+  return gaps;
+}
+
+Eigen::VectorXd JumpSpread(const std::vector<LogGap>& gaps, double warmest, double time_constant) {
+  Eigen::VectorXd spread(static_cast<Eigen::Index>(gaps.size()));
+  for (size_t i = 0; i < gaps.size(); ++i) {
+    spread[static_cast<Eigen::Index>(i)] = -warmest * std::expm1(-gaps[i].length / time_constant);
+  }
+  return spread;
+}
+
+std::vector<Eigen::Index> Behind(const std::vector<LogGap>& gaps) {
+  std::vector<Eigen::Index> behind;
+  for (const LogGap& gap : gaps) behind.push_back(gap.behind);
+  return behind;
+}
+
+std::string DescribeGaps(const std::vector<LogGap>& gaps, const Measurements& measurements) {
+  const double first = measurements.time[gaps[0].behind - 1];
+  const double longest = std::ranges::min_element(gaps, IsLonger)->length;
+  return gaps.size() == 1 ? fmt::format("a gap of {:.4g} s at {:.6g} s", longest, first)
+                          : fmt::format("{} gaps of up to {:.4g} s, the first at {:.6g} s",
+                                        gaps.size(), longest, first);
+}
+
+}  // namespace warmjoint

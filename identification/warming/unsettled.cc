@@ -1,0 +1,14 @@
+#include "identification/warming/unsettled.h"
+
+#include "sim/dataset/check.h"
+
+namespace warmjoint {
+
+std::string WhyUnsettled(const Measurements& measurements, std::string_view what) {
+  for (const Excitation& one : CheckRecording(measurements).excitation) {
+    if (one.what.starts_with(what) && !one.sufficient) return one.reason;
+  }
+  return "does the torque column hold friction?";
+}
+
+}  // namespace warmjoint

@@ -1,0 +1,134 @@
+#include "identification/warming/gaps.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "tests/support/judging.h"
+
+namespace warmjoint {
+namespace {
+
+using Eigen::Index;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+struct Cut {
+  double from = 0, to = 0;  // s
+};
+
+/// The recording without the samples that lie inside of a cut.
+Measurements Without(const Measurements& m, const std::vector<Cut>& cuts) {
+  std::vector<Index> left;
+  for (Index i = 0; i < m.size(); ++i) {
+    const auto inside = [t = m.time[i]](const Cut& cut) { return cut.from < t && t < cut.to; };
+    if (std::none_of(cuts.begin(), cuts.end(), inside)) left.push_back(i);
+  }
+  Measurements some = m;
+  some.time = m.time(left);
+  some.position = m.position(left);
+  some.velocity = m.velocity(left);
+  some.torque = m.torque(left);
+  return some;
+}
+
+TEST(Gaps, AreLongerThanTenStepsOfAJointThatMoves) {
+  Measurements m = test::RecordHour(test::TableOne(), 1);
+  EXPECT_THAT(FindGaps(m), testing::IsEmpty());
+  m = Without(m, {{300, 310}, {600, 611}});
+  const std::vector<LogGap> gaps = FindGaps(m);
+  ASSERT_EQ(gaps.size(), 1u);
+  EXPECT_EQ(m.time[gaps[0].behind], 611);
+  EXPECT_EQ(gaps[0].length, 11);
+  EXPECT_EQ(DescribeGaps(gaps, m), "a gap of 11 s at 600 s");
+
+  // a second recording behind it starts cold, whatever happened before
+  m.starts = {gaps[0].behind};
+  EXPECT_THAT(FindGaps(m), testing::IsEmpty());
+}
+
+TEST(Gaps, OfAJointAtRestDoNotCount) {
+  Measurements m =
+      test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(400, 1, 100), 0.5, 1);
+  EXPECT_THAT(FindGaps(Without(m, {{120, 180}})), testing::IsEmpty());
+  EXPECT_EQ(FindGaps(Without(m, {{120, 280}})).size(), 1u);
+}
+
+TEST(Gaps, MayMoveTheEnergyByWhatSettlesInThem) {
+  const Eigen::VectorXd spread = JumpSpread({{5, 600}, {9, 1e9}}, 8, 600);
+  EXPECT_DOUBLE_EQ(spread[0], 8 * (1 - std::exp(-1)));
+  EXPECT_DOUBLE_EQ(spread[1], 8);
+}
+
+struct Tally {
+  int answered = 0;  // with an interval
+  int missed = 0;    // of these, the truth
+};
+
+/// Of 40 hours with cuts, what the intervals of `name` are worth.
+Tally Count(const std::vector<Cut>& cuts, const std::string& name, double truth,
+            const std::string& identifier = "energy-ml") {
+  Tally tally;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const Measurements m = Without(test::RecordHour(test::TableOne(), seed), cuts);
+    const Estimate estimate = test::Answer(identifier, m);
+    const EstimatedParameter* found = estimate.Find(name);
+    if (!found || !found->interval95) continue;
+    const auto [lower, upper] = *found->interval95;
+    ++tally.answered;
+    tally.missed += truth < lower || upper < truth;
+  }
+  return tally;
+}
+
+// of 40 intervals of 95 %, more than 5 miss the truth once in 70 times; one cold start in 80 counts
+// as warm (kCertainStart), more than 3 of 40 once in 600 times
+constexpr int kMostMissed = 5, kFewestAnswered = 37;
+
+TEST(Gaps, LeaveIntervalsThatHoldTheTruth) {
+  const std::vector<std::vector<Cut>> cases{
+      {{300, 400}},
+      {{300, 400}, {1300, 1400}, {2300, 2400}},
+      {{300, 330}},
+      {{300, 360}, {900, 960}, {1500, 1560}, {2100, 2160}, {2700, 2760}}};
+  for (const std::vector<Cut>& cuts : cases) {
+    for (const auto& [name, truth] :
+         {std::pair{"thermal_gain", -3.0}, std::pair{"thermal_time_constant", 600.0}}) {
+      const Tally tally = Count(cuts, name, truth);
+      EXPECT_GE(tally.answered, kFewestAnswered) << name << " with gaps: " << cuts.size();
+      EXPECT_LE(tally.missed, kMostMissed) << name << " with gaps: " << cuts.size();
+    }
+  }
+}
+
+TEST(Gaps, WidenTheIntervalsOfFitsThatHoldTheLossOverThem) {
+  const Tally tally = Count({{300, 400}}, "thermal_time_constant", 600, "kalman");
+  EXPECT_GE(tally.answered, 20);  // some filters run away beside a gap, and say so
+  EXPECT_LE(tally.missed, kMostMissed);
+}
+
+TEST(Gaps, AreToldOf) {
+  const Measurements m = Without(test::RecordHour(test::TableOne(), 1), {{300, 400}});
+  const Estimate estimate = test::Answer("energy-ml", m);
+  EXPECT_THAT(estimate.FullMessage(), HasSubstr("a gap of 100 s at 300 s"));
+  EXPECT_TRUE(estimate.Find("energy_jump_1"));
+  EXPECT_THAT(test::Answer("energy-ml", test::RecordHour(test::TableOne(), 1)).FullMessage(),
+              Not(HasSubstr("gap")));
+}
+
+TEST(Gaps, AreFittedUnderHubersLossAndBesideGravityToo) {
+  const Measurements m = Without(test::RecordHour(test::TableOne(), 2), {{300, 400}});
+  const Estimate plain = test::Answer("energy-ml", m);
+  for (const std::map<std::string, std::string>& given :
+       {std::map<std::string, std::string>{{"loss", "huber"}},
+        std::map<std::string, std::string>{{"gravity", "sincos"}}}) {
+    const Estimate other = test::Answer("energy-ml", m, given);
+    ASSERT_EQ(other.status, Status::ok) << other.FullMessage();
+    // the jump is known to a tenth of itself, and both fits see the same samples
+    EXPECT_NEAR(other.Find("energy_jump_1")->value, plain.Find("energy_jump_1")->value,
+                *plain.Find("energy_jump_1")->std);
+  }
+}
+
+}  // namespace
+}  // namespace warmjoint

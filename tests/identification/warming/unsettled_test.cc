@@ -1,0 +1,22 @@
+#include "identification/warming/unsettled.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/support/warm_recording.h"
+
+namespace warmjoint {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(Unsettled, SaysWhatTheRecordingLacks) {
+  const auto record = [](Eigen::Index n) {
+    return test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(n, 1), 0.5, 1);
+  };
+  EXPECT_THAT(WhyUnsettled(record(60), "warm-up"), HasSubstr("the log lasts 59 s"));
+  EXPECT_THAT(WhyUnsettled(record(60), "law stribeck"), HasSubstr("down to a twentieth"));
+  EXPECT_THAT(WhyUnsettled(record(3600), "warm-up"), HasSubstr("does the torque column"));
+}
+
+}  // namespace
+}  // namespace warmjoint

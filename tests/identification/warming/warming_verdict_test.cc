@@ -1,0 +1,35 @@
+#include "identification/warming/warming_verdict.h"
+
+#include <gmock/gmock.h>
+
+namespace warmjoint {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// 1200 s that show the warming clearly.
+WarmingEvidence Twenty(double time_constant, double log_deviation) {
+  return {1000, log_deviation, time_constant, 2.4, 6000, 1200};
+}
+
+TEST(WarmingVerdict, AsksMoreWhereTheIntervalReachesBeyondTheRecording) {
+  EXPECT_FALSE(UnknownWarming(Twenty(300, 0.4)));
+  EXPECT_FALSE(UnknownWarming(Twenty(3600, 0.2)));
+  // an endless tau is 3.3 deviations away, and many more joints are slow than short by chance
+  EXPECT_THAT(*UnknownWarming(Twenty(3600, 0.3)), HasSubstr("tau is known to a factor of 1.8"));
+  EXPECT_THAT(*UnknownWarming(Twenty(300, 0.6)), HasSubstr("tau is known to a factor of 3.24"));
+}
+
+TEST(WarmingVerdict, SaysThatTheTimeConstantRanAway) {
+  EXPECT_THAT(*UnknownWarming(Twenty(1e5, 3)), HasSubstr("any longer tau fits as well"));
+  EXPECT_THAT(*RunawayWarming(1e9, 1200), HasSubstr("at the end of the 1200 s"));
+  EXPECT_FALSE(RunawayWarming(5999, 1200));
+}
+
+TEST(WarmingVerdict, SaysThatNoWarmingCanBeSeen) {
+  EXPECT_THAT(*UnknownWarming({19, 0.1, 300, 2.4, 6000, 1200}),
+              HasSubstr("no warm-up can be seen"));
+}
+
+}  // namespace
+}  // namespace warmjoint
