@@ -18,6 +18,7 @@ using Eigen::VectorXd;
 
 constexpr double kChange = 0.2;  // of the friction, rms, from one sample to the next
 constexpr Index kFewestRows = 40;
+constexpr double kGlimpse = 3;   // deviations
 constexpr double kFirst = 0.05;  // share that the first span of a lag keeps, at least
 constexpr double kSame = 1e-9;   // columns that count as the same
 constexpr std::array<Index, 6> kSpan{0, 1, 2, 4, 8, 16};  // samples since the change
@@ -61,6 +62,13 @@ MatrixXd Features(const Followers& followers) {
   return features;
 }
 
+/// Whether the first span shows a share at all, as if nothing else were there: nearly always not.
+bool MayLag(const MatrixXd& features, const VectorXd& left) {
+  const auto first = features.col(0);
+  const double variance = left.squaredNorm() / static_cast<double>(left.size());
+  return first.dot(left) > kGlimpse * std::sqrt(first.squaredNorm() * variance);
+}
+
 }  // namespace
 
 std::optional<Structure> FindLag(const FittedModel& model, const Measurements& measurements,
@@ -70,8 +78,9 @@ std::optional<Structure> FindLag(const FittedModel& model, const Measurements& m
   const auto n = static_cast<Index>(followers.rows.size());
   if (n < kFewestRows) return std::nullopt;
   const VectorXd left = residual(followers.rows);
-  const MatrixXd derivatives = model.derivatives(followers.rows, Eigen::all);
   const Block lag{Dependence::lag, Features(followers)};
+  if (!MayLag(lag.features, left)) return std::nullopt;
+  const MatrixXd derivatives = model.derivatives(followers.rows, Eigen::all);
   const Selection all{Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(n, true), {}};
   GrowingFit fit(VectorXd::Ones(n), left, derivatives, all, {lag});
   std::optional<Structure> found = fit.Test(lag);
