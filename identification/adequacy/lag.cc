@@ -17,6 +17,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kChange = 0.2;  // of the friction, rms, from one sample to the next
+constexpr double kStep = 0.05;   // of the largest speed, from one sample to the next
 constexpr Index kFewestRows = 40;
 constexpr double kGlimpse = 3;   // deviations
 constexpr double kFirst = 0.05;  // share that the first span of a lag keeps, at least
@@ -30,13 +31,17 @@ struct Followers {
   std::vector<double> drop;  // F0 - F1, N.m or N
 };
 
-Followers AfterChanges(const VectorXd& friction, const Selection& selection) {
+/// friction: [N] of the fit, N.m or N
+Followers AfterChanges(const VectorXd& friction, const VectorXd& velocity,
+                       const Selection& selection) {
   const double change = kChange * friction.norm() / std::sqrt(static_cast<double>(friction.size()));
+  const double step = kStep * velocity.cwiseAbs().maxCoeff();
   Followers followers;
   Index since = kSpan.back();
   double before = 0;
   for (Index i = 1; i < friction.size(); ++i, ++since) {
-    if (std::abs(friction[i] - friction[i - 1]) > change) {
+    const bool moved = std::abs(velocity[i] - velocity[i - 1]) > step;
+    if (moved && std::abs(friction[i] - friction[i - 1]) > change) {
       // a ramp is one change from its beginning on
       if (since > 0) before = friction[i - 1];
       since = 0;
@@ -74,7 +79,7 @@ bool MayLag(const MatrixXd& features, const VectorXd& left) {
 std::optional<Structure> FindLag(const FittedModel& model, const Measurements& measurements,
                                  VectorXd& residual) {
   const VectorXd friction = model.torque - model.residual;
-  const Followers followers = AfterChanges(friction, model.selection);
+  const Followers followers = AfterChanges(friction, measurements.velocity, model.selection);
   const auto n = static_cast<Index>(followers.rows.size());
   if (n < kFewestRows) return std::nullopt;
   const VectorXd left = residual(followers.rows);
@@ -92,10 +97,12 @@ std::optional<Structure> FindLag(const FittedModel& model, const Measurements& m
   const VectorXd share = both.solution.tail(lag.features.cols());
   if (share[0] < kFirst || share[0] < 0.5 * share.maxCoeff()) return std::nullopt;
   const VectorXd explained = lag.features * share;
+  const double gone = left.squaredNorm() - (left - explained).squaredNorm();
+  if (gone <= 0) return std::nullopt;
   for (Index row = 0; row < n; ++row) {
     residual[followers.rows[static_cast<size_t>(row)]] -= explained[row];
   }
-  found->explained = explained.squaredNorm();
+  found->explained = gone;
   found->period = 0;
   for (Index s = 0; s < share.size(); ++s) {
     const auto i = static_cast<size_t>(s);
