@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "models/foundation/excerpt.h"
+#include "models/foundation/read_json.h"
 #include "models/robots/robot_folder.h"
 #include "sim/attach.h"
 #include "tools/command.h"
@@ -17,13 +19,23 @@ struct AttachArguments {
   std::string output;
 };
 
+/// Tells of an estimate that its own verdict voids: identify --force writes such ones.
+void WarnOfVoid(const std::string& path) {
+  const nlohmann::json object = ReadJsonFile(path);
+  if (!object.contains("status") || object["status"] == "ok") return;
+  fmt::print(stderr, "warning: {} is {}: its friction is void, and so is that of the model\n", path,
+             object["status"].dump());
+}
+
 /// NAME=FILE of --joint.
 FrictionForJoint ReadJoint(const std::string& text) {
   const size_t equals = text.find('=');
   if (equals == 0 || equals == std::string::npos || equals + 1 == text.size()) {
     Refuse({"--joint"}, "is '{}'; it must be NAME=FILE, as elbow=estimate.json", Excerpt(text));
   }
-  return {text.substr(0, equals), ReadFrictionFile(text.substr(equals + 1))};
+  FrictionForJoint joint{text.substr(0, equals), ReadFrictionFile(text.substr(equals + 1))};
+  WarnOfVoid(text.substr(equals + 1));
+  return joint;
 }
 
 ExitStatus Attach(const AttachArguments& arguments) {

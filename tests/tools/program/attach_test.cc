@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "models/foundation/atomic_file.h"
@@ -39,6 +40,21 @@ TEST(AttachCommand, TellsWhatItChanged) {
       RunWarmjoint({"attach", urdf, "--joint", "hinge=" + FrictionFile("pendulum"), "-o", out});
   EXPECT_EQ(answer.status, 0) << answer.err;
   EXPECT_THAT(answer.err, AllOf(HasSubstr("notice: hinge"), HasSubstr("effort limit")));
+}
+
+TEST(AttachCommand, WarnsOfAFrictionThatItsVerdictVoids) {
+  const ScratchDirectory scratch;
+  const std::string estimate = scratch.path() / "estimate.json", out = scratch.path() / "out.xml";
+  std::ifstream plain(FrictionFile("pendulum"));
+  const nlohmann::json friction = nlohmann::json::parse(plain)["friction"];
+  for (const auto& [status, warns] :
+       {std::pair("inadequate_model", true), std::pair("ok", false)}) {
+    WriteWholeFile(estimate, nlohmann::json{{"status", status}, {"friction", friction}}.dump());
+    const Answer answer =
+        RunWarmjoint({"attach", "pendulum", "--joint", "hinge=" + estimate, "-o", out});
+    EXPECT_EQ(answer.status, 0) << answer.err;
+    EXPECT_EQ(answer.err.find("void") != std::string::npos, warns) << answer.err;
+  }
 }
 
 TEST(AttachCommand, RefusesAnUnknownJointAndLeavesNothing) {
