@@ -15,7 +15,7 @@ constexpr double kOneSpeed = 0.02;  // relative
 class Together {
  public:
   Together(const Measurements& measurements, const Selection& selection)
-      : v_(measurements.velocity), segment_(-1) {
+      : v_(measurements.velocity) {
     if (selection.segments.empty()) return;
     segment_.setConstant(v_.size(), -1);
     for (size_t s = 0; s < selection.segments.size(); ++s) {
