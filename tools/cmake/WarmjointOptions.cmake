@@ -35,4 +35,8 @@ endif()
 if(WARMJOINT_SANITIZE)
   add_compile_options(-fsanitize=${WARMJOINT_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all -g)
   add_link_options(-fsanitize=${WARMJOINT_SANITIZE})
+  # what sanitizers add to the code makes GCC 12 suspect the standard library's regular expressions
+  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+    target_compile_options(warmjoint_settings INTERFACE -Wno-maybe-uninitialized)
+  endif()
 endif()
