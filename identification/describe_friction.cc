@@ -4,7 +4,7 @@
 
 #include "identification/fit_data.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 /// A parameter beside the bound that its value lies outside of.
@@ -93,4 +93,4 @@ void DescribeFriction(const Law& law, const Measurements& measurements, Estimate
   if (excesses.empty()) estimate.friction = friction;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

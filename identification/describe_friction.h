@@ -3,9 +3,9 @@
 
 #include "identification/estimate.h"
 #include "models/friction/law.h"
-#include "sim/dataset/measurements.h"
+#include "models/recording/measurements.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// Puts the law and the parameter values that `estimate` holds into estimate.friction.
 /// Where a value lies outside of the bounds of the law's table there is no such friction, and it is
@@ -15,4 +15,4 @@ namespace warmjoint {
 /// remedy. `static` below `coulomb` is inadequate_model too.
 void DescribeFriction(const Law& law, const Measurements& measurements, Estimate& estimate);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

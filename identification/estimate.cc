@@ -1,6 +1,6 @@
 #include "identification/estimate.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 std::string_view StatusName(Status status) {
   switch (status) {
@@ -31,4 +31,4 @@ std::string Estimate::FullMessage() const {
   return full;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

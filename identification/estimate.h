@@ -14,7 +14,7 @@
 #include "identification/map_band.h"
 #include "models/friction/friction_description.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// Whether the numbers can be trusted, and if not, why.
 enum class Status { ok, not_converged, not_identifiable, inadequate_model, bad_data };
@@ -85,4 +85,4 @@ nlohmann::json EstimateToJson(const Estimate& estimate);
 /// `place` for a missing member, a wrong type or an unknown status.
 Estimate EstimateFromJson(const nlohmann::json& json, const Place& place);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

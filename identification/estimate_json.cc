@@ -8,7 +8,7 @@
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 using nlohmann::json;
@@ -202,4 +202,4 @@ Estimate EstimateFromJson(const json& object, const Place& place) {
   return estimate;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

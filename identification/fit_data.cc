@@ -6,7 +6,7 @@
 
 #include "identification/uncertainty/student.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 /// Complains of the first number in `values` that is not finite.
@@ -125,4 +125,4 @@ std::string WouldFeedItself(double time, std::string_view remedy) {
       remedy);
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

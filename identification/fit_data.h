@@ -9,7 +9,7 @@
 #include "identification/identifier.h"
 #include "models/friction/law.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// The rows of `all` that the selection keeps. all: [N] or [N x d]; returns [n] or [n x d].
 Eigen::MatrixXd Kept(const Eigen::MatrixXd& all, const Selection& selection);
@@ -45,4 +45,4 @@ std::string Indistinct(const std::vector<Eigen::Index>& mixed, const Law& law,
 /// The sentence on a fitted friction that pushes at a time (s) and so would feed itself.
 std::string WouldFeedItself(double time, std::string_view remedy);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -10,7 +10,7 @@
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 constexpr double kSpacing = 2 * std::numbers::pi / kGravityKnots;  // rad
@@ -154,4 +154,4 @@ GravityModel GravityFromJson(const nlohmann::json& json, const Place& place) {
   return gravity;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -8,7 +8,7 @@
 
 #include "models/foundation/bad_input.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// How G depends on the position p, linear in its values g:
 ///   sincos    g1 sin p + g2 cos p, rotary joints
@@ -45,4 +45,4 @@ nlohmann::json GravityToJson(const GravityModel& gravity);
 /// The inverse. Throws BadInput from `place`.
 GravityModel GravityFromJson(const nlohmann::json& json, const Place& place);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

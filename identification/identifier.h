@@ -7,10 +7,10 @@
 #include "identification/estimate.h"
 #include "identification/options.h"
 #include "models/foundation/random_stream.h"
-#include "sim/dataset/measurements.h"
-#include "sim/dataset/selection.h"
+#include "models/recording/measurements.h"
+#include "models/recording/selection.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// Everything an identifier may look at.
 struct IdentifierInput {
@@ -47,4 +47,4 @@ const std::vector<Identifier>& Identifiers();
 /// The identifier of that name. Throws BadInput with the nearest name.
 const Identifier& FindIdentifier(const std::string& name);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

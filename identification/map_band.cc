@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 using nlohmann::json;
 
@@ -28,4 +28,4 @@ MapBand BandFromJson(const json& object, const Place& place) {
   return band;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

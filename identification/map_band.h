@@ -8,7 +8,7 @@
 
 #include "models/foundation/bad_input.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// Law and maps together at one map's centres (make_bands.h), each by itself with 95 %.
 struct MapBand {
@@ -25,4 +25,4 @@ nlohmann::json BandToJson(const MapBand& band);
 /// The inverse. Throws BadInput from `place`.
 MapBand BandFromJson(const nlohmann::json& json, const Place& place);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -2,7 +2,7 @@
 
 #include "identification/estimate.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 Metrics ComputeMetrics(const Eigen::VectorXd& measured, const Eigen::VectorXd& fitted,
                        int parameters, double effective_parameters) {
@@ -22,4 +22,4 @@ Metrics ComputeMetrics(const Eigen::VectorXd& measured, const Eigen::VectorXd& f
   return metrics;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

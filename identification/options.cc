@@ -11,7 +11,7 @@
 #include "models/foundation/nearest_name.h"
 #include "models/foundation/parse_number.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 std::vector<std::string> Split(const std::string& text, char separator) {
@@ -122,4 +122,4 @@ std::pair<double, double> Options::Range(std::string_view name) const {
   return ParseRange(Text(name)).value();
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -9,7 +9,7 @@
 
 #include "models/foundation/bad_input.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// One option of an identifier.
 struct OptionInfo {
@@ -39,4 +39,4 @@ class Options {
   std::map<std::string, std::string, std::less<>> values_;
 };
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace warmjoint {
+namespace warmjoint::inline scenarios {
 
 double Distribution::Draw(RandomStream& random) const {
   switch (kind) {
@@ -18,4 +18,4 @@ double Distribution::Draw(RandomStream& random) const {
   return a;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline scenarios

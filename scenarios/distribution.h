@@ -3,7 +3,7 @@
 
 #include "models/foundation/random_stream.h"
 
-namespace warmjoint {
+namespace warmjoint::inline scenarios {
 
 /// A fixed number, a uniform range, a normal, or a log-uniform range.
 struct Distribution {
@@ -17,4 +17,4 @@ struct Distribution {
   bool operator==(const Distribution&) const = default;
 };
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline scenarios

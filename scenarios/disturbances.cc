@@ -4,7 +4,7 @@
 #include <numbers>
 #include <utility>
 
-namespace warmjoint {
+namespace warmjoint::inline scenarios {
 
 double AmbientTemperature::RiseAt(double t) const {
   return amplitude == 0 ? 0 : amplitude * std::sin(2 * std::numbers::pi * t / period);
@@ -29,4 +29,4 @@ std::string_view IdealOnly(const Disturbances& disturbances) {
   return "";
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline scenarios

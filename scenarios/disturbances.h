@@ -6,7 +6,7 @@
 
 #include "models/friction/thermal.h"
 
-namespace warmjoint {
+namespace warmjoint::inline scenarios {
 
 /// Single samples of the logged torque that are far off, at random.
 struct Outliers {
@@ -89,4 +89,4 @@ struct Disturbances {
 /// Name of the first disturbance that only the ideal plant knows; empty where there is none.
 std::string_view IdealOnly(const Disturbances& disturbances);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline scenarios

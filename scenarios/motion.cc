@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace warmjoint {
+namespace warmjoint::inline scenarios {
 namespace {
 
 /// Signed velocities, one a segment, without end.
@@ -159,4 +159,4 @@ std::vector<MotionSegment> PlanMotion(const Motion& motion, double duration,
   return plan.Take();
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline scenarios

@@ -9,7 +9,7 @@
 #include "models/foundation/random_stream.h"
 #include "scenarios/distribution.h"
 
-namespace warmjoint {
+namespace warmjoint::inline scenarios {
 
 /// Which speed and which sign come next.
 ///   alternating: the next speed of the list or a new draw; the sign changes with each segment. A
@@ -85,4 +85,4 @@ double StartPosition(const Motion& motion, std::pair<double, double> joint_limit
 std::vector<MotionSegment> PlanMotion(const Motion& motion, double duration,
                                       std::pair<double, double> joint_limits, RandomStream& random);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline scenarios

@@ -11,7 +11,7 @@
 #include "scenarios/yaml_friction.h"
 #include "scenarios/yaml_motion.h"
 
-namespace warmjoint {
+namespace warmjoint::inline scenarios {
 namespace {
 
 namespace fs = std::filesystem;
@@ -152,4 +152,4 @@ Scenario WithSettings(const Scenario& scenario, const Settings& settings) {
   return ReadScenarioValue(YamlValue::Parse(yaml, scenario.name, settings), scenario.name);
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline scenarios

@@ -44,7 +44,7 @@
 #include "scenarios/setting.h"
 #include "scenarios/yaml_value.h"
 
-namespace warmjoint {
+namespace warmjoint::inline scenarios {
 
 /// Reads a scenario file and applies the settings to it. Unknown keys, wrong types and impossible
 /// values throw BadInput with file:line, the value, the bound and the nearest known key.
@@ -56,4 +56,4 @@ Scenario ReadScenarioValue(const YamlValue& value, const std::string& name);
 /// The scenario with settings applied to it, checked like a file.
 Scenario WithSettings(const Scenario& scenario, const Settings& settings);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline scenarios

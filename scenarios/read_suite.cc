@@ -7,7 +7,7 @@
 #include "scenarios/suite.h"
 #include "scenarios/write_scenario.h"
 
-namespace warmjoint {
+namespace warmjoint::inline scenarios {
 namespace {
 
 Claim ReadClaim(const YamlValue& value) {
@@ -146,4 +146,4 @@ Suite ReadSuite(const std::string& path) {
   return suite;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline scenarios

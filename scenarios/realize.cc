@@ -2,7 +2,7 @@
 
 #include "scenarios/yaml_friction.h"
 
-namespace warmjoint {
+namespace warmjoint::inline scenarios {
 
 Scenario Realize(const Scenario& scenario, std::uint64_t realization) {
   Scenario realized = scenario;
@@ -16,4 +16,4 @@ Scenario Realize(const Scenario& scenario, std::uint64_t realization) {
   return realized;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline scenarios

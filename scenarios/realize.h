@@ -5,10 +5,10 @@
 
 #include "scenarios/scenario.h"
 
-namespace warmjoint {
+namespace warmjoint::inline scenarios {
 
 /// The scenario with every drawn truth replaced by this realization's number, from
 /// (scenario.seed, realization, Stream::truth). A scenario without draws comes back as it is.
 Scenario Realize(const Scenario& scenario, std::uint64_t realization);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline scenarios

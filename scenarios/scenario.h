@@ -9,7 +9,7 @@
 #include "scenarios/motion.h"
 #include "scenarios/truth_draws.h"
 
-namespace warmjoint {
+namespace warmjoint::inline scenarios {
 
 /// ideal: Sec. III of the paper exactly, no engine. mujoco: the robot, a controller and the plugin.
 enum class PlantKind { ideal, mujoco };
@@ -61,4 +61,4 @@ struct Scenario {
   std::uint64_t seed = 0;
 };
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline scenarios

@@ -4,7 +4,7 @@
 #include "scenarios/scenario.h"
 #include "scenarios/yaml_choice.h"
 
-namespace warmjoint {
+namespace warmjoint::inline scenarios {
 
 inline const Choices<PlantKind>& PlantKinds() {
   static const Choices<PlantKind> kinds{{"ideal", PlantKind::ideal}, {"mujoco", PlantKind::mujoco}};
@@ -17,4 +17,4 @@ inline const Choices<JointKind>& JointKinds() {
   return kinds;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline scenarios

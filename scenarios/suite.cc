@@ -2,7 +2,7 @@
 
 #include "scenarios/read_scenario.h"
 
-namespace warmjoint {
+namespace warmjoint::inline scenarios {
 
 Scenario VariantScenario(const Suite& suite, int variant) {
   if (!suite.ladder) return suite.scenario;
@@ -10,4 +10,4 @@ Scenario VariantScenario(const Suite& suite, int variant) {
   return WithSettings(suite.scenario, rung.settings);
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline scenarios

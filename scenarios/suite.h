@@ -10,7 +10,7 @@
 #include "scenarios/scenario.h"
 #include "scenarios/setting.h"
 
-namespace warmjoint {
+namespace warmjoint::inline scenarios {
 
 /// Figures that a claim can name: relative errors (0.05 is 5 %), N.m or N, N.m or N, %, (N.m)^2.
 inline constexpr std::array<const char*, 6> kClaimFigures{
@@ -87,4 +87,4 @@ Suite ReadSuite(const std::string& path);
 /// The whole suite, defaults written out; ReadSuite of it gives the same suite.
 std::string SuiteToYaml(const Suite& suite);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline scenarios

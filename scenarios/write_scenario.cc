@@ -10,7 +10,7 @@
 #include "scenarios/yaml_friction.h"
 #include "scenarios/yaml_motion.h"
 
-namespace warmjoint {
+namespace warmjoint::inline scenarios {
 
 std::string QuotedYaml(const std::string& text) {
   // a JSON string is a double-quoted YAML scalar
@@ -57,4 +57,4 @@ std::string ScenarioPartToYaml(const Scenario& scenario, const std::string& inde
   return yaml;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline scenarios

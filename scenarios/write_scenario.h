@@ -5,7 +5,7 @@
 
 #include "scenarios/scenario.h"
 
-namespace warmjoint {
+namespace warmjoint::inline scenarios {
 
 /// The whole scenario, defaults written out; reading it gives the same scenario bit for bit.
 std::string ScenarioToYaml(const Scenario& scenario);
@@ -16,4 +16,4 @@ std::string ScenarioPartToYaml(const Scenario& scenario, const std::string& inde
 /// Text as a YAML scalar, quoted, so that it reads back whatever it holds.
 std::string QuotedYaml(const std::string& text);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline scenarios

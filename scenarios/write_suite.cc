@@ -1,7 +1,7 @@
 #include "scenarios/suite.h"
 #include "scenarios/write_scenario.h"
 
-namespace warmjoint {
+namespace warmjoint::inline scenarios {
 namespace {
 
 /// Collects "key: value" lines.
@@ -74,4 +74,4 @@ std::string SuiteToYaml(const Suite& suite) {
   return lines.Take();
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline scenarios

@@ -9,7 +9,7 @@
 #include "models/foundation/nearest_name.h"
 #include "scenarios/yaml_value.h"
 
-namespace warmjoint {
+namespace warmjoint::inline scenarios {
 
 template <typename T>
 using Choices = std::vector<std::pair<std::string, T>>;
@@ -35,4 +35,4 @@ std::string ChoiceName(T value, const Choices<T>& choices) {
   return "";
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline scenarios

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace warmjoint {
+namespace warmjoint::inline scenarios {
 namespace {
 
 const std::vector<std::string>& Kinds() {
@@ -54,4 +54,4 @@ std::string DistributionToYaml(const Distribution& distribution) {
   return "";
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline scenarios

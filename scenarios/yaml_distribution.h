@@ -7,7 +7,7 @@
 #include "scenarios/distribution.h"
 #include "scenarios/yaml_value.h"
 
-namespace warmjoint {
+namespace warmjoint::inline scenarios {
 
 /// Whether the value is a map that names a distribution.
 bool IsDistribution(const YamlValue& value);
@@ -18,4 +18,4 @@ Distribution ReadDistribution(const YamlValue& value, Bound bound);
 /// The YAML of it, on one line.
 std::string DistributionToYaml(const Distribution& distribution);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline scenarios

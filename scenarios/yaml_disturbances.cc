@@ -1,6 +1,6 @@
 #include "scenarios/yaml_disturbances.h"
 
-namespace warmjoint {
+namespace warmjoint::inline scenarios {
 namespace {
 
 /// A number of a disturbance: where it stands and what it must satisfy.
@@ -102,4 +102,4 @@ std::string DisturbancesToYaml(const Disturbances& disturbances, const std::stri
   return yaml;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline scenarios

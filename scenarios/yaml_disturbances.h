@@ -6,7 +6,7 @@
 #include "scenarios/disturbances.h"
 #include "scenarios/yaml_value.h"
 
-namespace warmjoint {
+namespace warmjoint::inline scenarios {
 
 /// Reads and checks disturbances. Throws BadInput with file:line.
 Disturbances ReadDisturbances(const YamlValue& value);
@@ -14,4 +14,4 @@ Disturbances ReadDisturbances(const YamlValue& value);
 /// The YAML of those that are not absent, one a line behind `indent`; empty where all are.
 std::string DisturbancesToYaml(const Disturbances& disturbances, const std::string& indent);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline scenarios

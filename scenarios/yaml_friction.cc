@@ -8,7 +8,7 @@
 #include "models/foundation/parse_number.h"
 #include "scenarios/yaml_distribution.h"
 
-namespace warmjoint {
+namespace warmjoint::inline scenarios {
 namespace {
 
 using nlohmann::json;
@@ -133,4 +133,4 @@ FrictionDescription DrawFriction(const FrictionDescription& friction, const Trut
   return FrictionFromJson(object, place);
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline scenarios

@@ -7,7 +7,7 @@
 #include "scenarios/truth_draws.h"
 #include "scenarios/yaml_value.h"
 
-namespace warmjoint {
+namespace warmjoint::inline scenarios {
 
 /// Reads the layout of a friction file (friction_description.h) written as YAML, or the path of
 /// such a file relative to the scenario's. Numbers may be distributions, uniform or log-uniform,
@@ -22,4 +22,4 @@ std::string FrictionToYaml(const FrictionDescription& friction, const TruthDraws
 FrictionDescription DrawFriction(const FrictionDescription& friction, const TruthDraws& draws,
                                  RandomStream& random, const Place& place);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline scenarios

@@ -5,7 +5,7 @@
 #include "scenarios/yaml_choice.h"
 #include "scenarios/yaml_distribution.h"
 
-namespace warmjoint {
+namespace warmjoint::inline scenarios {
 namespace {
 
 const Choices<SegmentOrder>& Orders() {
@@ -159,4 +159,4 @@ std::string MotionToYaml(const Motion& motion, const std::string& indent) {
   return yaml;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline scenarios

@@ -7,7 +7,7 @@
 #include "models/foundation/nearest_name.h"
 #include "models/foundation/parse_number.h"
 
-namespace warmjoint {
+namespace warmjoint::inline scenarios {
 namespace {
 
 YAML::Node ParseYaml(const std::string& text, const std::string& file) {
@@ -190,4 +190,4 @@ std::string FlowYaml(const YAML::Node& node) {
   return emitter.c_str();
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline scenarios

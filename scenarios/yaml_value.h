@@ -13,7 +13,7 @@
 #include "models/foundation/bad_input.h"
 #include "scenarios/setting.h"
 
-namespace warmjoint {
+namespace warmjoint::inline scenarios {
 
 /// What a number must satisfy; every number must be finite besides.
 enum class Bound { any, not_negative, positive };
@@ -81,4 +81,4 @@ class YamlValue {
 /// The YAML of a node on one line.
 std::string FlowYaml(const YAML::Node& node);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline scenarios

@@ -8,7 +8,7 @@
 
 #include "identification/adequacy/significance.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 using Eigen::Index;
@@ -184,4 +184,4 @@ std::vector<Structure> FindAngleStructure(const AngleAxis& axis, const VectorXd&
   return found;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "identification/adequacy/structure.h"
-#include "sim/dataset/selection.h"
+#include "models/recording/selection.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// An angle, or a way, along which ripple is looked for.
 struct AngleAxis {
@@ -27,4 +27,4 @@ struct AngleAxis {
 std::vector<Structure> FindAngleStructure(const AngleAxis& axis, const Eigen::VectorXd& velocity,
                                           const Selection& selection, Eigen::VectorXd& residual);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

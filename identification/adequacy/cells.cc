@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 using Eigen::Index;
@@ -74,4 +74,4 @@ Eigen::MatrixXd Cells::Means(const Eigen::MatrixXd& all) const {
   return means;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -4,10 +4,10 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "sim/dataset/measurements.h"
-#include "sim/dataset/selection.h"
+#include "models/recording/measurements.h"
+#include "models/recording/selection.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// Runs of neighbouring kept samples in one segment of constant speed, or, where the selection
 /// knows no segments, within 2 % of one speed. At most a 400th of all kept samples each.
@@ -26,4 +26,4 @@ struct Cells {
 
 Cells MakeCells(const Measurements& measurements, const Selection& selection);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

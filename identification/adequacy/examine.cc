@@ -18,7 +18,7 @@
 #include "identification/linear/fit_gravity.h"
 #include "identification/linear/least_squares.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 using Eigen::Index;
@@ -190,4 +190,4 @@ Adequacy ExamineResidual(const Identifier& identifier, const IdentifierInput& in
   return adequacy;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

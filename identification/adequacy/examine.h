@@ -8,7 +8,7 @@
 #include "identification/adequacy/structure.h"
 #include "identification/identifier.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// Structure of the residual, in the order of size.
 struct Adequacy {
@@ -37,4 +37,4 @@ struct Adequacy {
 Adequacy ExamineResidual(const Identifier& identifier, const IdentifierInput& input,
                          const Estimate& estimate);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

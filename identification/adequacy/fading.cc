@@ -3,7 +3,7 @@
 #include "identification/adequacy/growing_fit.h"
 #include "identification/fit_data.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 std::optional<Structure> FindFading(const FittedModel& model, Eigen::VectorXd& residual) {
   if (!model.maps || !model.KnowsWarming()) return std::nullopt;
@@ -28,4 +28,4 @@ std::optional<Structure> FindFading(const FittedModel& model, Eigen::VectorXd& r
   return found;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -7,7 +7,7 @@
 #include "identification/adequacy/fitted_model.h"
 #include "identification/adequacy/structure.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// Tests whether the part of the fit that its maps give, m(x), fades or grows with the heat: m E,
 /// beside law, warming and m (growing_fit.h), sample by sample.
@@ -15,4 +15,4 @@ namespace warmjoint {
 /// the fit has no maps or knows no warming.
 std::optional<Structure> FindFading(const FittedModel& model, Eigen::VectorXd& residual);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -10,7 +10,7 @@
 #include "identification/linear/linear_laws.h"
 #include "identification/warming/gaps.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 /// The friction that the estimate describes, or, where its values lie outside of their bounds and
@@ -141,4 +141,4 @@ std::optional<FittedModel> EvaluateModel(const Identifier& identifier, const Ide
   return model;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -9,7 +9,7 @@
 
 #include "identification/identifier.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 struct FittedModel {
   Selection selection;             // samples that took part
@@ -38,4 +38,4 @@ std::optional<FittedModel> EvaluateModel(const Identifier& identifier, const Ide
 /// Whether an identifier's table of options has a row of that name.
 bool HasOption(const Identifier& identifier, std::string_view name);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -8,7 +8,7 @@
 #include "identification/adequacy/significance.h"
 #include "identification/linear/fit_gravity.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 using Eigen::Index;
@@ -173,4 +173,4 @@ void GrowingFit::Refit() {
   left_ = residual_ - fit_.basis * (fit_.basis.transpose() * residual_);
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -8,7 +8,7 @@
 #include "identification/adequacy/structure.h"
 #include "identification/uncertainty/noise_model.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// Features that a residual may depend on, asked about together.
 struct Block {
@@ -73,4 +73,4 @@ class GrowingFit {
   double taken_ = 0;  // columns that were there when the noise was learned
 };
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "identification/forward/predict.h"
-#include "sim/dataset/robust_noise.h"
+#include "models/foundation/robust_noise.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 using Eigen::Index;
@@ -61,4 +61,4 @@ Eigen::VectorXd ForceOfHeldLoss(const FrictionDescription& friction,
   return difference * static_cast<double>(kParts) / static_cast<double>(kParts - 1);
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -4,9 +4,9 @@
 #include <Eigen/Core>
 
 #include "identification/estimate.h"
-#include "sim/dataset/measurements.h"
+#include "models/recording/measurements.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// Whether the step h of a log matters to its warming: (22) holds W over a step, in which E and
 /// with it W changes, so that tau comes out too large by h |k v|/2 (to first order in h/tau); where
@@ -19,4 +19,4 @@ bool StepMatters(const Estimate& estimate, const Measurements& measurements);
 Eigen::VectorXd ForceOfHeldLoss(const FrictionDescription& friction,
                                 const Measurements& measurements, double initial_energy);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -8,13 +8,13 @@
 
 #include "identification/adequacy/examine.h"
 #include "identification/adequacy/words.h"
-#include "identification/finer_input.h"
 #include "identification/fit_data.h"
+#include "identification/preparation/finer_input.h"
+#include "identification/preparation/log_faults.h"
 #include "identification/warming/gaps.h"
-#include "sim/dataset/log_faults.h"
-#include "sim/dataset/robust_noise.h"
+#include "models/foundation/robust_noise.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 using Eigen::Index;
@@ -252,4 +252,4 @@ Estimate IdentifyAndJudge(const Identifier& identifier, const IdentifierInput& g
   return IdentifyAndJudge(identifier, FinerInput(identifier, given)).judged;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

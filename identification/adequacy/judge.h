@@ -1,10 +1,10 @@
 // Whether a model is adequate: what the residual of its fit still shows.
 #pragma once
 
-#include "identification/finer_input.h"
 #include "identification/identifier.h"
+#include "identification/preparation/finer_input.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// Runs an identifier and judges its answer: what `identify` and `run` report.
 /// Structure in the residual (smooth_structure.h, angle_structure.h) that is certain is large where
@@ -17,7 +17,7 @@ namespace warmjoint {
 /// that the warming took up. Where a start that is taken to be cold matters, the message says how
 /// much.
 /// Noise that is coloured is no structure: the intervals account for it.
-/// A log with faults (sim/dataset/log_faults.h) makes the estimate void, bad_data, and the message
+/// A log with faults (preparation/log_faults.h) makes the estimate void, bad_data, and the message
 /// names them.
 Estimate IdentifyAndJudge(const Identifier& identifier, const IdentifierInput& given);
 
@@ -38,4 +38,4 @@ void JudgeAdequacy(const Identifier& identifier, const IdentifierInput& input, E
 /// verdict stays as it is.
 Estimate WithVoidNumbers(const Estimate& judged, const Estimate& before);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

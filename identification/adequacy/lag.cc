@@ -7,9 +7,9 @@
 #include "identification/adequacy/growing_fit.h"
 #include "identification/linear/fit_gravity.h"
 #include "identification/linear/least_squares.h"
-#include "sim/dataset/robust_noise.h"
+#include "models/foundation/robust_noise.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 using Eigen::Index;
@@ -114,4 +114,4 @@ std::optional<Structure> FindLag(const FittedModel& model, const Measurements& m
   return found;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -6,9 +6,9 @@
 
 #include "identification/adequacy/fitted_model.h"
 #include "identification/adequacy/structure.h"
-#include "sim/dataset/measurements.h"
+#include "models/recording/measurements.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// Looks for torque that lags: after a change of speed from friction F0 to F1 a share of F0 - F1
 /// that is left in the first, second, third and fourth, fifth to eighth, and ninth to sixteenth
@@ -20,4 +20,4 @@ namespace warmjoint {
 std::optional<Structure> FindLag(const FittedModel& model, const Measurements& measurements,
                                  Eigen::VectorXd& residual);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -3,7 +3,7 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 double NormalOfF(double f, double m, double n) {
   const double root = std::cbrt(f);
@@ -22,4 +22,4 @@ double HotellingDeviations(const Eigen::VectorXd& coefficients, const Eigen::Mat
   return std::isfinite(f) ? NormalOfF(f, q, groups - q) : 0;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// Standard deviations of a normal variable that an F statistic is as unlikely as, upwards
 /// (Paulson 1942). f >= 0; m, n: its degrees of freedom.
@@ -15,4 +15,4 @@ double NormalOfF(double f, double m, double n);
 double HotellingDeviations(const Eigen::VectorXd& coefficients, const Eigen::MatrixXd& scatter,
                            double groups);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -7,7 +7,7 @@
 #include "identification/adequacy/growing_fit.h"
 #include "identification/linear/fit_gravity.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 using Eigen::Index;
@@ -68,4 +68,4 @@ SmoothFindings FindSmoothStructure(const Cells& cells, const VectorXd& residual,
   return findings;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

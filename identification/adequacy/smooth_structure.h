@@ -7,7 +7,7 @@
 #include "identification/adequacy/cells.h"
 #include "identification/adequacy/structure.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// What smooth structure left, and what it was.
 struct SmoothFindings {
@@ -38,4 +38,4 @@ SmoothFindings FindSmoothStructure(const Cells& cells, const Eigen::VectorXd& re
                                    const Eigen::MatrixXd& derivatives,
                                    const Circumstances& circumstances);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <string>
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// On what a residual depends.
 enum class Dependence {
@@ -57,4 +57,4 @@ inline constexpr double kCertainMove = 3;
 /// Parts of a recording that count as independent of each other: noise may be coloured within them.
 inline constexpr Eigen::Index kParts = 32;
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -8,7 +8,7 @@
 #include "identification/adequacy/fitted_model.h"
 #include "models/friction/law.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 bool IsListed(std::string_view name) {
@@ -156,4 +156,4 @@ std::string Remedy(const Structure& structure, const Identifier& identifier,
   return Try("motor-ridge", estimate, "a map over the motor angle would follow it");
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -5,7 +5,7 @@
 
 #include "identification/adequacy/examine.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// "position (period 0.0025 m): 1.3 N rms, 3.2 % of the friction, 54 % of the residual's variance".
 std::string DescribeStructure(const Adequacy& adequacy, const Structure& structure,
@@ -19,4 +19,4 @@ std::string AgainstWarmStart(const Identifier& identifier, const IdentifierInput
 std::string Remedy(const Structure& structure, const Identifier& identifier,
                    const IdentifierInput& input, const Estimate& estimate);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

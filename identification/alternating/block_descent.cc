@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 BlockDescent::BlockDescent(const Measurements& measurements, const Selection& moving,
                            const Eigen::MatrixXd& columns, const Eigen::MatrixXd& cofactor,
@@ -69,4 +69,4 @@ DescentState BlockDescent::WithNominal(const Thermal& thermal, bool inside) cons
   return state;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 constexpr int kWindows = 40;             // over the recording
@@ -189,4 +189,4 @@ FirstGuess GuessThermal(const Measurements& measurements, const Selection& selec
   return {Thermal{gain, time_constant}, "", description};
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -4,7 +4,7 @@
 #include "identification/linear/linear_laws.h"
 #include "identification/maps/position_maps.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 /// Law and kernels over position.
@@ -83,4 +83,4 @@ NominalPart PrepareNominalPart(const IdentifierInput& given, const std::string& 
   return part;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

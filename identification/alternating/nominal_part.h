@@ -6,7 +6,7 @@
 #include "identification/linear/least_squares.h"
 #include "identification/maps/identify_maps.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 struct NominalPart {
   Selection moving;         // samples that take part: kept, and not at rest
@@ -30,4 +30,4 @@ struct NominalPart {
 /// the torque as it is, warming included.
 NominalPart PrepareNominalPart(const IdentifierInput& given, const std::string& identifier);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 constexpr int kMaxSteps = 100;
@@ -103,4 +103,4 @@ OutputError::Fit OutputError::Refine(const Eigen::VectorXd& energy, double start
   return {{here.gain, std::exp(theta)}, here.cost, theta > lower && theta < upper};
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -4,9 +4,9 @@
 #include <Eigen/Core>
 
 #include "identification/forward/thermal_filter.h"
-#include "sim/dataset/selection.h"
+#include "models/recording/selection.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// Fits gain and time constant of H to a given energy: the sum over the kept samples of
 /// (E - H W)^2 is smallest. The filter runs over all samples: one that is not kept (at rest,
@@ -52,4 +52,4 @@ class OutputError {
   double longest_;
 };
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

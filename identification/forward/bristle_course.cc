@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 constexpr double kConstant = 0.02;  // change of the speed below which it counts as constant
@@ -47,4 +47,4 @@ void BristleCourse::Cut(double step, double from, double to) {
   }
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -7,7 +7,7 @@
 
 #include "models/friction/lugre.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// A motion whose velocity is linear from one sample to the next, cut at every turn of its
 /// direction, and where the speed changes by more than a fiftieth, into kPieces of equal change.
@@ -80,4 +80,4 @@ void BristleCourse::Run(const T* p, T* force, T* load) const {
   }
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -5,7 +5,7 @@
 #include "identification/forward/closed_loop_kernel.h"
 #include "models/friction/sign.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 ClosedLoop::ClosedLoop(const Eigen::VectorXd& time, const Eigen::VectorXd& velocity,
                        const Eigen::MatrixXd& columns, const std::vector<Eigen::Index>& starts)
@@ -81,4 +81,4 @@ Eigen::MatrixXd ByDiscretePair(const Eigen::MatrixXd& jacobian, const Thermal& t
   return result;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -7,7 +7,7 @@
 #include "identification/forward/intervals.h"
 #include "models/friction/law.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// What the loop does for one set of parameters.
 struct LoopResponse {
@@ -68,4 +68,4 @@ class ClosedLoop {
 /// three are k, tau, E0) become ke and te. h: the even sampling interval, s.
 Eigen::MatrixXd ByDiscretePair(const Eigen::MatrixXd& jacobian, const Thermal& thermal, double h);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

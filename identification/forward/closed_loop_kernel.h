@@ -6,7 +6,7 @@
 
 #include "identification/forward/closed_loop.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// Number of law parameters known at compile time (D), or only at run time (Eigen::Dynamic).
 template <int D>
@@ -102,4 +102,4 @@ void WithHolds(const Intervals& intervals, const Thermal& thermal, Run&& run) {
   }
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

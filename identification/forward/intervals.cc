@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 constexpr double kSame = 1e-6;  // relative
@@ -72,4 +72,4 @@ std::vector<ThermalHold> Holds(const Intervals& intervals, const Thermal& therma
   return holds;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -6,7 +6,7 @@
 
 #include "models/friction/thermal.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// Intervals of a recording. Lengths that differ by less than a millionth count as one.
 struct Intervals {
@@ -30,4 +30,4 @@ struct ThermalHold {
 /// One for each distinct interval. After an infinite one nothing is left of energy or loss.
 std::vector<ThermalHold> Holds(const Intervals& intervals, const Thermal& thermal);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -1,6 +1,6 @@
 #include "identification/forward/map_points.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 MapPoints PointsOf(const Measurements& measurements, const Eigen::VectorXd& energy) {
   MapPoints points = MapPoints::Zero(measurements.size(), 5);
@@ -20,4 +20,4 @@ MapPoint<double> PointAt(const MapPoints& points, Eigen::Index row) {
   return point;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -4,9 +4,9 @@
 #include <Eigen/Core>
 
 #include "models/friction/friction_map.h"
-#include "sim/dataset/measurements.h"
+#include "models/recording/measurements.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// One row for each sample, one column for each MapQuantity in its order: [N x 5]; rad or m, rad,
 /// rad/s or m/s, N.m or N, N.m or N.
@@ -19,4 +19,4 @@ MapPoints PointsOf(const Measurements& measurements, const Eigen::VectorXd& ener
 /// One row of it. row: of `points`.
 MapPoint<double> PointAt(const MapPoints& points, Eigen::Index row);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

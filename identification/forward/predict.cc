@@ -4,7 +4,7 @@
 #include "identification/forward/intervals.h"
 #include "identification/forward/map_points.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 /// Sum of all maps, N.m or N.
@@ -71,4 +71,4 @@ Prediction PredictFriction(const FrictionDescription& friction, const Measuremen
   return prediction;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -4,9 +4,9 @@
 #include <Eigen/Core>
 
 #include "models/friction/friction_description.h"
-#include "sim/dataset/measurements.h"
+#include "models/recording/measurements.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// Friction along a motion: F = Fn(v) + sign(v) E + maps, Eq. (20), with E from the friction's own
 /// losses W = |F v|, Eqs. (19) and (22). All N samples, rests and accelerations too. F is that of
@@ -28,4 +28,4 @@ enum class BristleStart { sliding, torque };
 Prediction PredictFriction(const FrictionDescription& friction, const Measurements& measurements,
                            double initial_energy = 0, BristleStart start = BristleStart::sliding);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

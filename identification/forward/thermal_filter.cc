@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 HoldStep::HoldStep(double h, double time_constant) {
   const double a = h / time_constant;
@@ -34,4 +34,4 @@ Eigen::VectorXd ThermalFilter::Energy(const Thermal& thermal, const Eigen::Vecto
   return energy;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -7,7 +7,7 @@
 
 #include "models/friction/thermal.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// One zero-order-hold step at unit gain and its derivatives by theta = ln tau. a = h/tau:
 /// te = exp(-a), dte/dtheta = a te, d2te/dtheta2 = a (a - 1) te.
@@ -82,4 +82,4 @@ void ThermalFilter::ForEach(double time_constant, const Eigen::VectorXd& loss, V
   }
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

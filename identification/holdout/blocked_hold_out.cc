@@ -3,7 +3,7 @@
 #include "identification/fit_data.h"
 #include "identification/forward/predict.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 std::vector<Eigen::Index> CutIntoBlocks(const Selection& selection, int blocks) {
   std::vector<Eigen::Index> bounds{0};
@@ -41,4 +41,4 @@ std::optional<Eigen::VectorXd> BlockedErrors(const Identifier& identifier,
   return errors;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

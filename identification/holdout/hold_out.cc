@@ -3,7 +3,7 @@
 #include "identification/fit_data.h"
 #include "identification/forward/predict.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 /// The first n samples.
@@ -81,4 +81,4 @@ std::optional<Metrics> HoldOut(const Identifier& identifier, const IdentifierInp
   return Evaluate(identifier.identify(input), other, other_selection, cold);
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -5,7 +5,7 @@
 
 #include "identification/identifier.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// Fits on the first 1 - fraction of the recording's time and evaluates on the kept samples of the
 /// rest. The prediction starts with the recording, at E(0) where the fit estimates it, so that the
@@ -19,4 +19,4 @@ std::optional<Metrics> HoldOut(const Identifier& identifier, const IdentifierInp
 std::optional<Metrics> HoldOut(const Identifier& identifier, const IdentifierInput& input,
                                const Measurements& other, const Selection& other_selection);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 /// Standard error of the mean of independent values. [n], n >= 2
@@ -46,4 +46,4 @@ Choice ChooseStructure(const std::vector<Contender>& contenders, double samples)
   return choice;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -9,7 +9,7 @@
 #include "identification/holdout/blocked_hold_out.h"
 #include "identification/holdout/structure_choice.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 constexpr const char* kName = "auto";
@@ -191,4 +191,4 @@ Identifier Auto() {
           &Identify};
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

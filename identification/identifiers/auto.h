@@ -3,7 +3,7 @@
 
 #include "identification/identifier.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// Tries the laws, cold and warm, with the Stribeck effect, and with maps over position, and over
 /// the motor's angle where a gear is given. Drops those that the recording cannot identify, and
@@ -15,4 +15,4 @@ namespace warmjoint {
 /// not_identifiable where the motion cannot tell viscous from coulomb: then no law can be chosen.
 Identifier Auto();
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -13,9 +13,9 @@
 #include "identification/linear/report_law.h"
 #include "identification/maps/position_maps.h"
 #include "identification/warming/report_thermal.h"
-#include "sim/dataset/robust_noise.h"
+#include "models/foundation/robust_noise.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 constexpr const char* kName = "energy-em";
@@ -244,4 +244,4 @@ Identifier EnergyEm() {
           options, &Identify};
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -3,7 +3,7 @@
 
 #include "identification/identifier.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// Block-coordinate descent on |tau - Fn(v) - sign(v) E|^2 with E = H W, W = |tau v| (19):
 ///   0. E from the start H0, Fn by (24); then repeat
@@ -16,4 +16,4 @@ namespace warmjoint {
 /// (on Table I such intervals would hold the time constant in 72 % of the runs instead of 95 %).
 Identifier EnergyEm();
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -4,7 +4,7 @@
 #include "identification/maps/position_maps.h"
 #include "identification/maps/warm_maps.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 constexpr const char* kName = "energy-map";
@@ -57,4 +57,4 @@ Identifier EnergyMap() {
           options, &Identify};
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

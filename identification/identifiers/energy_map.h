@@ -3,10 +3,10 @@
 
 #include "identification/identifier.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// The paper's expansion over P x V x E (40 x 6 x 3 kernels), once E is known from a fit of law,
 /// position map and warming together (warm_maps.h).
 Identifier EnergyMap();
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

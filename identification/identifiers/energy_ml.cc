@@ -21,7 +21,7 @@
 #include "identification/warming/unsettled.h"
 #include "identification/warming/warming_verdict.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 constexpr const char* kName = "energy-ml";
@@ -272,4 +272,4 @@ Identifier EnergyMl() {
           options, &Identify};
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

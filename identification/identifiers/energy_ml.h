@@ -3,7 +3,7 @@
 
 #include "identification/identifier.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// (p, k, tau) = argmin sum over the kept samples of (tau - F)^2, F the response of the closed loop
 /// (19)-(22) to the recorded velocity: maximum likelihood for white noise on the torque. Needs no
@@ -16,4 +16,4 @@ namespace warmjoint {
 /// better than a factor of about e.
 Identifier EnergyMl();
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -15,7 +15,7 @@
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 const std::vector<Identifier>& Identifiers() {
   static const std::vector<Identifier> identifiers{
@@ -35,4 +35,4 @@ const Identifier& FindIdentifier(const std::string& name) {
   Refuse({}, "there is no identifier '{}'{}", Excerpt(name), Suggestion(name, known));
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

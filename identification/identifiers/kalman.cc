@@ -15,7 +15,7 @@
 #include "identification/warming/unsettled.h"
 #include "identification/warming/warming_verdict.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 constexpr const char* kName = "kalman";
@@ -146,4 +146,4 @@ Identifier Kalman() {
           &Identify};
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

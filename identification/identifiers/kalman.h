@@ -3,7 +3,7 @@
 
 #include "identification/identifier.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// Runs a KalmanBank over the recording, from knowing nothing of law, gain and time constant and
 /// E(0) = 0: one pass is what a controller would know at the end. The bank's members lie 0.1 to 0.4
@@ -17,4 +17,4 @@ namespace warmjoint {
 /// The trace holds parameters and energy at 50 moments of the last pass.
 Identifier Kalman();
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -6,7 +6,7 @@
 #include "identification/maps/over_energy.h"
 #include "identification/maps/warm_maps.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 constexpr const char* kName = "load-map";
@@ -62,4 +62,4 @@ Identifier LoadMap() {
           options, &Identify};
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -6,7 +6,7 @@
 #include "identification/warming/report_thermal.h"
 #include "identification/warming/slope_heat.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 constexpr const char* kName = "lpv-energy";
@@ -58,4 +58,4 @@ Identifier LpvEnergy() {
           &Identify};
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

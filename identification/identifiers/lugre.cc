@@ -18,7 +18,7 @@
 #include "identification/warming/warming_verdict.h"
 #include "models/friction/viscous_coulomb.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 constexpr const char* kName = "lugre";
@@ -264,4 +264,4 @@ Identifier LuGreByCeres() {
           Regime::transient};
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -3,7 +3,7 @@
 
 #include "identification/identifier.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// (kv, kc, ks, vs, sigma0, sigma1, M) = argmin sum ((tau - F - M a) / s)^2, F the LuGre law over
 /// the recorded motion (bristle_course.h). Starts, stops and turns take part beside the samples
@@ -22,4 +22,4 @@ namespace warmjoint {
 /// holds the grid.
 Identifier LuGreByCeres();
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

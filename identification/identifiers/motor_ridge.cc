@@ -3,7 +3,7 @@
 #include "identification/maps/identify_maps.h"
 #include "identification/maps/motor_maps.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 constexpr const char* kName = "motor-ridge";
@@ -44,4 +44,4 @@ Identifier MotorRidge() {
           options, &Identify};
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

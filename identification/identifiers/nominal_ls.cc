@@ -10,7 +10,7 @@
 #include "identification/linear/report_law.h"
 #include "identification/linear/robust.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 constexpr const char* kName = "nominal-ls";
@@ -65,4 +65,4 @@ Identifier NominalLs() {
           &Identify};
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -3,7 +3,7 @@
 
 #include "identification/identifier.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// x = argmin |A x - tau|, rows of A as in Eq. (9): [v, sign v] for law (2). Standard deviations
 /// as in uncertainty.h, right for coloured noise too.
@@ -11,4 +11,4 @@ namespace warmjoint {
 /// fitted.
 Identifier NominalLs();
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -3,7 +3,7 @@
 #include "identification/maps/identify_maps.h"
 #include "identification/maps/position_maps.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 constexpr const char* kName = "position-ridge";
@@ -25,4 +25,4 @@ Identifier PositionRidge() {
           options, &Identify};
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -3,10 +3,10 @@
 
 #include "identification/identifier.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// Eqs. (10)-(16): law and Gaussian kernels over position, one part for each direction of motion,
 /// or over position times velocity.
 Identifier PositionRidge();
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -13,7 +13,7 @@
 #include "identification/linear/report_law.h"
 #include "identification/online/recursive_least_squares.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 constexpr const char* kName = "rls";
@@ -139,4 +139,4 @@ Identifier Rls() {
           &Identify};
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -3,7 +3,7 @@
 
 #include "identification/identifier.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// The linear parameters of a law, sample by sample, with a forgetting factor f: the answer is that
 /// of weighted least squares with weight f^age, so that with f = 1 it is nominal-ls. All but the
@@ -12,4 +12,4 @@ namespace warmjoint {
 /// Intervals as in uncertainty.h, for the weighted samples.
 Identifier Rls();
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -21,7 +21,7 @@
 #include "models/friction/stribeck.h"
 #include "models/friction/viscous_coulomb.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 constexpr const char* kName = "stribeck";
@@ -244,4 +244,4 @@ Identifier StribeckByCeres() {
           &Identify};
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -3,7 +3,7 @@
 
 #include "identification/identifier.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// (kv, kc, ks, vs[, k, tau]) = argmin sum over the kept samples of (tau - F)^2, F the Stribeck law
 /// with a fixed exponent, closed over its losses by (19)-(22) where `warming` is estimated. Needs
@@ -16,4 +16,4 @@ namespace warmjoint {
 /// where friction rises from rest instead of falling. The trace holds the scan, by its vs.
 Identifier StribeckByCeres();
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

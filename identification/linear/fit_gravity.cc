@@ -10,7 +10,7 @@
 
 #include "identification/fit_data.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 constexpr double kCell = 2 * std::numbers::pi / kGravityKnots;  // rad
@@ -176,4 +176,4 @@ Eigen::MatrixXd Beside(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return both;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

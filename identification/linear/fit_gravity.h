@@ -8,7 +8,7 @@
 #include "identification/uncertainty/uncertainty.h"
 #include "models/friction/law.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// The row that an identifier which can tell gravity from friction has in its table of options.
 OptionInfo GravityOption();
@@ -51,4 +51,4 @@ void ReportGravity(const GravityFit& gravity, const Eigen::VectorXd& x, const Un
 /// [A B].
 Eigen::MatrixXd Beside(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 bool IsLinear(const Law& law) {
   // a parameter that steady sliding does not show is nothing to fit
@@ -56,4 +56,4 @@ Eigen::MatrixXd LawColumns(const Law& law, const Eigen::VectorXd& velocity) {
   return columns;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

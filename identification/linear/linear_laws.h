@@ -6,7 +6,7 @@
 
 #include "models/friction/law.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// Whether Fn(v; p) is linear in p and depends on all of p, judged by superposition at several
 /// speeds and values.
@@ -19,4 +19,4 @@ std::string LinearLawWords();
 /// velocity: [N] rad/s or m/s; returns [N x d]. The law must be linear.
 Eigen::MatrixXd LawColumns(const Law& law, const Eigen::VectorXd& velocity);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

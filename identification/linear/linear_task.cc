@@ -3,7 +3,7 @@
 #include "identification/fit_data.h"
 #include "identification/linear/linear_laws.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 LinearTask BeginLinear(const IdentifierInput& given, const std::string& identifier, int more) {
   LinearTask task{*FindLaw(given.options.Text("law")), PrepareGravity(given), {}, {}};
@@ -21,4 +21,4 @@ LinearTask BeginLinear(const IdentifierInput& given, const std::string& identifi
   return task;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -3,7 +3,7 @@
 
 #include "identification/linear/fit_gravity.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// Law and gravity, both linear in their parameters, on usable data.
 struct LinearTask {
@@ -20,4 +20,4 @@ struct LinearTask {
 /// beside those of law and gravity.
 LinearTask BeginLinear(const IdentifierInput& given, const std::string& identifier, int more);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -2,7 +2,7 @@
 
 #include "identification/fit_data.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 void ReportLaw(const Law& law, const Eigen::VectorXd& values, const Uncertainty& known,
                const Measurements& measurements, Estimate& estimate) {
@@ -14,4 +14,4 @@ void ReportLaw(const Law& law, const Eigen::VectorXd& values, const Uncertainty&
   }
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "sim/dataset/robust_noise.h"
+#include "models/foundation/robust_noise.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 constexpr double kNormal = 1.4826;  // standard deviation over median size of normal noise
@@ -65,4 +65,4 @@ RobustLeastSquares SolveHuber(const Eigen::MatrixXd& A, const Eigen::VectorXd& y
   return robust;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

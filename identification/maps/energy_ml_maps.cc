@@ -9,7 +9,7 @@
 #include "identification/maps/position_maps.h"
 #include "identification/maps/warm_maps.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 /// Options that say something about fits without maps, and the value that says nothing.
@@ -66,4 +66,4 @@ Estimate IdentifyWithMaps(const std::string& identifier, const IdentifierInput& 
   return warm ? ReportWarmMaps(input, *warm) : Unsolvable(identifier);
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -3,7 +3,7 @@
 
 #include "identification/identifier.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// law, position=none|map|motor, and what says how the maps are made.
 std::vector<OptionInfo> WarmMapOptions();
@@ -12,4 +12,4 @@ std::vector<OptionInfo> WarmMapOptions();
 /// cannot be had with maps: gravity, an estimated E(0), Huber's loss.
 Estimate IdentifyWithMaps(const std::string& identifier, const IdentifierInput& input);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

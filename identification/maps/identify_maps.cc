@@ -12,7 +12,7 @@
 #include "identification/maps/make_bands.h"
 #include "models/friction/sign.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 /// Why the law alone cannot be fitted, or the data not used, as an estimate that failed; nothing
@@ -168,4 +168,4 @@ Estimate IdentifyMaps(const IdentifierInput& input, const MapTask& task) {
   return ReportMaps(input, task, choice->fit, JudgeMaps(choice->problem, choice->fit));
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

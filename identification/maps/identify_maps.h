@@ -9,7 +9,7 @@
 #include "identification/identifier.h"
 #include "identification/maps/map_options.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 struct MapTask {
   std::string identifier;
@@ -71,4 +71,4 @@ Estimate ReportMaps(const IdentifierInput& input, const MapTask& task, const Map
 /// All of the above.
 Estimate IdentifyMaps(const IdentifierInput& input, const MapTask& task);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -6,10 +6,10 @@
 #include "identification/linear/linear_laws.h"
 #include "identification/ridge/local_rows.h"
 #include "identification/uncertainty/student.h"
+#include "models/foundation/robust_noise.h"
 #include "models/friction/sign.h"
-#include "sim/dataset/robust_noise.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 using Eigen::Index;
@@ -100,4 +100,4 @@ std::vector<MapBand> MakeBands(const Law& law, const MapFit& fit, const Uncertai
   return bands;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -5,7 +5,7 @@
 #include "identification/maps/map_fit.h"
 #include "models/friction/law.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// One band for each map: law and all maps together at the map's centres, with 95 % for each place
 /// by itself. Law and maps share constants that a prior alone splits, so that neither is known as
@@ -17,4 +17,4 @@ namespace warmjoint {
 std::vector<MapBand> MakeBands(const Law& law, const MapFit& fit, const Uncertainty& known,
                                const MapPoints& kept);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

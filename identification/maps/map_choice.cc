@@ -6,7 +6,7 @@
 
 #include "identification/ridge/local_ridge.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 constexpr int kStrengths = 20;
@@ -165,4 +165,4 @@ ChosenMaps ChooseMaps(MapProblem problem, const std::vector<std::vector<Friction
                                                 : best;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -5,7 +5,7 @@
 
 #include "identification/maps/map_fit.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// By what maps and the strength s of the prior are chosen.
 enum class StrengthRule { cross_validation, leave_one_out, evidence };
@@ -36,4 +36,4 @@ struct ChosenMaps {
 ChosenMaps ChooseMaps(MapProblem problem, const std::vector<std::vector<FrictionMap>>& candidates,
                       StrengthRule rule, int folds);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

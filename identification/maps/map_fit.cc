@@ -7,7 +7,7 @@
 #include "identification/ridge/local_ridge.h"
 #include "identification/uncertainty/penalised_uncertainty.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 constexpr double kImitated = 1e-3;  // share of a column's squares
@@ -83,4 +83,4 @@ Eigen::VectorXd EvaluateMaps(const std::vector<FrictionMap>& maps, const MapPoin
   return sum;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

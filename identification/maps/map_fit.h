@@ -7,7 +7,7 @@
 #include "identification/ridge/local_rows.h"
 #include "identification/uncertainty/uncertainty.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// A law that is linear in its parameters, and kernels with a Gaussian prior N(0, s_w^2) on their
 /// weights alone, on the n samples that a selection keeps:
@@ -51,4 +51,4 @@ std::vector<Eigen::Index> ImitatedColumns(const MapFit& fit);
 /// Sum of maps at some points, [n] N.m or N.
 Eigen::VectorXd EvaluateMaps(const std::vector<FrictionMap>& maps, const MapPoints& points);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -6,7 +6,7 @@
 
 #include "identification/linear/linear_laws.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 Eigen::VectorXd Column(MapQuantity quantity, const MapPoints& points) {
@@ -82,4 +82,4 @@ std::optional<std::string> CannotCarry(MapQuantity quantity, const MapPoints& po
   return std::nullopt;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -7,7 +7,7 @@
 #include "identification/maps/map_choice.h"
 #include "identification/options.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// law, kernel, width, strength, selection, folds.
 std::vector<OptionInfo> MapOptions();
@@ -38,4 +38,4 @@ MapAxis MotorAxis(int count, double width);
 /// it can.
 std::optional<std::string> CannotCarry(MapQuantity quantity, const MapPoints& points);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

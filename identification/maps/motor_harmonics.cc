@@ -7,7 +7,7 @@
 
 #include "identification/ridge/local_rows.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 constexpr int kAngles = 256;
@@ -66,4 +66,4 @@ std::vector<MotorHarmonic> DominantHarmonics(std::vector<MotorHarmonic> harmonic
   return harmonics;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -5,7 +5,7 @@
 #include "identification/maps/motor_harmonics.h"
 #include "identification/maps/position_maps.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 std::vector<std::vector<FrictionMap>> MotorMaps(const MotorMapSize& size,
                                                 const MapSettings& settings,
@@ -41,4 +41,4 @@ void DescribeMotorRipple(const FrictionMap& motor, const Eigen::MatrixXd& covari
   }
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

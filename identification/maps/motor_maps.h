@@ -4,7 +4,7 @@
 #include "identification/estimate.h"
 #include "identification/maps/map_options.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// How many kernels each map has.
 struct MotorMapSize {
@@ -24,4 +24,4 @@ std::vector<std::vector<FrictionMap>> MotorMaps(const MotorMapSize& size,
 void DescribeMotorRipple(const FrictionMap& motor, const Eigen::MatrixXd& covariance,
                          const Measurements& measurements, Estimate& estimate);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -5,7 +5,7 @@
 #include "identification/fit_data.h"
 #include "identification/forward/predict.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 constexpr int kMostRounds = 20;
@@ -89,4 +89,4 @@ Estimate IdentifyOverEnergy(const IdentifierInput& input, MapTask task, const Kn
   return Complete(input, known, rounds, ReportMaps(input, task, choice->fit, uncertainty));
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -7,7 +7,7 @@
 
 #include "identification/maps/identify_maps.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// What a first fit knows of the warming; without `friction` nothing warms.
 struct KnownEnergy {
@@ -29,4 +29,4 @@ using MapMaker = std::function<std::vector<std::vector<FrictionMap>>(const MapPo
 Estimate IdentifyOverEnergy(const IdentifierInput& input, MapTask task, const KnownEnergy& known,
                             const MapMaker& maker);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -1,6 +1,6 @@
 #include "identification/maps/position_maps.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 std::vector<OptionInfo> PositionMapOptions() {
   return {
@@ -50,4 +50,4 @@ std::vector<std::vector<FrictionMap>> PositionMaps(const Options& options,
   return candidates;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

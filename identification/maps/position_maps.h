@@ -3,7 +3,7 @@
 
 #include "identification/maps/map_options.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// basis, kernels, velocity_kernels.
 std::vector<OptionInfo> PositionMapOptions();
@@ -22,4 +22,4 @@ std::vector<std::vector<FrictionMap>> PositionMaps(const Options& options,
                                                    const MapSettings& settings,
                                                    const MapPoints& points);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

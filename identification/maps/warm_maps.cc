@@ -15,7 +15,7 @@
 #include "identification/warming/report_thermal.h"
 #include "identification/warming/warming_verdict.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 constexpr int kMostRounds = 50;
@@ -189,4 +189,4 @@ Estimate ReportWarmMaps(const IdentifierInput& input, const WarmMaps& warm) {
   return estimate;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

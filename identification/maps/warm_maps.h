@@ -4,7 +4,7 @@
 #include "identification/maps/identify_maps.h"
 #include "identification/warming/warm_fit.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// A fit of F = Fn(v) + maps + sign(v) E over the closed loop.
 struct WarmMaps {
@@ -27,4 +27,4 @@ std::optional<WarmMaps> FitWarmMaps(const IdentifierInput& input, const MapTask&
 /// not_identifiable where no warming can be seen or its time constant is vague.
 Estimate ReportWarmMaps(const IdentifierInput& input, const WarmMaps& warm);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

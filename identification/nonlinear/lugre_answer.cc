@@ -5,9 +5,9 @@
 
 #include "identification/linear/least_squares.h"
 #include "identification/nonlinear/lugre_data.h"
-#include "sim/dataset/robust_noise.h"
+#include "models/foundation/robust_noise.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 constexpr double kOutlier = 4;  // standard deviations
@@ -105,4 +105,4 @@ LugreAnswer JudgeLugre(const IdentifierInput& input, const LugreProblem& problem
   return answer;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

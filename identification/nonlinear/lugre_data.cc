@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/dataset/velocity_scale.h"
+#include "identification/preparation/velocity_scale.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 using Eigen::Index;
@@ -137,4 +137,4 @@ Selection SteadySamples(const IdentifierInput& input, double distance) {
   return steady;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

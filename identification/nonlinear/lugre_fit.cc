@@ -9,7 +9,7 @@
 #include "identification/fit_data.h"
 #include "identification/nonlinear/solve_by_ceres.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 constexpr int kDistances = 16;  // of the grids
@@ -156,4 +156,4 @@ Eigen::VectorXd LugreTorque(const LugreProblem& problem, const LugrePoint& point
   return force + point.x[kLugreInertia] * problem.acceleration;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "identification/forward/bristle_course.h"
-#include "sim/dataset/measurements.h"
-#include "sim/dataset/selection.h"
+#include "models/recording/measurements.h"
+#include "models/recording/selection.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// Where the LuGre parameters and the inertia stand in x.
 enum LugreIndex : Eigen::Index {
@@ -80,4 +80,4 @@ LugreFit RefineLugre(const LugreProblem& problem, const LugrePoint& start);
 /// F + M a at x over all samples of a problem. [N] N.m or N
 Eigen::VectorXd LugreTorque(const LugreProblem& problem, const LugrePoint& point);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -12,7 +12,7 @@
 #include <memory>
 #include <vector>
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// Where a minimisation ended.
 template <int P>
@@ -82,4 +82,4 @@ CeresSolution<P> SolveByCeres(std::unique_ptr<ceres::CostFunction> cost,
   return solution;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

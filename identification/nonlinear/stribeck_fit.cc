@@ -13,7 +13,7 @@
 #include "identification/warming/scan_time_constant.h"
 #include "models/friction/stribeck.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 constexpr int kVelocities = 16;  // of the grid
@@ -157,4 +157,4 @@ StribeckFit RefineStribeck(const StribeckProblem& problem, const StribeckPoint& 
   return problem.warming == Warming::none ? Refine<4>(problem, start) : Refine<6>(problem, start);
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "identification/forward/intervals.h"
-#include "sim/dataset/measurements.h"
-#include "sim/dataset/selection.h"
+#include "models/recording/measurements.h"
+#include "models/recording/selection.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// Whether E of Eqs. (19)-(22) is part of the fit.
 enum class Warming { none, estimated };
@@ -45,4 +45,4 @@ struct StribeckFit {
 /// Minimises the sum of squares from a start by Levenberg-Marquardt.
 StribeckFit RefineStribeck(const StribeckProblem& problem, const StribeckPoint& start);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -6,7 +6,7 @@
 
 #include "identification/fit_data.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 constexpr double kVagueLogVs = 0.5;  // standard deviation: 95 % within a factor of e
@@ -38,4 +38,4 @@ std::optional<std::string> VagueStribeck(const StribeckEvidence& evidence,
       SlowSpeeds(measurements, selection));
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -4,10 +4,10 @@
 #include <optional>
 #include <string>
 
-#include "sim/dataset/measurements.h"
-#include "sim/dataset/selection.h"
+#include "models/recording/measurements.h"
+#include "models/recording/selection.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// What a fit says of its Stribeck effect.
 struct StribeckEvidence {
@@ -26,4 +26,4 @@ std::optional<std::string> VagueStribeck(const StribeckEvidence& evidence,
                                          const Measurements& measurements,
                                          const Selection& selection);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

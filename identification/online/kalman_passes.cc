@@ -5,7 +5,7 @@
 
 #include "identification/online/kalman_bank.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 constexpr Eigen::Index kMoments = 50;  // of the trace
@@ -156,4 +156,4 @@ std::vector<KalmanPass> RunPasses(const KalmanTrack& track, int most,
   }
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -7,9 +7,9 @@
 
 #include "identification/estimate.h"
 #include "identification/forward/closed_loop.h"
-#include "sim/dataset/selection.h"
+#include "models/recording/selection.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// The recording as the filters read it, and what it tells beforehand.
 struct KalmanTrack {
@@ -39,4 +39,4 @@ std::array<double, 2> TimeConstantRange(const KalmanTrack& track);
 std::vector<KalmanPass> RunPasses(const KalmanTrack& track, int most,
                                   std::vector<TraceEntry>& trace);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 using Graph = std::vector<std::vector<Eigen::Index>>;
@@ -139,4 +139,4 @@ Eigen::MatrixXd EnvelopeCholesky::Solve(const Eigen::MatrixXd& right) const {
   return result;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -6,7 +6,7 @@
 #include <limits>
 #include <thread>
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 LocalRidge::LocalRidge(const NormalEquations& normal, Eigen::Index free)
     : free_(free),
@@ -76,4 +76,4 @@ Eigen::VectorXd CrossValidate(const std::vector<NormalEquations>& parts, Eigen::
          static_cast<double>(rows);
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

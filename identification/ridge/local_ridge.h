@@ -8,7 +8,7 @@
 #include "identification/ridge/envelope_cholesky.h"
 #include "identification/ridge/ridge.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// x(strength) of Ridge, for kernels most pairs of which never meet: the kernels' Gram matrix K is
 /// factored within its envelope, the p free columns F are its border,
@@ -34,4 +34,4 @@ class LocalRidge {
 Eigen::MatrixXd HeldOutSquares(const std::vector<NormalEquations>& parts, Eigen::Index free,
                                const std::vector<double>& strengths, int threads = 1);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

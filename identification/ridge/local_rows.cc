@@ -7,7 +7,7 @@
 #include <limits>
 #include <numeric>
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 constexpr Eigen::Index kChunk = 16384;  // samples whose rows are held at once
@@ -262,4 +262,4 @@ double LeaveOneOut(const std::vector<RowGroup>& groups, const Eigen::MatrixXd& f
   return squares / static_cast<double>(normal.rows);
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

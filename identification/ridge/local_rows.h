@@ -7,7 +7,7 @@
 #include "identification/forward/map_points.h"
 #include "identification/ridge/ridge.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// A kernel below this share of the largest one of its axis at a sample counts as 0 there: 8.8
 /// widths away. It is below the rounding of the sums that it would enter.
@@ -49,4 +49,4 @@ NormalEquations LocalNormal(const std::vector<FrictionMap>& maps, const MapPoint
 double LeaveOneOut(const std::vector<RowGroup>& groups, const Eigen::MatrixXd& free,
                    const Eigen::VectorXd& y, const NormalEquations& normal, double strength);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

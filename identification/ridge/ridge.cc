@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 constexpr int kMostRounds = 100000;
@@ -127,4 +127,4 @@ Evidence MaximiseEvidence(const NormalEquations& normal, Eigen::Index free) {
   return evidence;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

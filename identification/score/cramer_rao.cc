@@ -7,7 +7,7 @@
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 /// Standard deviations of the first `count` parameters; NaN where there are none.
@@ -55,4 +55,4 @@ CramerRao CramerRaoBound(const Measurements& measurements, const Selection& sele
           kept.transpose() * kept / (sigma * sigma)};
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -3,11 +3,11 @@
 
 #include <Eigen/Core>
 
-#include "sim/dataset/measurements.h"
-#include "sim/dataset/selection.h"
-#include "sim/dataset/truth.h"
+#include "models/recording/measurements.h"
+#include "models/recording/selection.h"
+#include "sim/truth/truth.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// Cramer-Rao standard deviations in both parametrisations of the warming.
 struct CramerRao {
@@ -26,4 +26,4 @@ enum class KnownInitialEnergy { yes, no };
 CramerRao CramerRaoBound(const Measurements& measurements, const Selection& selection,
                          const Truth& truth, KnownInitialEnergy initial_energy, double step);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

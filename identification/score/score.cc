@@ -6,7 +6,7 @@
 #include "identification/score/cramer_rao.h"
 #include "identification/score/npe.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -93,4 +93,4 @@ Score ScoreEstimate(const Estimate& estimate, const Measurements& measurements,
   return score;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

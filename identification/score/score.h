@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "identification/estimate.h"
-#include "sim/dataset/measurements.h"
-#include "sim/dataset/selection.h"
-#include "sim/dataset/truth.h"
+#include "models/recording/measurements.h"
+#include "models/recording/selection.h"
+#include "sim/truth/truth.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// One parameter of the truth.
 struct ParameterScore {
@@ -41,4 +41,4 @@ struct Score {
 Score ScoreEstimate(const Estimate& estimate, const Measurements& measurements,
                     const Selection& selection, const Truth& truth);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

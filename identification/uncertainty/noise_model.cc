@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 constexpr Eigen::Index kHighestOrder = 60;
@@ -143,4 +143,4 @@ Eigen::MatrixXd ScatterThrough(
   return noise.innovation * scatter;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -4,9 +4,9 @@
 #include <Eigen/Core>
 #include <functional>
 
-#include "sim/dataset/selection.h"
+#include "models/recording/selection.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// Autoregressive noise e: e[i] + a_1 e[i-1] + ... + a_p e[i-p] = w[i], w white. White for p = 0.
 struct NoiseModel {
@@ -41,4 +41,4 @@ Eigen::MatrixXd ScatterThrough(
     const std::function<Eigen::MatrixXd(Eigen::Index first, Eigen::Index last)>& rows,
     Eigen::Index d, const Selection& selection);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

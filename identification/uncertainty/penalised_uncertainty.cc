@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 Uncertainty JudgePenalised(
     const PenalisedFit& fit,
@@ -38,4 +38,4 @@ Uncertainty JudgePenalised(
   return result;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

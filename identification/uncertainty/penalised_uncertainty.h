@@ -5,7 +5,7 @@
 
 #include "identification/uncertainty/uncertainty.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// A fit x = argmin |y - f(x)|^2 + s |w|^2, w a run of entries of x.
 struct PenalisedFit {
@@ -29,4 +29,4 @@ Uncertainty JudgePenalised(
     const std::function<Eigen::MatrixXd(Eigen::Index first, Eigen::Index last)>& rows,
     const Eigen::VectorXd& residual, const Selection& selection);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 double StudentQuantile(double freedom) {
   if (freedom <= 1) return std::tan(0.475 * std::numbers::pi);
@@ -17,4 +17,4 @@ double StudentQuantile(double freedom) {
          (79 * z9 + 776 * z7 + 1482 * z5 - 1920 * z3 - 945 * z) / (92160 * n * n * n * n);
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -5,7 +5,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 constexpr double kUneven = 4;        // deviations
@@ -115,4 +115,4 @@ std::string NoiseOf(const Uncertainty& known) {
          ColourOf(known.noise);
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

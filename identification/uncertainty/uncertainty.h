@@ -8,7 +8,7 @@
 
 #include "identification/uncertainty/noise_model.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 struct Uncertainty {
   Eigen::MatrixXd covariance;  // [d x d] of the parameters
@@ -50,4 +50,4 @@ std::string ColourOf(const NoiseModel& noise);
 /// The same, after one on noise that is not even: "; noise is uneven (...), which ...".
 std::string NoiseOf(const Uncertainty& known);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -10,7 +10,7 @@
 #include "identification/forward/row_products.h"
 #include "identification/warming/warm_fit.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// Sums n, or Dynamic where one of them is.
 constexpr int Plus(int a, int b) { return a == Eigen::Dynamic ? a : a + b; }
@@ -126,4 +126,4 @@ class CondensedProblem {
   mutable std::vector<WarmIterate> trace_;
 };
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

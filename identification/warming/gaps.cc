@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/dataset/robust_noise.h"
+#include "models/foundation/robust_noise.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 constexpr double kLong = 10;  // median steps
@@ -61,4 +61,4 @@ std::string DescribeGaps(const std::vector<LogGap>& gaps, const Measurements& me
                                         gaps.size(), longest, first);
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

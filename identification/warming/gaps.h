@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "sim/dataset/measurements.h"
+#include "models/recording/measurements.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// A time without samples.
 struct LogGap {
@@ -30,4 +30,4 @@ std::vector<Eigen::Index> Behind(const std::vector<LogGap>& gaps);
 /// "a gap of 100 s at 300 s", "5 gaps of up to 60 s, the first at 300 s".
 std::string DescribeGaps(const std::vector<LogGap>& gaps, const Measurements& measurements);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

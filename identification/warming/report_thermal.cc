@@ -4,9 +4,9 @@
 
 #include "identification/fit_data.h"
 #include "identification/uncertainty/student.h"
-#include "sim/dataset/robust_noise.h"
+#include "models/foundation/robust_noise.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 void ReportThermal(const Thermal& thermal, const std::optional<Eigen::Matrix2d>& covariance,
                    double freedom, const Measurements& measurements, Estimate& estimate) {
@@ -41,4 +41,4 @@ void ReportThermal(const Thermal& thermal, const std::optional<Eigen::Matrix2d>&
       {std::exp(-h * factor / tau), std::exp(-h / (tau * factor))}};
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -6,9 +6,9 @@
 
 #include "identification/estimate.h"
 #include "models/friction/thermal.h"
-#include "sim/dataset/measurements.h"
+#include "models/recording/measurements.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// Appends thermal_gain (k), thermal_time_constant (tau), thermal_gain_discrete (ke) and
 /// thermal_pole (te), the last two by Eq. (22) for the recording's mean step. covariance: [2 x 2]
@@ -18,4 +18,4 @@ namespace warmjoint {
 void ReportThermal(const Thermal& thermal, const std::optional<Eigen::Matrix2d>& covariance,
                    double freedom, const Measurements& measurements, Estimate& estimate);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

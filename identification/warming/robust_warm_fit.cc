@@ -4,7 +4,7 @@
 
 #include "identification/linear/robust.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 constexpr int kMostRounds = 100;
@@ -71,4 +71,4 @@ RobustWarmFit RefineByHuber(const ClosedLoop& loop, const Eigen::VectorXd& level
   return robust;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 constexpr int kTaus = 16;
@@ -150,4 +150,4 @@ WarmStart ScanTimeConstant(const ClosedLoop& loop, const Eigen::VectorXd& level,
   return start;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

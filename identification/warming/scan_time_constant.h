@@ -5,7 +5,7 @@
 
 #include "identification/forward/closed_loop.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// The longest time constant that is scanned, in durations of the recording.
 inline constexpr double kScannedBeyond = 5;
@@ -27,4 +27,4 @@ struct WarmStart {
 WarmStart ScanTimeConstant(const ClosedLoop& loop, const Eigen::VectorXd& level,
                            const Eigen::VectorXd& kept);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -10,7 +10,7 @@
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 constexpr double kWidest = 4;   // factor on tau to both sides
@@ -63,4 +63,4 @@ Thermal FitSlopeHeat(const IdentifierInput& input, const Law& law, const Thermal
   return std::isfinite(left) && std::isfinite(gain) ? Thermal{gain, best} : start;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -5,7 +5,7 @@
 #include "models/friction/law.h"
 #include "models/friction/thermal.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// Gain and time constant of Eq. (27), F = Fn(v) + k sign(v) x + c v x, with x the measured losses
 /// |tau v| filtered by 1 / (1 + s tau): linear in all but tau, which is searched for by golden
@@ -13,4 +13,4 @@ namespace warmjoint {
 /// part of it.
 Thermal FitSlopeHeat(const IdentifierInput& input, const Law& law, const Thermal& start);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -1,8 +1,8 @@
 #include "identification/warming/unsettled.h"
 
-#include "sim/dataset/check.h"
+#include "identification/preparation/check.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 std::string WhyUnsettled(const Measurements& measurements, std::string_view what) {
   for (const Excitation& one : CheckRecording(measurements).excitation) {
@@ -11,4 +11,4 @@ std::string WhyUnsettled(const Measurements& measurements, std::string_view what
   return "does the torque column hold friction?";
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -6,7 +6,7 @@
 
 #include "identification/warming/condensed_problem.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 namespace {
 
 constexpr int kMostIterations = 50;
@@ -96,4 +96,4 @@ WarmFit FitWarmFriction(const ClosedLoop& loop, const Eigen::VectorXd& level,
   return fit;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -7,7 +7,7 @@
 #include "identification/forward/closed_loop.h"
 #include "identification/warming/scan_time_constant.h"
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// What is known of the initial energy.
 enum class InitialEnergy { zero, estimated };
@@ -58,4 +58,4 @@ inline Eigen::VectorXd JumpWeights(double scale, const Eigen::VectorXd& spread) 
   return (scale / spread.array().max(1e-9 * scale)).square();
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 std::optional<std::string> UnseenWarming(double explained, const WarmingContext& context) {
   if (explained > kVisibleWarming) return std::nullopt;
@@ -40,4 +40,4 @@ std::optional<std::string> RunawayWarming(double time_constant, double duration)
       duration);
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace warmjoint {
+namespace warmjoint::inline identification {
 
 /// The drop of |e|^2 / s^2 that warming must bring to count as seen: by chance it exceeds 20 about
 /// once in 5000 recordings, a chi-square of 2 freedoms at the best of about 5 independent time
@@ -48,4 +48,4 @@ std::optional<std::string> RunawayWarming(double time_constant, double duration)
 std::optional<std::string> UnknownWarming(const WarmingEvidence& evidence,
                                           const WarmingContext& context = {});
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline identification

@@ -8,7 +8,7 @@
 
 #include "models/foundation/bad_input.h"
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 namespace fs = std::filesystem;
 
 AtomicFile::AtomicFile(fs::path target) : target_(std::move(target)) {
@@ -56,4 +56,4 @@ std::string ReadWholeFile(const fs::path& path) {
   return std::move(text).str();
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 
 /// A file under construction: write to temporary(), then Commit() renames it onto the target.
 /// Without Commit the destructor removes it, so a failure leaves nothing half-written behind.
@@ -34,4 +34,4 @@ void WriteWholeFile(const std::filesystem::path& target, std::string_view text);
 /// The whole of a text file. Throws BadInput naming the file when it cannot be read.
 std::string ReadWholeFile(const std::filesystem::path& path);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 namespace {
 
 constexpr std::size_t kMostListed = 24;
@@ -39,4 +39,4 @@ std::string ExcerptOfList(const std::vector<std::string>& texts) {
   return more == 0 ? list : fmt::format("{} and {} more", list, more);
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 
 /// Characters that messages show of a value, and of what another library says of its input.
 inline constexpr std::size_t kLongestValue = 60;
@@ -18,4 +18,4 @@ std::string Excerpt(std::string_view text, std::size_t longest = kLongestValue);
 /// "a, b, c": excerpts of all, or of the first 24 and how many more there are.
 std::string ExcerptOfList(const std::vector<std::string>& texts);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

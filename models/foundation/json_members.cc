@@ -6,7 +6,7 @@
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 
 using nlohmann::json;
 
@@ -26,4 +26,4 @@ double NumberFrom(const json& value, std::string_view what, const Place& place) 
   return value.get<double>();
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

@@ -8,7 +8,7 @@
 
 #include "models/foundation/bad_input.h"
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 
 /// Refuses what is no object, and keys that are not `known`, with the nearest. what: the object,
 /// for messages.
@@ -18,4 +18,4 @@ void RefuseUnknownKeys(const nlohmann::json& object, std::string_view what,
 /// The number that `value` is. what: its name, for messages.
 double NumberFrom(const nlohmann::json& value, std::string_view what, const Place& place);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

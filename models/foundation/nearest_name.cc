@@ -6,7 +6,7 @@
 
 #include "models/foundation/excerpt.h"
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 
 int EditDistance(std::string_view a, std::string_view b) {
   // table[i][j]: distance between the first i characters of a and the first j of b
@@ -41,4 +41,4 @@ std::string Suggestion(std::string_view given, const std::vector<std::string>& k
   return fmt::format("; did you mean '{}'? Known: {}", Excerpt(nearest), known_names);
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 
 /// Number of single-character insertions, deletions, substitutions and swaps of neighbours
 /// between two words (optimal string alignment distance).
@@ -15,4 +15,4 @@ int EditDistance(std::string_view a, std::string_view b);
 /// nearest of `known`, left out when nothing is near (distance above a third of the length).
 std::string Suggestion(std::string_view name, const std::vector<std::string>& known);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

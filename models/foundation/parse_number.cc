@@ -2,7 +2,7 @@
 
 #include <charconv>
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 namespace {
 
 std::string_view Trimmed(std::string_view text) {
@@ -34,4 +34,4 @@ std::optional<std::int64_t> ParseInteger(std::string_view text) {
   return Parse<std::int64_t>(text);
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

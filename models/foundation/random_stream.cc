@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 
 RandomStream::RandomStream(RandomKey key, Stream stream)
     : key_{{static_cast<std::uint32_t>(key.seed), static_cast<std::uint32_t>(key.seed >> 32)}},
@@ -47,4 +47,4 @@ std::uint64_t RandomStream::Below(std::uint64_t n) {
   return bits % n;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 
 /// What a stream of random numbers is for. Streams of one realization are independent, so that
 /// drawing more of one leaves the others as they are.
@@ -55,4 +55,4 @@ class RandomStream {
   double spare_ = 0;
 };
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

@@ -7,7 +7,7 @@
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 
 nlohmann::json ReadJsonFile(const std::filesystem::path& path) {
   const std::string text = ReadWholeFile(path);
@@ -21,4 +21,4 @@ nlohmann::json ReadJsonFile(const std::filesystem::path& path) {
   }
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

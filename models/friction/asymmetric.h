@@ -7,7 +7,7 @@
 #include "models/friction/pre_sliding.h"
 #include "models/friction/sign.h"
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 
 /// F(v) = kv v + kc+ sign(max(0, v)) + kc- sign(min(0, v)), Eq. (3). F(0) = 0.
 /// sign(min(0, v)) is -1 for v < 0, so kc- is positive for friction that opposes the motion.
@@ -35,4 +35,4 @@ struct Asymmetric {
   }
 };
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

@@ -7,7 +7,7 @@
 #include "models/friction/pre_sliding.h"
 #include "models/friction/sign.h"
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 
 /// F(v) = kc sign(v), Eq. (1). F(0) = 0.
 struct Coulomb {
@@ -31,4 +31,4 @@ struct Coulomb {
   }
 };
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

@@ -7,7 +7,7 @@
 #include "models/friction/pre_sliding.h"
 #include "models/friction/sign.h"
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 
 /// dF/dt = sigma0 (v - |v| F / kc), which is LuGre without damping, Stribeck effect and slope; in
 /// steady sliding F(v) = kc sign(v). Source: Dahl, Aerospace Corp. TOR-158 (1968), exponent 1.
@@ -33,4 +33,4 @@ struct Dahl {
   }
 };
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

@@ -8,7 +8,7 @@
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 namespace {
 
 void CheckValue(const ParameterInfo& info, double value, const Place& place) {
@@ -166,4 +166,4 @@ std::vector<double> LawValues(const FrictionDescription& friction) {
   return values;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

@@ -14,7 +14,7 @@
 #include "models/friction/law.h"
 #include "models/friction/thermal.h"
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 
 /// A nominal law with its values, and optionally its warming, load and maps:
 ///   F = (kv + b E) v + sign(v) (g + E + c |load|) + sum of the maps
@@ -66,4 +66,4 @@ FrictionDescription FrictionFromJson(const nlohmann::json& json, const Place& pl
 /// by itself. Throws BadInput.
 FrictionDescription ReadFrictionFile(const std::string& path);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

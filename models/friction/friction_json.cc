@@ -4,7 +4,7 @@
 #include "models/foundation/read_json.h"
 #include "models/friction/friction_description.h"
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 namespace {
 
 using nlohmann::json;
@@ -90,4 +90,4 @@ FrictionDescription ReadFrictionFile(const std::string& path) {
   return FrictionFromJson(object.contains("friction") ? object["friction"] : object, {path});
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 namespace {
 
 void CheckPositive(double value, std::string_view axis, const char* what, const Place& place) {
@@ -80,4 +80,4 @@ void CheckMap(const FrictionMap& map, const Place& place) {
   }
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

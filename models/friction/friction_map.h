@@ -10,7 +10,7 @@
 #include "models/foundation/bad_input.h"
 #include "models/friction/gaussian_axis.h"
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 
 /// What a map can depend on.
 enum class MapQuantity { position, motor_position, velocity, energy, load };
@@ -111,4 +111,4 @@ T EvaluateMap(const FrictionMap& map, const MapPoint<T>& point) {
   return EvaluateFactor(map.factor, velocity) * contraction.template Sum<0>(0);
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

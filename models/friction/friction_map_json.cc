@@ -5,7 +5,7 @@
 #include "models/foundation/nearest_name.h"
 #include "models/friction/friction_map.h"
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 namespace {
 
 using nlohmann::json;
@@ -98,4 +98,4 @@ FrictionMap MapFromJson(const json& object, const Place& place) {
   return map;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

@@ -1,6 +1,6 @@
 #include "models/friction/gaussian_axis.h"
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 namespace {
 
 /// The width of one spacing; of the range's own size where there is one centre alone.
@@ -35,4 +35,4 @@ GaussianAxis SpeedAxis(double lowest, double highest, int count) {
   return axis;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

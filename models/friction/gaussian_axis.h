@@ -7,7 +7,7 @@
 
 #include "models/friction/sign.h"
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 
 /// Whether kernels are divided by their sum, Eq. (16). Normalised ones keep the value of the
 /// nearest centre outside of the centres, where plain ones fall to 0.
@@ -70,4 +70,4 @@ void AxisKernels(const GaussianAxis& axis, KernelKind kind, const T& x, T* phi) 
   for (size_t i = 0; i < n; ++i) phi[i] /= sum;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

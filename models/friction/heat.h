@@ -7,7 +7,7 @@
 #include "models/friction/friction_description.h"
 #include "models/friction/thermal.h"
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 
 /// Energy states of up to two stages, both fed by the same loss W:
 ///   E1' = te1 E1 + ke1 W + (1 - te1) kT (Ts - T0),   E2' = te2 E2 + ke2 W            (22)
@@ -38,4 +38,4 @@ inline Heat DiscretiseHeat(const FrictionDescription& friction, double h) {
   return heat;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

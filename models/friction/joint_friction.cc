@@ -5,7 +5,7 @@
 #include "models/friction/law_list.h"
 #include "models/friction/lugre_bristle.h"
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 namespace {
 
 /// What a bristle lost during a step, W: what it took less what it stores.
@@ -133,4 +133,4 @@ FrictionStep JointFriction::StepOf(const JointFriction& joint, const FrictionSta
   return step;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

@@ -10,7 +10,7 @@
 #include "models/friction/law.h"
 #include "models/friction/level_terms.h"
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 
 template <typename... L>
 struct LawList;
@@ -108,4 +108,4 @@ class JointFriction {
   FrictionStep (*step_)(const JointFriction&, const FrictionState&, const JointMotion&) = nullptr;
 };
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 
 enum class JointKind { rotary, linear };
 
@@ -26,4 +26,4 @@ inline constexpr JointUnit kLevelPerTemperatureUnit{"N.m/K", "N/K"};
 inline constexpr JointUnit kTimePerPositionUnit{"s/rad", "s/m"};
 inline constexpr JointUnit kThermalGainUnit{"N.m/W", "N/W"};
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

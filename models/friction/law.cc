@@ -2,7 +2,7 @@
 
 #include "models/friction/law_list.h"
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 namespace {
 
 template <typename L>
@@ -49,4 +49,4 @@ void Regressor(const Law& law, double v, double* row) {
   }
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

@@ -9,7 +9,7 @@
 #include "models/friction/parameter_info.h"
 #include "models/friction/pre_sliding.h"
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 
 /// A nominal law behind one interface, made from the law's own struct.
 struct Law {
@@ -37,4 +37,4 @@ std::vector<std::string> LawNames();
 /// Exact for laws that are linear in their parameters: the force for each unit vector.
 void Regressor(const Law& law, double v, double* row);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

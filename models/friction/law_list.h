@@ -9,7 +9,7 @@
 #include "models/friction/stribeck.h"
 #include "models/friction/viscous_coulomb.h"
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 
 /// What a joint at rest bears before it slides, in N.m or N: the static level of laws that break
 /// away, and the level of sliding of all others. side: 1 or -1; speed: rad/s or m/s.
@@ -28,4 +28,4 @@ struct LawList {};
 /// All laws: a new one is its own header and one line here.
 using AllLaws = LawList<Coulomb, ViscousCoulomb, Asymmetric, Stiction, Stribeck, Dahl, LuGre>;
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 namespace {
 
 /// A speed that is on its side of 0 and changes nothing else.
@@ -95,4 +95,4 @@ void LevelTerms::Survey(const FrictionDescription& friction) {
   }
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

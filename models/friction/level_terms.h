@@ -6,7 +6,7 @@
 #include "models/friction/friction_description.h"
 #include "models/friction/prepared_map.h"
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 
 /// Whether friction depends on the load that the joint transmits.
 bool NeedsLoad(const FrictionDescription& friction);
@@ -48,4 +48,4 @@ class LevelTerms {
   double largest_at_rest_ = 0;
 };
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

@@ -9,7 +9,7 @@
 #include "models/friction/sign.h"
 #include "models/friction/stribeck.h"
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 
 /// dz/dt = v - sigma0 |v| z / g(|v|),  F = sigma0 z + sigma1 dz/dt + kv v, with g of StribeckLevel
 /// and exponent 2; in steady sliding F(v) = kv v + g sign(v).
@@ -49,4 +49,4 @@ struct LuGre {
   }
 };
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

@@ -6,7 +6,7 @@
 
 #include "models/friction/joint_kind.h"
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 
 /// Whether files must give a parameter or may leave it at its default.
 enum class Given { always, or_default };
@@ -28,4 +28,4 @@ inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Lower bound of what must be positive, in SI.
 inline constexpr double kSmallestPositive = 1e-9;
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

@@ -3,7 +3,7 @@
 
 #include "models/friction/parameter_info.h"
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 
 inline constexpr ParameterInfo kViscousRow{
     .name = "viscous",
@@ -55,4 +55,4 @@ inline constexpr ParameterInfo kBristleStiffnessRow{
     .meaning = "slope of the force over travel before sliding",
 };
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

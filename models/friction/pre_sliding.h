@@ -1,7 +1,7 @@
 // What a joint does before it slides.
 #pragma once
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 
 /// How friction acts on a joint that is held.
 ///   elastoplastic: a spring that yields at the level of sliding (bristle.h)
@@ -10,4 +10,4 @@ namespace warmjoint {
 ///                  (lugre_bristle.h)
 enum class PreSliding { elastoplastic, breakaway, bristle };
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

@@ -8,7 +8,7 @@
 
 #include "models/friction/even_grid.h"
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 namespace {
 
 /// exp(-x^2 / 2) is 3e-13 of its peak here.
@@ -243,4 +243,4 @@ double PreparedMap::Value(const MapPoint<double>& point) const {
   return factor * Sum<0>(active, 0, from_kernels) / divisor;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

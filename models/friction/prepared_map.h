@@ -7,7 +7,7 @@
 #include "models/friction/friction_map.h"
 #include "models/friction/row_table.h"
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 
 /// Neighbouring kernels of one axis, those that count at a point, before they are normalised.
 struct ActiveKernels {
@@ -86,4 +86,4 @@ class PreparedMap {
   MapFactor factor_;
 };
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

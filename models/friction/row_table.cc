@@ -9,7 +9,7 @@
 #include "models/friction/even_grid.h"
 #include "models/friction/friction_map.h"
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 namespace {
 
 constexpr double kBound = 3e-13;         // of the largest weight
@@ -108,4 +108,4 @@ bool RowTable::Locate(double x, Spot& spot) const {
   return true;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

@@ -6,7 +6,7 @@
 
 #include "models/friction/gaussian_axis.h"
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 
 /// The functions sum_j kappa_j(x) w_(row, j), one for each row of weights, where they are smooth
 /// and their centres even: polynomials of degree 9 in cells of a half, a quarter or an eighth of a
@@ -54,4 +54,4 @@ class RowTable {
   std::vector<double> coefficients_;  // [rows x cells x kCoefficients], the constant first
 };
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

@@ -7,7 +7,7 @@
 #include "models/friction/pre_sliding.h"
 #include "models/friction/sign.h"
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 
 /// Sliding, F(v) = kv v + kc sign(v). At rest F equals the load up to ks >= kc, Eq. (4); beyond it
 /// the joint breaks away and slides until it stops again. The stop alone restores ks.
@@ -40,4 +40,4 @@ struct Stiction {
   }
 };
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

@@ -9,7 +9,7 @@
 #include "models/friction/pre_sliding.h"
 #include "models/friction/sign.h"
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 
 /// StribeckLevel with delta = 2, without a power.
 template <typename T>
@@ -71,4 +71,4 @@ struct Stribeck {
   }
 };
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

@@ -7,7 +7,7 @@
 #include "models/friction/parameter_info.h"
 #include "models/friction/sign.h"
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 
 /// Parameters of E = k / (1 + s tau) W, Eq. (21): a first-order lag from the power lost, W, to the
 /// change of the friction level, E. k is negative where friction falls as the joint warms.
@@ -69,4 +69,4 @@ T Loss(double v, const T& force) {
 /// From there on the losses feed themselves and the model has left its domain.
 inline bool FeedsItself(double v, double force) { return force * v < 0; }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

@@ -7,7 +7,7 @@
 #include "models/friction/pre_sliding.h"
 #include "models/friction/sign.h"
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 
 /// F(v) = kv v + kc sign(v), Eq. (2). F(0) = 0.
 struct ViscousCoulomb {
@@ -32,4 +32,4 @@ struct ViscousCoulomb {
   }
 };
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

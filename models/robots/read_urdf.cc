@@ -9,7 +9,7 @@
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 namespace {
 
 /// Keeps what urdfdom would print.
@@ -41,4 +41,4 @@ urdf::ModelInterfaceSharedPtr ReadUrdf(const std::filesystem::path& path) {
   return robot;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

@@ -6,10 +6,10 @@
 
 #include <filesystem>
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 
 /// The robot that a URDF file describes. Throws BadInput with the file's name and what urdfdom
 /// refuses.
 urdf::ModelInterfaceSharedPtr ReadUrdf(const std::filesystem::path& path);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

@@ -10,7 +10,7 @@
 #include "models/robots/read_urdf.h"
 #include "models/robots/robot_folder.h"
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 namespace {
 
 namespace fs = std::filesystem;
@@ -79,4 +79,4 @@ std::vector<RobotInfo> Robots() {
   return robots;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

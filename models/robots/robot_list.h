@@ -9,7 +9,7 @@
 #include "models/friction/friction_description.h"
 #include "models/friction/joint_kind.h"
 
-namespace warmjoint {
+namespace warmjoint::inline models {
 
 /// One movable joint, as the robot's URDF gives it.
 struct RobotJoint {
@@ -35,4 +35,4 @@ struct RobotInfo {
 /// Throws BadInput that names the file that is missing or wrong.
 std::vector<RobotInfo> Robots();
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline models

@@ -9,7 +9,7 @@
 #include "models/friction/law.h"
 #include "sim/plugin/model_folder.h"
 
-namespace warmjoint {
+namespace warmjoint::inline sim {
 namespace {
 
 namespace fs = std::filesystem;
@@ -169,4 +169,4 @@ FrictionOfJoints ReadAttributes(const AttributeReader& read, const Place& place)
   return {{"", file.empty() ? ReadInline(read, place) : ReadFile(file, read, place)}};
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline sim

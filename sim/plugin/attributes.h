@@ -8,7 +8,7 @@
 
 #include "models/friction/friction_description.h"
 
-namespace warmjoint {
+namespace warmjoint::inline sim {
 
 /// One attribute that <config key= value=> may give.
 struct PluginAttribute {
@@ -33,4 +33,4 @@ using FrictionOfJoints = std::map<std::string, FrictionDescription>;
 /// law lacks or needs, `file` or `joints` beside attributes that they would contradict.
 FrictionOfJoints ReadAttributes(const AttributeReader& read, const Place& place);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline sim

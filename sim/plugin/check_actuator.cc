@@ -6,7 +6,7 @@
 #include "models/friction/bristle.h"
 #include "sim/plugin/friction_instance.h"
 
-namespace warmjoint {
+namespace warmjoint::inline sim {
 namespace {
 
 /// How far a bristle may wind up before it slides.
@@ -145,4 +145,4 @@ void CheckActuator(const mjModel* m, int actuator, const JointFriction& friction
   }
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline sim

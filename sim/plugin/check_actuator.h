@@ -8,7 +8,7 @@
 
 #include "models/friction/joint_friction.h"
 
-namespace warmjoint {
+namespace warmjoint::inline sim {
 
 /// "actuator 'name'" or "actuator 3", for messages.
 std::string ActuatorName(const mjModel* m, int actuator);
@@ -37,4 +37,4 @@ inline double EffectiveInertia(const mjModel* m, const mjData* d, int dof) {
 /// and integrator can carry the friction.
 void CheckActuator(const mjModel* m, int actuator, const JointFriction& friction);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline sim

@@ -8,7 +8,7 @@
 #include "models/foundation/nearest_name.h"
 #include "sim/plugin/check_actuator.h"
 
-namespace warmjoint {
+namespace warmjoint::inline sim {
 namespace {
 
 FrictionOfJoints ReadInstance(const mjModel* m, int instance) {
@@ -143,4 +143,4 @@ void FrictionInstance::Apply(const mjModel* m, mjData* d) const {
   }
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline sim

@@ -8,7 +8,7 @@
 #include "models/friction/joint_friction.h"
 #include "sim/plugin/attributes.h"
 
-namespace warmjoint {
+namespace warmjoint::inline sim {
 
 /// Name under which MuJoCo knows the plugin.
 inline constexpr char kFrictionPlugin[] = "warmjoint.friction";
@@ -68,4 +68,4 @@ class FrictionInstance {
   std::vector<Joint> joints_;
 };
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline sim

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-namespace warmjoint {
+namespace warmjoint::inline sim {
 
 /// Folder of the model that this thread loaded last; empty where it loaded none that way.
 inline std::filesystem::path& ModelFolder() {
@@ -11,4 +11,4 @@ inline std::filesystem::path& ModelFolder() {
   return folder;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline sim

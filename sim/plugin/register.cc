@@ -11,7 +11,7 @@
 #include "sim/plugin/attributes.h"
 #include "sim/plugin/friction_instance.h"
 
-namespace warmjoint {
+namespace warmjoint::inline sim {
 namespace {
 
 FrictionInstance* InstanceOf(const mjData* d, int instance) {
@@ -73,4 +73,4 @@ void RegisterFrictionPlugin() {
   static_cast<void>(slot);
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline sim

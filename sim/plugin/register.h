@@ -1,10 +1,10 @@
 // Making the plugin `warmjoint.friction` known to MuJoCo.
 #pragma once
 
-namespace warmjoint {
+namespace warmjoint::inline sim {
 
 /// Registers the plugin; repeating it does nothing. Programs that link the plugin call it before
 /// they load a model; the shared library calls it when it is loaded.
 void RegisterFrictionPlugin();
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline sim

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <numbers>
 
-#include "sim/friction_actuator.h"
+#include "sim/model/friction_actuator.h"
 #include "tests/sim/plugin/friction_models.h"
 
 namespace {

@@ -5,8 +5,8 @@
 #include <numeric>
 
 #include "tests/support/table1.h"
-#include "tools/run/describe_run.h"
-#include "tools/run/engine.h"
+#include "tools/suite/describe_run.h"
+#include "tools/suite/engine.h"
 
 namespace warmjoint {
 namespace {

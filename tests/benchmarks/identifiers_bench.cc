@@ -3,6 +3,7 @@
 
 #include "identification/adequacy/judge.h"
 #include "identification/identifier.h"
+#include "identification/preparation/select.h"
 #include "models/foundation/keep_memory.h"
 #include "tests/support/warm_recording.h"
 

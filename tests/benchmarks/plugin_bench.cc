@@ -12,9 +12,9 @@
 #include <functional>
 #include <vector>
 
-#include "sim/friction_actuator.h"
-#include "sim/load_model.h"
-#include "sim/spec_elements.h"
+#include "sim/model/friction_actuator.h"
+#include "sim/model/load_model.h"
+#include "sim/model/spec_elements.h"
 #include "tests/support/folders.h"
 
 namespace warmjoint {

@@ -16,8 +16,8 @@
 #include <string>
 
 #include "models/foundation/bad_input.h"
-#include "sim/friction_actuator.h"
-#include "sim/mujoco_handles.h"
+#include "sim/model/friction_actuator.h"
+#include "sim/model/mujoco_handles.h"
 #include "sim/plugin/register.h"
 #include "tests/sim/plugin/friction_robots.h"
 

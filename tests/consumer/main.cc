@@ -7,6 +7,7 @@
 #include <string>
 
 #include "identification/identifier.h"
+#include "identification/preparation/select.h"
 
 namespace {
 

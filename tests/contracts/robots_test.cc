@@ -11,7 +11,7 @@
 #include "models/foundation/random_stream.h"
 #include "models/robots/read_urdf.h"
 #include "models/robots/robot_list.h"
-#include "sim/load_model.h"
+#include "sim/model/load_model.h"
 
 namespace warmjoint {
 namespace {

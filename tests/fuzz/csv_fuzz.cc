@@ -4,9 +4,9 @@
 
 #include <cstdlib>
 
+#include "identification/preparation/check_report.h"
 #include "models/foundation/bad_input.h"
-#include "sim/dataset/check_report.h"
-#include "sim/dataset/csv.h"
+#include "models/recording/csv.h"
 
 namespace {
 

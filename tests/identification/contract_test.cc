@@ -8,8 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "identification/finer_input.h"
 #include "identification/identifier.h"
+#include "identification/preparation/finer_input.h"
+#include "identification/preparation/select.h"
 #include "tests/support/bristle_recording.h"
 
 namespace warmjoint {

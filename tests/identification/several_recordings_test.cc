@@ -3,7 +3,8 @@
 
 #include "identification/forward/thermal_filter.h"
 #include "identification/holdout/hold_out.h"
-#include "sim/dataset/join_recordings.h"
+#include "identification/preparation/select.h"
+#include "models/recording/join_recordings.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "identification/adequacy/judge.h"
+#include "identification/preparation/select.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint::test {

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "sim/dataset/measurements.h"
+#include "models/recording/measurements.h"
 #include "tests/support/shared_data.h"
 
 namespace warmjoint::test {

@@ -6,8 +6,9 @@
 #include <filesystem>
 
 #include "identification/identifier.h"
-#include "sim/load_model.h"
-#include "sim/plant.h"
+#include "identification/preparation/select.h"
+#include "sim/model/load_model.h"
+#include "sim/plant/plant.h"
 #include "tests/support/shared_data.h"
 
 namespace warmjoint {

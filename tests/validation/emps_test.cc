@@ -5,7 +5,8 @@
 #include <numbers>
 
 #include "identification/holdout/hold_out.h"
-#include "sim/dataset/read_recording.h"
+#include "identification/preparation/select.h"
+#include "models/recording/read_recording.h"
 #include "tests/support/shared_data.h"
 
 namespace warmjoint {

@@ -4,10 +4,11 @@
 #include <cmath>
 
 #include "identification/identifier.h"
+#include "identification/preparation/select.h"
 #include "models/foundation/atomic_file.h"
+#include "models/recording/read_recording.h"
 #include "scenarios/scenario.h"
-#include "sim/dataset/read_recording.h"
-#include "sim/plant.h"
+#include "sim/plant/plant.h"
 #include "tests/support/shared_data.h"
 #include "tests/tools/scratch_directory.h"
 

@@ -2,7 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "identification/adequacy/judge.h"
-#include "sim/plant.h"
+#include "identification/preparation/select.h"
+#include "sim/plant/plant.h"
 
 namespace warmjoint {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "models/foundation/atomic_file.h"
 #include "tests/support/shared_data.h"
-#include "tests/tools/program/run_program.h"
+#include "tests/tools/cli/run_program.h"
 #include "tests/tools/scratch_directory.h"
 
 namespace warmjoint {

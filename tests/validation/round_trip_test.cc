@@ -5,14 +5,15 @@
 #include <cstdio>
 
 #include "identification/identifier.h"
+#include "identification/preparation/select.h"
+#include "models/recording/read_recording.h"
 #include "models/robots/robot_folder.h"
-#include "sim/attach.h"
-#include "sim/dataset/read_recording.h"
-#include "sim/motion_of.h"
-#include "sim/plant.h"
+#include "sim/model/attach.h"
+#include "sim/plant/motion_of.h"
+#include "sim/plant/plant.h"
 #include "tests/support/shared_data.h"
 #include "tests/tools/scratch_directory.h"
-#include "tools/repeat_motion.h"
+#include "tools/cli/repeat_motion.h"
 
 namespace warmjoint {
 namespace {

@@ -4,8 +4,9 @@
 #include <iostream>
 
 #include "identification/holdout/hold_out.h"
+#include "identification/preparation/select.h"
 #include "scenarios/suite.h"
-#include "sim/plant.h"
+#include "sim/plant/plant.h"
 #include "tests/support/folders.h"
 
 namespace warmjoint {

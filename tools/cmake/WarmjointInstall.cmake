@@ -7,7 +7,7 @@ set(package ${CMAKE_INSTALL_LIBDIR}/cmake/warmjoint)
 set(headers ${CMAKE_INSTALL_INCLUDEDIR}/warmjoint)
 
 # rooms as warmjoint::models, warmjoint::sim, ...
-set(rooms models robots scenarios dataset plugin sim identification score)
+set(rooms models recording robots scenarios truth plugin sim identification score)
 foreach(room ${rooms})
   set_target_properties(warmjoint_${room} PROPERTIES EXPORT_NAME ${room})
   target_compile_features(warmjoint_${room} PUBLIC cxx_std_20)

@@ -1,3 +1,15 @@
+# what nearly every source file includes, parsed once for each target
+set(WARMJOINT_COMMON_HEADERS <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <map> <memory> <optional>
+  <string> <string_view> <utility> <vector> <Eigen/Cholesky> <Eigen/Core> <Eigen/QR> <fmt/format.h> <fmt/ranges.h>
+  <nlohmann/json.hpp>)
+
+# warmjoint_precompile(TARGET [header]...): the common headers and those given, where WARMJOINT_PCH is on
+function(warmjoint_precompile target)
+  if(WARMJOINT_PCH)
+    target_precompile_headers(${target} PRIVATE ${WARMJOINT_COMMON_HEADERS} ${ARGN})
+  endif()
+endfunction()
+
 # warmjoint_room(NAME FOLDERS folder... LINKS target...)
 # A static library of every .cc file directly in the given folders (relative to the caller).
 function(warmjoint_room name)
@@ -9,5 +21,6 @@ function(warmjoint_room name)
   endforeach()
   add_library(${name} STATIC ${sources})
   target_link_libraries(${name} PUBLIC ${ROOM_LINKS} PRIVATE $<BUILD_INTERFACE:warmjoint_settings>)
+  warmjoint_precompile(${name})
   target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
 endfunction()

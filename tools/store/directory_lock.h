@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-namespace warmjoint {
+namespace warmjoint::inline tools {
 
 /// Holds DIR/.lock while it lives. The system lets go of it when the process ends, however it ends.
 class DirectoryLock {
@@ -18,4 +18,4 @@ class DirectoryLock {
   int file_ = -1;
 };
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline tools

@@ -7,7 +7,7 @@
 
 #include "models/foundation/atomic_file.h"
 
-namespace warmjoint {
+namespace warmjoint::inline tools {
 namespace {
 
 /// Shortest text that reads back bit for bit; empty for NaN.
@@ -105,4 +105,4 @@ std::vector<Result> ExportResults(const RunStore& store) {
   return results;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline tools

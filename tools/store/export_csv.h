@@ -8,7 +8,7 @@
 #include "tools/store/run_description.h"
 #include "tools/store/run_store.h"
 
-namespace warmjoint {
+namespace warmjoint::inline tools {
 
 /// A text for one cell: quoted where it holds a comma, a quote or a line break.
 std::string CsvCell(const std::string& text);
@@ -23,4 +23,4 @@ std::string ResultsToCsv(const std::vector<Result>& results, const RunDescriptio
 /// Writes RUN/results.csv from all that the store holds; returns what it wrote.
 std::vector<Result> ExportResults(const RunStore& store);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline tools

@@ -2,7 +2,7 @@
 
 #include "models/foundation/bad_input.h"
 
-namespace warmjoint {
+namespace warmjoint::inline tools {
 namespace {
 
 /// Whole units of one shard, with their traces, as RunStore::Write takes them.
@@ -55,4 +55,4 @@ RunStore MergeRuns(const std::vector<std::filesystem::path>& shards,
   return merged;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline tools

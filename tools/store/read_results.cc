@@ -6,7 +6,7 @@
 
 #include "tools/store/run_store.h"
 
-namespace warmjoint {
+namespace warmjoint::inline tools {
 namespace {
 
 using Key = std::pair<Unit, int>;  // and position of the identifier
@@ -130,4 +130,4 @@ std::vector<double> RunStore::ReadSimulationSeconds() const {
   return seconds;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline tools

@@ -9,7 +9,7 @@
 #include "identification/estimate.h"
 #include "identification/score/score.h"
 
-namespace warmjoint {
+namespace warmjoint::inline tools {
 
 /// The course of an iterative identifier, for pictures: single precision, one row an iteration.
 struct TraceTable {
@@ -47,4 +47,4 @@ struct Realization {
   std::vector<Result> results;    // one for each identifier of the suite, in its order
 };
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline tools

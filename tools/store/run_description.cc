@@ -8,7 +8,7 @@
 
 #include "models/foundation/bad_input.h"
 
-namespace warmjoint {
+namespace warmjoint::inline tools {
 namespace {
 
 /// Every scalar below `node` by its dotted path.
@@ -77,4 +77,4 @@ void RefuseDifferentRun(const RunDescription& stored, const RunDescription& aske
          fmt::join(differences, "; "), more);
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline tools

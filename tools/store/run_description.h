@@ -7,7 +7,7 @@
 
 #include "models/foundation/bad_input.h"
 
-namespace warmjoint {
+namespace warmjoint::inline tools {
 
 /// Layout of the stored tables; raised whenever they change.
 inline constexpr int kSchemaVersion = 1;
@@ -27,4 +27,4 @@ std::vector<std::string> SuiteDifferences(const std::string& stored, const std::
 void RefuseDifferentRun(const RunDescription& stored, const RunDescription& asked,
                         const Place& place);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline tools

@@ -3,7 +3,7 @@
 #include "models/foundation/atomic_file.h"
 #include "tools/store/schema.h"
 
-namespace warmjoint {
+namespace warmjoint::inline tools {
 namespace {
 namespace fs = std::filesystem;
 
@@ -78,4 +78,4 @@ RunStore RunStore::OpenToRead(const fs::path& directory) {
 
 RunDescription RunStore::ReadDescription() const { return ReadStoredDescription(results_); }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline tools

@@ -13,7 +13,7 @@
 #include "tools/store/result.h"
 #include "tools/store/run_description.h"
 
-namespace warmjoint {
+namespace warmjoint::inline tools {
 
 /// A run directory: suite.yaml (fully resolved), results.sqlite, and apart from them
 /// timings.sqlite, so that results compare bit for bit. A killed process leaves whole realizations.
@@ -57,4 +57,4 @@ class RunStore {
   SQLite::Database timings_;
 };
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline tools

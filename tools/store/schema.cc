@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace warmjoint {
+namespace warmjoint::inline tools {
 namespace {
 
 constexpr const char* kResultTables = R"sql(
@@ -112,4 +112,4 @@ RunDescription ReadStoredDescription(const SQLite::Database& results) {
   return description;
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline tools

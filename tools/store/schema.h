@@ -6,7 +6,7 @@
 #include "models/foundation/bad_input.h"
 #include "tools/store/run_description.h"
 
-namespace warmjoint {
+namespace warmjoint::inline tools {
 
 /// Makes the tables of results.sqlite and stores the description, as a whole or not at all.
 void CreateResultTables(SQLite::Database& results, const RunDescription& description);
@@ -23,4 +23,4 @@ void CheckSchema(const SQLite::Database& results, const Place& place);
 /// The description that CreateResultTables stored.
 RunDescription ReadStoredDescription(const SQLite::Database& results);
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline tools

@@ -3,7 +3,7 @@
 
 #include "tools/store/run_store.h"
 
-namespace warmjoint {
+namespace warmjoint::inline tools {
 namespace {
 
 /// Binds the arguments from position 1 on and runs the statement once. NaN is stored as NULL.
@@ -105,4 +105,4 @@ void RunStore::Write(std::span<const Realization> realizations) {
   transaction.commit();
 }
 
-}  // namespace warmjoint
+}  // namespace warmjoint::inline tools

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "identification/adequacy/judge.h"
+#include "identification/preparation/select.h"
 #include "tests/support/judging.h"
 
 namespace warmjoint {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "identification/preparation/select.h"
 #include "models/friction/sign.h"
 #include "tests/support/judging.h"
 

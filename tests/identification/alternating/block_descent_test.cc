@@ -8,6 +8,7 @@
 #include "identification/fit_data.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
+#include "identification/preparation/select.h"
 #include "tests/support/vectors.h"
 
 namespace warmjoint {

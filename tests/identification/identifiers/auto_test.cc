@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "identification/preparation/select.h"
 #include "tests/support/slow_recording.h"
 
 namespace warmjoint {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "identification/preparation/select.h"
 #include "tests/support/travelling.h"
 
 namespace warmjoint {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "identification/preparation/select.h"
 #include "models/foundation/random_stream.h"
 #include "models/friction/thermal.h"
 #include "tests/support/vectors.h"

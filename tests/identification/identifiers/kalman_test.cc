@@ -6,6 +6,7 @@
 
 #include "identification/identifiers/energy_ml.h"
 #include "identification/identifiers/rls.h"
+#include "identification/preparation/select.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint {

@@ -7,7 +7,8 @@
 #include "identification/adequacy/judge.h"
 #include "identification/identifiers/stribeck.h"
 #include "identification/nonlinear/lugre_data.h"
-#include "sim/dataset/join_recordings.h"
+#include "identification/preparation/select.h"
+#include "models/recording/join_recordings.h"
 #include "tests/support/bristle_recording.h"
 
 namespace warmjoint {

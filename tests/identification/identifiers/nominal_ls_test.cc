@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "identification/preparation/select.h"
 #include "tests/support/vectors.h"
 
 namespace warmjoint {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "identification/identifiers/nominal_ls.h"
+#include "identification/preparation/select.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint {

@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include "identification/nonlinear/stribeck_fit.h"
-#include "sim/dataset/join_recordings.h"
+#include "identification/preparation/select.h"
+#include "models/recording/join_recordings.h"
 #include "tests/support/slow_recording.h"
 
 namespace warmjoint {

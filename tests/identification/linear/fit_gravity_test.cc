@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "identification/holdout/hold_out.h"
+#include "identification/preparation/select.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "identification/identifier.h"
+#include "identification/preparation/select.h"
 #include "tests/support/travelling.h"
 
 namespace warmjoint {

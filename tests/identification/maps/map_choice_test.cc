@@ -7,6 +7,7 @@
 #include "identification/fit_data.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/maps/map_options.h"
+#include "identification/preparation/select.h"
 #include "tests/support/travelling.h"
 
 namespace warmjoint {

@@ -4,6 +4,7 @@
 
 #include "identification/holdout/hold_out.h"
 #include "identification/identifier.h"
+#include "identification/preparation/select.h"
 #include "tests/support/travelling.h"
 
 namespace warmjoint {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "identification/preparation/select.h"
 #include "identification/score/cramer_rao.h"
 #include "tests/support/vectors.h"
 

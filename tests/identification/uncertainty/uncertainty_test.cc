@@ -7,6 +7,7 @@
 
 #include "identification/identifier.h"
 #include "identification/linear/least_squares.h"
+#include "identification/preparation/select.h"
 #include "identification/uncertainty/student.h"
 #include "tests/support/warm_recording.h"
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "models/foundation/bad_input.h"
-#include "tests/sim/dataset/temporary_file.h"
+#include "tests/models/recording/temporary_file.h"
 
 namespace warmjoint {
 namespace {

@@ -1,4 +1,4 @@
-#include "sim/attach.h"
+#include "sim/model/attach.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,9 +10,9 @@
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "models/robots/robot_list.h"
-#include "sim/load_model.h"
+#include "sim/model/load_model.h"
 #include "sim/plugin/friction_instance.h"
-#include "tests/sim/dataset/temporary_file.h"
+#include "tests/models/recording/temporary_file.h"
 #include "tests/support/shared_data.h"
 #include "tests/tools/scratch_directory.h"
 

@@ -1,9 +1,9 @@
-#include "sim/load_model.h"
+#include "sim/model/load_model.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/sim/dataset/temporary_file.h"
+#include "tests/models/recording/temporary_file.h"
 
 namespace warmjoint {
 namespace {

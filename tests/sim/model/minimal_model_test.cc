@@ -1,9 +1,9 @@
-#include "sim/minimal_model.h"
+#include "sim/model/minimal_model.h"
 
 #include <gtest/gtest.h>
 
 #include "models/foundation/atomic_file.h"
-#include "sim/load_model.h"
+#include "sim/model/load_model.h"
 #include "tests/tools/scratch_directory.h"
 
 namespace warmjoint {

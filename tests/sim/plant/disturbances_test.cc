@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/plant.h"
+#include "sim/plant/plant.h"
 #include "tests/support/table1.h"
 
 namespace warmjoint {

@@ -1,4 +1,4 @@
-#include "sim/ideal_friction.h"
+#include "sim/plant/ideal_friction.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

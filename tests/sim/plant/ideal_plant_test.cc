@@ -1,4 +1,4 @@
-#include "sim/ideal_plant.h"
+#include "sim/plant/ideal_plant.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

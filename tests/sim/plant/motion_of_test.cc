@@ -1,9 +1,10 @@
-#include "sim/motion_of.h"
+#include "sim/plant/motion_of.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 
+#include "identification/preparation/select.h"
 #include "models/foundation/bad_input.h"
 
 namespace warmjoint {

@@ -1,4 +1,4 @@
-#include "sim/mujoco_plant.h"
+#include "sim/plant/mujoco_plant.h"
 
 #include <gmock/gmock.h>
 

@@ -6,7 +6,7 @@
 #include "models/foundation/bad_input.h"
 #include "models/friction/joint_friction.h"
 #include "scenarios/read_scenario.h"
-#include "sim/plant.h"
+#include "sim/plant/plant.h"
 
 namespace warmjoint {
 namespace {

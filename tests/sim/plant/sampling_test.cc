@@ -1,4 +1,4 @@
-#include "sim/sampling.h"
+#include "sim/plant/sampling.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "sim/velocity_reference.h"
+#include "sim/plant/velocity_reference.h"
 
 #include <gtest/gtest.h>
 
-#include "sim/velocity_drive.h"
+#include "sim/plant/velocity_drive.h"
 
 namespace warmjoint {
 namespace {

@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "models/foundation/atomic_file.h"
-#include "sim/escape_xml.h"
+#include "sim/model/escape_xml.h"
 #include "tests/sim/plugin/friction_models.h"
 #include "tests/support/folders.h"
 

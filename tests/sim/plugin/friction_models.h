@@ -8,7 +8,7 @@
 #include <map>
 #include <string>
 
-#include "sim/mujoco_handles.h"
+#include "sim/model/mujoco_handles.h"
 #include "sim/plugin/register.h"
 
 namespace warmjoint::test {

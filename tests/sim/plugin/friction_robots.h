@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "models/foundation/random_stream.h"
-#include "sim/load_model.h"
-#include "sim/spec_elements.h"
+#include "sim/model/load_model.h"
+#include "sim/model/spec_elements.h"
 #include "tests/support/folders.h"
 
 namespace warmjoint::test {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "sim/friction_actuator.h"
-#include "sim/load_model.h"
+#include "sim/model/friction_actuator.h"
+#include "sim/model/load_model.h"
 #include "sim/plugin/friction_instance.h"
 #include "tests/sim/plugin/friction_models.h"
 #include "tests/sim/plugin/warnings.h"

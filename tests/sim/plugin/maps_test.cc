@@ -8,8 +8,8 @@
 
 #include "models/foundation/atomic_file.h"
 #include "models/friction/joint_friction.h"
-#include "sim/friction_actuator.h"
-#include "sim/load_model.h"
+#include "sim/model/friction_actuator.h"
+#include "sim/model/load_model.h"
 #include "tests/sim/plugin/friction_models.h"
 
 namespace warmjoint {

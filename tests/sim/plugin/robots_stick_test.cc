@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "models/foundation/bad_input.h"
-#include "sim/friction_actuator.h"
+#include "sim/model/friction_actuator.h"
 #include "tests/sim/plugin/friction_robots.h"
 #include "tests/support/shared_data.h"
 

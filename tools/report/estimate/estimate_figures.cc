@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "identification/preparation/select.h"
 #include "tools/report/draw/ticks.h"
 #include "tools/report/figures/envelope.h"
 #include "tools/report/figures/fit_page.h"

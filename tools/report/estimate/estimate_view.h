@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "identification/estimate.h"
-#include "sim/dataset/measurements.h"
+#include "models/recording/measurements.h"
 #include "tools/report/figures/fit_view.h"
 
 namespace warmjoint::report {

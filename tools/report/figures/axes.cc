@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "tools/leaderboard/statistics.h"
+#include "tools/board/statistics.h"
 
 namespace warmjoint::report {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "models/friction/thermal.h"
-#include "sim/dataset/measurements.h"
-#include "sim/dataset/selection.h"
+#include "models/recording/measurements.h"
+#include "models/recording/selection.h"
 #include "tools/report/draw/figure.h"
 
 namespace warmjoint::report {

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "identification/estimate.h"
-#include "sim/dataset/measurements.h"
-#include "sim/dataset/selection.h"
+#include "models/recording/measurements.h"
+#include "models/recording/selection.h"
 
 namespace warmjoint::report {
 

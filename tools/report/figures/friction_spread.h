@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 
 #include "identification/estimate.h"
-#include "sim/dataset/measurements.h"
-#include "sim/dataset/selection.h"
+#include "models/recording/measurements.h"
+#include "models/recording/selection.h"
 
 namespace warmjoint::report {
 

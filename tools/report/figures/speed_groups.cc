@@ -6,7 +6,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "tools/leaderboard/statistics.h"
+#include "tools/board/statistics.h"
 #include "tools/report/draw/ticks.h"
 
 namespace warmjoint::report {

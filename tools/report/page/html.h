@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "tools/leaderboard/table.h"
+#include "tools/board/table.h"
 #include "tools/report/draw/figure.h"
 
 namespace warmjoint::report {

@@ -2,8 +2,8 @@
 
 #include <fmt/core.h>
 
-#include "tools/leaderboard/board_tables.h"
-#include "tools/leaderboard/format_board.h"
+#include "tools/board/board_tables.h"
+#include "tools/board/format_board.h"
 #include "tools/report/draw/draw_figure.h"
 #include "tools/report/page/html.h"
 #include "tools/report/page/style.h"

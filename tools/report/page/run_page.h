@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/leaderboard/leaderboard.h"
+#include "tools/board/leaderboard.h"
 #include "tools/report/draw/figure.h"
 #include "tools/report/gl/canvas.h"
 #include "tools/store/run_description.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/leaderboard/statistics.h"
+#include "tools/board/statistics.h"
 #include "tools/report/draw/ticks.h"
 #include "tools/report/figures/axes.h"
 #include "tools/report/figures/single_plot.h"

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "tools/leaderboard/statistics.h"
+#include "tools/board/statistics.h"
 
 namespace warmjoint::report {
 

@@ -2,11 +2,11 @@
 #include <cmath>
 #include <limits>
 
+#include "identification/preparation/select.h"
 #include "models/foundation/bad_input.h"
 #include "scenarios/suite.h"
-#include "sim/dataset/selection.h"
-#include "sim/plant.h"
-#include "tools/leaderboard/leaderboard.h"
+#include "sim/plant/plant.h"
+#include "tools/board/leaderboard.h"
 #include "tools/report/draw/ticks.h"
 #include "tools/report/figures/friction_spread.h"
 #include "tools/report/run/run_view.h"

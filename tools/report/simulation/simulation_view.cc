@@ -2,9 +2,10 @@
 
 #include <cmath>
 
+#include "identification/preparation/select.h"
+#include "models/recording/read_recording.h"
 #include "scenarios/read_scenario.h"
-#include "sim/dataset/read_recording.h"
-#include "sim/dataset/truth_json.h"
+#include "sim/truth/truth_json.h"
 
 namespace warmjoint::report {
 namespace {

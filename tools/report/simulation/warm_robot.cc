@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "models/robots/robot_folder.h"
-#include "sim/load_model.h"
+#include "sim/model/load_model.h"
 #include "tools/report/draw/draw_series.h"
 #include "tools/report/draw/ticks.h"
 #include "tools/report/figures/axes.h"

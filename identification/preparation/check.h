@@ -1,0 +1,66 @@
+// What a recording holds, and what can be identified from it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "models/recording/measurements.h"
+#include "models/recording/selection.h"
+
+namespace warmjoint::inline identification {
+
+/// How the samples lie in time.
+struct SamplingCheck {
+  Eigen::Index samples = 0;
+  double duration = 0;     // s
+  double step = 0;         // s, median
+  double rate = 0;         // Hz, 1 / step
+  double jitter = 0;       // standard deviation of the steps (gaps left out), share of the median
+  int gaps = 0;            // steps of more than three medians
+  double longest_gap = 0;  // s
+};
+
+/// Segments at (almost) one speed.
+struct SpeedLevel {
+  double velocity = 0;  // rad/s or m/s, signed; mean over the segments' samples
+  int segments = 0;
+  Eigen::Index samples = 0;
+};
+
+/// How the joint moves.
+struct MotionCheck {
+  double constant_share = 0;  // share of the samples at a constant speed
+  double rest_share = 0;      // share of the samples at rest
+  int segments = 0;
+  std::vector<SpeedLevel> levels;  // in order of velocity, 5 % wide
+  double lower = 0, upper = 0;     // rad or m, travel
+  double speed_noise = 0;          // rad/s or m/s, around constant speeds
+  double speed_resolution = 0;     // rad/s or m/s; 0: not quantised
+};
+
+/// Whether one thing can be identified, and why (not).
+struct Excitation {
+  std::string what;  // "law asymmetric", "warm-up", ...
+  bool sufficient = false;
+  std::string reason;  // one sentence; where insufficient, it ends in the remedy
+};
+
+struct RecordingCheck {
+  std::string source;
+  JointKind joint = JointKind::rotary;
+  std::string torque_unit;
+  std::vector<std::string> notes;  // what reading made of it
+  SamplingCheck sampling;
+  MotionCheck motion;
+  std::vector<std::string> faults;  // log_faults.h
+  std::vector<Excitation> excitation;
+};
+
+/// Looks at a recording; alters nothing.
+RecordingCheck CheckRecording(const Measurements& measurements);
+
+/// What the motion can tell about each kind of friction. Part of CheckRecording.
+std::vector<Excitation> JudgeExcitation(const Measurements& measurements,
+                                        const SamplingCheck& sampling, const MotionCheck& motion);
+
+}  // namespace warmjoint::inline identification

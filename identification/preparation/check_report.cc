@@ -1,0 +1,119 @@
+#include "identification/preparation/check_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace warmjoint::inline identification {
+namespace {
+
+using nlohmann::json;
+
+std::string SamplingLine(const SamplingCheck& sampling) {
+  const std::string gaps = sampling.gaps == 0
+                               ? "no gaps"
+                               : fmt::format("{} gap{}, the longest {:.3g} s", sampling.gaps,
+                                             sampling.gaps == 1 ? "" : "s", sampling.longest_gap);
+  return fmt::format(
+      "sampling    {} samples in {:.4g} s, {:.4g} Hz, jitter {:.1f} % of a step, {}\n",
+      sampling.samples, sampling.duration, sampling.rate, 100 * sampling.jitter, gaps);
+}
+
+std::string MotionLine(const MotionCheck& motion, std::string_view length_unit) {
+  return fmt::format(
+      "motion      {:.1f} % of the samples at a constant speed, in {} segments; {:.1f} % at rest\n"
+      "travel      {:.4g} to {:.4g} {}\n",
+      100 * motion.constant_share, motion.segments, 100 * motion.rest_share, motion.lower,
+      motion.upper, length_unit);
+}
+
+/// "positive    16 segments: 0.0421 (8), 0.0826 (4), 0.125 (4) m/s"
+std::string DirectionLine(const MotionCheck& motion, int sign, std::string_view unit) {
+  constexpr std::size_t most = 12;  // speeds listed
+  int segments = 0;
+  std::vector<std::string> speeds;
+  for (const SpeedLevel& level : motion.levels) {
+    if (sign * level.velocity <= 0) continue;
+    segments += level.segments;
+    speeds.push_back(fmt::format("{:.3g} ({})", std::abs(level.velocity), level.segments));
+  }
+  if (sign < 0) std::reverse(speeds.begin(), speeds.end());
+
+  const std::string name = sign > 0 ? "positive" : "negative";
+  if (segments == 0) return fmt::format("{}    none\n", name);
+  if (speeds.size() > most) {
+    const std::string range = fmt::format("from {} to {}", speeds.front(), speeds.back());
+    return fmt::format("{}    {} segments at {} speeds {} {}\n", name, segments, speeds.size(),
+                       range, unit);
+  }
+  return fmt::format("{}    {} segments: {} {} (segments at each)\n", name, segments,
+                     fmt::join(speeds, ", "), unit);
+}
+
+}  // namespace
+
+std::string CheckToText(const RecordingCheck& check) {
+  const std::string_view speed_unit = kVelocityUnit.For(check.joint);
+  std::string text =
+      fmt::format("recording   {}: {} joint, torque in {}\n", check.source,
+                  check.joint == JointKind::rotary ? "rotary" : "linear", check.torque_unit);
+  for (const std::string& note : check.notes) text += fmt::format("            {}\n", note);
+  text += SamplingLine(check.sampling);
+  text += MotionLine(check.motion, kPositionUnit.For(check.joint));
+  text += DirectionLine(check.motion, 1, speed_unit);
+  text += DirectionLine(check.motion, -1, speed_unit);
+  text += fmt::format("noise       {:.2g} {} around constant speeds", check.motion.speed_noise,
+                      speed_unit);
+  if (check.motion.speed_resolution > 0) {
+    text += fmt::format("; velocity comes in steps of {:.3g}", check.motion.speed_resolution);
+  }
+  text += "\n";
+  for (const std::string& fault : check.faults) text += fmt::format("fault       {}\n", fault);
+  text += check.faults.empty() ? "can be identified\n" : "could be identified without the faults\n";
+  for (const Excitation& excitation : check.excitation) {
+    text += fmt::format("  {:<4}{}: {}\n", excitation.sufficient ? "yes" : "no", excitation.what,
+                        excitation.reason);
+  }
+  return text;
+}
+
+json CheckToJson(const RecordingCheck& check) {
+  const SamplingCheck& sampling = check.sampling;
+  const MotionCheck& motion = check.motion;
+  json levels = json::array();
+  for (const SpeedLevel& level : motion.levels) {
+    levels.push_back(
+        {{"velocity", level.velocity}, {"segments", level.segments}, {"samples", level.samples}});
+  }
+  json excitation = json::array();
+  for (const Excitation& each : check.excitation) {
+    excitation.push_back(
+        {{"what", each.what}, {"sufficient", each.sufficient}, {"reason", each.reason}});
+  }
+  return {{"source", check.source},
+          {"joint", check.joint == JointKind::rotary ? "rotary" : "linear"},
+          {"torque_unit", check.torque_unit},
+          {"notes", check.notes},
+          {"sampling",
+           {{"samples", sampling.samples},
+            {"duration", sampling.duration},
+            {"step", sampling.step},
+            {"rate", sampling.rate},
+            {"jitter", sampling.jitter},
+            {"gaps", sampling.gaps},
+            {"longest_gap", sampling.longest_gap}}},
+          {"motion",
+           {{"constant_share", motion.constant_share},
+            {"rest_share", motion.rest_share},
+            {"segments", motion.segments},
+            {"levels", levels},
+            {"travel", {motion.lower, motion.upper}},
+            {"speed_noise", motion.speed_noise},
+            {"speed_resolution", motion.speed_resolution}}},
+          {"faults", check.faults},
+          {"excitation", excitation}};
+}
+
+}  // namespace warmjoint::inline identification

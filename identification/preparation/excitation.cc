@@ -1,0 +1,172 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "identification/preparation/check.h"
+
+namespace warmjoint::inline identification {
+namespace {
+
+/// Speeds in one direction: how many levels, the slowest and the fastest.
+struct Direction {
+  int levels = 0;
+  double slowest = 0, fastest = 0;  // rad/s or m/s, magnitudes
+};
+
+Direction SpeedsWithSign(const MotionCheck& motion, int sign) {
+  Direction direction;
+  for (const SpeedLevel& level : motion.levels) {
+    const double speed = sign * level.velocity;
+    if (speed <= 0) continue;
+    direction.slowest = direction.levels == 0 ? speed : std::min(direction.slowest, speed);
+    direction.fastest = std::max(direction.fastest, speed);
+    ++direction.levels;
+  }
+  return direction;
+}
+
+/// All that the judgements look at.
+struct Evidence {
+  const Measurements& measurements;
+  const SamplingCheck& sampling;
+  const MotionCheck& motion;
+  std::string_view speed_unit, length_unit;
+  Direction positive, negative;
+
+  double slowest() const {
+    if (positive.levels == 0) return negative.slowest;
+    if (negative.levels == 0) return positive.slowest;
+    return std::min(positive.slowest, negative.slowest);
+  }
+  double fastest() const { return std::max(positive.fastest, negative.fastest); }
+  bool both_directions() const { return positive.levels > 0 && negative.levels > 0; }
+};
+
+Excitation Coulomb(const Evidence& e) {
+  if (e.motion.segments > 0) {
+    return {"law coulomb", true, fmt::format("{} segments at constant speed", e.motion.segments)};
+  }
+  return {"law coulomb", false,
+          "no sample moves at a constant speed; record piecewise constant speeds, each held for "
+          "longer than the acceleration between them"};
+}
+
+Excitation ViscousCoulomb(const Evidence& e) {
+  const std::string what = "law viscous_coulomb";
+  if (e.motion.segments == 0) return {what, false, Coulomb(e).reason};
+  const double ratio = e.fastest() / e.slowest();
+  if (ratio > 1.1) {
+    return {what, true,
+            fmt::format("speeds from {:.3g} to {:.3g} {}", e.slowest(), e.fastest(), e.speed_unit)};
+  }
+  return {what, false,
+          fmt::format("all segments move at about {:.3g} {}, so that viscous and coulomb cannot be "
+                      "told apart; record a second speed, best ten times slower or faster",
+                      e.fastest(), e.speed_unit)};
+}
+
+Excitation Asymmetric(const Evidence& e) {
+  const std::string what = "law asymmetric";
+  if (e.motion.segments == 0) return {what, false, Coulomb(e).reason};
+  if (!e.both_directions()) {
+    return {what, false,
+            fmt::format("all segments move in the {} direction; record both",
+                        e.positive.levels > 0 ? "positive" : "negative")};
+  }
+  if (e.positive.levels < 2 && e.negative.levels < 2) {
+    return {what, false,
+            "each direction has one speed, so that the slope and the two levels cannot be told "
+            "apart; record a second speed"};
+  }
+  return {what, true, "several speeds and both directions"};
+}
+
+Excitation Stribeck(const Evidence& e) {
+  const std::string what = "law stribeck";
+  if (e.motion.segments == 0) return {what, false, Coulomb(e).reason};
+  const int levels = std::max(e.positive.levels, e.negative.levels);
+  if (levels >= 5 && e.slowest() <= 0.05 * e.fastest()) {
+    return {what, true,
+            fmt::format("{} speeds, the slowest {:.2g} of the fastest", levels,
+                        e.slowest() / e.fastest())};
+  }
+  return {what, false,
+          fmt::format("{} speed{} down to {:.2g} of the fastest; the curve near standstill needs "
+                      "five or more, down to a twentieth",
+                      levels, levels == 1 ? "" : "s", e.slowest() / e.fastest())};
+}
+
+Excitation WarmUp(const Evidence& e) {
+  constexpr double shortest = 180;  // s; joints warm with time constants of minutes
+  const std::string what = "warm-up (thermal_gain, thermal_time_constant)";
+  if (e.motion.segments == 0) return {what, false, Coulomb(e).reason};
+  if (e.sampling.duration < shortest) {
+    return {what, false,
+            fmt::format("the log lasts {:.3g} s and joints warm with time constants of minutes; "
+                        "record at least {:.0f} s, better 20 min, from a cold start",
+                        e.sampling.duration, shortest)};
+  }
+  if (e.fastest() < 1.1 * e.slowest()) {
+    return {what, false, "one speed alone warms the joint at one rate; record a second speed"};
+  }
+  return {
+      what, true,
+      fmt::format("{:.3g} min: time constants up to about that long; the start must be cold, or "
+                  "E(0) estimated",
+                  e.sampling.duration / 60)};
+}
+
+Excitation Ripple(const Evidence& e) {
+  const std::string what = "position dependence";
+  if (e.motion.segments == 0) return {what, false, Coulomb(e).reason};
+  const double finest = 4 * e.fastest() * e.sampling.step;
+  const double travel = e.motion.upper - e.motion.lower;
+  if (travel < 4 * finest) {
+    return {what, false,
+            fmt::format("the joint travels {:.3g} {}, {:.2g} of them between samples; record a "
+                        "longer way or a higher rate",
+                        travel, e.length_unit, finest / 4)};
+  }
+  return {what, true,
+          fmt::format("over {:.3g} {}; ripple with a period above {:.2g} {}", travel, e.length_unit,
+                      finest, e.length_unit)};
+}
+
+Excitation MotorRipple(const Evidence& e) {
+  const std::string what = "motor ripple";
+  const double gear = std::abs(e.measurements.gear);
+  if (gear == 1 && !e.measurements.motor_position) {
+    return {what, false, "the gear is not known; give --gear or a column motor_position"};
+  }
+  const double turns =
+      (e.motion.upper - e.motion.lower) * gear / (2 * std::numbers::pi);  // of the motor
+  const double per_turn = 2 * std::numbers::pi / (gear * e.fastest() * e.sampling.step);
+  if (e.motion.segments == 0) return {what, false, Coulomb(e).reason};
+  if (turns < 1 || per_turn < 4) {
+    return {what, false,
+            fmt::format("the motor turns {:.3g} times with {:.2g} samples a turn at the fastest "
+                        "speed; record at least one turn and four samples a turn",
+                        turns, per_turn)};
+  }
+  return {what, true,
+          fmt::format("{:.3g} motor turns, at least {:.3g} samples a turn", turns, per_turn)};
+}
+
+}  // namespace
+
+std::vector<Excitation> JudgeExcitation(const Measurements& measurements,
+                                        const SamplingCheck& sampling, const MotionCheck& motion) {
+  const Evidence evidence{measurements,
+                          sampling,
+                          motion,
+                          kVelocityUnit.For(measurements.joint),
+                          kPositionUnit.For(measurements.joint),
+                          SpeedsWithSign(motion, 1),
+                          SpeedsWithSign(motion, -1)};
+  return {Coulomb(evidence), ViscousCoulomb(evidence), Asymmetric(evidence), Stribeck(evidence),
+          WarmUp(evidence),  Ripple(evidence),         MotorRipple(evidence)};
+}
+
+}  // namespace warmjoint::inline identification

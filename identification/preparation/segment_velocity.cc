@@ -1,0 +1,185 @@
+#include "identification/preparation/segment_velocity.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace warmjoint::inline identification {
+namespace {
+
+using Eigen::Index;
+
+constexpr double kHarmless = 1e-3;  // attenuation
+constexpr double kCertain = 4;      // standard errors
+constexpr double kRounding = 1e-6;  // of the mean speed: less is no noise
+
+/// A straight line through the kept samples of a segment.
+struct Line {
+  double mean = 0, slope = 0;  // at the mean time; 1/s
+  double strays = 0;           // sum of squares around it
+};
+
+/// Times of the kept samples of a segment.
+struct Times {
+  double count = 0, mean = 0, spread = 0;  // s; sum of squares around the mean, s^2
+  double duration = 0;                     // s, first to last
+};
+
+template <typename Use>
+void ForKept(const Selection& selection, const Segment& segment, Use&& use) {
+  for (Index i = segment.begin; i < segment.end; ++i) {
+    if (selection.keep[i]) use(i);
+  }
+}
+
+Times TimesOf(const Measurements& m, const Selection& selection, const Segment& segment) {
+  Times times;
+  double first = 0, last = 0;
+  ForKept(selection, segment, [&](Index i) {
+    if (times.count == 0) first = m.time[i];
+    last = m.time[i];
+    times.mean += m.time[i];
+    ++times.count;
+  });
+  times.mean /= std::max(times.count, 1.0);
+  times.duration = last - first;
+  ForKept(selection, segment,
+          [&](Index i) { times.spread += std::pow(m.time[i] - times.mean, 2); });
+  return times;
+}
+
+Line FitLine(const Measurements& m, const Eigen::VectorXd& values, const Selection& selection,
+             const Segment& segment, const Times& times) {
+  Line line;
+  ForKept(selection, segment, [&](Index i) {
+    line.mean += values[i];
+    line.slope += (m.time[i] - times.mean) * values[i];
+  });
+  line.mean /= times.count;
+  line.slope /= times.spread;
+  ForKept(selection, segment, [&](Index i) {
+    line.strays += std::pow(values[i] - line.mean - line.slope * (m.time[i] - times.mean), 2);
+  });
+  return line;
+}
+
+/// A segment with three kept samples or more.
+struct Steady {
+  const Segment* segment = nullptr;
+  Times times;
+  Line velocity, position;
+};
+
+/// All segments together.
+struct Pooled {
+  double count = 0, freedom = 0;
+  double velocity_noise = 0, position_noise = 0;  // around the lines
+  double mean_speed = 0, spread = 0;              // of |v| over segments: mean and variance
+
+  double Attenuation(double noise_variance) const {
+    return noise_variance / (noise_variance + spread);
+  }
+};
+
+std::vector<Steady> SteadySegments(const Measurements& m, const Selection& selection) {
+  std::vector<Steady> all;
+  for (const Segment& segment : selection.segments) {
+    const Times times = TimesOf(m, selection, segment);
+    if (times.count < 3) continue;
+    all.push_back({&segment, times, FitLine(m, m.velocity, selection, segment, times),
+                   FitLine(m, m.position, selection, segment, times)});
+  }
+  return all;
+}
+
+Pooled Pool(const std::vector<Steady>& all) {
+  Pooled pooled;
+  for (const Steady& one : all) {
+    pooled.count += one.times.count;
+    pooled.freedom += one.times.count - 2;
+    pooled.velocity_noise += one.velocity.strays;
+    pooled.position_noise += one.position.strays;
+    pooled.mean_speed += one.times.count * std::abs(one.velocity.mean);
+  }
+  pooled.velocity_noise = std::sqrt(pooled.velocity_noise / pooled.freedom);
+  pooled.position_noise = std::sqrt(pooled.position_noise / pooled.freedom);
+  pooled.mean_speed /= pooled.count;
+  for (const Steady& one : all) {
+    const double beyond = std::abs(one.velocity.mean) - pooled.mean_speed;
+    pooled.spread += one.times.count * beyond * beyond / pooled.count;
+  }
+  return pooled;
+}
+
+/// A segment's velocity and its standard error, rad/s or m/s.
+struct Velocity {
+  double value = 0, error = 0;
+};
+
+Velocity BestVelocity(const Steady& one, const Pooled& pooled) {
+  const Velocity mean{one.velocity.mean, pooled.velocity_noise / std::sqrt(one.times.count)};
+  const Velocity slope{one.position.slope,
+                       std::sqrt(2.0) * pooled.position_noise / one.times.duration};
+  const bool agrees =
+      std::abs(slope.value - mean.value) <= kCertain * std::hypot(mean.error, slope.error);
+  return agrees && slope.error < mean.error ? slope : mean;
+}
+
+}  // namespace
+
+std::optional<SegmentVelocity> TakeSegmentVelocity(const Measurements& measurements,
+                                                   const Selection& selection) {
+  const std::vector<Steady> all = SteadySegments(measurements, selection);
+  if (all.empty()) return std::nullopt;
+  const Pooled pooled = Pool(all);
+  const double variance = pooled.velocity_noise * pooled.velocity_noise;
+  if (!(pooled.velocity_noise > kRounding * pooled.mean_speed) ||
+      pooled.Attenuation(variance) <= kHarmless) {
+    return std::nullopt;
+  }
+
+  SegmentVelocity taken{measurements, pooled.velocity_noise, pooled.Attenuation(variance), 0,
+                        pooled.mean_speed};
+  double errors = 0;  // of a velocity, mean square over the samples
+  for (const Steady& one : all) {
+    const Velocity velocity = BestVelocity(one, pooled);
+    const bool drifts =
+        std::abs(one.velocity.slope) * std::sqrt(one.times.spread) > kCertain * taken.noise;
+    const double slope = drifts ? one.velocity.slope : 0;
+    errors += one.times.count * velocity.error * velocity.error / pooled.count;
+    ForKept(selection, *one.segment, [&](Index i) {
+      taken.measurements.velocity[i] =
+          velocity.value + slope * (measurements.time[i] - one.times.mean);
+    });
+  }
+  taken.left = pooled.Attenuation(errors);
+  return taken;
+}
+
+void TellSegmentVelocity(const SegmentVelocity& taken, Estimate& estimate) {
+  if (estimate.status != Status::ok) return;
+  const EstimatedParameter* viscous = estimate.Find("viscous");
+  estimate.message += fmt::format(
+      "; velocity taken as one value for each segment: its noise of {:.2g} {} would move {} by "
+      "{:.2g} %",
+      taken.noise, kVelocityUnit.For(taken.measurements.joint),
+      viscous ? "viscous" : "slopes over speed", -100 * taken.attenuation);
+  if (taken.left <= kHarmless) return;
+  estimate.warnings.push_back(fmt::format(
+      "the noise of the velocity still moves {} by {:.2g} %, and intervals reach as far; hold each "
+      "speed for longer, or log a position that is finer",
+      viscous ? "viscous" : "slopes over speed", -100 * taken.left));
+  if (!viscous) return;
+  const double move = std::abs(taken.left * viscous->value);
+  for (EstimatedParameter& parameter : estimate.parameters) {
+    const bool is_level = parameter.name.starts_with("coulomb");
+    if (!parameter.interval95 || !(is_level || parameter.name == "viscous")) continue;
+    const double reach = is_level ? move * taken.mean_speed : move;
+    (*parameter.interval95)[0] -= reach;
+    (*parameter.interval95)[1] += reach;
+  }
+}
+
+}  // namespace warmjoint::inline identification

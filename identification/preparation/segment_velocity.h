@@ -1,0 +1,40 @@
+// One velocity for each segment of constant speed, where noise of the samples' would bias a fit.
+#pragma once
+
+#include <optional>
+
+#include "identification/estimate.h"
+#include "models/recording/measurements.h"
+#include "models/recording/selection.h"
+
+namespace warmjoint::inline identification {
+
+/// A log whose kept samples have the velocity of their segment.
+struct SegmentVelocity {
+  Measurements measurements;
+  double noise = 0;        // of the velocity within segments, rad/s or m/s
+  double attenuation = 0;  // share of a slope over |v| that this noise would hide
+  double left = 0;         // the share that the noise of one velocity for a segment still hides
+  double mean_speed = 0;   // mean |v| of the kept samples, rad/s or m/s
+};
+
+/// Least squares over samples whose velocity has noise finds a slope over |v| too small by the
+/// share
+///
+///     a = s_w^2 / (s_w^2 + s_b^2)
+///
+/// (errors in variables; Fuller, Measurement Error Models, 1987, 1.1), s_w^2 the variance of v
+/// around a straight line over each segment, pooled, and s_b^2 the variance of the segments' |v|,
+/// weighted by samples. Where a exceeds 0.1 %, the kept samples of a segment get one velocity: the
+/// slope of the positions, where it is surer than the mean of the velocities (standard errors
+/// sqrt(2) s_p / T, with s_p around the straight line, and s_w / sqrt(n)) and agrees with it to
+/// four of these; else that mean. A speed that drifts beyond four standard errors keeps its drift.
+/// Nothing where a is less, or no segments are given.
+std::optional<SegmentVelocity> TakeSegmentVelocity(const Measurements& measurements,
+                                                   const Selection& selection);
+
+/// Says in the message of an estimate that is ok what was done. Where more than 0.1 % is left, the
+/// intervals of viscous and of the levels reach as far as that moves them, and a warning says so.
+void TellSegmentVelocity(const SegmentVelocity& taken, Estimate& estimate);
+
+}  // namespace warmjoint::inline identification

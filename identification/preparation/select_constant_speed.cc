@@ -1,0 +1,213 @@
+#include <algorithm>
+#include <cmath>
+
+#include "identification/preparation/plateaus.h"
+#include "identification/preparation/select.h"
+#include "models/foundation/robust_noise.h"
+
+namespace warmjoint::inline identification {
+namespace {
+
+using Eigen::Index;
+
+constexpr Index kShortest = 3;  // samples of a segment
+constexpr Index kHandful = 20;  // samples
+
+Index Length(const Segment& segment) { return segment.end - segment.begin; }
+
+/// How far the speed strays from `level` all along a run, for a drive lets ripple of the load
+/// through: as far as all but 2 % of the samples of its second or its third quarter, whichever is
+/// less, since a slow drive may still settle in the second.
+double Wobble(const Segment& run, double level, const Eigen::VectorXd& v) {
+  const Index quarter = Length(run) / 4;
+  if (quarter == 0) return 0;
+  const auto stray = [&](Index begin) {
+    Eigen::VectorXd strays = (v.segment(begin, quarter).array() - level).abs();
+    return QuantileInPlace(strays, 0.98);
+  };
+  return std::min(stray(run.begin + quarter), stray(run.begin + 2 * quarter));
+}
+
+/// Cuts the ends of a run inwards, to the first few samples in a row that are inside. What strays
+/// between them is left: there the load ripples. Empty where it never settles.
+template <typename IsInside>
+void CutInwards(Segment& run, const IsInside& is_inside) {
+  const Index calm = std::max(kShortest, 1 + Length(run) / 50);  // samples in a row
+  Index begin = run.begin, end = run.end;
+  for (Index inside = 0; begin + inside < run.end && inside < calm;) {
+    if (is_inside(begin + inside)) {
+      ++inside;
+    } else {
+      begin += inside + 1;
+      inside = 0;
+    }
+  }
+  for (Index inside = 0; end - inside > begin && inside < calm;) {
+    if (is_inside(end - 1 - inside)) {
+      ++inside;
+    } else {
+      end -= inside + 1;
+      inside = 0;
+    }
+  }
+  run = {begin, end, run.velocity};
+}
+
+/// What is inside around the middle of a run.
+template <typename IsInside>
+void CutOutwards(Segment& run, const IsInside& is_inside) {
+  const Index middle = (run.begin + run.end) / 2;
+  Index begin = middle, end = middle;
+  while (begin > run.begin && is_inside(begin - 1)) --begin;
+  while (end < run.end && is_inside(end)) ++end;
+  run = {begin, end, run.velocity};
+}
+
+/// Sets the level of a run to its median and cuts its ends where the speed still settles: to within
+/// 4 robust standard deviations, or the wobble. A handful of samples shows no ripple.
+void Settle(Segment& run, const Eigen::VectorXd& v, const VelocityScale& scale) {
+  Eigen::VectorXd values = v.segment(run.begin, Length(run));
+  run.velocity = MedianInPlace(values);
+  values = (values.array() - run.velocity).abs();
+  const double spread = MedianInPlace(values) / 0.6745;
+  const double allowed = std::max({4 * spread, Wobble(run, run.velocity, v), 3 * scale.noise,
+                                   0.005 * std::abs(run.velocity), 1.5 * scale.resolution});
+  const auto is_inside = [&](Index i) { return std::abs(v[i] - run.velocity) <= allowed; };
+  if (Length(run) < kHandful) {
+    CutOutwards(run, is_inside);
+  } else {
+    CutInwards(run, is_inside);
+  }
+}
+
+/// Quarters of a run; halves of a short one.
+Index Parts(const Segment& run) { return Length(run) < 8 ? 2 : 4; }
+
+/// Largest difference between the mean speeds of the run's parts.
+double Drift(const Segment& run, const Eigen::VectorXd& v) {
+  const Index part = Length(run) / Parts(run);
+  double lowest = v.segment(run.begin, part).mean(), highest = lowest;
+  for (Index k = 1; k < Parts(run); ++k) {
+    const Index begin = k + 1 < Parts(run) ? run.begin + k * part : run.end - part;
+    const double mean = v.segment(begin, part).mean();
+    lowest = std::min(lowest, mean);
+    highest = std::max(highest, mean);
+  }
+  return highest - lowest;
+}
+
+/// Whether a drift is less than a hundredth of the steepest acceleration of the log.
+bool IsSlow(double drift, const Segment& run, const VelocityScale& scale) {
+  return drift <= 0.01 * scale.steepest * static_cast<double>(Length(run)) * scale.step;
+}
+
+/// Whether the speed drifts by more than the noise of those means and 0.5 % of the level, and not
+/// slowly.
+bool Drifts(const Segment& run, const Eigen::VectorXd& v, const VelocityScale& scale) {
+  const double drift = Drift(run, v);
+  const auto independent = static_cast<double>(Length(run) / Parts(run)) / scale.memory;
+  const double noise = 4 * scale.noise / std::sqrt(std::max(independent, 1.0));
+  const double explained = 0.005 * std::abs(run.velocity) + std::max(noise, 0.5 * scale.resolution);
+  return drift > std::min(explained, 0.6 * scale.Band(run.velocity)) && !IsSlow(drift, run, scale);
+}
+
+/// Whether a run differs from a piece of an acceleration: the speed drifts slowly, or at each end
+/// it jumps (by half of the step in level or more), the recording ends, or a run of less than a
+/// third of its length follows.
+bool StandsOut(const std::vector<Segment>& runs, std::size_t i, const Eigen::VectorXd& v,
+               const VelocityScale& scale) {
+  const Segment& run = runs[i];
+  const auto is_clear = [&](const Segment& other, Index boundary) {
+    const double jump = std::abs(v[boundary] - v[boundary - 1]);
+    return 3 * Length(other) <= Length(run) ||
+           jump >= 0.5 * std::abs(other.velocity - run.velocity);
+  };
+  const bool is_clear_in_front = i == 0 || is_clear(runs[i - 1], run.begin);
+  const bool is_clear_behind = i + 1 == runs.size() || is_clear(runs[i + 1], run.end);
+  return (is_clear_in_front && is_clear_behind) || IsSlow(Drift(run, v), run, scale);
+}
+
+/// Samples between run i and its neighbours (or the ends of the recording).
+std::pair<Index, Index> Gaps(const std::vector<Segment>& runs, std::size_t i, Index samples) {
+  const Index before = i == 0 ? 0 : runs[i - 1].end;
+  const Index after = i + 1 == runs.size() ? samples : runs[i + 1].begin;
+  return {runs[i].begin - before, after - runs[i].end};
+}
+
+/// Drops runs shorter than a fifth of the accelerations beside them: turning points of the speed.
+std::vector<Segment> WithoutTurningPoints(const std::vector<Segment>& runs, Index samples) {
+  std::vector<Segment> lasting;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const auto [front, back] = Gaps(runs, i, samples);
+    if (5 * Length(runs[i]) >= front + back) lasting.push_back(runs[i]);
+  }
+  return lasting;
+}
+
+/// Whether a run lies on the way from one direction of motion to the other: slower than both
+/// neighbours, which move apart, and shorter than a tenth of each. A joint that turns under a slow
+/// drive creeps there at a constant speed while its friction still builds up.
+bool TurnsRound(const Segment& before, const Segment& run, const Segment& after) {
+  const double slower = std::min(std::abs(before.velocity), std::abs(after.velocity));
+  return before.velocity * after.velocity < 0 && std::abs(run.velocity) < slower &&
+         10 * Length(run) <= std::min(Length(before), Length(after));
+}
+
+std::vector<Segment> WithoutReversals(const std::vector<Segment>& runs) {
+  std::vector<Segment> lasting;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const bool has_both = i > 0 && i + 1 < runs.size();
+    if (!has_both || !TurnsRound(runs[i - 1], runs[i], runs[i + 1])) lasting.push_back(runs[i]);
+  }
+  return lasting;
+}
+
+/// The run less a tenth of the acceleration at each end, whose start and end hide in the noise.
+/// Neighbours without a sample between them lose nothing.
+Segment KeptAway(Segment run, std::pair<Index, Index> gaps) {
+  const Index most = Length(run) / 4;
+  const Index front = std::min(gaps.first / 10, most);
+  const Index back = std::min(gaps.second / 10, most);
+  if (Length(run) - front - back < kShortest) return run;
+  return {run.begin + front, run.end - back, run.velocity};
+}
+
+/// The runs at one speed, rests among them, each cut to where the speed has settled.
+std::vector<Segment> SteadyRuns(const Measurements& measurements, const VelocityScale& scale) {
+  const Eigen::VectorXd& v = measurements.velocity;
+  std::vector<Segment> steady;
+  const std::vector<Segment> runs = CutIntoRuns(measurements, scale);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (Length(runs[i]) < kShortest || !StandsOut(runs, i, v, scale)) continue;
+    Segment run = runs[i];
+    Settle(run, v, scale);
+    if (Length(run) < kShortest || Drifts(run, v, scale)) continue;
+    steady.push_back(run);
+  }
+  return WithoutReversals(WithoutTurningPoints(steady, v.size()));
+}
+
+}  // namespace
+
+Selection SelectConstantSpeed(const Measurements& measurements) {
+  const Eigen::VectorXd& v = measurements.velocity;
+  const VelocityScale scale = MeasureVelocity(measurements);
+  const std::vector<Segment> steady = SteadyRuns(measurements, scale);
+
+  Selection selection;
+  selection.keep.setConstant(v.size(), false);
+  for (std::size_t i = 0; i < steady.size(); ++i) {
+    if (std::abs(steady[i].velocity) <= scale.Rest()) continue;
+    Segment segment = KeptAway(steady[i], Gaps(steady, i, v.size()));
+
+    // outliers within a segment are not kept
+    const auto values = v.segment(segment.begin, Length(segment)).array();
+    selection.keep.segment(segment.begin, Length(segment)) =
+        (values - segment.velocity).abs() <= scale.Band(segment.velocity);
+    segment.velocity = values.mean();
+    selection.segments.push_back(segment);
+  }
+  return selection;
+}
+
+}  // namespace warmjoint::inline identification

@@ -1,0 +1,116 @@
+#include "identification/preparation/split_at_switches.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "models/foundation/robust_noise.h"
+
+namespace warmjoint::inline identification {
+namespace {
+
+using Eigen::Index;
+
+constexpr double kLeastChange = 0.1;  // of the velocity's rms
+constexpr double kSteady = 0.25;  // of the change: what the speed may change by before and behind
+constexpr double kInside = 1e-6;  // of an interval: a switch nearer to a sample is at it
+
+/// A sample to put in after sample `after`.
+struct Switch {
+  Index after = 0;
+  double delay = 0;  // s behind it
+};
+
+/// Whether the change of speed behind sample n stands alone: no ramp that the samples show.
+bool StandsAlone(const Eigen::VectorXd& v, Index n) {
+  const double before = n > 0 ? std::abs(v[n] - v[n - 1]) : 0;
+  const double behind = n + 2 < v.size() ? std::abs(v[n + 2] - v[n + 1]) : 0;
+  return std::max(before, behind) <= kSteady * std::abs(v[n + 1] - v[n]);
+}
+
+std::vector<Switch> FindSwitches(const Measurements& m) {
+  const double rms = std::sqrt(m.velocity.squaredNorm() / static_cast<double>(m.size()));
+  const double longest = 3 * MedianStep(m.time);
+  std::vector<Switch> switches;
+  for (Index n = 0; n + 1 < m.size(); ++n) {
+    const double v0 = m.velocity[n], v1 = m.velocity[n + 1];
+    const double h = m.time[n + 1] - m.time[n];
+    if (std::abs(v1 - v0) <= kLeastChange * rms || h > longest) continue;
+    if (!StandsAlone(m.velocity, n)) continue;
+    const double s = (m.position[n + 1] - m.position[n] - v1 * h) / (v0 - v1);
+    const bool is_inside = s > kInside * h && s < (1 - kInside) * h;
+    if (is_inside && !std::ranges::binary_search(m.starts, n + 1)) switches.push_back({n, s});
+  }
+  return switches;
+}
+
+/// SplitLog::unseen.
+double Unseen(const Measurements& m, const std::vector<Switch>& switches) {
+  double lost = 0, path = 0;
+  for (Index n = 0; n + 1 < m.size(); ++n) {
+    path += std::abs(m.velocity[n]) * (m.time[n + 1] - m.time[n]);
+  }
+  for (const auto& [after, delay] : switches) {
+    const double v0 = m.velocity[after], v1 = m.velocity[after + 1];
+    if (v0 * v1 >= 0) continue;
+    const double h = m.time[after + 1] - m.time[after];
+    lost += 2 * std::min(delay, h - delay) * std::abs(v0 * v1 / (v0 - v1));
+  }
+  return path > 0 ? lost / path : 0;
+}
+
+/// The column with the value behind each switch put in at it. [N + switches]
+template <typename Column>
+Column Filled(const Column& column, const std::vector<Switch>& switches) {
+  Column filled(column.size() + static_cast<Index>(switches.size()));
+  Index from = 0, to = 0;
+  for (const Switch& one : switches) {
+    const Index count = one.after + 1 - from;
+    filled.segment(to, count) = column.segment(from, count);
+    from += count;
+    to += count;
+    filled[to++] = column[from];
+  }
+  filled.tail(filled.size() - to) = column.tail(column.size() - from);
+  return filled;
+}
+
+}  // namespace
+
+std::optional<SplitLog> SplitAtSwitches(const Measurements& measurements,
+                                        const Selection& selection) {
+  const std::vector<Switch> switches = FindSwitches(measurements);
+  if (switches.empty()) return std::nullopt;
+  SplitLog split{measurements, selection, Unseen(measurements, switches)};
+  Measurements& m = split.measurements;
+  for (Eigen::VectorXd* column : {&m.time, &m.position, &m.velocity, &m.torque}) {
+    *column = Filled(*column, switches);
+  }
+  for (std::optional<Eigen::VectorXd>* column : {&m.motor_position, &m.load, &m.temperature}) {
+    if (*column) *column = Filled(**column, switches);
+  }
+  split.selection.keep = Filled(selection.keep, switches);
+
+  // what is put in: when, where, and that no fit sees it
+  const auto moved = [&](Index n) {
+    return n + std::ranges::count_if(switches, [n](const Switch& s) { return s.after < n; });
+  };
+  for (size_t i = 0; i < switches.size(); ++i) {
+    const auto [after, delay] = switches[i];
+    const Index n = after + 1 + static_cast<Index>(i);
+    m.time[n] = measurements.time[after] + delay;
+    m.position[n] = measurements.position[after] + delay * measurements.velocity[after];
+    split.selection.keep[n] = false;
+    if (!m.motor_position) continue;
+    const Eigen::VectorXd& motor = *measurements.motor_position;
+    (*m.motor_position)[n] =
+        motor[after] + measurements.gear * delay * measurements.velocity[after];
+  }
+  for (Index& start : m.starts) start = moved(start);
+  for (Segment& segment : split.selection.segments) {
+    segment.begin = moved(segment.begin);
+    segment.end = moved(segment.end);
+  }
+  return split;
+}
+
+}  // namespace warmjoint::inline identification

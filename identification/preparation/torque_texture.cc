@@ -1,0 +1,57 @@
+#include "identification/preparation/torque_texture.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace warmjoint::inline identification {
+namespace {
+
+using Eigen::Index;
+
+std::vector<ConstantRun> LongRuns(const Eigen::VectorXd& torque, const Selection& selection) {
+  std::vector<ConstantRun> runs;
+  for (Index begin = 0, end = 0; begin < torque.size(); begin = end) {
+    end = begin + 1;
+    while (end < torque.size() && torque[end] == torque[begin]) ++end;
+    if (end - begin < kLongRun) continue;
+    const Index kept = selection.keep.segment(begin, end - begin).count();
+    if (kept >= kLongRun) runs.push_back({begin, end, kept});
+  }
+  return runs;
+}
+
+double Share(Index part, Index whole) {
+  return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0;
+}
+
+}  // namespace
+
+TorqueTexture MeasureTexture(const Measurements& measurements, const Selection& selection) {
+  const Eigen::VectorXd& torque = measurements.torque;
+  TorqueTexture texture;
+  texture.long_runs = LongRuns(torque, selection);
+
+  const double rounding = 1e-6 * torque.cwiseAbs().maxCoeff();
+  auto run = texture.long_runs.begin();
+  Index pairs = 0, equal = 0, triples = 0, turning = 0;
+  for (Index i = 1; i + 1 < torque.size(); ++i) {
+    if (run != texture.long_runs.end() && i >= run->begin) {
+      i = run->end;
+      ++run;
+      continue;
+    }
+    if (!selection.keep[i] || !selection.keep[i + 1]) continue;
+    const double step = torque[i + 1] - torque[i];
+    ++pairs;
+    equal += std::abs(step) <= rounding;
+    if (!selection.keep[i - 1]) continue;
+    const double before = torque[i] - torque[i - 1];
+    ++triples;
+    turning += before * step < 0 && std::min(std::abs(before), std::abs(step)) > rounding;
+  }
+  texture.equal = Share(equal, pairs);
+  texture.turning = Share(turning, triples);
+  return texture;
+}
+
+}  // namespace warmjoint::inline identification

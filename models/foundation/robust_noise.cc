@@ -1,0 +1,53 @@
+#include "models/foundation/robust_noise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace warmjoint::inline models {
+namespace {
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+}  // namespace
+
+double QuantileInPlace(Eigen::VectorXd& x, double quantile) {
+  const auto rank = static_cast<Eigen::Index>(quantile * static_cast<double>(x.size()));
+  double* value = x.data() + std::min(rank, x.size() - 1);
+  std::nth_element(x.data(), value, x.data() + x.size());
+  return *value;
+}
+
+double MedianStep(const Eigen::VectorXd& time) {
+  const Eigen::Index n = time.size() - 1;
+  Eigen::VectorXd steps = time.tail(n) - time.head(n);
+  return MedianInPlace(steps);
+}
+
+double WhiteNoise(const Eigen::VectorXd& x) {
+  const Eigen::Index n = x.size() - 4;
+  if (n < 1) return 0;
+  Eigen::VectorXd differences =
+      x.head(n) - 4 * x.segment(1, n) + 6 * x.segment(2, n) - 4 * x.segment(3, n) + x.tail(n);
+  differences = differences.cwiseAbs();
+
+  // 1^2 + 4^2 + 6^2 + 4^2 + 1^2 = 70; the median of |z| of a standard normal is 0.6745
+  return MedianInPlace(differences) / (0.6745 * std::sqrt(70.0));
+}
+
+double Resolution(const Eigen::VectorXd& x) {
+  if (x.size() < 2) return 0;
+  const Eigen::ArrayXd steps = (x.tail(x.size() - 1) - x.head(x.size() - 1)).cwiseAbs();
+  const double rounding = 1e-12 * x.cwiseAbs().maxCoeff();
+  double smallest = kInfinity, largest = 0;
+  for (const double step : steps) {
+    if (step > rounding) smallest = std::min(smallest, step);
+    largest = std::max(largest, step);
+  }
+
+  // every step a multiple of the smallest, and more than one kind of step
+  const Eigen::ArrayXd multiples = steps / smallest;
+  const bool all_whole = ((multiples - multiples.round()).abs() <= 0.05).all();
+  const bool varied = multiples.minCoeff() < multiples.maxCoeff() - 0.5;
+  return largest > rounding && all_whole && varied ? smallest : 0;
+}
+
+}  // namespace warmjoint::inline models

@@ -1,0 +1,108 @@
+#include "models/recording/assemble.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "models/foundation/robust_noise.h"
+#include "models/recording/derive_velocity.h"
+#include "models/recording/unwrap.h"
+
+namespace warmjoint::inline models {
+namespace {
+
+constexpr double kLargest = 1e30;       // of any value; beyond it squares and products overflow
+constexpr double kShortestStep = 1e-9;  // s, on average
+
+void CheckValues(const RawColumns& raw, const std::string& column, const Eigen::VectorXd& values) {
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    if (std::abs(values[i]) <= kLargest) continue;
+    Refuse(
+        raw.At(i),
+        "{} of sample {} is {}; it must be a finite number of size {} at most. Cut the log there "
+        "or repair it",
+        column, i + 1, values[i], kLargest);
+  }
+}
+
+void CheckTime(const RawColumns& raw, const Eigen::VectorXd& time) {
+  for (Eigen::Index i = 1; i < time.size(); ++i) {
+    if (time[i] > time[i - 1]) continue;
+    if (time[i] == time[i - 1]) {
+      Refuse(raw.At(i), "time {} s of sample {} is that of the sample before; drop one of them",
+             time[i], i + 1);
+    }
+    Refuse(raw.At(i),
+           "time of sample {} is {} s, after {} s: it runs backwards. Split the file there or sort "
+           "it by time",
+           i + 1, time[i], time[i - 1]);
+  }
+  const Eigen::Index n = time.size();
+  const double step = (time[n - 1] - time[0]) / static_cast<double>(n - 1);
+  if (step < kShortestStep) {
+    Refuse({raw.file},
+           "samples are {} s apart; less than {} s is no log. Give the unit of time, for "
+           "example --unit time=ms",
+           step, kShortestStep);
+  }
+}
+
+void CheckTorque(const RawColumns& raw, const Measurements& measurements) {
+  const Eigen::VectorXd& torque = measurements.torque;
+  if (torque.maxCoeff() > torque.minCoeff()) return;
+  Refuse({raw.file},
+         "torque is {} {} in all {} samples; a log of friction must vary. Is it mapped "
+         "to the right column?",
+         torque[0], measurements.torque_unit, torque.size());
+}
+
+/// Position without the jumps of a sensor's turn, and a velocity where none was recorded.
+void CompleteMotion(const RawColumns& raw, Measurements& measurements) {
+  const Eigen::VectorXd& time = measurements.time;
+  if (measurements.joint == JointKind::rotary) {
+    const int jumps = UnwrapTurns(time, measurements.velocity, measurements.position);
+    if (jumps > 0) {
+      measurements.notes.push_back(
+          fmt::format("position jumps by a turn {} times; unwrapped", jumps));
+    }
+  }
+  if (measurements.velocity.size() > 0) return;
+  const double cutoff = ChooseCutoff(time, measurements.position);
+  measurements.velocity = DeriveVelocity(time, measurements.position, cutoff);
+  CheckValues(raw, "velocity (derived from position)", measurements.velocity);
+  measurements.notes.push_back(
+      cutoff > 0.4 / MedianStep(time)
+          ? "velocity derived from position by central differences"
+          : fmt::format("velocity derived from position below {:.3g} Hz", cutoff));
+}
+
+}  // namespace
+
+Measurements AssembleMeasurements(RawColumns raw, const std::vector<ColumnSource>& sources,
+                                  const CsvLayout& layout) {
+  Measurements measurements;
+  measurements.joint = layout.joint;
+  measurements.gear = layout.gear;
+  measurements.source = raw.file;
+
+  // to SI, each value checked
+  for (std::size_t k = 0; k < sources.size(); ++k) {
+    const auto& [column, index, unit] = sources[k];
+    CheckValues(raw, column->name, raw.values[k]);
+    Eigen::VectorXd values = std::move(raw.values[k]);
+    if (unit.factor != 1 || unit.offset != 0) {
+      values = unit.factor * values.array() + unit.offset;
+    }
+    if (column->name == "torque") measurements.torque_unit = unit.base;
+    column->set(measurements, std::move(values));
+  }
+
+  const Eigen::Index n = measurements.size();
+  if (n < 3) Refuse({raw.file}, "has {} samples; at least 3 are needed", n);
+  CheckTime(raw, measurements.time);
+  CheckTorque(raw, measurements);
+  CompleteMotion(raw, measurements);
+  return measurements;
+}
+
+}  // namespace warmjoint::inline models

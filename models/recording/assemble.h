@@ -1,0 +1,30 @@
+// From the columns of a file to checked measurements.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "models/recording/recording_columns.h"
+
+namespace warmjoint::inline models {
+
+/// The numbers of a file as they stand there.
+struct RawColumns {
+  std::string file;
+  std::vector<int> line;                // [N] line of each sample; empty for files without lines
+  std::vector<Eigen::VectorXd> values;  // [N] each, in the order of the sources
+
+  /// Where sample i stands.
+  Place At(Eigen::Index i) const {
+    return {file, line.empty() ? 0 : line[static_cast<std::size_t>(i)]};
+  }
+};
+
+/// Converts to SI, checks, unwraps a position that stays within one turn, and derives the velocity
+/// where there is none; notes say so. Throws BadInput for fewer
+/// than three samples, a value that is not finite, time that does not increase and a torque that
+/// never changes.
+Measurements AssembleMeasurements(RawColumns raw, const std::vector<ColumnSource>& sources,
+                                  const CsvLayout& layout);
+
+}  // namespace warmjoint::inline models

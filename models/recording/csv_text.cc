@@ -1,0 +1,129 @@
+#include "models/recording/csv_text.h"
+
+#include <algorithm>
+
+#include "models/foundation/excerpt.h"
+#include "models/foundation/parse_number.h"
+
+namespace warmjoint::inline models {
+namespace {
+
+constexpr std::string_view kBlanks = " \t\r";
+
+/// Takes one line off the front of `rest`.
+std::string_view TakeLine(std::string_view& rest) {
+  const std::size_t end = rest.find('\n');
+  std::string_view line = rest.substr(0, end);
+  rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
+  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+  return line;
+}
+
+bool IsEmpty(std::string_view line) {
+  const std::size_t first = line.find_first_not_of(kBlanks);
+  return first == std::string_view::npos || line[first] == '#';
+}
+
+std::string_view Stripped(std::string_view field) {
+  const std::size_t first = field.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  field = field.substr(first, field.find_last_not_of(kBlanks) - first + 1);
+  const bool quoted = field.size() >= 2 && field.front() == '"' && field.back() == '"';
+  return quoted ? field.substr(1, field.size() - 2) : field;
+}
+
+/// Splits a line at separators outside quotes.
+void Split(std::string_view line, char separator, std::vector<std::string_view>& fields) {
+  fields.clear();
+  const bool has_quotes = line.find('"') != std::string_view::npos;
+  std::size_t begin = 0;
+  bool quoted = false;
+  if (!has_quotes) {
+    for (std::size_t end; (end = line.find(separator, begin)) != std::string_view::npos;) {
+      fields.push_back(line.substr(begin, end - begin));
+      begin = end + 1;
+    }
+  } else {
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      if (line[i] == '"') quoted = !quoted;
+      if (line[i] != separator || quoted) continue;
+      fields.push_back(line.substr(begin, i - begin));
+      begin = i + 1;
+    }
+  }
+  fields.push_back(line.substr(begin));
+}
+
+char SeparatorOf(std::string_view header) {
+  for (const char separator : {'\t', ';'}) {
+    if (header.find(separator) != std::string_view::npos) return separator;
+  }
+  return ',';
+}
+
+[[noreturn]] void RefuseText(const Place& place, const std::string& column, std::string_view text) {
+  if (text.empty()) Refuse(place, "{} is empty; every sample needs a number", Excerpt(column));
+  const bool has_comma = text.find(',') != std::string_view::npos;
+  Refuse(place, "{} is '{}', which is no number{}", Excerpt(column), Excerpt(text),
+         has_comma ? "; write decimals with a point" : "");
+}
+
+}  // namespace
+
+CsvText::CsvText(std::string_view text, std::string file) : file_(std::move(file)), rows_(text) {
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  if (rows_.substr(0, 3) == byte_order_mark) rows_.remove_prefix(3);
+
+  std::string_view header;
+  while (!rows_.empty() && IsEmpty(header)) {
+    header = TakeLine(rows_);
+    ++header_line_;
+  }
+  if (IsEmpty(header)) {
+    Refuse({file_}, "is empty; it must hold a header row and one row for each sample");
+  }
+
+  separator_ = SeparatorOf(header);
+  std::vector<std::string_view> fields;
+  Split(header, separator_, fields);
+  for (const std::string_view field : fields) names_.emplace_back(Stripped(field));
+  if (std::all_of(names_.begin(), names_.end(), [](auto& name) { return ParseNumber(name); })) {
+    Refuse(header_place(),
+           "holds numbers where the header row must stand; add one, for example "
+           "time,position,velocity,torque");
+  }
+}
+
+RawColumns CsvText::ReadColumns(const std::vector<std::size_t>& indices) const {
+  const auto rows = static_cast<std::size_t>(1 + std::count(rows_.begin(), rows_.end(), '\n'));
+  RawColumns raw{file_, {}, {indices.size(), Eigen::VectorXd(rows)}};
+  raw.line.reserve(rows);
+
+  std::string_view rest = rows_;
+  std::vector<std::string_view> fields;
+  for (int line = header_line_ + 1; !rest.empty(); ++line) {
+    const std::string_view row = TakeLine(rest);
+    if (IsEmpty(row)) continue;
+    Split(row, separator_, fields);
+    if (fields.size() != names_.size()) {
+      Refuse({file_, line}, "has {} fields where the header has {}; complete or drop the row",
+             fields.size(), names_.size());
+    }
+
+    const auto sample = static_cast<Eigen::Index>(raw.line.size());
+    for (std::size_t k = 0; k < indices.size(); ++k) {
+      const std::string_view text = Stripped(fields[indices[k]]);
+      const std::optional<double> value = ParseNumber(text);
+      if (!value) RefuseText({file_, line}, names_[indices[k]], text);
+      raw.values[k][sample] = *value;
+    }
+    raw.line.push_back(line);
+  }
+
+  for (Eigen::VectorXd& values : raw.values) {
+    values.conservativeResize(static_cast<Eigen::Index>(raw.line.size()));
+  }
+  return raw;
+}
+
+}  // namespace warmjoint::inline models

@@ -1,0 +1,20 @@
+// Recordings as HDF5: one dataset a column, units as attributes.
+#pragma once
+
+#include <string>
+
+#include "models/recording/csv.h"
+#include "models/recording/measurements.h"
+
+namespace warmjoint::inline models {
+
+/// Reads the one-dimensional datasets at the root of an HDF5 file as ReadCsv reads columns. An
+/// attribute `unit` of a dataset counts where the layout gives no unit; the attributes `joint`
+/// ("rotary" or "linear") and `gear` of the root count where the layout has its defaults. Throws
+/// BadInput as ReadCsv does. One thread at a time.
+Measurements ReadHdf5(const std::string& path, const CsvLayout& layout = {});
+
+/// Writes the columns that are present, SI, with those attributes. One thread at a time.
+void WriteHdf5(const Measurements& measurements, const std::string& path);
+
+}  // namespace warmjoint::inline models

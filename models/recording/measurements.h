@@ -1,0 +1,36 @@
+// What a robot can log. Identifiers see this and nothing else.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "models/friction/joint_kind.h"
+
+namespace warmjoint::inline models {
+
+/// The log of one joint: N samples in order of time. SI (rad or m, s) whatever the file had.
+struct Measurements {
+  JointKind joint = JointKind::rotary;
+  std::string torque_unit = "N.m";  // "N" for linear joints; "A" where a current was logged
+  double gear = 1;                  // motor position = gear * joint position
+  std::string source;               // file that it came from, for messages
+  std::vector<std::string> notes;   // what reading made of it: one phrase each, for people
+
+  Eigen::VectorXd time;                           // [N] s, strictly increasing
+  Eigen::VectorXd position;                       // [N] rad or m
+  Eigen::VectorXd velocity;                       // [N] rad/s or m/s
+  Eigen::VectorXd torque;                         // [N] torque_unit
+  std::optional<Eigen::VectorXd> motor_position;  // [N] rad
+  std::optional<Eigen::VectorXd> load;            // [N] N.m or N
+  std::optional<Eigen::VectorXd> temperature;     // [N] degC
+
+  /// Of several recordings joined (join_recordings.h): the first sample of each but the first. The
+  /// joint is cold there again.
+  std::vector<Eigen::Index> starts;
+
+  Eigen::Index size() const { return time.size(); }
+};
+
+}  // namespace warmjoint::inline models

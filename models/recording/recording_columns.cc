@@ -1,0 +1,176 @@
+#include "models/recording/recording_columns.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "models/foundation/excerpt.h"
+#include "models/foundation/nearest_name.h"
+#include "models/foundation/parse_number.h"
+
+namespace warmjoint::inline models {
+namespace {
+
+using Values = Eigen::VectorXd;
+
+template <auto member>
+const Values* Get(const Measurements& measurements) {
+  const auto& values = measurements.*member;
+  if constexpr (std::is_same_v<std::decay_t<decltype(values)>, Values>) {
+    return values.size() > 0 ? &values : nullptr;
+  } else {
+    return values ? &*values : nullptr;
+  }
+}
+
+template <auto member>
+void Set(Measurements& measurements, Values values) {
+  measurements.*member = std::move(values);
+}
+
+std::vector<std::string> OurNames() {
+  std::vector<std::string> names;
+  for (const RecordingColumn& column : RecordingColumns()) names.push_back(column.name);
+  return names;
+}
+
+void CheckNames(const std::map<std::string, std::string>& given, std::string_view option,
+                const Place& place) {
+  const std::vector<std::string> known = OurNames();
+  for (const auto& [ours, theirs] : given) {
+    if (std::find(known.begin(), known.end(), ours) != known.end()) continue;
+    Refuse(place, "{} {}={}: recordings have no column '{}'{}", option, Excerpt(ours),
+           Excerpt(theirs), Excerpt(ours), Suggestion(ours, known));
+  }
+}
+
+/// A name in the file that looks like `column`; "NAME" where none does.
+std::string LikelyName(const RecordingColumn& column, const std::vector<std::string>& names) {
+  for (const std::string& hint : column.other_names) {
+    for (const std::string& name : names) {
+      std::string lower = name;
+      std::transform(lower.begin(), lower.end(), lower.begin(),
+                     [](unsigned char c) { return std::tolower(c); });
+      const bool is_letter = hint.size() == 1;  // "t" fits t, t_s, t [s], but not torque
+      const bool fits =
+          is_letter ? lower.substr(0, 1) == hint && (lower.size() == 1 || !std::isalpha(lower[1]))
+                    : lower.find(hint) != std::string::npos;
+      if (fits) return Excerpt(name);
+    }
+  }
+  return "NAME";
+}
+
+[[noreturn]] void RefuseMissing(const std::vector<const RecordingColumn*>& missing,
+                                const std::vector<std::string>& names, const Place& place) {
+  std::vector<std::string> lacking, remedy;
+  for (const RecordingColumn* column : missing) {
+    lacking.push_back(fmt::format("'{}'", column->name));
+    remedy.push_back(column->name + "=" + LikelyName(*column, names));
+  }
+  if (std::any_of(names.begin(), names.end(), [](auto& name) { return ParseNumber(name); })) {
+    Refuse(place,
+           "has no column {}; its first row is '{}'. Where that is no header row, add one, for "
+           "example time,position,velocity,torque",
+           fmt::join(lacking, " and no "), Excerpt(fmt::format("{}", fmt::join(names, ","))));
+  }
+  Refuse(place, "has no column {}; it has: {}. Say which it is, for example --map {}",
+         fmt::join(lacking, " and no "), ExcerptOfList(names), fmt::join(remedy, ","));
+}
+
+/// Index of `theirs`, or the number of names where it is not there.
+std::size_t IndexOf(const std::string& theirs, const std::vector<std::string>& names,
+                    const Place& place) {
+  const auto found = std::find(names.begin(), names.end(), theirs);
+  if (found != names.end() && std::find(found + 1, names.end(), theirs) != names.end()) {
+    Refuse(place, "has column '{}' twice; rename one", Excerpt(theirs));
+  }
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+}  // namespace
+
+const std::vector<RecordingColumn>& RecordingColumns() {
+  using M = Measurements;
+  static const std::vector<RecordingColumn> columns{
+      {"time", true, {"s"}, {"s"}, {"time", "stamp", "t"}, Get<&M::time>, Set<&M::time>},
+      {"position",
+       true,
+       {"rad"},
+       {"m"},
+       {"pos", "angle", "q", "theta"},
+       Get<&M::position>,
+       Set<&M::position>},
+      {"velocity",
+       false,
+       {"rad/s"},
+       {"m/s"},
+       {"vel", "speed", "qd", "dq"},
+       Get<&M::velocity>,
+       Set<&M::velocity>},
+      {"torque",
+       true,
+       {"N.m", "A", "V", "%", "raw"},
+       {"N", "A", "V", "%", "raw"},
+       {"torque", "tau", "force", "effort", "current", "trq", "load", "i"},
+       Get<&M::torque>,
+       Set<&M::torque>},
+      {"motor_position",
+       false,
+       {"rad"},
+       {"rad"},
+       {"motor"},
+       Get<&M::motor_position>,
+       Set<&M::motor_position>},
+      {"load", false, {"N.m"}, {"N"}, {"load"}, Get<&M::load>, Set<&M::load>},
+      {"temperature",
+       false,
+       {"degC"},
+       {"degC"},
+       {"temp"},
+       Get<&M::temperature>,
+       Set<&M::temperature>},
+  };
+  return columns;
+}
+
+std::string UnitOf(const RecordingColumn& column, const Measurements& measurements) {
+  if (column.name == "torque") return measurements.torque_unit;
+  return column.Units(measurements.joint).front();
+}
+
+std::vector<ColumnSource> FindColumns(const std::vector<std::string>& names,
+                                      const CsvLayout& layout, const Place& place) {
+  CheckNames(layout.column, "--map", place);
+  CheckNames(layout.unit, "--unit", place);
+
+  std::vector<ColumnSource> sources;
+  std::vector<const RecordingColumn*> missing;
+  for (const RecordingColumn& column : RecordingColumns()) {
+    // an empty name leaves an optional column out
+    const auto mapped = layout.column.find(column.name);
+    const bool is_mapped = mapped != layout.column.end();
+    const std::string theirs = is_mapped ? mapped->second : column.name;
+    const std::size_t index = theirs.empty() ? names.size() : IndexOf(theirs, names, place);
+    const auto unit = layout.unit.find(column.name);
+
+    if (index < names.size()) {
+      const std::vector<std::string>& bases = column.Units(layout.joint);
+      const std::string& name = unit == layout.unit.end() ? bases.front() : unit->second;
+      sources.push_back({&column, index, FindUnit(name, bases, column.name, place)});
+    } else if (is_mapped && !theirs.empty()) {
+      Refuse(place, "has no column '{}' (for {}){}", Excerpt(theirs), column.name,
+             Suggestion(theirs, names));
+    } else if (column.required) {
+      missing.push_back(&column);
+    } else if (unit != layout.unit.end()) {
+      Refuse(place, "--unit {}={}: the file has no {}; drop it or --map it", column.name,
+             unit->second, column.name);
+    }
+  }
+  if (!missing.empty()) RefuseMissing(missing, names, place);
+  return sources;
+}
+
+}  // namespace warmjoint::inline models

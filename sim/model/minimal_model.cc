@@ -1,0 +1,36 @@
+#include "sim/model/minimal_model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "sim/model/friction_actuator.h"
+
+namespace warmjoint::inline sim {
+
+std::string MinimalModel(const FrictionDescription& friction, JointKind kind) {
+  CheckFriction(friction, {});
+  // heavy enough for any slope at this step
+  constexpr double kTimestep = 0.001;  // s
+  const auto slope = friction.parameters.find("viscous");
+  const double needed = slope == friction.parameters.end() ? 0 : 10 * kTimestep * slope->second;
+  const double inertia = std::max(1.0, needed);
+  const bool slides = kind == JointKind::linear;
+  return fmt::format(R"(<mujoco model="friction">
+  <!-- load the plugin first: mj_loadPluginLibrary("libwarmjoint_friction.so").
+       In another model: the sections <extension> and <actuator>, with that model's joint. -->
+  <option timestep="{}" integrator="implicitfast"/>
+  <worldbody>
+    <body name="link">
+      <joint name="joint" type="{}" axis="{}"/>
+      <inertial pos="0 0 0" mass="{}" diaginertia="{} {} {}"/>
+      <geom type="box" size="0.2 0.05 0.05" mass="0" contype="0" conaffinity="0"/>
+    </body>
+  </worldbody>
+{}</mujoco>
+)",
+                     kTimestep, slides ? "slide" : "hinge", slides ? "1 0 0" : "0 0 1", inertia,
+                     inertia, inertia, inertia, FrictionSections("joint", friction));
+}
+
+}  // namespace warmjoint::inline sim

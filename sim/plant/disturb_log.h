@@ -1,0 +1,14 @@
+// Disturbances that show in the logged torque alone.
+#pragma once
+
+#include "scenarios/scenario.h"
+#include "sim/truth/simulated_recording.h"
+
+namespace warmjoint::inline sim {
+
+/// Adds to the logged torque what the scenario disturbs it by: outliers, coloured noise, a periodic
+/// torque. Their random numbers come from streams of their own, so that they leave all others as
+/// they are. Coloured noise joins Truth.torque_noise; outliers, being no noise of one size, do not.
+void DisturbLog(const Scenario& scenario, std::uint64_t realization, Recording& recording);
+
+}  // namespace warmjoint::inline sim

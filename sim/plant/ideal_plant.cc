@@ -1,0 +1,176 @@
+#include "sim/plant/ideal_plant.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "models/foundation/bad_input.h"
+#include "models/friction/level_terms.h"
+#include "sim/plant/disturb_log.h"
+#include "sim/plant/ideal_friction.h"
+
+namespace warmjoint::inline sim {
+namespace {
+
+/// Planned velocity and position at the stored samples.
+struct SampledPlan {
+  Eigen::VectorXd time;      // [N] s
+  Eigen::VectorXd velocity;  // [N] rad/s or m/s
+  Eigen::VectorXd position;  // [N] rad or m
+};
+
+SampledPlan SamplePlan(const std::vector<MotionSegment>& plan, double start, double rate,
+                       double duration) {
+  const auto n = static_cast<Eigen::Index>(std::llround(duration * rate));
+  SampledPlan samples{Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n)};
+
+  // a sample on a boundary belongs to the segment that begins there, whatever the rounding
+  const double tolerance = 1e-6 / rate;
+  size_t segment = 0;
+  double begin = 0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double time = static_cast<double>(i) / rate;
+    while (segment + 1 < plan.size() && time >= begin + plan[segment].duration - tolerance) {
+      start += plan[segment].velocity * plan[segment].duration;
+      begin += plan[segment].duration;
+      ++segment;
+    }
+    samples.time[i] = time;
+    samples.velocity[i] = plan[segment].velocity;
+    samples.position[i] = start + plan[segment].velocity * (time - begin);
+  }
+  return samples;
+}
+
+/// values plus white noise of the given standard deviation; no numbers are drawn for 0.
+Eigen::VectorXd WithNoise(Eigen::VectorXd values, double deviation, RandomStream random) {
+  if (deviation == 0) return values;
+  for (double& value : values) value += deviation * random.Normal();
+  return values;
+}
+
+class IdealPlant : public Plant {
+ public:
+  explicit IdealPlant(const Scenario& scenario) : scenario_(scenario) {
+    CheckFriction(scenario.friction, {scenario.name});
+    if (!scenario.motion.corners.empty()) {
+      Refuse({scenario.name},
+             "the ideal plant knows constant speeds alone, and motion.corners accelerate; use the "
+             "mujoco plant");
+    }
+    if (scenario.friction.second_thermal && scenario.disturbances.second_heat) {
+      Refuse({scenario.name},
+             "friction.thermal.second and disturbances.second_heat are both given; the joint has "
+             "one second stage, so leave one out");
+    }
+    if (scenario.motion.travel_between_joint_limits) {
+      Refuse({scenario.name},
+             "the ideal plant has no robot, so the motion cannot travel between its joint limits; "
+             "give the limits as numbers, or use the mujoco plant");
+    }
+  }
+
+  Recording Run(std::uint64_t realization) override {
+    const RandomKey key{scenario_.seed, realization};
+    RandomStream motion_stream(key, Stream::motion);
+    const auto plan = PlanMotion(scenario_.motion, scenario_.duration, {}, motion_stream);
+    const SampledPlan samples = SamplePlan(plan, StartPosition(scenario_.motion, {}),
+                                           scenario_.sampling.rate, scenario_.duration);
+    FrictionHistory friction =
+        SimulateFriction(FrictionOfPlant(), scenario_.initial_energy, 1 / scenario_.sampling.rate,
+                         CourseOf(samples), {scenario_.name});
+
+    Recording recording;
+    recording.measurements = Measure(samples, friction.force, key);
+    Truth& truth = recording.truth;
+    truth.friction = scenario_.friction;
+    truth.initial_energy = scenario_.initial_energy;
+    truth.torque_noise = scenario_.noise.torque;
+    truth.plant = "ideal";
+    truth.velocity = samples.velocity;
+    truth.force = std::move(friction.force);
+    truth.loss = std::move(friction.loss);
+    truth.energy = std::move(friction.energy);
+    DisturbLog(scenario_, realization, recording);
+    return recording;
+  }
+
+ private:
+  /// The load that the joint transmits, [N] N.m or N.
+  Eigen::VectorXd Load(const Eigen::VectorXd& time) const {
+    const LoadChange& change = scenario_.disturbances.load_change;
+    return time.unaryExpr([&](double t) {
+      // half a period without load, half a period with it
+      return std::fmod(t, change.period) < change.period / 2 ? 0.0 : change.load;
+    });
+  }
+
+  /// The friction that the joint has, disturbances included; the truth is told without them.
+  FrictionDescription FrictionOfPlant() const {
+    FrictionDescription friction = scenario_.friction;
+    if (scenario_.disturbances.second_heat) {
+      friction.second_thermal = scenario_.disturbances.second_heat;
+    }
+    return friction;
+  }
+
+  JointCourse CourseOf(const SampledPlan& samples) const {
+    const Disturbances& disturbances = scenario_.disturbances;
+    JointCourse course{samples.velocity, samples.position};
+    course.load = TransmittedLoad(samples);
+    course.ambient_rise = samples.time.unaryExpr(
+        [&](double t) { return disturbances.ambient_temperature.RiseAt(t); });
+
+    const AmbientDrift& drift = disturbances.ambient_drift;
+    if (drift.amplitude != 0) {
+      course.level =
+          drift.amplitude * (2 * std::numbers::pi / drift.period * samples.time.array()).sin();
+    }
+    if (disturbances.load_change.load != 0) {
+      const Eigen::VectorXd growth = disturbances.load_change.gain * Load(samples.time).cwiseAbs();
+      course.level = course.level.size() > 0 ? course.level + growth : growth;
+    }
+    return course;
+  }
+
+  /// Load of the scenario and gravity, [N] N.m or N.
+  Eigen::VectorXd TransmittedLoad(const SampledPlan& samples) const {
+    return Load(samples.time) + GravityAt(samples.position);
+  }
+
+  /// G(p) of Eq. (6), [N] N.m or N.
+  Eigen::VectorXd GravityAt(const Eigen::VectorXd& position) const {
+    const Gravity& gravity = scenario_.disturbances.gravity;
+    return gravity.sine * position.array().sin() + gravity.cosine * position.array().cos();
+  }
+
+  Measurements Measure(const SampledPlan& samples, const Eigen::VectorXd& force,
+                       RandomKey key) const {
+    const Noise& noise = scenario_.noise;
+    Measurements log;
+    log.joint = scenario_.joint_kind;
+    log.torque_unit = kTorqueUnit.For(scenario_.joint_kind);
+    log.gear = scenario_.friction.gear;
+    log.source = scenario_.name;
+    log.time = samples.time;
+    log.position = WithNoise(samples.position, noise.position, {key, Stream::position_noise});
+    log.velocity = WithNoise(samples.velocity, noise.velocity, {key, Stream::velocity_noise});
+    log.torque = WithNoise(force, noise.torque, {key, Stream::torque_noise});
+    if (scenario_.disturbances.gravity != Gravity{}) log.torque += GravityAt(samples.position);
+    if (NeedsLoad(scenario_.friction)) {
+      log.load = TransmittedLoad(samples);
+    } else if (scenario_.disturbances.load_change.load != 0) {
+      log.load = Load(samples.time);
+    }
+    return log;
+  }
+
+  const Scenario scenario_;
+};
+
+}  // namespace
+
+std::unique_ptr<Plant> MakeIdealPlant(const Scenario& scenario) {
+  return std::make_unique<IdealPlant>(scenario);
+}
+
+}  // namespace warmjoint::inline sim

@@ -1,0 +1,45 @@
+#include "models/foundation/bad_input.h"
+#include "scenarios/realize.h"
+#include "sim/plant/ideal_plant.h"
+#include "sim/plant/mujoco_plant.h"
+#include "sim/plant/plant.h"
+
+namespace warmjoint::inline sim {
+namespace {
+
+std::unique_ptr<Plant> MakeFixedPlant(const Scenario& scenario) {
+  switch (scenario.plant) {
+    case PlantKind::ideal:
+      return MakeIdealPlant(scenario);
+    case PlantKind::mujoco:
+      return MakeMujocoPlant(scenario);
+  }
+  Refuse({scenario.name}, "there is no such plant");
+}
+
+/// A plant made anew for each realization, whose truth is drawn.
+class DrawnPlant : public Plant {
+ public:
+  explicit DrawnPlant(const Scenario& scenario) : scenario_(scenario) {
+    // what cannot run in the middle of the draws is refused before anything runs
+    Scenario middle = scenario;
+    middle.draws.clear();
+    MakeFixedPlant(middle);
+  }
+
+  Recording Run(std::uint64_t realization) override {
+    return MakeFixedPlant(Realize(scenario_, realization))->Run(realization);
+  }
+
+ private:
+  const Scenario scenario_;
+};
+
+}  // namespace
+
+std::unique_ptr<Plant> MakePlant(const Scenario& scenario) {
+  if (scenario.draws.empty()) return MakeFixedPlant(scenario);
+  return std::make_unique<DrawnPlant>(scenario);
+}
+
+}  // namespace warmjoint::inline sim

@@ -1,0 +1,215 @@
+#include "sim/plant/mujoco_plant.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "models/foundation/bad_input.h"
+#include "models/robots/robot_folder.h"
+#include "sim/plant/disturb_log.h"
+#include "sim/plant/sampling.h"
+#include "sim/plant/single_joint_model.h"
+#include "sim/plant/velocity_drive.h"
+#include "sim/plant/velocity_reference.h"
+
+namespace warmjoint::inline sim {
+namespace {
+
+/// Times of the closed loop in units of 1 / bandwidth: of the largest ramp, and until an error has
+/// decayed to e^-10 (1 + 10) = 5e-4 of its first size.
+constexpr double kRampTimes = 4;
+constexpr double kSettlingTimes = 10;
+
+/// Steps in an interval that must hold a whole number of them.
+long WholeSteps(double interval, double timestep, const Scenario& scenario, const char* name) {
+  const double steps = interval / timestep;
+  const long whole = std::lround(steps);
+  if (whole < 1 || std::abs(steps - static_cast<double>(whole)) > 1e-6 * steps) {
+    Refuse({scenario.name}, "{}: {} s is not a whole number of timesteps of {} s", name, interval,
+           timestep);
+  }
+  return whole;
+}
+
+double LargestChange(const std::vector<MotionSegment>& plan) {
+  double largest = 0;
+  double velocity = 0;
+  for (const MotionSegment& segment : plan) {
+    largest = std::max(largest, std::abs(segment.velocity - velocity));
+    velocity = segment.velocity;
+  }
+  return largest;
+}
+
+class MujocoPlant : public Plant {
+ public:
+  explicit MujocoPlant(const Scenario& scenario)
+      : scenario_(scenario),
+        two_stages_(scenario.friction.second_thermal.has_value()),
+        joint_(LoadSingleJoint(FindRobot(scenario.robot, scenario.name), scenario.joint,
+                               scenario.friction, scenario.timestep, scenario.name)),
+        data_(mj_makeData(joint_.model.get())),
+        steps_per_sample_(
+            WholeSteps(1 / scenario.sampling.rate, scenario.timestep, scenario, "sampling.rate")),
+        steps_per_reading_(WholeSteps(1 / scenario.sampling.sensor_rate, scenario.timestep,
+                                      scenario, "sampling.sensor_rate")) {
+    // an explicit loop is well damped up to a fifth of the step's rate
+    const double fastest = 0.2 / scenario.timestep;
+    if (!(scenario.controller.bandwidth > 0 && scenario.controller.bandwidth <= fastest)) {
+      Refuse({scenario.name},
+             "controller.bandwidth is {} rad/s; at timestep {} s it must be above "
+             "0 and at most {}",
+             scenario.controller.bandwidth, scenario.timestep, fastest);
+    }
+  }
+
+  Recording Run(std::uint64_t realization) override {
+    const RandomKey key{scenario_.seed, realization};
+    const double start = StartPosition(scenario_.motion, joint_.limits);
+    const VelocityReference reference = MakeReference(key, start);
+
+    Recording recording = Empty();
+    SensorLog log(scenario_, key, recording.truth.velocity.size());
+    Move(reference, start, log, recording.truth);
+    log.WriteTo(recording.measurements);
+    DisturbLog(scenario_, realization, recording);
+    return recording;
+  }
+
+ private:
+  VelocityReference MakeReference(RandomKey key, double start) const {
+    const double settling = kSettlingTimes / scenario_.controller.bandwidth;
+    const std::vector<VelocityCorner>& corners = scenario_.motion.corners;
+    if (!corners.empty()) {
+      CheckReach(corners, start);
+      return VelocityReference::Through(corners, Acceleration(std::abs(corners.front().velocity)),
+                                        settling);
+    }
+    RandomStream motion(key, Stream::motion);
+    const auto plan = PlanMotion(scenario_.motion, scenario_.duration, joint_.limits, motion);
+    CheckReach(plan, start);
+    return {plan, Acceleration(LargestChange(plan)), settling};
+  }
+
+  /// Of ramps that change the velocity by up to `change`, rad/s^2 or m/s^2.
+  double Acceleration(double change) const {
+    const Controller& controller = scenario_.controller;
+    if (controller.acceleration != 0) return controller.acceleration;
+    return change * controller.bandwidth / kRampTimes;
+  }
+
+  /// Refuses motions that leave the joint's limits.
+  void CheckReach(const std::vector<MotionSegment>& plan, double position) const {
+    for (const MotionSegment& segment : plan) {
+      position += segment.velocity * segment.duration;
+      CheckPosition(position);
+    }
+  }
+  void CheckReach(const std::vector<VelocityCorner>& corners, double position) const {
+    for (size_t i = 1; i < corners.size() && corners[i].time <= scenario_.duration; ++i) {
+      const double mean = (corners[i - 1].velocity + corners[i].velocity) / 2;
+      position += (corners[i].time - corners[i - 1].time) * mean;
+      CheckPosition(position);
+    }
+    const VelocityCorner& last = corners.back();
+    CheckPosition(position + std::max(scenario_.duration - last.time, 0.0) * last.velocity);
+  }
+  void CheckPosition(double position) const {
+    const auto [lower, upper] = joint_.limits;
+    const double slack = 1e-9 * std::max(1.0, upper - lower);
+    if (position >= lower - slack && position <= upper + slack) return;
+    Refuse({scenario_.name},
+           "the motion takes joint '{}' to {:.4g}, beyond its limits {:.4g} to "
+           "{:.4g}; let it travel between limits, or hold speeds for less time",
+           scenario_.joint, position, lower, upper);
+  }
+
+  Recording Empty() const {
+    const auto n =
+        static_cast<Eigen::Index>(std::llround(scenario_.duration * scenario_.sampling.rate));
+    Recording recording;
+    Measurements& log = recording.measurements;
+    log.joint = joint_.kind;
+    log.torque_unit = kTorqueUnit.For(joint_.kind);
+    log.gear = scenario_.friction.gear;
+    log.source = scenario_.name;
+
+    Truth& truth = recording.truth;
+    truth.friction = scenario_.friction;
+    truth.initial_energy = scenario_.initial_energy;
+    truth.torque_noise = scenario_.noise.torque * NoiseLeft(scenario_.sampling, n);
+    truth.plant = "mujoco";
+    truth.velocity = truth.force = truth.loss = truth.energy = Eigen::VectorXd::Zero(n);
+    return recording;
+  }
+
+  /// Drives the joint along the reference; sensors read and samples are taken before their step.
+  void Move(VelocityReference reference, double start, SensorLog& log, Truth& truth) {
+    const mjModel* m = joint_.model.get();
+    mjData* d = data_.get();
+    const double h = scenario_.timestep;
+    const long run_up = std::lround(std::ceil(-reference.begin() / h));
+    VelocityDrive drive(joint_.inertia, scenario_.controller.bandwidth, h);
+
+    // cold and at rest, so far back that the first sample is at the start
+    mj_resetData(m, d);
+    mjtNum* const state = d->act + joint_.friction_state;
+    d->qpos[0] = start - reference.run_up();
+    SetEnergy(state);
+
+    const Eigen::Index n = truth.velocity.size();
+    Eigen::Index sample = 0;
+    for (long step = -run_up; sample < n || !log.Full(); ++step) {
+      if (step == 0) SetEnergy(state);
+      const double time = static_cast<double>(step) * h;
+      const double wanted = reference.Velocity(time);
+      d->ctrl[joint_.friction_control] = scenario_.disturbances.ambient_temperature.RiseAt(time);
+      const double torque = drive.Torque(wanted, reference.acceleration(), d->qvel[0]);
+      d->qfrc_applied[0] = torque;
+
+      const bool reads = step >= 0 && step % steps_per_reading_ == 0 && !log.Full();
+      const bool stores = step >= 0 && step % steps_per_sample_ == 0 && sample < n;
+      const double position = d->qpos[0], velocity = d->qvel[0];
+      if (stores) {
+        truth.velocity[sample] = velocity;
+        truth.energy[sample] = state[1] + (two_stages_ ? state[2] : 0);
+      }
+      mj_step(m, d);
+      if (reads) log.Read(position, velocity, torque, d->qfrc_bias[0]);
+      RefusePush(time);
+      if (stores) {
+        truth.force[sample] = -d->actuator_force[joint_.friction_actuator];
+        truth.loss[sample] = Loss(truth.velocity[sample], truth.force[sample]);
+        ++sample;
+      }
+    }
+  }
+
+  /// E1 as the scenario begins, and no other heat.
+  void SetEnergy(mjtNum* state) const {
+    state[1] = scenario_.initial_energy;
+    if (two_stages_) state[2] = 0;
+  }
+
+  void RefusePush(double time) const {
+    if (data_->plugin_state[joint_.friction_report] == 0) return;
+    Refuse({scenario_.name},
+           "at {:g} s friction feeds itself: its level fell below 0, so that it would push; move "
+           "slower before, rest, or lower the thermal gain",
+           time);
+  }
+
+  const Scenario scenario_;
+  const bool two_stages_;
+  SingleJointModel joint_;
+  DataPtr data_;
+  long steps_per_sample_;
+  long steps_per_reading_;
+};
+
+}  // namespace
+
+std::unique_ptr<Plant> MakeMujocoPlant(const Scenario& scenario) {
+  return std::make_unique<MujocoPlant>(scenario);
+}
+
+}  // namespace warmjoint::inline sim

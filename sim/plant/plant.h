@@ -1,0 +1,25 @@
+// What turns a scenario into a recording.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "scenarios/scenario.h"
+#include "sim/truth/simulated_recording.h"
+
+namespace warmjoint::inline sim {
+
+/// A plant carries out scenarios. One object may be used by one thread at a time; make one for
+/// each.
+class Plant {
+ public:
+  virtual ~Plant() = default;
+  /// One realization: all its random numbers come from (scenario.seed, realization).
+  /// Throws BadInput where the scenario asks what the plant cannot do.
+  virtual Recording Run(std::uint64_t realization) = 0;
+};
+
+/// The plant that the scenario names, with its model loaded and checked. Throws BadInput.
+std::unique_ptr<Plant> MakePlant(const Scenario& scenario);
+
+}  // namespace warmjoint::inline sim

@@ -1,0 +1,77 @@
+#include "sim/truth/truth_json.h"
+
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "models/foundation/atomic_file.h"
+#include "models/foundation/json_members.h"
+#include "models/foundation/read_json.h"
+
+namespace warmjoint::inline sim {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::pair<const char*, Eigen::VectorXd Truth::*> kArrays[] = {
+    {"velocity", &Truth::velocity},
+    {"force", &Truth::force},
+    {"loss", &Truth::loss},
+    {"energy", &Truth::energy},
+};
+
+void CheckKeys(const json& object, const Place& place) {
+  static const std::vector<std::string> known{
+      "friction", "initial_energy", "torque_noise", "plant", "velocity", "force", "loss", "energy"};
+  if (!object.is_object()) Refuse(place, "holds no object; a truth file is one");
+  RefuseUnknownKeys(object, "truth", known, place);
+  for (const std::string& key : known) {
+    if (!object.contains(key)) Refuse(place, "lacks '{}'; is it a truth file?", key);
+  }
+}
+
+template <typename T>
+T Member(const json& object, const char* key, const char* kind, const Place& place) {
+  try {
+    return object.at(key).get<T>();
+  } catch (const json::exception&) {
+    Refuse(place, "{} must be {}", key, kind);
+  }
+}
+
+}  // namespace
+
+json TruthToJson(const Truth& truth) {
+  json result{{"friction", FrictionToJson(truth.friction)},
+              {"initial_energy", truth.initial_energy},
+              {"torque_noise", truth.torque_noise},
+              {"plant", truth.plant}};
+  for (const auto& [key, array] : kArrays) result[key] = truth.*array;
+  return result;
+}
+
+Truth TruthFromJson(const json& object, const Place& place) {
+  CheckKeys(object, place);
+  Truth truth;
+  truth.friction = FrictionFromJson(object["friction"], place);
+  truth.initial_energy = Member<double>(object, "initial_energy", "a number", place);
+  truth.torque_noise = Member<double>(object, "torque_noise", "a number", place);
+  truth.plant = Member<std::string>(object, "plant", "text", place);
+
+  for (const auto& [key, array] : kArrays) {
+    const auto values = Member<std::vector<double>>(object, key, "an array of numbers", place);
+    truth.*array =
+        Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+    if ((truth.*array).size() == truth.velocity.size()) continue;
+    Refuse(place, "{} has {} samples where velocity has {}; all arrays must be of one length", key,
+           values.size(), truth.velocity.size());
+  }
+  return truth;
+}
+
+void WriteTruth(const Truth& truth, const std::string& path) {
+  WriteWholeFile(path, TruthToJson(truth).dump() + "\n");
+}
+
+Truth ReadTruth(const std::string& path) { return TruthFromJson(ReadJsonFile(path), {path}); }
+
+}  // namespace warmjoint::inline sim

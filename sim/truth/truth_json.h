@@ -1,0 +1,25 @@
+// Truth as JSON: the truth.json beside a simulated recording.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "sim/truth/truth.h"
+
+namespace warmjoint::inline sim {
+
+/// {friction{}, initial_energy, torque_noise, plant, velocity[N], force[N], loss[N], energy[N]},
+/// SI; numbers read back bit for bit.
+nlohmann::json TruthToJson(const Truth& truth);
+
+/// The inverse. Missing or unknown keys, arrays of unlike lengths and wrong types throw BadInput
+/// from `place`.
+Truth TruthFromJson(const nlohmann::json& json, const Place& place);
+
+/// Writes truth.json as a whole. Throws BadInput where the file cannot be written.
+void WriteTruth(const Truth& truth, const std::string& path);
+
+/// Reads it. Throws BadInput.
+Truth ReadTruth(const std::string& path);
+
+}  // namespace warmjoint::inline sim

@@ -1,0 +1,189 @@
+#include "identification/preparation/log_faults.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "identification/preparation/check.h"
+#include "identification/preparation/select.h"
+#include "models/foundation/random_stream.h"
+#include "tests/support/vectors.h"
+
+namespace warmjoint {
+namespace {
+
+using Eigen::Index;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+struct Plan {
+  double step = 1;            // s
+  int speeds = 60;            // held for 20 s each, U(0.1, 1) rad/s, of alternating sign
+  double torque_noise = 0.5;  // N.m
+  double position_noise = 0;  // rad
+  double velocity_noise = 0;  // rad/s
+  double encoder = 0;         // rad, resolution of the position; 0: fine
+  double torque_step = 0;     // N.m, resolution; 0: fine
+  std::uint64_t seed = 1;
+};
+
+double Rounded(double value, double step) {
+  return step > 0 ? step * std::round(value / step) : value;
+}
+
+/// A joint of 5 N.m.s/rad and 15 N.m that loses a third of that with a time constant of 300 s.
+Measurements Log(const Plan& plan) {
+  RandomStream random({plan.seed, 0}, Stream::test);
+  const auto hold = static_cast<Index>(std::lround(20 / plan.step));
+  Eigen::VectorXd velocity(plan.speeds * hold);
+  for (Index i = 0; i < plan.speeds; ++i) {
+    const double speed = random.Uniform(0.1, 1);
+    velocity.segment(i * hold, hold).setConstant(i % 2 == 0 ? speed : -speed);
+  }
+  Measurements m = test::Record(plan.step, velocity, velocity);
+  for (Index i = 0; i < m.size(); ++i) {
+    const double level = 10 + 5 * std::exp(-m.time[i] / 300);
+    const double torque = 5 * velocity[i] + std::copysign(level, velocity[i]);
+    m.torque[i] = Rounded(torque + plan.torque_noise * random.Normal(), plan.torque_step);
+    m.position[i] = Rounded(m.position[i] + plan.position_noise * random.Normal(), plan.encoder);
+    m.velocity[i] += plan.velocity_noise * random.Normal();
+  }
+  return m;
+}
+
+std::vector<std::string> Faults(const Measurements& m) {
+  return FindFaults(m, SelectConstantSpeed(m));
+}
+
+TEST(FindFaults, NamesTheUnitThatAVelocityIsIn) {
+  Measurements m = Log({});
+  m.velocity *= 60 / (2 * std::numbers::pi);
+  EXPECT_THAT(Faults(m), ElementsAre(AllOf(HasSubstr("velocity is 9.549 times"),
+                                           HasSubstr("median of 60 segments"),
+                                           HasSubstr("--unit velocity=rpm"))));
+  m = Log({});
+  m.position *= 180 / std::numbers::pi;
+  EXPECT_THAT(Faults(m), ElementsAre(HasSubstr("--unit position=deg")));
+  m = Log({});
+  m.time *= 1000;
+  EXPECT_THAT(Faults(m), ElementsAre(HasSubstr("--unit time=ms")));
+  m = Log({});
+  m.gear = 101;
+  m.velocity *= 101;
+  EXPECT_THAT(Faults(m), ElementsAre(HasSubstr("is it that of the motor")));
+}
+
+TEST(FindFaults, ComparesVelocityWithThePosition) {
+  Measurements m = Log({});
+  m.velocity *= 1.1;
+  EXPECT_THAT(Faults(m), ElementsAre(HasSubstr("velocity is 1.1 times")));
+  m.velocity *= -1 / 1.1;
+  EXPECT_THAT(Faults(m), ElementsAre(HasSubstr("wrong sign")));
+  m = Log({});
+  m.velocity *= 1.01;
+  EXPECT_THAT(Faults(m), IsEmpty()) << "below the bound of 2 %";
+}
+
+TEST(FindFaults, HoldsNoiseAndResolutionAgainstNobody) {
+  for (const double step : {0.001, 0.01, 0.1, 1.0}) {
+    for (const double encoder : {0.0, 2 * std::numbers::pi / 4096, 0.1, 1.0}) {
+      const Measurements m = Log({.step = step,
+                                  .speeds = step < 0.01 ? 4 : 60,
+                                  .position_noise = encoder,
+                                  .velocity_noise = step < 0.1 ? 0.05 : 0.0,
+                                  .encoder = encoder});
+      EXPECT_THAT(Faults(m), IsEmpty()) << step << " s, " << encoder << " rad";
+    }
+  }
+}
+
+TEST(FindFaults, AllowsASensorThatHidesTurnsBetweenSamples) {
+  Measurements m = Log({});
+  m.velocity *= 10;
+  for (double& p : m.position) p = std::remainder(10 * p, 2 * std::numbers::pi);
+  EXPECT_THAT(FindFaults(m, SelectConstantSpeed(m)), IsEmpty());
+}
+
+TEST(FindFaults, FindsTorqueThatIsClipped) {
+  Measurements m = Log({});
+  m.torque = m.torque.cwiseMin(14).cwiseMax(-14);
+  EXPECT_THAT(Faults(m), ElementsAre(AllOf(HasSubstr("torque is clipped"), HasSubstr("at 14 N.m"),
+                                           HasSubstr("of 1200 samples"))));
+  m = Log({});
+  m.torque = m.torque.cwiseMax(-14);
+  EXPECT_THAT(Faults(m), ElementsAre(HasSubstr("at -14 N.m")));
+}
+
+TEST(FindFaults, CallsNeitherStepsNorSimulationsClipped) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    for (const double step : {0.02, 0.1, 0.5, 1.0, 5.0}) {
+      EXPECT_THAT(Faults(Log({.torque_step = step, .seed = seed})), IsEmpty()) << step;
+    }
+    EXPECT_THAT(Faults(Log({.torque_noise = 0, .seed = seed})), IsEmpty());
+    EXPECT_THAT(Faults(Log({.torque_noise = 1e-9, .seed = seed})), IsEmpty());
+  }
+
+  // cold, without noise, and the highest speed for much longer than any other
+  Measurements m = Log({.torque_noise = 0});
+  m.velocity.tail(200).setConstant(2);
+  m.torque = 5 * m.velocity.array() + 15 * m.velocity.array().sign();
+  m = test::Record(1, m.velocity, m.torque);
+  EXPECT_THAT(Faults(m), IsEmpty());
+}
+
+TEST(FindFaults, FindsTorqueThatIsStuck) {
+  Measurements m = Log({});
+  m.torque.segment(405, 30).setConstant(m.torque[405]);
+  EXPECT_THAT(Faults(m), ElementsAre(AllOf(HasSubstr("torque is stuck: 1 time"),
+                                           HasSubstr("30 samples from 405 to 434 s"))));
+  m = Log({});
+  m.torque.segment(405, 19).setConstant(m.torque[405]);
+  EXPECT_THAT(Faults(m), IsEmpty()) << "below the bound of 20";
+  m = Log({.torque_noise = 0});
+  m.torque.segment(405, 30).setConstant(m.torque[405]);
+  EXPECT_THAT(Faults(m), ElementsAre(HasSubstr("stuck"))) << "while the speed changes";
+}
+
+TEST(FindFaults, AllowsTorqueThatIsHeldBetweenItsReadings) {
+  Measurements m = Log({.step = 0.01, .speeds = 10});
+  for (Index i = 0; i < m.size(); ++i) m.torque[i] = m.torque[i / 40 * 40];
+  EXPECT_THAT(Faults(m), IsEmpty());
+}
+
+TEST(FindFaults, FindsTorqueThatDropsToZero) {
+  Measurements m = Log({});
+  for (Index i = 0; i < 5; ++i) m.torque[100 + 130 * i] = 0;
+  EXPECT_THAT(Faults(m), ElementsAre(AllOf(HasSubstr("exactly 0 in 5 moving samples"),
+                                           HasSubstr("the first at 100 s"))));
+  m.torque[100] = 9;
+  EXPECT_THAT(Faults(m), IsEmpty()) << "below the bound of 5";
+}
+
+TEST(FindFaults, AllowsZerosWhereTorqueIsNearZero) {
+  for (const double step : {0.5, 5.0, 10.0}) {
+    const Measurements m = Log({.torque_noise = 15, .torque_step = step});
+    ASSERT_GE((m.torque.array() == 0).count(), 5);
+    EXPECT_THAT(Faults(m), IsEmpty()) << step;
+  }
+}
+
+TEST(FindFaults, FindsTorqueThatIsAbsurd) {
+  Measurements m = Log({});
+  m.torque[333] = -1e4;
+  EXPECT_THAT(Faults(m), ElementsAre(AllOf(HasSubstr("absurd in 1 sample"),
+                                           HasSubstr("-1e+04 N.m at 333 s"))));
+  m.torque[333] = -500;
+  EXPECT_THAT(Faults(m), IsEmpty()) << "below 50 times the 99 % quantile of 15 to 20 N.m";
+}
+
+TEST(CheckRecording, TellsTheFaults) {
+  Measurements m = Log({});
+  EXPECT_THAT(CheckRecording(m).faults, IsEmpty());
+  m.velocity *= 1.1;
+  EXPECT_THAT(CheckRecording(m).faults, ElementsAre(HasSubstr("velocity is 1.1 times")));
+}
+
+}  // namespace
+}  // namespace warmjoint

@@ -1,0 +1,104 @@
+#include "models/recording/hdf5.h"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+
+#include "models/foundation/bad_input.h"
+#include "models/recording/read_recording.h"
+#include "tests/models/recording/temporary_file.h"
+
+namespace warmjoint {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+Measurements Example() {
+  Measurements log;
+  log.joint = JointKind::linear;
+  log.torque_unit = "A";
+  log.gear = 2500;
+  log.time = Eigen::Vector4d(0, 0.1, 0.2, 0.3);
+  log.position = Eigen::Vector4d(0, 1.0 / 3, 0.5, 1e-320);
+  log.velocity = Eigen::Vector4d(1, 2, 3, 4);
+  log.torque = Eigen::Vector4d(-1, 1, -1, 1.5);
+  log.load = Eigen::Vector4d(9, 8, 7, 6);
+  return log;
+}
+
+std::string Refusal(const std::string& path, const CsvLayout& layout = {}) {
+  try {
+    ReadHdf5(path, layout);
+  } catch (const BadInput& refusal) {
+    return refusal.what();
+  }
+  return "";
+}
+
+TEST(Hdf5, ReadsBackBitForBitWithUnitsAndGear) {
+  const Measurements log = Example();
+  const TemporaryFile file("log.h5");
+  WriteRecording(log, file.path());
+  const Measurements copy = ReadRecording(file.path());
+  EXPECT_EQ(copy.joint, JointKind::linear);
+  EXPECT_EQ(copy.torque_unit, "A");
+  EXPECT_EQ(copy.gear, 2500);
+  EXPECT_EQ(copy.time, log.time);
+  EXPECT_EQ(copy.position, log.position);
+  EXPECT_EQ(copy.velocity, log.velocity);
+  EXPECT_EQ(copy.torque, log.torque);
+  EXPECT_EQ(copy.load, log.load);
+  EXPECT_FALSE(copy.temperature || copy.motor_position);
+}
+
+TEST(Hdf5, MapsColumnsAsCsvDoes) {
+  const TemporaryFile file("log.h5");
+  WriteHdf5(Example(), file.path());
+  CsvLayout layout;
+  layout.joint = JointKind::linear;
+  layout.column = {{"torque", "load"}};
+  layout.unit = {{"position", "mm"}};
+  const Measurements log = ReadHdf5(file.path(), layout);
+  EXPECT_EQ(log.torque, *Example().load);
+  EXPECT_EQ(log.torque_unit, "N") << "the unit that the mapped column has";
+  EXPECT_DOUBLE_EQ(log.position[2], 0.5e-3);
+
+  layout.column = {{"torque", "loads"}};
+  EXPECT_THAT(Refusal(file.path(), layout), HasSubstr("did you mean 'load'?"));
+}
+
+TEST(Hdf5, RefusesWhatCsvRefuses) {
+  Measurements log = Example();
+  const TemporaryFile file("log.h5");
+  log.time[2] = 0.1;
+  WriteHdf5(log, file.path());
+  EXPECT_THAT(Refusal(file.path()),
+              HasSubstr("time 0.1 s of sample 3 is that of the sample before"));
+
+  log = Example();
+  log.velocity[1] = std::nan("");
+  WriteHdf5(log, file.path());
+  EXPECT_THAT(Refusal(file.path()), HasSubstr("velocity of sample 2 is nan"));
+
+  log = Example();
+  log.load->conservativeResize(3);
+  WriteHdf5(log, file.path());
+  EXPECT_THAT(Refusal(file.path()), HasSubstr("load has 3 samples where time has 4"));
+}
+
+TEST(Hdf5, RefusesOtherFiles) {
+  const TemporaryFile file("log.h5", "time,position\n");
+  EXPECT_THAT(Refusal(file.path()),
+              AllOf(HasSubstr("log.h5"), HasSubstr("cannot be read as HDF5")));
+  EXPECT_THROW(ReadHdf5("there/is/none.h5"), BadInput);
+}
+
+TEST(Hdf5, LeavesNothingBehindWhereItCannotWrite) {
+  EXPECT_THROW(WriteHdf5(Example(), "there/is/no/folder.h5"), BadInput);
+  EXPECT_FALSE(std::filesystem::exists("there"));
+  EXPECT_THROW(WriteRecording(Example(), "log.xlsx"), BadInput);
+}
+
+}  // namespace
+}  // namespace warmjoint

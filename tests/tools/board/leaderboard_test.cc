@@ -1,0 +1,141 @@
+#include "tools/board/leaderboard.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tools/board/format_board.h"
+
+namespace warmjoint {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// A result of one parameter "coulomb" with truth 10, bound 0.5 and interval estimate +- 1.
+Result Answer(int realization, int identifier, double estimate) {
+  Result result;
+  result.realization = realization;
+  result.identifier = identifier;
+  result.status = "ok";
+  result.metrics = Metrics{100, 1, 1, 0.5, 0.4, 95, 0.25};
+  const double npe = std::abs(estimate - 10) / 10;
+  const ParameterScore score{"coulomb", 10, estimate, true, std::abs(estimate - 10) <= 1, 0.5};
+  result.score = Score{{score}, {score}, npe, npe, 0.05, 0.05};
+  result.seconds = 0.001;
+  return result;
+}
+
+Result Failure(int realization, int identifier, const std::string& status) {
+  Result result;
+  result.realization = realization;
+  result.identifier = identifier;
+  result.status = status;
+  result.message = "no idea";
+  result.seconds = 0.001;
+  return result;
+}
+
+Suite TwoIdentifiers() {
+  Suite suite;
+  suite.name = "little";
+  suite.question = "Who is best?";
+  suite.realizations = 4;
+  suite.identifiers = {{"a", "a", {}, {}},
+                       {"b", "b", {}, Claim{"someone", {{"npe_continuous", 0.05}}}}};
+  return suite;
+}
+
+std::vector<Result> AFailsTwiceAndBIsOftenWorse() {
+  return {
+      Answer(0, 0, 10.1), Answer(0, 1, 12),  Failure(1, 0, "not_converged"), Answer(1, 1, 11),
+      Answer(2, 0, 9.9),  Answer(2, 1, 9.5), Failure(3, 0, "not_converged"), Answer(3, 1, 10.5)};
+}
+
+TEST(Leaderboard, SumsUpEachIdentifier) {
+  const Leaderboard board = MakeLeaderboard(TwoIdentifiers(), AFailsTwiceAndBIsOftenWorse());
+  ASSERT_EQ(board.rows.size(), 2u);
+  const LeaderboardRow& b = board.rows[0];
+  EXPECT_EQ(b.identifier, "b");
+  EXPECT_EQ(b.runs, 4);
+  EXPECT_TRUE(b.failures.empty());
+
+  // errors 2, 1, -0.5, 0.5 of 10; the bound of each is 0.5
+  EXPECT_DOUBLE_EQ(b.npe_continuous.median, 0.075);
+  EXPECT_DOUBLE_EQ(b.npe_continuous.rms, std::sqrt(5.5 / 4) / 10);
+  ASSERT_EQ(b.parameters.size(), 1u);
+  EXPECT_EQ(b.parameters[0].coverage95, std::optional(0.75));
+  EXPECT_DOUBLE_EQ(b.parameters[0].efficiency, std::sqrt(5.5 / 4) / 0.5);
+  EXPECT_DOUBLE_EQ(board.bound_npe_continuous, 0.05);
+}
+
+TEST(Leaderboard, FailuresAreCountedAndCannotWin) {
+  const Leaderboard board = MakeLeaderboard(TwoIdentifiers(), AFailsTwiceAndBIsOftenWorse());
+  const LeaderboardRow& a = board.rows[1];
+  EXPECT_EQ(a.identifier, "a") << "better where it answers, but it fails half of the runs";
+  EXPECT_EQ(a.runs, 4);
+  EXPECT_EQ(a.failures.at("not_converged"), 2);
+  EXPECT_NEAR(a.npe_continuous.median, 0.01, 1e-15);
+  EXPECT_EQ(a.failure_example, "no idea");
+}
+
+TEST(Leaderboard, NamesParametersThatCountAsZero) {
+  Result blind = Answer(0, 0, 0);
+  blind.score->continuous[0].estimated = false;
+  const Leaderboard board = MakeLeaderboard(TwoIdentifiers(), {blind});
+  const auto row = std::find_if(board.rows.begin(), board.rows.end(),
+                                [](const LeaderboardRow& one) { return one.identifier == "a"; });
+  EXPECT_THAT(row->not_estimated, ElementsAre("coulomb"));
+  EXPECT_THAT(BoardToText(board), HasSubstr("a: does not estimate coulomb, counted as 0"));
+}
+
+TEST(Leaderboard, JsonHasTheKeysOfTheContract) {
+  const auto json = nlohmann::json::parse(
+      BoardToJson(MakeLeaderboard(TwoIdentifiers(), AFailsTwiceAndBIsOftenWorse())));
+  EXPECT_EQ(json.at("suite"), "little");
+  EXPECT_EQ(json.at("realizations"), 4);
+  const auto& a = json.at("rows").at(1);
+  EXPECT_EQ(a.at("identifier"), "a");
+  EXPECT_EQ(a.at("runs"), 4);
+  EXPECT_EQ(a.at("failures").at("not_converged"), 2);
+  for (const char* family : {"continuous", "discrete"}) {
+    for (const char* key : {"median", "q25", "q75", "rms"}) {
+      EXPECT_TRUE(a.at("npe").at(family).at(key).is_number()) << family << "." << key;
+    }
+  }
+  for (const char* metric : {"rmse", "fit", "fpe", "mae"}) {
+    for (const char* key : {"median", "q25", "q75"}) {
+      EXPECT_TRUE(a.at(metric).at(key).is_number()) << metric << "." << key;
+    }
+  }
+  EXPECT_EQ(a.at("coverage95").at("coulomb"), 1.0);
+  EXPECT_TRUE(a.at("efficiency").at("coulomb").is_number());
+  EXPECT_EQ(a.at("seconds").at("median"), 0.001);
+}
+
+TEST(Leaderboard, JsonSaysNullForWhatDoesNotExist) {
+  const auto json = nlohmann::json::parse(
+      BoardToJson(MakeLeaderboard(TwoIdentifiers(), {Failure(0, 0, "crashed")})));
+  EXPECT_TRUE(json.at("rows").at(0).at("npe").at("continuous").at("median").is_null());
+}
+
+TEST(Leaderboard, TextAnswersFirst) {
+  const std::string text =
+      BoardToText(MakeLeaderboard(TwoIdentifiers(), AFailsTwiceAndBIsOftenWorse()));
+  EXPECT_THAT(text, HasSubstr("little: Who is best?\nb is best: median NPE 7.50 %"));
+  EXPECT_THAT(text, HasSubstr("2 of 4"));
+  EXPECT_THAT(text, HasSubstr("Cramer-Rao bound"));
+  EXPECT_THAT(text, HasSubstr("a: of 4 runs 2 not_converged; the first: no idea"));
+  EXPECT_THAT(text, HasSubstr("b: claimed NPE 5.00 % (someone); reached in the median NPE 7.50 %"));
+}
+
+TEST(Leaderboard, MarkdownAndCsvHaveARowForEachIdentifier) {
+  const Leaderboard board = MakeLeaderboard(TwoIdentifiers(), AFailsTwiceAndBIsOftenWorse());
+  EXPECT_THAT(BoardToMarkdown(board), HasSubstr("| 1 | b | 0 | 7.50 % |"));
+  EXPECT_THAT(BoardToCsv(board), HasSubstr("\na,4,2,"));
+}
+
+}  // namespace
+}  // namespace warmjoint

@@ -1,0 +1,93 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "models/foundation/atomic_file.h"
+#include "models/robots/robot_folder.h"
+#include "sim/model/load_model.h"
+#include "tests/tools/cli/run_program.h"
+#include "tests/tools/scratch_directory.h"
+
+namespace warmjoint {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+std::string FrictionFile(const std::string& robot) {
+  return DataFolder() / "models" / "robots" / robot / "friction.json";
+}
+
+TEST(AttachCommand, WritesAModelWithFrictionOnEachNamedJoint) {
+  const ScratchDirectory scratch;
+  const std::string out = scratch.path() / "out.xml";
+  const Answer answer =
+      RunWarmjoint({"attach", "yumi_like", "--joint", "joint_4=" + FrictionFile("yumi_like"),
+                    "--joint", "joint_1=" + FrictionFile("yumi_like"), "-o", out});
+  ASSERT_EQ(answer.status, 0) << answer.err;
+  const LoadedModel loaded = LoadModel(out);
+  EXPECT_GE(mj_name2id(loaded.model.get(), mjOBJ_ACTUATOR, "joint_4_friction"), 0);
+  EXPECT_GE(mj_name2id(loaded.model.get(), mjOBJ_ACTUATOR, "joint_1_friction"), 0);
+}
+
+TEST(AttachCommand, TellsWhatItChanged) {
+  const ScratchDirectory scratch;
+  const std::string out = scratch.path() / "out.xml";
+  const std::string urdf = DataFolder() / "models" / "robots" / "pendulum" / "pendulum.urdf";
+  const Answer answer =
+      RunWarmjoint({"attach", urdf, "--joint", "hinge=" + FrictionFile("pendulum"), "-o", out});
+  EXPECT_EQ(answer.status, 0) << answer.err;
+  EXPECT_THAT(answer.err, AllOf(HasSubstr("notice: hinge"), HasSubstr("effort limit")));
+}
+
+TEST(AttachCommand, WarnsOfAFrictionThatItsVerdictVoids) {
+  const ScratchDirectory scratch;
+  const std::string estimate = scratch.path() / "estimate.json", out = scratch.path() / "out.xml";
+  std::ifstream plain(FrictionFile("pendulum"));
+  const nlohmann::json friction = nlohmann::json::parse(plain)["friction"];
+  for (const auto& [status, warns] :
+       {std::pair("inadequate_model", true), std::pair("ok", false)}) {
+    WriteWholeFile(estimate, nlohmann::json{{"status", status}, {"friction", friction}}.dump());
+    const Answer answer =
+        RunWarmjoint({"attach", "pendulum", "--joint", "hinge=" + estimate, "-o", out});
+    EXPECT_EQ(answer.status, 0) << answer.err;
+    EXPECT_EQ(answer.err.find("void") != std::string::npos, warns) << answer.err;
+  }
+}
+
+TEST(AttachCommand, RefusesAnUnknownJointAndLeavesNothing) {
+  const ScratchDirectory scratch;
+  const std::string out = scratch.path() / "out.xml";
+  const Answer answer = RunWarmjoint(
+      {"attach", "pendulum", "--joint", "hing=" + FrictionFile("pendulum"), "-o", out});
+  EXPECT_EQ(answer.status, 2);
+  EXPECT_THAT(answer.err, HasSubstr("did you mean 'hinge'"));
+  EXPECT_TRUE(std::filesystem::is_empty(scratch.path()));
+}
+
+TEST(AttachCommand, RefusesAJointWithoutAFile) {
+  const ScratchDirectory scratch;
+  const Answer answer = RunWarmjoint(
+      {"attach", "pendulum", "--joint", "hinge", "-o", (scratch.path() / "out.xml").string()});
+  EXPECT_EQ(answer.status, 2);
+  EXPECT_THAT(answer.err, AllOf(HasSubstr("--joint"), HasSubstr("NAME=FILE")));
+}
+
+TEST(ListRobots, GivesEachWithItsJointsAndGear) {
+  const Answer answer = RunWarmjoint({"list", "robots", "--format", "json"});
+  ASSERT_EQ(answer.status, 0) << answer.err;
+  const auto robots = nlohmann::json::parse(answer.out);
+  ASSERT_EQ(robots.size(), RobotNames().size());
+  for (const auto& robot : robots) {
+    EXPECT_FALSE(robot.at("description").get<std::string>().empty());
+    EXPECT_FALSE(robot.at("joints").empty());
+    EXPECT_GT(robot.at("friction").at("gear").get<double>(), 1);
+  }
+  EXPECT_THAT(RunWarmjoint({"list", "robots"}).out,
+              AllOf(HasSubstr("yumi_like"), HasSubstr("joint_4"), HasSubstr("gear 100")));
+}
+
+}  // namespace
+}  // namespace warmjoint

@@ -1,0 +1,193 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "models/foundation/atomic_file.h"
+#include "models/friction/friction_description.h"
+#include "tests/support/shared_data.h"
+#include "tests/tools/cli/recording_file.h"
+#include "tests/tools/cli/run_program.h"
+#include "tests/tools/scratch_directory.h"
+
+namespace warmjoint {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// Four speeds in both directions, 30 s each.
+double SeveralSpeeds(int i) { return (i / 30 % 2 ? -1 : 1) * 0.2 * (1 + i / 60 % 4); }
+
+TEST(Identify, WritesTheContractsJsonAndAFrictionFile) {
+  const ScratchDirectory scratch;
+  const std::string recording = scratch.path() / "log.csv";
+  WriteRecordingFile(recording, 480, SeveralSpeeds);
+  const std::string output = scratch.path() / "estimate.json";
+  const Answer answer =
+      RunWarmjoint({"identify", recording, "--identifier", "nominal-ls", "-o", output});
+  ASSERT_EQ(answer.status, 0) << answer.err;
+  EXPECT_THAT(answer.out, HasSubstr("nominal-ls: ok"));
+  EXPECT_THAT(answer.out, HasSubstr("held out"));
+
+  const auto estimate = nlohmann::json::parse(ReadWholeFile(output));
+  EXPECT_EQ(estimate.at("status"), "ok");
+  // the ripple of 0.2 N.m stands in for noise: 0.1 is some five standard deviations of the level
+  EXPECT_NEAR(estimate.at("parameters").at("coulomb").at("value").get<double>(), 15, 0.1);
+  EXPECT_EQ(estimate.at("parameters").at("coulomb").at("unit"), "N.m");
+  EXPECT_EQ(estimate.at("parameters").at("coulomb").at("interval95").size(), 2u);
+  EXPECT_EQ(estimate.at("metrics").at("n"), 480);
+  EXPECT_LT(estimate.at("holdout").at("n").get<int>(), 480);
+  EXPECT_EQ(ReadFrictionFile(output).law, "viscous_coulomb");
+}
+
+TEST(Identify, HoldsNothingOutWhenAsked) {
+  const ScratchDirectory scratch;
+  const std::string recording = scratch.path() / "log.csv";
+  WriteRecordingFile(recording, 480, SeveralSpeeds);
+  const std::string output = scratch.path() / "estimate.json";
+  const std::vector<std::string> command{"identify", recording, "--identifier", "nominal-ls",
+                                         "-o",       output,    "--holdout"};
+  std::vector<std::string> none = command;
+  none.push_back("0");
+  EXPECT_THAT(RunWarmjoint(none).out, Not(HasSubstr("held out")));
+  EXPECT_TRUE(nlohmann::json::parse(ReadWholeFile(output)).at("holdout").is_null());
+
+  // another recording of the same joint
+  std::vector<std::string> other = command;
+  other.push_back(recording);
+  EXPECT_EQ(RunWarmjoint(other).status, 0);
+  EXPECT_EQ(nlohmann::json::parse(ReadWholeFile(output)).at("holdout").at("n"), 480);
+}
+
+TEST(Identify, OneSpeedAloneGivesStatus3AndNoNumbers) {
+  const ScratchDirectory scratch;
+  const std::string recording = scratch.path() / "log.csv";
+  WriteRecordingFile(recording, 400, [](int i) { return i / 20 % 2 ? -0.5 : 0.5; });
+  const auto identifiers =
+      nlohmann::json::parse(RunWarmjoint({"list", "identifiers", "--format", "json"}).out);
+  for (const auto& identifier : identifiers) {
+    const std::string name = identifier.at("name");
+    const std::string output = scratch.path() / (name + ".json");
+    const Answer answer = RunWarmjoint({"identify", recording, "--identifier", name, "-o", output,
+                                        "--mjcf", scratch.path() / (name + ".xml")});
+    EXPECT_EQ(answer.status, 3) << name;
+    EXPECT_THAT(answer.out, HasSubstr("not_identifiable")) << name;
+    const auto estimate = nlohmann::json::parse(ReadWholeFile(output));
+    EXPECT_EQ(estimate.at("status"), "not_identifiable") << name;
+    EXPECT_THAT(estimate.at("message").get<std::string>(), HasSubstr("viscous")) << name;
+    EXPECT_TRUE(estimate.at("parameters").empty()) << name;
+    EXPECT_TRUE(estimate.at("friction").is_null()) << name;
+    EXPECT_FALSE(std::filesystem::exists(scratch.path() / (name + ".xml"))) << name;
+  }
+}
+
+TEST(Identify, TakesSeveralRecordingsAtOnce) {
+  const ScratchDirectory scratch;
+  const std::string first = scratch.path() / "monday.csv", second = scratch.path() / "tuesday.csv";
+  WriteRecordingFile(first, 480, SeveralSpeeds);
+  WriteRecordingFile(second, 240, SeveralSpeeds);
+  const std::string output = scratch.path() / "estimate.json";
+  const Answer answer =
+      RunWarmjoint({"identify", first, second, "--identifier", "nominal-ls", "-o", output});
+  ASSERT_EQ(answer.status, 0) << answer.err;
+  EXPECT_EQ(nlohmann::json::parse(ReadWholeFile(output)).at("metrics").at("n"), 720);
+
+  const Answer check = RunWarmjoint({"check", first, second, "--format", "json"});
+  ASSERT_EQ(check.status, 0) << check.err;
+  EXPECT_EQ(nlohmann::json::parse(check.out).size(), 2u);
+  EXPECT_THAT(RunWarmjoint({"check", first, second}).out,
+              testing::AllOf(HasSubstr("monday.csv"), HasSubstr("tuesday.csv")));
+}
+
+TEST(Identify, TellsGravityFromFrictionOrSaysWhyNot) {
+  const ScratchDirectory scratch;
+  const std::string recording = scratch.path() / "log.csv";
+  WriteRecordingFile(recording, 480, SeveralSpeeds);
+  const std::string output = scratch.path() / "estimate.json";
+  const auto identify = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"identify", recording, "-o", output});
+    return RunWarmjoint(more);
+  };
+  const Answer answer = identify({"--identifier", "nominal-ls", "--gravity", "sincos"});
+  EXPECT_EQ(answer.status, 0) << answer.err;
+  EXPECT_THAT(answer.out, HasSubstr("gravity_cosine"));
+  const auto estimate = nlohmann::json::parse(ReadWholeFile(output));
+  EXPECT_EQ(estimate.at("gravity").at("kind"), "sincos");
+  // nothing pulls: the ripple of 0.2 N.m over 480 samples, four times
+  EXPECT_NEAR(estimate.at("gravity").at("sine").get<double>(), 0, 4 * 0.2 / std::sqrt(480));
+
+  const Answer linear = identify({"--joint", "linear", "--gravity", "sincos"});
+  EXPECT_EQ(linear.status, 2);
+  EXPECT_THAT(linear.err, HasSubstr("use paired"));
+  const Answer unable = identify({"--identifier", "position-ridge", "--gravity", "sincos"});
+  EXPECT_EQ(unable.status, 2);
+  EXPECT_THAT(unable.err,
+              HasSubstr("position-ridge cannot tell gravity from friction; use one of"));
+}
+
+TEST(Identify, WritesAMuJoCoModel) {
+  const ScratchDirectory scratch;
+  const std::string recording = scratch.path() / "log.csv";
+  WriteRecordingFile(recording, 480, SeveralSpeeds);
+  const std::string model = scratch.path() / "friction.xml";
+  ASSERT_EQ(
+      RunWarmjoint({"identify", recording, "--identifier", "nominal-ls", "--mjcf", model}).status,
+      0);
+  EXPECT_THAT(ReadWholeFile(model), HasSubstr("plugin=\"warmjoint.friction\" actdim=\"2\""));
+  EXPECT_THAT(ReadWholeFile(model), HasSubstr("<config key=\"law\" value=\"viscous_coulomb\"/>"));
+}
+
+TEST(Identify, AnInadequateModelGivesStatus3AndVoidNumbersOnlyByForce) {
+  const ScratchDirectory scratch;
+  const std::string recording = scratch.path() / "log.csv", output = scratch.path() / "e.json";
+  const std::string model = scratch.path() / "friction.xml";
+  WriteRecordingFile(recording, 2400, SeveralSpeeds,
+                     [](int i) { return -5.0 * (1 - std::exp(-i / 600.0)); });
+  std::vector<std::string> command{"identify", recording, "--identifier", "nominal-ls",
+                                   "-o",       output,    "--mjcf",       model};
+  const Answer answer = RunWarmjoint(command);
+  EXPECT_EQ(answer.status, 3) << answer.out;
+  EXPECT_THAT(answer.out, HasSubstr("inadequate_model"));
+  EXPECT_THAT(answer.out, HasSubstr("held out"));
+  auto estimate = nlohmann::json::parse(ReadWholeFile(output));
+  EXPECT_TRUE(estimate.at("parameters").at("coulomb").at("interval95").is_null());
+  EXPECT_TRUE(estimate.at("friction").is_null());
+  EXPECT_FALSE(std::filesystem::exists(model));
+
+  command.push_back("--force");
+  const Answer forced = RunWarmjoint(command);
+  EXPECT_EQ(forced.status, 3);
+  EXPECT_THAT(forced.out, HasSubstr("void parameter"));
+  estimate = nlohmann::json::parse(ReadWholeFile(output));
+  EXPECT_EQ(estimate.at("status"), "inadequate_model");
+  EXPECT_THAT(estimate.at("message").get<std::string>(), HasSubstr("all numbers are void"));
+  EXPECT_EQ(estimate.at("parameters").at("coulomb").at("interval95").size(), 2u);
+  EXPECT_TRUE(std::filesystem::exists(model));
+}
+
+TEST(Identify, ReadsAForeignLogOfALinearAxis) {
+  WARMJOINT_NEED_SHARED("data/emps/DATA_EMPS.csv");
+  const ScratchDirectory scratch;
+  const std::string output = scratch.path() / "estimate.json";
+  const Answer answer =
+      RunWarmjoint({"identify", test::SharedFolder() / "data/emps/DATA_EMPS.csv", "--map",
+                    "time=t_s,position=q_m,torque=force_N", "--joint", "linear", "--identifier",
+                    "nominal-ls", "--set", "law=asymmetric", "--force", "-o", output});
+  // the slope of its friction differs between the directions, which law (3) cannot follow
+  ASSERT_EQ(answer.status, 3) << answer.err;
+  EXPECT_THAT(answer.out, HasSubstr("depends on direction"));
+  const auto estimate = nlohmann::json::parse(ReadWholeFile(output));
+
+  // one unit of the last digit of published figures, which another selection of samples moves
+  const auto& parameters = estimate.at("parameters");
+  EXPECT_NEAR(parameters.at("coulomb_positive").at("value").get<double>(), 18.0, 0.1);
+  EXPECT_NEAR(parameters.at("coulomb_negative").at("value").get<double>(), 25.2, 0.1);
+  EXPECT_NEAR(estimate.at("metrics").at("rmse").get<double>(), 1.78, 0.02);
+  EXPECT_NEAR(estimate.at("metrics").at("fit").get<double>(), 95.5, 0.1);
+  EXPECT_EQ(parameters.at("coulomb_positive").at("unit"), "N");
+}
+
+}  // namespace
+}  // namespace warmjoint

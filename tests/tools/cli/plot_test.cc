@@ -1,0 +1,118 @@
+// Pictures and reports as the program writes them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "models/foundation/atomic_file.h"
+#include "tests/tools/cli/run_program.h"
+#include "tests/tools/cli/table_one_yaml.h"
+#include "tests/tools/scratch_directory.h"
+#include "tools/report/page/html.h"
+
+namespace warmjoint {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::UnorderedElementsAre;
+
+/// Six realizations of two identifiers, one of which iterates.
+std::string SuiteText() {
+  return TableOneSuite(6,
+                       "  - {name: energy-ml}\n"
+                       "  - {name: energy-em, options: {iterations: 20}}\n"
+                       "  - {name: nominal-ls}\n");
+}
+
+/// The bytes of every file of a folder, by name.
+std::map<std::string, std::string> FilesOf(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    files[entry.path().filename()] = ReadWholeFile(entry.path());
+  }
+  return files;
+}
+
+std::vector<std::string> NamesOf(const std::map<std::string, std::string>& files) {
+  std::vector<std::string> names;
+  for (const auto& [name, bytes] : files) names.push_back(name);
+  return names;
+}
+
+/// Runs the program; what it says.
+Answer Call(const std::vector<std::string>& arguments) {
+  Answer answer = RunWarmjoint(arguments);
+  EXPECT_EQ(answer.status, 0) << answer.err;
+  return answer;
+}
+
+// one test, because a run and its pictures take seconds
+TEST(Plot, DrawsARunToTheSameBytesBesideTheNumbersOfCompare) {
+  const ScratchDirectory scratch;
+  const auto at = [&](const std::string& name) { return std::string(scratch.path() / name); };
+  WriteWholeFile(at("suite.yaml"), SuiteText());
+  Call({"run", at("suite.yaml"), "-o", at("run")});
+  const std::string said =
+      Call({"plot", at("run"), "-o", at("once"), "--sheet", at("sheet.png")}).out;
+  Call({"plot", at("run"), "-o", at("twice")});
+  Call({"report", at("run")});
+
+  // the same bytes again, in the report too
+  const auto once = FilesOf(at("once")), twice = FilesOf(at("twice"));
+  EXPECT_THAT(NamesOf(once), UnorderedElementsAre("npe_boxes.png", "error_by_iteration.png",
+                                                  "parameters_by_iteration.png", "agreement.png",
+                                                  "coverage.png", "parameter_pairs.png"));
+  const std::string page = ReadWholeFile(at("run/report.html"));
+  for (const auto& [name, bytes] : once) {
+    EXPECT_TRUE(bytes == twice.at(name)) << name;
+    EXPECT_NE(page.find(report::Base64(bytes)), std::string::npos) << name << " in the report";
+  }
+
+  // what one sees, on stdout and in the file
+  const std::string line = "npe_boxes.png: ";
+  const std::size_t begin = said.find(line) + line.size();
+  const std::string finding = said.substr(begin, said.find('\n', begin) - begin);
+  EXPECT_THAT(finding, HasSubstr("Median NPE: energy-ml "));
+  EXPECT_THAT(once.at("npe_boxes.png"), HasSubstr(finding));
+  EXPECT_THAT(said, HasSubstr("Contact sheet: "));
+  EXPECT_TRUE(fs::exists(at("sheet.png")));
+
+  // the numbers of compare
+  const std::string open = "id=\"board\">";
+  const std::size_t board = page.find(open) + open.size();
+  const auto held =
+      nlohmann::json::parse(page.substr(board, page.find("</script>", board) - board));
+  const Answer compared = Call({"compare", at("run"), "--format", "json"});
+  EXPECT_EQ(held, nlohmann::json::parse(compared.out));
+}
+
+TEST(Plot, DrawsWhatASimulationAndItsEstimateTell) {
+  const ScratchDirectory scratch;
+  const auto at = [&](const std::string& name) { return std::string(scratch.path() / name); };
+  WriteWholeFile(at("warm.yaml"), TableOneYaml(1800));
+  Call({"simulate", at("warm.yaml"), "-o", at("warm")});
+  Call({"identify", at("warm/recording.csv"), "-o", at("estimate.json"), "--plot", at("fit.png")});
+  const Answer plotted = Call({"plot", at("warm"), at("estimate.json"), "-o", at("both")});
+  EXPECT_THAT(NamesOf(FilesOf(at("both/warm"))), UnorderedElementsAre("envelope.png"));
+  const auto files = FilesOf(at("both/estimate"));
+  EXPECT_THAT(NamesOf(files), UnorderedElementsAre("fit.png", "friction_curve.png", "warm_up.png",
+                                                   "trace.png", "envelope.png"));
+  // what the page of --plot says is what is said of it here
+  const std::size_t begin = plotted.out.find("energy-ml: the numbers");
+  const std::string finding = plotted.out.substr(begin, plotted.out.find('\n', begin) - begin);
+  EXPECT_THAT(ReadWholeFile(at("fit.png")), HasSubstr(finding));
+}
+
+TEST(Plot, RefusesWhatIsNoSourceAndLeavesNothingBehind) {
+  const ScratchDirectory scratch;
+  const auto at = [&](const std::string& name) { return std::string(scratch.path() / name); };
+  const Answer answer = RunWarmjoint({"plot", at("nothing"), "-o", at("pictures")});
+  EXPECT_EQ(answer.status, 2);
+  EXPECT_THAT(answer.err, HasSubstr(at("nothing")));
+  EXPECT_FALSE(fs::exists(at("pictures")));
+}
+
+}  // namespace
+}  // namespace warmjoint

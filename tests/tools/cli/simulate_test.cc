@@ -1,0 +1,104 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "models/foundation/atomic_file.h"
+#include "sim/truth/truth_json.h"
+#include "tests/tools/cli/run_program.h"
+#include "tests/tools/cli/table_one_yaml.h"
+#include "tests/tools/scratch_directory.h"
+
+namespace warmjoint {
+namespace {
+
+using testing::HasSubstr;
+
+/// Ten minutes of Table I, ten lines long.
+const std::string kScenario = TableOneYaml(600) + "seed: 1\n";
+
+class Simulate : public testing::Test {
+ protected:
+  void SetUp() override { WriteWholeFile(scenario_, kScenario); }
+
+  Answer Into(const std::string& name, const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> command{"simulate", scenario_, "-o", scratch_.path() / name};
+    command.insert(command.end(), more.begin(), more.end());
+    return RunWarmjoint(command);
+  }
+
+  std::string File(const std::string& name) const { return ReadWholeFile(scratch_.path() / name); }
+
+  /// A refusal with this message that leaves nothing but the scenario.
+  void ExpectRefusal(const std::vector<std::string>& more, const std::string& message) const {
+    const Answer answer = Into("out", more);
+    EXPECT_EQ(answer.status, 2) << message;
+    EXPECT_THAT(answer.err, HasSubstr(message));
+    for (const auto& entry : std::filesystem::directory_iterator(scratch_.path())) {
+      EXPECT_EQ(entry.path().filename(), "scenario.yaml") << "left behind";
+    }
+  }
+
+  ScratchDirectory scratch_;
+  std::string scenario_ = scratch_.path() / "scenario.yaml";
+};
+
+TEST_F(Simulate, WritesRecordingTruthAndScenario) {
+  ASSERT_EQ(Into("out").status, 0);
+  EXPECT_EQ(ReadTruth(scratch_.path() / "out/truth.json").force.size(), 600);
+  EXPECT_THAT(File("out/recording.csv"), testing::StartsWith("time,position,velocity,torque"));
+
+  // the written scenario makes the same recording
+  ASSERT_EQ(RunWarmjoint({"simulate", scratch_.path() / "out/scenario.yaml", "-o",
+                          scratch_.path() / "again"})
+                .status,
+            0);
+  EXPECT_EQ(File("again/recording.csv"), File("out/recording.csv"));
+  EXPECT_EQ(File("again/truth.json"), File("out/truth.json"));
+}
+
+TEST_F(Simulate, SeedRealizationAndSettingsChangeTheRecording) {
+  ASSERT_EQ(Into("out").status, 0);
+  ASSERT_EQ(Into("seed", {"--seed", "2"}).status, 0);
+  ASSERT_EQ(Into("realization", {"--realization", "17"}).status, 0);
+  ASSERT_EQ(Into("quiet", {"--set", "noise.torque=0.25"}).status, 0);
+  for (const char* other : {"seed", "realization", "quiet"}) {
+    EXPECT_NE(File(std::string(other) + "/recording.csv"), File("out/recording.csv")) << other;
+  }
+  EXPECT_EQ(ReadTruth(scratch_.path() / "quiet/truth.json").torque_noise, 0.25);
+}
+
+TEST_F(Simulate, WritesHdf5ThatIdentifyReads) {
+  ASSERT_EQ(Into("out", {"--format", "h5"}).status, 0);
+  // it is a joint that warms up
+  EXPECT_THAT(RunWarmjoint({"identify", scratch_.path() / "out/recording.h5", "--identifier",
+                            "nominal-ls", "--holdout", "0"})
+                  .out,
+              HasSubstr("try energy-ml"));
+}
+
+TEST_F(Simulate, ReplacesAnOlderRecordingButNothingElse) {
+  ASSERT_EQ(Into("out").status, 0);
+  ASSERT_EQ(Into("out", {"--format", "h5"}).status, 0);
+  EXPECT_FALSE(std::filesystem::exists(scratch_.path() / "out/recording.csv"));
+
+  std::ofstream(scratch_.path() / "out/notes.txt") << "mine";
+  const Answer answer = Into("out");
+  EXPECT_EQ(answer.status, 2);
+  EXPECT_THAT(answer.err, HasSubstr("holds 'notes.txt', which would be lost"));
+  EXPECT_TRUE(std::filesystem::exists(scratch_.path() / "out/recording.h5"));
+}
+
+TEST_F(Simulate, RefusesWhatCannotBeAndLeavesNothingBehind) {
+  ExpectRefusal({"--set", "noise.torqu=1"}, "torque");
+  ExpectRefusal({"--set", "noise.torque=-1"}, "-1");
+  ExpectRefusal({"--set", "noise"}, "not of the form key=value");
+  ExpectRefusal({"--set", "plant=mujoco", "--set", "robot=pendulum", "--set", "joint=elbow"},
+                "elbow");
+  ExpectRefusal({"--set", "friction.parameters.viscous=fast"}, "fast");
+  WriteWholeFile(scenario_, kScenario + "speeed: 3\n");
+  ExpectRefusal({}, "scenario.yaml:11: ");
+}
+
+}  // namespace
+}  // namespace warmjoint

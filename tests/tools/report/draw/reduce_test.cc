@@ -1,0 +1,110 @@
+#include "tools/report/draw/reduce.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "models/foundation/random_stream.h"
+#include "tests/tools/report/look.h"
+
+namespace warmjoint::report {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+TEST(ReduceCurve, KeepsEveryExtremeOfEveryColumn) {
+  const Index n = 100000;
+  const VectorXd x = VectorXd::LinSpaced(n, 0, 1);
+  VectorXd y = (200 * x).array().sin();
+  y[4567] = 40;
+  y[80001] = -30;
+  const auto chosen = ReduceCurve(x, y, {0, 1, 500});
+  EXPECT_LE(chosen.size(), 4 * 500u);
+  EXPECT_TRUE(std::is_sorted(chosen.begin(), chosen.end()));
+  for (Index spike : {Index{4567}, Index{80001}, Index{0}, n - 1}) {
+    EXPECT_TRUE(std::binary_search(chosen.begin(), chosen.end(), spike)) << spike;
+  }
+}
+
+TEST(ReduceCurve, KeepsGapsAndLeavesShortOrFoldedCurvesAlone) {
+  VectorXd x = VectorXd::LinSpaced(10000, 0, 1);
+  VectorXd y = VectorXd::Zero(10000);
+  y[5000] = NAN;
+  const auto chosen = ReduceCurve(x, y, {0, 1, 100});
+  EXPECT_TRUE(std::binary_search(chosen.begin(), chosen.end(), Index{5000}));
+  EXPECT_EQ(ReduceCurve(x.head(300), y.head(300), {0, 1, 100}).size(), 300u);
+  x[3] = 2;
+  EXPECT_EQ(ReduceCurve(x, y, {0, 1, 100}).size(), 10000u);
+}
+
+TEST(ReduceScatter, KeepsOneMarkerAPixelAndNoneOutside) {
+  VectorXd x(4), y(4);
+  x << 0.11, 0.12, 0.9, 7;
+  y << 0.11, 0.12, 0.9, 0.5;
+  EXPECT_EQ(ReduceScatter(x, y, {0, 1, 10}, {0, 1, 10}, 1), (std::vector<Index>{0, 2}));
+}
+
+TEST(ReduceScatter, DrawsTheSameCloudWithAQuarterOfTheMarkers) {
+  // a dense disc and stray samples about it
+  constexpr Index kPoints = 60000;
+  RandomStream random({4, 0}, Stream::test);
+  VectorXd x(kPoints), y(kPoints);
+  for (Index i = 0; i < kPoints; ++i) {
+    const double radius = i % 500 == 0 ? 1.5 : 0.6 * std::sqrt(random.Uniform(0, 1));
+    const double angle = random.Uniform(0, 2 * M_PI);
+    x[i] = radius * std::cos(angle);
+    y[i] = radius * std::sin(angle);
+  }
+  Figure figure;
+  figure.width = figure.height = 200;
+  Plot plot;
+  plot.x = plot.y = {"x", -1.6, 1.6, Scale::linear, {}};
+  plot.series = {{"", Hue::blue, Scatter{x, y, 1}}};
+  figure.panels = {{"cloud", plot}};
+  const Drawn reduced = DrawFigure(TestCanvas(), figure);
+
+  // parts so thin that nothing in them covers anything
+  constexpr Index kParts = 100;
+  plot.series.clear();
+  for (Index part = 0; part < kParts; ++part) {
+    const auto own = Eigen::seqN(part, kPoints / kParts, kParts);
+    plot.series.push_back({"", Hue::blue, Scatter{x(own), y(own), 1}});
+  }
+  figure.panels = {{"cloud", plot}};
+  const Drawn whole = DrawFigure(TestCanvas(), figure);
+  Index markers = 0;
+  for (const DrawnSeries& series : whole.plots[0].series) markers += series.points;
+  EXPECT_LT(reduced.plots[0].series[0].points, markers / 4);
+  int differing = 0, inked = 0;
+  for (int row = 0; row < whole.image.height; ++row) {
+    for (int column = 0; column < whole.image.width; ++column) {
+      const Rgb pixel = whole.image.At(column, row);
+      inked += Distance(pixel, LightTheme().background) > 60;
+      differing += Distance(pixel, reduced.image.At(column, row)) > 60;
+    }
+  }
+  EXPECT_LT(differing, inked / 100);
+}
+
+TEST(ReduceCurve, DrawsAMillionPointsWithTheirSpikes) {
+  Figure figure;
+  figure.name = "million";
+  figure.finding = "One spike.";
+  const Index n = 1000000;
+  const VectorXd x = VectorXd::LinSpaced(n, 0, 1);
+  VectorXd y = 0.3 * (5000 * x).array().sin();
+  y[n / 4] = 0.95;
+  Plot plot;
+  plot.x = {"x", 0, 1, Scale::linear, {}};
+  plot.y = {"y", -1, 1, Scale::linear, {}};
+  plot.series = {{"", Hue::blue, Line{x, y, 1.5}}};
+  figure.panels = {{"curve", plot}};
+  const Drawn drawn = DrawFigure(TestCanvas(), figure);
+  EXPECT_TRUE(HasColourNear(drawn.image, PixelOf(drawn.plots[0], 0.25, 0.9),
+                            LightTheme().Colour(Hue::blue)));
+}
+
+}  // namespace
+}  // namespace warmjoint::report

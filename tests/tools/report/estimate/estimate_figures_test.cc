@@ -1,0 +1,90 @@
+#include "tools/report/estimate/estimate_figures.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/tools/report/look.h"
+#include "tests/tools/report/mapped_recording.h"
+
+namespace warmjoint::report {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// Parameters that close in on the truth.
+void AddTrace(Estimate& estimate, int iterations) {
+  for (int k = 0; k < iterations; ++k) {
+    const double off = std::pow(0.5, k);
+    TraceEntry entry{k, {}, 0.5 + off};
+    for (const EstimatedParameter& parameter : estimate.parameters) {
+      entry.parameters.emplace_back(parameter.name, parameter.value * (1 + off));
+    }
+    estimate.trace.push_back(entry);
+  }
+}
+
+EstimateView ExampleView() {
+  MappedRecording mapped;
+  AddTrace(mapped.estimate, 8);
+  EstimateView view{mapped.estimate, mapped.measurements, std::nullopt};
+  view.fit = mapped.View();
+  view.fit->estimate = view.estimate;
+  return view;
+}
+
+TEST(EstimateFigures, AreTidyAndNamedAsTheirFiles) {
+  const EstimateView view = ExampleView();
+  std::set<std::string> names;
+  for (const EstimateFigure& one : EstimateFigures()) {
+    SCOPED_TRACE(one.name);
+    const std::optional<Figure> figure = one.make(view);
+    ASSERT_TRUE(figure.has_value());
+    EXPECT_EQ(figure->name, one.name);
+    EXPECT_FALSE(one.summary.empty());
+    EXPECT_TRUE(names.insert(one.name).second) << "taken";
+    DrawLight(*figure);
+  }
+}
+
+TEST(EstimateFigures, ShowWhatTheEstimateAloneTellsWithoutItsRecording) {
+  EstimateView view = ExampleView();
+  view = MakeEstimateView(view.estimate, std::nullopt);
+  for (const EstimateFigure& one : EstimateFigures()) {
+    EXPECT_EQ(one.make(view).has_value(), one.name == "trace") << one.name;
+  }
+}
+
+TEST(EstimateFigures, StandWithoutAFriction) {
+  EstimateView view = ExampleView();
+  view.estimate.friction.reset();
+  view.estimate.trace.clear();
+  view = MakeEstimateView(view.estimate, view.measurements);
+  for (const EstimateFigure& one : EstimateFigures()) {
+    if (const auto figure = one.make(view)) DrawLight(*figure);
+  }
+}
+
+TEST(Trace, ShowsEachParameterByIterationWithItsFinalInterval) {
+  const EstimateView view = ExampleView();
+  const Figure figure = *MakeTrace(view.estimate, "warm.csv");
+  const Drawn drawn = DrawLight(figure);
+  ASSERT_EQ(drawn.plots.size(), 5u) << "four parameters and the RMSE";
+  const DrawnPlot& gain = PlotNamed(drawn, "thermal_gain");
+  EXPECT_EQ(gain.series[0].label, "final 95 % interval");
+  EXPECT_EQ(gain.series[0].y, std::pair(-3.1, -2.9));
+  EXPECT_EQ(gain.series[1].x, std::pair(0.0, 7.0));
+  EXPECT_EQ(gain.series[1].y.first, -6) << "twice the truth at first";
+  EXPECT_EQ(gain.series[1].colour, LightTheme().Colour(IdentifierHue("energy-ml")));
+  const DrawnPlot& fit = PlotNamed(drawn, "Root mean square error of the fit");
+  EXPECT_EQ(fit.series[0].y.second, 1.5);
+  EXPECT_THAT(figure.finding, HasSubstr("viscous 10.0 to 5.04"));
+}
+
+TEST(Trace, IsNothingForAnIdentifierThatDoesNotIterate) {
+  EXPECT_FALSE(MakeTrace(WarmRecording().estimate, ""));
+}
+
+}  // namespace
+}  // namespace warmjoint::report

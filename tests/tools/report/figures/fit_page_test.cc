@@ -1,0 +1,166 @@
+#include "tools/report/figures/fit_page.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+
+#include "identification/forward/predict.h"
+#include "identification/identifier.h"
+#include "tests/tools/report/look.h"
+#include "tests/tools/report/warm_recording.h"
+#include "tools/report/figures/fit_panels.h"
+#include "tools/report/figures/friction_spread.h"
+
+namespace warmjoint::report {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::string AllText(const Words& words) {
+  std::string text;
+  for (const Words::Paragraph& paragraph : words.paragraphs) text += paragraph.text + "\n";
+  return text;
+}
+
+TEST(FitPage, TellsTheStoryOfAWarmFit) {
+  const WarmRecording warm;
+  const FitView view = MakeFitView(warm.measurements, warm.selection, warm.estimate);
+  const Drawn drawn = DrawLight(MakeFitPage(view));
+  EXPECT_EQ(drawn.plots.size(), 10u);
+
+  // data and fit are where they belong
+  const DrawnPlot& level = PlotNamed(drawn, "Level of friction over time");
+  EXPECT_EQ(SeriesNamed(level, "fit").colour, LightTheme().Colour(Hue::blue));
+  EXPECT_NEAR(SeriesNamed(level, "measured").x.second, 20, 0.1) << "minutes";
+  const DrawnPlot& curve = PlotNamed(drawn, "Friction over velocity");
+  EXPECT_GT(SeriesNamed(curve, "fit, cold").y.second, SeriesNamed(curve, "fit, warmest").y.second);
+
+  // E starts at 0 and falls to what the prediction says
+  const DrawnSeries& energy = SeriesNamed(PlotNamed(drawn, "Warm-up"), "E");
+  EXPECT_EQ(energy.y.second, 0);
+  EXPECT_NEAR(energy.y.first, warm.prediction.energy.minCoeff(), 1e-9);
+}
+
+TEST(FitPage, ExplainsWhyThereIsNoFit) {
+  WarmRecording warm;
+  warm.estimate = {};
+  warm.estimate.identifier = "nominal-ls";
+  warm.estimate.status = Status::not_identifiable;
+  warm.estimate.message = "one speed alone";
+  const FitView view = MakeFitView(warm.measurements, warm.selection, warm.estimate);
+  EXPECT_THAT(AllText(VerdictOf(view)),
+              HasSubstr("there are no numbers to use.\nOne speed alone."));
+  DrawLight(MakeFitPage(view));
+}
+
+TEST(FitPage, GivesALongMessageTheRoomItNeeds) {
+  WarmRecording warm;
+  const auto height = [&] {
+    return MakeFitPage(MakeFitView(warm.measurements, warm.selection, warm.estimate)).rows[0];
+  };
+  warm.estimate.message = "short";
+  const double usual = height();
+  for (int i = 0; i < 30; ++i) warm.estimate.message += " and another thing that the data shows";
+  EXPECT_GT(height(), usual + 100);
+}
+
+TEST(FitPage, WarnsOfResidualsThatRemember) {
+  WarmRecording warm;
+  FitView view = MakeFitView(warm.measurements, warm.selection, warm.estimate);
+  EXPECT_LT(std::abs(ResidualCorrelation(view, 1)), 0.05) << "white";
+  view.torque.array() += 2 * (0.05 * view.time.array()).sin();
+  EXPECT_GT(ResidualCorrelation(view, 1), 0.8);
+  EXPECT_THAT(AllText(VerdictOf(view)), HasSubstr("alike from one sample to the next"));
+}
+
+TEST(FitPage, ShowsWarningsInAmberWhereTheNumbersPass) {
+  WarmRecording warm;
+  const auto verdict = [&] {
+    return VerdictOf(MakeFitView(warm.measurements, warm.selection, warm.estimate)).paragraphs;
+  };
+  EXPECT_EQ(verdict()[0].hue, Hue::green);
+  warm.estimate.message = "maximum likelihood; noise is coloured";
+  warm.estimate.warnings = {
+      "the residual depends on time: 0.4 N.m rms; and on direction: 0.1 N.m rms: the intervals "
+      "reach as far as that moves them; try lpv-energy"};
+  EXPECT_EQ(verdict()[0].hue, Hue::caution);
+  EXPECT_EQ(verdict()[0].text, "energy-ml: the numbers can be used, with a warning.");
+  EXPECT_EQ(verdict()[1].hue, Hue::caution);
+  EXPECT_EQ(
+      verdict()[1].text,
+      "Warning: The residual depends on time: 0.4 N·m rms; and on direction: 0.1 N·m rms: the "
+      "intervals reach as far as that moves them; try lpv-energy.");
+  EXPECT_EQ(verdict()[2].text, "Maximum likelihood; noise is coloured.");
+  const Figure page = MakeFitPage(MakeFitView(warm.measurements, warm.selection, warm.estimate));
+  EXPECT_THAT(page.finding, HasSubstr("with a warning"));
+  DrawLight(page);
+
+  // a failure says it all: nothing passes, so nothing is parted off
+  warm.estimate.status = Status::inadequate_model;
+  EXPECT_EQ(verdict()[0].hue, Hue::vermilion);
+  EXPECT_THAT(verdict()[1].text, HasSubstr("Maximum likelihood; noise is coloured; the residual"));
+}
+
+TEST(FrictionCurve, HasNoBandWhereMapsCarryPartOfTheFriction) {
+  WarmRecording warm;
+  const auto bands = [&] {
+    const Plot plot = FrictionCurve(MakeFitView(warm.measurements, warm.selection, warm.estimate));
+    return std::count_if(plot.series.begin(), plot.series.end(), [](const Series& series) {
+      return std::holds_alternative<Band>(series.shape);
+    });
+  };
+  EXPECT_EQ(bands(), 4) << "cold and warm, either way";
+  FrictionMap map;
+  map.axes = {{MapQuantity::position, EvenAxis(-10, 10, 3)}};
+  map.weights = {0.1, 0, -0.1};
+  warm.estimate.friction->maps = {map};
+  EXPECT_EQ(bands(), 0);
+}
+
+TEST(FitPage, LooksAtTheFirstAndTheLastSegments) {
+  const WarmRecording warm;
+  const FitView view = MakeFitView(warm.measurements, warm.selection, warm.estimate);
+  EXPECT_EQ(ColdWindow(view, 6).begin, 0);
+  EXPECT_EQ(ColdWindow(view, 6).end, warm.selection.segments[5].end);
+  EXPECT_EQ(WarmWindow(view, 6).end, warm.measurements.size());
+}
+
+TEST(FrictionSpread, AgreesWithTheClosedFormOfALinearLaw) {
+  // without warming the covariance is s^2 (A^T A)^-1 of the rows [v, sign v]
+  WarmRecording warm;
+  warm.estimate.friction->thermal.reset();
+  const Eigen::VectorXd& v = warm.measurements.velocity;
+  Eigen::MatrixXd rows(v.size(), 2);
+  rows << v, v.array().sign().matrix();
+  const Eigen::MatrixXd covariance = 0.25 * (rows.transpose() * rows).inverse();
+  warm.estimate.parameters = {
+      {"viscous", 5, "", std::sqrt(covariance(0, 0)), {}},
+      {"coulomb", 15, "", std::sqrt(covariance(1, 1)), {}},
+  };
+  const FrictionSpread spread = SpreadOf(warm.estimate, warm.measurements, warm.selection);
+  ASSERT_EQ(spread.names, (std::vector<std::string>{"coulomb", "viscous"}));
+  // derivatives by central differences of a linear function: rounding alone
+  EXPECT_NEAR(spread.covariance(0, 1), covariance(0, 1), 1e-6 * std::abs(covariance(0, 1)));
+  EXPECT_NEAR(spread.covariance(1, 1), covariance(0, 0), 1e-6 * covariance(0, 0));
+
+  // the deviation of F at v = 0.5
+  const auto predict = [](const FrictionDescription& friction) {
+    const double force =
+        friction.parameters.at("viscous") * 0.5 + friction.parameters.at("coulomb");
+    return Eigen::VectorXd(Eigen::VectorXd::Constant(1, force));
+  };
+  const Eigen::Vector2d row(0.5, 1);
+  EXPECT_NEAR(SpreadOfPrediction(spread, *warm.estimate.friction, predict)[0],
+              std::sqrt(row.dot(covariance * row)), 1e-6);
+}
+
+TEST(FrictionSpread, IsUnknownWithoutDeviations) {
+  WarmRecording warm;
+  for (EstimatedParameter& parameter : warm.estimate.parameters) parameter.std.reset();
+  EXPECT_FALSE(SpreadOf(warm.estimate, warm.measurements, warm.selection).is_known());
+  DrawLight(MakeFitPage(MakeFitView(warm.measurements, warm.selection, warm.estimate)));
+}
+
+}  // namespace
+}  // namespace warmjoint::report

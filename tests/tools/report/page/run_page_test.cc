@@ -1,0 +1,168 @@
+#include "tools/report/page/run_page.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "tests/tools/report/look.h"
+#include "tests/tools/report/run_example.h"
+#include "tools/board/board_tables.h"
+#include "tools/board/format_board.h"
+#include "tools/report/page/html.h"
+#include "tools/report/run/run_figures.h"
+
+namespace warmjoint::report {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+Leaderboard ExampleBoard() {
+  Leaderboard board;
+  board.suite = "table1 <script>";
+  board.question = "Which one is right & why?";
+  board.realizations = board.finished = 40;
+  board.bound_npe_continuous = 0.012;
+  LeaderboardRow row;
+  row.identifier = "energy-ml";
+  row.runs = 40;
+  row.failures = {{"not_converged", 2}};
+  row.failure_example = "it <b>moved</b>";
+  row.npe_continuous = {0.011, 0.009, 0.013, 0.0121};
+  row.npe_discrete = row.npe_continuous;
+  row.rmse = {0.5, 0.49, 0.51, 0.5};
+  board.rows = {row};
+  return board;
+}
+
+const std::string& ExamplePage() {
+  static const std::string page = [] {
+    RunPage example;
+    example.board = ExampleBoard();
+    example.description.suite_yaml = "name: table1\n";
+    example.description.identifiers = {"energy-ml"};
+    example.description.versions = {{"warmjoint", "0.1.0"}};
+    example.figures = {*NpeBoxes(ExampleRun())};
+    return MakeRunPage(example, TestCanvas());
+  }();
+  return page;
+}
+
+/// The page with its pictures' bytes cut out.
+std::string ExampleMarkup() {
+  std::string page = ExamplePage();
+  const std::string mark = "base64,";
+  for (std::size_t at = page.find(mark); at != std::string::npos; at = page.find(mark, at + 1)) {
+    const std::size_t begin = at + mark.size();
+    page.erase(begin, page.find('"', begin) - begin);
+  }
+  return page;
+}
+
+int Count(const std::string& text, const std::string& what) {
+  int count = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) {
+    ++count;
+  }
+  return count;
+}
+
+TEST(RunPage, AsksNothingOfAnyServer) {
+  const std::string page = ExampleMarkup();
+  EXPECT_EQ(Count(page, "http"), 0);
+  EXPECT_EQ(Count(page, "@import"), 0);
+  EXPECT_EQ(Count(page, "url("), 0);
+  // every source and link stays in the page
+  const std::regex reference(R"re((?:src|srcset|href)="([^"]{0,12}))re");
+  for (std::sregex_iterator it(page.begin(), page.end(), reference), end; it != end; ++it) {
+    const std::string target = (*it)[1];
+    EXPECT_TRUE(target.starts_with("data:") || target.starts_with("#")) << target;
+  }
+}
+
+TEST(RunPage, SaysQuestionVerdictNotesAndHowToRepeatIt) {
+  const std::string& page = ExamplePage();
+  EXPECT_THAT(page, HasSubstr("Which one is right &amp; why?"));
+  EXPECT_THAT(page, HasSubstr(Escape(Verdict(ExampleBoard()))));
+  EXPECT_THAT(page, HasSubstr("it &lt;b&gt;moved&lt;/b&gt;"));
+  EXPECT_THAT(page, HasSubstr("warmjoint run suite.yaml"));
+  EXPECT_THAT(page, HasSubstr("name: table1"));
+}
+
+TEST(RunPage, EscapesWhatOthersWrote) {
+  EXPECT_THAT(ExamplePage(), Not(HasSubstr("table1 <script>")));
+  EXPECT_EQ(Escape("<a href=\"x\">'&'</a>"),
+            "&lt;a href=&quot;x&quot;&gt;&#39;&amp;&#39;&lt;/a&gt;");
+}
+
+TEST(RunPage, HoldsTheNumbersOfCompare) {
+  const std::string& page = ExamplePage();
+  // for people: the cells of the ranking
+  const warmjoint::Table ranking = RankingTable(ExampleBoard());
+  for (const std::string& cell : ranking.rows[0]) {
+    EXPECT_THAT(page, HasSubstr(">" + Escape(cell) + "</t"));
+  }
+  // for programs: the same JSON
+  const std::string open = "id=\"board\">";
+  const std::size_t begin = page.find(open) + open.size();
+  const std::string json = page.substr(begin, page.find("</script>", begin) - begin);
+  EXPECT_EQ(nlohmann::json::parse(json), nlohmann::json::parse(BoardToJson(ExampleBoard())));
+}
+
+TEST(RunPage, GivesEveryPictureAnAltTextAndBothThemes) {
+  const std::string& page = ExamplePage();
+  EXPECT_EQ(Count(page, "<img "), 1);
+  EXPECT_THAT(page, HasSubstr("alt=\"Parameter error of each identifier. Median NPE: energy-ml"));
+  EXPECT_EQ(Count(page, "media=\"(prefers-color-scheme: dark)\" srcset=\"data:image/png"), 1);
+}
+
+TEST(RunPage, HasTablesWithHeadsAndCaptions) {
+  const std::string& page = ExamplePage();
+  EXPECT_EQ(Count(page, "<table>"), Count(page, "<caption>"));
+  EXPECT_GE(Count(page, "<th scope=\"col\""), 9);
+  EXPECT_GE(Count(page, "<th scope=\"row\""), 2);
+  EXPECT_THAT(page, HasSubstr("<html lang=\"en\">"));
+  EXPECT_THAT(page, HasSubstr("name=\"viewport\""));
+}
+
+TEST(RunPage, NamesEveryRowOfATable) {
+  // ranks do not name a row, and a name that stands once for several rows is said in each
+  const warmjoint::Table table{{"#", "identifier", "NPE"},
+                               {{"1", "energy-ml", "1 %"}, {"", "", "2 %"}, {"", "bound", "1 %"}}};
+  const std::string html = HtmlTable("ranking", table);
+  EXPECT_EQ(Count(html, "<th scope=\"row\" class=\"name words\">energy-ml</th>"), 2);
+  EXPECT_EQ(Count(html, ">bound</th>"), 1);
+  EXPECT_EQ(Count(html, "<th scope=\"row\""), 3);
+}
+
+TEST(RunPage, ClosesEveryElementThatItOpens) {
+  const std::string page = ExampleMarkup();
+  const std::regex tag(R"(<(/?)([a-z0-9]+)[^>]*>)");
+  std::vector<std::string> open;
+  // text inside quotes is escaped and holds no ">"
+  for (std::sregex_iterator it(page.begin(), page.end(), tag), end; it != end; ++it) {
+    const std::string name = (*it)[2];
+    if (name == "meta" || name == "link" || name == "img" || name == "source") continue;
+    if ((*it)[1].length() == 0) {
+      open.push_back(name);
+    } else {
+      ASSERT_FALSE(open.empty());
+      ASSERT_EQ(open.back(), name);
+      open.pop_back();
+    }
+  }
+  EXPECT_TRUE(open.empty());
+}
+
+TEST(Base64, EncodesTheVectorsOfRfc4648) {
+  EXPECT_EQ(Base64(""), "");
+  EXPECT_EQ(Base64("f"), "Zg==");
+  EXPECT_EQ(Base64("fo"), "Zm8=");
+  EXPECT_EQ(Base64("foo"), "Zm9v");
+  EXPECT_EQ(Base64("foobar"), "Zm9vYmFy");
+}
+
+}  // namespace
+}  // namespace warmjoint::report

@@ -1,0 +1,175 @@
+#include "tools/report/run/run_figures.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/tools/report/look.h"
+#include "tests/tools/report/run_example.h"
+
+namespace warmjoint::report {
+namespace {
+
+using ::testing::HasSubstr;
+
+bool Writes(const Drawn& drawn, const std::string& words) {
+  return std::any_of(drawn.texts.begin(), drawn.texts.end(), [&](const DrawnText& text) {
+    return text.text.find(words) != std::string::npos;
+  });
+}
+
+TEST(RunFigures, AreTidyAndNamedAsTheirFiles) {
+  const RunView run = ExampleRun();
+  for (const RunFigure& one : RunFigures()) {
+    SCOPED_TRACE(one.name);
+    const std::optional<Figure> figure = one.make(run);
+    ASSERT_TRUE(figure.has_value());
+    EXPECT_EQ(figure->name, one.name);
+    EXPECT_FALSE(one.summary.empty());
+    DrawLight(*figure);
+  }
+}
+
+TEST(RunFigures, AreLeftOutWhereTheRunHasNoDataForThem) {
+  RunView run = ExampleRun();
+  run.rows.clear();
+  for (const RunFigure& one : RunFigures()) EXPECT_FALSE(one.make(run)) << one.name;
+}
+
+TEST(NpeBoxes, StandInTheIdentifiersColoursWithTheFailuresWrittenOut) {
+  const RunView run = ExampleRun();
+  const Figure figure = *NpeBoxes(run);
+  const Drawn drawn = DrawLight(figure);
+  const DrawnPlot& plot = drawn.plots.at(0);
+  EXPECT_EQ(plot.series[0].colour, LightTheme().Colour(IdentifierHue("energy-ml")));
+  EXPECT_NEAR(plot.series[0].y.second, 100 * run.rows[0].npe.maxCoeff(), 1e-9) << "outliers too";
+  EXPECT_EQ(SeriesNamed(plot, "Cramér-Rao bound (rms)").y.first, 1.2);
+  EXPECT_TRUE(Writes(drawn, "12 of 40 not_converged"));
+  EXPECT_THAT(figure.finding, HasSubstr("with 12 of 40 failed"));
+}
+
+TEST(NpeBoxes, NameAnIdentifierThatNeverAnswered) {
+  RunView run = ExampleRun();
+  run.rows[1].npe.setConstant(std::nan(""));
+  const Figure figure = *NpeBoxes(run);
+  EXPECT_TRUE(Writes(DrawLight(figure), "energy-em"));
+  EXPECT_THAT(figure.finding, HasSubstr("energy-em, 50 iterations none"));
+}
+
+TEST(NpeBoxes, CentreTheFailuresUnderTheIdentifier) {
+  const Drawn drawn = DrawLight(*NpeBoxes(ExampleRun()));
+  const DrawnPlot& plot = drawn.plots.at(0);
+  for (const DrawnText& text : drawn.texts) {
+    if (text.text.find("not_converged") == std::string::npos) continue;
+    const double place = plot.area.left + plot.area.width() * 0.75;  // the second of two
+    EXPECT_NEAR((text.place.left + text.place.right) / 2, place, 1);
+    // each line by itself: ink to both sides of the middle is alike in the first, short one
+    const float bottom = text.place.top + (text.place.bottom - text.place.top) / 2 - 1;
+    const auto middle = static_cast<float>(place);
+    const double left = Ink(drawn.image, {text.place.left, text.place.top, middle, bottom},
+                            LightTheme().background);
+    const double right = Ink(drawn.image, {middle, text.place.top, text.place.right, bottom},
+                             LightTheme().background);
+    EXPECT_LT(std::abs(left - right), 0.35 * (left + right));
+  }
+}
+
+TEST(Ladder, ShowsMediansAtTheRungsWithTheBound) {
+  const RunView run = ExampleRun();
+  const Figure figure = *LadderFigure(run);
+  const Drawn drawn = DrawLight(figure);
+  const DrawnPlot& plot = drawn.plots.at(0);
+  const DrawnSeries& ml = SeriesNamed(plot, "energy-ml");
+  EXPECT_EQ(ml.x, std::pair(0.1, 1.0));
+  EXPECT_EQ(ml.colour, LightTheme().Colour(IdentifierHue("energy-ml")));
+  // medians of 20 of NPE 1.1 % spread by a factor e^0.3: known to 1.25 0.3 / sqrt(20) = 8 %
+  EXPECT_NEAR(ml.y.second, 1.1, 4 * 0.08 * 1.1);
+  // the bounds of the columns are 1, 2 and 3 %
+  const DrawnSeries& bound = SeriesNamed(plot, "Cramér-Rao bound (rms)");
+  EXPECT_NEAR(bound.y.first, std::sqrt(14), 1e-9);
+  EXPECT_TRUE(Writes(drawn, "noise.torque (N·m)"));
+  EXPECT_THAT(figure.finding, HasSubstr("from the first rung of noise.torque to the last"));
+}
+
+TEST(Ladder, SaysInWhichVariantsNobodyGivesNumbers) {
+  RunView run = ExampleRun();
+  run.rungs = {"", "", Eigen::Vector2d(0, 1), {"one speed", "many speeds"}};
+  for (RunRow& row : run.rows) {
+    row.npe = (row.variant.array() == 0).select(std::nan(""), row.npe);
+  }
+  const Figure figure = *LadderFigure(run);
+  const Drawn drawn = DrawLight(figure);
+  EXPECT_TRUE(Writes(drawn, "no numbers"));
+  EXPECT_TRUE(Writes(drawn, "many speeds"));
+  EXPECT_THAT(figure.finding, HasSubstr("No identifier gives numbers in one speed."));
+  EXPECT_THAT(figure.finding, HasSubstr("% (many speeds)"));
+}
+
+TEST(ParameterCourses, ShowEveryRealizationAndTheTruth) {
+  const RunView run = ExampleRun();
+  const Figure figure = *ParameterCourses(run);
+  const Drawn drawn = DrawLight(figure);
+  const DrawnPlot& plot = PlotNamed(drawn, "viscous");
+  EXPECT_EQ(SeriesNamed(plot, "realizations").points, kExampleRealizations * 200);
+  EXPECT_EQ(SeriesNamed(plot, "truth").y, std::pair(5.0, 5.0));
+  EXPECT_EQ(SeriesNamed(plot, "median").colour, LightTheme().Colour(IdentifierHue("energy-em")));
+  EXPECT_EQ(drawn.plots.size(), 1u) << "thermal_pole is no parameter of the continuous truth";
+}
+
+TEST(AgreementBars, AreMediansOfTheRightNumbers) {
+  const RunView run = ExampleRun();
+  const Drawn drawn = DrawLight(*AgreementBars(run));
+  ASSERT_EQ(drawn.plots.size(), 4u);
+  const auto top = [&](const std::string& title) {
+    return PlotNamed(drawn, title).series[0].y.second;
+  };
+  EXPECT_NEAR(top("Fit"), 93, 1);
+  EXPECT_NEAR(top("Root mean square error"), 0.5, 0.01);
+  EXPECT_NEAR(top("Final prediction error"), 0.25, 0.01);
+  EXPECT_NEAR(top("Mean absolute error"), 0.4, 0.01);
+}
+
+TEST(IntervalCoverage, ShowsSharesInPerCent) {
+  const Drawn drawn = DrawLight(*IntervalCoverage(ExampleRun()));
+  const DrawnSeries& shares = SeriesNamed(drawn.plots.at(0), "energy-ml");
+  EXPECT_EQ(shares.points, 3);
+  EXPECT_NEAR(shares.y.first, 95, 1e-9) << "38 of 40";
+  EXPECT_TRUE(Writes(drawn, "τ")) << "symbols";
+}
+
+TEST(IntervalCoverage, TellsRowsOfOneIdentifierApart) {
+  RunView run = ExampleRun();
+  run.rows.push_back(run.rows[0]);
+  run.rows.back().label = "energy-ml, e0";
+  const Figure figure = *IntervalCoverage(run);
+  DrawLight(figure);
+  std::vector<Scatter> dots;
+  for (const Series& series : std::get<Plot>(figure.panels[0].content).series) {
+    if (series.label.starts_with("energy-ml")) dots.push_back(std::get<Scatter>(series.shape));
+  }
+  ASSERT_EQ(dots.size(), 2u);
+  EXPECT_NE(dots[0].marker, dots[1].marker);
+  EXPECT_GT(std::abs(dots[0].x[0] - dots[1].x[0]), 0.1) << "side by side";
+}
+
+TEST(IntervalCoverage, NamesOnlyParametersThatHaveIntervals) {
+  RunView run = ExampleRun();
+  for (RunRow& row : run.rows) row.parameters[1].intervals = row.parameters[1].covered = 0;
+  const Drawn drawn = DrawLight(*IntervalCoverage(run));
+  EXPECT_FALSE(Writes(drawn, "kc"));
+  EXPECT_EQ(drawn.plots[0].x, std::pair(-0.5, 1.5));
+}
+
+TEST(ParameterPairs, HoldTheirEllipsesAndThatOfTheBound) {
+  const Drawn drawn = DrawLight(*ParameterPairs(ExampleRun()));
+  ASSERT_EQ(drawn.plots.size(), 3u);
+  const DrawnPlot& plot = drawn.plots[0];  // viscous, coulomb: deviations of 1 and 2 per cent
+  const DrawnSeries& bound = SeriesNamed(plot, "Cramér-Rao bound");
+  // sqrt(chi^2 of 2 degrees at 95 %) = 2.4477; 121 points miss the tip by 1 - cos(1.5 deg) at most
+  EXPECT_NEAR(bound.x.second, 2.4477, 0.001);
+  EXPECT_NEAR(bound.y.second, 2 * 2.4477, 0.002);
+  // 40 draws: their deviation is known to 11 %, three times that here
+  EXPECT_NEAR(SeriesNamed(plot, "their 95 % ellipse").x.second, 2.4477, 0.9);
+}
+
+}  // namespace
+}  // namespace warmjoint::report

@@ -1,0 +1,87 @@
+#include "tools/suite/external_identifier.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "identification/preparation/select.h"
+
+namespace warmjoint {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+/// Twelve samples at two speeds.
+Measurements Log() {
+  Measurements log;
+  log.time = Eigen::VectorXd::LinSpaced(12, 0, 11);
+  log.velocity = Eigen::VectorXd::Constant(12, 0.5);
+  log.velocity.tail(6).setConstant(-1);
+  log.position = Eigen::VectorXd::Zero(12);
+  log.torque = Eigen::VectorXd::LinSpaced(12, -1, 1);
+  return log;
+}
+
+Estimate Ask(const std::string& command, const std::string& limit = "20") {
+  SuiteIdentifier identifier = ReadExternal("theirs=" + command + " # {recording} {estimate}");
+  identifier.options["time_limit"] = limit;
+  const Measurements log = Log();
+  return PrepareExternal(identifier, {})(log, SelectMoving(log), {});
+}
+
+/// How the command fails, and why: "status: message".
+std::string Failure(const std::string& command, const std::string& limit = "20") {
+  try {
+    Ask(command, limit);
+  } catch (const NoAnswer& failure) {
+    return failure.status + ": " + failure.what();
+  }
+  return "";
+}
+
+TEST(ExternalIdentifier, IsNamedWithItsCommand) {
+  EXPECT_TRUE(IsExternal("me=python me.py {recording} {estimate}"));
+  EXPECT_FALSE(IsExternal("energy-ml"));
+  EXPECT_EQ(ReadExternal("me=run {recording} {estimate}").label, "me");
+  EXPECT_THAT([] { ReadExternal("me=run {recording}"); },
+              ThrowsMessage<BadInput>(HasSubstr("lacks {estimate}")));
+}
+
+TEST(ExternalIdentifier, AnswersWithAnEstimate) {
+  const Estimate estimate = Ask(
+      R"(echo '{"status": "ok", "parameters": {"coulomb": {"value": 2, "unit": "N.m", "std": null,)"
+      R"( "interval95": null}}, "friction": {"law": "coulomb", "parameters": {"coulomb": 2}}}')"
+      " > estimate.json");
+  EXPECT_EQ(estimate.status, Status::ok);
+  EXPECT_EQ(estimate.Find("coulomb")->value, 2);
+  ASSERT_TRUE(estimate.metrics) << "a friction is enough for the figures";
+  EXPECT_EQ(estimate.metrics->n, 12);
+}
+
+TEST(ExternalIdentifier, CompletesTheDiscretePair) {
+  const std::string value = R"("unit": "", "std": null, "interval95": null})";
+  const Estimate estimate =
+      Ask(R"(echo '{"status": "ok", "parameters": {"thermal_gain": {"value": -3, )" + value +
+          R"(, "thermal_time_constant": {"value": 600, )" + value + "}}' > estimate.json");
+  // 1 s between the samples; k (1 - exp(-h/tau)) with k -3 and tau 600 s
+  EXPECT_NEAR(estimate.Find("thermal_gain_discrete")->value, -0.0049958, 5e-8);
+  EXPECT_NEAR(estimate.Find("thermal_pole")->value, std::exp(-1 / 600.0), 1e-15);
+}
+
+TEST(ExternalIdentifier, FindsTheMeasurementsAloneInItsDirectory) {
+  // 13 lines: the header and twelve samples
+  EXPECT_THAT(Failure("ls | tr '\\n' ' '; wc -l < recording.csv; exit 1"),
+              HasSubstr("crashed: exit status 1: output.txt recording.csv 13"));
+}
+
+TEST(ExternalIdentifier, FailuresSayHow) {
+  EXPECT_THAT(Failure("echo no licence >&2; exit 7"), HasSubstr("exit status 7: no licence"));
+  EXPECT_THAT(Failure("kill -11 $$"), HasSubstr("crashed: exit status 139"));
+  EXPECT_THAT(Failure("sleep 60", "0.2"), HasSubstr("timeout: took longer than 0.2 s"));
+  EXPECT_THAT(Failure("true"), HasSubstr("bad_answer: wrote no estimate"));
+  EXPECT_THAT(Failure("echo '{' > estimate.json"), HasSubstr("bad_answer: "));
+  EXPECT_THAT(Failure("echo '{}' > estimate.json"), HasSubstr("bad_answer: "));
+}
+
+}  // namespace
+}  // namespace warmjoint

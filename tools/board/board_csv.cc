@@ -1,0 +1,55 @@
+// `compare --format csv`.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "tools/board/format_board.h"
+#include "tools/store/export_csv.h"
+
+namespace warmjoint::inline tools {
+namespace {
+
+std::string Cell(double value) {
+  return std::isfinite(value) ? fmt::format(",{}", value) : std::string(",");
+}
+
+std::string Cells(const Summary& summary) {
+  return Cell(summary.median) + Cell(summary.q25) + Cell(summary.q75);
+}
+
+std::string Row(const LeaderboardRow& row) {
+  std::string line = fmt::format("{},{},{}", CsvCell(row.identifier), row.runs, row.failed());
+  line += Cells(row.npe_continuous) + Cell(row.npe_continuous.rms);
+  line += Cells(row.npe_discrete) + Cell(row.npe_discrete.rms);
+  line += Cells(row.rmse) + Cells(row.fit) + Cells(row.fpe) + Cells(row.mae);
+  return line + Cell(row.seconds.median) + "\n";
+}
+
+std::string Header() {
+  std::string header = "identifier,runs,failed";
+  for (const char* name : {"npe_continuous", "npe_discrete"}) {
+    header += fmt::format(",{0}_median,{0}_q25,{0}_q75,{0}_rms", name);
+  }
+  for (const char* name : {"rmse", "fit", "fpe", "mae"}) {
+    header += fmt::format(",{0}_median,{0}_q25,{0}_q75", name);
+  }
+  return header + ",seconds_median\n";
+}
+
+}  // namespace
+
+std::string BoardToCsv(const Leaderboard& board) {
+  std::string csv = Header();
+  for (const LeaderboardRow& row : board.rows) csv += Row(row);
+  return csv;
+}
+
+std::string BoardsToCsv(const std::vector<NamedBoard>& boards) {
+  std::string csv = "run," + Header();
+  for (const NamedBoard& named : boards) {
+    for (const LeaderboardRow& row : named.board.rows) csv += CsvCell(named.run) + "," + Row(row);
+  }
+  return csv;
+}
+
+}  // namespace warmjoint::inline tools

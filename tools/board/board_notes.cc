@@ -1,0 +1,80 @@
+// What the tables of a leaderboard leave to be said.
+#include <fmt/format.h>
+
+#include <map>
+
+#include "tools/board/board_tables.h"
+
+namespace warmjoint::inline tools {
+namespace {
+
+/// A figure of a claim as a reader sees it: "RMSE 0.5 N.m".
+struct FigureText {
+  const char* label;
+  Summary LeaderboardRow::*reached;
+  std::string (*text)(double value, std::string_view unit);
+};
+
+const std::map<std::string, FigureText>& FigureTexts() {
+  const auto share = [](double value, std::string_view) { return PercentText(value); };
+  const auto percent = [](double value, std::string_view) {
+    return fmt::format("{:.3f} %", value);
+  };
+  const auto linear = [](double value, std::string_view unit) {
+    return fmt::format("{} {}", NumberText(value), unit);
+  };
+  const auto squared = [](double value, std::string_view unit) {
+    return fmt::format("{} ({})^2", NumberText(value), unit);
+  };
+  static const std::map<std::string, FigureText> texts{
+      {"npe_continuous", {"NPE", &LeaderboardRow::npe_continuous, share}},
+      {"npe_discrete", {"discrete NPE", &LeaderboardRow::npe_discrete, share}},
+      {"rmse", {"RMSE", &LeaderboardRow::rmse, linear}},
+      {"mae", {"MAE", &LeaderboardRow::mae, linear}},
+      {"fit", {"Fit", &LeaderboardRow::fit, percent}},
+      {"fpe", {"FPE", &LeaderboardRow::fpe, squared}},
+  };
+  return texts;
+}
+
+std::string ClaimNote(const LeaderboardRow& row, std::string_view unit) {
+  std::vector<std::string> claimed, reached;
+  for (const auto& [name, value] : row.claim->figures) {
+    const FigureText& figure = FigureTexts().at(name);
+    const Summary& summary = row.*figure.reached;
+    claimed.push_back(fmt::format("{} {}", figure.label, figure.text(value, unit)));
+    reached.push_back(fmt::format("{} {}", figure.label, figure.text(summary.median, unit)));
+  }
+  return fmt::format("{}: claimed {} ({}); reached in the median {}", row.identifier,
+                     fmt::join(claimed, ", "), row.claim->source, fmt::join(reached, ", "));
+}
+
+std::string FailureNote(const LeaderboardRow& row) {
+  std::vector<std::string> counts;
+  for (const auto& [status, count] : row.failures) {
+    counts.push_back(fmt::format("{} {}", count, status));
+  }
+  return fmt::format("{}: of {} runs {}; the first: {}", row.identifier, row.runs,
+                     fmt::join(counts, ", "), row.failure_example);
+}
+
+}  // namespace
+
+std::vector<std::string> Notes(const Leaderboard& board) {
+  std::vector<std::string> notes;
+  for (const LeaderboardRow& row : board.rows) {
+    if (row.claim) notes.push_back(ClaimNote(row, kTorqueUnit.For(board.joint)));
+    if (row.failed() > 0) notes.push_back(FailureNote(row));
+    if (!row.not_estimated.empty()) {
+      notes.push_back(fmt::format("{}: does not estimate {}, counted as 0", row.identifier,
+                                  fmt::join(row.not_estimated, ", ")));
+    }
+  }
+  if (board.finished < board.realizations) {
+    notes.push_back(fmt::format("unfinished: {} of {} realizations; run the suite again to go on",
+                                board.finished, board.realizations));
+  }
+  return notes;
+}
+
+}  // namespace warmjoint::inline tools

@@ -1,0 +1,143 @@
+#include "tools/board/board_tables.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace warmjoint::inline tools {
+namespace {
+
+constexpr const char* kUnknown = "-";
+
+/// Two decimals below ten, then fewer: "1.10 %", "23.4 %", "200 %".
+std::string Percent(double share, const char* sign) {
+  if (std::isnan(share)) return kUnknown;
+  if (std::isinf(share)) return share > 0 ? "inf" : "-inf";
+  const double percent = 100 * share;
+  const int decimals = percent < 9.995 ? 2 : percent < 99.95 ? 1 : 0;
+  return fmt::format("{:.{}f}{}", percent, decimals, sign);
+}
+
+std::string Quartiles(const Summary& summary) {
+  if (std::isnan(summary.median)) return kUnknown;
+  return fmt::format("{} .. {}", Percent(summary.q25, ""), Percent(summary.q75, " %"));
+}
+
+std::string Seconds(double seconds) {
+  if (std::isnan(seconds)) return kUnknown;
+  if (seconds < 1e-3) return fmt::format("{:.3g} us", 1e6 * seconds);
+  if (seconds < 1) return fmt::format("{:.3g} ms", 1e3 * seconds);
+  return fmt::format("{:.3g} s", seconds);
+}
+
+std::string FailedCell(const LeaderboardRow& row) {
+  return row.failed() == 0 ? "0" : fmt::format("{} of {}", row.failed(), row.runs);
+}
+
+/// "tie", or the median distance and its interval.
+std::string BehindCell(const LeaderboardRow& row) {
+  if (!row.behind) return "";
+  if (row.behind->tie()) return "tie";
+  return fmt::format("{} ({} .. {})", PercentText(row.behind->median),
+                     Percent(row.behind->lower, ""), Percent(row.behind->upper, ""));
+}
+
+/// A row's cell in a group: median NPE, and how many failed.
+std::string GroupCell(const Leaderboard& group, const std::string& identifier) {
+  for (const LeaderboardRow& row : group.rows) {
+    if (row.identifier != identifier) continue;
+    const std::string median = PercentText(row.npe_continuous.median);
+    return row.failed() == 0 ? median : fmt::format("{} ({} failed)", median, row.failed());
+  }
+  return kUnknown;
+}
+
+}  // namespace
+
+std::string PercentText(double share) { return Percent(share, " %"); }
+
+std::string NumberText(double value) {
+  return std::isnan(value) ? kUnknown : fmt::format("{:.3g}", value);
+}
+
+Table RankingTable(const Leaderboard& board) {
+  Table table{{"#", "identifier", "failed", "NPE median", "quartiles", "NPE rms", "x bound",
+               "behind the best", "discrete NPE", "rms"},
+              {}};
+  for (size_t i = 0; i < board.rows.size(); ++i) {
+    const LeaderboardRow& row = board.rows[i];
+    table.rows.push_back({std::to_string(i + 1), row.identifier, FailedCell(row),
+                          PercentText(row.npe_continuous.median), Quartiles(row.npe_continuous),
+                          PercentText(row.npe_continuous.rms),
+                          NumberText(row.npe_continuous.rms / board.bound_npe_continuous),
+                          BehindCell(row), PercentText(row.npe_discrete.median),
+                          PercentText(row.npe_discrete.rms)});
+  }
+  if (!std::isnan(board.bound_npe_continuous)) {
+    table.rows.push_back({"", "Cramer-Rao bound", "", "", "",
+                          PercentText(board.bound_npe_continuous), "1", "", "",
+                          PercentText(board.bound_npe_discrete)});
+  }
+  return table;
+}
+
+Table GroupTable(const Leaderboard& board) {
+  Table table{{board.variable.empty() ? "variant" : board.variable, "bound"}, {}};
+  for (const LeaderboardRow& row : board.rows) table.header.push_back(row.identifier);
+  for (const Leaderboard& group : board.groups) {
+    table.rows.push_back({group.variant, PercentText(group.bound_npe_continuous)});
+    for (const LeaderboardRow& row : board.rows) {
+      table.rows.back().push_back(GroupCell(group, row.identifier));
+    }
+  }
+  return table;
+}
+
+Table AgreementTable(const Leaderboard& board) {
+  Table table{{"identifier", fmt::format("RMSE {}", kTorqueUnit.For(board.joint)),
+               fmt::format("MAE {}", kTorqueUnit.For(board.joint)), "Fit %",
+               fmt::format("FPE ({})^2", kTorqueUnit.For(board.joint)), "time"},
+              {}};
+  for (const LeaderboardRow& row : board.rows) {
+    table.rows.push_back({row.identifier, NumberText(row.rmse.median), NumberText(row.mae.median),
+                          NumberText(row.fit.median), NumberText(row.fpe.median),
+                          Seconds(row.seconds.median)});
+  }
+  return table;
+}
+
+Table ParameterTable(const Leaderboard& board) {
+  Table table{{"identifier", "parameter", "rms error / bound", "95 % intervals that hold it"}, {}};
+  for (const LeaderboardRow& row : board.rows) {
+    std::string label = row.identifier;
+    for (const ParameterRow& parameter : row.parameters) {
+      const std::string coverage =
+          parameter.coverage95 ? PercentText(*parameter.coverage95) : std::string(kUnknown);
+      table.rows.push_back({label, parameter.name, NumberText(parameter.efficiency), coverage});
+      label.clear();
+    }
+  }
+  return table;
+}
+
+std::string Verdict(const Leaderboard& board) {
+  if (board.rows.empty() || std::isnan(board.rows.front().npe_continuous.median)) {
+    return "No identifier gave numbers.";
+  }
+  const LeaderboardRow& best = board.rows.front();
+  std::string verdict = fmt::format("{} is best: median NPE {}", best.identifier,
+                                    PercentText(best.npe_continuous.median));
+  if (!std::isnan(board.bound_npe_continuous)) {
+    verdict += fmt::format(", rms {:.2f} times the Cramer-Rao bound",
+                           best.npe_continuous.rms / board.bound_npe_continuous);
+  }
+  std::vector<std::string> ties;
+  for (const LeaderboardRow& row : board.rows) {
+    if (row.behind && row.behind->tie()) ties.push_back(row.identifier);
+  }
+  if (!ties.empty()) verdict += fmt::format(", tied with {}", fmt::join(ties, ", "));
+  if (best.failed() > 0) verdict += fmt::format(", {} of {} failed", best.failed(), best.runs);
+  return verdict + ".";
+}
+
+}  // namespace warmjoint::inline tools

@@ -1,0 +1,85 @@
+#include "tools/board/format_board.h"
+
+#include <fmt/format.h>
+
+#include "tools/board/board_tables.h"
+
+namespace warmjoint::inline tools {
+namespace {
+
+std::string Head(const Leaderboard& board) {
+  return fmt::format("{} realizations. NPE: relative error over all parameters of the truth (26).",
+                     board.finished);
+}
+
+/// Every identifier of every run.
+Table SideBySide(const std::vector<NamedBoard>& boards) {
+  Table table{{"run", "identifier", "failed", "NPE median", "NPE rms", "bound"}, {}};
+  for (const NamedBoard& named : boards) {
+    std::string run = named.run;
+    for (const LeaderboardRow& row : named.board.rows) {
+      table.rows.push_back({run, row.identifier, std::to_string(row.failed()),
+                            PercentText(row.npe_continuous.median),
+                            PercentText(row.npe_continuous.rms),
+                            PercentText(named.board.bound_npe_continuous)});
+      run.clear();
+    }
+  }
+  return table;
+}
+
+}  // namespace
+
+const std::vector<BoardFormat>& BoardFormats() {
+  static const std::vector<BoardFormat> formats{
+      {"text", BoardToText, BoardsToText},
+      {"markdown", BoardToMarkdown, BoardsToMarkdown},
+      {"json", BoardToJson, BoardsToJson},
+      {"csv", BoardToCsv, BoardsToCsv},
+  };
+  return formats;
+}
+
+std::string BoardToText(const Leaderboard& board) {
+  std::string text =
+      fmt::format("{}: {}\n{}\n{}\n\n", board.suite, board.question, Verdict(board), Head(board));
+  text += TableToText(RankingTable(board), 2) + "\n";
+  const Table groups = GroupTable(board);
+  if (!groups.rows.empty()) {
+    text += fmt::format("Median NPE by group:\n{}\n", TableToText(groups, 1));
+  }
+  text += TableToText(AgreementTable(board), 1) + "\n";
+  const Table parameters = ParameterTable(board);
+  if (!parameters.rows.empty()) text += TableToText(parameters, 2) + "\n";
+  for (const std::string& note : Notes(board)) text += fmt::format("* {}\n", note);
+  return text;
+}
+
+std::string BoardToMarkdown(const Leaderboard& board) {
+  std::string text = fmt::format("### {}\n\n{}\n\n**{}** {}\n\n", board.suite, board.question,
+                                 Verdict(board), Head(board));
+  text += TableToMarkdown(RankingTable(board), 2) + "\n";
+  const Table groups = GroupTable(board);
+  if (!groups.rows.empty()) {
+    text += fmt::format("Median NPE by group:\n\n{}\n", TableToMarkdown(groups, 1));
+  }
+  text += TableToMarkdown(AgreementTable(board), 1) + "\n";
+  const Table parameters = ParameterTable(board);
+  if (!parameters.rows.empty()) text += TableToMarkdown(parameters, 2) + "\n";
+  for (const std::string& note : Notes(board)) text += fmt::format("- {}\n", note);
+  return text;
+}
+
+std::string BoardsToText(const std::vector<NamedBoard>& boards) {
+  std::string text = TableToText(SideBySide(boards), 2);
+  for (const NamedBoard& named : boards) text += fmt::format("\n{}", BoardToText(named.board));
+  return text;
+}
+
+std::string BoardsToMarkdown(const std::vector<NamedBoard>& boards) {
+  std::string text = TableToMarkdown(SideBySide(boards), 2);
+  for (const NamedBoard& named : boards) text += fmt::format("\n{}", BoardToMarkdown(named.board));
+  return text;
+}
+
+}  // namespace warmjoint::inline tools

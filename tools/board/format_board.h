@@ -1,0 +1,49 @@
+// The leaderboard in the formats of `compare`.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/board/leaderboard.h"
+
+namespace warmjoint::inline tools {
+
+/// A leaderboard and the run directory that it comes from.
+struct NamedBoard {
+  std::string run;
+  Leaderboard board;
+};
+
+/// A format of `compare --format`, for one run and for several side by side.
+struct BoardFormat {
+  std::string name;
+  std::string (*write)(const Leaderboard& board);
+  std::string (*join)(const std::vector<NamedBoard>& boards);
+};
+
+/// All formats: a new one is its own file and one line in format_board.cc.
+const std::vector<BoardFormat>& BoardFormats();
+
+/// For the terminal: the answer first, then the tables.
+std::string BoardToText(const Leaderboard& board);
+
+/// The same for documents.
+std::string BoardToMarkdown(const Leaderboard& board);
+
+/// The contract's JSON; numbers that do not exist are null.
+std::string BoardToJson(const Leaderboard& board);
+
+/// All runs in one table, then each of them.
+std::string BoardsToText(const std::vector<NamedBoard>& boards);
+std::string BoardsToMarkdown(const std::vector<NamedBoard>& boards);
+
+/// {"runs": [{"run": directory, and what BoardToJson has}]}.
+std::string BoardsToJson(const std::vector<NamedBoard>& boards);
+
+/// As BoardToCsv, with the run in the first column.
+std::string BoardsToCsv(const std::vector<NamedBoard>& boards);
+
+/// One row for each identifier, all numbers in full.
+std::string BoardToCsv(const Leaderboard& board);
+
+}  // namespace warmjoint::inline tools

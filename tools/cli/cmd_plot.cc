@@ -1,0 +1,126 @@
+// warmjoint plot SOURCE... -o DIR: pictures of runs, estimates and simulated recordings.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <set>
+
+#include "models/foundation/atomic_file.h"
+#include "models/foundation/bad_input.h"
+#include "tools/cli/command.h"
+#include "tools/cli/plot_sources.h"
+#include "tools/report/draw/draw_figure.h"
+#include "tools/report/gl/film.h"
+#include "tools/report/page/contact_sheet.h"
+
+namespace warmjoint::inline tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kFrameSeconds = 0.125;
+constexpr int kSheetColumn = 200;    // points
+constexpr double kSheetShape = 1.6;  // columns for each row
+
+struct PlotArguments {
+  std::vector<std::string> sources;
+  RecordingArguments recording;
+  std::string output;
+  std::string sheet;
+};
+
+/// Draws figures into files and remembers the first of each kind for the contact sheet.
+class Album {
+ public:
+  explicit Album(report::Canvas& canvas) : canvas_(canvas) {}
+
+  void Draw(const report::Figure& figure, const fs::path& folder) {
+    report::Image image = report::DrawFigure(canvas_, figure).image;
+    const fs::path path = folder / (figure.name + ".png");
+    report::WritePng(image, figure.finding, path);
+    fmt::print("{}: {}\n", path.string(), figure.finding);
+    const bool is_new = std::none_of(pages_.begin(), pages_.end(),
+                                     [&](const auto& page) { return page.first == figure.name; });
+    if (is_new) pages_.emplace_back(figure.name, std::move(image));
+  }
+
+  void DrawFilm(const std::vector<report::Figure>& film, const fs::path& folder) {
+    if (film.empty()) return;
+    std::vector<report::Image> frames;
+    for (const report::Figure& frame : film) {
+      frames.push_back(report::Shrink(report::DrawFigure(canvas_, frame).image,
+                                      report::Canvas::kPixelsPerPoint));
+    }
+    const fs::path path = folder / (film.front().name + ".png");
+    WriteWholeFile(path, report::EncodeFilm(frames, kFrameSeconds, film.front().title));
+    fmt::print("{}: {}, {} frames\n", path.string(), film.front().title, frames.size());
+  }
+
+  void WriteSheet(const fs::path& path) {
+    if (pages_.empty()) return;
+    // wider than high
+    const double count = static_cast<double>(pages_.size());
+    const int columns = static_cast<int>(std::ceil(std::sqrt(kSheetShape * count)));
+    const report::Figure sheet =
+        report::MakeContactSheet(pages_, columns, std::max(2, columns) * kSheetColumn);
+    report::WritePng(report::DrawFigure(canvas_, sheet).image, sheet.finding, path);
+    fmt::print("{}: {}\n", path.string(), sheet.finding);
+  }
+
+ private:
+  report::Canvas& canvas_;
+  std::vector<std::pair<std::string, report::Image>> pages_;
+};
+
+/// The folder of each source: DIR for one, DIR/NAME for several.
+std::vector<fs::path> FoldersOf(const PlotArguments& arguments) {
+  if (arguments.sources.size() == 1) return {arguments.output};
+  std::vector<fs::path> folders;
+  std::set<fs::path> taken;
+  for (const std::string& source : arguments.sources) {
+    const fs::path name = fs::path(source).lexically_normal();
+    folders.push_back(arguments.output / (name.has_filename() ? name : name.parent_path()).stem());
+    if (!taken.insert(folders.back()).second) {
+      Refuse({source}, "two sources would fill {}: draw them one at a time",
+             folders.back().string());
+    }
+  }
+  return folders;
+}
+
+ExitStatus PlotSources(const PlotArguments& arguments) {
+  const std::vector<fs::path> folders = FoldersOf(arguments);
+  report::Canvas canvas;
+  Album album(canvas);
+  for (std::size_t i = 0; i < folders.size(); ++i) {
+    const SourcePictures pictures = PicturesOf(arguments.sources[i], arguments.recording, canvas);
+    fs::create_directories(folders[i]);
+    for (const report::Figure& figure : pictures.figures) album.Draw(figure, folders[i]);
+    album.DrawFilm(pictures.film, folders[i]);
+  }
+  if (!arguments.sheet.empty()) album.WriteSheet(arguments.sheet);
+  return ExitStatus::done;
+}
+
+}  // namespace
+
+Command AddPlotCommand(CLI::App& program) {
+  auto arguments = std::make_shared<PlotArguments>();
+  CLI::App* parser = program.add_subcommand("plot", "Pictures as PNG files");
+  parser
+      ->add_option("SOURCE", arguments->sources,
+                   "directory of `run` or `simulate`, estimate file, or `kernels` (normalised and "
+                   "plain kernels); several fill folders of their own")
+      ->required();
+  parser->add_option("-o,--output", arguments->output, "directory for the pictures; made if absent")
+      ->required();
+  parser->add_option("--recording", arguments->recording.recordings,
+                     "data of an estimate, instead of the files that it remembers");
+  AddLayoutOptions(*parser, arguments->recording);
+  parser->add_option("--sheet", arguments->sheet,
+                     "contact sheet (PNG): the first picture of each kind");
+  return {parser, [arguments] { return PlotSources(*arguments); }};
+}
+
+}  // namespace warmjoint::inline tools

@@ -1,0 +1,43 @@
+// warmjoint report RUN: a run on one web page.
+#include <fmt/core.h>
+
+#include <memory>
+
+#include "models/foundation/atomic_file.h"
+#include "scenarios/suite.h"
+#include "tools/cli/command.h"
+#include "tools/report/page/run_page.h"
+#include "tools/report/run/run_figures.h"
+#include "tools/store/run_store.h"
+
+namespace warmjoint::inline tools {
+namespace {
+
+ExitStatus Report(const std::filesystem::path& directory) {
+  const report::RunView view = report::ReadRunView(directory);
+  const RunStore store = RunStore::OpenToRead(directory);
+  report::RunPage page{MakeLeaderboard(ReadSuite(store.suite_file()), store.ReadResults()),
+                       store.ReadDescription(),
+                       {}};
+  for (const report::RunFigure& figure : report::RunFigures()) {
+    if (auto made = figure.make(view)) page.figures.push_back(*std::move(made));
+  }
+
+  report::Canvas canvas;
+  const std::filesystem::path target = directory / "report.html";
+  WriteWholeFile(target, report::MakeRunPage(page, canvas));
+  fmt::print("{}\n", target.string());
+  return ExitStatus::done;
+}
+
+}  // namespace
+
+Command AddReportCommand(CLI::App& program) {
+  auto directory = std::make_shared<std::string>();
+  CLI::App* parser =
+      program.add_subcommand("report", "RUN/report.html: a run explained on one page");
+  parser->add_option("RUN", *directory, "directory that `run` made")->required();
+  return {parser, [directory] { return Report(*directory); }};
+}
+
+}  // namespace warmjoint::inline tools

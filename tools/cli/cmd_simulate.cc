@@ -1,0 +1,123 @@
+// warmjoint simulate SCENARIO.yaml: one recording and the truth behind it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+#include "models/foundation/atomic_directory.h"
+#include "models/foundation/atomic_file.h"
+#include "models/foundation/excerpt.h"
+#include "models/foundation/nearest_name.h"
+#include "models/recording/read_recording.h"
+#include "scenarios/read_scenario.h"
+#include "scenarios/suite.h"
+#include "scenarios/write_scenario.h"
+#include "sim/plant/plant.h"
+#include "sim/truth/truth_json.h"
+#include "tools/cli/command.h"
+#include "tools/cli/recording_options.h"
+#include "tools/cli/repeat_motion.h"
+#include "tools/store/run_store.h"
+
+namespace warmjoint::inline tools {
+namespace {
+
+struct SimulateArguments {
+  std::string scenario;
+  std::string from;           // run directory to replay a realization of
+  std::string variant;        // of the run's ladder
+  RecordingArguments motion;  // recording to carry out again
+  std::vector<std::string> set;
+  std::optional<std::uint64_t> seed;
+  std::uint64_t realization = 0;
+  std::string format = "csv";
+  std::string output;
+};
+
+/// The scenario that a run carried out, by its resolved suite.
+Scenario ScenarioOfRun(const SimulateArguments& arguments) {
+  const bool changed = !arguments.scenario.empty() || !arguments.set.empty() || arguments.seed ||
+                       !arguments.motion.recordings.empty();
+  if (changed) {
+    Refuse({"--from"}, "replays a run as it was: leave out SCENARIO, --set, --seed and --motion");
+  }
+  const RunStore store = RunStore::OpenToRead(arguments.from);
+  const Suite suite = ReadSuite(store.suite_file());
+  if (arguments.realization >= static_cast<std::uint64_t>(suite.realizations)) {
+    Refuse({"--realization"}, "is {}; {} has 0 to {}", arguments.realization, arguments.from,
+           suite.realizations - 1);
+  }
+  const std::vector<std::string> names = store.ReadDescription().variants;
+  if (names.empty() && arguments.variant.empty()) return VariantScenario(suite, 0);
+  const auto named = std::find(names.begin(), names.end(), arguments.variant);
+  if (named == names.end()) {
+    Refuse({"--variant"}, "'{}' is no variant of {}{}", Excerpt(arguments.variant), arguments.from,
+           Suggestion(arguments.variant, names));
+  }
+  return VariantScenario(suite, static_cast<int>(named - names.begin()));
+}
+
+/// log: whose motion is carried out, if any.
+Scenario ResolveScenario(const SimulateArguments& arguments,
+                         const std::optional<Measurements>& log) {
+  if (!arguments.from.empty()) return ScenarioOfRun(arguments);
+  if (arguments.scenario.empty()) Refuse({"simulate"}, "give SCENARIO, or --from RUN");
+  Settings settings;
+  if (log) settings = MotionSettings(*log);
+  for (const auto& [key, value] : ReadPairs(arguments.set, "--set")) {
+    settings.push_back({key, value});
+  }
+  Scenario scenario = ReadScenario(arguments.scenario, settings);
+  if (arguments.seed) scenario.seed = *arguments.seed;
+  return scenario;
+}
+
+ExitStatus Simulate(const SimulateArguments& arguments) {
+  std::optional<Measurements> log;
+  if (!arguments.motion.recordings.empty()) log = ReadRecording(arguments.motion);
+  const Scenario scenario = ResolveScenario(arguments, log);
+  const std::unique_ptr<Plant> plant = MakePlant(scenario);
+  AtomicDirectory directory(arguments.output,
+                            {"recording.csv", "recording.h5", "truth.json", "scenario.yaml"});
+
+  const Recording recording = plant->Run(arguments.realization);
+  const std::filesystem::path& folder = directory.temporary();
+  WriteRecording(recording.measurements, folder / ("recording." + arguments.format));
+  WriteTruth(recording.truth, folder / "truth.json");
+  WriteWholeFile(folder / "scenario.yaml", ScenarioToYaml(scenario));
+  directory.Commit();
+  fmt::print("{}: {} samples over {:.6g} s\n", arguments.output, recording.measurements.size(),
+             scenario.duration);
+  if (log) fmt::print("{}", CompareTorque(*log, recording.measurements));
+  return ExitStatus::done;
+}
+
+}  // namespace
+
+Command AddSimulateCommand(CLI::App& program) {
+  auto arguments = std::make_shared<SimulateArguments>();
+  CLI::App* parser =
+      program.add_subcommand("simulate", "Carry out a scenario: a recording and its truth");
+  parser->add_option("SCENARIO", arguments->scenario, "scenario file (YAML)");
+  parser->add_option("--from", arguments->from, "run directory: replay its --realization");
+  parser->add_option("--variant", arguments->variant, "of the run's ladder");
+  parser
+      ->add_option("--motion", arguments->motion.recordings,
+                   "CSV or HDF5 file whose motion is carried out again; its torque is compared")
+      ->expected(1);
+  AddLayoutOptions(*parser, arguments->motion);
+  parser->add_option("--set", arguments->set, "another value for a key, as noise.torque=0.1")
+      ->take_all();
+  parser->add_option("--seed", arguments->seed, "instead of the scenario's");
+  parser->add_option("--realization", arguments->realization, "which of the seed's realizations")
+      ->capture_default_str();
+  parser->add_option("--format", arguments->format, "of the recording: csv or h5 (HDF5)")
+      ->check(CLI::IsMember({"csv", "h5"}))
+      ->capture_default_str();
+  parser->add_option("-o,--output", arguments->output, "directory for the files, made as a whole")
+      ->required();
+  return {parser, [arguments] { return Simulate(*arguments); }};
+}
+
+}  // namespace warmjoint::inline tools

@@ -1,0 +1,14 @@
+#include "tools/cli/command.h"
+
+namespace warmjoint::inline tools {
+
+std::vector<Command> AddCommands(CLI::App& program) {
+  return {
+      AddListCommand(program),     AddSimulateCommand(program), AddCheckCommand(program),
+      AddIdentifyCommand(program), AddAttachCommand(program),   AddRunCommand(program),
+      AddMergeCommand(program),    AddCompareCommand(program),  AddPlotCommand(program),
+      AddReportCommand(program),
+  };
+}
+
+}  // namespace warmjoint::inline tools

@@ -1,0 +1,39 @@
+// Subcommands of the program, and their one list.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <vector>
+
+namespace warmjoint::inline tools {
+
+/// Exit status of the program, as the contract has it.
+enum class ExitStatus {
+  done = 0,
+  internal_error = 1,
+  bad_input = 2,
+  nothing_trustworthy = 3,
+  interrupted = 130,
+};
+
+/// One subcommand: its part of the command line, and what it does once that is read.
+struct Command {
+  CLI::App* parser;
+  std::function<ExitStatus()> run;
+};
+
+/// Adds all subcommands to the program's command line.
+std::vector<Command> AddCommands(CLI::App& program);
+
+Command AddListCommand(CLI::App& program);
+Command AddSimulateCommand(CLI::App& program);
+Command AddCheckCommand(CLI::App& program);
+Command AddIdentifyCommand(CLI::App& program);
+Command AddPlotCommand(CLI::App& program);
+Command AddReportCommand(CLI::App& program);
+Command AddAttachCommand(CLI::App& program);
+Command AddRunCommand(CLI::App& program);
+Command AddMergeCommand(CLI::App& program);
+Command AddCompareCommand(CLI::App& program);
+
+}  // namespace warmjoint::inline tools

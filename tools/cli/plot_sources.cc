@@ -1,0 +1,86 @@
+#include "tools/cli/plot_sources.h"
+
+#include <fmt/core.h>
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "models/foundation/bad_input.h"
+#include "models/foundation/read_json.h"
+#include "tools/report/estimate/estimate_figures.h"
+#include "tools/report/figures/kernels.h"
+#include "tools/report/run/run_figures.h"
+#include "tools/report/simulation/simulation_figures.h"
+#include "tools/report/simulation/warm_robot.h"
+
+namespace warmjoint::inline tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kFilmFrames = 24;
+
+/// All members of a family that have something to show.
+template <typename View>
+std::vector<report::Figure> Make(const std::vector<report::NamedFigure<View>>& family,
+                                 const View& view) {
+  std::vector<report::Figure> figures;
+  for (const auto& one : family) {
+    if (auto figure = one.make(view)) figures.push_back(*std::move(figure));
+  }
+  return figures;
+}
+
+/// The recording that an estimate file came from: the one given, else the one it remembers, as
+/// named there or beside it.
+std::optional<Measurements> RecordingOf(const nlohmann::json& file, const fs::path& path,
+                                        const RecordingArguments& given) {
+  if (!given.recordings.empty()) return ReadRecording(given);
+  if (!file.contains("recording")) {
+    fmt::print(stderr, "{}: names no recording; give --recording for the pictures that need it\n",
+               path.string());
+    return std::nullopt;
+  }
+  RecordingArguments remembered = RecordingFromJson(file["recording"], {path});
+  for (std::string& recording : remembered.recordings) {
+    const fs::path beside = path.parent_path() / fs::path(recording).filename();
+    if (!fs::exists(recording) && fs::exists(beside)) recording = beside;
+    if (fs::exists(recording)) continue;
+    fmt::print(
+        stderr,
+        "{}: its recording {} is not there; give --recording for the pictures that need it\n",
+        path.string(), recording);
+    return std::nullopt;
+  }
+  return ReadRecording(remembered);
+}
+
+SourcePictures PicturesOfEstimate(const fs::path& path, const RecordingArguments& recording) {
+  const nlohmann::json file = ReadJsonFile(path);
+  Estimate estimate = EstimateFromJson(file, {path});
+  const auto view =
+      report::MakeEstimateView(std::move(estimate), RecordingOf(file, path, recording));
+  return {Make(report::EstimateFigures(), view), {}};
+}
+
+SourcePictures PicturesOfSimulation(const fs::path& directory, report::Canvas& canvas) {
+  const report::SimulationView view = report::ReadSimulationView(directory);
+  SourcePictures pictures{Make(report::SimulationFigures(), view), {}};
+  if (auto robot = report::MakeWarmRobot(view, canvas.context())) {
+    pictures.figures.push_back(*std::move(robot));
+    pictures.film = report::MakeWarmRobotFilm(view, canvas.context(), kFilmFrames);
+  }
+  return pictures;
+}
+
+}  // namespace
+
+SourcePictures PicturesOf(const std::string& source, const RecordingArguments& recording,
+                          report::Canvas& canvas) {
+  if (source == kKernelsSource && !fs::exists(source)) return {{report::MakeKernels()}, {}};
+  if (fs::is_regular_file(source)) return PicturesOfEstimate(source, recording);
+  if (report::IsSimulation(source)) return PicturesOfSimulation(source, canvas);
+  return {Make(report::RunFigures(), report::ReadRunView(source)), {}};
+}
+
+}  // namespace warmjoint::inline tools

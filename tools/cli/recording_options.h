@@ -1,0 +1,48 @@
+// The options that say how a recording is to be read, shared by the subcommands that read one.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "models/foundation/bad_input.h"
+#include "models/recording/csv.h"
+
+namespace warmjoint::inline tools {
+
+/// What stands on the command line.
+struct RecordingArguments {
+  std::vector<std::string> recordings;
+  std::vector<std::string> map;   // "torque=force_N"
+  std::vector<std::string> unit;  // "position=deg"
+  std::string joint = "rotary";
+  double gear = 1;
+};
+
+/// Adds RECORDING..., --map, --unit, --joint and --gear.
+void AddRecordingOptions(CLI::App& parser, RecordingArguments& arguments);
+
+/// Adds --map, --unit, --joint and --gear alone.
+void AddLayoutOptions(CLI::App& parser, RecordingArguments& arguments);
+
+/// {files[], map[], unit[], joint, gear}: the `recording` member of an estimate file, by which its
+/// pictures find the data again.
+nlohmann::json RecordingToJson(const RecordingArguments& arguments);
+
+/// The inverse. Throws BadInput from `place`.
+RecordingArguments RecordingFromJson(const nlohmann::json& json, const Place& place);
+
+/// Reads the recordings, several joined (join_recordings.h). Throws BadInput.
+Measurements ReadRecording(const RecordingArguments& arguments);
+
+/// Reads each by itself.
+std::vector<Measurements> ReadRecordings(const RecordingArguments& arguments);
+
+/// "key=value" pairs as a map. option: their name on the command line. Throws BadInput for a pair
+/// without '=', or a key that stands there twice.
+std::map<std::string, std::string> ReadPairs(const std::vector<std::string>& pairs,
+                                             const std::string& option);
+
+}  // namespace warmjoint::inline tools

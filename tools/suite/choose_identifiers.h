@@ -1,0 +1,18 @@
+// Which identifiers a run takes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scenarios/suite.h"
+
+namespace warmjoint::inline tools {
+
+/// The suite's identifiers whose label or name is among `names`, in the order of `names`; all of
+/// them when it is empty. A name that the suite lacks is taken from the list of identifiers with
+/// its default options; name=command becomes an external one. Throws BadInput for a name that
+/// neither has.
+std::vector<SuiteIdentifier> ChooseIdentifiers(const std::vector<SuiteIdentifier>& suite,
+                                               const std::vector<std::string>& names);
+
+}  // namespace warmjoint::inline tools

@@ -1,0 +1,12 @@
+// What the store has to know of a run before it starts.
+#pragma once
+
+#include "scenarios/suite.h"
+#include "tools/store/run_description.h"
+
+namespace warmjoint::inline tools {
+
+/// The description of running `suite`, fully resolved, with this program and its libraries.
+RunDescription Describe(const Suite& suite);
+
+}  // namespace warmjoint::inline tools

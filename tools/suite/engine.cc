@@ -1,0 +1,114 @@
+#include "tools/suite/engine.h"
+
+#include <algorithm>
+#include <atomic>
+#include <thread>
+
+#include "sim/plant/plant.h"
+#include "tools/suite/finished_queue.h"
+#include "tools/suite/interrupt.h"
+#include "tools/suite/progress.h"
+#include "tools/suite/run_realization.h"
+
+namespace warmjoint::inline tools {
+namespace {
+
+/// Longest time that finished realizations wait for the store, and so what a kill can cost.
+constexpr std::chrono::milliseconds kBatchTime{200};
+
+/// Units of the shard, each realization in every variant before the next, so that an early look at
+/// the leaderboard compares the variants.
+std::vector<Unit> UnitsOf(const Suite& suite, const Shard& shard) {
+  std::vector<Unit> units;
+  for (int realization = 0; realization < suite.realizations; ++realization) {
+    for (int variant = 0; variant < suite.variants(); ++variant) {
+      const Unit unit{variant, realization};
+      if (shard.Holds(unit)) units.push_back(unit);
+    }
+  }
+  return units;
+}
+
+/// What the workers share.
+struct Work {
+  const Suite& suite;
+  const std::vector<PreparedIdentifier>& identifiers;
+  const std::vector<Unit>& units;
+  const std::filesystem::path recordings;  // where to keep them; empty: nowhere
+  std::atomic<size_t> next{0};
+  std::atomic<bool> stop{false};
+  FinishedQueue queue;
+
+  bool Open() const { return !stop && !Interrupted(); }
+};
+
+void Labour(Work& work) {
+  std::exception_ptr error;
+  try {
+    std::vector<Bench> benches(static_cast<size_t>(work.suite.variants()));
+    const RecordingKeeper keeper(work.recordings);
+    while (work.Open()) {
+      const size_t i = work.next++;
+      if (i >= work.units.size()) break;
+      const Unit unit = work.units[i];
+      Bench& bench = benches[static_cast<size_t>(unit.variant)];
+      if (!bench.plant) bench = MakeBench(VariantScenario(work.suite, unit.variant));
+      work.queue.Put(RunRealization(bench, work.identifiers, unit, keeper));
+    }
+  } catch (...) {
+    error = std::current_exception();
+    work.stop = true;
+  }
+  work.queue.Leave(error);
+}
+
+void Report(Progress& progress, const std::vector<Realization>& batch) {
+  for (const Realization& realization : batch) {
+    for (const Result& result : realization.results) {
+      if (result.status != "ok") progress.AddFailure(result.status);
+    }
+  }
+  progress.Add(static_cast<int>(batch.size()));
+}
+
+/// Writes batch after batch until the workers are done; stops them when the store fails.
+int Store(Work& work, RunStore& store, Progress& progress) {
+  int stored = 0;
+  try {
+    while (!work.queue.Done()) {
+      const std::vector<Realization> batch = work.queue.Take(kBatchTime);
+      if (!batch.empty()) store.Write(batch);
+      stored += static_cast<int>(batch.size());
+      Report(progress, batch);
+    }
+  } catch (...) {
+    work.stop = true;
+    throw;
+  }
+  return stored;
+}
+
+}  // namespace
+
+RunOutcome RunSuite(const Suite& suite, const std::vector<PreparedIdentifier>& identifiers,
+                    const RunOptions& options, RunStore& store) {
+  std::vector<Unit> units = UnitsOf(suite, options.shard);
+  const auto total = static_cast<int>(units.size());
+  const std::set<Unit> stored = store.Finished();
+  std::erase_if(units, [&](const Unit& unit) { return stored.count(unit) > 0; });
+  const int already = total - static_cast<int>(units.size());
+
+  const int workers = std::clamp(options.jobs, 1, std::max(1, static_cast<int>(units.size())));
+  const std::filesystem::path recordings =
+      options.keep_recordings ? store.directory() / "recordings" : "";
+  Work work{suite, identifiers, units, recordings, 0, false, FinishedQueue(workers)};
+  Progress progress(total, already);
+
+  // declared last, so that the threads are joined before anything they use goes
+  std::vector<std::jthread> threads;
+  for (int i = 0; i < workers; ++i) threads.emplace_back(Labour, std::ref(work));
+  const int finished = already + Store(work, store, progress);
+  return {finished, total, Interrupted() && finished < total};
+}
+
+}  // namespace warmjoint::inline tools

@@ -1,0 +1,25 @@
+#include "tools/suite/interrupt.h"
+
+#include <atomic>
+#include <csignal>
+
+namespace warmjoint::inline tools {
+namespace {
+
+std::atomic<bool> interrupted = false;  // lock-free, so that a handler may set it
+
+extern "C" void OnInterrupt(int signal) {
+  interrupted = true;
+  std::signal(signal, SIG_DFL);
+}
+
+}  // namespace
+
+void CatchInterrupts() {
+  interrupted = false;
+  std::signal(SIGINT, OnInterrupt);
+}
+
+bool Interrupted() { return interrupted; }
+
+}  // namespace warmjoint::inline tools

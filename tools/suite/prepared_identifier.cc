@@ -1,0 +1,26 @@
+#include "tools/suite/prepared_identifier.h"
+
+#include "identification/adequacy/judge.h"
+#include "tools/suite/external_identifier.h"
+
+namespace warmjoint::inline tools {
+
+std::vector<PreparedIdentifier> PrepareIdentifiers(const std::vector<SuiteIdentifier>& identifiers,
+                                                   const Place& place) {
+  std::vector<PreparedIdentifier> prepared;
+  for (const SuiteIdentifier& one : identifiers) {
+    if (one.name == kExternal) {
+      prepared.push_back(PrepareExternal(one, place));
+      continue;
+    }
+    const Identifier& identifier = FindIdentifier(one.name);
+    const Options options(identifier.options, one.options, place);
+    prepared.emplace_back([identifier, options](const Measurements& measurements,
+                                                const Selection& selection, RandomKey random) {
+      return IdentifyAndJudge(identifier, {measurements, selection, options, random});
+    });
+  }
+  return prepared;
+}
+
+}  // namespace warmjoint::inline tools

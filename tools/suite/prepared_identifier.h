@@ -1,0 +1,35 @@
+// Identifiers of a suite, ready to run.
+#pragma once
+
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "identification/estimate.h"
+#include "models/foundation/bad_input.h"
+#include "models/foundation/random_stream.h"
+#include "models/recording/measurements.h"
+#include "models/recording/selection.h"
+#include "scenarios/suite.h"
+
+namespace warmjoint::inline tools {
+
+/// An identifier that gave no answer: `status` says how (crashed, timeout, ...), what() why.
+class NoAnswer : public std::runtime_error {
+ public:
+  NoAnswer(std::string how, const std::string& why)
+      : std::runtime_error(why), status(std::move(how)) {}
+  std::string status;
+};
+
+/// An identifier with its name looked up and its options checked. Safe to call from many threads.
+using PreparedIdentifier =
+    std::function<Estimate(const Measurements&, const Selection&, RandomKey)>;
+
+/// The suite's identifiers in its order. Throws BadInput from `place` for unknown names and
+/// options.
+std::vector<PreparedIdentifier> PrepareIdentifiers(const std::vector<SuiteIdentifier>& identifiers,
+                                                   const Place& place);
+
+}  // namespace warmjoint::inline tools

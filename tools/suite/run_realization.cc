@@ -1,0 +1,114 @@
+#include "tools/suite/run_realization.h"
+
+#include <chrono>
+#include <cmath>
+#include <optional>
+
+#include "identification/preparation/select.h"
+#include "tools/suite/trace_table.h"
+
+namespace warmjoint::inline tools {
+namespace {
+
+class Stopwatch {
+ public:
+  double Seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// The ideal plant satisfies Eq. (6) at every moving sample; engines accelerate in between.
+Selection Select(const Measurements& measurements, PlantKind kind) {
+  return kind == PlantKind::ideal ? SelectMoving(measurements) : SelectConstantSpeed(measurements);
+}
+
+/// Name of the first parameter that is no number, or nullptr.
+const std::string* NotFinite(const Estimate& estimate) {
+  for (const EstimatedParameter& parameter : estimate.parameters) {
+    if (!std::isfinite(parameter.value)) return &parameter.name;
+  }
+  return nullptr;
+}
+
+void Fill(Result& result, const Estimate& estimate, const Recording& recording,
+          const Selection& selection) {
+  result.status = StatusName(estimate.status);
+  result.message = estimate.FullMessage();
+  if (const std::string* name = NotFinite(estimate)) {
+    throw NoAnswer("bad_answer", *name + " is not a finite number");
+  }
+
+  // no numbers, nothing to score
+  result.metrics = estimate.metrics;
+  if (estimate.parameters.empty()) return;
+  result.score = ScoreEstimate(estimate, recording.measurements, selection, recording.truth);
+  const Eigen::VectorXd& time = recording.measurements.time;
+  result.trace = MakeTraceTable(estimate.trace, *result.score, time[1] - time[0]);
+}
+
+Result RunIdentifier(const PreparedIdentifier& identify, const Recording& recording,
+                     const Selection& selection, RandomKey key) {
+  Result result;
+  const Stopwatch watch;
+  try {
+    const Estimate estimate = identify(recording.measurements, selection, key);
+    result.seconds = watch.Seconds();
+    Fill(result, estimate, recording, selection);
+  } catch (const NoAnswer& failure) {
+    result.seconds = watch.Seconds();
+    result.status = failure.status;
+    result.message = failure.what();
+  } catch (const std::exception& error) {
+    result.seconds = watch.Seconds();
+    result.status = "crashed";
+    result.message = error.what();
+  }
+  return result;
+}
+
+/// The same failure for every identifier: there was nothing to identify.
+std::vector<Result> AllFailed(size_t identifiers, const std::string& message) {
+  Result result;
+  result.status = "not_simulated";
+  result.message = message;
+  return std::vector<Result>(identifiers, result);
+}
+
+}  // namespace
+
+Bench MakeBench(const Scenario& scenario) { return {scenario, MakePlant(scenario)}; }
+
+Realization RunRealization(const Bench& bench, const std::vector<PreparedIdentifier>& identifiers,
+                           Unit unit, const RecordingKeeper& keeper) {
+  const RandomKey key{bench.scenario.seed, static_cast<std::uint64_t>(unit.realization)};
+  Realization realization;
+  realization.unit = unit;
+  const Stopwatch watch;
+  std::optional<Recording> recording;
+  try {
+    recording = bench.plant->Run(key.realization);
+  } catch (const std::exception& error) {
+    realization.results = AllFailed(identifiers.size(), error.what());
+  }
+  realization.simulation_seconds = watch.Seconds();
+
+  if (recording) {
+    keeper.Keep(*recording, unit);
+    const Selection selection = Select(recording->measurements, bench.scenario.plant);
+    for (const PreparedIdentifier& identify : identifiers) {
+      realization.results.push_back(RunIdentifier(identify, *recording, selection, key));
+    }
+  }
+
+  for (size_t i = 0; i < realization.results.size(); ++i) {
+    realization.results[i].variant = unit.variant;
+    realization.results[i].realization = unit.realization;
+    realization.results[i].identifier = static_cast<int>(i);
+  }
+  return realization;
+}
+
+}  // namespace warmjoint::inline tools

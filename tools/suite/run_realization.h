@@ -1,0 +1,30 @@
+// One realization from plant to scores.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "scenarios/suite.h"
+#include "sim/plant/plant.h"
+#include "tools/store/result.h"
+#include "tools/suite/keep_recording.h"
+#include "tools/suite/prepared_identifier.h"
+
+namespace warmjoint::inline tools {
+
+/// A scenario with its plant, for one thread.
+struct Bench {
+  Scenario scenario;
+  std::unique_ptr<Plant> plant;
+};
+
+/// Throws BadInput where the plant cannot do the scenario.
+Bench MakeBench(const Scenario& scenario);
+
+/// Simulates a unit on its variant's bench, keeps the recording where wanted, and scores every
+/// identifier on it. Never throws for what happens in a plant or an identifier: it becomes the
+/// status and message of the results concerned.
+Realization RunRealization(const Bench& bench, const std::vector<PreparedIdentifier>& identifiers,
+                           Unit unit, const RecordingKeeper& keeper);
+
+}  // namespace warmjoint::inline tools

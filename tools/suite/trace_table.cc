@@ -1,0 +1,71 @@
+#include "tools/suite/trace_table.h"
+
+#include <limits>
+#include <map>
+
+#include "identification/score/npe.h"
+#include "models/friction/thermal.h"
+
+namespace warmjoint::inline tools {
+namespace {
+
+using Values = std::map<std::string, double>;
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+/// The entry's parameters, with both thermal pairs where it has one.
+Values AllParameters(const TraceEntry& entry, double step) {
+  Values values(entry.parameters.begin(), entry.parameters.end());
+  const bool continuous = values.count("thermal_gain") && values.count("thermal_time_constant");
+  const bool discrete = values.count("thermal_gain_discrete") && values.count("thermal_pole");
+  if (continuous && !discrete) {
+    const DiscreteThermal pair =
+        Discretise({values["thermal_gain"], values["thermal_time_constant"]}, step);
+    values["thermal_gain_discrete"] = pair.gain;
+    values["thermal_pole"] = pair.pole;
+  }
+  if (discrete && !continuous) {
+    const Thermal pair =
+        Continuous({values["thermal_gain_discrete"], values["thermal_pole"]}, step);
+    values["thermal_gain"] = pair.gain;
+    values["thermal_time_constant"] = pair.time_constant;
+  }
+  return values;
+}
+
+/// NPE over the parameters of `truth`; one that is missing counts as 0, one whose truth is 0 not.
+double Npe(const std::vector<ParameterScore>& truth, const Values& values) {
+  std::vector<double> estimated, true_values;
+  for (const ParameterScore& score : truth) {
+    if (score.truth == 0) continue;
+    const auto found = values.find(score.name);
+    estimated.push_back(found == values.end() ? 0.0 : found->second);
+    true_values.push_back(score.truth);
+  }
+  const auto size = static_cast<Eigen::Index>(estimated.size());
+  return NormalisedParameterError(Eigen::Map<const Eigen::VectorXd>(estimated.data(), size),
+                                  Eigen::Map<const Eigen::VectorXd>(true_values.data(), size));
+}
+
+}  // namespace
+
+TraceTable MakeTraceTable(const std::vector<TraceEntry>& trace, const Score& score, double step) {
+  TraceTable table;
+  if (trace.empty()) return table;
+
+  table.columns = {"iteration", "rmse", "npe_continuous", "npe_discrete"};
+  for (const auto& [name, value] : trace.front().parameters) table.columns.push_back(name);
+  for (const TraceEntry& entry : trace) {
+    const Values values = AllParameters(entry, step);
+    std::vector<double> row{static_cast<double>(entry.iteration), entry.rmse,
+                            Npe(score.continuous, values), Npe(score.discrete, values)};
+    for (size_t i = row.size(); i < table.columns.size(); ++i) {
+      const auto found = values.find(table.columns[i]);
+      row.push_back(found == values.end() ? kUnknown : found->second);
+    }
+    for (const double value : row) table.values.push_back(static_cast<float>(value));
+  }
+  return table;
+}
+
+}  // namespace warmjoint::inline tools
