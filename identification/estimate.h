@@ -52,6 +52,12 @@ struct TraceEntry {
   double rmse = 0;  // over the kept samples, N.m or N
 };
 
+/// Covariance of some of an estimate's values.
+struct ParameterCovariance {
+  std::vector<std::string> parameters;  // [p] names
+  Eigen::MatrixXd matrix;               // [p x p] in products of their units
+};
+
 struct Estimate {
   std::string identifier;
   Status status = Status::ok;
@@ -64,8 +70,9 @@ struct Estimate {
   std::optional<Metrics> holdout;
   std::vector<TraceEntry> trace;
   std::optional<FrictionDescription> friction;
-  std::optional<GravityModel> gravity;  // what the fit took for gravity beside friction
-  std::vector<MapBand> bands;           // one for each of the friction's maps
+  std::optional<GravityModel> gravity;            // what the fit took for gravity beside friction
+  std::vector<MapBand> bands;                     // one for each of the friction's maps
+  std::optional<ParameterCovariance> covariance;  // of the values with intervals, by noise alone
 
   /// The parameter of that name, or nullptr.
   const EstimatedParameter* Find(std::string_view name) const;
@@ -76,7 +83,8 @@ struct Estimate {
 
 /// The estimate as JSON: {identifier, status, message, parameters{name: {value, unit, std,
 /// interval95}}, metrics{}, holdout{}, trace[{iteration, rmse, parameters{}}], friction{},
-/// gravity{}, warnings[], bands[{quantities[], points[][], value[], std[], interval95[][]}]};
+/// gravity{}, warnings[], bands[{quantities[], points[][], value[], std[], interval95[][]}],
+/// covariance{parameters[], matrix[][]}};
 /// message is the full one, and `warnings` repeats its last clauses where there are any; bands only
 /// where maps are. What is absent, or is not a finite number, is null.
 nlohmann::json EstimateToJson(const Estimate& estimate);

@@ -150,6 +150,40 @@ TraceEntry ToTraceEntry(const json& object, const Place& place) {
   return entry;
 }
 
+json CovarianceToJson(const std::optional<ParameterCovariance>& covariance) {
+  if (!covariance) return nullptr;
+  json matrix = json::array();
+  for (const auto& row : covariance->matrix.rowwise()) {
+    matrix.push_back(std::vector<double>(row.begin(), row.end()));
+  }
+  return {{"parameters", covariance->parameters}, {"matrix", matrix}};
+}
+
+/// Square, one row for each name.
+std::optional<ParameterCovariance> ToCovariance(const json& object, const Place& place) {
+  if (object.is_null()) return std::nullopt;
+  ParameterCovariance covariance;
+  for (const json& name : Member(object, "parameters", "covariance", place)) {
+    covariance.parameters.push_back(ToText(name, "a parameter of covariance", place));
+  }
+  const size_t p = covariance.parameters.size();
+  const json& matrix = Member(object, "matrix", "covariance", place);
+  if (!matrix.is_array() || matrix.size() != p) {
+    Refuse(place, "covariance.matrix must have {} rows, one for each of its parameters", p);
+  }
+  covariance.matrix.resize(static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(p));
+  for (size_t i = 0; i < p; ++i) {
+    if (!matrix[i].is_array() || matrix[i].size() != p) {
+      Refuse(place, "row {} of covariance.matrix must hold {} numbers", i + 1, p);
+    }
+    for (size_t j = 0; j < p; ++j) {
+      covariance.matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+          ToNumber(matrix[i][j], "covariance.matrix", place);
+    }
+  }
+  return covariance;
+}
+
 }  // namespace
 
 json EstimateToJson(const Estimate& estimate) {
@@ -165,7 +199,8 @@ json EstimateToJson(const Estimate& estimate) {
               {"holdout", MetricsToJson(estimate.holdout)},
               {"trace", TraceToJson(estimate.trace)},
               {"friction", estimate.friction ? FrictionToJson(*estimate.friction) : json(nullptr)},
-              {"gravity", estimate.gravity ? GravityToJson(*estimate.gravity) : json(nullptr)}};
+              {"gravity", estimate.gravity ? GravityToJson(*estimate.gravity) : json(nullptr)},
+              {"covariance", CovarianceToJson(estimate.covariance)}};
   if (!estimate.warnings.empty()) result["warnings"] = estimate.warnings;
   for (const MapBand& band : estimate.bands) result["bands"].push_back(BandToJson(band));
   return result;
@@ -199,6 +234,7 @@ Estimate EstimateFromJson(const json& object, const Place& place) {
   if (!member("gravity").is_null()) {
     estimate.gravity = GravityFromJson(member("gravity"), place);
   }
+  estimate.covariance = ToCovariance(member("covariance"), place);
   return estimate;
 }
 

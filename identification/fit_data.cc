@@ -4,8 +4,6 @@
 
 #include <cmath>
 
-#include "identification/uncertainty/student.h"
-
 namespace warmjoint::inline identification {
 namespace {
 
@@ -57,26 +55,6 @@ std::optional<std::string> Unusable(const IdentifierInput& input, int parameters
   return std::nullopt;
 }
 
-Estimate Failed(std::string identifier, Status status, std::string message) {
-  Estimate estimate;
-  estimate.identifier = std::move(identifier);
-  estimate.status = status;
-  estimate.message = std::move(message);
-  return estimate;
-}
-
-void Void(Status status, std::string message, Estimate& estimate) {
-  estimate.status = status;
-  estimate.message = std::move(message);
-  estimate.warnings.clear();
-  estimate.friction.reset();
-  estimate.bands.clear();
-  for (EstimatedParameter& parameter : estimate.parameters) {
-    parameter.std.reset();
-    parameter.interval95.reset();
-  }
-}
-
 std::string UnitFor(const ParameterInfo& info, const Measurements& measurements) {
   const std::string_view table = info.unit.For(measurements.joint);
   const std::string_view torque = kTorqueUnit.For(measurements.joint);
@@ -88,12 +66,6 @@ std::string UnitFor(const ParameterInfo& info, const Measurements& measurements)
   }
   if (table.substr(0, torque.size()) != torque) return std::string(table);
   return measurements.torque_unit + std::string(table.substr(torque.size()));
-}
-
-EstimatedParameter WithInterval(std::string name, double value, std::string unit, double std,
-                                double freedom) {
-  const double reach = StudentQuantile(freedom) * std;
-  return {std::move(name), value, std::move(unit), std, {{value - reach, value + reach}}};
 }
 
 std::string Indistinct(const std::vector<std::string>& mixed, const Measurements& measurements,

@@ -1,4 +1,4 @@
-// What every identifier does first and last: look at the data, and put numbers into the estimate.
+// What every identifier does first: look at the data, and say what they lack.
 #pragma once
 
 #include <optional>
@@ -18,20 +18,9 @@ Eigen::MatrixXd Kept(const Eigen::MatrixXd& all, const Selection& selection);
 /// `parameters`, or a constant torque. Empty where the data can be used.
 std::optional<std::string> Unusable(const IdentifierInput& input, int parameters);
 
-/// An estimate that failed: its status and one sentence, no numbers.
-Estimate Failed(std::string identifier, Status status, std::string message);
-
-/// Takes back what an estimate claims: keeps its values, which then can be looked at and scored,
-/// but no standard deviation, interval or friction.
-void Void(Status status, std::string message, Estimate& estimate);
-
 /// The parameter's unit for the recording's joint and torque unit: "A.s/rad" where a current
 /// stands for the torque.
 std::string UnitFor(const ParameterInfo& info, const Measurements& measurements);
-
-/// An estimated parameter with its 95 % interval. freedom: samples less parameters.
-EstimatedParameter WithInterval(std::string name, double value, std::string unit, double std,
-                                double freedom);
 
 /// Names of the columns that cannot be told apart, and the motion that would: one sentence.
 /// mixed: names of law parameters.

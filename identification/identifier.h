@@ -1,33 +1,63 @@
-// The family of identifiers, and its one list.
+// What an identifier is, and what it may look at.
 #pragma once
 
+#include <algorithm>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "identification/estimate.h"
+#include "identification/fit.h"
 #include "identification/options.h"
+#include "identification/preparation/prepared_log.h"
 #include "models/foundation/random_stream.h"
-#include "models/recording/measurements.h"
-#include "models/recording/selection.h"
 
 namespace warmjoint::inline identification {
 
-/// Everything an identifier may look at.
-struct IdentifierInput {
+/// Everything an identifier may look at. Refers to the log's samples and to the options, which must
+/// outlive it.
+class IdentifierInput {
+ public:
+  IdentifierInput(PreparedLog given, const Options& given_options, RandomKey key)
+      : IdentifierInput(given, given.steady().measurements, given.steady().selection, given_options,
+                        key) {}
+
+  /// The same log with other samples taking part. `other` must outlive the answer.
+  IdentifierInput With(const Selection& other) const {
+    return {log, measurements, other, options, random};
+  }
+
+  /// The same samples with other options, which must outlive the answer.
+  IdentifierInput With(const Options& other) const {
+    return {log, measurements, selection, other, random};
+  }
+
+  /// The log as it was taken, for fits that follow changes of speed.
+  IdentifierInput AsTaken() const {
+    return {log, log.taken().measurements, log.taken().selection, options, random};
+  }
+
+  const PreparedLog log;
   const Measurements& measurements;
   const Selection& selection;  // filter over all samples, fit on those kept
   const Options& options;
-  RandomKey random;  // for identifiers that draw their start
+  const RandomKey random;  // for identifiers that draw their start
+
+ private:
+  IdentifierInput(PreparedLog of, const Measurements& samples, const Selection& kept,
+                  const Options& given_options, RandomKey key)
+      : log(std::move(of)),
+        measurements(samples),
+        selection(kept),
+        options(given_options),
+        random(key) {}
 };
 
 /// The motion that an identifier learns from, and with it how a log must reach it.
 enum class Regime {
-  /// Sliding at constant speeds, tau = G + F, Eq. (6). Speed switches between two samples of a slow
-  /// log; such a log is split there first, so that no sample's way or loss is charged to two
-  /// speeds.
+  /// Sliding at constant speeds, tau = G + F, Eq. (6): PreparedLog::steady.
   steady,
-  /// Changes of speed too, tau = M a + G + F, Eq. (5): the acceleration is followed from sample to
-  /// sample, so that the log stays as it was taken.
+  /// Changes of speed too, tau = M a + G + F, Eq. (5): PreparedLog::taken, whose acceleration is
+  /// followed from sample to sample.
   transient,
 };
 
@@ -35,16 +65,19 @@ struct Identifier {
   std::string name;
   std::string summary;
   std::vector<OptionInfo> options;
-  /// Mathematics that fails gives a status and a sentence; it does not throw.
-  Estimate (*identify)(const IdentifierInput& input);
+  /// Mathematics that fails gives a refusal, a status and a sentence; it does not throw.
+  Fit (*fit)(const IdentifierInput& input);
   Regime regime = Regime::steady;
+
+  /// Whether the table of options has a row of that name.
+  bool Has(std::string_view option) const {
+    return std::ranges::find(options, option, &OptionInfo::name) != options.end();
+  }
+
+  /// The input with the samples that the identifier learns from.
+  IdentifierInput Seen(const IdentifierInput& input) const {
+    return regime == Regime::transient ? input.AsTaken() : input;
+  }
 };
-
-/// All identifiers: a new one is its own file pair in identifiers/ and one line in its
-/// identifier_list.cc.
-const std::vector<Identifier>& Identifiers();
-
-/// The identifier of that name. Throws BadInput with the nearest name.
-const Identifier& FindIdentifier(const std::string& name);
 
 }  // namespace warmjoint::inline identification

@@ -47,7 +47,7 @@ Circumstances CircumstancesOf(const FittedModel& model, const Measurements& m,
   const Index c = cells.size();
   const Eigen::MatrixXd none(c, 0);
   Circumstances known{cells.Means(energies), none, none, none, none};
-  if (model.KnowsWarming()) known.slopes = cells.Means(m.velocity.cwiseProduct(model.energy));
+  if (model.knows_warming) known.slopes = cells.Means(m.velocity.cwiseProduct(model.energy));
   if (model.by_initial_energy) known.initial = cells.Means(*model.by_initial_energy);
   if (m.load) known.loads = cells.Means(Beside(*m.load, m.load->cwiseAbs()));
   if (m.temperature) known.temperatures = cells.Means(*m.temperature);
@@ -139,12 +139,11 @@ double Adequacy::Rms(const Structure& structure) const {
   return std::sqrt(structure.explained / samples);
 }
 
-Adequacy ExamineResidual(const Identifier& identifier, const IdentifierInput& input,
-                         const Estimate& estimate) {
+Adequacy ExamineResidual(const Fit& fit, const Inference& inference, const Measurements& m,
+                         const Selection& selection) {
   Adequacy adequacy;
-  const std::optional<FittedModel> model = EvaluateModel(identifier, input, estimate);
+  const std::optional<FittedModel> model = EvaluateModel(fit, inference, m, selection);
   if (!model || !model->residual.allFinite() || !model->derivatives.allFinite()) return adequacy;
-  const Measurements& m = input.measurements;
   const Cells cells = MakeCells(m, model->selection);
   if (cells.size() < kFewestCells) return adequacy;
 
@@ -152,7 +151,7 @@ Adequacy ExamineResidual(const Identifier& identifier, const IdentifierInput& in
   adequacy.friction =
       std::sqrt(Kept(model->torque, model->selection).squaredNorm() / adequacy.samples);
   adequacy.squares = Kept(model->residual, model->selection).squaredNorm();
-  adequacy.names = model->names;
+  adequacy.rows = model->rows;
   Eigen::MatrixXd derivatives = cells.Means(model->derivatives);
   const Index jumps = model->jump_spread.size(), p = derivatives.cols() - jumps;
   adequacy.reach =
@@ -178,7 +177,7 @@ Adequacy ExamineResidual(const Identifier& identifier, const IdentifierInput& in
     adequacy.by_start =
         MovesBy(energy * cells.Means(*model->by_initial_energy), cells, derivatives).topRows(p);
   }
-  if (jumps > 0 && !estimate.Find("energy_jump_1")) {
+  if (jumps > 0 && fit.jump_samples.empty()) {
     const Eigen::MatrixXd forces =
         derivatives.middleCols(p, jumps) * model->jump_spread.asDiagonal();
     adequacy.by_gaps = MovesBy(forces, cells, derivatives.leftCols(p)).cwiseAbs().rowwise().sum();

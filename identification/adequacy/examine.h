@@ -6,14 +6,15 @@
 #include <vector>
 
 #include "identification/adequacy/structure.h"
-#include "identification/identifier.h"
+#include "identification/inference/inference.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
 
 /// Structure of the residual, in the order of size.
 struct Adequacy {
   std::vector<Structure> found;
-  std::vector<std::string> names;   // [p] of the parameters that `moves` are about
+  std::vector<size_t> rows;         // [p] of the fit's table that `moves` are about
   Eigen::VectorXd moves;            // [p] change of each once the smooth structure joins the fit
   Eigen::VectorXd move_deviations;  // [p]
   Eigen::VectorXd reach;            // [p] force of each parameter's unit, rms over the kept samples
@@ -33,8 +34,9 @@ struct Adequacy {
   double Rms(const Structure& structure) const;
 };
 
-/// Looks for structure; nothing where the estimate holds no model, or the samples are too few.
-Adequacy ExamineResidual(const Identifier& identifier, const IdentifierInput& input,
-                         const Estimate& estimate);
+/// Looks for structure. inference: of the fit; selection: samples at constant speed. Nothing where there is no fit, or the samples are too
+/// few.
+Adequacy ExamineResidual(const Fit& fit, const Inference& inference,
+                         const Measurements& measurements, const Selection& selection);
 
 }  // namespace warmjoint::inline identification

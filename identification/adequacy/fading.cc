@@ -6,7 +6,7 @@
 namespace warmjoint::inline identification {
 
 std::optional<Structure> FindFading(const FittedModel& model, Eigen::VectorXd& residual) {
-  if (!model.maps || !model.KnowsWarming()) return std::nullopt;
+  if (!model.maps || !model.knows_warming) return std::nullopt;
   const Selection& selection = model.selection;
   const Eigen::MatrixXd maps = Kept(*model.maps, selection);
   const Eigen::MatrixXd left = Kept(residual, selection);

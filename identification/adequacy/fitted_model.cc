@@ -1,7 +1,7 @@
 #include "identification/adequacy/fitted_model.h"
 
-#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include "identification/adequacy/held_loss.h"
 #include "identification/forward/closed_loop.h"
@@ -12,28 +12,6 @@
 
 namespace warmjoint::inline identification {
 namespace {
-
-/// The friction that the estimate describes, or, where its values lie outside of their bounds and
-/// it describes none, the one that they would be. Nothing where values are missing.
-std::optional<FrictionDescription> Described(const Identifier& identifier,
-                                             const IdentifierInput& input,
-                                             const Estimate& estimate) {
-  if (estimate.friction) return estimate.friction;
-  const Law* law = HasOption(identifier, "law") ? FindLaw(input.options.Text("law")) : nullptr;
-  if (!law) return std::nullopt;
-  FrictionDescription friction;
-  friction.law = law->name;
-  friction.gear = input.measurements.gear;
-  for (const ParameterInfo& info : law->parameters) {
-    const EstimatedParameter* found = estimate.Find(info.name);
-    if (!found) return std::nullopt;
-    friction.parameters[found->name] = found->value;
-  }
-  const EstimatedParameter* gain = estimate.Find("thermal_gain");
-  const EstimatedParameter* tau = estimate.Find("thermal_time_constant");
-  if (gain && tau) friction.thermal = Thermal{gain->value, tau->value};
-  return friction;
-}
 
 /// dFn/dp, by central differences where the law is not linear in p. [N x d]
 Eigen::MatrixXd NominalDerivatives(const Law& law, const std::vector<double>& values,
@@ -78,65 +56,70 @@ void AddGravity(const GravityModel& gravity, const Eigen::VectorXd& position, Fi
   if (gravity.kind == GravityKind::paired) return;
   model.derivatives =
       Beside(model.derivatives, GravityColumns(gravity.kind, gravity.knots, position));
-  if (gravity.kind == GravityKind::constant) {
-    model.names.emplace_back("gravity_offset");
-  } else {
-    model.names.insert(model.names.end(), {"gravity_sine", "gravity_cosine"});
+}
+
+/// Rows of the fit's table in the order of the derivatives.
+std::vector<size_t> RowsOf(const Fit& fit, std::initializer_list<Role> roles) {
+  std::vector<size_t> rows;
+  for (const Role role : roles) {
+    for (size_t i = 0; i < fit.parameters.size(); ++i) {
+      const FitParameter& parameter = fit.parameters[i];
+      if (parameter.role == role && !parameter.name.empty()) rows.push_back(i);
+    }
   }
+  return rows;
+}
+
+/// Beside a warming that was estimated, the law's parameters act through the losses too. Returns the
+/// derivatives by the jumps at the log's gaps, [N x J].
+Eigen::MatrixXd AddWarming(const Fit& fit, const Inference& inference, const Measurements& m,
+                           FittedModel& model) {
+  const std::vector<double> values = LawValues(fit.friction);
+  const Thermal& thermal = *fit.friction.thermal;
+  const std::vector<LogGap> gaps = FindGaps(m);
+  const auto jumps = static_cast<Eigen::Index>(gaps.size());
+  const ClosedLoop loop =
+      ClosedLoop(m.time, m.velocity, model.derivatives, m.starts).WithJumps(Behind(gaps));
+  const auto d = static_cast<Eigen::Index>(values.size());
+  const Eigen::Map<const Eigen::VectorXd> parameters(values.data(), d);
+  const Eigen::MatrixXd all =
+      loop.Jacobian(parameters, thermal, fit.initial_energy, Eigen::VectorXd::Zero(jumps));
+  const bool starts = !fit.Values(Role::start).empty();
+  model.derivatives = all.leftCols(starts ? d + 3 : d + 2);
+  if (!starts) model.by_initial_energy = all.col(d + 2);
+  model.jump_spread = JumpSpread(gaps, model.energy.cwiseAbs().maxCoeff(), thermal.time_constant);
+  if (StepMatters(fit, inference, m)) {
+    model.held_loss = ForceOfHeldLoss(fit.friction, m, fit.initial_energy);
+  }
+  return all.rightCols(jumps);
 }
 
 }  // namespace
 
-bool HasOption(const Identifier& identifier, std::string_view name) {
-  return std::any_of(identifier.options.begin(), identifier.options.end(),
-                     [name](const OptionInfo& option) { return option.name == name; });
-}
+std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& inference,
+                                         const Measurements& m, const Selection& selection) {
+  if (fit.refusal) return std::nullopt;
+  const Law& law = *FindLaw(fit.friction.law);
+  const std::vector<double> values = LawValues(fit.friction);
 
-bool FittedModel::KnowsWarming() const {
-  return std::find(names.begin(), names.end(), "thermal_gain") != names.end();
-}
-
-std::optional<FittedModel> EvaluateModel(const Identifier& identifier, const IdentifierInput& input,
-                                         const Estimate& estimate) {
-  const std::optional<FrictionDescription> friction = Described(identifier, input, estimate);
-  if (!friction) return std::nullopt;
-  const Measurements& m = input.measurements;
-  const Law& law = *FindLaw(friction->law);
-  const std::vector<double> values = LawValues(*friction);
-  const EstimatedParameter* start = estimate.Find("initial_energy");
-  const double energy = start ? start->value : 0;
-
+  // what the fit leaves of the torque
   FittedModel model;
-  model.selection = input.selection;
+  model.selection = selection;
   model.torque = m.torque;
-  if (estimate.gravity) TakeOff(*estimate.gravity, m.position, model);
-  const Prediction prediction = PredictFriction(*friction, m, energy, BristleStart::torque);
+  if (fit.gravity) TakeOff(*fit.gravity, m.position, model);
+  const Prediction prediction =
+      PredictFriction(fit.friction, m, fit.initial_energy, BristleStart::torque);
   model.residual = model.torque - prediction.force;
   model.energy = prediction.energy;
-  if (!friction->maps.empty()) model.maps = MapForce(law, values, m, prediction);
+  if (!fit.friction.maps.empty()) model.maps = MapForce(law, values, m, prediction);
+
+  // and how its parameters could change that
+  model.rows = RowsOf(fit, {Role::law, Role::heat, Role::start, Role::gravity});
   model.derivatives = NominalDerivatives(law, values, m.velocity);
-  for (const ParameterInfo& info : law.parameters) model.names.emplace_back(info.name);
+  model.knows_warming = fit.friction.thermal && !fit.Values(Role::heat).empty();
   Eigen::MatrixXd by_jumps(m.size(), 0);
-  if (friction->thermal && estimate.Find("thermal_gain")) {
-    // beside a warming that was estimated, the law's parameters act through the losses too
-    const std::vector<LogGap> gaps = FindGaps(m);
-    const auto jumps = static_cast<Eigen::Index>(gaps.size());
-    const ClosedLoop loop =
-        ClosedLoop(m.time, m.velocity, model.derivatives, m.starts).WithJumps(Behind(gaps));
-    const auto d = static_cast<Eigen::Index>(values.size());
-    const Eigen::Map<const Eigen::VectorXd> parameters(values.data(), d);
-    const Eigen::MatrixXd all =
-        loop.Jacobian(parameters, *friction->thermal, energy, Eigen::VectorXd::Zero(jumps));
-    by_jumps = all.rightCols(jumps);
-    if (StepMatters(estimate, m)) model.held_loss = ForceOfHeldLoss(*friction, m, energy);
-    model.jump_spread =
-        JumpSpread(gaps, model.energy.cwiseAbs().maxCoeff(), friction->thermal->time_constant);
-    model.derivatives = all.leftCols(start ? d + 3 : d + 2);
-    model.names.insert(model.names.end(), {"thermal_gain", "thermal_time_constant"});
-    if (start) model.names.emplace_back("initial_energy");
-    if (!start) model.by_initial_energy = all.col(d + 2);
-  }
-  if (estimate.gravity) AddGravity(*estimate.gravity, m.position, model);
+  if (model.knows_warming) by_jumps = AddWarming(fit, inference, m, model);
+  if (fit.gravity) AddGravity(*fit.gravity, m.position, model);
   model.derivatives = Beside(model.derivatives, by_jumps);
   return model;
 }

@@ -18,23 +18,15 @@ Measurements Finer(const Measurements& m) {
   Measurements finer = m;
   const Index n = m.size();
   const double last = m.time[n - 1] - m.time[n - 2];
-  for (Eigen::VectorXd* column : {&finer.time, &finer.position, &finer.velocity, &finer.torque}) {
-    column->resize(n * kParts);
-  }
-  const auto repeat = [](std::optional<Eigen::VectorXd>& column) {
-    if (column) column = column->transpose().replicate(kParts, 1).reshaped().eval();
-  };
-  repeat(finer.motor_position);
-  repeat(finer.load);
-  repeat(finer.temperature);
+  ForEachColumn(finer, [](Eigen::VectorXd& column) {
+    column = column.transpose().replicate(kParts, 1).reshaped().eval();
+  });
   for (Index i = 0; i < n * kParts; ++i) {
     const Index from = i / kParts;
     const double h = from + 1 < n ? m.time[from + 1] - m.time[from] : last;
     const double since = h * static_cast<double>(i % kParts) / static_cast<double>(kParts);
     finer.time[i] = m.time[from] + since;
     finer.position[i] = m.position[from] + since * m.velocity[from];
-    finer.velocity[i] = m.velocity[from];
-    finer.torque[i] = m.torque[from];
     if (m.motor_position) (*finer.motor_position)[i] += m.gear * since * m.velocity[from];
   }
   for (Index& start : finer.starts) start *= kParts;
@@ -43,12 +35,13 @@ Measurements Finer(const Measurements& m) {
 
 }  // namespace
 
-bool StepMatters(const Estimate& estimate, const Measurements& measurements) {
-  const EstimatedParameter* gain = estimate.Find("thermal_gain");
-  const EstimatedParameter* tau = estimate.Find("thermal_time_constant");
-  if (!gain || !tau || !tau->std || measurements.size() < 2) return false;
-  const double power = std::abs(gain->value) * measurements.velocity.cwiseAbs().mean();
-  return 0.5 * MedianStep(measurements.time) * power > kMatters * *tau->std;
+bool StepMatters(const Fit& fit, const Inference& inference, const Measurements& measurements) {
+  if (!fit.friction.thermal || measurements.size() < 2) return false;
+  const auto tau = fit.RowOf(Role::heat, 1);
+  if (!tau || !inference.parameters[*tau].std) return false;
+  const double gain = fit.friction.thermal->gain;
+  const double power = std::abs(gain) * measurements.velocity.cwiseAbs().mean();
+  return 0.5 * MedianStep(measurements.time) * power > kMatters * *inference.parameters[*tau].std;
 }
 
 Eigen::VectorXd ForceOfHeldLoss(const FrictionDescription& friction,

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "identification/estimate.h"
+#include "identification/inference/inference.h"
 #include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
@@ -11,7 +11,7 @@ namespace warmjoint::inline identification {
 /// Whether the step h of a log matters to its warming: (22) holds W over a step, in which E and
 /// with it W changes, so that tau comes out too large by h |k v|/2 (to first order in h/tau); where
 /// that is more than a quarter of the standard deviation of tau.
-bool StepMatters(const Estimate& estimate, const Measurements& measurements);
+bool StepMatters(const Fit& fit, const Inference& inference, const Measurements& measurements);
 
 /// The force of a friction whose losses follow its heat all the time, less its force by (22): 8/7
 /// of what (22) with an eighth of each step makes of it. Constant speed over each step.

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "identification/identifier.h"
-#include "identification/preparation/finer_input.h"
+#include "identification/inference/inference.h"
 
 namespace warmjoint::inline identification {
 
-/// Runs an identifier and judges its answer: what `identify` and `run` report.
+/// Judges a fit by what its residual shows.
 /// Structure in the residual (smooth_structure.h, angle_structure.h) that is certain is large where
 /// it amounts to a twentieth of the friction, rms over the kept samples, or to a fiftieth and a
 /// fifth of the residual's variance, or where a parameter moves beyond its interval, by a twentieth
@@ -17,25 +17,8 @@ namespace warmjoint::inline identification {
 /// that the warming took up. Where a start that is taken to be cold matters, the message says how
 /// much.
 /// Noise that is coloured is no structure: the intervals account for it.
-/// A log with faults (preparation/log_faults.h) makes the estimate void, bad_data, and the message
-/// names them.
-Estimate IdentifyAndJudge(const Identifier& identifier, const IdentifierInput& given);
-
-/// An answer before its verdict and after.
-struct Judgement {
-  Estimate before;
-  Estimate judged;
-};
-
-/// The same, of an input that is prepared already.
-Judgement IdentifyAndJudge(const Identifier& identifier, const FinerInput& finer);
-
-/// The same for an answer that is there already.
-void JudgeAdequacy(const Identifier& identifier, const IdentifierInput& input, Estimate& estimate);
-
-/// What --force shows of a judged answer: its status and its figures with the numbers of the answer
-/// before the verdict, and a message that calls them void. An answer that was not voided by the
-/// verdict stays as it is.
-Estimate WithVoidNumbers(const Estimate& judged, const Estimate& before);
+/// Changes nothing of an inference that is not ok. input: what the identifier saw.
+void JudgeAdequacy(const Identifier& identifier, const IdentifierInput& input, const Fit& fit,
+                   Inference& inference);
 
 }  // namespace warmjoint::inline identification

@@ -5,32 +5,25 @@
 #include <algorithm>
 #include <numbers>
 
-#include "identification/adequacy/fitted_model.h"
 #include "models/friction/law.h"
 
 namespace warmjoint::inline identification {
 namespace {
 
-bool IsListed(std::string_view name) {
-  return std::any_of(Identifiers().begin(), Identifiers().end(),
-                     [name](const Identifier& one) { return one.name == name; });
-}
-
-/// "try NAME" for an identifier that is listed and is not the one that was used; else `otherwise`.
-std::string Try(std::string_view name, const Estimate& estimate, const std::string& otherwise) {
-  if (!IsListed(name) || estimate.identifier == name) return otherwise;
-  return fmt::format("try {}", name);
+/// "try NAME" for an identifier other than the one that was used; else `otherwise`.
+std::string Try(std::string_view name, const Fit& fit, const std::string& otherwise) {
+  return fit.identifier == name ? otherwise : fmt::format("try {}", name);
 }
 
 /// Whether E(0) can be estimated: the fits with maps cannot.
 bool TakesStart(const Identifier& identifier, const IdentifierInput& input) {
-  return HasOption(identifier, "initial_energy") && input.options.Text("position") == "none";
+  return identifier.Has("initial_energy") && input.options.Text("position") == "none";
 }
 
 std::string AgainstHeat(const Identifier& identifier, const IdentifierInput& input,
-                        const Estimate& estimate) {
-  if (!estimate.Find("thermal_gain")) {
-    return Try("energy-ml", estimate, "record it at a steady temperature");
+                        const Fit& fit) {
+  if (!fit.RowOf(Role::heat)) {
+    return Try("energy-ml", fit, "record it at a steady temperature");
   }
   if (TakesStart(identifier, input) && input.options.Text("initial_energy") == "zero") {
     return "if the joint was warm at the start, try --set initial_energy=estimated; else one time "
@@ -40,42 +33,41 @@ std::string AgainstHeat(const Identifier& identifier, const IdentifierInput& inp
          "a steady ambient temperature";
 }
 
-std::string AgainstSpeed(const Estimate& estimate) {
-  return Try("stribeck", estimate, "the law lacks a curve over speed (Stribeck)");
+std::string AgainstSpeed(const Fit& fit) {
+  return Try("stribeck", fit, "the law lacks a curve over speed (Stribeck)");
 }
 
 /// Beside a map over position, the map over energy has to follow the slope too.
-std::string AgainstWarmingSlope(const Estimate& estimate) {
-  const bool mapped = estimate.friction && !estimate.friction->maps.empty();
-  return Try(mapped ? "energy-map" : "lpv-energy", estimate,
-             "more kernels over energy would follow it");
+std::string AgainstWarmingSlope(const Fit& fit) {
+  const bool mapped = !fit.friction.maps.empty();
+  return Try(mapped ? "energy-map" : "lpv-energy", fit, "more kernels over energy would follow it");
 }
 
 std::string AgainstDirection(const Identifier& identifier, const IdentifierInput& input,
-                             const Estimate& estimate) {
-  const bool can = HasOption(identifier, "law") && input.options.Text("law") != "asymmetric";
+                             const Fit& fit) {
+  const bool can = identifier.Has("law") && input.options.Text("law") != "asymmetric";
   if (can) return "try --set law=asymmetric";
   const std::string slope = "friction differs in slope between the directions";
-  const std::string next = Try("position-ridge", estimate, "");
+  const std::string next = Try("position-ridge", fit, "");
   return next.empty() ? slope : fmt::format("{}: {} with --set basis=velocity", slope, next);
 }
 
 std::string AgainstPosition(const Structure& structure, const Identifier& identifier,
-                            const IdentifierInput& input, const Estimate& estimate) {
+                            const IdentifierInput& input, const Fit& fit) {
   if (structure.alike > 0.8) {
     // gravity turns once with the joint: along the travel it is one slow wave
     const Eigen::VectorXd& position = input.measurements.position;
     const double travel = position.maxCoeff() - position.minCoeff();
     const bool slow = structure.period > std::min(std::numbers::pi, 0.9 * travel);
     const bool gravity = input.measurements.joint == JointKind::rotary && slow &&
-                         HasOption(identifier, "gravity") && !estimate.gravity;
+                         identifier.Has("gravity") && !fit.gravity;
     const std::string alike = "it acts alike in both directions, as ";
     if (gravity) return alike + "gravity does: try --gravity sincos";
-    const std::string next = Try("position-ridge", estimate, "");
+    const std::string next = Try("position-ridge", fit, "");
     return alike + "a load does that depends on position" +
            (next.empty() ? next : ": " + next + " with --set basis=position");
   }
-  return Try("position-ridge", estimate, "a map over position would follow it");
+  return Try("position-ridge", fit, "a map over position would follow it");
 }
 
 }  // namespace
@@ -127,33 +119,33 @@ std::string AgainstWarmStart(const Identifier& identifier, const IdentifierInput
 }
 
 std::string Remedy(const Structure& structure, const Identifier& identifier,
-                   const IdentifierInput& input, const Estimate& estimate) {
+                   const IdentifierInput& input, const Fit& fit) {
   switch (structure.on) {
     case Dependence::time:
     case Dependence::energy:
-      return AgainstHeat(identifier, input, estimate);
+      return AgainstHeat(identifier, input, fit);
     case Dependence::initial_energy:
       return "was the joint warm at the start? " + AgainstWarmStart(identifier, input);
     case Dependence::speed:
-      return AgainstSpeed(estimate);
+      return AgainstSpeed(fit);
     case Dependence::speed_by_energy:
-      return AgainstWarmingSlope(estimate);
+      return AgainstWarmingSlope(fit);
     case Dependence::direction:
-      return AgainstDirection(identifier, input, estimate);
+      return AgainstDirection(identifier, input, fit);
     case Dependence::lag:
       return "is the torque filtered or late? shift it against the velocity, or log both alike";
     case Dependence::load:
-      return Try("load-map", estimate, "more kernels over load would follow it");
+      return Try("load-map", fit, "more kernels over load would follow it");
     case Dependence::temperature:
       return "record it at a steady temperature";
     case Dependence::position:
-      return AgainstPosition(structure, identifier, input, estimate);
+      return AgainstPosition(structure, identifier, input, fit);
     case Dependence::position_by_energy:
-      return Try("energy-map", estimate, "more kernels over energy would follow it");
+      return Try("energy-map", fit, "more kernels over energy would follow it");
     case Dependence::motor_angle:
       break;
   }
-  return Try("motor-ridge", estimate, "a map over the motor angle would follow it");
+  return Try("motor-ridge", fit, "a map over the motor angle would follow it");
 }
 
 }  // namespace warmjoint::inline identification

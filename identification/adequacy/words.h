@@ -4,6 +4,7 @@
 #include <string>
 
 #include "identification/adequacy/examine.h"
+#include "identification/identifier.h"
 
 namespace warmjoint::inline identification {
 
@@ -17,6 +18,6 @@ std::string AgainstWarmStart(const Identifier& identifier, const IdentifierInput
 /// The law or identifier that can follow what the residual depends on: "try energy-ml". Names only
 /// what is there.
 std::string Remedy(const Structure& structure, const Identifier& identifier,
-                   const IdentifierInput& input, const Estimate& estimate);
+                   const IdentifierInput& input, const Fit& fit);
 
 }  // namespace warmjoint::inline identification

@@ -10,12 +10,12 @@ namespace {
 /// Law and kernels over position.
 void AddMap(const IdentifierInput& input, const std::string& identifier, NominalPart& part) {
   if (input.options.Text("gravity") != "none") {
-    part.refusal = Failed(identifier, Status::bad_data,
-                          "position=map cannot be had together with gravity; leave one of them out "
-                          "(basis=position takes gravity up into the map)");
+    part.refusal = Refusal{Status::bad_data,
+                           "position=map cannot be had together with gravity; leave one of them "
+                           "out (basis=position takes gravity up into the map)"};
     return;
   }
-  const IdentifierInput moving{input.measurements, part.moving, input.options, input.random};
+  const IdentifierInput moving = input.With(part.moving);
   MapBeginning begin = BeginMaps(moving, identifier, {MapQuantity::position});
   part.refusal = begin.refusal;
   if (part.refusal) return;
@@ -23,7 +23,7 @@ void AddMap(const IdentifierInput& input, const std::string& identifier, Nominal
   task.candidates = PositionMaps(input.options, task.settings, begin.points);
   const auto choice = ChooseAndFit(moving, task);
   if (!choice) {
-    part.refusal = Unsolvable(identifier);
+    part.refusal = Unsolvable();
     return;
   }
   part.maps = choice->fit.maps;
@@ -53,16 +53,16 @@ NominalPart PrepareNominalPart(const IdentifierInput& given, const std::string& 
   NominalPart part;
   part.gravity = PrepareGravity(given);
   if (part.gravity.why) {
-    part.refusal = Failed(identifier, part.gravity.status, *part.gravity.why);
+    part.refusal = Refusal{part.gravity.status, *part.gravity.why};
     return part;
   }
   const IdentifierInput input = part.gravity.Of(given);
   const auto d = static_cast<int>(law.parameters.size() + part.gravity.count());
   if (auto why = Unusable(input, d + 2)) {
-    part.refusal = Failed(identifier, Status::bad_data, *why);
+    part.refusal = Refusal{Status::bad_data, *why};
     return part;
   }
-  part.moving = {input.selection.keep && m.velocity.array() != 0, {}};
+  part.moving = {input.selection.keep && m.velocity.array() != 0, input.selection.segments};
   part.columns = LawColumns(law, m.velocity);
   if (given.options.Text("position") == "map") {
     AddMap(input, identifier, part);
@@ -74,8 +74,8 @@ NominalPart PrepareNominalPart(const IdentifierInput& given, const std::string& 
   const LeastSquares fit =
       SolveLeastSquares(Kept(part.columns, part.moving), Kept(m.torque, part.moving));
   if (fit.rank < d) {
-    part.refusal = Failed(identifier, Status::not_identifiable,
-                          IndistinctColumns(fit.mixed, law, part.gravity, input));
+    part.refusal =
+        Refusal{Status::not_identifiable, IndistinctColumns(fit.mixed, law, part.gravity, input)};
   }
   part.cofactor = fit.cofactor;
   part.solution = fit.solution;

@@ -14,11 +14,11 @@ struct NominalPart {
   Eigen::MatrixXd columns;  // [N x p] over all samples: law (d), then gravity or kernels (q)
   /// [p x p] (A^T A + s P)^-1 over the moving samples; P: 1 on the kernels' diagonal.
   Eigen::MatrixXd cofactor;
-  Eigen::VectorXd solution;         // [p] the fit without warming
-  std::vector<FrictionMap> maps;    // shapes
-  double strength = 0;              // s
-  double effective = 0;             // of the p parameters
-  std::optional<Estimate> refusal;  // why there is no such part
+  Eigen::VectorXd solution;        // [p] the fit without warming
+  std::vector<FrictionMap> maps;   // shapes
+  double strength = 0;             // s
+  double effective = 0;            // of the p parameters
+  std::optional<Refusal> refusal;  // why there is no such part
 
   Eigen::Index kernels() const;
 
@@ -27,7 +27,7 @@ struct NominalPart {
 };
 
 /// As the options law, gravity and position ask for it. The map's shape and strength are chosen on
-/// the torque as it is, warming included.
+/// the torque as it is, warming included. identifier: the name of the one that asks.
 NominalPart PrepareNominalPart(const IdentifierInput& given, const std::string& identifier);
 
 }  // namespace warmjoint::inline identification

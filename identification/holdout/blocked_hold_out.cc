@@ -1,7 +1,6 @@
 #include "identification/holdout/blocked_hold_out.h"
 
-#include "identification/fit_data.h"
-#include "identification/forward/predict.h"
+#include "identification/holdout/evaluate.h"
 
 namespace warmjoint::inline identification {
 
@@ -30,13 +29,11 @@ std::optional<Eigen::VectorXd> BlockedErrors(const Identifier& identifier,
     others.keep.segment(bounds[b], length) = false;
     Selection block = input.selection;
     block.keep = block.keep && !others.keep;
-    const Estimate estimate =
-        identifier.identify({input.measurements, others, input.options, input.random});
-    if (!estimate.friction || block.count() == 0) return std::nullopt;
-
-    const Prediction prediction = PredictFriction(*estimate.friction, input.measurements);
-    const Eigen::VectorXd residual = Kept(input.measurements.torque - prediction.force, block);
-    errors[b] = residual.squaredNorm() / static_cast<double>(residual.size());
+    const IdentifierInput rest = input.With(others);
+    const Fit fit = identifier.fit(rest);
+    const auto metrics = Evaluate(fit, input.measurements, block, fit.initial_energy);
+    if (!metrics) return std::nullopt;
+    errors[b] = metrics->rmse * metrics->rmse;
   }
   return errors;
 }

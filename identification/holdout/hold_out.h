@@ -17,6 +17,6 @@ std::optional<Metrics> HoldOut(const Identifier& identifier, const IdentifierInp
 /// Fits on all of `input` and evaluates on the kept samples of another recording, which starts
 /// cold. Nothing where the fit gives no friction.
 std::optional<Metrics> HoldOut(const Identifier& identifier, const IdentifierInput& input,
-                               const Measurements& other, const Selection& other_selection);
+                               const PreparedLog& other);
 
 }  // namespace warmjoint::inline identification

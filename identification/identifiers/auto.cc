@@ -2,12 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "identification/fit_data.h"
 #include "identification/holdout/blocked_hold_out.h"
 #include "identification/holdout/structure_choice.h"
+#include "identification/identifiers/energy_ml.h"
+#include "identification/identifiers/motor_ridge.h"
+#include "identification/identifiers/nominal_ls.h"
+#include "identification/identifiers/position_ridge.h"
+#include "identification/identifiers/stribeck.h"
+#include "identification/inference/inference.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -16,11 +22,11 @@ constexpr const char* kName = "auto";
 
 /// One structure to try.
 struct Candidate {
-  std::string identifier;
+  Identifier identifier;
   std::map<std::string, std::string> given;  // its options
 
   std::string Name() const {
-    std::string name = identifier;
+    std::string name = identifier.name;
     for (const auto& [key, value] : given) name += fmt::format(" {}={}", key, value);
     return name;
   }
@@ -29,67 +35,53 @@ struct Candidate {
 /// What became of it.
 struct Trial {
   Candidate candidate;
-  Estimate estimate;                      // on all the data
+  Fit fit;                                // on all the data
+  Inference told;                         // by that fit
   std::string dropped;                    // why it is no contender; empty for one that is
   std::optional<Eigen::VectorXd> errors;  // on blocks, of a contender
 
-  double Parameters() const { return estimate.metrics->effective_parameters; }
-  double MeanSquare() const { return estimate.metrics->rmse * estimate.metrics->rmse; }
-};
-
-/// Whether the list has such an identifier, with all these options.
-bool IsListed(const Candidate& candidate) {
-  for (const Identifier& one : Identifiers()) {
-    if (one.name != candidate.identifier) continue;
-    return std::all_of(candidate.given.begin(), candidate.given.end(), [&](const auto& given) {
-      return std::any_of(one.options.begin(), one.options.end(),
-                         [&](const OptionInfo& option) { return option.name == given.first; });
-    });
+  double Parameters() const { return fit.effective_parameters; }
+  double MeanSquare() const {
+    return fit.residual().squaredNorm() / static_cast<double>(fit.torque.size());
   }
-  return false;
-}
+};
 
 /// All structures, the plain law (2) first.
 std::vector<Candidate> Candidates(const Measurements& m) {
-  std::vector<Candidate> candidates{{"nominal-ls", {{"law", "viscous_coulomb"}}}};
-  for (const char* law : {"coulomb", "asymmetric"}) {
-    candidates.push_back({"nominal-ls", {{"law", law}}});
+  std::vector<Candidate> candidates;
+  for (const char* law : {"viscous_coulomb", "coulomb", "asymmetric"}) {
+    candidates.push_back({NominalLs(), {{"law", law}}});
   }
   for (const char* law : {"coulomb", "viscous_coulomb", "asymmetric"}) {
-    candidates.push_back({"energy-ml", {{"law", law}}});
+    candidates.push_back({EnergyMl(), {{"law", law}}});
   }
   for (const char* warming : {"none", "estimated"}) {
-    candidates.push_back({"stribeck", {{"warming", warming}}});
+    candidates.push_back({StribeckByCeres(), {{"warming", warming}}});
   }
-  candidates.push_back({"position-ridge", {}});
-  candidates.push_back({"energy-ml", {{"position", "map"}}});
-  if (m.gear != 1 || m.motor_position) candidates.push_back({"motor-ridge", {}});
-  std::erase_if(candidates, [](const Candidate& candidate) { return !IsListed(candidate); });
+  candidates.push_back({PositionRidge(), {}});
+  candidates.push_back({EnergyMl(), {{"position", "map"}}});
+  if (m.gear != 1 || m.motor_position) candidates.push_back({MotorRidge(), {}});
   return candidates;
-}
-
-/// Calls use(identifier, input) with the candidate's options.
-template <typename Use>
-auto With(const Candidate& candidate, const IdentifierInput& input, Use&& use) {
-  const Identifier& identifier = FindIdentifier(candidate.identifier);
-  const Options options(identifier.options, candidate.given, {});
-  return use(identifier,
-             IdentifierInput{input.measurements, input.selection, options, input.random});
 }
 
 /// The candidate on all the data.
 Trial Try(const Candidate& candidate, const IdentifierInput& input) {
-  Trial trial{candidate, {}, {}, {}};
-  trial.estimate = With(candidate, input, [](const Identifier& identifier, const auto& same) {
-    return identifier.identify(same);
-  });
-  const Estimate& estimate = trial.estimate;
-  if (estimate.status != Status::ok) {
-    trial.dropped = StatusName(estimate.status);
-  } else if (!estimate.friction || !estimate.metrics) {
+  const Options options(candidate.identifier.options, candidate.given, {});
+  Trial trial{candidate, candidate.identifier.fit(input.With(options)), {}, {}, {}};
+  trial.told = Infer(trial.fit);
+  if (trial.told.status != Status::ok) {
+    trial.dropped = StatusName(trial.told.status);
+  } else if (!trial.told.gives_friction) {
     trial.dropped = "gives no friction";
   }
   return trial;
+}
+
+/// Its errors on blocks that it has not seen.
+std::optional<Eigen::VectorXd> ErrorsOf(const Candidate& candidate, const IdentifierInput& input,
+                                        const std::vector<Eigen::Index>& bounds) {
+  const Options options(candidate.identifier.options, candidate.given, {});
+  return BlockedErrors(candidate.identifier, input.With(options), bounds);
 }
 
 /// Drops those that could not be chosen whatever the blocks say: BIC prefers a simpler one.
@@ -131,55 +123,62 @@ std::string Reason(const std::vector<Contender>& contenders, const Choice& choic
                               std::sqrt(contenders[choice.best].errors.mean()));
 }
 
-Estimate Identify(const IdentifierInput& input) {
-  const int blocks = input.options.Integer("blocks");
-  if (auto why = Unusable(input, 2 * blocks)) return Failed(kName, Status::bad_data, *why);
+/// Those that stand on blocks, and a table of all.
+struct Comparison {
+  std::vector<Contender> contenders;
+  std::vector<const Trial*> standing;
+  std::string table;
+};
+
+/// The trials that were not dropped, on blocks that they have not seen.
+Comparison Compare(std::vector<Trial>& trials, const IdentifierInput& input, int blocks) {
   const std::vector<Eigen::Index> bounds = CutIntoBlocks(input.selection, blocks);
+  Comparison all;
+  for (Trial& trial : trials) {
+    if (trial.dropped.empty()) {
+      trial.errors = ErrorsOf(trial.candidate, input, bounds);
+      if (!trial.errors) trial.dropped = "fails without one of the blocks";
+    }
+    all.table += (all.table.empty() ? "" : "; ") + Describe(trial, input.measurements.torque_unit);
+    if (!trial.errors || !trial.errors->allFinite()) continue;
+    all.standing.push_back(&trial);
+    all.contenders.push_back(
+        {trial.candidate.Name(), *trial.errors, trial.MeanSquare(), trial.Parameters()});
+  }
+  return all;
+}
+
+Fit FitChosen(const IdentifierInput& input) {
+  const int blocks = input.options.Integer("blocks");
+  if (auto why = Unusable(input, 2 * blocks)) return Refused(kName, Status::bad_data, *why);
 
   // a law can be chosen only where the motion tells the parameters of the plain one apart
   std::vector<Trial> trials;
   for (const Candidate& candidate : Candidates(input.measurements)) {
     trials.push_back(Try(candidate, input));
-    const Estimate& plain = trials[0].estimate;
+    const Inference& plain = trials[0].told;
     if (plain.status == Status::not_identifiable) {
-      return Failed(kName, plain.status, plain.message);
+      return Refused(kName, plain.status, plain.message);
     }
   }
   const auto samples = static_cast<double>(input.selection.count());
   DropOutdone(trials, samples);
-
-  // the contenders on blocks that they have not seen
-  std::vector<Contender> contenders;
-  std::vector<const Trial*> standing;
-  std::string table;
-  for (Trial& trial : trials) {
-    if (trial.dropped.empty()) {
-      trial.errors =
-          With(trial.candidate, input, [&](const Identifier& identifier, const auto& same) {
-            return BlockedErrors(identifier, same, bounds);
-          });
-      if (!trial.errors) trial.dropped = "fails without one of the blocks";
-    }
-    table += (table.empty() ? "" : "; ") + Describe(trial, input.measurements.torque_unit);
-    if (!trial.errors || !trial.errors->allFinite()) continue;
-    standing.push_back(&trial);
-    contenders.push_back(
-        {trial.candidate.Name(), *trial.errors, trial.MeanSquare(), trial.Parameters()});
-  }
+  const auto [contenders, standing, table] = Compare(trials, input, blocks);
   if (contenders.empty()) {
-    const Estimate& plain = trials[0].estimate;
+    const Inference& plain = trials[0].told;
     const Status status = plain.status == Status::ok ? Status::not_identifiable : plain.status;
-    return Failed(kName, status,
-                  fmt::format("no structure fits: {}; the first says: {}", table, plain.message));
+    return Refused(kName, status,
+                   fmt::format("no structure fits: {}; the first says: {}", table, plain.message));
   }
 
+  // the chosen one's fit, with the reason around what it says
   const Choice choice = ChooseStructure(contenders, samples);
-  Estimate estimate = standing[choice.chosen]->estimate;
-  estimate.identifier = kName;
-  estimate.message = fmt::format("{}; {}. Tried: {}",
-                                 Reason(contenders, choice, blocks, input.measurements.torque_unit),
-                                 estimate.message, table);
-  return estimate;
+  Fit fit = standing[choice.chosen]->fit;
+  fit.identifier = kName;
+  fit.summary = fmt::format(
+      "{}; {}", Reason(contenders, choice, blocks, input.measurements.torque_unit), fit.summary);
+  fit.afterword += ". Tried: " + table;
+  return fit;
 }
 
 }  // namespace
@@ -188,7 +187,7 @@ Identifier Auto() {
   return {kName,
           "chooses law, warming and maps by hold-out, the simplest that is not worse, and says why",
           {{"blocks", "6", "integer >= 3 <= 50", "contiguous parts of the recording to hold out"}},
-          &Identify};
+          &FitChosen};
 }
 
 }  // namespace warmjoint::inline identification

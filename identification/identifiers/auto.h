@@ -9,7 +9,7 @@ namespace warmjoint::inline identification {
 /// the motor's angle where a gear is given. Drops those that the recording cannot identify, and
 /// those to which BIC prefers a simpler one; compares the rest by the error on contiguous blocks
 /// that each has not seen (blocked_hold_out.h) and takes the simplest that is not worse than the
-/// best beyond doubt (structure_choice.h). The estimate is that structure's on all the data; the
+/// best beyond doubt (structure_choice.h). The fit is that structure's on all the data; the
 /// message says why and lists all candidates.
 ///
 /// not_identifiable where the motion cannot tell viscous from coulomb: then no law can be chosen.

@@ -8,12 +8,9 @@
 #include "identification/alternating/convergence.h"
 #include "identification/alternating/first_guess.h"
 #include "identification/alternating/nominal_part.h"
-#include "identification/describe_friction.h"
 #include "identification/fit_data.h"
-#include "identification/linear/report_law.h"
+#include "identification/fit_parameters.h"
 #include "identification/maps/position_maps.h"
-#include "identification/warming/report_thermal.h"
-#include "models/foundation/robust_noise.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -37,21 +34,6 @@ FirstGuess Start(const IdentifierInput& input) {
   return {Thermal{gain, random.Uniform(shortest, longest)}, ""};
 }
 
-/// Names and values of all parameters, continuous and discrete.
-std::vector<std::pair<std::string, double>> Named(const Law& law, const DescentState& state,
-                                                  double h) {
-  std::vector<std::pair<std::string, double>> named;
-  for (size_t i = 0; i < law.parameters.size(); ++i) {
-    named.emplace_back(law.parameters[i].name, state.nominal[static_cast<Eigen::Index>(i)]);
-  }
-  const DiscreteThermal discrete = Discretise(state.thermal, h);
-  named.emplace_back("thermal_gain", state.thermal.gain);
-  named.emplace_back("thermal_time_constant", state.thermal.time_constant);
-  named.emplace_back("thermal_gain_discrete", discrete.gain);
-  named.emplace_back("thermal_pole", discrete.pole);
-  return named;
-}
-
 /// (nominal, gain, ln tau): the parameters in which the covariance is known.
 Eigen::VectorXd Vector(const DescentState& state) {
   const Eigen::Index d = state.nominal.size();
@@ -61,7 +43,7 @@ Eigen::VectorXd Vector(const DescentState& state) {
 }
 
 /// All iterations, the start included.
-std::vector<DescentState> Iterate(const BlockDescent& descent, const Thermal& start,
+std::vector<DescentState> Descend(const BlockDescent& descent, const Thermal& start,
                                   int iterations) {
   std::vector<DescentState> states{descent.Start(start)};
   for (int i = 0; i < iterations; ++i) {
@@ -92,19 +74,20 @@ Eigen::Index FeedsItselfAt(const Measurements& m, const Eigen::VectorXd& fitted)
   return -1;
 }
 
-/// Why the last state deserves no numbers; empty where it does. fitted: [N] friction, N.m or N.
-std::optional<Estimate> Refusal(const Measurements& m, const DescentState& last,
-                                const Eigen::VectorXd& fitted) {
+/// Why the last state deserves no numbers; nothing where it does. friction: fitted, [N] N.m or N.
+std::optional<Refusal> WhyRefused(const Measurements& m, const DescentState& last,
+                                  const Eigen::VectorXd& friction) {
   if (!last.inside) {
-    return Failed(kName, Status::not_identifiable,
-                  fmt::format("thermal_time_constant runs to {:.3g} s, the end of what these "
-                              "samples can tell; record until the friction settles, or with rests",
-                              last.thermal.time_constant));
+    return Refusal{
+        Status::not_identifiable,
+        fmt::format("thermal_time_constant runs to {:.3g} s, the end of what these samples can "
+                    "tell; record until the friction settles, or with rests",
+                    last.thermal.time_constant)};
   }
-  if (const Eigen::Index i = FeedsItselfAt(m, fitted); i >= 0) {
-    return Failed(
-        kName, Status::inadequate_model,
-        WouldFeedItself(m.time[i], "try law asymmetric, or start nearer to the solution"));
+  if (const Eigen::Index i = FeedsItselfAt(m, friction); i >= 0) {
+    return Refusal{
+        Status::inadequate_model,
+        WouldFeedItself(m.time[i], "try law asymmetric, or start nearer to the solution")};
   }
   return std::nullopt;
 }
@@ -143,80 +126,105 @@ std::optional<Eigen::MatrixXd> JointCofactor(const NominalPart& part,
   return cofactor;
 }
 
-/// The last state as an estimate, with its verdict.
-Estimate Conclude(const IdentifierInput& input, const Law& law, const NominalPart& part,
-                  const BlockDescent& descent, const std::vector<DescentState>& states) {
+/// What is known of the rows of the table, law, warming and gravity. known: of (nominal, gain,
+/// ln tau); d: parameters of the law.
+Uncertainty OfTable(const NominalPart& part, Eigen::Index d, Uncertainty known) {
+  const Eigen::Index p = known.covariance.rows();
+  std::vector<Eigen::Index> order;
+  for (Eigen::Index i = 0; i < d; ++i) order.push_back(i);
+  order.insert(order.end(), {p - 2, p - 1});
+  for (Eigen::Index i = 0; i < part.gravity.count(); ++i) order.push_back(d + i);
+  known.covariance = known.covariance(order, order).eval();
+  return known;
+}
+
+/// Law, warming, gravity and maps of the last state: the model and its table.
+Fit ModelOf(const IdentifierInput& input, const NominalPart& part, const DescentState& last) {
   const Measurements& m = input.measurements;
+  const Law& law = *FindLaw(input.options.Text("law"));
+  const Eigen::VectorXd values =
+      last.nominal.head(static_cast<Eigen::Index>(law.parameters.size()));
+  Fit fit;
+  fit.identifier = kName;
+  fit.friction = FrictionOf(law, values, m);
+  fit.friction.thermal = last.thermal;
+  fit.friction.maps = part.MapsOf(last.nominal);
+  fit.parameters = LawParameters(law, values, m);
+  Append(HeatParameters(last.thermal, m), fit);
+  AddGravity(part.gravity, last.nominal.tail(part.gravity.count()), m, fit);
+  return fit;
+}
+
+/// The fit that the last state makes, with its verdict.
+Fit Conclude(const IdentifierInput& input, const NominalPart& part, const BlockDescent& descent,
+             const std::vector<DescentState>& states) {
   const DescentState& last = states.back();
+  Fit fit = ModelOf(input, part, last);
   const Eigen::VectorXd fitted = descent.Fitted(last);
   const Eigen::VectorXd pull = part.moving.keep.cast<double>().matrix().cwiseProduct(
       part.gravity.columns * last.nominal.tail(part.gravity.count()));
-  if (auto refusal = Refusal(m, last, fitted - pull)) return *refusal;
+  fit.refusal = WhyRefused(input.measurements, last, fitted - pull);
+  if (fit.refusal) return fit;
 
   // both blocks together
-  const Eigen::VectorXd torque = Kept(m.torque, part.moving);
+  fit.used = part.moving;
+  fit.torque = Kept(input.measurements.torque, part.moving);
   const Eigen::MatrixXd jacobian = Kept(descent.Jacobian(last), part.moving);
-  const auto cofactor = JointCofactor(part, jacobian, torque);
+  const auto cofactor = JointCofactor(part, jacobian, fit.torque);
   if (!cofactor) {
-    return Failed(kName, Status::not_identifiable,
-                  "the motion cannot tell warming from the nominal friction; record from cold, "
-                  "with speeds that differ clearly, until the friction settles");
+    fit.refusal = {Status::not_identifiable,
+                   "the motion cannot tell warming from the nominal friction; record from cold, "
+                   "with speeds that differ clearly, until the friction settles"};
+    return fit;
   }
+  fit.fitted = Kept(fitted, part.moving);
+  fit.count = static_cast<int>(last.nominal.size()) + 2;
+  fit.effective_parameters = part.effective + 2;
 
   // what is known now, and how far from the end it is
-  Estimate estimate;
-  estimate.identifier = kName;
-  const Eigen::VectorXd kept = Kept(fitted, part.moving);
-  estimate.metrics =
-      ComputeMetrics(torque, kept, static_cast<int>(last.nominal.size()) + 2, part.effective + 2);
-  const Uncertainty known = JudgeUncertainty(jacobian, *cofactor, torque - kept, part.moving, kept);
-  const auto d = static_cast<Eigen::Index>(law.parameters.size());
-  ReportLaw(law, last.nominal.head(d), known, m, estimate);
-  const Eigen::Matrix2d thermal = known.covariance.bottomRightCorner<2, 2>();
-  ReportThermal(last.thermal, thermal, known.freedom, m, estimate);
-  ReportGravity(part.gravity, last.nominal, known, m, estimate);
+  const Uncertainty known =
+      JudgeUncertainty(jacobian, *cofactor, fit.residual(), fit.used, fit.fitted);
+  const auto d = static_cast<Eigen::Index>(fit.friction.parameters.size());
+  fit.errors.known = OfTable(part, d, known);
   const auto [arrived, message] = Arrival(states, known, input.options.Number("tolerance"));
-  if (!arrived) {
-    Void(Status::not_converged, message, estimate);
-    return estimate;
-  }
+  if (!arrived) fit.voided = {Status::not_converged, message};
+  fit.summary = message;
 
   // W is formed of the noisy torque, so the residual understates the errors
-  for (EstimatedParameter& parameter : estimate.parameters) {
-    parameter.std.reset();
-    parameter.interval95.reset();
-  }
-  estimate.message = message + "; gives no intervals, energy-ml does";
-  DescribeFriction(law, m, estimate);
-  if (!estimate.friction) return estimate;
-  estimate.friction->thermal = last.thermal;
-  estimate.friction->maps = part.MapsOf(last.nominal);
-  return estimate;
+  fit.without_intervals = "gives no intervals, energy-ml does";
+  return fit;
 }
 
-Estimate Identify(const IdentifierInput& input) {
-  const Measurements& m = input.measurements;
-  const Law& law = *FindLaw(input.options.Text("law"));
+std::vector<Iterate> Trace(const std::vector<DescentState>& states, Eigen::Index d) {
+  std::vector<Iterate> trace;
+  for (const DescentState& state : states) {
+    Iterate iterate{static_cast<int>(trace.size()), {}, state.rmse};
+    iterate.values.assign(state.nominal.begin(), state.nominal.begin() + d);
+    iterate.values.push_back(state.thermal.gain);
+    iterate.values.push_back(state.thermal.time_constant);
+    trace.push_back(std::move(iterate));
+  }
+  return trace;
+}
+
+Fit FitInTurn(const IdentifierInput& input) {
   const NominalPart part = PrepareNominalPart(input, kName);
-  if (part.refusal) return *part.refusal;
+  if (part.refusal) return Refused(kName, *part.refusal);
   const GravityFit& gravity = part.gravity;
 
   FirstGuess start = Start(gravity.Of(input));
-  if (!start.thermal) return Failed(kName, Status::not_identifiable, start.why);
+  if (!start.thermal) return Refused(kName, Status::not_identifiable, start.why);
 
-  const BlockDescent descent(m, part.moving, part.columns, part.cofactor,
+  const BlockDescent descent(input.measurements, part.moving, part.columns, part.cofactor,
                              gravity.columns * part.solution.tail(gravity.count()));
   const double shortest = descent.output_error().shortest();
   start.thermal->time_constant = std::max(start.thermal->time_constant, shortest);
   const std::vector<DescentState> states =
-      Iterate(descent, *start.thermal, input.options.Integer("iterations"));
+      Descend(descent, *start.thermal, input.options.Integer("iterations"));
 
-  Estimate estimate = Conclude(input, law, part, descent, states);
-  const double h = MedianStep(m.time);
-  for (size_t i = 0; i < states.size(); ++i) {
-    estimate.trace.push_back({static_cast<int>(i), Named(law, states[i], h), states[i].rmse});
-  }
-  return estimate;
+  Fit fit = Conclude(input, part, descent, states);
+  fit.trace = Trace(states, static_cast<Eigen::Index>(fit.friction.parameters.size()));
+  return fit;
 }
 
 }  // namespace
@@ -241,7 +249,7 @@ Identifier EnergyEm() {
   options.insert(options.end(), std::make_move_iterator(part.begin() + 1),
                  std::make_move_iterator(part.end()));
   return {kName, "Algorithm 1: energy filter and nominal law fitted in turn, a trace per iteration",
-          options, &Identify};
+          options, &FitInTurn};
 }
 
 }  // namespace warmjoint::inline identification

@@ -1,5 +1,6 @@
 #include "identification/identifiers/energy_map.h"
 
+#include "identification/inference/inference.h"
 #include "identification/maps/over_energy.h"
 #include "identification/maps/position_maps.h"
 #include "identification/maps/warm_maps.h"
@@ -23,9 +24,9 @@ std::vector<std::vector<FrictionMap>> Shapes(const Options& options, const MapSe
   return shapes;
 }
 
-Estimate Identify(const IdentifierInput& input) {
+Fit FitEnergyMap(const IdentifierInput& input) {
   MapBeginning begin = BeginMaps(input, kName, {MapQuantity::position});
-  if (begin.refusal) return *begin.refusal;
+  if (begin.refusal) return Refused(kName, *begin.refusal);
   MapTask& task = begin.task;
 
   // E, with position parts beside it, one for each direction of motion
@@ -34,11 +35,12 @@ Estimate Identify(const IdentifierInput& input) {
                                            input.options.Integer("kernels"), width)});
   }
   const std::optional<WarmMaps> warm = FitWarmMaps(input, task);
-  if (!warm) return Unsolvable(kName);
-  Estimate first = ReportWarmMaps(input, *warm);
-  if (first.status != Status::ok || !first.friction) return first;
+  if (!warm) return Refused(kName, Unsolvable());
+  const Fit first = AsFit(input, *warm);
+  if (!Infer(first).gives_friction) return first;
 
-  return IdentifyOverEnergy(input, task, EnergyOf(first), [&](const MapPoints& points) {
+  // the map over that E too
+  return IdentifyOverEnergy(input, task, first.friction, [&](const MapPoints& points) {
     return Shapes(input.options, task.settings, points);
   });
 }
@@ -54,7 +56,7 @@ Identifier EnergyMap() {
   return {kName,
           "law, warming, and a map over position x velocity x energy: ripple that fades or grows "
           "as the joint warms",
-          options, &Identify};
+          options, &FitEnergyMap};
 }
 
 }  // namespace warmjoint::inline identification

@@ -4,18 +4,15 @@
 
 #include <cmath>
 
-#include "identification/describe_friction.h"
 #include "identification/fit_data.h"
+#include "identification/fit_parameters.h"
 #include "identification/linear/fit_gravity.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/linear_task.h"
-#include "identification/linear/report_law.h"
 #include "identification/linear/robust.h"
 #include "identification/maps/energy_ml_maps.h"
-#include "identification/uncertainty/uncertainty.h"
 #include "identification/warming/gaps.h"
-#include "identification/warming/report_thermal.h"
 #include "identification/warming/robust_warm_fit.h"
 #include "identification/warming/scan_time_constant.h"
 #include "identification/warming/unsettled.h"
@@ -42,23 +39,28 @@ std::optional<std::string> UntoldWarming(const WarmFit& fit, const WarmStart& sc
                          scanned.longest / kScannedBeyond});
 }
 
-std::vector<TraceEntry> Trace(const WarmFit& fit, const Law& law, double step, Eigen::Index n) {
-  std::vector<TraceEntry> trace;
-  for (const WarmIterate& iterate : fit.trace) {
-    TraceEntry entry;
-    entry.iteration = static_cast<int>(trace.size());
+/// The table of parameters in the order of x: law, heat, E(0), jumps, gravity.
+void FillTable(const WarmFit& warm, const Law& law, const GravityFit& gravity,
+               const Measurements& m, Fit& fit) {
+  const auto append = [&](std::vector<FitParameter> rows) {
+    fit.parameters.insert(fit.parameters.end(), rows.begin(), rows.end());
+  };
+  append(LawParameters(law, warm.parameters(), m));
+  append(HeatParameters(warm.thermal(), m));
+  if (warm.estimates_initial_energy()) append({StartParameter(warm.initial_energy(), m)});
+  append(JumpParameters(warm.jump_values(), m));
+  AddGravity(gravity, warm.offset_values(), m, fit);
+}
+
+std::vector<Iterate> Trace(const WarmFit& warm, Eigen::Index n) {
+  std::vector<Iterate> trace;
+  for (const WarmIterate& iterate : warm.trace) {
+    Iterate& entry = trace.emplace_back();
+    entry.iteration = static_cast<int>(trace.size()) - 1;
     entry.rmse = std::sqrt(iterate.squares / static_cast<double>(n));
-    const Eigen::Index d = fit.law_parameters;
-    for (Eigen::Index i = 0; i < d; ++i) {
-      entry.parameters.emplace_back(law.parameters[i].name, iterate.x[i]);
-    }
-    const Thermal thermal{iterate.x[d], std::exp(iterate.x[d + 1])};
-    const DiscreteThermal discrete = Discretise(thermal, step);
-    entry.parameters.emplace_back("thermal_gain", thermal.gain);
-    entry.parameters.emplace_back("thermal_time_constant", thermal.time_constant);
-    entry.parameters.emplace_back("thermal_gain_discrete", discrete.gain);
-    entry.parameters.emplace_back("thermal_pole", discrete.pole);
-    trace.push_back(std::move(entry));
+    const Eigen::Index d = warm.law_parameters;
+    entry.values.assign(iterate.x.begin(), iterate.x.begin() + d + 2);
+    entry.values.back() = std::exp(entry.values.back());
   }
   return trace;
 }
@@ -85,85 +87,86 @@ struct Task {
   const std::vector<LogGap>& gaps;
 };
 
-/// How sure a fit is, whatever its loss. residual, fitted: [n]
-Uncertainty Judge(const Task& task, const RobustWarmFit& robust, const Eigen::VectorXd& residual,
-                  const Eigen::VectorXd& fitted) {
-  const Selection& selection = task.input.selection;
-  const Eigen::VectorXd prior = robust.fit.prior();
-  const auto jacobian = [&] {
-    return Kept(Jacobian(task.loop, task.gravity, robust.fit), selection);
-  };
+/// What the errors of a fit follow from, whatever its loss. residual: [n]
+ErrorModel ErrorsOf(const Task& task, const RobustWarmFit& robust,
+                    const Eigen::VectorXd& residual) {
+  ErrorModel errors;
+  errors.prior = robust.fit.prior();
   if (std::isinf(robust.threshold)) {
-    return JudgeUncertainty(jacobian, Cofactor(robust.fit.normal), residual, selection, fitted,
-                            prior);
+    errors.cofactor = Cofactor(robust.fit.normal);
+    return errors;
   }
-  const Eigen::MatrixXd rows = jacobian();
+  const Eigen::MatrixXd rows =
+      Kept(Jacobian(task.loop, task.gravity, robust.fit), task.input.selection);
   Eigen::MatrixXd normal = rows.transpose() * rows;
-  normal.diagonal() += prior;
-  return JudgeUncertainty(rows, Cofactor(normal), HuberScores(residual, robust.threshold),
-                          selection, fitted, prior);
+  normal.diagonal() += errors.prior;
+  errors.cofactor = Cofactor(normal);
+  errors.scores = HuberScores(residual, robust.threshold);
+  return errors;
 }
 
-/// The verdict on a fit, and its numbers where they can be trusted. nominal_squares: of the fit
-/// without warming.
-Estimate Conclude(const Task& task, const RobustWarmFit& robust, double nominal_squares) {
+/// Why there is no fit to trust; nothing where there is. nominal_squares: of the fit without
+/// warming.
+std::optional<Refusal> WhyRefused(const Task& task, const WarmFit& warm, double nominal_squares,
+                                  const LoopResponse& response) {
   const Measurements& m = task.input.measurements;
-  const WarmFit& fit = robust.fit;
-  const Eigen::VectorXd torque = Kept(m.torque, task.input.selection);
-  const auto p = static_cast<int>(fit.solution.x.size());
-  const Eigen::Index d = fit.law_parameters;
-  const double variance = fit.solution.squares / static_cast<double>(torque.size() - p);
+  const auto n = task.input.selection.count();
+  const double variance = warm.solution.squares / static_cast<double>(n - warm.solution.x.size());
   if (auto why =
-          UntoldWarming(fit, task.scanned, variance, nominal_squares, Cofactor(fit.normal))) {
-    return Failed(kName, Status::not_identifiable, *why);
+          UntoldWarming(warm, task.scanned, variance, nominal_squares, Cofactor(warm.normal))) {
+    return Refusal{Status::not_identifiable, *why};
   }
-  if (!fit.converged) {
-    return Failed(kName, Status::not_converged,
-                  fmt::format("the fit still moves after {} iterations; {}", fit.trace.size() - 1,
-                              WhyUnsettled(m, "warm-up")));
+  if (!warm.converged) {
+    return Refusal{Status::not_converged,
+                   fmt::format("the fit still moves after {} iterations; {}", warm.trace.size() - 1,
+                               WhyUnsettled(m, "warm-up"))};
   }
-  const LoopResponse response =
-      task.loop.Simulate(fit.parameters(), fit.thermal(), fit.initial_energy(), fit.jump_values());
   if (response.feeds_itself) {
-    return Failed(kName, Status::inadequate_model,
-                  WouldFeedItself(m.time[*response.feeds_itself], "try another law"));
+    return Refusal{Status::inadequate_model,
+                   WouldFeedItself(m.time[*response.feeds_itself], "try another law")};
   }
+  return std::nullopt;
+}
 
-  Estimate estimate;
-  estimate.identifier = kName;
-  const Eigen::VectorXd fitted =
-      Kept(response.force + task.gravity.columns * fit.offset_values(), task.input.selection);
-  estimate.metrics = ComputeMetrics(torque, fitted, p, p);
-  const Uncertainty known = Judge(task, robust, torque - fitted, fitted);
-  if (!known.covariance.allFinite()) {
-    return Failed(kName, Status::bad_data, "torque or velocity is too large to square");
-  }
-  ReportLaw(task.law, fit.parameters(), known, m, estimate);
-  ReportThermal(fit.thermal(), known.covariance.block<2, 2>(d, d), known.freedom, m, estimate);
-  if (fit.estimates_initial_energy()) {
-    estimate.parameters.push_back(WithInterval("initial_energy", fit.initial_energy(),
-                                               m.torque_unit, known.Deviation(d + 2),
-                                               known.freedom));
-  }
-  const Eigen::VectorXd jumps = fit.jump_values();
-  for (Eigen::Index i = 0; i < jumps.size(); ++i) {
-    const Eigen::Index place = p - fit.offsets - jumps.size() + i;
-    estimate.parameters.push_back(WithInterval(fmt::format("energy_jump_{}", i + 1), jumps[i],
-                                               m.torque_unit, known.Deviation(place),
-                                               known.freedom));
-  }
-  ReportGravity(task.gravity, fit.solution.x, known, m, estimate);
-  estimate.message = fmt::format("maximum likelihood on {} samples, refined in {} iterations{}{}",
-                                 torque.size(), fit.trace.size() - 1,
-                                 DescribeLoss(torque - fitted, robust.threshold), NoiseOf(known));
+/// The fit as a value. nominal_squares: of the fit without warming.
+Fit Conclude(const Task& task, const RobustWarmFit& robust, double nominal_squares) {
+  const IdentifierInput& input = task.input;
+  const Measurements& m = input.measurements;
+  const WarmFit& warm = robust.fit;
+  const LoopResponse response = task.loop.Simulate(warm.parameters(), warm.thermal(),
+                                                   warm.initial_energy(), warm.jump_values());
+  Fit fit;
+  fit.identifier = kName;
+  fit.trace = Trace(warm, input.selection.count());
+  fit.refusal = WhyRefused(task, warm, nominal_squares, response);
+  FillTable(warm, task.law, task.gravity, m, fit);
+  if (fit.refusal) return fit;
+
+  // the model
+  fit.friction = FrictionOf(task.law, warm.parameters(), m);
+  fit.friction.thermal = warm.thermal();
+  fit.initial_energy = warm.initial_energy();
+  fit.jump_samples = task.loop.jumps();
+
+  // and how well it fits
+  fit.used = input.selection;
+  fit.torque = Kept(m.torque, fit.used);
+  fit.fitted = Kept(response.force + task.gravity.columns * warm.offset_values(), fit.used);
+  fit.errors = ErrorsOf(task, robust, fit.residual());
+  fit.jacobian = [loop = task.loop, gravity = task.gravity, warm] {
+    return Jacobian(loop, gravity, warm);
+  };
+  fit.count = static_cast<int>(warm.solution.x.size());
+  fit.effective_parameters = fit.count;
+  if (!std::isinf(robust.threshold)) fit.loss_bend = robust.threshold;
+  fit.summary = fmt::format("maximum likelihood on {} samples, refined in {} iterations",
+                            fit.torque.size(), warm.trace.size() - 1);
   if (!task.gaps.empty()) {
-    estimate.warnings.push_back(
+    fit.warnings.push_back(
         fmt::format("{}: what the joint lost there is not known, and is estimated with the rest",
                     DescribeGaps(task.gaps, m)));
   }
-  DescribeFriction(task.law, m, estimate);
-  if (estimate.friction) estimate.friction->thermal = fit.thermal();
-  return estimate;
+  return fit;
 }
 
 /// A start for all linear parameters, law before gravity, and the warming: the scan over tau once
@@ -211,11 +214,11 @@ Eigen::VectorXd FitJumps(const ClosedLoop& loop, const Eigen::VectorXd& level,
   return spread;
 }
 
-Estimate Identify(const IdentifierInput& given) {
-  if (given.options.Text("position") != "none") return IdentifyWithMaps(kName, given);
+Fit FitWarming(const IdentifierInput& given) {
+  if (given.options.Text("position") != "none") return FitWithMaps(kName, given);
   const Measurements& m = given.measurements;
-  const LinearTask task = BeginLinear(given, kName, 3);
-  if (task.refusal) return *task.refusal;
+  const LinearTask task = BeginLinear(given, 3);
+  if (task.refusal) return Refused(kName, *task.refusal);
   const auto& [law, gravity, columns, refusal] = task;
   const IdentifierInput input = gravity.Of(given);
 
@@ -224,8 +227,8 @@ Estimate Identify(const IdentifierInput& given) {
   const Eigen::VectorXd torque = Kept(m.torque, input.selection);
   const LeastSquares nominal = SolveLeastSquares(kept_columns, torque);
   if (!nominal.mixed.empty()) {
-    return Failed(kName, Status::not_identifiable,
-                  IndistinctColumns(nominal.mixed, law, gravity, input));
+    return Refused(kName, Status::not_identifiable,
+                   IndistinctColumns(nominal.mixed, law, gravity, input));
   }
   double nominal_squares = (torque - kept_columns * nominal.solution).squaredNorm();
 
@@ -253,9 +256,7 @@ Estimate Identify(const IdentifierInput& given) {
     nominal_squares = LeftOver(root.asDiagonal() * kept_columns, root.cwiseProduct(torque));
   }
 
-  Estimate estimate = Conclude({input, law, gravity, loop, start, gaps}, robust, nominal_squares);
-  estimate.trace = Trace(robust.fit, law, loop.intervals().typical, torque.size());
-  return estimate;
+  return Conclude({input, law, gravity, loop, start, gaps}, robust, nominal_squares);
 }
 
 }  // namespace
@@ -269,7 +270,7 @@ Identifier EnergyMl() {
                   LossOption()});
   return {kName,
           "law and warming together by maximum likelihood over the closed loop; needs no start",
-          options, &Identify};
+          options, &FitWarming};
 }
 
 }  // namespace warmjoint::inline identification

@@ -1,4 +1,5 @@
-#include "identification/identifier.h"
+#include "identification/identifiers/identifier_list.h"
+
 #include "identification/identifiers/auto.h"
 #include "identification/identifiers/energy_em.h"
 #include "identification/identifiers/energy_map.h"

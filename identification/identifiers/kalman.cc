@@ -5,13 +5,12 @@
 #include <cmath>
 #include <vector>
 
-#include "identification/describe_friction.h"
 #include "identification/fit_data.h"
+#include "identification/fit_parameters.h"
+#include "identification/inference/inference.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
-#include "identification/linear/report_law.h"
 #include "identification/online/kalman_passes.h"
-#include "identification/warming/report_thermal.h"
 #include "identification/warming/unsettled.h"
 #include "identification/warming/warming_verdict.h"
 
@@ -22,94 +21,116 @@ constexpr const char* kName = "kalman";
 constexpr double kSingular = 1e-6;  // of the closed loop's Jacobian
 
 /// One pass is not efficient, and what still moves has not arrived.
-void JudgePasses(const std::vector<KalmanPass>& passes, const Uncertainty& known,
-                 Estimate& estimate) {
+void JudgePasses(const std::vector<KalmanPass>& passes, Fit& fit) {
+  const Uncertainty& known = *fit.errors.known;
   if (passes.size() == 1) {
-    for (EstimatedParameter& parameter : estimate.parameters) {
-      parameter.std.reset();
-      parameter.interval95.reset();
-    }
-    estimate.message += "; intervals need more than one pass";
+    fit.summary += NoiseOf(known);
+    fit.without_intervals = "intervals need more than one pass";
     return;
   }
   const Eigen::Index p = known.covariance.rows();
   const Eigen::VectorXd moved = passes.back().mean - passes[passes.size() - 2].mean;
   const Eigen::ArrayXd deviation = known.covariance.diagonal().cwiseSqrt();
   if ((moved.head(p).cwiseAbs().array() <= deviation).all()) return;
-  Void(Status::not_converged,
-       "the last pass still moved parameters by more than their standard deviation; give more "
-       "passes, or use energy-ml",
-       estimate);
+  fit.voided = {Status::not_converged,
+                "the last pass still moved parameters by more than their standard deviation; give "
+                "more passes, or use energy-ml"};
 }
 
-/// The estimate that the last pass makes, with its verdict.
-Estimate Conclude(const KalmanTrack& track, const std::vector<KalmanPass>& passes,
-                  double nominal_squares) {
-  const Measurements& m = track.measurements;
-  const KalmanPass& last = passes.back();
-  const Eigen::Index d = last.mean.size() - 3;
-  const Eigen::VectorXd x = last.mean.head(d);
-  const Thermal thermal{last.mean[d], std::exp(last.mean[d + 1])};
-  if (!last.mean.allFinite() || !(thermal.time_constant > 0) ||
-      !std::isfinite(thermal.time_constant)) {
-    return Failed(kName, Status::not_converged,
-                  "the filters ran away; " + WhyUnsettled(m, "warm-up"));
-  }
+/// Law and warming where the last pass ended.
+struct Ending {
+  Eigen::VectorXd x;  // [d] of the law
+  Thermal thermal;
+};
 
-  // what the whole recording knows of these parameters
-  const LoopResponse response = track.loop.Simulate(x, thermal);
-  const Eigen::VectorXd torque = Kept(m.torque, track.selection);
-  const Eigen::VectorXd fitted = Kept(response.force, track.selection);
-  Eigen::MatrixXd jacobian = Kept(track.loop.Jacobian(x, thermal), track.selection).leftCols(d + 2);
-  jacobian.col(d + 1) *= thermal.time_constant;  // by ln tau
-  if (!fitted.allFinite() || !jacobian.allFinite()) {
-    return Failed(kName, Status::not_converged,
-                  "the filters ran away; " + WhyUnsettled(m, "warm-up"));
-  }
-  const double squares = (torque - fitted).squaredNorm();
-  const double variance = squares / static_cast<double>(torque.size() - d - 2);
-  const LeastSquares joint = SolveLeastSquares(jacobian, torque, kSingular);
-  const bool distinct = joint.rank == d + 2;
+Ending EndingOf(const KalmanPass& last) {
+  const Eigen::Index d = last.mean.size() - 3;
+  return {last.mean.head(d), {last.mean[d], std::exp(last.mean[d + 1])}};
+}
+
+Refusal RanAway(const Measurements& measurements) {
+  return {Status::not_converged, "the filters ran away; " + WhyUnsettled(measurements, "warm-up")};
+}
+
+/// Why the recording does not tell these parameters; nothing where it does. joint: the Jacobian's.
+std::optional<Refusal> WhyRefused(const KalmanTrack& track, const Fit& fit, const Ending& ending,
+                                  const LeastSquares& joint, const LoopResponse& response,
+                                  double nominal_squares) {
+  const Measurements& m = track.measurements;
+  const Eigen::Index p = ending.x.size() + 2;
+  const double squares = fit.residual().squaredNorm();
+  const double variance = squares / static_cast<double>(fit.torque.size() - p);
   const auto [shortest, longest] = TimeConstantRange(track);
-  const double vague = distinct ? std::sqrt(variance * joint.cofactor(d + 1, d + 1)) : kInfinity;
-  if (auto why =
-          UnknownWarming({(nominal_squares - squares) / variance, vague, thermal.time_constant,
-                          shortest, longest, m.time[m.size() - 1] - m.time[0]})) {
-    return Failed(kName, Status::not_identifiable, *why);
+  const double vague =
+      joint.rank == p ? std::sqrt(variance * joint.cofactor(p - 1, p - 1)) : kInfinity;
+  if (auto why = UnknownWarming({(nominal_squares - squares) / variance, vague,
+                                 ending.thermal.time_constant, shortest, longest,
+                                 m.time[m.size() - 1] - m.time[0]})) {
+    return Refusal{Status::not_identifiable, *why};
   }
   if (response.feeds_itself) {
-    return Failed(kName, Status::inadequate_model,
-                  WouldFeedItself(m.time[*response.feeds_itself], "try another law"));
+    return Refusal{Status::inadequate_model,
+                   WouldFeedItself(m.time[*response.feeds_itself], "try another law")};
   }
-
-  Estimate estimate;
-  estimate.identifier = kName;
-  const Uncertainty known =
-      JudgeUncertainty(jacobian, joint.cofactor, torque - fitted, track.selection, fitted);
-  ReportLaw(track.law, x, known, m, estimate);
-  const Eigen::Matrix2d covariance = known.covariance.bottomRightCorner<2, 2>();
-  ReportThermal(thermal, covariance, known.freedom, m, estimate);
-  const auto parameters = static_cast<int>(d) + 2;
-  estimate.metrics = ComputeMetrics(torque, fitted, parameters, parameters);
-  estimate.message =
-      fmt::format("filtered in {} passes over {} samples; at the end E is {:.4g} {}{}",
-                  passes.size(), torque.size(), last.mean[d + 2], m.torque_unit, NoiseOf(known));
-  DescribeFriction(track.law, m, estimate);
-  if (estimate.friction) estimate.friction->thermal = thermal;
-
-  if (estimate.status == Status::ok) JudgePasses(passes, known, estimate);
-  return estimate;
+  return std::nullopt;
 }
 
-Estimate Identify(const IdentifierInput& input) {
+/// The fit that the last pass makes, with its verdict. nominal_squares: of the fit without warming.
+Fit Conclude(const KalmanTrack& track, const std::vector<KalmanPass>& passes,
+             double nominal_squares) {
+  const Measurements& m = track.measurements;
+  const KalmanPass& last = passes.back();
+  const Ending ending = EndingOf(last);
+  const auto& [x, thermal] = ending;
+  Fit fit;
+  fit.identifier = kName;
+  fit.parameters = LawParameters(track.law, x, m);
+  Append(HeatParameters(thermal, m), fit);
+  if (!last.mean.allFinite() || !(thermal.time_constant > 0) ||
+      !std::isfinite(thermal.time_constant)) {
+    fit.refusal = RanAway(m);
+    return fit;
+  }
+
+  // the model, and how well it fits
+  fit.friction = FrictionOf(track.law, x, m);
+  fit.friction.thermal = thermal;
+  const LoopResponse response = track.loop.Simulate(x, thermal);
+  fit.used = track.selection;
+  fit.torque = Kept(m.torque, fit.used);
+  fit.fitted = Kept(response.force, fit.used);
+  fit.count = static_cast<int>(x.size()) + 2;
+  fit.effective_parameters = fit.count;
+
+  // what the whole recording knows of these parameters
+  Eigen::MatrixXd jacobian = Kept(track.loop.Jacobian(x, thermal), fit.used).leftCols(fit.count);
+  jacobian.col(fit.count - 1) *= thermal.time_constant;  // by ln tau
+  if (!fit.fitted.allFinite() || !jacobian.allFinite()) {
+    fit.refusal = RanAway(m);
+    return fit;
+  }
+  const LeastSquares joint = SolveLeastSquares(jacobian, fit.torque, kSingular);
+  fit.refusal = WhyRefused(track, fit, ending, joint, response, nominal_squares);
+  if (fit.refusal) return fit;
+  fit.errors.known =
+      JudgeUncertainty(jacobian, joint.cofactor, fit.residual(), fit.used, fit.fitted);
+  fit.summary = fmt::format("filtered in {} passes over {} samples; at the end E is {:.4g} {}",
+                            passes.size(), fit.torque.size(), last.mean.tail(1)[0], m.torque_unit);
+
+  // a law that the data rule out needs no verdict on its passes
+  if (Infer(fit).status == Status::ok) JudgePasses(passes, fit);
+  return fit;
+}
+
+Fit FitOnline(const IdentifierInput& input) {
   const Measurements& m = input.measurements;
   const Law& law = *FindLaw(input.options.Text("law"));
   const auto d = static_cast<int>(law.parameters.size());
   if (!m.starts.empty()) {
-    return Failed(kName, Status::bad_data,
-                  "kalman follows one recording; give one, or use energy-ml for several");
+    return Refused(kName, Status::bad_data,
+                   "kalman follows one recording; give one, or use energy-ml for several");
   }
-  if (auto why = Unusable(input, d + 2)) return Failed(kName, Status::bad_data, *why);
+  if (auto why = Unusable(input, d + 2)) return Refused(kName, Status::bad_data, *why);
 
   // the law's columns must be distinct before any warming is thought of
   const Eigen::MatrixXd columns = LawColumns(law, m.velocity);
@@ -117,8 +138,8 @@ Estimate Identify(const IdentifierInput& input) {
   const Eigen::MatrixXd kept = Kept(columns, input.selection);
   const LeastSquares nominal = SolveLeastSquares(kept, torque);
   if (nominal.rank < d) {
-    return Failed(kName, Status::not_identifiable,
-                  Indistinct(nominal.mixed, law, m, input.selection));
+    return Refused(kName, Status::not_identifiable,
+                   Indistinct(nominal.mixed, law, m, input.selection));
   }
 
   const double root = std::sqrt(static_cast<double>(torque.size()));
@@ -128,11 +149,11 @@ Estimate Identify(const IdentifierInput& input) {
                           ClosedLoop(m.time, m.velocity, columns),
                           kept.colwise().norm().transpose() / root,
                           torque.norm() / root};
-  std::vector<TraceEntry> trace;
+  std::vector<Iterate> trace;
   const std::vector<KalmanPass> passes = RunPasses(track, input.options.Integer("passes"), trace);
-  Estimate estimate = Conclude(track, passes, (torque - kept * nominal.solution).squaredNorm());
-  estimate.trace = std::move(trace);
-  return estimate;
+  Fit fit = Conclude(track, passes, (torque - kept * nominal.solution).squaredNorm());
+  fit.trace = std::move(trace);
+  return fit;
 }
 
 }  // namespace
@@ -143,7 +164,7 @@ Identifier Kalman() {
           {{"law", "viscous_coulomb", LinearLawWords(), "nominal friction law"},
            {"passes", "10", "integer >= 1 <= 100",
             "most passes over the recording; 1: as online, without intervals"}},
-          &Identify};
+          &FitOnline};
 }
 
 }  // namespace warmjoint::inline identification

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "identification/fit_data.h"
+#include "identification/inference/inference.h"
 #include "identification/maps/over_energy.h"
 #include "identification/maps/warm_maps.h"
 
@@ -27,28 +28,31 @@ std::vector<std::vector<FrictionMap>> Shapes(const Options& options, const MapSe
   return shapes;
 }
 
-Estimate Identify(const IdentifierInput& input) {
+Fit FitLoadMap(const IdentifierInput& input) {
   MapBeginning begin = BeginMaps(input, kName, {MapQuantity::position, MapQuantity::load});
-  if (begin.refusal) return *begin.refusal;
+  if (begin.refusal) return Refused(kName, *begin.refusal);
   MapTask& task = begin.task;
 
   // E, with the load's part beside it
   task.candidates = Shapes(input.options, task.settings, begin.points, {MapQuantity::load});
   const std::optional<WarmMaps> warm = FitWarmMaps(input, task);
-  if (!warm) return Unsolvable(kName);
-  const Estimate first = ReportWarmMaps(input, *warm);
-  const KnownEnergy known = EnergyOf(first);
+  if (!warm) return Refused(kName, Unsolvable());
+  const Fit first = AsFit(input, *warm);
+  const Inference told = Infer(first);
+  const auto friction = told.gives_friction ? std::optional(first.friction) : std::nullopt;
+
+  // the level over all of them
   const auto maker = [&](const MapPoints& warm_points) {
     std::vector<MapQuantity> quantities{MapQuantity::position, MapQuantity::energy,
                                         MapQuantity::load};
-    if (!known.friction) std::erase(quantities, MapQuantity::energy);
+    if (!friction) std::erase(quantities, MapQuantity::energy);
     return Shapes(input.options, task.settings, warm_points, quantities);
   };
-  Estimate estimate = IdentifyOverEnergy(input, task, known, maker);
-  if (!known.friction && estimate.status == Status::ok) {
-    estimate.message += "; without warming: " + first.message;
+  Fit fit = IdentifyOverEnergy(input, task, friction, maker);
+  if (!friction && Infer(fit).status == Status::ok) {
+    fit.afterword += "; without warming: " + told.message;
   }
-  return estimate;
+  return fit;
 }
 
 }  // namespace
@@ -59,7 +63,7 @@ Identifier LoadMap() {
   options.push_back({"energy_kernels", "3", "integer >= 2 <= 32", "kernels over energy"});
   options.push_back({"load_kernels", "4", "integer >= 2 <= 32", "kernels over load"});
   return {kName, "law, warming, and a level over position x energy x load; needs the column load",
-          options, &Identify};
+          options, &FitLoadMap};
 }
 
 }  // namespace warmjoint::inline identification

@@ -1,9 +1,8 @@
 #include "identification/identifiers/lpv_energy.h"
 
-#include "identification/fit_data.h"
 #include "identification/identifiers/energy_ml.h"
+#include "identification/inference/inference.h"
 #include "identification/maps/over_energy.h"
-#include "identification/warming/report_thermal.h"
 #include "identification/warming/slope_heat.h"
 
 namespace warmjoint::inline identification {
@@ -24,26 +23,18 @@ std::vector<std::vector<FrictionMap>> Shapes(const Options& options, const MapSe
   return shapes;
 }
 
-/// The warming of a first fit whose slope did not follow the heat, corrected for that.
-KnownEnergy Corrected(const IdentifierInput& input, const Law& law, KnownEnergy known) {
-  if (!known.friction) return known;
-  const Thermal thermal = FitSlopeHeat(input, law, *known.friction->thermal);
-  known.friction->thermal = thermal;
-  Estimate reported;
-  ReportThermal(thermal, {}, 0, input.measurements, reported);
-  known.thermal = reported.parameters;
-  return known;
-}
-
-Estimate Identify(const IdentifierInput& input) {
+Fit FitSlopeAndLevel(const IdentifierInput& input) {
   MapTask task{kName, ReadMapSettings(input.options), {}, {}};
   const Identifier warm = EnergyMl();
   const Options options(warm.options, {{"law", task.settings.law}}, {kName});
-  Estimate first = warm.identify({input.measurements, input.selection, options, input.random});
+  Fit first = warm.fit(input.With(options));
   first.identifier = kName;
-  if (first.status != Status::ok || !first.friction) return first;
-  const KnownEnergy known = Corrected(input, *FindLaw(task.settings.law), EnergyOf(first));
-  return IdentifyOverEnergy(input, task, known, [&](const MapPoints& points) {
+  if (!Infer(first).gives_friction) return first;
+
+  // its slope did not follow the heat, for which the warming is corrected
+  std::optional<Thermal>& thermal = first.friction.thermal;
+  thermal = FitSlopeHeat(input, *FindLaw(task.settings.law), *thermal);
+  return IdentifyOverEnergy(input, task, first.friction, [&](const MapPoints& points) {
     return Shapes(input.options, task.settings, points);
   });
 }
@@ -55,7 +46,7 @@ Identifier LpvEnergy() {
   options.push_back({"energy_kernels", "4", "integer >= 2 <= 32",
                      "kernels over energy for each of viscous and Coulomb friction"});
   return {kName, "a law whose viscous and Coulomb friction follow the energy, Eq. (27)", options,
-          &Identify};
+          &FitSlopeAndLevel};
 }
 
 }  // namespace warmjoint::inline identification

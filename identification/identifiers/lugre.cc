@@ -5,18 +5,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "identification/describe_friction.h"
 #include "identification/fit_data.h"
-#include "identification/linear/least_squares.h"
-#include "identification/linear/linear_laws.h"
+#include "identification/fit_parameters.h"
 #include "identification/nonlinear/lugre_answer.h"
 #include "identification/nonlinear/lugre_data.h"
 #include "identification/nonlinear/stribeck_fit.h"
 #include "identification/nonlinear/stribeck_verdict.h"
-#include "identification/uncertainty/student.h"
 #include "identification/warming/unsettled.h"
 #include "identification/warming/warming_verdict.h"
-#include "models/friction/viscous_coulomb.h"
+#include "models/friction/lugre.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -111,145 +108,112 @@ std::optional<std::string> UnknownStribeck(const IdentifierInput& input,
                        input.measurements, SteadySamples(input, 0));
 }
 
-/// A positive parameter with the interval of its logarithm.
-EstimatedParameter Positive(const ParameterInfo& info, const Measurements& m, double value,
-                            double log_deviation, double freedom) {
-  const double factor = std::exp(StudentQuantile(freedom) * log_deviation);
-  return {std::string(info.name),
-          value,
-          UnitFor(info, m),
-          std::abs(value) * log_deviation,
-          {{std::min(value / factor, value * factor), std::max(value / factor, value * factor)}}};
+/// Law and, where it is estimated, inertia at a point: the model and its table.
+void SetModel(const Measurements& m, const LugreProblem& problem, const LugrePoint& point,
+              Fit& fit) {
+  const Law& law = *FindLaw(LuGre::name);
+  const auto p = LugreValues(point.x.data());
+  const Eigen::Map<const Eigen::VectorXd> values(p.data(), static_cast<Eigen::Index>(p.size()));
+  fit.friction = FrictionOf(law, values, m);
+  fit.parameters = LawParameters(law, values, m);
+  fit.parameters[kLugreLogVs].coordinate = Coordinate::logarithm;
+  fit.parameters[kLugreLogStiffness].coordinate = Coordinate::logarithm;
+  fit.parameters[kLugreDamping].coordinate = Coordinate::positive;
+  fit.parameters[kLugreDamping].estimated = !problem.IsConstant(kLugreDamping);
+  if (problem.IsConstant(kLugreInertia)) return;
+  Append({TableParameter(kInertiaInfo, Role::inertia, point.x[kLugreInertia], m)}, fit);
 }
 
-/// Puts values, deviations and intervals into the estimate.
-void Report(const Measurements& m, const LugreAnswer& answer, Estimate& estimate) {
-  const auto p = LugreValues(answer.fit.solution.x.data());
-  const auto& table = LuGre::parameters;
-  const double freedom = answer.known.freedom;
-  for (size_t i = 0; i <= kLugreStatic; ++i) {
-    estimate.parameters.push_back(WithInterval(std::string(table[i].name), p[i],
-                                               UnitFor(table[i], m),
-                                               answer.Deviation(static_cast<int>(i)), freedom));
-  }
-  for (const size_t i : {size_t{kLugreLogVs}, size_t{kLugreLogStiffness}}) {
-    estimate.parameters.push_back(
-        Positive(table[i], m, p[i], answer.Deviation(static_cast<int>(i)), freedom));
-  }
-  const double damping = p[kLugreDamping];
-  if (answer.rows[kLugreDamping] >= 0) {
-    estimate.parameters.push_back(Positive(table[kLugreDamping], m, damping,
-                                           answer.Deviation(kLugreDamping) / std::abs(damping),
-                                           freedom));
-  } else {
-    estimate.parameters.push_back(
-        {std::string(table[kLugreDamping].name), 0, UnitFor(table[kLugreDamping], m), {}, {}});
-  }
-  if (answer.rows[kLugreInertia] < 0) return;
-  estimate.parameters.push_back(
-      WithInterval(std::string(kInertiaInfo.name), answer.fit.solution.x[kLugreInertia],
-                   UnitFor(kInertiaInfo, m), answer.Deviation(kLugreInertia), freedom));
-}
-
-std::vector<TraceEntry> Trace(const LugreProblem& problem, const std::vector<LugrePoint>& scan) {
-  std::vector<TraceEntry> trace;
+std::vector<Iterate> Trace(const LugreProblem& problem, const std::vector<LugrePoint>& scan) {
+  std::vector<Iterate> trace;
   const auto n = static_cast<double>(problem.deviation.size());
   for (const LugrePoint& point : scan) {
-    TraceEntry entry;
-    entry.iteration = static_cast<int>(trace.size());
     const auto p = LugreValues(point.x.data());
-    for (size_t i = 0; i < p.size(); ++i) {
-      entry.parameters.emplace_back(LuGre::parameters[i].name, p[i]);
-    }
-    entry.rmse = problem.deviation[0] * std::sqrt(point.squares / n);
-    trace.push_back(std::move(entry));
+    const double rmse = problem.deviation[0] * std::sqrt(point.squares / n);
+    trace.push_back({static_cast<int>(trace.size()), {p.begin(), p.end()}, rmse});
   }
   return trace;
 }
 
-/// The verdict on a fit, and its numbers where they can be trusted.
-Estimate Conclude(const IdentifierInput& input, const LugreProblem& problem,
-                  const LugreAnswer& answer, const NoiseOfGroups& noise) {
-  if (auto why = VagueBristle(input.measurements, answer)) {
-    return Failed(kName, Status::not_identifiable, *why);
-  }
-  if (auto why = UnknownStribeck(input, answer)) {
-    return Failed(kName, Status::not_identifiable, *why);
-  }
-  const LugreFit& fit = answer.fit;
-  if (!fit.converged) {
-    return Failed(kName, Status::not_converged,
-                  "the fit still moves after 100 iterations; " +
-                      WhyUnsettled(input.measurements, "law stribeck"));
-  }
+/// Why there is no fit to trust; nothing where there is.
+std::optional<Refusal> WhyRefused(const IdentifierInput& input, const LugreAnswer& answer) {
+  auto why = VagueBristle(input.measurements, answer);
+  if (!why) why = UnknownStribeck(input, answer);
+  if (why) return Refusal{Status::not_identifiable, *why};
+  if (answer.fit.converged) return std::nullopt;
+  return Refusal{Status::not_converged, "the fit still moves after 100 iterations; " +
+                                            WhyUnsettled(input.measurements, "law stribeck")};
+}
 
+/// Voids a fit that misses what happens around turns.
+void JudgeTurns(const Measurements& m, const NoiseOfGroups& noise, Fit& fit) {
+  const double friction = fit.torque.norm() / std::sqrt(static_cast<double>(fit.torque.size()));
+  if (!(noise.others > kMissed * noise.kept) || !(noise.others > kNotable * friction)) return;
+  fit.voided = {Status::inadequate_model,
+                fmt::format("around turns the law leaves {:.3g} {} rms, at constant speeds {:.3g}: "
+                            "it misses what happens there; move more softly, log faster, or use "
+                            "the law stribeck",
+                            noise.others, m.torque_unit, noise.kept)};
+}
+
+/// Puts an answer into `fit`, or why it cannot be trusted.
+void Conclude(const IdentifierInput& input, const LugreProblem& problem, const LugreAnswer& answer,
+              const NoiseOfGroups& noise, Fit& fit) {
+  fit.refusal = WhyRefused(input, answer);
+  if (fit.refusal) return;
+
+  // the model, and how well it fits
   const Measurements& m = input.measurements;
-  Estimate estimate;
-  estimate.identifier = kName;
-  const Eigen::VectorXd torque = Kept(m.torque, problem.used);
-  const auto p = static_cast<int>(answer.known.covariance.rows());
-  estimate.metrics =
-      ComputeMetrics(torque, torque - fit.residual.cwiseProduct(problem.deviation), p, p);
-  Report(m, answer, estimate);
-  const Eigen::Index turns = torque.size() - input.selection.count();
-  estimate.message = fmt::format(
-      "least squares on {} samples{}{}", torque.size(),
+  SetModel(m, problem, answer.fit.solution, fit);
+  fit.used = problem.used;
+  fit.torque = Kept(m.torque, fit.used);
+  fit.fitted = fit.torque - answer.fit.residual.cwiseProduct(problem.deviation);
+  fit.count = static_cast<int>(answer.known.covariance.rows());
+  fit.effective_parameters = fit.count;
+
+  // over its deviations, which take up what is uneven, a residual tells its colour alone
+  fit.errors.known = answer.known;
+  fit.errors.known->uneven = 0;
+
+  const Eigen::Index turns = fit.torque.size() - input.selection.count();
+  fit.summary = fmt::format(
+      "least squares on {} samples{}", fit.torque.size(),
       turns > 0 ? fmt::format(", {} of them around turns, where {:.3g} {} rms is left, elsewhere "
                               "{:.3g}",
                               turns, noise.others, m.torque_unit, noise.kept)
-                : "",
-      ColourOf(answer.known.noise));
-  const double friction = torque.norm() / std::sqrt(static_cast<double>(torque.size()));
-  if (noise.others > kMissed * noise.kept && noise.others > kNotable * friction) {
-    Void(Status::inadequate_model,
-         fmt::format("around turns the law leaves {:.3g} {} rms, at constant speeds {:.3g}: it "
-                     "misses what happens there; move more softly, log faster, or use the law "
-                     "stribeck",
-                     noise.others, m.torque_unit, noise.kept),
-         estimate);
-    return estimate;
-  }
-  DescribeFriction(*FindLaw(LuGre::name), m, estimate);
-  return estimate;
+                : "");
+  JudgeTurns(m, noise, fit);
 }
 
-Estimate Identify(const IdentifierInput& input) {
+Fit FitLugre(const IdentifierInput& given) {
+  const IdentifierInput input = given.AsTaken();
   const Measurements& m = input.measurements;
-  if (auto why = Unusable(input, kLugreSize + 1)) return Failed(kName, Status::bad_data, *why);
+  if (auto why = Unusable(input, kLugreSize + 1)) return Refused(kName, Status::bad_data, *why);
+  if (auto why = UnknownSliding(input, LuGre::parameters)) return Refused(kName, *why);
 
-  // the columns of Eq. (2) must be distinct before anything else is thought of
+  // scan the bristle
   const Eigen::VectorXd torque = Kept(m.torque, input.selection);
-  const Law& sliding = *FindLaw(ViscousCoulomb::name);
-  if (SolveLeastSquares(Kept(LawColumns(sliding, m.velocity), input.selection), torque).rank < 2) {
-    return Failed(kName, Status::not_identifiable,
-                  Indistinct({"viscous", "coulomb", "static", "stribeck_velocity",
-                              "bristle_stiffness", "bristle_damping"},
-                             m, input.selection));
-  }
-
   const double scale = torque.norm() / std::sqrt(static_cast<double>(torque.size()));
   LugreProblem problem = MakeLugreProblem(input, scale);
   if (input.options.Text("damping") == "none") problem.constant.push_back(kLugreDamping);
   if (input.options.Text("inertia") == "none") problem.constant.push_back(kLugreInertia);
   const std::vector<LugrePoint> scan =
       ScanBristle(problem, m, [&](double distance) { return SteadyStart(input, distance); });
-  if (scan.empty()) {
-    return Failed(kName, Status::not_identifiable,
-                  "static and stribeck_velocity cannot be told from coulomb; " +
-                      SlowSpeeds(input.measurements, SteadySamples(input, 0)));
-  }
+  if (scan.empty()) return Refused(kName, NoFall(m, SteadySamples(input, 0)));
+  Fit fit;
+  fit.identifier = kName;
+  fit.trace = Trace(problem, scan);
+  SetModel(m, problem, scan[0], fit);
 
-  const std::vector<TraceEntry> trace = Trace(problem, scan);
-  LugreFit fit = FitFrom(problem, scan, m.velocity.cwiseAbs().maxCoeff());
+  // refine the best, and weigh the samples by what it leaves of them
+  LugreFit best = FitFrom(problem, scan, m.velocity.cwiseAbs().maxCoeff());
   NoiseOfGroups noise;
   for (int pass = 0; pass < kPasses; ++pass) {
-    noise = WeighLugre(input.selection, fit, problem);
-    fit = RefineLugre(problem, fit.solution);
+    noise = WeighLugre(input.selection, best, problem);
+    best = RefineLugre(problem, best.solution);
   }
-
-  Estimate estimate = Conclude(input, problem, JudgeLugre(input, problem, std::move(fit)), noise);
-  estimate.trace = trace;
-  return estimate;
+  Conclude(input, problem, JudgeLugre(input, problem, std::move(best)), noise, fit);
+  return fit;
 }
 
 }  // namespace
@@ -260,7 +224,7 @@ Identifier LuGreByCeres() {
           {{"damping", "estimated", "estimated|none", "bristle_damping, or 0"},
            {"inertia", "estimated", "estimated|none",
             "torque for acceleration, beside the friction, or none"}},
-          &Identify,
+          &FitLugre,
           Regime::transient};
 }
 

@@ -1,5 +1,6 @@
 #include "identification/identifiers/motor_ridge.h"
 
+#include "identification/inference/inference.h"
 #include "identification/maps/identify_maps.h"
 #include "identification/maps/motor_maps.h"
 
@@ -8,25 +9,27 @@ namespace {
 
 constexpr const char* kName = "motor-ridge";
 
-Estimate Identify(const IdentifierInput& input) {
+Fit FitMotorMaps(const IdentifierInput& input) {
   MapBeginning begin =
       BeginMaps(input, kName, {MapQuantity::position, MapQuantity::motor_position});
-  if (begin.refusal) return *begin.refusal;
+  if (begin.refusal) return Refused(kName, *begin.refusal);
   MapTask& task = begin.task;
   const MotorMapSize size{input.options.Integer("kernels"),
                           input.options.Integer("velocity_kernels"),
                           input.options.Integer("arm_kernels")};
   task.candidates = MotorMaps(size, task.settings, begin.points);
   const auto choice = ChooseAndFit(input, task);
-  if (!choice) return Unsolvable(kName);
-  const MapFit& fit = choice->fit;
-  const Uncertainty known = JudgeMaps(choice->problem, fit);
-  Estimate estimate = ReportMaps(input, task, fit, known);
-  if (!estimate.friction) return estimate;
-  const auto count = static_cast<Eigen::Index>(fit.maps[0].size());
-  DescribeMotorRipple(fit.maps[0], known.covariance.block(fit.free, fit.free, count, count),
-                      input.measurements, estimate);
-  return estimate;
+  if (!choice) return Refused(kName, Unsolvable());
+  const MapFit& maps = choice->fit;
+  const Uncertainty known = JudgeMaps(choice->problem, maps);
+  Fit fit = AsFit(input, task, maps, known);
+  if (!Infer(fit).gives_friction) return fit;
+
+  // what the motor's map shows
+  const auto count = static_cast<Eigen::Index>(maps.maps[0].size());
+  DescribeMotorRipple(maps.maps[0], known.covariance.block(maps.free, maps.free, count, count),
+                      input.measurements, fit);
+  return fit;
 }
 
 }  // namespace
@@ -41,7 +44,7 @@ Identifier MotorRidge() {
   return {kName,
           "a nominal law and maps over the motor's angle and the joint's, without warming; tells "
           "the ripple's multiples of the motor's turn",
-          options, &Identify};
+          options, &FitMotorMaps};
 }
 
 }  // namespace warmjoint::inline identification

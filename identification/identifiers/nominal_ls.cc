@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 
-#include "identification/describe_friction.h"
 #include "identification/fit_data.h"
+#include "identification/fit_parameters.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/linear_task.h"
-#include "identification/linear/report_law.h"
 #include "identification/linear/robust.h"
 
 namespace warmjoint::inline identification {
@@ -15,43 +14,50 @@ namespace {
 
 constexpr const char* kName = "nominal-ls";
 
-Estimate Identify(const IdentifierInput& given) {
-  const LinearTask task = BeginLinear(given, kName, 0);
-  if (task.refusal) return *task.refusal;
+Fit FitLaw(const IdentifierInput& given) {
+  LinearTask task = BeginLinear(given, 0);
+  if (task.refusal) return Refused(kName, *task.refusal);
   const auto& [law, gravity, columns, refusal] = task;
   const IdentifierInput input = gravity.Of(given);
-  const int d = task.count();
+  const Measurements& m = input.measurements;
 
   // rows of (9) on the samples that satisfy (6)
   const Eigen::MatrixXd A = Kept(columns, input.selection);
-  const Eigen::VectorXd torque = Kept(input.measurements.torque, input.selection);
+  const Eigen::VectorXd torque = Kept(m.torque, input.selection);
   const bool huber = input.options.Text("loss") == "huber";
   const RobustLeastSquares robust =
       huber ? SolveHuber(A, torque)
             : RobustLeastSquares{SolveLeastSquares(A, torque), kInfinity, true};
-  const LeastSquares& fit = robust.fit;
-  if (fit.rank < d) {
-    return Failed(kName, Status::not_identifiable,
-                  IndistinctColumns(fit.mixed, law, gravity, input));
+  const LeastSquares& solved = robust.fit;
+  if (solved.rank < task.count()) {
+    return Refused(kName, Status::not_identifiable,
+                   IndistinctColumns(solved.mixed, law, gravity, input));
   }
   if (!robust.converged) {
-    return Failed(kName, Status::not_converged,
-                  "the weights of Huber's loss still move after 100 rounds; use loss squares");
+    return Refused(kName, Status::not_converged,
+                   "the weights of Huber's loss still move after 100 rounds; use loss squares");
   }
 
-  Estimate estimate;
-  estimate.identifier = kName;
-  const Eigen::VectorXd fitted = A * fit.solution;
-  const Eigen::VectorXd score = HuberScores(torque - fitted, robust.threshold);
-  const Uncertainty known = JudgeUncertainty(A, fit.cofactor, score, input.selection, fitted);
-  ReportLaw(law, fit.solution.head(task.law_count()), known, input.measurements, estimate);
-  ReportGravity(gravity, fit.solution, known, input.measurements, estimate);
-  estimate.metrics = ComputeMetrics(torque, fitted, d, d);
-  estimate.message =
-      fmt::format("law {} by least squares on {} samples{}{}", law.name, torque.size(),
-                  DescribeLoss(torque - fitted, robust.threshold), NoiseOf(known));
-  DescribeFriction(law, input.measurements, estimate);
-  return estimate;
+  // the law, gravity beside it
+  const Eigen::VectorXd values = solved.solution.head(task.law_count());
+  Fit fit;
+  fit.identifier = kName;
+  fit.friction = FrictionOf(law, values, m);
+  fit.parameters = LawParameters(law, values, m);
+  AddGravity(gravity, solved.solution.tail(gravity.count()), m, fit);
+
+  // and how well they fit
+  fit.used = input.selection;
+  fit.torque = torque;
+  fit.fitted = A * solved.solution;
+  fit.errors.cofactor = solved.cofactor;
+  if (huber) fit.errors.scores = HuberScores(fit.residual(), robust.threshold);
+  if (huber) fit.loss_bend = robust.threshold;
+  fit.count = task.count();
+  fit.effective_parameters = task.count();
+  fit.summary = fmt::format("law {} by least squares on {} samples", law.name, torque.size());
+  fit.jacobian = [all = std::move(task.columns)] { return all; };
+  return fit;
 }
 
 }  // namespace
@@ -62,7 +68,7 @@ Identifier NominalLs() {
           {{"law", "viscous_coulomb", LinearLawWords(), "nominal friction law"},
            GravityOption(),
            LossOption()},
-          &Identify};
+          &FitLaw};
 }
 
 }  // namespace warmjoint::inline identification

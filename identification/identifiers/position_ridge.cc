@@ -8,9 +8,9 @@ namespace {
 
 constexpr const char* kName = "position-ridge";
 
-Estimate Identify(const IdentifierInput& input) {
+Fit FitMap(const IdentifierInput& input) {
   MapBeginning begin = BeginMaps(input, kName, {MapQuantity::position});
-  if (begin.refusal) return *begin.refusal;
+  if (begin.refusal) return Refused(kName, *begin.refusal);
   MapTask& task = begin.task;
   task.candidates = PositionMaps(input.options, task.settings, begin.points);
   return IdentifyMaps(input, task);
@@ -22,7 +22,7 @@ Identifier PositionRidge() {
   std::vector<OptionInfo> options = MapOptions();
   for (const OptionInfo& option : PositionMapOptions()) options.push_back(option);
   return {kName, "a nominal law and a map over position by ridge regression, without warming",
-          options, &Identify};
+          options, &FitMap};
 }
 
 }  // namespace warmjoint::inline identification

@@ -4,13 +4,12 @@
 
 #include <cmath>
 
-#include "identification/describe_friction.h"
 #include "identification/fit_data.h"
+#include "identification/fit_parameters.h"
 #include "identification/forward/thermal_filter.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/linear_task.h"
-#include "identification/linear/report_law.h"
 #include "identification/online/recursive_least_squares.h"
 
 namespace warmjoint::inline identification {
@@ -42,9 +41,10 @@ Eigen::VectorXd Weights(Eigen::Index n, double forgetting) {
       .unaryExpr([forgetting](double age) { return std::pow(forgetting, age); });
 }
 
-/// Runs through the samples; notes the parameters at some moments. A: [n x d], y: [n].
-Eigen::VectorXd Run(const Law& law, const Eigen::MatrixXd& A, const Eigen::VectorXd& y,
-                    double forgetting, Estimate& estimate) {
+/// Runs through the samples; notes the first `noted` parameters at some moments. A: [n x d];
+/// y: [n].
+Eigen::VectorXd Run(const Eigen::MatrixXd& A, const Eigen::VectorXd& y, double forgetting,
+                    Eigen::Index noted, std::vector<Iterate>& trace) {
   constexpr double kDoubt = 1e8;  // prior variance over noise variance of columns of mean square 1
   const Eigen::RowVectorXd scale = A.colwise().norm() / std::sqrt(static_cast<double>(A.rows()));
   auto state = KnowNothing<Eigen::Dynamic>(A.cols(), kDoubt);
@@ -52,30 +52,12 @@ Eigen::VectorXd Run(const Law& law, const Eigen::MatrixXd& A, const Eigen::Vecto
     const Eigen::VectorXd row = A.row(i).cwiseQuotient(scale);
     TakeIn<Eigen::Dynamic>(row, y[i], forgetting, state);
     if ((i + 1) % std::max<Eigen::Index>(A.rows() / kMoments, 1) != 0) continue;
-    TraceEntry entry;
-    entry.iteration = static_cast<int>(i + 1);
     const Eigen::VectorXd now = state.estimate.cwiseQuotient(scale.transpose());
-    for (size_t j = 0; j < law.parameters.size(); ++j) {
-      entry.parameters.emplace_back(law.parameters[j].name, now[static_cast<Eigen::Index>(j)]);
-    }
-    entry.rmse =
+    const double rmse =
         (y.head(i + 1) - A.topRows(i + 1) * now).norm() / std::sqrt(static_cast<double>(i + 1));
-    estimate.trace.push_back(std::move(entry));
+    trace.push_back({static_cast<int>(i + 1), {now.begin(), now.begin() + noted}, rmse});
   }
   return state.estimate.cwiseQuotient(scale.transpose());
-}
-
-/// Covariance of the weighted answer: C (W A)^T R (W A) C with C = (A^T W A)^-1.
-Uncertainty Judge(const Eigen::MatrixXd& A, const Eigen::VectorXd& weights,
-                  const Eigen::MatrixXd& cofactor, const Eigen::VectorXd& residual,
-                  const Selection& selection) {
-  Uncertainty known;
-  known.noise = FitNoise(residual, selection);
-  const Eigen::MatrixXd scatter = ScatterThrough(known.noise, weights.asDiagonal() * A, selection);
-  known.covariance = cofactor * scatter * cofactor;
-  const double effective = weights.sum() * weights.sum() / weights.squaredNorm();
-  known.freedom = std::max(effective / known.noise.redundancy - static_cast<double>(A.cols()), 1.0);
-  return known;
 }
 
 /// Gravity by plain least squares beside the law, [N] N.m or N; 0 where columns are mixed.
@@ -87,13 +69,12 @@ Eigen::VectorXd Pull(const IdentifierInput& input, const GravityFit& gravity,
   return gravity.columns * plain.solution.tail(gravity.count());
 }
 
-Estimate Identify(const IdentifierInput& given) {
+Fit FitOnline(const IdentifierInput& given) {
   const Measurements& m = given.measurements;
-  const LinearTask task = BeginLinear(given, kName, 0);
-  if (task.refusal) return *task.refusal;
+  LinearTask task = BeginLinear(given, 0);
+  if (task.refusal) return Refused(kName, *task.refusal);
   const auto& [law, gravity, columns, refusal] = task;
   const IdentifierInput input = gravity.Of(given);
-  const int d = task.count();
 
   // what the remembered samples can tell apart, from their weighted columns
   const double forgetting = input.options.Number("forgetting");
@@ -106,24 +87,33 @@ Estimate Identify(const IdentifierInput& given) {
   const Eigen::VectorXd weights = Weights(y.size(), forgetting);
   const Eigen::VectorXd roots = weights.cwiseSqrt();
   const LeastSquares weighted = SolveLeastSquares(roots.asDiagonal() * A, roots.cwiseProduct(y));
-  if (weighted.rank < d) {
-    return Failed(kName, Status::not_identifiable,
-                  IndistinctColumns(weighted.mixed, law, gravity, input));
+  if (weighted.rank < task.count()) {
+    return Refused(kName, Status::not_identifiable,
+                   IndistinctColumns(weighted.mixed, law, gravity, input));
   }
 
-  Estimate estimate;
-  estimate.identifier = kName;
-  const Eigen::VectorXd x = Run(law, A, y, forgetting, estimate);
-  const Eigen::VectorXd fitted = A * x + warming;
-  const Uncertainty known = Judge(A, weights, weighted.cofactor, torque - fitted, input.selection);
-  ReportLaw(law, x.head(task.law_count()), known, m, estimate);
-  ReportGravity(gravity, x, known, m, estimate);
-  estimate.metrics = ComputeMetrics(torque, fitted, d, d);
-  estimate.message = fmt::format("law {} as the last {:.0f} of {} samples show it{}", law.name,
-                                 weights.sum(), y.size(), ColourOf(known.noise));
-  DescribeFriction(law, m, estimate);
-  if (estimate.friction) estimate.friction->thermal = thermal;
-  return estimate;
+  // the law, gravity and the given warming beside it
+  Fit fit;
+  fit.identifier = kName;
+  const Eigen::VectorXd x = Run(A, y, forgetting, task.law_count(), fit.trace);
+  const Eigen::VectorXd values = x.head(task.law_count());
+  fit.friction = FrictionOf(law, values, m);
+  fit.friction.thermal = thermal;
+  fit.parameters = LawParameters(law, values, m);
+  AddGravity(gravity, x.tail(gravity.count()), m, fit);
+
+  // and how well they fit
+  fit.used = input.selection;
+  fit.torque = torque;
+  fit.fitted = A * x + warming;
+  fit.errors.cofactor = weighted.cofactor;
+  fit.errors.weights = weights;
+  fit.count = task.count();
+  fit.effective_parameters = fit.count;
+  fit.summary = fmt::format("law {} as the last {:.0f} of {} samples show it", law.name,
+                            weights.sum(), y.size());
+  fit.jacobian = [all = std::move(task.columns)] { return all; };
+  return fit;
 }
 
 }  // namespace
@@ -136,7 +126,7 @@ Identifier Rls() {
            {"thermal_gain", "0", "number", "known thermal gain, N.m/W or N/W; 0: no warming"},
            {"thermal_time_constant", "600", "number > 0", "known time constant of warming, s"},
            GravityOption()},
-          &Identify};
+          &FitOnline};
 }
 
 }  // namespace warmjoint::inline identification

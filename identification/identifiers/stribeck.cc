@@ -4,16 +4,15 @@
 
 #include <cmath>
 
-#include "identification/describe_friction.h"
 #include "identification/fit_data.h"
+#include "identification/fit_parameters.h"
 #include "identification/forward/predict.h"
+#include "identification/inference/inference.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/nonlinear/stribeck_fit.h"
 #include "identification/nonlinear/stribeck_verdict.h"
-#include "identification/uncertainty/student.h"
 #include "identification/uncertainty/uncertainty.h"
-#include "identification/warming/report_thermal.h"
 #include "identification/warming/scan_time_constant.h"
 #include "identification/warming/unsettled.h"
 #include "identification/warming/warm_fit.h"
@@ -25,8 +24,9 @@ namespace warmjoint::inline identification {
 namespace {
 
 constexpr const char* kName = "stribeck";
-constexpr size_t kRefined = 3;                              // starts
-constexpr Eigen::Index kStatic = 2, kLogVs = 3, kGain = 4;  // in x
+constexpr size_t kRefined = 3;                 // starts
+constexpr Eigen::Index kLogVs = 3, kGain = 4;  // in x
+constexpr Eigen::Index kExponent = 4;          // in the law's table, where vs stands as in x
 
 /// What the law without the Stribeck effect leaves, with the same warming. (N.m)^2 or N^2
 double SquaresWithout(const StribeckProblem& problem) {
@@ -84,57 +84,50 @@ std::optional<std::string> VagueWarming(const StribeckProblem& problem, const St
                          2 * problem.intervals.typical, 5 * total});
 }
 
-/// Puts values, deviations and intervals into the estimate.
-void Report(const StribeckProblem& problem, const StribeckFit& fit, const Uncertainty& known,
-            Estimate& estimate) {
+/// The law's values at x. [5]
+Eigen::VectorXd LawAt(const StribeckProblem& problem, const Eigen::VectorXd& x) {
+  Eigen::VectorXd values(Stribeck::parameters.size());
+  values << x.head(kLogVs), std::exp(x[kLogVs]), problem.exponent;
+  return values;
+}
+
+/// The warming at x, where it is asked for.
+std::optional<Thermal> ThermalAt(const StribeckProblem& problem, const Eigen::VectorXd& x) {
+  if (problem.warming == Warming::none) return std::nullopt;
+  return Thermal{x[kGain], std::exp(x[kGain + 1])};
+}
+
+/// Law, whose exponent was given, and warming at x: the model and its table.
+void SetModel(const StribeckProblem& problem, const Eigen::VectorXd& x, Fit& fit) {
   const Measurements& m = problem.measurements;
-  const Eigen::VectorXd& x = fit.solution.x;
-  const auto& table = Stribeck::parameters;
-  for (Eigen::Index i = 0; i <= kStatic; ++i) {
-    estimate.parameters.push_back(WithInterval(
-        std::string(table[i].name), x[i], UnitFor(table[i], m), known.Deviation(i), known.freedom));
-  }
-
-  // vs is positive and its logarithm the nearer to normal
-  const double vs = std::exp(x[kLogVs]);
-  const double factor = std::exp(StudentQuantile(known.freedom) * known.Deviation(kLogVs));
-  estimate.parameters.push_back({std::string(table[3].name),
-                                 vs,
-                                 UnitFor(table[3], m),
-                                 vs * known.Deviation(kLogVs),
-                                 {{vs / factor, vs * factor}}});
-  estimate.parameters.push_back(
-      {std::string(table[4].name), problem.exponent, UnitFor(table[4], m), {}, {}});
-  if (problem.warming == Warming::none) return;
-  ReportThermal({x[kGain], std::exp(x[kGain + 1])}, known.covariance.block<2, 2>(kGain, kGain),
-                known.freedom, m, estimate);
+  const Law& law = *FindLaw(Stribeck::name);
+  const Eigen::VectorXd values = LawAt(problem, x);
+  fit.friction = FrictionOf(law, values, m);
+  fit.friction.thermal = ThermalAt(problem, x);
+  fit.parameters = LawParameters(law, values, m);
+  fit.parameters[kLogVs].coordinate = Coordinate::logarithm;
+  fit.parameters[kExponent].estimated = false;
+  if (fit.friction.thermal) Append(HeatParameters(*fit.friction.thermal, m), fit);
 }
 
-/// The friction of a fit, or why there is none.
-void Describe(const IdentifierInput& input, const StribeckProblem& problem, const StribeckFit& fit,
-              Estimate& estimate) {
-  const Eigen::VectorXd& x = fit.solution.x;
-  DescribeFriction(*FindLaw(Stribeck::name), input.measurements, estimate);
-  if (!estimate.friction || problem.warming == Warming::none) return;
-  estimate.friction->thermal = Thermal{x[kGain], std::exp(x[kGain + 1])};
-  const Prediction predicted = PredictFriction(*estimate.friction, input.measurements);
-  if (predicted.feeds_itself == input.measurements.size()) return;
-  Void(Status::inadequate_model,
-       WouldFeedItself(input.measurements.time[predicted.feeds_itself], "try another law"),
-       estimate);
+/// Voids a fit whose friction feeds itself on this motion. Where the data rule the law out, or
+/// chance alone may keep it within its bounds, there is no friction to run.
+void JudgeWarmth(const Measurements& m, Fit& fit) {
+  if (!fit.friction.thermal || !Infer(fit).gives_friction) return;
+  const Prediction predicted = PredictFriction(fit.friction, m);
+  if (predicted.feeds_itself == m.size()) return;
+  fit.voided = {Status::inadequate_model,
+                WouldFeedItself(m.time[predicted.feeds_itself], "try another law")};
 }
 
-std::vector<TraceEntry> Trace(const std::vector<StribeckPoint>& scan, Eigen::Index n) {
-  std::vector<TraceEntry> trace;
+std::vector<Iterate> Trace(const StribeckProblem& problem, const std::vector<StribeckPoint>& scan) {
+  std::vector<Iterate> trace;
+  const auto n = static_cast<double>(problem.selection.count());
   for (const StribeckPoint& point : scan) {
-    TraceEntry entry;
-    entry.iteration = static_cast<int>(trace.size());
-    for (int i = 0; i <= kStatic; ++i) {
-      entry.parameters.emplace_back(Stribeck::parameters[i].name, point.x[i]);
-    }
-    entry.parameters.emplace_back(Stribeck::parameters[3].name, std::exp(point.x[kLogVs]));
-    entry.rmse = std::sqrt(point.squares / static_cast<double>(n));
-    trace.push_back(std::move(entry));
+    const Eigen::VectorXd values = LawAt(problem, point.x).head(kExponent);
+    trace.push_back({static_cast<int>(trace.size()),
+                     {values.begin(), values.end()},
+                     std::sqrt(point.squares / n)});
   }
   return trace;
 }
@@ -160,55 +153,59 @@ double ColdSquares(const StribeckProblem& problem) {
   return scan.empty() ? kInfinity : RefineStribeck(cold, scan[0]).solution.squares;
 }
 
-/// The verdict on a fit, and its numbers where they can be trusted.
-Estimate Conclude(const IdentifierInput& input, const StribeckProblem& problem,
-                  const StribeckFit& fit, double without, double cold_squares) {
-  if (!fit.converged) {
-    return Failed(kName, Status::not_converged,
-                  "the fit still moves after 100 iterations; " +
-                      WhyUnsettled(input.measurements, "law stribeck"));
+/// What `Conclude` judges beside the best fit.
+struct Rivals {
+  double without = 0;  // squares of the law without the Stribeck effect, (N.m)^2 or N^2
+  double cold = 0;     // squares of the law without warming; 0 where no warming is asked for
+};
+
+/// Puts the best fit into `fit`, or why it cannot be trusted.
+void Conclude(const IdentifierInput& input, const StribeckProblem& problem, const StribeckFit& best,
+              const Rivals& rivals, Fit& fit) {
+  if (!best.converged) {
+    fit.refusal = {Status::not_converged, "the fit still moves after 100 iterations; " +
+                                              WhyUnsettled(input.measurements, "law stribeck")};
+    return;
   }
-  const double explained = Explained(input, without, fit.solution);
+  const double explained = Explained(input, rivals.without, best.solution);
   if (!(explained > kVisibleWarming)) {
-    return Failed(kName, Status::not_identifiable, Unseen(input, explained));
-  }
-  const Eigen::VectorXd torque = Kept(input.measurements.torque, input.selection);
-  const Uncertainty known =
-      JudgeUncertainty(fit.jacobian, Cofactor(fit.jacobian.transpose() * fit.jacobian),
-                       torque - fit.fitted, input.selection, fit.fitted);
-  if (auto why = VagueStribeck(EvidenceOf(fit, known), input.measurements, input.selection)) {
-    return Failed(kName, Status::not_identifiable, *why);
-  }
-  if (auto why = VagueWarming(problem, fit, known, cold_squares)) {
-    return Failed(kName, Status::not_identifiable, *why);
+    fit.refusal = {Status::not_identifiable, Unseen(input, explained)};
+    return;
   }
 
-  Estimate estimate;
-  estimate.identifier = kName;
-  const auto p = static_cast<int>(fit.solution.x.size());
-  estimate.metrics = ComputeMetrics(torque, fit.fitted, p, p);
-  Report(problem, fit, known, estimate);
-  estimate.message = fmt::format("least squares on {} samples, exponent {:.3g} given{}",
-                                 torque.size(), problem.exponent, NoiseOf(known));
-  Describe(input, problem, fit, estimate);
-  return estimate;
+  // the model, and how well it fits
+  SetModel(problem, best.solution.x, fit);
+  fit.used = input.selection;
+  fit.torque = Kept(input.measurements.torque, fit.used);
+  fit.fitted = best.fitted;
+  fit.count = static_cast<int>(best.solution.x.size());
+  fit.effective_parameters = fit.count;
+  fit.summary = fmt::format("least squares on {} samples, exponent {:.3g} given", fit.torque.size(),
+                            problem.exponent);
+
+  // how sure it is, and whether that will do
+  fit.errors.known =
+      JudgeUncertainty(best.jacobian, Cofactor(best.jacobian.transpose() * best.jacobian),
+                       fit.residual(), fit.used, fit.fitted);
+  const Uncertainty& known = *fit.errors.known;
+  auto why = VagueStribeck(EvidenceOf(best, known), input.measurements, input.selection);
+  if (!why) why = VagueWarming(problem, best, known, rivals.cold);
+  if (why) {
+    fit.refusal = Refusal{Status::not_identifiable, *why};
+    return;
+  }
+  JudgeWarmth(input.measurements, fit);
 }
 
-Estimate Identify(const IdentifierInput& input) {
+Fit FitStribeck(const IdentifierInput& input) {
   const Measurements& m = input.measurements;
-  if (auto why = Unusable(input, 7)) return Failed(kName, Status::bad_data, *why);
+  if (auto why = Unusable(input, 7)) return Refused(kName, Status::bad_data, *why);
 
-  // the columns of Eq. (2) must be distinct before any Stribeck effect is thought of
+  const auto unknown = std::span(Stribeck::parameters).first(kExponent);
+  if (auto why = UnknownSliding(input, unknown)) return Refused(kName, *why);
+
+  // scan vs, then refine the best
   const Eigen::VectorXd torque = Kept(m.torque, input.selection);
-  const Law& sliding = *FindLaw(ViscousCoulomb::name);
-  const LeastSquares nominal =
-      SolveLeastSquares(Kept(LawColumns(sliding, m.velocity), input.selection), torque);
-  if (nominal.rank < 2) {
-    return Failed(
-        kName, Status::not_identifiable,
-        Indistinct({"viscous", "coulomb", "static", "stribeck_velocity"}, m, input.selection));
-  }
-
   StribeckProblem problem{
       m,
       input.selection,
@@ -218,20 +215,20 @@ Estimate Identify(const IdentifierInput& input) {
       torque.norm() / std::sqrt(static_cast<double>(torque.size()))};
   const double without = SquaresWithout(problem);
   const std::vector<StribeckPoint> scan = ScanStribeckVelocity(problem);
-  if (scan.empty() || !std::isfinite(without)) {
-    return Failed(kName, Status::not_identifiable,
-                  "static and stribeck_velocity cannot be told from coulomb; " +
-                      SlowSpeeds(input.measurements, input.selection));
-  }
+  if (scan.empty() || !std::isfinite(without)) return Refused(kName, NoFall(m, input.selection));
 
   // where the scan, within a few per cent of the best, sees next to nothing, so will the fit
+  Fit fit;
+  fit.identifier = kName;
+  fit.trace = Trace(problem, scan);
+  SetModel(problem, scan[0].x, fit);
   const double seen = Explained(input, without, scan[0]);
-  Estimate estimate =
-      problem.warming == Warming::none && seen < 0.5 * kVisibleWarming
-          ? Failed(kName, Status::not_identifiable, Unseen(input, seen))
-          : Conclude(input, problem, FitFrom(problem, scan), without, ColdSquares(problem));
-  estimate.trace = Trace(scan, torque.size());
-  return estimate;
+  if (problem.warming == Warming::none && seen < 0.5 * kVisibleWarming) {
+    fit.refusal = {Status::not_identifiable, Unseen(input, seen)};
+  } else {
+    Conclude(input, problem, FitFrom(problem, scan), {without, ColdSquares(problem)}, fit);
+  }
+  return fit;
 }
 
 }  // namespace
@@ -241,7 +238,7 @@ Identifier StribeckByCeres() {
           "the Stribeck law by least squares, with or without warming; needs no start",
           {{"warming", "none", "none|estimated", "whether friction warms up"},
            {"exponent", "2", "number >= 0.1 <= 10", "the law's stribeck_exponent, fixed"}},
-          &Identify};
+          &FitStribeck};
 }
 
 }  // namespace warmjoint::inline identification

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "identification/fit_data.h"
+#include "identification/fit_parameters.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -73,18 +74,6 @@ Eigen::MatrixXd FilledDirections(const Eigen::MatrixXd& hats) {
          values.tail(q).cwiseSqrt().cwiseInverse().asDiagonal();
 }
 
-std::vector<std::string> NamesOf(const GravityFit& gravity) {
-  switch (gravity.kind) {
-    case GravityKind::sincos:
-      return {"gravity_sine", "gravity_cosine"};
-    case GravityKind::constant:
-      return {"gravity_offset"};
-    case GravityKind::paired:
-      return {};
-  }
-  return {};
-}
-
 }  // namespace
 
 OptionInfo GravityOption() {
@@ -93,14 +82,9 @@ OptionInfo GravityOption() {
           "directions have in common at one position"};
 }
 
-bool TellsGravity(const Identifier& identifier) {
-  return std::any_of(identifier.options.begin(), identifier.options.end(),
-                     [](const OptionInfo& option) { return option.name == "gravity"; });
-}
+bool TellsGravity(const Identifier& identifier) { return identifier.Has("gravity"); }
 
-IdentifierInput GravityFit::Of(const IdentifierInput& given) const {
-  return {given.measurements, selection, given.options, given.random};
-}
+IdentifierInput GravityFit::Of(const IdentifierInput& given) const { return given.With(selection); }
 
 GravityFit PrepareGravity(const IdentifierInput& input) {
   const Measurements& m = input.measurements;
@@ -156,17 +140,12 @@ std::string IndistinctColumns(const std::vector<Eigen::Index>& mixed, const Law&
       parts, GravityName(gravity.kind), turns ? "move over a larger part of a turn, " : "move ");
 }
 
-void ReportGravity(const GravityFit& gravity, const Eigen::VectorXd& x, const Uncertainty& known,
-                   const Measurements& measurements, Estimate& estimate) {
-  const Eigen::Index q = gravity.count();
-  if (q == 0) return;
-  const Eigen::Index first = x.size() - q;
-  estimate.gravity = GravityModel{gravity.kind, gravity.knots, gravity.transform * x.tail(q)};
-  const std::vector<std::string> names = NamesOf(gravity);
-  for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(names.size()); ++i) {
-    estimate.parameters.push_back(WithInterval(names[static_cast<size_t>(i)], x[first + i],
-                                               measurements.torque_unit, known.Deviation(first + i),
-                                               known.freedom));
+void AddGravity(const GravityFit& gravity, const Eigen::VectorXd& values,
+                const Measurements& measurements, Fit& fit) {
+  if (gravity.count() == 0) return;
+  fit.gravity = GravityModel{gravity.kind, gravity.knots, gravity.transform * values};
+  for (FitParameter& row : GravityParameters(gravity.kind, values, measurements)) {
+    fit.parameters.push_back(std::move(row));
   }
 }
 

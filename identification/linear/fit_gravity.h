@@ -43,10 +43,10 @@ GravityFit PrepareGravity(const IdentifierInput& input);
 std::string IndistinctColumns(const std::vector<Eigen::Index>& mixed, const Law& law,
                               const GravityFit& gravity, const IdentifierInput& input);
 
-/// Puts gravity into the estimate: `gravity_sine` and `gravity_cosine`, or `gravity_offset`, with
-/// intervals; and estimate.gravity. x: [p] all fitted parameters, gravity's last; known: of x.
-void ReportGravity(const GravityFit& gravity, const Eigen::VectorXd& x, const Uncertainty& known,
-                   const Measurements& measurements, Estimate& estimate);
+/// Puts gravity into a fit: its model, and its rows of the table behind those that are there.
+/// values: [q] fitted.
+void AddGravity(const GravityFit& gravity, const Eigen::VectorXd& values,
+                const Measurements& measurements, Fit& fit);
 
 /// [A B].
 Eigen::MatrixXd Beside(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);

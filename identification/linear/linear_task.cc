@@ -5,16 +5,16 @@
 
 namespace warmjoint::inline identification {
 
-LinearTask BeginLinear(const IdentifierInput& given, const std::string& identifier, int more) {
+LinearTask BeginLinear(const IdentifierInput& given, int more) {
   LinearTask task{*FindLaw(given.options.Text("law")), PrepareGravity(given), {}, {}};
   const GravityFit& gravity = task.gravity;
   if (gravity.why) {
-    task.refusal = Failed(identifier, gravity.status, *gravity.why);
+    task.refusal = Refusal{gravity.status, *gravity.why};
     return task;
   }
   const auto d = static_cast<int>(task.law.parameters.size() + gravity.count());
   if (auto why = Unusable(gravity.Of(given), d + more)) {
-    task.refusal = Failed(identifier, Status::bad_data, *why);
+    task.refusal = Refusal{Status::bad_data, *why};
     return task;
   }
   task.columns = Beside(LawColumns(task.law, given.measurements.velocity), gravity.columns);

@@ -9,15 +9,15 @@ namespace warmjoint::inline identification {
 struct LinearTask {
   const Law& law;
   GravityFit gravity;
-  Eigen::MatrixXd columns;          // [N x d] over all samples: law, then gravity
-  std::optional<Estimate> refusal;  // why nothing can be fitted; then there are no columns
+  Eigen::MatrixXd columns;         // [N x d] over all samples: law, then gravity
+  std::optional<Refusal> refusal;  // why nothing can be fitted; then there are no columns
 
   int count() const { return static_cast<int>(columns.cols()); }
   Eigen::Index law_count() const { return columns.cols() - gravity.count(); }
 };
 
-/// As the options `law` and `gravity` ask for it. identifier: its name; more: parameters of the fit
-/// beside those of law and gravity.
-LinearTask BeginLinear(const IdentifierInput& given, const std::string& identifier, int more);
+/// As the options `law` and `gravity` ask for it. more: parameters of the fit beside those of law
+/// and gravity.
+LinearTask BeginLinear(const IdentifierInput& given, int more);
 
 }  // namespace warmjoint::inline identification

@@ -49,21 +49,21 @@ std::vector<OptionInfo> WarmMapOptions() {
   return options;
 }
 
-Estimate IdentifyWithMaps(const std::string& identifier, const IdentifierInput& input) {
+Fit FitWithMaps(const std::string& identifier, const IdentifierInput& input) {
   MapBeginning begin = Begin(identifier, input);
-  if (begin.refusal) return *begin.refusal;
+  if (begin.refusal) return Refused(identifier, *begin.refusal);
   const std::string& position = input.options.Text("position");
   for (const auto& [option, nothing] : kAlone) {
     const std::string& value = input.options.Text(option);
     if (value == nothing) continue;
-    return Failed(identifier, Status::bad_data,
-                  fmt::format("position={} cannot be had together with {}={}; leave one of them "
-                              "out (basis=position takes gravity up into the map)",
-                              position, option, value));
+    return Refused(identifier, Status::bad_data,
+                   fmt::format("position={} cannot be had together with {}={}; leave one of them "
+                               "out (basis=position takes gravity up into the map)",
+                               position, option, value));
   }
   begin.task.candidates = Candidates(input.options, begin);
   const std::optional<WarmMaps> warm = FitWarmMaps(input, begin.task);
-  return warm ? ReportWarmMaps(input, *warm) : Unsolvable(identifier);
+  return warm ? AsFit(input, *warm) : Refused(identifier, Unsolvable());
 }
 
 }  // namespace warmjoint::inline identification

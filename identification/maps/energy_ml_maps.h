@@ -10,6 +10,6 @@ std::vector<OptionInfo> WarmMapOptions();
 
 /// Law, warming and the maps that the option `position` names, together. Refuses options that
 /// cannot be had with maps: gravity, an estimated E(0), Huber's loss.
-Estimate IdentifyWithMaps(const std::string& identifier, const IdentifierInput& input);
+Fit FitWithMaps(const std::string& identifier, const IdentifierInput& input);
 
 }  // namespace warmjoint::inline identification

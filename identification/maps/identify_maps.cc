@@ -4,29 +4,27 @@
 
 #include <cmath>
 
-#include "identification/describe_friction.h"
 #include "identification/fit_data.h"
+#include "identification/fit_parameters.h"
+#include "identification/inference/inference.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
-#include "identification/linear/report_law.h"
 #include "identification/maps/make_bands.h"
 #include "models/friction/sign.h"
 
 namespace warmjoint::inline identification {
 namespace {
 
-/// Why the law alone cannot be fitted, or the data not used, as an estimate that failed; nothing
-/// where all is well.
-std::optional<Estimate> RefuseForMaps(const IdentifierInput& input, const std::string& identifier,
-                                      const Law& law) {
+/// Why the law alone cannot be fitted, or the data not used; nothing where all is well.
+std::optional<Refusal> RefuseForMaps(const IdentifierInput& input, const Law& law) {
   const auto d = static_cast<int>(law.parameters.size());
-  if (auto why = Unusable(input, d + 2)) return Failed(identifier, Status::bad_data, *why);
+  if (auto why = Unusable(input, d + 2)) return Refusal{Status::bad_data, *why};
   const Eigen::MatrixXd A =
       LawColumns(law, Kept(input.measurements.velocity, input.selection).col(0));
   const LeastSquares fit = SolveLeastSquares(A, Kept(input.measurements.torque, input.selection));
   if (fit.mixed.empty()) return std::nullopt;
-  return Failed(identifier, Status::not_identifiable,
-                Indistinct(fit.mixed, law, input.measurements, input.selection));
+  return Refusal{Status::not_identifiable,
+                 Indistinct(fit.mixed, law, input.measurements, input.selection)};
 }
 
 /// Why no map over a quantity can be told from the kept samples, [n x 5] `points`.
@@ -39,18 +37,45 @@ std::optional<std::string> Unseen(MapQuantity quantity, const Measurements& meas
   return CannotCarry(quantity, points);
 }
 
+/// "20 position x 2 velocity kernels and 36 motor_position kernels".
+std::string ShapeOf(const std::vector<FrictionMap>& maps) {
+  std::vector<std::string> shapes;
+  for (const FrictionMap& map : maps) {
+    std::vector<std::string> axes;
+    for (const MapAxis& axis : map.axes) {
+      axes.push_back(fmt::format("{} {}", axis.kernels.size(), MapQuantityName(axis.quantity)));
+    }
+    shapes.push_back(fmt::format("{} kernels", fmt::join(axes, " x ")));
+  }
+  return fmt::format("{}", fmt::join(shapes, " and "));
+}
+
+/// The table's rows of the law, without intervals and with a warning where kernels can imitate it.
+void AddLaw(const Law& law, const MapFit& maps, const Measurements& measurements, Fit& fit) {
+  fit.parameters = LawParameters(law, maps.x.head(maps.free), measurements);
+  std::vector<std::string> imitated;
+  for (const Eigen::Index i : ImitatedColumns(maps)) {
+    FitParameter& parameter = fit.parameters[static_cast<size_t>(i)];
+    parameter.has_interval = false;
+    imitated.push_back(parameter.name);
+  }
+  if (imitated.empty()) return;
+  fit.warnings.push_back(fmt::format(
+      "the kernels can imitate {}, which the prior alone tells apart", fmt::join(imitated, ", ")));
+}
+
 }  // namespace
 
 MapBeginning BeginMaps(const IdentifierInput& input, const std::string& identifier,
                        std::initializer_list<MapQuantity> quantities) {
   MapBeginning begin{{identifier, ReadMapSettings(input.options), {}, {}}, {}, {}};
-  begin.refusal = RefuseForMaps(input, identifier, *FindLaw(begin.task.settings.law));
+  begin.refusal = RefuseForMaps(input, *FindLaw(begin.task.settings.law));
   if (begin.refusal) return begin;
   begin.points = Kept(PointsOf(input.measurements), input.selection);
   for (const MapQuantity quantity : quantities) {
     const auto why = Unseen(quantity, input.measurements, begin.points);
     if (!why) continue;
-    begin.refusal = Failed(identifier, Status::bad_data, *why);
+    begin.refusal = Refusal{Status::bad_data, *why};
     break;
   }
   return begin;
@@ -64,47 +89,10 @@ Eigen::VectorXd TakenByEnergy(const IdentifierInput& input, const Eigen::VectorX
   return Kept(direction.cwiseProduct(energy), input.selection);
 }
 
-std::string DescribeMapFit(const IdentifierInput& input, const MapTask& task, const MapFit& fit,
-                           const NoiseModel& noise) {
-  return fmt::format(
-      "law {} and {} on {} samples; prior of strength {:.3g} on their weights leaves {:.1f} "
-      "effective parameters{}",
-      task.settings.law, ShapeOf(fit.maps), input.selection.count(), fit.strength, fit.effective,
-      ColourOf(noise));
-}
-
-std::string ShapeOf(const std::vector<FrictionMap>& maps) {
-  std::vector<std::string> shapes;
-  for (const FrictionMap& map : maps) {
-    std::vector<std::string> axes;
-    for (const MapAxis& axis : map.axes) {
-      axes.push_back(fmt::format("{} {}", axis.kernels.size(), MapQuantityName(axis.quantity)));
-    }
-    shapes.push_back(fmt::format("{} kernels", fmt::join(axes, " x ")));
-  }
-  return fmt::format("{}", fmt::join(shapes, " and "));
-}
-
-void ReportLawBesideMaps(const Law& law, const MapFit& fit, const Uncertainty& known,
-                         const Measurements& measurements, Estimate& estimate) {
-  const size_t first = estimate.parameters.size();
-  ReportLaw(law, fit.x.head(fit.free), known, measurements, estimate);
-  std::vector<std::string> imitated;
-  for (const Eigen::Index i : ImitatedColumns(fit)) {
-    EstimatedParameter& parameter = estimate.parameters[first + static_cast<size_t>(i)];
-    parameter.std.reset();
-    parameter.interval95.reset();
-    imitated.push_back(parameter.name);
-  }
-  if (imitated.empty()) return;
-  estimate.warnings.push_back(fmt::format(
-      "the kernels can imitate {}, which the prior alone tells apart", fmt::join(imitated, ", ")));
-}
-
-Estimate Unsolvable(const std::string& identifier) {
-  return Failed(identifier, Status::bad_data,
-                "the normal equations cannot be solved: torque or velocity are too large or too "
-                "small to square; check their units");
+Refusal Unsolvable() {
+  return {Status::bad_data,
+          "the normal equations cannot be solved: torque or velocity are too large or too small to "
+          "square; check their units"};
 }
 
 std::optional<MapChoice> ChooseAndFit(const IdentifierInput& input, const MapTask& task) {
@@ -143,29 +131,42 @@ MapTask Settled(MapTask task, const MapFit& fit) {
   return task;
 }
 
-Estimate ReportMaps(const IdentifierInput& input, const MapTask& task, const MapFit& fit,
-                    const Uncertainty& known) {
-  if (!known.covariance.allFinite()) return Unsolvable(task.identifier);
+Fit AsFit(const IdentifierInput& input, const MapTask& task, const MapFit& maps,
+          const Uncertainty& known) {
+  if (!known.covariance.allFinite()) return Refused(task.identifier, Unsolvable());
   const Measurements& m = input.measurements;
   const Law& law = *FindLaw(task.settings.law);
-  Estimate estimate;
-  estimate.identifier = task.identifier;
-  ReportLawBesideMaps(law, fit, known, m, estimate);
-  estimate.metrics = ComputeMetrics(Kept(m.torque, input.selection),
-                                    fit.fitted + TakenByEnergy(input, task.energy),
-                                    static_cast<int>(fit.x.size()), fit.effective);
-  estimate.message = DescribeMapFit(input, task, fit, known.noise);
-  DescribeFriction(law, m, estimate);
-  if (!estimate.friction) return estimate;
-  estimate.friction->maps = fit.maps;
-  estimate.bands = MakeBands(law, fit, known, Kept(PointsOf(m, task.energy), input.selection));
-  return estimate;
+
+  // the law, and the maps beside it
+  Fit fit;
+  fit.identifier = task.identifier;
+  fit.friction = FrictionOf(law, maps.x.head(maps.free), m);
+  fit.friction.maps = maps.maps;
+  AddLaw(law, maps, m, fit);
+
+  // how well they fit
+  fit.used = input.selection;
+  fit.torque = Kept(m.torque, fit.used);
+  fit.fitted = maps.fitted + TakenByEnergy(input, task.energy);
+  fit.count = static_cast<int>(maps.x.size());
+  fit.effective_parameters = maps.effective;
+  fit.summary = fmt::format(
+      "law {} and {} on {} samples; prior of strength {:.3g} on their weights leaves {:.1f} "
+      "effective parameters",
+      law.name, ShapeOf(maps.maps), fit.torque.size(), maps.strength, maps.effective);
+
+  // and how sure they are
+  fit.errors.known = known;
+  fit.errors.known->covariance = known.covariance.topLeftCorner(maps.free, maps.free);
+  if (!Infer(fit).gives_friction) return fit;
+  fit.bands = MakeBands(law, maps, known, Kept(PointsOf(m, task.energy), fit.used));
+  return fit;
 }
 
-Estimate IdentifyMaps(const IdentifierInput& input, const MapTask& task) {
+Fit IdentifyMaps(const IdentifierInput& input, const MapTask& task) {
   const auto choice = ChooseAndFit(input, task);
-  if (!choice) return Unsolvable(task.identifier);
-  return ReportMaps(input, task, choice->fit, JudgeMaps(choice->problem, choice->fit));
+  if (!choice) return Refused(task.identifier, Unsolvable());
+  return AsFit(input, task, choice->fit, JudgeMaps(choice->problem, choice->fit));
 }
 
 }  // namespace warmjoint::inline identification

@@ -1,4 +1,4 @@
-// What identifiers with maps share: from candidates of maps to an estimate.
+// What identifiers with maps share: from candidates of maps to a fit.
 #pragma once
 
 #include <initializer_list>
@@ -22,9 +22,9 @@ struct MapTask {
 
 /// Where an identifier with maps begins: its settings, and the samples that it fits.
 struct MapBeginning {
-  MapTask task;                     // without candidates
-  MapPoints points;                 // [n x 5] of the kept samples
-  std::optional<Estimate> refusal;  // instead of both, where law or maps cannot be fitted
+  MapTask task;                    // without candidates
+  MapPoints points;                // [n x 5] of the kept samples
+  std::optional<Refusal> refusal;  // instead of both, where law or maps cannot be fitted
 };
 
 /// Reads the options that all identifiers with maps share (map_options.h) and looks whether the
@@ -49,26 +49,16 @@ MapTask Settled(MapTask task, const MapFit& fit);
 /// sign(v) E at the kept samples, [n] N.m or N; 0 for an empty energy. energy: [N].
 Eigen::VectorXd TakenByEnergy(const IdentifierInput& input, const Eigen::VectorXd& energy);
 
-/// A sentence on a fit: law, kernels, prior, effective parameters, colour of the noise.
-std::string DescribeMapFit(const IdentifierInput& input, const MapTask& task, const MapFit& fit,
-                           const NoiseModel& noise);
+/// Why there is no fit where the normal equations cannot be solved: bad_data.
+Refusal Unsolvable();
 
-/// The answer where there is no fit: bad_data.
-Estimate Unsolvable(const std::string& identifier);
-
-/// Appends the law's parameters; those that the kernels can imitate get no interval and a
-/// warning, for only the prior's taste tells them from a map.
-void ReportLawBesideMaps(const Law& law, const MapFit& fit, const Uncertainty& known,
-                         const Measurements& measurements, Estimate& estimate);
-
-/// "20 position x 2 velocity kernels and 36 motor_position kernels".
-std::string ShapeOf(const std::vector<FrictionMap>& maps);
-
-/// Law, maps, bands, metrics and message of a fit as an estimate. known: JudgeMaps.
-Estimate ReportMaps(const IdentifierInput& input, const MapTask& task, const MapFit& fit,
-                    const Uncertainty& known);
+/// Law and maps as a fit without warming; where they make a friction, with bands. The table has the
+/// law's parameters; those that the kernels can imitate get no interval and a warning, for only the
+/// prior's taste tells them from a map. known: of law and weights first (JudgeMaps), and maybe more.
+Fit AsFit(const IdentifierInput& input, const MapTask& task, const MapFit& maps,
+          const Uncertainty& known);
 
 /// All of the above.
-Estimate IdentifyMaps(const IdentifierInput& input, const MapTask& task);
+Fit IdentifyMaps(const IdentifierInput& input, const MapTask& task);
 
 }  // namespace warmjoint::inline identification

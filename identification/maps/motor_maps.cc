@@ -23,7 +23,7 @@ std::vector<std::vector<FrictionMap>> MotorMaps(const MotorMapSize& size,
 }
 
 void DescribeMotorRipple(const FrictionMap& motor, const Eigen::MatrixXd& covariance,
-                         const Measurements& measurements, Estimate& estimate) {
+                         const Measurements& measurements, Fit& fit) {
   for (const int direction : {1, 0}) {
     std::vector<std::string> found;
     for (const MotorHarmonic& harmonic :
@@ -31,12 +31,12 @@ void DescribeMotorRipple(const FrictionMap& motor, const Eigen::MatrixXd& covari
       found.push_back(fmt::format("{:.3g} {} at {} a turn", harmonic.amplitude,
                                   measurements.torque_unit, harmonic.multiple));
     }
-    estimate.message += fmt::format(
+    fit.afterword += fmt::format(
         "; motor ripple for v {} 0: {}", direction ? ">" : "<",
         found.empty() ? "none above the noise" : fmt::format("{}", fmt::join(found, ", ")));
   }
   if (measurements.gear == 1 && !measurements.motor_position) {
-    estimate.warnings.emplace_back(
+    fit.warnings.emplace_back(
         "the motor is taken to turn with the joint: give --gear, or log motor_position");
   }
 }

@@ -1,7 +1,7 @@
 // Maps over the motor's angle beside one over the joint's.
 #pragma once
 
-#include "identification/estimate.h"
+#include "identification/fit.h"
 #include "identification/maps/map_options.h"
 
 namespace warmjoint::inline identification {
@@ -18,10 +18,10 @@ std::vector<std::vector<FrictionMap>> MotorMaps(const MotorMapSize& size,
                                                 const MapSettings& settings,
                                                 const MapPoints& points);
 
-/// Appends to the message what was found in the motor's map: "; motor ripple for v > 0: 0.052 N.m
+/// Appends to the fit's afterword what was found in the motor's map: "; motor ripple for v > 0: 0.052 N.m
 /// at 2 a turn" and so on; and a warning where the motor's angle is not known.
 /// covariance: of the map's weights, [q x q].
 void DescribeMotorRipple(const FrictionMap& motor, const Eigen::MatrixXd& covariance,
-                         const Measurements& measurements, Estimate& estimate);
+                         const Measurements& measurements, Fit& fit);
 
 }  // namespace warmjoint::inline identification

@@ -4,15 +4,15 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
+#include <numeric>
 
-#include "identification/describe_friction.h"
 #include "identification/fit_data.h"
+#include "identification/fit_parameters.h"
 #include "identification/forward/predict.h"
+#include "identification/inference/inference.h"
 #include "identification/linear/linear_laws.h"
-#include "identification/maps/make_bands.h"
 #include "identification/maps/motor_maps.h"
 #include "identification/uncertainty/penalised_uncertainty.h"
-#include "identification/warming/report_thermal.h"
 #include "identification/warming/warming_verdict.h"
 
 namespace warmjoint::inline identification {
@@ -102,6 +102,36 @@ Uncertainty JudgeAll(const IdentifierInput& input, const WarmMaps& warm,
                         residual, input.selection);
 }
 
+/// Of law, k and log tau without the weights between them.
+Uncertainty WithoutWeights(Uncertainty known, const MapFit& maps) {
+  std::vector<Eigen::Index> places(static_cast<size_t>(maps.free));
+  std::iota(places.begin(), places.end(), 0);
+  for (const Eigen::Index i : {0, 1}) places.push_back(maps.x.size() + i);
+  known.covariance = known.covariance(places, places).eval();
+  return known;
+}
+
+/// Adds the warming to a fit of law and maps. known: JudgeAll
+void AddHeat(const WarmMaps& warm, const Uncertainty& known, const Measurements& measurements,
+             Fit& fit) {
+  fit.friction.thermal = warm.thermal;
+  Append(HeatParameters(warm.thermal, measurements), fit);
+  fit.errors.known = WithoutWeights(known, warm.fit);
+  fit.count += 2;
+  fit.effective_parameters += 2;
+  fit.afterword = fmt::format("; warming beside them in {} rounds", warm.rounds);
+}
+
+/// Adds what the motor's map shows, where there is one. known: JudgeAll
+void AddRipple(const MapFit& maps, const Uncertainty& known, const Measurements& measurements,
+               Fit& fit) {
+  const FrictionMap& first = maps.maps[0];
+  if (first.axes[0].quantity != MapQuantity::motor_position) return;
+  const auto count = static_cast<Eigen::Index>(first.size());
+  DescribeMotorRipple(first, known.covariance.block(maps.free, maps.free, count, count),
+                      measurements, fit);
+}
+
 }  // namespace
 
 std::optional<WarmMaps> FitWarmMaps(const IdentifierInput& input, const MapTask& task) {
@@ -136,57 +166,40 @@ std::optional<WarmMaps> FitWarmMaps(const IdentifierInput& input, const MapTask&
   return warm;
 }
 
-Estimate ReportWarmMaps(const IdentifierInput& input, const WarmMaps& warm) {
+Fit AsFit(const IdentifierInput& input, const WarmMaps& warm) {
   const std::string& name = warm.task.identifier;
   const Measurements& m = input.measurements;
-  const Law& law = *FindLaw(warm.task.settings.law);
-  const Eigen::Index d = warm.fit.x.size();
-  if (auto why = UnseenWarming(warm.visible, kContext))
-    return Failed(name, Status::not_identifiable, *why);
+  if (auto why = UnseenWarming(warm.visible, kContext)) {
+    return Refused(name, Status::not_identifiable, *why);
+  }
   if (!warm.converged) {
-    return Failed(name, Status::not_converged,
-                  fmt::format("maps and warming still move after {} rounds; does the torque column "
-                              "hold friction?",
-                              warm.rounds));
+    return Refused(name, Status::not_converged,
+                   fmt::format("maps and warming still move after {} rounds; does the torque "
+                               "column hold friction?",
+                               warm.rounds));
   }
 
-  // the friction predicts its own energy from here on
-  Estimate estimate;
-  estimate.identifier = name;
+  // law and maps, as sure as the warming beside them leaves them
   const Eigen::VectorXd residual = Kept(m.torque, input.selection).col(0) - warm.fit.fitted -
                                    TakenByEnergy(input, warm.task.energy);
   const Uncertainty known = JudgeAll(input, warm, residual);
-  if (!known.covariance.allFinite()) return Unsolvable(name);
-  if (auto why = UnknownWarming({warm.visible, known.Deviation(d + 1), warm.thermal.time_constant},
-                                kContext)) {
-    return Failed(name, Status::not_identifiable, *why);
+  Fit fit = AsFit(input, warm.task, warm.fit, known);
+  if (fit.refusal) return fit;
+
+  // the warming; the friction predicts its own energy from here on
+  const double log_deviation = known.Deviation(warm.fit.x.size() + 1);
+  if (auto why =
+          UnknownWarming({warm.visible, log_deviation, warm.thermal.time_constant}, kContext)) {
+    return Refused(name, Status::not_identifiable, *why);
   }
-  ReportLawBesideMaps(law, warm.fit, known, m, estimate);
-  ReportThermal(warm.thermal, Eigen::Matrix2d(known.covariance.block<2, 2>(d, d)), known.freedom, m,
-                estimate);
-  const Eigen::VectorXd torque = Kept(m.torque, input.selection);
-  estimate.metrics =
-      ComputeMetrics(torque, torque - residual, static_cast<int>(d) + 2, warm.fit.effective + 2);
-  estimate.message =
-      fmt::format("{}; warming beside them in {} rounds",
-                  DescribeMapFit(input, warm.task, warm.fit, known.noise), warm.rounds);
-  DescribeFriction(law, m, estimate);
-  if (!estimate.friction) return estimate;
-  estimate.friction->thermal = warm.thermal;
-  estimate.friction->maps = warm.fit.maps;
-  estimate.bands =
-      MakeBands(law, warm.fit, known, Kept(PointsOf(m, warm.task.energy), input.selection));
-  if (warm.fit.maps[0].axes[0].quantity == MapQuantity::motor_position) {
-    const auto count = static_cast<Eigen::Index>(warm.fit.maps[0].size());
-    DescribeMotorRipple(warm.fit.maps[0],
-                        known.covariance.block(warm.fit.free, warm.fit.free, count, count), m,
-                        estimate);
+  AddHeat(warm, known, m, fit);
+  if (!Infer(fit).gives_friction) return fit;
+  AddRipple(warm.fit, known, m, fit);
+  if (const auto at = PredictFriction(fit.friction, m).feeds_itself; at < m.size()) {
+    return Refused(name, Status::inadequate_model,
+                   WouldFeedItself(m.time[at], "try another law, or --gravity"));
   }
-  if (const auto at = PredictFriction(*estimate.friction, m).feeds_itself; at < m.size()) {
-    return Failed(name, Status::inadequate_model,
-                  WouldFeedItself(m.time[at], "try another law, or --gravity"));
-  }
-  return estimate;
+  return fit;
 }
 
 }  // namespace warmjoint::inline identification

@@ -23,8 +23,8 @@ struct WarmMaps {
 /// no fit can be solved.
 std::optional<WarmMaps> FitWarmMaps(const IdentifierInput& input, const MapTask& task);
 
-/// The fit as an estimate: law, warming, maps and bands with intervals of all of them together;
-/// not_identifiable where no warming can be seen or its time constant is vague.
-Estimate ReportWarmMaps(const IdentifierInput& input, const WarmMaps& warm);
+/// The same as a fit whose table has law and heat, with intervals and bands of law, warming and
+/// maps together; not_identifiable where no warming can be seen or its time constant is vague.
+Fit AsFit(const IdentifierInput& input, const WarmMaps& warm);
 
 }  // namespace warmjoint::inline identification

@@ -5,6 +5,9 @@
 #include <cmath>
 
 #include "identification/fit_data.h"
+#include "identification/linear/least_squares.h"
+#include "identification/linear/linear_laws.h"
+#include "models/friction/viscous_coulomb.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -22,6 +25,23 @@ std::string SlowSpeeds(const Measurements& measurements, const Selection& select
       "the slowest constant speed is {:.3g} {}; hold several slower ones in both directions as "
       "well, down to about {:.2g} {}, or use a law without these parameters",
       slowest, unit, slowest / 10, unit);
+}
+
+std::optional<Refusal> UnknownSliding(const IdentifierInput& input,
+                                      std::span<const ParameterInfo> unknown) {
+  const Measurements& m = input.measurements;
+  const Eigen::MatrixXd columns = LawColumns(*FindLaw(ViscousCoulomb::name), m.velocity);
+  const LeastSquares sliding =
+      SolveLeastSquares(Kept(columns, input.selection), Kept(m.torque, input.selection));
+  if (sliding.rank == columns.cols()) return std::nullopt;
+  std::vector<std::string> names;
+  for (const ParameterInfo& info : unknown) names.emplace_back(info.name);
+  return Refusal{Status::not_identifiable, Indistinct(names, m, input.selection)};
+}
+
+Refusal NoFall(const Measurements& measurements, const Selection& selection) {
+  return {Status::not_identifiable, "static and stribeck_velocity cannot be told from coulomb; " +
+                                        SlowSpeeds(measurements, selection)};
 }
 
 std::optional<std::string> VagueStribeck(const StribeckEvidence& evidence,

@@ -2,10 +2,11 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 
-#include "models/recording/measurements.h"
-#include "models/recording/selection.h"
+#include "identification/identifier.h"
+#include "models/friction/parameter_info.h"
 
 namespace warmjoint::inline identification {
 
@@ -19,6 +20,14 @@ struct StribeckEvidence {
 /// "the slowest constant speed is ...; hold several slower ones ...": the remedy of all verdicts on
 /// missing slow speeds. selection: samples at constant speed.
 std::string SlowSpeeds(const Measurements& measurements, const Selection& selection);
+
+/// Why not even viscous and coulomb, Eq. (2), can be told apart, which comes before any Stribeck
+/// effect; nothing where they can. unknown: rows of the law that then cannot be told.
+std::optional<Refusal> UnknownSliding(const IdentifierInput& input,
+                                      std::span<const ParameterInfo> unknown);
+
+/// Why no scan finds a fall from static to coulomb. selection: samples at constant speed.
+Refusal NoFall(const Measurements& measurements, const Selection& selection);
 
 /// Why static and stribeck_velocity cannot be told apart: vs is not known to a factor of e, or
 /// ks - kc not to a half of itself. Nothing where they can.

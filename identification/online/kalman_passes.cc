@@ -57,24 +57,21 @@ KalmanPrior<D> Ignorance(const KalmanTrack& track) {
   return prior;
 }
 
-TraceEntry Note(const Law& law, const Eigen::VectorXd& mean, Eigen::Index sample, double rmse) {
-  TraceEntry entry;
-  entry.iteration = static_cast<int>(sample);
+Iterate Note(const Eigen::VectorXd& mean, Eigen::Index sample, double rmse) {
   const Eigen::Index d = mean.size() - 3;
-  for (Eigen::Index i = 0; i < d; ++i) {
-    entry.parameters.emplace_back(law.parameters[static_cast<size_t>(i)].name, mean[i]);
-  }
-  entry.parameters.emplace_back("thermal_gain", mean[d]);
-  entry.parameters.emplace_back("thermal_time_constant", std::exp(mean[d + 1]));
-  entry.parameters.emplace_back("energy", mean[d + 2]);
-  entry.rmse = rmse;
-  return entry;
+  Iterate iterate;
+  iterate.iteration = static_cast<int>(sample);
+  iterate.values.assign(mean.begin(), mean.begin() + d + 2);
+  iterate.values.back() = std::exp(iterate.values.back());
+  iterate.rmse = rmse;
+  iterate.energy = mean[d + 2];
+  return iterate;
 }
 
 /// One pass; in `trace`, moments on the way.
 template <int D>
 KalmanPass Pass(const KalmanTrack& track, const KalmanPrior<D>& prior,
-                std::vector<TraceEntry>& trace) {
+                std::vector<Iterate>& trace) {
   trace.clear();
   KalmanBank<D> bank = MakeBank(prior);
   const Eigen::Index n = track.loop.size();
@@ -82,7 +79,7 @@ KalmanPass Pass(const KalmanTrack& track, const KalmanPrior<D>& prior,
     bank = BankStep(bank, At<D>(track, i));
     if ((i + 1) % std::max<Eigen::Index>(n / kMoments, 1) != 0) continue;
     const Eigen::VectorXd mean = Merge(bank).mean;
-    if (mean.allFinite()) trace.push_back(Note(track.law, mean, i + 1, std::sqrt(bank.noise)));
+    if (mean.allFinite()) trace.push_back(Note(mean, i + 1, std::sqrt(bank.noise)));
   }
   const KalmanState<D> all = Merge(bank);
   return {all.mean, all.covariance, Spacing(prior), bank.noise};
@@ -116,7 +113,7 @@ KalmanPrior<D> Again(const KalmanPass& last) {
 
 /// All passes: where each of them ended.
 template <int D>
-std::vector<KalmanPass> Run(const KalmanTrack& track, int passes, std::vector<TraceEntry>& trace) {
+std::vector<KalmanPass> Run(const KalmanTrack& track, int passes, std::vector<Iterate>& trace) {
   KalmanPrior<D> prior = Ignorance<D>(track);
   std::vector<KalmanPass> known;
   for (int pass = 0; pass < passes; ++pass) {
@@ -141,8 +138,7 @@ std::array<double, 2> TimeConstantRange(const KalmanTrack& track) {
   return {std::max(2 * track.loop.intervals().typical, total / 500), 5 * total};
 }
 
-std::vector<KalmanPass> RunPasses(const KalmanTrack& track, int most,
-                                  std::vector<TraceEntry>& trace) {
+std::vector<KalmanPass> RunPasses(const KalmanTrack& track, int most, std::vector<Iterate>& trace) {
   // a number of law parameters that the compiler knows, where it is a common one
   switch (track.column_rms.size()) {
     case 1:

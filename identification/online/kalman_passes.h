@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "identification/estimate.h"
+#include "identification/fit.h"
 #include "identification/forward/closed_loop.h"
 #include "models/recording/selection.h"
 
@@ -34,9 +34,8 @@ std::array<double, 2> TimeConstantRange(const KalmanTrack& track);
 
 /// Passes until one moves no parameter by more than a tenth of its standard deviation, `most` at
 /// most; where each of them ended. The first knows nothing but E = 0; each later one is linearised
-/// where the last one ended, with deviations ten times as great. trace: parameters and energy at 50
+/// where the last one ended, with deviations ten times as great. trace: p, k, tau and E at 50
 /// moments of the last pass.
-std::vector<KalmanPass> RunPasses(const KalmanTrack& track, int most,
-                                  std::vector<TraceEntry>& trace);
+std::vector<KalmanPass> RunPasses(const KalmanTrack& track, int most, std::vector<Iterate>& trace);
 
 }  // namespace warmjoint::inline identification

@@ -1,7 +1,5 @@
 #include "identification/preparation/segment_velocity.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -140,13 +138,13 @@ std::optional<SegmentVelocity> TakeSegmentVelocity(const Measurements& measureme
     return std::nullopt;
   }
 
-  SegmentVelocity taken{measurements, pooled.velocity_noise, pooled.Attenuation(variance), 0,
-                        pooled.mean_speed};
+  SegmentVelocity taken{
+      measurements, {pooled.velocity_noise, pooled.Attenuation(variance), 0, pooled.mean_speed}};
   double errors = 0;  // of a velocity, mean square over the samples
   for (const Steady& one : all) {
     const Velocity velocity = BestVelocity(one, pooled);
     const bool drifts =
-        std::abs(one.velocity.slope) * std::sqrt(one.times.spread) > kCertain * taken.noise;
+        std::abs(one.velocity.slope) * std::sqrt(one.times.spread) > kCertain * taken.noise.noise;
     const double slope = drifts ? one.velocity.slope : 0;
     errors += one.times.count * velocity.error * velocity.error / pooled.count;
     ForKept(selection, *one.segment, [&](Index i) {
@@ -154,32 +152,8 @@ std::optional<SegmentVelocity> TakeSegmentVelocity(const Measurements& measureme
           velocity.value + slope * (measurements.time[i] - one.times.mean);
     });
   }
-  taken.left = pooled.Attenuation(errors);
+  taken.noise.left = pooled.Attenuation(errors);
   return taken;
-}
-
-void TellSegmentVelocity(const SegmentVelocity& taken, Estimate& estimate) {
-  if (estimate.status != Status::ok) return;
-  const EstimatedParameter* viscous = estimate.Find("viscous");
-  estimate.message += fmt::format(
-      "; velocity taken as one value for each segment: its noise of {:.2g} {} would move {} by "
-      "{:.2g} %",
-      taken.noise, kVelocityUnit.For(taken.measurements.joint),
-      viscous ? "viscous" : "slopes over speed", -100 * taken.attenuation);
-  if (taken.left <= kHarmless) return;
-  estimate.warnings.push_back(fmt::format(
-      "the noise of the velocity still moves {} by {:.2g} %, and intervals reach as far; hold each "
-      "speed for longer, or log a position that is finer",
-      viscous ? "viscous" : "slopes over speed", -100 * taken.left));
-  if (!viscous) return;
-  const double move = std::abs(taken.left * viscous->value);
-  for (EstimatedParameter& parameter : estimate.parameters) {
-    const bool is_level = parameter.name.starts_with("coulomb");
-    if (!parameter.interval95 || !(is_level || parameter.name == "viscous")) continue;
-    const double reach = is_level ? move * taken.mean_speed : move;
-    (*parameter.interval95)[0] -= reach;
-    (*parameter.interval95)[1] += reach;
-  }
 }
 
 }  // namespace warmjoint::inline identification

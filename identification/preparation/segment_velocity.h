@@ -3,19 +3,23 @@
 
 #include <optional>
 
-#include "identification/estimate.h"
 #include "models/recording/measurements.h"
 #include "models/recording/selection.h"
 
 namespace warmjoint::inline identification {
 
-/// A log whose kept samples have the velocity of their segment.
-struct SegmentVelocity {
-  Measurements measurements;
+/// What noise of the velocity does to a slope over |v|.
+struct VelocityNoise {
   double noise = 0;        // of the velocity within segments, rad/s or m/s
   double attenuation = 0;  // share of a slope over |v| that this noise would hide
   double left = 0;         // the share that the noise of one velocity for a segment still hides
   double mean_speed = 0;   // mean |v| of the kept samples, rad/s or m/s
+};
+
+/// A log whose kept samples have the velocity of their segment.
+struct SegmentVelocity {
+  Measurements measurements;
+  VelocityNoise noise;
 };
 
 /// Least squares over samples whose velocity has noise finds a slope over |v| too small by the
@@ -32,9 +36,5 @@ struct SegmentVelocity {
 /// Nothing where a is less, or no segments are given.
 std::optional<SegmentVelocity> TakeSegmentVelocity(const Measurements& measurements,
                                                    const Selection& selection);
-
-/// Says in the message of an estimate that is ok what was done. Where more than 0.1 % is left, the
-/// intervals of viscous and of the levels reach as far as that moves them, and a warning says so.
-void TellSegmentVelocity(const SegmentVelocity& taken, Estimate& estimate);
 
 }  // namespace warmjoint::inline identification

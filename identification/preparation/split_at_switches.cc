@@ -82,12 +82,7 @@ std::optional<SplitLog> SplitAtSwitches(const Measurements& measurements,
   if (switches.empty()) return std::nullopt;
   SplitLog split{measurements, selection, Unseen(measurements, switches)};
   Measurements& m = split.measurements;
-  for (Eigen::VectorXd* column : {&m.time, &m.position, &m.velocity, &m.torque}) {
-    *column = Filled(*column, switches);
-  }
-  for (std::optional<Eigen::VectorXd>* column : {&m.motor_position, &m.load, &m.temperature}) {
-    if (*column) *column = Filled(**column, switches);
-  }
+  ForEachColumn(m, [&](Eigen::VectorXd& column) { column = Filled(column, switches); });
   split.selection.keep = Filled(selection.keep, switches);
 
   // what is put in: when, where, and that no fit sees it

@@ -33,4 +33,17 @@ struct Measurements {
   Eigen::Index size() const { return time.size(); }
 };
 
+/// Calls use(column) for every column that the log has: the one list of them, for what is done to
+/// all alike.
+template <typename Log, typename Use>
+void ForEachColumn(Log& log, Use&& use) {
+  for (auto* column : {&log.time, &log.position, &log.velocity, &log.torque}) use(*column);
+  for (auto* column : {&log.motor_position, &log.load, &log.temperature}) {
+    if (*column) use(**column);
+  }
+}
+
+/// The first n samples.
+Measurements FirstSamples(Measurements log, Eigen::Index n);
+
 }  // namespace warmjoint::inline models

@@ -2,8 +2,8 @@
 #include <benchmark/benchmark.h>
 
 #include "identification/adequacy/judge.h"
-#include "identification/identifier.h"
-#include "identification/preparation/select.h"
+#include "identification/answer/identify.h"
+#include "identification/identifiers/identifier_list.h"
 #include "models/foundation/keep_memory.h"
 #include "tests/support/warm_recording.h"
 
@@ -14,11 +14,11 @@ void Identify(benchmark::State& state, const char* name,
               const std::map<std::string, std::string>& given) {
   const Measurements recording =
       test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 1), 0.5, 1);
-  const Selection selection = SelectMoving(recording);
   const Identifier& identifier = FindIdentifier(name);
   const Options options(identifier.options, given, {});
+  const IdentifierInput input{Prepare(recording), options, {}};
   for (auto _ : state) {
-    benchmark::DoNotOptimize(identifier.identify({recording, selection, options, {}}));
+    benchmark::DoNotOptimize(IdentifyUnjudged(identifier, input));
   }
 }
 
@@ -29,14 +29,14 @@ const bool kKeeps = (KeepFreedMemory(), true);
 void Judge(benchmark::State& state, const char* name) {
   const Measurements recording =
       test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 1), 0.5, 1);
-  const Selection selection = SelectMoving(recording);
   const Identifier& identifier = FindIdentifier(name);
   const Options options(identifier.options, {}, {});
-  const IdentifierInput input{recording, selection, options, {}};
-  const Estimate estimate = identifier.identify(input);
+  const IdentifierInput input{Prepare(recording), options, {}};
+  const Fit fit = identifier.fit(input);
+  const Inference inferred = Infer(fit);
   for (auto _ : state) {
-    Estimate judged = estimate;
-    JudgeAdequacy(identifier, input, judged);
+    Inference judged = inferred;
+    JudgeAdequacy(identifier, input, fit, judged);
     benchmark::DoNotOptimize(judged);
   }
 }

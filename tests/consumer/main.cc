@@ -6,7 +6,8 @@
 #include <cstdio>
 #include <string>
 
-#include "identification/identifier.h"
+#include "identification/answer/identify.h"
+#include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
 
 namespace {
@@ -29,10 +30,9 @@ Measurements Log() {
 
 bool Identifies() {
   const Measurements log = Log();
-  const Selection selection = SelectMoving(log);
   const Identifier& identifier = FindIdentifier("nominal-ls");
   const Options options(identifier.options, {}, {});
-  const Estimate estimate = identifier.identify({log, selection, options, {}});
+  const Estimate estimate = IdentifyUnjudged(identifier, {Prepare(log), options, {}});
   std::printf("%s: viscous %.6g, coulomb %.6g\n", estimate.identifier.c_str(),
               estimate.Find("viscous")->value, estimate.Find("coulomb")->value);
   // a fit without noise, up to rounding

@@ -8,8 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "identification/identifier.h"
-#include "identification/preparation/finer_input.h"
+#include "identification/answer/identify.h"
+#include "identification/identifiers/identifier_list.h"
+#include "identification/preparation/prepared_log.h"
 #include "identification/preparation/select.h"
 #include "tests/support/bristle_recording.h"
 
@@ -39,7 +40,7 @@ class Contract : public ::testing::TestWithParam<Identifier> {
       }
     }
     const Options options(GetParam().options, given, {});
-    return GetParam().identify({measurements, selection, options, {11, 3}});
+    return IdentifyUnjudged(GetParam(), {Prepare(measurements, selection), options, {11, 3}});
   }
   Estimate Identify(const Measurements& measurements) const {
     return Identify(measurements, SelectMoving(measurements));
@@ -339,10 +340,11 @@ TEST_P(Contract, GetsASlowLogSplitAtItsSwitchesOnlyForSteadyMotion) {
   log.position = 19.5 - (log.time.array() - 19.5).abs();
   const Selection selection = SelectMoving(log);
   const Options options(GetParam().options, {}, {});
-  const FinerInput finer(GetParam(), {log, selection, options, {}});
+  const PreparedLog prepared = Prepare(log, selection);
+  const IdentifierInput seen = GetParam().Seen({prepared, options, {}});
   const bool steady = GetParam().regime == Regime::steady;
-  EXPECT_EQ(finer.input().measurements.size(), steady ? 41 : 40);
-  EXPECT_EQ(finer.unseen() > 0, steady);
+  EXPECT_EQ(seen.measurements.size(), steady ? 41 : 40);
+  EXPECT_GT(prepared.unseen(), 0);
 }
 
 TEST_P(Contract, LearnsFromChangesOfSpeedOnlyWhereItsRegimeIsTransient) {

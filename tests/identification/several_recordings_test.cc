@@ -1,8 +1,10 @@
 // Several recordings of one joint at once: heat starts again with each.
 #include <gmock/gmock.h>
 
+#include "identification/answer/identify.h"
 #include "identification/forward/thermal_filter.h"
 #include "identification/holdout/hold_out.h"
+#include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
 #include "models/recording/join_recordings.h"
 #include "tests/support/warm_recording.h"
@@ -28,7 +30,7 @@ Estimate Identify(const std::string& name, const Measurements& m) {
   }
   const Options options(identifier.options, given, {});
   const Selection selection = SelectMoving(m);
-  return identifier.identify({m, selection, options, {11, 3}});
+  return IdentifyUnjudged(identifier, {m, selection, options, {11, 3}});
 }
 
 TEST(SeveralRecordings, EnergyMlFindsTheTruthWithoutNoise) {
@@ -89,7 +91,7 @@ TEST(SeveralRecordings, AreHeldOutFromTheEnd) {
   const Identifier& identifier = FindIdentifier("energy-ml");
   const Options options(identifier.options, {}, {});
   const Selection selection = SelectMoving(m);
-  const auto held = HoldOut(identifier, {m, selection, options, {}}, 1.0 / 3);
+  const auto held = HoldOut(identifier, {Prepare(m, selection), options, {}}, 1.0 / 3);
   ASSERT_TRUE(held);
   EXPECT_NEAR(held->n, 1800, 1);
   // noise of 0.5 N.m, known from 1800 samples to 0.5 / sqrt(3600), three times, and the parameters

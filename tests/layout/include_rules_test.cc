@@ -99,9 +99,9 @@ TEST(IncludeRules, EveryIncludeGoesDownTheFlow) {
 
 /// Folders of identification in the order in which data flows; "" is its top.
 const std::vector<std::string> kIdentificationOrder{
-    "forward", "uncertainty", "",          "preparation", "linear",  "warming",     "ridge",
-    "maps",    "alternating", "nonlinear", "online",      "holdout", "identifiers", "adequacy",
-    "score"};
+    "preparation", "forward", "uncertainty", "",         "linear",      "inference",
+    "report",      "warming", "ridge",       "maps",     "alternating", "nonlinear",
+    "online",      "holdout", "identifiers", "adequacy", "answer",      "score"};
 
 /// Place in that order of a file's folder; the number of folders where it is none of them.
 size_t PlaceInIdentification(const std::string& file) {

@@ -6,7 +6,8 @@
 #include <map>
 #include <string>
 
-#include "identification/adequacy/judge.h"
+#include "identification/answer/identify.h"
+#include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
 #include "tests/support/warm_recording.h"
 
@@ -35,7 +36,7 @@ inline Estimate Answer(const std::string& name, const Measurements& measurements
                        const std::map<std::string, std::string>& given = {}) {
   const Identifier& identifier = FindIdentifier(name);
   const Options options(identifier.options, given, {});
-  return IdentifyAndJudge(identifier, {measurements, SelectMoving(measurements), options, {}});
+  return IdentifyAndJudge(identifier, {Prepare(measurements), options, {}});
 }
 
 /// How many realizations end with `status` and say `reason`.

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "identification/identifier.h"
+#include "identification/answer/identify.h"
+#include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
 #include "sim/model/load_model.h"
 #include "sim/plant/plant.h"
@@ -56,8 +57,8 @@ TEST_P(AnyonesRobot, GivesBackTheFrictionOfAJointUnderGravity) {
 
   const Identifier& identifier = FindIdentifier("energy-ml");
   const Options options(identifier.options, {{"gravity", "sincos"}}, {});
-  const Selection selection = SelectConstantSpeed(recording.measurements);
-  const Estimate estimate = identifier.identify({recording.measurements, selection, options, {}});
+  const Estimate estimate =
+      IdentifyUnjudged(identifier, {Prepare(recording.measurements), options, {}});
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
   for (const auto& [name, truth] : {std::pair{"viscous", 2.0},
                                     {"coulomb", 8.0},

@@ -4,7 +4,9 @@
 #include <iostream>
 #include <numbers>
 
+#include "identification/answer/identify.h"
 #include "identification/holdout/hold_out.h"
+#include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
 #include "models/recording/read_recording.h"
 #include "tests/support/shared_data.h"
@@ -31,8 +33,7 @@ double TestRmse(const Measurements& m, const std::string& name,
                 const std::map<std::string, std::string>& given) {
   const Identifier& identifier = FindIdentifier(name);
   const Options options(identifier.options, given, {});
-  const Selection selection = SelectConstantSpeed(m);
-  const auto held = HoldOut(identifier, {m, selection, options, {}}, 0.4);
+  const auto held = HoldOut(identifier, {Prepare(m), options, {}}, 0.4);
   if (!held) return kInfinity;
   std::cout << name << ": " << held->rmse << " N rms on the last 40 %\n";
   return held->rmse;
@@ -52,8 +53,7 @@ TEST(Emps, RipplesFourTimesATurnOfTheScrew) {
   const Measurements m = Emps();
   const Identifier& identifier = FindIdentifier("motor-ridge");
   const Options options(identifier.options, {}, {});
-  const Selection selection = SelectConstantSpeed(m);
-  const Estimate estimate = identifier.identify({m, selection, options, {}});
+  const Estimate estimate = IdentifyUnjudged(identifier, {Prepare(m), options, {}});
   std::cout << estimate.message << "\n";
   // 2.50 mm, strongest in both directions
   EXPECT_THAT(estimate.message, ContainsRegex("v > 0: [0-9.]+ N at 4 a turn"));

@@ -3,7 +3,8 @@
 
 #include <cmath>
 
-#include "identification/identifier.h"
+#include "identification/answer/identify.h"
+#include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
 #include "models/foundation/atomic_file.h"
 #include "models/recording/read_recording.h"
@@ -46,8 +47,7 @@ Scenario Sweeps(const std::string& robot) {
 Estimate Identify(const Measurements& measurements, const std::string& gravity) {
   const Identifier& identifier = FindIdentifier("energy-ml");
   const Options options(identifier.options, {{"gravity", gravity}}, {});
-  const Selection selection = SelectConstantSpeed(measurements);
-  return identifier.identify({measurements, selection, options, {}});
+  return IdentifyUnjudged(identifier, {Prepare(measurements), options, {}});
 }
 
 TEST(Gravity, OfAPendulumIsTakenOffBothWays) {
@@ -82,8 +82,7 @@ TEST(Gravity, OfTheEmpsAxisIsItsPublishedOffset) {
       ReadRecording(test::SharedFolder() / "data" / "emps" / "DATA_EMPS.csv", layout);
   const Identifier& identifier = FindIdentifier("nominal-ls");
   const Options options(identifier.options, {{"gravity", "paired"}}, {});
-  const Selection selection = SelectConstantSpeed(log);
-  const Estimate estimate = identifier.identify({log, selection, options, {}});
+  const Estimate estimate = IdentifyUnjudged(identifier, {Prepare(log), options, {}});
   ASSERT_TRUE(estimate.Find("gravity_offset")) << estimate.message;
 
   // Janot, Gautier, Brunot 2019, from all samples: within our interval

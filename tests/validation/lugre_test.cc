@@ -1,7 +1,8 @@
 // The bristle of a joint in the engine, moved by a drive with a controller.
 #include <gtest/gtest.h>
 
-#include "identification/adequacy/judge.h"
+#include "identification/answer/identify.h"
+#include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
 #include "sim/plant/plant.h"
 
@@ -33,8 +34,7 @@ TEST(LuGreInTheEngine, ComesBackFromSlowAndSmallTurns) {
 
   const Identifier& identifier = FindIdentifier("lugre");
   const Options options(identifier.options, {}, {});
-  const Selection selection = SelectConstantSpeed(m);
-  const Estimate estimate = IdentifyAndJudge(identifier, {m, selection, options, {}});
+  const Estimate estimate = IdentifyAndJudge(identifier, {Prepare(m), options, {}});
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
   for (const auto& [name, truth] : scenario.friction.parameters) {
     const EstimatedParameter& found = *estimate.Find(name);

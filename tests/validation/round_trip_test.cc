@@ -4,7 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "identification/identifier.h"
+#include "identification/answer/identify.h"
+#include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
 #include "models/recording/read_recording.h"
 #include "models/robots/robot_folder.h"
@@ -22,8 +23,7 @@ Estimate Identify(const Measurements& measurements, const std::string& name,
                   const std::map<std::string, std::string>& given) {
   const Identifier& identifier = FindIdentifier(name);
   const Options options(identifier.options, given, {});
-  const Selection selection = SelectConstantSpeed(measurements);
-  return identifier.identify({measurements, selection, options, {}});
+  return IdentifyUnjudged(identifier, {Prepare(measurements), options, {}});
 }
 
 /// The engine's recording of `log`'s motion on `robot`, which gets the estimated friction.

@@ -3,7 +3,9 @@
 
 #include <iostream>
 
+#include "identification/answer/identify.h"
 #include "identification/holdout/hold_out.h"
+#include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"
@@ -21,9 +23,8 @@ struct Reached {
 Reached Reach(const SuiteIdentifier& entry, const Recording& recording) {
   const Identifier& identifier = FindIdentifier(entry.name);
   const Options options(identifier.options, entry.options, {});
-  const Selection selection = SelectConstantSpeed(recording.measurements);
-  const IdentifierInput input{recording.measurements, selection, options, {}};
-  const Estimate estimate = identifier.identify(input);
+  const IdentifierInput input{Prepare(recording.measurements), options, {}};
+  const Estimate estimate = IdentifyUnjudged(identifier, input);
   const auto held = HoldOut(identifier, input, 0.3);
   Reached reached;
   if (estimate.metrics) reached.in_sample = estimate.metrics->rmse;

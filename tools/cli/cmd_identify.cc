@@ -5,12 +5,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "identification/adequacy/judge.h"
+#include "identification/answer/identify.h"
 #include "identification/holdout/hold_out.h"
-#include "identification/identifier.h"
+#include "identification/identifiers/identifier_list.h"
 #include "identification/linear/fit_gravity.h"
-#include "identification/preparation/finer_input.h"
-#include "identification/preparation/select.h"
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/parse_number.h"
 #include "sim/model/minimal_model.h"
@@ -37,7 +35,7 @@ struct IdentifyArguments {
 /// What --holdout asks for: a fraction of the recording, or another recording.
 struct HoldOutSource {
   double fraction = 0;
-  std::optional<Measurements> other;
+  std::optional<PreparedLog> other;
 };
 
 HoldOutSource ReadHoldOut(const IdentifyArguments& arguments) {
@@ -45,7 +43,7 @@ HoldOutSource ReadHoldOut(const IdentifyArguments& arguments) {
   if (!fraction) {
     RecordingArguments other = arguments.recording;
     other.recordings = {arguments.holdout};
-    return {0, ReadRecording(other)};
+    return {0, Prepare(ReadRecording(other))};
   }
   if (!(*fraction >= 0 && *fraction < 1)) {
     Refuse({"--holdout"}, "is {}; it must be at least 0 and below 1, or a file", *fraction);
@@ -77,9 +75,7 @@ std::map<std::string, std::string> GivenOptions(const IdentifyArguments& argumen
 
 std::optional<Metrics> HoldOutFigures(const Identifier& identifier, const IdentifierInput& input,
                                       const HoldOutSource& source) {
-  if (source.other) {
-    return HoldOut(identifier, input, *source.other, SelectConstantSpeed(*source.other));
-  }
+  if (source.other) return HoldOut(identifier, input, *source.other);
   if (source.fraction == 0) return std::nullopt;
   return HoldOut(identifier, input, source.fraction);
 }
@@ -125,16 +121,16 @@ ExitStatus Identify(const IdentifyArguments& arguments) {
   CheckOutput(arguments.mjcf);
   CheckOutput(arguments.plot);
   const HoldOutSource holdout = ReadHoldOut(arguments);
-  const Measurements measurements = ReadRecording(arguments.recording);
+  const PreparedLog log = Prepare(ReadRecording(arguments.recording));
+  const auto& [measurements, selection] = log.taken();
 
-  const Selection selection = SelectConstantSpeed(measurements);
-  const FinerInput finer(identifier, {measurements, selection, options, {}});
-  const Judgement judgement = IdentifyAndJudge(identifier, finer);
-  Estimate estimate = judgement.judged;
-  if (judgement.before.status == Status::ok) {
-    estimate.holdout = HoldOutFigures(identifier, finer.input(), holdout);
+  const IdentifierInput input{log, options, {}};
+  const Answer answer = FitAndJudge(identifier, input);
+  Estimate estimate = arguments.force ? WithVoidNumbers(identifier, input, answer)
+                                      : ReportAnswer(identifier, input, answer);
+  if (answer.inferred.status == Status::ok) {
+    estimate.holdout = HoldOutFigures(identifier, input, holdout);
   }
-  if (arguments.force) estimate = WithVoidNumbers(estimate, judgement.before);
   WriteOutputs(arguments, ForFiles(estimate, measurements), measurements.joint);
   if (!arguments.plot.empty()) {
     report::WriteFitPage(measurements, selection, estimate, arguments.plot);

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "identification/identifier.h"
+#include "identification/identifiers/identifier_list.h"
 #include "tools/board/table.h"
 #include "tools/cli/families.h"
 

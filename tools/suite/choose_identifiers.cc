@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "identification/identifier.h"
+#include "identification/identifiers/identifier_list.h"
 #include "tools/suite/external_identifier.h"
 
 namespace warmjoint::inline tools {

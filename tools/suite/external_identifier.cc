@@ -170,9 +170,8 @@ PreparedIdentifier PrepareExternal(const SuiteIdentifier& identifier, const Plac
     Refuse(place, "the command of {} lacks {{estimate}}, the file that it has to write",
            identifier.label);
   }
-  return [command, limit, label = identifier.label](const Measurements& measurements,
-                                                    const Selection& selection, RandomKey) {
-    return Ask(command, label, limit, measurements, selection);
+  return [command, limit, label = identifier.label](const PreparedLog& log, RandomKey) {
+    return Ask(command, label, limit, log.taken().measurements, log.taken().selection);
   };
 }
 

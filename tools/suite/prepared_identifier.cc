@@ -1,6 +1,7 @@
 #include "tools/suite/prepared_identifier.h"
 
-#include "identification/adequacy/judge.h"
+#include "identification/answer/identify.h"
+#include "identification/identifiers/identifier_list.h"
 #include "tools/suite/external_identifier.h"
 
 namespace warmjoint::inline tools {
@@ -15,9 +16,8 @@ std::vector<PreparedIdentifier> PrepareIdentifiers(const std::vector<SuiteIdenti
     }
     const Identifier& identifier = FindIdentifier(one.name);
     const Options options(identifier.options, one.options, place);
-    prepared.emplace_back([identifier, options](const Measurements& measurements,
-                                                const Selection& selection, RandomKey random) {
-      return IdentifyAndJudge(identifier, {measurements, selection, options, random});
+    prepared.emplace_back([identifier, options](const PreparedLog& log, RandomKey random) {
+      return IdentifyAndJudge(identifier, {log, options, random});
     });
   }
   return prepared;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <optional>
 
-#include "identification/preparation/select.h"
 #include "tools/suite/trace_table.h"
 
 namespace warmjoint::inline tools {
@@ -19,11 +18,6 @@ class Stopwatch {
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
-
-/// The ideal plant satisfies Eq. (6) at every moving sample; engines accelerate in between.
-Selection Select(const Measurements& measurements, PlantKind kind) {
-  return kind == PlantKind::ideal ? SelectMoving(measurements) : SelectConstantSpeed(measurements);
-}
 
 /// Name of the first parameter that is no number, or nullptr.
 const std::string* NotFinite(const Estimate& estimate) {
@@ -50,13 +44,13 @@ void Fill(Result& result, const Estimate& estimate, const Recording& recording,
 }
 
 Result RunIdentifier(const PreparedIdentifier& identify, const Recording& recording,
-                     const Selection& selection, RandomKey key) {
+                     const PreparedLog& log, RandomKey key) {
   Result result;
   const Stopwatch watch;
   try {
-    const Estimate estimate = identify(recording.measurements, selection, key);
+    const Estimate estimate = identify(log, key);
     result.seconds = watch.Seconds();
-    Fill(result, estimate, recording, selection);
+    Fill(result, estimate, recording, log.taken().selection);
   } catch (const NoAnswer& failure) {
     result.seconds = watch.Seconds();
     result.status = failure.status;
@@ -97,9 +91,9 @@ Realization RunRealization(const Bench& bench, const std::vector<PreparedIdentif
 
   if (recording) {
     keeper.Keep(*recording, unit);
-    const Selection selection = Select(recording->measurements, bench.scenario.plant);
+    const PreparedLog log = Prepare(recording->measurements);
     for (const PreparedIdentifier& identify : identifiers) {
-      realization.results.push_back(RunIdentifier(identify, *recording, selection, key));
+      realization.results.push_back(RunIdentifier(identify, *recording, log, key));
     }
   }
 

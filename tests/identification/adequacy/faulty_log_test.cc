@@ -3,7 +3,8 @@
 
 #include <numbers>
 
-#include "identification/adequacy/judge.h"
+#include "identification/answer/identify.h"
+#include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
 #include "tests/support/judging.h"
 
@@ -25,7 +26,7 @@ TEST(FaultyLog, EndsAsBadDataForEveryIdentifier) {
   for (const char* name : {"energy-ml", "nominal-ls", "lugre", "kalman"}) {
     const Identifier& identifier = FindIdentifier(name);
     const Options options(identifier.options, {}, {});
-    const Estimate estimate = IdentifyAndJudge(identifier, {m, selection, options, {}});
+    const Estimate estimate = IdentifyAndJudge(identifier, {Prepare(m, selection), options, {}});
     EXPECT_EQ(estimate.status, Status::bad_data) << name;
     EXPECT_THAT(estimate.message, HasSubstr("--unit velocity=rpm")) << name;
     EXPECT_FALSE(estimate.friction) << name;
@@ -38,10 +39,10 @@ TEST(FaultyLog, ShowsItsNumbersByForce) {
   const Selection selection = SelectConstantSpeed(m);
   const Identifier& identifier = FindIdentifier("nominal-ls");
   const Options options(identifier.options, {}, {});
-  const FinerInput finer(identifier, {m, selection, options, {}});
-  const Judgement judgement = IdentifyAndJudge(identifier, finer);
-  ASSERT_EQ(judgement.before.status, Status::ok);
-  const Estimate shown = WithVoidNumbers(judgement.judged, judgement.before);
+  const IdentifierInput input{Prepare(m, selection), options, {}};
+  const Answer answer = FitAndJudge(identifier, input);
+  ASSERT_EQ(answer.inferred.status, Status::ok);
+  const Estimate shown = WithVoidNumbers(identifier, input, answer);
   EXPECT_EQ(shown.status, Status::bad_data);
   EXPECT_TRUE(shown.Find("viscous")->interval95);
   EXPECT_THAT(shown.message, HasSubstr("all numbers are void"));

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "identification/identifiers/identifier_list.h"
 #include "tests/support/judging.h"
 
 namespace warmjoint {
@@ -45,8 +46,15 @@ TEST(HeldLoss, IsWhatContinuousHeatAddsAtOneSpeed) {
 TEST(HeldLoss, MattersWhereTheTimeConstantIsKnownFinerThanTheStep) {
   const Measurements m = Quick(1, 50, 0.1);
   const Measurements slow = test::RecordHour(test::TableOne(), 1);
-  EXPECT_TRUE(StepMatters(test::Answer("energy-ml", m), m));
-  EXPECT_FALSE(StepMatters(test::Answer("energy-ml", slow), slow));
+  const auto matters = [](const Measurements& log) {
+    const Identifier& identifier = FindIdentifier("energy-ml");
+    const Options options(identifier.options, {}, {});
+    const IdentifierInput input{Prepare(log), options, {}};
+    const Fit fit = identifier.fit(input);
+    return StepMatters(fit, Infer(fit), input.measurements);
+  };
+  EXPECT_TRUE(matters(m));
+  EXPECT_FALSE(matters(slow));
 }
 
 /// Of 20 recordings, how many intervals of tau and of the gain hold the truth.

@@ -1,9 +1,9 @@
-#include "identification/adequacy/judge.h"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
 
+#include "identification/answer/identify.h"
+#include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
 #include "models/friction/sign.h"
 #include "tests/support/judging.h"
@@ -134,8 +134,8 @@ TEST(Judge, TakesBackEverythingButTheValues) {
   const Identifier& identifier = FindIdentifier("nominal-ls");
   const Options options(identifier.options, {}, {});
   const Selection selection = SelectMoving(warm);
-  const IdentifierInput input{warm, selection, options, {}};
-  const Estimate before = identifier.identify(input);
+  const IdentifierInput input{Prepare(warm, selection), options, {}};
+  const Estimate before = IdentifyUnjudged(identifier, input);
   const Estimate judged = IdentifyAndJudge(identifier, input);
   EXPECT_FALSE(judged.friction);
   EXPECT_EQ(judged.Find("coulomb")->value, before.Find("coulomb")->value);
@@ -143,7 +143,7 @@ TEST(Judge, TakesBackEverythingButTheValues) {
   EXPECT_TRUE(judged.metrics);
 
   // who insists sees the numbers, beside the verdict
-  const Estimate forced = WithVoidNumbers(judged, before);
+  const Estimate forced = WithVoidNumbers(identifier, input, FitAndJudge(identifier, input));
   EXPECT_EQ(forced.status, kInadequate);
   EXPECT_THAT(forced.FullMessage(), HasSubstr("void"));
   EXPECT_EQ(forced.Find("coulomb")->interval95, before.Find("coulomb")->interval95);
@@ -160,8 +160,8 @@ TEST(Judge, WarnsOfSmallStructureAndLetsIntervalsReachAsFar) {
   const Identifier& identifier = FindIdentifier("nominal-ls");
   const Options options(identifier.options, {}, {});
   const Selection selection = SelectMoving(m);
-  const IdentifierInput input{m, selection, options, {}};
-  const Estimate before = identifier.identify(input);
+  const IdentifierInput input{Prepare(m, selection), options, {}};
+  const Estimate before = IdentifyUnjudged(identifier, input);
   const Estimate judged = IdentifyAndJudge(identifier, input);
   ASSERT_EQ(judged.status, Status::ok) << judged.message;
   ASSERT_EQ(judged.warnings.size(), 1u);

@@ -23,7 +23,8 @@ TEST(BlockedHoldOut, HasTheErrorOfTheNoiseWhereTheModelIsRight) {
   const Selection selection = SelectMoving(m);
   const Identifier warm = EnergyMl();
   const Options options(warm.options, {}, {});
-  const auto errors = BlockedErrors(warm, {m, selection, options, {}}, CutIntoBlocks(selection, 6));
+  const auto errors =
+      BlockedErrors(warm, {Prepare(m, selection), options, {}}, CutIntoBlocks(selection, 6));
   ASSERT_TRUE(errors);
   // 0.25, known to sqrt(2 / 600) = 6 % on each block; five of these; a fit without the first ten
   // minutes hardly sees the time constant, so that its block is left out
@@ -36,7 +37,8 @@ TEST(BlockedHoldOut, SeesTheWarmingThatTheModelLacks) {
   const Selection selection = SelectMoving(m);
   const Identifier cold = NominalLs();
   const Options options(cold.options, {}, {});
-  const auto errors = BlockedErrors(cold, {m, selection, options, {}}, CutIntoBlocks(selection, 6));
+  const auto errors =
+      BlockedErrors(cold, {Prepare(m, selection), options, {}}, CutIntoBlocks(selection, 6));
   ASSERT_TRUE(errors);
   EXPECT_GT((*errors)[0], 10 * 0.25);  // the first ten minutes are the cold ones
 }

@@ -9,27 +9,30 @@ namespace warmjoint {
 namespace {
 
 /// A fit by `identifier` with its default options on a recording that moves or rests.
-struct Fit {
+struct Trial {
   Identifier identifier;
   Measurements measurements;
   Selection selection = SelectMoving(measurements);
   Options options{identifier.options, {}, {}};
 
-  IdentifierInput input() const { return {measurements, selection, options, {}}; }
+  IdentifierInput input() const { return {Prepare(measurements, selection), options, {}}; }
 };
 
 /// Says 5 v + 15 sign(v), warming as Table I, whatever it is shown; notes how much it was shown.
 Eigen::Index shown = 0;
-Estimate KnowTableOne(const IdentifierInput& input) {
+Fit KnowTableOne(const IdentifierInput& input) {
   shown = input.measurements.size();
   EXPECT_EQ(input.selection.keep.size(), shown);
-  Estimate estimate;
-  estimate.friction = test::TableOne();
-  return estimate;
+  Fit fit;
+  fit.friction = test::TableOne();
+  fit.errors.known = Uncertainty{};
+  return fit;
 }
 const Identifier kKnowing{"knowing", "", {}, &KnowTableOne};
 
-Estimate KnowNothing(const IdentifierInput&) { return {}; }
+Fit KnowNothing(const IdentifierInput&) {
+  return Refused("nothing", Status::not_identifiable, "nothing is known");
+}
 
 Measurements Recording(std::uint64_t seed, double noise) {
   return test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(1000, seed, 300), noise,
@@ -37,7 +40,7 @@ Measurements Recording(std::uint64_t seed, double noise) {
 }
 
 TEST(HoldOut, FitsOnTheFirstPartAndEvaluatesOnTheRest) {
-  const Fit fit{kKnowing, Recording(1, 0)};
+  const Trial fit{kKnowing, Recording(1, 0)};
   const auto metrics = HoldOut(fit.identifier, fit.input(), 0.25);
   ASSERT_TRUE(metrics);
   // 999 s: training ends before 749.25 s
@@ -48,25 +51,25 @@ TEST(HoldOut, FitsOnTheFirstPartAndEvaluatesOnTheRest) {
 
 TEST(HoldOut, ComesToTheTestPartWarm) {
   // exact friction leaves no residual only if E is carried through the training part
-  const Fit fit{kKnowing, Recording(2, 0)};
+  const Trial fit{kKnowing, Recording(2, 0)};
   EXPECT_LT(HoldOut(fit.identifier, fit.input(), 0.25)->rmse, 1e-12);
 }
 
 TEST(HoldOut, StartsAsWarmAsTheFitSays) {
   const auto identify = [](const IdentifierInput& input) {
-    Estimate estimate = KnowTableOne(input);
-    estimate.parameters.push_back({"initial_energy", -6, "N.m", {}, {}});
-    return estimate;
+    Fit fit = KnowTableOne(input);
+    fit.initial_energy = -6;
+    return fit;
   };
-  Fit fit{{"started", "", {}, identify}, Recording(2, 0)};
+  Trial fit{{"started", "", {}, identify}, Recording(2, 0)};
   fit.measurements.torque = PredictFriction(test::TableOne(), fit.measurements, -6).force;
   EXPECT_LT(HoldOut(fit.identifier, fit.input(), 0.25)->rmse, 1e-12);
 }
 
 TEST(HoldOut, EvaluatesOnAnotherRecordingFromCold) {
-  const Fit fit{kKnowing, Recording(3, 0.5)};
+  const Trial fit{kKnowing, Recording(3, 0.5)};
   const Measurements other = Recording(4, 0.5);
-  const auto metrics = HoldOut(fit.identifier, fit.input(), other, SelectMoving(other));
+  const auto metrics = HoldOut(fit.identifier, fit.input(), Prepare(other, SelectMoving(other)));
   ASSERT_TRUE(metrics);
   EXPECT_EQ(shown, 1000);
   // noise of 0.5 N.m over 700 samples: its standard deviation is known to 0.5 / sqrt(1400)
@@ -74,12 +77,12 @@ TEST(HoldOut, EvaluatesOnAnotherRecordingFromCold) {
 }
 
 TEST(HoldOut, IsAbsentWhereThereIsNoFrictionToTest) {
-  const Fit fit{{"nothing", "", {}, &KnowNothing}, Recording(5, 0)};
+  const Trial fit{{"nothing", "", {}, &KnowNothing}, Recording(5, 0)};
   EXPECT_FALSE(HoldOut(fit.identifier, fit.input(), 0.25));
 }
 
 TEST(HoldOut, IsAbsentWhereTheRestKeepsNoSample) {
-  Fit fit{kKnowing, Recording(6, 0)};
+  Trial fit{kKnowing, Recording(6, 0)};
   fit.selection.keep.tail(400) = false;
   EXPECT_FALSE(HoldOut(fit.identifier, fit.input(), 0.25));
 }

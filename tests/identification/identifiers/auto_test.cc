@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "identification/answer/identify.h"
 #include "identification/preparation/select.h"
 #include "tests/support/slow_recording.h"
 
@@ -14,7 +15,7 @@ using ::testing::HasSubstr;
 Estimate Answer(const Measurements& m) {
   const Identifier identifier = Auto();
   const Options options(identifier.options, {}, {});
-  return identifier.identify({m, SelectMoving(m), options, {}});
+  return IdentifyUnjudged(identifier, {Prepare(m), options, {}});
 }
 
 /// How many of 10 realizations choose that law, with that warming.

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "identification/answer/identify.h"
 #include "identification/preparation/select.h"
 #include "tests/support/travelling.h"
 
@@ -16,7 +17,7 @@ using Given = std::map<std::string, std::string>;
 Estimate Identify(const Measurements& measurements, const Given& given = {}, RandomKey key = {}) {
   const Identifier identifier = EnergyEm();
   const Options options(identifier.options, given, {});
-  return identifier.identify({measurements, SelectMoving(measurements), options, key});
+  return IdentifyUnjudged(identifier, {Prepare(measurements), options, key});
 }
 
 Measurements TableOneRecording(std::uint64_t seed, Eigen::Index rest = 0, double noise = 0.5) {

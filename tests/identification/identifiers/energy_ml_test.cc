@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "identification/answer/identify.h"
 #include "identification/preparation/select.h"
 #include "models/foundation/random_stream.h"
 #include "models/friction/thermal.h"
@@ -19,7 +20,7 @@ Estimate Fit(const Measurements& measurements,
              const std::map<std::string, std::string>& given = {}) {
   const Identifier identifier = EnergyMl();
   const Options options(identifier.options, given, {});
-  return identifier.identify({measurements, SelectMoving(measurements), options, {}});
+  return IdentifyUnjudged(identifier, {Prepare(measurements), options, {}});
 }
 
 /// Torque of kv = 5, kc = 15 with `thermal` and E(0), plus noise, over a velocity at `time`.

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "identification/answer/identify.h"
 #include "identification/identifiers/energy_ml.h"
 #include "identification/identifiers/rls.h"
 #include "identification/preparation/select.h"
@@ -17,7 +18,7 @@ using ::testing::HasSubstr;
 Estimate Answer(const Identifier& identifier, const Measurements& m,
                 const std::map<std::string, std::string>& given = {}) {
   const Options options(identifier.options, given, {});
-  return identifier.identify({m, SelectMoving(m), options, {}});
+  return IdentifyUnjudged(identifier, {Prepare(m), options, {}});
 }
 
 Measurements TableOneRecording(std::uint64_t seed) {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "identification/adequacy/judge.h"
+#include "identification/answer/identify.h"
 #include "identification/identifiers/stribeck.h"
 #include "identification/nonlinear/lugre_data.h"
 #include "identification/preparation/select.h"
@@ -33,9 +33,9 @@ Estimate Answer(const Measurements& m, const Selection& selection,
                 Verdict verdict = Verdict::judged) {
   const Identifier identifier = LuGreByCeres();
   const Options options(identifier.options, given, {});
-  const IdentifierInput input{m, selection, options, {}};
+  const IdentifierInput input{Prepare(m, selection), options, {}};
   return verdict == Verdict::judged ? IdentifyAndJudge(identifier, input)
-                                    : identifier.identify(input);
+                                    : IdentifyUnjudged(identifier, input);
 }
 
 const std::map<std::string, double> kTruth{{"viscous", 5},
@@ -84,8 +84,9 @@ TEST(Lugre, AgreesWithStribeckWhereTheJointSlidesSteadily) {
   const Identifier stribeck = StribeckByCeres();
   const Options options(stribeck.options, {}, {});
   const Selection moving = SelectMoving(m);
-  const Selection steady = SteadySamples({m, moving, options, {}}, 0.01);
-  const Estimate other = stribeck.identify({m, steady, options, {}});
+  const Selection steady =
+      SteadySamples(IdentifierInput(Prepare(m, moving), options, {}).AsTaken(), 0.01);
+  const Estimate other = IdentifyUnjudged(stribeck, {Prepare(m, steady), options, {}});
   ASSERT_EQ(other.status, Status::ok) << other.message;
   for (const char* name : {"viscous", "coulomb", "static", "stribeck_velocity"}) {
     const EstimatedParameter &one = *estimate.Find(name), &two = *other.Find(name);

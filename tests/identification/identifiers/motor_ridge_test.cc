@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "identification/answer/identify.h"
 #include "identification/preparation/select.h"
 #include "tests/support/travelling.h"
 
@@ -26,7 +27,7 @@ Estimate Identify(const Measurements& m) {
   const Identifier identifier = MotorRidge();
   const Options options(identifier.options, {{"width", "1"}, {"arm_kernels", "10"}}, {});
   const Selection selection = SelectMoving(m);
-  return identifier.identify({m, selection, options, {}});
+  return IdentifyUnjudged(identifier, {Prepare(m, selection), options, {}});
 }
 
 TEST(MotorRidge, FindsTheMultiplesOfTheMotorsTurn) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "identification/answer/identify.h"
 #include "identification/preparation/select.h"
 #include "tests/support/vectors.h"
 
@@ -18,7 +19,7 @@ using ::testing::Not;
 Estimate Fit(const Measurements& measurements, const std::string& law) {
   const Identifier identifier = NominalLs();
   const Options options(identifier.options, {{"law", law}}, {});
-  return identifier.identify({measurements, SelectMoving(measurements), options, {}});
+  return IdentifyUnjudged(identifier, {Prepare(measurements), options, {}});
 }
 
 /// Speeds `speeds` (rad/s) in turn, 10 samples each, under kv = 2 N.m.s/rad and kc = 7 N.m.

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "identification/answer/identify.h"
 #include "identification/identifiers/nominal_ls.h"
 #include "identification/preparation/select.h"
 #include "tests/support/warm_recording.h"
@@ -12,7 +13,7 @@ namespace {
 Estimate Answer(const Identifier& identifier, const Measurements& m,
                 const std::map<std::string, std::string>& given) {
   const Options options(identifier.options, given, {});
-  return identifier.identify({m, SelectMoving(m), options, {}});
+  return IdentifyUnjudged(identifier, {Prepare(m), options, {}});
 }
 
 TEST(Rls, IsNominalLsWhereItForgetsNothing) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "identification/answer/identify.h"
 #include "identification/nonlinear/stribeck_fit.h"
 #include "identification/preparation/select.h"
 #include "models/recording/join_recordings.h"
@@ -18,7 +19,7 @@ using ::testing::HasSubstr;
 Estimate Answer(const Measurements& m, const std::map<std::string, std::string>& given = {}) {
   const Identifier identifier = StribeckByCeres();
   const Options options(identifier.options, given, {});
-  return identifier.identify({m, SelectMoving(m), options, {}});
+  return IdentifyUnjudged(identifier, {Prepare(m), options, {}});
 }
 
 using test::StribeckJoint;

@@ -4,7 +4,9 @@
 
 #include <cmath>
 
+#include "identification/answer/identify.h"
 #include "identification/holdout/hold_out.h"
+#include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
 #include "tests/support/warm_recording.h"
 
@@ -30,7 +32,7 @@ Estimate Identify(const Identifier& identifier, const Measurements& m, const std
   }
   const Options options(identifier.options, given, {});
   const Selection selection = SelectMoving(m);
-  return identifier.identify({m, selection, options, {11, 3}});
+  return IdentifyUnjudged(identifier, {m, selection, options, {11, 3}});
 }
 
 /// How far the friction of two estimates of the same noise is apart.
@@ -137,7 +139,7 @@ TEST(FitGravity, IsHeldOutTogetherWithFriction) {
   const Selection selection = SelectMoving(m);
   for (const char* gravity : {"sincos", "paired"}) {
     const Options options(energy_ml.options, {{"gravity", gravity}}, {});
-    const auto held = HoldOut(energy_ml, {m, selection, options, {}}, 0.3);
+    const auto held = HoldOut(energy_ml, {Prepare(m, selection), options, {}}, 0.3);
     ASSERT_TRUE(held);
     // noise of 0.5 N.m; parameters of the first part cost less than a tenth of it
     EXPECT_NEAR(held->rmse, 0.5, 0.05) << gravity;

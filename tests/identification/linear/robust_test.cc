@@ -4,7 +4,8 @@
 
 #include <cmath>
 
-#include "identification/identifier.h"
+#include "identification/answer/identify.h"
+#include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
 #include "tests/support/warm_recording.h"
 
@@ -27,7 +28,7 @@ Measurements Wild(std::uint64_t seed, double share) {
 Estimate Identify(const char* name, const Measurements& m, const char* loss) {
   const Identifier& identifier = FindIdentifier(name);
   const Options options(identifier.options, {{"loss", loss}}, {});
-  return identifier.identify({m, SelectMoving(m), options, {}});
+  return IdentifyUnjudged(identifier, {Prepare(m), options, {}});
 }
 
 TEST(Huber, ThresholdIsThatOfTheNormalNoiseBelowTheOutliers) {

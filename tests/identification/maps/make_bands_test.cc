@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "identification/identifier.h"
+#include "identification/answer/identify.h"
+#include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
 #include "tests/support/travelling.h"
 
@@ -36,7 +37,7 @@ Trial Identify(const FrictionDescription& truth, const char* name, std::uint64_t
   test::AddNoise(m, 0.1, colour, seed);
   const Identifier& identifier = FindIdentifier(name);
   const Options options(identifier.options, given, {});
-  trial.estimate = identifier.identify({m, SelectMoving(m), options, {}});
+  trial.estimate = IdentifyUnjudged(identifier, {Prepare(m), options, {}});
   return trial;
 }
 

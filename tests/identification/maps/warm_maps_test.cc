@@ -2,8 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include "identification/answer/identify.h"
 #include "identification/holdout/hold_out.h"
-#include "identification/identifier.h"
+#include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
 #include "tests/support/travelling.h"
 
@@ -29,8 +30,8 @@ Estimate Identify(const Measurements& m, const char* name,
   const Identifier& identifier = FindIdentifier(name);
   const Options options(identifier.options, given, {});
   const Selection selection = SelectMoving(m);
-  const IdentifierInput input{m, selection, options, {}};
-  Estimate estimate = identifier.identify(input);
+  const IdentifierInput input{Prepare(m, selection), options, {}};
+  Estimate estimate = IdentifyUnjudged(identifier, input);
   estimate.holdout = HoldOut(identifier, input, 0.3);
   return estimate;
 }

@@ -4,8 +4,10 @@
 
 #include <cmath>
 
-#include "identification/adequacy/judge.h"
+#include "identification/answer/identify.h"
+#include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
+#include "identification/report/tell_preparation.h"
 #include "tests/support/judging.h"
 
 namespace warmjoint {
@@ -48,7 +50,7 @@ TEST(SegmentVelocity, MeasuresNoiseAndAttenuation) {
   const auto taken = TakeSegmentVelocity(m, selection);
   ASSERT_TRUE(taken);
   // 6000 samples: the deviation is known to 1/sqrt(12000) = 0.9 %; three of these
-  EXPECT_NEAR(taken->noise, 0.05, 0.05 * 0.028);
+  EXPECT_NEAR(taken->noise.noise, 0.05, 0.05 * 0.028);
 
   // the closed form, of the true speeds of what is kept
   const Eigen::VectorXd truth = noisy.Truth();
@@ -61,7 +63,7 @@ TEST(SegmentVelocity, MeasuresNoiseAndAttenuation) {
   }
   const double between = squares / count - std::pow(sum / count, 2);
   const double expected = 0.05 * 0.05 / (0.05 * 0.05 + between);
-  EXPECT_NEAR(taken->attenuation, expected, 0.06 * expected) << "twice 2.8 %";
+  EXPECT_NEAR(taken->noise.attenuation, expected, 0.06 * expected) << "twice 2.8 %";
 }
 
 TEST(SegmentVelocity, TakesWhatIsSurerOfPositionAndVelocity) {
@@ -116,7 +118,7 @@ TEST(SegmentVelocity, KeepsADriftOfTheSpeed) {
   m.velocity += drift;
   const auto taken = TakeSegmentVelocity(m, selection);
   ASSERT_TRUE(taken);
-  EXPECT_NEAR(taken->noise, 0.02, 0.02 * 0.028);
+  EXPECT_NEAR(taken->noise.noise, 0.02, 0.02 * 0.028);
   const Eigen::VectorXd rest = taken->measurements.velocity - drift - Noisy{}.Truth();
   // a line through 200 samples of 0.02: twice 0.02/sqrt(200) at its ends, four of these
   EXPECT_LT(rest.cwiseAbs().maxCoeff(), 8 * 0.02 / std::sqrt(200.0));
@@ -129,7 +131,7 @@ TEST(SegmentVelocity, LetsIntervalsHold) {
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     const Measurements m = Noisy{.seed = seed}.Log();
     const Selection selection = SelectConstantSpeed(m);
-    const Estimate estimate = IdentifyAndJudge(identifier, {m, selection, options, {}});
+    const Estimate estimate = IdentifyAndJudge(identifier, {Prepare(m, selection), options, {}});
     if (estimate.status != Status::ok) continue;
     ++ok;
     const auto interval = *estimate.Find("viscous")->interval95;
@@ -147,8 +149,8 @@ TEST(SegmentVelocity, IsForSteadyMotionAlone) {
   const auto velocities_of = [&](const char* name) {
     const Identifier& identifier = FindIdentifier(name);
     const Options options(identifier.options, {}, {});
-    const FinerInput finer(identifier, {m, selection, options, {}});
-    return Eigen::VectorXd(finer.input().measurements.velocity);
+    const IdentifierInput seen = identifier.Seen({Prepare(m, selection), options, {}});
+    return Eigen::VectorXd(seen.measurements.velocity);
   };
   EXPECT_EQ(velocities_of("lugre"), m.velocity);
   EXPECT_NE(velocities_of("energy-ml").head(100), m.velocity.head(100));
@@ -158,11 +160,11 @@ TEST(SegmentVelocity, WarnsOfWhatIsLeft) {
   Estimate estimate;
   estimate.parameters = {{"viscous", 5, "N.m.s/rad", 0.1, {{4.8, 5.2}}},
                          {"coulomb", 15, "N.m", 0.1, {{14.8, 15.2}}}};
-  TellSegmentVelocity({{}, 0.05, 0.037, 0.0005, 0.5}, estimate);
+  TellVelocity({0.05, 0.037, 0.0005, 0.5}, JointKind::rotary, estimate);
   EXPECT_THAT(estimate.message, HasSubstr("noise of 0.05 rad/s would move viscous by -3.7 %"));
   EXPECT_TRUE(estimate.warnings.empty());
   EXPECT_EQ((*estimate.Find("viscous")->interval95)[0], 4.8);
-  TellSegmentVelocity({{}, 0.05, 0.037, 0.01, 0.5}, estimate);
+  TellVelocity({0.05, 0.037, 0.01, 0.5}, JointKind::rotary, estimate);
   EXPECT_EQ(estimate.warnings.size(), 1U);
   EXPECT_NEAR((*estimate.Find("viscous")->interval95)[1], 5.25, 1e-12);
   EXPECT_NEAR((*estimate.Find("coulomb")->interval95)[0], 14.8 - 0.025, 1e-12);

@@ -5,7 +5,8 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "identification/identifier.h"
+#include "identification/answer/identify.h"
+#include "identification/identifiers/identifier_list.h"
 #include "identification/linear/least_squares.h"
 #include "identification/preparation/select.h"
 #include "identification/uncertainty/student.h"
@@ -31,7 +32,7 @@ Eigen::Vector2d Coverage(double pole, Eigen::Index rest) {
       noise = pole * noise + 0.5 * std::sqrt(1 - pole * pole) * random.Normal();
       torque += noise;
     }
-    const Estimate estimate = identifier.identify({m, SelectMoving(m), options, {}});
+    const Estimate estimate = IdentifyUnjudged(identifier, {Prepare(m), options, {}});
     const auto holds = [&](const char* name, double truth) {
       const auto [lower, upper] = *estimate.Find(name)->interval95;
       return lower <= truth && truth <= upper;

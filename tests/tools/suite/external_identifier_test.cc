@@ -26,7 +26,7 @@ Estimate Ask(const std::string& command, const std::string& limit = "20") {
   SuiteIdentifier identifier = ReadExternal("theirs=" + command + " # {recording} {estimate}");
   identifier.options["time_limit"] = limit;
   const Measurements log = Log();
-  return PrepareExternal(identifier, {})(log, SelectMoving(log), {});
+  return PrepareExternal(identifier, {})(Prepare(log), {});
 }
 
 /// How the command fails, and why: "status: message".

@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "identification/identifier.h"
+#include "identification/identifiers/identifier_list.h"
 
 namespace warmjoint::report {
 namespace {

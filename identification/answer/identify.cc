@@ -1,0 +1,62 @@
+#include "identification/answer/identify.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "identification/adequacy/judge.h"
+#include "identification/report/report_fit.h"
+#include "identification/report/tell_preparation.h"
+
+namespace warmjoint::inline identification {
+
+Answer FitAndJudge(const Identifier& identifier, const IdentifierInput& given) {
+  const IdentifierInput input = identifier.Seen(given);
+
+  // fit, then infer
+  Answer answer;
+  answer.fit = identifier.fit(input);
+  answer.inferred = Infer(answer.fit);
+
+  // judge
+  answer.judged = answer.inferred;
+  const std::vector<std::string>& faults = input.log.faults();
+  if (faults.empty()) {
+    JudgeAdequacy(identifier, input, answer.fit, answer.judged);
+  } else {
+    answer.judged.Void(Status::bad_data, fmt::format("{}", fmt::join(faults, "; and ")));
+  }
+  return answer;
+}
+
+Estimate ReportAnswer(const Identifier& identifier, const IdentifierInput& given,
+                      const Answer& answer) {
+  const IdentifierInput input = identifier.Seen(given);
+  Estimate estimate = ReportFit(answer.fit, answer.judged, input.measurements);
+  const bool steady = identifier.regime == Regime::steady;
+  if (steady && input.log.faults().empty()) TellPreparation(input.log, estimate);
+  return estimate;
+}
+
+Estimate IdentifyAndJudge(const Identifier& identifier, const IdentifierInput& input) {
+  return ReportAnswer(identifier, input, FitAndJudge(identifier, input));
+}
+
+Estimate IdentifyUnjudged(const Identifier& identifier, const IdentifierInput& given) {
+  const IdentifierInput input = identifier.Seen(given);
+  const Fit fit = identifier.fit(input);
+  return ReportFit(fit, Infer(fit), input.measurements);
+}
+
+Estimate WithVoidNumbers(const Identifier& identifier, const IdentifierInput& input,
+                         const Answer& answer) {
+  Estimate shown = ReportAnswer(identifier, input, answer);
+  if (answer.judged.status == answer.inferred.status) return shown;
+  Estimate before = ReportFit(answer.fit, answer.inferred, identifier.Seen(input).measurements);
+  shown.parameters = std::move(before.parameters);
+  shown.friction = std::move(before.friction);
+  shown.bands = std::move(before.bands);
+  shown.message += "; forced: all numbers are void";
+  return shown;
+}
+
+}  // namespace warmjoint::inline identification

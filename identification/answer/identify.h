@@ -1,0 +1,38 @@
+// The way from a prepared log to an answer: fit, infer, judge, report.
+#pragma once
+
+#include "identification/estimate.h"
+#include "identification/identifier.h"
+#include "identification/inference/inference.h"
+
+namespace warmjoint::inline identification {
+
+/// A fit, what it tells by itself, and what the verdict leaves of that.
+struct Answer {
+  Fit fit;
+  Inference inferred;
+  Inference judged;
+};
+
+/// Fits and judges: what `identify` and `run` report. A log with faults (preparation/log_faults.h)
+/// makes the inference void, bad_data, and its message names them; else the residual is examined for
+/// structure (adequacy/judge.h), and what the preparation of the log means for the numbers is told.
+Answer FitAndJudge(const Identifier& identifier, const IdentifierInput& input);
+
+/// The judged answer as an estimate: FitAndJudge, ReportFit, TellPreparation.
+Estimate IdentifyAndJudge(const Identifier& identifier, const IdentifierInput& input);
+
+/// The same of an answer that is there already.
+Estimate ReportAnswer(const Identifier& identifier, const IdentifierInput& input,
+                      const Answer& answer);
+
+/// Without a verdict: what the fit tells by itself.
+Estimate IdentifyUnjudged(const Identifier& identifier, const IdentifierInput& input);
+
+/// What --force shows of a judged answer: its status and its figures with the numbers of the answer
+/// before the verdict, and a message that calls them void. An answer that was not voided by the
+/// verdict stays as it is.
+Estimate WithVoidNumbers(const Identifier& identifier, const IdentifierInput& input,
+                         const Answer& answer);
+
+}  // namespace warmjoint::inline identification

@@ -1,0 +1,31 @@
+#include "identification/fit.h"
+
+namespace warmjoint::inline identification {
+
+std::vector<double> Fit::Values(Role role) const {
+  std::vector<double> values;
+  for (const FitParameter& parameter : parameters) {
+    if (parameter.role == role) values.push_back(parameter.value);
+  }
+  return values;
+}
+
+std::optional<size_t> Fit::RowOf(Role role, int which) const {
+  for (size_t i = 0; i < parameters.size(); ++i) {
+    if (parameters[i].role == role && which-- == 0) return i;
+  }
+  return std::nullopt;
+}
+
+Fit Refused(std::string identifier, Refusal refusal) {
+  Fit fit;
+  fit.identifier = std::move(identifier);
+  fit.refusal = std::move(refusal);
+  return fit;
+}
+
+Fit Refused(std::string identifier, Status status, std::string message) {
+  return Refused(std::move(identifier), {status, std::move(message)});
+}
+
+}  // namespace warmjoint::inline identification

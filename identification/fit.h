@@ -1,0 +1,105 @@
+// What an identifier returns: the fitted model as a value, with all that later steps read.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "identification/estimate.h"
+#include "identification/uncertainty/uncertainty.h"
+#include "models/friction/friction_description.h"
+#include "models/recording/selection.h"
+
+namespace warmjoint::inline identification {
+
+/// What a parameter is part of.
+enum class Role { law, heat, start, jump, gravity, inertia };
+
+/// The coordinate x in which a fit works, and the one whose errors are about normal: the value for
+/// both, the logarithm of a positive value for both, or x the value and its logarithm normal.
+enum class Coordinate { value, logarithm, positive };
+
+/// One row of a fit's table of parameters. The name stands in estimate.json.
+struct FitParameter {
+  std::string name;
+  Role role = Role::law;
+  double value = 0;
+  std::string unit;
+  Coordinate coordinate = Coordinate::value;
+  double lower = -kInfinity, upper = kInfinity;  // physical bounds of the value
+  bool estimated = true;     // has a column of the Jacobian; else its value was given
+  bool has_interval = true;  // false where only a prior or an option tells it
+};
+
+/// How the errors of x follow from the noise: C J^T R J C (uncertainty.h), with what a method
+/// changes of it.
+struct ErrorModel {
+  Eigen::MatrixXd cofactor;  // [p x p] C, the inverse of what the fit solved
+  Eigen::VectorXd prior;     // [p] what is known beforehand (JudgeUncertainty); or empty
+  Eigen::VectorXd scores;    // [n] in place of the residual, of a robust loss; or empty
+  Eigen::VectorXd weights;   // [n] of the samples in the fit; or empty: 1
+  /// Covariance of the table's estimated rows, where the identifier had to know it already.
+  std::optional<Uncertainty> known;
+};
+
+/// Where a fit stood after an iteration.
+struct Iterate {
+  int iteration = 0;
+  std::vector<double> values;  // of the table's first rows, in its order; NaN where not known
+  double rmse = 0;             // over the kept samples, N.m or N
+  /// E at this moment, N.m or N, of a filter whose iterations are the samples that it has seen.
+  std::optional<double> energy{};
+};
+
+/// Why there is no fit to trust.
+struct Refusal {
+  Status status = Status::not_identifiable;
+  std::string message;
+};
+
+/// A fit of the model F + G to the samples that `used` keeps.
+struct Fit {
+  std::string identifier;
+  std::optional<Refusal> refusal;  // then nothing else is known but the trace
+  std::optional<Refusal> voided;   // why the numbers, which stand, mean nothing
+  std::string summary;             // what was done: a clause that begins the message
+  std::string afterword;           // what ends it; begins with its own separator, or empty
+  std::vector<std::string> warnings;
+
+  // the model
+  FrictionDescription friction;  // law, warming and maps, whatever their bounds
+  std::optional<GravityModel> gravity;
+  double initial_energy = 0;               // E(0), N.m or N
+  std::vector<Eigen::Index> jump_samples;  // [J] where E jumps by a parameter with Role::jump
+  std::vector<FitParameter> parameters;    // [P]; those estimated come in the order of x
+
+  // what it was fitted to, and how well
+  Selection used;
+  Eigen::VectorXd torque;  // [n] measured, N.m or N
+  Eigen::VectorXd fitted;  // [n] F + G, N.m or N
+  /// d(F + G)/dx over all samples, [N x p], exact; of a fit whose errors.known is not set.
+  std::function<Eigen::MatrixXd()> jacobian;
+  ErrorModel errors;
+  int count = 0;                    // of parameters, kernels included
+  double effective_parameters = 0;  // trace of the hat matrix
+  std::optional<double> loss_bend;  // where a robust loss bends, N.m or N
+  std::vector<MapBand> bands;       // one for each of the friction's maps
+  std::vector<Iterate> trace;
+
+  std::string without_intervals;  // why no number gets an interval: a clause; empty: they do
+
+  /// Residual over the kept samples. [n] N.m or N
+  Eigen::VectorXd residual() const { return torque - fitted; }
+  /// The table's row of the which-th parameter with a role; nothing where there are fewer.
+  std::optional<size_t> RowOf(Role role, int which = 0) const;
+  /// Values of the parameters with a role, in the order of the table.
+  std::vector<double> Values(Role role) const;
+};
+
+/// No fit: its status and one sentence.
+Fit Refused(std::string identifier, Refusal refusal);
+Fit Refused(std::string identifier, Status status, std::string message);
+
+}  // namespace warmjoint::inline identification

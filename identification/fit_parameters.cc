@@ -1,0 +1,83 @@
+#include "identification/fit_parameters.h"
+
+#include <fmt/format.h>
+
+#include "identification/fit_data.h"
+
+namespace warmjoint::inline identification {
+
+FitParameter TableParameter(const ParameterInfo& info, Role role, double value,
+                            const Measurements& measurements) {
+  return {std::string(info.name),
+          role,
+          value,
+          UnitFor(info, measurements),
+          Coordinate::value,
+          info.lower,
+          info.upper,
+          true,
+          true};
+}
+
+std::vector<FitParameter> LawParameters(const Law& law, const Eigen::VectorXd& values,
+                                        const Measurements& measurements) {
+  std::vector<FitParameter> rows;
+  for (size_t i = 0; i < law.parameters.size(); ++i) {
+    const double value = values[static_cast<Eigen::Index>(i)];
+    rows.push_back(TableParameter(law.parameters[i], Role::law, value, measurements));
+  }
+  return rows;
+}
+
+std::vector<FitParameter> HeatParameters(const Thermal& thermal, const Measurements& measurements) {
+  const auto& [gain, tau] = Thermal::parameters;
+  std::vector<FitParameter> rows{
+      TableParameter(gain, Role::heat, thermal.gain, measurements),
+      TableParameter(tau, Role::heat, thermal.time_constant, measurements)};
+  rows[1].coordinate = Coordinate::logarithm;
+  return rows;
+}
+
+FitParameter StartParameter(double energy, const Measurements& measurements) {
+  return {"initial_energy", Role::start, energy, measurements.torque_unit};
+}
+
+std::vector<FitParameter> JumpParameters(const Eigen::VectorXd& values,
+                                         const Measurements& measurements) {
+  std::vector<FitParameter> rows;
+  for (const double value : values) {
+    rows.push_back({fmt::format("energy_jump_{}", rows.size() + 1), Role::jump, value,
+                    measurements.torque_unit});
+  }
+  return rows;
+}
+
+std::vector<FitParameter> GravityParameters(GravityKind kind, const Eigen::VectorXd& values,
+                                            const Measurements& measurements) {
+  std::vector<std::string> names(static_cast<size_t>(values.size()));
+  if (kind == GravityKind::sincos) names = {"gravity_sine", "gravity_cosine"};
+  if (kind == GravityKind::constant) names = {"gravity_offset"};
+  std::vector<FitParameter> rows;
+  for (size_t i = 0; i < names.size(); ++i) {
+    rows.push_back(
+        {names[i], Role::gravity, values[static_cast<Eigen::Index>(i)], measurements.torque_unit});
+  }
+  return rows;
+}
+
+void Append(const std::vector<FitParameter>& rows, Fit& fit) {
+  fit.parameters.insert(fit.parameters.end(), rows.begin(), rows.end());
+}
+
+FrictionDescription FrictionOf(const Law& law, const Eigen::VectorXd& values,
+                               const Measurements& measurements) {
+  FrictionDescription friction;
+  friction.law = law.name;
+  friction.gear = measurements.gear;
+  for (size_t i = 0; i < law.parameters.size(); ++i) {
+    friction.parameters[std::string(law.parameters[i].name)] = values[static_cast<Eigen::Index>(i)];
+  }
+  return friction;
+}
+
+}  // namespace warmjoint::inline identification

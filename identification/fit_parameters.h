@@ -1,0 +1,42 @@
+// The rows of a fit's table of parameters: their names, units and bounds, in one place.
+#pragma once
+
+#include <vector>
+
+#include "identification/fit.h"
+#include "models/friction/law.h"
+#include "models/recording/measurements.h"
+
+namespace warmjoint::inline identification {
+
+/// A parameter of any table (parameter_info.h) with its value.
+FitParameter TableParameter(const ParameterInfo& info, Role role, double value,
+                            const Measurements& measurements);
+
+/// The law's parameters. values: [d] in the order of its table.
+std::vector<FitParameter> LawParameters(const Law& law, const Eigen::VectorXd& values,
+                                        const Measurements& measurements);
+
+/// thermal_gain and thermal_time_constant, the latter by its logarithm.
+std::vector<FitParameter> HeatParameters(const Thermal& thermal, const Measurements& measurements);
+
+/// initial_energy: E(0), N.m or N.
+FitParameter StartParameter(double energy, const Measurements& measurements);
+
+/// energy_jump_1, ...: jumps of E at gaps. values: [J] N.m or N
+std::vector<FitParameter> JumpParameters(const Eigen::VectorXd& values,
+                                         const Measurements& measurements);
+
+/// gravity_sine and gravity_cosine, or gravity_offset; of `paired`, whose knots are many, rows
+/// without an interval that reports leave out.
+std::vector<FitParameter> GravityParameters(GravityKind kind, const Eigen::VectorXd& values,
+                                            const Measurements& measurements);
+
+/// Puts rows behind those of the fit's table.
+void Append(const std::vector<FitParameter>& rows, Fit& fit);
+
+/// The law with its values, and nothing else. values: [d]
+FrictionDescription FrictionOf(const Law& law, const Eigen::VectorXd& values,
+                               const Measurements& measurements);
+
+}  // namespace warmjoint::inline identification

@@ -1,0 +1,106 @@
+#include "identification/inference/bounds.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace warmjoint::inline identification {
+namespace {
+
+constexpr std::string_view kViscousName = "viscous", kCoulombName = "coulomb";
+
+/// A parameter beside the bound that its value lies outside of.
+struct Excess {
+  const FitParameter& parameter;
+  const KnownParameter& known;
+  double bound = 0;
+  bool below = false;   // the bound; else above
+  bool beyond = false;  // with its whole 95 % interval
+};
+
+std::optional<Excess> FindExcess(const FitParameter& parameter, const KnownParameter& known) {
+  const bool below = !(parameter.value >= parameter.lower);
+  if (!below && parameter.value <= parameter.upper) return std::nullopt;
+  const double bound = below ? parameter.lower : parameter.upper;
+  const auto& interval = known.interval95;
+  const bool beyond = interval && (below ? (*interval)[1] < bound : (*interval)[0] > bound);
+  return Excess{parameter, known, bound, below, beyond};
+}
+
+std::vector<Excess> FindExcesses(const Fit& fit, const Inference& inference) {
+  std::vector<Excess> excesses;
+  for (size_t i = 0; i < fit.parameters.size(); ++i) {
+    if (fit.parameters[i].role != Role::law) continue;
+    if (auto one = FindExcess(fit.parameters[i], inference.parameters[i])) excesses.push_back(*one);
+  }
+  return excesses;
+}
+
+/// "viscous is -0.3 N.m.s/rad, below its bound 0, with its whole 95 % interval, -0.4 to -0.2".
+std::string Words(const Excess& excess) {
+  const auto& interval = excess.known.interval95;
+  const std::string reach =
+      !interval ? ", with no interval that could tell whether by chance"
+                : fmt::format(", {} 95 % interval, {:.3g} to {:.3g}",
+                              excess.beyond ? "with its whole" : "but for a part of its",
+                              (*interval)[0], (*interval)[1]);
+  return fmt::format("{} is {:.4g} {}, {} its bound {}{}", excess.parameter.name,
+                     excess.parameter.value, excess.parameter.unit,
+                     excess.below ? "below" : "above", excess.bound, reach);
+}
+
+bool IsSlope(const FitParameter& parameter) { return parameter.name == kViscousName; }
+
+/// What makes a fit leave its bounds, and what to try.
+std::string_view Remedy(const FitParameter& parameter) {
+  if (IsSlope(parameter)) {
+    return "friction that falls with speed is a Stribeck effect or warming: try stribeck or "
+           "energy-ml";
+  }
+  if (parameter.name.starts_with(kCoulombName)) {
+    return "a level that pushes is no friction: is a load, as gravity, in the torque (try "
+           "--gravity), or is its sign reversed?";
+  }
+  return "try another law";
+}
+
+/// Whether the static level is below the Coulomb level, of a law that has both.
+bool RisesFromRest(const FrictionDescription& friction) {
+  const auto at_rest = friction.parameters.find("static");
+  const auto coulomb = friction.parameters.find(std::string(kCoulombName));
+  const auto none = friction.parameters.end();
+  return at_rest != none && coulomb != none && at_rest->second < coulomb->second;
+}
+
+}  // namespace
+
+void JudgeBounds(const Fit& fit, Inference& inference) {
+  const std::string& law = fit.friction.law;
+  const std::vector<Excess> excesses = FindExcesses(fit, inference);
+
+  // beyond doubt
+  if (const auto sure = std::ranges::find_if(excesses, &Excess::beyond); sure != excesses.end()) {
+    inference.Void(Status::inadequate_model,
+                   fmt::format("{}: law {} does not describe these data; {}", Words(*sure), law,
+                               Remedy(sure->parameter)));
+    return;
+  }
+  if (RisesFromRest(fit.friction)) {
+    inference.Void(
+        Status::inadequate_model,
+        fmt::format("static is below coulomb: friction rises from rest with speed, where law {} "
+                    "lets it fall; try law viscous_coulomb, or another",
+                    law));
+    return;
+  }
+
+  // perhaps by chance
+  for (const Excess& excess : excesses) {
+    inference.warnings.push_back(
+        fmt::format("{}: no friction is given; record longer{}", Words(excess),
+                    IsSlope(excess.parameter) ? ", or try law coulomb" : ""));
+  }
+  inference.gives_friction = excesses.empty();
+}
+
+}  // namespace warmjoint::inline identification

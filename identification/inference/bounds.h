@@ -1,0 +1,13 @@
+// Whether the values of a fit make a friction: physical bounds.
+#pragma once
+
+#include "identification/inference/inference.h"
+
+namespace warmjoint::inline identification {
+
+/// Voids an inference some law parameter of which lies outside of its bound with the whole of its
+/// interval, or whose static level is below its Coulomb level. Where only the value lies outside, no
+/// friction is given and a warning says so; else the friction may be used.
+void JudgeBounds(const Fit& fit, Inference& inference);
+
+}  // namespace warmjoint::inline identification

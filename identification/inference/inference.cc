@@ -1,0 +1,106 @@
+#include "identification/inference/inference.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "identification/inference/bounds.h"
+#include "identification/inference/covariance.h"
+#include "identification/linear/robust.h"
+#include "identification/uncertainty/student.h"
+
+namespace warmjoint::inline identification {
+namespace {
+
+/// std and interval of an estimated parameter. deviation: of its coordinate
+KnownParameter Known(const FitParameter& parameter, double deviation, double quantile) {
+  const double value = parameter.value;
+  if (parameter.coordinate == Coordinate::value) {
+    const double reach = quantile * deviation;
+    return {value, deviation, {{value - reach, value + reach}}, 0};
+  }
+
+  // positive, and its logarithm the nearer to normal
+  const bool by_logarithm = parameter.coordinate == Coordinate::logarithm;
+  const double relative = by_logarithm ? deviation : deviation / std::abs(value);
+  const double factor = std::exp(quantile * relative);
+  const std::pair<double, double> ends = std::minmax({value / factor, value * factor});
+  return {value, std::abs(value) * relative, {{ends.first, ends.second}}, 0};
+}
+
+/// One for each row of the table; those that were given, or that noise does not tell, have none.
+std::vector<KnownParameter> Intervals(const Fit& fit, const Uncertainty& known) {
+  std::vector<KnownParameter> all;
+  const double quantile = StudentQuantile(known.freedom);
+  Eigen::Index column = 0;
+  for (const FitParameter& parameter : fit.parameters) {
+    KnownParameter one{parameter.value, {}, {}, 0};
+    if (parameter.estimated) {
+      const double deviation = known.Deviation(column++);
+      const bool tells = parameter.has_interval && fit.without_intervals.empty();
+      if (tells) one = Known(parameter, deviation, quantile);
+    }
+    all.push_back(one);
+  }
+  return all;
+}
+
+std::string MessageOf(const Fit& fit, const Uncertainty& known) {
+  if (!fit.without_intervals.empty()) {
+    return fmt::format("{}; {}{}", fit.summary, fit.without_intervals, fit.afterword);
+  }
+  const std::string loss = fit.loss_bend ? DescribeLoss(fit.residual(), *fit.loss_bend) : "";
+  return fit.summary + loss + NoiseOf(known) + fit.afterword;
+}
+
+}  // namespace
+
+void Inference::Void(Status why, std::string sentence) {
+  status = why;
+  message = std::move(sentence);
+  warnings.clear();
+  gives_friction = false;
+  gives_bands = false;
+  for (KnownParameter& one : parameters) {
+    one.std.reset();
+    one.interval95.reset();
+  }
+}
+
+void Inference::Widen(size_t parameter, double move) {
+  KnownParameter& one = parameters[parameter];
+  one.widened += std::abs(move);
+  if (!one.interval95) return;
+  (*one.interval95)[0] -= std::abs(move);
+  (*one.interval95)[1] += std::abs(move);
+}
+
+Inference Infer(const Fit& fit) {
+  Inference inference;
+  if (fit.refusal) {
+    inference.status = fit.refusal->status;
+    inference.message = fit.refusal->message;
+    return inference;
+  }
+
+  // how sure the parameters are
+  inference.known = CovarianceOf(fit);
+  if (!inference.known.covariance.allFinite()) {
+    inference.status = Status::bad_data;
+    inference.message = "torque or velocity is too large to square";
+    return inference;
+  }
+  inference.parameters = Intervals(fit, inference.known);
+  inference.message = MessageOf(fit, inference.known);
+  inference.warnings = fit.warnings;
+
+  // and whether they make a friction
+  if (fit.voided) {
+    inference.Void(fit.voided->status, fit.voided->message);
+  } else {
+    JudgeBounds(fit, inference);
+  }
+  return inference;
+}
+
+}  // namespace warmjoint::inline identification

@@ -1,0 +1,46 @@
+// What a fit tells: status, intervals, and what is wrong with it, as data.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "identification/fit.h"
+
+namespace warmjoint::inline identification {
+
+/// What is known of one row of the fit's table.
+struct KnownParameter {
+  double value = 0;  // of the fit, or moved by what the verdict found
+  std::optional<double> std;
+  std::optional<std::array<double, 2>> interval95;
+  double widened = 0;  // by which each end of the interval lies farther out than noise has it
+
+  double HalfWidth() const { return interval95 ? 0.5 * ((*interval95)[1] - (*interval95)[0]) : 0; }
+};
+
+/// Everything that is inferred from one fit.
+struct Inference {
+  Status status = Status::ok;
+  std::string message;
+  std::vector<std::string> warnings;
+  Uncertainty known;
+  std::vector<KnownParameter> parameters;  // [P] as the fit's table
+  bool gives_friction = false;  // whether the fit's friction may be used: inside of its bounds
+  bool gives_bands = true;
+
+  /// Takes back what is claimed: values stay, for scores and for a look, but no interval, friction
+  /// or band.
+  void Void(Status why, std::string sentence);
+
+  /// Lets an interval reach farther by a move.
+  void Widen(size_t parameter, double move);
+};
+
+/// Covariance, intervals with Student's quantile, and physical bounds: a value that lies outside of
+/// one with its whole interval voids the fit, one that may do so by chance gives no friction.
+Inference Infer(const Fit& fit);
+
+}  // namespace warmjoint::inline identification

@@ -1,0 +1,68 @@
+// A log as every identifier gets it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "identification/preparation/segment_velocity.h"
+#include "models/recording/measurements.h"
+#include "models/recording/selection.h"
+
+namespace warmjoint::inline identification {
+
+/// A log and the samples of it that take part in fits.
+struct LogView {
+  Measurements measurements;
+  Selection selection;
+};
+
+/// A recording prepared for a fit: what moves at constant speed, one velocity for each segment where
+/// the noise of the samples' would bias a fit (segment_velocity.h), a sample at each switch of speed
+/// that happens between two samples (split_at_switches.h), and the faults of the log. Only Prepare
+/// makes one, and identifiers take nothing else, so that nobody can forget a step. Cheap to copy:
+/// copies share the samples.
+class PreparedLog {
+ public:
+  /// The log as it was taken: for fits that follow changes of speed from sample to sample.
+  const LogView& taken() const { return log_->taken; }
+
+  /// The log as fits at constant speed see it.
+  const LogView& steady() const { return log_->steady ? *log_->steady : log_->taken; }
+
+  /// What was done to the velocity, if anything.
+  const std::optional<VelocityNoise>& velocity_noise() const { return log_->velocity_noise; }
+
+  /// Share of the path that the log cannot tell from standing still (SplitLog::unseen).
+  double unseen() const { return log_->unseen; }
+
+  /// What in the log contradicts itself, each one sentence (log_faults.h).
+  const std::vector<std::string>& faults() const { return log_->faults; }
+
+  /// The samples before a time (s), with all that was done to them.
+  PreparedLog Before(double time) const;
+
+ private:
+  struct Log {
+    LogView taken;
+    std::optional<LogView> steady;  // where anything was done to the log
+    std::optional<VelocityNoise> velocity_noise;
+    double unseen = 0;
+    std::vector<std::string> faults;
+  };
+  explicit PreparedLog(Log log) : log_(std::make_shared<const Log>(std::move(log))) {}
+  friend PreparedLog Prepare(Measurements measurements);
+  friend PreparedLog Prepare(Measurements measurements, Selection known);
+
+  std::shared_ptr<const Log> log_;
+};
+
+/// Prepares a log: the samples at constant speed are found in it (select.h). The one path of command
+/// line, suites, tests of verdicts and benchmarks.
+PreparedLog Prepare(Measurements measurements);
+
+/// The same where a plant says which samples move at constant speed.
+PreparedLog Prepare(Measurements measurements, Selection known);
+
+}  // namespace warmjoint::inline identification

@@ -1,0 +1,105 @@
+#include "identification/report/report_fit.h"
+
+#include <cmath>
+
+#include "identification/report/discrete_pair.h"
+#include "models/foundation/robust_noise.h"
+
+namespace warmjoint::inline identification {
+namespace {
+
+/// All rows that have a name; the discrete pair stands behind gain and time constant.
+std::vector<EstimatedParameter> ParametersOf(const Fit& fit, const Inference& inference, double h) {
+  std::vector<EstimatedParameter> all;
+  const std::optional<size_t> tau = fit.RowOf(Role::heat, 1);
+  for (size_t i = 0; i < fit.parameters.size(); ++i) {
+    const FitParameter& row = fit.parameters[i];
+    const KnownParameter& known = inference.parameters[i];
+    if (!row.name.empty()) {
+      all.push_back({row.name, known.value, row.unit, known.std, known.interval95});
+    }
+    if (tau != i) continue;
+    for (EstimatedParameter& one : DiscretePair(fit, inference, h)) all.push_back(std::move(one));
+  }
+  return all;
+}
+
+TraceEntry EntryOf(const Fit& fit, const Iterate& iterate, double h) {
+  TraceEntry entry{iterate.iteration, {}, iterate.rmse};
+  const std::optional<size_t> gain = fit.RowOf(Role::heat, 0), tau = fit.RowOf(Role::heat, 1);
+  for (size_t i = 0; i < iterate.values.size(); ++i) {
+    if (std::isnan(iterate.values[i])) continue;
+    entry.parameters.emplace_back(fit.parameters[i].name, iterate.values[i]);
+    if (tau != i || iterate.energy) continue;
+    const DiscreteThermal discrete = Discretise({iterate.values[*gain], iterate.values[i]}, h);
+    entry.parameters.emplace_back("thermal_gain_discrete", discrete.gain);
+    entry.parameters.emplace_back("thermal_pole", discrete.pole);
+  }
+  if (iterate.energy) entry.parameters.emplace_back("energy", *iterate.energy);
+  return entry;
+}
+
+/// The friction with what the verdict moved.
+FrictionDescription FrictionOf(const Fit& fit, const Inference& inference) {
+  FrictionDescription friction = fit.friction;
+  for (size_t i = 0; i < fit.parameters.size(); ++i) {
+    const FitParameter& row = fit.parameters[i];
+    if (row.role == Role::law) friction.parameters[row.name] = inference.parameters[i].value;
+  }
+  if (const auto gain = fit.RowOf(Role::heat, 0), tau = fit.RowOf(Role::heat, 1); gain && tau) {
+    friction.thermal = Thermal{inference.parameters[*gain].value, inference.parameters[*tau].value};
+  }
+  return friction;
+}
+
+/// Covariance of the values that have an interval, to first order.
+ParameterCovariance CovarianceOfValues(const Fit& fit, const Inference& inference) {
+  ParameterCovariance of;
+  std::vector<Eigen::Index> columns;
+  std::vector<double> slopes;  // of the value by its coordinate
+  Eigen::Index column = 0;
+  for (size_t i = 0; i < fit.parameters.size(); ++i) {
+    const FitParameter& row = fit.parameters[i];
+    if (!row.estimated) continue;
+    if (!row.name.empty() && inference.parameters[i].interval95) {
+      of.parameters.push_back(row.name);
+      columns.push_back(column);
+      slopes.push_back(row.coordinate == Coordinate::logarithm ? row.value : 1);
+    }
+    ++column;
+  }
+  const Eigen::Map<const Eigen::VectorXd> slope(slopes.data(),
+                                                static_cast<Eigen::Index>(slopes.size()));
+  of.matrix =
+      slope.asDiagonal() * inference.known.covariance(columns, columns).eval() * slope.asDiagonal();
+  return of;
+}
+
+}  // namespace
+
+Estimate ReportFit(const Fit& fit, const Inference& inference, const Measurements& measurements) {
+  Estimate estimate;
+  estimate.identifier = fit.identifier;
+  estimate.status = inference.status;
+  estimate.message = inference.message;
+  estimate.warnings = inference.warnings;
+  const double h = MedianStep(measurements.time);
+  for (const Iterate& iterate : fit.trace) {
+    estimate.trace.push_back(EntryOf(fit, iterate, h));
+  }
+  if (inference.parameters.empty()) return estimate;
+
+  // the numbers
+  estimate.parameters = ParametersOf(fit, inference, h);
+  estimate.metrics = ComputeMetrics(fit.torque, fit.fitted, fit.count, fit.effective_parameters);
+  estimate.gravity = fit.gravity;
+  if (!inference.gives_friction) return estimate;
+
+  // and what can be used elsewhere
+  estimate.friction = FrictionOf(fit, inference);
+  if (inference.gives_bands) estimate.bands = fit.bands;
+  if (fit.without_intervals.empty()) estimate.covariance = CovarianceOfValues(fit, inference);
+  return estimate;
+}
+
+}  // namespace warmjoint::inline identification

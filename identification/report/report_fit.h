@@ -1,0 +1,15 @@
+// The last step: a fit and what is inferred from it, with names, units and sentences.
+#pragma once
+
+#include "identification/estimate.h"
+#include "identification/inference/inference.h"
+#include "models/recording/measurements.h"
+
+namespace warmjoint::inline identification {
+
+/// The estimate: parameters by name with their intervals; beside the warming's gain and time
+/// constant the discrete pair of Eq. (22) for the median sampling interval; metrics, trace, friction,
+/// gravity, bands and the covariance of the values. measurements: what the fit saw.
+Estimate ReportFit(const Fit& fit, const Inference& inference, const Measurements& measurements);
+
+}  // namespace warmjoint::inline identification

@@ -1,0 +1,52 @@
+#include "identification/report/tell_preparation.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace warmjoint::inline identification {
+namespace {
+
+constexpr double kHarmless = 1e-3;    // attenuation
+constexpr double kUnseenPath = 5e-3;  // share of the path
+
+void TellReversals(double unseen, Estimate& estimate) {
+  if (unseen < kUnseenPath || !estimate.Find("thermal_gain")) return;
+  estimate.warnings.push_back(fmt::format(
+      "reversals happen between two samples, so that a slow drive could have travelled {:.1f} % "
+      "less than is charged: thermal_gain may be too small by as much; log faster to see them",
+      100 * unseen));
+}
+
+}  // namespace
+
+void TellVelocity(const VelocityNoise& taken, JointKind joint, Estimate& estimate) {
+  const EstimatedParameter* viscous = estimate.Find("viscous");
+  estimate.message += fmt::format(
+      "; velocity taken as one value for each segment: its noise of {:.2g} {} would move {} by "
+      "{:.2g} %",
+      taken.noise, kVelocityUnit.For(joint), viscous ? "viscous" : "slopes over speed",
+      -100 * taken.attenuation);
+  if (taken.left <= kHarmless) return;
+  estimate.warnings.push_back(fmt::format(
+      "the noise of the velocity still moves {} by {:.2g} %, and intervals reach as far; hold each "
+      "speed for longer, or log a position that is finer",
+      viscous ? "viscous" : "slopes over speed", -100 * taken.left));
+  if (!viscous) return;
+  const double move = std::abs(taken.left * viscous->value);
+  for (EstimatedParameter& parameter : estimate.parameters) {
+    const bool is_level = parameter.name.starts_with("coulomb");
+    if (!parameter.interval95 || !(is_level || parameter.name == "viscous")) continue;
+    const double reach = is_level ? move * taken.mean_speed : move;
+    (*parameter.interval95)[0] -= reach;
+    (*parameter.interval95)[1] += reach;
+  }
+}
+
+void TellPreparation(const PreparedLog& log, Estimate& estimate) {
+  TellReversals(log.unseen(), estimate);
+  if (estimate.status != Status::ok || !log.velocity_noise()) return;
+  TellVelocity(*log.velocity_noise(), log.taken().measurements.joint, estimate);
+}
+
+}  // namespace warmjoint::inline identification

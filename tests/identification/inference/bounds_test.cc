@@ -1,0 +1,98 @@
+#include "identification/inference/bounds.h"
+
+#include <gmock/gmock.h>
+
+#include "identification/answer/identify.h"
+#include "identification/fit_parameters.h"
+#include "identification/identifiers/identifier_list.h"
+#include "identification/preparation/select.h"
+#include "tests/support/warm_recording.h"
+
+namespace warmjoint {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// A fit of a law with these values, known to +- 0.1, before it is judged.
+struct Judged {
+  Fit fit;
+  Inference inference;
+
+  Judged(const char* law, const std::vector<double>& values) {
+    const Eigen::Map<const Eigen::VectorXd> x(values.data(),
+                                              static_cast<Eigen::Index>(values.size()));
+    fit.friction = FrictionOf(*FindLaw(law), x, {});
+    fit.parameters = LawParameters(*FindLaw(law), x, {});
+    inference.message = "fitted";
+    for (const double value : values) {
+      inference.parameters.push_back({value, 0.05, {{value - 0.1, value + 0.1}}, 0});
+    }
+  }
+
+  const Inference& Judge() {
+    JudgeBounds(fit, inference);
+    return inference;
+  }
+};
+
+TEST(JudgeBounds, GivesTheFrictionOfValuesWithinTheirBounds) {
+  Judged judged("viscous_coulomb", {0, 2});
+  EXPECT_TRUE(judged.Judge().gives_friction);
+  EXPECT_EQ(judged.inference.message, "fitted");
+  EXPECT_TRUE(judged.inference.warnings.empty());
+}
+
+TEST(JudgeBounds, WarnsWhereTheIntervalReachesTheBound) {
+  Judged judged("viscous_coulomb", {-0.05, 2});
+  EXPECT_EQ(judged.Judge().status, Status::ok);
+  EXPECT_FALSE(judged.inference.gives_friction);
+  EXPECT_EQ(judged.inference.message, "fitted");
+  ASSERT_EQ(judged.inference.warnings.size(), 1u);
+  EXPECT_THAT(judged.inference.warnings[0],
+              HasSubstr("viscous is -0.05 N.m.s/rad, below its bound 0"));
+}
+
+TEST(JudgeBounds, WarnsOfEachValueWithoutAnInterval) {
+  Judged judged("viscous_coulomb", {-3, -2});
+  for (KnownParameter& one : judged.inference.parameters) one.interval95.reset();
+  EXPECT_EQ(judged.Judge().status, Status::ok);
+  EXPECT_FALSE(judged.inference.gives_friction);
+  EXPECT_EQ(judged.inference.warnings.size(), 2u);
+}
+
+TEST(JudgeBounds, VoidsTheFitWhoseIntervalIsWhollyOutside) {
+  Judged judged("viscous_coulomb", {0.5, -2});
+  EXPECT_EQ(judged.Judge().status, Status::inadequate_model);
+  EXPECT_FALSE(judged.inference.parameters[1].interval95);
+  EXPECT_THAT(judged.inference.message, HasSubstr("coulomb is -2 N.m, below its bound 0"));
+  EXPECT_TRUE(judged.inference.warnings.empty());
+  EXPECT_FALSE(judged.inference.gives_friction);
+}
+
+TEST(JudgeBounds, DoesNotLetFrictionRiseFromRest) {
+  // viscous, coulomb, static
+  Judged judged("stiction", {1, 2, 1.5});
+  EXPECT_EQ(judged.Judge().status, Status::inadequate_model);
+}
+
+TEST(JudgeBounds, SeldomVoidsTheRightModelAtItsBound) {
+  // without viscous friction half of the values fall below 0, and 2.5 % with their whole interval
+  FrictionDescription friction{"viscous_coulomb", {{"viscous", 0}, {"coulomb", 15}}, {}, 0, 1};
+  const Identifier& identifier = FindIdentifier("nominal-ls");
+  const Options options(identifier.options, {}, {});
+  int below = 0, voided = 0;
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    const Measurements m =
+        test::RecordFriction(friction, 1, test::AlternatingSpeeds(400, seed), 0.5, seed);
+    const Selection selection = SelectMoving(m);
+    const Estimate estimate = IdentifyUnjudged(identifier, {Prepare(m, selection), options, {}});
+    voided += estimate.status == Status::inadequate_model;
+    below += !estimate.friction;
+  }
+  // binomial: 200 +- 3 x 10, and 10 + 3 x 3.1
+  EXPECT_NEAR(below, 200, 30);
+  EXPECT_LE(voided, 20);
+}
+
+}  // namespace
+}  // namespace warmjoint
