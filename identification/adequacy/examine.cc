@@ -17,6 +17,8 @@
 #include "identification/forward/thermal_filter.h"
 #include "identification/linear/fit_gravity.h"
 #include "identification/linear/least_squares.h"
+#include "models/foundation/robust_noise.h"
+#include "models/recording/motor_angle.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -55,11 +57,9 @@ Circumstances CircumstancesOf(const FittedModel& model, const Measurements& m,
 }
 
 std::optional<AngleAxis> MotorAxis(const Measurements& m) {
-  if (!m.motor_position && std::abs(m.gear) == 1) return std::nullopt;
+  if (!KnowsMotorAngle(m)) return std::nullopt;
   AngleAxis axis{Dependence::motor_angle, {}, 2 * std::numbers::pi, 1, kMotorHarmonics};
-  const Eigen::ArrayXd turns =
-      (m.motor_position ? *m.motor_position : Eigen::VectorXd(m.gear * m.position)).array() /
-      axis.length;
+  const Eigen::ArrayXd turns = MotorPosition(m).array() / axis.length;
   axis.phase = turns - turns.floor();
   return axis;
 }
@@ -68,7 +68,7 @@ std::optional<AngleAxis> MotorAxis(const Measurements& m) {
 std::optional<AngleAxis> PositionAxis(const Measurements& m, const Selection& selection) {
   const Eigen::VectorXd kept = Kept(m.position, selection);
   const double lower = kept.minCoeff(), travel = kept.maxCoeff() - lower;
-  const double step = (m.time[m.size() - 1] - m.time[0]) / static_cast<double>(m.size() - 1);
+  const double step = MedianStep(m.time);
   const double finest = m.velocity.cwiseAbs().maxCoeff() * step;  // half a period
   if (!(travel > 0) || !std::isfinite(travel) || !(finest > 0)) return std::nullopt;
   const double cycles = std::min(

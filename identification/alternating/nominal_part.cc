@@ -3,6 +3,7 @@
 #include "identification/fit_data.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/maps/position_maps.h"
+#include "models/recording/without_rest.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -62,7 +63,7 @@ NominalPart PrepareNominalPart(const IdentifierInput& given, const std::string& 
     part.refusal = Refusal{Status::bad_data, *why};
     return part;
   }
-  part.moving = {input.selection.keep && m.velocity.array() != 0, input.selection.segments};
+  part.moving = WithoutRest(input.selection, m);
   part.columns = LawColumns(law, m.velocity);
   if (given.options.Text("position") == "map") {
     AddMap(input, identifier, part);

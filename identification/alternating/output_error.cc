@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "models/foundation/robust_noise.h"
+
 namespace warmjoint::inline identification {
 namespace {
 
@@ -26,7 +28,7 @@ OutputError::OutputError(const Eigen::VectorXd& time, const Eigen::VectorXd& los
     : filter_(time, starts),
       loss_(loss),
       kept_(selection.keep.cast<double>()),
-      shortest_(0.1 * filter_.mean_step()),
+      shortest_(0.1 * MedianStep(time)),
       longest_(100 * (time[time.size() - 1] - time[0])) {}
 
 OutputError::Slice OutputError::Evaluate(const Eigen::VectorXd& energy, double theta) const {
@@ -59,7 +61,7 @@ OutputError::Slice OutputError::Evaluate(const Eigen::VectorXd& energy, double t
 }
 
 double OutputError::Scan(const Eigen::VectorXd& energy) const {
-  const double first = std::log(filter_.mean_step());
+  const double first = std::log(10 * shortest_);
   const double last = std::log(0.1 * longest_);
   const int count = 2 + static_cast<int>((last - first) / std::log(10.0) * kGridPerDecade);
 

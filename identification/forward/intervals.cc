@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "models/foundation/robust_noise.h"
+
 namespace warmjoint::inline identification {
 namespace {
 
@@ -22,7 +24,7 @@ Intervals FindSteps(const Eigen::VectorXd& time) {
   Intervals intervals;
   std::vector<double> sorted(steps.begin(), steps.end());
   std::sort(sorted.begin(), sorted.end());
-  intervals.typical = sorted[n / 2];
+  intervals.typical = MedianStep(time);
   std::vector<int> count;
   for (const double step : sorted) {
     if (count.empty() || step > intervals.length.back() / count.back() * (1 + kSame)) {

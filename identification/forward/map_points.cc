@@ -1,13 +1,14 @@
 #include "identification/forward/map_points.h"
 
+#include "models/recording/motor_angle.h"
+
 namespace warmjoint::inline identification {
 
 MapPoints PointsOf(const Measurements& measurements, const Eigen::VectorXd& energy) {
   MapPoints points = MapPoints::Zero(measurements.size(), 5);
   const auto column = [&](MapQuantity quantity) { return points.col(static_cast<int>(quantity)); };
   column(MapQuantity::position) = measurements.position;
-  column(MapQuantity::motor_position) =
-      measurements.motor_position.value_or(measurements.gear * measurements.position);
+  column(MapQuantity::motor_position) = MotorPosition(measurements);
   column(MapQuantity::velocity) = measurements.velocity;
   if (energy.size() > 0) column(MapQuantity::energy) = energy;
   if (measurements.load) column(MapQuantity::load) = *measurements.load;

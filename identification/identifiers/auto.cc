@@ -14,6 +14,7 @@
 #include "identification/identifiers/position_ridge.h"
 #include "identification/identifiers/stribeck.h"
 #include "identification/inference/inference.h"
+#include "models/recording/motor_angle.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -60,7 +61,7 @@ std::vector<Candidate> Candidates(const Measurements& m) {
   }
   candidates.push_back({PositionRidge(), {}});
   candidates.push_back({EnergyMl(), {{"position", "map"}}});
-  if (m.gear != 1 || m.motor_position) candidates.push_back({MotorRidge(), {}});
+  if (KnowsMotorAngle(m)) candidates.push_back({MotorRidge(), {}});
   return candidates;
 }
 

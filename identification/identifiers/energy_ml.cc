@@ -17,6 +17,7 @@
 #include "identification/warming/scan_time_constant.h"
 #include "identification/warming/unsettled.h"
 #include "identification/warming/warming_verdict.h"
+#include "models/recording/without_rest.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -235,7 +236,7 @@ Fit FitWarming(const IdentifierInput& given) {
   // scan tau, then refine everything over the closed loop
   ClosedLoop loop(m.time, m.velocity, columns.leftCols(task.law_count()), m.starts);
   const Eigen::VectorXd level = loop.direction().cwiseProduct(m.torque);
-  const Eigen::VectorXd kept = (input.selection.keep && m.velocity.array() != 0).cast<double>();
+  const Eigen::VectorXd kept = WithoutRest(input.selection, m).keep.cast<double>();
   const WarmStart start = Scan(m, gravity, loop, columns, nominal, level, kept);
   const auto initial = input.options.Text("initial_energy") == "estimated"
                            ? InitialEnergy::estimated

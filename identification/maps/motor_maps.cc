@@ -4,6 +4,7 @@
 
 #include "identification/maps/motor_harmonics.h"
 #include "identification/maps/position_maps.h"
+#include "models/recording/motor_angle.h"
 
 namespace warmjoint::inline identification {
 
@@ -35,7 +36,7 @@ void DescribeMotorRipple(const FrictionMap& motor, const Eigen::MatrixXd& covari
         "; motor ripple for v {} 0: {}", direction ? ">" : "<",
         found.empty() ? "none above the noise" : fmt::format("{}", fmt::join(found, ", ")));
   }
-  if (measurements.gear == 1 && !measurements.motor_position) {
+  if (!KnowsMotorAngle(measurements)) {
     fit.warnings.emplace_back(
         "the motor is taken to turn with the joint: give --gear, or log motor_position");
   }

@@ -14,6 +14,7 @@
 #include "identification/maps/motor_maps.h"
 #include "identification/uncertainty/penalised_uncertainty.h"
 #include "identification/warming/warming_verdict.h"
+#include "models/recording/without_rest.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -44,7 +45,7 @@ WarmStep FitWarming(const IdentifierInput& input, const Law& law, const MapFit& 
   const Measurements& m = input.measurements;
   const ClosedLoop loop(m.time, m.velocity, Columns(input, law, maps), m.starts);
   const Eigen::VectorXd level = loop.direction().cwiseProduct(m.torque);
-  const Eigen::VectorXd kept = (input.selection.keep && m.velocity.array() != 0).cast<double>();
+  const Eigen::VectorXd kept = WithoutRest(input.selection, m).keep.cast<double>();
   WarmStart from = ScanTimeConstant(loop, level, kept);
   if (start) from.thermal = *start;
   const double scale = (Kept(m.torque, input.selection).col(0) - maps.fitted).norm() /

@@ -8,6 +8,7 @@
 
 #include "identification/fit_data.h"
 #include "identification/nonlinear/solve_by_ceres.h"
+#include "models/foundation/robust_noise.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -101,7 +102,7 @@ std::vector<LugrePoint> ScanBristle(
   const auto [shortest, longest] = Distances(m);
   std::vector<LugrePoint> points;
   if (!(shortest > 0) || !(longest > shortest)) return points;
-  const double step = (m.time[m.size() - 1] - m.time[0]) / static_cast<double>(m.size() - 1);
+  const double step = MedianStep(m.time);
   const Residuals residuals(problem);
   for (int i = 0; i < kDistances; ++i) {
     const double distance = shortest * std::pow(longest / shortest, i / (kDistances - 1.0));

@@ -6,6 +6,7 @@
 #include "identification/preparation/log_faults.h"
 #include "identification/preparation/select.h"
 #include "identification/preparation/velocity_scale.h"
+#include "models/recording/sampling.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -24,7 +25,7 @@ SamplingCheck CheckSampling(const VectorXd& time, double step) {
   double squares = 0;
   for (Index i = 1; i < n; ++i) {
     const double taken = time[i] - time[i - 1];
-    if (taken > 3 * step) {
+    if (taken > kGapSteps * step) {
       ++check.gaps;
       check.longest_gap = std::max(check.longest_gap, taken);
     } else {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "identification/preparation/check.h"
+#include "models/recording/motor_angle.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -28,7 +29,7 @@ Direction SpeedsWithSign(const MotionCheck& motion, int sign) {
 }
 
 /// All that the judgements look at.
-struct Evidence {
+struct ShownMotion {
   const Measurements& measurements;
   const SamplingCheck& sampling;
   const MotionCheck& motion;
@@ -44,7 +45,7 @@ struct Evidence {
   bool both_directions() const { return positive.levels > 0 && negative.levels > 0; }
 };
 
-Excitation Coulomb(const Evidence& e) {
+Excitation Coulomb(const ShownMotion& e) {
   if (e.motion.segments > 0) {
     return {"law coulomb", true, fmt::format("{} segments at constant speed", e.motion.segments)};
   }
@@ -53,7 +54,7 @@ Excitation Coulomb(const Evidence& e) {
           "longer than the acceleration between them"};
 }
 
-Excitation ViscousCoulomb(const Evidence& e) {
+Excitation ViscousCoulomb(const ShownMotion& e) {
   const std::string what = "law viscous_coulomb";
   if (e.motion.segments == 0) return {what, false, Coulomb(e).reason};
   const double ratio = e.fastest() / e.slowest();
@@ -67,7 +68,7 @@ Excitation ViscousCoulomb(const Evidence& e) {
                       e.fastest(), e.speed_unit)};
 }
 
-Excitation Asymmetric(const Evidence& e) {
+Excitation Asymmetric(const ShownMotion& e) {
   const std::string what = "law asymmetric";
   if (e.motion.segments == 0) return {what, false, Coulomb(e).reason};
   if (!e.both_directions()) {
@@ -83,7 +84,7 @@ Excitation Asymmetric(const Evidence& e) {
   return {what, true, "several speeds and both directions"};
 }
 
-Excitation Stribeck(const Evidence& e) {
+Excitation Stribeck(const ShownMotion& e) {
   const std::string what = "law stribeck";
   if (e.motion.segments == 0) return {what, false, Coulomb(e).reason};
   const int levels = std::max(e.positive.levels, e.negative.levels);
@@ -98,7 +99,7 @@ Excitation Stribeck(const Evidence& e) {
                       levels, levels == 1 ? "" : "s", e.slowest() / e.fastest())};
 }
 
-Excitation WarmUp(const Evidence& e) {
+Excitation WarmUp(const ShownMotion& e) {
   constexpr double shortest = 180;  // s; joints warm with time constants of minutes
   const std::string what = "warm-up (thermal_gain, thermal_time_constant)";
   if (e.motion.segments == 0) return {what, false, Coulomb(e).reason};
@@ -118,7 +119,7 @@ Excitation WarmUp(const Evidence& e) {
                   e.sampling.duration / 60)};
 }
 
-Excitation Ripple(const Evidence& e) {
+Excitation Ripple(const ShownMotion& e) {
   const std::string what = "position dependence";
   if (e.motion.segments == 0) return {what, false, Coulomb(e).reason};
   const double finest = 4 * e.fastest() * e.sampling.step;
@@ -134,10 +135,10 @@ Excitation Ripple(const Evidence& e) {
                       finest, e.length_unit)};
 }
 
-Excitation MotorRipple(const Evidence& e) {
+Excitation MotorRipple(const ShownMotion& e) {
   const std::string what = "motor ripple";
   const double gear = std::abs(e.measurements.gear);
-  if (gear == 1 && !e.measurements.motor_position) {
+  if (!KnowsMotorAngle(e.measurements)) {
     return {what, false, "the gear is not known; give --gear or a column motor_position"};
   }
   const double turns =
@@ -158,13 +159,13 @@ Excitation MotorRipple(const Evidence& e) {
 
 std::vector<Excitation> JudgeExcitation(const Measurements& measurements,
                                         const SamplingCheck& sampling, const MotionCheck& motion) {
-  const Evidence evidence{measurements,
-                          sampling,
-                          motion,
-                          kVelocityUnit.For(measurements.joint),
-                          kPositionUnit.For(measurements.joint),
-                          SpeedsWithSign(motion, 1),
-                          SpeedsWithSign(motion, -1)};
+  const ShownMotion evidence{measurements,
+                             sampling,
+                             motion,
+                             kVelocityUnit.For(measurements.joint),
+                             kPositionUnit.For(measurements.joint),
+                             SpeedsWithSign(motion, 1),
+                             SpeedsWithSign(motion, -1)};
   return {Coulomb(evidence), ViscousCoulomb(evidence), Asymmetric(evidence), Stribeck(evidence),
           WarmUp(evidence),  Ripple(evidence),         MotorRipple(evidence)};
 }

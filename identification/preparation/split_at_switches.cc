@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "models/foundation/robust_noise.h"
+#include "models/recording/sampling.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -29,7 +30,7 @@ bool StandsAlone(const Eigen::VectorXd& v, Index n) {
 
 std::vector<Switch> FindSwitches(const Measurements& m) {
   const double rms = std::sqrt(m.velocity.squaredNorm() / static_cast<double>(m.size()));
-  const double longest = 3 * MedianStep(m.time);
+  const double longest = LongestStep(m.time);
   std::vector<Switch> switches;
   for (Index n = 0; n + 1 < m.size(); ++n) {
     const double v0 = m.velocity[n], v1 = m.velocity[n + 1];

@@ -5,6 +5,7 @@
 
 #include "identification/score/cramer_rao.h"
 #include "identification/score/npe.h"
+#include "models/foundation/robust_noise.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -25,12 +26,6 @@ ParameterScore ScoreOne(std::string name, double truth, const Estimate& estimate
     }
   }
   return score;
-}
-
-/// Mean of the sampling intervals, s, as in the discrete pair of estimates.
-double SamplingInterval(const Eigen::VectorXd& time) {
-  const Eigen::Index n = time.size();
-  return (time[n - 1] - time[0]) / static_cast<double>(n - 1);
 }
 
 /// Parameters that the relative error (26) can be formed of.
@@ -68,7 +63,7 @@ Score ScoreEstimate(const Estimate& estimate, const Measurements& measurements,
     score.continuous.push_back(ScoreOne(name, truth.friction.parameters.at(name), estimate));
   }
   score.discrete = score.continuous;
-  const double step = SamplingInterval(measurements.time);
+  const double step = MedianStep(measurements.time);
   if (truth.friction.thermal) {
     const Thermal& thermal = *truth.friction.thermal;
     score.continuous.push_back(ScoreOne("thermal_gain", thermal.gain, estimate));

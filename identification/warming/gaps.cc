@@ -5,12 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "models/foundation/robust_noise.h"
+#include "models/recording/sampling.h"
 
 namespace warmjoint::inline identification {
 namespace {
 
-constexpr double kLong = 10;  // median steps
 constexpr size_t kMostGaps = 50;
 
 bool RestsOver(const Measurements& m, Eigen::Index behind) {
@@ -25,7 +24,7 @@ bool IsLonger(const LogGap& a, const LogGap& b) { return a.length > b.length; }
 std::vector<LogGap> FindGaps(const Measurements& measurements) {
   const Measurements& m = measurements;
   if (m.size() < 2) return {};
-  const double longest = kLong * MedianStep(m.time);
+  const double longest = LongestStep(m.time);
   std::vector<LogGap> gaps;
   for (Eigen::Index n = 1; n < m.size(); ++n) {
     const double length = m.time[n] - m.time[n - 1];

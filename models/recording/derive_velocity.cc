@@ -7,6 +7,7 @@
 
 #include "models/foundation/butterworth.h"
 #include "models/foundation/robust_noise.h"
+#include "models/recording/sampling.h"
 
 namespace warmjoint::inline models {
 namespace {
@@ -66,7 +67,7 @@ Eigen::VectorXd DerivePiece(const Eigen::VectorXd& time, const Eigen::VectorXd& 
 Eigen::VectorXd DeriveVelocity(const Eigen::VectorXd& time, const Eigen::VectorXd& position,
                                double cutoff) {
   const Eigen::Index n = time.size();
-  const double longest = 3 * MedianStep(time);  // s
+  const double longest = LongestStep(time);  // s
   Eigen::VectorXd velocity(n);
   for (Eigen::Index begin = 0, end = 1; begin < n; begin = end++) {
     while (end < n && time[end] - time[end - 1] <= longest) ++end;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "models/foundation/bad_input.h"
+#include "models/foundation/robust_noise.h"
 
 namespace warmjoint::inline models {
 namespace {
@@ -35,11 +36,6 @@ void CheckAlike(const Measurements& a, const Measurements& b) {
   }
 }
 
-/// Typical interval, s.
-double Step(const Measurements& m) {
-  return (m.time[m.size() - 1] - m.time[0]) / static_cast<double>(m.size() - 1);
-}
-
 }  // namespace
 
 Measurements JoinRecordings(std::vector<Measurements> recordings) {
@@ -49,7 +45,7 @@ Measurements JoinRecordings(std::vector<Measurements> recordings) {
     const Measurements& next = recordings[i];
     CheckAlike(joined, next);
     const Eigen::Index n = joined.size();
-    const double begin = joined.time[n - 1] + Step(joined);
+    const double begin = joined.time[n - 1] + MedianStep(joined.time);
     joined.starts.push_back(n);
     Append(next.time.array() - next.time[0] + begin, joined.time);
     Append(next.position, joined.position);

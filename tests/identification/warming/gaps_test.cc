@@ -32,15 +32,15 @@ Measurements Without(const Measurements& m, const std::vector<Cut>& cuts) {
   return some;
 }
 
-TEST(Gaps, AreLongerThanTenStepsOfAJointThatMoves) {
+TEST(Gaps, AreLongerThanThreeStepsOfAJointThatMoves) {
   Measurements m = test::RecordHour(test::TableOne(), 1);
   EXPECT_THAT(FindGaps(m), testing::IsEmpty());
-  m = Without(m, {{300, 310}, {600, 611}});
+  m = Without(m, {{300, 303}, {600, 604}});
   const std::vector<LogGap> gaps = FindGaps(m);
   ASSERT_EQ(gaps.size(), 1u);
-  EXPECT_EQ(m.time[gaps[0].behind], 611);
-  EXPECT_EQ(gaps[0].length, 11);
-  EXPECT_EQ(DescribeGaps(gaps, m), "a gap of 11 s at 600 s");
+  EXPECT_EQ(m.time[gaps[0].behind], 604);
+  EXPECT_EQ(gaps[0].length, 4);
+  EXPECT_EQ(DescribeGaps(gaps, m), "a gap of 4 s at 600 s");
 
   // a second recording behind it starts cold, whatever happened before
   m.starts = {gaps[0].behind};

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "identification/forward/predict.h"
+#include "models/recording/motor_angle.h"
 #include "tools/report/draw/ticks.h"
 #include "tools/report/figures/friction_at.h"
 #include "tools/report/figures/friction_spread.h"
@@ -38,9 +39,8 @@ Eigen::VectorXd MotorAngle(const Measurements& measurements) {
   const auto turn = [](double angle) {
     return angle - 2 * std::numbers::pi * std::floor(angle / (2 * std::numbers::pi));
   };
-  if (measurements.motor_position) return measurements.motor_position->unaryExpr(turn);
-  if (measurements.gear == 1) return {};
-  return (measurements.gear * measurements.position).unaryExpr(turn);
+  if (!KnowsMotorAngle(measurements)) return {};
+  return MotorPosition(measurements).unaryExpr(turn);
 }
 
 /// The file with the folder that it is in: many are called recording.csv.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "models/foundation/robust_noise.h"
 #include "tools/report/draw/ticks.h"
 #include "tools/report/figures/axes.h"
 #include "tools/report/figures/fit_panels.h"
@@ -104,8 +105,8 @@ std::vector<Segment> SlowSegments(const FitView& view) {
 
 /// A few turns of the motor from the begin of a segment.
 Window FewTurns(const FitView& view, const Segment& segment) {
-  const double step = view.time.tail(1)[0] / static_cast<double>(view.time.size() - 1);  // s
-  const double turn = 2 * M_PI / std::max(1e-9, MotorSpeed(view, segment));              // s
+  const double step = MedianStep(view.time);                                 // s
+  const double turn = 2 * M_PI / std::max(1e-9, MotorSpeed(view, segment));  // s
   const auto wanted = static_cast<Eigen::Index>(kTurnsInView * turn / step);
   const Eigen::Index count = std::clamp<Eigen::Index>(
       wanted, std::min(kFewest, segment.end - segment.begin), segment.end - segment.begin);
