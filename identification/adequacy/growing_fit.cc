@@ -56,8 +56,8 @@ double CarryingParts(const MatrixXd& own, const Eigen::VectorXi& part) {
 
 /// By how the scores of the rest scatter from part to part; no evidence where the parts that carry
 /// the features are too few. part: [m]; p: columns of the fit
-Evidence ByParts(const VectorXd& coefficients, const MatrixXd& own, Index p, const VectorXd& rest,
-                 const Eigen::VectorXi& part) {
+BlockEvidence ByParts(const VectorXd& coefficients, const MatrixXd& own, Index p,
+                      const VectorXd& rest, const Eigen::VectorXi& part) {
   const Index q = own.cols();
   const double parts = CarryingParts(own, part);
   const double freedom = parts - static_cast<double>(p + q);
@@ -107,7 +107,7 @@ void GrowingFit::LearnNoise(const std::vector<Block>& candidates) {
   taken_ = static_cast<double>(basis.cols());
 }
 
-Evidence GrowingFit::ByColour(const VectorXd& coefficients, const MatrixXd& own) const {
+BlockEvidence GrowingFit::ByColour(const VectorXd& coefficients, const MatrixXd& own) const {
   const MatrixXd scatter = ScatterThrough(noise_, own, place_);
   const double red = scatter.selfadjointView<Eigen::Lower>().operatorNorm() / noise_.variance;
   const double samples = static_cast<double>(own.rows()) / std::max(2 * red - 1, 1.0) - taken_;
@@ -125,10 +125,10 @@ std::optional<Structure> GrowingFit::Test(const Block& block) const {
 
   const VectorXd b = own.basis.transpose() * left_;
   const VectorXd rest = left_ - own.basis * b;
-  Evidence evidence = ByColour(b, own.basis);
+  BlockEvidence evidence = ByColour(b, own.basis);
   const bool start = block.on == Dependence::initial_energy;
   if (!start) {
-    Evidence parts = ByParts(b, own.basis, columns_.cols(), rest, part_);
+    BlockEvidence parts = ByParts(b, own.basis, columns_.cols(), rest, part_);
     if (parts.deviations > evidence.deviations) evidence = std::move(parts);
   }
   Structure structure;

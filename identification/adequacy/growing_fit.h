@@ -23,7 +23,7 @@ struct Basis {
 };
 
 /// How coefficients scatter, and how far from chance that puts them.
-struct Evidence {
+struct BlockEvidence {
   Eigen::MatrixXd scatter;  // [q x q]
   double deviations = 0;
 };
@@ -57,7 +57,7 @@ class GrowingFit {
   /// the variance of white noise: for AR(1) noise what the scatter of its coefficient makes of R.
   /// At least 8 beyond the features: what stands out of these is overwhelming, 25 deviations each.
   /// own: [m x q] orthonormal
-  Evidence ByColour(const Eigen::VectorXd& coefficients, const Eigen::MatrixXd& own) const;
+  BlockEvidence ByColour(const Eigen::VectorXd& coefficients, const Eigen::MatrixXd& own) const;
   void LearnNoise(const std::vector<Block>& candidates);
   void Refit();
 
