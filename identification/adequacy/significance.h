@@ -5,11 +5,7 @@
 
 namespace warmjoint::inline identification {
 
-/// Standard deviations of a normal variable that an F statistic is as unlikely as, upwards
-/// (Paulson 1942). f >= 0; m, n: its degrees of freedom.
-double NormalOfF(double f, double m, double n);
-
-/// Standard deviations by which q coefficients differ from 0 together, where `scatter` [q x q] was
+/// The z-score (uncertainty/tails.h) by which q coefficients differ from 0 together, where `scatter` [q x q] was
 /// summed over `groups` parts of the recording: Hotelling's T^2 = b^T scatter^-1 b. 0 where the
 /// parts are too few to tell, groups <= q + 2.
 double HotellingDeviations(const Eigen::VectorXd& coefficients, const Eigen::MatrixXd& scatter,

@@ -22,13 +22,13 @@ enum class Dependence {
   motor_angle
 };
 
-/// Structure that stands out of the noise: at least kCertain standard deviations.
+/// Structure that stands out of the noise: a z-score (uncertainty/tails.h) of at least kCertain.
 struct Structure {
   Dependence on = Dependence::time;
   double explained = 0;  // squares of the residual's samples that it explains, less the noise's
   double merit = 0;      // the same less ln(m) times the noise's variance for each of its features,
                          // as BIC has it: what needs fewer features says more
-  double deviations = 0;  // from chance
+  double deviations = 0;  // from chance, a z-score
   double period = 0;      // of a ripple, in the unit of the angle; 0: none. Of a lag: the lag, s
   double alike = 0;       // share of an angle's part that acts alike in both directions of motion
   Eigen::VectorXd
@@ -36,18 +36,19 @@ struct Structure {
   Eigen::VectorXd move_deviations;  // [p] standard deviations of `moves`
 };
 
-/// By chance one block in a million exceeds this, one frequency of a few hundred in ten thousand
-/// recordings.
+/// By chance one block in 1.7 million exceeds this, p = 5.7e-7; of a few hundred frequencies one in
+/// some ten thousand recordings.
 inline constexpr double kCertain = 5;
 
-/// The same for what explains most of a residual's variance, as noise of few waves hardly does.
+/// The same for what explains most of a residual's variance, as noise of few waves hardly does:
+/// p = 4.7e-4.
 inline constexpr double kCertainMost = 3.5;
 
-/// The same for a single coefficient that is asked for by name: one recording in two thousand
-/// exceeds it by chance.
+/// The same for a single coefficient that is asked for by name: one recording in 2150 exceeds it
+/// by chance, p = 4.7e-4.
 inline constexpr double kCertainNamed = 3.5;
 
-/// The same for E(0): one cold start in 80 exceeds it. A start that is warm by a few deviations
+/// The same for E(0): one cold start in 80 exceeds it, p = 0.0124. A start that is warm by a few deviations
 /// moves all else far beyond its interval.
 inline constexpr double kCertainStart = 2.5;
 

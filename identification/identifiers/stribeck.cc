@@ -19,6 +19,7 @@
 #include "identification/warming/warming_verdict.h"
 #include "models/friction/stribeck.h"
 #include "models/friction/viscous_coulomb.h"
+#include "models/recording/without_rest.h"
 
 namespace warmjoint::inline identification {
 namespace {

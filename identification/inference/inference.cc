@@ -7,7 +7,7 @@
 #include "identification/inference/bounds.h"
 #include "identification/inference/covariance.h"
 #include "identification/linear/robust.h"
-#include "identification/uncertainty/student.h"
+#include "identification/uncertainty/tails.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -31,7 +31,7 @@ KnownParameter Known(const FitParameter& parameter, double deviation, double qua
 /// One for each row of the table; those that were given, or that noise does not tell, have none.
 std::vector<KnownParameter> Intervals(const Fit& fit, const Uncertainty& known) {
   std::vector<KnownParameter> all;
-  const double quantile = StudentQuantile(known.freedom);
+  const double quantile = StudentQuantile(known.freedom, kIntervalLevel);
   Eigen::Index column = 0;
   for (const FitParameter& parameter : fit.parameters) {
     KnownParameter one{parameter.value, {}, {}, 0};

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "identification/uncertainty/tails.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/ridge/local_rows.h"
-#include "identification/uncertainty/student.h"
 #include "models/foundation/robust_noise.h"
 #include "models/friction/sign.h"
 
@@ -68,7 +68,7 @@ std::vector<MapBand> MakeBands(const Law& law, const MapFit& fit, const Uncertai
   const double speed = MedianInPlace(speeds);
   const Index q = fit.x.size() - fit.free;
   const Eigen::MatrixXd covariance = known.covariance.topLeftCorner(fit.x.size(), fit.x.size());
-  const double reach = StudentQuantile(known.freedom);
+  const double reach = StudentQuantile(known.freedom, kIntervalLevel);
   std::vector<MapBand> bands;
   Index first = fit.free;
   for (const FrictionMap& map : fit.maps) {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "identification/uncertainty/student.h"
+#include "identification/uncertainty/tails.h"
 #include "models/friction/thermal.h"
 
 namespace warmjoint::inline identification {
@@ -49,7 +49,7 @@ std::vector<EstimatedParameter> DiscretePair(const Fit& fit, const Inference& in
   const double cooling = -std::expm1(-h / fitted.time_constant);
   if (known_gain.interval95 && known_tau.interval95) {
     const Eigen::Matrix2d covariance = HeatCovariance(fit, inference, gain_row, tau_row);
-    const double quantile = StudentQuantile(inference.known.freedom);
+    const double quantile = StudentQuantile(inference.known.freedom, kIntervalLevel);
     const Eigen::Vector2d by_gain(cooling, -fitted.gain * by_pole);
     gain.std = std::sqrt(by_gain.dot(covariance * by_gain));
     gain.interval95 = {{gain.value - quantile * *gain.std, gain.value + quantile * *gain.std}};

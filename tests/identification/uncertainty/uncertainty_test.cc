@@ -7,9 +7,9 @@
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
+#include "identification/uncertainty/tails.h"
 #include "identification/linear/least_squares.h"
 #include "identification/preparation/select.h"
-#include "identification/uncertainty/student.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint {
@@ -79,7 +79,7 @@ Eigen::Vector2d CoverageUneven(double pole) {
     const Eigen::VectorXd x = cofactor * (A.transpose() * y);
     const Uncertainty known = JudgeUncertainty(A, cofactor, y - A * x, all, 20 * A.col(1));
     EXPECT_GT(known.uneven, 0);
-    const double reach = StudentQuantile(known.freedom);
+    const double reach = StudentQuantile(known.freedom, kIntervalLevel);
     for (int i = 0; i < 2; ++i) covered[i] += std::abs(x[i]) < reach * known.Deviation(i);
   }
   return covered / 500;

@@ -1,0 +1,35 @@
+// How unlikely a statistic is by chance, and the quantiles behind intervals. Exact, by Boost.Math.
+//
+// p-values are probabilities, under chance alone, of a statistic at least as far out as the one
+// given: of F upwards, of normal and Student's t to both sides. A z-score is always the number of
+// standard deviations that a normal variable exceeds to either side with that probability:
+// p = 4.6e-4, one in 2150, is z = 3.5.
+#pragma once
+
+namespace warmjoint::inline identification {
+
+/// Share of the cases in which reported intervals hold the truth.
+inline constexpr double kIntervalLevel = 0.95;
+
+/// P(|N| >= |z|) of a standard normal N; 0 to 1.
+double PValueOfNormal(double z);
+
+/// The z >= 0 with PValueOfNormal(z) = p. p: 0 to 1; 0 gives infinity.
+double ZOf(double p);
+
+/// P(|T| >= |t|) of Student's t; 0 to 1. freedom > 0.
+double PValueOfStudent(double t, double freedom);
+
+/// P(|T| <= quantile) = level: value +- quantile * std holds the truth in that share of the cases.
+/// freedom: samples less parameters; below 1 counts as 1. level: above 0, below 1.
+double StudentQuantile(double freedom, double level);
+
+/// P(F >= f) of Fisher's F; 0 to 1. f >= 0, may be infinite; m, n > 0: degrees of freedom of
+/// numerator and denominator.
+double PValueOfF(double f, double m, double n);
+
+/// ZOf(PValueOfF(f, m, n)), and where that probability is too small for a double, by the first term
+/// of its tail, so that it grows with f without end as long as n does not bound it.
+double ZOfF(double f, double m, double n);
+
+}  // namespace warmjoint::inline identification
