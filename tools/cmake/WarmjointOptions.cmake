@@ -1,10 +1,15 @@
-# Build type, warnings, sanitizers: the settings that every target shares.
-if(NOT CMAKE_BUILD_TYPE)
-  set(CMAKE_BUILD_TYPE Release CACHE STRING "Debug, Release or RelWithDebInfo" FORCE)
-endif()
+# Warnings, sanitizers and what is built. Inside another project warmjoint is its libraries and its plugin, and leaves
+# build type, output folders and flags to that project.
+option(WARMJOINT_PROGRAM "build the command line program" ${PROJECT_IS_TOP_LEVEL})
+option(WARMJOINT_INSTALL "install program, plugin, libraries and the CMake package" ${PROJECT_IS_TOP_LEVEL})
+option(WARMJOINT_TESTS "build the tests" ${PROJECT_IS_TOP_LEVEL})
 
-option(WARMJOINT_TESTS "build the tests" ON)
-option(WARMJOINT_WERROR "treat warnings as errors" ON)
+# on with the compiler that the tests are run with; a newer one may warn of what this one does not
+set(warnings_are_known OFF)
+if(PROJECT_IS_TOP_LEVEL AND CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION MATCHES "^12\\.")
+  set(warnings_are_known ON)
+endif()
+option(WARMJOINT_WERROR "treat warnings as errors" ${warnings_are_known})
 option(WARMJOINT_PCH "precompile the headers that nearly every file includes" ON)
 set(WARMJOINT_SANITIZE "" CACHE STRING "sanitizers, for example address,undefined or thread")
 set(WARMJOINT_ARCH "" CACHE STRING "value for -march; empty builds for any CPU of the platform")
@@ -23,11 +28,14 @@ set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
-set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
-
-# the program and the plugin are found at the top of the build folder
-set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
-set(CMAKE_LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+if(PROJECT_IS_TOP_LEVEL)
+  # the program and the plugin are found at the top of the build folder
+  set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+  set(CMAKE_LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+else()
+  # who links the libraries sees what they link
+  set(CMAKE_FIND_PACKAGE_TARGETS_GLOBAL ON)
+endif()
 
 add_library(warmjoint_settings INTERFACE)
 target_include_directories(warmjoint_settings INTERFACE ${PROJECT_SOURCE_DIR})

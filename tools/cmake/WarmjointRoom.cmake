@@ -11,7 +11,8 @@ function(warmjoint_precompile target)
 endfunction()
 
 # warmjoint_room(NAME FOLDERS folder... LINKS target...)
-# A static library of every .cc file directly in the given folders (relative to the caller).
+# A static library of every .cc file directly in the given folders (relative to the caller), also called
+# warmjoint::... as in the installed package.
 function(warmjoint_room name)
   cmake_parse_arguments(ROOM "" "" "FOLDERS;LINKS" ${ARGN})
   set(sources)
@@ -20,6 +21,9 @@ function(warmjoint_room name)
     list(APPEND sources ${found})
   endforeach()
   add_library(${name} STATIC ${sources})
+  string(REPLACE "warmjoint_" "warmjoint::" alias ${name})
+  add_library(${alias} ALIAS ${name})
+  target_compile_features(${name} PUBLIC cxx_std_20)
   target_link_libraries(${name} PUBLIC ${ROOM_LINKS} PRIVATE $<BUILD_INTERFACE:warmjoint_settings>)
   warmjoint_precompile(${name})
   target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
