@@ -10,6 +10,16 @@ std::vector<double> Fit::Values(Role role) const {
   return values;
 }
 
+CourseStart Fit::Start() const {
+  CourseStart start;
+  start.energy = initial_energy;
+  const std::vector<double> jumps = Values(Role::jump);
+  for (size_t i = 0; i < jump_samples.size(); ++i) {
+    start.jumps.push_back({jump_samples[i], jumps[i]});
+  }
+  return start;
+}
+
 std::optional<size_t> Fit::RowOf(Role role, int which) const {
   for (size_t i = 0; i < parameters.size(); ++i) {
     if (parameters[i].role == role && which-- == 0) return i;

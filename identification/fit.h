@@ -9,7 +9,7 @@
 
 #include "identification/estimate.h"
 #include "identification/uncertainty/uncertainty.h"
-#include "models/friction/friction_description.h"
+#include "models/friction/along_motion.h"
 #include "models/recording/selection.h"
 
 namespace warmjoint::inline identification {
@@ -90,6 +90,8 @@ struct Fit {
 
   std::string without_intervals;  // why no number gets an interval: a clause; empty: they do
 
+  /// The heat that the log began with: E(0), and the jumps of E.
+  CourseStart Start() const;
   /// Residual over the kept samples. [n] N.m or N
   Eigen::VectorXd residual() const { return torque - fitted; }
   /// The table's row of the which-th parameter with a role; nothing where there are fewer.

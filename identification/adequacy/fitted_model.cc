@@ -1,14 +1,16 @@
 #include "identification/adequacy/fitted_model.h"
 
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 
 #include "identification/adequacy/held_loss.h"
 #include "identification/forward/closed_loop.h"
-#include "identification/forward/predict.h"
 #include "identification/linear/fit_gravity.h"
 #include "identification/linear/linear_laws.h"
+#include "identification/warming/estimated_start.h"
 #include "identification/warming/gaps.h"
+#include "models/recording/course_of.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -82,14 +84,17 @@ Eigen::MatrixXd AddWarming(const Fit& fit, const Inference& inference, const Mea
       ClosedLoop(m.time, m.velocity, model.derivatives, m.starts).WithJumps(Behind(gaps));
   const auto d = static_cast<Eigen::Index>(values.size());
   const Eigen::Map<const Eigen::VectorXd> parameters(values.data(), d);
-  const Eigen::MatrixXd all =
-      loop.Jacobian(parameters, thermal, fit.initial_energy, Eigen::VectorXd::Zero(jumps));
+  // the jumps that were fitted, else none
+  const std::vector<double> fitted = fit.Values(Role::jump);
+  Eigen::VectorXd jump_values = Eigen::VectorXd::Zero(jumps);
+  std::copy(fitted.begin(), fitted.end(), jump_values.begin());
+  const Eigen::MatrixXd all = loop.Jacobian(parameters, thermal, fit.initial_energy, jump_values);
   const bool starts = !fit.Values(Role::start).empty();
   model.derivatives = all.leftCols(starts ? d + 3 : d + 2);
   if (!starts) model.by_initial_energy = all.col(d + 2);
   model.jump_spread = JumpSpread(gaps, model.energy.cwiseAbs().maxCoeff(), thermal.time_constant);
   if (StepMatters(fit, inference, m)) {
-    model.held_loss = ForceOfHeldLoss(fit.friction, m, fit.initial_energy);
+    model.held_loss = ForceOfHeldLoss(fit.friction, m, fit.Start());
   }
   return all.rightCols(jumps);
 }
@@ -107,8 +112,7 @@ std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& infere
   model.selection = selection;
   model.torque = m.torque;
   if (fit.gravity) TakeOff(*fit.gravity, m.position, model);
-  const Prediction prediction =
-      PredictFriction(fit.friction, m, fit.initial_energy, BristleStart::torque);
+  const Prediction prediction = PredictFriction(fit.friction, m, fit.Start(), BristleStart::torque);
   model.residual = model.torque - prediction.force;
   model.energy = prediction.energy;
   if (!fit.friction.maps.empty()) model.maps = MapForce(law, values, m, prediction);

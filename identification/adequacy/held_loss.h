@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include "identification/inference/inference.h"
+#include "models/friction/along_motion.h"
 #include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
@@ -15,8 +16,8 @@ bool StepMatters(const Fit& fit, const Inference& inference, const Measurements&
 
 /// The force of a friction whose losses follow its heat all the time, less its force by (22): 8/7
 /// of what (22) with an eighth of each step makes of it. Constant speed over each step.
-/// initial_energy: N.m or N; returns [N] N.m or N.
+/// Returns [N] N.m or N.
 Eigen::VectorXd ForceOfHeldLoss(const FrictionDescription& friction,
-                                const Measurements& measurements, double initial_energy);
+                                const Measurements& measurements, const CourseStart& start = {});
 
 }  // namespace warmjoint::inline identification

@@ -28,7 +28,7 @@ LoopResponse ClosedLoop::Simulate(const Eigen::VectorXd& parameters, const Therm
       if (next < jumps_.size() && jumps_[next] == n)
         energy += jumps[static_cast<Eigen::Index>(next++)];
       const double level = nominal[n] + std::abs(direction_[n]) * energy;
-      const ThermalHold& hold = hold_after[n];
+      const IntervalHold& hold = hold_after[n];
       double feedback = hold.gain * speed_[n];
       if (level < 0) {  // W = -|v| a
         if (!response.feeds_itself) response.feeds_itself = n;
@@ -69,15 +69,14 @@ ClosedLoop ClosedLoop::WithJumps(std::vector<Eigen::Index> samples) const {
 
 Eigen::MatrixXd ByDiscretePair(const Eigen::MatrixXd& jacobian, const Thermal& thermal, double h) {
   const Eigen::Index d = jacobian.cols() - 3;
-  const DiscreteThermal discrete = Discretise(thermal, h);
-  const double cooling = -std::expm1(-h / thermal.time_constant);
+  const ThermalHold<> hold = HoldOver(h, thermal.time_constant);
 
   // k = ke / (1 - te), tau = -h / log(te)
   Eigen::MatrixXd result = jacobian;
-  result.col(d) = jacobian.col(d) / cooling;
+  result.col(d) = jacobian.col(d) / hold.cooling;
   result.col(d + 1) =
-      jacobian.col(d) * (thermal.gain / cooling) +
-      jacobian.col(d + 1) * (thermal.time_constant * thermal.time_constant / (h * discrete.pole));
+      jacobian.col(d) * (thermal.gain / hold.cooling) +
+      jacobian.col(d + 1) * (thermal.time_constant * thermal.time_constant / (h * hold.pole));
   return result;
 }
 

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "identification/forward/intervals.h"
+#include "models/friction/intervals.h"
 #include "models/friction/law.h"
 
 namespace warmjoint::inline identification {

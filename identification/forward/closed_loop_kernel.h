@@ -25,13 +25,13 @@ struct LoopSize<Eigen::Dynamic> {
 
 /// The hold that follows each sample: one for all, or one of a table.
 struct EvenHold {
-  ThermalHold hold;
-  const ThermalHold& operator[](Eigen::Index) const { return hold; }
+  IntervalHold hold;
+  const IntervalHold& operator[](Eigen::Index) const { return hold; }
 };
 struct UnevenHold {
-  const std::vector<ThermalHold>& holds;
+  const std::vector<IntervalHold>& holds;
   const std::vector<int>& which;
-  const ThermalHold& operator[](Eigen::Index n) const { return holds[which[n]]; }
+  const IntervalHold& operator[](Eigen::Index n) const { return holds[which[n]]; }
 };
 
 /// Derivatives of E by (p, k, log tau, E0, jumps), 0 at first. Plain numbers where D is known, so
@@ -76,7 +76,7 @@ void RunWithSensitivities(const ClosedLoop& loop, const double* parameters, doub
     visit(n, level, g, S.data());
 
     // one product and one sum from each state to its next: what waits for the state before is short
-    const ThermalHold& hold = hold_after[n];
+    const IntervalHold& hold = hold_after[n];
     const double feedback = hold.gain * speed[n];
     const double lambda = hold.pole + feedback;
     const double loss = speed[n] * level;
@@ -94,7 +94,7 @@ void RunWithSensitivities(const ClosedLoop& loop, const double* parameters, doub
 /// Calls run(hold) with the kind of hold that the intervals need.
 template <typename Run>
 void WithHolds(const Intervals& intervals, const Thermal& thermal, Run&& run) {
-  const std::vector<ThermalHold> holds = Holds(intervals, thermal);
+  const std::vector<IntervalHold> holds = Holds(intervals, thermal);
   if (holds.size() == 1) {
     run(EvenHold{holds[0]});
   } else {

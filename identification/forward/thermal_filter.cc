@@ -1,16 +1,6 @@
 #include "identification/forward/thermal_filter.h"
 
-#include <cmath>
-
 namespace warmjoint::inline identification {
-
-HoldStep::HoldStep(double h, double time_constant) {
-  const double a = h / time_constant;
-  pole = std::exp(-a);
-  cooling = -std::expm1(-a);
-  slope = a * pole;
-  curvature = (a - 1) * slope;
-}
 
 ThermalFilter::ThermalFilter(const Eigen::VectorXd& time, std::vector<Eigen::Index> starts)
     : starts_(std::move(starts)) {
@@ -25,9 +15,9 @@ Eigen::VectorXd ThermalFilter::Energy(const Thermal& thermal, const Eigen::Vecto
   Eigen::VectorXd energy(size());
   energy[0] = initial;
   size_t next = 0;
-  const HoldStep mean(mean_step_, thermal.time_constant);
+  const ThermalHold<> mean = HoldOver(mean_step_, thermal.time_constant);
   for (Eigen::Index i = 0; i < steps_.size(); ++i) {
-    const HoldStep& hold = even_ ? mean : HoldStep(steps_[i], thermal.time_constant);
+    const ThermalHold<> hold = even_ ? mean : HoldOver(steps_[i], thermal.time_constant);
     energy[i + 1] = ThermalStep(thermal.gain * hold.cooling, hold.pole, energy[i], loss[i]);
     if (Starts(i + 1, next)) energy[i + 1] = 0;
   }

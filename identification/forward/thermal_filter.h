@@ -9,17 +9,6 @@
 
 namespace warmjoint::inline identification {
 
-/// One zero-order-hold step at unit gain and its derivatives by theta = ln tau. a = h/tau:
-/// te = exp(-a), dte/dtheta = a te, d2te/dtheta2 = a (a - 1) te.
-struct HoldStep {
-  HoldStep(double h, double time_constant);
-
-  double pole;       // te
-  double cooling;    // 1 - te, by expm1
-  double slope;      // dte/dtheta
-  double curvature;  // d2te/dtheta2
-};
-
 /// E at unit gain and its derivatives by ln tau, in J; the filter is linear in its gain.
 struct UnitEnergy {
   double value = 0;
@@ -27,10 +16,10 @@ struct UnitEnergy {
   double curvature = 0;
 
   /// The state one step later. loss: W during the step, W.
-  UnitEnergy After(const HoldStep& hold, double loss) const {
+  UnitEnergy After(const ThermalHold<>& hold, double loss) const {
     const double distance = value - loss;
-    return {hold.pole * value + hold.cooling * loss, hold.pole * slope + hold.slope * distance,
-            hold.pole * curvature + 2 * hold.slope * slope + hold.curvature * distance};
+    return {hold.After(value, loss), hold.pole * slope + hold.Slope() * distance,
+            hold.pole * curvature + 2 * hold.Slope() * slope + hold.Curvature() * distance};
   }
 };
 
@@ -74,9 +63,9 @@ void ThermalFilter::ForEach(double time_constant, const Eigen::VectorXd& loss, V
   size_t next = 0;
   visit(Eigen::Index{0}, energy);
 
-  const HoldStep mean(mean_step_, time_constant);
+  const ThermalHold<> mean = HoldOver(mean_step_, time_constant);
   for (Eigen::Index i = 0; i < steps_.size(); ++i) {
-    energy = energy.After(even_ ? mean : HoldStep(steps_[i], time_constant), loss[i]);
+    energy = energy.After(even_ ? mean : HoldOver(steps_[i], time_constant), loss[i]);
     if (Starts(i + 1, next)) energy = {};
     visit(i + 1, energy);
   }

@@ -31,7 +31,7 @@ std::optional<Eigen::VectorXd> BlockedErrors(const Identifier& identifier,
     block.keep = block.keep && !others.keep;
     const IdentifierInput rest = input.With(others);
     const Fit fit = identifier.fit(rest);
-    const auto metrics = Evaluate(fit, input.measurements, block, fit.initial_energy);
+    const auto metrics = Evaluate(fit, input.measurements, block, fit.Start());
     if (!metrics) return std::nullopt;
     errors[b] = metrics->rmse * metrics->rmse;
   }

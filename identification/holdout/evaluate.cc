@@ -1,16 +1,16 @@
 #include "identification/holdout/evaluate.h"
 
 #include "identification/fit_data.h"
-#include "identification/forward/predict.h"
 #include "identification/inference/inference.h"
+#include "models/recording/course_of.h"
 
 namespace warmjoint::inline identification {
 
 std::optional<Metrics> Evaluate(const Fit& fit, const Measurements& measurements, Selection test,
-                                double initial_energy) {
+                                const CourseStart& start) {
   if (!Infer(fit).gives_friction) return std::nullopt;
   const FrictionDescription& friction = fit.friction;
-  Eigen::VectorXd predicted = PredictFriction(friction, measurements, initial_energy).force;
+  Eigen::VectorXd predicted = PredictFriction(friction, measurements, start).force;
   auto parameters = friction.parameters.size() + (friction.thermal ? 2 : 0);
   for (const FrictionMap& map : friction.maps) parameters += map.weights.size();
 

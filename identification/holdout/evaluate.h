@@ -9,9 +9,9 @@ namespace warmjoint::inline identification {
 
 /// Compares the torque that the fit's friction and gravity predict along a log with the samples that
 /// `test` keeps; where the fit knows its gravity only in places, with those there. The prediction
-/// runs from the first sample on, from initial_energy, N.m or N. Nothing where the fit gives no
+/// runs from the first sample on, from `start`. Nothing where the fit gives no
 /// friction or no sample is left.
 std::optional<Metrics> Evaluate(const Fit& fit, const Measurements& measurements, Selection test,
-                                double initial_energy);
+                                const CourseStart& start);
 
 }  // namespace warmjoint::inline identification

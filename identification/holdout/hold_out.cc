@@ -19,12 +19,12 @@ std::optional<Metrics> HoldOut(const Identifier& identifier, const IdentifierInp
   const Fit fit = identifier.fit(before);
   Selection test = input.selection;
   test.keep.head(n) = false;
-  return Evaluate(fit, all, test, fit.initial_energy);
+  return Evaluate(fit, all, test, fit.Start());
 }
 
 std::optional<Metrics> HoldOut(const Identifier& identifier, const IdentifierInput& input,
                                const PreparedLog& other) {
-  constexpr double cold = 0;
+  const CourseStart cold;
   const LogView& seen = identifier.regime == Regime::transient ? other.taken() : other.steady();
   return Evaluate(identifier.fit(input), seen.measurements, seen.selection, cold);
 }

@@ -6,7 +6,6 @@
 
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
-#include "identification/forward/predict.h"
 #include "identification/inference/inference.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
@@ -19,6 +18,7 @@
 #include "identification/warming/warming_verdict.h"
 #include "models/friction/stribeck.h"
 #include "models/friction/viscous_coulomb.h"
+#include "models/recording/course_of.h"
 #include "models/recording/without_rest.h"
 
 namespace warmjoint::inline identification {

@@ -4,8 +4,8 @@
 
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
-#include "identification/forward/predict.h"
 #include "identification/inference/inference.h"
+#include "models/recording/course_of.h"
 
 namespace warmjoint::inline identification {
 namespace {

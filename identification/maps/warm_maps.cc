@@ -8,12 +8,12 @@
 
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
-#include "identification/forward/predict.h"
 #include "identification/inference/inference.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/maps/motor_maps.h"
 #include "identification/uncertainty/penalised_uncertainty.h"
 #include "identification/warming/warming_verdict.h"
+#include "models/recording/course_of.h"
 #include "models/recording/without_rest.h"
 
 namespace warmjoint::inline identification {

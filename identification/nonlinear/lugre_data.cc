@@ -80,7 +80,7 @@ LugreProblem ProblemOn(const Grid& grid, const IdentifierInput& input, const Mas
     }
   }
   const Mask use = used(grid.samples);
-  return {BristleCourse(time, still(grid.samples), grid.starts, m.torque(grid.samples)),
+  return {MotionPieces(time, still(grid.samples), grid.starts),
           std::move(acceleration),
           m.torque(grid.samples),
           {use, {}},

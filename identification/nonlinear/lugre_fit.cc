@@ -24,10 +24,10 @@ class Residuals {
   template <typename T>
   bool operator()(const T* x, T* residuals) const {
     using std::isfinite;
-    const auto n = static_cast<size_t>(problem_.course.size());
+    const auto n = static_cast<size_t>(problem_.motion.size());
     const std::array<T, 6> p = LugreValues(x);
     std::vector<T> force(n), load(n);
-    problem_.course.Run(p.data(), force.data(), load.data());
+    RunBristle<LuGre>(problem_.motion, problem_.torque, p.data(), force.data(), load.data());
     Eigen::Index row = 0;
     for (size_t k = 0; k < n; ++k) {
       const auto i = static_cast<Eigen::Index>(k);
@@ -150,10 +150,10 @@ LugreFit RefineLugre(const LugreProblem& problem, const LugrePoint& start) {
 }
 
 Eigen::VectorXd LugreTorque(const LugreProblem& problem, const LugrePoint& point) {
-  const Eigen::Index n = problem.course.size();
+  const Eigen::Index n = problem.motion.size();
   const auto p = LugreValues(point.x.data());
   Eigen::VectorXd force(n), load(n);
-  problem.course.Run(p.data(), force.data(), load.data());
+  RunBristle<LuGre>(problem.motion, problem.torque, p.data(), force.data(), load.data());
   return force + point.x[kLugreInertia] * problem.acceleration;
 }
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "identification/forward/bristle_course.h"
+#include "models/friction/lugre.h"
 #include "models/recording/measurements.h"
 #include "models/recording/selection.h"
 
@@ -26,9 +26,10 @@ enum LugreIndex : Eigen::Index {
   kLugreSize
 };
 
-/// tau = F + M a over the samples of `used`. The bristle runs over all samples.
+/// tau = F + M a over the samples of `used`. The bristle runs over all samples, bent at each start
+/// as the torque tells.
 struct LugreProblem {
-  BristleCourse course;
+  MotionPieces motion;           // of the N samples
   Eigen::VectorXd acceleration;  // [N] rad/s^2 or m/s^2
   Eigen::VectorXd torque;        // [N] N.m or N
   Selection used;                // samples of the fit

@@ -32,15 +32,15 @@ class Residuals {
     using std::isfinite;
     const Measurements& m = problem_.measurements;
     const T law[] = {x[0], x[1], x[2], exp(x[3]), T(problem_.exponent)};
-    const std::vector<Hold<T>> holds = HoldsOf(x);
+    const std::vector<ThermalHold<T>> holds = HoldsOf(x);
     T energy(0);
     for (Eigen::Index i = 0; i < m.size(); ++i) {
       const double v = m.velocity[i];
       T force = Stribeck::Force(v, law);
       if constexpr (P > kParameters) {
         force = WarmForce(v, force, energy);
-        const Hold<T>& hold = holds[problem_.intervals.which[i]];
-        energy = ThermalStep(hold.gain, hold.pole, energy, Loss(v, force));
+        const ThermalHold<T>& hold = holds[problem_.intervals.which[i]];
+        energy = ThermalStep(T(x[4] * hold.cooling), hold.pole, energy, Loss(v, force));
       }
       if (!isfinite(force)) return false;
       if (problem_.selection.keep[i]) *residuals++ = (force - m.torque[i]) / problem_.scale;
@@ -49,26 +49,17 @@ class Residuals {
   }
 
  private:
-  template <typename T>
-  struct Hold {
-    T gain, pole;
-  };
-
   /// Eq. (22) over each distinct interval; none without warming.
   template <typename T>
-  std::vector<Hold<T>> HoldsOf(const T* x) const {
-    std::vector<Hold<T>> holds;
+  std::vector<ThermalHold<T>> HoldsOf(const T* x) const {
+    std::vector<ThermalHold<T>> holds;
     if constexpr (P > kParameters) {
       using std::exp;
-      using std::expm1;
+      const T rate = exp(-x[5]);
       for (const double h : problem_.intervals.length) {
         // nothing is left where another recording starts cold
-        if (std::isinf(h)) {
-          holds.push_back({T(0), T(0)});
-          continue;
-        }
-        const T a = -h * exp(-x[5]);
-        holds.push_back({-x[4] * expm1(a), exp(a)});
+        holds.push_back(std::isinf(h) ? ThermalHold<T>{T(0), T(0), T(0)}
+                                      : ThermalHold<T>::Over(h * rate));
       }
     }
     return holds;

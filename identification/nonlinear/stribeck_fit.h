@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "identification/forward/intervals.h"
+#include "models/friction/intervals.h"
 #include "models/recording/measurements.h"
 #include "models/recording/selection.h"
 

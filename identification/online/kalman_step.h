@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <cmath>
 
+#include "models/friction/thermal.h"
+
 namespace warmjoint::inline identification {
 
 /// What is known of (p, k, ln tau, E): the d = D parameters of a linear law, the thermal gain and
@@ -53,24 +55,22 @@ void Predict(const KalmanSample<D>& sample, KalmanState<D>& state) {
   auto& [mean, covariance] = state;
   const Eigen::Index d = sample.levels.size();
   const double gain = mean[d];
-  const double a = sample.step / std::exp(mean[d + 1]);
-  const double cooling = -std::expm1(-a);
-  const double pole = 1 - cooling;
+  const ThermalHold<> hold = HoldOver(sample.step, std::exp(mean[d + 1]));
   const double energy = mean[d + 2];
   const double loss = sample.speed * (sample.levels.dot(mean.template head<D>(d)) + energy);
 
   // the row of E in the Jacobian of the motion; the others are those of the identity
   Eigen::Matrix<double, KalmanState<D>::kSize, 1> row(d + 3);
-  row.template head<D>(d) = gain * cooling * sample.speed * sample.levels;
-  row[d] = cooling * loss;
-  row[d + 1] = a * pole * (energy - gain * loss);
-  row[d + 2] = pole + gain * cooling * sample.speed;
+  row.template head<D>(d) = gain * hold.cooling * sample.speed * sample.levels;
+  row[d] = hold.cooling * loss;
+  row[d + 1] = hold.Slope() * (energy - gain * loss);
+  row[d + 2] = hold.pole + gain * hold.cooling * sample.speed;
 
   const Eigen::Matrix<double, KalmanState<D>::kSize, 1> cross = covariance * row;
   covariance.row(d + 2) = cross.transpose();
   covariance.col(d + 2) = cross;
   covariance(d + 2, d + 2) = row.dot(cross);
-  mean[d + 2] = pole * energy + gain * cooling * loss;
+  mean[d + 2] = ThermalStep(gain * hold.cooling, hold.pole, energy, loss);
 }
 
 /// One step, a pure function of its arguments. First the measurement, where there is one; then the

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "models/friction/thermal.h"
 #include "models/recording/sampling.h"
 
 namespace warmjoint::inline identification {
@@ -41,7 +42,8 @@ std::vector<LogGap> FindGaps(const Measurements& measurements) {
 Eigen::VectorXd JumpSpread(const std::vector<LogGap>& gaps, double warmest, double time_constant) {
   Eigen::VectorXd spread(static_cast<Eigen::Index>(gaps.size()));
   for (size_t i = 0; i < gaps.size(); ++i) {
-    spread[static_cast<Eigen::Index>(i)] = -warmest * std::expm1(-gaps[i].length / time_constant);
+    spread[static_cast<Eigen::Index>(i)] =
+        warmest * HoldOver(gaps[i].length, time_constant).cooling;
   }
   return spread;
 }

@@ -72,20 +72,21 @@ Products Filter(const Blocks& blocks, const Taus& tau) {
   const Eigen::Index d = blocks.levels.cols();
   Products products;
   products.columns.setZero(kTaus, d);
-  Taus x = Taus::Zero(), half = Taus::Zero();
+  Taus x = Taus::Zero();
+  ThermalHold<Taus> half = ThermalHold<Taus>::Over(Taus::Zero());
   double length = -1;
   for (Eigen::Index b = 0; b < blocks.length.size(); ++b) {
     if (std::abs(blocks.length[b] - length) > 1e-6 * length) {
       length = blocks.length[b];
-      half = (-0.5 * length / tau).exp();
+      half = ThermalHold<Taus>::Over(0.5 * length / tau);
     }
     const double loss = blocks.loss[b], weight = blocks.weight[b];
-    x = loss + half * (x - loss);
+    x = half.After(x, loss);
     const Taus weighted = weight * x;
     products.level += weighted * blocks.level[b];
     products.self += weighted * x;
     for (Eigen::Index i = 0; i < d; ++i) products.columns.col(i) += weighted * blocks.levels(b, i);
-    x = loss + half * (x - loss);
+    x = half.After(x, loss);
     if (blocks.last[static_cast<size_t>(b)]) x = Taus::Zero();
   }
   return products;

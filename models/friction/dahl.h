@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "models/friction/bristle_course.h"
 #include "models/friction/parameter_rows.h"
 #include "models/friction/pre_sliding.h"
 #include "models/friction/sign.h"
@@ -24,6 +25,14 @@ struct Dahl {
   template <typename T>
   static T Level(int, double, const T* p) {
     return p[0];
+  }
+
+  /// Along a motion: a bristle that carries F.
+  template <typename T>
+  using Course = BristleCourse<Dahl, T>;
+  template <typename T>
+  static LawBristle<T> BristleOf(const T* p) {
+    return {p[1], T(0), T(0)};
   }
 
   /// Steady sliding. v: rad/s or m/s; p: {kc, sigma0}; returns N.m or N.

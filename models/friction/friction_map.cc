@@ -1,5 +1,6 @@
 #include "models/friction/friction_map.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace warmjoint::inline models {
@@ -65,6 +66,12 @@ size_t FrictionMap::size() const {
   size_t count = 1;
   for (const MapAxis& axis : axes) count *= axis.kernels.size();
   return count;
+}
+
+const MapAxis* FindAxis(const FrictionMap& map, MapQuantity quantity) {
+  const auto is = [quantity](const MapAxis& axis) { return axis.quantity == quantity; };
+  const auto found = std::find_if(map.axes.begin(), map.axes.end(), is);
+  return found == map.axes.end() ? nullptr : &*found;
 }
 
 void CheckMap(const FrictionMap& map, const Place& place) {

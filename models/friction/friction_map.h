@@ -53,6 +53,9 @@ struct FrictionMap {
   size_t size() const;
 };
 
+/// The map's axis over that quantity, or nullptr.
+const MapAxis* FindAxis(const FrictionMap& map, MapQuantity quantity);
+
 /// Refuses, from `place`, sizes that do not fit, widths or periods that are not positive, centres
 /// that do not ascend, an axis with its sides apart that has a centre at 0, numbers not finite.
 void CheckMap(const FrictionMap& map, const Place& place);

@@ -1,7 +1,6 @@
 // The heat of a joint's own losses and of its surroundings, sampled.
 #pragma once
 
-#include <cmath>
 #include <optional>
 
 #include "models/friction/friction_description.h"
@@ -33,7 +32,7 @@ inline Heat DiscretiseHeat(const FrictionDescription& friction, double h) {
   if (!friction.thermal) return heat;
   heat.first = Discretise(*friction.thermal, h);
   heat.ambient_gain =
-      friction.level_per_temperature * -std::expm1(-h / friction.thermal->time_constant);
+      friction.level_per_temperature * HoldOver(h, friction.thermal->time_constant).cooling;
   if (friction.second_thermal) heat.second = Discretise(*friction.second_thermal, h);
   return heat;
 }

@@ -68,9 +68,8 @@ double JointFriction::HoldingLevel() const {
 
 double JointFriction::SlidingForce(double v, const JointPlace& place) const {
   const int side = Sign(v);
-  const double level = place.energy + terms_.At(side, std::abs(v), place);
-  const double slope = Slope(place.energy) - viscous_;
-  return law_.force(v, values_.data()) + slope * v + side * level;
+  const double level = AddedLevel(side, std::abs(v), place);
+  return law_.force(v, values_.data()) + SlopeChange(place.energy) * v + side * level;
 }
 
 /// L on each side of motion, N.m or N.

@@ -83,6 +83,18 @@ class JointFriction {
   /// is below 0. v: rad/s or m/s.
   double SlidingForce(double v, const JointPlace& place) const;
 
+  /// What heat, load and maps add to the law's level on one side of motion, N.m or N, and what heat
+  /// adds to its slope, N.m.s/rad or N.s/m. side: 1 or -1; speed: |v|, rad/s or m/s.
+  double AddedLevel(int side, double speed, const JointPlace& place) const {
+    return has_terms_ ? place.energy + terms_.At(side, speed, place) : place.energy;
+  }
+  double SlopeChange(double energy) const {
+    return per_energy_ == 0 ? 0 : Slope(energy) - viscous_;
+  }
+
+  /// The law's values in the order of its table.
+  const std::vector<double>& values() const { return values_; }
+
  private:
   template <typename L>
   struct Level;

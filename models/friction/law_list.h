@@ -22,8 +22,18 @@ T HoldingLevelOf(int side, double speed, const T* p) {
   }
 }
 
+/// Whether a law brings hidden state that follows a motion: a Course<T> as BristleCourse is one,
+/// with BeginSliding, BeginBent, Follow, Force, Loss and load.
+template <typename L>
+concept LawWithCourse = requires {
+  typename L::template Course<double>;
+};
+
 template <typename... L>
-struct LawList {};
+struct LawList {
+  static_assert(((LawWithCourse<L> == (L::pre_sliding == PreSliding::bristle)) && ...),
+                "a law with a bristle of its own needs a Course, and no other law has one");
+};
 
 /// All laws: a new one is its own header and one line here.
 using AllLaws = LawList<Coulomb, ViscousCoulomb, Asymmetric, Stiction, Stribeck, Dahl, LuGre>;

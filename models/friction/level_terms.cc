@@ -50,7 +50,7 @@ LevelTerms::LevelTerms(const FrictionDescription& friction)
 
 double LevelTerms::Maps(int side, double speed, const JointPlace& place) const {
   const double turn = 2 * std::numbers::pi;
-  const double motor = gear_ * place.position;
+  const double motor = place.motor_position.value_or(gear_ * place.position);
   const MapPoint<double> point{place.position, motor - turn * std::floor(motor / turn),
                                side * std::max(speed, kStill), place.energy, place.load};
   double sum = 0;

@@ -1,6 +1,7 @@
 // What maps and load add to the level of friction.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "models/friction/friction_description.h"
@@ -13,9 +14,10 @@ bool NeedsLoad(const FrictionDescription& friction);
 
 /// Where a joint is, besides its direction and speed.
 struct JointPlace {
-  double position = 0;  // rad or m
-  double energy = 0;    // E of all stages together, N.m or N
-  double load = 0;      // that the joint transmits, N.m or N, signed
+  double position = 0;                     // rad or m
+  double energy = 0;                       // E of all stages together, N.m or N
+  double load = 0;                         // that the joint transmits, N.m or N, signed
+  std::optional<double> motor_position{};  // rad; not given: the gear times the position
 };
 
 /// The part of the level that the law itself does not know:

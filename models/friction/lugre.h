@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "models/friction/bristle_course.h"
 #include "models/friction/parameter_rows.h"
 #include "models/friction/pre_sliding.h"
 #include "models/friction/sign.h"
@@ -35,11 +36,12 @@ struct LuGre {
     return StribeckLevel(speed, p[1], p[2], p[3]);
   }
 
-  /// F of a bristle that carries the load s = sigma0 z: s + sigma1 dz/dt + kv v.
-  /// v: rad/s or m/s; load: s, level: g(|v|), N.m or N; returns N.m or N.
+  /// Along a motion: a bristle that carries the load s = sigma0 z.
   template <typename T>
-  static T BristleForce(double v, const T& load, const T& level, const T* p) {
-    return load + p[5] * (v - std::abs(v) * load / level) + p[0] * v;
+  using Course = BristleCourse<LuGre, T>;
+  template <typename T>
+  static LawBristle<T> BristleOf(const T* p) {
+    return {p[4], p[5], p[0]};
   }
 
   /// Steady sliding. v: rad/s or m/s; p: {kv, kc, ks, vs, sigma0, sigma1}; returns N.m or N.

@@ -34,22 +34,54 @@ struct DiscreteThermal {
   double pole = 0;  // te, dimensionless
 };
 
-/// te = exp(-h/tau), ke = k (1 - te), by expm1 so that h << tau loses no digits. h: step, s.
+/// One step of Eq. (22). energy: E[i], N.m or N; loss: W[i], W. Returns E[i+1], which is exact when
+/// the loss is constant during the step; E[i] itself does not see W[i].
+template <typename T, typename W>
+T ThermalStep(const T& gain, const T& pole, const T& energy, const W& loss) {
+  return pole * energy + gain * loss;
+}
+
+/// The zero-order hold of Eq. (22) over one step, at unit gain, and its derivatives by
+/// theta = ln tau. With a = h/tau:
+///   te = exp(-a), dte/dtheta = a te, d2te/dtheta2 = a (a - 1) te.
+/// T: double, a dual number, or an Eigen::Array of several.
+template <typename T = double>
+struct ThermalHold {
+  T ratio;    // a
+  T pole;     // te
+  T cooling;  // 1 - te, by expm1 so that h << tau loses no digits
+
+  /// ratio: a, the step over the time constant.
+  static ThermalHold Over(const T& ratio) {
+    using std::exp;
+    using std::expm1;
+    return {ratio, T(exp(-ratio)), T(-expm1(-ratio))};
+  }
+
+  T Slope() const { return ratio * pole; }
+  T Curvature() const { return (ratio - 1) * Slope(); }
+
+  /// E[i+1] at unit gain, in J. energy: E[i], J; loss: W[i], W.
+  template <typename W>
+  T After(const T& energy, const W& loss) const {
+    return ThermalStep(cooling, pole, energy, loss);
+  }
+};
+
+/// The hold over a step of h, s.
+inline ThermalHold<> HoldOver(double h, double time_constant) {
+  return ThermalHold<>::Over(h / time_constant);
+}
+
+/// te = exp(-h/tau), ke = k (1 - te). h: step, s.
 inline DiscreteThermal Discretise(const Thermal& thermal, double h) {
-  const double cooling = -std::expm1(-h / thermal.time_constant);
-  return {thermal.gain * cooling, std::exp(-h / thermal.time_constant)};
+  const ThermalHold<> hold = HoldOver(h, thermal.time_constant);
+  return {thermal.gain * hold.cooling, hold.pole};
 }
 
 /// The inverse of Discretise: tau = -h / ln(te), k = ke / (1 - te). 0 < te < 1.
 inline Thermal Continuous(const DiscreteThermal& discrete, double h) {
   return {discrete.gain / (1 - discrete.pole), -h / std::log(discrete.pole)};
-}
-
-/// One step of Eq. (22). energy: E[i], N.m or N; loss: W[i], W. Returns E[i+1], which is exact when
-/// the loss is constant during the step; E[i] itself does not see W[i].
-template <typename T>
-T ThermalStep(const T& gain, const T& pole, const T& energy, const T& loss) {
-  return pole * energy + gain * loss;
 }
 
 /// F = Fn + sign(v) E, Eq. (20). nominal: Fn(v); energy: E; all N.m or N.

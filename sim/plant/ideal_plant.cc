@@ -4,9 +4,8 @@
 #include <numbers>
 
 #include "models/foundation/bad_input.h"
-#include "models/friction/level_terms.h"
+#include "models/friction/along_motion.h"
 #include "sim/plant/disturb_log.h"
-#include "sim/plant/ideal_friction.h"
 
 namespace warmjoint::inline sim {
 namespace {
@@ -75,9 +74,9 @@ class IdealPlant : public Plant {
     const auto plan = PlanMotion(scenario_.motion, scenario_.duration, {}, motion_stream);
     const SampledPlan samples = SamplePlan(plan, StartPosition(scenario_.motion, {}),
                                            scenario_.sampling.rate, scenario_.duration);
-    FrictionHistory friction =
-        SimulateFriction(FrictionOfPlant(), scenario_.initial_energy, 1 / scenario_.sampling.rate,
-                         CourseOf(samples), {scenario_.name});
+    Prediction friction =
+        AlongMotion(FrictionOfPlant()).Predict(CourseOf(samples), {scenario_.initial_energy});
+    RefusePush(samples, friction);
 
     Recording recording;
     recording.measurements = Measure(samples, friction.force, key);
@@ -95,6 +94,17 @@ class IdealPlant : public Plant {
   }
 
  private:
+  /// Beyond that sample the model has left its domain.
+  void RefusePush(const SampledPlan& samples, const Prediction& friction) const {
+    const Eigen::Index at = friction.feeds_itself;
+    if (at == samples.time.size()) return;
+    Refuse({scenario_.name},
+           "at {:g} s friction feeds itself: at a velocity of {:g} the energy state {:g} exceeds "
+           "the nominal friction, so that F = {:g} pushes; move slower before, rest, or lower "
+           "the thermal gain",
+           samples.time[at], samples.velocity[at], friction.energy[at], friction.force[at]);
+  }
+
   /// The load that the joint transmits, [N] N.m or N.
   Eigen::VectorXd Load(const Eigen::VectorXd& time) const {
     const LoadChange& change = scenario_.disturbances.load_change;
@@ -115,7 +125,8 @@ class IdealPlant : public Plant {
 
   JointCourse CourseOf(const SampledPlan& samples) const {
     const Disturbances& disturbances = scenario_.disturbances;
-    JointCourse course{samples.velocity, samples.position};
+    JointCourse course{samples.time, samples.velocity, samples.position};
+    course.step = 1 / scenario_.sampling.rate;
     course.load = TransmittedLoad(samples);
     course.ambient_rise = samples.time.unaryExpr(
         [&](double t) { return disturbances.ambient_temperature.RiseAt(t); });

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "models/foundation/bad_input.h"
+#include "models/friction/joint_friction.h"
 #include "models/robots/robot_folder.h"
 #include "sim/plant/disturb_log.h"
 #include "sim/plant/sampling.h"
@@ -44,7 +45,7 @@ class MujocoPlant : public Plant {
  public:
   explicit MujocoPlant(const Scenario& scenario)
       : scenario_(scenario),
-        two_stages_(scenario.friction.second_thermal.has_value()),
+        members_(StateOf(scenario.friction)),
         joint_(LoadSingleJoint(FindRobot(scenario.robot, scenario.name), scenario.joint,
                                scenario.friction, scenario.timestep, scenario.name)),
         data_(mj_makeData(joint_.model.get())),
@@ -171,7 +172,7 @@ class MujocoPlant : public Plant {
       const double position = d->qpos[0], velocity = d->qvel[0];
       if (stores) {
         truth.velocity[sample] = velocity;
-        truth.energy[sample] = state[1] + (two_stages_ ? state[2] : 0);
+        truth.energy[sample] = EnergyIn(state);
       }
       mj_step(m, d);
       if (reads) log.Read(position, velocity, torque, d->qfrc_bias[0]);
@@ -186,8 +187,17 @@ class MujocoPlant : public Plant {
 
   /// E1 as the scenario begins, and no other heat.
   void SetEnergy(mjtNum* state) const {
-    state[1] = scenario_.initial_energy;
-    if (two_stages_) state[2] = 0;
+    for (size_t i = 0; i < members_.size(); ++i) {
+      if (members_[i].value == &FrictionState::energy) state[i] = scenario_.initial_energy;
+      if (members_[i].value == &FrictionState::second_energy) state[i] = 0;
+    }
+  }
+
+  /// E1 + E2, N.m or N.
+  double EnergyIn(const mjtNum* state) const {
+    FrictionState friction;
+    for (size_t i = 0; i < members_.size(); ++i) friction.*members_[i].value = state[i];
+    return friction.energy + friction.second_energy;
   }
 
   void RefusePush(double time) const {
@@ -199,7 +209,7 @@ class MujocoPlant : public Plant {
   }
 
   const Scenario scenario_;
-  const bool two_stages_;
+  const std::vector<StateMember> members_;  // of the friction, as they stand in act
   SingleJointModel joint_;
   DataPtr data_;
   long steps_per_sample_;

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "identification/estimate.h"
 #include "tests/support/vectors.h"
 
@@ -7,7 +9,6 @@ namespace warmjoint {
 namespace {
 
 TEST(Metrics, ReproduceTheGoldenIndicators) {
-  WARMJOINT_NEED_SHARED("golden/golden.json");
   const nlohmann::json& golden = test::Golden().at("indicators");
   const int d = golden.at("d");
   const Metrics metrics =
@@ -19,6 +20,38 @@ TEST(Metrics, ReproduceTheGoldenIndicators) {
   EXPECT_NEAR(metrics.rmse, golden.at("RMSE"), 1e-12);
   EXPECT_NEAR(metrics.mae, golden.at("MAE"), 1e-12);
   EXPECT_EQ(metrics.n, 5);
+}
+
+TEST(Metrics, AreWhatAHandMakesOfFourSamples) {
+  // errors 1, -1, 3, -1: mean square 12/4, mean size 6/4
+  const Eigen::Vector4d measured(2, 4, 6, 8), fitted(1, 5, 3, 9);
+  const Metrics metrics = ComputeMetrics(measured, fitted, 1, 1);
+  EXPECT_DOUBLE_EQ(metrics.rmse, std::sqrt(3.0));
+  EXPECT_DOUBLE_EQ(metrics.mae, 1.5);
+  // about the mean 5: 9 + 1 + 1 + 9 = 20
+  EXPECT_DOUBLE_EQ(metrics.fit, 100 * (1 - std::sqrt(12.0 / 20)));
+  // 3 (1 + 1/4)/(1 - 1/4)
+  EXPECT_DOUBLE_EQ(metrics.fpe, 5);
+  EXPECT_EQ(metrics.n, 4);
+}
+
+TEST(Metrics, OfAPerfectFitAreThoseOfNoError) {
+  const Eigen::Vector3d measured(1, 2, 4);
+  const Metrics metrics = ComputeMetrics(measured, measured, 2, 1.5);
+  EXPECT_EQ(metrics.rmse, 0);
+  EXPECT_EQ(metrics.mae, 0);
+  EXPECT_EQ(metrics.fit, 100);
+  EXPECT_EQ(metrics.fpe, 0);
+  EXPECT_EQ(metrics.parameters, 2);
+  EXPECT_EQ(metrics.effective_parameters, 1.5);
+}
+
+TEST(Metrics, GiveAFitThatIsNoBetterThanTheMeanNoPerCent) {
+  const Eigen::Vector3d measured(1, 2, 6);
+  EXPECT_NEAR(ComputeMetrics(measured, Eigen::Vector3d::Constant(3), 1, 1).fit, 0, 1e-13);
+  // twice as far off as the mean
+  const Eigen::Vector3d worse = measured + 2 * (measured - Eigen::Vector3d::Constant(3));
+  EXPECT_NEAR(ComputeMetrics(measured, worse, 1, 1).fit, -100, 1e-12);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ std::filesystem::path SourceFolder();
 /// Root of the build: the program and the plugin lie here.
 std::filesystem::path BuildFolder();
 
-/// Real recordings, robots and golden numbers that are not part of the project: the environment
+/// Real recordings and robots that are not part of the project: the environment
 /// variable WARMJOINT_SHARED, else the folder set at configuration. It may not exist.
 std::filesystem::path SharedFolder();
 

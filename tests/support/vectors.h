@@ -8,13 +8,6 @@
 
 namespace warmjoint::test {
 
-/// [N] from a list of numbers.
-inline Eigen::VectorXd ToVector(const nlohmann::json& list) {
-  Eigen::VectorXd vector(list.size());
-  for (size_t i = 0; i < list.size(); ++i) vector[i] = list[i].get<double>();
-  return vector;
-}
-
 /// [R x C] from a list of rows.
 inline Eigen::MatrixXd ToMatrix(const nlohmann::json& rows) {
   Eigen::MatrixXd matrix(rows.size(), rows.at(0).size());

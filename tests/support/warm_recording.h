@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "identification/forward/predict.h"
 #include "models/foundation/random_stream.h"
+#include "models/recording/course_of.h"
 #include "tests/support/vectors.h"
 
 namespace warmjoint::test {

@@ -6,10 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "identification/forward/predict.h"
 #include "identification/options.h"
+#include "identification/warming/estimated_start.h"
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/excerpt.h"
+#include "models/recording/course_of.h"
 #include "models/recording/read_recording.h"
 #include "tools/suite/keep_recording.h"
 #include "tools/suite/run_command.h"
@@ -108,7 +109,10 @@ void AddDiscretePair(Estimate& estimate, const Measurements& measurements) {
 /// Figures of an estimate that brings a friction but none of its own.
 void AddMetrics(Estimate& estimate, const Measurements& measurements, const Selection& selection) {
   if (estimate.metrics || !estimate.friction || selection.count() == 0) return;
-  const Eigen::VectorXd force = PredictFriction(*estimate.friction, measurements).force;
+  const Eigen::VectorXd force =
+      PredictFriction(*estimate.friction, measurements, StartOf(estimate, measurements),
+                      BristleStart::torque)
+          .force;
   Eigen::VectorXd measured(selection.count()), fitted(selection.count());
   for (Eigen::Index i = 0, kept = 0; i < measurements.size(); ++i) {
     if (!selection.keep[i]) continue;

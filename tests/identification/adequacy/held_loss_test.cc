@@ -34,7 +34,7 @@ TEST(HeldLoss, IsWhatContinuousHeatAddsAtOneSpeed) {
   friction.thermal = Thermal{-3, 30};
   const Measurements m =
       test::RecordFriction(friction, 1, Eigen::VectorXd::Constant(60, 0.5), 0, 1);
-  const Eigen::VectorXd force = m.torque + ForceOfHeldLoss(friction, m, 0);
+  const Eigen::VectorXd force = m.torque + ForceOfHeldLoss(friction, m);
   const double level = 15 + 5 * 0.5, r = 1 + 3 * 0.5;
   for (Index n = 0; n < m.size(); ++n) {
     const double settled = level - level * (1 - 1 / r) * (1 - std::exp(-r * m.time[n] / 30));

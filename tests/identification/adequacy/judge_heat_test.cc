@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "identification/forward/predict.h"
 #include "identification/forward/thermal_filter.h"
+#include "models/recording/course_of.h"
 #include "tests/support/judging.h"
 #include "tests/support/travelling.h"
 
@@ -21,7 +21,7 @@ using ::testing::Not;
 /// Table I with E(0), N.m.
 Measurements Started(double energy, std::uint64_t seed) {
   Measurements m = RecordHour(test::TableOne(), seed, 0);
-  m.torque = PredictFriction(test::TableOne(), m, energy).force;
+  m.torque = PredictFriction(test::TableOne(), m, {energy}).force;
   RandomStream random({seed, 0}, Stream::torque_noise);
   for (double& torque : m.torque) torque += 0.5 * random.Normal();
   return m;
@@ -135,7 +135,7 @@ TEST(JudgeHeat, FindsATemperatureThatTheLogHolds) {
 
 TEST(JudgeHeat, SaysThatAJointWasWarmAtTheStart) {
   Measurements m = RecordHour(test::TableOne(), 1, 0);
-  m.torque = PredictFriction(test::TableOne(), m, -6).force;
+  m.torque = PredictFriction(test::TableOne(), m, {-6}).force;
   RandomStream random({1, 0}, Stream::torque_noise);
   for (double& torque : m.torque) torque += 0.1 * random.Normal();
   EXPECT_THAT(Answer("energy-ml", m).FullMessage(), HasSubstr("initial_energy=estimated"));

@@ -68,17 +68,14 @@ void FollowsTheGoldenIterations(const char* key) {
 }
 
 TEST(BlockDescent, FollowsTheGoldenIterationsFromStartA) {
-  WARMJOINT_NEED_SHARED("golden/golden.json");
   FollowsTheGoldenIterations("alg1_start_a");
 }
 
 TEST(BlockDescent, FollowsTheGoldenIterationsFromStartB) {
-  WARMJOINT_NEED_SHARED("golden/golden.json");
   FollowsTheGoldenIterations("alg1_start_b");
 }
 
 TEST(BlockDescent, EndsAtTheJointOpenLoopSolution) {
-  WARMJOINT_NEED_SHARED("golden/golden.json");
   const nlohmann::json& golden = test::Golden().at("dataset");
   const GoldenLoop loop;
   const Eigen::Vector4d end = loop.Discrete(loop.After({-3, 600}, 3000));
@@ -90,7 +87,6 @@ TEST(BlockDescent, EndsAtTheJointOpenLoopSolution) {
 }
 
 TEST(BlockDescent, ConvergesAtTheGoldenLinearRate) {
-  WARMJOINT_NEED_SHARED("golden/golden.json");
   const nlohmann::json& golden = test::Golden().at("dataset");
   const GoldenLoop loop;
   const double end = loop.After({-3, 600}, 3000).nominal[1];
@@ -101,7 +97,6 @@ TEST(BlockDescent, ConvergesAtTheGoldenLinearRate) {
 }
 
 TEST(BlockDescent, JacobianAgreesWithFiniteDifferences) {
-  WARMJOINT_NEED_SHARED("golden/golden.json");
   const GoldenLoop loop;
   DescentState state = loop.After({-3, 600}, 1);
   const Eigen::MatrixXd jacobian = loop.loop().Jacobian(state);

@@ -28,7 +28,6 @@ struct Example {
 };
 
 TEST(OutputError, FitsTheGoldenFirstIteration) {
-  WARMJOINT_NEED_SHARED("golden/golden.json");
   const auto& dataset = test::Golden()["dataset"];
   const auto& golden = dataset["oe_fit_first_iteration_a"];
   const double h = dataset["h"];

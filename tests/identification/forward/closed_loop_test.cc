@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "identification/linear/linear_laws.h"
+#include "models/friction/along_motion.h"
 #include "models/friction/viscous_coulomb.h"
 #include "tests/support/vectors.h"
 
@@ -30,7 +31,6 @@ void ExpectNear(const Eigen::MatrixXd& actual, const Eigen::MatrixXd& expected, 
 }
 
 TEST(ClosedLoop, ReproducesTheGoldenSimulation) {
-  WARMJOINT_NEED_SHARED("golden/golden.json");
   const nlohmann::json& golden = test::Golden().at("closed_sim");
   const Eigen::VectorXd v = test::ToVector(golden.at("v"));
   const Eigen::Vector2d p(golden.at("kv"), golden.at("kc"));
@@ -48,7 +48,6 @@ TEST(ClosedLoop, ReproducesTheGoldenSimulation) {
 }
 
 TEST(ClosedLoop, WarmsAtConstantSpeedAsTheClosedForm) {
-  WARMJOINT_NEED_SHARED("golden/golden.json");
   const nlohmann::json& golden = test::Golden().at("constant_speed");
   const double v = golden.at("v");
   const Thermal thermal = Continuous(DiscreteThermal{golden.at("ke"), golden.at("te")}, kStep);
@@ -111,6 +110,26 @@ TEST(ClosedLoop, AgreesWithFiniteDifferences) {
     differences.col(i) = (force(x + step) - force(x - step)) / (2 * step[i]);
   }
   ExpectNear(loop.Jacobian(x.head(2), {x[2], x[3]}, x[4]), differences, 1e-8);
+}
+
+TEST(ClosedLoop, IsTheForwardModelWithJumpsAndColdStarts) {
+  const Eigen::VectorXd time =
+      (Eigen::VectorXd(10) << 0, 1, 1.5, 4, 4.1, 9, 10, 20, 21, 22).finished();
+  const Eigen::VectorXd v =
+      (Eigen::VectorXd(10) << 0.5, -0.2, -0.8, 0, 0.9, 0.4, -0.7, 0.3, 0.6, -0.6).finished();
+  const FrictionDescription friction{
+      "viscous_coulomb", {{"viscous", 5}, {"coulomb", 15}}, Thermal{-0.8, 7}};
+  const ClosedLoop loop =
+      ClosedLoop(time, v, LawColumns(*FindLaw("viscous_coulomb"), v), {6}).WithJumps({2, 8});
+  const LoopResponse response =
+      loop.Simulate(Eigen::Vector2d(5, 15), *friction.thermal, -0.5, Eigen::Vector2d(0.3, -0.2));
+  JointCourse course{time, v};
+  course.starts = {6};
+  const Prediction p = AlongMotion(friction).Predict(course, {-0.5, 0, {{2, 0.3}, {8, -0.2}}});
+  // lambda E + feedback g against te E + ke W: rounding of ten steps
+  ExpectNear(response.force, p.force, 1e-14);
+  ExpectNear(response.loss, p.loss, 1e-14);
+  ExpectNear(response.energy, p.energy, 1e-14);
 }
 
 TEST(ClosedLoop, CoolsThroughRests) {

@@ -24,7 +24,6 @@ Eigen::VectorXd SomeLosses(Eigen::Index n) {
 }
 
 TEST(ThermalFilter, FollowsTheGoldenFilterFromItsInitialEnergy) {
-  WARMJOINT_NEED_SHARED("golden/golden.json");
   const auto& golden = test::Golden()["filter"];
   const double h = 0.5;
   const Thermal thermal = Continuous({golden["ke"], golden["te"]}, h);
@@ -36,7 +35,6 @@ TEST(ThermalFilter, FollowsTheGoldenFilterFromItsInitialEnergy) {
 }
 
 TEST(ThermalFilter, SensitivitiesAreTheGoldenOnesByTheChainRule) {
-  WARMJOINT_NEED_SHARED("golden/golden.json");
   const auto& golden = test::Golden()["oe_sens"];
   const double ke = golden["ke"], te = golden["te"], h = 2;
   const double tau = Continuous({ke, te}, h).time_constant;

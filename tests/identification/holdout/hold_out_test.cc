@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "identification/fit_parameters.h"
 #include "identification/preparation/select.h"
 #include "tests/support/warm_recording.h"
 
@@ -62,7 +63,23 @@ TEST(HoldOut, StartsAsWarmAsTheFitSays) {
     return fit;
   };
   Trial fit{{"started", "", {}, identify}, Recording(2, 0)};
-  fit.measurements.torque = PredictFriction(test::TableOne(), fit.measurements, -6).force;
+  fit.measurements.torque = PredictFriction(test::TableOne(), fit.measurements, {-6}).force;
+  EXPECT_LT(HoldOut(fit.identifier, fit.input(), 0.25)->rmse, 1e-12);
+}
+
+TEST(HoldOut, JumpsAtGapsAsTheFitSays) {
+  const auto identify = [](const IdentifierInput& input) {
+    Fit fit = KnowTableOne(input);
+    fit.jump_samples = {100};
+    fit.parameters = JumpParameters(Eigen::VectorXd::Constant(1, -2), input.measurements);
+    fit.parameters[0].estimated = false;
+    return fit;
+  };
+  Trial fit{{"jumps", "", {}, identify}, Recording(2, 0)};
+  Measurements& m = fit.measurements;
+  // ten minutes without samples while the joint moves
+  m.time.tail(900).array() += 600;
+  m.torque = PredictFriction(test::TableOne(), m, {0, 0, {{100, -2}}}).force;
   EXPECT_LT(HoldOut(fit.identifier, fit.input(), 0.25)->rmse, 1e-12);
 }
 

@@ -26,7 +26,6 @@ Measurements TableOneRecording(std::uint64_t seed, Eigen::Index rest = 0, double
 }
 
 TEST(EnergyEm, ReproducesTheGoldenFixedPoint) {
-  WARMJOINT_NEED_SHARED("golden/golden.json");
   const nlohmann::json& golden = test::Golden().at("dataset").at("joint_open");
   const Estimate estimate = Identify(test::GoldenRecording(), {{"iterations", "1000"},
                                                                {"start", "options"},

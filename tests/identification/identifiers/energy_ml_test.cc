@@ -65,7 +65,6 @@ void ExpectGolden(const Estimate& estimate, const nlohmann::json& golden) {
 
 // 1e-6 on parameters and 1e-10 on the cost: two iterative optimisers at one minimum
 TEST(EnergyMl, ReproducesTheGoldenMinimum) {
-  WARMJOINT_NEED_SHARED("golden/golden.json");
   const nlohmann::json& golden = test::Golden().at("dataset").at("joint_closed");
   const Measurements recording = test::GoldenRecording();
   const Estimate estimate = Fit(recording);
@@ -79,7 +78,6 @@ TEST(EnergyMl, ReproducesTheGoldenMinimum) {
 }
 
 TEST(EnergyMl, ReproducesTheGoldenMinimumWithInitialEnergy) {
-  WARMJOINT_NEED_SHARED("golden/golden.json");
   const nlohmann::json& golden = test::Golden().at("dataset").at("joint_closed_E0");
   const Estimate estimate = Fit(test::GoldenRecording(), {{"initial_energy", "estimated"}});
   ExpectGolden(estimate, golden);

@@ -30,7 +30,6 @@ Measurements Steps(const std::vector<double>& speeds) {
 }
 
 TEST(NominalLs, ReproducesTheGoldenSolutions) {
-  WARMJOINT_NEED_SHARED("golden/golden.json");
   const nlohmann::json& golden = test::Golden().at("dataset");
   const Measurements recording = test::GoldenRecording();
 

@@ -32,7 +32,7 @@ Estimate Identify(const Identifier& identifier, const Measurements& m, const std
   }
   const Options options(identifier.options, given, {});
   const Selection selection = SelectMoving(m);
-  return IdentifyUnjudged(identifier, {m, selection, options, {11, 3}});
+  return IdentifyUnjudged(identifier, {Prepare(m, selection), options, {11, 3}});
 }
 
 /// How far the friction of two estimates of the same noise is apart.

@@ -100,7 +100,6 @@ TEST(SelectConstantSpeed, KeepsEverySampleBetweenJumps) {
 }
 
 TEST(SelectConstantSpeed, KeepsEverySampleOfTheGoldenData) {
-  WARMJOINT_NEED_SHARED("golden/golden.json");
   const nlohmann::json& golden = test::Golden()["dataset"];
 
   Motion motion{golden["h"], golden["v"], {}};

@@ -15,7 +15,6 @@ namespace {
 class GoldenRidge : public ::testing::Test {
  protected:
   void SetUp() override {
-    WARMJOINT_NEED_SHARED("golden/golden.json");
     golden_ = test::Golden().at("ridge");
     const std::vector<double> position = golden_.at("p");
     const Eigen::VectorXd velocity = test::ToVector(golden_.at("v"));

@@ -39,7 +39,6 @@ void ExpectNear(const Eigen::MatrixXd& actual, const nlohmann::json& golden, dou
 
 // 1e-9: an inverse of a 4 x 4 or 5 x 5 matrix, formed in another order of operations
 TEST(CramerRao, ReproducesTheGoldenBound) {
-  WARMJOINT_NEED_SHARED("golden/golden.json");
   const nlohmann::json& golden = test::Golden().at("dataset");
   const Measurements recording = test::GoldenRecording();
   const CramerRao bound = CramerRaoBound(recording, SelectMoving(recording), GoldenTruth(),
@@ -50,7 +49,6 @@ TEST(CramerRao, ReproducesTheGoldenBound) {
 }
 
 TEST(CramerRao, ReproducesTheGoldenBoundWithUnknownInitialEnergy) {
-  WARMJOINT_NEED_SHARED("golden/golden.json");
   const nlohmann::json& golden = test::Golden().at("dataset").at("crlb_std_with_E0");
   const Measurements recording = test::GoldenRecording();
   const CramerRao bound =
@@ -59,7 +57,6 @@ TEST(CramerRao, ReproducesTheGoldenBoundWithUnknownInitialEnergy) {
 }
 
 TEST(CramerRao, DoesNotExistWithoutNoise) {
-  WARMJOINT_NEED_SHARED("golden/golden.json");
   const Measurements recording = test::GoldenRecording();
   Truth truth = GoldenTruth();
   truth.torque_noise = 0;
@@ -69,7 +66,6 @@ TEST(CramerRao, DoesNotExistWithoutNoise) {
 }
 
 TEST(Score, SumsTheBoundAsNpe) {
-  WARMJOINT_NEED_SHARED("golden/golden.json");
   const Measurements recording = test::GoldenRecording();
   const Score score =
       ScoreEstimate(Estimated({}), recording, SelectMoving(recording), GoldenTruth());
@@ -78,7 +74,6 @@ TEST(Score, SumsTheBoundAsNpe) {
 }
 
 TEST(Score, CountsWhatIsNotEstimatedAsZero) {
-  WARMJOINT_NEED_SHARED("golden/golden.json");
   const Measurements recording = test::GoldenRecording();
   const Score score =
       ScoreEstimate(Estimated({{"viscous", 5, "", 0.1, {{4.8, 5.2}}}, {"coulomb", 12, "", {}, {}}}),
@@ -99,7 +94,6 @@ TEST(Score, CountsWhatIsNotEstimatedAsZero) {
 }
 
 TEST(Score, LeavesParametersThatAreTrulyZeroOutOfTheNpe) {
-  WARMJOINT_NEED_SHARED("golden/golden.json");
   const Measurements recording = test::GoldenRecording();
   Truth truth = GoldenTruth();
   truth.friction.parameters["viscous"] = 0;

@@ -22,7 +22,6 @@ FrictionMap SmallMap() {
 }
 
 TEST(FrictionMap, WeighsTheGoldenKernelsOverPositionAndVelocity) {
-  WARMJOINT_NEED_SHARED("golden/golden.json");
   const nlohmann::json& golden = test::Golden().at("rbf2");
   FrictionMap map;
   map.axes = {

@@ -34,7 +34,6 @@ void ExpectGolden(const nlohmann::json& golden, const char* key, const GaussianA
 }
 
 TEST(GaussianAxis, ReproducesTheGoldenKernels) {
-  WARMJOINT_NEED_SHARED("golden/golden.json");
   const nlohmann::json& golden = test::Golden().at("rbf1");
   const GaussianAxis axis{golden.at("mu"), golden.at("sigma"), {}, Sides::together};
   ExpectGolden(golden, "phi", axis, KernelKind::plain);
@@ -42,7 +41,6 @@ TEST(GaussianAxis, ReproducesTheGoldenKernels) {
 }
 
 TEST(GaussianAxis, ReproducesTheGoldenKernelsOnTheCircle) {
-  WARMJOINT_NEED_SHARED("golden/golden.json");
   const nlohmann::json& golden = test::Golden().at("rbf_periodic");
   const GaussianAxis axis{golden.at("mu"), golden.at("sigma"), golden.at("period"),
                           Sides::together};

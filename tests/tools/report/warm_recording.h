@@ -2,8 +2,8 @@
 #pragma once
 
 #include "identification/estimate.h"
-#include "identification/forward/predict.h"
 #include "models/foundation/random_stream.h"
+#include "models/recording/course_of.h"
 #include "models/recording/measurements.h"
 #include "models/recording/selection.h"
 

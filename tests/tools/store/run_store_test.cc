@@ -153,7 +153,11 @@ TEST(RunStore, StartsAnewWhereNothingWasStoredYet) {
   std::filesystem::create_directory(scratch.path() / "run");
   std::ofstream(scratch.path() / "run/.lock");
   std::ofstream(scratch.path() / "run/results.sqlite");
-  EXPECT_NO_THROW(RunStore::CreateOrResume(scratch.path() / "run", TwoIdentifiers()));
+  const RunStore store = RunStore::CreateOrResume(scratch.path() / "run", TwoIdentifiers());
+  EXPECT_TRUE(store.Finished().empty());
+  EXPECT_TRUE(store.ReadResults().empty());
+  EXPECT_EQ(store.ReadDescription().identifiers.size(), TwoIdentifiers().identifiers.size());
+  EXPECT_TRUE(RunStore::OpenToRead(scratch.path() / "run").ReadResults().empty());
 }
 
 }  // namespace

@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <numbers>
 
-#include "identification/forward/predict.h"
+#include "identification/warming/estimated_start.h"
+#include "models/recording/course_of.h"
 #include "models/recording/motor_angle.h"
 #include "tools/report/draw/ticks.h"
-#include "tools/report/figures/friction_at.h"
 #include "tools/report/figures/friction_spread.h"
 
 namespace warmjoint::report {
@@ -48,15 +48,8 @@ std::string NameInFolder(const std::filesystem::path& path) {
   return path.parent_path().filename() / path.filename();
 }
 
-double InitialEnergy(const Estimate& estimate) {
-  const EstimatedParameter* found = estimate.Find("initial_energy");
-  return found ? found->value : 0;
-}
-
-}  // namespace
-
-FitView MakeFitView(const Measurements& measurements, const Selection& selection,
-                    const Estimate& estimate) {
+FitView WithoutFit(const Measurements& measurements, const Selection& selection,
+                   const Estimate& estimate) {
   FitView view;
   view.source = NameInFolder(measurements.source);
   view.joint = measurements.joint;
@@ -70,18 +63,32 @@ FitView MakeFitView(const Measurements& measurements, const Selection& selection
   if (estimate.gravity) TakeGravityOff(*estimate.gravity, view);
   view.motor_angle = MotorAngle(measurements);
 
-  view.has_fit = estimate.friction.has_value();
-  if (!view.has_fit) return view;
-  const double initial = InitialEnergy(estimate);
-  const Prediction prediction =
-      PredictFriction(*estimate.friction, measurements, initial, BristleStart::torque);
-  view.fitted = prediction.force;
-  view.energy = prediction.energy;
+  view.course = CourseOf(measurements);
+  view.start = StartOf(estimate, measurements);
+  return view;
+}
+
+}  // namespace
+
+FitView MakeFitView(const Measurements& measurements, const Selection& selection,
+                    const Estimate& estimate) {
+  if (!estimate.friction) return WithoutFit(measurements, selection, estimate);
+  return MakeFitView(measurements, selection, estimate,
+                     PredictFriction(*estimate.friction, measurements,
+                                     StartOf(estimate, measurements), BristleStart::torque));
+}
+
+FitView MakeFitView(const Measurements& measurements, const Selection& selection,
+                    const Estimate& estimate, const Prediction& given) {
+  FitView view = WithoutFit(measurements, selection, estimate);
+  view.has_fit = true;
+  view.fitted = given.force;
+  view.energy = given.energy;
   if (view.warms()) {
-    const FrictionSpread spread = SpreadOf(estimate, measurements, selection);
+    const FrictionSpread spread = SpreadOf(estimate, view.course, view.start, selection);
     view.energy_std = SpreadOfPrediction(
         spread, *estimate.friction, [&](const FrictionDescription& friction) -> Eigen::VectorXd {
-          return PredictFriction(friction, measurements, initial).energy;
+          return AlongMotion(friction).Predict(view.course, view.start).energy;
         });
   }
   return view;
@@ -106,10 +113,15 @@ Eigen::VectorXd KeptOrGap(const FitView& view, const Eigen::VectorXd& all) {
   return result;
 }
 
-double FrictionAtSample(const FitView& view, const std::vector<FrictionMap>& maps, Eigen::Index i) {
-  const double motor = view.motor_angle.size() ? view.motor_angle[i] : 0;
-  return FrictionAt(*view.estimate.friction, maps,
-                    {view.position[i], motor, view.velocity[i], view.energy[i], 0});
+JointFriction SlidingWith(const FitView& view, std::vector<FrictionMap> maps) {
+  FrictionDescription friction = *view.estimate.friction;
+  friction.maps = std::move(maps);
+  return JointFriction(friction);
+}
+
+JointPlace PlaceAt(const FitView& view, Eigen::Index i) {
+  const double load = view.course.load.size() > 0 ? view.course.load[i] : 0;
+  return {view.position[i], view.energy[i], load, view.course.motor_position[i]};
 }
 
 double WarmestEnergy(const FitView& view) {

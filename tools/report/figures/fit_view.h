@@ -5,6 +5,7 @@
 #include <string>
 
 #include "identification/estimate.h"
+#include "models/friction/along_motion.h"
 #include "models/recording/measurements.h"
 #include "models/recording/selection.h"
 
@@ -24,6 +25,8 @@ struct FitView {
   Eigen::VectorXd torque;    // torque_unit, less gravity where the estimate has it
   /// Motor angle, rad, 0 ... 2 pi; empty where neither it nor a gear is known.
   Eigen::VectorXd motor_angle;
+  JointCourse course;  // what the forward model reads of the recording
+  CourseStart start;   // what the estimate says of its heat at first and at gaps
 
   // with a friction in the estimate alone
   bool has_fit = false;
@@ -40,6 +43,10 @@ struct FitView {
 FitView MakeFitView(const Measurements& measurements, const Selection& selection,
                     const Estimate& estimate);
 
+/// The same with what the friction gave along the recording, where that is known.
+FitView MakeFitView(const Measurements& measurements, const Selection& selection,
+                    const Estimate& estimate, const Prediction& given);
+
 /// The entries of the kept samples. all: [N]; returns [n].
 Eigen::VectorXd KeptOf(const FitView& view, const Eigen::VectorXd& all);
 
@@ -49,9 +56,11 @@ Eigen::VectorXd Residuals(const FitView& view);
 /// The entries with NaN at the samples that are not kept, so that lines break there. all: [N].
 Eigen::VectorXd KeptOrGap(const FitView& view, const Eigen::VectorXd& all);
 
-/// The friction at sample i of the recording, without its maps where `maps` is empty: torque_unit.
-/// maps: of the estimate's friction, or some of them.
-double FrictionAtSample(const FitView& view, const std::vector<FrictionMap>& maps, Eigen::Index i);
+/// The force of steady sliding with some of the estimate's maps, or none.
+JointFriction SlidingWith(const FitView& view, std::vector<FrictionMap> maps);
+
+/// Where the joint was at sample i of the recording, as SlidingForce reads it.
+JointPlace PlaceAt(const FitView& view, Eigen::Index i);
 
 /// The energy of largest size that the recording reached, torque_unit.
 double WarmestEnergy(const FitView& view);

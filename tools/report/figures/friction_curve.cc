@@ -11,12 +11,12 @@ namespace {
 constexpr int kPoints = 60;
 constexpr double kNormal95 = 1.96;  // standard deviations of a 95 % interval
 
-/// Fn(v) + sign(v) energy, Eq. (20), at each speed.
-Eigen::VectorXd CurveOf(const FrictionDescription& friction, const Eigen::VectorXd& speeds,
+/// The force of steady sliding without maps and load, Eq. (20), at each speed.
+Eigen::VectorXd CurveOf(FrictionDescription friction, const Eigen::VectorXd& speeds,
                         double energy) {
-  const Law& law = *FindLaw(friction.law);
-  const std::vector<double> values = LawValues(friction);
-  return speeds.unaryExpr([&](double v) { return law.force(v, values.data()) + Sign(v) * energy; });
+  friction.maps.clear();
+  const JointFriction joint(friction);
+  return speeds.unaryExpr([&](double v) { return joint.SlidingForce(v, {0, energy, 0}); });
 }
 
 /// Speeds of one direction from the slowest to the fastest kept one; empty where it never moved so.
@@ -62,15 +62,11 @@ Plot FrictionCurve(const FitView& view) {
   plot.series.push_back({"measured", Hue::grey, Scatter{velocity, torque, 1.1}});
   std::vector<Eigen::VectorXd> shown{torque};
   if (view.has_fit) {
-    Measurements motion;
-    motion.time = view.time;
-    motion.velocity = view.velocity;
-    motion.position = view.position;
-    if (view.motor_angle.size() > 0) motion.motor_position = view.motor_angle;
     // parameters and maps stand in for each other: the spread of the law alone says nothing then
     const bool has_maps = !view.estimate.friction->maps.empty();
     const FrictionSpread spread =
-        has_maps ? FrictionSpread{} : SpreadOf(view.estimate, motion, view.selection);
+        has_maps ? FrictionSpread{}
+                 : SpreadOf(view.estimate, view.course, view.start, view.selection);
     const std::string what = has_maps ? "law without its maps" : "fit";
     AddCurves(plot, view, spread, 0, Hue::blue, view.warms() ? what + ", cold" : what, shown);
     if (view.warms()) {

@@ -7,7 +7,6 @@
 
 #include "tools/report/draw/ticks.h"
 #include "tools/report/figures/axes.h"
-#include "tools/report/figures/friction_at.h"
 
 namespace warmjoint::report {
 namespace {
@@ -48,17 +47,16 @@ HeatMap LevelMap(const FitView& view, const Across& across, double energy) {
               {0, 1},
               TorqueLabel(view, "sign(v) · friction")};
   const double middle = KeptOf(view, view.position).mean();
+  const JointFriction sliding(*view.estimate.friction);
   for (Eigen::Index row = 0; row < kRows; ++row) {
     const double v = fastest * (2 * (static_cast<double>(row) + 0.5) / kRows - 1);
     for (Eigen::Index column = 0; column < kColumns; ++column) {
       const double share = (static_cast<double>(column) + 0.5) / kColumns;
-      MapPoint<double> point{middle, 0, v, energy, 0};
-      point[static_cast<size_t>(across.quantity)] =
-          across.axis.lower + share * (across.axis.upper - across.axis.lower);
-      const FrictionDescription& friction = *view.estimate.friction;
-      map.values(row, column) = std::abs(v) < slowest
-                                    ? std::nan("")
-                                    : Sign(v) * FrictionAt(friction, friction.maps, point);
+      const double angle = across.axis.lower + share * (across.axis.upper - across.axis.lower);
+      const bool over_motor = across.quantity == MapQuantity::motor_position;
+      const JointPlace place{over_motor ? middle : angle, energy, 0, over_motor ? angle : 0};
+      map.values(row, column) =
+          std::abs(v) < slowest ? std::nan("") : Sign(v) * sliding.SlidingForce(v, place);
     }
   }
   return map;

@@ -3,8 +3,6 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "identification/forward/predict.h"
-
 namespace warmjoint::report {
 namespace {
 
@@ -32,18 +30,20 @@ double ValueOf(const FrictionDescription& friction, const std::string& name) {
 
 /// dF/dp at the kept samples by central differences, [n x d].
 Eigen::MatrixXd Derivatives(const Estimate& estimate, const std::vector<std::string>& names,
-                            const Measurements& measurements, const Selection& selection) {
+                            const JointCourse& course, const CourseStart& start,
+                            const Selection& selection) {
   const Eigen::Index n = selection.count();
   Eigen::MatrixXd jacobian(n, static_cast<Eigen::Index>(names.size()));
   for (std::size_t i = 0; i < names.size(); ++i) {
     const double value = ValueOf(*estimate.friction, names[i]);
     const double step = kRelativeStep * std::max(std::abs(value), 1e-3);
-    const Eigen::VectorXd up =
-        PredictFriction(Changed(*estimate.friction, names[i], step), measurements).force;
-    const Eigen::VectorXd down =
-        PredictFriction(Changed(*estimate.friction, names[i], -step), measurements).force;
+    const auto force = [&](double change) -> Eigen::VectorXd {
+      const AlongMotion changed(Changed(*estimate.friction, names[i], change));
+      return changed.Predict(course, start).force;
+    };
+    const Eigen::VectorXd up = force(step), down = force(-step);
     Eigen::Index row = 0;
-    for (Eigen::Index k = 0; k < measurements.size(); ++k) {
+    for (Eigen::Index k = 0; k < course.time.size(); ++k) {
       if (selection.keep[k]) {
         jacobian(row++, static_cast<Eigen::Index>(i)) = (up[k] - down[k]) / (2 * step);
       }
@@ -67,15 +67,15 @@ FrictionDescription Changed(const FrictionDescription& friction, const std::stri
   return changed;
 }
 
-FrictionSpread SpreadOf(const Estimate& estimate, const Measurements& measurements,
-                        const Selection& selection) {
+FrictionSpread SpreadOf(const Estimate& estimate, const JointCourse& course,
+                        const CourseStart& start, const Selection& selection) {
   FrictionSpread spread;
   if (!estimate.friction) return spread;
   const std::vector<std::string> names = NamesOf(estimate);
   if (names.empty()) return spread;
 
   // correlations from the data, with columns of norm 1 so that units do not matter
-  Eigen::MatrixXd jacobian = Derivatives(estimate, names, measurements, selection);
+  Eigen::MatrixXd jacobian = Derivatives(estimate, names, course, start, selection);
   const Eigen::VectorXd norms = jacobian.colwise().norm();
   jacobian = jacobian * norms.cwiseInverse().asDiagonal();
   const Eigen::FullPivLU<Eigen::MatrixXd> solver(jacobian.transpose() * jacobian);

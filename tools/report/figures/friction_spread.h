@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 
 #include "identification/estimate.h"
-#include "models/recording/measurements.h"
+#include "models/friction/along_motion.h"
 #include "models/recording/selection.h"
 
 namespace warmjoint::report {
@@ -19,8 +19,9 @@ struct FrictionSpread {
   bool is_known() const { return covariance.size() > 0; }
 };
 
-FrictionSpread SpreadOf(const Estimate& estimate, const Measurements& measurements,
-                        const Selection& selection);
+/// course, start: of the recording that the estimate was fitted to.
+FrictionSpread SpreadOf(const Estimate& estimate, const JointCourse& course,
+                        const CourseStart& start, const Selection& selection);
 
 /// The friction with one of its parameters changed by `step`.
 FrictionDescription Changed(const FrictionDescription& friction, const std::string& name,

@@ -8,7 +8,6 @@
 #include "tools/report/draw/ticks.h"
 #include "tools/report/figures/axes.h"
 #include "tools/report/figures/fit_panels.h"
-#include "tools/report/figures/friction_at.h"
 #include "tools/report/figures/motor_angle.h"
 #include "tools/report/figures/speed_groups.h"
 
@@ -32,8 +31,9 @@ std::vector<FrictionMap> MapsOverMotor(const FrictionDescription& friction, bool
 /// The friction at every sample with these maps, NaN where the sample is not kept.
 Eigen::VectorXd ForceWith(const FitView& view, const std::vector<FrictionMap>& maps) {
   Eigen::VectorXd force = Eigen::VectorXd::Constant(view.time.size(), std::nan(""));
+  const JointFriction sliding = SlidingWith(view, maps);
   for (Eigen::Index i = 0; i < force.size(); ++i) {
-    if (view.selection.keep[i]) force[i] = FrictionAtSample(view, maps, i);
+    if (view.selection.keep[i]) force[i] = sliding.SlidingForce(view.velocity[i], PlaceAt(view, i));
   }
   return force;
 }

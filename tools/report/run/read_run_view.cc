@@ -4,6 +4,7 @@
 
 #include "identification/preparation/select.h"
 #include "models/foundation/bad_input.h"
+#include "models/recording/course_of.h"
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"
 #include "tools/board/leaderboard.h"
@@ -173,7 +174,7 @@ Eigen::MatrixXd BoundCovariance(const Suite& suite, const RunRow& row) {
     const Measurements& m = recording.measurements;
     bound.friction = recording.truth.friction;
     spread = SpreadOf(
-        bound, m,
+        bound, CourseOf(m), {recording.truth.initial_energy},
         suite.scenario.plant == PlantKind::ideal ? SelectMoving(m) : SelectConstantSpeed(m));
   } catch (const BadInput&) {
     return {};

@@ -31,11 +31,11 @@ SimulationView MakeSimulationView(const Scenario& scenario, const Recording& rec
   Selection selection =
       scenario.plant == PlantKind::ideal ? SelectMoving(m) : SelectConstantSpeed(m);
   KeepTrulyConstant(recording.truth, selection);
-  SimulationView view{scenario, recording, MakeFitView(m, selection, truth)};
   // the truth's own, not what the sampled motion says of it
-  view.fit.energy = recording.truth.energy;
-  view.fit.fitted = recording.truth.force;
-  return view;
+  Prediction known;
+  known.force = recording.truth.force;
+  known.energy = recording.truth.energy;
+  return {scenario, recording, MakeFitView(m, selection, truth, known)};
 }
 
 bool IsSimulation(const std::filesystem::path& directory) {

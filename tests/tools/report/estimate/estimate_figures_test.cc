@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <string>
+#include <vector>
 
 #include "tests/tools/report/look.h"
 #include "tests/tools/report/mapped_recording.h"
@@ -56,14 +58,19 @@ TEST(EstimateFigures, ShowWhatTheEstimateAloneTellsWithoutItsRecording) {
   }
 }
 
-TEST(EstimateFigures, StandWithoutAFriction) {
+TEST(EstimateFigures, ShowTheRecordingAloneWithoutAFriction) {
   EstimateView view = ExampleView();
   view.estimate.friction.reset();
   view.estimate.trace.clear();
   view = MakeEstimateView(view.estimate, view.measurements);
+  std::vector<std::string> shown;
   for (const EstimateFigure& one : EstimateFigures()) {
-    if (const auto figure = one.make(view)) DrawLight(*figure);
+    const auto figure = one.make(view);
+    if (!figure) continue;
+    shown.push_back(one.name);
+    EXPECT_FALSE(DrawLight(*figure).plots.empty()) << one.name;
   }
+  EXPECT_THAT(shown, testing::ElementsAre("fit", "envelope", "motor_angle"));
 }
 
 TEST(Trace, ShowsEachParameterByIterationWithItsFinalInterval) {

@@ -5,8 +5,8 @@
 
 #include <Eigen/LU>
 
-#include "identification/forward/predict.h"
 #include "identification/identifier.h"
+#include "models/recording/course_of.h"
 #include "tests/tools/report/look.h"
 #include "tests/tools/report/warm_recording.h"
 #include "tools/report/figures/fit_panels.h"
@@ -138,7 +138,8 @@ TEST(FrictionSpread, AgreesWithTheClosedFormOfALinearLaw) {
       {"viscous", 5, "", std::sqrt(covariance(0, 0)), {}},
       {"coulomb", 15, "", std::sqrt(covariance(1, 1)), {}},
   };
-  const FrictionSpread spread = SpreadOf(warm.estimate, warm.measurements, warm.selection);
+  const FrictionSpread spread =
+      SpreadOf(warm.estimate, CourseOf(warm.measurements), {}, warm.selection);
   ASSERT_EQ(spread.names, (std::vector<std::string>{"coulomb", "viscous"}));
   // derivatives by central differences of a linear function: rounding alone
   EXPECT_NEAR(spread.covariance(0, 1), covariance(0, 1), 1e-6 * std::abs(covariance(0, 1)));
@@ -158,7 +159,7 @@ TEST(FrictionSpread, AgreesWithTheClosedFormOfALinearLaw) {
 TEST(FrictionSpread, IsUnknownWithoutDeviations) {
   WarmRecording warm;
   for (EstimatedParameter& parameter : warm.estimate.parameters) parameter.std.reset();
-  EXPECT_FALSE(SpreadOf(warm.estimate, warm.measurements, warm.selection).is_known());
+  EXPECT_FALSE(SpreadOf(warm.estimate, CourseOf(warm.measurements), {}, warm.selection).is_known());
   DrawLight(MakeFitPage(MakeFitView(warm.measurements, warm.selection, warm.estimate)));
 }
 

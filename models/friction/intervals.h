@@ -6,7 +6,7 @@
 
 #include "models/friction/thermal.h"
 
-namespace warmjoint::inline identification {
+namespace warmjoint::inline models {
 
 /// Intervals of a recording. Lengths that differ by less than a millionth count as one.
 struct Intervals {
@@ -19,15 +19,20 @@ struct Intervals {
 /// starts: samples, above 0, at which the joint is cold again.
 Intervals FindIntervals(const Eigen::VectorXd& time, const std::vector<Eigen::Index>& starts = {});
 
-/// Eq. (22) over one interval, in the continuous parameters: E <- pole E + gain W.
-struct ThermalHold {
+/// N samples that are all h apart, s.
+inline Intervals EvenIntervals(Eigen::Index n, double h) {
+  return {{h}, std::vector<int>(static_cast<size_t>(n), 0), h};
+}
+
+/// ThermalHold over one interval, as inner loops want it: E <- pole E + gain W.
+struct IntervalHold {
   double pole = 0;        // te = exp(-h/tau)
   double cooling = 0;     // 1 - te
   double gain = 0;        // ke = k (1 - te)
-  double pole_slope = 0;  // dte/dlog(tau) = te h/tau
+  double pole_slope = 0;  // dte/dlog(tau)
 };
 
 /// One for each distinct interval. After an infinite one nothing is left of energy or loss.
-std::vector<ThermalHold> Holds(const Intervals& intervals, const Thermal& thermal);
+std::vector<IntervalHold> Holds(const Intervals& intervals, const Thermal& thermal);
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint::inline models

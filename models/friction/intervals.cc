@@ -1,12 +1,10 @@
-#include "identification/forward/intervals.h"
+#include "models/friction/intervals.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "models/foundation/robust_noise.h"
-
-namespace warmjoint::inline identification {
+namespace warmjoint::inline models {
 namespace {
 
 constexpr double kSame = 1e-6;  // relative
@@ -59,19 +57,18 @@ Intervals FindIntervals(const Eigen::VectorXd& time, const std::vector<Eigen::In
   return intervals;
 }
 
-std::vector<ThermalHold> Holds(const Intervals& intervals, const Thermal& thermal) {
-  std::vector<ThermalHold> holds;
+std::vector<IntervalHold> Holds(const Intervals& intervals, const Thermal& thermal) {
+  std::vector<IntervalHold> holds;
   holds.reserve(intervals.length.size());
   for (const double h : intervals.length) {
     if (std::isinf(h)) {
       holds.push_back({0, 0, 0, 0});
       continue;
     }
-    const DiscreteThermal discrete = Discretise(thermal, h);
-    const double ratio = h / thermal.time_constant;
-    holds.push_back({discrete.pole, -std::expm1(-ratio), discrete.gain, discrete.pole * ratio});
+    const ThermalHold<> hold = HoldOver(h, thermal.time_constant);
+    holds.push_back({hold.pole, hold.cooling, thermal.gain * hold.cooling, hold.Slope()});
   }
   return holds;
 }
 
-}  // namespace warmjoint::inline identification
+}  // namespace warmjoint::inline models

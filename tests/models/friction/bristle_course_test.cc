@@ -1,7 +1,8 @@
-#include "identification/forward/bristle_course.h"
+#include "models/friction/bristle_course.h"
 
 #include <gtest/gtest.h>
 
+#include "models/friction/lugre.h"
 #include "models/friction/lugre_bristle.h"
 #include "tests/support/bristle_recording.h"
 
@@ -11,7 +12,8 @@ namespace {
 Eigen::VectorXd ForceAlong(const FrictionDescription& friction, const Measurements& m) {
   const std::vector<double> p = LawValues(friction);
   Eigen::VectorXd force(m.size()), load(m.size());
-  BristleCourse(m.time, m.velocity, m.starts).Run(p.data(), force.data(), load.data());
+  RunBristle<LuGre>(MotionPieces(m.time, m.velocity, m.starts), {}, p.data(), force.data(),
+                    load.data());
   return force;
 }
 
@@ -21,8 +23,8 @@ TEST(BristleCourse, IsExactAtConstantSpeed) {
   velocity[0] = 0;
   const std::vector<double> p = LawValues(test::LuGreJoint());
   Eigen::VectorXd force(50), load(50);
-  BristleCourse(0.01 * Eigen::VectorXd::LinSpaced(50, 0, 49), velocity, {})
-      .Run(p.data(), force.data(), load.data());
+  const MotionPieces pieces(0.01 * Eigen::VectorXd::LinSpaced(50, 0, 49), velocity, {});
+  RunBristle<LuGre>(pieces, {}, p.data(), force.data(), load.data());
   double s = load[1];
   for (Eigen::Index i = 2; i < 50; ++i) {
     const auto level = [&](int side) { return LuGre::Level(side, 0.1, p.data()); };

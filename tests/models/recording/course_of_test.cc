@@ -1,4 +1,4 @@
-#include "identification/forward/predict.h"
+#include "models/recording/course_of.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,6 @@ namespace warmjoint {
 namespace {
 
 TEST(PredictFriction, FollowsTheGoldenClosedLoop) {
-  WARMJOINT_NEED_SHARED("golden/golden.json");
   const nlohmann::json& golden = test::Golden().at("closed_sim");
   const double h = 0.25;
   const Thermal thermal = Continuous({golden.at("ke"), golden.at("te")}, h);
@@ -20,7 +19,7 @@ TEST(PredictFriction, FollowsTheGoldenClosedLoop) {
   const Eigen::VectorXd velocity = test::ToVector(golden.at("v"));
   const Measurements motion = test::Record(h, velocity, 0 * velocity);
 
-  const Prediction prediction = PredictFriction(friction, motion, golden.at("E0"));
+  const Prediction prediction = PredictFriction(friction, motion, {golden.at("E0")});
   // 1e-12: closed form, through one logarithm and back
   const Eigen::VectorXd force = test::ToVector(golden.at("F"));
   EXPECT_LT((prediction.force - force).norm(), 1e-12 * force.norm());
@@ -33,8 +32,7 @@ TEST(PredictFriction, HoldsTheNominalLawWhereNothingWarms) {
   FrictionDescription friction = test::TableOne();
   friction.thermal.reset();
   const Eigen::VectorXd velocity = test::AlternatingSpeeds(100, 1, 30);
-  const Prediction prediction =
-      PredictFriction(friction, test::Record(1, velocity, 0 * velocity), 0);
+  const Prediction prediction = PredictFriction(friction, test::Record(1, velocity, 0 * velocity));
   for (Eigen::Index i = 0; i < 100; ++i) {
     EXPECT_DOUBLE_EQ(prediction.force[i], 5 * velocity[i] + 15 * Sign(velocity[i]));
   }
@@ -43,7 +41,7 @@ TEST(PredictFriction, HoldsTheNominalLawWhereNothingWarms) {
 TEST(PredictFriction, CoolsThroughAGapInTime) {
   Measurements motion = test::Record(1, Eigen::VectorXd::Zero(5), Eigen::VectorXd::Zero(5));
   motion.time << 0, 1, 2, 602, 603;
-  const Prediction prediction = PredictFriction(test::TableOne(), motion, -8);
+  const Prediction prediction = PredictFriction(test::TableOne(), motion, {-8});
   // 1e-12: closed form
   EXPECT_NEAR(prediction.energy[3], -8 * std::exp(-602.0 / 600), 8e-12);
 }
@@ -74,7 +72,7 @@ TEST(PredictFriction, BendsTheBristleAsTheTorqueTells) {
   const Eigen::VectorXd sliding = PredictFriction(friction, m).force;
   EXPECT_NEAR(sliding[0], 15, 1e-9);
   EXPECT_NEAR(sliding[100], 15, 1e-9);
-  const Eigen::VectorXd bent = PredictFriction(friction, m, 0, BristleStart::torque).force;
+  const Eigen::VectorXd bent = PredictFriction(friction, m, {}, BristleStart::torque).force;
   EXPECT_NEAR(bent[0], 3, 1e-9);
   // ds/dx = sigma0 (1 - s/15)
   EXPECT_NEAR(bent[100], 15 - 12 * std::exp(-2000 * 0.001 / 15), 1e-9);

@@ -1,4 +1,4 @@
-#include "identification/forward/intervals.h"
+#include "models/friction/intervals.h"
 
 #include <gmock/gmock.h>
 
@@ -25,7 +25,7 @@ TEST(Intervals, AreKeptApartWhereTheyDiffer) {
 TEST(Holds, AreTheDiscretePairOfEachInterval) {
   Intervals intervals;
   intervals.length = {1, 15};
-  const std::vector<ThermalHold> holds = Holds(intervals, {-3, 600});
+  const std::vector<IntervalHold> holds = Holds(intervals, {-3, 600});
   EXPECT_EQ(holds[1].pole, std::exp(-15.0 / 600));
   EXPECT_NEAR(holds[1].gain, -3 * (1 - std::exp(-15.0 / 600)), 1e-14);
   // te of a slightly larger tau: a difference quotient with a step of 1e-6

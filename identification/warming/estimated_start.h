@@ -1,0 +1,15 @@
+// What an estimate says of the heat that its recording began with.
+#pragma once
+
+#include "identification/estimate.h"
+#include "models/friction/along_motion.h"
+#include "models/recording/measurements.h"
+
+namespace warmjoint::inline identification {
+
+/// E(0) and the jumps of E at the recording's gaps (gaps.h), as far as the estimate has them: its
+/// parameters initial_energy and energy_jump_1, energy_jump_2, ... What is not estimated is 0.
+/// measurements: those that the estimate was fitted to.
+CourseStart StartOf(const Estimate& estimate, const Measurements& measurements);
+
+}  // namespace warmjoint::inline identification

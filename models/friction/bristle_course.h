@@ -1,0 +1,113 @@
+// One bristle along a recorded motion: how laws that have one remember where they came from.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+#include "models/friction/motion_pieces.h"
+#include "models/friction/sign.h"
+
+namespace warmjoint::inline models {
+
+/// The bristle that a law brings, and the slope beside it.
+template <typename T>
+struct LawBristle {
+  T stiffness;  // sigma0, N.m/rad or N/m
+  T damping;    // sigma1, N.m.s/rad or N.s/m
+  T slope;      // kv, N.m.s/rad or N.s/m
+};
+
+/// The bristle of law L on its way from sample to sample. Its load s follows
+///   ds/dx = sigma0 (1 - s / t) sign(v),   t = (g(|v|) + A) sign(v),
+/// with the law's level g and whatever else joins it, A: heat, maps, load. Over a piece of travel
+/// dx, on which t goes linearly from t0 to t1,
+///   s' = t1 + (s - t0) exp(-q) - (t1 - t0) (1 - exp(-q)) / q,   q = sigma0 |dx| 2 / |t0 + t1|,
+/// exact at constant speed and level, of second order else, and stable for any q. A level that A
+/// takes below 0 counts as 0 for the bristle, and what it lacks takes from the viscous force.
+/// L: a law with Level and BristleOf; T: double, or a dual number.
+template <typename L, typename T = double>
+class BristleCourse {
+ public:
+  /// p: of the law's table; stays where it is.
+  explicit BristleCourse(const T* p) : p_(p), bristle_(L::BristleOf(p)) {}
+
+  /// A recording begins at velocity v in steady sliding, or bent as its torque tells:
+  /// s = tau - kv v, within the level. added: A, N.m or N.
+  void BeginSliding(double v, double added) {
+    level_ = L::Level(Sign(v), std::abs(v), p_);
+    load_ = static_cast<double>(Sign(v)) * WithAdded(added);
+  }
+  void BeginBent(double v, double added, double torque) {
+    level_ = L::Level(Sign(v), std::abs(v), p_);
+    const T limit = WithAdded(added);
+    const T carried = torque - bristle_.slope * v;
+    load_ = carried > limit ? limit : carried < -limit ? T(-limit) : carried;
+  }
+
+  /// before, after: A on the piece's side at its begin and end, N.m or N.
+  void Follow(const MotionPiece& piece, double before, double after) {
+    using std::expm1;
+    const T from = WithAdded(before);
+    level_ = L::Level(piece.side, piece.speed, p_);
+    const T to = WithAdded(after);
+    const T q = bristle_.stiffness * (2 * piece.travel) / (from + to);
+    const T gone = -expm1(-q);
+    const double side = piece.side;
+    load_ = side * to + (load_ - side * from) * (1.0 - gone) - side * (to - from) * gone / q;
+  }
+
+  /// F = s + sigma1 dz/dt + kv v, dz/dt = v - |v| s / (g + A), at the last sample. N.m or N
+  T Force(double v, double added) const {
+    const T force = load_ + bristle_.damping * Bending(v, added) + bristle_.slope * v;
+    const T level = level_ + added;
+    return added < 0 && level < T(0) ? T(force + static_cast<double>(Sign(v)) * level) : force;
+  }
+
+  /// W = F v - s dz/dt, what is not stored in the bristle, W.
+  T Loss(double v, double added) const {
+    return std::max(T(0), Force(v, added) * v - load_ * Bending(v, added));
+  }
+
+  /// s, N.m or N.
+  const T& load() const { return load_; }
+
+ private:
+  T WithAdded(double added) const {
+    const T level = level_ + added;
+    return added < 0 && level < T(0) ? T(0) : level;
+  }
+
+  /// dz/dt, rad/s or m/s; 0 where there is no level to bend against.
+  T Bending(double v, double added) const {
+    const T level = WithAdded(added);
+    return level == T(0) ? T(0) : T(v - std::abs(v) * load_ / level);
+  }
+
+  const T* p_;
+  LawBristle<T> bristle_;
+  T level_{0};  // g at the last sample or piece, N.m or N
+  T load_{0};
+};
+
+/// F and s of a cold joint without maps at every sample of a motion. torque: [N] N.m or N, that
+/// tells how the bristle is bent at each start, or empty: in steady sliding. p: of the law's table;
+/// force, load: [N] N.m or N.
+template <typename L, typename T>
+void RunBristle(const MotionPieces& motion, const Eigen::VectorXd& torque, const T* p, T* force,
+                T* load) {
+  BristleCourse<L, T> course(p);
+  for (Eigen::Index i = 0; i < motion.size(); ++i) {
+    const double v = motion.velocity(i);
+    if (motion.Begins(i) && torque.size() > 0) {
+      course.BeginBent(v, 0, torque[i]);
+    } else if (motion.Begins(i)) {
+      course.BeginSliding(v, 0);
+    }
+    for (const MotionPiece& piece : motion.Before(i)) course.Follow(piece, 0, 0);
+    force[i] = course.Force(v, 0);
+    load[i] = course.load();
+  }
+}
+
+}  // namespace warmjoint::inline models

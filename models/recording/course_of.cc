@@ -1,0 +1,20 @@
+#include "models/recording/course_of.h"
+
+namespace warmjoint::inline models {
+
+JointCourse CourseOf(const Measurements& measurements, BristleStart bristle) {
+  const Measurements& m = measurements;
+  JointCourse course{m.time, m.velocity, m.position};
+  course.motor_position = m.motor_position.value_or(m.gear * m.position);
+  if (m.load) course.load = *m.load;
+  if (bristle == BristleStart::torque) course.torque = m.torque;
+  course.starts = m.starts;
+  return course;
+}
+
+Prediction PredictFriction(const FrictionDescription& friction, const Measurements& measurements,
+                           const CourseStart& start, BristleStart bristle) {
+  return AlongMotion(friction).Predict(CourseOf(measurements, bristle), start);
+}
+
+}  // namespace warmjoint::inline models

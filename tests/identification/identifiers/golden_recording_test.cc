@@ -1,0 +1,74 @@
+// Identifiers against recordings that the project did not make.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "identification/adequacy/judge.h"
+#include "identification/preparation/finer_input.h"
+#include "identification/preparation/select.h"
+#include "tests/support/vectors.h"
+
+namespace warmjoint {
+namespace {
+
+/// The recording of a law, as a log.
+Measurements GoldenLog(const std::string& law) {
+  const test::GoldenMotion golden = test::ReadGoldenMotion(law);
+  Measurements m = test::Record(golden.course.step, golden.course.velocity, golden.force);
+  m.source = law;
+  return m;
+}
+
+/// What an identifier makes of the log as the command line prepares it: samples at constant speed.
+Estimate Identify(const std::string& name, const Measurements& m,
+                  const std::map<std::string, std::string>& given) {
+  const Identifier& identifier = FindIdentifier(name);
+  const Options options(identifier.options, given, {});
+  const Selection selection = SelectConstantSpeed(m);
+  EXPECT_GT(selection.count(), m.size() / 2);
+  return identifier.identify({m, selection, options, {}});
+}
+
+/// Largest relative error of the law's parameters, k and tau.
+double LargestError(const std::string& law, const Estimate& estimate) {
+  const FrictionDescription truth = test::ReadGoldenMotion(law).friction;
+  std::map<std::string, double> values = truth.parameters;
+  values["thermal_gain"] = truth.thermal->gain;
+  values["thermal_time_constant"] = truth.thermal->time_constant;
+  values.erase("stribeck_exponent");
+  double largest = 0;
+  for (const auto& [name, value] : values) {
+    const EstimatedParameter* found = estimate.Find(name);
+    if (!found) ADD_FAILURE() << name << ": " << estimate.FullMessage();
+    if (found) largest = std::max(largest, std::abs(found->value / value - 1));
+  }
+  return largest;
+}
+
+TEST(GoldenRecording, IsRecoveredByMaximumLikelihood) {
+  for (const char* law : {"coulomb", "viscous_coulomb", "asymmetric"}) {
+    const Estimate estimate = Identify("energy-ml", GoldenLog(law), {{"law", law}});
+    EXPECT_EQ(estimate.status, Status::ok) << estimate.FullMessage();
+    EXPECT_LT(LargestError(law, estimate), 1e-6) << law;  // an iterative optimiser
+  }
+}
+
+TEST(GoldenRecording, OfTheStribeckEffectIsRecovered) {
+  const Estimate estimate = Identify("stribeck", GoldenLog("stribeck"), {{"warming", "estimated"}});
+  EXPECT_EQ(estimate.status, Status::ok) << estimate.FullMessage();
+  EXPECT_LT(LargestError("stribeck", estimate), 1e-6);  // an iterative optimiser
+}
+
+TEST(GoldenRecording, IsRecoveredByTheAlternatingMethodAndTheFilter) {
+  const Measurements m = GoldenLog("viscous_coulomb");
+  const Estimate alternating = Identify("energy-em", m, {{"iterations", "500"}});
+  EXPECT_EQ(alternating.status, Status::ok) << alternating.FullMessage();
+  // it stops where an iteration changes little; its error shrinks by a few per cent in each
+  EXPECT_LT(LargestError("viscous_coulomb", alternating), 1e-3);
+  const Estimate filtered = Identify("kalman", m, {});
+  EXPECT_EQ(filtered.status, Status::ok) << filtered.FullMessage();
+  EXPECT_LT(LargestError("viscous_coulomb", filtered), 1e-3);
+}
+
+}  // namespace
+}  // namespace warmjoint
