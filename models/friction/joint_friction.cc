@@ -39,14 +39,17 @@ JointFriction::JointFriction(const FrictionDescription& friction)
       law_(*FindLaw(friction.law)),
       values_(LawValues(friction)),
       state_(StateOf(friction)),
-      terms_(friction),
-      has_terms_(!terms_.empty()),
+      terms_(std::make_shared<const LevelTerms>(friction)),
+      has_terms_(!terms_->empty()),
       viscous_(ValueOf(friction, "viscous")),
       per_energy_(friction.viscous_per_energy) {
+  second_stage_ = friction.second_thermal.has_value();
+  slips_ = law_.pre_sliding == PreSliding::breakaway;
   if (law_.pre_sliding == PreSliding::bristle) {
     own_bristle_ =
         Bristle{ValueOf(friction, "bristle_stiffness"), ValueOf(friction, "bristle_damping")};
   }
+  friction_.maps.clear();
   ChooseStep(AllLaws{});
 }
 
@@ -63,7 +66,7 @@ void JointFriction::SetTimestep(double h) {
 
 double JointFriction::HoldingLevel() const {
   const double* p = values_.data();
-  return std::max(law_.holding_level(1, p), law_.holding_level(-1, p)) + terms_.LargestAtRest();
+  return std::max(law_.holding_level(1, p), law_.holding_level(-1, p)) + terms_->LargestAtRest();
 }
 
 double JointFriction::SlidingForce(double v, const JointPlace& place) const {
@@ -86,7 +89,7 @@ struct JointFriction::Level {
     const bool slides = slips && side * v > 0;
     double level = slides ? L::Level(side, speed, p) : HoldingLevelOf<L>(side, speed, p);
     level += place.energy;
-    if (joint.has_terms_) level += joint.terms_.At(side, speed, place);
+    if (joint.has_terms_) level += joint.terms_->At(side, speed, place);
     return level;
   }
 };

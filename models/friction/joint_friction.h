@@ -1,6 +1,7 @@
 // Friction of one joint from step to step: law, bristle, maps and heat together.
 #pragma once
 
+#include <memory>
 #include <string_view>
 #include <vector>
 
@@ -54,6 +55,7 @@ struct FrictionStep {
 ///   L(side) = g(side, |v|) + E + maps and load (LevelTerms),   E = E1 + E2.
 /// Sliding, F is Eq. (20) with maps exactly and W = |F v| (19); at rest the bristle holds, W = 0.
 /// E takes the exact zero-order-hold step (22) and does not see the loss of its own step.
+/// Copies share their maps.
 class JointFriction {
  public:
   /// friction: checked (CheckFriction).
@@ -64,13 +66,20 @@ class JointFriction {
   double timestep() const { return h_; }
 
   /// Slope of a cold joint's force over speed, at most, N.m.s/rad or N.s/m: kv and the maps'.
-  double SteepestSlope() const { return viscous_ + terms_.SteepestSlope(); }
+  double SteepestSlope() const { return viscous_ + terms_->SteepestSlope(); }
 
   /// The law's own bristle; none where the step chooses it (MakeBristle).
   const std::optional<Bristle>& own_bristle() const { return own_bristle_; }
 
   /// The members of the state that it needs (StateOf).
   const std::vector<StateMember>& state() const { return state_; }
+
+  /// The state that an engine holds in the order of state(); a number that is not finite counts as
+  /// 0, so that it does not stay. values: [state().size()].
+  FrictionState Load(const double* values) const;
+
+  /// The inverse. values: [state().size()].
+  void Store(const FrictionState& state, double* values) const;
 
   /// The largest load that a cold joint holds at rest, at most, N.m or N; without load_gain's part.
   double HoldingLevel() const;
@@ -86,7 +95,7 @@ class JointFriction {
   /// What heat, load and maps add to the law's level on one side of motion, N.m or N, and what heat
   /// adds to its slope, N.m.s/rad or N.s/m. side: 1 or -1; speed: |v|, rad/s or m/s.
   double AddedLevel(int side, double speed, const JointPlace& place) const {
-    return has_terms_ ? place.energy + terms_.At(side, speed, place) : place.energy;
+    return has_terms_ ? place.energy + terms_->At(side, speed, place) : place.energy;
   }
   double SlopeChange(double energy) const {
     return per_energy_ == 0 ? 0 : Slope(energy) - viscous_;
@@ -105,11 +114,13 @@ class JointFriction {
   void ChooseStep(LawList<L...>);
   double Slope(double energy) const { return std::max(0.0, viscous_ + per_energy_ * energy); }
 
-  FrictionDescription friction_;
+  FrictionDescription friction_;  // without its maps
   Law law_;
   std::vector<double> values_;  // of the law's table
   std::vector<StateMember> state_;
-  LevelTerms terms_;
+  bool second_stage_ = false;  // the third state is the second energy
+  bool slips_ = false;         // the last state is the slip
+  std::shared_ptr<const LevelTerms> terms_;
   bool has_terms_;
   double viscous_ = 0;
   double per_energy_ = 0;
@@ -119,5 +130,21 @@ class JointFriction {
   Bristle unit_;  // of an effective inertia of 1
   FrictionStep (*step_)(const JointFriction&, const FrictionState&, const JointMotion&) = nullptr;
 };
+
+inline FrictionState JointFriction::Load(const double* values) const {
+  const auto finite = [](double value) { return value - value == 0 ? value : 0; };
+  FrictionState state{finite(values[0]), finite(values[1])};
+  values += 2;
+  if (second_stage_) state.second_energy = finite(*values++);
+  if (slips_) state.slip = finite(*values);
+  return state;
+}
+
+inline void JointFriction::Store(const FrictionState& state, double* values) const {
+  *values++ = state.bristle;
+  *values++ = state.energy;
+  if (second_stage_) *values++ = state.second_energy;
+  if (slips_) *values = state.slip;
+}
 
 }  // namespace warmjoint::inline models

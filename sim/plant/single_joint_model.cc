@@ -7,7 +7,7 @@
 #include "sim/model/friction_actuator.h"
 #include "sim/model/load_model.h"
 #include "sim/model/spec_elements.h"
-#include "sim/plugin/check_actuator.h"
+#include "sim/plugin/check_joint.h"
 #include "sim/plugin/friction_instance.h"
 
 namespace warmjoint::inline sim {

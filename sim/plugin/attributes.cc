@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "models/foundation/excerpt.h"
 #include "models/foundation/parse_number.h"
@@ -33,6 +34,7 @@ std::vector<PluginAttribute> MakeAttributes() {
       {"law", "", fmt::format("{}", fmt::join(LawNames(), ", ")), "the nominal law"},
       {"file", "", "path", "friction file instead of all the other attributes"},
       {"joints", "", "JSON", "friction of each joint by its name, instead of all the others"},
+      {"instance", "", "text", "the instance's own name, so that a prefix of the model is known"},
       {"folder", "", "path", "folder from which file starts where it is relative"},
       {"gear", "rad/rad", "not 0", "motor turns for each joint turn; 1 where not given"},
   };
@@ -67,7 +69,8 @@ fs::path Locate(const fs::path& file, const fs::path& folder) {
 /// Refuses every attribute that is given beside `whole`, which stands for all of friction.
 void RefuseBeside(const std::string& whole, const AttributeReader& read, const Place& place) {
   for (const PluginAttribute& attribute : PluginAttributes()) {
-    if (attribute.name == whole || attribute.name == "folder") continue;
+    const bool beside = attribute.name == "folder" || attribute.name == "instance";
+    if (beside || attribute.name == whole) continue;
     if (read(attribute.name).empty()) continue;
     Refuse(place, "{0} is '{1}' beside {2} '{3}'; give {2} or the other attributes", attribute.name,
            Excerpt(read(attribute.name)), whole, Excerpt(read(whole)));
@@ -114,10 +117,25 @@ std::vector<FrictionMap> ReadMaps(const std::string& text, const Place& place) {
   return maps;
 }
 
+/// The object of joints; of a name given twice JSON would keep the last alone.
+nlohmann::json ParseJoints(const std::string& text, const Place& place) {
+  using nlohmann::json;
+  std::set<std::string> names;
+  const auto refuse_twice = [&](int depth, json::parse_event_t event, json& value) {
+    if (event != json::parse_event_t::key || depth != 1) return true;
+    const auto name = value.get<std::string>();
+    if (!names.insert(name).second) {
+      Refuse(place, "joints names '{}' twice; take one out", Excerpt(name));
+    }
+    return true;
+  };
+  return json::parse(text, refuse_twice, false);
+}
+
 FrictionOfJoints ReadJoints(const AttributeReader& read, const Place& place) {
   using nlohmann::json;
   RefuseBeside("joints", read, place);
-  const json object = json::parse(read("joints"), nullptr, false);
+  const json object = ParseJoints(read("joints"), place);
   if (!object.is_object() || object.empty()) {
     Refuse(place, "joints is no JSON object of joint names and their friction");
   }
@@ -167,6 +185,16 @@ FrictionOfJoints ReadAttributes(const AttributeReader& read, const Place& place)
   if (!read("joints").empty()) return ReadJoints(read, place);
   const std::string file = read("file");
   return {{"", file.empty() ? ReadInline(read, place) : ReadFile(file, read, place)}};
+}
+
+std::string FileStamp(const AttributeReader& read) {
+  const std::string file = read("file");
+  if (file.empty()) return "";
+  const fs::path path = Locate(file, read("folder"));
+  std::error_code absent;
+  const auto size = fs::file_size(path, absent);
+  const auto time = fs::last_write_time(path, absent).time_since_epoch().count();
+  return fmt::format("{} {} {}", path.string(), size, time);
 }
 
 }  // namespace warmjoint::inline sim

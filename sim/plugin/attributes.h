@@ -18,8 +18,8 @@ struct PluginAttribute {
   std::string meaning;
 };
 
-/// All attributes: `law`, `file`, `joints`, `folder`, `gear`, the parameters of every law, the
-/// thermal ones, the options (FrictionOptions), `maps`.
+/// All attributes: `law`, `file`, `joints`, `instance`, `folder`, `gear`, the parameters of every
+/// law, the thermal ones, the options (FrictionOptions), `maps`.
 const std::vector<PluginAttribute>& PluginAttributes();
 
 /// Reads the value of an attribute by its name; empty where it was not given.
@@ -30,7 +30,12 @@ using FrictionOfJoints = std::map<std::string, FrictionDescription>;
 
 /// The friction that the attributes describe, checked. Throws BadInput, from `place`, naming
 /// attribute, value and bound for: no number ("5x"), a value out of bounds, a parameter that the
-/// law lacks or needs, `file` or `joints` beside attributes that they would contradict.
+/// law lacks or needs, `file` or `joints` beside attributes that they would contradict, a joint
+/// twice in `joints`.
 FrictionOfJoints ReadAttributes(const AttributeReader& read, const Place& place);
+
+/// Path, size and time of the friction file that the attributes name, which tell whether it is still
+/// the same; empty where they name none.
+std::string FileStamp(const AttributeReader& read);
 
 }  // namespace warmjoint::inline sim

@@ -1,146 +1,190 @@
 #include "sim/plugin/friction_instance.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "models/foundation/bad_input.h"
-#include "models/foundation/excerpt.h"
-#include "models/foundation/nearest_name.h"
 #include "sim/plugin/check_actuator.h"
+#include "sim/plugin/check_joint.h"
 
 namespace warmjoint::inline sim {
 namespace {
 
-FrictionOfJoints ReadInstance(const mjModel* m, int instance) {
-  const auto read = [&](const std::string& name) -> std::string {
-    const char* text = mj_getPluginConfig(m, instance, name.c_str());
-    return text ? text : "";
-  };
-  return ReadAttributes(read, {InstanceName(m, instance)});
+/// Whether the actuator's group is switched off.
+bool Disabled(const mjModel* m, int actuator) {
+  const int group = m->actuator_group[actuator];
+  return group >= 0 && group < 31 && (m->opt.disableactuator >> group & 1);
 }
 
-/// The friction of an actuator's joint, which is taken out of those that have still to find theirs.
-FrictionDescription FrictionOf(const mjModel* m, int actuator, const FrictionOfJoints& all,
-                               std::vector<std::string>& waiting) {
-  if (const auto every = all.find(""); every != all.end()) return every->second;
-  const bool joint = m->actuator_trntype[actuator] == mjTRN_JOINT;
-  const char* found = joint ? mj_id2name(m, mjOBJ_JOINT, m->actuator_trnid[2 * actuator]) : nullptr;
-  const std::string name = found ? found : "";
-  const auto friction = all.find(name);
-  if (name.empty() || friction == all.end()) {
-    std::vector<std::string> names;
-    for (const auto& [known, unused] : all) names.push_back(known);
-    Refuse({ActuatorName(m, actuator)}, "joints has no joint '{}'{}", Excerpt(name),
-           Suggestion(name, names));
-  }
-  std::erase(waiting, name);
-  return friction->second;
+/// Whether the engine leaves out all passive forces.
+bool PassiveForcesOff(const mjModel* m) {
+  constexpr int both = mjDSBL_SPRING | mjDSBL_DAMPER;
+  return (m->opt.disableflags & both) == both;
 }
+
+double Finite(double value) { return std::isfinite(value) ? value : 0; }
 
 }  // namespace
 
 FrictionInstance::FrictionInstance(const mjModel* m, int instance)
-    : instance_(instance), timestep_(m->opt.timestep) {
-  const FrictionOfJoints all = ReadInstance(m, instance);
-  std::vector<std::string> waiting;
-  for (const auto& [name, unused] : all) {
-    if (!name.empty()) waiting.push_back(name);
-  }
-  for (int i = 0; i < m->nactuator; ++i) {
-    if (m->actuator_plugin[i] == instance) Bind(m, i, FrictionOf(m, i, all, waiting));
-  }
-  if (joints_.empty() || waiting.empty()) return;
-  Refuse({InstanceName(m, instance)},
-         "joints names '{}', which no actuator of the instance drives; add one, or take it out",
-         Excerpt(waiting.front()));
+    : instance_(instance), bound_(m, instance, kFrictionReports) {
+  Rebind(m);
 }
 
-void FrictionInstance::Bind(const mjModel* m, int actuator, const FrictionDescription& friction) {
-  Joint joint{.friction = JointFriction(friction)};
-  joint.friction.SetTimestep(timestep_);
-  CheckActuator(m, actuator, joint.friction);
-  joint.needs_load = NeedsLoad(friction);
-  joint.needs_ambient = friction.level_per_temperature != 0;
-  if (joint.needs_ambient && m->actuator_ctrlnum[actuator] == 0) {
-    Refuse({ActuatorName(m, actuator)},
-           "has no control, which would be the ambient temperature's rise");
+/// Makes scratch of the right size, and the joints ready for the model's step.
+void FrictionInstance::Rebind(const mjModel* m) {
+  if (!bound_.FitsModel(m)) bound_ = BoundJoints(m, instance_, kFrictionReports);
+  size_t states = 0;
+  bool load = false;
+  for (const BoundJoint& joint : bound_.joints()) {
+    states += joint.friction.state().size();
+    load = load || joint.needs_load;
   }
-  const int driven = m->actuator_trnid[2 * actuator];
-  joint.actuator = actuator;
-  joint.dof = m->jnt_dofadr[driven];
-  joint.position = m->jnt_qposadr[driven];
-  joint.state = m->actuator_actadr[actuator];
-  joint.control = m->actuator_ctrladr[actuator];
-  joint.output = m->actuator_outadr[actuator];
-  joints_.push_back(std::move(joint));
+  force_.assign(bound_.joints().size(), 0);
+  next_.assign(states, 0);
+  load_.assign(load && bound_.passive() ? static_cast<size_t>(m->nv) : 0, 0);
+  SetTimestep(m);
+  checked_ = true;
+  stepped_ = false;
 }
 
-JointMotion FrictionInstance::MotionOf(const mjModel* m, const mjData* d, const Joint& joint) {
+void FrictionInstance::SetTimestep(const mjModel* m) {
+  timestep_ = m->opt.timestep;
+  for (BoundJoint& joint : bound_.joints()) joint.friction.SetTimestep(timestep_);
+  checked_ = false;
+}
+
+/// A step that a program set after loading is taken as it is, with a word about what it does.
+void FrictionInstance::WarnOfTimestep(const mjModel* m, mjData* d) {
+  checked_ = true;
+  mjtNum& reported = d->plugin_state[m->plugin_stateadr[instance_] + kReportsStep];
+  if (reported != 0) return;
+  for (const BoundJoint& joint : bound_.joints()) {
+    try {
+      CheckJoint(m, joint.joint, joint.friction, {JointName(m, joint.joint)});
+    } catch (const BadInput& refusal) {
+      reported = 1;
+      mju_warning("%s: the timestep was set to %g s at %g s: %s", kFrictionPlugin, timestep_,
+                  d->time, refusal.what());
+      return;
+    }
+  }
+}
+
+void FrictionInstance::Prepare(const mjModel* m, mjData* d) {
+  if (!bound_.FitsModel(m)) Rebind(m);
+  if (timestep_ != m->opt.timestep) SetTimestep(m);
+  if (!checked_) WarnOfTimestep(m, d);
+  stepped_ = true;
+}
+
+JointMotion FrictionInstance::MotionOf(const mjModel* m, const mjData* d,
+                                       const BoundJoint& joint) const {
   JointMotion motion;
   motion.position = d->qpos[joint.position];
   motion.velocity = d->qvel[joint.dof];
   motion.inertia = EffectiveInertia(m, d, joint.dof);
-  if (joint.needs_load) motion.load = d->qfrc_bias[joint.dof];
-  if (joint.needs_ambient) motion.ambient_rise = d->ctrl[joint.control];
+  if (!joint.needs_load) return motion;
+  // passive forces come before the engine knows the bias
+  const auto dof = static_cast<size_t>(joint.dof);
+  motion.load = bound_.passive() ? load_[dof] : d->qfrc_bias[dof];
   return motion;
 }
 
-void FrictionInstance::Step(const mjModel* m, mjData* d) {
-  if (m->opt.integrator == mjINT_RK4) return LetGo(m, d);
-  if (timestep_ != m->opt.timestep) {
-    timestep_ = m->opt.timestep;
-    for (Joint& joint : joints_) joint.friction.SetTimestep(timestep_);
+FrictionStep FrictionInstance::StepJoint(const mjModel* m, mjData* d, size_t i, const mjtNum* state,
+                                         double ambient_rise) {
+  const BoundJoint& joint = bound_.joints()[i];
+  const FrictionState now = joint.friction.Load(state);
+  JointMotion motion = MotionOf(m, d, joint);
+  motion.ambient_rise = ambient_rise;
+  FrictionStep step = joint.friction.Step(now, motion);
+  if (step.feeds_itself) Report(m, d, joint);
+
+  // a speed without bound must not stay in the heat
+  if (!std::isfinite(step.force + step.next.energy + step.next.second_energy)) {
+    step.force = 0;
+    step.next = now;
   }
-  const double rate = 1 / timestep_;
-  for (Joint& joint : joints_) {
-    FrictionState now;
+  force_[i] = step.force;
+  return step;
+}
+
+void FrictionInstance::StepActuators(const mjModel* m, mjData* d) {
+  Prepare(m, d);
+  const double rate = m->opt.integrator == mjINT_RK4 ? 0 : 1 / timestep_;
+  double* next = next_.data();
+  for (size_t i = 0; i < bound_.joints().size(); ++i) {
+    const BoundJoint& joint = bound_.joints()[i];
+    const double ambient = joint.needs_ambient ? Finite(d->ctrl[joint.control]) : 0;
     const mjtNum* act = d->act + joint.state;
-    for (const StateMember& member : joint.friction.state()) now.*member.value = *act++;
-    const FrictionStep step = joint.friction.Step(now, MotionOf(m, d, joint));
-    joint.force = step.force;
+    joint.friction.Store(StepJoint(m, d, i, act, ambient).next, next);
 
     mjtNum* act_dot = d->act_dot + joint.state;
-    for (const StateMember& member : joint.friction.state()) {
-      *act_dot++ = (step.next.*member.value - now.*member.value) * rate;
+    for (size_t k = 0; k < joint.friction.state().size(); ++k) {
+      act_dot[k] = (*next++ - act[k]) * rate;
     }
-    if (step.feeds_itself) Report(m, d, joint);
   }
 }
 
-void FrictionInstance::Report(const mjModel* m, mjData* d, const Joint& joint) {
+void FrictionInstance::ApplyActuators(const mjModel* m, mjData* d) const {
+  for (size_t i = 0; i < bound_.joints().size(); ++i) {
+    const BoundJoint& joint = bound_.joints()[i];
+    d->actuator_force[joint.output] = Disabled(m, joint.actuator) ? 0 : -force_[i];
+  }
+}
+
+void FrictionInstance::StepPassive(const mjModel* m, mjData* d) {
+  Prepare(m, d);
+  if (!load_.empty()) mj_rne(m, d, 0, load_.data());
+  const double ambient = Finite(d->plugin_state[m->plugin_stateadr[instance_] + kAmbientRise]);
+  double* next = next_.data();
+  for (size_t i = 0; i < bound_.joints().size(); ++i) {
+    const BoundJoint& joint = bound_.joints()[i];
+    const FrictionStep step = StepJoint(m, d, i, d->plugin_state + joint.state, ambient);
+    joint.friction.Store(step.next, next);
+    next += joint.friction.state().size();
+    d->qfrc_passive[joint.dof] -= step.force;
+  }
+}
+
+void FrictionInstance::Advance(const mjModel* m, mjData* d) {
+  if (!stepped_) return;
+  stepped_ = false;
+  const double* next = next_.data();
+  if (bound_.passive()) {
+    if (PassiveForcesOff(m)) return;
+    mjtNum* state = d->plugin_state + m->plugin_stateadr[instance_];
+    state[kAmbientRise] = Finite(state[kAmbientRise]);
+    std::copy_n(next, next_.size(), state + kFrictionReports);
+    return;
+  }
+  if (m->opt.disableflags & mjDSBL_ACTUATION) return;
+  const bool all = m->opt.integrator == mjINT_RK4;
+  for (const BoundJoint& joint : bound_.joints()) {
+    const size_t states = joint.friction.state().size();
+    mjtNum* act = d->act + joint.state;
+    const bool finite = std::all_of(act, act + states, [](double x) { return std::isfinite(x); });
+    const bool writes = (all && !Disabled(m, joint.actuator)) || !finite;
+    if (writes) std::copy_n(next, states, act);
+    next += states;
+  }
+}
+
+void FrictionInstance::Report(const mjModel* m, mjData* d, const BoundJoint& joint) {
   // a double counts 52 joints; those beyond share the last place
-  const auto place = std::min<ptrdiff_t>(&joint - joints_.data(), 51);
+  const auto place = std::min<ptrdiff_t>(&joint - bound_.joints().data(), 51);
   const uint64_t bit = uint64_t{1} << place;
   mjtNum& reported = d->plugin_state[m->plugin_stateadr[instance_] + kReportsPush];
   const auto before = static_cast<uint64_t>(reported);
   if (before & bit) return;
   reported = static_cast<mjtNum>(before | bit);
+  const std::string name =
+      joint.actuator < 0 ? JointName(m, joint.joint) : ActuatorName(m, joint.actuator);
   mju_warning(
       "%s: %s: at %g s friction would push the joint (its level is below 0 at %g rad/s or m/s); it "
       "is held at 0 from here on, and friction is outside its domain",
-      kFrictionPlugin, ActuatorName(m, joint.actuator).c_str(), d->time, d->qvel[joint.dof]);
-}
-
-void FrictionInstance::LetGo(const mjModel* m, mjData* d) {
-  for (Joint& joint : joints_) {
-    joint.force = 0;
-    std::fill_n(d->act_dot + joint.state, joint.friction.state().size(), 0.0);
-  }
-  mjtNum& reported = d->plugin_state[m->plugin_stateadr[instance_] + kReportsIntegrator];
-  if (reported != 0) return;
-  reported = 1;
-  mju_warning(
-      "%s: the integrator was set to RK4, whose inner steps would move the bristle four times: "
-      "there is no friction until it is Euler, implicit, implicitfast or discrete again",
-      kFrictionPlugin);
-}
-
-void FrictionInstance::Apply(const mjModel* m, mjData* d) const {
-  for (const Joint& joint : joints_) {
-    const int group = m->actuator_group[joint.actuator];
-    const bool disabled = group >= 0 && group < 31 && (m->opt.disableactuator >> group & 1);
-    d->actuator_force[joint.output] = disabled ? 0 : -joint.force;
-  }
+      kFrictionPlugin, name.c_str(), d->time, d->qvel[joint.dof]);
 }
 
 }  // namespace warmjoint::inline sim

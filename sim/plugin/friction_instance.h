@@ -1,4 +1,4 @@
-// One instance of the plugin: the friction of its joints, bound to a model.
+// One instance of the plugin: the friction of its joints, in whichever model it is called with.
 #pragma once
 
 #include <mujoco/mujoco.h>
@@ -6,66 +6,72 @@
 #include <vector>
 
 #include "models/friction/joint_friction.h"
-#include "sim/plugin/attributes.h"
+#include "sim/plugin/bound_joints.h"
 
 namespace warmjoint::inline sim {
 
 /// Name under which MuJoCo knows the plugin.
 inline constexpr char kFrictionPlugin[] = "warmjoint.friction";
 
-/// Entries of mjData.plugin_state of each instance. They report, until a reset, and are never read
-/// by the plugin's dynamics.
+/// Entries of mjData.plugin_state of each instance, before the states of a passive one's joints.
 enum FrictionReport : int {
-  /// The sum of 2^i over those of the instance's joints, counted from 0 in the order of their
-  /// actuators, in which friction would have pushed.
+  /// The sum of 2^i over those of the instance's joints, counted from 0 in their order (BoundJoints),
+  /// in which friction would have pushed, until a reset. Never read by the dynamics.
   kReportsPush,
-  /// 1 where a step was asked for with the integrator RK4, under which there is no friction.
-  kReportsIntegrator,
+  /// 1 where the model's step was set to one that cannot carry the friction, until a reset. Never
+  /// read by the dynamics.
+  kReportsStep,
+  /// Passive form: rise of the ambient temperature, Ts - T0, K, for all joints; 0 after a reset.
+  kAmbientRise,
   kFrictionReports,
 };
 
-/// Friction of the joints whose actuators share one plugin instance. Keeps no state of its own
-/// beyond scratch: all state is in mjData.act.
+/// Friction of the joints of one plugin instance, in two forms:
+///   actuator: actuators refer to the instance; states in mjData.act, forces in actuator_force
+///   passive:  none refers to it; states in plugin_state, forces in qfrc_passive
+/// Keeps no state of its own beyond scratch, which is filled and used up within one step.
 class FrictionInstance {
  public:
-  /// Reads the instance's attributes and checks them and its actuators against the model.
-  /// Throws BadInput that names actuator, attribute, value and bound.
+  /// Reads the instance's attributes and checks them and its joints against the model.
+  /// Throws BadInput that names actuator or joint, attribute, value and bound.
   FrictionInstance(const mjModel* m, int instance);
 
-  /// Steps every joint: writes act_dot = (next - now) / h, so that the engine's Euler step of act
-  /// lands on the next state, and keeps the forces for Apply. Allocates and locks nothing.
-  /// With the integrator RK4, which a model that has one is refused for but a program may still set
-  /// later, the states stay as they are and the forces are 0: RK4 asks four times a step, and
-  /// nothing in mjData tells the inner calls from the first, so that none of the four could be
-  /// answered right. A warning says so once.
-  void Step(const mjModel* m, mjData* d);
+  bool passive() const { return bound_.passive(); }
 
-  /// Writes actuator_force = -F of the last Step.
-  void Apply(const mjModel* m, mjData* d) const;
+  /// Actuator form: steps every joint and writes act_dot = (next - now) / h, so that the engine's
+  /// Euler step of act lands on the next state; keeps the forces for ApplyActuators. Under RK4,
+  /// which asks at four stages, act_dot is 0 and Advance writes the states. Allocates and locks
+  /// nothing unless the model is another one than before.
+  void StepActuators(const mjModel* m, mjData* d);
+
+  /// Actuator form: writes actuator_force = -F of the last step.
+  void ApplyActuators(const mjModel* m, mjData* d) const;
+
+  /// Passive form: steps every joint and takes F from qfrc_passive.
+  void StepPassive(const mjModel* m, mjData* d);
+
+  /// Commits the states of the last step: plugin_state, or act where the engine's own integration
+  /// of it would not do (RK4, or a state that was not finite).
+  void Advance(const mjModel* m, mjData* d);
 
  private:
-  /// One actuator and where its joint's numbers stand in the model.
-  struct Joint {
-    int actuator = 0;
-    int dof = 0;
-    int position = 0;  // in qpos
-    int state = 0;     // in act
-    int control = 0;   // in ctrl
-    int output = 0;    // in actuator_force
-    bool needs_load = false;
-    bool needs_ambient = false;
-    JointFriction friction;
-    double force = 0;  // F of the last step, N.m or N
-  };
-
-  void Bind(const mjModel* m, int actuator, const FrictionDescription& friction);
-  static JointMotion MotionOf(const mjModel* m, const mjData* d, const Joint& joint);
-  void Report(const mjModel* m, mjData* d, const Joint& joint);
-  void LetGo(const mjModel* m, mjData* d);
+  void Rebind(const mjModel* m);
+  void SetTimestep(const mjModel* m);
+  void WarnOfTimestep(const mjModel* m, mjData* d);
+  void Prepare(const mjModel* m, mjData* d);
+  FrictionStep StepJoint(const mjModel* m, mjData* d, size_t i, const mjtNum* state,
+                         double ambient_rise);
+  JointMotion MotionOf(const mjModel* m, const mjData* d, const BoundJoint& joint) const;
+  void Report(const mjModel* m, mjData* d, const BoundJoint& joint);
 
   int instance_;
-  double timestep_;
-  std::vector<Joint> joints_;
+  BoundJoints bound_;
+  double timestep_ = 0;
+  bool checked_ = true;        // the timestep, against the inertia
+  bool stepped_ = false;       // since the last Advance
+  std::vector<double> force_;  // [joints] F of the last step, N.m or N
+  std::vector<double> next_;   // [states] of the last step, in the order of the joints
+  std::vector<double> load_;   // [nv] transmitted by each joint, where the passive form needs it
 };
 
 }  // namespace warmjoint::inline sim

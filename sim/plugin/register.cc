@@ -31,6 +31,40 @@ int Init(const mjModel* m, mjData* d, int instance) {
   }
 }
 
+/// The numbers of plugin_state that an instance needs; a refusal is told by Init.
+int States(const mjModel* m, int instance) {
+  try {
+    const bool passive = !DrivenByActuators(m, instance);
+    return kFrictionReports + (passive ? PassiveStates(m, instance) : 0);
+  } catch (const std::exception&) {
+    return kFrictionReports;
+  }
+}
+
+/// Runs a callback; what it refuses in the middle of a run, where a model is another one than the
+/// engine has checked, becomes a warning.
+template <typename Callback>
+void Guarded(const Callback& callback) {
+  try {
+    callback();
+  } catch (const std::exception& refusal) {
+    mju_warning("%s: %s", kFrictionPlugin, refusal.what());
+  }
+}
+
+void Compute(const mjModel* m, mjData* d, int instance, int capability) {
+  const bool passive = InstanceOf(d, instance)->passive();
+  if (capability == mjPLUGIN_ACTUATOR && !passive) InstanceOf(d, instance)->ApplyActuators(m, d);
+  if (capability == mjPLUGIN_PASSIVE && passive) {
+    Guarded([&] { InstanceOf(d, instance)->StepPassive(m, d); });
+  }
+}
+
+void ActDot(const mjModel* m, mjData* d, int instance) {
+  if (InstanceOf(d, instance)->passive()) return;
+  Guarded([&] { InstanceOf(d, instance)->StepActuators(m, d); });
+}
+
 void Destroy(mjData* d, int instance) {
   delete InstanceOf(d, instance);
   d->plugin_data[instance] = 0;
@@ -47,18 +81,17 @@ mjpPlugin MakePlugin() {
   plugin.name = kFrictionPlugin;
   plugin.nattribute = static_cast<int>(names.size());
   plugin.attributes = names.data();
-  plugin.capabilityflags = mjPLUGIN_ACTUATOR;
-  plugin.nstate = [](const mjModel*, int) -> int { return kFrictionReports; };
+  plugin.capabilityflags = mjPLUGIN_ACTUATOR | mjPLUGIN_PASSIVE;
+  plugin.nstate = States;
   plugin.init = Init;
   plugin.destroy = Destroy;
-  plugin.reset = [](const mjModel*, mjtNum* reports, void*, int) {
-    std::fill_n(reports, kFrictionReports, 0.0);
+  plugin.reset = [](const mjModel* m, mjtNum* state, void*, int instance) {
+    std::fill_n(state, m->plugin_statenum[instance], 0.0);
   };
-  plugin.actuator_act_dot = [](const mjModel* m, mjData* d, int instance) {
-    InstanceOf(d, instance)->Step(m, d);
-  };
-  plugin.compute = [](const mjModel* m, mjData* d, int instance, int) {
-    InstanceOf(d, instance)->Apply(m, d);
+  plugin.actuator_act_dot = ActDot;
+  plugin.compute = Compute;
+  plugin.advance = [](const mjModel* m, mjData* d, int instance) {
+    InstanceOf(d, instance)->Advance(m, d);
   };
   return plugin;
 }

@@ -78,6 +78,9 @@ TEST(PluginAttributes, HoldTheFrictionOfSeveralJoints) {
                         "elbow": {"law": "coulomb", "parameters": {"coulomb": 6}}})"),
               HasSubstr("joints names 'elbow', which no actuator"));
   EXPECT_THAT(ErrorOf({{"joints", "{}"}, {"law", "coulomb"}}), HasSubstr("beside joints"));
+  EXPECT_THAT(error(R"({"hinge": {"law": "coulomb", "parameters": {"coulomb": 6}},
+                        "hinge": {"law": "coulomb", "parameters": {"coulomb": 5}}})"),
+              HasSubstr("joints names 'hinge' twice"));
 }
 
 TEST(PluginActuator, RefusesWhatWouldBreakFriction) {
@@ -85,7 +88,15 @@ TEST(PluginActuator, RefusesWhatWouldBreakFriction) {
   EXPECT_THAT(ErrorOf(kGood, R"(gear="2")"), HasSubstr("gear is 2"));
   EXPECT_THAT(ErrorOf(kGood, "", kNoGravity, R"(actuatorfrcrange="-9 9")"),
               HasSubstr("joint 'hinge' has actuatorfrcrange"));
-  EXPECT_THAT(ErrorOf(kGood, "", R"(integrator="RK4")"), HasSubstr("integrator is RK4"));
+}
+
+TEST(PluginActuator, RefusesASecondFrictionOnItsJoint) {
+  const std::string one = FrictionSection(kGood);
+  const std::string two = one + FrictionSection(kGood);
+  const size_t name = two.rfind("name=\"f\"");
+  const std::string named = two.substr(0, name) + "name=\"g\"" + two.substr(name + 8);
+  EXPECT_THAT(Compile(LinkXml(named, kNoGravity)).error,
+              HasSubstr("actuator 'g': joint 'hinge' has friction already, by actuator 'f'"));
 }
 
 TEST(PluginActuator, RefusesAnInertiaTooSmallForTheSlopeAndSaysWhatItNeeds) {

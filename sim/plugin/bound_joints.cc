@@ -1,0 +1,228 @@
+#include "sim/plugin/bound_joints.h"
+
+#include <algorithm>
+#include <cstring>
+#include <set>
+
+#include "models/foundation/bad_input.h"
+#include "models/foundation/excerpt.h"
+#include "models/foundation/nearest_name.h"
+#include "sim/plugin/check_actuator.h"
+#include "sim/plugin/check_joint.h"
+#include "sim/plugin/joint_names.h"
+#include "sim/plugin/prepared_joints.h"
+
+namespace warmjoint::inline sim {
+namespace {
+
+/// Of longer attributes the beginning and the end are compared at each step.
+constexpr size_t kCompared = 2048;  // bytes
+
+std::string NameIn(const mjModel* m, mjtObj type, int id) {
+  const char* name = mj_id2name(m, type, id);
+  return name ? name : "";
+}
+
+std::vector<std::string> JointsOf(const PreparedInstance& prepared) {
+  std::vector<std::string> names;
+  for (const auto& [name, unused] : prepared.joints) names.push_back(name);
+  return names;
+}
+
+std::vector<std::string> JointsIn(const mjModel* m) {
+  std::vector<std::string> names;
+  for (int i = 0; i < m->njnt; ++i) names.push_back(NameIn(m, mjOBJ_JOINT, i));
+  return names;
+}
+
+BoundJoint BindJoint(const mjModel* m, int joint, const PreparedJoint& prepared) {
+  BoundJoint bound{.friction = prepared.friction};
+  bound.joint = joint;
+  bound.dof = m->jnt_dofadr[joint];
+  bound.position = m->jnt_qposadr[joint];
+  bound.needs_load = NeedsLoad(prepared.description);
+  bound.needs_ambient = prepared.description.level_per_temperature != 0;
+  return bound;
+}
+
+/// The joints of a passive instance: each joint of the model that `joints` names, in the model's
+/// order.
+struct PassiveJoint {
+  int joint;
+  const PreparedJoint* prepared;
+};
+
+std::vector<PassiveJoint> FindPassive(const mjModel* m, int instance,
+                                      const PreparedInstance& prepared) {
+  const Place place{InstanceName(m, instance)};
+  if (prepared.joints.contains("")) {
+    Refuse(place,
+           "no actuator refers to it; one that acts by itself needs the attribute joints, which "
+           "names them");
+  }
+  const std::vector<std::string> all = JointsIn(m), named = JointsOf(prepared);
+  const std::set<std::string> known(all.begin(), all.end());
+  const InstanceNames names{prepared.written_name, NameIn(m, mjOBJ_PLUGIN, instance)};
+  const auto exists = [&](const std::string& name) { return known.contains(name); };
+  const Renaming renaming = FindRenaming(names, named, {}, exists);
+
+  std::vector<PassiveJoint> joints;
+  for (const auto& [name, joint] : prepared.joints) {
+    const std::string actual = renaming(name);
+    const int id = mj_name2id(m, mjOBJ_JOINT, actual.c_str());
+    if (id < 0) {
+      Refuse(place, "joints names '{}', which the model lacks{}", Excerpt(name),
+             Suggestion(name, all));
+    }
+    joints.push_back({id, &joint});
+  }
+  const auto before = [](const PassiveJoint& a, const PassiveJoint& b) {
+    return a.joint < b.joint;
+  };
+  std::sort(joints.begin(), joints.end(), before);
+  return joints;
+}
+
+/// Two frictions on one joint would be one friction that is stiffer than the step can carry.
+void RefuseSecond(const mjModel* m, int instance, int joint) {
+  const auto refuse = [&](const std::string& other) {
+    Refuse({InstanceName(m, instance)}, "{} has friction already, by {}; remove one of the two",
+           JointName(m, joint), other);
+  };
+  for (int i = 0; i < m->nactuator; ++i) {
+    const int plugin = m->actuator_plugin[i];
+    const bool ours = plugin >= 0 && m->plugin[plugin] == m->plugin[instance];
+    if (ours && m->actuator_trnid[2 * i] == joint) refuse(ActuatorName(m, i));
+  }
+  for (int other = 0; other < instance; ++other) {
+    if (m->plugin[other] != m->plugin[instance] || DrivenByActuators(m, other)) continue;
+    const auto prepared = PrepareInstance(m, other, {InstanceName(m, other)});
+    for (const PassiveJoint& taken : FindPassive(m, other, *prepared)) {
+      if (taken.joint == joint) refuse(InstanceName(m, other));
+    }
+  }
+}
+
+/// The friction of each joint that an instance's actuators drive.
+class FrictionOfActuators {
+ public:
+  FrictionOfActuators(const mjModel* m, int instance, const PreparedInstance& prepared)
+      : m_(m), instance_(instance), prepared_(prepared) {
+    std::vector<std::string> driven;
+    for (int i = 0; i < m->nactuator; ++i) {
+      if (m->actuator_plugin[i] == instance) driven.push_back(JointOf(i));
+    }
+    const InstanceNames names{prepared.written_name, NameIn(m, mjOBJ_PLUGIN, instance)};
+    const std::set<std::string> known(driven.begin(), driven.end());
+    const auto exists = [&](const std::string& name) { return known.contains(name); };
+    const Renaming renaming = FindRenaming(names, JointsOf(prepared), driven, exists);
+    for (const auto& [name, joint] : prepared.joints) {
+      waiting_[name.empty() ? name : renaming(name)] = &joint;
+    }
+    all_ = waiting_;
+  }
+
+  const PreparedJoint& Of(int actuator) {
+    if (const auto every = all_.find(""); every != all_.end()) return *every->second;
+    const std::string name = JointOf(actuator);
+    const auto found = all_.find(name);
+    if (name.empty() || found == all_.end()) {
+      Refuse({ActuatorName(m_, actuator)}, "joints has no joint '{}'{}", Excerpt(name),
+             Suggestion(name, JointsOf(prepared_)));
+    }
+    waiting_.erase(name);
+    return *found->second;
+  }
+
+  void RefuseWaiting() const {
+    if (waiting_.empty() || waiting_.contains("")) return;
+    Refuse({InstanceName(m_, instance_)},
+           "joints names '{}', which no actuator of the instance drives; add one, or take it out",
+           Excerpt(waiting_.begin()->first));
+  }
+
+ private:
+  std::string JointOf(int actuator) const {
+    const bool joint = m_->actuator_trntype[actuator] == mjTRN_JOINT;
+    return joint ? NameIn(m_, mjOBJ_JOINT, m_->actuator_trnid[2 * actuator]) : "";
+  }
+
+  const mjModel* m_;
+  int instance_;
+  const PreparedInstance& prepared_;
+  std::map<std::string, const PreparedJoint*> all_, waiting_;
+};
+
+}  // namespace
+
+BoundJoints::BoundJoints(const mjModel* m, int instance, int states)
+    : instance_(instance),
+      model_(m),
+      text_(m->plugin_attr + m->plugin_attradr[instance]),
+      copy_(AttributeText(m, instance)),
+      signature_(m->signature),
+      passive_(!DrivenByActuators(m, instance)) {
+  if (passive_) {
+    BindPassive(m, states);
+  } else {
+    BindActuators(m);
+  }
+}
+
+bool BoundJoints::SameText(const mjModel* m) const {
+  const std::string_view text = AttributeText(m, instance_);
+  if (text.size() != copy_.size() || m->signature != signature_) return false;
+  if (text.size() <= 2 * kCompared) return text == copy_;
+  const size_t tail = text.size() - kCompared;
+  return std::memcmp(text.data(), copy_.data(), kCompared) == 0 &&
+         std::memcmp(text.data() + tail, copy_.data() + tail, kCompared) == 0;
+}
+
+void BoundJoints::BindActuators(const mjModel* m) {
+  const auto prepared = PrepareInstance(m, instance_, {InstanceName(m, instance_)});
+  FrictionOfActuators frictions(m, instance_, *prepared);
+  for (int i = 0; i < m->nactuator; ++i) {
+    if (m->actuator_plugin[i] != instance_) continue;
+    const PreparedJoint& friction = frictions.Of(i);
+    CheckActuator(m, i, friction.friction);
+    BoundJoint bound = BindJoint(m, m->actuator_trnid[2 * i], friction);
+    if (bound.needs_ambient && m->actuator_ctrlnum[i] == 0) {
+      Refuse({ActuatorName(m, i)}, "has no control, which would be the ambient temperature's rise");
+    }
+    bound.actuator = i;
+    bound.state = m->actuator_actadr[i];
+    bound.control = m->actuator_ctrlnum[i] > 0 ? m->actuator_ctrladr[i] : -1;
+    bound.output = m->actuator_outadr[i];
+    joints_.push_back(std::move(bound));
+  }
+  frictions.RefuseWaiting();
+}
+
+void BoundJoints::BindPassive(const mjModel* m, int states) {
+  const std::string name = InstanceName(m, instance_);
+  const auto prepared = PrepareInstance(m, instance_, {name});
+  int state = m->plugin_stateadr[instance_] + states;
+  for (const auto& [joint, friction] : FindPassive(m, instance_, *prepared)) {
+    const Place place{fmt::format("{}: {}", name, JointName(m, joint))};
+    CheckJoint(m, joint, friction->friction, place);
+    RefuseSecond(m, instance_, joint);
+    BoundJoint bound = BindJoint(m, joint, *friction);
+    bound.state = state;
+    state += static_cast<int>(bound.friction.state().size());
+    joints_.push_back(std::move(bound));
+  }
+}
+
+bool DrivenByActuators(const mjModel* m, int instance) {
+  const int *begin = m->actuator_plugin, *end = begin + m->nactuator;
+  return std::find(begin, end, instance) != end;
+}
+
+int PassiveStates(const mjModel* m, int instance) {
+  const auto prepared = PrepareInstance(m, instance, {InstanceName(m, instance)});
+  size_t states = 0;
+  for (const auto& [name, joint] : prepared->joints) states += joint.friction.state().size();
+  return static_cast<int>(states);
+}
+
+}  // namespace warmjoint::inline sim

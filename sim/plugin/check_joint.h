@@ -1,0 +1,37 @@
+// Whether the engine's step can carry the friction of a joint.
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <string>
+
+#include "models/foundation/bad_input.h"
+#include "models/friction/joint_friction.h"
+
+namespace warmjoint::inline sim {
+
+/// "joint 'name'" or "joint 3", for messages.
+std::string JointName(const mjModel* m, int joint);
+
+/// Effective inertia of a degree of freedom at the reference pose with all the others free,
+/// 1 / dof_invweight0, kg.m^2 or kg; 0 while the compiler has not yet determined it.
+inline double EffectiveInertia(const mjModel* m, int dof) {
+  const double inverse = m->dof_invweight0[dof];
+  return inverse > 0 ? 1 / inverse : 0;
+}
+
+/// Effective inertia at the present pose, kg.m^2 or kg: the smaller of the one at the reference
+/// pose and the joint's pivot in the factorised inertia matrix, which sees the present pose but
+/// takes the joints before it as held. Over the poses of arms with 6 and 7 axes the inertia matrix
+/// scaled by these has eigenvalues up to 3.3; with reference values alone, up to 28.
+inline double EffectiveInertia(const mjModel* m, const mjData* d, int dof) {
+  const double inverse = std::max(m->dof_invweight0[dof], d->qLDiagInv[dof]);
+  return inverse > 0 ? 1 / inverse : 0;
+}
+
+/// Throws BadInput, from `place` and with the remedy, unless the joint is a hinge or slide whose
+/// effective inertia at the reference pose lets the model's step carry the friction.
+void CheckJoint(const mjModel* m, int joint, const JointFriction& friction, const Place& place);
+
+}  // namespace warmjoint::inline sim

@@ -1,0 +1,74 @@
+#include "sim/plugin/prepared_joints.h"
+
+#include <deque>
+#include <mutex>
+#include <unordered_map>
+
+namespace warmjoint::inline sim {
+namespace {
+
+/// Attribute text that is kept at most, bytes. A map's tables take some twenty times its text.
+constexpr size_t kMostText = size_t{1} << 21;
+
+/// Instances by what describes them; the oldest make room for new ones.
+class Shelf {
+ public:
+  std::shared_ptr<const PreparedInstance> Find(const std::string& key) {
+    const std::lock_guard lock(mutex_);
+    const auto found = instances_.find(key);
+    return found == instances_.end() ? nullptr : found->second;
+  }
+
+  void Keep(const std::string& key, std::shared_ptr<const PreparedInstance> instance) {
+    const std::lock_guard lock(mutex_);
+    if (!instances_.emplace(key, std::move(instance)).second) return;
+    order_.push_back(key);
+    text_ += key.size();
+    while (text_ > kMostText && order_.size() > 1) {
+      text_ -= order_.front().size();
+      instances_.erase(order_.front());
+      order_.pop_front();
+    }
+  }
+
+ private:
+  std::mutex mutex_;
+  std::unordered_map<std::string, std::shared_ptr<const PreparedInstance>> instances_;
+  std::deque<std::string> order_;
+  size_t text_ = 0;  // of all keys, bytes
+};
+
+Shelf& TheShelf() {
+  static Shelf shelf;
+  return shelf;
+}
+
+}  // namespace
+
+std::string_view AttributeText(const mjModel* m, int instance) {
+  const bool last = instance + 1 == m->nplugin;
+  const auto begin = static_cast<size_t>(m->plugin_attradr[instance]);
+  const auto end = static_cast<size_t>(last ? m->npluginattr : m->plugin_attradr[instance + 1]);
+  return {m->plugin_attr + begin, end - begin};
+}
+
+std::shared_ptr<const PreparedInstance> PrepareInstance(const mjModel* m, int instance,
+                                                        const Place& place) {
+  const auto read = [&](const std::string& name) -> std::string {
+    const char* text = mj_getPluginConfig(m, instance, name.c_str());
+    return text ? text : "";
+  };
+  const std::string key = std::string(AttributeText(m, instance)) + FileStamp(read);
+  if (auto known = TheShelf().Find(key)) return known;
+
+  auto prepared = std::make_shared<PreparedInstance>();
+  prepared->written_name = read("instance");
+  for (auto& [joint, friction] : ReadAttributes(read, place)) {
+    JointFriction ready(friction);
+    prepared->joints.emplace(joint, PreparedJoint{std::move(friction), std::move(ready)});
+  }
+  TheShelf().Keep(key, prepared);
+  return prepared;
+}
+
+}  // namespace warmjoint::inline sim

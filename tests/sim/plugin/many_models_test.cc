@@ -1,0 +1,91 @@
+// One mjData with several models in turn, as rollouts over lists of models have it.
+#include <gmock/gmock.h>
+
+#include "sim/plugin/prepared_joints.h"
+#include "tests/sim/plugin/two_forms.h"
+
+namespace warmjoint {
+namespace {
+
+using namespace test;
+
+FrictionDescription Coulomb(double level) {
+  FrictionDescription friction = FrictionsOfEveryLaw()[0];
+  friction.parameters["coulomb"] = level;
+  return friction;
+}
+
+/// Speed of the first joint after half a second in this data.
+double SpeedIn(const Model& m, mjData* d) {
+  mj_resetData(m.get(), d);
+  d->qvel[0] = 3;
+  for (int i = 0; i < 500; ++i) mj_step(m.get(), d);
+  return d->qvel[0];
+}
+
+TEST(PluginModels, EachHasItsOwnFrictionInTheDataOfAnother) {
+  for (const Form form : {Form::actuator, Form::passive}) {
+    std::vector<Model> models;
+    for (const double level : {0.2, 0.5, 0.8, 1.1}) {
+      models.push_back(MustCompile(ArmXml(Coulomb(level), form, "implicitfast")));
+    }
+    const Data shared(mj_makeData(models[0].get()));
+    double before = 0;
+    for (const Model& m : models) {
+      const Data own(mj_makeData(m.get()));
+      const double expected = SpeedIn(m, own.get());
+      EXPECT_EQ(SpeedIn(m, shared.get()), expected);
+      EXPECT_NE(expected, before);
+      before = expected;
+    }
+
+    // step by step in turn, with the states of each
+    const Data one(mj_makeData(models[1].get())), two(mj_makeData(models[2].get()));
+    const Data turns(mj_makeData(models[0].get()));
+    std::vector<mjtNum> states[] = {FullState(models[1].get(), one.get()),
+                                    FullState(models[2].get(), two.get())};
+    for (int i = 0; i < 200; ++i) {
+      for (int k = 0; k < 2; ++k) {
+        const mjModel* m = models[static_cast<size_t>(1 + k)].get();
+        mj_setState(m, turns.get(), states[k].data(), mjSTATE_FULLPHYSICS);
+        DriveArm(m, turns.get(), 1);
+        states[k] = FullState(m, turns.get());
+      }
+      DriveArm(models[1].get(), one.get(), 1);
+      DriveArm(models[2].get(), two.get(), 1);
+    }
+    EXPECT_EQ(states[0], FullState(models[1].get(), one.get()));
+    EXPECT_EQ(states[1], FullState(models[2].get(), two.get()));
+  }
+}
+
+TEST(PluginModels, AModelAtTheSamePlaceInMemoryIsAnotherOne) {
+  const std::string xml = ArmXml(Coulomb(0.2), Form::passive, "implicitfast");
+  const Model m = MustCompile(xml);
+  const Data d(mj_makeData(m.get()));
+  SpeedIn(m, d.get());
+
+  // what a compiler that reuses memory leaves: the same addresses, another text
+  const Model other = MustCompile(ArmXml(Coulomb(0.9), Form::passive, "implicitfast"));
+  ASSERT_EQ(m->npluginattr, other->npluginattr);
+  std::copy_n(other->plugin_attr, m->npluginattr, m->plugin_attr);
+  const Data fresh(mj_makeData(other.get()));
+  EXPECT_EQ(SpeedIn(m, d.get()), SpeedIn(other, fresh.get()));
+}
+
+TEST(PluginModels, DataOfAMappedArmParsesOnce) {
+  // parsing and surveying takes some milliseconds; a hundred data would take half a second of it
+  FrictionDescription friction = FrictionsOfEveryLaw()[2];
+  FrictionMap map{{{MapQuantity::motor_position, CircleAxis(6.283185307179586, 36)},
+                   {MapQuantity::velocity, SpeedAxis(0.2, 2, 3)}},
+                  KernelKind::normalised,
+                  std::vector<double>(36 * 6, 0.01),
+                  MapFactor::direction};
+  friction.maps = {map};
+  const Model m = MustCompile(ArmXml(friction, Form::passive, "implicitfast"));
+  const auto first = PrepareInstance(m.get(), 0, {"test"});
+  EXPECT_EQ(PrepareInstance(m.get(), 0, {"test"}), first);
+}
+
+}  // namespace
+}  // namespace warmjoint

@@ -1,0 +1,155 @@
+// The passive form beside the actuator form: same motion, same carriage of states.
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "tests/sim/plugin/two_forms.h"
+
+namespace warmjoint {
+namespace {
+
+using namespace test;
+
+double Difference(const Model& a, const Model& b, double seconds, double ambient) {
+  const Data da(mj_makeData(a.get())), db(mj_makeData(b.get()));
+  SetAmbient(a.get(), da.get(), Form::actuator, ambient);
+  SetAmbient(b.get(), db.get(), Form::passive, ambient);
+  double worst = 0;
+  while (da->time < seconds) {
+    DriveArm(a.get(), da.get(), 1);
+    DriveArm(b.get(), db.get(), 1);
+    for (int k = 0; k < kArmJoints; ++k) {
+      worst = std::max(worst, std::abs(da->qpos[k] - db->qpos[k]));
+    }
+  }
+  // warm, and the same states in the same order
+  EXPECT_LT(da->act[1], -0.001);
+  for (int k = 0; k < a->na; ++k) {
+    EXPECT_NEAR(da->act[k], db->plugin_state[b->plugin_stateadr[0] + kFrictionReports + k], 1e-9);
+  }
+  return worst;
+}
+
+TEST(PluginForms, MoveAlikeWithEveryLawAndIntegrator) {
+  for (const char* integrator : {"Euler", "implicit", "implicitfast", "discrete", "RK4"}) {
+    for (const FrictionDescription& friction : FrictionsOfEveryLaw()) {
+      const Model a = MustCompile(ArmXml(friction, Form::actuator, integrator));
+      const Model b = MustCompile(ArmXml(friction, Form::passive, integrator));
+      // the forces are summed in another order; joints near a reversal amplify the last bit
+      EXPECT_LT(Difference(a, b, 2, 10), 1e-11) << friction.law << " " << integrator;
+    }
+  }
+}
+
+TEST(PluginForms, MoveAlikeForAMinuteUnderGravity) {
+  const FrictionDescription friction = FrictionsOfEveryLaw()[2];
+  const Model a = MustCompile(ArmXml(friction, Form::actuator, "implicitfast"));
+  const Model b = MustCompile(ArmXml(friction, Form::passive, "implicitfast"));
+  EXPECT_LT(Difference(a, b, 60, 0), 1e-12);
+}
+
+TEST(PluginPassive, LeavesTheRobotsOwnNumbersAsTheyWere) {
+  const Model m = MustCompile(ArmXml(FrictionsOfEveryLaw()[0], Form::passive, "implicitfast"));
+  EXPECT_EQ(m->nu, kArmJoints);
+  EXPECT_EQ(m->na, 0);
+  const Data d(mj_makeData(m.get()));
+  DriveArm(m.get(), d.get(), 300);
+  mj_forward(m.get(), d.get());
+  // the motors alone are in qfrc_actuator
+  for (int k = 0; k < kArmJoints; ++k) {
+    EXPECT_EQ(d->qfrc_actuator[k], d->ctrl[k]);
+    EXPECT_NE(d->qfrc_passive[k], -0.2 * d->qvel[k]);
+  }
+}
+
+TEST(PluginPassive, WorksBesideALimitOfTheMotorsForce) {
+  std::string xml = ArmXml(FrictionsOfEveryLaw()[0], Form::passive, "implicitfast");
+  xml.insert(xml.find("axis="), R"(actuatorfrcrange="-1 1" )");
+  const Model m = MustCompile(xml);
+  const Data d(mj_makeData(m.get()));
+  d->ctrl[0] = 5;
+  mj_step(m.get(), d.get());
+  EXPECT_EQ(d->qfrc_actuator[0], 1);
+}
+
+TEST(PluginPassive, ContinuesBitForBit) {
+  for (const char* integrator : {"implicitfast", "RK4"}) {
+    for (const FrictionDescription& friction : FrictionsOfEveryLaw()) {
+      SCOPED_TRACE(friction.law);
+      const Model m = MustCompile(ArmXml(friction, Form::passive, integrator));
+      const Data d(mj_makeData(m.get())), restored(mj_makeData(m.get()));
+      DriveArm(m.get(), d.get(), 400);
+      const Data copy(mj_copyData(nullptr, m.get(), d.get()));
+      const std::vector<mjtNum> half = FullState(m.get(), d.get());
+      DriveArm(m.get(), d.get(), 400);
+      const std::vector<mjtNum> end = FullState(m.get(), d.get());
+
+      // into data that was elsewhere, with forwards in between
+      DriveArm(m.get(), restored.get(), 123);
+      mj_setState(m.get(), restored.get(), half.data(), mjSTATE_FULLPHYSICS);
+      mj_forward(m.get(), restored.get());
+      DriveArm(m.get(), restored.get(), 400);
+      EXPECT_EQ(FullState(m.get(), restored.get()), end);
+      DriveArm(m.get(), copy.get(), 400);
+      EXPECT_EQ(FullState(m.get(), copy.get()), end);
+      mj_resetData(m.get(), restored.get());
+      DriveArm(m.get(), restored.get(), 400);
+      EXPECT_EQ(FullState(m.get(), restored.get()), half);
+    }
+  }
+}
+
+TEST(PluginPassive, RefusesJointsThatItCannotServe) {
+  const FrictionDescription friction = FrictionsOfEveryLaw()[0];
+  const auto error = [&](const std::string& from, const std::string& to) {
+    std::string xml = ArmXml(friction, Form::passive, "Euler");
+    const size_t at = xml.find(from);
+    return Compile(xml.replace(at, from.size(), to)).error;
+  };
+  EXPECT_THAT(
+      error("&quot;j2&quot;", "&quot;j3&quot;"),
+      testing::HasSubstr("plugin instance 'arm': joints names 'j3', which the model lacks"));
+  EXPECT_THAT(error("name=\"j1\" axis=\"1 0 0\"", "name=\"j1\" type=\"ball\""),
+              testing::HasSubstr("joint 'j1' is neither hinge nor slide"));
+  // and one that has friction from an actuator of its own
+  EXPECT_THAT(error("<motor joint=\"j0\"/>",
+                    R"(<plugin name="f" joint="j0" plugin="warmjoint.friction" actdim="2">
+                       <config key="law" value="coulomb"/><config key="coulomb" value="1"/>
+                       </plugin>)"),
+              testing::HasSubstr("joint 'j0' has friction already, by actuator 'f'"));
+}
+
+TEST(PluginPassive, TravelsWithItsRobotUnderAPrefix) {
+  for (const Form form : {Form::actuator, Form::passive}) {
+    RegisterFrictionPlugin();
+    const std::string xml = ArmXml(FrictionsOfEveryLaw()[2], form, "implicitfast");
+    const Model alone = MustCompile(xml);
+    char error[500] = "";
+    const SpecPtr parent(mj_parseXMLString(
+        R"(<mujoco><option timestep="0.001" integrator="implicitfast"><flag contact="disable"/>
+           </option><worldbody/></mujoco>)",
+        nullptr, error, sizeof(error)));
+    std::vector<SpecPtr> children;
+    for (const char* prefix : {"left/", "right/"}) {
+      children.emplace_back(mj_parseXMLString(xml.c_str(), nullptr, error, sizeof(error)));
+      mjsFrame* frame = mjs_addFrame(mjs_findBody(parent.get(), "world"), nullptr);
+      ASSERT_TRUE(mjs_attach(frame->element, children.back()->element, prefix, ""));
+    }
+    const Model two(mj_compile(parent.get(), nullptr));
+    ASSERT_TRUE(two) << mjs_getError(parent.get());
+    ASSERT_EQ(two->nplugin, 2);
+    const Data a(mj_makeData(alone.get())), b(mj_makeData(two.get()));
+    a->qvel[0] = b->qvel[0] = b->qvel[kArmJoints] = 2;
+    for (int i = 0; i < 500; ++i) {
+      mj_step(alone.get(), a.get());
+      mj_step(two.get(), b.get());
+    }
+    for (int k = 0; k < kArmJoints; ++k) {
+      EXPECT_NEAR(b->qpos[k], a->qpos[k], 1e-12);
+      EXPECT_NEAR(b->qpos[kArmJoints + k], a->qpos[k], 1e-12);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace warmjoint
