@@ -13,8 +13,11 @@ namespace {
 
 void CheckValue(const ParameterInfo& info, double value, const Place& place) {
   if (std::isfinite(value) && value >= info.lower && value <= info.upper) return;
-  Refuse(place, "{} is {}; it must be a finite number from {} to {} ({})", info.name, value,
-         info.lower, info.upper, info.unit.rotary);
+  const bool bounded = info.lower != -kInfinity || info.upper != kInfinity;
+  const std::string bounds =
+      bounded ? fmt::format(" from {} to {}", info.lower, info.upper) : std::string();
+  Refuse(place, "{} is {}; it must be a finite number{} ({})", info.name, value, bounds,
+         info.unit.rotary);
 }
 
 /// A joint at rest cannot bear less than a sliding one.

@@ -1,6 +1,8 @@
 #include "models/friction/joint_friction.h"
 
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "models/friction/law_list.h"
 #include "models/friction/lugre_bristle.h"
@@ -15,9 +17,34 @@ double BristleLoss(const Bristle& bristle, double load, const BristleStep& step,
   return std::max(0.0, step.force * v - stored);
 }
 
-double ValueOf(const FrictionDescription& friction, const char* name) {
-  const auto found = friction.parameters.find(name);
-  return found == friction.parameters.end() ? 0 : found->second;
+/// A number beside the law's own that may be set, and where it is; null where it is not given.
+struct OtherNumber {
+  std::string_view name;
+  const ParameterInfo& info;
+  double* (*find)(FrictionDescription& friction);
+};
+
+std::span<const OtherNumber> OtherNumbers() {
+  using Friction = FrictionDescription;
+  static const std::array numbers{
+      OtherNumber{"thermal_gain", Thermal::parameters[0],
+                  [](Friction& f) { return f.thermal ? &f.thermal->gain : nullptr; }},
+      OtherNumber{"thermal_time_constant", Thermal::parameters[1],
+                  [](Friction& f) { return f.thermal ? &f.thermal->time_constant : nullptr; }},
+      OtherNumber{"second_thermal_gain", Thermal::parameters[0],
+                  [](Friction& f) { return f.second_thermal ? &f.second_thermal->gain : nullptr; }},
+      OtherNumber{"second_thermal_time_constant", Thermal::parameters[1],
+                  [](Friction& f) {
+                    return f.second_thermal ? &f.second_thermal->time_constant : nullptr;
+                  }},
+      OtherNumber{"level_per_temperature", FrictionOptions()[0].info,
+                  [](Friction& f) {
+                    return f.level_per_temperature != 0 ? &f.level_per_temperature : nullptr;
+                  }},
+      OtherNumber{"viscous_per_energy", FrictionOptions()[1].info,
+                  [](Friction& f) { return f.thermal ? &f.viscous_per_energy : nullptr; }},
+  };
+  return numbers;
 }
 
 }  // namespace
@@ -40,17 +67,53 @@ JointFriction::JointFriction(const FrictionDescription& friction)
       values_(LawValues(friction)),
       state_(StateOf(friction)),
       terms_(std::make_shared<const LevelTerms>(friction)),
-      has_terms_(!terms_->empty()),
-      viscous_(ValueOf(friction, "viscous")),
-      per_energy_(friction.viscous_per_energy) {
+      has_terms_(!terms_->empty()) {
   second_stage_ = friction.second_thermal.has_value();
   slips_ = law_.pre_sliding == PreSliding::breakaway;
-  if (law_.pre_sliding == PreSliding::bristle) {
-    own_bristle_ =
-        Bristle{ValueOf(friction, "bristle_stiffness"), ValueOf(friction, "bristle_damping")};
-  }
   friction_.maps.clear();
   ChooseStep(AllLaws{});
+  Derive();
+}
+
+/// What follows from the law's values and the other numbers, without the step.
+void JointFriction::Derive() {
+  const auto value = [&](std::string_view name) {
+    const auto place = FindNumber(name);
+    return place ? values_[*place] : 0;
+  };
+  viscous_ = value("viscous");
+  per_energy_ = friction_.viscous_per_energy;
+  if (law_.pre_sliding != PreSliding::bristle) return;
+  own_bristle_ = Bristle{value("bristle_stiffness"), value("bristle_damping")};
+}
+
+std::optional<size_t> JointFriction::FindNumber(std::string_view name) const {
+  for (size_t i = 0; i < law_.parameters.size(); ++i) {
+    if (law_.parameters[i].name == name) return i;
+  }
+  for (size_t i = 0; i < OtherNumbers().size(); ++i) {
+    const OtherNumber& number = OtherNumbers()[i];
+    FrictionDescription friction = friction_;
+    if (number.name == name && number.find(friction)) return law_.parameters.size() + i;
+  }
+  return std::nullopt;
+}
+
+bool JointFriction::SetNumber(size_t place, double value) {
+  const bool own = place < values_.size();
+  const OtherNumber* other = own ? nullptr : &OtherNumbers()[place - values_.size()];
+  const ParameterInfo& info = own ? law_.parameters[place] : other->info;
+  const bool time = info.name == Thermal::parameters[1].name;
+  if (!(value >= info.lower && value <= info.upper) || (time && value == 0)) return false;
+  if (own) {
+    values_[place] = value;
+    Derive();
+    return true;
+  }
+  *other->find(friction_) = value;
+  per_energy_ = friction_.viscous_per_energy;
+  if (h_ > 0) heat_ = DiscretiseHeat(friction_, h_);
+  return true;
 }
 
 template <typename... L>
@@ -119,6 +182,7 @@ FrictionStep JointFriction::StepOf(const JointFriction& joint, const FrictionSta
     step.loss = viscous * v + (bristle.sliding ? Loss(v, bristle.force) : 0.0);
   }
   step.force = viscous + bristle.force;
+  step.sliding = bristle.sliding;
 
   // a level below zero takes from the viscous force, at most all of it
   const double deficit = bristle.force == 0 && v != 0 ? std::min(0.0, level(Sign(v))) : 0.0;

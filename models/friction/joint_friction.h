@@ -48,6 +48,7 @@ struct FrictionStep {
   double force = 0;           // F, N.m or N; acts against the motion as -F
   double loss = 0;            // W, W
   bool feeds_itself = false;  // the sliding force would push; 0 was used instead
+  bool sliding = false;       // in the direction of the motion
   FrictionState next;
 };
 
@@ -73,6 +74,18 @@ class JointFriction {
 
   /// The members of the state that it needs (StateOf).
   const std::vector<StateMember>& state() const { return state_; }
+
+  /// Change of the level for each K, N.m/K or N/K; 0 where there is no temperature.
+  double level_per_temperature() const { return friction_.level_per_temperature; }
+
+  /// The place of a number that SetNumber sets: a parameter of the law, thermal_gain,
+  /// thermal_time_constant, the same with second_ before them, level_per_temperature or
+  /// viscous_per_energy; nothing where this friction has no such number.
+  std::optional<size_t> FindNumber(std::string_view name) const;
+
+  /// Sets a number from now on; false, and nothing changed, where it is out of the bounds of its
+  /// table.
+  bool SetNumber(size_t place, double value);
 
   /// The state that an engine holds in the order of state(); a number that is not finite counts as
   /// 0, so that it does not stay. values: [state().size()].
@@ -112,6 +125,7 @@ class JointFriction {
                              const JointMotion& motion);
   template <typename... L>
   void ChooseStep(LawList<L...>);
+  void Derive();
   double Slope(double energy) const { return std::max(0.0, viscous_ + per_energy_ * energy); }
 
   FrictionDescription friction_;  // without its maps

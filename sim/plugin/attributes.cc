@@ -6,6 +6,8 @@
 #include <set>
 
 #include "models/foundation/excerpt.h"
+#include "models/foundation/json_members.h"
+#include "models/foundation/nearest_name.h"
 #include "models/foundation/parse_number.h"
 #include "models/friction/law.h"
 #include "sim/plugin/model_folder.h"
@@ -17,7 +19,8 @@ namespace fs = std::filesystem;
 
 std::string BoundOf(const ParameterInfo& info) {
   if (info.lower == -kInfinity) return "any";
-  if (info.lower == kSmallestPositive) return "> 0";
+  const bool time = info.name == Thermal::parameters[1].name;
+  if (info.lower == kSmallestPositive || time) return "> 0";
   if (info.upper != kInfinity) return fmt::format("{} to {}", info.lower, info.upper);
   return fmt::format(">= {}", info.lower);
 }
@@ -48,6 +51,8 @@ std::vector<PluginAttribute> MakeAttributes() {
   }
   for (const FrictionOption& option : FrictionOptions()) AddParameter(option.info, attributes);
   attributes.push_back({"maps", "", "JSON", "list of maps as in a friction file"});
+  attributes.push_back({"initial_energy", "N.m", "any, or JSON",
+                        "energy state at a reset: of every joint, or of each by its name"});
   return attributes;
 }
 
@@ -69,7 +74,8 @@ fs::path Locate(const fs::path& file, const fs::path& folder) {
 /// Refuses every attribute that is given beside `whole`, which stands for all of friction.
 void RefuseBeside(const std::string& whole, const AttributeReader& read, const Place& place) {
   for (const PluginAttribute& attribute : PluginAttributes()) {
-    const bool beside = attribute.name == "folder" || attribute.name == "instance";
+    const bool beside = attribute.name == "folder" || attribute.name == "instance" ||
+                        attribute.name == "initial_energy";
     if (beside || attribute.name == whole) continue;
     if (read(attribute.name).empty()) continue;
     Refuse(place, "{0} is '{1}' beside {2} '{3}'; give {2} or the other attributes", attribute.name,
@@ -185,6 +191,55 @@ FrictionOfJoints ReadAttributes(const AttributeReader& read, const Place& place)
   if (!read("joints").empty()) return ReadJoints(read, place);
   const std::string file = read("file");
   return {{"", file.empty() ? ReadInline(read, place) : ReadFile(file, read, place)}};
+}
+
+namespace {
+
+/// The energy of a joint at a reset: a number, or one for each stage.
+std::array<double, 2> EnergyFrom(const nlohmann::json& value, const FrictionDescription& friction,
+                                 const Place& place) {
+  if (!friction.thermal) {
+    Refuse(place, "initial_energy needs thermal, which is not given; give it, or leave it out");
+  }
+  if (!friction.second_thermal) return {NumberFrom(value, "initial_energy", place), 0};
+  if (!value.is_array() || value.size() != 2) {
+    Refuse(place, "initial_energy is {}; with two stages of warming give a list of two numbers",
+           Excerpt(value.dump()));
+  }
+  return {NumberFrom(value[0], "initial_energy", place),
+          NumberFrom(value[1], "initial_energy", place)};
+}
+
+}  // namespace
+
+InitialEnergies ReadInitialEnergy(const AttributeReader& read, const FrictionOfJoints& joints,
+                                  const Place& place) {
+  using nlohmann::json;
+  const std::string text = read("initial_energy");
+  if (text.empty()) return {};
+  const json given = json::parse(text, nullptr, false);
+  if (given.is_discarded()) {
+    Refuse(place, "initial_energy is '{}'; it must be a number, or JSON by joint", Excerpt(text));
+  }
+  InitialEnergies energies;
+  if (!given.is_object()) {
+    for (const auto& [name, friction] : joints) {
+      energies[name] = EnergyFrom(given, friction, place);
+    }
+    return energies;
+  }
+  for (const auto& [name, value] : given.items()) {
+    const auto joint = joints.find(name);
+    if (joint == joints.end()) {
+      std::vector<std::string> known;
+      for (const auto& [other, unused] : joints) known.push_back(other);
+      Refuse(place, "initial_energy names '{}', which joints does not{}", Excerpt(name),
+             Suggestion(name, known));
+    }
+    const Place inside{fmt::format("{}: initial_energy: {}", place.file, name)};
+    energies[name] = EnergyFrom(value, joint->second, inside);
+  }
+  return energies;
 }
 
 std::string FileStamp(const AttributeReader& read) {

@@ -1,6 +1,7 @@
 // Configuration attributes of the plugin `warmjoint.friction`.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <map>
 #include <string>
@@ -19,7 +20,7 @@ struct PluginAttribute {
 };
 
 /// All attributes: `law`, `file`, `joints`, `instance`, `folder`, `gear`, the parameters of every
-/// law, the thermal ones, the options (FrictionOptions), `maps`.
+/// law, the thermal ones, the options (FrictionOptions), `maps`, `initial_energy`.
 const std::vector<PluginAttribute>& PluginAttributes();
 
 /// Reads the value of an attribute by its name; empty where it was not given.
@@ -33,6 +34,14 @@ using FrictionOfJoints = std::map<std::string, FrictionDescription>;
 /// law lacks or needs, `file` or `joints` beside attributes that they would contradict, a joint
 /// twice in `joints`.
 FrictionOfJoints ReadAttributes(const AttributeReader& read, const Place& place);
+
+/// Heat at a reset by the name of its joint, {E1, E2}, N.m or N; under "" that of every joint.
+using InitialEnergies = std::map<std::string, std::array<double, 2>>;
+
+/// The attribute `initial_energy`: a number, two in a list for two stages of warming, or an object
+/// of these by joint. Checked against the joints' friction; throws BadInput.
+InitialEnergies ReadInitialEnergy(const AttributeReader& read, const FrictionOfJoints& joints,
+                                  const Place& place);
 
 /// Path, size and time of the friction file that the attributes name, which tell whether it is still
 /// the same; empty where they name none.

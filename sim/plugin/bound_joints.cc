@@ -1,7 +1,9 @@
 #include "sim/plugin/bound_joints.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <set>
 
 #include "models/foundation/bad_input.h"
@@ -40,6 +42,7 @@ BoundJoint BindJoint(const mjModel* m, int joint, const PreparedJoint& prepared)
   bound.joint = joint;
   bound.dof = m->jnt_dofadr[joint];
   bound.position = m->jnt_qposadr[joint];
+  bound.initial_energy = prepared.initial_energy;
   bound.needs_load = NeedsLoad(prepared.description);
   bound.needs_ambient = prepared.description.level_per_temperature != 0;
   return bound;
@@ -167,6 +170,8 @@ BoundJoints::BoundJoints(const mjModel* m, int instance, int states)
   } else {
     BindActuators(m);
   }
+  BindSensors(m);
+  BindNumbers(m);
 }
 
 bool BoundJoints::SameText(const mjModel* m) const {
@@ -211,6 +216,69 @@ void BoundJoints::BindPassive(const mjModel* m, int states) {
     state += static_cast<int>(bound.friction.state().size());
     joints_.push_back(std::move(bound));
   }
+}
+
+void BoundJoints::BindSensors(const mjModel* m) {
+  for (int i = 0; i < m->nsensor; ++i) {
+    if (m->sensor_plugin[i] != instance_) continue;
+    if (m->sensor_objtype[i] != mjOBJ_UNKNOWN) {
+      Refuse(
+          {fmt::format("sensor '{}'", NameIn(m, mjOBJ_SENSOR, i))},
+          "names an object; a sensor of friction reads all joints of its instance, leave it out");
+    }
+    sensors_.push_back(m->sensor_adr[i]);
+  }
+}
+
+void BoundJoints::BindNumbers(const mjModel* m) {
+  const std::string start = NameIn(m, mjOBJ_PLUGIN, instance_) + "/";
+  if (start == "/") return;
+  for (int i = 0; i < m->nnumeric; ++i) {
+    const std::string name = NameIn(m, mjOBJ_NUMERIC, i);
+    if (!name.starts_with(start)) continue;
+    const Place place{fmt::format("numeric '{}'", name)};
+    NumberArray array;
+    array.address = m->numeric_adr[i];
+    const std::string number = name.substr(start.size());
+    array.initial_energy = number == "initial_energy";
+    bool known = array.initial_energy;
+    for (const BoundJoint& joint : joints_) {
+      array.places.push_back(joint.friction.FindNumber(number));
+      known = known || array.places.back();
+    }
+    if (!known) Refuse(place, "no joint's friction has a number '{}'", Excerpt(number));
+    if (static_cast<size_t>(m->numeric_size[i]) != joints_.size()) {
+      Refuse(place, "has {} numbers; give {}, one for each joint of {}", m->numeric_size[i],
+             joints_.size(), InstanceName(m, instance_));
+    }
+    // no number equals this one, so that the first look sets them all
+    array.last.assign(joints_.size(), std::numeric_limits<double>::quiet_NaN());
+    numbers_.push_back(std::move(array));
+  }
+}
+
+bool BoundJoints::ReadNumbers(const mjModel* m) {
+  bool any = false;
+  for (NumberArray& array : numbers_) {
+    const mjtNum* now = m->numeric_data + array.address;
+    for (size_t i = 0; i < joints_.size(); ++i) {
+      if (now[i] == array.last[i]) continue;
+      array.last[i] = now[i];
+      if (array.initial_energy && std::isfinite(now[i])) joints_[i].initial_energy[0] = now[i];
+      if (array.places[i]) joints_[i].friction.SetNumber(*array.places[i], now[i]);
+      any = true;
+    }
+  }
+  return any;
+}
+
+int SensorSize(const mjModel* m, int instance) {
+  if (!DrivenByActuators(m, instance)) {
+    const auto prepared = PrepareInstance(m, instance, {InstanceName(m, instance)});
+    return kSensed * static_cast<int>(prepared->joints.size());
+  }
+  const int *begin = m->actuator_plugin, *end = begin + m->nactuator;
+  return kSensed * static_cast<int>(std::count(begin, end, instance));
 }
 
 bool DrivenByActuators(const mjModel* m, int instance) {

@@ -3,6 +3,8 @@
 
 #include <mujoco/mujoco.h>
 
+#include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,7 +24,16 @@ struct BoundJoint {
   int output = -1;    // in actuator_force; -1 in the passive form
   bool needs_load = false;
   bool needs_ambient = false;
-  JointFriction friction;  // without a timestep
+  std::array<double, 2> initial_energy{};  // {E1, E2} at a reset, N.m or N
+  JointFriction friction;                  // without a timestep
+};
+
+/// An array of the model that holds a number of each joint: <numeric name="INSTANCE/NUMBER">.
+struct NumberArray {
+  int address = 0;  // in numeric_data
+  bool initial_energy = false;
+  std::vector<std::optional<size_t>> places;  // of JointFriction, for each joint
+  std::vector<double> last;                   // what the joints were set to, for each joint
 };
 
 /// The joints of an instance in one model: in the order of its actuators, or of the model's joints
@@ -43,11 +54,19 @@ class BoundJoints {
   bool passive() const { return passive_; }
   std::vector<BoundJoint>& joints() { return joints_; }
   const std::vector<BoundJoint>& joints() const { return joints_; }
+  /// Where in sensordata each sensor of the instance stands.
+  const std::vector<int>& sensors() const { return sensors_; }
+
+  /// Sets the joints' numbers to those of the model's arrays; whether any is new. A number out of
+  /// its bounds, or one that a joint's friction does not have, leaves that as it is.
+  bool ReadNumbers(const mjModel* m);
 
  private:
   bool SameText(const mjModel* m) const;
   void BindActuators(const mjModel* m);
   void BindPassive(const mjModel* m, int states);
+  void BindSensors(const mjModel* m);
+  void BindNumbers(const mjModel* m);
 
   int instance_;
   const mjModel* model_;
@@ -56,7 +75,17 @@ class BoundJoints {
   uint64_t signature_;  // of the model
   bool passive_;
   std::vector<BoundJoint> joints_;
+  std::vector<int> sensors_;
+  std::vector<NumberArray> numbers_;
 };
+
+/// Numbers of each joint in a sensor of the instance: force on the joint (N.m or N), energy state
+/// (N.m or N), rise of its temperature (K; 0 without level_per_temperature), loss (W), 1 held or 0
+/// sliding.
+inline constexpr int kSensed = 5;
+
+/// Numbers of sensordata that a sensor of the instance needs: kSensed for each of its joints.
+int SensorSize(const mjModel* m, int instance);
 
 /// Whether an actuator refers to the instance; one that none refers to is passive.
 bool DrivenByActuators(const mjModel* m, int instance);

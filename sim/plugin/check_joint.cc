@@ -14,6 +14,13 @@ constexpr double kLargestLinearWindUp = 0.005;  // m
 /// A little more, so that the three digits of a message are enough.
 double RoundUp(double value) { return 1.01 * value; }
 
+/// The first three digits, so that what a message prints is not more. value: positive.
+double RoundDown(double value) {
+  const double unit = std::pow(10, std::floor(std::log10(value)) - 2);
+  // a number of three digits may lie a rounding error below itself
+  return std::floor(value / unit * (1 + 1e-12)) * unit;
+}
+
 /// An explicit slope of force over speed c is well damped up to c h = M / 2, also where coupled
 /// joints feel lighter than M, and diverges above 2 M.
 void CheckSlope(const JointFriction& friction, double inertia, double h, const Place& place) {
@@ -24,7 +31,7 @@ void CheckSlope(const JointFriction& friction, double inertia, double h, const P
          "friction rises by up to {:.4g} over speed on an effective inertia of {:.3g} at timestep "
          "{}; the step would be "
          "unstable: add an armature of {:.3g} or take a timestep of at most {:.3g} s",
-         slope, inertia, h, RoundUp(needed - inertia), inertia / (2 * slope));
+         slope, inertia, h, RoundUp(needed - inertia), RoundDown(inertia / (2 * slope)));
 }
 
 /// How far the bristle winds up before it slides: level h^2 / (0.1 M).
@@ -39,7 +46,7 @@ void CheckWindUp(const JointFriction& friction, double inertia, double h, JointK
          "give way by {:.3g} {} before it slides, at most {} are allowed: add an armature of "
          "{:.3g} or take a timestep of at most {:.3g} s",
          level, inertia, h, level / MakeBristle(inertia, h).stiffness, kPositionUnit.For(kind),
-         allowed, RoundUp(needed - inertia), h * std::sqrt(inertia / needed));
+         allowed, RoundUp(needed - inertia), RoundDown(h * std::sqrt(inertia / needed)));
 }
 
 /// An explicit step carries a law's own bristle while (stiffness + 2 damping) in units of M/h^2 and
@@ -56,7 +63,7 @@ void CheckBristle(const Bristle& bristle, double inertia, double h, const Place&
          "bristle_stiffness is {} and bristle_damping {} on an effective inertia of {:.3g} at "
          "timestep {}; the step would be unstable: add an armature of {:.3g}, take a timestep of "
          "at most {:.3g} s, or soften the bristle",
-         bristle.stiffness, b, inertia, h, RoundUp(needed - inertia), longest);
+         bristle.stiffness, b, inertia, h, RoundUp(needed - inertia), RoundDown(longest));
 }
 
 }  // namespace

@@ -32,6 +32,13 @@ FrictionInstance::FrictionInstance(const mjModel* m, int instance)
   Rebind(m);
 }
 
+/// Finds the joints in the model that the instance is called with.
+void FrictionInstance::Bind(const mjModel* m) {
+  if (!bound_.FitsModel(m)) Rebind(m);
+  if (bound_.ReadNumbers(m)) checked_ = false;
+  if (timestep_ != m->opt.timestep) SetTimestep(m);
+}
+
 /// Makes scratch of the right size, and the joints ready for the model's step.
 void FrictionInstance::Rebind(const mjModel* m) {
   if (!bound_.FitsModel(m)) bound_ = BoundJoints(m, instance_, kFrictionReports);
@@ -42,6 +49,7 @@ void FrictionInstance::Rebind(const mjModel* m) {
     load = load || joint.needs_load;
   }
   force_.assign(bound_.joints().size(), 0);
+  sensed_.assign(kSensed * bound_.joints().size(), 0);
   next_.assign(states, 0);
   load_.assign(load && bound_.passive() ? static_cast<size_t>(m->nv) : 0, 0);
   SetTimestep(m);
@@ -55,7 +63,8 @@ void FrictionInstance::SetTimestep(const mjModel* m) {
   checked_ = false;
 }
 
-/// A step that a program set after loading is taken as it is, with a word about what it does.
+/// A step or a number that a program set after loading is taken as it is, with a word about what it
+/// does.
 void FrictionInstance::WarnOfTimestep(const mjModel* m, mjData* d) {
   checked_ = true;
   mjtNum& reported = d->plugin_state[m->plugin_stateadr[instance_] + kReportsStep];
@@ -65,7 +74,7 @@ void FrictionInstance::WarnOfTimestep(const mjModel* m, mjData* d) {
       CheckJoint(m, joint.joint, joint.friction, {JointName(m, joint.joint)});
     } catch (const BadInput& refusal) {
       reported = 1;
-      mju_warning("%s: the timestep was set to %g s at %g s: %s", kFrictionPlugin, timestep_,
+      mju_warning("%s: what was set at %g s is beyond what the step bears: %s", kFrictionPlugin,
                   d->time, refusal.what());
       return;
     }
@@ -73,8 +82,7 @@ void FrictionInstance::WarnOfTimestep(const mjModel* m, mjData* d) {
 }
 
 void FrictionInstance::Prepare(const mjModel* m, mjData* d) {
-  if (!bound_.FitsModel(m)) Rebind(m);
-  if (timestep_ != m->opt.timestep) SetTimestep(m);
+  Bind(m);
   if (!checked_) WarnOfTimestep(m, d);
   stepped_ = true;
 }
@@ -92,10 +100,9 @@ JointMotion FrictionInstance::MotionOf(const mjModel* m, const mjData* d,
   return motion;
 }
 
-FrictionStep FrictionInstance::StepJoint(const mjModel* m, mjData* d, size_t i, const mjtNum* state,
-                                         double ambient_rise) {
+FrictionStep FrictionInstance::StepJoint(const mjModel* m, mjData* d, size_t i,
+                                         const FrictionState& now, double ambient_rise) {
   const BoundJoint& joint = bound_.joints()[i];
-  const FrictionState now = joint.friction.Load(state);
   JointMotion motion = MotionOf(m, d, joint);
   motion.ambient_rise = ambient_rise;
   FrictionStep step = joint.friction.Step(now, motion);
@@ -107,18 +114,33 @@ FrictionStep FrictionInstance::StepJoint(const mjModel* m, mjData* d, size_t i, 
     step.next = now;
   }
   force_[i] = step.force;
+  if (!bound_.sensors().empty()) {
+    const double energy = now.energy + now.second_energy;
+    const double rise = joint.friction.level_per_temperature() != 0
+                            ? energy / joint.friction.level_per_temperature()
+                            : 0;
+    const double held = step.sliding ? 0 : 1;
+    double* sensed = sensed_.data() + kSensed * i;
+    for (const double value : {-step.force, energy, rise, step.loss, held}) *sensed++ = value;
+  }
   return step;
 }
 
 void FrictionInstance::StepActuators(const mjModel* m, mjData* d) {
   Prepare(m, d);
   const double rate = m->opt.integrator == mjINT_RK4 ? 0 : 1 / timestep_;
+  const bool starts = d->plugin_state[m->plugin_stateadr[instance_] + kStartsWarm] != 0;
   double* next = next_.data();
   for (size_t i = 0; i < bound_.joints().size(); ++i) {
     const BoundJoint& joint = bound_.joints()[i];
     const double ambient = joint.needs_ambient ? Finite(d->ctrl[joint.control]) : 0;
     const mjtNum* act = d->act + joint.state;
-    joint.friction.Store(StepJoint(m, d, i, act, ambient).next, next);
+    FrictionState now = joint.friction.Load(act);
+    if (starts && now.energy == 0 && now.second_energy == 0) {
+      now.energy = joint.initial_energy[0];
+      now.second_energy = joint.initial_energy[1];
+    }
+    joint.friction.Store(StepJoint(m, d, i, now, ambient).next, next);
 
     mjtNum* act_dot = d->act_dot + joint.state;
     for (size_t k = 0; k < joint.friction.state().size(); ++k) {
@@ -141,10 +163,38 @@ void FrictionInstance::StepPassive(const mjModel* m, mjData* d) {
   double* next = next_.data();
   for (size_t i = 0; i < bound_.joints().size(); ++i) {
     const BoundJoint& joint = bound_.joints()[i];
-    const FrictionStep step = StepJoint(m, d, i, d->plugin_state + joint.state, ambient);
+    const FrictionState now = joint.friction.Load(d->plugin_state + joint.state);
+    const FrictionStep step = StepJoint(m, d, i, now, ambient);
     joint.friction.Store(step.next, next);
     next += joint.friction.state().size();
     d->qfrc_passive[joint.dof] -= step.force;
+  }
+}
+
+void FrictionInstance::Reset(const mjModel* m, mjtNum* state) {
+  Bind(m);
+  std::fill_n(state, m->plugin_statenum[instance_], 0.0);
+  stepped_ = false;
+  mjtNum* next = state + kFrictionReports;
+  for (const BoundJoint& joint : bound_.joints()) {
+    const auto& [first, second] = joint.initial_energy;
+    if (!passive()) {
+      if (first != 0 || second != 0) state[kStartsWarm] = 1;
+      continue;
+    }
+    FrictionState initial;
+    initial.energy = first;
+    initial.second_energy = second;
+    joint.friction.Store(initial, next);
+    next += joint.friction.state().size();
+  }
+}
+
+void FrictionInstance::Sense(mjData* d) const {
+  // forces that the engine leaves out were not computed either
+  if (!stepped_) return;
+  for (const int address : bound_.sensors()) {
+    std::copy(sensed_.begin(), sensed_.end(), d->sensordata + address);
   }
 }
 
@@ -160,6 +210,7 @@ void FrictionInstance::Advance(const mjModel* m, mjData* d) {
     return;
   }
   if (m->opt.disableflags & mjDSBL_ACTUATION) return;
+  d->plugin_state[m->plugin_stateadr[instance_] + kStartsWarm] = 0;
   const bool all = m->opt.integrator == mjINT_RK4;
   for (const BoundJoint& joint : bound_.joints()) {
     const size_t states = joint.friction.state().size();

@@ -23,6 +23,9 @@ enum FrictionReport : int {
   kReportsStep,
   /// Passive form: rise of the ambient temperature, Ts - T0, K, for all joints; 0 after a reset.
   kAmbientRise,
+  /// Actuator form: 1 from a reset to the first step where joints start warm; that step begins at
+  /// their initial energy where act holds 0.
+  kStartsWarm = kAmbientRise,
   kFrictionReports,
 };
 
@@ -50,16 +53,23 @@ class FrictionInstance {
   /// Passive form: steps every joint and takes F from qfrc_passive.
   void StepPassive(const mjModel* m, mjData* d);
 
+  /// Writes the instance's part of plugin_state at a reset.
+  void Reset(const mjModel* m, mjtNum* state);
+
+  /// Writes sensordata of the instance's sensors: kSensed numbers for each joint.
+  void Sense(mjData* d) const;
+
   /// Commits the states of the last step: plugin_state, or act where the engine's own integration
   /// of it would not do (RK4, or a state that was not finite).
   void Advance(const mjModel* m, mjData* d);
 
  private:
+  void Bind(const mjModel* m);
   void Rebind(const mjModel* m);
   void SetTimestep(const mjModel* m);
   void WarnOfTimestep(const mjModel* m, mjData* d);
   void Prepare(const mjModel* m, mjData* d);
-  FrictionStep StepJoint(const mjModel* m, mjData* d, size_t i, const mjtNum* state,
+  FrictionStep StepJoint(const mjModel* m, mjData* d, size_t i, const FrictionState& now,
                          double ambient_rise);
   JointMotion MotionOf(const mjModel* m, const mjData* d, const BoundJoint& joint) const;
   void Report(const mjModel* m, mjData* d, const BoundJoint& joint);
@@ -67,11 +77,12 @@ class FrictionInstance {
   int instance_;
   BoundJoints bound_;
   double timestep_ = 0;
-  bool checked_ = true;        // the timestep, against the inertia
-  bool stepped_ = false;       // since the last Advance
-  std::vector<double> force_;  // [joints] F of the last step, N.m or N
-  std::vector<double> next_;   // [states] of the last step, in the order of the joints
-  std::vector<double> load_;   // [nv] transmitted by each joint, where the passive form needs it
+  bool checked_ = true;         // the timestep, against the inertia
+  bool stepped_ = false;        // since the last Advance
+  std::vector<double> sensed_;  // [joints x kSensed] of the last step
+  std::vector<double> force_;   // [joints] F of the last step, N.m or N
+  std::vector<double> next_;    // [states] of the last step, in the order of the joints
+  std::vector<double> load_;    // [nv] transmitted by each joint, where the passive form needs it
 };
 
 }  // namespace warmjoint::inline sim

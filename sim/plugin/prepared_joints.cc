@@ -63,9 +63,12 @@ std::shared_ptr<const PreparedInstance> PrepareInstance(const mjModel* m, int in
 
   auto prepared = std::make_shared<PreparedInstance>();
   prepared->written_name = read("instance");
-  for (auto& [joint, friction] : ReadAttributes(read, place)) {
-    JointFriction ready(friction);
-    prepared->joints.emplace(joint, PreparedJoint{std::move(friction), std::move(ready)});
+  const FrictionOfJoints joints = ReadAttributes(read, place);
+  for (const auto& [joint, friction] : joints) {
+    prepared->joints.emplace(joint, PreparedJoint{friction, JointFriction(friction)});
+  }
+  for (const auto& [joint, energy] : ReadInitialEnergy(read, joints, place)) {
+    prepared->joints.at(joint).initial_energy = energy;
   }
   TheShelf().Keep(key, prepared);
   return prepared;

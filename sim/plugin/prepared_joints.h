@@ -3,6 +3,7 @@
 
 #include <mujoco/mujoco.h>
 
+#include <array>
 #include <map>
 #include <memory>
 #include <string>
@@ -17,6 +18,7 @@ namespace warmjoint::inline sim {
 struct PreparedJoint {
   FrictionDescription description;
   JointFriction friction;
+  std::array<double, 2> initial_energy{};  // {E1, E2} at a reset, N.m or N
 };
 
 /// An instance as its attributes describe it.

@@ -54,10 +54,25 @@ void Guarded(const Callback& callback) {
 
 void Compute(const mjModel* m, mjData* d, int instance, int capability) {
   const bool passive = InstanceOf(d, instance)->passive();
+  if (capability == mjPLUGIN_SENSOR) InstanceOf(d, instance)->Sense(d);
   if (capability == mjPLUGIN_ACTUATOR && !passive) InstanceOf(d, instance)->ApplyActuators(m, d);
   if (capability == mjPLUGIN_PASSIVE && passive) {
     Guarded([&] { InstanceOf(d, instance)->StepPassive(m, d); });
   }
+}
+
+int SensorNumbers(const mjModel* m, int instance, int) {
+  try {
+    return SensorSize(m, instance);
+  } catch (const std::exception&) {
+    return kSensed;
+  }
+}
+
+void Reset(const mjModel* m, mjtNum* state, void* data, int instance) {
+  std::fill_n(state, m->plugin_statenum[instance], 0.0);
+  if (!data) return;
+  Guarded([&] { static_cast<FrictionInstance*>(data)->Reset(m, state); });
 }
 
 void ActDot(const mjModel* m, mjData* d, int instance) {
@@ -81,13 +96,13 @@ mjpPlugin MakePlugin() {
   plugin.name = kFrictionPlugin;
   plugin.nattribute = static_cast<int>(names.size());
   plugin.attributes = names.data();
-  plugin.capabilityflags = mjPLUGIN_ACTUATOR | mjPLUGIN_PASSIVE;
+  plugin.capabilityflags = mjPLUGIN_ACTUATOR | mjPLUGIN_PASSIVE | mjPLUGIN_SENSOR;
+  plugin.needstage = mjSTAGE_ACC;
+  plugin.nsensordata = SensorNumbers;
   plugin.nstate = States;
   plugin.init = Init;
   plugin.destroy = Destroy;
-  plugin.reset = [](const mjModel* m, mjtNum* state, void*, int instance) {
-    std::fill_n(state, m->plugin_statenum[instance], 0.0);
-  };
+  plugin.reset = Reset;
   plugin.actuator_act_dot = ActDot;
   plugin.compute = Compute;
   plugin.advance = [](const mjModel* m, mjData* d, int instance) {

@@ -35,8 +35,9 @@ inline std::vector<FrictionDescription> FrictionsOfEveryLaw() {
   add("viscous_coulomb", {{"viscous", 0.1}, {"coulomb", 0.8}})->level_per_temperature = -0.02;
   auto* mapped =
       add("asymmetric", {{"viscous", 0.1}, {"coulomb_positive", 0.7}, {"coulomb_negative", 0.9}});
-  FrictionMap map{
-      {{MapQuantity::position, EvenAxis(-1, 1, 5)}, {MapQuantity::load, {{-3, 0, 3}, 2}}}};
+  FrictionMap map;
+  map.axes = {{MapQuantity::position, EvenAxis(-1, 1, 5)},
+              {MapQuantity::load, EvenAxis(-3, 3, 3)}};
   map.weights.assign(15, 0.05);
   map.factor = MapFactor::direction;
   mapped->maps = {map};
