@@ -15,8 +15,10 @@ namespace warmjoint::inline sim {
 std::string JointName(const mjModel* m, int joint);
 
 /// Effective inertia of a degree of freedom at the reference pose with all the others free,
-/// 1 / dof_invweight0, kg.m^2 or kg; 0 while the compiler has not yet determined it.
+/// 1 / dof_invweight0, kg.m^2 or kg; 0 while the compiler has not yet determined it. Of one that
+/// MuJoCo knows to be uncoupled (simple) dof_invweight0 lacks the armature, and dof_M0 has it.
 inline double EffectiveInertia(const mjModel* m, int dof) {
+  if (m->dof_simplenum[dof] > 0) return m->dof_M0[dof];
   const double inverse = m->dof_invweight0[dof];
   return inverse > 0 ? 1 / inverse : 0;
 }
@@ -26,7 +28,9 @@ inline double EffectiveInertia(const mjModel* m, int dof) {
 /// takes the joints before it as held. Over the poses of arms with 6 and 7 axes the inertia matrix
 /// scaled by these has eigenvalues up to 3.3; with reference values alone, up to 28.
 inline double EffectiveInertia(const mjModel* m, const mjData* d, int dof) {
-  const double inverse = std::max(m->dof_invweight0[dof], d->qLDiagInv[dof]);
+  const bool coupled = m->dof_simplenum[dof] == 0;
+  const double inverse =
+      coupled ? std::max(m->dof_invweight0[dof], d->qLDiagInv[dof]) : d->qLDiagInv[dof];
   return inverse > 0 ? 1 / inverse : 0;
 }
 
