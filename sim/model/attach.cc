@@ -2,9 +2,13 @@
 
 #include <fmt/ranges.h>
 
-#include <algorithm>
+#include <map>
 
 #include "models/foundation/atomic_file.h"
+#include "models/foundation/excerpt.h"
+#include "sim/model/effort_limit.h"
+#include "sim/model/joint_pattern.h"
+#include "sim/model/light_joints.h"
 #include "sim/model/load_model.h"
 #include "sim/model/save_model.h"
 #include "sim/model/spec_elements.h"
@@ -14,51 +18,77 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string NameOf(mjsElement* element) { return mjs_getString(mjs_getName(element)); }
-
-/// Gives an actuator the range of its joint, cut to what it had.
-void LimitForce(mjsActuator& motor, const double range[2]) {
-  const bool limited =
-      motor.forcelimited == mjLIMITED_TRUE ||
-      (motor.forcelimited == mjLIMITED_AUTO && motor.forcerange[0] < motor.forcerange[1]);
-  motor.forcerange[0] = limited ? std::max(motor.forcerange[0], range[0]) : range[0];
-  motor.forcerange[1] = limited ? std::min(motor.forcerange[1], range[1]) : range[1];
-  motor.forcelimited = mjLIMITED_TRUE;
-}
-
-void AddMotor(mjSpec& spec, const std::string& joint, const double range[2]) {
-  mjsActuator* motor = mjs_addActuator(&spec, nullptr);
-  const bool taken = mjs_findElement(&spec, mjOBJ_ACTUATOR, joint.c_str()) != nullptr;
-  mjs_setToMotor(motor);
-  mjs_setName(motor->element, (taken ? joint + "_motor" : joint).c_str());
-  mjs_setString(motor->target, joint.c_str());
-  motor->trntype = mjTRN_JOINT;
-  LimitForce(*motor, range);
-}
-
-/// Moves a joint's effort limit to its motors. Returns whether it had one.
-bool MoveEffortLimit(mjSpec& spec, mjsJoint& joint) {
-  const bool limited =
-      joint.actfrclimited == mjLIMITED_TRUE ||
-      (joint.actfrclimited == mjLIMITED_AUTO && joint.actfrcrange[0] < joint.actfrcrange[1]);
-  if (!limited) return false;
-  const std::string name = NameOf(joint.element);
-  bool driven = false;
-  for (mjsElement* element : SpecElements(spec, mjOBJ_ACTUATOR)) {
-    mjsActuator* motor = mjs_asActuator(element);
-    if (motor->trntype != mjTRN_JOINT || mjs_getString(motor->target) != name) continue;
-    LimitForce(*motor, joint.actfrcrange);
-    driven = true;
+/// One friction for each joint, in the order of the command; a joint that two of them mean is
+/// refused.
+std::vector<FrictionForJoint> Expand(mjSpec& spec, const std::vector<FrictionForJoint>& frictions,
+                                     const Place& place) {
+  std::vector<FrictionForJoint> expanded;
+  std::map<std::string, std::string> given;
+  for (const FrictionForJoint& friction : frictions) {
+    for (const std::string& joint : MatchJoints(spec, friction.joint, place)) {
+      const auto [before, added] = given.emplace(joint, friction.joint);
+      if (!added) {
+        Refuse(place, "joint '{}' is given friction twice, by '{}' and by '{}'; give it one",
+               Excerpt(joint), Excerpt(before->second), Excerpt(friction.joint));
+      }
+      expanded.push_back(friction);
+      expanded.back().joint = joint;
+    }
   }
-  if (!driven) AddMotor(spec, name, joint.actfrcrange);
-  joint.actfrclimited = mjLIMITED_FALSE;
-  return true;
+  return expanded;
+}
+
+/// Tells of joints that a pattern passed over, since they have no name.
+void NoteNameless(mjSpec& spec, size_t named, size_t given, std::vector<std::string>& notices) {
+  const int nameless = NamelessJoints(spec);
+  if (nameless == 0 || named == given) return;
+  notices.push_back(fmt::format(
+      "{} of the model's hinges and slides have no name and so no friction; name them to give it",
+      nameless));
+}
+
+/// Armatures, integrator and step as the options have them.
+void Change(mjSpec& spec, const AttachOptions& options, const Place& place) {
+  for (const auto& [pattern, value] : options.armatures) {
+    for (const std::string& joint : MatchJoints(spec, pattern, place)) {
+      FindJoint(spec, joint, place)->armature = value;
+    }
+  }
+  if (options.integrator) spec.option.integrator = *options.integrator;
+  if (options.timestep) spec.option.timestep = *options.timestep;
+}
+
+/// Takes away what the friction replaces and what would clip it. Returns notices.
+std::vector<std::string> MakeRoom(mjSpec& spec, const std::vector<FrictionForJoint>& frictions,
+                                  FrictionForm form, const Place& place) {
+  std::vector<std::string> joints, replaced, notices;
+  for (const FrictionForJoint& friction : frictions) {
+    joints.push_back(friction.joint);
+    if (ClearOwnFriction(*FindJoint(spec, friction.joint, place))) {
+      replaced.push_back(friction.joint);
+    }
+  }
+  if (!replaced.empty()) {
+    notices.push_back(fmt::format(
+        "{}: damping and frictionloss of the model were removed; the friction replaces them",
+        fmt::join(replaced, ", ")));
+  }
+  if (form == FrictionForm::passive) return notices;
+  for (std::string& notice : MoveEffortLimits(spec, joints, place)) {
+    notices.push_back(std::move(notice));
+  }
+  return notices;
+}
+
+/// The folder of a file, also of one that is named without a folder.
+fs::path FolderOf(const fs::path& file) {
+  return fs::weakly_canonical(fs::absolute(file).parent_path());
 }
 
 /// Where assets lie, seen from the folder of the written model.
 void PointTo(mjString* directory, const fs::path& from, const fs::path& to) {
-  const fs::path absolute = fs::weakly_canonical(fs::absolute(from) / mjs_getString(directory));
-  const fs::path relative = absolute.lexically_relative(fs::weakly_canonical(fs::absolute(to)));
+  const fs::path absolute = fs::weakly_canonical(from / mjs_getString(directory));
+  const fs::path relative = absolute.lexically_relative(to);
   mjs_setString(directory, relative.empty() ? absolute.c_str() : relative.c_str());
 }
 
@@ -69,47 +99,39 @@ bool HasFiles(mjSpec& spec) {
   return false;
 }
 
-void Note(const std::vector<std::string>& joints, const std::string& sentence,
-          std::vector<std::string>& notices) {
-  if (joints.empty()) return;
-  notices.push_back(fmt::format("{}: {}", fmt::join(joints, ", "), sentence));
-}
-
 }  // namespace
 
-std::vector<std::string> AttachFriction(const fs::path& model,
-                                        const std::vector<FrictionForJoint>& frictions,
-                                        const fs::path& out) {
+Attached AttachFriction(const fs::path& model, const std::vector<FrictionForJoint>& frictions,
+                        const fs::path& out, const AttachOptions& options) {
   const Place place{model.string()};
-  ParsedModel parsed = ParseModel(model);
+  ParsedModel parsed = ParseModel(model, options.packages);
   mjSpec& spec = *parsed.spec;
-
-  // what the friction replaces, and what would clip it
-  std::vector<std::string> replaced, moved;
-  for (const auto& [name, friction] : frictions) {
-    mjsJoint* joint = FindJoint(spec, name, place);
-    if (ClearOwnFriction(*joint)) replaced.push_back(name);
-    if (MoveEffortLimit(spec, *joint)) moved.push_back(name);
+  const std::vector<FrictionForJoint> each = Expand(spec, frictions, place);
+  NoteNameless(spec, frictions.size(), each.size(), parsed.notices);
+  Change(spec, options, place);
+  for (std::string& notice : MakeRoom(spec, each, options.form, place)) {
+    parsed.notices.push_back(std::move(notice));
   }
-  Note(replaced, "damping and frictionloss of the model were removed; the friction replaces them",
-       parsed.notices);
-  Note(moved, "the joint's effort limit now limits its motor alone; it would clip friction too",
-       parsed.notices);
 
-  AddFriction(spec, frictions, place);
+  // what cannot carry its friction is told with its remedy before the plugin sees it
+  CheckJoints(spec, each, place);
+  RefuseLightJoints(CompileModel(spec, place).get(), each, place);
+  AddFriction(spec, each, place, options.form);
   CompileModel(spec, place);
 
   // the result must load from where it will lie
-  const fs::path from = model.parent_path(), to = out.parent_path();
   if (HasFiles(spec)) {
-    PointTo(spec.compiler.meshdir, from, to);
-    PointTo(spec.compiler.texturedir, from, to);
+    PointTo(spec.compiler.meshdir, FolderOf(model), FolderOf(out));
+    PointTo(spec.compiler.texturedir, FolderOf(model), FolderOf(out));
   }
   AtomicFile file(out);
   WriteWholeFile(file.temporary(), ModelToXml(spec, place));
   LoadModel(file.temporary());
   file.Commit();
-  return std::move(parsed.notices);
+
+  Attached attached{{}, std::move(parsed.notices)};
+  for (const FrictionForJoint& friction : each) attached.joints.push_back(friction.joint);
+  return attached;
 }
 
 }  // namespace warmjoint::inline sim

@@ -1,37 +1,37 @@
-// The one way by which friction is put onto a joint of a model.
+// The one way by which friction is put onto the joints of a model.
 #pragma once
 
 #include <mujoco/mujoco.h>
 
-#include <string>
 #include <vector>
 
 #include "models/foundation/bad_input.h"
-#include "models/friction/friction_description.h"
+#include "sim/model/friction_sections.h"
 
 namespace warmjoint::inline sim {
 
-/// Friction for one joint of a model.
-struct FrictionForJoint {
-  std::string joint;
-  FrictionDescription friction;
+/// How friction acts in a model.
+enum class FrictionForm {
+  /// An actuator for each joint: states in mjData.act, a control for the ambient.
+  actuator,
+  /// One instance of the plugin for all joints, to which a body refers: states in
+  /// mjData.plugin_state; actuators, controls and keyframes of the model stay as they are.
+  passive,
 };
 
-/// The sections <extension> and <actuator> that put friction onto a joint through the plugin,
-/// attributes inline, as MJCF text. The actuator is named "JOINT_friction".
-std::string FrictionSections(const std::string& joint, const FrictionDescription& friction);
+/// Throws BadInput from `place` for an unknown joint, one that is neither hinge nor slide, one that
+/// is named twice, one that has friction by an actuator already, and a friction that makes no sense
+/// (CheckFriction).
+void CheckJoints(mjSpec& spec, const std::vector<FrictionForJoint>& frictions, const Place& place);
 
-/// The joint of that name. Throws BadInput, from `place`, with the nearest name, where the model
-/// lacks it.
-mjsJoint* FindJoint(mjSpec& spec, const std::string& joint, const Place& place);
-
-/// Adds the plugin's actuator for each joint, "JOINT_friction", after all other actuators, so that
-/// the controls of those keep their places. frictions: checked here. Several share one instance of
-/// the plugin, since each instance costs the engine time of its own in every step.
+/// Adds friction to each joint. frictions: checked here (CheckJoints); all joints share one instance of the
+/// plugin, since each instance costs the engine time of its own in every step (one joint alone, as
+/// an actuator, holds its attributes by itself). The actuators, "JOINT_friction", come after all
+/// others, so that the controls of those keep their places; they take nothing from the model's
+/// default classes.
 /// What else would act as friction, or clip it, is the caller's to remove: see ClearOwnFriction.
-/// Throws BadInput from `place` for an unknown joint, one that is neither hinge nor slide, and one
-/// that has such an actuator already.
-void AddFriction(mjSpec& spec, const std::vector<FrictionForJoint>& frictions, const Place& place);
+void AddFriction(mjSpec& spec, const std::vector<FrictionForJoint>& frictions, const Place& place,
+                 FrictionForm form = FrictionForm::actuator);
 
 /// Takes from a joint the friction that the model gives it: damping and frictionloss.
 /// Returns whether there was any.

@@ -1,13 +1,11 @@
 #include "sim/model/load_model.h"
 
-#include <fmt/ranges.h>
-
 #include <array>
 #include <regex>
-#include <set>
 #include <string_view>
 
 #include "models/foundation/atomic_file.h"
+#include "sim/model/plugin_libraries.h"
 #include "sim/model/spec_elements.h"
 #include "sim/plugin/friction_instance.h"
 #include "sim/plugin/model_folder.h"
@@ -15,8 +13,6 @@
 
 namespace warmjoint::inline sim {
 namespace {
-
-constexpr std::string_view kPackage = "package://";
 
 /// One line of text.
 std::string Flatten(std::string_view message) {
@@ -35,26 +31,6 @@ int LineOf(const std::string& message) {
 
 /// The root element of a URDF is <robot>, of an MJCF <mujoco>; the former may hold the latter.
 bool IsUrdf(const std::string& text) { return text.find("<robot") < text.find("<mujoco"); }
-
-/// Removes what a URDF's package:// meshes draw and collide. Returns their file names.
-std::set<std::string> DropPackageMeshes(mjSpec& spec) {
-  std::vector<mjsElement*> doomed;
-  std::set<std::string> names, files;
-  for (mjsElement* element : SpecElements(spec, mjOBJ_MESH)) {
-    const std::string file = mjs_getString(mjs_asMesh(element)->file);
-    if (!file.starts_with(kPackage)) continue;
-    names.insert(mjs_getString(mjs_getName(element)));
-    files.insert(std::filesystem::path(file).filename());
-    doomed.push_back(element);
-  }
-  for (mjsElement* element : SpecElements(spec, mjOBJ_GEOM)) {
-    if (names.contains(mjs_getString(mjs_asGeom(element)->meshname))) {
-      doomed.insert(doomed.begin(), element);
-    }
-  }
-  for (mjsElement* element : doomed) mjs_delete(&spec, element);
-  return files;
-}
 
 /// Mass of a body and of all that is fixed to it, kg.
 double FixedMass(mjsBody* body) {
@@ -78,6 +54,32 @@ void CheckInertials(mjSpec& spec, const Place& place) {
   }
 }
 
+SpecPtr ParseMjcf(const std::filesystem::path& path, std::string& message) {
+  std::array<char, 2000> error{};
+  SpecPtr spec(mj_parse(path.c_str(), nullptr, nullptr, error.data(), error.size()));
+  message = Flatten(error.data());
+  return spec;
+}
+
+/// A URDF with what is only to be seen; its files count from ModelFolder.
+SpecPtr ParseUrdf(const std::string& text, std::string& message) {
+  std::array<char, 2000> error{};
+  SpecPtr spec(mj_parseXMLString(KeepVisuals(text).c_str(), nullptr, error.data(), error.size()));
+  message = Flatten(error.data());
+  if (spec) mjs_setString(spec->modelfiledir, (ModelFolder() / "").c_str());
+  return spec;
+}
+
+[[noreturn]] void RefuseUnread(const std::filesystem::path& path, const std::string& message) {
+  const Place place{path.string(), LineOf(message)};
+  const std::string plugin = UnknownPlugin(message);
+  if (plugin.empty()) Refuse(place, "MuJoCo cannot read it: {}", message);
+  Refuse(place,
+         "it asks for the plugin '{}', which is neither ours nor one of those that come with "
+         "MuJoCo; take its elements out of a copy of the model, and put them back into the result",
+         plugin);
+}
+
 /// What the plugin refuses, if it does: MuJoCo's message holds it once for each try to bind it.
 std::string PluginRefusal(const std::string& message) {
   const std::string mark = std::string(kFrictionPlugin) + ": ";
@@ -88,27 +90,23 @@ std::string PluginRefusal(const std::string& message) {
 
 }  // namespace
 
-ParsedModel ParseModel(const std::filesystem::path& path) {
+ParsedModel ParseModel(const std::filesystem::path& path, const PackageFolders& packages) {
   RegisterFrictionPlugin();
   const std::string text = ReadWholeFile(path);
-
+  const bool urdf = IsUrdf(text);
   ModelFolder() = std::filesystem::absolute(path).parent_path();
-  std::array<char, 2000> error{};
-  ParsedModel parsed;
-  parsed.spec.reset(mj_parse(path.c_str(), nullptr, nullptr, error.data(), error.size()));
-  if (!parsed.spec) {
-    const std::string message = Flatten(error.data());
-    Refuse({path.string(), LineOf(message)}, "MuJoCo cannot read it: {}", message);
-  }
 
-  if (IsUrdf(text)) {
-    const std::set<std::string> dropped = DropPackageMeshes(*parsed.spec);
-    if (!dropped.empty()) {
-      parsed.notices.push_back(fmt::format(
-          "{}: {} meshes named by package:// were left out, and with them their contacts: {}",
-          path.string(), dropped.size(), fmt::join(dropped, ", ")));
-    }
-    CheckInertials(*parsed.spec, {path.string()});
+  // plugins of MuJoCo's own are loaded where the model asks for one
+  std::string error;
+  const auto parse = [&] { return urdf ? ParseUrdf(text, error) : ParseMjcf(path, error); };
+  ParsedModel parsed{parse(), {}};
+  if (!parsed.spec && !UnknownPlugin(error).empty() && LoadMujocoPlugins()) parsed.spec = parse();
+  if (!parsed.spec) RefuseUnread(path, error);
+
+  if (urdf) {
+    const Place place{path.string()};
+    parsed.notices = ResolveMeshes(*parsed.spec, packages, path, place);
+    CheckInertials(*parsed.spec, place);
   }
   return parsed;
 }

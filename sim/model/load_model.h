@@ -7,6 +7,7 @@
 
 #include "models/foundation/bad_input.h"
 #include "sim/model/mujoco_handles.h"
+#include "sim/model/urdf_meshes.h"
 
 namespace warmjoint::inline sim {
 
@@ -16,11 +17,12 @@ struct ParsedModel {
   std::vector<std::string> notices;  // one sentence each
 };
 
-/// Reads an MJCF or URDF file. Meshes of a URDF that are named by `package://`, which only ROS can
-/// resolve, are left out with one notice. Throws BadInput with file and, where MuJoCo tells it,
-/// line for an unreadable file, and with the link's name for a URDF with a moving link that has
+/// Reads an MJCF or URDF file. Of a URDF what is only to be seen is kept, and its meshes are looked
+/// for as ResolveMeshes does, those named by `package://` in `packages`. Plugins that MuJoCo comes
+/// with are loaded where the model asks for one. Throws BadInput with file and, where MuJoCo tells
+/// it, line for an unreadable file, and with the link's name for a URDF with a moving link that has
 /// no mass.
-ParsedModel ParseModel(const std::filesystem::path& path);
+ParsedModel ParseModel(const std::filesystem::path& path, const PackageFolders& packages = {});
 
 /// Compiles a model. Throws BadInput from `place` with what MuJoCo or a plugin refuses.
 ModelPtr CompileModel(mjSpec& spec, const Place& place);

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "sim/model/friction_actuator.h"
+#include "sim/model/friction_sections.h"
 
 namespace warmjoint::inline sim {
 
@@ -30,7 +30,7 @@ std::string MinimalModel(const FrictionDescription& friction, JointKind kind) {
 {}</mujoco>
 )",
                      kTimestep, slides ? "slide" : "hinge", slides ? "1 0 0" : "0 0 1", inertia,
-                     inertia, inertia, inertia, FrictionSections("joint", friction));
+                     inertia, inertia, inertia, FrictionSections({"joint", friction}));
 }
 
 }  // namespace warmjoint::inline sim

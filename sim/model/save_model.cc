@@ -4,7 +4,10 @@
 
 namespace warmjoint::inline sim {
 
-std::string ModelToXml(const mjSpec& spec, const Place& place) {
+std::string ModelToXml(mjSpec& spec, const Place& place) {
+  spec.compiler.savecompiled = 0;
+  spec.compiler.savecanonical = 0;
+
   // the first call tells how much room the second needs
   std::array<char, 1000> error{};
   std::string text(1, '\0');

@@ -5,6 +5,7 @@
 
 #include "models/foundation/bad_input.h"
 #include "sim/model/friction_actuator.h"
+#include "sim/model/joint_pattern.h"
 #include "sim/model/load_model.h"
 #include "sim/model/spec_elements.h"
 #include "sim/plugin/check_joint.h"

@@ -68,7 +68,7 @@ TEST(PluginStep, AsksForNoMemory) {
   delete[] block;
   ASSERT_GT(allocations.load(), before) << "the counter does not count";
 
-  const std::string sections = FrictionSections("hinge", Full());
+  const std::string sections = FrictionSections({"hinge", Full()});
   EXPECT_EQ(AllocationsOf(sections.substr(sections.find("<actuator>"))), AllocationsOf(""));
 }
 

@@ -3,50 +3,33 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <fstream>
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
-#include "models/robots/robot_list.h"
 #include "sim/model/load_model.h"
 #include "sim/plugin/friction_instance.h"
 #include "tests/models/recording/temporary_file.h"
-#include "tests/support/shared_data.h"
+#include "tests/sim/model/light_friction.h"
 #include "tests/tools/scratch_directory.h"
 
 namespace warmjoint {
 namespace {
 
 namespace fs = std::filesystem;
+using test::FrictionJoints;
+using test::LightFriction;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::ThrowsMessage;
 
-FrictionDescription Light() {
-  FrictionDescription friction;
-  friction.law = "coulomb";
-  friction.parameters = {{"coulomb", 0.5}};
-  friction.thermal = Thermal{-0.1, 60};
-  return friction;
-}
-
-std::vector<std::string> FrictionJoints(const mjModel* m) {
-  std::vector<std::string> joints;
-  for (int i = 0; i < m->nactuator; ++i) {
-    if (m->actuator_plugin[i] < 0) continue;
-    joints.emplace_back(mj_id2name(m, mjOBJ_JOINT, m->actuator_trnid[2 * i]));
-  }
-  return joints;
-}
-
 constexpr char kTwoJoints[] = R"(<mujoco>
   <option timestep="0.002"/>
   <worldbody>
-    <body pos="0 0 1">
+    <body name="upper_arm" pos="0 0 1">
       <joint name="shoulder" axis="0 1 0" damping="0.3" frictionloss="1"/>
       <geom name="upper" type="capsule" fromto="0 0 0 0.3 0 0" size="0.04"/>
       <body pos="0.3 0 0">
@@ -69,46 +52,163 @@ class Attach : public testing::Test {
 };
 
 TEST_F(Attach, PutsFrictionOnTheNamedJointsAlone) {
-  AttachFriction(two_joints_.path(), {{"elbow", Light()}}, out_);
+  AttachFriction(two_joints_.path(), {{"elbow", LightFriction()}}, out_);
   const LoadedModel result = LoadModel(out_);
   EXPECT_THAT(FrictionJoints(result.model.get()), ElementsAre("elbow"));
   EXPECT_EQ(mj_name2id(result.model.get(), mjOBJ_ACTUATOR, "elbow_friction"), 1);
 }
 
 TEST_F(Attach, ReplacesTheFrictionOfTheModelOnThoseJoints) {
-  const auto notices = AttachFriction(two_joints_.path(), {{"shoulder", Light()}}, out_);
-  EXPECT_THAT(notices, ElementsAre(AllOf(HasSubstr("shoulder"), HasSubstr("damping"))));
+  const Attached attached =
+      AttachFriction(two_joints_.path(), {{"shoulder", LightFriction()}}, out_);
+  EXPECT_THAT(attached.notices, ElementsAre(AllOf(HasSubstr("shoulder"), HasSubstr("damping"))));
   const LoadedModel result = LoadModel(out_);
   EXPECT_EQ(result.model->dof_damping[0], 0);
   EXPECT_EQ(result.model->dof_frictionloss[0], 0);
   EXPECT_EQ(result.model->dof_damping[1], 0.2);
 }
 
-TEST_F(Attach, MovesTheEffortLimitToTheMotor) {
-  AttachFriction(two_joints_.path(), {{"elbow", Light()}}, out_);
-  const LoadedModel result = LoadModel(out_);
-  EXPECT_FALSE(result.model->jnt_actfrclimited[1]);
-  // the motor's own range -2 to 9, cut to the joint's -4 to 3
-  EXPECT_EQ(result.model->actuator_forcerange[0], -2);
-  EXPECT_EQ(result.model->actuator_forcerange[1], 3);
+TEST_F(Attach, TakesPatternsAndSeveralJointsAtOnce) {
+  const Attached attached =
+      AttachFriction(two_joints_.path(), {{"el.*|sh.*", LightFriction()}}, out_);
+  EXPECT_THAT(attached.joints, ElementsAre("shoulder", "elbow"));
+  EXPECT_THAT(FrictionJoints(LoadModel(out_).model.get()), ElementsAre("shoulder", "elbow"));
 }
 
-TEST_F(Attach, GivesAUrdfJointAMotorWithItsEffort) {
-  const RobotInfo pendulum = [] {
-    for (const RobotInfo& robot : Robots()) {
-      if (robot.name == "pendulum") return robot;
-    }
-    return RobotInfo{};
-  }();
-  AttachFriction(pendulum.urdf, {{"hinge", Light()}}, out_);
+TEST_F(Attach, ChangesArmatureIntegratorAndStepWhereAsked) {
+  AttachOptions options;
+  options.armatures = {{".*", 0.01}, {"elbow", 0.0200000000000001}};
+  options.integrator = mjINT_IMPLICITFAST;
+  options.timestep = 0.0005;
+  AttachFriction(two_joints_.path(), {{"elbow", LightFriction()}}, out_, options);
   const LoadedModel result = LoadModel(out_);
-  const int motor = mj_name2id(result.model.get(), mjOBJ_ACTUATOR, "hinge");
-  ASSERT_GE(motor, 0);
-  EXPECT_EQ(result.model->actuator_forcerange[2 * motor + 1], pendulum.joints[0].effort);
+  EXPECT_EQ(result.model->dof_armature[0], 0.01);
+  EXPECT_EQ(result.model->dof_armature[1], 0.0200000000000001);
+  EXPECT_EQ(result.model->opt.integrator, mjINT_IMPLICITFAST);
+  EXPECT_EQ(result.model->opt.timestep, 0.0005);
+}
+
+TEST_F(Attach, InheritsNothingFromTheActuatorDefaultsOfTheModel) {
+  const std::string defaults =
+      R"(<default><general ctrllimited="true" ctrlrange="-1 1" forcelimited="true"
+      forcerange="-2 2" actlimited="true" actrange="0 1" gear="50" damping="3" armature="0.1"
+      dyntype="filter" dynprm="0.1" group="3" actdim="1"/></default>)";
+  std::string text = kTwoJoints;
+  text.insert(text.find("<worldbody>"), defaults);
+  text.replace(text.find("<motor"), 6, "<general");
+  const TemporaryFile model("defaults.xml", text);
+  AttachFriction(model.path(), {{"elbow", LightFriction()}, {"shoulder", LightFriction()}}, out_);
+  const LoadedModel result = LoadModel(out_);
+  const mjModel* m = result.model.get();
+  ASSERT_EQ(m->nactuator, 3);
+  for (int i = 1; i < 3; ++i) {
+    EXPECT_FALSE(m->actuator_ctrllimited[i]);
+    EXPECT_FALSE(m->actuator_forcelimited[i]);
+    EXPECT_FALSE(m->actuator_actlimited[i]);
+    EXPECT_EQ(m->actuator_dyntype[i], mjDYN_NONE);
+    EXPECT_EQ(m->actuator_gear[6 * m->actuator_outadr[i]], 1);
+    EXPECT_EQ(m->actuator_group[i], 0);
+    EXPECT_EQ(m->actuator_armature[i], 0);
+    EXPECT_EQ(m->actuator_damping[i], 0);
+  }
+  // the motor of the model keeps what it inherits
+  EXPECT_EQ(m->actuator_armature[0], 0.1);
+  EXPECT_EQ(m->actuator_gear[0], 50);
+}
+
+TEST_F(Attach, TakesAFileThatIsNamedWithoutItsFolder) {
+  std::ofstream(folder_.path() / "t.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+                                             "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+  std::ofstream(folder_.path() / "model.xml") << R"(<mujoco>
+    <asset><mesh name="t" file="t.obj"/></asset>
+    <worldbody><body><joint name="j"/><geom type="mesh" mesh="t"/></body></worldbody></mujoco>)";
+  const fs::path before = fs::current_path();
+  fs::current_path(folder_.path());
+  EXPECT_NO_THROW(AttachFriction("model.xml", {{"j", LightFriction()}}, "out.xml"));
+  fs::current_path(before);
+  EXPECT_EQ(LoadModel(out_).model->nmesh, 1);
+}
+
+TEST_F(Attach, WorksOnReplicatedJoints) {
+  const TemporaryFile model("replicate.xml", R"(<mujoco><worldbody>
+    <replicate count="3" offset="0.5 0 0"><body><joint name="j" axis="0 1 0"/><geom size="0.1"/>
+    </body></replicate></worldbody></mujoco>)");
+  const Attached attached = AttachFriction(model.path(), {{"j.*", LightFriction()}}, out_);
+  EXPECT_EQ(attached.joints.size(), 3u);
+  EXPECT_EQ(FrictionJoints(LoadModel(out_).model.get()), attached.joints);
+}
+
+TEST_F(Attach, RefusesAJointThatSharesAnInstanceAlready) {
+  AttachFriction(two_joints_.path(), {{".*", LightFriction()}}, out_);
+  EXPECT_THAT(
+      [&] {
+        AttachFriction(out_, {{"elbow", LightFriction()}}, folder_.path() / "again.xml");
+      },
+      ThrowsMessage<BadInput>(HasSubstr("'elbow' has friction already, by actuator")));
+}
+
+TEST_F(Attach, LeavesActuatorsControlsAndLimitsAsTheyAreInThePassiveForm) {
+  AttachOptions options;
+  options.form = FrictionForm::passive;
+  options.integrator = mjINT_RK4;
+  const Attached attached =
+      AttachFriction(two_joints_.path(), {{".*", LightFriction()}}, out_, options);
+  EXPECT_THAT(attached.joints, ElementsAre("shoulder", "elbow"));
+  const LoadedModel before = LoadModel(two_joints_.path()), after = LoadModel(out_);
+  const mjModel *a = before.model.get(), *b = after.model.get();
+  EXPECT_EQ(a->nu, b->nu);
+  EXPECT_EQ(a->na, b->na);
+  EXPECT_EQ(b->nplugin, 1);
+  EXPECT_EQ(a->jnt_actfrcrange[2], b->jnt_actfrcrange[2]);
+  EXPECT_EQ(a->actuator_forcerange[1], b->actuator_forcerange[1]);
+  EXPECT_EQ(a->key_ctrl[0], b->key_ctrl[0]);
+
+  // 0.5 N.m hold the elbow against 0.4 N.m, under RK4 too
+  const DataPtr data(mj_makeData(b));
+  after.model->opt.disableflags |= mjDSBL_GRAVITY;
+  data->qfrc_applied[b->jnt_dofadr[1]] = 0.4;
+  while (data->time < 1) mj_step(b, data.get());
+  EXPECT_LT(std::abs(data->qvel[1]), 1e-6);
+  data->qfrc_applied[b->jnt_dofadr[1]] = 0.6;
+  while (data->time < 1.1) mj_step(b, data.get());
+  EXPECT_GT(data->qvel[1], 0.1);
+}
+
+TEST_F(Attach, LetsTheRobotBePutIntoASceneWithAPrefix) {
+  for (const FrictionForm form : {FrictionForm::actuator, FrictionForm::passive}) {
+    AttachOptions options;
+    options.form = form;
+    AttachFriction(two_joints_.path(), {{".*", LightFriction()}}, out_, options);
+    const fs::path scene = folder_.path() / "scene.xml";
+    WriteWholeFile(scene, R"(<mujoco><asset><model name="arm" file="out.xml"/></asset><worldbody>
+      <frame><attach model="arm" body="upper_arm" prefix="left/"/></frame>
+      <frame pos="0 1 0"><attach model="arm" body="upper_arm" prefix="right/"/></frame>
+      </worldbody></mujoco>)");
+    const LoadedModel loaded = LoadModel(scene);
+    EXPECT_EQ(loaded.model->nplugin, 2);
+    EXPECT_GE(mj_name2id(loaded.model.get(), mjOBJ_JOINT, "right/elbow"), 0);
+    const DataPtr data(mj_makeData(loaded.model.get()));
+    EXPECT_TRUE(data);
+  }
+}
+
+TEST_F(Attach, RefusesAPassiveFrictionBesideAnotherOne) {
+  AttachOptions options;
+  options.form = FrictionForm::passive;
+  AttachFriction(two_joints_.path(), {{"elbow", LightFriction()}}, out_, options);
+  for (const FrictionForm form : {FrictionForm::passive, FrictionForm::actuator}) {
+    options.form = form;
+    EXPECT_THAT(
+        [&] {
+          AttachFriction(out_, {{"elbow", LightFriction()}}, folder_.path() / "again.xml", options);
+        },
+        ThrowsMessage<BadInput>(HasSubstr("'elbow' has friction already")));
+  }
 }
 
 TEST_F(Attach, KeepsKeyframesWithTheirControls) {
-  AttachFriction(two_joints_.path(), {{"elbow", Light()}, {"shoulder", Light()}}, out_);
+  AttachFriction(two_joints_.path(), {{"elbow", LightFriction()}, {"shoulder", LightFriction()}},
+                 out_);
   const LoadedModel result = LoadModel(out_);
   ASSERT_EQ(result.model->nkey, 1);
   EXPECT_EQ(result.model->key_ctrl[0], 0.5);
@@ -124,7 +224,7 @@ TEST_F(Attach, FindsMeshesInTheFolderOfTheOriginal) {
   std::ofstream(model) << R"(<mujoco><compiler meshdir="assets"/>
     <asset><mesh name="t" file="t.obj"/></asset>
     <worldbody><body><joint name="j"/><geom type="mesh" mesh="t"/></body></worldbody></mujoco>)";
-  AttachFriction(model, {{"j", Light()}}, out_);
+  AttachFriction(model, {{"j", LightFriction()}}, out_);
   EXPECT_EQ(LoadModel(out_).model->nmesh, 1);
   EXPECT_THAT(ReadWholeFile(out_), HasSubstr("meshdir=\"source/assets"));
 }
@@ -132,7 +232,7 @@ TEST_F(Attach, FindsMeshesInTheFolderOfTheOriginal) {
 TEST_F(Attach, RefusesAnUnknownJointWithTheNearestAndWritesNothing) {
   EXPECT_THAT(
       [&] {
-        AttachFriction(two_joints_.path(), {{"elbwo", Light()}}, out_);
+        AttachFriction(two_joints_.path(), {{"elbwo", LightFriction()}}, out_);
       },
       ThrowsMessage<BadInput>(AllOf(HasSubstr(two_joints_.path()),
                                     HasSubstr("no joint 'elbwo'; did you mean 'elbow'"))));
@@ -142,24 +242,26 @@ TEST_F(Attach, RefusesAnUnknownJointWithTheNearestAndWritesNothing) {
 TEST_F(Attach, RefusesABallJointAndASecondFriction) {
   EXPECT_THAT(
       [&] {
-        AttachFriction(two_joints_.path(), {{"wrist", Light()}}, out_);
+        AttachFriction(two_joints_.path(), {{"wrist", LightFriction()}}, out_);
       },
       ThrowsMessage<BadInput>(HasSubstr("'wrist' is neither hinge nor slide")));
   EXPECT_THAT(
       [&] {
-        AttachFriction(two_joints_.path(), {{"elbow", Light()}, {"elbow", Light()}}, out_);
+        AttachFriction(two_joints_.path(), {{"elbow", LightFriction()}, {"elbow", LightFriction()}},
+                       out_);
       },
-      ThrowsMessage<BadInput>(HasSubstr("'elbow' has friction already")));
-  AttachFriction(two_joints_.path(), {{"elbow", Light()}}, out_);
+      ThrowsMessage<BadInput>(
+          HasSubstr("'elbow' is given friction twice, by 'elbow' and by 'elbow'")));
+  AttachFriction(two_joints_.path(), {{"elbow", LightFriction()}}, out_);
   EXPECT_THAT(
       [&] {
-        AttachFriction(out_, {{"elbow", Light()}}, folder_.path() / "again.xml");
+        AttachFriction(out_, {{"elbow", LightFriction()}}, folder_.path() / "again.xml");
       },
       ThrowsMessage<BadInput>(HasSubstr("by actuator 'elbow_friction'")));
 }
 
 TEST_F(Attach, RefusesWhatThePluginRefusesAndWritesNothing) {
-  FrictionDescription steep = Light();
+  FrictionDescription steep = LightFriction();
   steep.law = "viscous_coulomb";
   steep.parameters = {{"viscous", 1e4}, {"coulomb", 1}};
   EXPECT_THAT(
@@ -174,91 +276,9 @@ TEST_F(Attach, EscapesNames) {
   const TemporaryFile file("odd.xml",
                            "<mujoco><worldbody><body><joint name='a&amp;&lt;&quot;b'/>"
                            "<geom size='0.1'/></body></worldbody></mujoco>");
-  AttachFriction(file.path(), {{"a&<\"b", Light()}}, out_);
+  AttachFriction(file.path(), {{"a&<\"b", LightFriction()}}, out_);
   EXPECT_THAT(FrictionJoints(LoadModel(out_).model.get()), ElementsAre("a&<\"b"));
 }
-
-/// A robot file of the shared folder.
-struct RobotFile {
-  std::string name;
-  fs::path path;
-};
-void PrintTo(const RobotFile& file, std::ostream* stream) { *stream << file.name; }
-
-std::vector<RobotFile> RobotFiles() {
-  std::vector<RobotFile> files;
-  std::error_code absent;
-  for (const auto& folder : fs::directory_iterator(test::SharedFolder() / "robots", absent)) {
-    for (const auto& file : fs::directory_iterator(folder)) {
-      const std::string extension = file.path().extension();
-      if (extension != ".xml" && extension != ".urdf") continue;
-      files.push_back({folder.path().filename(), file.path()});
-    }
-  }
-  return files;
-}
-
-class AttachToRobot : public testing::TestWithParam<RobotFile> {
- protected:
-  const fs::path& robot_ = GetParam().path;
-  const ScratchDirectory folder_;
-  const fs::path out_ = folder_.path() / "out.xml";
-
-  /// Friction of at most 0.5 N.m, less on joints too light to stick with that at the model's step.
-  std::vector<FrictionForJoint> EveryJoint(const mjModel* m) {
-    std::vector<FrictionForJoint> all;
-    for (int i = 0; i < m->njnt; ++i) {
-      FrictionDescription friction = Light();
-      const double inertia = 1 / m->dof_invweight0[m->jnt_dofadr[i]];
-      double& level = friction.parameters["coulomb"];
-      level = std::min(level, 1e-3 * inertia / (m->opt.timestep * m->opt.timestep));
-      all.push_back({mj_id2name(m, mjOBJ_JOINT, i), friction});
-    }
-    return all;
-  }
-};
-
-TEST_P(AttachToRobot, EveryJointCarriesFrictionAndTheRobotRuns) {
-  const LoadedModel before = LoadModel(robot_);
-  AttachFriction(robot_, EveryJoint(before.model.get()), out_);
-  const LoadedModel after = LoadModel(out_);
-  const mjModel* m = after.model.get();
-  EXPECT_EQ(FrictionJoints(m).size(), static_cast<size_t>(m->njnt));
-  EXPECT_EQ(m->nplugin, 1) << "all joints share one instance";
-
-  const DataPtr data(mj_makeData(m));
-  for (int i = 0; i < 1000; ++i) mj_step(m, data.get());
-  EXPECT_EQ(data->warning[mjWARN_BADQACC].number, 0);
-  for (int i = 0; i < m->nv; ++i) EXPECT_TRUE(std::isfinite(data->qvel[i]));
-  // one step of the bristle is bounded by the level, so the loss has warmed at least one joint
-  double warmest = 0;
-  for (int i = 0; i < m->na; ++i) warmest = std::max(warmest, std::abs(data->act[i]));
-  EXPECT_GT(warmest, 0);
-}
-
-TEST_P(AttachToRobot, TheRestOfTheModelStays) {
-  const LoadedModel before = LoadModel(robot_);
-  AttachFriction(robot_, EveryJoint(before.model.get()), out_);
-  const LoadedModel after = LoadModel(out_);
-  const mjModel *a = before.model.get(), *b = after.model.get();
-  ASSERT_EQ(a->nbody, b->nbody);
-  ASSERT_EQ(a->nv, b->nv);
-  EXPECT_EQ(a->ngeom, b->ngeom);
-  EXPECT_EQ(a->opt.timestep, b->opt.timestep);
-  EXPECT_EQ(a->opt.integrator, b->opt.integrator);
-  // six significant digits: at most half a unit of the sixth, 5e-6 of the value
-  const auto near = [](double x, double y) { EXPECT_NEAR(x, y, 5e-6 * (1 + std::abs(x))); };
-  for (int i = 0; i < a->nbody; ++i) near(a->body_mass[i], b->body_mass[i]);
-  for (int i = 0; i < 3 * a->nbody; ++i) near(a->body_ipos[i], b->body_ipos[i]);
-  for (int i = 0; i < 3 * a->nbody; ++i) near(a->body_inertia[i], b->body_inertia[i]);
-  for (int i = 0; i < 3 * a->njnt; ++i) near(a->jnt_axis[i], b->jnt_axis[i]);
-  for (int i = 0; i < 2 * a->njnt; ++i) near(a->jnt_range[i], b->jnt_range[i]);
-  for (int i = 0; i < a->nv; ++i) near(a->dof_armature[i], b->dof_armature[i]);
-}
-
-GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(AttachToRobot);
-INSTANTIATE_TEST_SUITE_P(SharedRobots, AttachToRobot, testing::ValuesIn(RobotFiles()),
-                         [](const auto& robot) { return robot.param.name; });
 
 }  // namespace
 }  // namespace warmjoint

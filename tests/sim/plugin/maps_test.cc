@@ -47,7 +47,7 @@ std::string ActuatorXml(const std::string& configs) {
 
 /// The sections that `attach` writes.
 std::string InlineXml(const FrictionDescription& friction) {
-  const std::string sections = FrictionSections("hinge", friction);
+  const std::string sections = FrictionSections({"hinge", friction});
   return sections.substr(sections.find("<actuator>"));
 }
 

@@ -40,6 +40,7 @@ TEST(AttachCommand, TellsWhatItChanged) {
       RunWarmjoint({"attach", urdf, "--joint", "hinge=" + FrictionFile("pendulum"), "-o", out});
   EXPECT_EQ(answer.status, 0) << answer.err;
   EXPECT_THAT(answer.err, AllOf(HasSubstr("notice: hinge"), HasSubstr("effort limit")));
+  EXPECT_EQ(LoadModel(out).model->nactuator, 1) << "no motor comes unasked";
 }
 
 TEST(AttachCommand, WarnsOfAFrictionThatItsVerdictVoids) {
@@ -55,6 +56,53 @@ TEST(AttachCommand, WarnsOfAFrictionThatItsVerdictVoids) {
     EXPECT_EQ(answer.status, 0) << answer.err;
     EXPECT_EQ(answer.err.find("void") != std::string::npos, warns) << answer.err;
   }
+}
+
+TEST(AttachCommand, TakesPatternsFormAndChangesOfTheModel) {
+  const ScratchDirectory scratch;
+  const std::string out = scratch.path() / "out.xml";
+  const Answer answer = RunWarmjoint(
+      {"attach", "yumi_like", "--joint", "joint_.*=" + FrictionFile("yumi_like"), "--armature",
+       "joint_.*=0.125", "--timestep", "0.00025", "--integrator", "implicitfast", "-o", out});
+  ASSERT_EQ(answer.status, 0) << answer.err;
+  const LoadedModel loaded = LoadModel(out);
+  const mjModel* m = loaded.model.get();
+  EXPECT_EQ(m->opt.timestep, 0.00025);
+  EXPECT_EQ(m->opt.integrator, mjINT_IMPLICITFAST);
+  for (int i = 0; i < m->nv; ++i) EXPECT_EQ(m->dof_armature[i], 0.125);
+  EXPECT_THAT(answer.out, HasSubstr(fmt::format("on {} of its joints", m->njnt)));
+}
+
+TEST(AttachCommand, RefusesOptionsThatMakeNoSense) {
+  const ScratchDirectory scratch;
+  const std::string out = scratch.path() / "out.xml", joint = "hinge=" + FrictionFile("pendulum");
+  const auto refusal = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> words{"attach", "pendulum", "--joint", joint, "-o", out};
+    words.insert(words.end(), options.begin(), options.end());
+    const Answer answer = RunWarmjoint(words);
+    EXPECT_EQ(answer.status, 2) << answer.out;
+    return answer.err;
+  };
+  EXPECT_THAT(refusal({"--armature", "hinge=-1"}), HasSubstr("0 or more"));
+  EXPECT_THAT(refusal({"--armature", "hing=1"}), HasSubstr("did you mean 'hinge'"));
+  EXPECT_THAT(refusal({"--timestep", "0"}), HasSubstr("above 0"));
+  EXPECT_THAT(refusal({"--integrator", "RK45"}), HasSubstr("RK4"));
+  EXPECT_THAT(refusal({"--package", "rd=/no/such/folder"}), HasSubstr("no folder"));
+  EXPECT_THAT(refusal({"--initial", "hot"}), HasSubstr("cold, end or settled:SPEED"));
+  EXPECT_THAT(refusal({"--initial", "settled:fast"}), HasSubstr("rad/s"));
+  EXPECT_THAT(refusal({"--initial", "end"}), HasSubstr("state_end"));
+  EXPECT_THAT(refusal({"--joint", joint}), HasSubstr("'hinge' is given friction twice"));
+  EXPECT_TRUE(std::filesystem::is_empty(scratch.path()));
+}
+
+TEST(AttachCommand, SaysThatARefusedEstimateHoldsNoFriction) {
+  const ScratchDirectory scratch;
+  const std::string estimate = scratch.path() / "estimate.json", out = scratch.path() / "out.xml";
+  WriteWholeFile(estimate, R"({"status": "inadequate_model", "friction": null})");
+  const Answer answer =
+      RunWarmjoint({"attach", "pendulum", "--joint", "hinge=" + estimate, "-o", out});
+  EXPECT_EQ(answer.status, 2);
+  EXPECT_THAT(answer.err, AllOf(HasSubstr("holds no friction"), HasSubstr("--force")));
 }
 
 TEST(AttachCommand, RefusesAnUnknownJointAndLeavesNothing) {

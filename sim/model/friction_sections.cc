@@ -1,0 +1,96 @@
+#include "sim/model/friction_sections.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "models/friction/joint_friction.h"
+#include "sim/model/escape_xml.h"
+#include "sim/plugin/friction_instance.h"
+
+namespace warmjoint::inline sim {
+namespace {
+
+using nlohmann::json;
+
+std::string Config(const std::string& key, const std::string& value) {
+  return fmt::format("      <config key=\"{}\" value=\"{}\"/>\n", key, EscapeXml(value));
+}
+
+/// The shortest text that reads back as the same number.
+std::string Config(const std::string& key, double value) {
+  return Config(key, fmt::format("{}", value));
+}
+
+/// One number, or a list of two.
+json EnergyToJson(const std::vector<double>& energy) {
+  return energy.size() == 1 ? json(energy.front()) : json(energy);
+}
+
+std::string ThermalConfigs(const std::string& prefix, const std::optional<Thermal>& thermal) {
+  if (!thermal) return "";
+  return Config(prefix + "thermal_gain", thermal->gain) +
+         Config(prefix + "thermal_time_constant", thermal->time_constant);
+}
+
+std::string InlineConfigs(const FrictionForJoint& of) {
+  const FrictionDescription& friction = of.friction;
+  std::string configs = Config("law", friction.law);
+  for (const auto& [key, value] : friction.parameters) configs += Config(key, value);
+  configs += ThermalConfigs("", friction.thermal);
+  configs += ThermalConfigs("second_", friction.second_thermal);
+  for (const FrictionOption& option : FrictionOptions()) {
+    const double value = friction.*option.value;
+    if (value != 0) configs += Config(std::string(option.info.name), value);
+  }
+  if (friction.gear != 1) configs += Config("gear", friction.gear);
+  if (!friction.maps.empty()) {
+    json maps = json::array();
+    for (const FrictionMap& map : friction.maps) maps.push_back(MapToJson(map));
+    configs += Config("maps", maps.dump());
+  }
+  if (!of.initial_energy.empty()) {
+    configs += Config("initial_energy", EnergyToJson(of.initial_energy).dump());
+  }
+  return configs;
+}
+
+}  // namespace
+
+std::string FrictionActuatorOf(const std::string& joint) { return joint + "_friction"; }
+
+std::string FrictionSections(const FrictionForJoint& friction) {
+  return fmt::format(R"(  <extension>
+    <plugin plugin="{}"/>
+  </extension>
+  <actuator>
+    <plugin name="{}" joint="{}" plugin="{}" actdim="{}">
+{}    </plugin>
+  </actuator>
+)",
+                     kFrictionPlugin, EscapeXml(FrictionActuatorOf(friction.joint)),
+                     EscapeXml(friction.joint), kFrictionPlugin, StateOf(friction.friction).size(),
+                     InlineConfigs(friction));
+}
+
+std::string InstanceSection(const std::string& instance,
+                            const std::vector<FrictionForJoint>& frictions) {
+  json joints = json::object(), energies = json::object();
+  for (const FrictionForJoint& friction : frictions) {
+    joints[friction.joint] = FrictionToJson(friction.friction);
+    if (friction.initial_energy.empty()) continue;
+    energies[friction.joint] = EnergyToJson(friction.initial_energy);
+  }
+  std::string configs = Config("instance", instance) + Config("joints", joints.dump());
+  if (!energies.empty()) configs += Config("initial_energy", energies.dump());
+  return fmt::format(R"(  <extension>
+    <plugin plugin="{}">
+      <instance name="{}">
+{}      </instance>
+    </plugin>
+  </extension>
+)",
+                     kFrictionPlugin, EscapeXml(instance), configs);
+}
+
+}  // namespace warmjoint::inline sim

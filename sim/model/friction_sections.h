@@ -1,0 +1,30 @@
+// Friction as MJCF text: the sections that a model needs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "models/friction/friction_description.h"
+
+namespace warmjoint::inline sim {
+
+/// Friction for one joint of a model.
+struct FrictionForJoint {
+  std::string joint;
+  FrictionDescription friction;
+  std::vector<double> initial_energy{};  // E1, and E2 of a second stage, N.m or N; empty: cold
+};
+
+/// The sections <extension> and <actuator> that put friction onto a joint through the plugin,
+/// attributes inline, as MJCF text. The actuator is named "JOINT_friction".
+std::string FrictionSections(const FrictionForJoint& friction);
+
+/// The section <extension> with one instance of that name which holds the friction of all the
+/// joints, and its own name, from which the plugin tells what an attachment put before the names.
+std::string InstanceSection(const std::string& instance,
+                            const std::vector<FrictionForJoint>& frictions);
+
+/// Name of the actuator that carries the friction of a joint.
+std::string FrictionActuatorOf(const std::string& joint);
+
+}  // namespace warmjoint::inline sim

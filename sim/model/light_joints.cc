@@ -1,0 +1,125 @@
+#include "sim/model/light_joints.h"
+
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "models/foundation/excerpt.h"
+#include "models/friction/joint_friction.h"
+#include "sim/model/mujoco_handles.h"
+#include "sim/plugin/check_joint.h"
+
+namespace warmjoint::inline sim {
+namespace {
+
+/// What an armature may be, kg.m^2 or kg, and how short a step, s, before there is no remedy.
+constexpr double kLargestArmature = 1e9;
+constexpr double kShortestTimestep = 1e-9;
+
+/// One joint with its friction, on a copy of the model whose inertia and step may be tried out.
+class Trial {
+ public:
+  Trial(mjModel* m, const FrictionForJoint& friction)
+      : m_(m),
+        joint_(mj_name2id(m, mjOBJ_JOINT, friction.joint.c_str())),
+        friction_(friction.friction),
+        inverse_(m->dof_invweight0[dof()]),
+        uncoupled_(m->dof_M0[dof()]),
+        timestep_(m->opt.timestep) {}
+
+  double timestep() const { return timestep_; }
+  double armature() const { return m_->dof_armature[dof()]; }
+
+  /// Why the plugin refuses the joint with more inertia and another step; nothing where it does not.
+  std::optional<std::string> Refusal(double added, double timestep) {
+    // the first is of coupled joints, the second of those that nothing else moves
+    m_->dof_invweight0[dof()] = inverse_ / (1 + added * inverse_);
+    m_->dof_M0[dof()] = uncoupled_ + added;
+    m_->opt.timestep = timestep;
+    friction_.SetTimestep(timestep);
+    std::optional<std::string> refusal;
+    try {
+      CheckJoint(m_, joint_, friction_, {JointName(m_, joint_)});
+    } catch (const BadInput& refused) {
+      refusal = refused.what();
+    }
+    m_->dof_invweight0[dof()] = inverse_;
+    m_->dof_M0[dof()] = uncoupled_;
+    m_->opt.timestep = timestep_;
+    return refusal;
+  }
+
+ private:
+  int dof() const { return m_->jnt_dofadr[joint_]; }
+
+  mjModel* m_;
+  int joint_;
+  JointFriction friction_;
+  double inverse_;    // of the effective inertia at the reference pose, 1/(kg.m^2) or 1/kg
+  double uncoupled_;  // the inertia with all other joints held, kg.m^2 or kg
+  double timestep_;
+};
+
+/// The number of two digits next to `value`, on the side that `round` takes.
+double TwoDigits(double value, double (*round)(double)) {
+  const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
+  return std::stod(fmt::format("{:.2g}", round(value / unit) * unit));
+}
+
+/// The bound between `refused` and `accepted`, from the side of the accepted, to 1e-3.
+template <typename Accepts>
+double Bisect(double refused, double accepted, const Accepts& accepts) {
+  while (std::abs(std::log(accepted / refused)) > 1e-3) {
+    const double middle = std::sqrt(refused * accepted);
+    (accepts(middle) ? accepted : refused) = middle;
+  }
+  return accepted;
+}
+
+/// The armature, of two digits, with which the joint carries its friction; nothing where none does.
+std::optional<double> NeededArmature(Trial& trial) {
+  const auto accepts = [&](double added) { return !trial.Refusal(added, trial.timestep()); };
+  if (!accepts(kLargestArmature)) return std::nullopt;
+  const double added = Bisect(1e-12, kLargestArmature, accepts);
+  return TwoDigits(trial.armature() + added, [](double x) { return std::ceil(x); });
+}
+
+/// The longest step, of two digits, with which it does.
+std::optional<double> NeededTimestep(Trial& trial) {
+  const auto accepts = [&](double timestep) { return !trial.Refusal(0, timestep); };
+  if (!accepts(kShortestTimestep)) return std::nullopt;
+  const double longest = Bisect(trial.timestep(), kShortestTimestep, accepts);
+  return TwoDigits(longest, [](double x) { return std::floor(x); });
+}
+
+}  // namespace
+
+void RefuseLightJoints(const mjModel* model, const std::vector<FrictionForJoint>& frictions,
+                       const Place& place) {
+  const ModelPtr copy(mj_copyModel(nullptr, model));
+  std::vector<std::string> reasons, armatures;
+  double timestep = model->opt.timestep;
+  bool shorter_helps = true;
+  for (const FrictionForJoint& friction : frictions) {
+    Trial trial(copy.get(), friction);
+    const auto reason = trial.Refusal(0, trial.timestep());
+    if (!reason) continue;
+    reasons.push_back(*reason);
+    if (const auto armature = NeededArmature(trial)) {
+      armatures.push_back(fmt::format("--armature {}={}", friction.joint, *armature));
+    }
+    const auto longest = NeededTimestep(trial);
+    shorter_helps = shorter_helps && longest;
+    if (longest) timestep = std::min(timestep, *longest);
+  }
+  if (reasons.empty()) return;
+  const std::string by_armature = fmt::format("{}", fmt::join(armatures, " "));
+  const std::string by_timestep = shorter_helps ? fmt::format("--timestep {}", timestep) : "";
+  const char* link = armatures.empty() || !shorter_helps ? "" : ", or ";
+  Refuse(place, "{} of its joints cannot carry their friction; give {}{}{}. The first: {}",
+         reasons.size(), by_armature, link, by_timestep, reasons.front());
+}
+
+}  // namespace warmjoint::inline sim

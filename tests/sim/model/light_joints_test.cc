@@ -1,0 +1,97 @@
+#include "sim/model/light_joints.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <ostream>
+#include <regex>
+
+#include "models/foundation/atomic_file.h"
+#include "sim/model/attach.h"
+#include "tests/tools/scratch_directory.h"
+
+namespace warmjoint {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// A friction, printed by the name of its law.
+struct Case {
+  FrictionDescription friction;
+};
+void PrintTo(const Case& of, std::ostream* stream) { *stream << of.friction.law; }
+
+/// An arm whose last two links weigh grams, with friction that none of its joints carries at 2 ms.
+class LightJoints : public testing::TestWithParam<Case> {
+ protected:
+  LightJoints() {
+    WriteWholeFile(folder_.path() / "arm.xml",
+                   R"(<mujoco><option timestep="0.002"/><worldbody><body>
+    <joint name="heavy" axis="0 1 0"/><geom type="box" size="0.5 0.5 0.5" mass="1000"/>
+    <body pos="0.1 0 0"><joint name="wrist" axis="0 1 0" armature="1e-5"/>
+    <geom size="0.01" mass="0.01"/>
+    <body pos="0.1 0 0"><joint name="finger" type="slide"/><geom size="0.01" mass="0.01"/>
+    </body></body></body></worldbody></mujoco>)");
+  }
+
+  std::string Refusal(const AttachOptions& options) const {
+    try {
+      AttachFriction(folder_.path() / "arm.xml", {{".*", GetParam().friction}},
+                     folder_.path() / "out.xml", options);
+    } catch (const BadInput& refused) {
+      return refused.what();
+    }
+    return "";
+  }
+
+  const ScratchDirectory folder_;
+};
+
+TEST_P(LightJoints, AreRefusedWithArmaturesThatAreThenAccepted) {
+  const std::string refusal = Refusal({});
+  EXPECT_THAT(refusal, Not(HasSubstr("--armature heavy")));
+  AttachOptions options;
+  const std::regex offer("--armature ([a-z]+)=([-+.e0-9]+)");
+  for (std::sregex_iterator i(refusal.begin(), refusal.end(), offer), end; i != end; ++i) {
+    options.armatures.push_back({(*i)[1], std::stod((*i)[2])});
+  }
+  ASSERT_EQ(options.armatures.size(), 2u) << refusal;
+  EXPECT_EQ(Refusal(options), "");
+
+  // and not by much too large: a tenth less of the first is refused
+  options.armatures.front().value *= 0.9;
+  EXPECT_THAT(Refusal(options), HasSubstr("wrist"));
+}
+
+TEST_P(LightJoints, AreRefusedWithATimestepThatIsThenAccepted) {
+  const std::string refusal = Refusal({});
+  std::smatch offer;
+  ASSERT_TRUE(std::regex_search(refusal, offer, std::regex("--timestep ([-+.e0-9]+)"))) << refusal;
+  AttachOptions options;
+  options.timestep = std::stod(offer[1]);
+  EXPECT_LT(*options.timestep, 0.002);
+  EXPECT_EQ(Refusal(options), "");
+}
+
+Case Friction(const std::string& law, std::map<std::string, double> parameters) {
+  FrictionDescription friction;
+  friction.law = law;
+  friction.parameters = std::move(parameters);
+  return {friction};
+}
+
+INSTANTIATE_TEST_SUITE_P(Frictions, LightJoints,
+                         testing::Values(Friction("coulomb", {{"coulomb", 6}}),
+                                         Friction("viscous_coulomb",
+                                                  {{"coulomb", 0}, {"viscous", 30}}),
+                                         Friction("lugre", {{"coulomb", 1},
+                                                            {"static", 1},
+                                                            {"viscous", 0},
+                                                            {"stribeck_velocity", 0.1},
+                                                            {"bristle_stiffness", 1e5},
+                                                            {"bristle_damping", 10}})),
+                         [](const auto& of) { return of.param.friction.law; });
+
+}  // namespace
+}  // namespace warmjoint
