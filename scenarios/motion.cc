@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "models/foundation/bad_input.h"
+
 namespace warmjoint::inline scenarios {
 namespace {
 
@@ -73,6 +75,15 @@ class VelocitySequence {
   std::vector<double> round_;  // what is left of a shuffled round
 };
 
+/// Refuses plans of more segments than anyone holds speeds for, before they take the memory.
+void CheckSegments(std::size_t segments, double duration) {
+  constexpr std::size_t most = 1'000'000;
+  if (segments <= most) return;
+  Refuse({},
+         "motion makes more than {} segments in {} s; lengthen its hold, travel, rests or phases",
+         most, duration);
+}
+
 /// Collects segments, cut by the rests and by the end.
 class PlanBuilder {
  public:
@@ -102,6 +113,7 @@ class PlanBuilder {
     const double left = duration_ - time_;
     if (left <= 0) return;
     plan_.push_back({std::min(duration, left), velocity});
+    CheckSegments(plan_.size(), duration_);
     time_ = duration < left ? time_ + duration : duration_;
   }
 
@@ -125,6 +137,7 @@ std::vector<MotionSegment> PlanPhases(const std::vector<MotionPhase>& phases, do
       plan.push_back({lasts, 0});
     }
     left -= lasts;
+    CheckSegments(plan.size(), duration);
   }
   return plan;
 }

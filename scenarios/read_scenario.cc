@@ -82,6 +82,17 @@ void CheckSampleCount(const YamlValue& value, const Scenario& scenario) {
          scenario.duration, scenario.sampling.rate, samples, fewest, most);
 }
 
+/// Steps of the engine that a simulation may take: some hours.
+void CheckStepCount(const YamlValue& value, const Scenario& scenario) {
+  constexpr double most = 1e10;
+  const double steps = scenario.duration / scenario.timestep;
+  if (scenario.plant != PlantKind::mujoco || steps <= most) return;
+  Refuse(value.place(),
+         "{} s at a timestep of {} s make {:g} steps of the engine; {:g} at most: lengthen "
+         "timestep or shorten duration",
+         scenario.duration, scenario.timestep, steps, most);
+}
+
 void ReadRobotJoint(const YamlValue& value, Scenario& scenario) {
   const bool needed = scenario.plant == PlantKind::mujoco;
   const auto robot = value.Find("robot");
@@ -136,14 +147,16 @@ Scenario ReadScenarioValue(const YamlValue& value, const std::string& name) {
   const YamlValue duration = value.Require("duration", "give the seconds to simulate");
   scenario.duration = duration.Number(Bound::positive);
   CheckSampleCount(duration, scenario);
+  CheckStepCount(duration, scenario);
   if (const auto seed = value.Find("seed")) {
-    scenario.seed = static_cast<std::uint64_t>(seed->Integer(Bound::not_negative));
+    scenario.seed = seed->Seed();
   }
   return scenario;
 }
 
 Scenario ReadScenario(const std::string& path, const Settings& settings) {
-  const YamlValue document = YamlValue::Parse(ReadWholeFile(path), path, settings);
+  const YamlValue document =
+      YamlValue::Parse(ReadWholeFile(path, kLargestDocument), path, settings);
   return ReadScenarioValue(document, fs::path(path).stem().string());
 }
 

@@ -3,12 +3,14 @@
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/excerpt.h"
+#include "scenarios/parse_suite.h"
 #include "scenarios/read_scenario.h"
-#include "scenarios/suite.h"
 #include "scenarios/write_scenario.h"
 
 namespace warmjoint::inline scenarios {
 namespace {
+
+constexpr std::size_t kMostVariants = 1000;
 
 Claim ReadClaim(const YamlValue& value) {
   std::vector<std::string> keys(kClaimFigures.begin(), kClaimFigures.end());
@@ -97,6 +99,10 @@ Ladder ReadLadder(const YamlValue& value) {
   } else {
     ladder.variants = ReadVariants(*variants);
   }
+  if (ladder.variants.size() > kMostVariants) {
+    Refuse(value.place(), "{} has {} variants; {} at most: make suites of its parts", value.key(),
+           ladder.variants.size(), kMostVariants);
+  }
   return ladder;
 }
 
@@ -115,15 +121,19 @@ void CheckVariants(const Suite& suite, const Place& place) {
 }  // namespace
 
 Suite ReadSuite(const std::string& path) {
-  const YamlValue document = YamlValue::Parse(ReadWholeFile(path), path);
+  return ParseSuite(ReadWholeFile(path, kLargestDocument), path);
+}
+
+Suite ParseSuite(const std::string& text, const std::string& file) {
+  const YamlValue document = YamlValue::Parse(text, file);
   document.RequireKeys(
       {"name", "question", "realizations", "seed", "scenario", "ladder", "identifiers"});
   Suite suite;
-  suite.name = std::filesystem::path(path).stem().string();
+  suite.name = std::filesystem::path(file).stem().string();
   if (const auto name = document.Find("name")) suite.name = name->Text();
   suite.question = document.Require("question", "say in a sentence what the suite asks").Text();
   if (const auto realizations = document.Find("realizations")) {
-    suite.realizations = static_cast<int>(realizations->Integer(Bound::positive));
+    suite.realizations = static_cast<int>(realizations->Whole(1, kMostRealizations));
   }
 
   // one seed and one name for all of it
@@ -134,7 +144,7 @@ Suite ReadSuite(const std::string& path) {
   }
   suite.scenario = ReadScenarioValue(scenario, suite.name);
   if (const auto seed = document.Find("seed")) {
-    suite.scenario.seed = static_cast<std::uint64_t>(seed->Integer(Bound::not_negative));
+    suite.scenario.seed = seed->Seed();
   }
 
   if (const auto ladder = document.Find("ladder")) {

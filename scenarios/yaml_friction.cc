@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "models/foundation/excerpt.h"
 #include "models/foundation/parse_number.h"
 #include "scenarios/yaml_distribution.h"
 
@@ -49,6 +50,11 @@ json ToJson(const YamlValue& value, const std::string& key, TruthDraws& draws) {
     json object = json::object();
     value.RequireKeys(value.Keys());
     for (const std::string& name : value.Keys()) {
+      // names make dotted keys and paths into JSON
+      if (name.empty() || name.find_first_of("./~") != std::string::npos) {
+        Refuse(value.place(), "unknown key '{}' in {}: names hold no '.', '/' or '~'",
+               Excerpt(name), Excerpt(value.key()));
+      }
       const auto entry = value.Find(name);
       if (entry) object[name] = ToJson(*entry, fmt::format("{}.{}", key, name), draws);
     }

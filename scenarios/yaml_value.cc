@@ -6,15 +6,48 @@
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
 #include "models/foundation/parse_number.h"
+#include "models/foundation/utf8.h"
 
 namespace warmjoint::inline scenarios {
 namespace {
 
+/// Refuses trees that walking would not end on, or not soon: aliases make cycles, and of a small
+/// file a large tree. count: of the values so far.
+void CheckShape(const YAML::Node& node, int depth, int& count, const std::string& file) {
+  const Place place{file, node.Mark().line + 1};
+  if (depth > kDeepestDocument) {
+    Refuse(place, "nests deeper than {} levels, or holds itself by an alias; write it out",
+           kDeepestDocument);
+  }
+  if (++count > kMostValues) {
+    Refuse(place, "holds more than {} values, those of aliases counted each time; write less",
+           kMostValues);
+  }
+  if (node.IsMap()) {
+    for (const auto& entry : node) {
+      if (!entry.first.IsScalar()) {
+        Refuse({file, entry.first.Mark().line + 1}, "has a key that is no word; name it");
+      }
+      CheckShape(entry.second, depth + 1, count, file);
+    }
+  } else if (node.IsSequence()) {
+    for (const auto& entry : node) CheckShape(entry, depth + 1, count, file);
+  }
+}
+
 YAML::Node ParseYaml(const std::string& text, const std::string& file) {
+  if (const auto broken = FirstBrokenByte(text)) {
+    const auto end = text.begin() + static_cast<std::ptrdiff_t>(*broken);
+    const auto line = static_cast<int>(1 + std::count(text.begin(), end, '\n'));
+    Refuse({file, line}, "byte {} is no UTF-8 text; save the file as UTF-8", *broken + 1);
+  }
   try {
-    return YAML::Load(text);
+    const YAML::Node root = YAML::Load(text);
+    int count = 0;
+    CheckShape(root, 0, count, file);
+    return root;
   } catch (const YAML::Exception& error) {
-    Refuse({file, error.mark.line + 1}, "is not YAML: {}", error.msg);
+    Refuse({file, error.mark.line + 1}, "is not YAML: {}", Excerpt(error.msg, kLongestComplaint));
   }
 }
 
@@ -147,11 +180,17 @@ double YamlValue::Number(Bound bound) const {
   return *number;
 }
 
-std::int64_t YamlValue::Integer(Bound bound) const {
+std::int64_t YamlValue::Whole(std::int64_t lowest, std::int64_t highest) const {
   const auto number = IsScalar() ? ParseInteger(node_.Scalar()) : std::nullopt;
-  if (!number || !Satisfies(static_cast<double>(*number), bound)) {
-    RefuseValue(fmt::format("{}, and whole", Words(bound)));
+  if (!number || *number < lowest || *number > highest) {
+    RefuseValue(fmt::format("a whole number from {} to {}", lowest, highest));
   }
+  return *number;
+}
+
+std::uint64_t YamlValue::Seed() const {
+  const auto number = IsScalar() ? ParseUnsigned(node_.Scalar()) : std::nullopt;
+  if (!number) RefuseValue("a whole number from 0 to 18446744073709551615");
   return *number;
 }
 

@@ -18,12 +18,18 @@ namespace warmjoint::inline scenarios {
 /// What a number must satisfy; every number must be finite besides.
 enum class Bound { any, not_negative, positive };
 
+/// Bounds of a document: bytes; levels within levels; values, those of aliases counted each time.
+inline constexpr std::size_t kLargestDocument = std::size_t{16} << 20;
+inline constexpr int kDeepestDocument = 64;
+inline constexpr int kMostValues = 1'000'000;
+
 /// A node of a YAML tree with its file, line and dotted key.
 class YamlValue {
  public:
   /// Parses text and changes entries of it; refusals of what a setting changed name the setting
   /// instead of a line. file: for messages. Throws BadInput where text or setting is no YAML (with
-  /// the line), and where the key of a setting leads through a value that holds no keys.
+  /// the line), holds itself by an alias, exceeds the bounds above, and where the key of a setting
+  /// leads through a value that holds no keys.
   static YamlValue Parse(const std::string& text, const std::string& file,
                          const Settings& settings = {});
 
@@ -54,7 +60,10 @@ class YamlValue {
   std::vector<YamlValue> List(std::string_view what) const;
 
   double Number(Bound bound = Bound::any) const;
-  std::int64_t Integer(Bound bound = Bound::any) const;
+  /// A whole number from `lowest` to `highest`.
+  std::int64_t Whole(std::int64_t lowest, std::int64_t highest) const;
+  /// A whole number from 0 to 2^64 - 1.
+  std::uint64_t Seed() const;
   std::string Text() const;
   /// Two numbers, the first below the second.
   std::pair<double, double> Interval(Bound bound = Bound::any) const;

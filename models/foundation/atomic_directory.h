@@ -12,16 +12,16 @@ namespace warmjoint::inline models {
 class AtomicDirectory {
  public:
   /// Throws BadInput when the target exists and holds anything but files named in `replaceable`, or
-  /// its parent folder does not exist or cannot be written to.
-  AtomicDirectory(std::filesystem::path target, const std::vector<std::string>& replaceable);
+  /// its parent folder does not exist or cannot be written to; OutputFailed where there is no room.
+  AtomicDirectory(const std::filesystem::path& target, const std::vector<std::string>& replaceable);
   ~AtomicDirectory();
   AtomicDirectory(const AtomicDirectory&) = delete;
   AtomicDirectory& operator=(const AtomicDirectory&) = delete;
 
-  /// Where to write to: a fresh directory beside the target.
+  /// Where to write to: a fresh directory beside the target, whose name is drawn.
   const std::filesystem::path& temporary() const { return temporary_; }
 
-  /// Puts the finished directory in place, instead of an older one.
+  /// Puts the finished directory in place, instead of an older one. Throws OutputFailed.
   void Commit();
 
  private:

@@ -7,31 +7,55 @@
 
 namespace warmjoint::inline models {
 
-/// A file under construction: write to temporary(), then Commit() renames it onto the target.
-/// Without Commit the destructor removes it, so a failure leaves nothing half-written behind.
+/// A file under construction: write to it, then Commit() renames it onto the target. Without Commit
+/// the destructor removes it, so a failure leaves nothing half-written behind.
+///
+/// The target is a new name or a regular file, whose mode and owner are kept; a link to a regular
+/// file is followed. "-" and /dev/stdout are standard output, which gets the bytes at Commit.
 class AtomicFile {
  public:
-  /// Throws BadInput when the target's folder does not exist or cannot be written.
-  explicit AtomicFile(std::filesystem::path target);
+  /// Throws BadInput for a target of another kind (device, pipe, folder, dangling link) or whose
+  /// folder does not exist or cannot be written to; OutputFailed where the system has no room.
+  explicit AtomicFile(const std::filesystem::path& target);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  /// Path to write to, in the target's folder, with the target's extension.
+  /// The file under construction, in the target's folder, with the target's extension. Its name is
+  /// drawn, and it was made by this process alone: no link that someone planted leads elsewhere.
   const std::filesystem::path& temporary() const { return temporary_; }
 
-  /// Moves the finished file into place. Throws BadInput when the system refuses.
+  /// Adds bytes at the end. Throws OutputFailed.
+  void Write(std::string_view bytes);
+
+  /// Puts the finished file in place, on disk before it has its name. Throws OutputFailed.
   void Commit();
 
  private:
-  std::filesystem::path target_;
+  void MakeTemporary(const std::filesystem::path& folder);
+  void TakeOver(const std::filesystem::path& target);
+
+  std::string name_;              // of the target, as it was given
+  std::filesystem::path target_;  // links followed; empty: standard output
   std::filesystem::path temporary_;
+  int file_ = -1;
 };
 
-/// Writes `text` to `target` as a whole.
+/// Whether an output's name stands for standard output: "-" or /dev/stdout.
+bool IsStandardOutput(const std::filesystem::path& target);
+
+/// Whether a file's name is that of an AtomicFile or AtomicDirectory under construction. One that
+/// nobody is writing any more was left by a process that was killed.
+bool IsUnderConstruction(const std::filesystem::path& path);
+
+/// Writes `text` to `target` as a whole, as AtomicFile does.
 void WriteWholeFile(const std::filesystem::path& target, std::string_view text);
 
-/// The whole of a text file. Throws BadInput naming the file when it cannot be read.
-std::string ReadWholeFile(const std::filesystem::path& path);
+/// Largest file that ReadWholeFile takes: 4 GiB.
+inline constexpr std::size_t kLargestFile = std::size_t{4} << 30;
+
+/// The whole of a text file, regular or a pipe. Throws BadInput naming the file when it cannot be
+/// read, is a device, has more than `most` bytes, or is a pipe that nobody writes to.
+std::string ReadWholeFile(const std::filesystem::path& path, std::size_t most = kLargestFile);
 
 }  // namespace warmjoint::inline models

@@ -4,27 +4,23 @@
 
 #include <algorithm>
 
+#include "models/foundation/printable.h"
+#include "models/foundation/utf8.h"
+
 namespace warmjoint::inline models {
 namespace {
 
 constexpr std::size_t kMostListed = 24;
 
-/// Whether a byte goes on with the UTF-8 character that an earlier one began.
-bool GoesOn(char byte) { return (static_cast<unsigned char>(byte) & 0xC0) == 0x80; }
-
-bool IsControl(char byte) { return static_cast<unsigned char>(byte) < 0x20 || byte == 0x7F; }
-
 }  // namespace
 
 std::string Excerpt(std::string_view text, std::size_t longest) {
-  // the end of the first characters
+  // the end of the first characters; a byte that is no UTF-8 counts as one
   std::size_t end = 0;
-  for (std::size_t characters = 0; end < text.size(); ++end) {
-    if (!GoesOn(text[end]) && characters++ == longest) break;
-    if (end == 4 * longest) break;  // no UTF-8
+  for (std::size_t characters = 0; end < text.size() && characters < longest; ++characters) {
+    end += std::max<std::size_t>(1, FirstCharacter(text.substr(end)).length);
   }
-  std::string excerpt(text.substr(0, end));
-  std::replace_if(excerpt.begin(), excerpt.end(), IsControl, '?');
+  const std::string excerpt = Printable(text.substr(0, end));
   return end < text.size() ? excerpt + "..." : excerpt;
 }
 

@@ -1,6 +1,9 @@
 #include "models/foundation/parse_number.h"
 
 #include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <string>
 
 namespace warmjoint::inline models {
 namespace {
@@ -28,7 +31,23 @@ std::optional<T> Parse(std::string_view text) {
 
 }  // namespace
 
-std::optional<double> ParseNumber(std::string_view text) { return Parse<double>(text); }
+std::optional<double> ParseNumber(std::string_view text) {
+  if (const auto number = Parse<double>(text)) return number;
+
+  // from_chars tells overflow from underflow by nothing, strtod by its value
+  const std::string_view trimmed = Trimmed(text);
+  double ignored = 0;
+  const char* end = trimmed.data() + trimmed.size();
+  const auto [rest, error] = std::from_chars(trimmed.data(), end, ignored);
+  if (error != std::errc::result_out_of_range || rest != end) return std::nullopt;
+  const double value = std::strtod(std::string(trimmed).c_str(), nullptr);
+  if (std::abs(value) > 1) return std::nullopt;
+  return value;
+}
+
+std::optional<std::uint64_t> ParseUnsigned(std::string_view text) {
+  return Parse<std::uint64_t>(text);
+}
 
 std::optional<std::int64_t> ParseInteger(std::string_view text) {
   return Parse<std::int64_t>(text);

@@ -6,6 +6,7 @@
 
 #include "models/foundation/atomic_file.h"
 #include "models/recording/assemble.h"
+#include "models/recording/hdf5_content.h"
 
 namespace warmjoint::inline models {
 namespace {
@@ -19,112 +20,80 @@ void WriteAttribute(H5::H5Object& object, const std::string& name, const std::st
   object.createAttribute(name, Text(), H5::DataSpace()).write(Text(), value);
 }
 
-/// The text of an attribute; empty where there is none.
-std::string ReadTextAttribute(const H5::H5Object& object, const std::string& name) {
-  if (!object.attrExists(name)) return "";
-  const H5::Attribute attribute = object.openAttribute(name);
-  if (attribute.getTypeClass() != H5T_STRING) return "";
-  std::string value;
-  attribute.read(attribute.getDataType(), value);
-  return value.substr(0, value.find('\0'));
-}
-
-bool IsColumn(const H5::Group& root, const std::string& name) {
-  if (root.childObjType(name) != H5O_TYPE_DATASET) return false;
-  const H5::DataSet data = root.openDataSet(name);
-  const H5T_class_t type = data.getTypeClass();
-  return data.getSpace().getSimpleExtentNdims() == 1 && (type == H5T_FLOAT || type == H5T_INTEGER);
-}
-
-std::vector<std::string> ColumnNames(const H5::Group& root) {
-  std::vector<std::string> names;
-  for (hsize_t i = 0; i < root.getNumObjs(); ++i) {
-    const std::string name = root.getObjnameByIdx(i);
-    if (IsColumn(root, name)) names.push_back(name);
-  }
-  return names;
-}
-
-/// The layout, completed by what the file says of itself.
-CsvLayout WithAttributes(CsvLayout layout, const H5::Group& root,
-                         const std::vector<std::string>& names) {
-  if (ReadTextAttribute(root, "joint") == "linear") layout.joint = JointKind::linear;
-  if (layout.gear == 1 && root.attrExists("gear")) {
-    root.openAttribute("gear").read(H5::PredType::NATIVE_DOUBLE, &layout.gear);
-  }
-  for (const RecordingColumn& column : RecordingColumns()) {
-    const auto mapped = layout.column.find(column.name);
-    const std::string theirs = mapped == layout.column.end() ? column.name : mapped->second;
-    if (std::find(names.begin(), names.end(), theirs) == names.end()) continue;
-    const std::string unit = ReadTextAttribute(root.openDataSet(theirs), "unit");
-    if (!unit.empty()) layout.unit.emplace(column.name, unit);
-  }
-  return layout;
-}
-
-Eigen::VectorXd ReadColumn(const H5::Group& root, const std::string& name) {
-  const H5::DataSet data = root.openDataSet(name);
-  Eigen::VectorXd values(static_cast<Eigen::Index>(data.getSpace().getSimpleExtentNpoints()));
-  data.read(values.data(), H5::PredType::NATIVE_DOUBLE);
-  return values;
-}
-
-Measurements Read(const std::string& path, const CsvLayout& given) {
-  const H5::H5File file(path, H5F_ACC_RDONLY);
-  const H5::Group root = file.openGroup("/");
-  const std::vector<std::string> names = ColumnNames(root);
-  const CsvLayout layout = WithAttributes(given, root, names);
-  const std::vector<ColumnSource> sources = FindColumns(names, layout, {path});
-
+Measurements Assemble(const Hdf5Content& content, const std::string& path, const CsvLayout& given) {
+  const CsvLayout layout = WithAttributes(given, content);
+  const std::vector<ColumnSource> sources = FindColumns(NamesOf(content), layout, {path});
   RawColumns raw{path, {}, {}};
   for (const ColumnSource& source : sources) {
-    raw.values.push_back(ReadColumn(root, names[source.index]));
+    raw.values.push_back(content.columns[source.index].values);
     if (raw.values.back().size() == raw.values.front().size()) continue;
     Refuse({path}, "{} has {} samples where {} has {}; all columns must be of one length",
-           names[source.index], raw.values.back().size(), names[sources.front().index],
-           raw.values.front().size());
+           content.columns[source.index].name, raw.values.back().size(),
+           content.columns[sources.front().index].name, raw.values.front().size());
   }
   return AssembleMeasurements(std::move(raw), sources, layout);
 }
 
-void Write(const Measurements& measurements, const std::string& path) {
-  H5::H5File file(path, H5F_ACC_TRUNC);
+/// Properties that leave the time of writing out, so that equal recordings are equal files.
+template <typename PropList>
+PropList WithoutTimes() {
+  PropList properties;
+  H5Pset_obj_track_times(properties.getId(), false);
+  return properties;
+}
+
+void WriteObjects(const Measurements& measurements, H5::H5File& file) {
   H5::Group root = file.openGroup("/");
   WriteAttribute(root, "joint", measurements.joint == JointKind::linear ? "linear" : "rotary");
   root.createAttribute("gear", H5::PredType::NATIVE_DOUBLE, H5::DataSpace())
       .write(H5::PredType::NATIVE_DOUBLE, &measurements.gear);
 
+  const auto timeless = WithoutTimes<H5::DSetCreatPropList>();
   for (const RecordingColumn& column : RecordingColumns()) {
     const Eigen::VectorXd* values = column.get(measurements);
     if (!values) continue;
     const hsize_t size = static_cast<hsize_t>(values->size());
-    H5::DataSet data =
-        root.createDataSet(column.name, H5::PredType::NATIVE_DOUBLE, H5::DataSpace(1, &size));
+    H5::DataSet data = root.createDataSet(column.name, H5::PredType::NATIVE_DOUBLE,
+                                          H5::DataSpace(1, &size), timeless);
     data.write(values->data(), H5::PredType::NATIVE_DOUBLE);
     WriteAttribute(data, "unit", UnitOf(column, measurements));
   }
 }
 
+/// The bytes of the file, made in memory: the library never opens a name on disk.
+std::string Image(const Measurements& measurements) {
+  constexpr std::size_t kGrowth = 1 << 20;  // bytes
+  H5::FileAccPropList in_memory;
+  in_memory.setCore(kGrowth, false);
+  H5::H5File file("recording.h5", H5F_ACC_TRUNC, WithoutTimes<H5::FileCreatPropList>(), in_memory);
+  WriteObjects(measurements, file);
+  file.flush(H5F_SCOPE_GLOBAL);
+
+  const ssize_t size = H5Fget_file_image(file.getId(), nullptr, 0);
+  std::string image(static_cast<std::size_t>(std::max<ssize_t>(size, 0)), '\0');
+  if (size <= 0 || H5Fget_file_image(file.getId(), image.data(), image.size()) != size) {
+    throw H5::FileIException("Image", "the library gives no image of the file");
+  }
+  return image;
+}
+
 }  // namespace
 
 Measurements ReadHdf5(const std::string& path, const CsvLayout& layout) {
-  H5::Exception::dontPrint();
-  try {
-    return Read(path, layout);
-  } catch (const H5::Exception& error) {
-    Refuse({path}, "cannot be read as HDF5: {}", error.getDetailMsg());
-  }
+  return Assemble(ReadHdf5Content(path, layout), path, layout);
+}
+
+Measurements ReadHdf5Apart(const std::string& path, const CsvLayout& layout) {
+  return Assemble(ReadHdf5ContentApart(path, layout), path, layout);
 }
 
 void WriteHdf5(const Measurements& measurements, const std::string& path) {
   H5::Exception::dontPrint();
-  AtomicFile file(path);
   try {
-    Write(measurements, file.temporary());
+    WriteWholeFile(path, Image(measurements));
   } catch (const H5::Exception& error) {
     Refuse({path}, "cannot be written as HDF5: {}", error.getDetailMsg());
   }
-  file.Commit();
 }
 
 }  // namespace warmjoint::inline models

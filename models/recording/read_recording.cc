@@ -23,6 +23,10 @@ Measurements ReadRecording(const std::string& path, const CsvLayout& layout) {
   return IsHdf5(path) ? ReadHdf5(path, layout) : ReadCsv(path, layout);
 }
 
+Measurements ReadForeignRecording(const std::string& path, const CsvLayout& layout) {
+  return IsHdf5(path) ? ReadHdf5Apart(path, layout) : ReadCsv(path, layout);
+}
+
 void WriteRecording(const Measurements& measurements, const std::string& path) {
   if (IsHdf5(path)) return WriteHdf5(measurements, path);
   if (Extension(path) == ".csv") return WriteCsv(measurements, path);

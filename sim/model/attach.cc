@@ -125,7 +125,7 @@ Attached AttachFriction(const fs::path& model, const std::vector<FrictionForJoin
     PointTo(spec.compiler.texturedir, FolderOf(model), FolderOf(out));
   }
   AtomicFile file(out);
-  WriteWholeFile(file.temporary(), ModelToXml(spec, place));
+  file.Write(ModelToXml(spec, place));
   LoadModel(file.temporary());
   file.Commit();
 

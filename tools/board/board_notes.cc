@@ -1,6 +1,7 @@
 // What the tables of a leaderboard leave to be said.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <map>
 
 #include "tools/board/board_tables.h"
@@ -58,6 +59,26 @@ std::string FailureNote(const LeaderboardRow& row) {
                      fmt::join(counts, ", "), row.failure_example);
 }
 
+/// Whether errors of `efficiency` (rms error / Cramer-Rao bound) in n realizations are smaller than
+/// chance makes them. At the bound their squares add up to a chi-squared number with n degrees of
+/// freedom, which is below n x with a chance of at most (x exp(1 - x))^(n/2), x < 1 (Chernoff).
+/// Shrinking estimators lie below the bound too, but not ten times: that would be a hundred times
+/// the data.
+bool IsTooGood(double efficiency, int n) {
+  constexpr double kFar = 0.1, kChance = 1e-6;
+  const double x = efficiency * efficiency;
+  return efficiency < kFar && std::pow(x * std::exp(1 - x), n / 2.0) < kChance;
+}
+
+/// Names of the parameters that the row knows better than its data can tell.
+std::vector<std::string> TooGood(const LeaderboardRow& row) {
+  std::vector<std::string> names;
+  for (const ParameterRow& parameter : row.parameters) {
+    if (IsTooGood(parameter.efficiency, row.runs - row.failed())) names.push_back(parameter.name);
+  }
+  return names;
+}
+
 }  // namespace
 
 std::vector<std::string> Notes(const Leaderboard& board) {
@@ -65,6 +86,13 @@ std::vector<std::string> Notes(const Leaderboard& board) {
   for (const LeaderboardRow& row : board.rows) {
     if (row.claim) notes.push_back(ClaimNote(row, kTorqueUnit.For(board.joint)));
     if (row.failed() > 0) notes.push_back(FailureNote(row));
+    if (const auto names = TooGood(row); !names.empty()) {
+      notes.push_back(
+          fmt::format("{}: its errors in {} lie far below the Cramer-Rao bound, which no estimate "
+                      "from these data "
+                      "reaches by chance (1e-6): does it know the truth?",
+                      row.identifier, fmt::join(names, ", ")));
+    }
     if (!row.not_estimated.empty()) {
       notes.push_back(fmt::format("{}: does not estimate {}, counted as 0", row.identifier,
                                   fmt::join(row.not_estimated, ", ")));

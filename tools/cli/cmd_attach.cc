@@ -14,6 +14,7 @@
 #include "sim/model/attach.h"
 #include "tools/cli/command.h"
 #include "tools/cli/initial_energy.h"
+#include "tools/cli/outputs.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -105,13 +106,17 @@ AttachOptions ReadOptions(const AttachArguments& arguments) {
 ExitStatus Attach(const AttachArguments& arguments) {
   const AttachOptions options = ReadOptions(arguments);
   std::vector<FrictionForJoint> frictions;
+  const std::filesystem::path model = FindRobot(arguments.model, "MODEL");
+  std::vector<std::filesystem::path> inputs{model};
   for (const std::string& text : arguments.joints) {
     frictions.push_back(ReadJoint(text, arguments.initial));
+    inputs.emplace_back(text.substr(text.find('=') + 1));
   }
-  const Attached attached =
-      AttachFriction(FindRobot(arguments.model, "MODEL"), frictions, arguments.output, options);
+  KeepApart({arguments.output}, inputs);
+  const Attached attached = AttachFriction(model, frictions, arguments.output, options);
   for (const std::string& notice : attached.notices) fmt::print(stderr, "notice: {}\n", notice);
   fmt::print(
+      WordsBeside({arguments.output}),
       "{}: friction on {} of its joints; load it with libwarmjoint_friction.so in MuJoCo {}\n",
       arguments.output, attached.joints.size(), mj_versionString());
   return ExitStatus::done;

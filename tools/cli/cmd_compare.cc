@@ -6,7 +6,7 @@
 #include "tools/board/format_board.h"
 #include "tools/board/leaderboard.h"
 #include "tools/cli/command.h"
-#include "tools/store/run_store.h"
+#include "tools/store/stored_suite.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -20,7 +20,8 @@ std::vector<NamedBoard> ReadBoards(const std::vector<std::string>& runs) {
   std::vector<NamedBoard> boards;
   for (const std::string& run : runs) {
     const RunStore store = RunStore::OpenToRead(run);
-    boards.push_back({run, MakeLeaderboard(ReadSuite(store.suite_file()), store.ReadResults())});
+    TellOfEditedSuite(store);
+    boards.push_back({run, MakeLeaderboard(StoredSuite(store), store.ReadResults())});
   }
   return boards;
 }

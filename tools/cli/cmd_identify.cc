@@ -14,6 +14,7 @@
 #include "sim/model/minimal_model.h"
 #include "tools/cli/command.h"
 #include "tools/cli/estimate_table.h"
+#include "tools/cli/outputs.h"
 #include "tools/cli/recording_options.h"
 #include "tools/report/figures/fit_page.h"
 
@@ -117,6 +118,12 @@ ExitStatus Identify(const IdentifyArguments& arguments) {
   // everything that can be refused is, before any time is spent
   const Identifier& identifier = FindIdentifier(arguments.identifier);
   const Options options(identifier.options, GivenOptions(arguments, identifier), {"--set"});
+  std::vector<std::filesystem::path> inputs(arguments.recording.recordings.begin(),
+                                            arguments.recording.recordings.end());
+  inputs.emplace_back(arguments.holdout);
+  const std::vector<std::filesystem::path> outputs{arguments.output, arguments.mjcf,
+                                                   arguments.plot};
+  KeepApart(outputs, inputs);
   CheckOutput(arguments.output);
   CheckOutput(arguments.mjcf);
   CheckOutput(arguments.plot);
@@ -135,7 +142,7 @@ ExitStatus Identify(const IdentifyArguments& arguments) {
   if (!arguments.plot.empty()) {
     report::WriteFitPage(measurements, selection, estimate, arguments.plot);
   }
-  fmt::print("{}", EstimateToText(estimate, measurements));
+  fmt::print(WordsBeside(outputs), "{}", EstimateToText(estimate, measurements));
   return estimate.status == Status::ok ? ExitStatus::done : ExitStatus::nothing_trustworthy;
 }
 

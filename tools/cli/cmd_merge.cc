@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "tools/cli/command.h"
-#include "tools/store/export_csv.h"
 #include "tools/store/merge_runs.h"
 
 namespace warmjoint::inline tools {
@@ -15,10 +14,28 @@ struct MergeArguments {
   std::string output;
 };
 
+/// Says which realizations no shard holds.
+void TellMissing(const std::set<Unit>& missing) {
+  constexpr std::size_t most = 10;
+  std::vector<std::string> shown;
+  for (const Unit& unit : missing) {
+    if (shown.size() == most) break;
+    shown.push_back(unit.variant == 0
+                        ? std::to_string(unit.realization)
+                        : fmt::format("{} of variant {}", unit.realization, unit.variant));
+  }
+  fmt::print(stderr,
+             "notice: no shard holds {} realizations ({}{}); merge with the shards that do, or go "
+             "on with `run`\n",
+             missing.size(), fmt::join(shown, ", "), missing.size() > most ? ", ..." : "");
+}
+
 ExitStatus Merge(const MergeArguments& arguments) {
-  const RunStore store = MergeRuns(arguments.shards, arguments.output);
-  fmt::print("{}: {} results of {} shards; see: warmjoint compare {}\n", arguments.output,
-             ExportResults(store).size(), arguments.shards.size(), arguments.output);
+  const MergedRun merged = MergeRuns(arguments.shards, arguments.output);
+  fmt::print("{}: {} results of {} shards, {} of {} realizations; see: warmjoint compare {}\n",
+             arguments.output, merged.results, arguments.shards.size(),
+             merged.units - merged.missing.size(), merged.units, arguments.output);
+  if (!merged.missing.empty()) TellMissing(merged.missing);
   return ExitStatus::done;
 }
 

@@ -95,7 +95,12 @@ ExitStatus PlotSources(const PlotArguments& arguments) {
   Album album(canvas);
   for (std::size_t i = 0; i < folders.size(); ++i) {
     const SourcePictures pictures = PicturesOf(arguments.sources[i], arguments.recording, canvas);
-    fs::create_directories(folders[i]);
+    std::error_code error;
+    fs::create_directories(folders[i], error);
+    if (error || !fs::is_directory(folders[i])) {
+      Refuse({folders[i].string()}, "cannot be made ({}); give a directory",
+             error ? error.message() : "it is a file");
+    }
     for (const report::Figure& figure : pictures.figures) album.Draw(figure, folders[i]);
     album.DrawFilm(pictures.film, folders[i]);
   }

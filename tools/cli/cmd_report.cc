@@ -4,11 +4,10 @@
 #include <memory>
 
 #include "models/foundation/atomic_file.h"
-#include "scenarios/suite.h"
 #include "tools/cli/command.h"
 #include "tools/report/page/run_page.h"
 #include "tools/report/run/run_figures.h"
-#include "tools/store/run_store.h"
+#include "tools/store/stored_suite.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -16,9 +15,9 @@ namespace {
 ExitStatus Report(const std::filesystem::path& directory) {
   const report::RunView view = report::ReadRunView(directory);
   const RunStore store = RunStore::OpenToRead(directory);
-  report::RunPage page{MakeLeaderboard(ReadSuite(store.suite_file()), store.ReadResults()),
-                       store.ReadDescription(),
-                       {}};
+  TellOfEditedSuite(store);
+  report::RunPage page{
+      MakeLeaderboard(StoredSuite(store), store.ReadResults()), store.ReadDescription(), {}};
   for (const report::RunFigure& figure : report::RunFigures()) {
     if (auto made = figure.make(view)) page.figures.push_back(*std::move(made));
   }

@@ -2,40 +2,78 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
 #include <thread>
+#include <utility>
 
+#include "models/foundation/atomic_file.h"
+#include "models/foundation/excerpt.h"
+#include "scenarios/parse_suite.h"
 #include "sim/plant/plant.h"
 #include "tools/cli/command.h"
+#include "tools/cli/whole_number.h"
 #include "tools/store/export_csv.h"
 #include "tools/store/run_store.h"
 #include "tools/suite/choose_identifiers.h"
 #include "tools/suite/describe_run.h"
 #include "tools/suite/engine.h"
+#include "tools/suite/external_identifier.h"
 #include "tools/suite/interrupt.h"
+#include "tools/suite/wall.h"
 
 namespace warmjoint::inline tools {
 namespace {
 
+constexpr std::uint64_t kMostJobs = 1024;
+constexpr std::uint64_t kLargestSeed = std::numeric_limits<std::uint64_t>::max();
+
 struct RunArguments {
   std::string suite;
   std::string output;
-  int jobs = 0;
-  std::optional<int> realizations;
+  std::optional<std::uint64_t> jobs;
+  std::optional<std::uint64_t> realizations;
   std::optional<std::uint64_t> seed;
   std::vector<std::string> identifiers;
   std::string shard = "1/1";
   bool keep = false;
+  bool allow_commands = false;
+  bool shell = false;
 };
+
+/// Refuses a command that a suite brings along and nobody has agreed to: a suite from elsewhere would be
+/// a program.
+void RefuseCommand(const SuiteIdentifier& identifier, const RunArguments& arguments) {
+  const auto command = identifier.options.find("command");
+  if (identifier.name != kExternal || command == identifier.options.end()) return;
+  if (!arguments.allow_commands) {
+    Refuse({arguments.suite},
+           "identifier {} runs the command '{}'; where you trust it, give --allow-commands",
+           Excerpt(identifier.label), Excerpt(command->second, kLongestComplaint));
+  }
+  if (NeedsShell(identifier) && !arguments.shell) {
+    Refuse({arguments.suite},
+           "identifier {} gives the line '{}' to a shell; where you trust it, give --shell",
+           Excerpt(identifier.label), Excerpt(command->second, kLongestComplaint));
+  }
+}
 
 /// The suite with what the command line changes.
 Suite ResolveSuite(const RunArguments& arguments) {
   Suite suite = ReadSuite(arguments.suite);
-  if (arguments.realizations) suite.realizations = *arguments.realizations;
+  if (arguments.realizations) suite.realizations = static_cast<int>(*arguments.realizations);
   if (arguments.seed) suite.scenario.seed = *arguments.seed;
-  suite.identifiers = ChooseIdentifiers(suite.identifiers, arguments.identifiers);
+  const std::vector<SuiteIdentifier> own = suite.identifiers;
+  suite.identifiers = ChooseIdentifiers(own, arguments.identifiers,
+                                        arguments.shell ? CommandForm::shell : CommandForm::words);
+  for (const SuiteIdentifier& identifier : suite.identifiers) {
+    // what the command line itself names was agreed to by naming it
+    const bool brought = std::find(own.begin(), own.end(), identifier) != own.end();
+    if (brought) RefuseCommand(identifier, arguments);
+  }
   return suite;
 }
 
@@ -45,17 +83,63 @@ bool IsAnswer(const Result& result) {
   return !none.contains(result.status);
 }
 
-/// Verdicts are results: a suite that ends in failures alone is done. One without a single answer
-/// is not.
-ExitStatus Finish(const RunStore& store) {
+/// The first failure of each identifier that answered in no realization, by its label.
+std::map<std::string, std::string> Silent(const std::vector<Result>& results,
+                                          const std::vector<std::string>& labels) {
+  std::set<int> answered;
+  for (const Result& result : results) {
+    if (IsAnswer(result)) answered.insert(result.identifier);
+  }
+  std::map<std::string, std::string> silent;
+  for (const Result& result : results) {
+    if (answered.contains(result.identifier)) continue;
+    silent.emplace(labels[static_cast<std::size_t>(result.identifier)], result.message);
+  }
+  return silent;
+}
+
+/// Verdicts are results: a suite that ends in failures alone is done. One with an identifier that
+/// never answered is not; of a shard, which may hold few realizations or none, only the whole says.
+ExitStatus Finish(RunStore& store, const Shard& shard) {
+  store.Settle();
   const std::vector<Result> results = ExportResults(store);
   const auto failed = std::count_if(results.begin(), results.end(),
                                     [](const Result& result) { return result.status != "ok"; });
   fmt::print("{}: {} results, {} of them failures; see: warmjoint compare {}\n",
              store.directory().string(), results.size(), failed, store.directory().string());
-  const bool nothing = std::none_of(results.begin(), results.end(), IsAnswer);
-  if (nothing) fmt::print(stderr, "no identifier answered; the first: {}\n", results[0].message);
-  return nothing ? ExitStatus::nothing_trustworthy : ExitStatus::done;
+
+  const auto silent = Silent(results, store.ReadDescription().identifiers);
+  for (const auto& [label, message] : silent) {
+    fmt::print(stderr, "{} answered in no realization; the first time: {}\n", Excerpt(label),
+               Excerpt(message, kLongestComplaint));
+  }
+  return silent.empty() || shard.count > 1 ? ExitStatus::done : ExitStatus::no_answer;
+}
+
+/// Says what keeps commands of others from the truth, where there are any.
+void TellWall(const Suite& suite, const std::vector<std::filesystem::path>& secrets) {
+  bool told = false;
+  for (const SuiteIdentifier& identifier : suite.identifiers) {
+    if (identifier.name != kExternal) continue;
+    if (!std::exchange(told, true)) fmt::print(stderr, "{}\n", WallInWords());
+    if (WallVersion() == 0) return;
+    for (const std::filesystem::path& secret : secrets) {
+      if (WallHides(secret, ReadableBy(identifier))) continue;
+      fmt::print(stderr, "warning: {} can read {}: it lies where the wall is open; move it\n",
+                 identifier.label, secret.string());
+    }
+  }
+}
+
+/// A resumed run takes its own copy of the suite; one with a person's changes is left as it is.
+void RefuseEditedCopy(const RunArguments& arguments, const RunDescription& description) {
+  const std::filesystem::path copy = std::filesystem::path(arguments.output) / "suite.yaml";
+  std::error_code absent;
+  if (!std::filesystem::equivalent(arguments.suite, copy, absent)) return;
+  if (ReadWholeFile(copy) == description.suite_yaml) return;
+  Refuse({arguments.suite},
+         "is the run's own copy, which a run writes anew, and holds more than that; name another "
+         "file, or another -o");
 }
 
 ExitStatus Run(const RunArguments& arguments) {
@@ -66,18 +150,21 @@ ExitStatus Run(const RunArguments& arguments) {
   for (int i = 0; i < suite.variants(); ++i) MakePlant(VariantScenario(suite, i));
 
   const Shard shard = ReadShard(arguments.shard);
-  RunStore store = RunStore::CreateOrResume(arguments.output, Describe(suite));
-  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const RunDescription description = Describe(suite);
+  RefuseEditedCopy(arguments, description);
+  RunStore store = RunStore::CreateOrResume(arguments.output, description);
+  const std::uint64_t cores = std::max(1u, std::thread::hardware_concurrency());
+  TellWall(suite, {arguments.suite, arguments.output});
   CatchInterrupts();
   const RunOutcome outcome =
       RunSuite(suite, identifiers,
-               {arguments.jobs > 0 ? arguments.jobs : cores, shard, arguments.keep}, store);
+               {static_cast<int>(arguments.jobs.value_or(cores)), shard, arguments.keep}, store);
   if (outcome.interrupted) {
     fmt::print(stderr, "interrupted: {} of {} realizations are kept; the same command goes on\n",
                outcome.finished, outcome.total);
     return ExitStatus::interrupted;
   }
-  return Finish(store);
+  return Finish(store, shard);
 }
 
 }  // namespace
@@ -89,16 +176,20 @@ Command AddRunCommand(CLI::App& program) {
   parser->add_option("SUITE", arguments->suite, "suite file (YAML)")->required();
   parser->add_option("-o,--output", arguments->output, "run directory, made or resumed")
       ->required();
-  parser->add_option("--jobs", arguments->jobs, "threads; default: one for each core")
-      ->check(CLI::PositiveNumber);
-  parser->add_option("--realizations", arguments->realizations, "instead of the suite's")
-      ->check(CLI::PositiveNumber);
-  parser->add_option("--seed", arguments->seed, "instead of the suite's");
+  AddWholeNumber(*parser, "--jobs", arguments->jobs, 1, kMostJobs,
+                 "threads; default: one for each core");
+  AddWholeNumber(*parser, "--realizations", arguments->realizations, 1, kMostRealizations,
+                 "instead of the suite's");
+  AddWholeNumber(*parser, "--seed", arguments->seed, 0, kLargestSeed, "instead of the suite's");
   parser->add_option("--identifier", arguments->identifiers,
                      "only this one of the suite, another one with its defaults, or your own as\n"
                      "'name=command {recording} {estimate}'; repeatable");
   parser->add_option("--shard", arguments->shard, "part i of n, to be merged later: i/n")
       ->capture_default_str();
+  parser->add_flag("--allow-commands", arguments->allow_commands,
+                   "run the commands that the suite names as identifiers");
+  parser->add_flag("--shell", arguments->shell,
+                   "give commands of identifiers to /bin/sh, instead of as lists of arguments");
   parser->add_flag("--keep-recordings", arguments->keep, "recordings (HDF5) into RUN/recordings");
   return {parser, [arguments] { return Run(*arguments); }};
 }

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -16,9 +17,11 @@
 #include "sim/plant/plant.h"
 #include "sim/truth/truth_json.h"
 #include "tools/cli/command.h"
+#include "tools/cli/outputs.h"
 #include "tools/cli/recording_options.h"
 #include "tools/cli/repeat_motion.h"
-#include "tools/store/run_store.h"
+#include "tools/cli/whole_number.h"
+#include "tools/store/stored_suite.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -30,7 +33,7 @@ struct SimulateArguments {
   RecordingArguments motion;  // recording to carry out again
   std::vector<std::string> set;
   std::optional<std::uint64_t> seed;
-  std::uint64_t realization = 0;
+  std::optional<std::uint64_t> realization;
   std::string format = "csv";
   std::string output;
 };
@@ -43,9 +46,10 @@ Scenario ScenarioOfRun(const SimulateArguments& arguments) {
     Refuse({"--from"}, "replays a run as it was: leave out SCENARIO, --set, --seed and --motion");
   }
   const RunStore store = RunStore::OpenToRead(arguments.from);
-  const Suite suite = ReadSuite(store.suite_file());
-  if (arguments.realization >= static_cast<std::uint64_t>(suite.realizations)) {
-    Refuse({"--realization"}, "is {}; {} has 0 to {}", arguments.realization, arguments.from,
+  TellOfEditedSuite(store);
+  const Suite suite = StoredSuite(store);
+  if (arguments.realization.value_or(0) >= static_cast<std::uint64_t>(suite.realizations)) {
+    Refuse({"--realization"}, "is {}; {} has 0 to {}", *arguments.realization, arguments.from,
            suite.realizations - 1);
   }
   const std::vector<std::string> names = store.ReadDescription().variants;
@@ -78,10 +82,17 @@ ExitStatus Simulate(const SimulateArguments& arguments) {
   if (!arguments.motion.recordings.empty()) log = ReadRecording(arguments.motion);
   const Scenario scenario = ResolveScenario(arguments, log);
   const std::unique_ptr<Plant> plant = MakePlant(scenario);
-  AtomicDirectory directory(arguments.output,
-                            {"recording.csv", "recording.h5", "truth.json", "scenario.yaml"});
+  static const std::vector<std::string> files{"recording.csv", "recording.h5", "truth.json",
+                                              "scenario.yaml"};
+  std::vector<std::filesystem::path> outputs, inputs{arguments.scenario};
+  for (const std::string& file : files) {
+    outputs.push_back(std::filesystem::path(arguments.output) / file);
+  }
+  for (const std::string& input : arguments.motion.recordings) inputs.emplace_back(input);
+  KeepApart(outputs, inputs);
+  AtomicDirectory directory(arguments.output, files);
 
-  const Recording recording = plant->Run(arguments.realization);
+  const Recording recording = plant->Run(arguments.realization.value_or(0));
   const std::filesystem::path& folder = directory.temporary();
   WriteRecording(recording.measurements, folder / ("recording." + arguments.format));
   WriteTruth(recording.truth, folder / "truth.json");
@@ -109,9 +120,10 @@ Command AddSimulateCommand(CLI::App& program) {
   AddLayoutOptions(*parser, arguments->motion);
   parser->add_option("--set", arguments->set, "another value for a key, as noise.torque=0.1")
       ->take_all();
-  parser->add_option("--seed", arguments->seed, "instead of the scenario's");
-  parser->add_option("--realization", arguments->realization, "which of the seed's realizations")
-      ->capture_default_str();
+  constexpr std::uint64_t largest = std::numeric_limits<std::uint64_t>::max();
+  AddWholeNumber(*parser, "--seed", arguments->seed, 0, largest, "instead of the scenario's");
+  AddWholeNumber(*parser, "--realization", arguments->realization, 0, largest,
+                 "which of the seed's realizations; default: 0");
   parser->add_option("--format", arguments->format, "of the recording: csv or h5 (HDF5)")
       ->check(CLI::IsMember({"csv", "h5"}))
       ->capture_default_str();

@@ -13,6 +13,8 @@ enum class ExitStatus {
   internal_error = 1,
   bad_input = 2,
   nothing_trustworthy = 3,
+  output_failed = 4,
+  no_answer = 5,
   interrupted = 130,
 };
 

@@ -1,21 +1,77 @@
 // The program warmjoint: one subcommand a file, one catch for all of them.
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <new>
+#include <system_error>
 
 #include "models/foundation/bad_input.h"
 #include "models/foundation/keep_memory.h"
+#include "models/foundation/output_failed.h"
+#include "models/foundation/printable.h"
 #include "tools/cli/program.h"
 
-int main(int argc, char** argv) {
-  using warmjoint::ExitStatus;
-  warmjoint::KeepFreedMemory();
-  ExitStatus status = ExitStatus::internal_error;
+namespace {
+
+using warmjoint::ExitStatus;
+
+/// Gives standard files that are closed a place of their own, where reading and writing fail: else the
+/// next file that is opened would take their number, and words would go into it.
+void HoldStandardFiles() {
+  for (int file = STDIN_FILENO; file <= STDERR_FILENO; ++file) {
+    if (fcntl(file, F_GETFD) >= 0) continue;
+    [[maybe_unused]] const int held = open("/dev/null", file == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+  }
+}
+
+/// One line on stderr, whatever the message holds; where that is full too there is nobody to tell.
+void Tell(const char* kind, const std::string& message) {
+  const std::string line = fmt::format("{}: {}\n", kind, warmjoint::Printable(message));
+  std::fputs(line.c_str(), stderr);
+}
+
+ExitStatus Run(int argc, char** argv) {
   try {
-    status = warmjoint::RunProgram(argc, argv);
+    return warmjoint::RunProgram(argc, argv);
   } catch (const warmjoint::BadInput& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
-    status = ExitStatus::bad_input;
+    Tell("error", error.what());
+    return ExitStatus::bad_input;
+  } catch (const warmjoint::OutputFailed& error) {
+    Tell("error", error.what());
+    return ExitStatus::output_failed;
+  } catch (const std::bad_alloc&) {
+    Tell("error", "this takes more memory than there is; give less data or a smaller task");
+    return ExitStatus::bad_input;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "internal error: {}\n", error.what());
+    // words that could not be printed; all else is a mistake of ours
+    if (!std::ferror(stdout) && !std::ferror(stderr)) {
+      Tell("internal error", error.what());
+      return ExitStatus::internal_error;
+    }
+  }
+  return ExitStatus::done;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  HoldStandardFiles();
+  warmjoint::KeepFreedMemory();
+  // a pipe that closes and a limit on files are failures to write as any other
+  signal(SIGPIPE, SIG_IGN);
+  signal(SIGXFSZ, SIG_IGN);
+  ExitStatus status = Run(argc, argv);
+
+  // what was printed counts once it is out
+  const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) || std::ferror(stderr);
+  if (lost && (status == ExitStatus::done || status == ExitStatus::nothing_trustworthy)) {
+    Tell("error", fmt::format("standard output: output could not be written: {}",
+                              std::generic_category().message(errno)));
+    status = ExitStatus::output_failed;
   }
   return static_cast<int>(status);
 }

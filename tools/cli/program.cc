@@ -18,6 +18,7 @@ tells against known truth which identifier to trust. `warmjoint SUBCOMMAND --hel
 
 constexpr const char* kFooter = R"(
 Exit status: 0 done, 1 internal error, 2 bad input, 3 identified nothing trustworthy,
+4 output could not be written, 5 an identifier answered in no realization of a run,
 130 interrupted.)";
 
 std::vector<std::string> OptionNames(const CLI::App& parser) {

@@ -85,7 +85,7 @@ std::vector<Measurements> ReadRecordings(const RecordingArguments& arguments) {
   layout.gear = arguments.gear;
   std::vector<Measurements> recordings;
   for (const std::string& path : arguments.recordings) {
-    recordings.push_back(ReadRecording(path, layout));
+    recordings.push_back(ReadForeignRecording(path, layout));
   }
   return recordings;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "models/foundation/atomic_file.h"
+#include "models/foundation/parse_number.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -67,9 +68,12 @@ std::string ParameterCells(const ParameterScore* score) {
 }  // namespace
 
 std::string CsvCell(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  // spreadsheets take what begins so for a formula, and an apostrophe for "this is text"
+  const bool formula = text.find_first_of("=+-@\t\r") == 0 && !ParseNumber(text);
+  const std::string shown = formula ? "'" + text : text;
+  if (shown.find_first_of(",\"\n\r") == std::string::npos) return shown;
   std::string quoted = "\"";
-  for (const char c : text) {
+  for (const char c : shown) {
     if (c == '"') quoted += '"';
     quoted += c;
   }

@@ -10,7 +10,8 @@
 
 namespace warmjoint::inline tools {
 
-/// A text for one cell: quoted where it holds a comma, a quote or a line break.
+/// A text for one cell: quoted where it holds a comma, a quote or a line break; an apostrophe stands
+/// before what a spreadsheet would take for a formula.
 std::string CsvCell(const std::string& text);
 
 /// One row for each (variant, realization, identifier), in that order; numbers read back bit for

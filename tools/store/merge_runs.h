@@ -2,15 +2,24 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <vector>
 
-#include "tools/store/run_store.h"
+#include "tools/store/result.h"
 
 namespace warmjoint::inline tools {
 
-/// Makes a run directory with the results of all shards. Throws BadInput for shards of different
-/// runs (naming what differs) and for a realization that two of them hold.
-RunStore MergeRuns(const std::vector<std::filesystem::path>& shards,
-                   const std::filesystem::path& directory);
+/// What a merged run holds.
+struct MergedRun {
+  std::size_t results = 0;
+  std::size_t units = 0;   // that the run has, of all variants
+  std::set<Unit> missing;  // those of them that no shard holds
+};
+
+/// Makes a run directory, new or empty before, with the results of all shards and their table; as a
+/// whole or not at all. Throws BadInput for shards of different runs (naming what differs), for a
+/// realization that two of them hold, and for one that is not what its shard stored.
+MergedRun MergeRuns(const std::vector<std::filesystem::path>& shards,
+                    const std::filesystem::path& directory);
 
 }  // namespace warmjoint::inline tools

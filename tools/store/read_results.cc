@@ -1,9 +1,11 @@
 // Reading results back.
+#include <algorithm>
 #include <cstring>
 #include <limits>
-#include <map>
 #include <sstream>
 
+#include "tools/store/digest.h"
+#include "tools/store/open_database.h"
 #include "tools/store/run_store.h"
 
 namespace warmjoint::inline tools {
@@ -64,6 +66,40 @@ std::map<Key, double> ReadSeconds(const SQLite::Database& timings) {
   return seconds;
 }
 
+/// Digests of the finished units, as they were stored with them.
+std::map<Unit, std::string> ReadDigests(const SQLite::Database& results) {
+  std::map<Unit, std::string> digests;
+  SQLite::Statement row(results, "SELECT variant, realization, digest FROM realization");
+  while (row.executeStep()) {
+    digests[{row.getColumn(0).getInt(), row.getColumn(1).getInt()}] = row.getColumn(2).getString();
+  }
+  return digests;
+}
+
+[[noreturn]] void RefuseChanged(Unit unit, const Place& place) {
+  Refuse(place,
+         "variant {}, realization {} is not what the run stored (its digest differs): the file was "
+         "changed or is damaged. Run the suite anew in another directory",
+         unit.variant, unit.realization);
+}
+
+/// Refuses units whose results do not have the digest that was stored with them. results: ordered
+/// by unit and identifier.
+void CheckDigests(std::map<Unit, std::string> digests, const std::string& plan,
+                  std::span<const Result> results, const Place& place) {
+  for (auto begin = results.begin(); begin != results.end();) {
+    const Unit unit{begin->variant, begin->realization};
+    const auto end = std::find_if(begin, results.end(), [&](const Result& result) {
+      return Unit{result.variant, result.realization} != unit;
+    });
+    if (DigestOfResults(plan, unit, {begin, end}) != digests[unit]) RefuseChanged(unit, place);
+    digests.erase(unit);
+    begin = end;
+  }
+  // a unit whose results were all removed
+  if (!digests.empty()) RefuseChanged(digests.begin()->first, place);
+}
+
 }  // namespace
 
 std::set<Unit> RunStore::Finished() const {
@@ -76,8 +112,17 @@ std::set<Unit> RunStore::Finished() const {
 }
 
 std::vector<Result> RunStore::ReadResults() const {
+  return Guarded(results_file(), [&] {
+    std::vector<Result> all = ReadRows();
+    CheckDigests(ReadDigests(results_), DigestOfPlan(ReadDescription()), all,
+                 {results_file().string()});
+    return all;
+  });
+}
+
+std::vector<Result> RunStore::ReadRows() const {
   std::map<Key, Score> scores = ReadParameters(results_);
-  const std::map<Key, double> seconds = ReadSeconds(timings_);
+  const std::map<Key, double> seconds = timings_ ? ReadSeconds(*timings_) : std::map<Key, double>();
 
   std::vector<Result> all;
   SQLite::Statement row(results_, "SELECT * FROM result ORDER BY variant, realization, identifier");
@@ -106,28 +151,38 @@ std::vector<Result> RunStore::ReadResults() const {
 }
 
 TraceTable RunStore::ReadTrace(Unit unit, int identifier) const {
-  SQLite::Statement row(results_,
-                        "SELECT columns, float32 FROM trace"
-                        " WHERE variant = ? AND realization = ? AND identifier = ?");
-  row.bind(1, unit.variant);
-  row.bind(2, unit.realization);
-  row.bind(3, identifier);
-  TraceTable trace;
-  if (!row.executeStep()) return trace;
+  return Guarded(results_file(), [&] {
+    SQLite::Statement row(results_,
+                          "SELECT columns, float32, digest FROM trace"
+                          " WHERE variant = ? AND realization = ? AND identifier = ?");
+    row.bind(1, unit.variant);
+    row.bind(2, unit.realization);
+    row.bind(3, identifier);
+    TraceTable trace;
+    if (!row.executeStep()) return trace;
 
-  std::istringstream columns(row.getColumn(0).getString());
-  for (std::string name; std::getline(columns, name, ',');) trace.columns.push_back(name);
-  const SQLite::Column blob = row.getColumn(1);
-  trace.values.resize(static_cast<size_t>(blob.getBytes()) / sizeof(float));
-  std::memcpy(trace.values.data(), blob.getBlob(), trace.values.size() * sizeof(float));
-  return trace;
+    std::istringstream columns(row.getColumn(0).getString());
+    for (std::string name; std::getline(columns, name, ',');) trace.columns.push_back(name);
+    const SQLite::Column blob = row.getColumn(1);
+    trace.values.resize(static_cast<size_t>(blob.getBytes()) / sizeof(float));
+    std::memcpy(trace.values.data(), blob.getBlob(), trace.values.size() * sizeof(float));
+    const std::string digest =
+        DigestOfTrace(DigestOfPlan(ReadDescription()), unit, identifier, trace);
+    if (digest != row.getColumn(2).getString()) RefuseChanged(unit, {results_file().string()});
+    return trace;
+  });
 }
 
-std::vector<double> RunStore::ReadSimulationSeconds() const {
-  std::vector<double> seconds;
-  SQLite::Statement row(timings_, "SELECT seconds FROM simulation ORDER BY variant, realization");
-  while (row.executeStep()) seconds.push_back(row.getColumn(0).getDouble());
-  return seconds;
+std::map<Unit, double> RunStore::ReadSimulationSeconds() const {
+  std::map<Unit, double> seconds;
+  if (!timings_) return seconds;
+  return Guarded(timings_file(), [&] {
+    SQLite::Statement row(*timings_, "SELECT variant, realization, seconds FROM simulation");
+    while (row.executeStep()) {
+      seconds[{row.getColumn(0).getInt(), row.getColumn(1).getInt()}] = Number(row.getColumn(2));
+    }
+    return seconds;
+  });
 }
 
 }  // namespace warmjoint::inline tools

@@ -1,12 +1,12 @@
 #include "tools/store/run_description.h"
 
 #include <fmt/format.h>
-#include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <map>
 
 #include "models/foundation/bad_input.h"
+#include "scenarios/yaml_value.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -36,8 +36,8 @@ std::string ValueOrNothing(const std::map<std::string, std::string>& scalars,
 
 std::vector<std::string> SuiteDifferences(const std::string& stored, const std::string& asked) {
   std::map<std::string, std::string> before, after;
-  Flatten(YAML::Load(stored), "", before);
-  Flatten(YAML::Load(asked), "", after);
+  Flatten(YamlValue::Parse(stored, "the stored suite").node(), "", before);
+  Flatten(YamlValue::Parse(asked, "the suite").node(), "", after);
 
   std::map<std::string, std::string> paths = before;
   paths.insert(after.begin(), after.end());

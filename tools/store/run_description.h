@@ -10,7 +10,7 @@
 namespace warmjoint::inline tools {
 
 /// Layout of the stored tables; raised whenever they change.
-inline constexpr int kSchemaVersion = 1;
+inline constexpr int kSchemaVersion = 2;
 
 /// Two runs with equal descriptions have equal results.
 struct RunDescription {

@@ -1,6 +1,8 @@
 #include "tools/store/run_store.h"
 
 #include "models/foundation/atomic_file.h"
+#include "tools/store/check_rows.h"
+#include "tools/store/digest.h"
 #include "tools/store/schema.h"
 
 namespace warmjoint::inline tools {
@@ -9,18 +11,20 @@ namespace fs = std::filesystem;
 
 constexpr const char* kResultsFile = "results.sqlite";
 constexpr const char* kTimingsFile = "timings.sqlite";
-const int kCreate = SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE;
 
-SQLite::Database OpenDatabase(const fs::path& path, int flags) {
-  try {
-    SQLite::Database database(path.string(), flags);
-    // a batch survives the end of the process at any moment, and the loss of power up to the last
-    database.exec("PRAGMA synchronous = NORMAL");
-    IsEmpty(database);  // reads the file's head, so that a damaged one is found here
-    return database;
-  } catch (const SQLite::Exception& error) {
-    Refuse({path.string()}, "cannot be opened as a database: {}", error.what());
+std::optional<SQLite::Database> OpenTimings(const fs::path& path, Access access) {
+  if (access == Access::read && !fs::exists(path)) return std::nullopt;
+  return OpenDatabase(path, access);
+}
+
+/// Removes what a killed process was writing; the directory's lock is held.
+void RemoveLeftovers(const fs::path& directory) {
+  std::vector<fs::path> leftovers;
+  for (const auto& entry : fs::recursive_directory_iterator(directory)) {
+    if (IsUnderConstruction(entry.path())) leftovers.push_back(entry.path());
   }
+  std::error_code ignored;
+  for (const fs::path& path : leftovers) fs::remove_all(path, ignored);
 }
 
 /// Refuses a directory that holds other things than a run.
@@ -42,25 +46,37 @@ void MakeRunDirectory(const fs::path& directory) {
 
 }  // namespace
 
-RunStore::RunStore(fs::path directory, int open_flags)
+RunStore::RunStore(fs::path directory, Access access)
     : directory_(std::move(directory)),
-      lock_(open_flags == kCreate ? std::make_unique<DirectoryLock>(directory_) : nullptr),
-      results_(OpenDatabase(directory_ / kResultsFile, open_flags)),
-      timings_(OpenDatabase(directory_ / kTimingsFile, kCreate)) {}
+      lock_(access == Access::write ? std::make_unique<DirectoryLock>(directory_) : nullptr),
+      results_(OpenDatabase(results_file(), access)),
+      timings_(OpenTimings(timings_file(), access)) {}
+
+fs::path RunStore::results_file() const { return directory_ / kResultsFile; }
+
+fs::path RunStore::timings_file() const { return directory_ / kTimingsFile; }
 
 RunStore RunStore::CreateOrResume(const fs::path& directory, const RunDescription& description) {
   MakeRunDirectory(directory);
-  RunStore store(directory, kCreate);
-  if (IsEmpty(store.results_)) {
-    CreateResultTables(store.results_, description);
-  } else {
-    CheckSchema(store.results_, {directory.string()});
-    RefuseDifferentRun(store.ReadDescription(), description, {directory.string()});
-  }
-  CreateTimingTables(store.timings_);
+  RunStore store(directory, Access::write);
+  RemoveLeftovers(directory);
+  Guarded(directory, [&] {
+    if (IsEmpty(store.results_)) {
+      CreateResultTables(store.results_, description);
+    } else {
+      CheckSchema(store.results_, {store.results_file().string()});
+      RefuseDifferentRun(store.ReadDescription(), description, {directory.string()});
+      CheckRows(store.results_, description, {store.results_file().string()});
+    }
+    if (IsEmpty(*store.timings_)) CreateTimingTables(*store.timings_);
+    CheckTimingSchema(*store.timings_, {store.timings_file().string()});
+  });
+  store.plan_ = DigestOfPlan(description);
 
-  // the suite as a file is for people: it is written anew from the database's
-  WriteWholeFile(store.suite_file(), description.suite_yaml);
+  // the suite as a file is for people: it is written anew from the database's where it differs
+  const bool same =
+      fs::exists(store.suite_file()) && ReadWholeFile(store.suite_file()) == description.suite_yaml;
+  if (!same) WriteWholeFile(store.suite_file(), description.suite_yaml);
   return store;
 }
 
@@ -70,12 +86,31 @@ RunStore RunStore::OpenToRead(const fs::path& directory) {
     Refuse(place, "is no run directory ({} is missing); give the -o of `warmjoint run`",
            kResultsFile);
   }
-  RunStore store(directory, SQLite::OPEN_READWRITE);
-  if (IsEmpty(store.results_)) Refuse(place, "holds no results yet; run the suite again");
-  CheckSchema(store.results_, place);
+  RunStore store(directory, Access::read);
+  Guarded(directory, [&] {
+    if (IsEmpty(store.results_)) Refuse(place, "holds no results yet; run the suite again");
+    CheckSchema(store.results_, {store.results_file().string()});
+    CheckRows(store.results_, store.ReadDescription(), {store.results_file().string()});
+    if (store.timings_) CheckTimingSchema(*store.timings_, {store.timings_file().string()});
+  });
   return store;
 }
 
 RunDescription RunStore::ReadDescription() const { return ReadStoredDescription(results_); }
+
+void RunStore::Settle() {
+  const RunDescription description = ReadDescription();
+  AtomicFile file(results_file());
+  Guarded(results_file(), [&] {
+    SQLite::Database fresh = OpenDatabase(file.temporary(), Access::write);
+    // nobody else sees it before it is whole, and Commit() puts it on disk
+    fresh.exec("PRAGMA journal_mode = MEMORY; PRAGMA synchronous = OFF");
+    CreateResultTables(fresh, description);
+    CopyResults(fresh, fs::absolute(results_file()));
+  });
+  results_ = SQLite::Database(":memory:");
+  file.Commit();
+  results_ = OpenDatabase(results_file(), Access::write);
+}
 
 }  // namespace warmjoint::inline tools

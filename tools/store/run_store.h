@@ -4,19 +4,24 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include <filesystem>
+#include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <span>
 #include <vector>
 
 #include "tools/store/directory_lock.h"
+#include "tools/store/open_database.h"
 #include "tools/store/result.h"
 #include "tools/store/run_description.h"
 
 namespace warmjoint::inline tools {
 
-/// A run directory: suite.yaml (fully resolved), results.sqlite, and apart from them
-/// timings.sqlite, so that results compare bit for bit. A killed process leaves whole realizations.
+/// A run directory: suite.yaml (fully resolved, a copy for people), results.sqlite, and apart from
+/// them timings.sqlite, so that results compare bit for bit. A killed process leaves whole
+/// realizations. A store may have been changed by others: what is read is checked against its
+/// schema, the run's lists and the digests that were stored with it.
 class RunStore {
  public:
   /// Makes the directory, or opens it to go on. Throws BadInput for a directory that holds
@@ -24,37 +29,49 @@ class RunStore {
   static RunStore CreateOrResume(const std::filesystem::path& directory,
                                  const RunDescription& description);
 
-  /// Opens an existing run to read it. Throws BadInput where there is none or its schema is older.
+  /// Opens an existing run to read it, which needs no right to write. Throws BadInput where there is
+  /// none, its schema is older, or it was changed so that its rows do not fit the run.
   static RunStore OpenToRead(const std::filesystem::path& directory);
 
   const std::filesystem::path& directory() const { return directory_; }
   std::string suite_file() const { return directory_ / "suite.yaml"; }
 
+  std::filesystem::path results_file() const;
+  std::filesystem::path timings_file() const;
+
   /// The stored description.
   RunDescription ReadDescription() const;
 
-  /// Adds whole realizations in one transaction.
+  /// Adds whole realizations in one transaction. Throws OutputFailed where there is no room.
   void Write(std::span<const Realization> realizations);
+
+  /// Writes results.sqlite anew in the order of its keys: whatever order the results came in, and
+  /// however often the run was stopped, equal results are then equal bytes.
+  void Settle();
 
   /// What is in.
   std::set<Unit> Finished() const;
 
-  /// All results ordered by (variant, realization, identifier), without their traces.
+  /// All results ordered by (variant, realization, identifier), without their traces. Throws
+  /// BadInput for a realization that is not what was stored.
   std::vector<Result> ReadResults() const;
 
   /// The trace of one result; empty where there is none.
   TraceTable ReadTrace(Unit unit, int identifier) const;
 
-  /// Wall time of the plant for each unit in order, s.
-  std::vector<double> ReadSimulationSeconds() const;
+  /// Wall time of the plant for each unit, s; NaN where unknown.
+  std::map<Unit, double> ReadSimulationSeconds() const;
 
  private:
-  RunStore(std::filesystem::path directory, int open_flags);
+  RunStore(std::filesystem::path directory, Access access);
+
+  std::vector<Result> ReadRows() const;
 
   std::filesystem::path directory_;
   std::unique_ptr<DirectoryLock> lock_;  // of a writer
   SQLite::Database results_;
-  SQLite::Database timings_;
+  std::optional<SQLite::Database> timings_;  // of a run to read, nothing where they are lost
+  std::string plan_;                         // digest of the description
 };
 
 }  // namespace warmjoint::inline tools

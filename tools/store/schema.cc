@@ -2,38 +2,69 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "models/foundation/excerpt.h"
+
 namespace warmjoint::inline tools {
 namespace {
 
+// STRICT, so that the integrity check finds values of another type
 constexpr const char* kResultTables = R"sql(
-  CREATE TABLE suite(yaml TEXT NOT NULL);
-  CREATE TABLE version(name TEXT PRIMARY KEY, value TEXT NOT NULL);
-  CREATE TABLE identifier(position INTEGER PRIMARY KEY, label TEXT NOT NULL UNIQUE);
-  CREATE TABLE variant(position INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE);
+  CREATE TABLE suite(yaml TEXT NOT NULL) STRICT;
+  CREATE TABLE version(name TEXT PRIMARY KEY, value TEXT NOT NULL) STRICT, WITHOUT ROWID;
+  CREATE TABLE identifier(position INTEGER PRIMARY KEY, label TEXT NOT NULL) STRICT;
+  CREATE TABLE variant(position INTEGER PRIMARY KEY, name TEXT NOT NULL) STRICT;
   CREATE TABLE realization(
-    variant INTEGER, realization INTEGER, PRIMARY KEY(variant, realization)) WITHOUT ROWID;
+    variant INTEGER, realization INTEGER, digest TEXT NOT NULL,
+    PRIMARY KEY(variant, realization)) STRICT, WITHOUT ROWID;
   CREATE TABLE result(
     variant INTEGER, realization INTEGER, identifier INTEGER, status TEXT NOT NULL, message TEXT NOT NULL,
     n INTEGER, parameters INTEGER, effective_parameters REAL, rmse REAL, mae REAL, fit REAL,
     fpe REAL, npe_continuous REAL, npe_discrete REAL, bound_npe_continuous REAL,
-    bound_npe_discrete REAL, PRIMARY KEY(variant, realization, identifier)) WITHOUT ROWID;
+    bound_npe_discrete REAL, PRIMARY KEY(variant, realization, identifier)) STRICT, WITHOUT ROWID;
   CREATE TABLE parameter(
     variant INTEGER, realization INTEGER, identifier INTEGER, discrete INTEGER, position INTEGER,
     name TEXT NOT NULL, truth REAL, estimate REAL, estimated INTEGER, covered INTEGER, bound REAL,
-    PRIMARY KEY(variant, realization, identifier, discrete, position)) WITHOUT ROWID;
+    PRIMARY KEY(variant, realization, identifier, discrete, position)) STRICT, WITHOUT ROWID;
   CREATE TABLE trace(
     variant INTEGER, realization INTEGER, identifier INTEGER, columns TEXT NOT NULL, float32 BLOB NOT NULL,
-    PRIMARY KEY(variant, realization, identifier));
+    digest TEXT NOT NULL, PRIMARY KEY(variant, realization, identifier)) STRICT, WITHOUT ROWID;
 )sql";
 
 constexpr const char* kTimingTables = R"sql(
-  CREATE TABLE IF NOT EXISTS identification(
+  CREATE TABLE identification(
     variant INTEGER, realization INTEGER, identifier INTEGER, seconds REAL,
-    PRIMARY KEY(variant, realization, identifier)) WITHOUT ROWID;
-  CREATE TABLE IF NOT EXISTS simulation(
+    PRIMARY KEY(variant, realization, identifier)) STRICT, WITHOUT ROWID;
+  CREATE TABLE simulation(
     variant INTEGER, realization INTEGER, seconds REAL,
-    PRIMARY KEY(variant, realization)) WITHOUT ROWID;
+    PRIMARY KEY(variant, realization)) STRICT, WITHOUT ROWID;
 )sql";
+
+/// What a database's schema holds, besides what SQLite keeps for itself: "type name: sql" each.
+std::vector<std::string> ObjectsOf(const SQLite::Database& database) {
+  std::vector<std::string> objects;
+  SQLite::Statement row(database,
+                        "SELECT type || ' ' || name || ': ' || coalesce(sql, '') FROM sqlite_schema"
+                        " ORDER BY type, name");
+  while (row.executeStep()) objects.push_back(row.getColumn(0).getString());
+  return objects;
+}
+
+/// Refuses tables that are not those that `create` makes: other columns, views, triggers.
+void RefuseForeignObjects(const SQLite::Database& database, const char* create,
+                          const Place& place) {
+  SQLite::Database ours(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+  ours.exec(create);
+  const std::vector<std::string> expected = ObjectsOf(ours);
+  for (const std::string& object : ObjectsOf(database)) {
+    if (std::find(expected.begin(), expected.end(), object) != expected.end()) continue;
+    Refuse(place, "holds a foreign '{}' in its schema; it was changed after the run",
+           Excerpt(object));
+  }
+  if (ObjectsOf(database) == expected) return;
+  Refuse(place, "lacks some of its tables; it was changed after the run, or is no run's");
+}
 
 int UserVersion(const SQLite::Database& database) {
   SQLite::Statement query(database, "PRAGMA user_version");
@@ -80,7 +111,11 @@ void CreateResultTables(SQLite::Database& results, const RunDescription& descrip
   transaction.commit();
 }
 
-void CreateTimingTables(SQLite::Database& timings) { timings.exec(kTimingTables); }
+void CreateTimingTables(SQLite::Database& timings) {
+  SQLite::Transaction transaction(timings);
+  timings.exec(kTimingTables);
+  transaction.commit();
+}
 
 bool IsEmpty(const SQLite::Database& database) {
   SQLite::Statement query(database, "SELECT count(*) FROM sqlite_master");
@@ -90,11 +125,34 @@ bool IsEmpty(const SQLite::Database& database) {
 
 void CheckSchema(const SQLite::Database& results, const Place& place) {
   const int version = UserVersion(results);
-  if (version == kSchemaVersion) return;
-  Refuse(place,
-         "its tables are of schema version {}, this program reads version {}; read it with the "
-         "program that made it, or run the suite anew in another directory",
-         version, kSchemaVersion);
+  if (version != kSchemaVersion) {
+    Refuse(place,
+           "its tables are of schema version {}, this program reads version {}; read it with the "
+           "program that made it, or run the suite anew in another directory",
+           version, kSchemaVersion);
+  }
+  RefuseForeignObjects(results, kResultTables, place);
+}
+
+void CheckTimingSchema(const SQLite::Database& timings, const Place& place) {
+  RefuseForeignObjects(timings, kTimingTables, place);
+}
+
+void CopyResults(SQLite::Database& fresh, const std::string& from) {
+  SQLite::Statement attach(fresh, "ATTACH ? AS old");
+  attach.bind(1, from);
+  attach.exec();
+  SQLite::Transaction transaction(fresh);
+  for (const char* copy : {
+           "INSERT INTO realization SELECT * FROM old.realization ORDER BY 1, 2",
+           "INSERT INTO result SELECT * FROM old.result ORDER BY 1, 2, 3",
+           "INSERT INTO parameter SELECT * FROM old.parameter ORDER BY 1, 2, 3, 4, 5",
+           "INSERT INTO trace SELECT * FROM old.trace ORDER BY 1, 2, 3",
+       }) {
+    fresh.exec(copy);
+  }
+  transaction.commit();
+  fresh.exec("DETACH old");
 }
 
 RunDescription ReadStoredDescription(const SQLite::Database& results) {

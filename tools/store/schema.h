@@ -11,14 +11,20 @@ namespace warmjoint::inline tools {
 /// Makes the tables of results.sqlite and stores the description, as a whole or not at all.
 void CreateResultTables(SQLite::Database& results, const RunDescription& description);
 
-/// Makes the tables of timings.sqlite where they do not exist.
+/// Makes the tables of timings.sqlite, as a whole or not at all.
 void CreateTimingTables(SQLite::Database& timings);
 
 /// Whether the database holds no tables yet.
 bool IsEmpty(const SQLite::Database& database);
 
-/// Throws BadInput from `place` when the tables are of another version than this program's.
+/// Throws BadInput from `place` when the tables are of another version than this program's, or are
+/// not exactly the tables of that version: a view or trigger is a program of someone else's.
 void CheckSchema(const SQLite::Database& results, const Place& place);
+void CheckTimingSchema(const SQLite::Database& timings, const Place& place);
+
+/// Copies all rows of the results in file `from` into empty tables, in the order of their keys, so
+/// that equal results are equal bytes in whatever order they came.
+void CopyResults(SQLite::Database& fresh, const std::string& from);
 
 /// The description that CreateResultTables stored.
 RunDescription ReadStoredDescription(const SQLite::Database& results);

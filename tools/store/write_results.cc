@@ -1,6 +1,8 @@
 // Writing whole realizations.
 #include <fmt/format.h>
 
+#include "tools/store/digest.h"
+#include "tools/store/open_database.h"
 #include "tools/store/run_store.h"
 
 namespace warmjoint::inline tools {
@@ -18,7 +20,7 @@ void Insert(SQLite::Statement& statement, const Args&... values) {
 /// The statements of one batch.
 struct Inserts {
   explicit Inserts(SQLite::Database& db)
-      : realization(db, "INSERT INTO realization VALUES (?, ?)"),
+      : realization(db, "INSERT INTO realization VALUES (?, ?, ?)"),
         failure(db,
                 "INSERT INTO result(variant, realization, identifier, status, message)"
                 " VALUES (?, ?, ?, ?, ?)"),
@@ -29,7 +31,7 @@ struct Inserts {
               "UPDATE result SET npe_continuous=?4, npe_discrete=?5, bound_npe_continuous=?6,"
               " bound_npe_discrete=?7 WHERE variant=?1 AND realization=?2 AND identifier=?3"),
         parameter(db, "INSERT INTO parameter VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"),
-        trace(db, "INSERT INTO trace VALUES (?, ?, ?, ?, ?)") {}
+        trace(db, "INSERT INTO trace VALUES (?, ?, ?, ?, ?, ?)") {}
 
   SQLite::Statement realization, failure, metrics, score, parameter, trace;
 };
@@ -47,7 +49,7 @@ void InsertParameters(SQLite::Statement& insert, const Result& result, int discr
   }
 }
 
-void InsertTrace(SQLite::Statement& insert, const Result& result) {
+void InsertTrace(SQLite::Statement& insert, const Result& result, const std::string& plan) {
   if (result.trace.values.empty()) return;
   insert.reset();
   insert.bind(1, result.variant);
@@ -56,10 +58,12 @@ void InsertTrace(SQLite::Statement& insert, const Result& result) {
   insert.bind(4, fmt::format("{}", fmt::join(result.trace.columns, ",")));
   insert.bind(5, result.trace.values.data(),
               static_cast<int>(result.trace.values.size() * sizeof(float)));
+  const Unit unit{result.variant, result.realization};
+  insert.bind(6, DigestOfTrace(plan, unit, result.identifier, result.trace));
   insert.exec();
 }
 
-void InsertResult(Inserts& inserts, const Result& result) {
+void InsertResult(Inserts& inserts, const Result& result, const std::string& plan) {
   Insert(inserts.failure, result.variant, result.realization, result.identifier, result.status,
          result.message);
   if (const auto& m = result.metrics) {
@@ -72,7 +76,7 @@ void InsertResult(Inserts& inserts, const Result& result) {
     InsertParameters(inserts.parameter, result, 0, s->continuous);
     InsertParameters(inserts.parameter, result, 1, s->discrete);
   }
-  InsertTrace(inserts.trace, result);
+  InsertTrace(inserts.trace, result, plan);
 }
 
 void WriteTimings(SQLite::Database& timings, std::span<const Realization> realizations) {
@@ -94,15 +98,18 @@ void WriteTimings(SQLite::Database& timings, std::span<const Realization> realiz
 
 void RunStore::Write(std::span<const Realization> realizations) {
   // timings first: a kill between the two leaves timings that the next run replaces
-  WriteTimings(timings_, realizations);
+  Guarded(timings_file(), [&] { WriteTimings(*timings_, realizations); });
 
-  SQLite::Transaction transaction(results_);
-  Inserts inserts(results_);
-  for (const Realization& realization : realizations) {
-    Insert(inserts.realization, realization.unit.variant, realization.unit.realization);
-    for (const Result& result : realization.results) InsertResult(inserts, result);
-  }
-  transaction.commit();
+  Guarded(results_file(), [&] {
+    SQLite::Transaction transaction(results_);
+    Inserts inserts(results_);
+    for (const Realization& realization : realizations) {
+      Insert(inserts.realization, realization.unit.variant, realization.unit.realization,
+             DigestOfResults(plan_, realization.unit, realization.results));
+      for (const Result& result : realization.results) InsertResult(inserts, result, plan_);
+    }
+    transaction.commit();
+  });
 }
 
 }  // namespace warmjoint::inline tools

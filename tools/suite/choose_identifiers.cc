@@ -16,12 +16,13 @@ bool Contains(const std::vector<SuiteIdentifier>& identifiers, const std::string
 }  // namespace
 
 std::vector<SuiteIdentifier> ChooseIdentifiers(const std::vector<SuiteIdentifier>& suite,
-                                               const std::vector<std::string>& names) {
+                                               const std::vector<std::string>& names,
+                                               CommandForm form) {
   if (names.empty()) return suite;
   std::vector<SuiteIdentifier> chosen;
   for (const std::string& name : names) {
     if (IsExternal(name)) {
-      chosen.push_back(ReadExternal(name));
+      chosen.push_back(ReadExternal(name, form));
       continue;
     }
     bool in_suite = false;

@@ -5,14 +5,16 @@
 #include <vector>
 
 #include "scenarios/suite.h"
+#include "tools/suite/external_identifier.h"
 
 namespace warmjoint::inline tools {
 
 /// The suite's identifiers whose label or name is among `names`, in the order of `names`; all of
 /// them when it is empty. A name that the suite lacks is taken from the list of identifiers with
-/// its default options; name=command becomes an external one. Throws BadInput for a name that
+/// its default options; name=command becomes an external one, its command read as `form` says. Throws BadInput for a name that
 /// neither has.
 std::vector<SuiteIdentifier> ChooseIdentifiers(const std::vector<SuiteIdentifier>& suite,
-                                               const std::vector<std::string>& names);
+                                               const std::vector<std::string>& names,
+                                               CommandForm form);
 
 }  // namespace warmjoint::inline tools

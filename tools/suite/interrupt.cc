@@ -17,7 +17,7 @@ extern "C" void OnInterrupt(int signal) {
 
 void CatchInterrupts() {
   interrupted = false;
-  std::signal(SIGINT, OnInterrupt);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, OnInterrupt);
 }
 
 bool Interrupted() { return interrupted; }

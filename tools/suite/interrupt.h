@@ -1,12 +1,13 @@
-// Ctrl-C as a wish: loops look at it and stop where nothing is lost.
+// Ctrl-C and kill as a wish: loops look at it and stop where nothing is lost.
 #pragma once
 
 namespace warmjoint::inline tools {
 
-/// From here on the first SIGINT only sets the wish; a second one ends the process at once.
+/// From here on the first SIGINT, SIGTERM or SIGHUP only sets the wish; a second of the same kind ends
+/// the process at once.
 void CatchInterrupts();
 
-/// Whether Ctrl-C was pressed since CatchInterrupts.
+/// Whether one came since CatchInterrupts.
 bool Interrupted();
 
 }  // namespace warmjoint::inline tools

@@ -1,75 +1,122 @@
 #include "tools/suite/run_command.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
-#include <cstring>
+#include <array>
+#include <cerrno>
+#include <cstdlib>
 #include <stdexcept>
 #include <string_view>
-#include <thread>
-#include <vector>
+#include <system_error>
+#include <utility>
 
-#include "models/foundation/atomic_file.h"
+#include "tools/suite/command_keeper.h"
 
 namespace warmjoint::inline tools {
+namespace fs = std::filesystem;
 namespace {
 
-/// What a process starts with; the system's calls release it.
-struct SpawnSetup {
-  SpawnSetup(const std::filesystem::path& directory) {
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addchdir_np(&actions, directory.c_str());
-    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "output.txt",
-                                     O_WRONLY | O_CREAT | O_TRUNC, 0600);
-    posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+constexpr std::size_t kTail = 4096;  // bytes of output that are kept
 
-    // a group of its own: one signal ends all that the command starts, Ctrl-C passes it by
-    posix_spawnattr_init(&attributes);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-    posix_spawnattr_setpgroup(&attributes, 0);
-  }
-  ~SpawnSetup() {
-    posix_spawn_file_actions_destroy(&actions);
-    posix_spawnattr_destroy(&attributes);
-  }
-  SpawnSetup(const SpawnSetup&) = delete;
-  SpawnSetup& operator=(const SpawnSetup&) = delete;
-
-  posix_spawn_file_actions_t actions;
-  posix_spawnattr_t attributes;
-};
-
-/// Our environment with one thread for each numerical library.
-std::vector<char*> Environment() {
-  static char one_thread[][32] = {"OMP_NUM_THREADS=1", "OPENBLAS_NUM_THREADS=1",
-                                  "MKL_NUM_THREADS=1"};
-  std::vector<char*> environment;
-  for (auto& variable : one_thread) environment.push_back(variable);
-  for (char** variable = environ; *variable; ++variable) {
-    if (std::string_view(*variable).find("_NUM_THREADS=") == std::string_view::npos) {
-      environment.push_back(*variable);
+/// Both ends of a pipe, closed at the end of its life.
+class Pipe {
+ public:
+  Pipe() {
+    if (pipe2(ends_.data(), O_CLOEXEC) != 0) {
+      throw std::system_error(errno, std::generic_category(), "no pipe for a command");
     }
   }
-  environment.push_back(nullptr);
+  ~Pipe() { CloseBoth(); }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+
+  int out() const { return ends_[0]; }
+  int in() const { return ends_[1]; }
+  void CloseIn() { Close(ends_[1]); }
+
+ private:
+  static void Close(int& end) {
+    if (end >= 0) close(std::exchange(end, -1));
+  }
+  void CloseBoth() {
+    Close(ends_[0]);
+    Close(ends_[1]);
+  }
+
+  std::array<int, 2> ends_{-1, -1};
+};
+
+/// Whether a command of others gets this variable of ours: where programs and libraries are found
+/// and how text is written, nothing that tells of this program or its files.
+bool IsPassedOn(std::string_view variable) {
+  constexpr std::string_view names[]{
+      "PATH",       "LANG",        "TZ",           "LD_LIBRARY_PATH",  "PYTHONPATH",
+      "PYTHONHOME", "VIRTUAL_ENV", "CONDA_PREFIX", "JULIA_DEPOT_PATH", "R_HOME",
+      "LANGUAGE"};
+  const std::string_view name = variable.substr(0, variable.find('='));
+  return name.starts_with("LC_") || name.starts_with("IDENTIFIER_") ||
+         std::find(std::begin(names), std::end(names), name) != std::end(names);
+}
+
+std::vector<std::string> Environment(const fs::path& directory) {
+  std::vector<std::string> environment{"OMP_NUM_THREADS=1", "OPENBLAS_NUM_THREADS=1",
+                                       "MKL_NUM_THREADS=1"};
+  for (const char* name : {"HOME", "TMPDIR", "PWD"}) {
+    environment.push_back(std::string(name) + "=" + directory.string());
+  }
+  for (char** variable = environ; *variable; ++variable) {
+    if (IsPassedOn(*variable)) environment.emplace_back(*variable);
+  }
   return environment;
 }
 
-pid_t Start(const std::string& command, const std::filesystem::path& directory) {
-  const SpawnSetup setup(directory);
-  std::string shell = "sh", option = "-c", text = command;
-  char* arguments[] = {shell.data(), option.data(), text.data(), nullptr};
-  std::vector<char*> environment = Environment();
-  pid_t child = 0;
-  const int error = posix_spawn(&child, "/bin/sh", &setup.actions, &setup.attributes, arguments,
-                                environment.data());
-  if (error != 0) throw std::runtime_error(std::string("cannot start sh: ") + strerror(error));
-  return child;
+std::vector<char*> Pointers(std::vector<std::string>& texts) {
+  std::vector<char*> pointers;
+  for (std::string& text : texts) pointers.push_back(text.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
+/// Adds what can be read at once to a tail of bounded size; false at the end, and where there is
+/// nothing to be read from a file that does not block.
+bool ReadSome(int file, std::string& tail) {
+  std::array<char, 65536> block;
+  const ssize_t n = read(file, block.data(), block.size());
+  if (n < 0) return errno == EINTR;
+  tail.append(block.data(), static_cast<std::size_t>(n));
+  if (tail.size() > kTail) tail.erase(0, tail.size() - kTail);
+  return n > 0;
+}
+
+/// Takes the output until the keeper's verdict comes; what a command writes never stops it.
+KeeperVerdict Await(const Pipe& output, const Pipe& verdict, std::string& tail) {
+  KeeperVerdict end;
+  end.status = SIGKILL;  // as waitpid has it: of a keeper that was killed itself
+  bool writing = true;
+  for (;;) {
+    std::array<pollfd, 2> files{pollfd{verdict.out(), POLLIN, 0},
+                                pollfd{writing ? output.out() : -1, POLLIN, 0}};
+    if (poll(files.data(), files.size(), -1) < 0) {
+      if (errno == EINTR) continue;
+      break;
+    }
+    if (files[1].revents != 0) writing = ReadSome(output.out(), tail);
+    if (files[0].revents == 0) continue;
+    KeeperVerdict told;
+    if (read(verdict.out(), &told, sizeof told) == sizeof told) end = told;
+    break;
+  }
+
+  // all that wrote is dead: what is in the pipe is all there is
+  fcntl(output.out(), F_SETFL, O_NONBLOCK);
+  constexpr int kMostReads = 64;  // more than a pipe holds
+  for (int i = 0; writing && i < kMostReads; ++i) writing = ReadSome(output.out(), tail);
+  return end;
 }
 
 std::string LastLine(const std::string& text) {
@@ -81,33 +128,45 @@ std::string LastLine(const std::string& text) {
 
 }  // namespace
 
-CommandEnd RunShellCommand(const std::string& command, const std::filesystem::path& directory,
-                           double limit) {
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                                        std::chrono::duration<double>(limit));
-  const pid_t child = Start(command, directory);
-
-  // poll often at first, for quick commands
-  CommandEnd end;
-  int status = 0;
-  std::chrono::microseconds pause{200};
-  while (waitpid(child, &status, WNOHANG) == 0) {
-    if (Clock::now() > deadline) {
-      end.timed_out = true;
-      kill(-child, SIGKILL);
-      waitpid(child, &status, 0);
-      break;
-    }
-    std::this_thread::sleep_for(pause);
-    pause = std::min(2 * pause, std::chrono::microseconds{20000});
+std::string FindProgram(const std::string& name) {
+  if (name.find('/') != std::string::npos) return name;
+  const char* path = std::getenv("PATH");
+  std::string_view rest = path ? path : "/usr/bin:/bin";
+  while (!rest.empty()) {
+    const std::size_t colon = rest.find(':');
+    const fs::path file = fs::path(rest.substr(0, colon)) / name;
+    if (access(file.c_str(), X_OK) == 0) return file;
+    rest.remove_prefix(colon == std::string_view::npos ? rest.size() : colon + 1);
   }
+  return name;
+}
 
-  // nothing of it lives on
-  kill(-child, SIGKILL);
-  end.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  end.last_output = LastLine(ReadWholeFile(directory / "output.txt"));
-  return end;
+CommandEnd RunCommand(const std::vector<std::string>& arguments, const fs::path& directory,
+                      const Wall& wall, const CommandLimits& limits) {
+  // all that needs memory, before the fork
+  std::vector<std::string> words = arguments;
+  words.front() = FindProgram(words.front());
+  std::vector<std::string> environment = Environment(directory);
+  std::vector<std::string> removal{"/bin/rm", "-rf", "--one-file-system", directory};
+  const std::vector<char*> argv = Pointers(words), envp = Pointers(environment),
+                           remove = Pointers(removal);
+  Pipe output, verdict;
+  const std::string folder = directory;
+  const KeeperTask task{argv.data(), envp.data(), folder.c_str(), remove.data(),
+                        &wall,       limits,      output.in(),    verdict.in()};
+  const pid_t parent = getpid();
+  const pid_t keeper = fork();
+  if (keeper == 0) KeepCommand(task, parent);
+  if (keeper < 0)
+    throw std::system_error(errno, std::generic_category(), "no process for a command");
+  output.CloseIn();
+  verdict.CloseIn();
+
+  std::string tail;
+  const KeeperVerdict end = Await(output, verdict, tail);
+  waitpid(keeper, nullptr, 0);
+  const int status = WIFEXITED(end.status) ? WEXITSTATUS(end.status) : 128 + WTERMSIG(end.status);
+  return {end.timed_out, end.crowded, status, LastLine(tail)};
 }
 
 }  // namespace warmjoint::inline tools

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "models/foundation/output_failed.h"
 #include "tools/suite/trace_table.h"
 
 namespace warmjoint::inline tools {
@@ -55,6 +56,8 @@ Result RunIdentifier(const PreparedIdentifier& identify, const Recording& record
     result.seconds = watch.Seconds();
     result.status = failure.status;
     result.message = failure.what();
+  } catch (const OutputFailed&) {
+    throw;  // no fault of the identifier's
   } catch (const std::exception& error) {
     result.seconds = watch.Seconds();
     result.status = "crashed";
@@ -90,11 +93,12 @@ Realization RunRealization(const Bench& bench, const std::vector<PreparedIdentif
   realization.simulation_seconds = watch.Seconds();
 
   if (recording) {
-    keeper.Keep(*recording, unit);
     const PreparedLog log = Prepare(recording->measurements);
     for (const PreparedIdentifier& identify : identifiers) {
       realization.results.push_back(RunIdentifier(identify, *recording, log, key));
     }
+    // the truth is on disk only once the answers are in
+    keeper.Keep(*recording, unit);
   }
 
   for (size_t i = 0; i < realization.results.size(); ++i) {

@@ -1,10 +1,17 @@
 #include "models/foundation/atomic_file.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <fstream>
+#include <thread>
 
 #include "models/foundation/bad_input.h"
+#include "models/foundation/output_failed.h"
 
 namespace warmjoint {
 namespace {
@@ -58,6 +65,128 @@ TEST_F(AtomicFileTest, RefusesAMissingFolder) {
   } catch (const BadInput& refusal) {
     EXPECT_THAT(refusal.what(), testing::HasSubstr("nowhere' does not exist"));
   }
+}
+
+/// What refuses `work`; empty when nothing does.
+template <typename Work>
+std::string Refusal(Work work) {
+  try {
+    work();
+  } catch (const BadInput& refusal) {
+    return refusal.what();
+  }
+  return "";
+}
+
+TEST_F(AtomicFileTest, RefusesWhatIsNoRegularFileAndLeavesItAsItIs) {
+  const fs::path pipe = folder_ / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THAT(Refusal([&] { WriteWholeFile(pipe, "x"); }), testing::HasSubstr("pipe: is a pipe"));
+  EXPECT_TRUE(fs::is_fifo(pipe));
+  EXPECT_THAT(Refusal([&] { WriteWholeFile("/dev/null", "x"); }),
+              testing::HasSubstr("/dev/null: is a device"));
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  EXPECT_THAT(Refusal([&] { WriteWholeFile(folder_, "x"); }), testing::HasSubstr("is a folder"));
+  EXPECT_THAT(Refusal([&] { WriteWholeFile("", "x"); }), testing::HasSubstr("name is empty"));
+  EXPECT_THAT(Refusal([&] { AtomicFile(folder_ / std::string(300, 'n')); }),
+              testing::HasSubstr("name too long"));
+  EXPECT_EQ(FileCount(), 1);
+}
+
+TEST_F(AtomicFileTest, FollowsALinkToAFileAndRefusesOneToNothing) {
+  fs::create_directory(folder_ / "elsewhere");
+  WriteWholeFile(folder_ / "elsewhere/a.txt", "old");
+  fs::create_symlink("elsewhere/a.txt", folder_ / "link");
+  WriteWholeFile(folder_ / "link", "new");
+  EXPECT_TRUE(fs::is_symlink(folder_ / "link"));
+  EXPECT_EQ(ReadWholeFile(folder_ / "elsewhere/a.txt"), "new");
+
+  fs::create_symlink("nothing", folder_ / "dangling");
+  EXPECT_THAT(Refusal([&] { WriteWholeFile(folder_ / "dangling", "x"); }),
+              testing::HasSubstr("which does not exist"));
+  EXPECT_FALSE(fs::exists(folder_ / "nothing"));
+}
+
+TEST_F(AtomicFileTest, KeepsTheModeOfAFileAndHonoursTheMaskForANewOne) {
+  const auto mode = [&](const char* name) {
+    struct stat status {};
+    stat((folder_ / name).c_str(), &status);
+    return status.st_mode & 07777;
+  };
+  WriteWholeFile(folder_ / "secret", "old");
+  fs::permissions(folder_ / "secret", fs::perms(0600));
+  WriteWholeFile(folder_ / "secret", "new");
+  EXPECT_EQ(mode("secret"), 0600u);
+
+  const mode_t mask = umask(0);
+  umask(mask);
+  WriteWholeFile(folder_ / "new", "new");
+  EXPECT_EQ(mode("new"), 0666u & ~mask);
+}
+
+TEST_F(AtomicFileTest, ConstructsUnderANameThatNobodyCanForesee) {
+  const AtomicFile one(folder_ / "a.txt"), two(folder_ / "a.txt");
+  EXPECT_NE(one.temporary(), two.temporary());
+  for (const AtomicFile* file : {&one, &two}) {
+    EXPECT_TRUE(IsUnderConstruction(file->temporary()));
+    EXPECT_EQ(file->temporary().string().find(std::to_string(getpid())), std::string::npos);
+  }
+  EXPECT_FALSE(IsUnderConstruction("a.txt"));
+  EXPECT_FALSE(IsUnderConstruction(".warmjoint.part"));
+}
+
+TEST_F(AtomicFileTest, GoesToStandardOutputAfterWhatWasPrinted) {
+  for (const char* name : {"-", "/dev/stdout"}) {
+    testing::internal::CaptureStdout();
+    std::printf("before\n");
+    WriteWholeFile(name, "whole\n");
+    EXPECT_EQ(testing::internal::GetCapturedStdout(), "before\nwhole\n");
+  }
+}
+
+/// Files may have no more than this many bytes while it lives.
+class FileLimit {
+ public:
+  explicit FileLimit(rlim_t bytes) {
+    getrlimit(RLIMIT_FSIZE, &old_);
+    const rlimit limit{bytes, old_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    signal_ = signal(SIGXFSZ, SIG_IGN);
+  }
+  ~FileLimit() {
+    setrlimit(RLIMIT_FSIZE, &old_);
+    signal(SIGXFSZ, signal_);
+  }
+
+ private:
+  rlimit old_{};
+  void (*signal_)(int) = nullptr;
+};
+
+TEST_F(AtomicFileTest, AFailureToWriteIsToldAndLeavesTheOldFile) {
+  WriteWholeFile(folder_ / "a.txt", "old");
+  const FileLimit limit(1000);
+  EXPECT_THROW(WriteWholeFile(folder_ / "a.txt", std::string(2000, 'x')), OutputFailed);
+  EXPECT_EQ(ReadWholeFile(folder_ / "a.txt"), "old");
+  EXPECT_EQ(FileCount(), 1);
+}
+
+TEST_F(AtomicFileTest, ReadsPipesAndRefusesDevicesAndSilence) {
+  const fs::path pipe = folder_ / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const std::string text(200'000, 'x');
+  std::thread writer([&] { std::ofstream(pipe) << text; });
+  EXPECT_EQ(ReadWholeFile(pipe), text);
+  writer.join();
+  EXPECT_THAT(Refusal([&] { ReadWholeFile(pipe); }), testing::HasSubstr("nobody wrote to"));
+  EXPECT_THAT(Refusal([] { ReadWholeFile("/dev/zero"); }), testing::HasSubstr("is a device"));
+}
+
+TEST_F(AtomicFileTest, ReadsNoMoreThanIsAllowed) {
+  WriteWholeFile(folder_ / "a.txt", std::string(2000, 'x'));
+  EXPECT_EQ(ReadWholeFile(folder_ / "a.txt", 2000).size(), 2000u);
+  EXPECT_THAT(Refusal([&] { ReadWholeFile(folder_ / "a.txt", 1999); }),
+              testing::HasSubstr("more than"));
 }
 
 TEST_F(AtomicFileTest, ReadingNamesTheMissingFile) {

@@ -23,7 +23,18 @@ TEST(Excerpt, CutsNoCharacterInTwo) {
 }
 
 TEST(Excerpt, LetsNothingControlTheTerminal) {
-  EXPECT_EQ(Excerpt(std::string_view("a\x1b[31m\n\0b", 9)), "a?[31m??b");
+  EXPECT_EQ(Excerpt(std::string_view("a\x1b[31m\n\0b", 9)), "a\\x1B[31m\\x0A\\x00b");
+  EXPECT_EQ(Excerpt("\u009b31m"), "\\u009B31m") << "one character that is CSI to some terminals";
+  EXPECT_EQ(Excerpt("gpj.\u202Egnp"), "gpj.\\u202Egnp") << "turns the writing round";
+  EXPECT_EQ(Excerpt("\u2066x\u2069\u2028"), "\\u2066x\\u2069\\u2028");
+}
+
+TEST(Excerpt, ShowsBytesThatAreNoTextAsCodes) {
+  EXPECT_EQ(Excerpt("\xCF"), "\\xCF");
+  EXPECT_EQ(Excerpt("a\xC0\x80z"), "a\\xC0\\x80z") << "a zero, longer than need be";
+  EXPECT_EQ(Excerpt("\xED\xA0\x80"), "\\xED\\xA0\\x80") << "half of a pair";
+  EXPECT_EQ(Excerpt("\xF4\x90\x80\x80"), "\\xF4\\x90\\x80\\x80") << "beyond the last character";
+  EXPECT_EQ(Excerpt("\u00e4\u4e2d\U0001F600"), "\u00e4\u4e2d\U0001F600");
 }
 
 TEST(Excerpt, IsBoundedForBytesThatAreNoText) {

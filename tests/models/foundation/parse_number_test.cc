@@ -22,6 +22,20 @@ TEST(ParseNumber, RefusesWhatIsLeftOver) {
   }
 }
 
+TEST(ParseNumber, TakesWhatIsTooSmallForNext) {
+  EXPECT_EQ(ParseNumber("1e-400"), 0.0);
+  EXPECT_EQ(ParseNumber("-1e-400"), -0.0);
+  EXPECT_EQ(ParseNumber("1e-310"), 1e-310) << "denormal";
+  EXPECT_FALSE(ParseNumber("-1e400"));
+}
+
+TEST(ParseUnsigned, DoesNotWrapRound) {
+  EXPECT_EQ(ParseUnsigned("18446744073709551615"), std::numeric_limits<std::uint64_t>::max());
+  for (const char* text : {"-1", "18446744073709551616", "1.5", "1e3", ""}) {
+    EXPECT_FALSE(ParseUnsigned(text).has_value()) << '\'' << text << '\'';
+  }
+}
+
 TEST(ParseInteger, RefusesFractionsAndOverflow) {
   EXPECT_EQ(ParseInteger("-42"), -42);
   for (const char* text : {"1.5", "1e3", "9223372036854775808", ""}) {

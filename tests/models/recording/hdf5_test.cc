@@ -4,9 +4,11 @@
 
 #include <filesystem>
 
+#include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "models/recording/read_recording.h"
 #include "tests/models/recording/temporary_file.h"
+#include "tests/support/folders.h"
 
 namespace warmjoint {
 namespace {
@@ -85,6 +87,48 @@ TEST(Hdf5, RefusesWhatCsvRefuses) {
   log.load->conservativeResize(3);
   WriteHdf5(log, file.path());
   EXPECT_THAT(Refusal(file.path()), HasSubstr("load has 3 samples where time has 4"));
+}
+
+TEST(Hdf5, EqualRecordingsAreEqualBytesAtAnyTime) {
+  const TemporaryFile one("one.h5"), two("two.h5");
+  WriteHdf5(Example(), one.path());
+  // the format's times count in seconds
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+  WriteHdf5(Example(), two.path());
+  EXPECT_EQ(ReadWholeFile(one.path()), ReadWholeFile(two.path()));
+}
+
+TEST(Hdf5, ReadsTheSameInAProcessOfItsOwn) {
+  const TemporaryFile file("log.h5");
+  WriteHdf5(Example(), file.path());
+  const Measurements here = ReadHdf5(file.path()), apart = ReadHdf5Apart(file.path());
+  EXPECT_EQ(apart.time, here.time);
+  EXPECT_EQ(apart.torque, here.torque);
+  EXPECT_EQ(apart.gear, here.gear);
+  EXPECT_EQ(apart.joint, here.joint);
+  CsvLayout layout;
+  layout.column = {{"torque", "loads"}};
+  EXPECT_THAT([&] { ReadHdf5Apart(file.path(), layout); },
+              testing::ThrowsMessage<BadInput>(HasSubstr("did you mean 'load'?")));
+  EXPECT_THROW(ReadHdf5Apart("there/is/none.h5"), BadInput);
+}
+
+TEST(Hdf5, FilesThatCrashTheLibraryAreRefused) {
+  const auto folder = test::SharedFolder() / "data/hostile_hdf5";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here";
+  int refused = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string name = entry.path().filename();
+    if (!name.starts_with("crash")) continue;
+    try {
+      ReadHdf5Apart(entry.path());
+    } catch (const BadInput& refusal) {
+      EXPECT_THAT(refusal.what(), HasSubstr(name));
+      ++refused;
+    }
+  }
+  // one of the five crashes under sanitizers alone
+  EXPECT_GE(refused, 4);
 }
 
 TEST(Hdf5, RefusesOtherFiles) {

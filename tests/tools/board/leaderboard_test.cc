@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "tools/board/board_tables.h"
 #include "tools/board/format_board.h"
 
 namespace warmjoint {
@@ -135,6 +136,20 @@ TEST(Leaderboard, MarkdownAndCsvHaveARowForEachIdentifier) {
   const Leaderboard board = MakeLeaderboard(TwoIdentifiers(), AFailsTwiceAndBIsOftenWorse());
   EXPECT_THAT(BoardToMarkdown(board), HasSubstr("| 1 | b | 0 | 7.50 % |"));
   EXPECT_THAT(BoardToCsv(board), HasSubstr("\na,4,2,"));
+}
+
+TEST(Leaderboard, FlagsErrorsThatNoDataAllow) {
+  // 8 realizations; the bound is 0.5, so that errors of 0.001 are 1/500 of it and 0.4 are ordinary
+  std::vector<Result> results;
+  for (int i = 0; i < 8; ++i) {
+    results.push_back(Answer(i, 0, 10.001));
+    results.push_back(Answer(i, 1, i % 2 ? 10.4 : 9.6));
+  }
+  const std::vector<std::string> notes = Notes(MakeLeaderboard(TwoIdentifiers(), results));
+  EXPECT_THAT(notes, testing::Contains(testing::AllOf(testing::StartsWith("a: "),
+                                                      HasSubstr("does it know the truth?"))));
+  EXPECT_THAT(notes, testing::Not(testing::Contains(testing::AllOf(
+                         testing::StartsWith("b: "), HasSubstr("does it know the truth?")))));
 }
 
 }  // namespace

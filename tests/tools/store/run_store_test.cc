@@ -148,6 +148,119 @@ TEST(RunStore, RefusesASecondWriter) {
   EXPECT_NO_THROW(RunStore::OpenToRead(scratch.path() / "run"));
 }
 
+std::string BytesOf(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+TEST(RunStore, SettledResultsAreEqualBytesInWhateverOrderTheyCame) {
+  const ScratchDirectory scratch;
+  const auto settled = [&](const char* name, const std::vector<std::vector<int>>& batches) {
+    RunStore store = RunStore::CreateOrResume(scratch.path() / name, TwoIdentifiers());
+    for (const std::vector<int>& batch : batches) {
+      std::vector<Realization> realizations;
+      for (const int index : batch) realizations.push_back(TwoResults(index));
+      store.Write(realizations);
+    }
+    store.Settle();
+    return BytesOf(store.results_file());
+  };
+  const std::string in_order = settled("one", {{0, 1, 2, 3}});
+  EXPECT_EQ(settled("two", {{3}, {0, 2}, {1}}), in_order);
+  EXPECT_EQ(settled("two", {}), in_order) << "settled twice";
+  EXPECT_EQ(RunStore::OpenToRead(scratch.path() / "two").ReadResults().size(), 8u);
+}
+
+TEST(RunStore, GoesOnAfterItWasSettled) {
+  const ScratchDirectory scratch;
+  RunStore store = RunStore::CreateOrResume(scratch.path() / "run", TwoIdentifiers());
+  store.Write(std::vector{TwoResults(0)});
+  store.Settle();
+  store.Write(std::vector{TwoResults(1)});
+  EXPECT_EQ(store.ReadResults().size(), 4u);
+}
+
+TEST(RunStore, ReadingWritesNothing) {
+  const ScratchDirectory scratch;
+  RunStore::CreateOrResume(scratch.path() / "run", TwoIdentifiers())
+      .Write(std::vector{TwoResults(0)});
+  std::filesystem::remove(scratch.path() / "run/timings.sqlite");
+  std::filesystem::remove(scratch.path() / "run/.lock");
+  const std::string before = BytesOf(scratch.path() / "run/results.sqlite");
+  const RunStore store = RunStore::OpenToRead(scratch.path() / "run");
+  EXPECT_TRUE(std::isnan(store.ReadResults()[0].seconds));
+  EXPECT_TRUE(store.ReadSimulationSeconds().empty());
+  EXPECT_EQ(BytesOf(scratch.path() / "run/results.sqlite"), before);
+  EXPECT_FALSE(std::filesystem::exists(scratch.path() / "run/timings.sqlite"));
+  EXPECT_FALSE(std::filesystem::exists(scratch.path() / "run/.lock"));
+}
+
+TEST(RunStore, RemovesWhatAKilledWriterLeft) {
+  const ScratchDirectory scratch;
+  RunStore::CreateOrResume(scratch.path() / "run", TwoIdentifiers());
+  std::ofstream(scratch.path() / "run/.warmjoint.a1B2c3.part.sqlite") << "half";
+  RunStore::CreateOrResume(scratch.path() / "run", TwoIdentifiers());
+  EXPECT_FALSE(std::filesystem::exists(scratch.path() / "run/.warmjoint.a1B2c3.part.sqlite"));
+}
+
+/// A change that someone made to a finished run, and what tells it.
+struct Tampering {
+  const char* name;
+  const char* sql;
+  const char* told;
+};
+
+class TamperedStore : public testing::TestWithParam<Tampering> {};
+
+TEST_P(TamperedStore, IsRefused) {
+  const ScratchDirectory scratch;
+  const auto directory = scratch.path() / "run";
+  RunStore::CreateOrResume(directory, TwoIdentifiers())
+      .Write(std::vector{TwoResults(0), TwoResults(1)});
+  SQLite::Database(directory / "results.sqlite", SQLite::OPEN_READWRITE).exec(GetParam().sql);
+  const auto read = [&] {
+    const RunStore store = RunStore::OpenToRead(directory);
+    for (const Result& result : store.ReadResults()) {
+      store.ReadTrace({result.variant, result.realization}, result.identifier);
+    }
+  };
+  EXPECT_THAT(read, ThrowsMessage<BadInput>(HasSubstr(GetParam().told)));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    RunStore, TamperedStore,
+    testing::Values(
+        Tampering{"Identifier", "UPDATE result SET identifier = identifier + 1000", "identifier"},
+        Tampering{"NegativeIdentifier", "UPDATE trace SET identifier = -1", "identifier"},
+        Tampering{"HugeIdentifier", "UPDATE result SET identifier = identifier + 4294967296",
+                  "identifier"},
+        Tampering{"Variant", "UPDATE result SET variant = 1", "the run has none"},
+        Tampering{"Realization", "UPDATE realization SET realization = realization - 9",
+                  "the run has none"},
+        Tampering{"NoIdentifiers", "DELETE FROM identifier", "identifier"},
+        Tampering{"Gap", "UPDATE identifier SET position = position * 2", "gaps"},
+        Tampering{"Renamed", "UPDATE identifier SET label = label || 'x'", "digest"},
+        Tampering{"Plan", "UPDATE suite SET yaml = yaml || '#'", "digest"},
+        Tampering{"Estimates", "UPDATE parameter SET estimate = truth", "digest"},
+        Tampering{"Status", "UPDATE result SET status = 'ok'", "digest"},
+        Tampering{"LessParameters", "DELETE FROM parameter WHERE realization = 1", "digest"},
+        Tampering{"LessResults", "DELETE FROM result WHERE identifier = 1", "digest"},
+        Tampering{"NoResults", "DELETE FROM result", "digest"},
+        Tampering{"Orphans", "DELETE FROM realization WHERE realization = 1", "finished"},
+        Tampering{"Trace", "UPDATE trace SET float32 = zeroblob(length(float32))", "digest"},
+        Tampering{"Columns", "UPDATE trace SET columns = 'rmse'", "digest"},
+        Tampering{"View", "CREATE VIEW more AS SELECT 1", "foreign 'view more"},
+        Tampering{"Trigger",
+                  "CREATE TRIGGER act AFTER INSERT ON result BEGIN DELETE FROM suite; END",
+                  "foreign 'trigger act"},
+        Tampering{"ViewForTable",
+                  "DROP TABLE trace; CREATE VIEW trace AS WITH RECURSIVE n(i) AS (SELECT 1 UNION"
+                  " ALL SELECT i + 1 FROM n) SELECT * FROM n",
+                  "foreign 'view trace"},
+        Tampering{"Column", "ALTER TABLE result ADD COLUMN more TEXT", "foreign 'table result"},
+        Tampering{"NoTable", "DROP TABLE trace", "lacks some of its tables"}),
+    [](const auto& tampering) { return tampering.param.name; });
+
 TEST(RunStore, StartsAnewWhereNothingWasStoredYet) {
   const ScratchDirectory scratch;
   std::filesystem::create_directory(scratch.path() / "run");

@@ -3,7 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "identification/preparation/select.h"
+#include "tests/tools/scratch_directory.h"
+#include "tools/suite/wall.h"
 
 namespace warmjoint {
 namespace {
@@ -23,7 +27,8 @@ Measurements Log() {
 }
 
 Estimate Ask(const std::string& command, const std::string& limit = "20") {
-  SuiteIdentifier identifier = ReadExternal("theirs=" + command + " # {recording} {estimate}");
+  SuiteIdentifier identifier =
+      ReadExternal("theirs=" + command + " # {recording} {estimate}", CommandForm::shell);
   identifier.options["time_limit"] = limit;
   const Measurements log = Log();
   return PrepareExternal(identifier, {})(Prepare(log), {});
@@ -42,8 +47,8 @@ std::string Failure(const std::string& command, const std::string& limit = "20")
 TEST(ExternalIdentifier, IsNamedWithItsCommand) {
   EXPECT_TRUE(IsExternal("me=python me.py {recording} {estimate}"));
   EXPECT_FALSE(IsExternal("energy-ml"));
-  EXPECT_EQ(ReadExternal("me=run {recording} {estimate}").label, "me");
-  EXPECT_THAT([] { ReadExternal("me=run {recording}"); },
+  EXPECT_EQ(ReadExternal("me=run {recording} {estimate}", CommandForm::words).label, "me");
+  EXPECT_THAT([] { ReadExternal("me=run {recording}", CommandForm::words); },
               ThrowsMessage<BadInput>(HasSubstr("lacks {estimate}")));
 }
 
@@ -71,7 +76,7 @@ TEST(ExternalIdentifier, CompletesTheDiscretePair) {
 TEST(ExternalIdentifier, FindsTheMeasurementsAloneInItsDirectory) {
   // 13 lines: the header and twelve samples
   EXPECT_THAT(Failure("ls | tr '\\n' ' '; wc -l < recording.csv; exit 1"),
-              HasSubstr("crashed: exit status 1: output.txt recording.csv 13"));
+              HasSubstr("crashed: exit status 1: recording.csv 13"));
 }
 
 TEST(ExternalIdentifier, FailuresSayHow) {
@@ -81,6 +86,60 @@ TEST(ExternalIdentifier, FailuresSayHow) {
   EXPECT_THAT(Failure("true"), HasSubstr("bad_answer: wrote no estimate"));
   EXPECT_THAT(Failure("echo '{' > estimate.json"), HasSubstr("bad_answer: "));
   EXPECT_THAT(Failure("echo '{}' > estimate.json"), HasSubstr("bad_answer: "));
+}
+
+TEST(ExternalIdentifier, AnswersThatWereMadeToHurtAreBadAnswers) {
+  const auto bad = [](const char* why) { return HasSubstr(std::string("bad_answer: ") + why); };
+  EXPECT_THAT(Failure("mkfifo estimate.json"), bad("the estimate is no regular file"));
+  EXPECT_THAT(Failure("ln -s /dev/zero estimate.json"), bad("the estimate is no regular file"));
+  EXPECT_THAT(Failure("ln -s /etc/passwd estimate.json"), bad("the estimate is no regular file"));
+  EXPECT_THAT(Failure("mkdir estimate.json"), bad("the estimate is no regular file"));
+  EXPECT_THAT(Failure("head -c 20000000 /dev/zero > estimate.json"), bad("the estimate has more"));
+  EXPECT_THAT(Failure("head -c 300000 /dev/zero | tr '\\0' '[' > estimate.json"),
+              HasSubstr("deeper than 64 levels"));
+  EXPECT_THAT(Failure("echo '{\"status\": 1e999}' > estimate.json"), HasSubstr("1e999"));
+  EXPECT_THAT(Failure("printf '\\317' > estimate.json"), HasSubstr("no UTF-8"));
+}
+
+TEST(ExternalIdentifier, MessagesAreBoundedAndTellNoDrawnNames) {
+  const std::string failure = Failure("head -c 3000000 /dev/zero | tr '\\0' 'x'; exit 3");
+  EXPECT_LT(failure.size(), 400u);
+  EXPECT_EQ(Failure("ls $PWD/none; exit 3"), Failure("ls $PWD/none; exit 3"));
+  EXPECT_THAT(Failure("ls $PWD/none; exit 3"), testing::Not(HasSubstr("warmjoint_")));
+}
+
+TEST(ExternalIdentifier, ReadsFilesThatItNamesAndNoOthers) {
+  const ScratchDirectory scratch, hidden;
+  std::ofstream(hidden.path() / "secret") << "truth";
+  std::ofstream(scratch.path() / "shown") << "shown";
+  const std::string folder = scratch.path();
+  EXPECT_THAT(Failure("cat " + folder + "/shown; exit 1"), HasSubstr("exit status 1: shown"));
+  if (WallVersion() == 0) GTEST_SKIP() << "this kernel has no Landlock";
+  EXPECT_THAT(Failure("cat $(echo " + hidden.path().string() + "/)secret; exit 1"),
+              HasSubstr("Permission denied"));
+}
+
+TEST(ExternalIdentifier, FoldersNamesAreNoCommands) {
+  const ScratchDirectory scratch;
+  const auto evil = scratch.path() / "q`echo x`;touch P $(touch P)";
+  std::filesystem::create_directory(evil);
+  std::ofstream(evil / "id.sh") << "#!/bin/sh\nprintf '%s|' \"$@\"\n";
+  std::filesystem::permissions(evil / "id.sh", std::filesystem::perms(0700));
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(evil);
+  for (const CommandForm form : {CommandForm::words, CommandForm::shell}) {
+    const SuiteIdentifier identifier =
+        ReadExternal("a=./id.sh 'a  b' {recording} {estimate}", form);
+    const Measurements log = Log();
+    try {
+      PrepareExternal(identifier, {})(log, SelectMoving(log), {});
+      ADD_FAILURE() << "answered";
+    } catch (const NoAnswer& failure) {
+      EXPECT_STREQ(failure.what(), "wrote no estimate") << "it ran, and to its end";
+    }
+  }
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(evil), {}), 1) << "P was made";
+  std::filesystem::current_path(before);
 }
 
 }  // namespace

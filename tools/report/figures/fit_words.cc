@@ -17,6 +17,7 @@ constexpr double kMemory = 0.3;  // correlation that is worth a word
 /// So many digits that the deviation has two.
 std::string WithDigitsOf(double value, std::optional<double> deviation) {
   if (!deviation || !(*deviation > 0) || value == 0) return SignificantText(value, 4);
+  if (!std::isfinite(value) || !std::isfinite(*deviation)) return SignificantText(value, 4);
   const double digits =
       std::floor(std::log10(std::abs(value))) - std::floor(std::log10(*deviation)) + 2;
   return SignificantText(value, static_cast<int>(std::clamp(digits, 2.0, 7.0)));

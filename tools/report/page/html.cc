@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "models/foundation/sha256.h"
+
 namespace warmjoint::report {
 namespace {
 
@@ -35,6 +37,20 @@ std::string ClassOf(const warmjoint::Table& table, std::size_t column) {
   return classes.empty() ? "" : fmt::format(" class=\"{}\"", classes);
 }
 
+/// "'sha256-...'" of each text, or 'none'.
+std::string Hashes(const std::vector<std::string_view>& texts) {
+  std::string hashes;
+  for (const std::string_view text : texts) {
+    const std::string digits = Sha256(text);
+    std::string bytes;
+    for (std::size_t i = 0; i < digits.size(); i += 2) {
+      bytes += static_cast<char>(std::stoi(digits.substr(i, 2), nullptr, 16));
+    }
+    hashes += fmt::format(" 'sha256-{}'", Base64(bytes));
+  }
+  return hashes.empty() ? " 'none'" : hashes;
+}
+
 std::string DataUrl(std::string_view png) { return "data:image/png;base64," + Base64(png); }
 
 }  // namespace
@@ -63,6 +79,14 @@ std::string Escape(std::string_view text) {
     }
   }
   return escaped;
+}
+
+std::string SecurityPolicy(const std::vector<std::string_view>& styles,
+                           const std::vector<std::string_view>& scripts) {
+  return fmt::format(
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "
+      "style-src{}; script-src{}; base-uri 'none'; form-action 'none'\">\n",
+      Hashes(styles), Hashes(scripts));
 }
 
 std::string Base64(std::string_view bytes) {

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "tools/board/table.h"
 #include "tools/report/draw/figure.h"
@@ -14,6 +15,11 @@ std::string Escape(std::string_view text);
 
 /// RFC 4648 base 64.
 std::string Base64(std::string_view bytes);
+
+/// A Content-Security-Policy, as a meta element, that lets a page load nothing and run nothing but these
+/// texts of its own style and script elements, known by their sha256; pictures come as data.
+std::string SecurityPolicy(const std::vector<std::string_view>& styles,
+                           const std::vector<std::string_view>& scripts);
 
 /// <section> with a heading; id: its place in links.
 std::string Section(const std::string& id, const std::string& heading, const std::string& body);

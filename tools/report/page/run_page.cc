@@ -71,7 +71,7 @@ std::string DataBlock(const Leaderboard& board) {
 std::string MakeRunPage(const RunPage& page, Canvas& canvas) {
   const Leaderboard& board = page.board;
   std::string html = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n{}"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<link rel=\"icon\" href=\"data:,\">\n<title>{} – warmjoint</title>\n<style>{}</style>\n"
       "</head>\n<body>\n<a class=\"skip\" href=\"#leaderboard\">Skip to the leaderboard</a>\n"
@@ -79,8 +79,8 @@ std::string MakeRunPage(const RunPage& page, Canvas& canvas) {
       "<nav aria-label=\"On this page\"><ul><li><a href=\"#leaderboard\">Leaderboard</a></li>"
       "<li><a href=\"#pictures\">Pictures</a></li><li><a href=\"#failures\">Failures and notes</a>"
       "</li><li><a href=\"#repeat\">How to repeat it</a></li></ul></nav>\n</header>\n<main>\n",
-      Escape(board.suite), kStyle, Escape(board.suite), Escape(board.question),
-      Escape(Verdict(board)));
+      SecurityPolicy({kStyle}, {}), Escape(board.suite), kStyle, Escape(board.suite),
+      Escape(board.question), Escape(Verdict(board)));
   html += Section("leaderboard", "Leaderboard", Leaderboards(board));
   html += Section("pictures", "Pictures", Pictures(page.figures, canvas));
   html += Section("failures", "Failures and notes", NotesOf(board));

@@ -11,7 +11,7 @@
 #include "tools/report/draw/ticks.h"
 #include "tools/report/figures/friction_spread.h"
 #include "tools/report/run/run_view.h"
-#include "tools/store/run_store.h"
+#include "tools/store/stored_suite.h"
 
 namespace warmjoint::report {
 namespace {
@@ -229,7 +229,7 @@ int RunRow::failed() const {
 
 RunView ReadRunView(const std::filesystem::path& directory) {
   const RunStore store = RunStore::OpenToRead(directory);
-  const Suite suite = ReadSuite(store.suite_file());
+  const Suite suite = StoredSuite(store);
   const std::vector<Result> results = store.ReadResults();
   if (results.empty()) {
     Refuse({directory}, "no realization is finished yet; run the suite again to go on");

@@ -51,8 +51,13 @@ SimulationView ReadSimulationView(const std::filesystem::path& directory) {
   const bool hdf5 = std::filesystem::exists(directory / "recording.h5");
   Recording recording;
   recording.measurements =
-      ReadRecording(directory / (hdf5 ? "recording.h5" : "recording.csv"), layout);
+      ReadForeignRecording(directory / (hdf5 ? "recording.h5" : "recording.csv"), layout);
   recording.truth = ReadTruth(directory / "truth.json");
+  if (recording.truth.velocity.size() != recording.measurements.size()) {
+    Refuse({directory / "truth.json"},
+           "holds {} samples where the recording beside it has {}; both must be of one simulation",
+           recording.truth.velocity.size(), recording.measurements.size());
+  }
   return MakeSimulationView(scenario, recording);
 }
 

@@ -1,0 +1,32 @@
+#include "models/foundation/output_failed.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <system_error>
+
+namespace warmjoint::inline models {
+namespace {
+
+const char* Remedy(int error) {
+  switch (error) {
+    case ENOSPC:
+    case EDQUOT:
+      return "make room, or choose a place with more";
+    case EFBIG:
+      return "raise the limit on the size of files (ulimit -f)";
+    case EPIPE:
+      return "what read it has ended";
+    default:
+      return "choose another place";
+  }
+}
+
+}  // namespace
+
+void FailOutput(const std::string& target, int error) {
+  throw OutputFailed(fmt::format("{}: output could not be written: {}; {}", target,
+                                 std::generic_category().message(error), Remedy(error)));
+}
+
+}  // namespace warmjoint::inline models

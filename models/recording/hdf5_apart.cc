@@ -1,0 +1,212 @@
+// The HDF5 library in a process of its own.
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+
+#include "models/foundation/bad_input.h"
+#include "models/foundation/excerpt.h"
+#include "models/recording/hdf5_content.h"
+
+namespace warmjoint::inline models {
+namespace {
+
+constexpr std::size_t kMemory = std::size_t{8} << 30;       // bytes, of the child alone
+constexpr std::size_t kLongestText = std::size_t{1} << 20;  // bytes of a name, unit or refusal
+constexpr std::uint64_t kMostColumns = 100'000;
+constexpr char kContent = 'c', kRefusal = 'r';
+
+/// Bytes of an answer: first kContent or kRefusal, then numbers and texts as they come.
+class Answer {
+ public:
+  void Put(std::uint64_t number) { Put(&number, sizeof number); }
+  void Put(const std::string& text) {
+    Put(std::uint64_t{text.size()});
+    Put(text.data(), text.size());
+  }
+  void Put(const Eigen::VectorXd& values) {
+    Put(static_cast<std::uint64_t>(values.size()));
+    Put(values.data(), static_cast<std::size_t>(values.size()) * sizeof(double));
+  }
+  void Put(const void* data, std::size_t size) {
+    bytes.append(static_cast<const char*>(data), size);
+  }
+
+  std::string bytes;
+};
+
+/// Takes an answer apart. A child that a file took over may have sent anything: every length is
+/// checked before it is believed.
+class AnswerReader {
+ public:
+  AnswerReader(std::string_view bytes, const Place& place) : rest_(bytes), place_(place) {}
+
+  std::uint64_t Number(std::uint64_t most) {
+    std::uint64_t number = 0;
+    std::memcpy(&number, Take(sizeof number).data(), sizeof number);
+    if (number > most) RefuseAnswer();
+    return number;
+  }
+  std::string Text() { return std::string(Take(Number(kLongestText))); }
+  Eigen::VectorXd Values() {
+    const std::uint64_t count = Number(kMostSamples);
+    const std::string_view bytes = Take(count * sizeof(double));
+    Eigen::VectorXd values(static_cast<Eigen::Index>(count));
+    if (count > 0) std::memcpy(values.data(), bytes.data(), bytes.size());
+    return values;
+  }
+  std::string_view Take(std::size_t size) {
+    if (size > rest_.size()) RefuseAnswer();
+    const std::string_view taken = rest_.substr(0, size);
+    rest_.remove_prefix(size);
+    return taken;
+  }
+
+ private:
+  [[noreturn]] void RefuseAnswer() const {
+    Refuse(place_, "cannot be read as HDF5: its reader broke off; the file is damaged");
+  }
+
+  std::string_view rest_;
+  const Place& place_;
+};
+
+std::string Packed(const Hdf5Content& content) {
+  Answer answer;
+  answer.Put(&kContent, 1);
+  answer.Put(content.joint);
+  answer.Put(std::uint64_t{content.gear.has_value()});
+  const double gear = content.gear.value_or(0);
+  answer.Put(&gear, sizeof gear);
+  answer.Put(std::uint64_t{content.columns.size()});
+  for (const Hdf5Column& column : content.columns) {
+    answer.Put(column.name);
+    answer.Put(column.unit);
+    answer.Put(column.values);
+  }
+  return std::move(answer.bytes);
+}
+
+Hdf5Content Unpacked(AnswerReader& reader) {
+  Hdf5Content content;
+  content.joint = reader.Text();
+  const bool has_gear = reader.Number(1) == 1;
+  double gear = 0;
+  std::memcpy(&gear, reader.Take(sizeof gear).data(), sizeof gear);
+  if (has_gear) content.gear = gear;
+  content.columns.resize(reader.Number(kMostColumns));
+  for (Hdf5Column& column : content.columns) {
+    column.name = reader.Text();
+    column.unit = reader.Text();
+    column.values = reader.Values();
+  }
+  return content;
+}
+
+/// Bytes of address space that this process has.
+std::size_t OwnMemory() {
+  std::size_t pages = 0;
+  if (std::FILE* file = std::fopen("/proc/self/statm", "re")) {
+    if (std::fscanf(file, "%zu", &pages) != 1) pages = 0;
+    std::fclose(file);
+  }
+  return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
+void Limit(int resource, rlim_t value) {
+  rlimit limit{};
+  getrlimit(static_cast<__rlimit_resource>(resource), &limit);
+  limit.rlim_cur = std::min(value, limit.rlim_max);
+  setrlimit(static_cast<__rlimit_resource>(resource), &limit);
+}
+
+/// The child's whole life: reads within its limits, answers, and ends without its parent's farewells.
+[[noreturn]] void ReadInChild(const std::string& path, const CsvLayout& layout, double seconds,
+                              int out) {
+  Limit(RLIMIT_AS, OwnMemory() + kMemory);
+  Limit(RLIMIT_CPU, static_cast<rlim_t>(seconds));
+  Limit(RLIMIT_CORE, 0);
+  // what the library or malloc cries out is of no use to anyone
+  dup2(open("/dev/null", O_WRONLY | O_CLOEXEC), STDERR_FILENO);
+  for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL}) ::signal(signal, SIG_DFL);
+
+  std::string answer;
+  try {
+    answer = Packed(ReadHdf5Content(path, layout));
+  } catch (const BadInput& refusal) {
+    answer = kRefusal + std::string(refusal.what());
+  } catch (const std::exception& error) {
+    answer = kRefusal + path + ": cannot be read as HDF5: " + error.what();
+  }
+  for (std::string_view rest = answer; !rest.empty();) {
+    const ssize_t written = write(out, rest.data(), rest.size());
+    if (written < 0 && errno != EINTR) break;
+    if (written > 0) rest.remove_prefix(static_cast<std::size_t>(written));
+  }
+  _exit(0);
+}
+
+/// All that comes through a pipe within some seconds; false where it is not at its end by then.
+bool ReadAll(int in, double seconds, std::string& bytes) {
+  std::array<char, 1 << 16> block;
+  for (;;) {
+    pollfd readable{in, POLLIN, 0};
+    const int ready = poll(&readable, 1, static_cast<int>(1000 * seconds));
+    if (ready == 0) return false;
+    if (ready < 0 && errno != EINTR) return false;
+    if (ready < 0) continue;
+    const ssize_t n = read(in, block.data(), block.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return n == 0;
+    bytes.append(block.data(), static_cast<std::size_t>(n));
+  }
+}
+
+}  // namespace
+
+Hdf5Content ReadHdf5ContentApart(const std::string& path, const CsvLayout& layout) {
+  std::error_code absent;
+  const auto size = std::filesystem::file_size(path, absent);
+  const double seconds = 30 + (absent ? 0 : 1e-7 * static_cast<double>(size));
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
+  const pid_t child = fork();
+  if (child == 0) ReadInChild(path, layout, seconds, ends[1]);
+  close(ends[1]);
+  std::string bytes;
+  const bool whole = child > 0 && ReadAll(ends[0], seconds + 5, bytes);
+  close(ends[0]);
+  if (child < 0) throw std::system_error(errno, std::generic_category(), "fork");
+  if (!whole) kill(child, SIGKILL);
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+
+  const Place place{path};
+  const bool late = !whole || (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU);
+  if (late) {
+    Refuse(place, "cannot be read as HDF5 within {:.0f} s; the file is damaged, or too large",
+           seconds);
+  }
+  if (!WIFEXITED(status)) {
+    Refuse(place, "cannot be read as HDF5: the library crashed on it (signal {}); it is damaged",
+           WTERMSIG(status));
+  }
+  AnswerReader reader(bytes, place);
+  const char kind = reader.Take(1)[0];
+  if (kind == kRefusal) throw BadInput(bytes.substr(1, kLongestText));
+  return Unpacked(reader);
+}
+
+}  // namespace warmjoint::inline models

@@ -1,0 +1,26 @@
+// Commands of others as lists of arguments.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "models/foundation/bad_input.h"
+
+namespace warmjoint::inline tools {
+
+/// The words of a command: blanks part them, '...' and "..." hold them together, a backslash takes the
+/// next character as it is. Nothing is expanded. Throws BadInput from `place` for a quote without
+/// its end.
+std::vector<std::string> SplitCommand(const std::string& command, const Place& place);
+
+/// The inverse: a text that SplitCommand, and a shell as well, reads as these words.
+std::string JoinCommand(const std::vector<std::string>& words);
+
+/// The text with every `from` replaced.
+std::string Replaced(std::string text, const std::string& from, const std::string& to);
+
+/// The command with names of existing files that have a folder made absolute, quoted where they need
+/// it: it will run elsewhere. All else stays as it is.
+std::string WithAbsoluteFiles(const std::string& command);
+
+}  // namespace warmjoint::inline tools
