@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "models/foundation/robust_noise.h"
+
 namespace warmjoint::inline models {
 namespace {
 
