@@ -190,9 +190,12 @@ void FrictionInstance::Reset(const mjModel* m, mjtNum* state) {
   }
 }
 
-void FrictionInstance::Sense(mjData* d) const {
-  // forces that the engine leaves out were not computed either
-  if (!stepped_) return;
+void FrictionInstance::Sense(const mjModel* m, mjData* d) {
+  if (bound_.sensors().empty()) return;
+  const bool off = passive() ? PassiveForcesOff(m) : m->opt.disableflags & mjDSBL_ACTUATION;
+  // sensors come before the actuators, which will step once more
+  if (!passive() && !off) StepActuators(m, d);
+  if (off) std::fill(sensed_.begin(), sensed_.end(), 0.0);
   for (const int address : bound_.sensors()) {
     std::copy(sensed_.begin(), sensed_.end(), d->sensordata + address);
   }

@@ -57,7 +57,7 @@ class FrictionInstance {
   void Reset(const mjModel* m, mjtNum* state);
 
   /// Writes sensordata of the instance's sensors: kSensed numbers for each joint.
-  void Sense(mjData* d) const;
+  void Sense(const mjModel* m, mjData* d);
 
   /// Commits the states of the last step: plugin_state, or act where the engine's own integration
   /// of it would not do (RK4, or a state that was not finite).

@@ -62,7 +62,7 @@ TEST(PluginTimestep, RaisedBeyondWhatTheFrictionBearsWarnsOnce) {
     m->opt.timestep = 0.5;
     mj_step(m.get(), d.get());
     EXPECT_EQ(*report, 1);
-    EXPECT_THAT(Warnings::text(), testing::HasSubstr("timestep was set to 0.5 s"));
+    EXPECT_THAT(Warnings::text(), testing::HasSubstr("at timestep 0.5;"));
     EXPECT_THAT(Warnings::text(), testing::HasSubstr("take a timestep of at most"));
     const std::string once = Warnings::text();
     m->opt.timestep = 0.6;
