@@ -93,8 +93,9 @@ std::optional<size_t> JointFriction::FindNumber(std::string_view name) const {
   }
   for (size_t i = 0; i < OtherNumbers().size(); ++i) {
     const OtherNumber& number = OtherNumbers()[i];
+    if (number.name != name) continue;
     FrictionDescription friction = friction_;
-    if (number.name == name && number.find(friction)) return law_.parameters.size() + i;
+    if (number.find(friction)) return law_.parameters.size() + i;
   }
   return std::nullopt;
 }
