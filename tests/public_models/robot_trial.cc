@@ -126,8 +126,10 @@ void Bare(mjModel* m, bool gravity) {
 /// the bristles have yielded, with the recursion of Eq. (22) under W = (level + E) |v|.
 double HeatError(mjModel* m, const std::vector<Address>& joints, FrictionForm form) {
   Bare(m, false);
-  // so heavy that friction does not slow the joints between the stages of RK4
+  // so heavy that friction does not slow the joints between the stages of RK4; MuJoCo takes the
+  // inertia of uncoupled ones from dof_M0
   std::fill_n(m->dof_armature, m->nv, 1e12);
+  std::fill_n(m->dof_M0, m->nv, 1e12);
   const DataPtr data(mj_makeData(m));
   const mjtNum* states = form == FrictionForm::passive ? data->plugin_state : data->act;
   const DiscreteThermal heat = Discretise(kThermal, m->opt.timestep);
