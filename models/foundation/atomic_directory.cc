@@ -41,7 +41,7 @@ AtomicDirectory::AtomicDirectory(const fs::path& target,
   RefuseForeignContents(target_, replaceable);
 
   // a drawn name, which nobody can have taken with a link of his
-  std::string pattern = target_.parent_path() / ".warmjoint.XXXXXX.part";
+  std::string pattern = target_.parent_path() / ".warmjoint.part.XXXXXX";
   if (!mkdtemp(pattern.data())) {
     if (errno == ENOSPC || errno == EDQUOT) FailOutput(target_.string(), errno);
     Refuse({target_.string()}, "cannot be made: {}; does its parent folder exist?",

@@ -80,9 +80,9 @@ void SyncFolder(const fs::path& folder) {
 bool IsStandardOutput(const fs::path& target) { return target == "-" || target == "/dev/stdout"; }
 
 bool IsUnderConstruction(const fs::path& path) {
-  constexpr std::string_view begin = ".warmjoint.", middle = "XXXXXX", end = ".part";
+  constexpr std::string_view begin = ".warmjoint.part.", drawn = "XXXXXX";
   const std::string name = path.filename();
-  return name.starts_with(begin) && name.find(end) == begin.size() + middle.size();
+  return name.starts_with(begin) && name.size() >= begin.size() + drawn.size();
 }
 
 AtomicFile::AtomicFile(const fs::path& target) : name_(target.string()) {
@@ -128,8 +128,8 @@ void AtomicFile::TakeOver(const fs::path& target) {
 
 void AtomicFile::MakeTemporary(const fs::path& folder) {
   const std::string extension = target_.extension().string();
-  std::string pattern = folder / (".warmjoint.XXXXXX.part" + extension);
-  file_ = mkostemps(pattern.data(), static_cast<int>(extension.size() + 5), O_CLOEXEC);
+  std::string pattern = folder / (".warmjoint.part.XXXXXX" + extension);
+  file_ = mkostemps(pattern.data(), static_cast<int>(extension.size()), O_CLOEXEC);
   if (file_ >= 0) {
     temporary_ = pattern;
     return;

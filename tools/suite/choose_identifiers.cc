@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "identification/identifiers/identifier_list.h"
-#include "tools/suite/external_identifier.h"
 
 namespace warmjoint::inline tools {
 namespace {

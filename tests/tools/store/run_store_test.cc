@@ -198,9 +198,9 @@ TEST(RunStore, ReadingWritesNothing) {
 TEST(RunStore, RemovesWhatAKilledWriterLeft) {
   const ScratchDirectory scratch;
   RunStore::CreateOrResume(scratch.path() / "run", TwoIdentifiers());
-  std::ofstream(scratch.path() / "run/.warmjoint.a1B2c3.part.sqlite") << "half";
+  std::ofstream(scratch.path() / "run/.warmjoint.part.a1B2c3.sqlite") << "half";
   RunStore::CreateOrResume(scratch.path() / "run", TwoIdentifiers());
-  EXPECT_FALSE(std::filesystem::exists(scratch.path() / "run/.warmjoint.a1B2c3.part.sqlite"));
+  EXPECT_FALSE(std::filesystem::exists(scratch.path() / "run/.warmjoint.part.a1B2c3.sqlite"));
 }
 
 /// A change that someone made to a finished run, and what tells it.

@@ -113,7 +113,7 @@ TEST(ExternalIdentifier, ReadsFilesThatItNamesAndNoOthers) {
   std::ofstream(hidden.path() / "secret") << "truth";
   std::ofstream(scratch.path() / "shown") << "shown";
   const std::string folder = scratch.path();
-  EXPECT_THAT(Failure("cat " + folder + "/shown; exit 1"), HasSubstr("exit status 1: shown"));
+  EXPECT_THAT(Failure("cat " + folder + "/shown ; exit 1"), HasSubstr("exit status 1: shown"));
   if (WallVersion() == 0) GTEST_SKIP() << "this kernel has no Landlock";
   EXPECT_THAT(Failure("cat $(echo " + hidden.path().string() + "/)secret; exit 1"),
               HasSubstr("Permission denied"));
@@ -132,7 +132,7 @@ TEST(ExternalIdentifier, FoldersNamesAreNoCommands) {
         ReadExternal("a=./id.sh 'a  b' {recording} {estimate}", form);
     const Measurements log = Log();
     try {
-      PrepareExternal(identifier, {})(log, SelectMoving(log), {});
+      PrepareExternal(identifier, {})(Prepare(log), {});
       ADD_FAILURE() << "answered";
     } catch (const NoAnswer& failure) {
       EXPECT_STREQ(failure.what(), "wrote no estimate") << "it ran, and to its end";
