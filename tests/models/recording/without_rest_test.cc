@@ -8,7 +8,9 @@ namespace {
 TEST(WithoutRest, LeavesOutSamplesOfVelocityZeroAlone) {
   Measurements m;
   m.velocity = Eigen::Vector4d(0, 1, -1e-9, 2);
-  Selection selection{{4}, {{0, 4, 1}}};
+  Selection selection;
+  selection.segments = {{0, 4, 1}};
+  selection.keep.resize(4);
   selection.keep << true, true, true, false;
   const Selection moving = WithoutRest(selection, m);
   EXPECT_FALSE(moving.keep[0]);
