@@ -30,7 +30,7 @@ Estimate Identify(const std::string& name, const Measurements& m) {
   }
   const Options options(identifier.options, given, {});
   const Selection selection = SelectMoving(m);
-  return IdentifyUnjudged(identifier, {m, selection, options, {11, 3}});
+  return IdentifyUnjudged(identifier, {Prepare(m, selection), options, {11, 3}});
 }
 
 TEST(SeveralRecordings, EnergyMlFindsTheTruthWithoutNoise) {

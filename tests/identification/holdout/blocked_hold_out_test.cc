@@ -45,17 +45,18 @@ TEST(BlockedHoldOut, SeesTheWarmingThatTheModelLacks) {
 
 TEST(BlockedHoldOut, StartsAsWarmAsTheFitSays) {
   const Identifier knowing{"knowing", "", {}, [](const IdentifierInput&) {
-                             Estimate estimate;
-                             estimate.friction = test::TableOne();
-                             estimate.parameters.push_back({"initial_energy", -6, "N.m", {}, {}});
-                             return estimate;
+                             Fit fit;
+                             fit.friction = test::TableOne();
+                             fit.initial_energy = -6;
+                             fit.errors.known = Uncertainty{};
+                             return fit;
                            }};
   Measurements m = test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(600, 4), 0, 4);
   m.torque = PredictFriction(test::TableOne(), m, {-6}).force;
   const Selection selection = SelectMoving(m);
   const Options options(knowing.options, {}, {});
   const auto errors =
-      BlockedErrors(knowing, {m, selection, options, {}}, CutIntoBlocks(selection, 6));
+      BlockedErrors(knowing, {Prepare(m, selection), options, {}}, CutIntoBlocks(selection, 6));
   ASSERT_TRUE(errors);
   EXPECT_EQ(errors->maxCoeff(), 0);
 }

@@ -3,9 +3,8 @@
 
 #include <map>
 
-#include "identification/adequacy/judge.h"
-#include "identification/preparation/finer_input.h"
-#include "identification/preparation/select.h"
+#include "identification/answer/identify.h"
+#include "identification/identifiers/identifier_list.h"
 #include "tests/support/vectors.h"
 
 namespace warmjoint {
@@ -24,9 +23,9 @@ Estimate Identify(const std::string& name, const Measurements& m,
                   const std::map<std::string, std::string>& given) {
   const Identifier& identifier = FindIdentifier(name);
   const Options options(identifier.options, given, {});
-  const Selection selection = SelectConstantSpeed(m);
-  EXPECT_GT(selection.count(), m.size() / 2);
-  return identifier.identify({m, selection, options, {}});
+  const IdentifierInput input{Prepare(m), options, {}};
+  EXPECT_GT(input.selection.count(), m.size() / 2);
+  return IdentifyUnjudged(identifier, input);
 }
 
 /// Largest relative error of the law's parameters, k and tau.
