@@ -18,14 +18,22 @@ using Policy = boost::math::policies::policy<boost::math::policies::promote_doub
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-/// ln P(F >= f) where that is tiny: with x = n / (n + m f), I_x(n/2, m/2) by its first term,
-/// x^(n/2) (1 - x)^(m/2) / (n/2 B(n/2, m/2)) (Abramowitz and Stegun 26.5.4), relative error
-/// (m + n) / (n + 2) x.
+/// ln P(F >= f) where that is tiny: with x = n / (n + m f), a = n/2, b = m/2,
+/// I_x(a, b) = x^a (1 - x)^b / (a B(a, b)) sum over k of x^k prod (a + b + j) / (a + 1 + j), j < k
+/// (Abramowitz and Stegun 26.5.4), whose terms fall with x.
 double LogTailOfF(double f, double m, double n) {
   const double log_x = -std::log1p(m / n * f);
   const double log_rest = std::log1p(-std::exp(log_x));
   const double log_beta = std::lgamma(n / 2) + std::lgamma(m / 2) - std::lgamma((m + n) / 2);
-  return n / 2 * log_x + m / 2 * log_rest - std::log(n / 2) - log_beta;
+
+  // the series, until a term changes nothing
+  const double x = std::exp(log_x), least = std::numeric_limits<double>::epsilon();
+  double sum = 0, term = 1;
+  for (double k = 0; term > least * sum; ++k) {
+    sum += term;
+    term *= x * ((m + n) / 2 + k) / (n / 2 + 1 + k);
+  }
+  return n / 2 * log_x + m / 2 * log_rest - std::log(n / 2) - log_beta + std::log(sum);
 }
 
 /// The z with ln PValueOfNormal(z) = log_p far out, where P = sqrt(2 / pi) exp(-z^2 / 2) / z up to
@@ -58,7 +66,10 @@ double PValueOfStudent(double t, double freedom) {
 double StudentQuantile(double freedom, double level) {
   assert(level > 0 && level < 1);
   const boost::math::students_t_distribution<double, Policy> student(std::max(freedom, 1.0));
-  return quantile(complement(student, (1 - level) / 2));
+  const double tail = (1 - level) / 2;
+  const double near = quantile(complement(student, tail));
+  // Boost's iteration ends at some 1e-11; one step of Newton's squares that
+  return near + (cdf(complement(student, near)) - tail) / pdf(student, near);
 }
 
 double PValueOfF(double f, double m, double n) {

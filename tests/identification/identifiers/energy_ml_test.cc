@@ -34,6 +34,7 @@ Measurements Warm(const Eigen::VectorXd& time, const Eigen::VectorXd& velocity,
     const double force = WarmForce(v, 5 * v + 15 * Sign(v), energy);
     m.torque[n] = force + noise * random.Normal();
     if (n + 1 == time.size()) break;
+    m.position[n + 1] = m.position[n] + v * (time[n + 1] - time[n]);
     const DiscreteThermal hold = Discretise(thermal, time[n + 1] - time[n]);
     energy = ThermalStep(hold.gain, hold.pole, energy, Loss(v, force));
   }
