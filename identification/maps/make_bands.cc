@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "identification/uncertainty/tails.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/ridge/local_rows.h"
+#include "identification/uncertainty/tails.h"
 #include "models/foundation/robust_noise.h"
 #include "models/friction/sign.h"
 

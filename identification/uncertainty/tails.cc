@@ -66,10 +66,7 @@ double PValueOfStudent(double t, double freedom) {
 double StudentQuantile(double freedom, double level) {
   assert(level > 0 && level < 1);
   const boost::math::students_t_distribution<double, Policy> student(std::max(freedom, 1.0));
-  const double tail = (1 - level) / 2;
-  const double near = quantile(complement(student, tail));
-  // Boost's iteration ends at some 1e-11; one step of Newton's squares that
-  return near + (cdf(complement(student, near)) - tail) / pdf(student, near);
+  return quantile(complement(student, (1 - level) / 2));
 }
 
 double PValueOfF(double f, double m, double n) {

@@ -7,9 +7,9 @@
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/uncertainty/tails.h"
 #include "identification/linear/least_squares.h"
 #include "identification/preparation/select.h"
+#include "identification/uncertainty/tails.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint {

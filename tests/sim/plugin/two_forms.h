@@ -36,8 +36,7 @@ inline std::vector<FrictionDescription> FrictionsOfEveryLaw() {
   auto* mapped =
       add("asymmetric", {{"viscous", 0.1}, {"coulomb_positive", 0.7}, {"coulomb_negative", 0.9}});
   FrictionMap map;
-  map.axes = {{MapQuantity::position, EvenAxis(-1, 1, 5)},
-              {MapQuantity::load, EvenAxis(-3, 3, 3)}};
+  map.axes = {{MapQuantity::position, EvenAxis(-1, 1, 5)}, {MapQuantity::load, EvenAxis(-3, 3, 3)}};
   map.weights.assign(15, 0.05);
   map.factor = MapFactor::direction;
   mapped->maps = {map};
