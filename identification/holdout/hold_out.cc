@@ -22,11 +22,11 @@ std::optional<Metrics> HoldOut(const Identifier& identifier, const IdentifierInp
   return Evaluate(fit, all, test, fit.Start());
 }
 
-std::optional<Metrics> HoldOut(const Identifier& identifier, const IdentifierInput& input,
+std::optional<Metrics> HoldOut(const Identifier& identifier, const Fit& fit,
                                const PreparedLog& other) {
   const CourseStart cold;
   const LogView& seen = identifier.regime == Regime::transient ? other.taken() : other.steady();
-  return Evaluate(identifier.fit(input), seen.measurements, seen.selection, cold);
+  return Evaluate(fit, seen.measurements, seen.selection, cold);
 }
 
 }  // namespace warmjoint::inline identification

@@ -14,9 +14,9 @@ namespace warmjoint::inline identification {
 std::optional<Metrics> HoldOut(const Identifier& identifier, const IdentifierInput& input,
                                double fraction);
 
-/// Fits on all of `input` and evaluates on the kept samples of another recording, which starts
-/// cold. Nothing where the fit gives no friction.
-std::optional<Metrics> HoldOut(const Identifier& identifier, const IdentifierInput& input,
+/// Evaluates a fit of the identifier on the kept samples of another recording, which starts cold.
+/// Nothing where the fit gives no friction.
+std::optional<Metrics> HoldOut(const Identifier& identifier, const Fit& fit,
                                const PreparedLog& other);
 
 }  // namespace warmjoint::inline identification

@@ -43,13 +43,10 @@ std::optional<std::string> UntoldWarming(const WarmFit& fit, const WarmStart& sc
 /// The table of parameters in the order of x: law, heat, E(0), jumps, gravity.
 void FillTable(const WarmFit& warm, const Law& law, const GravityFit& gravity,
                const Measurements& m, Fit& fit) {
-  const auto append = [&](std::vector<FitParameter> rows) {
-    fit.parameters.insert(fit.parameters.end(), rows.begin(), rows.end());
-  };
-  append(LawParameters(law, warm.parameters(), m));
-  append(HeatParameters(warm.thermal(), m));
-  if (warm.estimates_initial_energy()) append({StartParameter(warm.initial_energy(), m)});
-  append(JumpParameters(warm.jump_values(), m));
+  fit.parameters = LawParameters(law, warm.parameters(), m);
+  Append(HeatParameters(warm.thermal(), m), fit);
+  if (warm.estimates_initial_energy()) Append({StartParameter(warm.initial_energy(), m)}, fit);
+  Append(JumpParameters(warm.jump_values(), m), fit);
   AddGravity(gravity, warm.offset_values(), m, fit);
 }
 

@@ -144,9 +144,7 @@ void AddGravity(const GravityFit& gravity, const Eigen::VectorXd& values,
                 const Measurements& measurements, Fit& fit) {
   if (gravity.count() == 0) return;
   fit.gravity = GravityModel{gravity.kind, gravity.knots, gravity.transform * values};
-  for (FitParameter& row : GravityParameters(gravity.kind, values, measurements)) {
-    fit.parameters.push_back(std::move(row));
-  }
+  Append(GravityParameters(gravity.kind, values, measurements), fit);
 }
 
 Eigen::MatrixXd Beside(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {

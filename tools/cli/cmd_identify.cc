@@ -75,8 +75,8 @@ std::map<std::string, std::string> GivenOptions(const IdentifyArguments& argumen
 }
 
 std::optional<Metrics> HoldOutFigures(const Identifier& identifier, const IdentifierInput& input,
-                                      const HoldOutSource& source) {
-  if (source.other) return HoldOut(identifier, input, *source.other);
+                                      const Fit& fit, const HoldOutSource& source) {
+  if (source.other) return HoldOut(identifier, fit, *source.other);
   if (source.fraction == 0) return std::nullopt;
   return HoldOut(identifier, input, source.fraction);
 }
@@ -136,7 +136,7 @@ ExitStatus Identify(const IdentifyArguments& arguments) {
   Estimate estimate = arguments.force ? WithVoidNumbers(identifier, input, answer)
                                       : ReportAnswer(identifier, input, answer);
   if (answer.inferred.status == Status::ok) {
-    estimate.holdout = HoldOutFigures(identifier, input, holdout);
+    estimate.holdout = HoldOutFigures(identifier, input, answer.fit, holdout);
   }
   WriteOutputs(arguments, ForFiles(estimate, measurements), measurements.joint);
   if (!arguments.plot.empty()) {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "identification/fit_data.h"
 #include "identification/options.h"
 #include "identification/warming/estimated_start.h"
 #include "models/foundation/atomic_file.h"
@@ -127,14 +128,9 @@ void AddMetrics(Estimate& estimate, const Measurements& measurements, const Sele
       PredictFriction(*estimate.friction, measurements, StartOf(estimate, measurements),
                       BristleStart::torque)
           .force;
-  Eigen::VectorXd measured(selection.count()), fitted(selection.count());
-  for (Eigen::Index i = 0, kept = 0; i < measurements.size(); ++i) {
-    if (!selection.keep[i]) continue;
-    measured[kept] = measurements.torque[i];
-    fitted[kept++] = force[i];
-  }
   const auto parameters = static_cast<int>(estimate.parameters.size());
-  estimate.metrics = ComputeMetrics(measured, fitted, parameters, parameters);
+  estimate.metrics = ComputeMetrics(Kept(measurements.torque, selection), Kept(force, selection),
+                                    parameters, parameters);
 }
 
 /// A command with its options read.

@@ -86,7 +86,8 @@ TEST(HoldOut, JumpsAtGapsAsTheFitSays) {
 TEST(HoldOut, EvaluatesOnAnotherRecordingFromCold) {
   const Trial fit{kKnowing, Recording(3, 0.5)};
   const Measurements other = Recording(4, 0.5);
-  const auto metrics = HoldOut(fit.identifier, fit.input(), Prepare(other, SelectMoving(other)));
+  const auto metrics =
+      HoldOut(fit.identifier, fit.identifier.fit(fit.input()), Prepare(other, SelectMoving(other)));
   ASSERT_TRUE(metrics);
   EXPECT_EQ(shown, 1000);
   // noise of 0.5 N.m over 700 samples: its standard deviation is known to 0.5 / sqrt(1400)
