@@ -14,6 +14,7 @@
 #include "models/foundation/excerpt.h"
 #include "models/foundation/output_failed.h"
 #include "models/foundation/read_json.h"
+#include "models/foundation/robust_noise.h"
 #include "models/recording/course_of.h"
 #include "models/recording/read_recording.h"
 #include "tools/suite/command_line.h"
@@ -113,8 +114,7 @@ void AddDiscretePair(Estimate& estimate, const Measurements& measurements) {
   if (!gain || !time_constant || time_constant->value <= 0) return;
   if (estimate.Find("thermal_gain_discrete") || estimate.Find("thermal_pole")) return;
 
-  const Eigen::VectorXd& time = measurements.time;
-  const double step = (time[time.size() - 1] - time[0]) / static_cast<double>(time.size() - 1);
+  const double step = MedianStep(measurements.time);
   const std::string unit = gain->unit;
   const DiscreteThermal pair = Discretise({gain->value, time_constant->value}, step);
   estimate.parameters.push_back({"thermal_gain_discrete", pair.gain, unit, {}, {}});

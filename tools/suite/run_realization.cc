@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "models/foundation/output_failed.h"
+#include "models/foundation/robust_noise.h"
 #include "tools/suite/trace_table.h"
 
 namespace warmjoint::inline tools {
@@ -40,8 +41,8 @@ void Fill(Result& result, const Estimate& estimate, const Recording& recording,
   result.metrics = estimate.metrics;
   if (estimate.parameters.empty()) return;
   result.score = ScoreEstimate(estimate, recording.measurements, selection, recording.truth);
-  const Eigen::VectorXd& time = recording.measurements.time;
-  result.trace = MakeTraceTable(estimate.trace, *result.score, time[1] - time[0]);
+  result.trace =
+      MakeTraceTable(estimate.trace, *result.score, MedianStep(recording.measurements.time));
 }
 
 Result RunIdentifier(const PreparedIdentifier& identify, const Recording& recording,
