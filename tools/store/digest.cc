@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "models/foundation/sha256.h"
+#include "tools/store/sha256.h"
 
 namespace warmjoint::inline tools {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "models/foundation/sha256.h"
+#include "tools/store/sha256.h"
 
 namespace warmjoint::report {
 namespace {

@@ -1,4 +1,4 @@
-#include "models/foundation/sha256.h"
+#include "tools/store/sha256.h"
 
 #include <gtest/gtest.h>
 
