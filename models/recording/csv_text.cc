@@ -9,6 +9,7 @@ namespace warmjoint::inline models {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r";
+constexpr std::size_t kMostColumns = 10'000;
 
 /// Takes one line off the front of `rest`.
 std::string_view TakeLine(std::string_view& rest) {
@@ -32,26 +33,26 @@ std::string_view Stripped(std::string_view field) {
   return quoted ? field.substr(1, field.size() - 2) : field;
 }
 
-/// Splits a line at separators outside quotes.
-void Split(std::string_view line, char separator, std::vector<std::string_view>& fields) {
+/// Splits a line at separators outside quotes. Returns the number of fields, of which kMostColumns are kept.
+std::size_t Split(std::string_view line, char separator, std::vector<std::string_view>& fields) {
   fields.clear();
+  std::size_t begin = 0, count = 0;
+  const auto take = [&](std::size_t end) {
+    if (count++ < kMostColumns) fields.push_back(line.substr(begin, end - begin));
+    begin = end + 1;
+  };
   const bool has_quotes = line.find('"') != std::string_view::npos;
-  std::size_t begin = 0;
-  bool quoted = false;
   if (!has_quotes) {
-    for (std::size_t end; (end = line.find(separator, begin)) != std::string_view::npos;) {
-      fields.push_back(line.substr(begin, end - begin));
-      begin = end + 1;
-    }
+    for (std::size_t end; (end = line.find(separator, begin)) != std::string_view::npos;) take(end);
   } else {
+    bool quoted = false;
     for (std::size_t i = 0; i < line.size(); ++i) {
       if (line[i] == '"') quoted = !quoted;
-      if (line[i] != separator || quoted) continue;
-      fields.push_back(line.substr(begin, i - begin));
-      begin = i + 1;
+      if (line[i] == separator && !quoted) take(i);
     }
   }
-  fields.push_back(line.substr(begin));
+  take(line.size());
+  return count;
 }
 
 char SeparatorOf(std::string_view header) {
@@ -85,7 +86,11 @@ CsvText::CsvText(std::string_view text, std::string file) : file_(std::move(file
 
   separator_ = SeparatorOf(header);
   std::vector<std::string_view> fields;
-  Split(header, separator_, fields);
+  const std::size_t columns = Split(header, separator_, fields);
+  if (columns > kMostColumns) {
+    Refuse(header_place(), "has {} columns; {} at most: leave out those that are not needed",
+           columns, kMostColumns);
+  }
   for (const std::string_view field : fields) names_.emplace_back(Stripped(field));
   if (std::all_of(names_.begin(), names_.end(), [](auto& name) { return ParseNumber(name); })) {
     Refuse(header_place(),
@@ -95,7 +100,9 @@ CsvText::CsvText(std::string_view text, std::string file) : file_(std::move(file
 }
 
 RawColumns CsvText::ReadColumns(const std::vector<std::size_t>& indices) const {
-  const auto rows = static_cast<std::size_t>(1 + std::count(rows_.begin(), rows_.end(), '\n'));
+  // a row has a separator or an end for each field, and digits for each that is read: blank lines take no room
+  const auto lines = static_cast<std::size_t>(1 + std::count(rows_.begin(), rows_.end(), '\n'));
+  const std::size_t rows = std::min(lines, 1 + rows_.size() / (names_.size() + indices.size()));
   RawColumns raw{file_, {}, {indices.size(), Eigen::VectorXd(rows)}};
   raw.line.reserve(rows);
 
@@ -104,10 +111,10 @@ RawColumns CsvText::ReadColumns(const std::vector<std::size_t>& indices) const {
   for (int line = header_line_ + 1; !rest.empty(); ++line) {
     const std::string_view row = TakeLine(rest);
     if (IsEmpty(row)) continue;
-    Split(row, separator_, fields);
-    if (fields.size() != names_.size()) {
+    const std::size_t count = Split(row, separator_, fields);
+    if (count != names_.size()) {
       Refuse({file_, line}, "has {} fields where the header has {}; complete or drop the row",
-             fields.size(), names_.size());
+             count, names_.size());
     }
 
     const auto sample = static_cast<Eigen::Index>(raw.line.size());

@@ -83,8 +83,8 @@ Measurements ReadHdf5(const std::string& path, const CsvLayout& layout) {
   return Assemble(ReadHdf5Content(path, layout), path, layout);
 }
 
-Measurements ReadHdf5Apart(const std::string& path, const CsvLayout& layout) {
-  return Assemble(ReadHdf5ContentApart(path, layout), path, layout);
+Measurements ReadHdf5Apart(const std::string& path, const CsvLayout& layout, double patience) {
+  return Assemble(ReadHdf5ContentApart(path, layout, patience), path, layout);
 }
 
 void WriteHdf5(const Measurements& measurements, const std::string& path) {

@@ -17,7 +17,9 @@ Measurements ReadHdf5(const std::string& path, const CsvLayout& layout = {});
 
 /// The same for files from anywhere: the library works in a child process with limits on memory and
 /// time, and its crash or hang is BadInput. For a process with one thread, as programs are at first.
-Measurements ReadHdf5Apart(const std::string& path, const CsvLayout& layout = {});
+/// patience: s of computing for a small file; large ones get more.
+Measurements ReadHdf5Apart(const std::string& path, const CsvLayout& layout = {},
+                           double patience = 30);
 
 /// Writes the columns that are present, SI, with those attributes. One thread at a time.
 void WriteHdf5(const Measurements& measurements, const std::string& path);

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -136,7 +137,7 @@ void Limit(int resource, rlim_t value) {
 [[noreturn]] void ReadInChild(const std::string& path, const CsvLayout& layout, double seconds,
                               int out) {
   Limit(RLIMIT_AS, OwnMemory() + kMemory);
-  Limit(RLIMIT_CPU, static_cast<rlim_t>(seconds));
+  Limit(RLIMIT_CPU, static_cast<rlim_t>(std::ceil(seconds)));
   Limit(RLIMIT_CORE, 0);
   // what the library or malloc cries out is of no use to anyone
   dup2(open("/dev/null", O_WRONLY | O_CLOEXEC), STDERR_FILENO);
@@ -176,17 +177,18 @@ bool ReadAll(int in, double seconds, std::string& bytes) {
 
 }  // namespace
 
-Hdf5Content ReadHdf5ContentApart(const std::string& path, const CsvLayout& layout) {
+Hdf5Content ReadHdf5ContentApart(const std::string& path, const CsvLayout& layout,
+                                 double patience) {
   std::error_code absent;
   const auto size = std::filesystem::file_size(path, absent);
-  const double seconds = 30 + (absent ? 0 : 1e-7 * static_cast<double>(size));
+  const double seconds = patience + (absent ? 0 : 1e-7 * static_cast<double>(size));
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
   const pid_t child = fork();
   if (child == 0) ReadInChild(path, layout, seconds, ends[1]);
   close(ends[1]);
   std::string bytes;
-  const bool whole = child > 0 && ReadAll(ends[0], seconds + 5, bytes);
+  const bool whole = child > 0 && ReadAll(ends[0], std::min(2 * seconds, seconds + 5), bytes);
   close(ends[0]);
   if (child < 0) throw std::system_error(errno, std::generic_category(), "fork");
   if (!whole) kill(child, SIGKILL);
@@ -196,7 +198,7 @@ Hdf5Content ReadHdf5ContentApart(const std::string& path, const CsvLayout& layou
   const Place place{path};
   const bool late = !whole || (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU);
   if (late) {
-    Refuse(place, "cannot be read as HDF5 within {:.0f} s; the file is damaged, or too large",
+    Refuse(place, "cannot be read as HDF5 within {:.3g} s; the file is damaged, or too large",
            seconds);
   }
   if (!WIFEXITED(status)) {

@@ -31,8 +31,8 @@ inline constexpr unsigned long long kMostSamples = 200'000'000;
 Hdf5Content ReadHdf5Content(const std::string& path, const CsvLayout& layout);
 
 /// The same in a child process with limits on memory (8 GiB besides what this process has) and time
-/// (30 s, and 1 s for each 10 MB of the file): crash and hang become BadInput.
-Hdf5Content ReadHdf5ContentApart(const std::string& path, const CsvLayout& layout);
+/// (patience, s, and 1 s for each 10 MB of the file): crash and hang become BadInput.
+Hdf5Content ReadHdf5ContentApart(const std::string& path, const CsvLayout& layout, double patience);
 
 /// The layout, completed by what the file says of itself.
 CsvLayout WithAttributes(CsvLayout layout, const Hdf5Content& content);

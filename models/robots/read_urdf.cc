@@ -8,6 +8,7 @@
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
+#include "models/foundation/xml_tags.h"
 
 namespace warmjoint::inline models {
 namespace {
@@ -27,6 +28,20 @@ class Collector : public console_bridge::OutputHandler {
   std::string errors;
 };
 
+/// Refuses what would end the parser's stack, which it needs once for each level.
+void CheckDepth(const std::string& text, const Place& place) {
+  constexpr int deepest = 500;
+  XmlTagReader reader(text);
+  int depth = 0;
+  while (const auto tag = reader.Next()) {
+    if (tag->kind == XmlTag::Kind::opens) ++depth;
+    if (tag->kind == XmlTag::Kind::closes) --depth;
+    if (depth > deepest) {
+      Refuse({place.file, tag->line}, "nests deeper than {} elements; a robot does not", deepest);
+    }
+  }
+}
+
 }  // namespace
 
 urdf::ModelInterfaceSharedPtr ReadUrdf(const std::filesystem::path& path) {
@@ -35,6 +50,7 @@ urdf::ModelInterfaceSharedPtr ReadUrdf(const std::filesystem::path& path) {
   const std::lock_guard lock(one_at_a_time);
 
   const std::string text = ReadWholeFile(path);
+  CheckDepth(text, {path.string()});
   Collector collector;
   urdf::ModelInterfaceSharedPtr robot = urdf::parseURDF(text);
   if (!robot) Refuse({path.string()}, "is no URDF that can be used: {}", collector.errors);

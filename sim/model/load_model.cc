@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "models/foundation/atomic_file.h"
+#include "sim/model/check_repeats.h"
 #include "sim/model/plugin_libraries.h"
 #include "sim/model/spec_elements.h"
 #include "sim/plugin/friction_instance.h"
@@ -93,6 +94,7 @@ std::string PluginRefusal(const std::string& message) {
 ParsedModel ParseModel(const std::filesystem::path& path, const PackageFolders& packages) {
   RegisterFrictionPlugin();
   const std::string text = ReadWholeFile(path);
+  CheckRepeats(text, path);
   const bool urdf = IsUrdf(text);
   ModelFolder() = std::filesystem::absolute(path).parent_path();
 

@@ -68,7 +68,8 @@ class IdealPlant : public Plant {
     }
   }
 
-  Recording Run(std::uint64_t realization) override {
+ private:
+  Recording CarryOut(std::uint64_t realization, const RunWatch&) override {
     const RandomKey key{scenario_.seed, realization};
     RandomStream motion_stream(key, Stream::motion);
     const auto plan = PlanMotion(scenario_.motion, scenario_.duration, {}, motion_stream);
@@ -93,7 +94,6 @@ class IdealPlant : public Plant {
     return recording;
   }
 
- private:
   /// Beyond that sample the model has left its domain.
   void RefusePush(const SampledPlan& samples, const Prediction& friction) const {
     const Eigen::Index at = friction.feeds_itself;

@@ -27,11 +27,11 @@ class DrawnPlant : public Plant {
     MakeFixedPlant(middle);
   }
 
-  Recording Run(std::uint64_t realization) override {
-    return MakeFixedPlant(Realize(scenario_, realization))->Run(realization);
+ private:
+  Recording CarryOut(std::uint64_t realization, const RunWatch& watch) override {
+    return MakeFixedPlant(Realize(scenario_, realization))->Run(realization, watch);
   }
 
- private:
   const Scenario scenario_;
 };
 

@@ -20,6 +20,9 @@ namespace {
 constexpr double kRampTimes = 4;
 constexpr double kSettlingTimes = 10;
 
+/// Of the engine, between two calls of a watch: some milliseconds.
+constexpr long kStepsBetweenLooks = 4096;
+
 /// Steps in an interval that must hold a whole number of them.
 long WholeSteps(double interval, double timestep, const Scenario& scenario, const char* name) {
   const double steps = interval / timestep;
@@ -63,20 +66,20 @@ class MujocoPlant : public Plant {
     }
   }
 
-  Recording Run(std::uint64_t realization) override {
+ private:
+  Recording CarryOut(std::uint64_t realization, const RunWatch& watch) override {
     const RandomKey key{scenario_.seed, realization};
     const double start = StartPosition(scenario_.motion, joint_.limits);
     const VelocityReference reference = MakeReference(key, start);
 
     Recording recording = Empty();
     SensorLog log(scenario_, key, recording.truth.velocity.size());
-    Move(reference, start, log, recording.truth);
+    Move(reference, start, log, recording.truth, watch);
     log.WriteTo(recording.measurements);
     DisturbLog(scenario_, realization, recording);
     return recording;
   }
 
- private:
   VelocityReference MakeReference(RandomKey key, double start) const {
     const double settling = kSettlingTimes / scenario_.controller.bandwidth;
     const std::vector<VelocityCorner>& corners = scenario_.motion.corners;
@@ -144,7 +147,8 @@ class MujocoPlant : public Plant {
   }
 
   /// Drives the joint along the reference; sensors read and samples are taken before their step.
-  void Move(VelocityReference reference, double start, SensorLog& log, Truth& truth) {
+  void Move(VelocityReference reference, double start, SensorLog& log, Truth& truth,
+            const RunWatch& watch) {
     const mjModel* m = joint_.model.get();
     mjData* d = data_.get();
     const double h = scenario_.timestep;
@@ -177,6 +181,7 @@ class MujocoPlant : public Plant {
       mj_step(m, d);
       if (reads) log.Read(position, velocity, torque, d->qfrc_bias[0]);
       RefusePush(time);
+      if (watch && step % kStepsBetweenLooks == 0) watch(std::max(time, 0.0) / scenario_.duration);
       if (stores) {
         truth.force[sample] = -d->actuator_force[joint_.friction_actuator];
         truth.loss[sample] = Loss(truth.velocity[sample], truth.force[sample]);

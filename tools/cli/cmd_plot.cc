@@ -91,6 +91,8 @@ std::vector<fs::path> FoldersOf(const PlotArguments& arguments) {
 
 ExitStatus PlotSources(const PlotArguments& arguments) {
   const std::vector<fs::path> folders = FoldersOf(arguments);
+  // refused before the pictures are drawn; it is made anew when they are
+  if (!arguments.sheet.empty()) AtomicFile(arguments.sheet);
   report::Canvas canvas;
   Album album(canvas);
   for (std::size_t i = 0; i < folders.size(); ++i) {

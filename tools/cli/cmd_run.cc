@@ -23,6 +23,7 @@
 #include "tools/suite/engine.h"
 #include "tools/suite/external_identifier.h"
 #include "tools/suite/interrupt.h"
+#include "tools/suite/memory_of_work.h"
 #include "tools/suite/wall.h"
 
 namespace warmjoint::inline tools {
@@ -122,7 +123,7 @@ void TellWall(const Suite& suite, const std::vector<std::filesystem::path>& secr
   for (const SuiteIdentifier& identifier : suite.identifiers) {
     if (identifier.name != kExternal) continue;
     if (!std::exchange(told, true)) fmt::print(stderr, "{}\n", WallInWords());
-    if (WallVersion() == 0) return;
+    if (BestWall() == WallKind::none) return;
     for (const std::filesystem::path& secret : secrets) {
       if (WallHides(secret, ReadableBy(identifier))) continue;
       fmt::print(stderr, "warning: {} can read {}: it lies where the wall is open; move it\n",
@@ -147,18 +148,18 @@ ExitStatus Run(const RunArguments& arguments) {
   const Suite suite = ResolveSuite(arguments);
   const std::vector<PreparedIdentifier> identifiers =
       PrepareIdentifiers(suite.identifiers, {arguments.suite});
+  const Shard shard = ReadShard(arguments.shard);
+  const std::uint64_t cores = std::max(1u, std::thread::hardware_concurrency());
+  const auto jobs = static_cast<int>(arguments.jobs.value_or(cores));
+  RequireMemoryFor(suite, shard, jobs, arguments.suite);
   for (int i = 0; i < suite.variants(); ++i) MakePlant(VariantScenario(suite, i));
 
-  const Shard shard = ReadShard(arguments.shard);
   const RunDescription description = Describe(suite);
   RefuseEditedCopy(arguments, description);
   RunStore store = RunStore::CreateOrResume(arguments.output, description);
-  const std::uint64_t cores = std::max(1u, std::thread::hardware_concurrency());
   TellWall(suite, {arguments.suite, arguments.output});
   CatchInterrupts();
-  const RunOutcome outcome =
-      RunSuite(suite, identifiers,
-               {static_cast<int>(arguments.jobs.value_or(cores)), shard, arguments.keep}, store);
+  const RunOutcome outcome = RunSuite(suite, identifiers, {jobs, shard, arguments.keep}, store);
   if (outcome.interrupted) {
     fmt::print(stderr, "interrupted: {} of {} realizations are kept; the same command goes on\n",
                outcome.finished, outcome.total);

@@ -22,6 +22,8 @@
 #include "tools/cli/repeat_motion.h"
 #include "tools/cli/whole_number.h"
 #include "tools/store/stored_suite.h"
+#include "tools/suite/memory_of_work.h"
+#include "tools/suite/progress_line.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -77,10 +79,25 @@ Scenario ResolveScenario(const SimulateArguments& arguments,
   return scenario;
 }
 
+/// One realization, with its progress on stderr where it takes its time.
+Recording Carried(Plant& plant, const Scenario& scenario, std::uint64_t realization) {
+  ProgressLine line;
+  return plant.Run(realization, [&](double share) {
+    if (!line.Due()) return;
+    std::string words = fmt::format("{:.1f} % of {:g} s", 100 * share, scenario.duration);
+    if (share > 0) {
+      const double left = line.seconds() * (1 - share) / share;
+      words += fmt::format(", {} left", DurationInWords(left));
+    }
+    line.Show(words);
+  });
+}
+
 ExitStatus Simulate(const SimulateArguments& arguments) {
   std::optional<Measurements> log;
   if (!arguments.motion.recordings.empty()) log = ReadRecording(arguments.motion);
   const Scenario scenario = ResolveScenario(arguments, log);
+  RequireMemoryFor(scenario, arguments.from.empty() ? arguments.scenario : arguments.from);
   const std::unique_ptr<Plant> plant = MakePlant(scenario);
   static const std::vector<std::string> files{"recording.csv", "recording.h5", "truth.json",
                                               "scenario.yaml"};
@@ -92,7 +109,7 @@ ExitStatus Simulate(const SimulateArguments& arguments) {
   KeepApart(outputs, inputs);
   AtomicDirectory directory(arguments.output, files);
 
-  const Recording recording = plant->Run(arguments.realization.value_or(0));
+  const Recording recording = Carried(*plant, scenario, arguments.realization.value_or(0));
   const std::filesystem::path& folder = directory.temporary();
   WriteRecording(recording.measurements, folder / ("recording." + arguments.format));
   WriteTruth(recording.truth, folder / "truth.json");

@@ -1,23 +1,20 @@
 // How far a long job is.
 #pragma once
 
-#include <chrono>
 #include <map>
 #include <string>
 
+#include "tools/suite/progress_line.h"
+
 namespace warmjoint::inline tools {
 
-/// A line on stderr with rate, failures so far and time left, when stderr is a terminal; else
-/// silent. One thread at a time.
+/// Realizations with their rate, failures so far and time left, as ProgressLine shows them. One thread at a time.
 class Progress {
  public:
   /// total: of things to do; already: of them done before.
-  Progress(int total, int already);
-  ~Progress();
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
+  Progress(int total, int already) : total_(total), already_(already) {}
 
-  /// Counts finished things; redraws at most ten times a second.
+  /// Counts finished things, 0 too: time may have come for a line.
   void Add(int finished);
   void AddFailure(const std::string& status) { ++failures_[status]; }
 
@@ -25,15 +22,11 @@ class Progress {
   std::string Line(double seconds) const;
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   int total_;
   int already_;
   int finished_ = 0;
   std::map<std::string, int> failures_;
-  bool shown_;
-  Clock::time_point start_ = Clock::now();
-  Clock::time_point drawn_{};
+  ProgressLine line_;
 };
 
 }  // namespace warmjoint::inline tools

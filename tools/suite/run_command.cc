@@ -144,7 +144,7 @@ std::string FindProgram(const std::string& name) {
 CommandEnd RunCommand(const std::vector<std::string>& arguments, const fs::path& directory,
                       const Wall& wall, const CommandLimits& limits) {
   // all that needs memory, before the fork
-  std::vector<std::string> words = arguments;
+  std::vector<std::string> words = wall.Around(arguments);
   words.front() = FindProgram(words.front());
   std::vector<std::string> environment = Environment(directory);
   std::vector<std::string> removal{"/bin/rm", "-rf", "--one-file-system", directory};

@@ -11,8 +11,12 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdint>
+#include <cstdlib>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
+
+#include "tools/suite/bubble.h"
 
 namespace warmjoint::inline tools {
 namespace fs = std::filesystem;
@@ -72,12 +76,27 @@ int WallVersion() {
   return version > 0 ? static_cast<int>(version) : 0;
 }
 
+WallKind BestWall() {
+  static const WallKind best = [] {
+    const char* wish = std::getenv("WARMJOINT_WALL");
+    const bool bubble_first = wish && std::string_view(wish) == "bubblewrap";
+    if (bubble_first && !Bubblewrap().empty()) return WallKind::bubblewrap;
+    if (WallVersion() > 0) return WallKind::landlock;
+    return Bubblewrap().empty() ? WallKind::none : WallKind::bubblewrap;
+  }();
+  return best;
+}
+
 std::string WallInWords() {
   const int version = WallVersion();
-  if (version == 0) {
-    return "no wall stands: this kernel has no Landlock. Identifiers from outside can read the "
-           "truth "
-           "and are trusted not to";
+  if (BestWall() == WallKind::none) {
+    return "no wall stands: this kernel has no Landlock, and bubblewrap is not installed or may "
+           "not "
+           "work here. Identifiers from outside can read the truth and are trusted not to";
+  }
+  if (BestWall() == WallKind::bubblewrap) {
+    return "wall: bubblewrap: identifiers from outside see their own directory, the system's files "
+           "and their own processes";
   }
   return fmt::format(
       "wall: Landlock {}: identifiers from outside reach their own directory and the system's "
@@ -89,7 +108,7 @@ std::string WallInWords() {
 }
 
 bool WallHides(const fs::path& path, const std::vector<fs::path>& readable) {
-  if (WallVersion() == 0) return false;
+  if (BestWall() == WallKind::none) return false;
   const fs::path real = fs::weakly_canonical(fs::absolute(path));
   std::vector<fs::path> open(std::begin(kSystem), std::end(kSystem));
   for (const fs::path& one : readable) open.push_back(fs::weakly_canonical(one));
@@ -98,9 +117,14 @@ bool WallHides(const fs::path& path, const std::vector<fs::path>& readable) {
   });
 }
 
-Wall::Wall(const std::vector<fs::path>& readable, const fs::path& own) {
+Wall::Wall(const std::vector<fs::path>& readable, const fs::path& own, WallKind kind) {
+  if (kind == WallKind::bubblewrap) {
+    bubble_ = true;
+    readable_ = readable;
+    own_ = own;
+  }
   const int version = WallVersion();
-  if (version == 0) return;
+  if (kind != WallKind::landlock || version == 0) return;
   const Ruleset attributes{Handled(version), version >= 4 ? std::uint64_t{3} : 0,
                            version >= 6 ? std::uint64_t{3} : 0};
   const size_t size = version >= 6 ? sizeof(Ruleset) : version >= 4 ? 16 : 8;
@@ -125,6 +149,12 @@ Wall::Wall(const std::vector<fs::path>& readable, const fs::path& own) {
 
 Wall::~Wall() {
   if (ruleset_ >= 0) close(ruleset_);
+}
+
+std::vector<std::string> Wall::Around(std::vector<std::string> command) const {
+  if (!bubble_) return command;
+  const std::vector<fs::path> system(std::begin(kSystem), std::end(kSystem));
+  return InBubble(command, system, readable_, own_);
 }
 
 bool Wall::Raise() const noexcept {

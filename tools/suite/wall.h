@@ -11,6 +11,13 @@ namespace warmjoint::inline tools {
 /// (TCP); from 6 on signals to processes outside.
 int WallVersion();
 
+/// What a wall is made of.
+enum class WallKind { none, landlock, bubblewrap };
+
+/// The best that stands here: Landlock, else bubblewrap (bubble.h). WARMJOINT_WALL=bubblewrap in the environment
+/// prefers that one.
+WallKind BestWall();
+
 /// In a sentence, for those who run commands of others: which wall stands, or that none does.
 std::string WallInWords();
 
@@ -26,12 +33,16 @@ bool WallHides(const std::filesystem::path& path,
 class Wall {
  public:
   /// readable: files and folders. own: the directory that belongs to the command.
-  Wall(const std::vector<std::filesystem::path>& readable, const std::filesystem::path& own);
+  Wall(const std::vector<std::filesystem::path>& readable, const std::filesystem::path& own,
+       WallKind kind = BestWall());
   /// None: for what is trusted.
   Wall() = default;
   ~Wall();
   Wall(const Wall&) = delete;
   Wall& operator=(const Wall&) = delete;
+
+  /// The command that runs behind it: the same, or another one that makes the wall first.
+  std::vector<std::string> Around(std::vector<std::string> command) const;
 
   /// Raises it around the calling process for the rest of its life; false where that fails. Safe
   /// between fork and exec. Does nothing, and well, where the kernel has no wall.
@@ -42,6 +53,9 @@ class Wall {
 
  private:
   int ruleset_ = -1;
+  bool bubble_ = false;
+  std::vector<std::filesystem::path> readable_{};  // of a bubble
+  std::filesystem::path own_{};
 };
 
 }  // namespace warmjoint::inline tools

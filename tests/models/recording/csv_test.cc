@@ -174,6 +174,13 @@ TEST(ReadCsv, RefusesBadRowsByLine) {
               HasSubstr(":3: torque is '1e999'"));
 }
 
+TEST(Csv, RefusesMoreColumnsThanAnyLogHas) {
+  const std::string wide = "time,position,velocity,torque" + std::string(5'000'000, ',') + "\n";
+  EXPECT_THAT(Refusal(wide), HasSubstr(":1: has 5000004 columns; 10000 at most"));
+  EXPECT_THAT(Refusal("time,position,velocity,torque\n0" + std::string(5'000'000, ',') + "\n"),
+              HasSubstr(":2: has 5000001 fields where the header has 4"));
+}
+
 TEST(ReadCsv, RefusesTimeThatDoesNotIncrease) {
   const std::string start = "time,position,velocity,torque\n0,0,1,1\n\n1,1,1,2\n";
   EXPECT_THAT(Refusal(start + "1,1,1,3\n"),

@@ -36,5 +36,13 @@ TEST(ReadUrdf, RefusesWhatIsNoXml) {
               ThrowsMessage<BadInput>(HasSubstr("is no URDF that can be used")));
 }
 
+TEST(ReadUrdf, RefusesDepthThatWouldEndItsParser) {
+  std::string deep = "<robot name='r'>\n";
+  for (int i = 0; i < 200'000; ++i) deep += "<a>";
+  const TemporaryFile file("robot.urdf", deep);
+  EXPECT_THAT([&] { ReadUrdf(file.path()); },
+              ThrowsMessage<BadInput>(HasSubstr(":2: nests deeper than 500 elements")));
+}
+
 }  // namespace
 }  // namespace warmjoint

@@ -11,7 +11,9 @@
 #include <fstream>
 #include <thread>
 
+#include "models/foundation/atomic_file.h"
 #include "tests/tools/scratch_directory.h"
+#include "tools/suite/bubble.h"
 #include "tools/suite/run_command.h"
 
 namespace warmjoint {
@@ -116,7 +118,10 @@ struct Cheat {
 class Cheating : public Leash, public testing::WithParamInterface<Cheat> {};
 
 TEST_P(Cheating, SucceedsWithoutTheWallAndGetsNothingBehindIt) {
-  if (WallVersion() == 0) GTEST_SKIP() << "this kernel has no Landlock";
+  std::vector<WallKind> walls;
+  if (WallVersion() > 0) walls.push_back(WallKind::landlock);
+  if (!Bubblewrap().empty()) walls.push_back(WallKind::bubblewrap);
+  if (walls.empty()) GTEST_SKIP() << "neither Landlock nor bubblewrap works here";
   // what the program has: files, a descriptor, an environment, arguments, memory
   const std::string file = other_.path() / "suite.yaml";
   std::ofstream(file) << "truth";
@@ -138,9 +143,11 @@ TEST_P(Cheating, SucceedsWithoutTheWallAndGetsNothingBehindIt) {
   put("@AT", std::to_string(reinterpret_cast<std::uintptr_t>(&memory[0])));
   CommandLimits limits;
   EXPECT_THAT(RunLine(line, Wall(), limits).last_output, HasSubstr("truth")) << line;
-  EXPECT_THAT(RunLine(line, Wall({}, own_.path()), limits).last_output,
-              testing::Not(HasSubstr("truth")))
-      << line;
+  for (const WallKind kind : walls) {
+    EXPECT_THAT(RunLine(line, Wall({}, own_.path(), kind), limits).last_output,
+                testing::Not(HasSubstr("truth")))
+        << line;
+  }
   close(descriptor);
 }
 
@@ -158,6 +165,25 @@ INSTANTIATE_TEST_SUITE_P(
                     Cheat{"RecordingsOfOtherTasks", "cat @DIR/warmjoint_other/recording.csv; echo"},
                     Cheat{"Store", "cp @DIR/results.sqlite mine && cat mine; echo"}),
     [](const auto& cheat) { return cheat.param.name; });
+
+TEST_F(Leash, BubblewrapLetsACommandDoItsWork) {
+  if (Bubblewrap().empty()) GTEST_SKIP() << "bubblewrap is not installed, or may not work here";
+  std::ofstream(own_.path() / "recording.csv") << "read";
+  std::ofstream(other_.path() / "script") << "named";
+  const Wall wall({other_.path() / "script"}, own_.path(), WallKind::bubblewrap);
+  CommandLimits limits;
+  limits.seconds = 20;
+  const std::string script = other_.path() / "script";
+  EXPECT_EQ(
+      RunLine("cat recording.csv " + script + " > estimate.json; exit 4", wall, limits).status, 4);
+  EXPECT_EQ(ReadWholeFile(own_.path() / "estimate.json"), "readnamed");
+
+  // and ends it, with all that came of it
+  const std::string mark = DrawnSleep();
+  limits.seconds = 0.5;
+  EXPECT_TRUE(RunLine("setsid sleep " + mark + " & sleep " + mark, wall, limits).timed_out);
+  EXPECT_FALSE(Lives(mark));
+}
 
 TEST_F(Leash, TheEnvironmentAndDescriptorsOfTheProgramStayWithIt) {
   setenv("WARMJOINT_SECRET", "truth", 1);

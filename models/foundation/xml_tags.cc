@@ -1,0 +1,96 @@
+#include "models/foundation/xml_tags.h"
+
+#include <algorithm>
+
+namespace warmjoint::inline models {
+namespace {
+
+constexpr std::string_view kBlanks = " \t\r\n";
+
+/// Size up to and with `end`; all of the text where it is absent.
+std::size_t Through(std::string_view text, std::string_view end) {
+  const std::size_t at = text.find(end);
+  return at == std::string_view::npos ? text.size() : at + end.size();
+}
+
+/// Size of the tag at the front: a > within quotes does not end it.
+std::size_t SizeOfTag(std::string_view text) {
+  char quote = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (quote == 0 && text[i] == '>') return i + 1;
+    if (quote == 0 && (text[i] == '"' || text[i] == '\'')) {
+      quote = text[i];
+    } else if (text[i] == quote) {
+      quote = 0;
+    }
+  }
+  return text.size();
+}
+
+XmlTag Parsed(std::string_view tag, int line) {
+  XmlTag parsed;
+  parsed.line = line;
+  tag.remove_prefix(1);
+  if (tag.ends_with('>')) tag.remove_suffix(1);
+  if (tag.starts_with('/')) {
+    parsed.kind = XmlTag::Kind::closes;
+    tag.remove_prefix(1);
+  } else if (tag.ends_with('/')) {
+    parsed.kind = XmlTag::Kind::stands_alone;
+    tag.remove_suffix(1);
+  }
+  const std::size_t end = std::min(tag.find_first_of(kBlanks), tag.size());
+  parsed.name = tag.substr(0, end);
+  parsed.attributes = tag.substr(end);
+  return parsed;
+}
+
+}  // namespace
+
+std::optional<std::string_view> XmlTag::Attribute(std::string_view wanted) const {
+  std::string_view rest = attributes;
+  for (;;) {
+    // name, equals sign, quoted value
+    const std::size_t begin = rest.find_first_not_of(kBlanks);
+    const std::size_t equals = rest.find('=');
+    if (begin == std::string_view::npos || equals == std::string_view::npos || equals < begin) {
+      return std::nullopt;
+    }
+    std::string_view key = rest.substr(begin, equals - begin);
+    key = key.substr(0, key.find_last_not_of(kBlanks) + 1);
+    const std::size_t opening = rest.find_first_not_of(kBlanks, equals + 1);
+    if (opening == std::string_view::npos) return std::nullopt;
+    const std::size_t closing = rest.find(rest[opening], opening + 1);
+    if (closing == std::string_view::npos) return std::nullopt;
+    if (key == wanted) return rest.substr(opening + 1, closing - opening - 1);
+    rest.remove_prefix(closing + 1);
+  }
+}
+
+std::optional<XmlTag> XmlTagReader::Next() {
+  for (;;) {
+    Take(std::min(rest_.find('<'), rest_.size()));
+    if (rest_.empty()) return std::nullopt;
+    if (rest_.starts_with("<!--")) {
+      Take(Through(rest_, "-->"));
+    } else if (rest_.starts_with("<![CDATA[")) {
+      Take(Through(rest_, "]]>"));
+    } else if (rest_.starts_with("<?")) {
+      Take(Through(rest_, "?>"));
+    } else if (rest_.starts_with("<!")) {
+      Take(Through(rest_, ">"));
+    } else {
+      const int line = line_;
+      return Parsed(Take(SizeOfTag(rest_)), line);
+    }
+  }
+}
+
+std::string_view XmlTagReader::Take(std::size_t size) {
+  const std::string_view taken = rest_.substr(0, size);
+  rest_.remove_prefix(size);
+  line_ += static_cast<int>(std::count(taken.begin(), taken.end(), '\n'));
+  return taken;
+}
+
+}  // namespace warmjoint::inline models

@@ -1,0 +1,37 @@
+// The tags of an XML text one after another, without a tree of them: to look at what may be too large for one.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+namespace warmjoint::inline models {
+
+/// One <...> of a text. What is no tag (comments, declarations, character data) is passed over.
+struct XmlTag {
+  enum class Kind { opens, closes, stands_alone };
+
+  Kind kind = Kind::opens;
+  std::string_view name;
+  std::string_view attributes;  // as they stand there
+  int line = 0;                 // on which it begins
+
+  /// The value of an attribute as it is written; nothing where it is absent.
+  std::optional<std::string_view> Attribute(std::string_view wanted) const;
+};
+
+/// Gives the tags of a text in order. It never refuses: what is no XML, its parser refuses.
+class XmlTagReader {
+ public:
+  explicit XmlTagReader(std::string_view text) : rest_(text) {}
+
+  /// The next tag; nothing at the end.
+  std::optional<XmlTag> Next();
+
+ private:
+  std::string_view Take(std::size_t size);
+
+  std::string_view rest_;
+  int line_ = 1;
+};
+
+}  // namespace warmjoint::inline models
