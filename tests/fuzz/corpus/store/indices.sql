@@ -1,0 +1,2 @@
+UPDATE result SET identifier = identifier + 1000
+DELETE FROM identifier

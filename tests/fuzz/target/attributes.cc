@@ -1,0 +1,39 @@
+// Attributes of the plugin: one name=value a line.
+#include "sim/plugin/attributes.h"
+
+#include <map>
+
+#include "tests/fuzz/fuzz.h"
+
+namespace {
+
+using namespace warmjoint;
+
+void Read(std::string_view bytes) {
+  std::map<std::string, std::string> given;
+  while (!bytes.empty()) {
+    const std::string_view line = fuzz::TakeLine(bytes);
+    const std::size_t equals = line.find('=');
+    if (equals == std::string_view::npos) continue;
+    // files of the machine are not for fuzzing
+    const std::string name(line.substr(0, equals));
+    if (name == "file" || name == "folder") continue;
+    given[name] = line.substr(equals + 1);
+  }
+  const AttributeReader read = [&](const std::string& name) {
+    const auto found = given.find(name);
+    return found == given.end() ? std::string() : found->second;
+  };
+  const Place place{"fuzz"};
+  const FrictionOfJoints joints = ReadAttributes(read, place);
+  fuzz::Require(!joints.empty());
+  for (const auto& [joint, friction] : joints) CheckFriction(friction, place);
+  ReadInitialEnergy(read, joints, place);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  fuzz::MayRefuse(Read, fuzz::Text(data, size));
+  return 0;
+}

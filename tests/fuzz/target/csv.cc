@@ -1,0 +1,50 @@
+// Recordings as CSV, with --map, --unit, --joint and --gear: a first line "#: torque=force_N position:deg linear 2"
+// gives the layout, and is a comment for the reader itself.
+#include "models/recording/csv.h"
+
+#include <sstream>
+
+#include "identification/preparation/check_report.h"
+#include "models/foundation/parse_number.h"
+#include "tests/fuzz/fuzz.h"
+
+namespace {
+
+using namespace warmjoint;
+using fuzz::Require;
+
+CsvLayout LayoutOf(std::string_view bytes) {
+  CsvLayout layout;
+  std::istringstream words{std::string(fuzz::TakeLine(bytes))};
+  std::string word;
+  if (!(words >> word) || word != "#:") return layout;
+  while (words >> word) {
+    const std::size_t mark = word.find_first_of("=:");
+    if (word == "linear") {
+      layout.joint = JointKind::linear;
+    } else if (mark != std::string::npos) {
+      auto& pairs = word[mark] == '=' ? layout.column : layout.unit;
+      pairs[word.substr(0, mark)] = word.substr(mark + 1);
+    } else if (const auto gear = ParseNumber(word); gear && std::isfinite(*gear) && *gear != 0) {
+      layout.gear = *gear;
+    }
+  }
+  return layout;
+}
+
+void Read(std::string_view bytes) {
+  const Measurements log = ParseCsv(bytes, "fuzz.csv", LayoutOf(bytes));
+  const Eigen::Index n = log.size();
+  Require(n >= 3 && log.position.size() == n && log.velocity.size() == n);
+  Require(log.position.allFinite() && log.velocity.allFinite() && log.torque.allFinite());
+  Require((log.time.tail(n - 1).array() > log.time.head(n - 1).array()).all());
+  Require(log.torque.maxCoeff() > log.torque.minCoeff());
+  Require(!CheckToText(CheckRecording(log)).empty());
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  fuzz::MayRefuse(Read, fuzz::Text(data, size));
+  return 0;
+}

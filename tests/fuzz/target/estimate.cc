@@ -1,0 +1,27 @@
+// Estimates as JSON, and as they are written again.
+#include "identification/estimate.h"
+
+#include <nlohmann/json.hpp>
+
+#include "models/foundation/read_json.h"
+#include "tests/fuzz/fuzz.h"
+
+namespace {
+
+using namespace warmjoint;
+
+void Read(std::string_view bytes) {
+  const Place place{"fuzz.json"};
+  const auto written =
+      EstimateToJson(EstimateFromJson(ParseJson(std::string(bytes), place.file), place));
+  const std::string text = written.dump();
+  const auto again = EstimateToJson(EstimateFromJson(ParseJson(text, place.file), place));
+  fuzz::Require(again.dump() == text);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  fuzz::MayRefuse(Read, fuzz::Text(data, size));
+  return 0;
+}

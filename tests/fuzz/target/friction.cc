@@ -1,0 +1,40 @@
+// Friction as JSON, as it is written again, and as it is stepped.
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "models/foundation/read_json.h"
+#include "models/friction/friction_description.h"
+#include "models/friction/joint_friction.h"
+#include "tests/fuzz/fuzz.h"
+
+namespace {
+
+using namespace warmjoint;
+
+FrictionDescription Parsed(const std::string& text) {
+  return FrictionFromJson(ParseJson(text, "fuzz.json"), {"fuzz.json"});
+}
+
+void Read(std::string_view bytes) {
+  const FrictionDescription friction = Parsed(std::string(bytes));
+  const std::string written = FrictionToJson(friction).dump();
+  fuzz::Require(FrictionToJson(Parsed(written)).dump() == written);
+
+  // there and back over some turns
+  JointFriction joint(friction);
+  joint.SetTimestep(0.01);
+  FrictionState state;
+  for (int i = 0; i < 20; ++i) {
+    const double velocity = 3 * std::sin(0.7 * i);
+    const FrictionStep step = joint.Step(state, {0.5 * i, velocity, 1, 10, 0});
+    fuzz::Require(!(step.loss < 0));
+    state = step.next;
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  fuzz::MayRefuse(Read, fuzz::Text(data, size));
+  return 0;
+}

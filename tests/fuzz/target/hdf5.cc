@@ -1,0 +1,27 @@
+// Recordings as HDF5. The library crashes and hangs on damaged files; what may not happen is that this process does.
+#include "models/recording/hdf5.h"
+
+#include "tests/fuzz/fuzz.h"
+
+namespace {
+
+using namespace warmjoint;
+using fuzz::Require;
+
+constexpr double kPatience = 0.25;  // s; some inputs make the library run for ever
+
+void Read(std::string_view bytes) {
+  const fuzz::ScratchFile file(bytes);
+  const Measurements log = ReadHdf5Apart(file.path().string(), {}, kPatience);
+  const Eigen::Index n = log.size();
+  Require(n >= 3 && log.position.size() == n && log.velocity.size() == n);
+  Require(log.position.allFinite() && log.velocity.allFinite() && log.torque.allFinite());
+  Require((log.time.tail(n - 1).array() > log.time.head(n - 1).array()).all());
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  fuzz::MayRefuse(Read, fuzz::Text(data, size));
+  return 0;
+}

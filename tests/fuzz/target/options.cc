@@ -1,0 +1,46 @@
+// Options of the command line: the first line names an identifier, each other one is a --set, --map or --unit pair.
+#include "identification/identifiers/identifier_list.h"
+#include "tests/fuzz/fuzz.h"
+#include "tools/cli/recording_options.h"
+
+namespace {
+
+using namespace warmjoint;
+
+void Read(std::string_view bytes) {
+  const std::string name(fuzz::TakeLine(bytes));
+  std::vector<std::string> set, map, unit;
+  while (!bytes.empty()) {
+    std::string_view line = fuzz::TakeLine(bytes);
+    auto& pairs = line.starts_with("--map ") ? map : line.starts_with("--unit ") ? unit : set;
+    if (&pairs != &set) line.remove_prefix(line.find(' ') + 1);
+    pairs.emplace_back(line);
+  }
+
+  // how a file is laid out, tried on a small one
+  CsvLayout layout;
+  layout.column = ReadPairs(map, "--map");
+  layout.unit = ReadPairs(unit, "--unit");
+  ParseCsv("time,position,velocity,torque\n0,0,1,1\n1,1,1,2\n2,2,1,1\n", "fuzz.csv", layout);
+
+  // what an identifier is told
+  const Identifier& identifier = FindIdentifier(name);
+  const Options options(identifier.options, ReadPairs(set, "--set"), {"--set"});
+  for (const OptionInfo& option : identifier.options) {
+    fuzz::Require(options.Text(option.name).data() != nullptr);
+    if (option.allowed == "range") {
+      const auto [lower, upper] = options.Range(option.name);
+      fuzz::Require(lower <= upper);
+    }
+    if (option.allowed.starts_with("integer")) options.Integer(option.name);
+    if (option.allowed.starts_with("number"))
+      fuzz::Require(std::isfinite(options.Number(option.name)));
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  fuzz::MayRefuse(Read, fuzz::Text(data, size));
+  return 0;
+}

@@ -1,0 +1,29 @@
+// Truth files as JSON, and as they are written again.
+#include <nlohmann/json.hpp>
+
+#include "models/foundation/read_json.h"
+#include "sim/truth/truth_json.h"
+#include "tests/fuzz/fuzz.h"
+
+namespace {
+
+using namespace warmjoint;
+
+Truth Parsed(const std::string& text) {
+  return TruthFromJson(ParseJson(text, "truth.json"), {"truth.json"});
+}
+
+void Read(std::string_view bytes) {
+  const Truth truth = Parsed(std::string(bytes));
+  const Eigen::Index n = truth.velocity.size();
+  fuzz::Require(truth.force.size() == n && truth.loss.size() == n && truth.energy.size() == n);
+  const std::string written = TruthToJson(truth).dump();
+  fuzz::Require(TruthToJson(Parsed(written)).dump() == written);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  fuzz::MayRefuse(Read, fuzz::Text(data, size));
+  return 0;
+}

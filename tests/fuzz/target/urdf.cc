@@ -1,0 +1,24 @@
+// Robots as URDF.
+#include "models/robots/read_urdf.h"
+#include "tests/fuzz/fuzz.h"
+
+namespace {
+
+using namespace warmjoint;
+
+void Read(std::string_view bytes) {
+  const fuzz::ScratchFile file(bytes);
+  const auto robot = ReadUrdf(file.path());
+  fuzz::Require(robot && robot->getRoot());
+  // every joint hangs in the tree
+  for (const auto& [name, joint] : robot->joints_) {
+    fuzz::Require(joint && robot->getLink(joint->child_link_name) != nullptr);
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  fuzz::MayRefuse(Read, fuzz::Text(data, size));
+  return 0;
+}
