@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "identification/diagnostic.h"
 #include "identification/gravity.h"
 #include "identification/map_band.h"
 #include "models/friction/friction_description.h"
@@ -73,6 +74,8 @@ struct Estimate {
   std::optional<GravityModel> gravity;            // what the fit took for gravity beside friction
   std::vector<MapBand> bands;                     // one for each of the friction's maps
   std::optional<ParameterCovariance> covariance;  // of the values with intervals, by noise alone
+  std::vector<Diagnostic> diagnostics;            // of the verdict; empty where there is none
+  std::vector<Assumption> assumptions;
 
   /// The parameter of that name, or nullptr.
   const EstimatedParameter* Find(std::string_view name) const;
@@ -84,7 +87,8 @@ struct Estimate {
 /// The estimate as JSON: {identifier, status, message, parameters{name: {value, unit, std,
 /// interval95}}, metrics{}, holdout{}, trace[{iteration, rmse, parameters{}}], friction{},
 /// gravity{}, warnings[], bands[{quantities[], points[][], value[], std[], interval95[][]}],
-/// covariance{parameters[], matrix[][]}};
+/// covariance{parameters[], matrix[][]}, diagnostics[{test, made, reason, statistic, p, p_adjusted,
+/// rejected, effect{value, unit}, moves{}}], assumptions[{name, meaning, moves{}}]};
 /// message is the full one, and `warnings` repeats its last clauses where there are any; bands only
 /// where maps are. What is absent, or is not a finite number, is null.
 nlohmann::json EstimateToJson(const Estimate& estimate);

@@ -184,6 +184,72 @@ std::optional<ParameterCovariance> ToCovariance(const json& object, const Place&
   return covariance;
 }
 
+json MovesToJson(const ParameterMoves& moves) {
+  json result = json::object();
+  for (const auto& [name, move] : moves) result[name] = NumberToJson(move);
+  return result;
+}
+
+/// Figures of a test that was not made are null.
+json DiagnosticToJson(const Diagnostic& one) {
+  json result{{"test", one.test}, {"made", one.made}, {"reason", nullptr}};
+  for (const char* key : {"statistic", "p", "p_adjusted", "rejected", "effect", "moves"}) {
+    result[key] = nullptr;
+  }
+  if (!one.reason.empty()) result["reason"] = one.reason;
+  if (!one.made) return result;
+  result["statistic"] = NumberToJson(one.statistic);
+  result["p"] = NumberToJson(one.p);
+  result["p_adjusted"] = NumberToJson(one.p_adjusted);
+  result["rejected"] = one.rejected;
+  result["effect"] = {{"value", NumberToJson(one.effect)}, {"unit", one.effect_unit}};
+  result["moves"] = MovesToJson(one.moves);
+  return result;
+}
+
+ParameterMoves ToMoves(const json& object, const Place& place) {
+  ParameterMoves moves;
+  for (const auto& [name, move] : object.items()) {
+    moves.emplace_back(name, ToNumber(move, name.c_str(), place));
+  }
+  return moves;
+}
+
+bool ToTruth(const json& value, const char* name, const Place& place) {
+  if (!value.is_boolean()) {
+    Refuse(place, "{} is {}; it must be true or false", name, Excerpt(value.dump()));
+  }
+  return value.get<bool>();
+}
+
+Diagnostic ToDiagnostic(const json& object, const Place& place) {
+  const auto member = [&](const char* key) -> const json& {
+    return Member(object, key, "a diagnostic", place);
+  };
+  Diagnostic one;
+  one.test = ToText(member("test"), "test", place);
+  one.made = ToTruth(member("made"), "made", place);
+  if (!member("reason").is_null()) one.reason = ToText(member("reason"), "reason", place);
+  if (!one.made) return one;
+  one.statistic = ToNumber(member("statistic"), "statistic", place);
+  one.p = ToNumber(member("p"), "p", place);
+  one.p_adjusted = ToNumber(member("p_adjusted"), "p_adjusted", place);
+  one.rejected = ToTruth(member("rejected"), "rejected", place);
+  const json& effect = member("effect");
+  one.effect = ToNumber(Member(effect, "value", "effect", place), "effect.value", place);
+  one.effect_unit = ToText(Member(effect, "unit", "effect", place), "effect.unit", place);
+  one.moves = ToMoves(member("moves"), place);
+  return one;
+}
+
+Assumption ToAssumption(const json& object, const Place& place) {
+  const auto member = [&](const char* key) -> const json& {
+    return Member(object, key, "an assumption", place);
+  };
+  return {ToText(member("name"), "name", place), ToText(member("meaning"), "meaning", place),
+          ToMoves(member("moves"), place)};
+}
+
 }  // namespace
 
 json EstimateToJson(const Estimate& estimate) {
@@ -203,6 +269,13 @@ json EstimateToJson(const Estimate& estimate) {
               {"covariance", CovarianceToJson(estimate.covariance)}};
   if (!estimate.warnings.empty()) result["warnings"] = estimate.warnings;
   for (const MapBand& band : estimate.bands) result["bands"].push_back(BandToJson(band));
+  for (const Diagnostic& one : estimate.diagnostics) {
+    result["diagnostics"].push_back(DiagnosticToJson(one));
+  }
+  for (const Assumption& one : estimate.assumptions) {
+    result["assumptions"].push_back(
+        {{"name", one.name}, {"meaning", one.meaning}, {"moves", MovesToJson(one.moves)}});
+  }
   return result;
 }
 
@@ -235,6 +308,12 @@ Estimate EstimateFromJson(const json& object, const Place& place) {
     estimate.gravity = GravityFromJson(member("gravity"), place);
   }
   estimate.covariance = ToCovariance(member("covariance"), place);
+  for (const json& one : member("diagnostics")) {
+    estimate.diagnostics.push_back(ToDiagnostic(one, place));
+  }
+  for (const json& one : member("assumptions")) {
+    estimate.assumptions.push_back(ToAssumption(one, place));
+  }
   return estimate;
 }
 

@@ -9,7 +9,7 @@
 #include "identification/fit.h"
 #include "identification/options.h"
 #include "identification/preparation/prepared_log.h"
-#include "models/foundation/random_stream.h"
+#include "models/foundation/start_stream.h"
 
 namespace warmjoint::inline identification {
 
@@ -17,39 +17,39 @@ namespace warmjoint::inline identification {
 /// outlive it.
 class IdentifierInput {
  public:
-  IdentifierInput(PreparedLog given, const Options& given_options, RandomKey key)
+  IdentifierInput(PreparedLog given, const Options& given_options, StartKey key)
       : IdentifierInput(given, given.steady().measurements, given.steady().selection, given_options,
                         key) {}
 
   /// The same log with other samples taking part. `other` must outlive the answer.
   IdentifierInput With(const Selection& other) const {
-    return {log, measurements, other, options, random};
+    return {log, measurements, other, options, start};
   }
 
   /// The same samples with other options, which must outlive the answer.
   IdentifierInput With(const Options& other) const {
-    return {log, measurements, selection, other, random};
+    return {log, measurements, selection, other, start};
   }
 
   /// The log as it was taken, for fits that follow changes of speed.
   IdentifierInput AsTaken() const {
-    return {log, log.taken().measurements, log.taken().selection, options, random};
+    return {log, log.taken().measurements, log.taken().selection, options, start};
   }
 
   const PreparedLog log;
   const Measurements& measurements;
   const Selection& selection;  // filter over all samples, fit on those kept
   const Options& options;
-  const RandomKey random;  // for identifiers that draw their start
+  const StartKey start;  // for identifiers that draw their start
 
  private:
   IdentifierInput(PreparedLog of, const Measurements& samples, const Selection& kept,
-                  const Options& given_options, RandomKey key)
+                  const Options& given_options, StartKey key)
       : log(std::move(of)),
         measurements(samples),
         selection(kept),
         options(given_options),
-        random(key) {}
+        start(key) {}
 };
 
 /// The motion that an identifier learns from, and with it how a log must reach it.

@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "identification/adequacy/judge.h"
+#include "identification/lack_of_fit/judge.h"
 #include "identification/report/report_fit.h"
 #include "identification/report/tell_preparation.h"
 
 namespace warmjoint::inline identification {
 
-Answer FitAndJudge(const Identifier& identifier, const IdentifierInput& given) {
+Answer FitAndJudge(const Identifier& identifier, const IdentifierInput& given,
+                   const Judging& judging) {
   const IdentifierInput input = identifier.Seen(given);
 
   // fit, then infer
@@ -21,7 +22,7 @@ Answer FitAndJudge(const Identifier& identifier, const IdentifierInput& given) {
   answer.judged = answer.inferred;
   const std::vector<std::string>& faults = input.log.faults();
   if (faults.empty()) {
-    JudgeAdequacy(identifier, input, answer.fit, answer.judged);
+    JudgeLackOfFit(identifier, input, answer.fit, judging, answer.judged);
   } else {
     answer.judged.Void(Status::bad_data, fmt::format("{}", fmt::join(faults, "; and ")));
   }
@@ -37,8 +38,9 @@ Estimate ReportAnswer(const Identifier& identifier, const IdentifierInput& given
   return estimate;
 }
 
-Estimate IdentifyAndJudge(const Identifier& identifier, const IdentifierInput& input) {
-  return ReportAnswer(identifier, input, FitAndJudge(identifier, input));
+Estimate IdentifyAndJudge(const Identifier& identifier, const IdentifierInput& input,
+                          const Judging& judging) {
+  return ReportAnswer(identifier, input, FitAndJudge(identifier, input, judging));
 }
 
 Estimate IdentifyUnjudged(const Identifier& identifier, const IdentifierInput& given) {

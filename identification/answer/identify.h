@@ -4,6 +4,7 @@
 #include "identification/estimate.h"
 #include "identification/identifier.h"
 #include "identification/inference/inference.h"
+#include "identification/lack_of_fit/judging.h"
 
 namespace warmjoint::inline identification {
 
@@ -16,11 +17,13 @@ struct Answer {
 
 /// Fits and judges: what `identify` and `run` report. A log with faults (preparation/log_faults.h)
 /// makes the inference void, bad_data, and its message names them; else the residual is examined for
-/// structure (adequacy/judge.h), and what the preparation of the log means for the numbers is told.
-Answer FitAndJudge(const Identifier& identifier, const IdentifierInput& input);
+/// structure (lack_of_fit/judge.h), and what the preparation of the log means for the numbers is told.
+Answer FitAndJudge(const Identifier& identifier, const IdentifierInput& input,
+                   const Judging& judging = {});
 
 /// The judged answer as an estimate: FitAndJudge, ReportFit, TellPreparation.
-Estimate IdentifyAndJudge(const Identifier& identifier, const IdentifierInput& input);
+Estimate IdentifyAndJudge(const Identifier& identifier, const IdentifierInput& input,
+                          const Judging& judging = {});
 
 /// The same of an answer that is there already.
 Estimate ReportAnswer(const Identifier& identifier, const IdentifierInput& input,

@@ -15,7 +15,7 @@ std::optional<Metrics> HoldOut(const Identifier& identifier, const IdentifierInp
   if (n < 2) return std::nullopt;
 
   // fit on what lies before it, evaluate on the rest
-  const IdentifierInput before{input.log.Before(split), input.options, input.random};
+  const IdentifierInput before{input.log.Before(split), input.options, input.start};
   const Fit fit = identifier.fit(before);
   Selection test = input.selection;
   test.keep.head(n) = false;

@@ -27,7 +27,7 @@ FirstGuess Start(const IdentifierInput& input) {
         Thermal{input.options.Number("start_gain"), input.options.Number("start_time_constant")},
         ""};
   }
-  RandomStream random(input.random, Stream::start);
+  StartStream random(input.start);
   const auto [least_gain, greatest_gain] = input.options.Range("gain_range");
   const auto [shortest, longest] = input.options.Range("time_range");
   const double gain = random.Uniform(least_gain, greatest_gain);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "identification/diagnostic.h"
 #include "identification/fit.h"
 
 namespace warmjoint::inline identification {
@@ -30,6 +31,8 @@ struct Inference {
   std::vector<KnownParameter> parameters;  // [P] as the fit's table
   bool gives_friction = false;  // whether the fit's friction may be used: inside of its bounds
   bool gives_bands = true;
+  std::vector<Diagnostic> diagnostics;  // of the verdict, one for each test for lack of fit
+  std::vector<Assumption> assumptions;
 
   /// Takes back what is claimed: values stay, for scores and for a look, but no interval, friction
   /// or band.

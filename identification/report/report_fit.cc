@@ -83,6 +83,8 @@ Estimate ReportFit(const Fit& fit, const Inference& inference, const Measurement
   estimate.status = inference.status;
   estimate.message = inference.message;
   estimate.warnings = inference.warnings;
+  estimate.diagnostics = inference.diagnostics;
+  estimate.assumptions = inference.assumptions;
   const double h = MedianStep(measurements.time);
   for (const Iterate& iterate : fit.trace) {
     estimate.trace.push_back(EntryOf(fit, iterate, h));

@@ -44,7 +44,7 @@ double Seconds(std::chrono::steady_clock::duration time) {
 }
 
 /// An identifier that does nothing: what remains is simulation, storage and the engine.
-Estimate Nothing(const PreparedLog&, RandomKey) {
+Estimate Nothing(const PreparedLog&, StartKey) {
   Estimate estimate;
   estimate.status = Status::not_identifiable;
   estimate.message = "does nothing";

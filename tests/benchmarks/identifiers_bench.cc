@@ -1,9 +1,9 @@
 // Time of one identification of Table I: 3600 samples at 1 s, on one core.
 #include <benchmark/benchmark.h>
 
-#include "identification/adequacy/judge.h"
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
+#include "identification/lack_of_fit/judge.h"
 #include "models/foundation/keep_memory.h"
 #include "tests/support/warm_recording.h"
 
@@ -36,7 +36,7 @@ void Judge(benchmark::State& state, const char* name) {
   const Inference inferred = Infer(fit);
   for (auto _ : state) {
     Inference judged = inferred;
-    JudgeAdequacy(identifier, input, fit, judged);
+    JudgeLackOfFit(identifier, input, fit, {}, judged);
     benchmark::DoNotOptimize(judged);
   }
 }

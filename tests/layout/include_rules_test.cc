@@ -101,7 +101,7 @@ TEST(IncludeRules, EveryIncludeGoesDownTheFlow) {
 const std::vector<std::string> kIdentificationOrder{
     "preparation", "forward", "uncertainty", "",         "linear",      "inference",
     "report",      "warming", "ridge",       "maps",     "alternating", "nonlinear",
-    "online",      "holdout", "identifiers", "adequacy", "answer",      "score"};
+    "online",      "holdout", "identifiers", "lack_of_fit", "answer",      "score"};
 
 /// Place in that order of a file's folder; the number of folders where it is none of them.
 size_t PlaceInIdentification(const std::string& file) {

@@ -26,6 +26,8 @@ struct IdentifyArguments {
   std::string identifier = "energy-ml";
   std::string gravity = "none";
   std::string holdout = "0.3";
+  std::string start = "cold";
+  double relevance = Judging{}.relevance;
   std::vector<std::string> set;
   std::string output;
   std::string mjcf;
@@ -52,10 +54,24 @@ HoldOutSource ReadHoldOut(const IdentifyArguments& arguments) {
   return {*fraction, std::nullopt};
 }
 
-/// --set, and --gravity as one of them.
+/// --start estimated as an option of the identifier.
+void AddStart(const Identifier& identifier, std::map<std::string, std::string>& given) {
+  if (!identifier.Has("initial_energy")) {
+    std::vector<std::string> able;
+    for (const Identifier& one : Identifiers()) {
+      if (one.Has("initial_energy")) able.push_back(one.name);
+    }
+    Refuse({"--start"}, "{} cannot estimate E(0); use one of: {}", identifier.name,
+           fmt::join(able, ", "));
+  }
+  given["initial_energy"] = "estimated";
+}
+
+/// --set, and --start and --gravity as two of them.
 std::map<std::string, std::string> GivenOptions(const IdentifyArguments& arguments,
                                                 const Identifier& identifier) {
   auto given = ReadPairs(arguments.set, "--set");
+  if (arguments.start == "estimated") AddStart(identifier, given);
   if (arguments.gravity == "none") return given;
   if (!TellsGravity(identifier)) {
     std::vector<std::string> able;
@@ -79,6 +95,16 @@ std::optional<Metrics> HoldOutFigures(const Identifier& identifier, const Identi
   if (source.other) return HoldOut(identifier, fit, *source.other);
   if (source.fraction == 0) return std::nullopt;
   return HoldOut(identifier, input, source.fraction);
+}
+
+/// --relevance and --start as far as the verdict reads them.
+Judging JudgingOf(const IdentifyArguments& arguments) {
+  if (!(arguments.relevance > 0 && arguments.relevance <= 1)) {
+    Refuse({"--relevance"}, "is {}; it must be a share of the friction above 0 and at most 1",
+           arguments.relevance);
+  }
+  return {arguments.relevance,
+          arguments.start == "unknown" ? StartBelief::unknown : StartBelief::cold};
 }
 
 /// Refuses outputs that cannot be written before any time is spent.
@@ -118,6 +144,7 @@ ExitStatus Identify(const IdentifyArguments& arguments) {
   // everything that can be refused is, before any time is spent
   const Identifier& identifier = FindIdentifier(arguments.identifier);
   const Options options(identifier.options, GivenOptions(arguments, identifier), {"--set"});
+  const Judging judging = JudgingOf(arguments);
   std::vector<std::filesystem::path> inputs(arguments.recording.recordings.begin(),
                                             arguments.recording.recordings.end());
   inputs.emplace_back(arguments.holdout);
@@ -132,7 +159,7 @@ ExitStatus Identify(const IdentifyArguments& arguments) {
   const auto& [measurements, selection] = log.taken();
 
   const IdentifierInput input{log, options, {}};
-  const Answer answer = FitAndJudge(identifier, input);
+  const Answer answer = FitAndJudge(identifier, input, judging);
   Estimate estimate = arguments.force ? WithVoidNumbers(identifier, input, answer)
                                       : ReportAnswer(identifier, input, answer);
   if (answer.inferred.status == Status::ok) {
@@ -161,6 +188,16 @@ Command AddIdentifyCommand(CLI::App& program) {
       ->add_option(
           "--holdout", arguments->holdout,
           "share of the record's end, or another file, for figures on unseen data; 0: none")
+      ->capture_default_str();
+  parser
+      ->add_option("--start", arguments->start,
+                   "cold: intervals hold for a joint that was cold at the start; unknown: they\n"
+                   "reach as far as a slightly warm start moves them; estimated: E(0) is fitted")
+      ->check(CLI::IsMember({"cold", "unknown", "estimated"}))
+      ->capture_default_str();
+  parser
+      ->add_option("--relevance", arguments->relevance,
+                   "lack of fit, as a share of the friction, from which a model is refused")
       ->capture_default_str();
   parser->add_option("--set", arguments->set, "option of the identifier, as law=asymmetric")
       ->take_all();

@@ -284,7 +284,7 @@ PreparedIdentifier PrepareExternal(const SuiteIdentifier& identifier, const Plac
   command.limits.seconds = options.Number("time_limit");
   command.limits.memory =
       static_cast<std::size_t>(options.Number("memory") * static_cast<double>(1 << 20));
-  return [command](const PreparedLog& log, RandomKey) {
+  return [command](const PreparedLog& log, StartKey) {
     return Ask(command, log.taken().measurements, log.taken().selection);
   };
 }

@@ -16,8 +16,8 @@ std::vector<PreparedIdentifier> PrepareIdentifiers(const std::vector<SuiteIdenti
     }
     const Identifier& identifier = FindIdentifier(one.name);
     const Options options(identifier.options, one.options, place);
-    prepared.emplace_back([identifier, options](const PreparedLog& log, RandomKey random) {
-      return IdentifyAndJudge(identifier, {log, options, random});
+    prepared.emplace_back([identifier, options](const PreparedLog& log, StartKey start) {
+      return IdentifyAndJudge(identifier, {log, options, start});
     });
   }
   return prepared;

@@ -9,7 +9,7 @@
 #include "identification/estimate.h"
 #include "identification/preparation/prepared_log.h"
 #include "models/foundation/bad_input.h"
-#include "models/foundation/random_stream.h"
+#include "models/foundation/start_stream.h"
 #include "scenarios/suite.h"
 
 namespace warmjoint::inline tools {
@@ -23,7 +23,7 @@ class NoAnswer : public std::runtime_error {
 };
 
 /// An identifier with its name looked up and its options checked. Safe to call from many threads.
-using PreparedIdentifier = std::function<Estimate(const PreparedLog&, RandomKey)>;
+using PreparedIdentifier = std::function<Estimate(const PreparedLog&, StartKey)>;
 
 /// The suite's identifiers in its order. Throws BadInput from `place` for unknown names and
 /// options.

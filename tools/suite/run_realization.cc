@@ -46,11 +46,11 @@ void Fill(Result& result, const Estimate& estimate, const Recording& recording,
 }
 
 Result RunIdentifier(const PreparedIdentifier& identify, const Recording& recording,
-                     const PreparedLog& log, RandomKey key) {
+                     const PreparedLog& log, StartKey start) {
   Result result;
   const Stopwatch watch;
   try {
-    const Estimate estimate = identify(log, key);
+    const Estimate estimate = identify(log, start);
     result.seconds = watch.Seconds();
     Fill(result, estimate, recording, log.taken().selection);
   } catch (const NoAnswer& failure) {
@@ -81,13 +81,13 @@ Bench MakeBench(const Scenario& scenario) { return {scenario, MakePlant(scenario
 
 Realization RunRealization(const Bench& bench, const std::vector<PreparedIdentifier>& identifiers,
                            Unit unit, const RecordingKeeper& keeper) {
-  const RandomKey key{bench.scenario.seed, static_cast<std::uint64_t>(unit.realization)};
+  const auto realized = static_cast<std::uint64_t>(unit.realization);
   Realization realization;
   realization.unit = unit;
   const Stopwatch watch;
   std::optional<Recording> recording;
   try {
-    recording = bench.plant->Run(key.realization);
+    recording = bench.plant->Run(realized);
   } catch (const std::exception& error) {
     realization.results = AllFailed(identifiers.size(), error.what());
   }
@@ -95,8 +95,9 @@ Realization RunRealization(const Bench& bench, const std::vector<PreparedIdentif
 
   if (recording) {
     const PreparedLog log = Prepare(recording->measurements);
+    const StartKey start = StartKeyOf(bench.scenario.seed, realized);
     for (const PreparedIdentifier& identify : identifiers) {
-      realization.results.push_back(RunIdentifier(identify, *recording, log, key));
+      realization.results.push_back(RunIdentifier(identify, *recording, log, start));
     }
     // the truth is on disk only once the answers are in
     keeper.Keep(*recording, unit);

@@ -1,0 +1,17 @@
+// The verdict on an estimate that another program made.
+#pragma once
+
+#include "identification/estimate.h"
+#include "identification/lack_of_fit/judging.h"
+#include "identification/preparation/prepared_log.h"
+
+namespace warmjoint::inline identification {
+
+/// Judges an estimate by its friction along the log, as FitAndJudge judges the fits of our own
+/// identifiers (lack_of_fit/judge.h): status, message, warnings, intervals, diagnostics and
+/// assumptions become those of the verdict. Where the model is inadequate, intervals and friction
+/// are taken back. An estimate that is not ok, or without a friction, keeps all it says, and its
+/// diagnostics say that no test was made.
+void JudgeEstimate(const PreparedLog& log, const Judging& judging, Estimate& estimate);
+
+}  // namespace warmjoint::inline identification

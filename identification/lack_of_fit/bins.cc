@@ -1,0 +1,91 @@
+#include "identification/lack_of_fit/bins.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace warmjoint::inline identification {
+namespace {
+
+using Eigen::Index;
+
+constexpr Index kBins = 400;
+constexpr double kOneSpeed = 0.02;  // relative
+
+/// The segment that each sample belongs to, -1 for none; empty where no segments are known. [N]
+Eigen::ArrayXi SegmentOf(Index samples, const Selection& selection) {
+  if (selection.segments.empty()) return {};
+  Eigen::ArrayXi segment = Eigen::ArrayXi::Constant(samples, -1);
+  for (size_t s = 0; s < selection.segments.size(); ++s) {
+    const Segment& one = selection.segments[s];
+    segment.segment(one.begin, one.end - one.begin) = static_cast<int>(s);
+  }
+  return segment;
+}
+
+/// Where each bin stands in its segment. segment: [N]
+void Place(const Eigen::ArrayXi& segment, const Selection& selection, Bins& bins) {
+  bins.hold.resize(bins.size());
+  bins.phase.resize(bins.size());
+  for (Index c = 0; c < bins.size(); ++c) {
+    const auto i = static_cast<size_t>(c);
+    const int index = segment[bins.begin[i]];
+    bins.hold[c] = index;
+    const Segment& one = selection.segments[static_cast<size_t>(std::max(index, 0))];
+    const double middle = 0.5 * static_cast<double>(bins.begin[i] + bins.end[i]);
+    bins.phase[c] =
+        (middle - static_cast<double>(one.begin)) / static_cast<double>(one.end - one.begin);
+  }
+}
+
+}  // namespace
+
+Bins MakeBins(const Measurements& measurements, const Selection& selection) {
+  const Index most = 1 + selection.count() / kBins;
+  const Eigen::VectorXd& v = measurements.velocity;
+  const Eigen::ArrayXi segment = SegmentOf(v.size(), selection);
+  const auto together = [&](Index first, Index other) {
+    if (segment.size() > 0) return segment[first] == segment[other];
+    return std::abs(v[other] - v[first]) <= kOneSpeed * std::abs(v[first]);
+  };
+
+  // neighbours that belong together, up to the most
+  Bins bins;
+  for (Index i = 0; i < measurements.size(); ++i) {
+    if (!selection.keep[i]) continue;
+    const bool joins = !bins.end.empty() && bins.end.back() == i && i - bins.begin.back() < most &&
+                       together(bins.begin.back(), i);
+    if (!joins) {
+      bins.begin.push_back(i);
+      bins.end.push_back(i);
+    }
+    bins.end.back() = i + 1;
+  }
+
+  // where they stand
+  const auto m = static_cast<Index>(bins.begin.size());
+  const Eigen::VectorXd& t = measurements.time;
+  const double duration = t[t.size() - 1] - t[0];
+  bins.weight.resize(m);
+  bins.time.resize(m);
+  for (Index c = 0; c < m; ++c) {
+    const auto i = static_cast<size_t>(c);
+    bins.weight[c] = static_cast<double>(bins.end[i] - bins.begin[i]);
+    bins.time[c] = (0.5 * (t[bins.begin[i]] + t[bins.end[i] - 1]) - t[0]) / duration;
+  }
+  bins.velocity = bins.Means(v);
+  if (segment.size() > 0) Place(segment, selection, bins);
+  return bins;
+}
+
+Eigen::MatrixXd Bins::Means(const Eigen::MatrixXd& all) const {
+  Eigen::MatrixXd means(size(), all.cols());
+  for (Index column = 0; column < all.cols(); ++column) {
+    for (Index c = 0; c < size(); ++c) {
+      const auto i = static_cast<size_t>(c);
+      means(c, column) = all.col(column).segment(begin[i], end[i] - begin[i]).mean();
+    }
+  }
+  return means;
+}
+
+}  // namespace warmjoint::inline identification

@@ -1,0 +1,31 @@
+// Samples of a fit taken together where the speed stays: what slow structure needs of them.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "models/recording/measurements.h"
+#include "models/recording/selection.h"
+
+namespace warmjoint::inline identification {
+
+/// Runs of neighbouring kept samples in one segment of constant speed, or, where the selection
+/// knows no segments, within 2 % of one speed. At most a 400th of all kept samples each.
+struct Bins {
+  std::vector<Eigen::Index> begin;  // [m] first sample
+  std::vector<Eigen::Index> end;    // [m] one past the last
+  Eigen::VectorXd weight;           // [m] number of samples
+  Eigen::VectorXd velocity;         // [m] mean, rad/s or m/s
+  Eigen::VectorXd time;             // [m] middle, share of the recording, 0 to 1
+  Eigen::VectorXd hold;             // [m] index of the segment; [0] where none are known
+  Eigen::VectorXd phase;            // [m] middle, share of the segment, 0 to 1; [0] as hold
+
+  Eigen::Index size() const { return weight.size(); }
+
+  /// Means over each bin. all: [N x c] over all samples; returns [m x c].
+  Eigen::MatrixXd Means(const Eigen::MatrixXd& all) const;
+};
+
+Bins MakeBins(const Measurements& measurements, const Selection& selection);
+
+}  // namespace warmjoint::inline identification

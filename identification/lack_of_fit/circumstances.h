@@ -1,0 +1,25 @@
+// What a joint went through while a log was recorded, as far as tests for lack of fit ask about it.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "identification/lack_of_fit/bins.h"
+#include "identification/lack_of_fit/fitted_model.h"
+
+namespace warmjoint::inline identification {
+
+/// Means over each bin; [m x 0] where something is not known or not asked.
+struct Circumstances {
+  Eigen::MatrixXd energies;      // [m x 3] measured losses, filtered; N.m or N per unit of gain
+  Eigen::MatrixXd slopes;        // [m x 1] v E, E of the fit, where it knows warming
+  Eigen::MatrixXd initial;       // [m x 1] dF/dE(0), where E(0) is taken to be known
+  Eigen::MatrixXd loads;         // [m x 2] L, |L|; N.m or N
+  Eigen::MatrixXd temperatures;  // [m x 1] degC
+  double duration = 0;           // of the log, s
+  double hold = 0;               // median duration of a segment, s; 0 where none are known
+};
+
+Circumstances CircumstancesOf(const FittedModel& model, const Measurements& measurements,
+                              const Bins& bins);
+
+}  // namespace warmjoint::inline identification

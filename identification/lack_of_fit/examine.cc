@@ -1,0 +1,161 @@
+#include "identification/lack_of_fit/examine.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "identification/fit_data.h"
+#include "identification/lack_of_fit/bin_tests.h"
+#include "identification/lack_of_fit/fading.h"
+#include "identification/lack_of_fit/fitted_model.h"
+#include "identification/lack_of_fit/lag.h"
+#include "identification/lack_of_fit/ripple.h"
+#include "identification/lack_of_fit/sensitivity.h"
+#include "identification/linear/fit_gravity.h"
+
+namespace warmjoint::inline identification {
+namespace {
+
+using Eigen::Index;
+
+constexpr Index kFewestBins = 40;  // below, nothing can be said of structure
+
+/// The rows of the table that look at bins in one turn.
+std::vector<const LackOfFitTest*> Rows(Turn turn) {
+  std::vector<const LackOfFitTest*> rows;
+  for (const LackOfFitTest& test : LackOfFitTests()) {
+    if (test.turn == turn && test.features) rows.push_back(&test);
+  }
+  return rows;
+}
+
+/// Why nothing can be examined; empty where it can.
+std::string Obstacle(const std::optional<FittedModel>& model, const Bins& bins) {
+  if (!model) return "the fit gives no friction";
+  if (!model->residual.allFinite() || !model->derivatives.allFinite()) {
+    return "the residual is not finite";
+  }
+  if (bins.size() < kFewestBins) {
+    return std::to_string(bins.size()) + " samples or segments are too few to examine";
+  }
+  return "";
+}
+
+/// Puts findings where the table has their rows.
+void Enter(std::vector<Finding> some, std::vector<Finding>& table) {
+  for (Finding& one : some) {
+    const auto row = std::ranges::find(table, one.test, &Finding::test);
+    *row = std::move(one);
+  }
+}
+
+/// The tests over bins in one turn, on what is left; takes off what they find. rest: [N]
+void TestInTurn(Turn turn, const Bins& bins, const Eigen::MatrixXd& derivatives,
+                const Circumstances& known, Eigen::VectorXd& rest, ErrorLevel& level,
+                std::vector<Finding>& table) {
+  BinFindings made = TestBins(Rows(turn), bins, bins.Means(rest), derivatives, known, level);
+  for (Index c = 0; c < bins.size(); ++c) {
+    const auto i = static_cast<size_t>(c);
+    rest.segment(bins.begin[i], bins.end[i] - bins.begin[i]).array() -= made.explained[c];
+  }
+  Enter(std::move(made.findings), table);
+}
+
+/// The tests of what changes within segments and stays from one to the next. A bristle's force
+/// depends on the way since the last reversal by itself, and by how much between two samples the log
+/// does not tell: of a law that has one nothing more can be said. rest: [N]
+void TestWithin(const FittedModel& model, const Measurements& m, const Bins& bins,
+                const Eigen::MatrixXd& derivatives, const Circumstances& known,
+                Eigen::VectorXd& rest, ErrorLevel& level, std::vector<Finding>& table) {
+  if (model.has_bristle) {
+    for (Finding& finding : table) {
+      if (finding.test->turn != Turn::first) {
+        finding.reason = "the law has a bristle, whose force follows the way by itself";
+      }
+    }
+    return;
+  }
+  Enter({TestFading(model, rest, level)}, table);
+  Enter({TestLag(model, m, rest, level)}, table);
+  Enter(TestRipple(model, m, rest, level), table);
+  TestInTurn(Turn::last, bins, derivatives, known, rest, level, table);
+}
+
+/// Sums up how what was found moves the parameters.
+void SumMoves(Index p, Examination& examination) {
+  examination.moves.setZero(p);
+  Eigen::VectorXd variance = Eigen::VectorXd::Zero(p);
+  for (const Finding& finding : examination.findings) {
+    if (!finding.rejected || finding.moves.size() == 0) continue;
+    examination.moves += finding.moves.head(p);
+    variance += finding.move_deviations.head(p).cwiseAbs2();
+  }
+  examination.move_deviations = variance.cwiseSqrt();
+}
+
+/// What sizes are measured by.
+void Measure(const FittedModel& model, const Bins& bins, const Eigen::MatrixXd& derivatives,
+             Index p, Examination& examination) {
+  examination.rows = model.rows;
+  examination.samples = bins.weight.sum();
+  examination.friction =
+      std::sqrt(Kept(model.torque, model.selection).squaredNorm() / examination.samples);
+  examination.squares = Kept(model.residual, model.selection).squaredNorm();
+  examination.reach =
+      (bins.weight.cwiseSqrt().asDiagonal() * derivatives.leftCols(p)).colwise().norm() /
+      std::sqrt(examination.samples);
+}
+
+}  // namespace
+
+double Examination::Rms(const Finding& finding) const {
+  return std::sqrt(finding.explained / samples);
+}
+
+std::vector<const Finding*> Examination::Found() const {
+  std::vector<const Finding*> found;
+  for (const Finding& finding : findings) {
+    if (finding.rejected) found.push_back(&finding);
+  }
+  std::ranges::stable_sort(found, std::greater(), &Finding::explained);
+  return found;
+}
+
+std::vector<Finding> NotMade(const std::string& reason) {
+  std::vector<Finding> table;
+  for (const LackOfFitTest& test : LackOfFitTests()) {
+    Finding& finding = table.emplace_back();
+    finding.test = &test;
+    finding.reason = reason.empty() ? test.absent : reason;
+  }
+  return table;
+}
+
+Examination ExamineResidual(const Fit& fit, const Inference& inference, const Measurements& m,
+                            const Selection& selection) {
+  Examination examination;
+  const std::optional<FittedModel> model = EvaluateModel(fit, inference, m, selection);
+  const Bins bins = model ? MakeBins(m, model->selection) : Bins{};
+  const std::string obstacle = Obstacle(model, bins);
+  examination.findings = NotMade(obstacle);
+  if (!obstacle.empty()) return examination;
+
+  // what parameters, assumptions and heat within the steps can do
+  Eigen::MatrixXd derivatives = bins.Means(model->derivatives);
+  const Index p = derivatives.cols() - model->jump_spread.size();
+  Measure(*model, bins, derivatives, p, examination);
+  LearnHeat(*model, bins, p, derivatives, examination);
+  LearnAssumptions(fit, *model, bins, p, derivatives, examination);
+
+  // what is known to act on friction, then what changes within segments, then what stays
+  const Circumstances known = CircumstancesOf(*model, m, bins);
+  ErrorLevel level(static_cast<int>(LackOfFitTests().size()));
+  Eigen::VectorXd rest = model->residual;
+  std::vector<Finding>& table = examination.findings;
+  TestInTurn(Turn::first, bins, derivatives, known, rest, level, table);
+  TestWithin(*model, m, bins, derivatives, known, rest, level, table);
+  SumMoves(p, examination);
+  return examination;
+}
+
+}  // namespace warmjoint::inline identification

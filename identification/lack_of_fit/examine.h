@@ -1,0 +1,51 @@
+// What the residual of a fit still shows: the whole table of tests for lack of fit on one log.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "identification/inference/inference.h"
+#include "identification/lack_of_fit/finding.h"
+#include "models/recording/measurements.h"
+
+namespace warmjoint::inline identification {
+
+/// The outcome of every test, and how much the log's assumptions matter.
+struct Examination {
+  std::vector<Finding> findings;    // one for each row of the table, in its order
+  std::vector<size_t> rows;         // [p] of the fit's table that `moves` are about
+  Eigen::VectorXd moves;            // [p] change of each once what was found joins the fit
+  Eigen::VectorXd move_deviations;  // [p]
+  Eigen::VectorXd reach;            // [p] force of each parameter's unit, rms over the kept samples
+  Eigen::VectorXd by_start;  // [p] change of each had the joint been a tenth as warm at the start
+                             // as it ever gets; empty where its start is no matter
+  Eigen::VectorXd by_drift;  // [p] largest change of each by a slow drift of a hundredth of the
+                             // friction over the log, even or fading
+  Eigen::VectorXd by_gaps;   // [p] most that the gaps of the log may have moved each; empty where
+                             // there are none, or where the fit has taken care of them
+  Eigen::VectorXd by_heat;   // [p] change of each had the losses followed the heat within the steps
+                             // of the log; empty where that is no matter
+  double heat_share = 0;     // of that, as the residual tells: 1 where they did, 0 where they were
+                             // held (22)
+  double heat_deviation = 0;  // standard deviation of the share
+  double friction = 0;        // rms of the kept torque, N.m or N
+  double samples = 0;
+  double squares = 0;  // of the residual
+
+  /// Rms over the kept samples of what a finding explains, N.m or N.
+  double Rms(const Finding& finding) const;
+
+  /// Those that were rejected, the largest first.
+  std::vector<const Finding*> Found() const;
+};
+
+/// Makes all tests at one error level (error_level.h). Where they cannot be made each says why.
+/// inference: of the fit; selection: samples at constant speed.
+Examination ExamineResidual(const Fit& fit, const Inference& inference,
+                            const Measurements& measurements, const Selection& selection);
+
+/// The table of tests, none made: for one reason, or where that is empty each for its own.
+std::vector<Finding> NotMade(const std::string& reason);
+
+}  // namespace warmjoint::inline identification

@@ -1,0 +1,141 @@
+#include "identification/lack_of_fit/features.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "identification/linear/fit_gravity.h"
+
+namespace warmjoint::inline identification {
+namespace {
+
+using Eigen::ArrayXd;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kPi = std::numbers::pi;
+constexpr int kPlaces = 32;            // parts that steps lie between
+constexpr double kFewestCycles = 2.5;  // slower: drift
+constexpr double kBinsACycle = 4;
+
+ArrayXd SignOf(const Bins& bins) { return bins.velocity.array().sign(); }
+
+MatrixXd Signed(const Bins& bins, const MatrixXd& columns) {
+  return SignOf(bins).matrix().asDiagonal() * columns;
+}
+
+/// Columns and the same times s.
+MatrixXd BothWays(const Bins& bins, const MatrixXd& columns) {
+  return Beside(columns, Signed(bins, columns));
+}
+
+/// cos, sin of an angle. [m x 2]
+MatrixXd Wave(const ArrayXd& angle) {
+  MatrixXd wave(angle.size(), 2);
+  wave << angle.cos().matrix(), angle.sin().matrix();
+  return wave;
+}
+
+/// How many cycles over the log explain most of what is left if they cover it evenly.
+double StrongestCycles(const Bins& bins, const GrowingFit& fit, double most) {
+  const VectorXd left = bins.weight.cwiseProduct(fit.Left());
+  const VectorXd friction = SignOf(bins).matrix().cwiseProduct(left);
+  double strongest = 0, explained = -1;
+  for (double cycles = kFewestCycles; cycles <= most; cycles += 0.5) {
+    const MatrixXd wave = Wave(2 * kPi * cycles * bins.time.array());
+    const double both =
+        (wave.transpose() * left).squaredNorm() + (wave.transpose() * friction).squaredNorm();
+    if (both <= explained) continue;
+    explained = both;
+    strongest = cycles;
+  }
+  return strongest;
+}
+
+}  // namespace
+
+Features OfDirection(const Bins& bins, const Circumstances&, const GrowingFit&) {
+  MatrixXd direction(bins.size(), 2);
+  direction << VectorXd::Ones(bins.size()), bins.velocity.cwiseAbs();
+  return {direction};
+}
+
+Features OfSpeed(const Bins& bins, const Circumstances&, const GrowingFit&) {
+  const ArrayXd sign = SignOf(bins), speed = bins.velocity.array().abs();
+  const ArrayXd u = speed / speed.maxCoeff();
+  MatrixXd curve(bins.size(), 3);
+  curve << (sign * u.square()).matrix(), (sign * (-u / 0.1).exp()).matrix(),
+      (sign * (-u / 0.3).exp()).matrix();
+  return {curve};
+}
+
+Features OfEnergy(const Bins& bins, const Circumstances& known, const GrowingFit&) {
+  return {Signed(bins, known.energies)};
+}
+
+Features OfSpeedByEnergy(const Bins&, const Circumstances& known, const GrowingFit&) {
+  return {known.slopes};
+}
+
+Features OfInitialEnergy(const Bins&, const Circumstances& known, const GrowingFit&) {
+  return {known.initial};
+}
+
+Features OfLoad(const Bins& bins, const Circumstances& known, const GrowingFit&) {
+  return {Beside(Signed(bins, known.loads), known.loads.leftCols(known.loads.cols() / 2))};
+}
+
+Features OfTemperature(const Bins& bins, const Circumstances& known, const GrowingFit&) {
+  return {Signed(bins, known.temperatures)};
+}
+
+Features OfTime(const Bins& bins, const Circumstances&, const GrowingFit&) {
+  const ArrayXd sign = SignOf(bins), angle = kPi * bins.time.array();
+  MatrixXd drift(bins.size(), 6);
+  for (int k = 1; k <= 4; ++k) drift.col(k - 1) = sign * (k * angle).cos();
+  for (int k = 1; k <= 2; ++k) drift.col(3 + k) = (k * angle).cos();
+  return {drift};
+}
+
+Features OfStep(const Bins& bins, const Circumstances&, const GrowingFit& fit) {
+  // one column for each place, of friction and of offset
+  MatrixXd after = MatrixXd::Zero(bins.size(), kPlaces - 1);
+  const double total = bins.weight.sum();
+  double before = 0;
+  for (Index c = 0; c < bins.size(); ++c) {
+    const auto places = static_cast<Index>(before / total * kPlaces);
+    after.row(c).head(std::min<Index>(places, kPlaces - 1)).setOnes();
+    before += bins.weight[c];
+  }
+  const MatrixXd all = BothWays(bins, after);
+  Index best = 0;
+  fit.ExplainedBy(all).maxCoeff(&best);
+  return {all.col(best), static_cast<int>(all.cols())};
+}
+
+Features OfHoldParity(const Bins& bins, const Circumstances&, const GrowingFit&) {
+  if (bins.hold.size() == 0) return {MatrixXd(bins.size(), 0)};
+  const ArrayXd passed = bins.hold.array() + bins.phase.array();
+  const MatrixXd parity = (kPi * bins.hold.array()).cos().round().matrix();
+  return {BothWays(bins, Beside(parity, Wave(kPi * passed)))};
+}
+
+Features OfHoldPhase(const Bins& bins, const Circumstances&, const GrowingFit&) {
+  if (bins.hold.size() == 0) return {MatrixXd(bins.size(), 0)};
+  MatrixXd phase(bins.size(), 2);
+  phase << (bins.phase.array() - 0.5).matrix(), (2 * kPi * bins.phase.array()).cos().matrix();
+  return {BothWays(bins, phase)};
+}
+
+Features OfPeriod(const Bins& bins, const Circumstances& known, const GrowingFit& fit) {
+  const double most = std::min(static_cast<double>(bins.size()) / kBinsACycle,
+                               known.hold > 0 ? known.duration / known.hold : kInfinity);
+  if (most < kFewestCycles) return {MatrixXd(bins.size(), 0)};
+  const double cycles = StrongestCycles(bins, fit, most);
+  const auto candidates = static_cast<int>(2 * (most - kFewestCycles)) + 1;
+  return {BothWays(bins, Wave(2 * kPi * cycles * bins.time.array())), candidates,
+          known.duration / cycles};
+}
+
+}  // namespace warmjoint::inline identification

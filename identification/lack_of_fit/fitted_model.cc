@@ -1,0 +1,132 @@
+#include "identification/lack_of_fit/fitted_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+#include "identification/forward/closed_loop.h"
+#include "identification/lack_of_fit/held_loss.h"
+#include "identification/linear/fit_gravity.h"
+#include "identification/linear/linear_laws.h"
+#include "identification/warming/estimated_start.h"
+#include "identification/warming/gaps.h"
+#include "models/recording/course_of.h"
+
+namespace warmjoint::inline identification {
+namespace {
+
+/// dFn/dp, by central differences where the law is not linear in p. [N x d]
+Eigen::MatrixXd NominalDerivatives(const Law& law, const std::vector<double>& values,
+                                   const Eigen::VectorXd& velocity) {
+  if (IsLinear(law)) return LawColumns(law, velocity);
+  Eigen::MatrixXd derivatives(velocity.size(), static_cast<Eigen::Index>(values.size()));
+  for (size_t i = 0; i < values.size(); ++i) {
+    const double step = 1e-5 * (std::abs(values[i]) + 1e-3);
+    std::vector<double> above = values, below = values;
+    above[i] += step;
+    below[i] -= step;
+    for (Eigen::Index n = 0; n < velocity.size(); ++n) {
+      derivatives(n, static_cast<Eigen::Index>(i)) =
+          (law.force(velocity[n], above.data()) - law.force(velocity[n], below.data())) /
+          (2 * step);
+    }
+  }
+  return derivatives;
+}
+
+/// What maps add to law and warming. [N]
+Eigen::VectorXd MapForce(const Law& law, const std::vector<double>& values, const Measurements& m,
+                         const Prediction& prediction) {
+  Eigen::VectorXd force = prediction.force;
+  for (Eigen::Index i = 0; i < force.size(); ++i) {
+    const double v = m.velocity[i];
+    force[i] -= WarmForce(v, law.force(v, values.data()), prediction.energy[i]);
+  }
+  return force;
+}
+
+void TakeOff(const GravityModel& gravity, const Eigen::VectorXd& position, FittedModel& model) {
+  model.torque -= gravity.Torque(position);
+  for (Eigen::Index i = 0; i < position.size(); ++i) {
+    model.selection.keep[i] = model.selection.keep[i] && gravity.Covers(position[i]);
+  }
+}
+
+/// Gravity's few values join the parameters. The many of `paired` do not: what depends on position
+/// alike in both directions is theirs, and the other features average out over it.
+void AddGravity(const GravityModel& gravity, const Eigen::VectorXd& position, FittedModel& model) {
+  if (gravity.kind == GravityKind::paired) return;
+  model.derivatives =
+      Beside(model.derivatives, GravityColumns(gravity.kind, gravity.knots, position));
+}
+
+/// Rows of the fit's table in the order of the derivatives.
+std::vector<size_t> RowsOf(const Fit& fit, std::initializer_list<Role> roles) {
+  std::vector<size_t> rows;
+  for (const Role role : roles) {
+    for (size_t i = 0; i < fit.parameters.size(); ++i) {
+      const FitParameter& parameter = fit.parameters[i];
+      if (parameter.role == role && !parameter.name.empty()) rows.push_back(i);
+    }
+  }
+  return rows;
+}
+
+/// Beside a warming that was estimated, the law's parameters act through the losses too. Returns the
+/// derivatives by the jumps at the log's gaps, [N x J].
+Eigen::MatrixXd AddWarming(const Fit& fit, const Inference& inference, const Measurements& m,
+                           FittedModel& model) {
+  const std::vector<double> values = LawValues(fit.friction);
+  const Thermal& thermal = *fit.friction.thermal;
+  const std::vector<LogGap> gaps = FindGaps(m);
+  const auto jumps = static_cast<Eigen::Index>(gaps.size());
+  const ClosedLoop loop =
+      ClosedLoop(m.time, m.velocity, model.derivatives, m.starts).WithJumps(Behind(gaps));
+  const auto d = static_cast<Eigen::Index>(values.size());
+  const Eigen::Map<const Eigen::VectorXd> parameters(values.data(), d);
+  // the jumps that were fitted, else none
+  const std::vector<double> fitted = fit.Values(Role::jump);
+  Eigen::VectorXd jump_values = Eigen::VectorXd::Zero(jumps);
+  std::copy(fitted.begin(), fitted.end(), jump_values.begin());
+  const Eigen::MatrixXd all = loop.Jacobian(parameters, thermal, fit.initial_energy, jump_values);
+  const bool starts = !fit.Values(Role::start).empty();
+  model.derivatives = all.leftCols(starts ? d + 3 : d + 2);
+  if (!starts) model.by_initial_energy = all.col(d + 2);
+  model.jump_spread = JumpSpread(gaps, model.energy.cwiseAbs().maxCoeff(), thermal.time_constant);
+  if (StepMatters(fit, inference, m)) {
+    model.held_loss = ForceOfHeldLoss(fit.friction, m, fit.Start());
+  }
+  return all.rightCols(jumps);
+}
+
+}  // namespace
+
+std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& inference,
+                                         const Measurements& m, const Selection& selection) {
+  if (fit.refusal) return std::nullopt;
+  const Law& law = *FindLaw(fit.friction.law);
+  const std::vector<double> values = LawValues(fit.friction);
+
+  // what the fit leaves of the torque
+  FittedModel model;
+  model.selection = selection;
+  model.has_bristle = law.pre_sliding == PreSliding::bristle;
+  model.torque = m.torque;
+  if (fit.gravity) TakeOff(*fit.gravity, m.position, model);
+  const Prediction prediction = PredictFriction(fit.friction, m, fit.Start(), BristleStart::torque);
+  model.residual = model.torque - prediction.force;
+  model.energy = prediction.energy;
+  if (!fit.friction.maps.empty()) model.maps = MapForce(law, values, m, prediction);
+
+  // and how its parameters could change that
+  model.rows = RowsOf(fit, {Role::law, Role::heat, Role::start, Role::gravity});
+  model.derivatives = NominalDerivatives(law, values, m.velocity);
+  model.knows_warming = fit.friction.thermal && !fit.Values(Role::heat).empty();
+  Eigen::MatrixXd by_jumps(m.size(), 0);
+  if (model.knows_warming) by_jumps = AddWarming(fit, inference, m, model);
+  if (fit.gravity) AddGravity(*fit.gravity, m.position, model);
+  model.derivatives = Beside(model.derivatives, by_jumps);
+  return model;
+}
+
+}  // namespace warmjoint::inline identification

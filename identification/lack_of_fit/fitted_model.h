@@ -1,0 +1,37 @@
+// The model that a fit holds, over the recording that it was fitted to.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "identification/inference/inference.h"
+#include "models/recording/measurements.h"
+
+namespace warmjoint::inline identification {
+
+struct FittedModel {
+  Selection selection;          // samples that took part
+  Eigen::VectorXd torque;       // [N] tau less gravity, N.m or N
+  Eigen::VectorXd residual;     // [N] that less F, N.m or N
+  Eigen::MatrixXd derivatives;  // [N x (p + J)] dF/dx at the estimate; dF/db of the jumps b that
+                                // E makes at the gaps of the log (gaps.h)
+  std::vector<size_t> rows;     // [p] of x, in the fit's table: the law's parameters, then those
+                                // estimated of heat, start and gravity
+  std::optional<Eigen::VectorXd> by_initial_energy;  // [N] dF/dE(0), where it is taken to be known
+  Eigen::VectorXd energy;                            // [N] E, N.m or N
+  Eigen::VectorXd jump_spread;                       // [J] how far E may jump at the gaps, N.m or N
+  std::optional<Eigen::VectorXd> held_loss;  // [N] what (22) leaves out (held_loss.h), N.m or N,
+                                             // where that matters
+  std::optional<Eigen::VectorXd> maps;       // [N] what they give, N.m or N, where there are any
+
+  bool knows_warming = false;  // whether it was estimated
+  bool has_bristle = false;    // whether the law sticks by a state of its own
+};
+
+/// Nothing where the fit was refused. inference: of the fit; selection: samples at constant speed.
+std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& inference,
+                                         const Measurements& measurements,
+                                         const Selection& selection);
+
+}  // namespace warmjoint::inline identification

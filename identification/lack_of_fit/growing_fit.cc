@@ -1,0 +1,191 @@
+#include "identification/lack_of_fit/growing_fit.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "identification/lack_of_fit/significance.h"
+#include "identification/linear/fit_gravity.h"
+
+namespace warmjoint::inline identification {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// what is left of a feature of norm 1 beside the fit, below which it counts as part of the fit
+constexpr double kDistinct = 0.02;
+constexpr double kFewestFree = 8;  // parts, or samples, beyond the columns of a fit
+
+Basis Orthonormal(const MatrixXd& columns, double distinct) {
+  const Eigen::ColPivHouseholderQR<MatrixXd> qr(columns);
+  const Index most = std::min(columns.rows(), columns.cols());
+  const Index rank = (qr.matrixQR().diagonal().head(most).array().abs() > distinct).count();
+  Basis result;
+  result.basis = qr.householderQ() * MatrixXd::Identity(columns.rows(), rank);
+  MatrixXd inverse = MatrixXd::Zero(columns.cols(), rank);
+  inverse.topRows(rank) = qr.matrixQR()
+                              .topLeftCorner(rank, rank)
+                              .triangularView<Eigen::Upper>()
+                              .solve(MatrixXd::Identity(rank, rank));
+  result.mix = qr.colsPermutation() * inverse;
+  return result;
+}
+
+/// The part of the recording that each row belongs to; about as many samples in each. [m]
+Eigen::VectorXi PartOf(const VectorXd& weight, Index parts) {
+  Eigen::VectorXi part(weight.size());
+  const double total = weight.sum();
+  double before = 0;
+  for (Index i = 0; i < weight.size(); ++i) {
+    part[i] = static_cast<int>((before + 0.5 * weight[i]) / total * static_cast<double>(parts));
+    before += weight[i];
+  }
+  return part;
+}
+
+/// How many parts carry features: all of them where each carries as much, one where that one
+/// carries all. part: [m]; own: [m x q] orthonormal
+double CarryingParts(const MatrixXd& own, const Eigen::VectorXi& part) {
+  VectorXd share = VectorXd::Zero(part[part.size() - 1] + 1);
+  for (Index i = 0; i < part.size(); ++i) share[part[i]] += own.row(i).squaredNorm();
+  return share.sum() * share.sum() / share.squaredNorm();
+}
+
+}  // namespace
+
+GrowingFit::GrowingFit(const VectorXd& weight, const VectorXd& residual,
+                       const MatrixXd& derivatives, const Selection& place)
+    : place_(place),
+      part_(PartOf(weight, std::min(kParts, weight.size() / 2))),
+      roots_(weight.cwiseSqrt()),
+      norms_((roots_.asDiagonal() * derivatives).colwise().norm().cwiseMax(1e-300)),
+      columns_(Normed(derivatives)),
+      residual_(roots_.cwiseProduct(residual)) {
+  Refit();
+}
+
+void GrowingFit::LearnNoise(const std::vector<Features>& all) {
+  MatrixXd columns = columns_;
+  for (const Features& features : all) columns = Beside(columns, Normed(features.columns));
+  const MatrixXd basis = Orthonormal(columns, kDistinct).basis;
+  noise_ = FitNoise(residual_ - basis * (basis.transpose() * residual_), place_);
+
+  // what all of them took up counts in samples, at most half of them
+  const auto m = static_cast<double>(size());
+  const double taken =
+      std::min(ScatterThrough(noise_, basis, place_).trace() / noise_.variance, 0.5 * m);
+  noise_.variance *= m / (m - taken);
+  noise_.innovation *= m / (m - taken);
+  taken_ = static_cast<double>(basis.cols());
+}
+
+GrowingFit::Evidence GrowingFit::ByColour(const VectorXd& coefficients, const MatrixXd& own) const {
+  const MatrixXd scatter = ScatterThrough(noise_, own, place_);
+  const auto rows = static_cast<double>(own.rows());
+
+  // the coefficient a of AR(1) noise is estimated too small by (1 + 3 a)/m (Marriott, Pope 1954),
+  // and with it R by a share of (4 R - 2)/m
+  const double seen = scatter.selfadjointView<Eigen::Lower>().operatorNorm() / noise_.variance;
+  const double small = 1 + std::max(4 * seen * (1 + 4 * seen / rows) - 2, 0.0) / rows;
+  const double red = small * seen;
+  const double samples = rows / std::max(2 * red - 1, 1.0) - taken_;
+  const double fewest = kFewestFree + static_cast<double>(own.cols());
+  const MatrixXd unbiased = small * scatter;
+  return {unbiased, HotellingPValue(coefficients, unbiased, std::max(samples, fewest))};
+}
+
+/// By how the scores of the rest scatter from part to part; no evidence where the parts that carry
+/// the features are too few. own: [m x q] orthonormal
+GrowingFit::Evidence GrowingFit::ByParts(const VectorXd& coefficients, const MatrixXd& own,
+                                         const VectorXd& rest) const {
+  const Index q = own.cols();
+  const double parts = CarryingParts(own, part_);
+  const double freedom = parts - static_cast<double>(columns_.cols() + q);
+  if (freedom < kFewestFree) return {MatrixXd::Zero(q, q), 1};
+  MatrixXd scores = MatrixXd::Zero(q, part_[part_.size() - 1] + 1);
+  for (Index i = 0; i < rest.size(); ++i) {
+    scores.col(part_[i]) += rest[i] * own.row(i).transpose();
+  }
+  const MatrixXd scatter = parts / freedom * scores * scores.transpose();
+  return {scatter, HotellingPValue(coefficients, scatter, parts)};
+}
+
+Finding GrowingFit::Test(const Features& features) const {
+  Finding finding;
+  finding.period = features.period;
+  if (features.columns.cols() == 0) return finding;
+  MatrixXd beside = Normed(features.columns);
+  const MatrixXd shared = fit_.basis.transpose() * beside;
+  beside -= fit_.basis * shared;
+  const Basis own = Orthonormal(beside, kDistinct);
+  if (own.basis.cols() == 0) return finding;
+
+  // how likely noise alone does that
+  const VectorXd b = own.basis.transpose() * left_;
+  const VectorXd rest = left_ - own.basis * b;
+  Evidence evidence = ByColour(b, own.basis);
+  if (Evidence parts = ByParts(b, own.basis, rest); parts.p < evidence.p) {
+    evidence = std::move(parts);
+  }
+  finding.made = true;
+  finding.p = std::min(1.0, 2 * evidence.p * features.candidates);
+  finding.explained = std::max(0.0, b.squaredNorm() - evidence.scatter.trace());
+  finding.gain = b.squaredNorm() - static_cast<double>(b.size()) *
+                                       std::log(static_cast<double>(rest.size())) * noise_.variance;
+
+  // the parameters give way: basis = features mix, whose share within the fit is `shared`
+  const Index p = norms_.size();
+  const MatrixXd give = -(fit_.mix * shared * own.mix).topRows(p);
+  finding.moves = (give * b).cwiseQuotient(norms_.transpose());
+  finding.move_deviations = (give * evidence.scatter * give.transpose())
+                                .diagonal()
+                                .cwiseMax(0)
+                                .cwiseSqrt()
+                                .cwiseQuotient(norms_.transpose());
+  return finding;
+}
+
+void GrowingFit::Take(const Features& features) {
+  columns_ = Beside(columns_, Normed(features.columns));
+  Refit();
+}
+
+VectorXd GrowingFit::ExplainedBy(const MatrixXd& columns) const {
+  MatrixXd beside = Normed(columns);
+  beside -= fit_.basis * (fit_.basis.transpose() * beside);
+  VectorXd explained(columns.cols());
+  for (Index i = 0; i < columns.cols(); ++i) {
+    const double norm = beside.col(i).squaredNorm();
+    const double product = beside.col(i).dot(left_);
+    explained[i] = norm > kDistinct * kDistinct ? product * product / norm : 0;
+  }
+  return explained;
+}
+
+double GrowingFit::CoefficientOf(const VectorXd& column) const {
+  const VectorXd weighted = roots_.cwiseProduct(column);
+  const VectorXd beside = weighted - fit_.basis * (fit_.basis.transpose() * weighted);
+  const double square = beside.squaredNorm();
+  const bool distinct = square > kDistinct * kDistinct * weighted.squaredNorm();
+  return distinct ? beside.dot(left_) / square : 0;
+}
+
+/// Weighted columns of norm 1; a column of zeros stays one.
+MatrixXd GrowingFit::Normed(const MatrixXd& columns) const {
+  MatrixXd normed = roots_.asDiagonal() * columns;
+  for (Index i = 0; i < normed.cols(); ++i) {
+    const double norm = normed.col(i).norm();
+    if (norm > 0) normed.col(i) /= norm;
+  }
+  return normed;
+}
+
+void GrowingFit::Refit() {
+  fit_ = Orthonormal(columns_, 1e-9);
+  left_ = residual_ - fit_.basis * (fit_.basis.transpose() * residual_);
+}
+
+}  // namespace warmjoint::inline identification

@@ -1,0 +1,87 @@
+// A fit that grows by the structure found in its residual.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "identification/lack_of_fit/finding.h"
+#include "identification/uncertainty/noise_model.h"
+
+namespace warmjoint::inline identification {
+
+/// Features that a residual may depend on, asked about together: the best of several candidates.
+struct Features {
+  Eigen::MatrixXd columns;  // [m x q]; q = 0: nothing to ask
+  int candidates = 1;       // of which these explain most
+  double period = 0;        // of those, s; 0 where they are not periodic
+};
+
+/// An orthonormal basis of columns, and how it is made of them: basis = columns * mix.
+struct Basis {
+  Eigen::MatrixXd basis;  // [m x r]
+  Eigen::MatrixXd mix;    // [q x r]
+};
+
+/// The fit beside which features are tested.
+class GrowingFit {
+ public:
+  /// weight: [m] samples that each row stands for; residual: [m] N.m or N; derivatives: [m x p]
+  /// dF/dx; place: where the m rows stand in time.
+  GrowingFit(const Eigen::VectorXd& weight, const Eigen::VectorXd& residual,
+             const Eigen::MatrixXd& derivatives, const Selection& place);
+
+  /// Learns the noise from what all features that will be asked about leave together.
+  void LearnNoise(const std::vector<Features>& all);
+
+  /// What features explain beyond the fit, with the probability that noise alone explains as much.
+  /// The coefficients are tested by Hotelling's T^2 against two estimates of their scatter: that
+  /// of the noise as an autoregressive model (noise_model.h), and that of the scores of the rest
+  /// over kParts parts of the recording, where enough of them carry the features. The smaller
+  /// probability counts twice, and times the candidates (Bonferroni). p = 1 where the fit holds the
+  /// features already.
+  Finding Test(const Features& features) const;
+
+  /// Lets features join the fit.
+  void Take(const Features& features);
+
+  /// [m] what the fit leaves of the residual, N.m or N.
+  Eigen::VectorXd Left() const { return left_.cwiseQuotient(roots_); }
+  /// [m] what the fit takes up of the residual, N.m or N.
+  Eigen::VectorXd Explained() const { return (residual_ - left_).cwiseQuotient(roots_); }
+  /// Squares of the weighted residual that each column explains by itself beside the fit.
+  /// columns: [m x c]; returns [c], 0 for a column that the fit holds.
+  Eigen::VectorXd ExplainedBy(const Eigen::MatrixXd& columns) const;
+  /// The coefficient of a column beside the fit's, by least squares; 0 for one that the fit holds.
+  double CoefficientOf(const Eigen::VectorXd& column) const;
+
+  Eigen::Index size() const { return residual_.size(); }
+
+ private:
+  /// How coefficients scatter, and how likely noise puts them as far from 0.
+  struct Evidence {
+    Eigen::MatrixXd scatter;  // [q x q]
+    double p = 1;
+  };
+
+  Eigen::MatrixXd Normed(const Eigen::MatrixXd& columns) const;
+  /// own: [m x q] orthonormal. Counts the samples that tell the noise's variance along the
+  /// features: noise whose variance there is R times its mean over all frequencies counts as AR(1)
+  /// noise of that R does, m/(2 R - 1), less the columns that were there when it was learned.
+  Evidence ByColour(const Eigen::VectorXd& coefficients, const Eigen::MatrixXd& own) const;
+  Evidence ByParts(const Eigen::VectorXd& coefficients, const Eigen::MatrixXd& own,
+                   const Eigen::VectorXd& rest) const;
+  void Refit();
+
+  Selection place_;
+  Eigen::VectorXi part_;      // [m] of the recording
+  Eigen::VectorXd roots_;     // [m] of the weights
+  Eigen::RowVectorXd norms_;  // [p] of the weighted derivatives
+  Eigen::MatrixXd columns_;   // [m x (p + ...)] weighted, of norm 1
+  Eigen::VectorXd residual_;  // [m] weighted
+  Eigen::VectorXd left_;      // [m] weighted
+  Basis fit_;
+  NoiseModel noise_;
+  double taken_ = 0;  // columns that were there when the noise was learned
+};
+
+}  // namespace warmjoint::inline identification

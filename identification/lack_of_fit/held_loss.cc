@@ -1,0 +1,72 @@
+#include "identification/lack_of_fit/held_loss.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "models/foundation/robust_noise.h"
+#include "models/recording/course_of.h"
+
+namespace warmjoint::inline identification {
+namespace {
+
+using Eigen::Index;
+
+constexpr Index kParts = 8;        // of each step
+constexpr double kMatters = 0.25;  // of the standard deviation of tau
+
+/// Each value for each part of its sample; empty stays empty. column: [N]; returns [N kParts].
+Eigen::VectorXd Repeated(const Eigen::VectorXd& column) {
+  return column.transpose().replicate(column.size() > 0 ? kParts : 1, 1).reshaped();
+}
+
+/// The same motion with kParts samples for each, at its speed throughout. [N kParts]
+JointCourse Finer(const JointCourse& course, double gear) {
+  const Index n = course.time.size();
+  Eigen::VectorXd since(n * kParts);  // s, since the sample
+  for (Index i = 0; i < n; ++i) {
+    const Index step = std::min(i, n - 2);
+    const double h = course.time[step + 1] - course.time[step];
+    for (Index k = 0; k < kParts; ++k) {
+      since[i * kParts + k] = h * static_cast<double>(k) / static_cast<double>(kParts);
+    }
+  }
+  JointCourse finer;
+  for (const auto column :
+       {&JointCourse::time, &JointCourse::velocity, &JointCourse::position,
+        &JointCourse::motor_position, &JointCourse::load, &JointCourse::ambient_rise,
+        &JointCourse::level, &JointCourse::torque}) {
+    finer.*column = Repeated(course.*column);
+  }
+  const Eigen::VectorXd way = since.cwiseProduct(finer.velocity);
+  finer.time += since;
+  if (finer.position.size() > 0) finer.position += way;
+  if (finer.motor_position.size() > 0) finer.motor_position += gear * way;
+  for (const Index start : course.starts) finer.starts.push_back(start * kParts);
+  return finer;
+}
+
+}  // namespace
+
+bool StepMatters(const Fit& fit, const Inference& inference, const Measurements& measurements) {
+  if (!fit.friction.thermal || measurements.size() < 2) return false;
+  const auto tau = fit.RowOf(Role::heat, 1);
+  if (!tau || !inference.parameters[*tau].std) return false;
+  const double gain = fit.friction.thermal->gain;
+  const double power = std::abs(gain) * measurements.velocity.cwiseAbs().mean();
+  return 0.5 * MedianStep(measurements.time) * power > kMatters * *inference.parameters[*tau].std;
+}
+
+Eigen::VectorXd ForceOfHeldLoss(const FrictionDescription& friction,
+                                const Measurements& measurements, const CourseStart& start) {
+  const AlongMotion model(friction);
+  const JointCourse course = CourseOf(measurements);
+  CourseStart finer_start = start;
+  for (EnergyJump& jump : finer_start.jumps) jump.sample *= kParts;
+  const Eigen::VectorXd fine = model.Predict(Finer(course, measurements.gear), finer_start).force;
+  const Eigen::VectorXd held = model.Predict(course, start).force;
+  Eigen::VectorXd difference(held.size());
+  for (Index n = 0; n < held.size(); ++n) difference[n] = fine[n * kParts] - held[n];
+  return difference * static_cast<double>(kParts) / static_cast<double>(kParts - 1);
+}
+
+}  // namespace warmjoint::inline identification

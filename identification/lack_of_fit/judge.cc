@@ -1,0 +1,220 @@
+#include "identification/lack_of_fit/judge.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "identification/lack_of_fit/report_findings.h"
+#include "identification/lack_of_fit/words.h"
+#include "identification/warming/gaps.h"
+#include "models/foundation/robust_noise.h"
+
+namespace warmjoint::inline identification {
+namespace {
+
+using Eigen::Index;
+
+constexpr double kNormal95 = 1.96;
+constexpr double kSure = 5;      // deviations of the heat's share from a value that is ruled out
+constexpr double kSureMove = 3;  // deviations from which a move is there
+
+/// Whether lack of fit that explains so much is more than a detail.
+bool IsRelevant(double explained, const Examination& examination, const Judging& judging) {
+  return std::sqrt(explained / examination.samples) > judging.relevance * examination.friction;
+}
+
+/// The parameter that lack of fit moves farthest beyond its interval, by a relevant share of the
+/// friction; -1 where there is none.
+Index Misled(const Examination& examination, const Inference& inference, const Judging& judging) {
+  Index worst = -1;
+  double most = judging.relevance * examination.friction;
+  for (Index i = 0; i < examination.moves.size(); ++i) {
+    const KnownParameter& known = inference.parameters[examination.rows[static_cast<size_t>(i)]];
+    const double move = std::abs(examination.moves[i]);
+    if (move < kSureMove * examination.move_deviations[i] || move < known.HalfWidth()) continue;
+    if (move * examination.reach[i] < most) continue;
+    most = move * examination.reach[i];
+    worst = i;
+  }
+  return worst;
+}
+
+/// Whether something changes that the warming may have taken up in part.
+bool Drifts(const Examination& examination) {
+  return std::ranges::any_of(examination.findings, [](const Finding& finding) {
+    return finding.rejected && finding.test->warming == Warming::takes_part;
+  });
+}
+
+/// What drifts is partly taken up by the warming, by how much cannot be known: no interval of it is
+/// left.
+void DropWarming(const Fit& fit, Inference& inference) {
+  for (size_t i = 0; i < fit.parameters.size(); ++i) {
+    const Role role = fit.parameters[i].role;
+    if (role != Role::heat && role != Role::start) continue;
+    inference.parameters[i].std.reset();
+    inference.parameters[i].interval95.reset();
+  }
+}
+
+/// Lets intervals reach as far as something moves the parameters. by: [p]
+void Widen(const Examination& examination, const Eigen::VectorXd& by, Inference& inference) {
+  for (size_t i = 0; i < examination.rows.size(); ++i) {
+    inference.Widen(examination.rows[i], by[static_cast<Index>(i)]);
+  }
+}
+
+/// Moves the parameters with their intervals. by: [p]
+void Shift(const Examination& examination, const Eigen::VectorXd& by, Inference& inference) {
+  for (size_t i = 0; i < examination.rows.size(); ++i) {
+    KnownParameter& known = inference.parameters[examination.rows[i]];
+    const double move = by[static_cast<Index>(i)];
+    known.value += move;
+    if (!known.interval95) continue;
+    for (double& end : *known.interval95) end += move;
+  }
+}
+
+/// Where the log's step matters to the warming: the parameters of heat that is followed within the
+/// steps where the residual tells that it is; where it cannot tell, intervals that hold both.
+void FollowHeat(const Examination& examination, const Fit& fit, const Measurements& m,
+                Inference& inference) {
+  if (examination.by_heat.size() == 0) return;
+  const double share = examination.heat_share, sure = kSure * examination.heat_deviation;
+  const double fits = kSureMove * examination.heat_deviation;
+  if (1 - share > sure && std::abs(share) < fits) return;
+  const auto tau = std::ranges::find(examination.rows, *fit.RowOf(Role::heat, 1));
+  const std::string what = fmt::format(
+      "Eq. (22) holds the losses over each step of {:.3g} s; losses that follow the "
+      "heat within it move thermal_time_constant by {:.2g} s",
+      MedianStep(m.time), examination.by_heat[tau - examination.rows.begin()]);
+  if (share > sure && std::abs(1 - share) < fits) {
+    inference.warnings.push_back(fmt::format("{}, and fit better: the numbers are theirs", what));
+    Shift(examination, examination.by_heat, inference);
+  } else {
+    inference.warnings.push_back(fmt::format("{}: the intervals hold both; log faster", what));
+    Widen(examination, examination.by_heat, inference);
+  }
+}
+
+/// Lets intervals reach as far as the gaps of the log may have moved the parameters.
+void WidenByGaps(const Examination& examination, const Measurements& m, Inference& inference) {
+  if (examination.by_gaps.size() == 0) return;
+  inference.warnings.push_back(fmt::format(
+      "{}: what the joint lost there is not known: the intervals reach as far as that may move "
+      "them; record without gaps",
+      DescribeGaps(FindGaps(m), m)));
+  Widen(examination, examination.by_gaps, inference);
+}
+
+/// The parameter that something moves farthest, in half widths of its interval, where that is
+/// beyond one; -1 where there is none. by: [p]
+Index FarthestBeyond(const Eigen::VectorXd& by, const Examination& examination,
+                     const Inference& inference) {
+  Index worst = -1;
+  double most = 1;
+  for (Index i = 0; i < by.size(); ++i) {
+    const size_t row = examination.rows[static_cast<size_t>(i)];
+    const double beyond = std::abs(by[i]) / inference.parameters[row].HalfWidth();
+    if (!std::isfinite(beyond) || beyond <= most) continue;
+    most = beyond;
+    worst = i;
+  }
+  return worst;
+}
+
+/// What the start does to the numbers: intervals that hold a warm one too, or a warning of how far
+/// it would move a parameter beyond its interval.
+void WeighStart(const Examination& examination, const Identifier& identifier,
+                const IdentifierInput& input, const Fit& fit, const Judging& judging,
+                Inference& inference) {
+  const Index worst = FarthestBeyond(examination.by_start, examination, inference);
+  if (judging.start == StartBelief::unknown && examination.by_start.size() > 0) {
+    inference.message += "; the intervals hold a start a tenth as warm as the joint gets, too";
+    Widen(examination, examination.by_start, inference);
+    return;
+  }
+  if (worst < 0) return;
+  const FitParameter& parameter = fit.parameters[examination.rows[static_cast<size_t>(worst)]];
+  const double begins = input.measurements.time[0];
+  const std::string clock =
+      begins == 0
+          ? ""
+          : fmt::format(" (its clock begins at {:.4g} s: had the joint moved before?)", begins);
+  inference.warnings.push_back(fmt::format(
+      "the joint is taken to be cold at the start of the log{}: a tenth of the warmth that it "
+      "reaches would move {} by {:.2g} {}; {}",
+      clock, parameter.name, examination.by_start[worst], parameter.unit,
+      AgainstWarmStart(identifier, input)));
+}
+
+/// What the residual depends on, in the order of size: a clause.
+std::string Depends(const Examination& examination, const Measurements& measurements) {
+  std::vector<std::string> words;
+  for (const Finding* finding : examination.Found()) {
+    words.push_back(DescribeFinding(examination, *finding, measurements));
+  }
+  return fmt::format("the residual depends on {}", fmt::join(words, "; and on "));
+}
+
+/// Voids an inference that lack of fit makes wrong, or warns of it and widens the intervals.
+void WeighFindings(const Examination& examination, const Identifier& identifier,
+                   const IdentifierInput& input, const Fit& fit, const Judging& judging,
+                   Inference& inference) {
+  const std::vector<const Finding*> found = examination.Found();
+  double explained = 0;
+  for (const Finding* finding : found) explained += finding->explained;
+  const std::string depends = Depends(examination, input.measurements);
+  const std::string remedy = found[0]->test->remedy({*found[0], identifier, input, fit});
+
+  // too large to live with
+  const Index misled = Misled(examination, inference, judging);
+  if (IsRelevant(explained, examination, judging) || misled >= 0) {
+    const std::string moves =
+        misled < 0 ? ""
+                   : fmt::format("; with it {} would move by {:.3g}",
+                                 fit.parameters[examination.rows[static_cast<size_t>(misled)]].name,
+                                 examination.moves[misled]);
+    inference.Void(Status::inadequate_model, fmt::format("{}{}; {}", depends, moves, remedy));
+    return;
+  }
+
+  // small: the intervals hold it
+  const bool unknown = Drifts(examination) && fit.RowOf(Role::heat);
+  inference.warnings.push_back(fmt::format(
+      "{}: the intervals reach as far as that moves them{}; {}", depends,
+      unknown ? ", and the warming has none, since it may have taken up part of that" : "",
+      remedy));
+  if (Drifts(examination)) DropWarming(fit, inference);
+  Widen(examination, examination.moves.cwiseAbs() + kNormal95 * examination.move_deviations,
+        inference);
+}
+
+}  // namespace
+
+void JudgeLackOfFit(const Identifier& identifier, const IdentifierInput& input, const Fit& fit,
+                    const Judging& judging, Inference& inference) {
+  const Measurements& m = input.measurements;
+  if (inference.status != Status::ok) {
+    Examination none;
+    none.findings = NotMade(fmt::format("the fit is {}", StatusName(inference.status)));
+    inference.diagnostics = DiagnosticsOf(none, fit, m.torque_unit);
+    return;
+  }
+
+  // examine
+  const Examination examination = ExamineResidual(fit, inference, m, input.selection);
+  inference.diagnostics = DiagnosticsOf(examination, fit, m.torque_unit);
+  inference.assumptions = AssumptionsOf(examination, fit);
+
+  // and weigh
+  WeighStart(examination, identifier, input, fit, judging, inference);
+  FollowHeat(examination, fit, m, inference);
+  WidenByGaps(examination, m, inference);
+  if (!examination.Found().empty()) {
+    WeighFindings(examination, identifier, input, fit, judging, inference);
+  }
+}
+
+}  // namespace warmjoint::inline identification

@@ -1,0 +1,24 @@
+// Whether a model is adequate: what the residual of its fit still shows.
+#pragma once
+
+#include "identification/identifier.h"
+#include "identification/inference/inference.h"
+#include "identification/lack_of_fit/judging.h"
+
+namespace warmjoint::inline identification {
+
+/// Judges a fit by the table of tests for lack of fit (table.h), made at one error level for the log
+/// (error_level.h). What they find is relevant where together it amounts to the share
+/// `judging.relevance` of the friction, rms over the kept samples, or where a parameter would move
+/// beyond its interval by that share of the friction, were it part of the model. Then the inference is void,
+/// inadequate_model, and the message names what the residual depends on and what to try. Of less
+/// the inference warns, and intervals reach as far as the parameters would move were it part of the
+/// model; none is given of warming beside lack of fit over time or energy, since nobody can tell
+/// how much of that the warming took up. Where a start that is taken to be cold matters, a warning
+/// says how much. Noise that is coloured is no lack of fit: the intervals account for it.
+/// Fills diagnostics and assumptions; of an inference that is not ok, nothing else.
+/// input: what the identifier saw.
+void JudgeLackOfFit(const Identifier& identifier, const IdentifierInput& input, const Fit& fit,
+                    const Judging& judging, Inference& inference);
+
+}  // namespace warmjoint::inline identification

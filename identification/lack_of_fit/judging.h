@@ -1,0 +1,19 @@
+// How strict a verdict is, and what it takes for granted.
+#pragma once
+
+namespace warmjoint::inline identification {
+
+/// What is known of the warmth at the start of a log.
+enum class StartBelief {
+  cold,     // the joint was cold: intervals hold under that condition
+  unknown,  // it may have been a tenth as warm as it gets: intervals reach as far as that moves them
+};
+
+struct Judging {
+  /// Lack of fit from which a model is refused: its rms as a share of the friction's. Smaller lack
+  /// of fit widens the intervals by what it moves. 0 < relevance <= 1.
+  double relevance = 0.02;
+  StartBelief start = StartBelief::cold;
+};
+
+}  // namespace warmjoint::inline identification

@@ -1,0 +1,18 @@
+// The findings of an examination as data of an inference: names in place of positions.
+#pragma once
+
+#include <vector>
+
+#include "identification/diagnostic.h"
+#include "identification/lack_of_fit/examine.h"
+
+namespace warmjoint::inline identification {
+
+/// One for each finding. unit: of the torque
+std::vector<Diagnostic> DiagnosticsOf(const Examination& examination, const Fit& fit,
+                                      const std::string& unit);
+
+/// "cold_start" where a start was taken to be cold, "no_slow_drift" where anything was fitted.
+std::vector<Assumption> AssumptionsOf(const Examination& examination, const Fit& fit);
+
+}  // namespace warmjoint::inline identification

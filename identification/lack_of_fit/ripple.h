@@ -1,0 +1,36 @@
+// Dependence of a residual on an angle: ripple of any period, alike or not in the two directions.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "identification/lack_of_fit/error_level.h"
+#include "identification/lack_of_fit/fitted_model.h"
+#include "identification/lack_of_fit/table.h"
+
+namespace warmjoint::inline identification {
+
+/// An angle, or a way, along which ripple is looked for.
+struct AngleAxis {
+  const LackOfFitTest* test = nullptr;
+  Eigen::VectorXd phase;  // [N] 0 to 1: way along the axis, or turn
+  double length = 1;      // of the axis, in its own unit
+  double step = 1;        // between frequencies, cycles along the axis
+  int frequencies = 8;    // step, 2 step, ...
+};
+
+/// Looks for ripple a cos(2 pi f phase) + b sin(2 pi f phase), with a and b for each direction of
+/// motion, one frequency after the other: the strongest is tested by Hotelling's T^2 over kParts
+/// parts of the recording, its probability times the number of frequencies (Bonferroni), and taken
+/// off before the next. What is periodic in time alone has another phase in each part and fails the
+/// test. Sums the residual into bins in one pass, so that the frequencies cost no pass each.
+/// The finding is that of the strongest frequency, and explains what all that are found explain.
+/// velocity: [N]; residual: [N] tau - F, read where kept; what is found is taken off it.
+Finding TestAxis(const AngleAxis& axis, const Eigen::VectorXd& velocity, const Selection& selection,
+                 Eigen::VectorXd& residual, ErrorLevel& level);
+
+/// The tests along the motor angle, where it is known, and along the travel.
+std::vector<Finding> TestRipple(const FittedModel& model, const Measurements& measurements,
+                                Eigen::VectorXd& residual, ErrorLevel& level);
+
+}  // namespace warmjoint::inline identification

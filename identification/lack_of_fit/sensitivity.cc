@@ -1,0 +1,78 @@
+#include "identification/lack_of_fit/sensitivity.h"
+
+#include <Eigen/QR>
+#include <cmath>
+
+#include "identification/linear/fit_gravity.h"
+#include "identification/linear/least_squares.h"
+
+namespace warmjoint::inline identification {
+namespace {
+
+using Eigen::Index;
+
+constexpr double kWarmStart = 0.1;   // of the warmth that the joint reaches
+constexpr double kDrift = 0.01;      // of the friction, over the log
+constexpr double kFading = 1.0 / 3;  // of the log: time constant of a drift that dies away
+
+/// s t and s (1 - exp(-t/T)), the friction's drift over the log, even and fading. [m x 2]
+Eigen::MatrixXd Drifts(const Bins& bins) {
+  const Eigen::ArrayXd sign = bins.velocity.array().sign(), t = bins.time.array();
+  Eigen::MatrixXd drifts(bins.size(), 2);
+  drifts << (sign * t).matrix(),
+      (sign * (1 - (-t / kFading).exp()) / (1 - std::exp(-1 / kFading))).matrix();
+  return drifts;
+}
+
+}  // namespace
+
+Eigen::MatrixXd MovesBy(const Eigen::MatrixXd& forces, const Bins& bins,
+                        const Eigen::MatrixXd& derivatives) {
+  const Eigen::VectorXd root = bins.weight.cwiseSqrt();
+  const Eigen::MatrixXd weighted = root.asDiagonal() * derivatives;
+  return -weighted.colPivHouseholderQr().solve(root.asDiagonal() * forces);
+}
+
+void LearnHeat(const FittedModel& model, const Bins& bins, Index p, Eigen::MatrixXd& derivatives,
+               Examination& examination) {
+  if (!model.held_loss) return;
+  const Eigen::MatrixXd force = bins.Means(*model.held_loss);
+  examination.by_heat = MovesBy(force, bins, derivatives).topRows(p);
+  derivatives = Beside(derivatives, force);
+
+  // the share of that force in the residual
+  const Eigen::VectorXd root = bins.weight.cwiseSqrt();
+  const Eigen::MatrixXd weighted = root.asDiagonal() * derivatives;
+  const Eigen::VectorXd residual = root.asDiagonal() * bins.Means(model.residual);
+  const LeastSquares fit = SolveLeastSquares(weighted, residual);
+  examination.heat_deviation = kInfinity;
+  const Index q = derivatives.cols() - 1, free = bins.size() - q - 1;
+  if (!fit.mixed.empty() || free < 1) return;
+  const double variance =
+      (residual - weighted * fit.solution).squaredNorm() / static_cast<double>(free);
+  examination.heat_share = fit.solution[q];
+  examination.heat_deviation = std::sqrt(variance * fit.cofactor(q, q));
+}
+
+void LearnAssumptions(const Fit& fit, const FittedModel& model, const Bins& bins, Index p,
+                      const Eigen::MatrixXd& derivatives, Examination& examination) {
+  // a start that was not cold
+  if (model.by_initial_energy) {
+    const double energy = kWarmStart * model.energy.cwiseAbs().maxCoeff();
+    examination.by_start =
+        MovesBy(energy * bins.Means(*model.by_initial_energy), bins, derivatives).topRows(p);
+  }
+
+  // friction that drifts for another reason than its losses
+  const Eigen::MatrixXd by_drifts =
+      MovesBy(kDrift * examination.friction * Drifts(bins), bins, derivatives).topRows(p);
+  examination.by_drift = by_drifts.cwiseAbs().rowwise().maxCoeff();
+
+  // heat that came or went in gaps of the log
+  const Index jumps = model.jump_spread.size();
+  if (jumps == 0 || !fit.jump_samples.empty()) return;
+  const Eigen::MatrixXd forces = derivatives.middleCols(p, jumps) * model.jump_spread.asDiagonal();
+  examination.by_gaps = MovesBy(forces, bins, derivatives.leftCols(p)).cwiseAbs().rowwise().sum();
+}
+
+}  // namespace warmjoint::inline identification

@@ -1,0 +1,110 @@
+#include "identification/lack_of_fit/table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "identification/lack_of_fit/features.h"
+#include "identification/lack_of_fit/remedies.h"
+
+namespace warmjoint::inline identification {
+namespace {
+
+/// "time", whatever was found.
+template <const char* const& text>
+std::string Say(const Finding&, const Measurements&) {
+  return text;
+}
+
+std::string Period(const Finding& finding, const Measurements&) {
+  return fmt::format("time (periodic, {:.3g} s)", finding.period);
+}
+
+std::string Lag(const Finding& finding, const Measurements&) {
+  return fmt::format("the time since the last change of speed (the torque lags by some {:.1g} s)",
+                     finding.lag);
+}
+
+std::string Position(const Finding& finding, const Measurements& measurements) {
+  return fmt::format("position (period {:.3g} {})", finding.period,
+                     kPositionUnit.For(measurements.joint));
+}
+
+std::string MotorAngle(const Finding& finding, const Measurements&) {
+  return fmt::format("motor angle (period {:.3g} rad)", finding.period);
+}
+
+constexpr const char* kDirection = "direction";
+constexpr const char* kSpeed = "speed";
+constexpr const char* kEnergy = "energy (warming)";
+constexpr const char* kSpeedByEnergy = "speed x energy (the slope warms)";
+constexpr const char* kStart = "the energy at the start";
+constexpr const char* kLoad = "load";
+constexpr const char* kTemperature = "temperature";
+constexpr const char* kTime = "time";
+constexpr const char* kStep = "time (a step)";
+constexpr const char* kParity = "the order of the holds (every other one differs)";
+constexpr const char* kPhase = "the time within each hold";
+constexpr const char* kFading = "position x energy (the map fades or grows as the joint warms)";
+
+constexpr std::string_view kHeld = "the fit holds it, or the motion never shows it";
+constexpr std::string_view kNoHolds = "no segments of constant speed are known";
+
+}  // namespace
+
+const std::vector<LackOfFitTest>& LackOfFitTests() {
+  using enum Turn;
+  using enum Warming;
+  static const std::vector<LackOfFitTest> tests{
+      {"direction", kHeld, first, apart, OfDirection, Say<kDirection>, AgainstDirection},
+      {"speed", kHeld, first, apart, OfSpeed, Say<kSpeed>, AgainstSpeed},
+      {"energy", kHeld, first, takes_part, OfEnergy, Say<kEnergy>, AgainstWarming},
+      {"initial_energy", "E(0) is estimated, or the fit knows no warming", first, apart,
+       OfInitialEnergy, Say<kStart>, AgainstStart},
+      {"load", "the log has no column load", first, apart, OfLoad, Say<kLoad>, AgainstLoad},
+      {"temperature", "the log has no column temperature", first, apart, OfTemperature,
+       Say<kTemperature>, AgainstTemperature},
+      {"time", kHeld, first, takes_part, OfTime, Say<kTime>, AgainstWarming},
+      {"speed_by_energy", "the fit knows no warming", first, apart, OfSpeedByEnergy,
+       Say<kSpeedByEnergy>, AgainstWarmingSlope},
+      {"step", kHeld, first, takes_part, OfStep, Say<kStep>, AgainstStep},
+      {"lag", "too few samples follow a change of speed", sample, apart, nullptr, Lag, AgainstLag},
+      {"position_by_energy", "the fit has no map beside a warming", sample, apart, nullptr,
+       Say<kFading>, AgainstFading},
+      {"position", "the travel is too short for the speed", sample, apart, nullptr, Position,
+       AgainstPosition},
+      {"motor_angle", "the log has neither a gear nor the column motor_position", sample, apart,
+       nullptr, MotorAngle, AgainstMotorAngle},
+      {"hold_parity", kNoHolds, last, apart, OfHoldParity, Say<kParity>, AgainstHolds},
+      {"hold_phase", kNoHolds, last, apart, OfHoldPhase, Say<kPhase>, AgainstHolds},
+      {"periodic", "the log is too short", last, apart, OfPeriod, Period, AgainstPeriod}};
+  return tests;
+}
+
+namespace {
+
+/// The row of that name, which the table has.
+const LackOfFitTest& Row(std::string_view name) {
+  return *std::ranges::find(LackOfFitTests(), name, &LackOfFitTest::name);
+}
+
+}  // namespace
+
+const LackOfFitTest& LagTest() {
+  static const LackOfFitTest& row = Row("lag");
+  return row;
+}
+const LackOfFitTest& FadingTest() {
+  static const LackOfFitTest& row = Row("position_by_energy");
+  return row;
+}
+const LackOfFitTest& PositionTest() {
+  static const LackOfFitTest& row = Row("position");
+  return row;
+}
+const LackOfFitTest& MotorAngleTest() {
+  static const LackOfFitTest& row = Row("motor_angle");
+  return row;
+}
+
+}  // namespace warmjoint::inline identification

@@ -1,0 +1,54 @@
+// The tests for lack of fit: what each asks of a residual, what it is called, what would help.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "identification/identifier.h"
+#include "identification/lack_of_fit/circumstances.h"
+#include "identification/lack_of_fit/growing_fit.h"
+
+namespace warmjoint::inline identification {
+
+/// What advice is about: the finding, and how the fit was made.
+struct Advice {
+  const Finding& finding;
+  const Identifier& identifier;
+  const IdentifierInput& input;
+  const Fit& fit;
+};
+
+/// When a test looks: at what is known to act on friction first, then at what stays.
+enum class Turn { first, sample, last };
+
+/// What a fitted warming may have taken up of that which a test looks for.
+enum class Warming { apart, takes_part };
+
+/// One row of the table.
+struct LackOfFitTest {
+  std::string_view name;    // in estimate.json
+  std::string_view absent;  // why it is not made where there are no features
+  Turn turn = Turn::first;
+  Warming warming = Warming::apart;
+  /// Features over the bins, the best of several candidates beside the fit; of a test that looks
+  /// at samples (lag.h, fading.h, ripple.h): none.
+  Features (*features)(const Bins& bins, const Circumstances& known,
+                       const GrowingFit& fit) = nullptr;
+  /// What the residual depends on, in a message.
+  std::string (*quantity)(const Finding& finding, const Measurements& measurements) = nullptr;
+  /// The law, identifier or recording that helps; names only what is there.
+  std::string (*remedy)(const Advice& advice) = nullptr;
+};
+
+/// All rows. Of those over bins the ones that come first are made first where the rows are too few
+/// for all.
+const std::vector<LackOfFitTest>& LackOfFitTests();
+
+/// The rows of tests that look at samples.
+const LackOfFitTest& LagTest();
+const LackOfFitTest& FadingTest();
+const LackOfFitTest& PositionTest();
+const LackOfFitTest& MotorAngleTest();
+
+}  // namespace warmjoint::inline identification

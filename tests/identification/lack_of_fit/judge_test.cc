@@ -1,0 +1,177 @@
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "identification/answer/identify.h"
+#include "identification/identifiers/identifier_list.h"
+#include "identification/preparation/select.h"
+#include "models/friction/sign.h"
+#include "tests/support/judging.h"
+
+namespace warmjoint {
+namespace {
+
+using ::testing::HasSubstr;
+
+using test::Answer;
+using test::Asked;
+using test::Cold;
+using test::Count;
+using test::CountAlarms;
+using test::CountRejected;
+using test::kFew;
+using test::kInadequate;
+using test::kNearlyAll;
+using test::RecordHour;
+
+/// AR(1) noise with the given coefficient and a standard deviation of 0.5 N.m.
+Measurements Coloured(const FrictionDescription& friction, std::uint64_t seed, double a) {
+  Measurements m = RecordHour(friction, seed, 0);
+  RandomStream random({seed, 0}, Stream::coloured_noise);
+  double noise = 0.5 * random.Normal();
+  for (double& torque : m.torque) {
+    torque += noise;
+    noise = a * noise + 0.5 * std::sqrt(1 - a * a) * random.Normal();
+  }
+  return m;
+}
+
+/// Travels to and fro over 5 rad with a speed drawn for each way; h = 0.2 s, 20 min.
+Measurements Travel(std::uint64_t seed) {
+  RandomStream random({seed, 0}, Stream::motion);
+  Eigen::VectorXd velocity(6000);
+  double position = 0, speed = random.Uniform(0.1, 1);
+  for (double& v : velocity) {
+    v = speed;
+    position += 0.2 * v;
+    if (std::abs(position) < 2.5 || position * v < 0) continue;
+    speed = std::copysign(random.Uniform(0.1, 1), -v);
+  }
+  return test::RecordFriction(Cold(), 0.2, velocity, 0.5, seed);
+}
+
+TEST(Judge, FindsThatAJointWarmsUp) {
+  const auto warm = [](std::uint64_t seed) { return RecordHour(test::TableOne(), seed); };
+  EXPECT_GE(CountRejected("nominal-ls", "energy", warm), kNearlyAll);
+  EXPECT_THAT(Answer("nominal-ls", warm(1)).FullMessage(), HasSubstr("try energy-ml"));
+}
+
+TEST(Judge, FindsTheRippleOfTheMotor) {
+  // a level that ripples by 1 N.m twice a turn, with gear 100
+  const auto ripple = [](std::uint64_t seed) {
+    Measurements m = Travel(seed);
+    m.gear = 100;
+    for (Eigen::Index i = 0; i < m.size(); ++i) {
+      m.torque[i] += Sign(m.velocity[i]) * std::sin(200 * m.position[i] + 0.4);
+    }
+    return m;
+  };
+  EXPECT_GE(CountRejected("nominal-ls", "motor_angle", ripple), kNearlyAll);
+  EXPECT_THAT(Answer("nominal-ls", ripple(1)).message, HasSubstr("period 3.14 rad"));
+}
+
+TEST(Judge, FindsRippleAlongTheJoint) {
+  const auto ripple = [](std::uint64_t seed) {
+    Measurements m = Travel(seed);
+    m.torque.array() += (20 * m.position.array()).sin();
+    return m;
+  };
+  const Estimate estimate = Answer("nominal-ls", ripple(1));
+  EXPECT_EQ(estimate.status, kInadequate);
+  // 2 pi / 20; the frequencies that are tried are half a cycle of 16 along the travel apart
+  EXPECT_THAT(estimate.FullMessage(), HasSubstr("depends on position (period 0.31"));
+  EXPECT_THAT(estimate.FullMessage(), HasSubstr("alike in both directions"));
+}
+
+TEST(Judge, FindsTheStribeckCurve) {
+  const auto curve = [](std::uint64_t seed) {
+    Measurements m = RecordHour(Cold(), seed);
+    for (Eigen::Index i = 0; i < m.size(); ++i) {
+      const double v = m.velocity[i];
+      m.torque[i] += std::copysign(5 * std::exp(-std::pow(v / 0.2, 2)), v);
+    }
+    return m;
+  };
+  EXPECT_GE(CountRejected("nominal-ls", "speed", curve), kNearlyAll);
+}
+
+TEST(Judge, FindsThatDirectionsDiffer) {
+  Measurements m = RecordHour(Cold(), 1);
+  m.torque.array() += 1.5;
+  const Estimate estimate = Answer("nominal-ls", m);
+  EXPECT_EQ(estimate.status, kInadequate);
+  EXPECT_THAT(estimate.FullMessage(), HasSubstr("depends on direction"));
+  EXPECT_THAT(estimate.FullMessage(), HasSubstr("law=asymmetric"));
+  EXPECT_EQ(Answer("nominal-ls", m, {{"law", "asymmetric"}}).status, Status::ok);
+}
+
+TEST(Judge, LetsTheRightModelPass) {
+  const auto warm = [](std::uint64_t seed) { return RecordHour(test::TableOne(), seed); };
+  const auto cold = [](std::uint64_t seed) { return RecordHour(Cold(), seed); };
+  EXPECT_LE(CountAlarms("energy-ml", warm), kFew);
+  EXPECT_LE(CountAlarms("nominal-ls", cold), kFew);
+  EXPECT_LE(CountAlarms("nominal-ls", Travel), kFew);
+}
+
+TEST(Judge, DoesNotTakeColouredNoiseForStructure) {
+  const auto warm = [](std::uint64_t seed) { return Coloured(test::TableOne(), seed, 0.9); };
+  const auto cold = [](std::uint64_t seed) { return Coloured(Cold(), seed, 0.9); };
+  EXPECT_LE(CountAlarms("energy-ml", warm), kFew);
+  EXPECT_LE(CountAlarms("nominal-ls", cold), kFew);
+}
+
+TEST(Judge, DoesNotTakeWhatIsPeriodicInTimeForRipple) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Measurements m = Travel(seed);
+    m.gear = 100;
+    m.torque.array() += 2 * (2 * M_PI / 7 * m.time.array()).sin();
+    EXPECT_FALSE(Asked(Answer("nominal-ls", m), "motor_angle").rejected) << seed;
+  }
+}
+
+TEST(Judge, TakesBackEverythingButTheValues) {
+  const Measurements warm = RecordHour(test::TableOne(), 1);
+  const Identifier& identifier = FindIdentifier("nominal-ls");
+  const Options options(identifier.options, {}, {});
+  const Selection selection = SelectMoving(warm);
+  const IdentifierInput input{Prepare(warm, selection), options, {}};
+  const Estimate before = IdentifyUnjudged(identifier, input);
+  const Estimate judged = IdentifyAndJudge(identifier, input);
+  EXPECT_FALSE(judged.friction);
+  EXPECT_EQ(judged.Find("coulomb")->value, before.Find("coulomb")->value);
+  EXPECT_FALSE(judged.Find("coulomb")->std || judged.Find("coulomb")->interval95);
+  EXPECT_TRUE(judged.metrics);
+
+  // who insists sees the numbers, beside the verdict
+  const Estimate forced = WithVoidNumbers(identifier, input, FitAndJudge(identifier, input));
+  EXPECT_EQ(forced.status, kInadequate);
+  EXPECT_THAT(forced.FullMessage(), HasSubstr("void"));
+  EXPECT_EQ(forced.Find("coulomb")->interval95, before.Find("coulomb")->interval95);
+  EXPECT_TRUE(forced.friction);
+}
+
+TEST(Judge, WarnsOfSmallStructureAndLetsIntervalsReachAsFar) {
+  // 0.05 N.m rms of friction that falls with speed: 0.3 %, but certain in 3600 samples
+  Measurements m = RecordHour(Cold(), 1, 0.1);
+  for (Eigen::Index i = 0; i < m.size(); ++i) {
+    const double v = m.velocity[i];
+    m.torque[i] += std::copysign(0.4 * std::exp(-std::pow(v / 0.2, 2)), v);
+  }
+  const Identifier& identifier = FindIdentifier("nominal-ls");
+  const Options options(identifier.options, {}, {});
+  const Selection selection = SelectMoving(m);
+  const IdentifierInput input{Prepare(m, selection), options, {}};
+  const Estimate before = IdentifyUnjudged(identifier, input);
+  const Estimate judged = IdentifyAndJudge(identifier, input);
+  ASSERT_EQ(judged.status, Status::ok) << judged.message;
+  ASSERT_EQ(judged.warnings.size(), 1u);
+  EXPECT_THAT(judged.warnings[0], HasSubstr("the residual depends on speed"));
+  const auto& narrow = *before.Find("coulomb")->interval95;
+  const auto& wide = *judged.Find("coulomb")->interval95;
+  EXPECT_GT(narrow[0], 15);  // the true level
+  EXPECT_LT(wide[0], 15);
+  EXPECT_GT(wide[1], 15);
+}
+
+}  // namespace
+}  // namespace warmjoint

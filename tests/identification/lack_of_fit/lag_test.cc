@@ -1,0 +1,110 @@
+#include "identification/lack_of_fit/lag.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "identification/preparation/select.h"
+#include "tests/support/judging.h"
+
+namespace warmjoint {
+namespace {
+
+using test::Answer;
+using test::Asked;
+using test::CountRejected;
+using test::kInadequate;
+using test::kNearlyAll;
+using test::RecordHour;
+using ::testing::HasSubstr;
+
+/// Torque that shows share[k] of what it was k + 1 samples ago.
+Measurements Late(Measurements m, double share) {
+  const Eigen::VectorXd now = m.torque;
+  for (Eigen::Index i = 1; i < m.size(); ++i) m.torque[i] += share * (now[i - 1] - now[i]);
+  return m;
+}
+
+TEST(TestLag, FindsATorqueThatIsASampleLate) {
+  const auto late = [](std::uint64_t seed) { return Late(RecordHour(test::TableOne(), seed), 1); };
+  EXPECT_GE(CountRejected("energy-ml", "lag", late), kNearlyAll);
+  EXPECT_THAT(Answer("energy-ml", late(1)).message, HasSubstr("filtered or late"));
+}
+
+/// Through a first-order filter of time constant T, s.
+Measurements Filtered(Measurements m, double T) {
+  for (Eigen::Index i = 1; i < m.size(); ++i) {
+    const double share = 1 - std::exp(-(m.time[i] - m.time[i - 1]) / T);
+    m.torque[i] = m.torque[i - 1] + share * (m.torque[i] - m.torque[i - 1]);
+  }
+  return m;
+}
+
+/// Holds of 2 s between ramps of 5 rad/s2 to and fro; rate: Hz; duration: s.
+Measurements Ramped(double rate, double duration, std::uint64_t seed) {
+  RandomStream random({seed, 0}, Stream::motion);
+  Eigen::VectorXd velocity(static_cast<Eigen::Index>(rate * duration));
+  double held = 0, target = random.Uniform(0.3, 1), left = 2;
+  for (double& v : velocity) {
+    const double step = 5 / rate;
+    held += std::clamp(target - held, -step, step);
+    v = held;
+    if (held == target) left -= 1 / rate;
+    if (left > 0) continue;
+    target = std::copysign(random.Uniform(0.3, 1), -target);
+    left = 2;
+  }
+  return test::RecordFriction(test::Cold(), 1 / rate, velocity, 0.3, seed);
+}
+
+TEST(TestLag, FindsAFilter) {
+  // first order, 2 s at 1 Hz
+  const Estimate estimate = Answer("energy-ml", Filtered(RecordHour(test::TableOne(), 1), 2));
+  EXPECT_EQ(estimate.status, kInadequate);
+  EXPECT_TRUE(Asked(estimate, "lag").rejected);
+}
+
+TEST(TestLag, FindsFiltersBehindRampsAtAnyRate) {
+  for (const double rate : {20.0, 50.0, 200.0, 1000.0}) {
+    for (const double T : {0.1, 0.3}) {
+      for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+        const Estimate estimate = Answer("nominal-ls", Filtered(Ramped(rate, 60, seed), T));
+        EXPECT_EQ(estimate.status, kInadequate)
+            << rate << " Hz, " << T << " s: " << estimate.message;
+        EXPECT_TRUE(Asked(estimate, "lag").rejected) << rate << " Hz, " << T << " s";
+      }
+    }
+  }
+}
+
+TEST(TestLag, FindsNoneWhereThereIsNone) {
+  // the error level of all tests together is 1 %: of 50 more than 3 once in 600 times
+  int alarms = 0;
+  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+    alarms += Asked(Answer("energy-ml", RecordHour(test::TableOne(), seed)), "lag").rejected;
+    alarms += Asked(Answer("nominal-ls", Ramped(50, 60, seed)), "lag").rejected;
+  }
+  EXPECT_LE(alarms, 5);
+}
+
+TEST(TestLag, TakesWhatItFindsOffTheResidual) {
+  const Measurements m = Late(RecordHour(test::Cold(), 1, 0.1), 0.4);
+  FittedModel model;
+  model.selection = SelectConstantSpeed(m);
+  model.torque = m.torque;
+  const Eigen::ArrayXd speed = m.velocity.array();
+  model.residual = m.torque - (5 * speed + 15 * speed.sign()).matrix();
+  model.derivatives.resize(m.size(), 2);
+  model.derivatives << speed.matrix(), speed.sign().matrix();
+  Eigen::VectorXd rest = model.residual;
+  ErrorLevel level(1);
+  const Finding found = TestLag(model, m, rest, level);
+  ASSERT_TRUE(found.rejected);
+  // 0.4 of the change is left for one sample of 1 s; what is left is noise of 0.1 N.m, smoothed
+  EXPECT_NEAR(found.lag, 0.4, 0.05);
+  EXPECT_NEAR(rest.norm() / std::sqrt(3600.0), 0.1 * std::sqrt(0.6 * 0.6 + 0.4 * 0.4), 0.005);
+}
+
+}  // namespace
+}  // namespace warmjoint

@@ -1,0 +1,148 @@
+// What verdicts say over many realizations of a suite, on the path that users take.
+//
+//   verdict_study SUITE.yaml [REALIZATIONS [VARIANT]]
+//
+// For each variant and identifier: how often each status, how often 95 % intervals hold the truth,
+// how often each test for lack of fit is made and rejects, and how large what it finds is, as a
+// share of the friction's rms. Rates stand with their binomial standard error. On clean scenarios
+// the rates of rejection are false alarms, on spoilt ones power.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "identification/answer/identify.h"
+#include "identification/identifiers/identifier_list.h"
+#include "identification/score/score.h"
+#include "models/foundation/parse_number.h"
+#include "scenarios/suite.h"
+#include "sim/plant/plant.h"
+
+namespace warmjoint {
+namespace {
+
+/// How often something happened.
+struct Rate {
+  int times = 0, of = 0;
+
+  void Count(bool happened) {
+    times += happened;
+    ++of;
+  }
+  /// "93.5 +- 1.2 %"
+  std::string Text() const {
+    const double share = static_cast<double>(times) / std::max(of, 1);
+    return fmt::format("{:.1f} +- {:.1f} %", 100 * share,
+                       100 * std::sqrt(share * (1 - share) / std::max(of, 1)));
+  }
+};
+
+/// Outcomes of one test.
+struct TestRates {
+  Rate made, rejected;
+  double effects = 0;  // sum over rejections, shares of the friction's rms
+};
+
+/// Outcomes of one identifier in one variant.
+struct Outcomes {
+  std::map<std::string, int> statuses;
+  std::map<std::string, Rate> coverage;
+  std::map<std::string, TestRates> tests;
+  Rate alarms;   // any test rejects
+  Rate refused;  // not ok
+  Rate warned;   // ok, with a test that rejects
+
+  void Count(const Estimate& estimate, const Recording& recording, const Selection& selection) {
+    ++statuses[std::string(StatusName(estimate.status))];
+    const double friction = std::sqrt(recording.truth.force.squaredNorm() /
+                                      static_cast<double>(recording.truth.force.size()));
+    bool any = false;
+    for (const Diagnostic& one : estimate.diagnostics) {
+      TestRates& test = tests[one.test];
+      test.made.Count(one.made);
+      if (!one.made) continue;
+      test.rejected.Count(one.rejected);
+      if (one.rejected) test.effects += one.effect / friction;
+      any = any || one.rejected;
+    }
+    const bool ok = estimate.status == Status::ok;
+    alarms.Count(any);
+    refused.Count(!ok);
+    warned.Count(ok && any);
+    if (!ok) return;
+    const Score score = ScoreEstimate(estimate, recording.measurements, selection, recording.truth);
+    for (const ParameterScore& one : score.continuous) {
+      if (one.covered) coverage[one.name].Count(*one.covered);
+    }
+  }
+
+  void Print() const {
+    for (const auto& [status, count] : statuses) fmt::print("    {}: {}\n", status, count);
+    fmt::print("    any test rejects {}, refused {}, ok with a finding {}\n", alarms.Text(),
+               refused.Text(), warned.Text());
+    for (const auto& [name, rate] : coverage) {
+      fmt::print("    intervals of {} hold the truth {}\n", name, rate.Text());
+    }
+    for (const auto& [name, test] : tests) {
+      if (test.made.times == 0) continue;
+      fmt::print("    {:20} made {:4}  rejects {:16}", name, test.made.times, test.rejected.Text());
+      if (test.rejected.times > 0) {
+        fmt::print("  mean size {:.2g} % of the friction",
+                   100 * test.effects / test.rejected.times);
+      }
+      fmt::print("\n");
+    }
+  }
+};
+
+void Study(const Suite& suite, int variant, int realizations) {
+  const Scenario scenario = VariantScenario(suite, variant);
+  fmt::print("{}\n",
+             suite.ladder ? suite.ladder->variants[static_cast<size_t>(variant)].name : suite.name);
+  const std::unique_ptr<Plant> plant = MakePlant(scenario);
+  std::vector<Outcomes> outcomes(suite.identifiers.size());
+  for (int r = 0; r < realizations; ++r) {
+    const Recording recording = plant->Run(static_cast<std::uint64_t>(r));
+    const PreparedLog log = Prepare(recording.measurements);
+    for (size_t i = 0; i < outcomes.size(); ++i) {
+      const SuiteIdentifier& one = suite.identifiers[i];
+      const Identifier& identifier = FindIdentifier(one.name);
+      const Options options(identifier.options, one.options, {one.label});
+      const Estimate estimate = IdentifyAndJudge(identifier, {log, options, {}});
+      outcomes[i].Count(estimate, recording, log.taken().selection);
+    }
+  }
+  for (size_t i = 0; i < outcomes.size(); ++i) {
+    fmt::print("  {}\n", suite.identifiers[i].label);
+    outcomes[i].Print();
+  }
+  std::fflush(stdout);
+}
+
+}  // namespace
+}  // namespace warmjoint
+
+int main(int count, char** arguments) {
+  using namespace warmjoint;
+  if (count < 2) {
+    fmt::print(stderr, "verdict_study SUITE.yaml [REALIZATIONS [VARIANT]]\n");
+    return 2;
+  }
+  try {
+    const Suite suite = ReadSuite(arguments[1]);
+    const std::optional<double> given = count > 2 ? ParseNumber(arguments[2]) : std::nullopt;
+    const int realizations = given ? static_cast<int>(*given) : suite.realizations;
+    for (int variant = 0; variant < suite.variants(); ++variant) {
+      const bool wanted =
+          count < 4 || (suite.ladder &&
+                        suite.ladder->variants[static_cast<size_t>(variant)].name == arguments[3]);
+      if (wanted) Study(suite, variant, realizations);
+    }
+  } catch (const BadInput& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 2;
+  }
+  return 0;
+}
