@@ -1,22 +1,6 @@
 #include "models/foundation/start_stream.h"
 
-#include <fmt/format.h>
-
-#include <string>
-
-#include "models/foundation/sha256.h"
-
 namespace warmjoint::inline models {
-
-StartKey StartKeyOf(std::uint64_t seed, std::uint64_t realization) {
-  const std::string digits =
-      Sha256(fmt::format("warmjoint identifier start {} {}", seed, realization));
-  StartKey key;
-  for (size_t i = 0; i < key.digest.size(); ++i) {
-    key.digest[i] = std::stoull(digits.substr(16 * i, 16), nullptr, 16);
-  }
-  return key;
-}
 
 StartStream::StartStream(StartKey key)
     : key_{{key.digest[0], key.digest[1], key.digest[2], key.digest[3]}} {}

@@ -16,9 +16,6 @@ struct StartKey {
   bool operator==(const StartKey&) const = default;
 };
 
-/// SHA-256 of the suite's seed and the realization.
-StartKey StartKeyOf(std::uint64_t seed, std::uint64_t realization);
-
 /// Threefry 4x64-20 (Salmon et al. 2011) keyed by the digest: another family than RandomStream.
 class StartStream {
  public:

@@ -40,7 +40,8 @@ class Contract : public ::testing::TestWithParam<Identifier> {
       }
     }
     const Options options(GetParam().options, given, {});
-    return IdentifyUnjudged(GetParam(), {Prepare(measurements, selection), options, StartKeyOf(11, 3)});
+    return IdentifyUnjudged(GetParam(),
+                            {Prepare(measurements, selection), options, StartKey{{11, 3}}});
   }
   Estimate Identify(const Measurements& measurements) const {
     return Identify(measurements, SelectMoving(measurements));

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "identification/answer/judge_estimate.h"
 #include "identification/fit_data.h"
 #include "identification/options.h"
 #include "identification/warming/estimated_start.h"
@@ -200,7 +201,8 @@ std::vector<std::string> Filled(std::vector<std::string> words) {
   return words;
 }
 
-Estimate Ask(const Command& command, const Measurements& measurements, const Selection& selection) {
+Estimate Ask(const Command& command, const PreparedLog& log) {
+  const auto& [measurements, selection] = log.taken();
   const WorkingDirectory directory;
   WriteMeasurements(measurements, command.text, directory.path());
   const Wall wall(command.readable, directory.path());
@@ -220,6 +222,7 @@ Estimate Ask(const Command& command, const Measurements& measurements, const Sel
   Estimate estimate = ReadAnswer(directory.path() / "estimate.json", command.label);
   AddDiscretePair(estimate, measurements);
   AddMetrics(estimate, measurements, selection);
+  JudgeEstimate(log, {}, estimate);
   return estimate;
 }
 
@@ -284,9 +287,7 @@ PreparedIdentifier PrepareExternal(const SuiteIdentifier& identifier, const Plac
   command.limits.seconds = options.Number("time_limit");
   command.limits.memory =
       static_cast<std::size_t>(options.Number("memory") * static_cast<double>(1 << 20));
-  return [command](const PreparedLog& log, StartKey) {
-    return Ask(command, log.taken().measurements, log.taken().selection);
-  };
+  return [command](const PreparedLog& log, StartKey) { return Ask(command, log); };
 }
 
 }  // namespace warmjoint::inline tools

@@ -34,7 +34,7 @@ std::vector<std::filesystem::path> ReadableBy(const SuiteIdentifier& identifier)
 /// no other of this program's files (wall.h), under limits (run_command.h): {recording} stands for
 /// recording.csv, {recording.h5} for HDF5, {estimate} for the estimate.json to write. A command
 /// that fails, takes too long or writes something else throws NoAnswer: crashed, timeout,
-/// bad_answer.
+/// bad_answer. The answer is judged like those of our own identifiers (judge_estimate.h).
 PreparedIdentifier PrepareExternal(const SuiteIdentifier& identifier, const Place& place);
 
 }  // namespace warmjoint::inline tools

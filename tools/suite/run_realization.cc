@@ -6,6 +6,7 @@
 
 #include "models/foundation/output_failed.h"
 #include "models/foundation/robust_noise.h"
+#include "tools/suite/start_key.h"
 #include "tools/suite/trace_table.h"
 
 namespace warmjoint::inline tools {

@@ -57,7 +57,7 @@ TEST(EnergyEm, RecoversNoiseFreeTruth) {
 }
 
 TEST(EnergyEm, SaysThatFiftyIterationsAreTooFewForSteadyMotion) {
-  const Estimate estimate = Identify(TableOneRecording(2), {{"start", "random"}}, StartKeyOf(7, 2));
+  const Estimate estimate = Identify(TableOneRecording(2), {{"start", "random"}}, StartKey{{7, 2}});
   EXPECT_EQ(estimate.status, Status::not_converged);
   EXPECT_THAT(estimate.message, HasSubstr("stopped after 50 iterations"));
   // the numbers can be scored, but nothing says how good they are
@@ -90,7 +90,7 @@ TEST(EnergyEm, ConvergesInFiftyIterationsWhereRestsLetTheJointCool) {
   int near = 0;
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const Estimate estimate =
-        Identify(TableOneRecording(seed, 600), {{"start", "random"}}, StartKeyOf(1, seed));
+        Identify(TableOneRecording(seed, 600), {{"start", "random"}}, StartKey{{1, seed}});
     const Eigen::Vector4d error{estimate.Find("viscous")->value / 5 - 1,
                                 estimate.Find("coulomb")->value / 15 - 1,
                                 estimate.Find("thermal_gain")->value / -3 - 1,
@@ -117,7 +117,7 @@ TEST(EnergyEm, DrawsItsStartFromItsKeyAlone) {
   const Given given{{"start", "random"}, {"iterations", "1"}};
   const auto first = Identify(recording, given, {7, 1}).trace[0].parameters;
   EXPECT_EQ(Identify(recording, given, {7, 1}).trace[0].parameters, first);
-  EXPECT_NE(Identify(recording, given, StartKeyOf(7, 2)).trace[0].parameters, first);
+  EXPECT_NE(Identify(recording, given, StartKey{{7, 2}}).trace[0].parameters, first);
 }
 
 TEST(EnergyEm, GivesNoNumbersForOneSpeedAlone) {
