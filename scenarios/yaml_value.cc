@@ -35,11 +35,30 @@ void CheckShape(const YAML::Node& node, int depth, int& count, const std::string
   }
 }
 
+/// The line on which a second document begins; 0: none. YAML::LoadAll does not end on some broken texts.
+int SecondDocument(std::string_view text) {
+  bool content = false;
+  for (int number = 1; !text.empty(); ++number) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    const bool marker = line.starts_with("---") && line.find_first_not_of(" \t\r", 3) != 3;
+    if (marker && content) return number;
+    const std::size_t first = line.find_first_not_of(" \t\r", marker ? 3 : 0);
+    const bool nothing = first == std::string_view::npos || line[first] == '#' || line[0] == '%';
+    content = content || !nothing;
+  }
+  return 0;
+}
+
 YAML::Node ParseYaml(const std::string& text, const std::string& file) {
   if (const auto broken = FirstBrokenByte(text)) {
     const auto end = text.begin() + static_cast<std::ptrdiff_t>(*broken);
     const auto line = static_cast<int>(1 + std::count(text.begin(), end, '\n'));
     Refuse({file, line}, "byte {} is no UTF-8 text; save the file as UTF-8", *broken + 1);
+  }
+  if (const int line = SecondDocument(text)) {
+    Refuse({file, line}, "begins another document; keep one");
   }
   try {
     const YAML::Node root = YAML::Load(text);
@@ -130,6 +149,7 @@ std::string YamlValue::Shown() const {
 }
 
 std::vector<std::string> YamlValue::Keys() const {
+  if (!IsMap()) RefuseValue("a map");
   std::vector<std::string> keys;
   for (const auto& entry : node_) keys.push_back(entry.first.Scalar());
   return keys;

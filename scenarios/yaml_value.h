@@ -50,7 +50,7 @@ class YamlValue {
   /// Refuses a value that is no map, keys that stand twice, and keys that are not among `known`,
   /// with the nearest.
   void RequireKeys(const std::vector<std::string>& known) const;
-  /// Names of the keys, in their order in the file.
+  /// Names of the keys, in their order in the file. Refuses a value that is no map.
   std::vector<std::string> Keys() const;
   /// The entry of that name; nothing where it is absent or null. The value must be a map.
   std::optional<YamlValue> Find(std::string_view name) const;

@@ -1,6 +1,6 @@
 // The fuzz targets without Clang: every file of the given folders as it is, then changed by chance.
-//   fuzz_NAME [--mutations N] [--seconds N] [--dictionary FILE] FILE|FOLDER...
-// N changed inputs of each file, or as many as N seconds allow. The same files and N give the same inputs.
+//   fuzz_NAME [--mutations N] [--seconds N] [--seed N] [--dictionary FILE] FILE|FOLDER...
+// N changed inputs of each file, or as many as N seconds allow. The same files, N and seed give the same inputs.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -96,7 +96,7 @@ void AddFiles(const fs::path& path, Inputs& inputs) {
 
 int main(int argc, char** argv) {
   Inputs inputs;
-  std::uint64_t mutations = 0, seconds = 0;
+  std::uint64_t mutations = 0, seconds = 0, seed = 11;
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
     const bool has_value = i + 1 < argc;
@@ -104,6 +104,8 @@ int main(int argc, char** argv) {
       mutations = std::stoull(argv[++i]);
     } else if (argument == "--seconds" && has_value) {
       seconds = std::stoull(argv[++i]);
+    } else if (argument == "--seed" && has_value) {
+      seed = std::stoull(argv[++i]);
     } else if (argument == "--dictionary" && has_value) {
       inputs.tokens = ReadDictionary(argv[++i]);
     } else {
@@ -126,7 +128,7 @@ int main(int argc, char** argv) {
 
   // changed, round after round over all files
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(seconds);
-  RandomStream random({11, 0}, Stream::test);
+  RandomStream random({seed, 0}, Stream::test);
   std::uint64_t round = 0, executions = inputs.files.size();
   for (; round < mutations || std::chrono::steady_clock::now() < end; ++round) {
     for (std::size_t i = 0; i < inputs.files.size(); ++i, ++executions) {

@@ -39,6 +39,11 @@ TEST(HostileYaml, CyclesAreRefusedWithTheirLine) {
   EXPECT_THAT(Refusal(kRest + kFriction, {{"friction", "&a [*a]"}}), HasSubstr("holds itself"));
 }
 
+TEST(HostileYaml, ASecondDocumentIsNotPassedOver) {
+  EXPECT_THAT(Refusal(kRest + kFriction + "---\nduration: 20\n"),
+              HasSubstr("s.yaml:7: begins another document; keep one"));
+}
+
 TEST(HostileYaml, AliasesThatMultiplyAreCounted) {
   std::string laughs = "friction:\n  a0: &a0 [1,1,1,1,1,1,1,1,1]\n";
   for (int i = 1; i < 10; ++i) {

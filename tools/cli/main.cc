@@ -6,6 +6,7 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <filesystem>
 #include <new>
 #include <system_error>
 
@@ -43,6 +44,12 @@ ExitStatus Run(int argc, char** argv) {
   } catch (const warmjoint::OutputFailed& error) {
     Tell("error", error.what());
     return ExitStatus::output_failed;
+  } catch (const std::filesystem::filesystem_error& error) {
+    // a name that the system takes for none, or a folder that cannot be entered
+    Tell("error",
+         fmt::format("{}: cannot be used: {}", error.path1().string(), error.code().message()));
+    const bool full = error.code() == std::errc::no_space_on_device;
+    return full ? ExitStatus::output_failed : ExitStatus::bad_input;
   } catch (const std::bad_alloc&) {
     Tell("error", "this takes more memory than there is; give less data or a smaller task");
     return ExitStatus::bad_input;

@@ -165,7 +165,9 @@ TraceTable RunStore::ReadTrace(Unit unit, int identifier) const {
     for (std::string name; std::getline(columns, name, ',');) trace.columns.push_back(name);
     const SQLite::Column blob = row.getColumn(1);
     trace.values.resize(static_cast<size_t>(blob.getBytes()) / sizeof(float));
-    std::memcpy(trace.values.data(), blob.getBlob(), trace.values.size() * sizeof(float));
+    if (!trace.values.empty()) {
+      std::memcpy(trace.values.data(), blob.getBlob(), trace.values.size() * sizeof(float));
+    }
     const std::string digest =
         DigestOfTrace(DigestOfPlan(ReadDescription()), unit, identifier, trace);
     if (digest != row.getColumn(2).getString()) RefuseChanged(unit, {results_file().string()});

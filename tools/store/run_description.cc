@@ -67,7 +67,12 @@ void RefuseDifferentVersions(const RunDescription& stored, const RunDescription&
 void RefuseDifferentRun(const RunDescription& stored, const RunDescription& asked,
                         const Place& place) {
   RefuseDifferentVersions(stored, asked, place);
-  std::vector<std::string> differences = SuiteDifferences(stored.suite_yaml, asked.suite_yaml);
+  std::vector<std::string> differences;
+  try {
+    differences = SuiteDifferences(stored.suite_yaml, asked.suite_yaml);
+  } catch (const BadInput& unreadable) {
+    Refuse(place, "holds no suite that can be read ({})", unreadable.what());
+  }
   if (differences.empty()) return;
   const size_t shown = std::min<size_t>(differences.size(), 5);
   const std::string more =
