@@ -3,7 +3,9 @@
 
 #include <memory>
 
+#include "models/foundation/bad_input.h"
 #include "tools/cli/command.h"
+#include "tools/cluster/gather.h"
 #include "tools/store/merge_runs.h"
 
 namespace warmjoint::inline tools {
@@ -30,7 +32,20 @@ void TellMissing(const std::set<Unit>& missing) {
              missing.size(), fmt::join(shown, ", "), missing.size() > most ? ", ..." : "");
 }
 
+/// A run that was planned as shards becomes whole in its own directory.
+ExitStatus MergeInPlace(const std::filesystem::path& given) {
+  const std::filesystem::path run = std::filesystem::absolute(given).lexically_normal();
+  const MergedRun merged = MergePlanned(run, ReadPlan(run));
+  fmt::print("{}: {} results, {} realizations; see: warmjoint compare {}\n", given.string(),
+             merged.results, merged.units, given.string());
+  return ExitStatus::done;
+}
+
 ExitStatus Merge(const MergeArguments& arguments) {
+  if (arguments.output.empty()) {
+    if (arguments.shards.size() == 1) return MergeInPlace(arguments.shards.front());
+    Refuse({"warmjoint merge"}, "several shards need -o, the run directory to make");
+  }
   const MergedRun merged = MergeRuns(arguments.shards, arguments.output);
   fmt::print("{}: {} results of {} shards, {} of {} realizations; see: warmjoint compare {}\n",
              arguments.output, merged.results, arguments.shards.size(),
@@ -44,8 +59,12 @@ ExitStatus Merge(const MergeArguments& arguments) {
 Command AddMergeCommand(CLI::App& program) {
   auto arguments = std::make_shared<MergeArguments>();
   CLI::App* parser = program.add_subcommand("merge", "Put the shards of a run together");
-  parser->add_option("SHARD", arguments->shards, "run directories made with --shard")->required();
-  parser->add_option("-o,--output", arguments->output, "run directory to make")->required();
+  parser
+      ->add_option("SHARD", arguments->shards,
+                   "run directories made with --shard, or one that was planned")
+      ->required();
+  parser->add_option("-o,--output", arguments->output,
+                     "run directory to make; a planned run becomes whole in its own");
   return {parser, [arguments] { return Merge(*arguments); }};
 }
 

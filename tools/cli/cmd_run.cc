@@ -15,10 +15,12 @@
 #include "scenarios/parse_suite.h"
 #include "sim/plant/plant.h"
 #include "tools/cli/command.h"
+#include "tools/cli/run_arguments.h"
+#include "tools/cli/run_in_shards.h"
 #include "tools/cli/whole_number.h"
 #include "tools/store/export_csv.h"
 #include "tools/store/run_store.h"
-#include "tools/suite/choose_identifiers.h"
+#include "tools/suite/arithmetic.h"
 #include "tools/suite/describe_run.h"
 #include "tools/suite/engine.h"
 #include "tools/suite/external_identifier.h"
@@ -31,52 +33,6 @@ namespace {
 
 constexpr std::uint64_t kMostJobs = 1024;
 constexpr std::uint64_t kLargestSeed = std::numeric_limits<std::uint64_t>::max();
-
-struct RunArguments {
-  std::string suite;
-  std::string output;
-  std::optional<std::uint64_t> jobs;
-  std::optional<std::uint64_t> realizations;
-  std::optional<std::uint64_t> seed;
-  std::vector<std::string> identifiers;
-  std::string shard = "1/1";
-  bool keep = false;
-  bool allow_commands = false;
-  bool shell = false;
-};
-
-/// Refuses a command that a suite brings along and nobody has agreed to: a suite from elsewhere would be
-/// a program.
-void RefuseCommand(const SuiteIdentifier& identifier, const RunArguments& arguments) {
-  const auto command = identifier.options.find("command");
-  if (identifier.name != kExternal || command == identifier.options.end()) return;
-  if (!arguments.allow_commands) {
-    Refuse({arguments.suite},
-           "identifier {} runs the command '{}'; where you trust it, give --allow-commands",
-           Excerpt(identifier.label), Excerpt(command->second, kLongestComplaint));
-  }
-  if (NeedsShell(identifier) && !arguments.shell) {
-    Refuse({arguments.suite},
-           "identifier {} gives the line '{}' to a shell; where you trust it, give --shell",
-           Excerpt(identifier.label), Excerpt(command->second, kLongestComplaint));
-  }
-}
-
-/// The suite with what the command line changes.
-Suite ResolveSuite(const RunArguments& arguments) {
-  Suite suite = ReadSuite(arguments.suite);
-  if (arguments.realizations) suite.realizations = static_cast<int>(*arguments.realizations);
-  if (arguments.seed) suite.scenario.seed = *arguments.seed;
-  const std::vector<SuiteIdentifier> own = suite.identifiers;
-  suite.identifiers = ChooseIdentifiers(own, arguments.identifiers,
-                                        arguments.shell ? CommandForm::shell : CommandForm::words);
-  for (const SuiteIdentifier& identifier : suite.identifiers) {
-    // what the command line itself names was agreed to by naming it
-    const bool brought = std::find(own.begin(), own.end(), identifier) != own.end();
-    if (brought) RefuseCommand(identifier, arguments);
-  }
-  return suite;
-}
 
 /// Whether an identifier answered, be it with a verdict.
 bool IsAnswer(const Result& result) {
@@ -114,7 +70,7 @@ ExitStatus Finish(RunStore& store, const Shard& shard) {
     fmt::print(stderr, "{} answered in no realization; the first time: {}\n", Excerpt(label),
                Excerpt(message, kLongestComplaint));
   }
-  return silent.empty() || shard.count > 1 ? ExitStatus::done : ExitStatus::no_answer;
+  return silent.empty() || !shard.IsWhole() ? ExitStatus::done : ExitStatus::no_answer;
 }
 
 /// Says what keeps commands of others from the truth, where there are any.
@@ -144,6 +100,10 @@ void RefuseEditedCopy(const RunArguments& arguments, const RunDescription& descr
 }
 
 ExitStatus Run(const RunArguments& arguments) {
+  SettleArithmetic();
+  if (arguments.in_shards()) return RunInShards(arguments);
+  RefuseShardOptions(arguments);
+
   // everything that can be refused is, before anything is written
   const Suite suite = ResolveSuite(arguments);
   const std::vector<PreparedIdentifier> identifiers =
@@ -185,13 +145,17 @@ Command AddRunCommand(CLI::App& program) {
   parser->add_option("--identifier", arguments->identifiers,
                      "only this one of the suite, another one with its defaults, or your own as\n"
                      "'name=command {recording} {estimate}'; repeatable");
-  parser->add_option("--shard", arguments->shard, "part i of n, to be merged later: i/n")
+  parser
+      ->add_option("--shard", arguments->shard,
+                   "part i of n, or realizations a to b - 1, to be merged later: i/n or\n"
+                   "a:b")
       ->capture_default_str();
   parser->add_flag("--allow-commands", arguments->allow_commands,
                    "run the commands that the suite names as identifiers");
   parser->add_flag("--shell", arguments->shell,
                    "give commands of identifiers to /bin/sh, instead of as lists of arguments");
   parser->add_flag("--keep-recordings", arguments->keep, "recordings (HDF5) into RUN/recordings");
+  AddShardOptions(*parser, *arguments);
   return {parser, [arguments] { return Run(*arguments); }};
 }
 

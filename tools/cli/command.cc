@@ -6,6 +6,7 @@ std::vector<Command> AddCommands(CLI::App& program) {
   return {
       AddListCommand(program),     AddSimulateCommand(program), AddCheckCommand(program),
       AddIdentifyCommand(program), AddAttachCommand(program),   AddRunCommand(program),
+      AddTaskCommand(program),     AddStatusCommand(program),   AddCancelCommand(program),
       AddMergeCommand(program),    AddCompareCommand(program),  AddPlotCommand(program),
       AddReportCommand(program),
   };

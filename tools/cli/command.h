@@ -35,6 +35,9 @@ Command AddPlotCommand(CLI::App& program);
 Command AddReportCommand(CLI::App& program);
 Command AddAttachCommand(CLI::App& program);
 Command AddRunCommand(CLI::App& program);
+Command AddTaskCommand(CLI::App& program);
+Command AddStatusCommand(CLI::App& program);
+Command AddCancelCommand(CLI::App& program);
 Command AddMergeCommand(CLI::App& program);
 Command AddCompareCommand(CLI::App& program);
 

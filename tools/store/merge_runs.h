@@ -5,6 +5,8 @@
 #include <set>
 #include <vector>
 
+#include "tools/store/copy_rows.h"
+#include "tools/store/open_database.h"
 #include "tools/store/result.h"
 
 namespace warmjoint::inline tools {
@@ -16,10 +18,16 @@ struct MergedRun {
   std::set<Unit> missing;  // those of them that no shard holds
 };
 
+/// What is known of the shards.
+struct MergeOptions {
+  Overlap overlap = Overlap::refused;
+  Access access = Access::read;
+};
+
 /// Makes a run directory, new or empty before, with the results of all shards and their table; as a
 /// whole or not at all. Throws BadInput for shards of different runs (naming what differs), for a
-/// realization that two of them hold, and for one that is not what its shard stored.
+/// realization that two of them hold (see Overlap), and for one that is not what its shard stored.
 MergedRun MergeRuns(const std::vector<std::filesystem::path>& shards,
-                    const std::filesystem::path& directory);
+                    const std::filesystem::path& directory, const MergeOptions& options = {});
 
 }  // namespace warmjoint::inline tools

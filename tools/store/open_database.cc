@@ -35,14 +35,22 @@ void CheckIntegrity(const SQLite::Database& database, const fs::path& path) {
          Excerpt(answer, kLongestComplaint));
 }
 
-SQLite::Database Open(const fs::path& path, int flags) {
-  SQLite::Database database(path.string(), flags, kPatience);
+SQLite::Database OpenUnchecked(const fs::path& path, int flags, const char* locking) {
+  SQLite::Database database(path.string(), flags, kPatience, locking);
   Disarm(database);
+  return database;
+}
+
+SQLite::Database Open(const fs::path& path, int flags, const char* locking) {
+  SQLite::Database database = OpenUnchecked(path, flags, locking);
   // a batch survives the end of the process at any moment, and the loss of power up to the last
   database.exec("PRAGMA synchronous = NORMAL");
   CheckIntegrity(database, path);
   return database;
 }
+
+constexpr const char* kLocks = "unix";
+constexpr const char* kNoLocks = "unix-none";
 
 int FlagsOf(Access access) {
   return access == Access::write ? SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE
@@ -74,7 +82,7 @@ void RethrowStoreError(const fs::path& path, const SQLite::Exception& error) {
 
 SQLite::Database OpenDatabase(const fs::path& path, Access access) {
   try {
-    return Open(path, FlagsOf(access));
+    return Open(path, FlagsOf(access), access == Access::frozen ? kNoLocks : kLocks);
   } catch (const SQLite::Exception& error) {
     // a killed writer left a batch that only one who may write can undo
     const bool left = access == Access::read && fs::exists(path.string() + "-journal");
@@ -83,7 +91,11 @@ SQLite::Database OpenDatabase(const fs::path& path, Access access) {
              Excerpt(error.what(), kLongestComplaint));
     }
   }
-  return Guarded(path, [&] { return Open(path, SQLite::OPEN_READWRITE); });
+  return Guarded(path, [&] { return Open(path, SQLite::OPEN_READWRITE, kLocks); });
+}
+
+SQLite::Database ReopenFrozen(const fs::path& path) {
+  return Guarded(path, [&] { return OpenUnchecked(path, SQLite::OPEN_READONLY, kNoLocks); });
 }
 
 }  // namespace warmjoint::inline tools

@@ -2,8 +2,10 @@
 
 #include "models/foundation/atomic_file.h"
 #include "tools/store/check_rows.h"
+#include "tools/store/copy_rows.h"
 #include "tools/store/digest.h"
 #include "tools/store/schema.h"
+#include "tools/store/shards_of.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -13,7 +15,7 @@ constexpr const char* kResultsFile = "results.sqlite";
 constexpr const char* kTimingsFile = "timings.sqlite";
 
 std::optional<SQLite::Database> OpenTimings(const fs::path& path, Access access) {
-  if (access == Access::read && !fs::exists(path)) return std::nullopt;
+  if (access != Access::write && !fs::exists(path)) return std::nullopt;
   return OpenDatabase(path, access);
 }
 
@@ -80,13 +82,15 @@ RunStore RunStore::CreateOrResume(const fs::path& directory, const RunDescriptio
   return store;
 }
 
-RunStore RunStore::OpenToRead(const fs::path& directory) {
+RunStore RunStore::OpenToRead(const fs::path& directory, Access access) {
   const Place place{directory.string()};
   if (!fs::exists(directory / kResultsFile)) {
+    const std::vector<fs::path> shards = ShardsOf(directory);
+    if (!shards.empty()) return OpenShards(shards);
     Refuse(place, "is no run directory ({} is missing); give the -o of `warmjoint run`",
            kResultsFile);
   }
-  RunStore store(directory, Access::read);
+  RunStore store(directory, access);
   Guarded(directory, [&] {
     if (IsEmpty(store.results_)) Refuse(place, "holds no results yet; run the suite again");
     CheckSchema(store.results_, {store.results_file().string()});
@@ -96,9 +100,43 @@ RunStore RunStore::OpenToRead(const fs::path& directory) {
   return store;
 }
 
+RunStore RunStore::OpenShards(const std::vector<fs::path>& shards) {
+  // copies, since tasks put newer files in their place meanwhile
+  auto folder = std::make_shared<TemporaryFolder>("shards");
+  std::vector<fs::path> copies;
+  for (const fs::path& shard : shards) {
+    copies.push_back(folder->path() / shard.filename());
+    fs::create_directory(copies.back());
+    for (const char* name : {kTimingsFile, kResultsFile}) {
+      if (fs::exists(shard / name)) fs::copy_file(shard / name, copies.back() / name);
+    }
+  }
+  const RunDescription description = OpenToRead(copies.front()).ReadDescription();
+  for (std::size_t i = 0; i < copies.size(); ++i) {
+    RefuseDifferentRun(description, OpenToRead(copies[i]).ReadDescription(), {shards[i].string()});
+  }
+  RunStore whole = CreateOrResume(folder->path() / "run", description);
+  whole.Gather(copies, Overlap::equal);
+  whole.folder_ = std::move(folder);
+  return whole;
+}
+
 RunDescription RunStore::ReadDescription() const { return ReadStoredDescription(results_); }
 
-void RunStore::Settle() {
+void RunStore::Settle() { WriteAnew({SourceOf(results_file())}, Overlap::refused); }
+
+void RunStore::Gather(const std::vector<fs::path>& shards, Overlap overlap) {
+  std::vector<RowSource> results, timings;
+  for (const fs::path& shard : shards) {
+    results.push_back(SourceOf(shard / kResultsFile));
+    if (!fs::exists(shard / kTimingsFile)) continue;
+    timings.push_back({shard / kTimingsFile, results.back().first});
+  }
+  Guarded(timings_file(), [&] { CopyTimings(*timings_, timings); });
+  WriteAnew(results, overlap);
+}
+
+void RunStore::WriteAnew(const std::vector<RowSource>& sources, Overlap overlap) {
   const RunDescription description = ReadDescription();
   AtomicFile file(results_file());
   Guarded(results_file(), [&] {
@@ -106,7 +144,7 @@ void RunStore::Settle() {
     // nobody else sees it before it is whole, and Commit() puts it on disk
     fresh.exec("PRAGMA journal_mode = MEMORY; PRAGMA synchronous = OFF");
     CreateResultTables(fresh, description);
-    CopyResults(fresh, fs::absolute(results_file()));
+    CopyResults(fresh, sources, overlap);
   });
   results_ = SQLite::Database(":memory:");
   file.Commit();

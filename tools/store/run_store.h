@@ -4,6 +4,7 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -11,10 +12,12 @@
 #include <span>
 #include <vector>
 
+#include "tools/store/copy_rows.h"
 #include "tools/store/directory_lock.h"
 #include "tools/store/open_database.h"
 #include "tools/store/result.h"
 #include "tools/store/run_description.h"
+#include "tools/store/temporary_folder.h"
 
 namespace warmjoint::inline tools {
 
@@ -29,9 +32,10 @@ class RunStore {
   static RunStore CreateOrResume(const std::filesystem::path& directory,
                                  const RunDescription& description);
 
-  /// Opens an existing run to read it, which needs no right to write. Throws BadInput where there is
+  /// Opens an existing run to read it, which needs no right to write. Of one that was planned as shards
+  /// and is not merged yet, it takes what the shards hold so far. Throws BadInput where there is
   /// none, its schema is older, or it was changed so that its rows do not fit the run.
-  static RunStore OpenToRead(const std::filesystem::path& directory);
+  static RunStore OpenToRead(const std::filesystem::path& directory, Access access = Access::read);
 
   const std::filesystem::path& directory() const { return directory_; }
   std::string suite_file() const { return directory_ / "suite.yaml"; }
@@ -49,12 +53,24 @@ class RunStore {
   /// however often the run was stopped, equal results are then equal bytes.
   void Settle();
 
+  /// Takes the results and wall times of run directories, in the order of their keys, in place of what
+  /// is there. Nobody may write to them meanwhile.
+  void Gather(const std::vector<std::filesystem::path>& shards, Overlap overlap);
+
   /// What is in.
   std::set<Unit> Finished() const;
+
+  /// Calls work(results) for each unit in the order of (variant, realization): its results in the order
+  /// of identifiers, without their traces. Memory does not grow with the run. Throws BadInput for a
+  /// realization that is not what was stored.
+  void ForEachUnit(const std::function<void(std::vector<Result>)>& work) const;
 
   /// All results ordered by (variant, realization, identifier), without their traces. Throws
   /// BadInput for a realization that is not what was stored.
   std::vector<Result> ReadResults() const;
+
+  /// Throws BadInput for a realization or a trace that is not what was stored.
+  void Verify() const;
 
   /// The trace of one result; empty where there is none.
   TraceTable ReadTrace(Unit unit, int identifier) const;
@@ -64,9 +80,11 @@ class RunStore {
 
  private:
   RunStore(std::filesystem::path directory, Access access);
+  static RunStore OpenShards(const std::vector<std::filesystem::path>& shards);
 
-  std::vector<Result> ReadRows() const;
+  void WriteAnew(const std::vector<RowSource>& sources, Overlap overlap);
 
+  std::shared_ptr<TemporaryFolder> folder_;  // of shards that were put together to read them
   std::filesystem::path directory_;
   std::unique_ptr<DirectoryLock> lock_;  // of a writer
   SQLite::Database results_;

@@ -138,23 +138,6 @@ void CheckTimingSchema(const SQLite::Database& timings, const Place& place) {
   RefuseForeignObjects(timings, kTimingTables, place);
 }
 
-void CopyResults(SQLite::Database& fresh, const std::string& from) {
-  SQLite::Statement attach(fresh, "ATTACH ? AS old");
-  attach.bind(1, from);
-  attach.exec();
-  SQLite::Transaction transaction(fresh);
-  for (const char* copy : {
-           "INSERT INTO realization SELECT * FROM old.realization ORDER BY 1, 2",
-           "INSERT INTO result SELECT * FROM old.result ORDER BY 1, 2, 3",
-           "INSERT INTO parameter SELECT * FROM old.parameter ORDER BY 1, 2, 3, 4, 5",
-           "INSERT INTO trace SELECT * FROM old.trace ORDER BY 1, 2, 3",
-       }) {
-    fresh.exec(copy);
-  }
-  transaction.commit();
-  fresh.exec("DETACH old");
-}
-
 RunDescription ReadStoredDescription(const SQLite::Database& results) {
   RunDescription description;
   SQLite::Statement suite(results, "SELECT yaml FROM suite");

@@ -22,10 +22,6 @@ bool IsEmpty(const SQLite::Database& database);
 void CheckSchema(const SQLite::Database& results, const Place& place);
 void CheckTimingSchema(const SQLite::Database& timings, const Place& place);
 
-/// Copies all rows of the results in file `from` into empty tables, in the order of their keys, so
-/// that equal results are equal bytes in whatever order they came.
-void CopyResults(SQLite::Database& fresh, const std::string& from);
-
 /// The description that CreateResultTables stored.
 RunDescription ReadStoredDescription(const SQLite::Database& results);
 

@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 
+#include "tools/suite/arithmetic.h"
+
 namespace warmjoint::inline tools {
 
 RunDescription Describe(const Suite& suite) {
@@ -20,6 +22,7 @@ RunDescription Describe(const Suite& suite) {
     }
   }
   description.versions = {
+      {"arithmetic", ArithmeticDigest()},
       {"ceres", CERES_VERSION_STRING},
       {"eigen",
        fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},

@@ -18,8 +18,20 @@ TEST(Shard, EveryRealizationIsInExactlyOne) {
   }
 }
 
+TEST(Shard, ARangeHoldsItsRealizationsAndMayBeEmpty) {
+  const Shard range = ReadShard("2:5");
+  EXPECT_FALSE(range.Holds({0, 1}));
+  EXPECT_TRUE(range.Holds({3, 2}));
+  EXPECT_TRUE(range.Holds({0, 4}));
+  EXPECT_FALSE(range.Holds({0, 5}));
+  EXPECT_FALSE(ReadShard("5:5").Holds({0, 5}));
+  EXPECT_FALSE(range.IsWhole());
+  EXPECT_TRUE(Shard().IsWhole());
+}
+
 TEST(Shard, RefusesWhatIsNoPart) {
-  for (const char* text : {"", "1", "0/3", "4/3", "1/0", "a/b", "1/3/5", "-1/3"}) {
+  for (const char* text :
+       {"", "1", "0/3", "4/3", "1/0", "a/b", "1/3/5", "-1/3", "3:2", "-1:2", "1:", "a:b"}) {
     EXPECT_THROW(ReadShard(text), BadInput) << text;
   }
 }

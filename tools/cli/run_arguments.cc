@@ -1,0 +1,47 @@
+#include "tools/cli/run_arguments.h"
+
+#include <algorithm>
+
+#include "models/foundation/bad_input.h"
+#include "models/foundation/excerpt.h"
+#include "tools/suite/choose_identifiers.h"
+#include "tools/suite/external_identifier.h"
+
+namespace warmjoint::inline tools {
+namespace {
+
+/// Refuses a command that a suite brings along and nobody has agreed to: a suite from elsewhere would be
+/// a program.
+void RefuseCommand(const SuiteIdentifier& identifier, const RunArguments& arguments) {
+  const auto command = identifier.options.find("command");
+  if (identifier.name != kExternal || command == identifier.options.end()) return;
+  if (!arguments.allow_commands) {
+    Refuse({arguments.suite},
+           "identifier {} runs the command '{}'; where you trust it, give --allow-commands",
+           Excerpt(identifier.label), Excerpt(command->second, kLongestComplaint));
+  }
+  if (NeedsShell(identifier) && !arguments.shell) {
+    Refuse({arguments.suite},
+           "identifier {} gives the line '{}' to a shell; where you trust it, give --shell",
+           Excerpt(identifier.label), Excerpt(command->second, kLongestComplaint));
+  }
+}
+
+}  // namespace
+
+Suite ResolveSuite(const RunArguments& arguments) {
+  Suite suite = ReadSuite(arguments.suite);
+  if (arguments.realizations) suite.realizations = static_cast<int>(*arguments.realizations);
+  if (arguments.seed) suite.scenario.seed = *arguments.seed;
+  const std::vector<SuiteIdentifier> own = suite.identifiers;
+  suite.identifiers = ChooseIdentifiers(own, arguments.identifiers,
+                                        arguments.shell ? CommandForm::shell : CommandForm::words);
+  for (const SuiteIdentifier& identifier : suite.identifiers) {
+    // what the command line itself names was agreed to by naming it
+    const bool brought = std::find(own.begin(), own.end(), identifier) != own.end();
+    if (brought) RefuseCommand(identifier, arguments);
+  }
+  return suite;
+}
+
+}  // namespace warmjoint::inline tools

@@ -1,0 +1,120 @@
+#include "tools/cluster/batch_script.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "models/foundation/bad_input.h"
+#include "models/foundation/excerpt.h"
+#include "tools/cluster/arrays.h"
+#include "tools/cluster/run_layout.h"
+#include "tools/suite/command_line.h"
+
+namespace warmjoint::inline tools {
+namespace fs = std::filesystem;
+namespace {
+
+/// Keys whose values a plan needs as they are.
+constexpr std::array<const char*, 6> kOwnKeys{"array",   "output", "open-mode",
+                                              "requeue", "signal", "dependency"};
+
+/// A line for sbatch; percent signs of a path are no patterns.
+std::string Directive(const std::string& key, const std::string& value) {
+  return fmt::format("#SBATCH --{}={}\n", key,
+                     value.find(' ') == std::string::npos ? value : '"' + value + '"');
+}
+
+std::string LogPath(const fs::path& run, const char* pattern) {
+  return Replaced((PlanFolder(run) / "log").string(), "%", "%%") + "/" + pattern;
+}
+
+std::string Forwarded(const Plan& plan) {
+  std::string lines;
+  for (const std::string& entry : plan.sbatch) {
+    const std::size_t equals = entry.find('=');
+    lines += Directive(entry.substr(0, equals), entry.substr(equals + 1));
+  }
+  return lines;
+}
+
+// the task runs beside the shell, which alone gets the signal before the limit and hands it on
+constexpr const char* kBody = R"sh(
+offset=${{1:-0}}
+
+{program} task {run} $((offset + SLURM_ARRAY_TASK_ID + 1)) &
+task=$!
+trap 'kill -TERM $task' TERM
+status=0
+wait $task || status=$?
+while kill -0 $task 2>/dev/null; do
+  status=0
+  wait $task || status=$?
+done
+
+# 130: ended before its limit; 137: killed from outside. Another task goes on from the last checkpoint, unless the job
+# was cancelled: then it is running no more
+if [ $status -eq 130 ] || [ $status -eq 137 ]; then
+  [ "$(squeue -h -j "$SLURM_JOB_ID" -o %T)" = RUNNING ] && scontrol requeue "$SLURM_JOB_ID" && sleep 60
+fi
+exit $status
+)sh";
+
+}  // namespace
+
+void CheckSbatch(const std::vector<std::string>& entries) {
+  for (const std::string& entry : entries) {
+    const std::size_t equals = entry.find('=');
+    const std::string key = entry.substr(0, equals);
+    const bool fits = equals != std::string::npos && !key.empty() &&
+                      key.find_first_not_of("abcdefghijklmnopqrstuvwxyz-") == std::string::npos &&
+                      std::none_of(entry.begin(), entry.end(),
+                                   [](unsigned char c) { return c < 32 || c == '"' || c == '\\'; });
+    if (!fits) {
+      Refuse({"--sbatch"}, "is '{}'; give key=value, for example partition=long", Excerpt(entry));
+    }
+    if (std::find(kOwnKeys.begin(), kOwnKeys.end(), key) == kOwnKeys.end()) continue;
+    Refuse({"--sbatch"}, "is '{}'; a plan sets {} itself: edit array.sbatch after --dry-run",
+           Excerpt(entry), key);
+  }
+}
+
+std::string ArrayScript(const Plan& plan, const fs::path& run, int most_indices) {
+  std::vector<int> all(plan.shards.size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i) + 1;
+  const std::vector<JobArray> arrays = ArraysOf(all, most_indices, plan.array_parallelism);
+
+  std::string script = "#!/bin/bash\n";
+  script += fmt::format("# Shards 1 to {} of {}. To submit them by hand:\n", plan.shards.size(),
+                        run.string());
+  for (const JobArray& array : arrays) {
+    script += fmt::format("#   sbatch --array={} {} {}\n", array.indices,
+                          JoinCommand({PlanFolder(run) / "array.sbatch"}), array.offset);
+  }
+  script += "#   sbatch --dependency=afterany:JOB[:JOB]... " +
+            JoinCommand({PlanFolder(run) / "merge.sbatch"}) + "\n";
+  script += Directive("job-name", "warmjoint");
+  script += Directive("cpus-per-task", std::to_string(plan.jobs));
+  script += Forwarded(plan);
+  script += Directive("array", arrays.front().indices);
+  script += "#SBATCH --requeue\n" + Directive("open-mode", "append");
+  script += Directive("signal", "B:TERM@60") + Directive("output", LogPath(run, "%A_%a.log"));
+  return script + fmt::format(kBody, fmt::arg("program", JoinCommand({plan.program.path})),
+                              fmt::arg("run", JoinCommand({run})));
+}
+
+std::string MergeScript(const Plan& plan, const fs::path& run) {
+  return "#!/bin/bash\n" + Directive("job-name", "warmjoint-merge") + Forwarded(plan) +
+         Directive("output", LogPath(run, "merge_%j.log")) + "\nexec " +
+         JoinCommand({plan.program.path, "merge", run}) + "\n";
+}
+
+std::string ParallelRecipe(const Plan& plan, const fs::path& run) {
+  return fmt::format(
+      "without Slurm, by GNU parallel on this machine or with --sshloginfile on several that share "
+      "the folder:\n  seq {} | parallel --retries 3 {}\n  {}\n",
+      plan.shards.size(), JoinCommand({plan.program.path, "task", run}) + " {}",
+      JoinCommand({plan.program.path, "merge", run}));
+}
+
+}  // namespace warmjoint::inline tools

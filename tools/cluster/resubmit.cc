@@ -1,0 +1,95 @@
+#include "tools/cluster/resubmit.h"
+
+#include <algorithm>
+
+#include "models/foundation/atomic_file.h"
+#include "models/foundation/bad_input.h"
+#include "tools/cluster/batch_script.h"
+#include "tools/cluster/make_plan.h"
+#include "tools/cluster/run_layout.h"
+#include "tools/cluster/run_status.h"
+#include "tools/cluster/shard_state.h"
+#include "tools/cluster/slurm.h"
+#include "tools/cluster/submissions.h"
+#include "tools/store/directory_lock.h"
+#include "tools/store/run_store.h"
+
+namespace warmjoint::inline tools {
+namespace fs = std::filesystem;
+namespace {
+
+/// The first realization that a shard's results lack in any variant.
+int FirstOpen(const fs::path& folder, const PlannedShard& shard, int variants) {
+  if (!fs::exists(folder / "results.sqlite")) return shard.first;
+  const std::set<Unit> finished = RunStore::OpenToRead(folder, Access::frozen).Finished();
+  for (int realization = shard.first; realization < shard.end; ++realization) {
+    for (int variant = 0; variant < variants; ++variant) {
+      if (!finished.contains({variant, realization})) return realization;
+    }
+  }
+  return shard.end;
+}
+
+/// Ends shard `number` at what it has finished and adds shards for the rest; their numbers.
+std::vector<int> Split(const fs::path& run, Plan& plan, int number, int pieces, int variants) {
+  PlannedShard& shard = plan.shards[static_cast<std::size_t>(number - 1)];
+  const fs::path folder = ShardFolder(run, number);
+  const int open = FirstOpen(folder, shard, variants);
+  const auto rest = PartEvenly(open, shard.end, std::min(pieces, shard.end - open));
+  shard.end = open;
+  fs::create_directories(folder);
+  ShardState state = ReadShardState(folder).value_or(ShardState());
+  state.phase = Phase::done;
+  state.finished = state.total = shard.size() * variants;
+  WriteShardState(folder, state);
+
+  std::vector<int> numbers;
+  for (const PlannedShard& piece : rest) {
+    plan.shards.push_back(piece);
+    numbers.push_back(static_cast<int>(plan.shards.size()));
+  }
+  return numbers;
+}
+
+/// A person who starts a shard again gives it all its starts again.
+void Forgive(const fs::path& folder) {
+  auto state = ReadShardState(folder);
+  if (!state) return;
+  state->phase = Phase::interrupted;
+  state->idle_starts = 0;
+  WriteShardState(folder, *state);
+}
+
+}  // namespace
+
+std::vector<int> Resubmit(const fs::path& run, int pieces) {
+  Plan plan = ReadPlan(run);
+  const DirectoryLock lock(PlanFolder(run));
+  const auto queue = AskQueue();
+  if (!queue) {
+    Refuse({run.string()},
+           "Slurm does not answer, so that nobody knows what is at work; without Slurm go on with "
+           "the same `run --local-shards N`");
+  }
+  const RunStatus status = StatusOf(run, plan, InQueue(ReadSubmissions(run), *queue));
+  std::vector<int> lost = status.missing;
+  lost.insert(lost.end(), status.failed.begin(), status.failed.end());
+  std::sort(lost.begin(), lost.end());
+
+  std::vector<int> again;
+  const int variants = status.total / std::max(1, status.realizations);
+  for (const int number : lost) {
+    Forgive(ShardFolder(run, number));
+    if (pieces == 1) {
+      again.push_back(number);
+    } else {
+      const std::vector<int> numbers = Split(run, plan, number, pieces, variants);
+      again.insert(again.end(), numbers.begin(), numbers.end());
+    }
+  }
+  if (pieces > 1) WritePlan(run, plan);
+  if (!again.empty()) Submit(run, plan, again);
+  return again;
+}
+
+}  // namespace warmjoint::inline tools

@@ -1,0 +1,74 @@
+#include "tools/cluster/task_folder.h"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <optional>
+#include <thread>
+
+#include "models/foundation/bad_input.h"
+#include "tools/store/directory_lock.h"
+
+namespace warmjoint::inline tools {
+namespace fs = std::filesystem;
+namespace {
+
+/// A folder that belongs to this user and is open to nobody else; one that someone planted is refused.
+void MakePrivate(const fs::path& folder) {
+  mkdir(folder.c_str(), 0700);
+  struct stat status {};
+  const bool found = lstat(folder.c_str(), &status) == 0;
+  const bool ours =
+      found && S_ISDIR(status.st_mode) && status.st_uid == geteuid() && (status.st_mode & 077) == 0;
+  if (!ours) {
+    Refuse({folder.string()},
+           "cannot be made, or is not this user's alone; set TMPDIR to a folder on this machine's "
+           "own disk");
+  }
+}
+
+/// A killed task's child dies with it, but not at the same moment.
+void AwaitStore(const fs::path& store) {
+  using Clock = std::chrono::steady_clock;
+  const auto deadline = Clock::now() + std::chrono::seconds(20);
+  while (fs::exists(store)) {
+    try {
+      const DirectoryLock lock(store);
+      return;
+    } catch (const BadInput&) {
+      if (Clock::now() > deadline) throw;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+}
+
+}  // namespace
+
+TaskFolder::TaskFolder(const Plan& plan, int number) {
+  const fs::path user = fs::temp_directory_path() / fmt::format("warmjoint-{}", geteuid());
+  path_ = user / plan.id / std::to_string(number);
+  MakePrivate(user);
+  fs::create_directories(path_);
+  AwaitStore(store());
+}
+
+bool TaskFolder::HasStore() const { return fs::exists(store() / "suite.yaml"); }
+
+void TaskFolder::FetchStore(const fs::path& shard_folder) const {
+  fs::remove_all(store());
+  if (!fs::exists(shard_folder / "results.sqlite")) return;
+  fs::create_directories(store());
+  for (const char* name : {"results.sqlite", "timings.sqlite"}) {
+    if (fs::exists(shard_folder / name)) fs::copy_file(shard_folder / name, store() / name);
+  }
+}
+
+void TaskFolder::Remove() const {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+  fs::remove(path_.parent_path(), ignored);  // where it was the plan's last here
+}
+
+}  // namespace warmjoint::inline tools
