@@ -3,25 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
+#include <utility>
 
+#include "tools/board/board_builder.h"
 #include "tools/board/paired_difference.h"
 #include "tools/board/sum_up.h"
 
 namespace warmjoint::inline tools {
 namespace {
-
-/// One result for each unit: the first that carries a score, for what depends on the truth and the
-/// recording alone.
-Results OneOfEachUnit(const Results& results) {
-  Results ones;
-  std::set<Unit> seen;
-  for (const Result* result : results) {
-    const Unit unit{result->variant, result->realization};
-    if (result->score && seen.insert(unit).second) ones.push_back(result);
-  }
-  return ones;
-}
 
 /// Best first; NaN, which an identifier without any run has, last.
 bool Better(const LeaderboardRow& a, const LeaderboardRow& b) {
@@ -35,75 +24,103 @@ bool Better(const LeaderboardRow& a, const LeaderboardRow& b) {
   return key(a) < key(b);
 }
 
-Results ResultsOf(const Results& results, int identifier) {
-  Results own;
-  for (const Result* result : results) {
-    if (result->identifier == identifier) own.push_back(result);
-  }
-  return own;
-}
-
 /// Rows, best first, each with its distance from the best.
-std::vector<LeaderboardRow> Rank(const Suite& suite, const Results& results) {
-  struct Entry {
-    LeaderboardRow row;
-    std::vector<double> npe;  // in the order of units
-  };
-  std::vector<Entry> entries;
-  for (size_t i = 0; i < suite.identifiers.size(); ++i) {
-    const Results own = ResultsOf(results, static_cast<int>(i));
-    entries.push_back({SumUp(suite.identifiers[i], own), RankedNpe(own)});
-  }
-  std::stable_sort(entries.begin(), entries.end(),
-                   [](const Entry& a, const Entry& b) { return Better(a.row, b.row); });
-
+std::vector<LeaderboardRow> Rank(const Suite& suite,
+                                 const std::vector<IdentifierColumns>& columns) {
   std::vector<LeaderboardRow> rows;
-  for (Entry& entry : entries) {
-    if (!rows.empty()) entry.row.behind = PairedDifference(entry.npe, entries.front().npe);
-    rows.push_back(std::move(entry.row));
+  std::vector<std::size_t> order(columns.size());
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    rows.push_back(columns[i].SumUp(suite.identifiers[i]));
+    order[i] = i;
   }
-  return rows;
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return Better(rows[a], rows[b]); });
+
+  std::vector<LeaderboardRow> ranked;
+  for (const std::size_t i : order) {
+    // columns are in the order of units
+    if (!ranked.empty()) {
+      rows[i].behind = PairedDifference(columns[i].RankedNpe(), columns[order[0]].RankedNpe());
+    }
+    ranked.push_back(std::move(rows[i]));
+  }
+  return ranked;
 }
 
-Leaderboard SumUpBoard(const Suite& suite, const Results& results) {
+Leaderboard SumUpBoard(const Suite& suite, const GroupColumns& group) {
   Leaderboard board;
   board.suite = suite.name;
   board.question = suite.question;
   board.joint = suite.scenario.joint_kind;
-
-  std::set<Unit> finished;
-  for (const Result* result : results) finished.insert({result->variant, result->realization});
-  board.finished = static_cast<int>(finished.size());
-  const Results ones = OneOfEachUnit(results);
-  board.bound_npe_continuous = SummariseScore(ones, &Score::bound_npe_continuous).rms;
-  board.bound_npe_discrete = SummariseScore(ones, &Score::bound_npe_discrete).rms;
-  board.rows = Rank(suite, results);
+  board.finished = group.units;
+  board.bound_npe_continuous = group.bound_continuous.Root();
+  board.bound_npe_discrete = group.bound_discrete.Root();
+  board.rows = Rank(suite, group.identifiers);
   return board;
 }
 
 }  // namespace
 
-Leaderboard MakeLeaderboard(const Suite& suite, const std::vector<Result>& results) {
-  Results all;
-  for (const Result& result : results) all.push_back(&result);
-  Leaderboard board = SumUpBoard(suite, all);
-  board.realizations = suite.realizations * suite.variants();
-  if (!suite.ladder) return board;
+BoardBuilder::BoardBuilder(Suite suite) : suite_(std::move(suite)) {
+  GroupColumns empty;
+  empty.identifiers.resize(suite_.identifiers.size());
+  groups_.assign(static_cast<std::size_t>(suite_.variants()), empty);
+}
 
-  board.variable = suite.ladder->variable;
-  if (!suite.ladder->unit.empty()) board.variable += " " + suite.ladder->unit;
-  for (int i = 0; i < suite.variants(); ++i) {
-    Results own;
-    for (const Result* result : all) {
-      if (result->variant == i) own.push_back(result);
-    }
-    Leaderboard group = SumUpBoard(suite, own);
-    group.realizations = suite.realizations;
-    group.variant = suite.ladder->variants[static_cast<size_t>(i)].name;
-    group.value = suite.ladder->variants[static_cast<size_t>(i)].value;
+void BoardBuilder::Add(std::span<const Result> unit) {
+  if (unit.empty()) return;
+  GroupColumns& group = groups_.at(static_cast<std::size_t>(unit.front().variant));
+  ++group.units;
+  bool bounded = false;
+  for (const Result& result : unit) {
+    group.identifiers.at(static_cast<std::size_t>(result.identifier)).Add(result);
+    // the bounds depend on truth and recording alone
+    if (!result.score || std::exchange(bounded, true)) continue;
+    group.bound_continuous.Add(result.score->bound_npe_continuous);
+    group.bound_discrete.Add(result.score->bound_npe_discrete);
+  }
+}
+
+GroupColumns BoardBuilder::All() const {
+  GroupColumns all = groups_.front();
+  for (std::size_t i = 1; i < groups_.size(); ++i) all.Add(groups_[i]);
+  return all;
+}
+
+Leaderboard BoardBuilder::Finish() const {
+  Leaderboard board = SumUpBoard(suite_, groups_.size() == 1 ? groups_.front() : All());
+  board.realizations = suite_.realizations * suite_.variants();
+  if (!suite_.ladder) return board;
+
+  board.variable = suite_.ladder->variable;
+  if (!suite_.ladder->unit.empty()) board.variable += " " + suite_.ladder->unit;
+  for (std::size_t i = 0; i < groups_.size(); ++i) {
+    Leaderboard group = SumUpBoard(suite_, groups_[i]);
+    group.realizations = suite_.realizations;
+    group.variant = suite_.ladder->variants[i].name;
+    group.value = suite_.ladder->variants[i].value;
     board.groups.push_back(std::move(group));
   }
   return board;
+}
+
+void GroupColumns::Add(const GroupColumns& other) {
+  units += other.units;
+  bound_continuous.Add(other.bound_continuous);
+  bound_discrete.Add(other.bound_discrete);
+  for (std::size_t i = 0; i < identifiers.size(); ++i) identifiers[i].Add(other.identifiers[i]);
+}
+
+Leaderboard MakeLeaderboard(const Suite& suite, const std::vector<Result>& results) {
+  BoardBuilder builder(suite);
+  for (auto begin = results.begin(); begin != results.end();) {
+    const auto end = std::find_if(begin, results.end(), [&](const Result& result) {
+      return result.variant != begin->variant || result.realization != begin->realization;
+    });
+    builder.Add({begin, end});
+    begin = end;
+  }
+  return builder.Finish();
 }
 
 }  // namespace warmjoint::inline tools

@@ -1,6 +1,5 @@
 #include "tools/board/sum_up.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -9,59 +8,24 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-double RootMeanSquare(const std::vector<double>& values) { return Summarise(values).rms; }
-
-/// Summary of one number of each result; the number is NaN where a result lacks it.
-template <typename Number>
-Summary SummariseEach(const Results& results, Number number) {
-  std::vector<double> values;
-  for (const Result* result : results) values.push_back(number(*result));
-  return Summarise(std::move(values));
+template <typename T>
+void Append(std::vector<T>& to, const std::vector<T>& from) {
+  to.insert(to.end(), from.begin(), from.end());
 }
 
-Summary SummariseMetric(const Results& results, double Metrics::*member) {
-  return SummariseEach(results, [member](const Result& result) {
-    return result.metrics ? (*result.metrics).*member : kUnknown;
-  });
-}
-
-/// Continuous parameter i of every scored result.
-std::vector<const ParameterScore*> Column(const Results& results, size_t i) {
-  std::vector<const ParameterScore*> column;
-  for (const Result* result : results) {
-    if (result->score) column.push_back(&result->score->continuous.at(i));
+void AddParameters(std::vector<ParameterSums>& sums, const Score& score) {
+  if (sums.empty()) {
+    for (const ParameterScore& one : score.continuous)
+      sums.push_back({one.name, 0, 0, false, {}, {}});
   }
-  return column;
-}
-
-ParameterRow SumUpParameter(const std::vector<const ParameterScore*>& column) {
-  ParameterRow row;
-  row.name = column.front()->name;
-  int intervals = 0;
-  int covered = 0;
-  std::vector<double> errors, bounds;
-  for (const ParameterScore* score : column) {
-    if (score->covered) ++intervals;
-    if (score->covered.value_or(false)) ++covered;
-    if (!score->estimated) continue;
-    errors.push_back(score->estimate - score->truth);
-    bounds.push_back(score->bound);
-  }
-  if (intervals > 0) row.coverage95 = static_cast<double>(covered) / intervals;
-  row.efficiency = RootMeanSquare(errors) / RootMeanSquare(bounds);
-  return row;
-}
-
-void SumUpParameters(const Results& results, LeaderboardRow& row) {
-  const auto scored = std::find_if(results.begin(), results.end(),
-                                   [](const Result* result) { return result->score.has_value(); });
-  if (scored == results.end()) return;
-  for (size_t i = 0; i < (*scored)->score->continuous.size(); ++i) {
-    const std::vector<const ParameterScore*> column = Column(results, i);
-    row.parameters.push_back(SumUpParameter(column));
-    const bool ever = std::any_of(column.begin(), column.end(),
-                                  [](const ParameterScore* score) { return score->estimated; });
-    if (!ever) row.not_estimated.push_back(column.front()->name);
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    const ParameterScore& one = score.continuous.at(i);
+    sums[i].intervals += one.covered.has_value();
+    sums[i].covered += one.covered.value_or(false);
+    if (!one.estimated) continue;
+    sums[i].estimated = true;
+    sums[i].error.Add(one.estimate - one.truth);
+    sums[i].bound.Add(one.bound);
   }
 }
 
@@ -73,41 +37,95 @@ int LeaderboardRow::failed() const {
   return count;
 }
 
-Summary SummariseScore(const Results& results, double Score::*number) {
-  return SummariseEach(results, [number](const Result& result) {
-    return result.score ? (*result.score).*number : kUnknown;
-  });
+void MeanSquare::Add(double value) {
+  if (std::isnan(value)) return;
+  sum_ += value * value;
+  ++count_;
 }
 
-std::vector<double> RankedNpe(const Results& results) {
-  std::vector<double> npe;
-  for (const Result* result : results) {
-    npe.push_back(result->score ? result->score->npe_continuous
-                                : std::numeric_limits<double>::infinity());
+void MeanSquare::Add(const MeanSquare& other) {
+  sum_ += other.sum_;
+  count_ += other.count_;
+}
+
+double MeanSquare::Root() const { return std::sqrt(sum_ / static_cast<double>(count_)); }
+
+void IdentifierColumns::Add(const Result& result) {
+  if (result.status != "ok") {
+    ++failures_[result.status];
+    if (failure_example_.empty()) failure_example_ = result.message;
+  }
+  const auto metric = [&](double Metrics::*member) {
+    return result.metrics ? (*result.metrics).*member : kUnknown;
+  };
+  rmse_.push_back(metric(&Metrics::rmse));
+  fit_.push_back(metric(&Metrics::fit));
+  fpe_.push_back(metric(&Metrics::fpe));
+  mae_.push_back(metric(&Metrics::mae));
+  seconds_.push_back(result.seconds);
+  scored_.push_back(result.score.has_value());
+  npe_continuous_.push_back(result.score ? result.score->npe_continuous : kUnknown);
+  npe_discrete_.push_back(result.score ? result.score->npe_discrete : kUnknown);
+  if (result.score) AddParameters(parameters_, *result.score);
+}
+
+void IdentifierColumns::Add(const IdentifierColumns& other) {
+  for (auto column : {&IdentifierColumns::npe_continuous_, &IdentifierColumns::npe_discrete_,
+                      &IdentifierColumns::rmse_, &IdentifierColumns::fit_, &IdentifierColumns::fpe_,
+                      &IdentifierColumns::mae_, &IdentifierColumns::seconds_}) {
+    Append(this->*column, other.*column);
+  }
+  Append(scored_, other.scored_);
+  for (const auto& [status, count] : other.failures_) failures_[status] += count;
+  if (failure_example_.empty()) failure_example_ = other.failure_example_;
+  if (parameters_.empty()) {
+    parameters_ = other.parameters_;
+    return;
+  }
+  for (std::size_t i = 0; i < other.parameters_.size(); ++i) {
+    ParameterSums& sums = parameters_.at(i);
+    const ParameterSums& more = other.parameters_[i];
+    sums.intervals += more.intervals;
+    sums.covered += more.covered;
+    sums.estimated = sums.estimated || more.estimated;
+    sums.error.Add(more.error);
+    sums.bound.Add(more.bound);
+  }
+}
+
+std::vector<double> IdentifierColumns::RankedNpe() const {
+  std::vector<double> npe = npe_continuous_;
+  for (std::size_t i = 0; i < npe.size(); ++i) {
+    if (!scored_[i]) npe[i] = std::numeric_limits<double>::infinity();
   }
   return npe;
 }
 
-LeaderboardRow SumUp(const SuiteIdentifier& identifier, const Results& results) {
+LeaderboardRow IdentifierColumns::SumUp(const SuiteIdentifier& identifier) const {
   LeaderboardRow row;
   row.identifier = identifier.label;
   row.claim = identifier.claim;
-  row.runs = static_cast<int>(results.size());
-  for (const Result* result : results) {
-    if (result->status == "ok") continue;
-    ++row.failures[result->status];
-    if (row.failure_example.empty()) row.failure_example = result->message;
+  row.runs = static_cast<int>(rmse_.size());
+  row.failures = failures_;
+  row.failure_example = failure_example_;
+  row.npe_continuous = Summarise(npe_continuous_);
+  row.npe_discrete = Summarise(npe_discrete_);
+  row.rmse = Summarise(rmse_);
+  row.fit = Summarise(fit_);
+  row.fpe = Summarise(fpe_);
+  row.mae = Summarise(mae_);
+  row.seconds = Summarise(seconds_);
+  row.rank_npe = Summarise(RankedNpe()).median;
+  for (const ParameterSums& sums : parameters_) {
+    ParameterRow parameter;
+    parameter.name = sums.name;
+    if (sums.intervals > 0) {
+      parameter.coverage95 = static_cast<double>(sums.covered) / sums.intervals;
+    }
+    parameter.efficiency = sums.error.Root() / sums.bound.Root();
+    row.parameters.push_back(parameter);
+    if (!sums.estimated) row.not_estimated.push_back(sums.name);
   }
-
-  row.npe_continuous = SummariseScore(results, &Score::npe_continuous);
-  row.npe_discrete = SummariseScore(results, &Score::npe_discrete);
-  row.rmse = SummariseMetric(results, &Metrics::rmse);
-  row.fit = SummariseMetric(results, &Metrics::fit);
-  row.fpe = SummariseMetric(results, &Metrics::fpe);
-  row.mae = SummariseMetric(results, &Metrics::mae);
-  row.seconds = SummariseEach(results, [](const Result& result) { return result.seconds; });
-  row.rank_npe = Summarise(RankedNpe(results)).median;
-  SumUpParameters(results, row);
   return row;
 }
 

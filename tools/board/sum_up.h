@@ -1,4 +1,4 @@
-// One identifier's results, summed up.
+// One identifier's results, summed up as they come, so that a run need not be held as a whole.
 #pragma once
 
 #include <vector>
@@ -7,17 +7,47 @@
 
 namespace warmjoint::inline tools {
 
-/// Results in the order of their units.
-using Results = std::vector<const Result*>;
+/// Root of the mean square of numbers that come one by one; NaN among them are left out.
+class MeanSquare {
+ public:
+  void Add(double value);
+  void Add(const MeanSquare& other);
+  double Root() const;  // NaN of none
 
-/// The row of one identifier from its own results.
-LeaderboardRow SumUp(const SuiteIdentifier& identifier, const Results& results);
+ private:
+  double sum_ = 0;
+  std::size_t count_ = 0;
+};
 
-/// Continuous NPE of each result; a run without an answer counts as infinitely wrong, so that
-/// nobody wins by answering the easy ones alone.
-std::vector<double> RankedNpe(const Results& results);
+/// One continuous parameter of the truth.
+struct ParameterSums {
+  std::string name;
+  int intervals = 0;  // 95 % intervals that were given
+  int covered = 0;    // of them, those that hold the truth
+  bool estimated = false;
+  MeanSquare error, bound;
+};
 
-/// Summary of one number of each result's score; those without a score are left out.
-Summary SummariseScore(const Results& results, double Score::*number);
+/// What a leaderboard needs of one identifier's results: some 60 bytes of each. Numbers are NaN where a
+/// result lacks them.
+class IdentifierColumns {
+ public:
+  void Add(const Result& result);
+  /// Adds those of another group, which come after these.
+  void Add(const IdentifierColumns& other);
+
+  LeaderboardRow SumUp(const SuiteIdentifier& identifier) const;
+
+  /// Continuous NPE of each result; a run without an answer counts as infinitely wrong, so that nobody
+  /// wins by answering the easy ones alone.
+  std::vector<double> RankedNpe() const;
+
+ private:
+  std::vector<double> npe_continuous_, npe_discrete_, rmse_, fit_, fpe_, mae_, seconds_;
+  std::vector<bool> scored_;
+  std::map<std::string, int> failures_;
+  std::string failure_example_;
+  std::vector<ParameterSums> parameters_;
+};
 
 }  // namespace warmjoint::inline tools

@@ -3,8 +3,8 @@
 
 #include <memory>
 
+#include "tools/board/board_builder.h"
 #include "tools/board/format_board.h"
-#include "tools/board/leaderboard.h"
 #include "tools/cli/command.h"
 #include "tools/store/stored_suite.h"
 
@@ -21,7 +21,9 @@ std::vector<NamedBoard> ReadBoards(const std::vector<std::string>& runs) {
   for (const std::string& run : runs) {
     const RunStore store = RunStore::OpenToRead(run);
     TellOfEditedSuite(store);
-    boards.push_back({run, MakeLeaderboard(StoredSuite(store), store.ReadResults())});
+    BoardBuilder builder(StoredSuite(store));
+    store.ForEachUnit([&](const std::vector<Result>& unit) { builder.Add(unit); });
+    boards.push_back({run, builder.Finish()});
   }
   return boards;
 }

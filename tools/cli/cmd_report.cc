@@ -13,11 +13,10 @@ namespace warmjoint::inline tools {
 namespace {
 
 ExitStatus Report(const std::filesystem::path& directory) {
-  const report::RunView view = report::ReadRunView(directory);
   const RunStore store = RunStore::OpenToRead(directory);
   TellOfEditedSuite(store);
-  report::RunPage page{
-      MakeLeaderboard(StoredSuite(store), store.ReadResults()), store.ReadDescription(), {}};
+  const report::RunView view = report::ReadRunView(store);
+  report::RunPage page{view.board, store.ReadDescription(), {}};
   for (const report::RunFigure& figure : report::RunFigures()) {
     if (auto made = figure.make(view)) page.figures.push_back(*std::move(made));
   }

@@ -40,37 +40,47 @@ bool IsAnswer(const Result& result) {
   return !none.contains(result.status);
 }
 
-/// The first failure of each identifier that answered in no realization, by its label.
-std::map<std::string, std::string> Silent(const std::vector<Result>& results,
-                                          const std::vector<std::string>& labels) {
-  std::set<int> answered;
-  for (const Result& result : results) {
-    if (IsAnswer(result)) answered.insert(result.identifier);
-  }
-  std::map<std::string, std::string> silent;
-  for (const Result& result : results) {
-    if (answered.contains(result.identifier)) continue;
-    silent.emplace(labels[static_cast<std::size_t>(result.identifier)], result.message);
-  }
-  return silent;
+/// What is said of a run at its end.
+struct Ending {
+  std::size_t failed = 0;
+  std::set<int> answered;            // positions of identifiers
+  std::map<int, std::string> first;  // the first failure of each
+};
+
+Ending EndingOf(const RunStore& store) {
+  Ending ending;
+  store.ForEachUnit([&](const std::vector<Result>& unit) {
+    for (const Result& result : unit) {
+      if (result.status == "ok") continue;
+      ++ending.failed;
+      ending.first.emplace(result.identifier, result.message);
+    }
+    for (const Result& result : unit) {
+      if (IsAnswer(result)) ending.answered.insert(result.identifier);
+    }
+  });
+  return ending;
 }
 
 /// Verdicts are results: a suite that ends in failures alone is done. One with an identifier that
 /// never answered is not; of a shard, which may hold few realizations or none, only the whole says.
 ExitStatus Finish(RunStore& store, const Shard& shard) {
   store.Settle();
-  const std::vector<Result> results = ExportResults(store);
-  const auto failed = std::count_if(results.begin(), results.end(),
-                                    [](const Result& result) { return result.status != "ok"; });
+  const std::size_t results = ExportResults(store);
+  const Ending ending = EndingOf(store);
   fmt::print("{}: {} results, {} of them failures; see: warmjoint compare {}\n",
-             store.directory().string(), results.size(), failed, store.directory().string());
+             store.directory().string(), results, ending.failed, store.directory().string());
 
-  const auto silent = Silent(results, store.ReadDescription().identifiers);
-  for (const auto& [label, message] : silent) {
-    fmt::print(stderr, "{} answered in no realization; the first time: {}\n", Excerpt(label),
+  bool silent = false;
+  const std::vector<std::string> labels = store.ReadDescription().identifiers;
+  for (const auto& [identifier, message] : ending.first) {
+    if (ending.answered.contains(identifier)) continue;
+    silent = true;
+    fmt::print(stderr, "{} answered in no realization; the first time: {}\n",
+               Excerpt(labels[static_cast<std::size_t>(identifier)]),
                Excerpt(message, kLongestComplaint));
   }
-  return silent.empty() || !shard.IsWhole() ? ExitStatus::done : ExitStatus::no_answer;
+  return !silent || !shard.IsWhole() ? ExitStatus::done : ExitStatus::no_answer;
 }
 
 /// Says what keeps commands of others from the truth, where there are any.

@@ -22,6 +22,7 @@
 #include "tools/cli/repeat_motion.h"
 #include "tools/cli/whole_number.h"
 #include "tools/store/stored_suite.h"
+#include "tools/suite/arithmetic.h"
 #include "tools/suite/memory_of_work.h"
 #include "tools/suite/progress_line.h"
 
@@ -94,6 +95,7 @@ Recording Carried(Plant& plant, const Scenario& scenario, std::uint64_t realizat
 }
 
 ExitStatus Simulate(const SimulateArguments& arguments) {
+  SettleArithmetic();
   std::optional<Measurements> log;
   if (!arguments.motion.recordings.empty()) log = ReadRecording(arguments.motion);
   const Scenario scenario = ResolveScenario(arguments, log);

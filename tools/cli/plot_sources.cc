@@ -80,7 +80,7 @@ SourcePictures PicturesOf(const std::string& source, const RecordingArguments& r
   if (source == kKernelsSource && !fs::exists(source)) return {{report::MakeKernels()}, {}};
   if (fs::is_regular_file(source)) return PicturesOfEstimate(source, recording);
   if (report::IsSimulation(source)) return PicturesOfSimulation(source, canvas);
-  return {Make(report::RunFigures(), report::ReadRunView(source)), {}};
+  return {Make(report::RunFigures(), report::ReadRunView(RunStore::OpenToRead(source))), {}};
 }
 
 }  // namespace warmjoint::inline tools

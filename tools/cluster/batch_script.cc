@@ -41,21 +41,28 @@ std::string Forwarded(const Plan& plan) {
 // the task runs beside the shell, which alone gets the signal before the limit and hands it on
 constexpr const char* kBody = R"sh(
 offset=${{1:-0}}
-
-{program} task {run} $((offset + SLURM_ARRAY_TASK_ID + 1)) &
-task=$!
 trap 'kill -TERM $task' TERM
-status=0
-wait $task || status=$?
-while kill -0 $task 2>/dev/null; do
+status=137
+# 137: the task was killed and not this script; the shard itself counts how often it is started in vain
+while [ $status -eq 137 ]; do
+  {program} task {run} $((offset + SLURM_ARRAY_TASK_ID + 1)) &
+  task=$!
   status=0
   wait $task || status=$?
+  while kill -0 $task 2>/dev/null; do
+    status=0
+    wait $task || status=$?
+  done
 done
 
-# 130: ended before its limit; 137: killed from outside. Another task goes on from the last checkpoint, unless the job
-# was cancelled: then it is running no more
-if [ $status -eq 130 ] || [ $status -eq 137 ]; then
-  [ "$(squeue -h -j "$SLURM_JOB_ID" -o %T)" = RUNNING ] && scontrol requeue "$SLURM_JOB_ID" && sleep 60
+# 130: asked to end. Another task goes on from the last checkpoint, unless the job was cancelled: then it is running no
+# more. A controller that is away is asked again
+if [ $status -eq 130 ]; then
+  for pause in 1 2 4 8 16; do
+    state=$(squeue -h -j "$SLURM_JOB_ID" -o %T) && break
+    sleep $pause
+  done
+  [ "$state" = RUNNING ] && scontrol requeue "$SLURM_JOB_ID" && sleep 60
 fi
 exit $status
 )sh";

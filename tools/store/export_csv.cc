@@ -28,20 +28,14 @@ const ParameterScore* Find(const Result& result, const std::string& name) {
   return nullptr;
 }
 
-/// Names of all parameters: the continuous ones, then those that only the discrete family has.
-std::vector<std::string> ParameterNames(const std::vector<Result>& results) {
-  std::vector<std::string> names;
-  for (const bool discrete : {false, true}) {
-    for (const Result& result : results) {
-      if (!result.score) continue;
-      for (const ParameterScore& score : Family(*result.score, discrete)) {
-        if (std::find(names.begin(), names.end(), score.name) == names.end()) {
-          names.push_back(score.name);
-        }
-      }
+/// Adds the names that a result has of one family and the list lacks.
+void AddNames(const Result& result, bool discrete, std::vector<std::string>& names) {
+  if (!result.score) return;
+  for (const ParameterScore& score : Family(*result.score, discrete)) {
+    if (std::find(names.begin(), names.end(), score.name) == names.end()) {
+      names.push_back(score.name);
     }
   }
-  return names;
 }
 
 std::string MetricCells(const Result& result) {
@@ -80,33 +74,65 @@ std::string CsvCell(const std::string& text) {
   return quoted + "\"";
 }
 
-std::string ResultsToCsv(const std::vector<Result>& results, const RunDescription& description) {
-  const bool ladder = !description.variants.empty();
-  std::string csv = ladder ? "variant," : "";
+void CsvColumns::Add(const Result& result) {
+  AddNames(result, false, continuous_);
+  AddNames(result, true, discrete_);
+}
+
+std::vector<std::string> CsvColumns::Names() const {
+  std::vector<std::string> names = continuous_;
+  for (const std::string& name : discrete_) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  return names;
+}
+
+std::string CsvHeader(const std::vector<std::string>& names, const RunDescription& description) {
+  std::string csv = description.variants.empty() ? "" : "variant,";
   csv +=
       "realization,identifier,status,n,parameters,effective_parameters,rmse,mae,fit,fpe,"
       "npe_continuous,npe_discrete,bound_npe_continuous,bound_npe_discrete";
-  const std::vector<std::string> names = ParameterNames(results);
   for (const std::string& name : names) {
     csv += fmt::format(",{0},{0}_truth,{0}_bound,{0}_covered", name);
   }
-  csv += ",message\n";
-
-  for (const Result& result : results) {
-    const std::string& label = description.identifiers[static_cast<size_t>(result.identifier)];
-    if (ladder) csv += CsvCell(description.variants[static_cast<size_t>(result.variant)]) + ",";
-    csv += fmt::format("{},{},{}", result.realization, CsvCell(label), result.status);
-    csv += MetricCells(result) + ScoreCells(result);
-    for (const std::string& name : names) csv += ParameterCells(Find(result, name));
-    csv += fmt::format(",{}\n", CsvCell(result.message));
-  }
-  return csv;
+  return csv + ",message\n";
 }
 
-std::vector<Result> ExportResults(const RunStore& store) {
-  std::vector<Result> results = store.ReadResults();
-  WriteWholeFile(store.directory() / "results.csv", ResultsToCsv(results, store.ReadDescription()));
-  return results;
+std::string CsvRow(const Result& result, const std::vector<std::string>& names,
+                   const RunDescription& description) {
+  const std::string& label = description.identifiers[static_cast<size_t>(result.identifier)];
+  std::string csv;
+  if (!description.variants.empty()) {
+    csv += CsvCell(description.variants[static_cast<size_t>(result.variant)]) + ",";
+  }
+  csv += fmt::format("{},{},{}", result.realization, CsvCell(label), result.status);
+  csv += MetricCells(result) + ScoreCells(result);
+  for (const std::string& name : names) csv += ParameterCells(Find(result, name));
+  return csv + fmt::format(",{}\n", CsvCell(result.message));
+}
+
+std::size_t ExportResults(const RunStore& store) {
+  const RunDescription description = store.ReadDescription();
+  CsvColumns columns;
+  store.ForEachUnit([&](const std::vector<Result>& unit) {
+    for (const Result& result : unit) columns.Add(result);
+  });
+
+  AtomicFile file(store.directory() / "results.csv");
+  const std::vector<std::string> names = columns.Names();
+  constexpr std::size_t block = 1 << 20;  // bytes
+  std::string text = CsvHeader(names, description);
+  std::size_t count = 0;
+  store.ForEachUnit([&](const std::vector<Result>& unit) {
+    for (const Result& result : unit) text += CsvRow(result, names, description);
+    count += unit.size();
+    if (text.size() < block) return;
+    file.Write(text);
+    text.clear();
+  });
+  file.Write(text);
+  file.Commit();
+  return count;
 }
 
 }  // namespace warmjoint::inline tools

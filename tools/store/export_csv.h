@@ -14,14 +14,28 @@ namespace warmjoint::inline tools {
 /// before what a spreadsheet would take for a formula.
 std::string CsvCell(const std::string& text);
 
-/// One row for each (variant, realization, identifier), in that order; numbers read back bit for
-/// bit, empty where unknown. Columns: status, metrics, NPE and their bounds; then for each
-/// parameter its estimate, truth, Cramer-Rao bound and whether the 95 % interval covered the truth
-/// (1 or 0). The column variant is there when the suite has a ladder. description: names by
-/// position.
-std::string ResultsToCsv(const std::vector<Result>& results, const RunDescription& description);
+/// The parameters that a table has columns for: the continuous ones in the order in which they came, then
+/// those that only the discrete family has.
+class CsvColumns {
+ public:
+  void Add(const Result& result);
+  std::vector<std::string> Names() const;
 
-/// Writes RUN/results.csv from all that the store holds; returns what it wrote.
-std::vector<Result> ExportResults(const RunStore& store);
+ private:
+  std::vector<std::string> continuous_, discrete_;
+};
+
+/// The first line. names: CsvColumns::Names. The column variant is there when the suite has a ladder.
+std::string CsvHeader(const std::vector<std::string>& names, const RunDescription& description);
+
+/// One result as a line; numbers read back bit for bit, empty where unknown. Columns: status, metrics, NPE
+/// and their bounds; then for each parameter its estimate, truth, Cramer-Rao bound and whether the 95 %
+/// interval covered the truth (1 or 0). description: names by position.
+std::string CsvRow(const Result& result, const std::vector<std::string>& names,
+                   const RunDescription& description);
+
+/// Writes RUN/results.csv from all that the store holds, a row for each (variant, realization,
+/// identifier) in that order; returns their number. Memory does not grow with the run.
+std::size_t ExportResults(const RunStore& store);
 
 }  // namespace warmjoint::inline tools

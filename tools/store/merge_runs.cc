@@ -39,7 +39,7 @@ MergedRun MergeRuns(const std::vector<std::filesystem::path>& shards,
   {
     RunStore merged = RunStore::CreateOrResume(whole.temporary(), description);
     merged.Gather(shards, options.overlap);
-    outcome.results = ExportResults(merged).size();
+    outcome.results = ExportResults(merged);
     outcome.missing = MissingUnits(suite, merged);
     outcome.units =
         static_cast<std::size_t>(suite.realizations) * static_cast<std::size_t>(suite.variants());

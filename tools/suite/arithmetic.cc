@@ -4,9 +4,9 @@
 #include <cstring>
 
 #include "models/foundation/random_stream.h"
-#include "models/foundation/sha256.h"
 #include "scenarios/parse_suite.h"
 #include "tools/store/digest.h"
+#include "tools/store/sha256.h"
 #include "tools/suite/run_realization.h"
 
 namespace warmjoint::inline tools {

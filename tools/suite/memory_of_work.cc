@@ -14,8 +14,9 @@ namespace {
 constexpr double kSimulated = 230;
 /// The same while identifiers fit it: 300 were measured for energy-ml, which keeps no matrix of kernels.
 constexpr double kIdentified = 300;
-/// Bytes for each result with its scores, as a run ends and exports it: 2,900 were measured at 40,000 results.
-constexpr double kResult = 2900;
+/// Bytes for each result: what a run keeps of each while it goes on is that it is finished. Exports and boards read
+/// results one realization at a time.
+constexpr double kResult = 100;
 
 double Samples(const Scenario& scenario) { return scenario.duration * scenario.sampling.rate; }
 
@@ -38,7 +39,8 @@ void RequireMemoryFor(const Suite& suite, const Shard& shard, int jobs, const st
     const Scenario variant = VariantScenario(suite, i);
     if (Samples(variant) > Samples(largest)) largest = variant;
   }
-  const double units = static_cast<double>(suite.realizations) * suite.variants() / shard.count;
+  const int realizations = std::max(0, std::min(shard.end, suite.realizations) - shard.first);
+  const double units = static_cast<double>(realizations) * suite.variants() / shard.count;
   const double at_once = std::clamp(static_cast<double>(jobs), 1.0, std::max(1.0, units));
   RequireMemory(
       at_once * kIdentified * Samples(largest),

@@ -7,6 +7,14 @@
 namespace warmjoint {
 namespace {
 
+std::string ResultsToCsv(const std::vector<Result>& results, const RunDescription& description) {
+  CsvColumns columns;
+  for (const Result& result : results) columns.Add(result);
+  std::string csv = CsvHeader(columns.Names(), description);
+  for (const Result& result : results) csv += CsvRow(result, columns.Names(), description);
+  return csv;
+}
+
 TEST(ExportCsv, WritesOneRowAResultWithEmptyCellsForTheUnknown) {
   Result scored;
   scored.status = "ok";

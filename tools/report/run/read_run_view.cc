@@ -7,7 +7,7 @@
 #include "models/recording/course_of.h"
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"
-#include "tools/board/leaderboard.h"
+#include "tools/board/board_builder.h"
 #include "tools/report/draw/ticks.h"
 #include "tools/report/figures/friction_spread.h"
 #include "tools/report/run/run_view.h"
@@ -21,46 +21,77 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// The results of one identifier, by realization.
-using Own = std::vector<const Result*>;
+/// Realizations whose course is drawn, one thin line each, and summed up by iteration: of more the
+/// first ones, since a course has hundreds of numbers for each.
+constexpr std::size_t kMostCourses = 2000;
 
-template <typename Number>
-VectorXd Column(const Own& results, const Number& number) {
-  VectorXd column(results.size());
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    column[static_cast<Index>(i)] = number(*results[i]);
+/// A column that grows.
+using Numbers = std::vector<double>;
+
+VectorXd Column(const Numbers& numbers) {
+  return Eigen::Map<const VectorXd>(numbers.data(), static_cast<Index>(numbers.size()));
+}
+
+/// One parameter of the truth, as results come.
+struct ParameterNumbers {
+  std::string name;
+  Numbers estimate, truth, bound;
+  int intervals = 0, covered = 0;
+};
+
+/// The results of one identifier, as they come, in the order of units.
+class RowBuilder {
+ public:
+  void Add(const Result& result) {
+    if (units_.size() < kMostCourses) units_.push_back({result.variant, result.realization});
+    identifier_ = result.identifier;
+    if (result.status != "ok") ++failures_[result.status];
+    variant_.push_back(result.variant);
+    npe_.push_back(result.score ? result.score->npe_continuous : kUnknown);
+    const auto metric = [&](double Metrics::*member) {
+      return result.metrics ? (*result.metrics).*member : kUnknown;
+    };
+    rmse_.push_back(metric(&Metrics::rmse));
+    fit_.push_back(metric(&Metrics::fit));
+    fpe_.push_back(metric(&Metrics::fpe));
+    mae_.push_back(metric(&Metrics::mae));
+    if (result.score) AddParameters(*result.score);
+    for (ParameterNumbers& one : parameters_) {
+      if (one.truth.size() == npe_.size()) continue;
+      for (Numbers* numbers : {&one.truth, &one.bound, &one.estimate}) {
+        numbers->resize(npe_.size(), kUnknown);
+      }
+    }
   }
-  return column;
-}
 
-template <typename Member>
-VectorXd MetricColumn(const Own& results, Member member) {
-  return Column(results, [member](const Result& result) {
-    return result.metrics ? static_cast<double>((*result.metrics).*member) : kUnknown;
-  });
-}
+  RunRow Row(const RunStore& store, const Suite& suite, const SuiteIdentifier& identifier) const;
 
-ParameterColumn ReadParameter(const Own& results, std::size_t place, const std::string& unit) {
-  const auto number = [&](auto pick) {
-    return Column(results, [&](const Result& result) {
-      return result.score ? pick(result.score->continuous.at(place)) : kUnknown;
-    });
-  };
-  ParameterColumn column;
-  column.unit = unit;
-  column.truth = number([](const ParameterScore& score) { return score.truth; });
-  column.bound = number([](const ParameterScore& score) { return score.bound; });
-  column.estimate = number(
-      [](const ParameterScore& score) { return score.estimated ? score.estimate : kUnknown; });
-  for (const Result* result : results) {
-    if (!result->score) continue;
-    const ParameterScore& score = result->score->continuous.at(place);
-    column.name = score.name;
-    column.intervals += score.covered.has_value();
-    column.covered += score.covered.value_or(false);
+ private:
+  void AddParameters(const Score& score) {
+    if (parameters_.empty()) parameters_.resize(score.continuous.size());
+    for (std::size_t i = 0; i < parameters_.size(); ++i) {
+      const ParameterScore& from = score.continuous.at(i);
+      ParameterNumbers& one = parameters_[i];
+      one.name = from.name;
+      // those before the first score have none
+      for (Numbers* numbers : {&one.truth, &one.bound, &one.estimate}) {
+        numbers->resize(npe_.size() - 1, kUnknown);
+      }
+      one.truth.push_back(from.truth);
+      one.bound.push_back(from.bound);
+      one.estimate.push_back(from.estimated ? from.estimate : kUnknown);
+      one.intervals += from.covered.has_value();
+      one.covered += from.covered.value_or(false);
+    }
   }
-  return column;
-}
+
+  std::vector<Unit> units_;  // the first ones, for courses
+  int identifier_ = 0;
+  std::map<std::string, int> failures_;
+  std::vector<int> variant_;
+  Numbers npe_, rmse_, fit_, fpe_, mae_;
+  std::vector<ParameterNumbers> parameters_;
+};
 
 std::string UnitOf(const std::string& name, const Scenario& scenario) {
   for (const ParameterInfo& info : FindLaw(scenario.friction.law)->parameters) {
@@ -93,12 +124,10 @@ void Fill(Course& course, Index row, const TraceTable& trace) {
   }
 }
 
-Course ReadCourse(const RunStore& store, const Own& results) {
+Course ReadCourse(const RunStore& store, const std::vector<Unit>& units, int identifier) {
   std::vector<TraceTable> traces;
   const TraceTable* longest = nullptr;
-  for (const Result* result : results) {
-    traces.push_back(store.ReadTrace({result->variant, result->realization}, result->identifier));
-  }
+  for (const Unit& unit : units) traces.push_back(store.ReadTrace(unit, identifier));
   for (const TraceTable& trace : traces) {
     if (trace.rows() > (longest ? longest->rows() : 0)) longest = &trace;
   }
@@ -125,33 +154,25 @@ Course ReadCourse(const RunStore& store, const Own& results) {
   return course;
 }
 
-RunRow ReadRow(const RunStore& store, const Suite& suite, const SuiteIdentifier& identifier,
-               const Own& results) {
+RunRow RowBuilder::Row(const RunStore& store, const Suite& suite,
+                       const SuiteIdentifier& identifier) const {
   RunRow row;
   row.label = identifier.label;
   row.identifier = identifier.name;
-  row.runs = static_cast<int>(results.size());
-  for (const Result* result : results) {
-    if (result->status != "ok") ++row.failures[result->status];
+  row.runs = static_cast<int>(npe_.size());
+  row.failures = failures_;
+  row.variant =
+      Eigen::Map<const Eigen::VectorXi>(variant_.data(), static_cast<Index>(variant_.size()));
+  row.npe = Column(npe_);
+  row.rmse = Column(rmse_);
+  row.fit = Column(fit_);
+  row.fpe = Column(fpe_);
+  row.mae = Column(mae_);
+  for (const ParameterNumbers& one : parameters_) {
+    row.parameters.push_back({one.name, UnitOf(one.name, suite.scenario), Column(one.estimate),
+                              Column(one.truth), Column(one.bound), one.intervals, one.covered});
   }
-  row.variant = Column(results, [](const Result& result) { return result.variant; }).cast<int>();
-  row.npe = Column(results, [](const Result& result) {
-    return result.score ? result.score->npe_continuous : kUnknown;
-  });
-  row.rmse = MetricColumn(results, &Metrics::rmse);
-  row.fit = MetricColumn(results, &Metrics::fit);
-  row.fpe = MetricColumn(results, &Metrics::fpe);
-  row.mae = MetricColumn(results, &Metrics::mae);
-
-  const auto scored = std::find_if(results.begin(), results.end(),
-                                   [](const Result* result) { return result->score.has_value(); });
-  if (scored != results.end()) {
-    for (std::size_t i = 0; i < (*scored)->score->continuous.size(); ++i) {
-      const std::string& name = (*scored)->score->continuous[i].name;
-      row.parameters.push_back(ReadParameter(results, i, UnitOf(name, suite.scenario)));
-    }
-  }
-  row.course = ReadCourse(store, results);
+  row.course = ReadCourse(store, units_, identifier_);
   return row;
 }
 
@@ -227,29 +248,30 @@ int RunRow::failed() const {
   return count;
 }
 
-RunView ReadRunView(const std::filesystem::path& directory) {
-  const RunStore store = RunStore::OpenToRead(directory);
+RunView ReadRunView(const RunStore& store) {
   const Suite suite = StoredSuite(store);
-  const std::vector<Result> results = store.ReadResults();
-  if (results.empty()) {
-    Refuse({directory}, "no realization is finished yet; run the suite again to go on");
-  }
-  const Leaderboard board = MakeLeaderboard(suite, results);
-
+  BoardBuilder board(suite);
+  std::vector<RowBuilder> rows(suite.identifiers.size());
+  store.ForEachUnit([&](const std::vector<Result>& unit) {
+    board.Add(unit);
+    for (const Result& result : unit) rows[static_cast<std::size_t>(result.identifier)].Add(result);
+  });
   RunView view;
+  view.board = board.Finish();
+  if (view.board.finished == 0) {
+    Refuse({store.directory().string()},
+           "no realization is finished yet; run the suite again to go on");
+  }
+
   view.suite = suite.name;
   view.question = suite.question;
-  view.realizations = board.finished;
+  view.realizations = view.board.finished;
   view.rungs = ReadRungs(suite);
   view.torque_unit = UnitText(kTorqueUnit.For(suite.scenario.joint_kind));
-  view.bound_npe = board.bound_npe_continuous;
+  view.bound_npe = view.board.bound_npe_continuous;
   view.noise = NoiseOf(suite);
   for (std::size_t i = 0; i < suite.identifiers.size(); ++i) {
-    Own own;
-    for (const Result& result : results) {
-      if (result.identifier == static_cast<int>(i)) own.push_back(&result);
-    }
-    view.rows.push_back(ReadRow(store, suite, suite.identifiers[i], own));
+    view.rows.push_back(rows[i].Row(store, suite, suite.identifiers[i]));
   }
   for (const RunRow& row : view.rows) {
     if (view.bound_covariance.size() == 0 && !row.parameters.empty()) {

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
+
+#include "tools/board/leaderboard.h"
+#include "tools/store/run_store.h"
 
 namespace warmjoint::report {
 
@@ -21,7 +23,7 @@ struct ParameterColumn {
   int covered = 0;        // of them, those that hold the truth
 };
 
-/// The course of an identifier that iterates: K iterations of R realizations. One that stopped
+/// The course of an identifier that iterates: K iterations of R realizations, of the first 2000 in a longer run. One that stopped
 /// early keeps its last values.
 struct Course {
   Eigen::VectorXd iteration;                // [K]
@@ -53,6 +55,7 @@ struct RunRow {
 };
 
 struct RunView {
+  Leaderboard board;
   std::string suite;
   std::string question;
   int realizations = 0;  // finished
@@ -66,7 +69,7 @@ struct RunView {
   Eigen::MatrixXd bound_covariance;
 };
 
-/// Reads a run directory. Throws BadInput where there is none, or nothing is finished yet.
-RunView ReadRunView(const std::filesystem::path& directory);
+/// Reads a run, unit by unit. Throws BadInput where nothing is finished yet.
+RunView ReadRunView(const RunStore& store);
 
 }  // namespace warmjoint::report
