@@ -14,6 +14,7 @@
 #include "tools/cluster/make_plan.h"
 #include "tools/cluster/run_layout.h"
 #include "tools/cluster/run_status.h"
+#include "tools/cluster/shard_state.h"
 #include "tools/cluster/slurm.h"
 #include "tools/cluster/submissions.h"
 #include "tools/cluster/task.h"
@@ -108,6 +109,9 @@ ExitStatus Conclude(const fs::path& run, const Plan& plan) {
 ExitStatus RunHere(const fs::path& run, const Plan& plan, int at_once) {
   RefuseOtherMachine(plan, run);
   CatchInterrupts();
+  for (const int number : StatusOf(run, plan, std::nullopt).failed) {
+    Forgive(ShardFolder(run, number));
+  }
   if (!RunLocally(run, plan, OpenShards(run, plan), at_once)) {
     fmt::print(stderr, "interrupted: {}the same command goes on\n",
                StatusText(run, StatusOf(run, plan, std::nullopt)));

@@ -24,7 +24,7 @@ void RefuseMissing(const fs::path& run, const RunStatus& status) {
   std::sort(open.begin(), open.end());
   Refuse({run.string()},
          "holds {} of {} realizations; shards {} are not finished: see `warmjoint status {}`, and "
-         "give --resubmit there. `compare` takes what is there",
+         "give --resubmit there, or `run --local-shards` again. `compare` takes what is there",
          status.finished, status.total, Ranges(open), run.string());
 }
 

@@ -51,15 +51,6 @@ std::vector<int> Split(const fs::path& run, Plan& plan, int number, int pieces, 
   return numbers;
 }
 
-/// A person who starts a shard again gives it all its starts again.
-void Forgive(const fs::path& folder) {
-  auto state = ReadShardState(folder);
-  if (!state) return;
-  state->phase = Phase::interrupted;
-  state->idle_starts = 0;
-  WriteShardState(folder, *state);
-}
-
 }  // namespace
 
 std::vector<int> Resubmit(const fs::path& run, int pieces) {

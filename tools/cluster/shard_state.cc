@@ -62,6 +62,14 @@ void WriteShardState(const fs::path& folder, const ShardState& state) {
   WriteWholeFile(folder / kFile, object.dump(1) + "\n");
 }
 
+void Forgive(const fs::path& folder) {
+  auto state = ReadShardState(folder);
+  if (!state) return;
+  state->phase = Phase::interrupted;
+  state->idle_starts = 0;
+  WriteShardState(folder, *state);
+}
+
 double Now() {
   return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
 }

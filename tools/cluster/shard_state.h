@@ -35,6 +35,9 @@ std::optional<ShardState> ReadShardState(const std::filesystem::path& folder);
 
 void WriteShardState(const std::filesystem::path& folder, const ShardState& state);
 
+/// A person who starts a shard again gives it all its starts again, failed or not.
+void Forgive(const std::filesystem::path& folder);
+
 /// Now, s since 1970.
 double Now();
 

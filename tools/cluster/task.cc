@@ -222,6 +222,14 @@ TaskEnd RunTask(const fs::path& run, int number) {
   }
   const fs::path folder = ShardFolder(run, number);
   fs::create_directories(folder);
+  if (plan.shards[static_cast<std::size_t>(number - 1)].size() == 0) {
+    // of more shards than realizations
+    ShardState state = TakeOver(folder);
+    state.phase = Phase::done;
+    state.updated = Now();
+    WriteShardState(folder, state);
+    return TaskEnd::done;
+  }
   switch (LookAt(folder, Patience(plan.checkpoint_seconds))) {
     case Claim::done:
       return TaskEnd::done;
