@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "identification/preparation/log_faults.h"
-#include "identification/preparation/select.h"
 #include "identification/preparation/velocity_scale.h"
 #include "models/recording/sampling.h"
 
@@ -77,9 +75,9 @@ MotionCheck CheckMotion(const Measurements& measurements, const VelocityScale& s
 
 }  // namespace
 
-RecordingCheck CheckRecording(const Measurements& measurements) {
+RecordingCheck CheckRecording(const PreparedLog& log) {
+  const auto& [measurements, selection] = log.taken();
   const VelocityScale scale = MeasureVelocity(measurements);
-  const Selection selection = SelectConstantSpeed(measurements);
   RecordingCheck check;
   check.source = measurements.source;
   check.joint = measurements.joint;
@@ -87,9 +85,13 @@ RecordingCheck CheckRecording(const Measurements& measurements) {
   check.notes = measurements.notes;
   check.sampling = CheckSampling(measurements.time, scale.step);
   check.motion = CheckMotion(measurements, scale, selection);
-  check.faults = FindFaults(measurements, selection);
+  check.faults = log.faults();
   check.excitation = JudgeExcitation(measurements, check.sampling, check.motion);
   return check;
+}
+
+RecordingCheck CheckRecording(const Measurements& measurements) {
+  return CheckRecording(Prepare(measurements));
 }
 
 }  // namespace warmjoint::inline identification

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "identification/preparation/prepared_log.h"
 #include "models/recording/measurements.h"
 #include "models/recording/selection.h"
 
@@ -56,7 +57,10 @@ struct RecordingCheck {
   std::vector<Excitation> excitation;
 };
 
-/// Looks at a recording; alters nothing.
+/// Looks at a recording.
+RecordingCheck CheckRecording(const PreparedLog& log);
+
+/// The same of a recording that is not yet prepared.
 RecordingCheck CheckRecording(const Measurements& measurements);
 
 /// What the motion can tell about each kind of friction. Part of CheckRecording.

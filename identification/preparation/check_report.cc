@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 namespace warmjoint::inline identification {
 namespace {
@@ -19,6 +20,18 @@ std::string SamplingLine(const SamplingCheck& sampling) {
   return fmt::format(
       "sampling    {} samples in {:.4g} s, {:.4g} Hz, jitter {:.1f} % of a step, {}\n",
       sampling.samples, sampling.duration, sampling.rate, 100 * sampling.jitter, gaps);
+}
+
+/// What a person knows of the joint at a glance: both columns in degrees contradict nothing else.
+std::string TurnsLine(const RecordingCheck& check) {
+  if (check.joint != JointKind::rotary || check.motion.levels.empty()) return "";
+  constexpr double turn = 2 * std::numbers::pi;  // rad
+  double fastest = 0;
+  for (const SpeedLevel& level : check.motion.levels) {
+    fastest = std::max(fastest, std::abs(level.velocity));
+  }
+  return fmt::format("            {:.4g} rev/min at most, over {:.4g} turns\n", fastest / turn * 60,
+                     (check.motion.upper - check.motion.lower) / turn);
 }
 
 std::string MotionLine(const MotionCheck& motion, std::string_view length_unit) {
@@ -62,6 +75,7 @@ std::string CheckToText(const RecordingCheck& check) {
   for (const std::string& note : check.notes) text += fmt::format("            {}\n", note);
   text += SamplingLine(check.sampling);
   text += MotionLine(check.motion, kPositionUnit.For(check.joint));
+  text += TurnsLine(check);
   text += DirectionLine(check.motion, 1, speed_unit);
   text += DirectionLine(check.motion, -1, speed_unit);
   text += fmt::format("noise       {:.2g} {} around constant speeds", check.motion.speed_noise,

@@ -19,9 +19,20 @@ std::vector<std::string> FindFaults(const Measurements& measurements, const Sele
 /// Velocity that contradicts position and time: the median over the segments of dp / integral(v dt)
 /// (trapezoids) lies more than 2 % from 1, and more than four standard errors of that median. A
 /// segment counts where its positions stray from a straight line by less than 0.3 % of its way
-/// (rms), so that neither noise nor resolution matters; three are needed.
+/// (rms), so that neither noise nor resolution matters; three are needed, and a third of all
+/// segments.
 std::optional<std::string> VelocityAgainstPosition(const Measurements& measurements,
                                                    const Selection& selection);
+
+/// Positions that jump back by one and the same way, more than half of their range: those of a
+/// sensor that starts again after a range of its own (turns are undone while reading, unwrap.h). Two
+/// jumps are needed, equal to 1 %, each more than four times what the speed beside it allows.
+std::optional<std::string> WrappedPosition(const Measurements& measurements,
+                                           const Selection& selection);
+
+/// Torque against the motion in more than 95 % of the kept samples of nine segments in ten, five
+/// segments or more: friction resists, so the sign of one column is wrong.
+std::optional<std::string> TorqueSign(const Measurements& measurements, const Selection& selection);
 
 /// Torque that stops at a largest or smallest value: ten samples have it, 0.5 % of all, and five
 /// times as many as have the value next to it. Torque must be noisy and take 50 values or more:

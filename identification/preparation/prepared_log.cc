@@ -1,13 +1,47 @@
 #include "identification/preparation/prepared_log.h"
 
-#include <algorithm>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "identification/preparation/derive_velocity.h"
 #include "identification/preparation/log_faults.h"
+#include "identification/preparation/motion_from_positions.h"
+#include "identification/preparation/path_against_velocity.h"
+#include "identification/preparation/position_noise.h"
 #include "identification/preparation/select.h"
 #include "identification/preparation/split_at_switches.h"
+#include "models/foundation/bad_input.h"
+#include "models/recording/recordings_of.h"
 
 namespace warmjoint::inline identification {
 namespace {
+
+constexpr double kLargest = 1e30;  // of a velocity; beyond it squares and products overflow
+
+/// What moves at constant speed in a log without a velocity, which is filled with the smoothed slope
+/// of its positions.
+ConstantSpeed FindFromPositions(Measurements& m) {
+  ConstantSpeed found;
+  found.selection.keep.setConstant(m.size(), false);
+  m.velocity.resize(m.size());
+  for (const auto& [first, count] : RecordingsOf(m)) {
+    // in steps of the encoder, so that the choice does not depend on where its zero is
+    const auto [steps, step] = FromFirst(m.position.segment(first, count));
+    Measurements one;
+    one.time = m.time.segment(first, count);
+    one.velocity = DeriveVelocity(one.time, steps, ChooseCutoff(one.time, steps));
+    Append(FindConstantSpeed(one), first, step, found);
+    m.velocity.segment(first, count) = step * one.velocity;
+  }
+  const double fastest = m.velocity.cwiseAbs().maxCoeff();
+  if (!(fastest <= kLargest)) {
+    Refuse({m.source}, "the positions change by {} {} at most; a velocity cannot be told from them",
+           fastest, kVelocityUnit.For(m.joint));
+  }
+  return found;
+}
 
 LogView Head(const LogView& all, double time) {
   const Eigen::Index n = (all.measurements.time.array() < time).count();
@@ -20,37 +54,107 @@ LogView Head(const LogView& all, double time) {
   return head;
 }
 
+/// What is done to the velocity of a log that has one: one for each segment, and a sample at each
+/// switch of speed.
+struct Refined {
+  std::optional<LogView> steady;
+  std::optional<VelocityNoise> noise;
+  double unseen = 0;
+};
+
+Refined Refine(const LogView& taken) {
+  const auto& [measurements, selection] = taken;
+  Refined refined;
+  std::optional<SegmentVelocity> level = TakeSegmentVelocity(measurements, selection);
+  if (level) refined.noise = level->noise;
+  std::optional<SplitLog> split =
+      SplitAtSwitches(level ? level->measurements : measurements, selection);
+  if (split) {
+    refined.unseen = split->unseen;
+    refined.steady = {std::move(split->measurements), std::move(split->selection)};
+  } else if (level) {
+    refined.steady = {std::move(level->measurements), selection};
+  }
+  return refined;
+}
+
+/// In what the positions contradict the velocity column, one sentence. Nothing where they agree, or
+/// where the log has faults, by which the positions may be wrong as well.
+std::optional<std::string> PathContradiction(const Measurements& m, const ConstantSpeed& found) {
+  const LogView taken{m, found.selection};
+  const Refined refined = Refine(taken);
+  const PositionMotion motion = MotionFromPositions(m, found.selection, found.rests);
+  const auto paths = ComparePaths(refined.steady ? refined.steady->measurements : m,
+                                  motion.measurements, found.selection.segments, m);
+  if (!paths || !Contradicts(*paths) || !FindFaults(m, found.selection).empty()) {
+    return std::nullopt;
+  }
+  return fmt::format(
+      "the velocity column makes the path, changes of speed included, {:.2g} % {} than the "
+      "positions "
+      "do ({} ways from one speed to the next): it is filtered, late or scaled, and the positions "
+      "are taken instead",
+      100 * std::abs(paths->excess), paths->excess < 0 ? "shorter" : "longer", paths->ways);
+}
+
+/// Leaves out what a velocity column that is not believed did not call constant: it may not have
+/// settled there, and a torque that went through the same filter has not either. keep: [N] samples
+/// at `time`; log: of these and others.
+void KeepAlso(const Eigen::Array<bool, Eigen::Dynamic, 1>& keep, const Eigen::VectorXd& time,
+              LogView& log) {
+  Eigen::Index i = 0;
+  for (Eigen::Index n = 0; n < log.measurements.size(); ++n) {
+    if (i == time.size() || log.measurements.time[n] != time[i]) continue;
+    if (!keep[i++]) log.selection.keep[n] = false;
+  }
+}
+
 }  // namespace
 
 PreparedLog PreparedLog::Before(double time) const {
-  Log before{Head(log_->taken, time), std::nullopt, log_->velocity_noise, log_->unseen,
-             log_->faults};
+  Log before = *log_;
+  before.taken = Head(log_->taken, time);
   if (log_->steady) before.steady = Head(*log_->steady, time);
   return PreparedLog(std::move(before));
 }
 
-PreparedLog Prepare(Measurements measurements) {
-  Selection selection = SelectConstantSpeed(measurements);
-  return Prepare(std::move(measurements), std::move(selection));
+PreparedLog Prepare(Measurements measurements, const HoldOptions& holds) {
+  if (measurements.velocity.size() > 0) {
+    ConstantSpeed found = FindConstantSpeed(measurements);
+    if (const auto contradiction = PathContradiction(measurements, found)) {
+      measurements.velocity.resize(0);
+      PreparedLog::Log log = *Prepare(std::move(measurements), holds).log_;
+      KeepAlso(found.selection.keep, log.taken.measurements.time, log.taken);
+      KeepAlso(found.selection.keep, log.taken.measurements.time, *log.steady);
+      log.warnings.push_back(*contradiction);
+      return PreparedLog(std::move(log));
+    }
+    TakeOptions(holds, measurements.time, found.selection);
+    return Prepare(std::move(measurements), std::move(found.selection));
+  }
+
+  // the positions tell the velocity
+  measurements.notes.emplace_back("velocity told by the positions: one for each segment");
+  PreparedLog::Log log{{std::move(measurements), {}}, {}, {}, 0, {}, {}};
+  Measurements& taken = log.taken.measurements;
+  ConstantSpeed found = FindFromPositions(taken);
+  PositionMotion motion = MotionFromPositions(taken, found.selection, found.rests);
+  TakeOptions(holds, motion.measurements.time, motion.selection);
+  TakeOptions(holds, taken.time, found.selection);
+  log.taken.selection = std::move(found.selection);
+  log.steady = {std::move(motion.measurements), std::move(motion.selection)};
+  log.unseen = motion.unseen;
+  log.faults = FindFaults(taken, log.taken.selection);
+  return PreparedLog(std::move(log));
 }
 
 PreparedLog Prepare(Measurements measurements, Selection known) {
-  PreparedLog::Log log{{std::move(measurements), std::move(known)}, {}, {}, 0, {}};
-  const auto& [taken, selection] = log.taken;
-  log.faults = FindFaults(taken, selection);
-
-  // one velocity for each segment
-  std::optional<SegmentVelocity> level = TakeSegmentVelocity(taken, selection);
-  if (level) log.velocity_noise = level->noise;
-
-  // a sample at each switch of speed
-  std::optional<SplitLog> split = SplitAtSwitches(level ? level->measurements : taken, selection);
-  if (split) {
-    log.unseen = split->unseen;
-    log.steady = {std::move(split->measurements), std::move(split->selection)};
-  } else if (level) {
-    log.steady = {std::move(level->measurements), selection};
-  }
+  PreparedLog::Log log{{std::move(measurements), std::move(known)}, {}, {}, 0, {}, {}};
+  log.faults = FindFaults(log.taken.measurements, log.taken.selection);
+  Refined refined = Refine(log.taken);
+  log.steady = std::move(refined.steady);
+  log.velocity_noise = refined.noise;
+  log.unseen = refined.unseen;
   return PreparedLog(std::move(log));
 }
 

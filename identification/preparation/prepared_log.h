@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "identification/preparation/segment_velocity.h"
+#include "identification/preparation/select.h"
 #include "models/recording/measurements.h"
 #include "models/recording/selection.h"
 
@@ -20,12 +21,14 @@ struct LogView {
 
 /// A recording prepared for a fit: what moves at constant speed, one velocity for each segment where
 /// the noise of the samples' would bias a fit (segment_velocity.h), a sample at each switch of speed
-/// that happens between two samples (split_at_switches.h), and the faults of the log. Only Prepare
+/// that happens between two samples (split_at_switches.h), and the faults of the log. Where the log
+/// has no velocity, its positions tell it (motion_from_positions.h). Only Prepare
 /// makes one, and identifiers take nothing else, so that nobody can forget a step. Cheap to copy:
 /// copies share the samples.
 class PreparedLog {
  public:
-  /// The log as it was taken: for fits that follow changes of speed from sample to sample.
+  /// The log as it was taken: for fits that follow changes of speed from sample to sample. A
+  /// velocity that it lacks is the smoothed slope of its positions (derive_velocity.h).
   const LogView& taken() const { return log_->taken; }
 
   /// The log as fits at constant speed see it.
@@ -40,6 +43,9 @@ class PreparedLog {
   /// What in the log contradicts itself, each one sentence (log_faults.h).
   const std::vector<std::string>& faults() const { return log_->faults; }
 
+  /// What a reader of the numbers must know of what was done, each one sentence.
+  const std::vector<std::string>& warnings() const { return log_->warnings; }
+
   /// The samples before a time (s), with all that was done to them.
   PreparedLog Before(double time) const;
 
@@ -50,17 +56,19 @@ class PreparedLog {
     std::optional<VelocityNoise> velocity_noise;
     double unseen = 0;
     std::vector<std::string> faults;
+    std::vector<std::string> warnings;
   };
   explicit PreparedLog(Log log) : log_(std::make_shared<const Log>(std::move(log))) {}
-  friend PreparedLog Prepare(Measurements measurements);
+  friend PreparedLog Prepare(Measurements measurements, const HoldOptions& holds);
   friend PreparedLog Prepare(Measurements measurements, Selection known);
 
   std::shared_ptr<const Log> log_;
 };
 
 /// Prepares a log: the samples at constant speed are found in it (select.h). The one path of command
-/// line, suites, tests of verdicts and benchmarks.
-PreparedLog Prepare(Measurements measurements);
+/// line, suites, tests of verdicts and benchmarks. Throws BadInput where there is no velocity and the
+/// slope of the positions is no number.
+PreparedLog Prepare(Measurements measurements, const HoldOptions& holds = {});
 
 /// The same where a plant says which samples move at constant speed.
 PreparedLog Prepare(Measurements measurements, Selection known);

@@ -6,8 +6,31 @@
 
 namespace warmjoint::inline identification {
 
+/// What a user asks of the segments that are kept.
+struct HoldOptions {
+  double trim = 0;      // s to leave out at each end of a segment
+  double shortest = 0;  // s; segments that last less, before they are trimmed, are left out
+};
+
+/// Leaves out what the options ask for.
+void TakeOptions(const HoldOptions& holds, const Eigen::VectorXd& time, Selection& selection);
+
+/// What moves at a constant speed, and what stands.
+struct ConstantSpeed {
+  Selection selection;
+  std::vector<Segment> rests;
+};
+
+/// Appends what was found in a recording whose first sample is `first` and whose velocities are to
+/// be multiplied by `scale`.
+void Append(const ConstantSpeed& found, Eigen::Index first, double scale, ConstantSpeed& all);
+
 /// Keeps the samples that move at a constant speed; rests and accelerations are left out.
-/// Works on plateaus of the velocity, so that a jump between two plateaus costs no sample.
+/// Works on plateaus of the velocity, so that a jump between two plateaus costs no sample; recording
+/// by recording (Measurements::starts).
+ConstantSpeed FindConstantSpeed(const Measurements& measurements);
+
+/// The same without the rests.
 Selection SelectConstantSpeed(const Measurements& measurements);
 
 /// Keeps every sample with v != 0, for data that is known to satisfy Eq. (6) throughout.

@@ -4,6 +4,7 @@
 #include "identification/preparation/plateaus.h"
 #include "identification/preparation/select.h"
 #include "models/foundation/robust_noise.h"
+#include "models/recording/recordings_of.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -187,17 +188,20 @@ std::vector<Segment> SteadyRuns(const Measurements& measurements, const Velocity
   return WithoutReversals(WithoutTurningPoints(steady, v.size()));
 }
 
-}  // namespace
-
-Selection SelectConstantSpeed(const Measurements& measurements) {
+/// One recording: all samples of the log.
+ConstantSpeed FindInRecording(const Measurements& measurements) {
   const Eigen::VectorXd& v = measurements.velocity;
   const VelocityScale scale = MeasureVelocity(measurements);
   const std::vector<Segment> steady = SteadyRuns(measurements, scale);
 
-  Selection selection;
+  ConstantSpeed found;
+  Selection& selection = found.selection;
   selection.keep.setConstant(v.size(), false);
   for (std::size_t i = 0; i < steady.size(); ++i) {
-    if (std::abs(steady[i].velocity) <= scale.Rest()) continue;
+    if (std::abs(steady[i].velocity) <= scale.Rest()) {
+      found.rests.push_back(steady[i]);
+      continue;
+    }
     Segment segment = KeptAway(steady[i], Gaps(steady, i, v.size()));
 
     // outliers within a segment are not kept
@@ -207,7 +211,64 @@ Selection SelectConstantSpeed(const Measurements& measurements) {
     segment.velocity = values.mean();
     selection.segments.push_back(segment);
   }
-  return selection;
+  return found;
+}
+
+}  // namespace
+
+void TakeOptions(const HoldOptions& holds, const Eigen::VectorXd& time, Selection& selection) {
+  constexpr double rounding = 1e-9;  // s, of time stamps
+  std::vector<Segment> left;
+  for (const Segment& segment : selection.segments) {
+    // a segment lasts until the sample behind its last
+    const Index behind = std::min(segment.end, time.size() - 1);
+    const double lasts = time[behind] - time[segment.begin];
+    Segment kept = segment;
+    if (lasts < holds.shortest - rounding) {
+      kept.end = kept.begin;
+    } else if (holds.trim > 0) {
+      while (kept.begin < kept.end &&
+             time[kept.begin] < time[segment.begin] + holds.trim - rounding) {
+        ++kept.begin;
+      }
+      while (kept.end > kept.begin &&
+             time[kept.end - 1] > time[segment.end - 1] - holds.trim + rounding) {
+        --kept.end;
+      }
+    }
+    selection.keep.segment(segment.begin, kept.begin - segment.begin).setConstant(false);
+    selection.keep.segment(kept.end, segment.end - kept.end).setConstant(false);
+    if (kept.begin < kept.end) left.push_back(kept);
+  }
+  selection.segments = left;
+}
+
+void Append(const ConstantSpeed& found, Index first, double scale, ConstantSpeed& all) {
+  const auto append = [&](const std::vector<Segment>& segments, std::vector<Segment>& to) {
+    for (const Segment& one : segments) {
+      to.push_back({one.begin + first, one.end + first, one.velocity * scale});
+    }
+  };
+  all.selection.keep.segment(first, found.selection.keep.size()) = found.selection.keep;
+  append(found.selection.segments, all.selection.segments);
+  append(found.rests, all.rests);
+}
+
+ConstantSpeed FindConstantSpeed(const Measurements& measurements) {
+  if (measurements.starts.empty()) return FindInRecording(measurements);
+  ConstantSpeed all;
+  all.selection.keep.setConstant(measurements.size(), false);
+  for (const auto& [first, count] : RecordingsOf(measurements)) {
+    Measurements one;
+    one.time = measurements.time.segment(first, count);
+    one.velocity = measurements.velocity.segment(first, count);
+    Append(FindInRecording(one), first, 1, all);
+  }
+  return all;
+}
+
+Selection SelectConstantSpeed(const Measurements& measurements) {
+  return FindConstantSpeed(measurements).selection;
 }
 
 }  // namespace warmjoint::inline identification

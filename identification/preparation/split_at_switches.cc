@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "identification/preparation/insert_samples.h"
 #include "models/foundation/robust_noise.h"
 #include "models/recording/sampling.h"
 
@@ -59,22 +60,6 @@ double Unseen(const Measurements& m, const std::vector<Switch>& switches) {
   return path > 0 ? lost / path : 0;
 }
 
-/// The column with the value behind each switch put in at it. [N + switches]
-template <typename Column>
-Column Filled(const Column& column, const std::vector<Switch>& switches) {
-  Column filled(column.size() + static_cast<Index>(switches.size()));
-  Index from = 0, to = 0;
-  for (const Switch& one : switches) {
-    const Index count = one.after + 1 - from;
-    filled.segment(to, count) = column.segment(from, count);
-    from += count;
-    to += count;
-    filled[to++] = column[from];
-  }
-  filled.tail(filled.size() - to) = column.tail(column.size() - from);
-  return filled;
-}
-
 }  // namespace
 
 std::optional<SplitLog> SplitAtSwitches(const Measurements& measurements,
@@ -82,30 +67,13 @@ std::optional<SplitLog> SplitAtSwitches(const Measurements& measurements,
   const std::vector<Switch> switches = FindSwitches(measurements);
   if (switches.empty()) return std::nullopt;
   SplitLog split{measurements, selection, Unseen(measurements, switches)};
-  Measurements& m = split.measurements;
-  ForEachColumn(m, [&](Eigen::VectorXd& column) { column = Filled(column, switches); });
-  split.selection.keep = Filled(selection.keep, switches);
-
-  // what is put in: when, where, and that no fit sees it
-  const auto moved = [&](Index n) {
-    return n + std::ranges::count_if(switches, [n](const Switch& s) { return s.after < n; });
-  };
-  for (size_t i = 0; i < switches.size(); ++i) {
-    const auto [after, delay] = switches[i];
-    const Index n = after + 1 + static_cast<Index>(i);
-    m.time[n] = measurements.time[after] + delay;
-    m.position[n] = measurements.position[after] + delay * measurements.velocity[after];
-    split.selection.keep[n] = false;
-    if (!m.motor_position) continue;
-    const Eigen::VectorXd& motor = *measurements.motor_position;
-    (*m.motor_position)[n] =
-        motor[after] + measurements.gear * delay * measurements.velocity[after];
+  std::vector<InsertedSample> inserted;
+  for (const auto& [after, delay] : switches) {
+    inserted.push_back({after, measurements.time[after] + delay,
+                        measurements.position[after] + delay * measurements.velocity[after],
+                        measurements.velocity[after + 1]});
   }
-  for (Index& start : m.starts) start = moved(start);
-  for (Segment& segment : split.selection.segments) {
-    segment.begin = moved(segment.begin);
-    segment.end = moved(segment.end);
-  }
+  InsertSamples(inserted, split.measurements, split.selection);
   return split;
 }
 

@@ -17,6 +17,7 @@ constexpr double kTolerance = 0.02;   // of the ratio
 constexpr double kCertain = 4;        // standard errors of the median
 constexpr double kStraight = 0.003;   // of the way of a segment, rms
 constexpr std::size_t kFewest = 3;    // segments
+constexpr double kShare = 1.0 / 3;    // of the segments that can be judged
 constexpr double kSameFactor = 0.03;  // between a ratio and the factor of a unit
 
 /// Whether a recording starts within the segment.
@@ -50,6 +51,7 @@ bool MayHideTurns(const Measurements& m, const Segment& segment, double step, do
 
 Eigen::VectorXd Ratios(const Measurements& m, const Selection& selection) {
   std::vector<double> ratios;
+  double judged = 0;  // segments, straight or not
   if (selection.segments.size() < kFewest) return {};
   const double travel = m.position.maxCoeff() - m.position.minCoeff();
   for (const Segment& segment : selection.segments) {
@@ -57,8 +59,12 @@ Eigen::VectorXd Ratios(const Measurements& m, const Selection& selection) {
     const double step = (m.time[segment.end - 1] - m.time[segment.begin]) /
                         static_cast<double>(segment.end - 1 - segment.begin);
     if (MayHideTurns(m, segment, step, travel)) continue;
+    ++judged;
     if (const auto ratio = RatioOf(m, segment)) ratios.push_back(*ratio);
   }
+
+  // a few segments whose positions happen to be straight tell nothing of the others
+  if (static_cast<double>(ratios.size()) < kShare * judged) return {};
   return Eigen::Map<const Eigen::VectorXd>(ratios.data(), static_cast<Index>(ratios.size()));
 }
 
@@ -103,7 +109,8 @@ std::optional<std::string> VelocityAgainstPosition(const Measurements& measureme
   const double times = 1 / ratio;
   return fmt::format(
       "velocity is {:.4g} times the change of position over time (median of {} segments, at least "
-      "{:.0f} % apart): {}? Else leave the column out, and it is derived from the position",
+      "{:.0f} % apart), so that one of the two is off: {}? Else leave the velocity out "
+      "(--map velocity=), and the positions tell it",
       times, ratios.size(), 100 * kTolerance, Suspect(measurements, times));
 }
 

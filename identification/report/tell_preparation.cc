@@ -45,6 +45,7 @@ void TellVelocity(const VelocityNoise& taken, JointKind joint, Estimate& estimat
 
 void TellPreparation(const PreparedLog& log, Estimate& estimate) {
   TellReversals(log.unseen(), estimate);
+  for (const std::string& warning : log.warnings()) estimate.warnings.push_back(warning);
   if (estimate.status != Status::ok || !log.velocity_noise()) return;
   TellVelocity(*log.velocity_noise(), log.taken().measurements.joint, estimate);
 }

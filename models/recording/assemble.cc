@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 
-#include "models/foundation/robust_noise.h"
-#include "models/recording/derive_velocity.h"
+#include "models/foundation/excerpt.h"
+#include "models/foundation/parse_number.h"
 #include "models/recording/unwrap.h"
 
 namespace warmjoint::inline models {
@@ -56,24 +57,28 @@ void CheckTorque(const RawColumns& raw, const Measurements& measurements) {
          torque[0], measurements.torque_unit, torque.size());
 }
 
-/// Position without the jumps of a sensor's turn, and a velocity where none was recorded.
-void CompleteMotion(const RawColumns& raw, Measurements& measurements) {
-  const Eigen::VectorXd& time = measurements.time;
-  if (measurements.joint == JointKind::rotary) {
-    const int jumps = UnwrapTurns(time, measurements.velocity, measurements.position);
-    if (jumps > 0) {
-      measurements.notes.push_back(
-          fmt::format("position jumps by a turn {} times; unwrapped", jumps));
-    }
-  }
-  if (measurements.velocity.size() > 0) return;
-  const double cutoff = ChooseCutoff(time, measurements.position);
-  measurements.velocity = DeriveVelocity(time, measurements.position, cutoff);
-  CheckValues(raw, "velocity (derived from position)", measurements.velocity);
+/// The factor on a column, 1 where none is given.
+double ScaleOf(const std::string& column, const CsvLayout& layout) {
+  const auto given = layout.scale.find(column);
+  if (given == layout.scale.end()) return 1;
+  const std::optional<double> factor = ParseNumber(given->second);
+  if (factor && std::isfinite(*factor) && *factor != 0) return *factor;
+  Refuse({"--scale"}, "{}={}: the factor must be a finite number other than 0", column,
+         Excerpt(given->second));
+}
+
+/// Position without the jumps of a sensor that starts its turn, or its range, again. range: rad or
+/// m; 0: a turn, of a rotary joint.
+void Unwrap(double range, Measurements& measurements) {
+  if (range == 0 && measurements.joint != JointKind::rotary) return;
+  const Eigen::VectorXd &time = measurements.time, &velocity = measurements.velocity;
+  Eigen::VectorXd& position = measurements.position;
+  const int jumps = range > 0 ? UnwrapRange(time, velocity, range, position)
+                              : UnwrapTurns(time, velocity, position);
+  if (jumps == 0) return;
   measurements.notes.push_back(
-      cutoff > 0.4 / MedianStep(time)
-          ? "velocity derived from position by central differences"
-          : fmt::format("velocity derived from position below {:.3g} Hz", cutoff));
+      range > 0 ? fmt::format("position jumps by its range {} times; unwrapped", jumps)
+                : fmt::format("position jumps by a turn {} times; unwrapped", jumps));
 }
 
 }  // namespace
@@ -86,13 +91,16 @@ Measurements AssembleMeasurements(RawColumns raw, const std::vector<ColumnSource
   measurements.source = raw.file;
 
   // to SI, each value checked
+  double range = 0;  // after which the position sensor starts again, rad or m
   for (std::size_t k = 0; k < sources.size(); ++k) {
     const auto& [column, index, unit] = sources[k];
     CheckValues(raw, column->name, raw.values[k]);
     Eigen::VectorXd values = std::move(raw.values[k]);
-    if (unit.factor != 1 || unit.offset != 0) {
-      values = unit.factor * values.array() + unit.offset;
+    const double scale = ScaleOf(column->name, layout);
+    if (unit.factor != 1 || unit.offset != 0 || scale != 1) {
+      values = unit.factor * scale * values.array() + unit.offset;
     }
+    if (column->name == "position") range = std::abs(unit.factor * scale) * layout.wrap;
     if (column->name == "torque") measurements.torque_unit = unit.base;
     column->set(measurements, std::move(values));
   }
@@ -101,7 +109,7 @@ Measurements AssembleMeasurements(RawColumns raw, const std::vector<ColumnSource
   if (n < 3) Refuse({raw.file}, "has {} samples; at least 3 are needed", n);
   CheckTime(raw, measurements.time);
   CheckTorque(raw, measurements);
-  CompleteMotion(raw, measurements);
+  Unwrap(range, measurements);
   return measurements;
 }
 

@@ -20,10 +20,10 @@ struct RawColumns {
   }
 };
 
-/// Converts to SI, checks, unwraps a position that stays within one turn, and derives the velocity
-/// where there is none; notes say so. Throws BadInput for fewer
-/// than three samples, a value that is not finite, time that does not increase and a torque that
-/// never changes.
+/// Converts to SI, scales, checks, and unwraps a position that stays within one turn or wraps as the
+/// layout says; notes say so. A
+/// velocity that the file lacks stays empty. Throws BadInput for fewer than three samples, a value
+/// that is not finite, time that does not increase and a torque that never changes.
 Measurements AssembleMeasurements(RawColumns raw, const std::vector<ColumnSource>& sources,
                                   const CsvLayout& layout);
 

@@ -15,12 +15,16 @@ struct CsvLayout {
   std::map<std::string, std::string> column;
   /// ours -> unit in the file, for example position -> deg (--unit)
   std::map<std::string, std::string> unit;
+  /// ours -> factor on the values of the file, for example torque -> -1 (--scale)
+  std::map<std::string, std::string> scale;
+  /// range after which a position sensor starts again, in the unit of the file (--wrap); 0: a turn
+  double wrap = 0;
   JointKind joint = JointKind::rotary;
   double gear = 1;
 };
 
 /// Reads columns time, position, velocity, torque and optional motor_position, load, temperature.
-/// A missing velocity is derived (derive_velocity.h). Throws BadInput with file:line for: an empty
+/// A missing velocity stays empty. Throws BadInput with file:line for: an empty
 /// file, a missing column, text in a number, NaN, time that does not increase, fewer than three
 /// samples, a constant torque, an unknown name in `layout`.
 Measurements ReadCsv(const std::string& path, const CsvLayout& layout = {});

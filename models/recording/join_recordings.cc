@@ -27,6 +27,17 @@ void Append(const Column& more, const char* name, const std::string& source, Mea
   column.reset();
 }
 
+/// The velocity, gone where either lacks it: positions then tell it for all recordings alike.
+void AppendVelocity(const Measurements& next, Measurements& joined) {
+  const bool has = next.velocity.size() > 0, had = joined.velocity.size() > 0;
+  if (has && had) return Append(next.velocity, joined.velocity);
+  if (has || had) {
+    joined.notes.push_back(
+        fmt::format("velocity is left out: not every recording has it, as {}", next.source));
+  }
+  joined.velocity.resize(0);
+}
+
 void CheckAlike(const Measurements& a, const Measurements& b) {
   if (a.torque_unit != b.torque_unit || a.joint != b.joint || a.gear != b.gear) {
     Refuse({b.source},
@@ -49,7 +60,7 @@ Measurements JoinRecordings(std::vector<Measurements> recordings) {
     joined.starts.push_back(n);
     Append(next.time.array() - next.time[0] + begin, joined.time);
     Append(next.position, joined.position);
-    Append(next.velocity, joined.velocity);
+    AppendVelocity(next, joined);
     Append(next.torque, joined.torque);
     Append(next.motor_position, "motor_position", next.source, joined, joined.motor_position);
     Append(next.load, "load", next.source, joined, joined.load);

@@ -144,6 +144,7 @@ std::vector<ColumnSource> FindColumns(const std::vector<std::string>& names,
                                       const CsvLayout& layout, const Place& place) {
   CheckNames(layout.column, "--map", place);
   CheckNames(layout.unit, "--unit", place);
+  CheckNames(layout.scale, "--scale", place);
 
   std::vector<ColumnSource> sources;
   std::vector<const RecordingColumn*> missing;

@@ -14,4 +14,9 @@ namespace warmjoint::inline models {
 int UnwrapTurns(const Eigen::VectorXd& time, const Eigen::VectorXd& velocity,
                 Eigen::VectorXd& position);
 
+/// The same for a sensor that starts again after `range`, rad or m, however far the positions reach:
+/// the range is given, so that each jump of more than half of it is one.
+int UnwrapRange(const Eigen::VectorXd& time, const Eigen::VectorXd& velocity, double range,
+                Eigen::VectorXd& position);
+
 }  // namespace warmjoint::inline models

@@ -93,7 +93,9 @@ TEST(RoundTrip, OfTheEmpsAxis) {
   layout.column = {{"time", "t_s"}, {"position", "q_m"}, {"torque", "force_N"}};
   layout.joint = JointKind::linear;
   const Measurements log =
-      ReadRecording(test::SharedFolder() / "data" / "emps" / "DATA_EMPS.csv", layout);
+      Prepare(ReadRecording(test::SharedFolder() / "data" / "emps" / "DATA_EMPS.csv", layout))
+          .taken()
+          .measurements;
 
   const ScratchDirectory scratch;
   const std::map<std::string, std::string> law{{"law", "asymmetric"}};

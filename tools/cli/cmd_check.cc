@@ -5,7 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "identification/preparation/check_report.h"
+#include "models/foundation/atomic_file.h"
 #include "tools/cli/command.h"
+#include "tools/cli/outputs.h"
 #include "tools/cli/recording_options.h"
 
 namespace warmjoint::inline tools {
@@ -14,21 +16,41 @@ namespace {
 struct CheckArguments {
   RecordingArguments recording;
   std::string format = "text";
+  std::string segments;
 };
 
+/// The kept segments of a recording, a line for each. number: of the recording, from 1.
+void AppendSegments(const PreparedLog& log, int number, std::string& csv) {
+  const auto& [m, selection] = log.steady();
+  for (const Segment& segment : selection.segments) {
+    const auto kept = selection.keep.segment(segment.begin, segment.end - segment.begin).count();
+    csv += fmt::format("{},{},{},{},{}\n", number, m.time[segment.begin], m.time[segment.end - 1],
+                       segment.velocity, kept);
+  }
+}
+
 ExitStatus Check(const CheckArguments& arguments) {
+  const std::vector<std::filesystem::path> outputs{arguments.segments};
+  KeepApart(outputs,
+            {arguments.recording.recordings.begin(), arguments.recording.recordings.end()});
+
   // an object for one recording, a list of them for several
   nlohmann::json checks = nlohmann::json::array();
   std::string text;
-  for (const Measurements& recording : ReadRecordings(arguments.recording)) {
-    const RecordingCheck check = CheckRecording(recording);
+  std::string segments = "recording,begin,end,velocity,samples\n";
+  int number = 0;
+  for (Measurements& recording : ReadRecordings(arguments.recording)) {
+    const PreparedLog log = Prepare(std::move(recording), arguments.recording.holds);
+    AppendSegments(log, ++number, segments);
+    const RecordingCheck check = CheckRecording(log);
     checks.push_back(CheckToJson(check));
     text += (text.empty() ? "" : "\n") + CheckToText(check);
   }
   if (arguments.format == "json") {
     text = (checks.size() == 1 ? checks.front() : checks).dump(2) + "\n";
   }
-  fmt::print("{}", text);
+  if (!arguments.segments.empty()) WriteWholeFile(arguments.segments, segments);
+  fmt::print(WordsBeside(outputs), "{}", text);
   return ExitStatus::done;
 }
 
@@ -39,6 +61,10 @@ Command AddCheckCommand(CLI::App& program) {
   CLI::App* parser =
       program.add_subcommand("check", "What a log holds, and what can be identified from it");
   AddRecordingOptions(*parser, arguments->recording);
+  AddHoldOptions(*parser, arguments->recording.holds);
+  parser->add_option(
+      "--segments", arguments->segments,
+      "the constant speeds that are kept, as CSV: begin and end in s, velocity in SI");
   parser->add_option("--format", arguments->format, "text or json")
       ->check(CLI::IsMember({"text", "json"}))
       ->capture_default_str();

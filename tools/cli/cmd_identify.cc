@@ -46,7 +46,7 @@ HoldOutSource ReadHoldOut(const IdentifyArguments& arguments) {
   if (!fraction) {
     RecordingArguments other = arguments.recording;
     other.recordings = {arguments.holdout};
-    return {0, Prepare(ReadRecording(other))};
+    return {0, ReadAndPrepare(other)};
   }
   if (!(*fraction >= 0 && *fraction < 1)) {
     Refuse({"--holdout"}, "is {}; it must be at least 0 and below 1, or a file", *fraction);
@@ -155,7 +155,7 @@ ExitStatus Identify(const IdentifyArguments& arguments) {
   CheckOutput(arguments.mjcf);
   CheckOutput(arguments.plot);
   const HoldOutSource holdout = ReadHoldOut(arguments);
-  const PreparedLog log = Prepare(ReadRecording(arguments.recording));
+  const PreparedLog log = ReadAndPrepare(arguments.recording);
   const auto& [measurements, selection] = log.taken();
 
   const IdentifierInput input{log, options, {}};
@@ -179,6 +179,7 @@ Command AddIdentifyCommand(CLI::App& program) {
   auto arguments = std::make_shared<IdentifyArguments>();
   CLI::App* parser = program.add_subcommand("identify", "Friction from a log of one joint");
   AddRecordingOptions(*parser, arguments->recording);
+  AddHoldOptions(*parser, arguments->recording.holds);
   parser->add_option("--identifier", arguments->identifier, "see: warmjoint list identifiers")
       ->capture_default_str();
   parser->add_option("--gravity", arguments->gravity, "none, sincos or paired")

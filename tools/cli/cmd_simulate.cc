@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "identification/preparation/prepared_log.h"
 #include "models/foundation/atomic_directory.h"
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/excerpt.h"
@@ -97,7 +98,8 @@ Recording Carried(Plant& plant, const Scenario& scenario, std::uint64_t realizat
 ExitStatus Simulate(const SimulateArguments& arguments) {
   SettleArithmetic();
   std::optional<Measurements> log;
-  if (!arguments.motion.recordings.empty()) log = ReadRecording(arguments.motion);
+  if (!arguments.motion.recordings.empty())
+    log = Prepare(ReadRecording(arguments.motion)).taken().measurements;
   const Scenario scenario = ResolveScenario(arguments, log);
   RequireMemoryFor(scenario, arguments.from.empty() ? arguments.scenario : arguments.from);
   const std::unique_ptr<Plant> plant = MakePlant(scenario);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "identification/preparation/prepared_log.h"
 #include "models/foundation/bad_input.h"
 #include "models/recording/csv.h"
 
@@ -19,16 +20,22 @@ struct RecordingArguments {
   std::vector<std::string> unit;  // "position=deg"
   std::string joint = "rotary";
   double gear = 1;
+  std::vector<std::string> scale;  // "torque=-1"
+  double wrap = 0;                 // in the unit of the position; 0: a turn
+  HoldOptions holds;
 };
 
-/// Adds RECORDING..., --map, --unit, --joint and --gear.
+/// Adds RECORDING... and the options of AddLayoutOptions.
 void AddRecordingOptions(CLI::App& parser, RecordingArguments& arguments);
 
-/// Adds --map, --unit, --joint and --gear alone.
+/// Adds --map, --unit, --scale, --wrap, --joint and --gear.
 void AddLayoutOptions(CLI::App& parser, RecordingArguments& arguments);
 
-/// {files[], map[], unit[], joint, gear}: the `recording` member of an estimate file, by which its
-/// pictures find the data again.
+/// Adds --trim and --shortest-hold.
+void AddHoldOptions(CLI::App& parser, HoldOptions& holds);
+
+/// {files[], map[], unit[], joint, gear}, and {scale[], wrap, trim, shortest_hold} where one of them
+/// is given: the `recording` member of an estimate file, by which its pictures find the data again.
 nlohmann::json RecordingToJson(const RecordingArguments& arguments);
 
 /// The inverse. Throws BadInput from `place`.
@@ -36,6 +43,9 @@ RecordingArguments RecordingFromJson(const nlohmann::json& json, const Place& pl
 
 /// Reads the recordings, several joined (join_recordings.h). Throws BadInput.
 Measurements ReadRecording(const RecordingArguments& arguments);
+
+/// Reads the recordings, joined, and prepares them with --trim and --shortest-hold.
+PreparedLog ReadAndPrepare(const RecordingArguments& arguments);
 
 /// Reads each by itself.
 std::vector<Measurements> ReadRecordings(const RecordingArguments& arguments);

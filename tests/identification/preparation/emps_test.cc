@@ -6,6 +6,7 @@
 
 #include "identification/preparation/check.h"
 #include "identification/preparation/check_report.h"
+#include "identification/preparation/prepared_log.h"
 #include "identification/preparation/select.h"
 #include "models/friction/law.h"
 #include "models/recording/csv.h"
@@ -23,7 +24,7 @@ class Emps : public testing::Test {
     CsvLayout layout;
     layout.joint = JointKind::linear;
     layout.column = {{"time", "t_s"}, {"position", "q_m"}, {"torque", "force_N"}};
-    log_ = ReadCsv(path, layout);
+    log_ = Prepare(ReadCsv(path, layout)).taken().measurements;
   }
 
   Measurements log_;

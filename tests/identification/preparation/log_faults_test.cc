@@ -106,6 +106,34 @@ TEST(FindFaults, AllowsASensorThatHidesTurnsBetweenSamples) {
   EXPECT_THAT(FindFaults(m, SelectConstantSpeed(m)), IsEmpty());
 }
 
+TEST(FindFaults, TellsAScaleFromThreeStraightSegmentsOfManyByNothing) {
+  // positions of all but three segments stray by a tenth of their way
+  Measurements m = Log({});
+  m.velocity *= 0.6;
+  EXPECT_THAT(Faults(m), ElementsAre(HasSubstr("one of the two is off")));
+  RandomStream random({3, 1}, Stream::test);
+  const auto selection = SelectConstantSpeed(m);
+  for (size_t k = 3; k < selection.segments.size(); ++k) {
+    const Segment& one = selection.segments[k];
+    const double way = m.position[one.end - 1] - m.position[one.begin];
+    for (Index i = one.begin; i < one.end; ++i) m.position[i] += 0.1 * way * random.Normal();
+  }
+  EXPECT_THAT(FindFaults(m, selection), IsEmpty());
+}
+
+TEST(FindFaults, FindsTheSignOfATorqueThatIsAReaction) {
+  Measurements m = Log({});
+  m.torque = -m.torque;
+  EXPECT_THAT(Faults(m), ElementsAre(HasSubstr("--scale torque=-1")));
+}
+
+TEST(FindFaults, FindsTheRangeAfterWhichAPositionStartsAgain) {
+  Measurements m = Log({.step = 0.1});
+  const Selection selection = SelectConstantSpeed(m);
+  for (double& p : m.position) p -= 2.5 * std::floor(p / 2.5);
+  EXPECT_THAT(FindFaults(m, selection), testing::Contains(HasSubstr("--wrap 2.5")));
+}
+
 TEST(FindFaults, FindsTorqueThatIsClipped) {
   Measurements m = Log({});
   m.torque = m.torque.cwiseMin(14).cwiseMax(-14);

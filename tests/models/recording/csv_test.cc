@@ -98,13 +98,8 @@ TEST(ReadCsv, KnowsLinearJoints) {
               AllOf(HasSubstr("position cannot be in 'deg'"), HasSubstr("mm")));
 }
 
-TEST(ReadCsv, DerivesAMissingVelocity) {
-  std::string text = "time,position,torque\n";
-  for (int i = 0; i < 200; ++i) text += fmt::format("{},{},{}\n", 0.01 * i, 0.3 * 0.01 * i, i % 2);
-  const Measurements log = Read(text);
-  ASSERT_EQ(log.velocity.size(), 200);
-  // a straight line keeps its slope through filter and differences, to rounding of 0.3 t / 0.01 s
-  EXPECT_LT((log.velocity.array() - 0.3).abs().maxCoeff(), 1e-12);
+TEST(ReadCsv, LeavesAMissingVelocityEmpty) {
+  EXPECT_EQ(Read("time,position,torque\n0,0,1\n1,1,2\n2,2,1\n").velocity.size(), 0);
 }
 
 TEST(ReadCsv, UnwrapsARotaryPosition) {
@@ -114,10 +109,33 @@ TEST(ReadCsv, UnwrapsARotaryPosition) {
   layout.unit = {{"position", "deg"}};
   const Measurements log = Read(text, layout);
   EXPECT_NEAR(log.position[99], 693 * std::numbers::pi / 180, 1e-12);
-  EXPECT_NEAR(log.velocity[50], 7 * std::numbers::pi / 180, 1e-12);
-  ASSERT_EQ(log.notes.size(), 2U);
+  ASSERT_EQ(log.notes.size(), 1U);
   EXPECT_EQ(log.notes[0], "position jumps by a turn 1 times; unwrapped");
-  EXPECT_THAT(log.notes[1], HasSubstr("velocity derived from position"));
+}
+
+TEST(ReadCsv, MultipliesColumnsByFactors) {
+  CsvLayout layout;
+  layout.scale = {{"torque", "-2"}};
+  layout.unit = {{"position", "deg"}};
+  const std::string text = "time,position,torque\n0,180,1\n1,181,2\n2,182,1\n";
+  const Measurements log = Read(text, layout);
+  EXPECT_EQ(log.torque, Eigen::Vector3d(-2, -4, -2));
+  EXPECT_NEAR(log.position[0], std::numbers::pi, 1e-12);
+  layout.scale = {{"torque", "0"}};
+  EXPECT_THAT(Refusal(text, layout), HasSubstr("other than 0"));
+  layout.scale = {{"torq", "2"}};
+  EXPECT_THAT(Refusal(text, layout), HasSubstr("did you mean 'torque'"));
+}
+
+TEST(ReadCsv, UnwrapsAPositionByItsRange) {
+  std::string text = "time,position,torque\n";
+  for (int i = 0; i < 100; ++i) text += fmt::format("{},{},{}\n", i, (700 * i) % 2500, i % 3);
+  CsvLayout layout;
+  layout.unit = {{"position", "mm"}};
+  layout.joint = JointKind::linear;
+  layout.wrap = 2500;
+  const Measurements log = Read(text, layout);
+  EXPECT_NEAR(log.position[99], 69.3, 1e-9);
 }
 
 TEST(ReadCsv, RefusesWhatIsNoRecording) {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "identification/preparation/select.h"
+#include "identification/preparation/prepared_log.h"
 #include "tools/report/draw/ticks.h"
 #include "tools/report/figures/envelope.h"
 #include "tools/report/figures/fit_page.h"
@@ -89,8 +89,9 @@ std::optional<Figure> FrictionMapOf(const EstimateView& view) {
 EstimateView MakeEstimateView(Estimate estimate, std::optional<Measurements> measurements) {
   EstimateView view{std::move(estimate), std::move(measurements), std::nullopt};
   if (view.measurements) {
-    view.fit =
-        MakeFitView(*view.measurements, SelectConstantSpeed(*view.measurements), view.estimate);
+    const PreparedLog log = Prepare(*std::move(view.measurements));
+    view.measurements = log.taken().measurements;
+    view.fit = MakeFitView(log.taken().measurements, log.taken().selection, view.estimate);
   }
   return view;
 }

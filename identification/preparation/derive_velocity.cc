@@ -1,4 +1,4 @@
-#include "models/recording/derive_velocity.h"
+#include "identification/preparation/derive_velocity.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "models/foundation/robust_noise.h"
 #include "models/recording/sampling.h"
 
-namespace warmjoint::inline models {
+namespace warmjoint::inline identification {
 namespace {
 
 double SamplingRate(const Eigen::VectorXd& time) {
@@ -97,4 +97,4 @@ double ChooseCutoff(const Eigen::VectorXd& time, const Eigen::VectorXd& position
   return std::clamp(cutoff, std::min(lowest * rate, highest), highest);
 }
 
-}  // namespace warmjoint::inline models
+}  // namespace warmjoint::inline identification

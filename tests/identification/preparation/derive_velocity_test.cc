@@ -1,4 +1,4 @@
-#include "models/recording/derive_velocity.h"
+#include "identification/preparation/derive_velocity.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,60 @@
+#include "identification/preparation/insert_samples.h"
+
+#include <algorithm>
+
+namespace warmjoint::inline identification {
+namespace {
+
+using Eigen::Index;
+
+/// The column with the value behind each sample put in at it. [N + inserted]
+template <typename Column>
+Column Filled(const Column& column, const std::vector<InsertedSample>& inserted) {
+  Column filled(column.size() + static_cast<Index>(inserted.size()));
+  Index from = 0, to = 0;
+  for (const InsertedSample& one : inserted) {
+    const Index count = one.after + 1 - from;
+    filled.segment(to, count) = column.segment(from, count);
+    from += count;
+    to += count;
+    filled[to++] = column[from];
+  }
+  filled.tail(filled.size() - to) = column.tail(column.size() - from);
+  return filled;
+}
+
+}  // namespace
+
+void InsertSamples(const std::vector<InsertedSample>& inserted, Measurements& log,
+                   Selection& selection) {
+  const Eigen::VectorXd position = log.position;
+  const auto motor = log.motor_position;
+  ForEachColumn(log, [&](Eigen::VectorXd& column) { column = Filled(column, inserted); });
+  selection.keep = Filled(selection.keep, inserted);
+
+  // what is put in: when, where, and that no fit sees it
+  for (size_t i = 0; i < inserted.size(); ++i) {
+    const InsertedSample& one = inserted[i];
+    const Index n = one.after + 1 + static_cast<Index>(i);
+    log.time[n] = one.time;
+    log.position[n] = one.position;
+    log.velocity[n] = one.velocity;
+    selection.keep[n] = false;
+    if (!motor) continue;
+    (*log.motor_position)[n] =
+        (*motor)[one.after] + log.gear * (one.position - position[one.after]);
+  }
+
+  // where the samples that were taken stand now
+  const auto moved = [&](Index n) {
+    const auto before = [](const InsertedSample& one, Index sample) { return one.after < sample; };
+    return n + (std::lower_bound(inserted.begin(), inserted.end(), n, before) - inserted.begin());
+  };
+  for (Index& start : log.starts) start = moved(start);
+  for (Segment& segment : selection.segments) {
+    segment.begin = moved(segment.begin);
+    segment.end = moved(segment.end);
+  }
+}
+
+}  // namespace warmjoint::inline identification

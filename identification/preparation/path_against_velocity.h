@@ -1,0 +1,33 @@
+// The path that a velocity column tells, against the path of the positions.
+#pragma once
+
+#include <optional>
+
+#include "models/recording/measurements.h"
+#include "models/recording/selection.h"
+
+namespace warmjoint::inline identification {
+
+/// From the middle of each segment to the middle of the next, the path sum |v| h.
+struct PathComparison {
+  double excess = 0;  // path of the velocities / path of the positions - 1
+  double error = 0;   // its standard error, from the scatter over the ways
+  int ways = 0;       // compared
+};
+
+/// Compares two versions of one log, each with the velocity held until the next sample:
+/// `by_velocity` as its velocity column tells it, `by_position` as its positions do
+/// (motion_from_positions.h). Ways count where both agree on the speeds of their two segments to
+/// 2 %, so that a position that is stuck or wrapped for a while tells nothing, and where no gap and
+/// no start lies between. segments: of the log as it was taken, whose sample times are `time`.
+/// Nothing with fewer than 8 ways.
+std::optional<PathComparison> ComparePaths(const Measurements& by_velocity,
+                                           const Measurements& by_position,
+                                           const std::vector<Segment>& segments,
+                                           const Measurements& taken);
+
+/// Whether the positions contradict the velocity column: the paths differ by more than 0.1 %, which
+/// moves the thermal gain by as much, and by more than four standard errors.
+bool Contradicts(const PathComparison& paths);
+
+}  // namespace warmjoint::inline identification

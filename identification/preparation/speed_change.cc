@@ -1,0 +1,146 @@
+#include "identification/preparation/speed_change.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace warmjoint::inline identification {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr double kAlike = 0.01;     // of the greater speed
+constexpr double kWorthARamp = 4;   // squared deviations
+constexpr double kCertain = 4;      // standard errors of the crossing
+constexpr double kOfTheRamp = 0.1;  // of its duration, beside the margin
+constexpr double kLineErrors = 3;   // standard errors of a line
+constexpr int kGrid = 48, kGolden = 40;
+
+/// Sum of the squares of the positions around a change of that duration.
+double Squares(const VectorXd& time, const VectorXd& position, SpeedChange change, double duration,
+               Index first, Index last) {
+  change.duration = duration;
+  double squares = 0;
+  for (Index i = first; i <= last; ++i) squares += std::pow(position[i] - change.At(time[i]), 2);
+  return squares;
+}
+
+/// The minimum of squares(D) between two durations, one of which may be 0.
+template <typename Function>
+double GoldenSection(double low, double high, const Function& squares) {
+  constexpr double share = 2 - std::numbers::phi;
+  double left = low + share * (high - low), right = high - share * (high - low);
+  double at_left = squares(left), at_right = squares(right);
+  for (int i = 0; i < kGolden; ++i) {
+    if (at_left < at_right) {
+      high = right, right = left, at_right = at_left;
+      left = low + share * (high - low), at_left = squares(left);
+    } else {
+      low = left, left = right, at_left = at_right;
+      right = high - share * (high - low), at_right = squares(right);
+    }
+  }
+  return at_left < at_right ? left : right;
+}
+
+/// The duration of least squares, 0 where a jump explains the positions as well.
+double FindDuration(const VectorXd& time, const VectorXd& position, const SpeedChange& jump,
+                    Index first, Index last, double deviation) {
+  const double longest = 2 * std::min(jump.time - time[first], time[last] - jump.time);
+  const auto squares = [&](double duration) {
+    return Squares(time, position, jump, duration, first, last);
+  };
+  const double at_jump = squares(0);
+  double best = 0, least = at_jump;
+  for (int i = 1; i <= kGrid; ++i) {
+    const double value = squares(longest * i / kGrid);
+    if (value < least) least = value, best = longest * i / kGrid;
+  }
+  const double step = longest / kGrid;
+  const double refined =
+      GoldenSection(std::max(best - step, 0.0), std::min(best + step, longest), squares);
+  const double gained = at_jump - squares(refined);
+  return gained > kWorthARamp * deviation * deviation ? refined : 0;
+}
+
+/// Whether each sample lies where the change has it.
+bool Follows(const VectorXd& time, const VectorXd& position, const SpeedChange& change, Index first,
+             Index last, const PositionNoise& noise) {
+  for (Index i = first; i <= last; ++i) {
+    const double t = time[i];
+    const double of_line = std::max(t < change.end() ? change.before.ErrorAt(t) : 0,
+                                    t > change.begin() ? change.behind.ErrorAt(t) : 0);
+    if (std::abs(position[i] - change.At(t)) > noise.reach + kLineErrors * of_line) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+double PositionLine::ErrorAt(double t) const {
+  const double away = t - time;
+  return deviation * std::sqrt(1 / samples + (spread > 0 ? away * away / spread : 0));
+}
+
+std::optional<PositionLine> FitPositionLine(const VectorXd& time, const VectorXd& position,
+                                            Index first, Index last,
+                                            const Eigen::Array<bool, Eigen::Dynamic, 1>& use) {
+  PositionLine line;
+  for (Index i = first; i <= last; ++i) {
+    if (!use[i]) continue;
+    line.time += time[i];
+    line.position += position[i];
+    ++line.samples;
+  }
+  if (line.samples < 2) return std::nullopt;
+  line.time /= line.samples;
+  line.position /= line.samples;
+
+  double product = 0, squares = 0;
+  for (Index i = first; i <= last; ++i) {
+    if (!use[i]) continue;
+    const double t = time[i] - line.time;
+    line.spread += t * t;
+    product += t * (position[i] - line.position);
+  }
+  line.velocity = product / line.spread;
+  for (Index i = first; i <= last; ++i) {
+    if (use[i]) squares += std::pow(position[i] - line.At(time[i]), 2);
+  }
+  line.deviation = std::sqrt(squares / std::max(line.samples - 2, 1.0));
+  return line;
+}
+
+double SpeedChange::At(double t) const {
+  if (t <= begin()) return before.At(t);
+  if (t >= end()) return behind.At(t);
+  const double since = t - begin();
+  return before.At(t) + (behind.velocity - before.velocity) / (2 * duration) * since * since;
+}
+
+std::optional<SpeedChange> FindSpeedChange(const VectorXd& time, const VectorXd& position,
+                                           const PositionLine& before, const PositionLine& behind,
+                                           Index first, Index last, const PositionNoise& noise) {
+  const double change_of_speed = std::abs(behind.velocity - before.velocity);
+  const double fastest = std::max(std::abs(before.velocity), std::abs(behind.velocity));
+  if (!(change_of_speed > kAlike * fastest)) return std::nullopt;
+
+  // where the lines cross, counted from the middle between them so that no digits are lost
+  SpeedChange change{before, behind};
+  const double middle = (time[first] + time[last]) / 2;
+  change.time =
+      middle + (before.At(middle) - behind.At(middle)) / (behind.velocity - before.velocity);
+  if (!(change.time >= time[first] && change.time <= time[last])) return std::nullopt;
+  change.duration = FindDuration(time, position, change, first, last, noise.deviation);
+  if (!Follows(time, position, change, first, last, noise)) return std::nullopt;
+
+  const double error =
+      std::hypot(before.ErrorAt(change.time), behind.ErrorAt(change.time)) / change_of_speed;
+  change.margin = std::max({std::sqrt(2 * noise.reach * change.duration / change_of_speed) / 2,
+                            noise.reach / change_of_speed, kCertain * error}) +
+                  kOfTheRamp * change.duration;
+  return change;
+}
+
+}  // namespace warmjoint::inline identification
