@@ -17,8 +17,11 @@ bool Disturbances::operator==(const Disturbances& other) const {
   return outliers == other.outliers && coloured_noise == other.coloured_noise &&
          periodic_torque == other.periodic_torque && gravity == other.gravity &&
          ambient_drift == other.ambient_drift && load_change == other.load_change &&
-         ambient_temperature == other.ambient_temperature &&
-         heat(second_heat) == heat(other.second_heat);
+         ambient_temperature == other.ambient_temperature && torque_lag == other.torque_lag &&
+         velocity_filter == other.velocity_filter && stale_position == other.stale_position &&
+         encoder == other.encoder && hold_parity == other.hold_parity &&
+         step_in_time == other.step_in_time && run_in == other.run_in &&
+         without_velocity == other.without_velocity && heat(second_heat) == heat(other.second_heat);
 }
 
 std::string_view IdealOnly(const Disturbances& disturbances) {

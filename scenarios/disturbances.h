@@ -73,6 +73,58 @@ struct LoadChange {
   bool operator==(const LoadChange&) const = default;
 };
 
+/// The logged friction passes a first-order low-pass before the noise joins it, as a slow sensor or
+/// a drive's filter has it.
+struct TorqueLag {
+  double time_constant = 0;  // s; 0: none
+
+  bool operator==(const TorqueLag&) const = default;
+};
+
+/// The logged velocity, with its noise, has passed a first-order low-pass.
+struct VelocityFilter {
+  double time_constant = 0;  // s; 0: none
+
+  bool operator==(const VelocityFilter&) const = default;
+};
+
+/// The logged position is that of some samples ago.
+struct StalePosition {
+  double samples = 0;  // a whole number
+
+  bool operator==(const StalePosition&) const = default;
+};
+
+/// The logged position comes in whole steps.
+struct Encoder {
+  double resolution = 0;  // rad or m; 0: none
+
+  bool operator==(const Encoder&) const = default;
+};
+
+/// Every other hold of a speed has a higher level, as a load that nobody logs makes it.
+struct HoldParity {
+  double level = 0;  // N.m or N against the motion, in the second, fourth, ... hold
+
+  bool operator==(const HoldParity&) const = default;
+};
+
+/// The level changes at once, as lubrication or a knock changes it.
+struct StepInTime {
+  double level = 0;  // N.m or N against the motion, from then on
+  double time = 0;   // s
+
+  bool operator==(const StepInTime&) const = default;
+};
+
+/// A level that runs in: level exp(-t / time_constant) against the motion, no matter how warm.
+struct RunIn {
+  double level = 0;          // N.m or N
+  double time_constant = 1;  // s
+
+  bool operator==(const RunIn&) const = default;
+};
+
 struct Disturbances {
   Outliers outliers;
   ColouredNoise coloured_noise;
@@ -81,6 +133,14 @@ struct Disturbances {
   AmbientDrift ambient_drift;
   AmbientTemperature ambient_temperature;
   LoadChange load_change;
+  TorqueLag torque_lag;
+  VelocityFilter velocity_filter;
+  StalePosition stale_position;
+  Encoder encoder;
+  HoldParity hold_parity;
+  StepInTime step_in_time;
+  RunIn run_in;
+  bool without_velocity = false;       // the log has no velocity column
   std::optional<Thermal> second_heat;  // a second energy state fed by the same W; ideal plant only
 
   bool operator==(const Disturbances&) const;

@@ -19,7 +19,8 @@ struct Controller {
   double bandwidth =
       20;  // rad/s, of the closed velocity loop; gains follow from the joint's inertia
   double acceleration =
-      0;  // rad/s^2 or m/s^2 of the reference between segments; 0: chosen by plant
+      0;  // rad/s^2 or m/s^2 of the reference between segments; 0: chosen by the mujoco plant, and
+          // jumps in the ideal one
 
   bool operator==(const Controller&) const = default;
 };

@@ -1,5 +1,7 @@
 #include "scenarios/yaml_disturbances.h"
 
+#include <cmath>
+
 namespace warmjoint::inline scenarios {
 namespace {
 
@@ -42,6 +44,19 @@ std::vector<Part> Parts(Disturbances& d, Thermal& heat) {
        {{"load", &d.load_change.load, Bound::any},
         {"gain", &d.load_change.gain, Bound::not_negative},
         {"period", &d.load_change.period, Bound::positive}}},
+      {"torque_lag", {{"time_constant", &d.torque_lag.time_constant, Bound::not_negative}}},
+      {"velocity_filter",
+       {{"time_constant", &d.velocity_filter.time_constant, Bound::not_negative}}},
+      {"stale_position", {{"samples", &d.stale_position.samples, Bound::not_negative}}},
+      {"encoder", {{"resolution", &d.encoder.resolution, Bound::not_negative}}},
+      {"hold_parity", {{"level", &d.hold_parity.level, Bound::any}}},
+      {"step_in_time",
+       {{"level", &d.step_in_time.level, Bound::any},
+        {"time", &d.step_in_time.time, Bound::not_negative}}},
+      {"run_in",
+       {{"level", &d.run_in.level, Bound::any},
+        {"time_constant", &d.run_in.time_constant, Bound::positive}}},
+      {"without_velocity", {}},
       {"second_heat",
        {{"thermal_gain", &heat.gain, Bound::any},
         {"thermal_time_constant", &heat.time_constant, Bound::positive}}},
@@ -72,6 +87,12 @@ Disturbances ReadDisturbances(const YamlValue& value) {
     if (const auto given = value.Find(part.name)) ReadPart(*given, part);
   }
   if (value.Find("second_heat")) disturbances.second_heat = heat;
+  disturbances.without_velocity = value.Find("without_velocity").has_value();
+  const double late = disturbances.stale_position.samples;
+  if (late != std::round(late)) {
+    Refuse(value.Find("stale_position")->place(),
+           "{}.stale_position.samples is {}; it must be a whole number", value.key(), late);
+  }
   if (disturbances.outliers.fraction >= 1) {
     Refuse(value.Find("outliers")->place(), "{}.outliers.fraction is {}; it must be below 1",
            value.key(), disturbances.outliers.fraction);
@@ -89,7 +110,8 @@ std::string DisturbancesToYaml(const Disturbances& disturbances, const std::stri
 
   std::string yaml;
   for (size_t i = 0; i < parts.size(); ++i) {
-    bool given = parts[i].name == "second_heat" && disturbances.second_heat;
+    bool given = (parts[i].name == "second_heat" && disturbances.second_heat) ||
+                 (parts[i].name == "without_velocity" && disturbances.without_velocity);
     std::string entries;
     for (size_t j = 0; j < parts[i].entries.size(); ++j) {
       const double number = *parts[i].entries[j].number;

@@ -1,4 +1,4 @@
-// Disturbances that show in the logged torque alone.
+// Disturbances that show in the log alone.
 #pragma once
 
 #include "scenarios/scenario.h"
@@ -6,8 +6,9 @@
 
 namespace warmjoint::inline sim {
 
-/// Adds to the logged torque what the scenario disturbs it by: outliers, coloured noise, a periodic
-/// torque. Their random numbers come from streams of their own, so that they leave all others as
+/// Adds to the logged torque what the scenario disturbs it by: a lag, friction that no model knows,
+/// outliers, coloured noise, a periodic torque; and makes of the motion what poorer sensors log:
+/// a velocity that is filtered or missing, positions that are late or coarse. Their random numbers come from streams of their own, so that they leave all others as
 /// they are. Coloured noise joins Truth.torque_noise; outliers, being no noise of one size, do not.
 void DisturbLog(const Scenario& scenario, std::uint64_t realization, Recording& recording);
 

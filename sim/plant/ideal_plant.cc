@@ -6,6 +6,7 @@
 #include "models/foundation/bad_input.h"
 #include "models/friction/along_motion.h"
 #include "sim/plant/disturb_log.h"
+#include "sim/plant/velocity_reference.h"
 
 namespace warmjoint::inline sim {
 namespace {
@@ -38,6 +39,38 @@ SampledPlan SamplePlan(const std::vector<MotionSegment>& plan, double start, dou
     samples.position[i] = start + plan[segment].velocity * (time - begin);
   }
   return samples;
+}
+
+/// Longest step of the formulas where speeds change by ramps, s.
+constexpr double kFinestStep = 0.002;
+
+/// Samples of each stored one: 1 where speeds jump.
+int PartsOfStep(const Scenario& scenario) {
+  if (scenario.controller.acceleration == 0) return 1;
+  return static_cast<int>(std::ceil(1 / (scenario.sampling.rate * kFinestStep)));
+}
+
+/// The same with ramps from one speed to the next, from rest before the first one.
+SampledPlan SampleRamps(const std::vector<MotionSegment>& plan, double start, double rate,
+                        double duration, double acceleration) {
+  VelocityReference reference(plan, acceleration, 0);
+  const auto n = static_cast<Eigen::Index>(std::llround(duration * rate));
+  SampledPlan samples{Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n)};
+  for (Eigen::Index i = 0; i < n; ++i) {
+    samples.time[i] = static_cast<double>(i) / rate;
+    samples.velocity[i] = reference.Velocity(samples.time[i]);
+    samples.position[i] = start;
+    if (i > 0) {
+      samples.position[i] =
+          samples.position[i - 1] + (samples.velocity[i - 1] + samples.velocity[i]) / (2 * rate);
+    }
+  }
+  return samples;
+}
+
+/// Every so many values, from the first on.
+Eigen::VectorXd EveryOf(const Eigen::VectorXd& values, int parts) {
+  return values(Eigen::seq(0, Eigen::last, parts));
 }
 
 /// values plus white noise of the given standard deviation; no numbers are drawn for 0.
@@ -73,11 +106,20 @@ class IdealPlant : public Plant {
     const RandomKey key{scenario_.seed, realization};
     RandomStream motion_stream(key, Stream::motion);
     const auto plan = PlanMotion(scenario_.motion, scenario_.duration, {}, motion_stream);
-    const SampledPlan samples = SamplePlan(plan, StartPosition(scenario_.motion, {}),
-                                           scenario_.sampling.rate, scenario_.duration);
-    Prediction friction =
-        AlongMotion(FrictionOfPlant()).Predict(CourseOf(samples), {scenario_.initial_energy});
+    const int parts = PartsOfStep(scenario_);
+    const double rate = parts * scenario_.sampling.rate;
+    const double start = StartPosition(scenario_.motion, {});
+    const double acceleration = scenario_.controller.acceleration;
+    SampledPlan samples = acceleration > 0
+                              ? SampleRamps(plan, start, rate, scenario_.duration, acceleration)
+                              : SamplePlan(plan, start, rate, scenario_.duration);
+    Prediction friction = AlongMotion(FrictionOfPlant())
+                              .Predict(CourseOf(samples, 1 / rate), {scenario_.initial_energy});
     RefusePush(samples, friction);
+    for (Eigen::VectorXd* column : {&samples.time, &samples.velocity, &samples.position,
+                                    &friction.force, &friction.loss, &friction.energy}) {
+      *column = EveryOf(*column, parts);
+    }
 
     Recording recording;
     recording.measurements = Measure(samples, friction.force, key);
@@ -123,10 +165,11 @@ class IdealPlant : public Plant {
     return friction;
   }
 
-  JointCourse CourseOf(const SampledPlan& samples) const {
+  /// step: between the samples, s.
+  JointCourse CourseOf(const SampledPlan& samples, double step) const {
     const Disturbances& disturbances = scenario_.disturbances;
     JointCourse course{samples.time, samples.velocity, samples.position};
-    course.step = 1 / scenario_.sampling.rate;
+    course.step = step;
     course.load = TransmittedLoad(samples);
     course.ambient_rise = samples.time.unaryExpr(
         [&](double t) { return disturbances.ambient_temperature.RiseAt(t); });

@@ -132,5 +132,30 @@ TEST(IdealPlant, RefusesToAccelerate) {
               testing::ThrowsMessage<BadInput>(testing::HasSubstr("use the mujoco plant")));
 }
 
+TEST(IdealPlant, ChangesSpeedsByRamps) {
+  Scenario scenario = test::Table1();
+  scenario.noise.torque = 0;
+  scenario.sampling.rate = 10;
+  scenario.duration = 600;
+  scenario.controller.acceleration = 0.5;
+  const Recording ramped = MakePlant(scenario)->Run(0);
+  const Measurements& m = ramped.measurements;
+  const Eigen::VectorXd steps = m.velocity.tail(m.size() - 1) - m.velocity.head(m.size() - 1);
+  EXPECT_LE(steps.cwiseAbs().maxCoeff(), 0.05 + 1e-12);
+
+  // trapezoids between stored samples miss a corner by a tenth of a second's acceleration at most
+  for (Eigen::Index i = 1; i < m.size(); ++i) {
+    const double way = 0.05 * (m.velocity[i] + m.velocity[i - 1]);
+    EXPECT_NEAR(m.position[i] - m.position[i - 1], way, 0.5 * 0.01 / 4);
+  }
+
+  // the speeds themselves are those of the plan with jumps, which each ramp leads to
+  scenario.controller.acceleration = 0;
+  const Recording jumping = MakePlant(scenario)->Run(0);
+  for (Eigen::Index i = 0; i < m.size(); i += 200) {
+    EXPECT_NEAR(m.velocity[i], jumping.measurements.velocity[i], 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace warmjoint

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "identification/preparation/prepared_log.h"
 #include "identification/preparation/select.h"
 #include "models/foundation/bad_input.h"
 #include "models/recording/course_of.h"
@@ -192,7 +193,7 @@ Eigen::MatrixXd BoundCovariance(const Suite& suite, const RunRow& row) {
   FrictionSpread spread;
   try {
     const Recording recording = MakePlant(suite.scenario)->Run(0);
-    const Measurements& m = recording.measurements;
+    const Measurements m = Prepare(recording.measurements).taken().measurements;
     bound.friction = recording.truth.friction;
     spread = SpreadOf(
         bound, CourseOf(m), {recording.truth.initial_energy},

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "identification/preparation/prepared_log.h"
 #include "identification/preparation/select.h"
 #include "models/recording/read_recording.h"
 #include "scenarios/read_scenario.h"
@@ -27,7 +28,7 @@ void KeepTrulyConstant(const Truth& truth, Selection& selection) {
 SimulationView MakeSimulationView(const Scenario& scenario, const Recording& recording) {
   Estimate truth;
   truth.friction = recording.truth.friction;
-  const Measurements& m = recording.measurements;
+  const Measurements m = Prepare(recording.measurements).taken().measurements;
   Selection selection =
       scenario.plant == PlantKind::ideal ? SelectMoving(m) : SelectConstantSpeed(m);
   KeepTrulyConstant(recording.truth, selection);
@@ -35,7 +36,7 @@ SimulationView MakeSimulationView(const Scenario& scenario, const Recording& rec
   Prediction known;
   known.force = recording.truth.force;
   known.energy = recording.truth.energy;
-  return {scenario, recording, MakeFitView(m, selection, truth, known)};
+  return {scenario, {m, recording.truth}, MakeFitView(m, selection, truth, known)};
 }
 
 bool IsSimulation(const std::filesystem::path& directory) {
