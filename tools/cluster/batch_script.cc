@@ -41,7 +41,8 @@ std::string Forwarded(const Plan& plan) {
 // the task runs beside the shell, which alone gets the signal before the limit and hands it on
 constexpr const char* kBody = R"sh(
 offset=${{1:-0}}
-trap 'kill -TERM $task' TERM
+me=${{SLURM_ARRAY_JOB_ID}}_$SLURM_ARRAY_TASK_ID  # the job number alone may stand for the whole array
+trap 'kill -TERM $task 2>/dev/null' TERM
 status=137
 # 137: the task was killed and not this script; the shard itself counts how often it is started in vain
 while [ $status -eq 137 ]; do
@@ -59,10 +60,10 @@ done
 # more. A controller that is away is asked again
 if [ $status -eq 130 ]; then
   for pause in 1 2 4 8 16; do
-    state=$(squeue -h -j "$SLURM_JOB_ID" -o %T) && break
+    state=$(squeue -h -j "$me" -o %T) && break
     sleep $pause
   done
-  [ "$state" = RUNNING ] && scontrol requeue "$SLURM_JOB_ID" && sleep 60
+  [ "$state" = RUNNING ] && scontrol requeue "$me" && sleep 60
 fi
 exit $status
 )sh";
