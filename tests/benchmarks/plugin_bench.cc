@@ -1,15 +1,20 @@
-// What friction costs in a step of MuJoCo: one 6-axis arm, one thread, ratios of one run.
+// What friction costs in a step of MuJoCo: two 6-axis arms with six motors, one thread, ratios of one
+// run to the arm without friction.
 //
-// Ratios are to the arm without actuators, and to that with six motors that do nothing, which is
-// what the engine takes for actuators as such. Every arm has the same joint damping and the same
-// swinging drive. Rounds of the variants take turns, and the fastest round of each counts, so that
-// a busy machine disturbs all of them alike.
+//   serial arm: six hinges in a row, damping 2 N.m.s/rad, steps of 2 ms
+//   industrial arm: models/robots/irb140_like, the same damping, steps of 1 ms
+//
+// "sliding" is under a drive that keeps all joints in motion, "held" at rest under gravity.
+// Each round runs all variants in turn; the ratio is the median over rounds of the thread's time to that
+// of the arm without friction in the same round, so that a busy machine disturbs both alike.
 #include <fmt/format.h>
+#include <time.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "sim/model/friction_actuator.h"
@@ -20,35 +25,45 @@
 namespace warmjoint {
 namespace {
 
-constexpr int kRounds = 300;
-constexpr int kSteps = 400;        // of a round
-constexpr double kDamping = 2;     // N.m.s/rad, of every joint
-constexpr double kLevel = 3;       // N.m
-constexpr double kStep = 0.001;    // s
-constexpr double kAmplitude = 60;  // N.m, of the drive
+constexpr int kSteps = 400;     // of a round
+constexpr double kDamping = 2;  // N.m.s/rad, of every joint
+constexpr int kNoslip[] = {0, 3, 20};
 
 using Change = std::function<void(mjSpec&, const std::vector<std::string>&)>;
 
-/// The arm without actuators and contacts, changed, compiled.
-ModelPtr MakeArm(mjtIntegrator integrator, const Change& change) {
+enum class Arm { serial, industrial };
+
+/// Friction's level on every joint, N.m: what holds the arm at rest under gravity.
+double LevelOf(Arm arm) { return arm == Arm::serial ? 30 : 80; }
+
+/// Six hinges in a row, with the axes of an industrial arm.
+SpecPtr SerialArm() {
+  std::string bodies, ends;
+  const char* axes[] = {"0 0 1", "0 1 0", "0 1 0", "1 0 0", "0 1 0", "1 0 0"};
+  for (int i = 0; i < 6; ++i) {
+    bodies += fmt::format(
+        R"(<body pos="{} 0 0"><joint name="j{}" axis="{}" armature="0.1"/>
+           <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.04" mass="{}"/>)",
+        i == 0 ? 0 : 0.2, i, axes[i], 3 - 0.4 * i);
+    ends += "</body>";
+  }
+  char error[1000] = "";
+  SpecPtr spec(
+      mj_parseXMLString(("<mujoco><worldbody>" + bodies + ends + "</worldbody></mujoco>").c_str(),
+                        nullptr, error, sizeof(error)));
+  if (!spec) Refuse({"bench"}, "{}", error);
+  spec->option.timestep = 0.002;
+  return spec;
+}
+
+SpecPtr IndustrialArm() {
   const auto file = test::SourceFolder() / "models/robots/irb140_like/irb140_like.xml";
-  const ParsedModel parsed = ParseModel(file);
-  mjSpec& spec = *parsed.spec;
+  SpecPtr spec = std::move(ParseModel(file).spec);
   for (const mjtObj type : {mjOBJ_KEY, mjOBJ_SENSOR, mjOBJ_ACTUATOR}) {
-    for (mjsElement* element : SpecElements(spec, type)) mjs_delete(&spec, element);
+    for (mjsElement* element : SpecElements(*spec, type)) mjs_delete(spec.get(), element);
   }
-  for (mjsElement* element : SpecElements(spec, mjOBJ_JOINT)) {
-    mjsJoint* joint = mjs_asJoint(element);
-    ClearOwnFriction(*joint);
-    joint->damping[0] = kDamping;
-    joint->limited = mjLIMITED_FALSE;
-    joint->actfrclimited = mjLIMITED_FALSE;
-  }
-  spec.option.timestep = kStep;
-  spec.option.integrator = integrator;
-  spec.option.disableflags |= mjDSBL_CONTACT;
-  change(spec, SpecNames(spec, mjOBJ_JOINT));
-  return CompileModel(spec, {file.string()});
+  spec->option.timestep = 0.001;
+  return spec;
 }
 
 mjsActuator* AddActuator(mjSpec& spec, const std::string& joint) {
@@ -58,23 +73,43 @@ mjsActuator* AddActuator(mjSpec& spec, const std::string& joint) {
   return actuator;
 }
 
-FrictionDescription Simple() {
+/// The arm with six motors and no contacts, changed, compiled.
+ModelPtr MakeArm(Arm arm, mjtIntegrator integrator, int noslip, const Change& change) {
+  const SpecPtr spec = arm == Arm::serial ? SerialArm() : IndustrialArm();
+  for (mjsElement* element : SpecElements(*spec, mjOBJ_JOINT)) {
+    mjsJoint* joint = mjs_asJoint(element);
+    ClearOwnFriction(*joint);
+    joint->damping[0] = kDamping;
+    joint->limited = mjLIMITED_FALSE;
+    joint->actfrclimited = mjLIMITED_FALSE;
+  }
+  spec->option.integrator = integrator;
+  spec->option.noslip_iterations = noslip;
+  spec->option.disableflags |= mjDSBL_CONTACT;
+  const auto joints = SpecNames(*spec, mjOBJ_JOINT);
+  for (const std::string& joint : joints) mjs_setToMotor(AddActuator(*spec, joint));
+  change(*spec, joints);
+  return CompileModel(*spec, {"bench"});
+}
+
+FrictionDescription Simple(Arm arm) {
   FrictionDescription friction;
   friction.law = "asymmetric";
-  friction.parameters = {
-      {"viscous", 0.5}, {"coulomb_positive", kLevel}, {"coulomb_negative", 1.1 * kLevel}};
-  friction.thermal = Thermal{-0.05, 300};
+  friction.parameters = {{"viscous", 0.5},
+                         {"coulomb_positive", LevelOf(arm)},
+                         {"coulomb_negative", 1.1 * LevelOf(arm)}};
+  friction.thermal = Thermal{-0.001, 300};
   friction.gear = 100;
   return friction;
 }
 
 /// The simple one with Stribeck's level and a map of 36 motor angles times 6 speeds.
-FrictionDescription Full() {
-  FrictionDescription friction = Simple();
+FrictionDescription Full(Arm arm) {
+  FrictionDescription friction = Simple(arm);
   friction.law = "stribeck";
   friction.parameters = {{"viscous", 0.5},
-                         {"coulomb", kLevel},
-                         {"static", 1.3 * kLevel},
+                         {"coulomb", LevelOf(arm)},
+                         {"static", 1.3 * LevelOf(arm)},
                          {"stribeck_velocity", 0.05},
                          {"stribeck_exponent", 2}};
   FrictionMap map{{{MapQuantity::motor_position, CircleAxis(6.283185307179586, 36)},
@@ -89,95 +124,132 @@ FrictionDescription Full() {
   return friction;
 }
 
-Change WithFriction(const FrictionDescription& friction) {
-  return [friction](mjSpec& spec, const std::vector<std::string>& joints) {
+Change WithFriction(const FrictionDescription& friction, FrictionForm form) {
+  return [friction, form](mjSpec& spec, const std::vector<std::string>& joints) {
     std::vector<FrictionForJoint> frictions;
     for (const std::string& joint : joints) frictions.push_back({joint, friction});
-    AddFriction(spec, frictions, {"bench"});
+    AddFriction(spec, frictions, {"bench"}, form);
   };
-}
-
-void WithServos(mjSpec& spec, const std::vector<std::string>& joints) {
-  for (const std::string& joint : joints) mjs_setToVelocity(AddActuator(spec, joint), 5);
 }
 
 void WithMotors(mjSpec& spec, const std::vector<std::string>& joints) {
   for (const std::string& joint : joints) mjs_setToMotor(AddActuator(spec, joint));
 }
 
-void WithFrictionLoss(mjSpec& spec, const std::vector<std::string>&) {
-  for (mjsElement* element : SpecElements(spec, mjOBJ_JOINT)) {
-    mjs_asJoint(element)->frictionloss = kLevel;
-  }
+Change WithFrictionLoss(double level) {
+  return [level](mjSpec& spec, const std::vector<std::string>&) {
+    for (mjsElement* element : SpecElements(spec, mjOBJ_JOINT)) {
+      mjs_asJoint(element)->frictionloss = level;
+    }
+  };
 }
 
-void WithDcMotors(mjSpec& spec, const std::vector<std::string>& joints) {
-  for (const std::string& joint : joints) {
-    mjsActuator* motor = AddActuator(spec, joint);
-    double constants[2] = {0, 0}, lugre[5] = {1000, 10, kLevel, 1.3 * kLevel, 0.05};
-    const std::string refusal = mjs_setToDCMotor(motor, constants, 1, nullptr, nullptr, nullptr,
-                                                 nullptr, nullptr, nullptr, lugre, mjINPUT_NONE);
-    if (!refusal.empty()) Refuse({"bench"}, "{}", refusal);
-  }
+Change WithDcMotors(double level) {
+  return [level](mjSpec& spec, const std::vector<std::string>& joints) {
+    for (const std::string& joint : joints) {
+      mjsActuator* motor = AddActuator(spec, joint);
+      double constants[2] = {0, 0}, lugre[5] = {1000, 10, level, 1.3 * level, 0.05};
+      const std::string refusal = mjs_setToDCMotor(motor, constants, 1, nullptr, nullptr, nullptr,
+                                                   nullptr, nullptr, nullptr, lugre, mjINPUT_NONE);
+      if (!refusal.empty()) Refuse({"bench"}, "{}", refusal);
+    }
+  };
 }
 
 struct Variant {
   const char* name;
   ModelPtr model;
   DataPtr data;
-  double fastest = 1e9;  // s, of a step
+  std::vector<double> times{};   // s, of each round
+  std::vector<double> ratios{};  // of each round, to the variant without friction
 };
 
-/// One round: steps the arm under a swinging drive.
-void Run(Variant& variant) {
-  const mjModel* m = variant.model.get();
-  mjData* d = variant.data.get();
-  const auto begin = std::chrono::steady_clock::now();
-  for (int i = 0; i < kSteps; ++i) {
-    for (int j = 0; j < m->nv; ++j) {
-      d->qfrc_applied[j] = d->qfrc_bias[j] + kAmplitude / (1 + j) * std::sin((2 + j) * d->time);
-    }
-    mj_step(m, d);
-  }
-  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
-  variant.fastest = std::min(variant.fastest, time.count() / kSteps);
+double ThreadSeconds() {
+  timespec now;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-void Compare(const char* title, mjtIntegrator integrator) {
+/// One round: steps the arm under a swinging drive of so many N.m.
+void Run(Variant& variant, double drive) {
+  const mjModel* m = variant.model.get();
+  mjData* d = variant.data.get();
+  const double begin = ThreadSeconds();
+  for (int i = 0; i < kSteps; ++i) {
+    for (int j = 0; j < m->nv; ++j)
+      d->ctrl[j] = drive / (1 + 0.3 * j) * std::sin((2 + j) * d->time);
+    mj_step(m, d);
+  }
+  variant.times.push_back(ThreadSeconds() - begin);
+}
+
+double Median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+std::vector<Variant> MakeVariants(Arm arm, mjtIntegrator integrator, int noslip) {
   std::vector<Variant> variants;
   const auto add = [&](const char* name, const Change& change) {
-    ModelPtr model = MakeArm(integrator, change);
+    ModelPtr model = MakeArm(arm, integrator, noslip, change);
     DataPtr data(mj_makeData(model.get()));
     variants.push_back({name, std::move(model), std::move(data)});
   };
-  add("no friction", [](mjSpec&, const auto&) {});
-  add("six motors alone", WithMotors);
-  add("velocity servos", WithServos);
-  add("frictionloss", WithFrictionLoss);
-  add("dcmotor LuGre", WithDcMotors);
-  add("ours, simple", WithFriction(Simple()));
-  add("ours, full", WithFriction(Full()));
+  const auto nothing = [](mjSpec&, const auto&) {};
+  add("no friction", nothing);
+  add("no friction, again", nothing);
+  add("six more motors", WithMotors);
+  add("frictionloss", WithFrictionLoss(LevelOf(arm)));
+  add("dcmotor LuGre", WithDcMotors(LevelOf(arm)));
+  add("passive, simple", WithFriction(Simple(arm), FrictionForm::passive));
+  add("passive, full", WithFriction(Full(arm), FrictionForm::passive));
+  add("actuator, simple", WithFriction(Simple(arm), FrictionForm::actuator));
+  add("actuator, full", WithFriction(Full(arm), FrictionForm::actuator));
+  return variants;
+}
 
-  for (int round = 0; round < kRounds; ++round) {
-    for (Variant& variant : variants) Run(variant);
+void Compare(const std::string& title, Arm arm, mjtIntegrator integrator, double drive,
+             int rounds) {
+  std::vector<std::vector<Variant>> columns;
+  for (const int noslip : kNoslip) columns.push_back(MakeVariants(arm, integrator, noslip));
+  for (int round = 0; round < rounds; ++round) {
+    for (std::vector<Variant>& variants : columns) {
+      for (Variant& variant : variants) {
+        Run(variant, drive);
+        variant.ratios.push_back(variant.times.back() / variants.front().times.back());
+      }
+    }
   }
-  fmt::print("{:<18} {:>9} {:>11} {:>10} {:>12}\n", title, "us/step", "to nothing", "to motors",
+  fmt::print("\n{:<44} {:>8} {:>9} {:>9} {:>9} {:>12}\n", title, "us/step", "noslip 0", "3", "20",
              "speed rad/s");
-  for (const Variant& variant : variants) {
+  for (size_t i = 0; i < columns.front().size(); ++i) {
+    const Variant& variant = columns.front()[i];
     double speed = 0;
     for (int j = 0; j < variant.model->nv; ++j) {
       speed = std::max(speed, std::abs(variant.data->qvel[j]));
     }
-    fmt::print("{:<18} {:9.3f} {:11.3f} {:10.3f} {:12.3f}\n", variant.name, 1e6 * variant.fastest,
-               variant.fastest / variants[0].fastest, variant.fastest / variants[1].fastest, speed);
+    fmt::print("{:<44} {:8.3f}", variant.name, 1e6 * Median(variant.times) / kSteps);
+    for (const auto& variants : columns) fmt::print(" {:9.3f}", Median(variants[i].ratios));
+    fmt::print(" {:12.3g}\n", speed);
   }
 }
 
 }  // namespace
 }  // namespace warmjoint
 
-int main() {
-  warmjoint::Compare("implicitfast", mjINT_IMPLICITFAST);
-  warmjoint::Compare("Euler", mjINT_EULER);
+/// Arguments: the number of rounds, 200 where not given.
+int main(int argc, char** argv) {
+  using namespace warmjoint;
+  const int rounds = argc > 1 ? std::atoi(argv[1]) : 200;
+  for (const Arm arm : {Arm::serial, Arm::industrial}) {
+    for (const mjtIntegrator integrator : {mjINT_IMPLICITFAST, mjINT_EULER}) {
+      const std::string name =
+          fmt::format("{} arm, {}", arm == Arm::serial ? "serial" : "industrial",
+                      integrator == mjINT_EULER ? "Euler" : "implicitfast");
+      Compare(name + ", sliding", arm, integrator, 6 * LevelOf(arm), rounds);
+      Compare(name + ", held", arm, integrator, 0, rounds);
+    }
+  }
   return 0;
 }

@@ -1,4 +1,5 @@
-// How joints stick: ours beside frictionloss and the LuGre of dcmotor, as two tables.
+// How joints stick: ours in both forms beside frictionloss, with noslip iterations too, and the LuGre of
+// dcmotor, as two tables.
 //
 // A link of 0.25 kg.m^2 with 1 kg 0.5 m from a horizontal axis asks 4.9 N.m of a joint whose
 // friction is 6 N.m. Creep and the fastest speed are measured over a minute after two seconds of
@@ -37,13 +38,15 @@ const char* NameOf(mjtIntegrator integrator) {
 struct Kind {
   const char* name;
   void (*add)(mjSpec& spec, const std::string& joint, double level, double inertia);
+  int noslip = 0;  // iterations
 };
 
+template <FrictionForm form>
 void AddOurs(mjSpec& spec, const std::string& joint, double level, double) {
   FrictionDescription friction;
   friction.law = "coulomb";
   friction.parameters = {{"coulomb", level}};
-  AddFriction(spec, {{joint, friction}}, {"sticking_table"});
+  AddFriction(spec, {{joint, friction}}, {"sticking_table"}, form);
 }
 
 void AddFrictionLoss(mjSpec& spec, const std::string& joint, double level, double) {
@@ -62,8 +65,12 @@ void AddLugre(mjSpec& spec, const std::string& joint, double level, double inert
   if (!refusal.empty()) Refuse({"sticking_table"}, "{}", refusal);
 }
 
-constexpr Kind kKinds[] = {
-    {"ours", AddOurs}, {"frictionloss", AddFrictionLoss}, {"dcmotor LuGre", AddLugre}};
+constexpr Kind kKinds[] = {{"ours, actuator", AddOurs<FrictionForm::actuator>},
+                           {"ours, passive", AddOurs<FrictionForm::passive>},
+                           {"frictionloss", AddFrictionLoss},
+                           {"frictionloss, noslip 3", AddFrictionLoss, 3},
+                           {"frictionloss, noslip 20", AddFrictionLoss, 20},
+                           {"dcmotor LuGre", AddLugre}};
 
 class Link {
  public:
@@ -84,6 +91,7 @@ class Link {
     spec->option.timestep = step;
     spec->option.integrator = integrator;
     spec->option.gravity[2] = -gravity;
+    spec->option.noslip_iterations = kind.noslip;
     kind.add(*spec, "hinge", 6, 0.25);
     model_ = CompileModel(*spec, {kind.name});
     data_.reset(mj_makeData(model_.get()));
@@ -154,7 +162,7 @@ double Chatter(Link link) {
 }
 
 void PrintLink() {
-  fmt::print("{:<14} {:>5} {:<13} {:>13} {:>12} {:>11} {:>13} {:>8}\n", "friction", "step",
+  fmt::print("{:<23} {:>5} {:<13} {:>13} {:>12} {:>11} {:>13} {:>8}\n", "friction", "step",
              "integrator", "creep rad/min", "speed rad/s", "break-away", "drift rad/min",
              "chatter");
   for (const Kind& kind : kKinds) {
@@ -162,7 +170,7 @@ void PrintLink() {
       for (const mjtIntegrator integrator : kIntegrators) {
         const auto link = [&](double gravity) { return Link(kind, step, integrator, gravity); };
         const Creeping rest = Creep(link(9.81));
-        fmt::print("{:<14} {:5.1f} {:<13} {:13.2e} {:12.2e} {:11.3f} {:13.2e} {:8.2f}\n", kind.name,
+        fmt::print("{:<23} {:5.1f} {:<13} {:13.2e} {:12.2e} {:11.3f} {:13.2e} {:8.2f}\n", kind.name,
                    1e3 * step, NameOf(integrator), rest.creep, rest.fastest, BreakAway(link(0)),
                    Drift(link(0), step), Chatter(link(0)));
       }
@@ -177,6 +185,7 @@ ModelPtr WithFriction(const test::Robot& robot, const Kind& kind, double step,
   const SpecPtr spec(mj_copySpec(robot.spec.get()));
   spec->option.timestep = step;
   spec->option.integrator = integrator;
+  spec->option.noslip_iterations = kind.noslip;
   for (int i = 0; i < bare->njnt; ++i) {
     kind.add(*spec, mj_id2name(bare.get(), mjOBJ_JOINT, i), robot.level[static_cast<size_t>(i)],
              1 / bare->dof_invweight0[bare->jnt_dofadr[i]]);
@@ -207,7 +216,7 @@ std::optional<Creeping> Creep(const mjModel* m, const std::vector<double>& pose)
 }
 
 void PrintRobots() {
-  fmt::print("\n{:<24} {:<14} {:>13} {:>12} {:>9}\n", "robot", "friction", "creep rad/min",
+  fmt::print("\n{:<24} {:<23} {:>13} {:>12} {:>9}\n", "robot", "friction", "creep rad/min",
              "speed rad/s", "unstable");
   mju_user_warning = [](const char*) {};
   for (const test::RobotCase& known : test::kRobots) {
@@ -224,7 +233,7 @@ void PrintRobots() {
           worst.fastest = std::max(worst.fastest, creeping.value_or(Creeping{}).fastest);
         }
       }
-      fmt::print("{:<24} {:<14} {:13.2e} {:12.2e} {:>4} of 9\n", known.name(), kind.name,
+      fmt::print("{:<24} {:<23} {:13.2e} {:12.2e} {:>4} of 9\n", known.name(), kind.name,
                  worst.creep, worst.fastest, unstable);
     }
   }
