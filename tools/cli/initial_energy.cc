@@ -29,7 +29,11 @@ std::vector<double> EndEnergy(const FrictionDescription& friction, const std::st
   std::vector<double> energies;
   const auto add = [&](const char* key) {
     if (!end.contains(key)) Refuse(place, "state_end has no {}; identify again", key);
-    energies.push_back(NumberFrom(end[key], fmt::format("state_end.{}", key), place));
+    // a number, or an object of its value, standard error and interval
+    const nlohmann::json& given = end[key];
+    const bool whole = given.is_object() && given.contains("value");
+    const nlohmann::json& value = whole ? given["value"] : given;
+    energies.push_back(NumberFrom(value, fmt::format("state_end.{}", key), place));
   };
   add("energy");
   if (friction.second_thermal) add("second_energy");
