@@ -17,7 +17,8 @@ using Eigen::VectorXd;
 
 // what is left of a feature of norm 1 beside the fit, below which it counts as part of the fit
 constexpr double kDistinct = 0.02;
-constexpr double kFewestFree = 8;  // parts, or samples, beyond the columns of a fit
+constexpr double kWorthACloserLook = 0.05;  // p that no correction makes a rejection
+constexpr double kFewestFree = 8;           // parts, or samples, beyond the columns of a fit
 
 Basis Orthonormal(const MatrixXd& columns, double distinct) {
   const Eigen::ColPivHouseholderQR<MatrixXd> qr(columns);
@@ -109,8 +110,22 @@ GrowingFit::Evidence GrowingFit::ByParts(const VectorXd& coefficients, const Mat
   for (Index i = 0; i < rest.size(); ++i) {
     scores.col(part_[i]) += rest[i] * own.row(i).transpose();
   }
-  const MatrixXd scatter = parts / freedom * scores * scores.transpose();
+  MatrixXd scatter = parts / freedom * scores * scores.transpose();
+  const double p = HotellingPValue(coefficients, scatter, parts);
+  if (noise_.order() == 0 || p > kWorthACloserLook) return {scatter, p};
+
+  // what the noise of neighbouring parts has in common is not in their scatter
+  scatter *= AcrossParts(own);
   return {scatter, HotellingPValue(coefficients, scatter, parts)};
+}
+
+double GrowingFit::AcrossParts(const MatrixXd& own) const {
+  double within = 0;
+  for (int k = 0; k <= part_[part_.size() - 1]; ++k) {
+    const VectorXd inside = (part_.array() == k).cast<double>().matrix();
+    within += ScatterThrough(noise_, inside.asDiagonal() * own, place_).trace();
+  }
+  return std::max(1.0, ScatterThrough(noise_, own, place_).trace() / within);
 }
 
 Finding GrowingFit::Test(const Features& features) const {

@@ -70,6 +70,9 @@ class GrowingFit {
   Evidence ByColour(const Eigen::VectorXd& coefficients, const Eigen::MatrixXd& own) const;
   Evidence ByParts(const Eigen::VectorXd& coefficients, const Eigen::MatrixXd& own,
                    const Eigen::VectorXd& rest) const;
+  /// How much larger the noise model makes the scatter of coefficients than its parts by
+  /// themselves do: at least 1, about 1 where the noise forgets within a part. own: [m x q]
+  double AcrossParts(const Eigen::MatrixXd& own) const;
   void Refit();
 
   Selection place_;

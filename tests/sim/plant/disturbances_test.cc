@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "sim/plant/plant.h"
@@ -108,16 +109,16 @@ TEST(Disturbances, TwoEqualHeatsAreOneOfTwiceTheGain) {
             1e-10);
 }
 
-/// Table I with that, without noise of the torque.
-Recording Disturbed(const Disturbances& disturbances) {
+/// Table I with what `set` sets, without noise of the torque.
+Recording Disturbed(const std::function<void(Disturbances&)>& set) {
   Scenario scenario = test::Table1();
   scenario.noise.torque = 0;
-  scenario.disturbances = disturbances;
+  set(scenario.disturbances);
   return Simulate(scenario);
 }
 
 TEST(Disturbances, ALagFollowsTheFrictionByItsTimeConstant) {
-  const auto [log, truth] = Disturbed({.torque_lag = {2}});
+  const auto [log, truth] = Disturbed([](Disturbances& set) { set.torque_lag = {2}; });
   EXPECT_EQ(log.torque[0], truth.force[0]);
   for (Eigen::Index i = 1; i < log.size(); ++i) {
     const double share = -std::expm1(-0.5);
@@ -127,8 +128,8 @@ TEST(Disturbances, ALagFollowsTheFrictionByItsTimeConstant) {
 }
 
 TEST(Disturbances, AFilterOfTheVelocityLeavesPositionAndTorque) {
-  const auto [log, truth] = Disturbed({.velocity_filter = {2}});
-  const auto [plain, same] = Disturbed({});
+  const auto [log, truth] = Disturbed([](Disturbances& set) { set.velocity_filter = {2}; });
+  const auto [plain, same] = Disturbed([](Disturbances&) {});
   EXPECT_EQ(log.position, plain.position);
   EXPECT_EQ(log.torque, plain.torque);
   EXPECT_EQ(log.velocity[0], plain.velocity[0]);
@@ -138,34 +139,34 @@ TEST(Disturbances, AFilterOfTheVelocityLeavesPositionAndTorque) {
 }
 
 TEST(Disturbances, PositionsAreLateOrCoarse) {
-  const auto [plain, truth] = Disturbed({});
-  const auto [late, same] = Disturbed({.stale_position = {1}});
+  const auto [plain, truth] = Disturbed([](Disturbances&) {});
+  const auto [late, same] = Disturbed([](Disturbances& set) { set.stale_position = {1}; });
   const Eigen::Index n = plain.size() - 1;
   EXPECT_EQ(late.position.tail(n), plain.position.head(n));
-  const auto [coarse, also] = Disturbed({.encoder = {0.05}});
+  const auto [coarse, also] = Disturbed([](Disturbances& set) { set.encoder = {0.05}; });
   EXPECT_LE((coarse.position - plain.position).cwiseAbs().maxCoeff(), 0.025 + 1e-12);
 }
 
 TEST(Disturbances, ALogMayHaveNoVelocity) {
-  const auto [log, truth] = Disturbed({.without_velocity = true});
+  const auto [log, truth] = Disturbed([](Disturbances& set) { set.without_velocity = true; });
   EXPECT_EQ(log.velocity.size(), 0);
   EXPECT_EQ(truth.velocity.size(), log.size());
 }
 
 TEST(Disturbances, FrictionThatNoModelKnowsOpposesTheMotion) {
-  const auto [plain, truth] = Disturbed({});
+  const auto [plain, truth] = Disturbed([](Disturbances&) {});
   const Eigen::ArrayXd sign = truth.velocity.array().sign();
-  const auto added = [&](const Disturbances& disturbances) -> Eigen::ArrayXd {
-    return (Disturbed(disturbances).measurements.torque - plain.torque).array() * sign;
+  const auto added = [&](const std::function<void(Disturbances&)>& set) -> Eigen::ArrayXd {
+    return (Disturbed(set).measurements.torque - plain.torque).array() * sign;
   };
-  const Eigen::ArrayXd parity = added({.hold_parity = {1}});
+  const Eigen::ArrayXd parity = added([](Disturbances& set) { set.hold_parity = {1}; });
   EXPECT_NEAR(parity[10], 0, 1e-12);
   EXPECT_NEAR(parity[30], 1, 1e-12);
   EXPECT_NEAR(parity[50], 0, 1e-12);
-  const Eigen::ArrayXd step = added({.step_in_time = {-3, 1800}});
+  const Eigen::ArrayXd step = added([](Disturbances& set) { set.step_in_time = {-3, 1800}; });
   EXPECT_NEAR(step[1799], 0, 1e-12);
   EXPECT_NEAR(step[1800], -3, 1e-12);
-  const Eigen::ArrayXd run_in = added({.run_in = {2, 600}});
+  const Eigen::ArrayXd run_in = added([](Disturbances& set) { set.run_in = {2, 600}; });
   EXPECT_NEAR(run_in[600], 2 * std::exp(-1), 1e-12);
 }
 
