@@ -41,7 +41,7 @@ TEST(HostileYaml, CyclesAreRefusedWithTheirLine) {
 
 TEST(HostileYaml, ASecondDocumentIsNotPassedOver) {
   EXPECT_THAT(Refusal(kRest + kFriction + "---\nduration: 20\n"),
-              HasSubstr("s.yaml:7: begins another document; keep one"));
+              HasSubstr("s.yaml:6: begins another document; keep one"));
 }
 
 TEST(HostileYaml, AliasesThatMultiplyAreCounted) {
