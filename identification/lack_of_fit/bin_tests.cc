@@ -43,7 +43,7 @@ std::vector<Open> Affordable(const std::vector<const LackOfFitTest*>& tests, con
 void Make(const Open& open, const GrowingFit& fit, const ErrorLevel& level) {
   Finding made = fit.Test(open.features);
   made.test = open.test;
-  if (!made.made) made.reason = "the fit holds it, or the motion never shows it";
+  if (!made.made) made.reason = kHeldByTheFit;
   made.p_adjusted = level.Adjusted(made.p);
   *open.finding = std::move(made);
 }
@@ -67,8 +67,7 @@ BinFindings TestBins(const std::vector<const LackOfFitTest*>& tests, const Bins&
     size_t best = open.size();
     for (size_t i = 0; i < open.size(); ++i) {
       Make(open[i], fit, level);
-      const bool rejects = open[i].finding->p_adjusted <= kErrorLevel;
-      if (!rejects || open[i].finding->explained <= 0) continue;
+      if (!level.WouldReject(open[i].finding->p) || open[i].finding->explained <= 0) continue;
       if (best == open.size() || open[i].finding->gain > open[best].finding->gain) best = i;
     }
     if (best == open.size()) break;

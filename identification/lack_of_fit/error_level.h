@@ -18,9 +18,12 @@ class ErrorLevel {
 
   double Adjusted(double p) const { return std::min(1.0, p * std::max(remaining_, 1)); }
 
-  /// Whether a test rejects; the next ones then count as one fewer.
+  /// Whether a test with that p-value rejects.
+  bool WouldReject(double p) const { return Adjusted(p) <= level_; }
+
+  /// The same; the next tests then count as one fewer.
   bool Rejects(double p) {
-    if (!(Adjusted(p) <= level_)) return false;
+    if (!WouldReject(p)) return false;
     --remaining_;
     return true;
   }

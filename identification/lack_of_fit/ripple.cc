@@ -210,7 +210,7 @@ Finding TestAxis(const AngleAxis& axis, const VectorXd& velocity, const Selectio
     if (peak.index == 0) break;
     Ripple ripple = FitRipple(axis, peak.index, binned);
     ripple.finding.p_adjusted = level.Adjusted(ripple.finding.p);
-    const bool rejects = ripple.finding.explained > 0 && ripple.finding.p_adjusted <= kErrorLevel;
+    const bool rejects = ripple.finding.explained > 0 && level.WouldReject(ripple.finding.p);
     if (i == 0) finding = ripple.finding;
     if (!rejects) break;
 

@@ -47,7 +47,6 @@ constexpr const char* kParity = "the order of the holds (every other one differs
 constexpr const char* kPhase = "the time within each hold";
 constexpr const char* kFading = "position x energy (the map fades or grows as the joint warms)";
 
-constexpr std::string_view kHeld = "the fit holds it, or the motion never shows it";
 constexpr std::string_view kNoHolds = "no segments of constant speed are known";
 
 }  // namespace
@@ -56,18 +55,18 @@ const std::vector<LackOfFitTest>& LackOfFitTests() {
   using enum Turn;
   using enum Warming;
   static const std::vector<LackOfFitTest> tests{
-      {"direction", kHeld, first, apart, OfDirection, Say<kDirection>, AgainstDirection},
-      {"speed", kHeld, first, apart, OfSpeed, Say<kSpeed>, AgainstSpeed},
-      {"energy", kHeld, first, takes_part, OfEnergy, Say<kEnergy>, AgainstWarming},
+      {"direction", kHeldByTheFit, first, apart, OfDirection, Say<kDirection>, AgainstDirection},
+      {"speed", kHeldByTheFit, first, apart, OfSpeed, Say<kSpeed>, AgainstSpeed},
+      {"energy", kHeldByTheFit, first, takes_part, OfEnergy, Say<kEnergy>, AgainstWarming},
       {"initial_energy", "E(0) is estimated, or the fit knows no warming", first, apart,
        OfInitialEnergy, Say<kStart>, AgainstStart},
       {"load", "the log has no column load", first, apart, OfLoad, Say<kLoad>, AgainstLoad},
       {"temperature", "the log has no column temperature", first, apart, OfTemperature,
        Say<kTemperature>, AgainstTemperature},
-      {"time", kHeld, first, takes_part, OfTime, Say<kTime>, AgainstWarming},
+      {"time", kHeldByTheFit, first, takes_part, OfTime, Say<kTime>, AgainstWarming},
       {"speed_by_energy", "the fit knows no warming", first, apart, OfSpeedByEnergy,
        Say<kSpeedByEnergy>, AgainstWarmingSlope},
-      {"step", kHeld, first, takes_part, OfStep, Say<kStep>, AgainstStep},
+      {"step", kHeldByTheFit, first, takes_part, OfStep, Say<kStep>, AgainstStep},
       {"lag", "too few samples follow a change of speed", sample, apart, nullptr, Lag, AgainstLag},
       {"position_by_energy", "the fit has no map beside a warming", sample, apart, nullptr,
        Say<kFading>, AgainstFading},

@@ -25,6 +25,9 @@ enum class Turn { first, sample, last };
 /// What a fitted warming may have taken up of that which a test looks for.
 enum class Warming { apart, takes_part };
 
+/// Why a test is not made whose features the fit takes up whole.
+inline constexpr std::string_view kHeldByTheFit = "the fit holds it, or the motion never shows it";
+
 /// One row of the table.
 struct LackOfFitTest {
   std::string_view name;    // in estimate.json

@@ -54,15 +54,20 @@ HoldOutSource ReadHoldOut(const IdentifyArguments& arguments) {
   return {*fraction, std::nullopt};
 }
 
+/// Names of the identifiers that can do something, with commas between them.
+std::string Able(bool (*can)(const Identifier&)) {
+  std::vector<std::string> able;
+  for (const Identifier& one : Identifiers()) {
+    if (can(one)) able.push_back(one.name);
+  }
+  return fmt::format("{}", fmt::join(able, ", "));
+}
+
 /// --start estimated as an option of the identifier.
 void AddStart(const Identifier& identifier, std::map<std::string, std::string>& given) {
   if (!identifier.Has("initial_energy")) {
-    std::vector<std::string> able;
-    for (const Identifier& one : Identifiers()) {
-      if (one.Has("initial_energy")) able.push_back(one.name);
-    }
     Refuse({"--start"}, "{} cannot estimate E(0); use one of: {}", identifier.name,
-           fmt::join(able, ", "));
+           Able([](const Identifier& one) { return one.Has("initial_energy"); }));
   }
   given["initial_energy"] = "estimated";
 }
@@ -74,12 +79,8 @@ std::map<std::string, std::string> GivenOptions(const IdentifyArguments& argumen
   if (arguments.start == "estimated") AddStart(identifier, given);
   if (arguments.gravity == "none") return given;
   if (!TellsGravity(identifier)) {
-    std::vector<std::string> able;
-    for (const Identifier& one : Identifiers()) {
-      if (TellsGravity(one)) able.push_back(one.name);
-    }
     Refuse({"--gravity"}, "{} cannot tell gravity from friction; use one of: {}", identifier.name,
-           fmt::join(able, ", "));
+           Able(TellsGravity));
   }
   if (arguments.gravity == "sincos" && arguments.recording.joint == "linear") {
     Refuse({"--gravity"},
