@@ -1,38 +1,26 @@
 // warmjoint attach MODEL: friction onto the joints of any robot.
 #include <fmt/format.h>
 
-#include <cmath>
-#include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
-#include <optional>
+#include <utility>
 
 #include "models/foundation/excerpt.h"
 #include "models/foundation/parse_number.h"
-#include "models/foundation/read_json.h"
 #include "models/robots/robot_folder.h"
 #include "sim/model/attach.h"
+#include "tools/actions/attach_settings.h"
+#include "tools/actions/outputs.h"
 #include "tools/cli/command.h"
-#include "tools/cli/initial_energy.h"
-#include "tools/cli/outputs.h"
 
 namespace warmjoint::inline tools {
 namespace {
 
-const std::map<std::string, mjtIntegrator> kIntegrators{{"Euler", mjINT_EULER},
-                                                        {"RK4", mjINT_RK4},
-                                                        {"implicit", mjINT_IMPLICIT},
-                                                        {"implicitfast", mjINT_IMPLICITFAST},
-                                                        {"discrete", mjINT_DISCRETE}};
-
 struct AttachArguments {
   std::string model;
   std::vector<std::string> joints;
-  std::string form = "actuator";
   std::string initial = "cold";
+  AttachSettings settings;
   std::vector<std::string> armatures;
-  std::string integrator;
-  std::optional<double> timestep;
   std::vector<std::string> packages;
   std::string output;
 };
@@ -47,35 +35,19 @@ std::pair<std::string, std::string> ReadPair(const std::string& text, const char
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
-/// Refuses an estimate without friction, and tells of one that its own verdict voids: identify
-/// --force writes such ones.
-void CheckVerdict(const std::string& path) {
-  const nlohmann::json object = ReadJsonFile(path);
-  if (!object.is_object() || !object.contains("status") || object["status"] == "ok") return;
-  const std::string status = object["status"].dump();
-  if (object.contains("friction") && object["friction"].is_null()) {
-    Refuse({path}, "is {} and holds no friction; identify again with --force to use it anyway",
-           status);
-  }
-  fmt::print(stderr, "warning: {} is {}: its friction is void, and so is that of the model\n", path,
-             status);
-}
-
 /// NAME=FILE of --joint.
-FrictionForJoint ReadJoint(const std::string& text, const std::string& initial) {
+FrictionForJoint ReadJoint(const std::string& text, const std::string& initial,
+                           std::vector<std::string>& warnings) {
   const auto [joint, file] =
       ReadPair(text, "--joint", "NAME=FILE or PATTERN=FILE, as elbow=estimate.json");
-  CheckVerdict(file);
-  FrictionForJoint friction{joint, ReadFrictionFile(file)};
-  friction.initial_energy = InitialEnergy(initial, friction.friction, file);
-  return friction;
+  return ReadFrictionForJoint(joint, file, initial, warnings);
 }
 
 /// NAME=VALUE of --armature.
-ArmatureForJoints ReadArmature(const std::string& text) {
+std::pair<std::string, double> ReadArmature(const std::string& text) {
   const auto [joints, value] = ReadPair(text, "--armature", "NAME=VALUE or PATTERN=VALUE");
   const auto armature = ParseNumber(value);
-  if (!armature || !std::isfinite(*armature) || *armature < 0) {
+  if (!armature) {
     Refuse({"--armature"}, "of '{}' is '{}'; it must be a number of 0 or more, kg.m^2 or kg",
            Excerpt(joints), Excerpt(value));
   }
@@ -83,36 +55,28 @@ ArmatureForJoints ReadArmature(const std::string& text) {
 }
 
 AttachOptions ReadOptions(const AttachArguments& arguments) {
-  AttachOptions options;
-  if (arguments.form == "passive") options.form = FrictionForm::passive;
+  AttachSettings settings = arguments.settings;
   for (const std::string& text : arguments.armatures) {
-    options.armatures.push_back(ReadArmature(text));
-  }
-  if (!arguments.integrator.empty()) options.integrator = kIntegrators.at(arguments.integrator);
-  options.timestep = arguments.timestep;
-  if (options.timestep && !(std::isfinite(*options.timestep) && *options.timestep > 0)) {
-    Refuse({"--timestep"}, "is {}; it must be above 0, s", *options.timestep);
+    settings.armatures.push_back(ReadArmature(text));
   }
   for (const std::string& text : arguments.packages) {
-    const auto [name, folder] = ReadPair(text, "--package", "NAME=FOLDER");
-    if (!std::filesystem::is_directory(folder)) {
-      Refuse({"--package"}, "of '{}' is '{}', which is no folder", Excerpt(name), Excerpt(folder));
-    }
-    options.packages[name] = folder;
+    settings.packages.push_back(ReadPair(text, "--package", "NAME=FOLDER"));
   }
-  return options;
+  return CheckedOptions(settings);
 }
 
 ExitStatus Attach(const AttachArguments& arguments) {
   const AttachOptions options = ReadOptions(arguments);
   std::vector<FrictionForJoint> frictions;
+  std::vector<std::string> warnings;
   const std::filesystem::path model = FindRobot(arguments.model, "MODEL");
   std::vector<std::filesystem::path> inputs{model};
   for (const std::string& text : arguments.joints) {
-    frictions.push_back(ReadJoint(text, arguments.initial));
+    frictions.push_back(ReadJoint(text, arguments.initial, warnings));
     inputs.emplace_back(text.substr(text.find('=') + 1));
   }
   KeepApart({arguments.output}, inputs);
+  for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
   const Attached attached = AttachFriction(model, frictions, arguments.output, options);
   for (const std::string& notice : attached.notices) fmt::print(stderr, "notice: {}\n", notice);
   fmt::print(
@@ -127,11 +91,9 @@ void AddModelOptions(CLI::App& parser, AttachArguments& arguments) {
       .add_option("--armature", arguments.armatures,
                   "NAME=VALUE or PATTERN=VALUE: armature of these joints, kg.m^2 or kg")
       ->take_all();
-  std::vector<std::string> integrators;
-  for (const auto& [name, unused] : kIntegrators) integrators.push_back(name);
-  parser.add_option("--integrator", arguments.integrator, "integrator of the result")
-      ->check(CLI::IsMember(integrators));
-  parser.add_option("--timestep", arguments.timestep, "step of the result, s");
+  parser.add_option("--integrator", arguments.settings.integrator, "integrator of the result")
+      ->check(CLI::IsMember(IntegratorNames()));
+  parser.add_option("--timestep", arguments.settings.timestep, "step of the result, s");
   parser
       .add_option("--package", arguments.packages,
                   "NAME=FOLDER: where package://NAME of a URDF's meshes lies")
@@ -152,7 +114,7 @@ Command AddAttachCommand(CLI::App& program) {
                    "friction file for these joints")
       ->required()
       ->take_all();
-  parser->add_option("--as", arguments->form, "actuator or passive: how friction acts")
+  parser->add_option("--as", arguments->settings.form, "actuator or passive: how friction acts")
       ->check(CLI::IsMember({"actuator", "passive"}))
       ->capture_default_str();
   parser

@@ -6,8 +6,8 @@
 
 #include "identification/preparation/check_report.h"
 #include "models/foundation/atomic_file.h"
+#include "tools/actions/outputs.h"
 #include "tools/cli/command.h"
-#include "tools/cli/outputs.h"
 #include "tools/cli/recording_options.h"
 
 namespace warmjoint::inline tools {

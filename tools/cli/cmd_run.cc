@@ -1,31 +1,20 @@
 // warmjoint run SUITE.yaml: all realizations, all identifiers, on all cores.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <limits>
-#include <map>
 #include <memory>
-#include <optional>
-#include <set>
-#include <thread>
 #include <utility>
 
-#include "models/foundation/atomic_file.h"
 #include "models/foundation/excerpt.h"
 #include "scenarios/parse_suite.h"
-#include "sim/plant/plant.h"
+#include "tools/actions/run_task.h"
 #include "tools/cli/command.h"
-#include "tools/cli/run_arguments.h"
 #include "tools/cli/run_in_shards.h"
 #include "tools/cli/whole_number.h"
-#include "tools/store/export_csv.h"
-#include "tools/store/run_store.h"
 #include "tools/suite/arithmetic.h"
-#include "tools/suite/describe_run.h"
 #include "tools/suite/engine.h"
 #include "tools/suite/external_identifier.h"
 #include "tools/suite/interrupt.h"
-#include "tools/suite/memory_of_work.h"
 #include "tools/suite/wall.h"
 
 namespace warmjoint::inline tools {
@@ -34,53 +23,17 @@ namespace {
 constexpr std::uint64_t kMostJobs = 1024;
 constexpr std::uint64_t kLargestSeed = std::numeric_limits<std::uint64_t>::max();
 
-/// Whether an identifier answered, be it with a verdict.
-bool IsAnswer(const Result& result) {
-  static const std::set<std::string> none{"crashed", "timeout", "bad_answer", "not_simulated"};
-  return !none.contains(result.status);
-}
-
-/// What is said of a run at its end.
-struct Ending {
-  std::size_t failed = 0;
-  std::set<int> answered;            // positions of identifiers
-  std::map<int, std::string> first;  // the first failure of each
-};
-
-Ending EndingOf(const RunStore& store) {
-  Ending ending;
-  store.ForEachUnit([&](const std::vector<Result>& unit) {
-    for (const Result& result : unit) {
-      if (result.status == "ok") continue;
-      ++ending.failed;
-      ending.first.emplace(result.identifier, result.message);
-    }
-    for (const Result& result : unit) {
-      if (IsAnswer(result)) ending.answered.insert(result.identifier);
-    }
-  });
-  return ending;
-}
-
 /// Verdicts are results: a suite that ends in failures alone is done. One with an identifier that
 /// never answered is not; of a shard, which may hold few realizations or none, only the whole says.
 ExitStatus Finish(RunStore& store, const Shard& shard) {
-  store.Settle();
-  const std::size_t results = ExportResults(store);
-  const Ending ending = EndingOf(store);
+  const RunEnding ending = EndRun(store);
   fmt::print("{}: {} results, {} of them failures; see: warmjoint compare {}\n",
-             store.directory().string(), results, ending.failed, store.directory().string());
-
-  bool silent = false;
-  const std::vector<std::string> labels = store.ReadDescription().identifiers;
-  for (const auto& [identifier, message] : ending.first) {
-    if (ending.answered.contains(identifier)) continue;
-    silent = true;
-    fmt::print(stderr, "{} answered in no realization; the first time: {}\n",
-               Excerpt(labels[static_cast<std::size_t>(identifier)]),
+             store.directory().string(), ending.results, ending.failed, store.directory().string());
+  for (const auto& [label, message] : ending.silent) {
+    fmt::print(stderr, "{} answered in no realization; the first time: {}\n", Excerpt(label),
                Excerpt(message, kLongestComplaint));
   }
-  return !silent || !shard.IsWhole() ? ExitStatus::done : ExitStatus::no_answer;
+  return ending.silent.empty() || !shard.IsWhole() ? ExitStatus::done : ExitStatus::no_answer;
 }
 
 /// Says what keeps commands of others from the truth, where there are any.
@@ -98,44 +51,23 @@ void TellWall(const Suite& suite, const std::vector<std::filesystem::path>& secr
   }
 }
 
-/// A resumed run takes its own copy of the suite; one with a person's changes is left as it is.
-void RefuseEditedCopy(const RunArguments& arguments, const RunDescription& description) {
-  const std::filesystem::path copy = std::filesystem::path(arguments.output) / "suite.yaml";
-  std::error_code absent;
-  if (!std::filesystem::equivalent(arguments.suite, copy, absent)) return;
-  if (ReadWholeFile(copy) == description.suite_yaml) return;
-  Refuse({arguments.suite},
-         "is the run's own copy, which a run writes anew, and holds more than that; name another "
-         "file, or another -o");
-}
-
 ExitStatus Run(const RunArguments& arguments) {
   SettleArithmetic();
   if (arguments.in_shards()) return RunInShards(arguments);
   RefuseShardOptions(arguments);
 
-  // everything that can be refused is, before anything is written
-  const Suite suite = ResolveSuite(arguments);
-  const std::vector<PreparedIdentifier> identifiers =
-      PrepareIdentifiers(suite.identifiers, {arguments.suite});
-  const Shard shard = ReadShard(arguments.shard);
-  const std::uint64_t cores = std::max(1u, std::thread::hardware_concurrency());
-  const auto jobs = static_cast<int>(arguments.jobs.value_or(cores));
-  RequireMemoryFor(suite, shard, jobs, arguments.suite);
-  for (int i = 0; i < suite.variants(); ++i) MakePlant(VariantScenario(suite, i));
-
-  const RunDescription description = Describe(suite);
-  RefuseEditedCopy(arguments, description);
-  RunStore store = RunStore::CreateOrResume(arguments.output, description);
-  TellWall(suite, {arguments.suite, arguments.output});
+  const RunTask task = PrepareRun(arguments);
+  RunStore store = RunStore::CreateOrResume(arguments.output, task.description);
+  TellWall(task.suite, {arguments.suite, arguments.output});
   CatchInterrupts();
-  const RunOutcome outcome = RunSuite(suite, identifiers, {jobs, shard, arguments.keep}, store);
+  const RunOutcome outcome =
+      RunSuite(task.suite, task.identifiers, {task.jobs, task.shard, arguments.keep}, store);
   if (outcome.interrupted) {
     fmt::print(stderr, "interrupted: {} of {} realizations are kept; the same command goes on\n",
                outcome.finished, outcome.total);
     return ExitStatus::interrupted;
   }
-  return Finish(store, shard);
+  return Finish(store, task.shard);
 }
 
 }  // namespace

@@ -8,17 +8,14 @@
 
 #include "identification/preparation/prepared_log.h"
 #include "models/foundation/atomic_directory.h"
-#include "models/foundation/atomic_file.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
-#include "models/recording/read_recording.h"
 #include "scenarios/read_scenario.h"
 #include "scenarios/suite.h"
-#include "scenarios/write_scenario.h"
 #include "sim/plant/plant.h"
-#include "sim/truth/truth_json.h"
+#include "tools/actions/outputs.h"
+#include "tools/actions/simulated_files.h"
 #include "tools/cli/command.h"
-#include "tools/cli/outputs.h"
 #include "tools/cli/recording_options.h"
 #include "tools/cli/repeat_motion.h"
 #include "tools/cli/whole_number.h"
@@ -103,21 +100,16 @@ ExitStatus Simulate(const SimulateArguments& arguments) {
   const Scenario scenario = ResolveScenario(arguments, log);
   RequireMemoryFor(scenario, arguments.from.empty() ? arguments.scenario : arguments.from);
   const std::unique_ptr<Plant> plant = MakePlant(scenario);
-  static const std::vector<std::string> files{"recording.csv", "recording.h5", "truth.json",
-                                              "scenario.yaml"};
   std::vector<std::filesystem::path> outputs, inputs{arguments.scenario};
-  for (const std::string& file : files) {
+  for (const std::string& file : SimulatedFiles()) {
     outputs.push_back(std::filesystem::path(arguments.output) / file);
   }
   for (const std::string& input : arguments.motion.recordings) inputs.emplace_back(input);
   KeepApart(outputs, inputs);
-  AtomicDirectory directory(arguments.output, files);
+  AtomicDirectory directory(arguments.output, SimulatedFiles());
 
   const Recording recording = Carried(*plant, scenario, arguments.realization.value_or(0));
-  const std::filesystem::path& folder = directory.temporary();
-  WriteRecording(recording.measurements, folder / ("recording." + arguments.format));
-  WriteTruth(recording.truth, folder / "truth.json");
-  WriteWholeFile(folder / "scenario.yaml", ScenarioToYaml(scenario));
+  WriteSimulated(recording, scenario, arguments.format, directory.temporary());
   directory.Commit();
   fmt::print("{}: {} samples over {:.6g} s\n", arguments.output, recording.measurements.size(),
              scenario.duration);

@@ -2,28 +2,10 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <map>
-#include <nlohmann/json_fwd.hpp>
-#include <string>
-#include <vector>
 
-#include "identification/preparation/prepared_log.h"
-#include "models/foundation/bad_input.h"
-#include "models/recording/csv.h"
+#include "tools/actions/recording_source.h"
 
 namespace warmjoint::inline tools {
-
-/// What stands on the command line.
-struct RecordingArguments {
-  std::vector<std::string> recordings;
-  std::vector<std::string> map;   // "torque=force_N"
-  std::vector<std::string> unit;  // "position=deg"
-  std::string joint = "rotary";
-  double gear = 1;
-  std::vector<std::string> scale;  // "torque=-1"
-  double wrap = 0;                 // in the unit of the position; 0: a turn
-  HoldOptions holds;
-};
 
 /// Adds RECORDING... and the options of AddLayoutOptions.
 void AddRecordingOptions(CLI::App& parser, RecordingArguments& arguments);
@@ -33,26 +15,5 @@ void AddLayoutOptions(CLI::App& parser, RecordingArguments& arguments);
 
 /// Adds --trim and --shortest-hold.
 void AddHoldOptions(CLI::App& parser, HoldOptions& holds);
-
-/// {files[], map[], unit[], joint, gear}, and {scale[], wrap, trim, shortest_hold} where one of them
-/// is given: the `recording` member of an estimate file, by which its pictures find the data again.
-nlohmann::json RecordingToJson(const RecordingArguments& arguments);
-
-/// The inverse. Throws BadInput from `place`.
-RecordingArguments RecordingFromJson(const nlohmann::json& json, const Place& place);
-
-/// Reads the recordings, several joined (join_recordings.h). Throws BadInput.
-Measurements ReadRecording(const RecordingArguments& arguments);
-
-/// Reads the recordings, joined, and prepares them with --trim and --shortest-hold.
-PreparedLog ReadAndPrepare(const RecordingArguments& arguments);
-
-/// Reads each by itself.
-std::vector<Measurements> ReadRecordings(const RecordingArguments& arguments);
-
-/// "key=value" pairs as a map. option: their name on the command line. Throws BadInput for a pair
-/// without '=', or a key that stands there twice.
-std::map<std::string, std::string> ReadPairs(const std::vector<std::string>& pairs,
-                                             const std::string& option);
 
 }  // namespace warmjoint::inline tools

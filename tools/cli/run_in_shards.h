@@ -3,8 +3,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "tools/actions/run_arguments.h"
 #include "tools/cli/command.h"
-#include "tools/cli/run_arguments.h"
 
 namespace warmjoint::inline tools {
 

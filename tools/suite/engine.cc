@@ -71,15 +71,16 @@ void Report(Progress& progress, const std::vector<Realization>& batch) {
   progress.Add(static_cast<int>(batch.size()));
 }
 
-/// Writes batch after batch until the workers are done; stops them when the store fails.
-int Store(Work& work, RunStore& store, Progress& progress) {
+/// Writes batch after batch until the workers are done; stops them when the store or `tell` fails.
+int Store(Work& work, RunStore& store,
+          const std::function<void(const std::vector<Realization>&)>& tell) {
   int stored = 0;
   try {
     while (!work.queue.Done()) {
       const std::vector<Realization> batch = work.queue.Take(kBatchTime);
       if (!batch.empty()) store.Write(batch);
       stored += static_cast<int>(batch.size());
-      Report(progress, batch);
+      tell(batch);
     }
   } catch (...) {
     work.stop = true;
@@ -103,11 +104,16 @@ RunOutcome RunSuite(const Suite& suite, const std::vector<PreparedIdentifier>& i
       options.keep_recordings ? store.directory() / "recordings" : "";
   Work work{suite, identifiers, units, recordings, 0, false, FinishedQueue(workers)};
   Progress progress(total, already);
+  int told = already;
+  const auto tell = [&](const std::vector<Realization>& batch) {
+    if (!options.watch) return Report(progress, batch);
+    if (!batch.empty()) options.watch(told += static_cast<int>(batch.size()), total);
+  };
 
   // declared last, so that the threads are joined before anything they use goes
   std::vector<std::jthread> threads;
   for (int i = 0; i < workers; ++i) threads.emplace_back(Labour, std::ref(work));
-  const int finished = already + Store(work, store, progress);
+  const int finished = already + Store(work, store, tell);
   return {finished, total, Interrupted() && finished < total};
 }
 

@@ -1,6 +1,8 @@
 // All realizations of a suite on all cores.
 #pragma once
 
+#include <functional>
+
 #include "scenarios/suite.h"
 #include "tools/store/run_store.h"
 #include "tools/suite/prepared_identifier.h"
@@ -13,6 +15,9 @@ struct RunOptions {
   int jobs = 1;  // threads
   Shard shard;
   bool keep_recordings = false;  // into DIR/recordings
+  /// Is told how many realizations of how many are in the store; without it, stderr is. What it
+  /// throws ends the run, and what is stored stays.
+  std::function<void(int finished, int total)> watch{};
 };
 
 /// How a run ended.

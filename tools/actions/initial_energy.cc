@@ -1,4 +1,4 @@
-#include "tools/cli/initial_energy.h"
+#include "tools/actions/initial_energy.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>

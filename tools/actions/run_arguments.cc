@@ -1,4 +1,4 @@
-#include "tools/cli/run_arguments.h"
+#include "tools/actions/run_arguments.h"
 
 #include <algorithm>
 

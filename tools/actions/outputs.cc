@@ -1,4 +1,4 @@
-#include "tools/cli/outputs.h"
+#include "tools/actions/outputs.h"
 
 #include <algorithm>
 

@@ -1,0 +1,124 @@
+#include "tools/actions/identify_recording.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "identification/holdout/hold_out.h"
+#include "identification/identifiers/identifier_list.h"
+#include "identification/linear/fit_gravity.h"
+#include "models/foundation/excerpt.h"
+#include "models/foundation/nearest_name.h"
+
+namespace warmjoint::inline tools {
+namespace {
+
+/// Names of the identifiers that can do something, with commas between them.
+std::string Able(bool (*can)(const Identifier&)) {
+  std::vector<std::string> able;
+  for (const Identifier& one : Identifiers()) {
+    if (can(one)) able.push_back(one.name);
+  }
+  return fmt::format("{}", fmt::join(able, ", "));
+}
+
+void RequireWord(const std::string& given, const char* option,
+                 const std::vector<std::string>& words) {
+  if (std::ranges::find(words, given) != words.end()) return;
+  Refuse({option}, "is '{}'{}", Excerpt(given), Suggestion(given, words));
+}
+
+/// --start estimated as an option of the identifier.
+void AddStart(const Identifier& identifier, std::map<std::string, std::string>& given) {
+  if (!identifier.Has("initial_energy")) {
+    Refuse({"--start"}, "{} cannot estimate E(0); use one of: {}", identifier.name,
+           Able([](const Identifier& one) { return one.Has("initial_energy"); }));
+  }
+  given["initial_energy"] = "estimated";
+}
+
+/// --set, and --start and --gravity as two of them.
+std::map<std::string, std::string> GivenOptions(const IdentifySettings& settings,
+                                                const Identifier& identifier, JointKind joint) {
+  auto given = settings.options;
+  if (settings.start == "estimated") AddStart(identifier, given);
+  if (settings.gravity == "none") return given;
+  if (!TellsGravity(identifier)) {
+    Refuse({"--gravity"}, "{} cannot tell gravity from friction; use one of: {}", identifier.name,
+           Able(TellsGravity));
+  }
+  if (settings.gravity == "sincos" && joint == JointKind::linear) {
+    Refuse({"--gravity"},
+           "sincos needs an angle and the joint is linear, where gravity does not "
+           "depend on position; use paired");
+  }
+  given["gravity"] = settings.gravity;
+  return given;
+}
+
+/// --relevance and --start as far as the verdict reads them.
+Judging JudgingOf(const IdentifySettings& settings) {
+  if (!(settings.relevance > 0 && settings.relevance <= 1)) {
+    Refuse({"--relevance"}, "is {}; it must be a share of the friction above 0 and at most 1",
+           settings.relevance);
+  }
+  return {settings.relevance,
+          settings.start == "unknown" ? StartBelief::unknown : StartBelief::cold};
+}
+
+std::optional<Metrics> HoldOutFigures(const Identifier& identifier, const IdentifierInput& input,
+                                      const Fit& fit, const HoldOutSource& source) {
+  if (source.other) return HoldOut(identifier, fit, *source.other);
+  if (source.fraction == 0) return std::nullopt;
+  return HoldOut(identifier, input, source.fraction);
+}
+
+}  // namespace
+
+IdentifyTask CheckSettings(const IdentifySettings& settings, JointKind joint) {
+  RequireWord(settings.gravity, "--gravity", {"none", "sincos", "paired"});
+  RequireWord(settings.start, "--start", {"cold", "unknown", "estimated"});
+  const Identifier& identifier = FindIdentifier(settings.identifier);
+  Options options(identifier.options, GivenOptions(settings, identifier, joint), {"--set"});
+  return {identifier, std::move(options), JudgingOf(settings), settings.void_numbers};
+}
+
+HoldOutSource HoldOutShare(double fraction) {
+  if (!(fraction >= 0 && fraction < 1)) {
+    Refuse({"--holdout"}, "is {}; it must be at least 0 and below 1, or a file", fraction);
+  }
+  return {fraction, std::nullopt};
+}
+
+Estimate IdentifyLog(const IdentifyTask& task, const PreparedLog& log,
+                     const HoldOutSource& holdout) {
+  const IdentifierInput input{log, task.options, {}};
+  const Answer answer = FitAndJudge(task.identifier, input, task.judging);
+  Estimate estimate = task.void_numbers == VoidNumbers::show
+                          ? WithVoidNumbers(task.identifier, input, answer)
+                          : ReportAnswer(task.identifier, input, answer);
+  if (answer.inferred.status == Status::ok) {
+    estimate.holdout = HoldOutFigures(task.identifier, input, answer.fit, holdout);
+  }
+  return estimate;
+}
+
+std::string TakeBackAmperes(const Measurements& measurements, Estimate& estimate) {
+  const std::string_view unit = kTorqueUnit.For(measurements.joint);
+  if (!estimate.friction || measurements.torque_unit == unit) return "";
+  estimate.friction.reset();
+  return fmt::format(
+      "no `friction` is written for MuJoCo: parameters are in {}; multiply the column by the "
+      "motor's constant to get {}",
+      measurements.torque_unit, unit);
+}
+
+std::string EstimateFile(const Estimate& estimate,
+                         const std::optional<RecordingArguments>& source) {
+  nlohmann::json file = EstimateToJson(estimate);
+  if (source) file["recording"] = RecordingToJson(*source);
+  return file.dump(2) + "\n";
+}
+
+}  // namespace warmjoint::inline tools

@@ -1,0 +1,58 @@
+// What `identify` does between its arguments and its outputs.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "identification/answer/identify.h"
+#include "tools/actions/recording_source.h"
+
+namespace warmjoint::inline tools {
+
+/// What becomes of the numbers of a model that the verdict finds inadequate.
+enum class VoidNumbers { withhold, show };
+
+/// What is asked of an identification besides its log, each under the name that it has on the command line.
+struct IdentifySettings {
+  std::string identifier = "energy-ml";
+  std::string gravity = "none";  // none, sincos or paired
+  std::string start = "cold";    // cold, unknown or estimated
+  double relevance = Judging{}.relevance;
+  std::map<std::string, std::string> options;  // of the identifier, as --set
+  VoidNumbers void_numbers = VoidNumbers::withhold;
+};
+
+/// Settings that were checked and looked up.
+struct IdentifyTask {
+  const Identifier& identifier;
+  Options options;
+  Judging judging;
+  VoidNumbers void_numbers;
+};
+
+/// Throws BadInput for names, words and numbers that cannot be used, and for what the identifier or
+/// the kind of joint does not allow.
+IdentifyTask CheckSettings(const IdentifySettings& settings, JointKind joint);
+
+/// Samples for figures on unseen data: a share of the recording's end, 0 for none, or another one.
+struct HoldOutSource {
+  double fraction = 0.3;
+  std::optional<PreparedLog> other;
+};
+
+/// Throws BadInput for a share that is not at least 0 and below 1.
+HoldOutSource HoldOutShare(double fraction);
+
+/// Fits, judges, reports, and adds the figures on what was held out to an answer that stands.
+Estimate IdentifyLog(const IdentifyTask& task, const PreparedLog& log,
+                     const HoldOutSource& holdout);
+
+/// MuJoCo knows torques and forces: takes a friction in amperes back and returns what to tell of
+/// it; an empty text where nothing was done.
+std::string TakeBackAmperes(const Measurements& measurements, Estimate& estimate);
+
+/// The text of an estimate file. source: what its member `recording` says; none without it.
+std::string EstimateFile(const Estimate& estimate, const std::optional<RecordingArguments>& source);
+
+}  // namespace warmjoint::inline tools
