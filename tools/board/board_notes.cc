@@ -46,7 +46,7 @@ std::string ClaimNote(const LeaderboardRow& row, std::string_view unit) {
     claimed.push_back(fmt::format("{} {}", figure.label, figure.text(value, unit)));
     reached.push_back(fmt::format("{} {}", figure.label, figure.text(summary.median, unit)));
   }
-  return fmt::format("{}: claimed {} ({}); reached in the median {}", row.identifier,
+  return fmt::format("{}: the claim is {} ({}); the median here is {}", row.identifier,
                      fmt::join(claimed, ", "), row.claim->source, fmt::join(reached, ", "));
 }
 
@@ -55,8 +55,9 @@ std::string FailureNote(const LeaderboardRow& row) {
   for (const auto& [status, count] : row.failures) {
     counts.push_back(fmt::format("{} {}", count, status));
   }
-  return fmt::format("{}: of {} runs {}; the first: {}", row.identifier, row.runs,
-                     fmt::join(counts, ", "), row.failure_example);
+  return fmt::format("{}: {} of {} runs gave no answer to trust ({}), for example: {}",
+                     row.identifier, row.failed(), row.runs, fmt::join(counts, ", "),
+                     row.failure_example);
 }
 
 /// Whether errors of `efficiency` (rms error / Cramer-Rao bound) in n realizations are smaller than
@@ -88,13 +89,12 @@ std::vector<std::string> Notes(const Leaderboard& board) {
     if (row.failed() > 0) notes.push_back(FailureNote(row));
     if (const auto names = TooGood(row); !names.empty()) {
       notes.push_back(
-          fmt::format("{}: its errors in {} lie far below the Cramer-Rao bound, which no estimate "
-                      "from these data "
-                      "reaches by chance (1e-6): does it know the truth?",
+          fmt::format("{}: its errors in {} lie far below the Cramer-Rao bound. By chance that "
+                      "happens once in a million: does it know the truth?",
                       row.identifier, fmt::join(names, ", ")));
     }
     if (!row.not_estimated.empty()) {
-      notes.push_back(fmt::format("{}: does not estimate {}, counted as 0", row.identifier,
+      notes.push_back(fmt::format("{} does not estimate {}, which count as 0", row.identifier,
                                   fmt::join(row.not_estimated, ", ")));
     }
   }

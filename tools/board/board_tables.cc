@@ -61,8 +61,8 @@ std::string NumberText(double value) {
 }
 
 Table RankingTable(const Leaderboard& board) {
-  Table table{{"#", "identifier", "failed", "NPE median", "quartiles", "NPE rms", "x bound",
-               "behind the best", "discrete NPE", "rms"},
+  Table table{{"#", "identifier", "failed", "NPE median", "quartiles", "NPE rms", "rms / bound",
+               "NPE above best", "discrete NPE", "rms"},
               {}};
   for (size_t i = 0; i < board.rows.size(); ++i) {
     const LeaderboardRow& row = board.rows[i];
@@ -107,7 +107,7 @@ Table AgreementTable(const Leaderboard& board) {
 }
 
 Table ParameterTable(const Leaderboard& board) {
-  Table table{{"identifier", "parameter", "rms error / bound", "95 % intervals that hold it"}, {}};
+  Table table{{"identifier", "parameter", "rms error / bound", "95 % coverage"}, {}};
   for (const LeaderboardRow& row : board.rows) {
     std::string label = row.identifier;
     for (const ParameterRow& parameter : row.parameters) {
@@ -125,18 +125,20 @@ std::string Verdict(const Leaderboard& board) {
     return "No identifier gave numbers.";
   }
   const LeaderboardRow& best = board.rows.front();
-  std::string verdict = fmt::format("{} is best: median NPE {}", best.identifier,
+  std::string verdict = fmt::format("{} is best: its median NPE{} is {}", best.identifier,
+                                    board.groups.empty() ? "" : " over all groups",
                                     PercentText(best.npe_continuous.median));
-  if (!std::isnan(board.bound_npe_continuous)) {
-    verdict += fmt::format(", rms {:.2f} times the Cramer-Rao bound",
+  // rungs have bounds of their own, so that all together have none to stand beside
+  if (!std::isnan(board.bound_npe_continuous) && board.groups.empty()) {
+    verdict += fmt::format(", its rms {:.2f} times the Cramer-Rao bound",
                            best.npe_continuous.rms / board.bound_npe_continuous);
   }
   std::vector<std::string> ties;
   for (const LeaderboardRow& row : board.rows) {
     if (row.behind && row.behind->tie()) ties.push_back(row.identifier);
   }
-  if (!ties.empty()) verdict += fmt::format(", tied with {}", fmt::join(ties, ", "));
-  if (best.failed() > 0) verdict += fmt::format(", {} of {} failed", best.failed(), best.runs);
+  if (!ties.empty()) verdict += fmt::format("; tied with {}", fmt::join(ties, ", "));
+  if (best.failed() > 0) verdict += fmt::format("; {} of {} runs failed", best.failed(), best.runs);
   return verdict + ".";
 }
 

@@ -1,5 +1,6 @@
 # cmake --install: program, plugin, libraries with headers, robots and suites, MuJoCo's library, and a CMake package
 # for find_package(warmjoint). The prefix stands alone: it may be moved, and the build folder may go.
+# Component `program` is what users of the command line need, and what `tools/build` makes: tools/install installs it.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -20,18 +21,21 @@ endforeach()
 # program and plugin find MuJoCo beside them
 if(WARMJOINT_PROGRAM)
   set_target_properties(warmjoint PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
-  install(TARGETS warmjoint RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(TARGETS warmjoint RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
 endif()
 set_target_properties(warmjoint_friction PROPERTIES INSTALL_RPATH "$ORIGIN")
-install(TARGETS warmjoint_friction LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(FILES ${MuJoCo_LIBRARY} DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS warmjoint_friction LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT program)
+install(FILES ${MuJoCo_LIBRARY} DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT program)
 install(DIRECTORY ${MuJoCo_INCLUDE_DIR}/mujoco DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 
 # robots and suites, where the program looks for them
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/models/robots DESTINATION ${CMAKE_INSTALL_DATADIR}/warmjoint/models
+  COMPONENT program
   FILES_MATCHING PATTERN "*.xml" PATTERN "*.urdf" PATTERN "*.json" PATTERN "README.md")
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios/suites DESTINATION ${CMAKE_INSTALL_DATADIR}/warmjoint/scenarios)
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/warmjoint)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios/suites DESTINATION ${CMAKE_INSTALL_DATADIR}/warmjoint/scenarios
+  COMPONENT program)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/docs/schemas DESTINATION ${CMAKE_INSTALL_DATADIR}/warmjoint COMPONENT program)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/warmjoint COMPONENT program)
 
 # the package
 configure_package_config_file(${PROJECT_SOURCE_DIR}/tools/cmake/warmjointConfig.cmake.in

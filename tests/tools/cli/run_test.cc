@@ -235,7 +235,8 @@ TEST_F(Run, ComparesInEveryFormat) {
   EXPECT_EQ(board.at("realizations"), 5);
   ASSERT_EQ(board.at("rows").size(), 2u);
   for (const auto& row : board.at("rows")) EXPECT_EQ(row.at("runs"), 5);
-  EXPECT_THAT(RunWarmjoint({"compare", Directory("run")}).out, HasSubstr("em: claimed RMSE 0.5"));
+  EXPECT_THAT(RunWarmjoint({"compare", Directory("run")}).out,
+              HasSubstr("em: the claim is RMSE 0.5"));
   EXPECT_THAT(RunWarmjoint({"compare", Directory("run"), "--format", "markdown"}).out,
               HasSubstr("| nominal-ls |"));
   EXPECT_THAT(RunWarmjoint({"compare", Directory("run"), "--format", "csv"}).out,

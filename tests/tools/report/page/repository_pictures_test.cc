@@ -21,7 +21,7 @@ TEST(RepositoryPictures, AreTogetherBelowTwoMegabytes) {
     bytes += entry.file_size();
     ++pictures;
   }
-  EXPECT_GE(pictures, 2) << "the head of README and the contact sheet";
+  EXPECT_GE(pictures, 7) << "the head of README and the gallery";
   EXPECT_LT(bytes, 2000000u);
 }
 

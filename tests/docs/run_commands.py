@@ -1,0 +1,136 @@
+"""Runs every `sh` block of a page, in order, in a scratch copy of the sources. pages.py says how blocks are marked.
+
+    run_commands.py ROOT PAGE BUILD [--draw]
+
+The copy holds BUILD as build/, so that the program and the plugin are those that were built; tools/build does nothing
+there (WARMJOINT_BUILT). Pictures of the page must be those that its commands made; --draw puts these in their place.
+Exits 77 where every block was skipped, and 1 with the block's words where one fails.
+"""
+
+import operator
+import os
+import pathlib
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import zlib
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools/docs"))
+
+import pages  # noqa: E402
+
+COMMANDS = ("warmjoint ", "tools/", "build/", "ctest ", "cmake ", "python3 ", "WARMJOINT_", "peers/", "tests/", "export ")
+LIMIT = 600  # s, of one block
+
+
+def copy_sources(root, build, target):
+    def leave_out(folder, names):
+        top = pathlib.Path(folder) == root
+        return [name for name in names if name == "__pycache__" or (top and pages.is_output(name))]
+
+    shutil.copytree(root, target, ignore=leave_out, symlinks=True)
+    (target / "build").symlink_to(build)
+
+
+def environment(build):
+    values = dict(os.environ, WARMJOINT_BUILT="1", NO_COLOR="1")
+    # the system's Python, which the wall around identifiers of others lets through, before others
+    values["PATH"] = f"{build}:/usr/bin:/bin:{values['PATH']}"
+    return values
+
+
+def bring(name, target):
+    """Lays a shared file into the copy; False where there is none."""
+    shared = os.environ.get("WARMJOINT_SHARED") or os.environ.get("WARMJOINT_SHARED_DEFAULT", "")
+    source = pathlib.Path(shared) / name
+    if not shared or not source.is_file():
+        return False
+    link = target / source.name
+    link.exists() or link.symlink_to(source)
+    return True
+
+
+def run(block, target, values):
+    """Runs one block; returns what is wrong, or nothing."""
+    wanted = int(block.value) if block.mark == "ends with" else 0
+    done = subprocess.run(["bash", "-euo", "pipefail", "-c", block.text], cwd=target, env=values, text=True, timeout=LIMIT,
+                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+    if done.returncode == wanted:
+        return ""
+    return f"ended with {done.returncode}, not {wanted}:\n{block.text}\n{done.stdout[-4000:]}"
+
+
+def unmarked(text):
+    """Lines of indented blocks that are commands, which nothing would run."""
+    return [number for number, line in enumerate(pages.prose(text), 1)
+            if line.startswith("    ") and line.strip().startswith(COMMANDS)]
+
+
+def pixels(path):
+    """Size and filtered rows of a PNG."""
+    data, at, header, packed = path.read_bytes(), 8, None, b""
+    while at < len(data):
+        length, kind = struct.unpack(">I4s", data[at : at + 8])
+        body = data[at + 8 : at + 8 + length]
+        header = body if kind == b"IHDR" else header
+        packed += body if kind == b"IDAT" else b""
+        at += 12 + length
+    return header, zlib.decompress(packed)
+
+
+def stale(shown, made):
+    """Why a picture is not the one that was made; empty where it is. A line that moved by its width changes 0.3 % of the bytes."""
+    (header, old), (new_header, new) = pixels(shown), pixels(made)
+    if header != new_header:
+        return "has another size"
+    share = sum(map(operator.ne, old, new)) / len(new)
+    return f"differs in {100 * share:.2f} % of its bytes" if share > 0.003 else ""
+
+
+def check_pictures(root, page, text, target, draw):
+    for line, shown, made in pages.made_pictures(text):
+        shown = (root / page).parent / shown
+        if draw:
+            shutil.copyfile(target / made, shown)
+            continue
+        wrong = stale(shown, target / made)
+        if wrong:
+            sys.exit(f"{page}:{line}: {shown.name} {wrong}; draw it anew: tests/docs/run_commands.py . {page} build --draw")
+        print(f"{page}:{line}: {shown.name} is current")
+
+
+def main():
+    root, page, build = (pathlib.Path(given).resolve() if i != 1 else given for i, given in enumerate(sys.argv[1:4]))
+    text = (root / page).read_text()
+    if unmarked(text):
+        sys.exit(f"{page}:{unmarked(text)[0]}: a command in an indented block; put it between ```sh and ```")
+    blocks = [block for block in pages.blocks(text) if block.language == "sh"]
+
+    ran = 0
+    with tempfile.TemporaryDirectory(prefix="warmjoint_docs_") as folder:
+        target = pathlib.Path(folder) / "warmjoint"
+        copy_sources(root, build, target)
+        values = environment(build)
+        for block in blocks:
+            where = f"{page}:{block.line}"
+            if block.mark == "not run":
+                print(f"{where}: not run: {block.reason}")
+                continue
+            if block.mark == "needs" and not bring(block.value, target):
+                print(f"{where}: skipped: {block.value} is not there ({block.reason})")
+                continue
+            start = time.monotonic()
+            wrong = run(block, target, values)
+            if wrong:
+                sys.exit(f"{where}: {wrong}")
+            ran += 1
+            print(f"{where}: {time.monotonic() - start:.1f} s", flush=True)
+        check_pictures(root, page, text, target, "--draw" in sys.argv)
+    print(f"{page}: ran {ran} of {len(blocks)} blocks")
+    sys.exit(0 if ran or not blocks else 77)
+
+
+main()
