@@ -5,7 +5,8 @@
 - Every estimate that the identifiers write, answered or refused, is valid; so is every friction file of the project.
 - Each change of a good friction file that the schema refuses is refused by the program, too, and each key that the schema
   names is one that the program takes.
-- Every ```json block of the page on these files is valid.
+- Every ```json block of every page is valid: an estimate, a friction, maps of one, or the answer of an identifier of others, which may
+  leave out all but its status. CITATION.cff has what its format asks for.
 
 Exits 77, with the reason, where jsonschema is absent: tools/docs/setup fetches it.
 """
@@ -13,6 +14,7 @@ Exits 77, with the reason, where jsonschema is absent: tools/docs/setup fetches 
 import copy
 import json
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -172,12 +174,19 @@ def main():
             if call.reads(wrong)[0]:
                 problems.append(f"{path} = {value}: the program takes it")
 
-    page = (root / "tools/docs/files.md").read_text()
-    for block in pages.blocks(page):
-        if block.language == "json":
-            value = json.loads(block.text)
-            schema = estimate_schema if "status" in value else friction_schema
-            check(schema, value, f"files.md:{block.line}", "blocks")
+    answer_schema = estimate_schema.evolve(schema={**estimate_schema.schema, "required": ["status"]})
+    map_schema = friction_schema.evolve(schema={"$ref": "friction.schema.json#/$defs/map"})
+    for page in pages.pages(root):
+        for block in pages.blocks((root / page).read_text()):
+            if block.language == "json":
+                value = json.loads(block.text)
+                schema = (map_schema if isinstance(value, list) else friction_schema if "status" not in value
+                          else estimate_schema if "identifier" in value else answer_schema)
+                for one in value if isinstance(value, list) else [value]:
+                    check(schema, one, f"{page}:{block.line}", "blocks")
+    citation = (root / "CITATION.cff").read_text()
+    problems += [f"CITATION.cff lacks {key}" for key in ("cff-version", "message", "title", "authors", "version")
+                 if not re.search(rf"^{key}: *", citation, re.M)]
 
     print("\n".join(problems) or ", ".join(f"{count} {kind}" for kind, count in counts.items()) + ": all as the schemas say")
     sys.exit(1 if problems or not all(counts.values()) else 0)

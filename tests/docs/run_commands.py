@@ -42,8 +42,12 @@ def environment(build):
     return values
 
 
-def bring(name, target):
-    """Lays a shared file into the copy; False where there is none."""
+def bring(names, target):
+    """Lays shared files into the copy; False where one is absent."""
+    return all([bring_one(name, target) for name in names.split()])
+
+
+def bring_one(name, target):
     shared = os.environ.get("WARMJOINT_SHARED") or os.environ.get("WARMJOINT_SHARED_DEFAULT", "")
     source = pathlib.Path(shared) / name
     if not shared or not source.is_file():
@@ -55,7 +59,7 @@ def bring(name, target):
 
 def run(block, target, values):
     """Runs one block; returns what is wrong, or nothing."""
-    wanted = int(block.value) if block.mark == "ends with" else 0
+    wanted = int(block.marks.get("ends with", ("0",))[0])
     done = subprocess.run(["bash", "-euo", "pipefail", "-c", block.text], cwd=target, env=values, text=True, timeout=LIMIT,
                           stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
     if done.returncode == wanted:
@@ -116,11 +120,11 @@ def main():
         values = environment(build)
         for block in blocks:
             where = f"{page}:{block.line}"
-            if block.mark == "not run":
-                print(f"{where}: not run: {block.reason}")
+            if "not run" in block.marks:
+                print(f"{where}: not run: {block.marks['not run'][1]}")
                 continue
-            if block.mark == "needs" and not bring(block.value, target):
-                print(f"{where}: skipped: {block.value} is not there ({block.reason})")
+            if "needs" in block.marks and not bring(block.marks["needs"][0], target):
+                print(f"{where}: skipped: {block.marks['needs'][0]} is not there ({block.marks['needs'][1]})")
                 continue
             start = time.monotonic()
             wrong = run(block, target, values)

@@ -1,10 +1,11 @@
 """What a page of Markdown holds: its code blocks with their marks, headings and links.
 
-A mark is an HTML comment on the line above a block:
+Marks are HTML comments on the lines above a block:
 
     <!-- not run: REASON -->            the block is not run
     <!-- ends with STATUS: REASON -->   its last command ends with this exit status
-    <!-- needs FILE: REASON -->         FILE of the shared folder lies in the working directory; without it the block is skipped
+    <!-- needs FILE...: REASON -->      files of the shared folder (WARMJOINT_SHARED) lie in the working directory; the block is
+                                        skipped where they are absent
 
 `<!-- made as FILE: by the commands of this page -->` on the line above a picture says which of the files that the commands made it is.
 `<!-- long page: REASON -->` anywhere in the page gives its test the label `long`.
@@ -25,14 +26,12 @@ def is_output(name):
 
 @dataclasses.dataclass
 class Block:
-    """One fenced block: its language, lines, the line of its fence (from 1), and the mark above it."""
+    """One fenced block: its language, lines, the line of its fence (from 1), and the marks above it: {kind: (value, reason)}."""
 
     language: str
     text: str
     line: int
-    mark: str = ""
-    value: str = ""
-    reason: str = ""
+    marks: dict = dataclasses.field(default_factory=dict)
 
 
 def pages(root):
@@ -47,7 +46,7 @@ def pages(root):
 
 def blocks(text):
     """The fenced blocks of a page, in order. Raises ValueError where a fence does not close or a mark is not understood."""
-    found, open_block, mark = [], None, None
+    found, open_block, marks = [], None, {}
     for number, line in enumerate(text.splitlines(), 1):
         if open_block is not None:
             if line.strip() == "```":
@@ -58,14 +57,17 @@ def blocks(text):
             continue
         fence = FENCE.match(line)
         if fence:
-            kind, value, reason = mark or ("", "", "")
-            open_block = Block(fence.group(1), "", number, kind, value.strip(), reason)
+            open_block = Block(fence.group(1), "", number, marks)
         elif line.startswith("```"):
             raise ValueError(f"line {number}: a fence names one language and nothing else: {line}")
         given = MARK.match(line)
         if line.startswith("<!--") and not given:
             raise ValueError(f"line {number}: no mark that tools/docs/pages.py knows: {line}")
-        mark = given.groups() if given and given.group(1) not in ("long page", "made as") else None
+        if given:
+            kind, value, reason = given.groups()
+            marks = {**marks, kind: (value.strip(), reason)}
+        else:
+            marks = {}
     if open_block is not None:
         raise ValueError(f"line {open_block.line}: the block does not end")
     return found
