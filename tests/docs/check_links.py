@@ -18,6 +18,7 @@ import pages  # noqa: E402
 
 
 SOURCES = {".h", ".cc", ".py", ".cmake"}
+README_LINES = 120  # what a newcomer reads in two minutes
 
 
 def inside_problem(root, page, words, target):
@@ -57,6 +58,9 @@ def main():
         print("skipped: WARMJOINT_EXTERNAL_LINKS=1 asks every link to other sites")
         sys.exit(77)
     problems, counted = [], 0
+    length = len((root / "README.md").read_text().splitlines())
+    if length >= README_LINES:
+        problems.append(f"README.md has {length} lines; below {README_LINES}: move what few readers need to a page")
     for page in pages.pages(root):
         for line, words, target in pages.links((root / page).read_text()):
             outside = target.startswith(("http://", "https://", "mailto:"))
