@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A joint with friction of warmjoint in MuJoCo's Python: moves it to and fro and prints its friction as it warms up.
+"""A joint with friction of warmjoint in MuJoCo's Python: carried to and fro, it warms up, and its friction is printed.
 
     warm_up.py MODEL JOINT [MINUTES [SPEED]]
 
@@ -26,24 +26,28 @@ def main():
     minutes = int(sys.argv[3]) if len(sys.argv) > 3 else 5
     speed = float(sys.argv[4]) if len(sys.argv) > 4 else 0.5
 
+    if mujoco.__version__ != "4.0.0":
+        sys.exit(f"error: this Python has MuJoCo {mujoco.__version__}; the plugin loads into 4.0.0: pip install mujoco==4.0.0")
+
     # the plugin is loaded once, before the model
     mujoco.mj_loadPluginLibrary(str(ROOT / "build/libwarmjoint_friction.so"))
     model = mujoco.MjModel.from_xml_path(sys.argv[1])
     data = mujoco.MjData(model)
-    dof = model.joint(sys.argv[2]).dofadr[0]
+    joint = model.joint(sys.argv[2])
+    dof, at = joint.dofadr[0], joint.qposadr[0]
     friction = data.actuator(sys.argv[2] + "_friction")
-    inertia = 1 / model.dof_invweight0[dof]  # kg.m^2 or kg
+    pose = data.qpos.copy()
 
     def slide(seconds):
-        """Moves the joint to and fro; the mean friction while it slides forwards, N.m or N."""
+        """Carries the joint to and fro, the others at rest; the mean friction while it goes forwards, N.m or N."""
         forces = []
         for _ in range(round(seconds / model.opt.timestep)):
-            # a stiff controller of the speed: friction is what it has to overcome
-            wanted = speed if data.time % (2 * HOLD) < HOLD else -speed
-            error = wanted - data.qvel[dof]
-            data.qfrc_applied[dof] = 200 * inertia * error - friction.force[0]
+            since = data.time % (2 * HOLD)
+            pose[at] = data.qpos[at]
+            data.qpos[:], data.qvel[:] = pose, 0
+            data.qvel[dof] = speed if since < HOLD else -speed
             mujoco.mj_step(model, data)
-            if wanted > 0 and abs(error) < 0.01 * speed:
+            if HOLD / 2 < since < HOLD:
                 forces.append(-friction.force[0])
         return sum(forces) / len(forces)
 
