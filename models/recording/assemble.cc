@@ -57,6 +57,14 @@ void CheckTorque(const RawColumns& raw, const Measurements& measurements) {
          torque[0], measurements.torque_unit, torque.size());
 }
 
+/// Number of samples, time and torque.
+void CheckCourse(const RawColumns& raw, const Measurements& measurements) {
+  const Eigen::Index n = measurements.size();
+  if (n < 3) Refuse({raw.file}, "has {} samples; at least 3 are needed", n);
+  CheckTime(raw, measurements.time);
+  CheckTorque(raw, measurements);
+}
+
 /// The factor on a column, 1 where none is given.
 double ScaleOf(const std::string& column, const CsvLayout& layout) {
   const auto given = layout.scale.find(column);
@@ -105,12 +113,18 @@ Measurements AssembleMeasurements(RawColumns raw, const std::vector<ColumnSource
     column->set(measurements, std::move(values));
   }
 
-  const Eigen::Index n = measurements.size();
-  if (n < 3) Refuse({raw.file}, "has {} samples; at least 3 are needed", n);
-  CheckTime(raw, measurements.time);
-  CheckTorque(raw, measurements);
+  CheckCourse(raw, measurements);
   Unwrap(range, measurements);
   return measurements;
+}
+
+void CheckSamples(const Measurements& measurements) {
+  const RawColumns raw{measurements.source, {}, {}};
+  for (const RecordingColumn& column : RecordingColumns()) {
+    const Eigen::VectorXd* values = column.get(measurements);
+    if (values) CheckValues(raw, column.name, *values);
+  }
+  CheckCourse(raw, measurements);
 }
 
 }  // namespace warmjoint::inline models

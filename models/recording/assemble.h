@@ -27,4 +27,8 @@ struct RawColumns {
 Measurements AssembleMeasurements(RawColumns raw, const std::vector<ColumnSource>& sources,
                                   const CsvLayout& layout);
 
+/// Throws BadInput for what no log may hold: fewer than three samples, a value that is not finite, time
+/// that does not increase from sample to sample, a torque that never changes.
+void CheckSamples(const Measurements& measurements);
+
 }  // namespace warmjoint::inline models

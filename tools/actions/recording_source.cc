@@ -1,5 +1,6 @@
 #include "tools/actions/recording_source.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -8,6 +9,15 @@
 #include "models/recording/read_recording.h"
 
 namespace warmjoint::inline tools {
+namespace {
+
+/// The same for pairs in any order.
+std::vector<std::string> Sorted(std::vector<std::string> pairs) {
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+}  // namespace
 
 std::map<std::string, std::string> ReadPairs(const std::vector<std::string>& pairs,
                                              const std::string& option) {
@@ -31,13 +41,13 @@ JointKind JointOf(const RecordingArguments& arguments) {
 
 nlohmann::json RecordingToJson(const RecordingArguments& arguments) {
   nlohmann::json json{{"files", arguments.recordings},
-                      {"map", arguments.map},
-                      {"unit", arguments.unit},
+                      {"map", Sorted(arguments.map)},
+                      {"unit", Sorted(arguments.unit)},
                       {"joint", arguments.joint},
                       {"gear", arguments.gear}};
 
   // what is rarely asked for stands there only where it is
-  if (!arguments.scale.empty()) json["scale"] = arguments.scale;
+  if (!arguments.scale.empty()) json["scale"] = Sorted(arguments.scale);
   if (arguments.wrap != 0) json["wrap"] = arguments.wrap;
   if (arguments.holds.trim != 0) json["trim"] = arguments.holds.trim;
   if (arguments.holds.shortest != 0) json["shortest_hold"] = arguments.holds.shortest;
@@ -69,7 +79,7 @@ PreparedLog ReadAndPrepare(const RecordingArguments& arguments) {
   return Prepare(ReadRecording(arguments), arguments.holds);
 }
 
-std::vector<Measurements> ReadRecordings(const RecordingArguments& arguments) {
+CsvLayout LayoutOf(const RecordingArguments& arguments) {
   if (!std::isfinite(arguments.gear) || arguments.gear == 0) {
     Refuse({"--gear"}, "is {}; it must be a finite number other than 0", arguments.gear);
   }
@@ -83,6 +93,11 @@ std::vector<Measurements> ReadRecordings(const RecordingArguments& arguments) {
   layout.unit = ReadPairs(arguments.unit, "--unit");
   layout.joint = JointOf(arguments);
   layout.gear = arguments.gear;
+  return layout;
+}
+
+std::vector<Measurements> ReadRecordings(const RecordingArguments& arguments) {
+  const CsvLayout layout = LayoutOf(arguments);
   std::vector<Measurements> recordings;
   for (const std::string& path : arguments.recordings) {
     recordings.push_back(ReadForeignRecording(path, layout));

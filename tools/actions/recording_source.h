@@ -27,7 +27,10 @@ struct RecordingArguments {
 /// Rotary or linear, as the command line says.
 JointKind JointOf(const RecordingArguments& arguments);
 
-/// {files[], map[], unit[], joint, gear}, and {scale[], wrap, trim, shortest_hold} where one of them
+/// How the files are to be read. Throws BadInput for a gear or a range that is no such number.
+CsvLayout LayoutOf(const RecordingArguments& arguments);
+
+/// {files[], map[], unit[], joint, gear}, the pairs sorted, and {scale[], wrap, trim, shortest_hold} where one of them
 /// is given: the `recording` member of an estimate file, by which its pictures find the data again.
 nlohmann::json RecordingToJson(const RecordingArguments& arguments);
 

@@ -10,6 +10,9 @@
 
 namespace warmjoint::inline tools {
 
+/// Most threads of a run.
+inline constexpr int kMostJobs = 1024;
+
 struct RunArguments {
   std::string suite;
   std::string output;

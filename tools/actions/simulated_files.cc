@@ -2,7 +2,6 @@
 
 #include "models/foundation/atomic_file.h"
 #include "models/recording/read_recording.h"
-#include "scenarios/write_scenario.h"
 #include "sim/truth/truth_json.h"
 
 namespace warmjoint::inline tools {
@@ -13,11 +12,11 @@ const std::vector<std::string>& SimulatedFiles() {
   return files;
 }
 
-void WriteSimulated(const Recording& recording, const Scenario& scenario, const std::string& format,
-                    const std::filesystem::path& folder) {
+void WriteSimulated(const Recording& recording, const std::string& scenario,
+                    const std::string& format, const std::filesystem::path& folder) {
   WriteRecording(recording.measurements, folder / ("recording." + format));
   WriteTruth(recording.truth, folder / "truth.json");
-  WriteWholeFile(folder / "scenario.yaml", ScenarioToYaml(scenario));
+  WriteWholeFile(folder / "scenario.yaml", scenario);
 }
 
 }  // namespace warmjoint::inline tools

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "tools/board/board_builder.h"
+#include "tools/actions/read_board.h"
 #include "tools/board/format_board.h"
 #include "tools/cli/command.h"
 #include "tools/store/stored_suite.h"
@@ -21,9 +21,7 @@ std::vector<NamedBoard> ReadBoards(const std::vector<std::string>& runs) {
   for (const std::string& run : runs) {
     const RunStore store = RunStore::OpenToRead(run);
     TellOfEditedSuite(store);
-    BoardBuilder builder(StoredSuite(store));
-    store.ForEachUnit([&](const std::vector<Result>& unit) { builder.Add(unit); });
-    boards.push_back({run, builder.Finish()});
+    boards.push_back({run, ReadBoard(store)});
   }
   return boards;
 }

@@ -20,7 +20,6 @@
 namespace warmjoint::inline tools {
 namespace {
 
-constexpr std::uint64_t kMostJobs = 1024;
 constexpr std::uint64_t kLargestSeed = std::numeric_limits<std::uint64_t>::max();
 
 /// Verdicts are results: a suite that ends in failures alone is done. One with an identifier that

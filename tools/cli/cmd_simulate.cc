@@ -12,6 +12,7 @@
 #include "models/foundation/nearest_name.h"
 #include "scenarios/read_scenario.h"
 #include "scenarios/suite.h"
+#include "scenarios/write_scenario.h"
 #include "sim/plant/plant.h"
 #include "tools/actions/outputs.h"
 #include "tools/actions/simulated_files.h"
@@ -109,7 +110,7 @@ ExitStatus Simulate(const SimulateArguments& arguments) {
   AtomicDirectory directory(arguments.output, SimulatedFiles());
 
   const Recording recording = Carried(*plant, scenario, arguments.realization.value_or(0));
-  WriteSimulated(recording, scenario, arguments.format, directory.temporary());
+  WriteSimulated(recording, ScenarioToYaml(scenario), arguments.format, directory.temporary());
   directory.Commit();
   fmt::print("{}: {} samples over {:.6g} s\n", arguments.output, recording.measurements.size(),
              scenario.duration);

@@ -1,21 +1,23 @@
-# cmake --install: program, plugin, libraries with headers, robots and suites, MuJoCo's library, and a CMake package
-# for find_package(warmjoint). The prefix stands alone: it may be moved, and the build folder may go.
+# cmake --install: program, plugin, the library with its public headers, robots and suites, MuJoCo's library, and a CMake
+# package for find_package(warmjoint). The prefix stands alone: it may be moved, and the build folder may go.
 # Component `program` is what users of the command line need, and what `tools/build` makes: tools/install installs it.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/warmjoint)
-set(headers ${CMAKE_INSTALL_INCLUDEDIR}/warmjoint)
 
-# rooms as warmjoint::models, warmjoint::sim, ...
-set(rooms models recording robots scenarios truth plugin sim identification score)
+# warmjoint::warmjoint and its headers
+set_target_properties(warmjoint_interface PROPERTIES EXPORT_NAME warmjoint)
+install(TARGETS warmjoint_interface EXPORT warmjointTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+  INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/interface/warmjoint DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+  FILES_MATCHING PATTERN "*.h")
+
+# the rooms below it, to be linked: their headers stay here
+set(rooms models recording robots scenarios truth plugin sim identification score store board actions)
 foreach(room ${rooms})
   set_target_properties(warmjoint_${room} PROPERTIES EXPORT_NAME ${room})
-  install(TARGETS warmjoint_${room} EXPORT warmjointTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-    INCLUDES DESTINATION ${headers})
-endforeach()
-foreach(folder models scenarios sim identification)
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION ${headers} FILES_MATCHING PATTERN "*.h")
+  install(TARGETS warmjoint_${room} EXPORT warmjointTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 endforeach()
 
 # program and plugin find MuJoCo beside them

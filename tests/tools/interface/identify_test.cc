@@ -1,0 +1,196 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <warmjoint/identify.h>
+#include <warmjoint/simulate.h>
+
+#include <functional>
+
+#include "models/foundation/atomic_file.h"
+#include "tests/tools/cli/recording_file.h"
+#include "tests/tools/cli/run_program.h"
+#include "tests/tools/cli/table_one_yaml.h"
+#include "tests/tools/interface/motions.h"
+#include "tests/tools/scratch_directory.h"
+
+namespace warmjoint::api {
+namespace {
+
+using testing::HasSubstr;
+
+/// One thing asked of both: the arguments behind RECORDING, and the settings that mean the same.
+struct Asked {
+  std::string name;
+  std::vector<std::string> arguments;
+  std::function<void(ReadSettings&, PrepareSettings&, IdentifySettings&)> set;
+  Status status = Status::ok;
+  double (*velocity)(int) = SeveralSpeeds;
+};
+
+void PrintTo(const Asked& asked, std::ostream* stream) { *stream << asked.name; }
+
+class IdentifyAsTheCommand : public testing::TestWithParam<Asked> {};
+
+TEST_P(IdentifyAsTheCommand, GivesTheSameFileToTheLastByte) {
+  const ScratchDirectory scratch;
+  const std::string log = scratch.path() / "log.csv", file = scratch.path() / "estimate.json";
+  WriteRecordingFile(log, 480, GetParam().velocity);
+  std::vector<std::string> arguments{"identify", log, "-o", file};
+  arguments.insert(arguments.end(), GetParam().arguments.begin(), GetParam().arguments.end());
+  const Answer answer = RunWarmjoint(arguments);
+  ASSERT_EQ(answer.status, GetParam().status == Status::ok ? 0 : 3) << answer.err;
+
+  ReadSettings read;
+  PrepareSettings prepare;
+  IdentifySettings settings;
+  GetParam().set(read, prepare, settings);
+  const Estimate estimate = Identify(PreparedLog(ReadRecording(log, read), prepare), settings);
+  EXPECT_EQ(estimate.status, GetParam().status) << estimate.message;
+  EXPECT_EQ(EstimateToJson(estimate), ReadWholeFile(file));
+
+  // and there and back as values
+  EXPECT_EQ(EstimateToJson(ReadEstimate(file)), ReadWholeFile(file));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Logs, IdentifyAsTheCommand,
+    testing::Values(
+        Asked{"Defaults, on a log too short to tell warming",
+              {},
+              [](auto&, auto&, auto&) {},
+              Status::not_identifiable},
+        Asked{"Refused",
+              {"--identifier", "nominal-ls"},
+              [](auto&, auto&, auto& settings) { settings.identifier = "nominal-ls"; },
+              Status::not_identifiable,
+              OneSpeed},
+        Asked{"Linear joint in other units",
+              {"--identifier", "nominal-ls", "--unit", "position=mm,velocity=mm/s,torque=kN",
+               "--joint", "linear", "--gear", "3", "--scale", "torque=0.5"},
+              [](auto& read, auto&, auto& settings) {
+                settings.identifier = "nominal-ls";
+                read.unit = {{"torque", "kN"}, {"position", "mm"}, {"velocity", "mm/s"}};
+                read.joint = JointKind::linear;
+                read.gear = 3;
+                read.scale = {{"torque", 0.5}};
+              }},
+        Asked{"Options, gravity and trimmed holds",
+              {"--identifier", "nominal-ls", "--set", "law=asymmetric", "--gravity", "sincos",
+               "--trim", "1", "--shortest-hold", "2", "--start", "unknown", "--relevance", "0.05",
+               "--holdout", "0.4"},
+              [](auto&, auto& prepare, auto& settings) {
+                settings.identifier = "nominal-ls";
+                settings.options = {{"law", "asymmetric"}};
+                settings.gravity = "sincos";
+                settings.start = "unknown";
+                settings.relevance = 0.05;
+                settings.holdout = 0.4;
+                prepare = {1, 2};
+              }},
+        Asked{"Maps",
+              {"--identifier", "position-ridge", "--holdout", "0"},
+              [](auto&, auto&, auto& settings) {
+                settings.identifier = "position-ridge";
+                settings.holdout = 0;
+              }},
+        Asked{"A current, which MuJoCo does not know",
+              {"--identifier", "nominal-ls", "--unit", "torque=A"},
+              [](auto& read, auto&, auto& settings) {
+                settings.identifier = "nominal-ls";
+                read.unit = {{"torque", "A"}};
+              }}),
+    [](const auto& asked) {
+      std::string name = asked.param.name;
+      std::erase_if(name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); });
+      return name;
+    });
+
+TEST(Identify, TellsWarmingAsTheCommand) {
+  const ScratchDirectory scratch;
+  const std::string log = scratch.path() / "log.csv", file = scratch.path() / "estimate.json";
+  WriteRecording(SimulateText(TableOneYaml(3600)).recording, log);
+  for (const std::string identifier : {"energy-ml", "energy-em", "kalman"}) {
+    const int status =
+        RunWarmjoint({"identify", log, "--identifier", identifier, "-o", file}).status;
+    IdentifySettings settings;
+    settings.identifier = identifier;
+    const Estimate estimate = Identify(ReadRecording(log), settings);
+    EXPECT_EQ(EstimateToJson(estimate), ReadWholeFile(file));
+    EXPECT_EQ(status, estimate.status == Status::ok ? 0 : 3) << estimate.message;
+    if (identifier != "energy-ml") continue;
+    ASSERT_NE(estimate.Find("thermal_gain"), nullptr) << estimate.message;
+    // the truth is -3; its standard error over an hour is some 0.1
+    EXPECT_NEAR(estimate.Find("thermal_gain")->value, -3, 0.5);
+  }
+}
+
+TEST(Identify, JoinsRecordingsAndHoldsOutOnAnotherAsTheCommand) {
+  const ScratchDirectory scratch;
+  const std::string first = scratch.path() / "monday.csv", second = scratch.path() / "tuesday.csv";
+  const std::string file = scratch.path() / "estimate.json";
+  WriteRecordingFile(first, 480, SeveralSpeeds);
+  WriteRecordingFile(second, 240, SeveralSpeeds);
+  ASSERT_EQ(RunWarmjoint({"identify", first, second, "--identifier", "nominal-ls", "--holdout",
+                          second, "-o", file})
+                .status,
+            0);
+  IdentifySettings settings;
+  settings.identifier = "nominal-ls";
+  settings.holdout_log = ReadRecording(second);
+  const Estimate estimate = Identify(ReadRecordings({first, second}), settings);
+  EXPECT_EQ(EstimateToJson(estimate), ReadWholeFile(file));
+  ASSERT_TRUE(estimate.holdout);
+  EXPECT_EQ(estimate.holdout->n, 240);
+}
+
+TEST(Identify, ShowsVoidNumbersWhereAskedAsTheCommand) {
+  const ScratchDirectory scratch;
+  const std::string log = scratch.path() / "log.csv", file = scratch.path() / "estimate.json";
+  // a level that drifts by a third, of which nominal-ls knows nothing
+  WriteRecordingFile(log, 480, SeveralSpeeds, [](int i) { return -0.01 * i; });
+  ASSERT_EQ(
+      RunWarmjoint({"identify", log, "--identifier", "nominal-ls", "--force", "-o", file}).status,
+      3);
+  IdentifySettings settings;
+  settings.identifier = "nominal-ls";
+  EXPECT_TRUE(Identify(ReadRecording(log), settings).parameters.front().interval95 == std::nullopt);
+  settings.void_numbers = VoidNumbers::show;
+  const Estimate shown = Identify(ReadRecording(log), settings);
+  EXPECT_EQ(shown.status, Status::inadequate_model);
+  EXPECT_EQ(EstimateToJson(shown), ReadWholeFile(file));
+}
+
+TEST(Identify, RefusesSettingsWithTheBoundOrTheNearestName) {
+  const ScratchDirectory scratch;
+  const std::string log = scratch.path() / "log.csv";
+  WriteRecordingFile(log, 480, SeveralSpeeds);
+  const PreparedLog prepared(ReadRecording(log));
+  const auto refusal = [&](const std::function<void(IdentifySettings&)>& change) {
+    IdentifySettings settings;
+    change(settings);
+    try {
+      Identify(prepared, settings);
+    } catch (const BadInput& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(refusal([](auto& s) { s.identifier = "nominal-sl"; }), HasSubstr("'nominal-ls'"));
+  EXPECT_THAT(refusal([](auto& s) { s.options = {{"lwa", "coulomb"}}; }), HasSubstr("'law'"));
+  EXPECT_THAT(refusal([](auto& s) { s.gravity = "sincs"; }), HasSubstr("'sincos'"));
+  EXPECT_THAT(refusal([](auto& s) { s.start = "cool"; }), HasSubstr("'cold'"));
+  EXPECT_THAT(refusal([](auto& s) { s.relevance = 2; }), HasSubstr("at most 1"));
+  EXPECT_THAT(refusal([](auto& s) { s.holdout = 1; }), HasSubstr("below 1"));
+}
+
+TEST(Identifiers, AreThoseOfTheCommandWithTheirOptions) {
+  const std::string listed = RunWarmjoint({"list", "identifiers"}).out;
+  const std::vector<IdentifierInfo> all = Identifiers();
+  EXPECT_GE(all.size(), 10u);
+  for (const IdentifierInfo& one : all) {
+    EXPECT_THAT(listed, HasSubstr(one.name + "  " + one.summary));
+    for (const OptionInfo& option : one.options) EXPECT_THAT(listed, HasSubstr(option.meaning));
+  }
+}
+
+}  // namespace
+}  // namespace warmjoint::api

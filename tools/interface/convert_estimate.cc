@@ -1,0 +1,170 @@
+#include "tools/interface/convert_estimate.h"
+
+#include <array>
+
+#include "models/foundation/excerpt.h"
+#include "models/foundation/nearest_name.h"
+#include "tools/interface/convert_friction.h"
+#include "tools/interface/convert_numbers.h"
+
+namespace warmjoint::api {
+namespace {
+
+/// Both have the same members in the same order.
+constexpr std::array kStatuses{
+    std::pair{Status::ok, identification::Status::ok},
+    std::pair{Status::not_converged, identification::Status::not_converged},
+    std::pair{Status::not_identifiable, identification::Status::not_identifiable},
+    std::pair{Status::inadequate_model, identification::Status::inadequate_model},
+    std::pair{Status::bad_data, identification::Status::bad_data}};
+
+Status FromStatus(identification::Status status) {
+  for (const auto& [ours, theirs] : kStatuses) {
+    if (theirs == status) return ours;
+  }
+  return Status::bad_data;
+}
+
+identification::Status ToStatus(Status status) {
+  for (const auto& [ours, theirs] : kStatuses) {
+    if (ours == status) return theirs;
+  }
+  return identification::Status::bad_data;
+}
+
+identification::GravityKind GravityKindOf(const std::string& name) {
+  using identification::GravityKind;
+  std::vector<std::string> known;
+  for (const GravityKind kind : {GravityKind::sincos, GravityKind::paired, GravityKind::constant}) {
+    if (identification::GravityName(kind) == name) return kind;
+    known.emplace_back(identification::GravityName(kind));
+  }
+  models::Refuse({"gravity"}, "is of kind '{}'{}", models::Excerpt(name),
+                 models::Suggestion(name, known));
+}
+
+std::optional<identification::Metrics> ToMetrics(const std::optional<Metrics>& metrics) {
+  if (!metrics) return std::nullopt;
+  return identification::Metrics{metrics->n,    metrics->parameters, metrics->effective_parameters,
+                                 metrics->rmse, metrics->mae,        metrics->fit,
+                                 metrics->fpe};
+}
+
+std::optional<identification::ParameterCovariance> ToCovariance(
+    const std::optional<Covariance>& covariance) {
+  if (!covariance) return std::nullopt;
+  const std::size_t p = covariance->parameters.size();
+  const auto size = static_cast<Eigen::Index>(p);
+  identification::ParameterCovariance made{covariance->parameters, Eigen::MatrixXd(size, size)};
+  if (covariance->matrix.size() != p) {
+    models::Refuse({"covariance"}, "has {} parameters and {} rows; give a row for each", p,
+                   covariance->matrix.size());
+  }
+  for (std::size_t i = 0; i < p; ++i) {
+    if (covariance->matrix[i].size() != p) {
+      models::Refuse({"covariance"}, "has {} numbers in row {}; give {}",
+                     covariance->matrix[i].size(), i + 1, p);
+    }
+    made.matrix.row(static_cast<Eigen::Index>(i)) = ToEigen(covariance->matrix[i]).transpose();
+  }
+  return made;
+}
+
+std::optional<Covariance> FromCovariance(
+    const std::optional<identification::ParameterCovariance>& covariance) {
+  if (!covariance) return std::nullopt;
+  Covariance made{covariance->parameters, {}};
+  for (const auto& row : covariance->matrix.rowwise()) {
+    made.matrix.emplace_back(row.begin(), row.end());
+  }
+  return made;
+}
+
+}  // namespace
+
+Metrics FromMetrics(const identification::Metrics& metrics) {
+  return {metrics.n,   metrics.parameters, metrics.effective_parameters, metrics.rmse, metrics.mae,
+          metrics.fit, metrics.fpe};
+}
+
+identification::Estimate ToEstimate(const Estimate& estimate) {
+  identification::Estimate made;
+  made.identifier = estimate.identifier;
+  made.status = ToStatus(estimate.status);
+  made.message = estimate.message;
+  made.warnings = estimate.warnings;
+
+  // numbers
+  for (const Parameter& one : estimate.parameters) {
+    made.parameters.push_back({one.name, one.value, one.unit, one.std, one.interval95});
+  }
+  made.metrics = ToMetrics(estimate.metrics);
+  made.holdout = ToMetrics(estimate.holdout);
+  for (const TraceEntry& entry : estimate.trace) {
+    made.trace.push_back({entry.iteration, entry.parameters, entry.rmse});
+  }
+  made.covariance = ToCovariance(estimate.covariance);
+
+  // the model
+  if (estimate.friction) made.friction = ToDescription(*estimate.friction);
+  if (estimate.gravity) {
+    made.gravity = {GravityKindOf(estimate.gravity->kind), estimate.gravity->knots,
+                    ToEigen(estimate.gravity->values)};
+  }
+  for (const MapBand& band : estimate.bands) {
+    made.bands.push_back({band.quantities, band.points, band.value, band.std, band.interval95});
+  }
+
+  // the verdict
+  for (const Diagnostic& one : estimate.diagnostics) {
+    made.diagnostics.push_back({one.test, one.made, one.reason, one.statistic, one.p,
+                                one.p_adjusted, one.rejected, one.effect, one.effect_unit,
+                                one.moves});
+  }
+  for (const Assumption& one : estimate.assumptions) {
+    made.assumptions.push_back({one.name, one.meaning, one.moves});
+  }
+  return made;
+}
+
+Estimate FromEstimate(const identification::Estimate& estimate) {
+  Estimate made;
+  made.identifier = estimate.identifier;
+  made.status = FromStatus(estimate.status);
+  made.message = estimate.message;
+  made.warnings = estimate.warnings;
+
+  // numbers
+  for (const identification::EstimatedParameter& one : estimate.parameters) {
+    made.parameters.push_back({one.name, one.value, one.unit, one.std, one.interval95});
+  }
+  if (estimate.metrics) made.metrics = FromMetrics(*estimate.metrics);
+  if (estimate.holdout) made.holdout = FromMetrics(*estimate.holdout);
+  for (const identification::TraceEntry& entry : estimate.trace) {
+    made.trace.push_back({entry.iteration, entry.parameters, entry.rmse});
+  }
+  made.covariance = FromCovariance(estimate.covariance);
+
+  // the model
+  if (estimate.friction) made.friction = FromDescription(*estimate.friction);
+  if (estimate.gravity) {
+    made.gravity = {std::string(identification::GravityName(estimate.gravity->kind)),
+                    estimate.gravity->knots, FromEigen(estimate.gravity->values)};
+  }
+  for (const identification::MapBand& band : estimate.bands) {
+    made.bands.push_back({band.quantities, band.points, band.value, band.std, band.interval95});
+  }
+
+  // the verdict
+  for (const identification::Diagnostic& one : estimate.diagnostics) {
+    made.diagnostics.push_back({one.test, one.made, one.reason, one.statistic, one.p,
+                                one.p_adjusted, one.rejected, one.effect, one.effect_unit,
+                                one.moves});
+  }
+  for (const identification::Assumption& one : estimate.assumptions) {
+    made.assumptions.push_back({one.name, one.meaning, one.moves});
+  }
+  return made;
+}
+
+}  // namespace warmjoint::api

@@ -1,0 +1,100 @@
+#include "tools/interface/convert_friction.h"
+
+#include <array>
+
+#include "models/foundation/excerpt.h"
+#include "models/foundation/nearest_name.h"
+
+namespace warmjoint::api {
+namespace {
+
+constexpr std::array kQuantities{models::MapQuantity::position, models::MapQuantity::motor_position,
+                                 models::MapQuantity::velocity, models::MapQuantity::energy,
+                                 models::MapQuantity::load};
+constexpr std::array kFactors{models::MapFactor::one, models::MapFactor::direction,
+                              models::MapFactor::velocity};
+
+/// The one of `all` that has that name.
+template <typename Choice, std::size_t n>
+Choice Named(const std::string& given, const std::array<Choice, n>& all,
+             std::string_view (*name_of)(Choice), const char* what) {
+  std::vector<std::string> known;
+  for (const Choice one : all) {
+    if (name_of(one) == given) return one;
+    known.emplace_back(name_of(one));
+  }
+  models::Refuse({"friction"}, "{} of a map is '{}'{}", what, models::Excerpt(given),
+                 models::Suggestion(given, known));
+}
+
+std::optional<models::Thermal> ToThermal(const std::optional<Thermal>& thermal) {
+  if (!thermal) return std::nullopt;
+  return models::Thermal{thermal->gain, thermal->time_constant};
+}
+
+std::optional<Thermal> FromThermal(const std::optional<models::Thermal>& thermal) {
+  if (!thermal) return std::nullopt;
+  return Thermal{thermal->gain, thermal->time_constant};
+}
+
+models::FrictionMap ToMap(const FrictionMap& map) {
+  models::FrictionMap made;
+  for (const MapAxis& axis : map.axes) {
+    const auto sides = axis.sides_apart ? models::Sides::apart : models::Sides::together;
+    made.axes.push_back({Named(axis.quantity, kQuantities, &models::MapQuantityName, "quantity"),
+                         {axis.centres, axis.width, axis.period, sides}});
+  }
+  made.kernels = map.normalised ? models::KernelKind::normalised : models::KernelKind::plain;
+  made.factor = Named(map.factor, kFactors, &models::MapFactorName, "factor");
+  made.weights = map.weights;
+  return made;
+}
+
+FrictionMap FromMap(const models::FrictionMap& map) {
+  FrictionMap made;
+  for (const models::MapAxis& axis : map.axes) {
+    const models::GaussianAxis& kernels = axis.kernels;
+    made.axes.push_back({std::string(models::MapQuantityName(axis.quantity)), kernels.centres,
+                         kernels.width, kernels.period, kernels.sides == models::Sides::apart});
+  }
+  made.normalised = map.kernels == models::KernelKind::normalised;
+  made.factor = models::MapFactorName(map.factor);
+  made.weights = map.weights;
+  return made;
+}
+
+}  // namespace
+
+models::FrictionDescription ToDescription(const Friction& friction) {
+  models::FrictionDescription made;
+  made.law = friction.law;
+  made.parameters = friction.parameters;
+  made.thermal = ToThermal(friction.thermal);
+  made.second_thermal = ToThermal(friction.second_thermal);
+  made.ambient = friction.ambient;
+  made.gear = friction.gear;
+  made.level_per_temperature = friction.level_per_temperature;
+  made.viscous_per_energy = friction.viscous_per_energy;
+  made.load_gain = friction.load_gain;
+  for (const FrictionMap& map : friction.maps) made.maps.push_back(ToMap(map));
+  models::FillDefaults(made);
+  models::CheckFriction(made, {"friction"});
+  return made;
+}
+
+Friction FromDescription(const models::FrictionDescription& friction) {
+  Friction made;
+  made.law = friction.law;
+  made.parameters = friction.parameters;
+  made.thermal = FromThermal(friction.thermal);
+  made.second_thermal = FromThermal(friction.second_thermal);
+  made.ambient = friction.ambient;
+  made.gear = friction.gear;
+  made.level_per_temperature = friction.level_per_temperature;
+  made.viscous_per_energy = friction.viscous_per_energy;
+  made.load_gain = friction.load_gain;
+  for (const models::FrictionMap& map : friction.maps) made.maps.push_back(FromMap(map));
+  return made;
+}
+
+}  // namespace warmjoint::api

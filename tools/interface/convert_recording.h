@@ -1,0 +1,35 @@
+// Recordings of the interface and of the rooms.
+#pragma once
+
+#include <warmjoint/recording.h>
+
+#include <optional>
+
+#include "identification/preparation/prepared_log.h"
+#include "tools/actions/recording_source.h"
+
+namespace warmjoint::api {
+
+models::JointKind ToKind(JointKind joint);
+JointKind FromKind(models::JointKind joint);
+
+/// The log as the rooms have it, checked as a file is. Throws models::BadInput.
+models::Measurements ToMeasurements(const Recording& recording);
+
+/// origin stays empty.
+Recording FromMeasurements(const models::Measurements& measurements);
+
+/// What the command line would say of files that were read so.
+tools::RecordingArguments ToArguments(const Origin& origin);
+
+/// The inverse. Throws models::BadInput from `place` for a scale that is no number.
+Origin FromArguments(const tools::RecordingArguments& arguments, const models::Place& place);
+
+/// What a prepared log of the interface holds.
+struct PreparedLog::State {
+  identification::PreparedLog log;
+  std::vector<std::string> faults, warnings;
+  std::optional<Origin> origin;
+};
+
+}  // namespace warmjoint::api

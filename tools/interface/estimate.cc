@@ -1,0 +1,59 @@
+#include <warmjoint/estimate.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "models/foundation/atomic_file.h"
+#include "models/foundation/read_json.h"
+#include "tools/actions/identify_recording.h"
+#include "tools/interface/convert_estimate.h"
+#include "tools/interface/convert_recording.h"
+#include "tools/interface/guarded.h"
+
+namespace warmjoint::api {
+namespace {
+
+Estimate FromJson(const nlohmann::json& json, const models::Place& place) {
+  Estimate estimate = FromEstimate(identification::EstimateFromJson(json, place));
+  if (json.contains("recording") && !json["recording"].is_null()) {
+    estimate.recording = FromArguments(tools::RecordingFromJson(json["recording"], place), place);
+  }
+  return estimate;
+}
+
+std::string TextOf(const Estimate& estimate) {
+  std::optional<tools::RecordingArguments> source;
+  if (estimate.recording) source = ToArguments(*estimate.recording);
+  return tools::EstimateFile(ToEstimate(estimate), source);
+}
+
+}  // namespace
+
+std::string StatusName(Status status) {
+  Estimate estimate;
+  estimate.status = status;
+  return std::string(identification::StatusName(ToEstimate(estimate).status));
+}
+
+const Parameter* Estimate::Find(const std::string& name) const {
+  const auto found = std::ranges::find(parameters, name, &Parameter::name);
+  return found == parameters.end() ? nullptr : &*found;
+}
+
+std::string EstimateToJson(const Estimate& estimate) {
+  return Guarded([&] { return TextOf(estimate); });
+}
+
+Estimate EstimateFromJson(const std::string& text, const std::string& name) {
+  return Guarded([&] { return FromJson(models::ParseJson(text, name), {name}); });
+}
+
+Estimate ReadEstimate(const std::filesystem::path& file) {
+  return Guarded([&] { return FromJson(models::ReadJsonFile(file), {file.string()}); });
+}
+
+void WriteEstimate(const Estimate& estimate, const std::filesystem::path& file) {
+  Guarded([&] { models::WriteWholeFile(file, TextOf(estimate)); });
+}
+
+}  // namespace warmjoint::api

@@ -1,0 +1,57 @@
+#include <warmjoint/identify.h>
+
+#include "identification/identifiers/identifier_list.h"
+#include "tools/actions/identify_recording.h"
+#include "tools/interface/convert_estimate.h"
+#include "tools/interface/convert_recording.h"
+#include "tools/interface/guarded.h"
+
+namespace warmjoint::api {
+namespace {
+
+tools::IdentifySettings ToSettings(const IdentifySettings& settings) {
+  return {settings.identifier,
+          settings.gravity,
+          settings.start,
+          settings.relevance,
+          settings.options,
+          settings.void_numbers == VoidNumbers::show ? tools::VoidNumbers::show
+                                                     : tools::VoidNumbers::withhold};
+}
+
+tools::HoldOutSource ToHoldOut(const IdentifySettings& settings) {
+  if (settings.holdout_log) return {0, settings.holdout_log->state().log};
+  return tools::HoldOutShare(settings.holdout);
+}
+
+}  // namespace
+
+std::vector<IdentifierInfo> Identifiers() {
+  std::vector<IdentifierInfo> all;
+  for (const identification::Identifier& identifier : identification::Identifiers()) {
+    IdentifierInfo info{identifier.name, identifier.summary, {}};
+    for (const identification::OptionInfo& option : identifier.options) {
+      info.options.push_back({option.name, option.default_value, option.allowed, option.meaning});
+    }
+    all.push_back(std::move(info));
+  }
+  return all;
+}
+
+Estimate Identify(const PreparedLog& log, const IdentifySettings& settings) {
+  return Guarded([&] {
+    // the walk of the command
+    const identification::PreparedLog& prepared = log.state().log;
+    const models::Measurements& measurements = prepared.taken().measurements;
+    const tools::IdentifyTask task = tools::CheckSettings(ToSettings(settings), measurements.joint);
+    identification::Estimate found = tools::IdentifyLog(task, prepared, ToHoldOut(settings));
+    tools::TakeBackAmperes(measurements, found);
+
+    // as a value
+    Estimate estimate = FromEstimate(found);
+    estimate.recording = log.state().origin;
+    return estimate;
+  });
+}
+
+}  // namespace warmjoint::api

@@ -1,0 +1,93 @@
+#include <warmjoint/simulate.h>
+
+#include "models/foundation/atomic_directory.h"
+#include "models/foundation/excerpt.h"
+#include "models/foundation/nearest_name.h"
+#include "scenarios/read_scenario.h"
+#include "scenarios/write_scenario.h"
+#include "sim/plant/plant.h"
+#include "sim/truth/truth_json.h"
+#include "tools/actions/simulated_files.h"
+#include "tools/interface/convert_friction.h"
+#include "tools/interface/convert_numbers.h"
+#include "tools/interface/convert_recording.h"
+#include "tools/interface/convert_truth.h"
+#include "tools/interface/guarded.h"
+#include "tools/suite/memory_of_work.h"
+
+namespace warmjoint::api {
+namespace {
+
+scenarios::Settings ToSettings(const SimulateSettings& settings) {
+  scenarios::Settings made;
+  for (const auto& [key, value] : settings.set) made.push_back({key, value});
+  return made;
+}
+
+/// file: that the scenario came from.
+Simulation CarryOut(scenarios::Scenario scenario, const SimulateSettings& settings,
+                    const std::string& file) {
+  if (settings.seed) scenario.seed = *settings.seed;
+  tools::RequireMemoryFor(scenario, file);
+  const sim::Recording made = sim::MakePlant(scenario)->Run(settings.realization, settings.watch);
+  return {FromMeasurements(made.measurements), FromTruth(made.truth),
+          scenarios::ScenarioToYaml(scenario)};
+}
+
+}  // namespace
+
+sim::Truth ToTruth(const Truth& truth) {
+  return {ToDescription(truth.friction),
+          truth.initial_energy,
+          truth.torque_noise,
+          truth.plant,
+          ToEigen(truth.velocity),
+          ToEigen(truth.force),
+          ToEigen(truth.loss),
+          ToEigen(truth.energy)};
+}
+
+Truth FromTruth(const sim::Truth& truth) {
+  return {FromDescription(truth.friction),
+          truth.initial_energy,
+          truth.torque_noise,
+          truth.plant,
+          FromEigen(truth.velocity),
+          FromEigen(truth.force),
+          FromEigen(truth.loss),
+          FromEigen(truth.energy)};
+}
+
+Simulation Simulate(const std::filesystem::path& scenario, const SimulateSettings& settings) {
+  return Guarded([&] {
+    return CarryOut(scenarios::ReadScenario(scenario, ToSettings(settings)), settings, scenario);
+  });
+}
+
+Simulation SimulateText(const std::string& scenario, const SimulateSettings& settings,
+                        const std::string& name) {
+  return Guarded([&] {
+    const auto value = scenarios::YamlValue::Parse(scenario, name, ToSettings(settings));
+    return CarryOut(scenarios::ReadScenarioValue(value, name), settings, name);
+  });
+}
+
+void WriteSimulation(const Simulation& simulation, const std::filesystem::path& directory,
+                     const std::string& format) {
+  Guarded([&] {
+    if (format != "csv" && format != "h5") {
+      models::Refuse({"--format"}, "is '{}'{}", models::Excerpt(format),
+                     models::Suggestion(format, {"csv", "h5"}));
+    }
+    models::AtomicDirectory target(directory, tools::SimulatedFiles());
+    tools::WriteSimulated({ToMeasurements(simulation.recording), ToTruth(simulation.truth)},
+                          simulation.scenario, format, target.temporary());
+    target.Commit();
+  });
+}
+
+Truth ReadTruth(const std::filesystem::path& file) {
+  return Guarded([&] { return FromTruth(sim::ReadTruth(file)); });
+}
+
+}  // namespace warmjoint::api

@@ -1,0 +1,109 @@
+#include <warmjoint/suite.h>
+
+#include "models/foundation/excerpt.h"
+#include "models/foundation/nearest_name.h"
+#include "scenarios/parse_suite.h"
+#include "tools/actions/read_board.h"
+#include "tools/actions/run_task.h"
+#include "tools/board/format_board.h"
+#include "tools/interface/guarded.h"
+#include "tools/suite/engine.h"
+
+namespace warmjoint::api {
+namespace {
+
+void RequireWithin(const std::optional<int>& given, int most, const char* option) {
+  if (!given || (*given >= 1 && *given <= most)) return;
+  models::Refuse({option}, "is {}; it must be from 1 to {}", *given, most);
+}
+
+tools::RunArguments ToArguments(const std::filesystem::path& suite,
+                                const std::filesystem::path& directory,
+                                const RunSettings& settings) {
+  RequireWithin(settings.jobs, tools::kMostJobs, "--jobs");
+  RequireWithin(settings.realizations, scenarios::kMostRealizations, "--realizations");
+  tools::RunArguments arguments;
+  arguments.suite = suite;
+  arguments.output = directory;
+  arguments.jobs = settings.jobs;
+  arguments.realizations = settings.realizations;
+  arguments.seed = settings.seed;
+  arguments.identifiers = settings.identifiers;
+  arguments.allow_commands = settings.allow_commands;
+  arguments.keep = settings.keep_recordings;
+  return arguments;
+}
+
+Summary FromSummary(const tools::Summary& summary) {
+  return {summary.median, summary.q25, summary.q75, summary.rms};
+}
+
+LeaderboardRow FromRow(const tools::LeaderboardRow& row) {
+  LeaderboardRow made;
+  made.identifier = row.identifier;
+  made.runs = row.runs;
+  made.failures = row.failures;
+  made.npe_continuous = FromSummary(row.npe_continuous);
+  made.npe_discrete = FromSummary(row.npe_discrete);
+  made.rmse = FromSummary(row.rmse);
+  made.fit = FromSummary(row.fit);
+  made.fpe = FromSummary(row.fpe);
+  made.mae = FromSummary(row.mae);
+  made.seconds = FromSummary(row.seconds);
+  for (const tools::ParameterRow& one : row.parameters) {
+    made.parameters.push_back({one.name, one.coverage95, one.efficiency});
+  }
+  made.not_estimated = row.not_estimated;
+  return made;
+}
+
+Leaderboard FromBoard(const tools::Leaderboard& board) {
+  Leaderboard made;
+  made.suite = board.suite;
+  made.question = board.question;
+  made.realizations = board.finished;
+  made.bound_npe_continuous = board.bound_npe_continuous;
+  made.bound_npe_discrete = board.bound_npe_discrete;
+  for (const tools::LeaderboardRow& row : board.rows) made.rows.push_back(FromRow(row));
+  made.variant = board.variant;
+  made.value = board.value;
+  for (const tools::Leaderboard& group : board.groups) made.groups.push_back(FromBoard(group));
+  return made;
+}
+
+}  // namespace
+
+RunSummary RunSuite(const std::filesystem::path& suite, const std::filesystem::path& directory,
+                    const RunSettings& settings) {
+  return Guarded([&] {
+    const tools::RunTask task = tools::PrepareRun(ToArguments(suite, directory, settings));
+    auto store = tools::RunStore::CreateOrResume(directory, task.description);
+    const auto quiet = [](int, int) {};
+    tools::RunOptions options{task.jobs, task.shard, settings.keep_recordings, quiet};
+    if (settings.watch) options.watch = settings.watch;
+    const tools::RunOutcome outcome = tools::RunSuite(task.suite, task.identifiers, options, store);
+    tools::RunEnding ending = tools::EndRun(store);
+    return RunSummary{outcome.finished, ending.results, ending.failed, std::move(ending.silent)};
+  });
+}
+
+Leaderboard ReadLeaderboard(const std::filesystem::path& directory) {
+  return Guarded(
+      [&] { return FromBoard(tools::ReadBoard(tools::RunStore::OpenToRead(directory))); });
+}
+
+std::string FormatLeaderboard(const std::filesystem::path& directory, const std::string& format) {
+  return Guarded([&]() -> std::string {
+    std::vector<std::string> known;
+    for (const tools::BoardFormat& one : tools::BoardFormats()) {
+      known.push_back(one.name);
+      if (one.name == format) {
+        return one.write(tools::ReadBoard(tools::RunStore::OpenToRead(directory)));
+      }
+    }
+    models::Refuse({"--format"}, "is '{}'{}", models::Excerpt(format),
+                   models::Suggestion(format, known));
+  });
+}
+
+}  // namespace warmjoint::api
