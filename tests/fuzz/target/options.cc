@@ -1,7 +1,7 @@
 // Options of the command line: the first line names an identifier, each other one is a --set, --map or --unit pair.
 #include "identification/identifiers/identifier_list.h"
 #include "tests/fuzz/fuzz.h"
-#include "tools/cli/recording_options.h"
+#include "tools/actions/recording_source.h"
 
 namespace {
 
