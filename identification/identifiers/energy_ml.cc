@@ -117,7 +117,7 @@ std::optional<Refusal> WhyRefused(const Task& task, const WarmFit& warm, double 
   if (!warm.converged) {
     return Refusal{Status::not_converged,
                    fmt::format("the fit still moves after {} iterations; {}", warm.trace.size() - 1,
-                               WhyUnsettled(m, "warm-up"))};
+                               WhyUnsettled(m, FrictionKind::warm_up))};
   }
   if (response.feeds_itself) {
     return Refusal{Status::inadequate_model,

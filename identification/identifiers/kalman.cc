@@ -49,7 +49,8 @@ Ending EndingOf(const KalmanPass& last) {
 }
 
 Refusal RanAway(const Measurements& measurements) {
-  return {Status::not_converged, "the filters ran away; " + WhyUnsettled(measurements, "warm-up")};
+  return {Status::not_converged,
+          "the filters ran away; " + WhyUnsettled(measurements, FrictionKind::warm_up)};
 }
 
 /// Why the recording does not tell these parameters; nothing where it does. joint: the Jacobian's.

@@ -141,8 +141,9 @@ std::optional<Refusal> WhyRefused(const IdentifierInput& input, const LugreAnswe
   if (!why) why = UnknownStribeck(input, answer);
   if (why) return Refusal{Status::not_identifiable, *why};
   if (answer.fit.converged) return std::nullopt;
-  return Refusal{Status::not_converged, "the fit still moves after 100 iterations; " +
-                                            WhyUnsettled(input.measurements, "law stribeck")};
+  return Refusal{Status::not_converged,
+                 "the fit still moves after 100 iterations; " +
+                     WhyUnsettled(input.measurements, FrictionKind::stribeck)};
 }
 
 /// Voids a fit that misses what happens around turns.

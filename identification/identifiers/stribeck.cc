@@ -164,8 +164,9 @@ struct Rivals {
 void Conclude(const IdentifierInput& input, const StribeckProblem& problem, const StribeckFit& best,
               const Rivals& rivals, Fit& fit) {
   if (!best.converged) {
-    fit.refusal = {Status::not_converged, "the fit still moves after 100 iterations; " +
-                                              WhyUnsettled(input.measurements, "law stribeck")};
+    fit.refusal = {Status::not_converged,
+                   "the fit still moves after 100 iterations; " +
+                       WhyUnsettled(input.measurements, FrictionKind::stribeck)};
     return;
   }
   const double explained = Explained(input, rivals.without, best.solution);

@@ -39,9 +39,21 @@ struct MotionCheck {
   double speed_resolution = 0;     // rad/s or m/s; 0: not quantised
 };
 
-/// Whether one thing can be identified, and why (not).
+/// A kind of friction that a motion may show or not.
+enum class FrictionKind {
+  coulomb,
+  viscous_coulomb,
+  asymmetric,
+  stribeck,
+  warm_up,
+  position_ripple,
+  motor_ripple,
+};
+
+/// Whether friction of one kind can be identified, and why (not).
 struct Excitation {
-  std::string what;  // "law asymmetric", "warm-up", ...
+  FrictionKind kind = FrictionKind::coulomb;
+  std::string what;  // the kind in words: "law asymmetric", ...
   bool sufficient = false;
   std::string reason;  // one sentence; where insufficient, it ends in the remedy
 };

@@ -45,115 +45,126 @@ struct ShownMotion {
   bool both_directions() const { return positive.levels > 0 && negative.levels > 0; }
 };
 
-Excitation Coulomb(const ShownMotion& e) {
+/// Whether the motion shows a kind of friction, and why.
+struct Judged {
+  bool sufficient;
+  std::string reason;
+};
+
+Judged Coulomb(const ShownMotion& e) {
   if (e.motion.segments > 0) {
-    return {"law coulomb", true, fmt::format("{} segments at constant speed", e.motion.segments)};
+    return {true, fmt::format("{} segments at constant speed", e.motion.segments)};
   }
-  return {"law coulomb", false,
+  return {false,
           "no sample moves at a constant speed; record piecewise constant speeds, each held for "
           "longer than the acceleration between them"};
 }
 
-Excitation ViscousCoulomb(const ShownMotion& e) {
-  const std::string what = "law viscous_coulomb";
-  if (e.motion.segments == 0) return {what, false, Coulomb(e).reason};
+Judged ViscousCoulomb(const ShownMotion& e) {
+  if (e.motion.segments == 0) return {false, Coulomb(e).reason};
   const double ratio = e.fastest() / e.slowest();
   if (ratio > 1.1) {
-    return {what, true,
+    return {true,
             fmt::format("speeds from {:.3g} to {:.3g} {}", e.slowest(), e.fastest(), e.speed_unit)};
   }
-  return {what, false,
+  return {false,
           fmt::format("all segments move at about {:.3g} {}, so that viscous and coulomb cannot be "
                       "told apart; record a second speed, best ten times slower or faster",
                       e.fastest(), e.speed_unit)};
 }
 
-Excitation Asymmetric(const ShownMotion& e) {
-  const std::string what = "law asymmetric";
-  if (e.motion.segments == 0) return {what, false, Coulomb(e).reason};
+Judged Asymmetric(const ShownMotion& e) {
+  if (e.motion.segments == 0) return {false, Coulomb(e).reason};
   if (!e.both_directions()) {
-    return {what, false,
-            fmt::format("all segments move in the {} direction; record both",
-                        e.positive.levels > 0 ? "positive" : "negative")};
+    return {false, fmt::format("all segments move in the {} direction; record both",
+                               e.positive.levels > 0 ? "positive" : "negative")};
   }
   if (e.positive.levels < 2 && e.negative.levels < 2) {
-    return {what, false,
+    return {false,
             "each direction has one speed, so that the slope and the two levels cannot be told "
             "apart; record a second speed"};
   }
-  return {what, true, "several speeds and both directions"};
+  return {true, "several speeds and both directions"};
 }
 
-Excitation Stribeck(const ShownMotion& e) {
-  const std::string what = "law stribeck";
-  if (e.motion.segments == 0) return {what, false, Coulomb(e).reason};
+Judged Stribeck(const ShownMotion& e) {
+  if (e.motion.segments == 0) return {false, Coulomb(e).reason};
   const int levels = std::max(e.positive.levels, e.negative.levels);
   if (levels >= 5 && e.slowest() <= 0.05 * e.fastest()) {
-    return {what, true,
-            fmt::format("{} speeds, the slowest {:.2g} of the fastest", levels,
-                        e.slowest() / e.fastest())};
+    return {true, fmt::format("{} speeds, the slowest {:.2g} of the fastest", levels,
+                              e.slowest() / e.fastest())};
   }
-  return {what, false,
+  return {false,
           fmt::format("{} speed{} down to {:.2g} of the fastest; the curve near standstill needs "
                       "five or more, down to a twentieth",
                       levels, levels == 1 ? "" : "s", e.slowest() / e.fastest())};
 }
 
-Excitation WarmUp(const ShownMotion& e) {
+Judged WarmUp(const ShownMotion& e) {
   constexpr double shortest = 180;  // s; joints warm with time constants of minutes
-  const std::string what = "warm-up (thermal_gain, thermal_time_constant)";
-  if (e.motion.segments == 0) return {what, false, Coulomb(e).reason};
+  if (e.motion.segments == 0) return {false, Coulomb(e).reason};
   if (e.sampling.duration < shortest) {
-    return {what, false,
+    return {false,
             fmt::format("the log lasts {:.3g} s and joints warm with time constants of minutes; "
                         "record at least {:.0f} s, better 20 min, from a cold start",
                         e.sampling.duration, shortest)};
   }
   if (e.fastest() < 1.1 * e.slowest()) {
-    return {what, false, "one speed alone warms the joint at one rate; record a second speed"};
+    return {false, "one speed alone warms the joint at one rate; record a second speed"};
   }
-  return {
-      what, true,
-      fmt::format("{:.3g} min: time constants up to about that long; the start must be cold, or "
-                  "E(0) estimated",
-                  e.sampling.duration / 60)};
+  return {true, fmt::format(
+                    "{:.3g} min: time constants up to about that long; the start must be cold, or "
+                    "E(0) estimated",
+                    e.sampling.duration / 60)};
 }
 
-Excitation Ripple(const ShownMotion& e) {
-  const std::string what = "position dependence";
-  if (e.motion.segments == 0) return {what, false, Coulomb(e).reason};
+Judged Ripple(const ShownMotion& e) {
+  if (e.motion.segments == 0) return {false, Coulomb(e).reason};
   const double finest = 4 * e.fastest() * e.sampling.step;
   const double travel = e.motion.upper - e.motion.lower;
   if (travel < 4 * finest) {
-    return {what, false,
+    return {false,
             fmt::format("the joint travels {:.3g} {}, {:.2g} of them between samples; record a "
                         "longer way or a higher rate",
                         travel, e.length_unit, finest / 4)};
   }
-  return {what, true,
-          fmt::format("over {:.3g} {}; ripple with a period above {:.2g} {}", travel, e.length_unit,
-                      finest, e.length_unit)};
+  return {true, fmt::format("over {:.3g} {}; ripple with a period above {:.2g} {}", travel,
+                            e.length_unit, finest, e.length_unit)};
 }
 
-Excitation MotorRipple(const ShownMotion& e) {
-  const std::string what = "motor ripple";
+Judged MotorRipple(const ShownMotion& e) {
   const double gear = std::abs(e.measurements.gear);
   if (!KnowsMotorAngle(e.measurements)) {
-    return {what, false, "the gear is not known; give --gear or a column motor_position"};
+    return {false, "the gear is not known; give --gear or a column motor_position"};
   }
   const double turns =
       (e.motion.upper - e.motion.lower) * gear / (2 * std::numbers::pi);  // of the motor
   const double per_turn = 2 * std::numbers::pi / (gear * e.fastest() * e.sampling.step);
-  if (e.motion.segments == 0) return {what, false, Coulomb(e).reason};
+  if (e.motion.segments == 0) return {false, Coulomb(e).reason};
   if (turns < 1 || per_turn < 4) {
-    return {what, false,
+    return {false,
             fmt::format("the motor turns {:.3g} times with {:.2g} samples a turn at the fastest "
                         "speed; record at least one turn and four samples a turn",
                         turns, per_turn)};
   }
-  return {what, true,
-          fmt::format("{:.3g} motor turns, at least {:.3g} samples a turn", turns, per_turn)};
+  return {true, fmt::format("{:.3g} motor turns, at least {:.3g} samples a turn", turns, per_turn)};
 }
+
+struct Kind {
+  FrictionKind kind;
+  const char* what;
+  Judged (*judge)(const ShownMotion&);
+};
+
+constexpr Kind kKinds[] = {
+    {FrictionKind::coulomb, "law coulomb", &Coulomb},
+    {FrictionKind::viscous_coulomb, "law viscous_coulomb", &ViscousCoulomb},
+    {FrictionKind::asymmetric, "law asymmetric", &Asymmetric},
+    {FrictionKind::stribeck, "law stribeck", &Stribeck},
+    {FrictionKind::warm_up, "warm-up (thermal_gain, thermal_time_constant)", &WarmUp},
+    {FrictionKind::position_ripple, "position dependence", &Ripple},
+    {FrictionKind::motor_ripple, "motor ripple", &MotorRipple},
+};
 
 }  // namespace
 
@@ -166,8 +177,12 @@ std::vector<Excitation> JudgeExcitation(const Measurements& measurements,
                              kPositionUnit.For(measurements.joint),
                              SpeedsWithSign(motion, 1),
                              SpeedsWithSign(motion, -1)};
-  return {Coulomb(evidence), ViscousCoulomb(evidence), Asymmetric(evidence), Stribeck(evidence),
-          WarmUp(evidence),  Ripple(evidence),         MotorRipple(evidence)};
+  std::vector<Excitation> all;
+  for (const Kind& one : kKinds) {
+    Judged judged = one.judge(evidence);
+    all.push_back({one.kind, one.what, judged.sufficient, std::move(judged.reason)});
+  }
+  return all;
 }
 
 }  // namespace warmjoint::inline identification

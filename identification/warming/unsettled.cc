@@ -1,12 +1,10 @@
 #include "identification/warming/unsettled.h"
 
-#include "identification/preparation/check.h"
-
 namespace warmjoint::inline identification {
 
-std::string WhyUnsettled(const Measurements& measurements, std::string_view what) {
+std::string WhyUnsettled(const Measurements& measurements, FrictionKind kind) {
   for (const Excitation& one : CheckRecording(measurements).excitation) {
-    if (one.what.starts_with(what) && !one.sufficient) return one.reason;
+    if (one.kind == kind && !one.sufficient) return one.reason;
   }
   return "does the torque column hold friction?";
 }

@@ -2,14 +2,13 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
-#include "models/recording/measurements.h"
+#include "identification/preparation/check.h"
 
 namespace warmjoint::inline identification {
 
-/// What `check` finds that the recording lacks to tell `what` ("warm-up", "law stribeck"), with its
-/// remedy; where it lacks nothing, a doubt about the torque column.
-std::string WhyUnsettled(const Measurements& measurements, std::string_view what);
+/// What `check` finds that the recording lacks to show friction of that kind, with its remedy; where it
+/// lacks nothing, a doubt about the torque column.
+std::string WhyUnsettled(const Measurements& measurements, FrictionKind kind);
 
 }  // namespace warmjoint::inline identification

@@ -13,9 +13,10 @@ TEST(Unsettled, SaysWhatTheRecordingLacks) {
   const auto record = [](Eigen::Index n) {
     return test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(n, 1), 0.5, 1);
   };
-  EXPECT_THAT(WhyUnsettled(record(60), "warm-up"), HasSubstr("the log lasts 59 s"));
-  EXPECT_THAT(WhyUnsettled(record(60), "law stribeck"), HasSubstr("down to a twentieth"));
-  EXPECT_THAT(WhyUnsettled(record(3600), "warm-up"), HasSubstr("does the torque column"));
+  EXPECT_THAT(WhyUnsettled(record(60), FrictionKind::warm_up), HasSubstr("the log lasts 59 s"));
+  EXPECT_THAT(WhyUnsettled(record(60), FrictionKind::stribeck), HasSubstr("down to a twentieth"));
+  EXPECT_THAT(WhyUnsettled(record(3600), FrictionKind::warm_up),
+              HasSubstr("does the torque column"));
 }
 
 }  // namespace
