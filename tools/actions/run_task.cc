@@ -7,7 +7,7 @@
 
 #include "models/foundation/atomic_file.h"
 #include "sim/plant/plant.h"
-#include "tools/store/export_csv.h"
+#include "tools/board/write_tables.h"
 #include "tools/suite/describe_run.h"
 #include "tools/suite/memory_of_work.h"
 
@@ -51,7 +51,7 @@ RunTask PrepareRun(const RunArguments& arguments) {
 RunEnding EndRun(RunStore& store) {
   store.Settle();
   RunEnding ending;
-  ending.results = ExportResults(store);
+  ending.results = WriteTables(store);
 
   // by position of the identifier: who answered, and the first failure of each
   std::set<int> answered;

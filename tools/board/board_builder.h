@@ -1,6 +1,7 @@
 // A leaderboard of results that come unit by unit.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -11,6 +12,8 @@ namespace warmjoint::inline tools {
 
 /// All identifiers over the units of one variant.
 struct GroupColumns {
+  GroupColumns(const Suite& suite, const std::shared_ptr<NumberFile>& file);
+
   int units = 0;
   MeanSquare bound_continuous, bound_discrete;  // NPE at the Cramer-Rao bound, once a unit
   std::vector<IdentifierColumns> identifiers;   // in the suite's order
@@ -19,7 +22,8 @@ struct GroupColumns {
   void Add(const GroupColumns& other);
 };
 
-/// Sums up a suite as its results come, in the order of (variant, realization).
+/// Sums up a suite as its results come, in the order of (variant, realization). Memory does not grow with
+/// their number; numbers lie in a temporary file, 64 bytes for each result.
 class BoardBuilder {
  public:
   explicit BoardBuilder(Suite suite);
@@ -33,6 +37,7 @@ class BoardBuilder {
   GroupColumns All() const;
 
   Suite suite_;
+  std::shared_ptr<NumberFile> file_ = std::make_shared<NumberFile>();
   std::vector<GroupColumns> groups_;  // by variant
 };
 

@@ -44,6 +44,15 @@ std::string BoardToCsv(const Leaderboard& board) {
   return csv;
 }
 
+std::string SummaryToCsv(const Leaderboard& board) {
+  std::string csv = "variant," + Header();
+  for (const LeaderboardRow& row : board.rows) csv += "all," + Row(row);
+  for (const Leaderboard& group : board.groups) {
+    for (const LeaderboardRow& row : group.rows) csv += CsvCell(group.variant) + "," + Row(row);
+  }
+  return csv;
+}
+
 std::string BoardsToCsv(const std::vector<NamedBoard>& boards) {
   std::string csv = "run," + Header();
   for (const NamedBoard& named : boards) {

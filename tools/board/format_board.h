@@ -46,4 +46,7 @@ std::string BoardsToCsv(const std::vector<NamedBoard>& boards);
 /// One row for each identifier, all numbers in full.
 std::string BoardToCsv(const Leaderboard& board);
 
+/// As BoardToCsv, with the variant in the first column: all of them together, then each.
+std::string SummaryToCsv(const Leaderboard& board);
+
 }  // namespace warmjoint::inline tools

@@ -61,10 +61,12 @@ Leaderboard SumUpBoard(const Suite& suite, const GroupColumns& group) {
 
 }  // namespace
 
+GroupColumns::GroupColumns(const Suite& suite, const std::shared_ptr<NumberFile>& file) {
+  for (std::size_t i = 0; i < suite.identifiers.size(); ++i) identifiers.emplace_back(file);
+}
+
 BoardBuilder::BoardBuilder(Suite suite) : suite_(std::move(suite)) {
-  GroupColumns empty;
-  empty.identifiers.resize(suite_.identifiers.size());
-  groups_.assign(static_cast<std::size_t>(suite_.variants()), empty);
+  for (int i = 0; i < suite_.variants(); ++i) groups_.emplace_back(suite_, file_);
 }
 
 void BoardBuilder::Add(std::span<const Result> unit) {
@@ -82,8 +84,8 @@ void BoardBuilder::Add(std::span<const Result> unit) {
 }
 
 GroupColumns BoardBuilder::All() const {
-  GroupColumns all = groups_.front();
-  for (std::size_t i = 1; i < groups_.size(); ++i) all.Add(groups_[i]);
+  GroupColumns all(suite_, file_);
+  for (const GroupColumns& group : groups_) all.Add(group);
   return all;
 }
 

@@ -1,45 +1,43 @@
 #include "tools/board/paired_difference.h"
 
-#include <algorithm>
+#include <boost/math/special_functions/beta.hpp>
 #include <limits>
 
-#include "models/foundation/random_stream.h"
 #include "tools/board/statistics.h"
 
 namespace warmjoint::inline tools {
 namespace {
 
-constexpr int kResamples = 1000;
-constexpr auto kBootstrap = static_cast<Stream>(16);  // apart from those of realizations
-
-/// Middle of the values, the lower one of two; reorders them.
-double Middle(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<long>((values.size() - 1) / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+/// The k from 1 to n for which the median of a resample of n is at most the k-th smallest with
+/// probability `level` or more for the first time.
+std::size_t BootstrapRank(std::size_t n, double level) {
+  const auto middle = static_cast<double>((n + 1) / 2), count = static_cast<double>(n);
+  const auto reaches = [&](std::size_t k) {
+    return boost::math::ibeta(middle, count - middle + 1, static_cast<double>(k) / count) >= level;
+  };
+  // the probability grows with k and is 1 at n
+  std::size_t below = 0, reached = n;
+  while (reached - below > 1) {
+    const std::size_t k = below + (reached - below) / 2;
+    (reaches(k) ? reached : below) = k;
+  }
+  return reached;
 }
 
 }  // namespace
 
-Difference PairedDifference(const std::vector<double>& a, const std::vector<double>& b) {
-  std::vector<double> differences;
-  for (size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
-    differences.push_back(a[i] == b[i] ? 0 : a[i] - b[i]);
-  }
-  if (differences.empty()) {
+Difference PairedDifference(const NumberColumn& a, const NumberColumn& b) {
+  NumberColumn differences;
+  ForEachPair(a, b, [&](double x, double y) { differences.Add(x == y ? 0 : x - y); });
+  const Ascending ascending(differences);
+  if (ascending.size() == 0) {
     const double unknown = std::numeric_limits<double>::quiet_NaN();
     return {unknown, unknown, unknown};
   }
-
-  RandomStream random({0, 0}, kBootstrap);
-  std::vector<double> medians, sample(differences.size());
-  for (int i = 0; i < kResamples; ++i) {
-    for (double& value : sample) value = differences[random.Below(differences.size())];
-    medians.push_back(Middle(sample));
-  }
-  std::sort(medians.begin(), medians.end());
-  std::sort(differences.begin(), differences.end());
-  return {Quantile(differences, 0.5), Quantile(medians, 0.025), Quantile(medians, 0.975)};
+  const auto end = [&](double level) {
+    return ascending[BootstrapRank(ascending.size(), level) - 1];
+  };
+  return {ascending.Quantile(0.5), end(0.025), end(0.975)};
 }
 
 }  // namespace warmjoint::inline tools

@@ -7,11 +7,7 @@ namespace warmjoint::inline tools {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
-template <typename T>
-void Append(std::vector<T>& to, const std::vector<T>& from) {
-  to.insert(to.end(), from.begin(), from.end());
-}
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 void AddParameters(std::vector<ParameterSums>& sums, const Score& score) {
   if (sums.empty()) {
@@ -50,6 +46,16 @@ void MeanSquare::Add(const MeanSquare& other) {
 
 double MeanSquare::Root() const { return std::sqrt(sum_ / static_cast<double>(count_)); }
 
+IdentifierColumns::IdentifierColumns(const std::shared_ptr<NumberFile>& file)
+    : npe_continuous_(file),
+      npe_discrete_(file),
+      rmse_(file),
+      fit_(file),
+      fpe_(file),
+      mae_(file),
+      seconds_(file),
+      ranked_npe_(file) {}
+
 void IdentifierColumns::Add(const Result& result) {
   if (result.status != "ok") {
     ++failures_[result.status];
@@ -58,24 +64,24 @@ void IdentifierColumns::Add(const Result& result) {
   const auto metric = [&](double Metrics::*member) {
     return result.metrics ? (*result.metrics).*member : kUnknown;
   };
-  rmse_.push_back(metric(&Metrics::rmse));
-  fit_.push_back(metric(&Metrics::fit));
-  fpe_.push_back(metric(&Metrics::fpe));
-  mae_.push_back(metric(&Metrics::mae));
-  seconds_.push_back(result.seconds);
-  scored_.push_back(result.score.has_value());
-  npe_continuous_.push_back(result.score ? result.score->npe_continuous : kUnknown);
-  npe_discrete_.push_back(result.score ? result.score->npe_discrete : kUnknown);
+  rmse_.Add(metric(&Metrics::rmse));
+  fit_.Add(metric(&Metrics::fit));
+  fpe_.Add(metric(&Metrics::fpe));
+  mae_.Add(metric(&Metrics::mae));
+  seconds_.Add(result.seconds);
+  npe_continuous_.Add(result.score ? result.score->npe_continuous : kUnknown);
+  npe_discrete_.Add(result.score ? result.score->npe_discrete : kUnknown);
+  ranked_npe_.Add(result.score ? result.score->npe_continuous : kInfinite);
   if (result.score) AddParameters(parameters_, *result.score);
 }
 
 void IdentifierColumns::Add(const IdentifierColumns& other) {
-  for (auto column : {&IdentifierColumns::npe_continuous_, &IdentifierColumns::npe_discrete_,
-                      &IdentifierColumns::rmse_, &IdentifierColumns::fit_, &IdentifierColumns::fpe_,
-                      &IdentifierColumns::mae_, &IdentifierColumns::seconds_}) {
-    Append(this->*column, other.*column);
+  for (auto column :
+       {&IdentifierColumns::npe_continuous_, &IdentifierColumns::npe_discrete_,
+        &IdentifierColumns::rmse_, &IdentifierColumns::fit_, &IdentifierColumns::fpe_,
+        &IdentifierColumns::mae_, &IdentifierColumns::seconds_, &IdentifierColumns::ranked_npe_}) {
+    (this->*column).Add(other.*column);
   }
-  Append(scored_, other.scored_);
   for (const auto& [status, count] : other.failures_) failures_[status] += count;
   if (failure_example_.empty()) failure_example_ = other.failure_example_;
   if (parameters_.empty()) {
@@ -93,14 +99,6 @@ void IdentifierColumns::Add(const IdentifierColumns& other) {
   }
 }
 
-std::vector<double> IdentifierColumns::RankedNpe() const {
-  std::vector<double> npe = npe_continuous_;
-  for (std::size_t i = 0; i < npe.size(); ++i) {
-    if (!scored_[i]) npe[i] = std::numeric_limits<double>::infinity();
-  }
-  return npe;
-}
-
 LeaderboardRow IdentifierColumns::SumUp(const SuiteIdentifier& identifier) const {
   LeaderboardRow row;
   row.identifier = identifier.label;
@@ -115,7 +113,7 @@ LeaderboardRow IdentifierColumns::SumUp(const SuiteIdentifier& identifier) const
   row.fpe = Summarise(fpe_);
   row.mae = Summarise(mae_);
   row.seconds = Summarise(seconds_);
-  row.rank_npe = Summarise(RankedNpe()).median;
+  row.rank_npe = Summarise(ranked_npe_).median;
   for (const ParameterSums& sums : parameters_) {
     ParameterRow parameter;
     parameter.name = sums.name;

@@ -1,9 +1,11 @@
 // One identifier's results, summed up as they come, so that a run need not be held as a whole.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "tools/board/leaderboard.h"
+#include "tools/board/number_column.h"
 
 namespace warmjoint::inline tools {
 
@@ -28,10 +30,13 @@ struct ParameterSums {
   MeanSquare error, bound;
 };
 
-/// What a leaderboard needs of one identifier's results: some 60 bytes of each. Numbers are NaN where a
-/// result lacks them.
+/// What a leaderboard needs of one identifier's results, in memory that does not grow with their number.
+/// Numbers are NaN where a result lacks them.
 class IdentifierColumns {
  public:
+  /// file: what holds the columns, for all that are added to each other or compared.
+  explicit IdentifierColumns(const std::shared_ptr<NumberFile>& file);
+
   void Add(const Result& result);
   /// Adds those of another group, which come after these.
   void Add(const IdentifierColumns& other);
@@ -40,11 +45,10 @@ class IdentifierColumns {
 
   /// Continuous NPE of each result; a run without an answer counts as infinitely wrong, so that nobody
   /// wins by answering the easy ones alone.
-  std::vector<double> RankedNpe() const;
+  const NumberColumn& RankedNpe() const { return ranked_npe_; }
 
  private:
-  std::vector<double> npe_continuous_, npe_discrete_, rmse_, fit_, fpe_, mae_, seconds_;
-  std::vector<bool> scored_;
+  NumberColumn npe_continuous_, npe_discrete_, rmse_, fit_, fpe_, mae_, seconds_, ranked_npe_;
   std::map<std::string, int> failures_;
   std::string failure_example_;
   std::vector<ParameterSums> parameters_;

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "models/foundation/bad_input.h"
+#include "tools/board/write_tables.h"
 #include "tools/cli/command.h"
 #include "tools/cluster/gather.h"
 #include "tools/store/merge_runs.h"
@@ -46,7 +47,8 @@ ExitStatus Merge(const MergeArguments& arguments) {
     if (arguments.shards.size() == 1) return MergeInPlace(arguments.shards.front());
     Refuse({"warmjoint merge"}, "several shards need -o, the run directory to make");
   }
-  const MergedRun merged = MergeRuns(arguments.shards, arguments.output);
+  const MergedRun merged =
+      MergeRuns(arguments.shards, arguments.output, {Overlap::refused, Access::read, &WriteTables});
   fmt::print("{}: {} results of {} shards, {} of {} realizations; see: warmjoint compare {}\n",
              arguments.output, merged.results, arguments.shards.size(),
              merged.units - merged.missing.size(), merged.units, arguments.output);

@@ -4,6 +4,7 @@
 
 #include "models/foundation/bad_input.h"
 #include "models/foundation/output_failed.h"
+#include "tools/board/write_tables.h"
 #include "tools/cluster/checkpoint.h"
 #include "tools/cluster/run_layout.h"
 #include "tools/cluster/run_status.h"
@@ -35,10 +36,12 @@ MergedRun MergePlanned(const fs::path& run, const Plan& plan) {
   const DirectoryLock lock(run);
   const TemporaryFolder folder("merge");
   const fs::path whole = folder.path() / "run";
-  const MergedRun merged = MergeRuns(ShardsOf(run), whole, {Overlap::equal, Access::frozen});
+  const MergedRun merged =
+      MergeRuns(ShardsOf(run), whole, {Overlap::equal, Access::frozen, &WriteTables});
 
   // results.sqlite last: a run that has it is whole
-  for (const char* name : {"suite.yaml", "timings.sqlite", "results.csv", "results.sqlite"}) {
+  for (const char* name :
+       {"suite.yaml", "timings.sqlite", "results.csv", "summary.csv", "results.sqlite"}) {
     PutFile(whole / name, run / name);
   }
   return merged;

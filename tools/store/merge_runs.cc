@@ -2,7 +2,6 @@
 
 #include "models/foundation/atomic_directory.h"
 #include "models/foundation/bad_input.h"
-#include "tools/store/export_csv.h"
 #include "tools/store/stored_suite.h"
 
 namespace warmjoint::inline tools {
@@ -10,13 +9,21 @@ namespace {
 
 /// Units of the run that `merged` lacks.
 std::set<Unit> MissingUnits(const Suite& suite, const RunStore& merged) {
-  const std::set<Unit> finished = merged.Finished();
   std::set<Unit> missing;
-  for (int variant = 0; variant < suite.variants(); ++variant) {
-    for (int realization = 0; realization < suite.realizations; ++realization) {
-      if (!finished.contains({variant, realization})) missing.insert({variant, realization});
+  const int last = suite.realizations;
+  Unit next;  // the first that is not looked at yet
+  const auto skip_to = [&](Unit end) {
+    while (next < end) {
+      if (next.realization < last) missing.insert(missing.end(), next);
+      next = next.realization < last ? Unit{next.variant, next.realization + 1}
+                                     : Unit{next.variant + 1, 0};
     }
-  }
+  };
+  merged.ForEachFinished([&](Unit unit) {
+    skip_to(unit);
+    ++next.realization;
+  });
+  skip_to({suite.variants(), 0});
   return missing;
 }
 
@@ -39,7 +46,7 @@ MergedRun MergeRuns(const std::vector<std::filesystem::path>& shards,
   {
     RunStore merged = RunStore::CreateOrResume(whole.temporary(), description);
     merged.Gather(shards, options.overlap);
-    outcome.results = ExportResults(merged);
+    outcome.results = options.write_tables(merged);
     outcome.missing = MissingUnits(suite, merged);
     outcome.units =
         static_cast<std::size_t>(suite.realizations) * static_cast<std::size_t>(suite.variants());

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <set>
 #include <vector>
 
 #include "tools/store/copy_rows.h"
+#include "tools/store/export_csv.h"
 #include "tools/store/open_database.h"
 #include "tools/store/result.h"
 
@@ -18,10 +20,12 @@ struct MergedRun {
   std::set<Unit> missing;  // those of them that no shard holds
 };
 
-/// What is known of the shards.
+/// What is known of the shards, and what becomes of them.
 struct MergeOptions {
   Overlap overlap = Overlap::refused;
   Access access = Access::read;
+  /// Writes the tables for people into the merged run's directory; returns the number of results.
+  std::function<std::size_t(const RunStore&)> write_tables = &ExportResults;
 };
 
 /// Makes a run directory, new or empty before, with the results of all shards and their table; as a

@@ -30,12 +30,15 @@ TraceTable ReadTraceRow(SQLite::Statement& row, const std::string& plan, const P
 
 }  // namespace
 
+void RunStore::ForEachFinished(const std::function<void(Unit)>& work) const {
+  SQLite::Statement row(
+      results_, "SELECT variant, realization FROM realization ORDER BY variant, realization");
+  while (row.executeStep()) work({row.getColumn(0).getInt(), row.getColumn(1).getInt()});
+}
+
 std::set<Unit> RunStore::Finished() const {
   std::set<Unit> finished;
-  SQLite::Statement row(results_, "SELECT variant, realization FROM realization");
-  while (row.executeStep()) {
-    finished.insert({row.getColumn(0).getInt(), row.getColumn(1).getInt()});
-  }
+  ForEachFinished([&](Unit unit) { finished.insert(finished.end(), unit); });
   return finished;
 }
 

@@ -59,6 +59,8 @@ class RunStore {
 
   /// What is in.
   std::set<Unit> Finished() const;
+  /// Calls work(unit) for the same in ascending order.
+  void ForEachFinished(const std::function<void(Unit)>& work) const;
 
   /// Calls work(results) for each unit in the order of (variant, realization): its results in the order
   /// of identifiers, without their traces. Memory does not grow with the run. Throws BadInput for a

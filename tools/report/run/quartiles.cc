@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "tools/board/statistics.h"
@@ -19,11 +21,14 @@ QuartileCurve QuartilesOf(const Eigen::VectorXd& x, const Eigen::MatrixXd& value
   QuartileCurve curve{x, Eigen::VectorXd(columns), Eigen::VectorXd(columns),
                       Eigen::VectorXd(columns)};
   for (Eigen::Index k = 0; k < columns; ++k) {
-    const Eigen::VectorXd column = values.col(k);
-    const Summary summary = Summarise({column.begin(), column.end()});
-    curve.q25[k] = summary.q25;
-    curve.median[k] = summary.median;
-    curve.q75[k] = summary.q75;
+    std::vector<double> known;
+    for (const double value : values.col(k)) {
+      if (!std::isnan(value)) known.push_back(value);
+    }
+    std::sort(known.begin(), known.end());
+    curve.q25[k] = Quantile(known, 0.25);
+    curve.median[k] = Quantile(known, 0.5);
+    curve.q75[k] = Quantile(known, 0.75);
   }
   return curve;
 }

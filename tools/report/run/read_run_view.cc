@@ -11,6 +11,7 @@
 #include "tools/board/board_builder.h"
 #include "tools/report/draw/ticks.h"
 #include "tools/report/figures/friction_spread.h"
+#include "tools/report/run/row_builder.h"
 #include "tools/report/run/run_view.h"
 #include "tools/store/stored_suite.h"
 
@@ -21,161 +22,6 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 using Eigen::Index;
 using Eigen::VectorXd;
-
-/// Realizations whose course is drawn, one thin line each, and summed up by iteration: of more the
-/// first ones, since a course has hundreds of numbers for each.
-constexpr std::size_t kMostCourses = 2000;
-
-/// A column that grows.
-using Numbers = std::vector<double>;
-
-VectorXd Column(const Numbers& numbers) {
-  return Eigen::Map<const VectorXd>(numbers.data(), static_cast<Index>(numbers.size()));
-}
-
-/// One parameter of the truth, as results come.
-struct ParameterNumbers {
-  std::string name;
-  Numbers estimate, truth, bound;
-  int intervals = 0, covered = 0;
-};
-
-/// The results of one identifier, as they come, in the order of units.
-class RowBuilder {
- public:
-  void Add(const Result& result) {
-    if (units_.size() < kMostCourses) units_.push_back({result.variant, result.realization});
-    identifier_ = result.identifier;
-    if (result.status != "ok") ++failures_[result.status];
-    variant_.push_back(result.variant);
-    npe_.push_back(result.score ? result.score->npe_continuous : kUnknown);
-    const auto metric = [&](double Metrics::*member) {
-      return result.metrics ? (*result.metrics).*member : kUnknown;
-    };
-    rmse_.push_back(metric(&Metrics::rmse));
-    fit_.push_back(metric(&Metrics::fit));
-    fpe_.push_back(metric(&Metrics::fpe));
-    mae_.push_back(metric(&Metrics::mae));
-    if (result.score) AddParameters(*result.score);
-    for (ParameterNumbers& one : parameters_) {
-      if (one.truth.size() == npe_.size()) continue;
-      for (Numbers* numbers : {&one.truth, &one.bound, &one.estimate}) {
-        numbers->resize(npe_.size(), kUnknown);
-      }
-    }
-  }
-
-  RunRow Row(const RunStore& store, const Suite& suite, const SuiteIdentifier& identifier) const;
-
- private:
-  void AddParameters(const Score& score) {
-    if (parameters_.empty()) parameters_.resize(score.continuous.size());
-    for (std::size_t i = 0; i < parameters_.size(); ++i) {
-      const ParameterScore& from = score.continuous.at(i);
-      ParameterNumbers& one = parameters_[i];
-      one.name = from.name;
-      // those before the first score have none
-      for (Numbers* numbers : {&one.truth, &one.bound, &one.estimate}) {
-        numbers->resize(npe_.size() - 1, kUnknown);
-      }
-      one.truth.push_back(from.truth);
-      one.bound.push_back(from.bound);
-      one.estimate.push_back(from.estimated ? from.estimate : kUnknown);
-      one.intervals += from.covered.has_value();
-      one.covered += from.covered.value_or(false);
-    }
-  }
-
-  std::vector<Unit> units_;  // the first ones, for courses
-  int identifier_ = 0;
-  std::map<std::string, int> failures_;
-  std::vector<int> variant_;
-  Numbers npe_, rmse_, fit_, fpe_, mae_;
-  std::vector<ParameterNumbers> parameters_;
-};
-
-std::string UnitOf(const std::string& name, const Scenario& scenario) {
-  for (const ParameterInfo& info : FindLaw(scenario.friction.law)->parameters) {
-    if (info.name == name) return UnitText(info.unit.For(scenario.joint_kind));
-  }
-  for (const ParameterInfo& info : Thermal::parameters) {
-    if (info.name == name) return UnitText(info.unit.For(scenario.joint_kind));
-  }
-  return "";
-}
-
-/// Adds realization `row` to the course. traces: all of the identifier.
-void Fill(Course& course, Index row, const TraceTable& trace) {
-  const std::size_t columns = trace.columns.size();
-  const auto value = [&](Index iteration, const std::string& name) {
-    const auto found = std::find(trace.columns.begin(), trace.columns.end(), name);
-    if (found == trace.columns.end()) return kUnknown;
-    // one that stopped keeps its last values
-    const std::size_t last = trace.rows() - 1;
-    const std::size_t at = std::min(static_cast<std::size_t>(iteration), last);
-    const auto column = static_cast<std::size_t>(found - trace.columns.begin());
-    return static_cast<double>(trace.values[at * columns + column]);
-  };
-  for (Index k = 0; k < course.iteration.size(); ++k) {
-    course.npe(row, k) = value(k, "npe_continuous");
-    course.rmse(row, k) = value(k, "rmse");
-    for (std::size_t i = 0; i < course.names.size(); ++i) {
-      course.parameters[i](row, k) = value(k, course.names[i]);
-    }
-  }
-}
-
-Course ReadCourse(const RunStore& store, const std::vector<Unit>& units, int identifier) {
-  std::vector<TraceTable> traces;
-  const TraceTable* longest = nullptr;
-  for (const Unit& unit : units) traces.push_back(store.ReadTrace(unit, identifier));
-  for (const TraceTable& trace : traces) {
-    if (trace.rows() > (longest ? longest->rows() : 0)) longest = &trace;
-  }
-  Course course;
-  if (!longest) return course;
-
-  const auto rows = static_cast<Index>(traces.size());
-  const auto iterations = static_cast<Index>(longest->rows());
-  course.iteration.resize(iterations);
-  for (Index k = 0; k < iterations; ++k) {
-    course.iteration[k] = longest->values[static_cast<std::size_t>(k) * longest->columns.size()];
-  }
-  for (const std::string& name : longest->columns) {
-    const bool parameter = name != "iteration" && name != "rmse" && !name.starts_with("npe_");
-    if (parameter) course.names.push_back(name);
-  }
-  const Eigen::MatrixXd unknown = Eigen::MatrixXd::Constant(rows, iterations, kUnknown);
-  course.npe = course.rmse = unknown;
-  course.parameters.assign(course.names.size(), unknown);
-  for (Index row = 0; row < rows; ++row) {
-    const TraceTable& trace = traces[static_cast<std::size_t>(row)];
-    if (trace.rows() > 0) Fill(course, row, trace);
-  }
-  return course;
-}
-
-RunRow RowBuilder::Row(const RunStore& store, const Suite& suite,
-                       const SuiteIdentifier& identifier) const {
-  RunRow row;
-  row.label = identifier.label;
-  row.identifier = identifier.name;
-  row.runs = static_cast<int>(npe_.size());
-  row.failures = failures_;
-  row.variant =
-      Eigen::Map<const Eigen::VectorXi>(variant_.data(), static_cast<Index>(variant_.size()));
-  row.npe = Column(npe_);
-  row.rmse = Column(rmse_);
-  row.fit = Column(fit_);
-  row.fpe = Column(fpe_);
-  row.mae = Column(mae_);
-  for (const ParameterNumbers& one : parameters_) {
-    row.parameters.push_back({one.name, UnitOf(one.name, suite.scenario), Column(one.estimate),
-                              Column(one.truth), Column(one.bound), one.intervals, one.covered});
-  }
-  row.course = ReadCourse(store, units_, identifier_);
-  return row;
-}
 
 /// Sizes are the root mean squares of the bounds of all realizations; correlations come from
 /// simulating the first once more. Empty where its plant cannot be made on this machine.
@@ -249,15 +95,21 @@ int RunRow::failed() const {
   return count;
 }
 
-RunView ReadRunView(const RunStore& store) {
+RunView ReadRunView(const RunStore& store, std::int64_t most_drawn) {
   const Suite suite = StoredSuite(store);
   BoardBuilder board(suite);
+  RunView view;
+  const std::int64_t units = std::int64_t{suite.realizations} * suite.variants();
+  view.drawn_every = static_cast<int>((units + most_drawn - 1) / most_drawn);
   std::vector<RowBuilder> rows(suite.identifiers.size());
   store.ForEachUnit([&](const std::vector<Result>& unit) {
     board.Add(unit);
-    for (const Result& result : unit) rows[static_cast<std::size_t>(result.identifier)].Add(result);
+    for (const Result& result : unit) {
+      RowBuilder& row = rows[static_cast<std::size_t>(result.identifier)];
+      row.Count(result);
+      if (result.realization % view.drawn_every == 0) row.Draw(result);
+    }
   });
-  RunView view;
   view.board = board.Finish();
   if (view.board.finished == 0) {
     Refuse({store.directory().string()},

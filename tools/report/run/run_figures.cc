@@ -43,8 +43,9 @@ std::string SymbolOf(const std::string& parameter) {
 std::string RunSubtitle(const RunView& run, const std::string& more) {
   const bool climbs = run.rungs.values.size() > 1;
   return fmt::format(
-      "{}: {} realization{}{}; {}", run.suite, run.realizations, run.realizations == 1 ? "" : "s",
-      climbs ? fmt::format(" of all {} variants together", run.rungs.values.size()) : "", more);
+      "{}: {} realization{}{}{}; {}", run.suite, run.realizations, run.realizations == 1 ? "" : "s",
+      climbs ? fmt::format(" of all {} variants together", run.rungs.values.size()) : "",
+      run.drawn_every > 1 ? fmt::format(", one in {} drawn", run.drawn_every) : "", more);
 }
 
 }  // namespace warmjoint::report

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -11,8 +12,8 @@
 
 namespace warmjoint::report {
 
-/// One parameter of the truth and what one identifier made of it. All: [R], by realization; NaN
-/// where there is no answer.
+/// One parameter of the truth and what one identifier made of it. All: [R], by realization that is drawn;
+/// NaN where there is no answer.
 struct ParameterColumn {
   std::string name;
   std::string unit;
@@ -42,10 +43,10 @@ struct Rungs {
 };
 
 struct RunRow {
-  std::string label;       // row of the leaderboard
-  std::string identifier;  // name in the list of identifiers: gives the colour
-  int runs = 0;
-  std::map<std::string, int> failures;       // status: count
+  std::string label;                         // row of the leaderboard
+  std::string identifier;                    // name in the list of identifiers: gives the colour
+  int runs = 0;                              // all, drawn or not
+  std::map<std::string, int> failures;       // status: count, of all
   Eigen::VectorXi variant;                   // [R] position in the ladder
   Eigen::VectorXd npe, rmse, fit, fpe, mae;  // [R], NaN without an answer
   std::vector<ParameterColumn> parameters;   // continuous, in the order of the truth
@@ -59,6 +60,7 @@ struct RunView {
   std::string suite;
   std::string question;
   int realizations = 0;  // finished
+  int drawn_every = 1;   // of these, realizations 0, n, 2 n, ... of each variant are drawn
   Rungs rungs;
   std::string torque_unit;
   double bound_npe = 0;      // rms continuous NPE at the Cramer-Rao bound, NaN where unknown
@@ -69,7 +71,11 @@ struct RunView {
   Eigen::MatrixXd bound_covariance;
 };
 
-/// Reads a run, unit by unit. Throws BadInput where nothing is finished yet.
-RunView ReadRunView(const RunStore& store);
+/// Realizations of a run that pictures are drawn of; of a longer run, every second, third, ...
+inline constexpr std::int64_t kMostDrawn = 20000;
+
+/// Reads a run, unit by unit, with memory that does not grow with it. Throws BadInput where nothing is
+/// finished yet.
+RunView ReadRunView(const RunStore& store, std::int64_t most_drawn = kMostDrawn);
 
 }  // namespace warmjoint::report
