@@ -3,7 +3,9 @@
 #include <warmjoint/identify.h>
 #include <warmjoint/simulate.h>
 
+#include <array>
 #include <functional>
+#include <thread>
 
 #include "models/foundation/atomic_file.h"
 #include "tests/tools/cli/recording_file.h"
@@ -180,6 +182,19 @@ TEST(Identify, RefusesSettingsWithTheBoundOrTheNearestName) {
   EXPECT_THAT(refusal([](auto& s) { s.start = "cool"; }), HasSubstr("'cold'"));
   EXPECT_THAT(refusal([](auto& s) { s.relevance = 2; }), HasSubstr("at most 1"));
   EXPECT_THAT(refusal([](auto& s) { s.holdout = 1; }), HasSubstr("below 1"));
+}
+
+TEST(Identify, AnswersTheSameInManyThreads) {
+  const PreparedLog log(SimulateText(TableOneYaml(1200)).recording);
+  const std::string alone = EstimateToJson(Identify(log));
+  std::array<std::string, 4> answers;
+  {
+    std::vector<std::jthread> threads;
+    for (std::string& answer : answers) {
+      threads.emplace_back([&] { answer = EstimateToJson(Identify(log)); });
+    }
+  }
+  for (const std::string& answer : answers) EXPECT_EQ(answer, alone);
 }
 
 TEST(Identifiers, AreThoseOfTheCommandWithTheirOptions) {
