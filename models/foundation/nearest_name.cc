@@ -3,10 +3,37 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "models/foundation/excerpt.h"
 
 namespace warmjoint::inline models {
+namespace {
+
+constexpr std::size_t kShortList = 60;  // characters that stand beside a suggestion
+constexpr std::size_t kLongList = 120;  // and without one
+constexpr std::size_t kHalf = 3;        // letters that make a beginning
+
+/// Whether one of two words begins or ends with all of the other.
+bool IsHalfOf(std::string_view a, std::string_view b) {
+  if (a.size() > b.size()) std::swap(a, b);
+  return a.size() >= kHalf && (b.starts_with(a) || b.ends_with(a));
+}
+
+/// As many of the names as fit, and how many more there are.
+std::string ShortList(const std::vector<std::string>& known) {
+  std::string list;
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    const std::string name = Excerpt(known[i]);
+    if (i > 0 && list.size() + name.size() > kLongList) {
+      return fmt::format("{} and {} more", list, known.size() - i);
+    }
+    list += (i > 0 ? ", " : "") + name;
+  }
+  return list;
+}
+
+}  // namespace
 
 int EditDistance(std::string_view a, std::string_view b) {
   // table[i][j]: distance between the first i characters of a and the first j of b
@@ -34,11 +61,16 @@ std::string Suggestion(std::string_view given, const std::vector<std::string>& k
   };
   const std::string& nearest = *std::min_element(known.begin(), known.end(), nearer);
 
-  // suggest only what a slip of the fingers explains
+  // suggest only what a slip of the fingers or a word left half explains
   const int allowed = std::max<int>(2, static_cast<int>(name.size()) / 3);
-  const std::string known_names = ExcerptOfList(known);
-  if (EditDistance(name, nearest) > allowed) return fmt::format("; known: {}", known_names);
-  return fmt::format("; did you mean '{}'? Known: {}", Excerpt(nearest), known_names);
+  const auto half = std::find_if(known.begin(), known.end(),
+                                 [&](const std::string& one) { return IsHalfOf(name, one); });
+  const bool is_near = EditDistance(name, nearest) <= allowed;
+  if (!is_near && half == known.end()) return fmt::format("; known: {}", ShortList(known));
+  const std::string meant = Excerpt(is_near ? nearest : *half);
+  const std::string all = ExcerptOfList(known);
+  if (all.size() > kShortList) return fmt::format("; did you mean '{}'?", meant);
+  return fmt::format("; did you mean '{}'? Known: {}", meant, all);
 }
 
 }  // namespace warmjoint::inline models

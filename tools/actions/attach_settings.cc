@@ -24,7 +24,8 @@ const std::map<std::string, mjtIntegrator> kIntegrators{{"Euler", mjINT_EULER},
 std::string WarningOf(const std::string& path) {
   const nlohmann::json object = ReadJsonFile(path);
   if (!object.is_object() || !object.contains("status") || object["status"] == "ok") return "";
-  const std::string status = object["status"].dump();
+  const std::string status =
+      object["status"].is_string() ? Excerpt(object["status"].get<std::string>()) : "of no status";
   if (object.contains("friction") && object["friction"].is_null()) {
     Refuse({path}, "is {} and holds no friction; identify again with --force to use it anyway",
            status);

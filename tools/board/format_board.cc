@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "tools/board/board_tables.h"
+#include "tools/terminal/page.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -32,7 +33,10 @@ Table SideBySide(const std::vector<NamedBoard>& boards) {
 
 const std::vector<BoardFormat>& BoardFormats() {
   static const std::vector<BoardFormat> formats{
-      {"text", BoardToText, BoardsToText},
+      {"text", [](const Leaderboard& board) { return BoardToText(board, PageOf(stdout).width); },
+       [](const std::vector<NamedBoard>& boards) {
+         return BoardsToText(boards, PageOf(stdout).width);
+       }},
       {"markdown", BoardToMarkdown, BoardsToMarkdown},
       {"json", BoardToJson, BoardsToJson},
       {"csv", BoardToCsv, BoardsToCsv},
@@ -40,17 +44,17 @@ const std::vector<BoardFormat>& BoardFormats() {
   return formats;
 }
 
-std::string BoardToText(const Leaderboard& board) {
+std::string BoardToText(const Leaderboard& board, int width) {
   std::string text =
       fmt::format("{}: {}\n{}\n{}\n\n", board.suite, board.question, Verdict(board), Head(board));
-  text += TableToText(RankingTable(board), 2) + "\n";
+  text += TableToText(RankingTable(board), 2, width) + "\n";
   const Table groups = GroupTable(board);
   if (!groups.rows.empty()) {
-    text += fmt::format("Median NPE by group:\n{}\n", TableToText(groups, 1));
+    text += fmt::format("Median NPE by group:\n{}\n", TableToText(groups, 1, width));
   }
-  text += TableToText(AgreementTable(board), 1) + "\n";
+  text += TableToText(AgreementTable(board), 1, width) + "\n";
   const Table parameters = ParameterTable(board);
-  if (!parameters.rows.empty()) text += TableToText(parameters, 2) + "\n";
+  if (!parameters.rows.empty()) text += TableToText(parameters, 2, width) + "\n";
   for (const std::string& note : Notes(board)) text += fmt::format("* {}\n", note);
   return text;
 }
@@ -70,9 +74,10 @@ std::string BoardToMarkdown(const Leaderboard& board) {
   return text;
 }
 
-std::string BoardsToText(const std::vector<NamedBoard>& boards) {
-  std::string text = TableToText(SideBySide(boards), 2);
-  for (const NamedBoard& named : boards) text += fmt::format("\n{}", BoardToText(named.board));
+std::string BoardsToText(const std::vector<NamedBoard>& boards, int width) {
+  std::string text = TableToText(SideBySide(boards), 2, width);
+  for (const NamedBoard& named : boards)
+    text += fmt::format("\n{}", BoardToText(named.board, width));
   return text;
 }
 

@@ -4,14 +4,15 @@
 
 #include <algorithm>
 
+#include "tools/terminal/wrap.h"
+
 namespace warmjoint::inline tools {
 namespace {
 
-/// Number of characters that a UTF-8 text shows.
-size_t Width(const std::string& text) {
-  return static_cast<size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
-}
+constexpr size_t kBetween = 2;     // blanks between columns
+constexpr size_t kNarrowest = 20;  // columns that broken words need at least
+
+size_t Width(const std::string& text) { return static_cast<size_t>(ShownWidth(text)); }
 
 std::vector<size_t> Widths(const Table& table) {
   std::vector<size_t> widths;
@@ -34,6 +35,48 @@ std::string Line(const std::vector<std::string>& cells, const std::vector<size_t
   return line + "\n";
 }
 
+size_t Total(const std::vector<size_t>& widths) {
+  size_t total = widths.empty() ? 0 : kBetween * (widths.size() - 1);
+  for (const size_t width : widths) total += width;
+  return total;
+}
+
+std::string Aligned(const Table& table, size_t left) {
+  const std::vector<size_t> widths = Widths(table);
+  std::string text = Line(table.header, widths, left);
+  text += std::string(Total(widths), '-') + "\n";
+  for (const auto& row : table.rows) text += Line(row, widths, left);
+  return text;
+}
+
+/// The table with its last column in lines that end at `room`.
+Table WithBrokenWords(const Table& table, const std::vector<size_t>& widths, size_t room) {
+  const size_t before = Total(widths) - widths.back();
+  const size_t rest = std::max(kNarrowest, room - std::min(room, before));
+  Table broken{table.header, {}};
+  for (std::vector<std::string> row : table.rows) {
+    for (std::string& line : WrapLine(row.back(), static_cast<int>(rest))) {
+      row.back() = std::move(line);
+      broken.rows.push_back(row);
+      std::fill(row.begin(), row.end(), "");
+    }
+  }
+  return broken;
+}
+
+/// The first `left` columns and those from `begin` to before `end`.
+Table Block(const Table& table, size_t left, size_t begin, size_t end) {
+  const auto cut = [&](const std::vector<std::string>& cells) {
+    std::vector<std::string> some(cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(left));
+    some.insert(some.end(), cells.begin() + static_cast<std::ptrdiff_t>(begin),
+                cells.begin() + static_cast<std::ptrdiff_t>(end));
+    return some;
+  };
+  Table block{cut(table.header), {}};
+  for (const auto& row : table.rows) block.rows.push_back(cut(row));
+  return block;
+}
+
 std::string MarkdownLine(const std::vector<std::string>& cells) {
   std::string line = "|";
   for (const std::string& cell : cells) {
@@ -46,13 +89,23 @@ std::string MarkdownLine(const std::vector<std::string>& cells) {
 
 }  // namespace
 
-std::string TableToText(const Table& table, size_t left) {
+std::string TableToText(const Table& table, size_t left, int width) {
+  const size_t room = static_cast<size_t>(std::max(width, 0));
   const std::vector<size_t> widths = Widths(table);
-  std::string text = Line(table.header, widths, left);
-  size_t total = 0;
-  for (const size_t width : widths) total += width + 2;
-  text += std::string(total - 2, '-') + "\n";
-  for (const auto& row : table.rows) text += Line(row, widths, left);
+  if (Total(widths) <= room) return Aligned(table, left);
+  if (left >= table.header.size()) return Aligned(WithBrokenWords(table, widths, room), left);
+
+  // blocks of as many columns of numbers as fit behind the first ones
+  std::string text;
+  const size_t named = Total({widths.begin(), widths.begin() + static_cast<std::ptrdiff_t>(left)});
+  for (size_t begin = left, end = left; begin < widths.size(); begin = end) {
+    size_t used = named;
+    while (end < widths.size() && (end == begin || used + kBetween + widths[end] <= room)) {
+      used += kBetween + widths[end++];
+    }
+    if (begin > left) text += "\n";
+    text += Aligned(Block(table, left, begin, end), left);
+  }
   return text;
 }
 

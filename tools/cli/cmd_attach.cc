@@ -11,6 +11,8 @@
 #include "tools/actions/attach_settings.h"
 #include "tools/actions/outputs.h"
 #include "tools/cli/command.h"
+#include "tools/parser/choice.h"
+#include "tools/terminal/say.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -76,11 +78,10 @@ ExitStatus Attach(const AttachArguments& arguments) {
     inputs.emplace_back(text.substr(text.find('=') + 1));
   }
   KeepApart({arguments.output}, inputs);
-  for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
+  for (const std::string& warning : warnings) Say(stderr, "warning: {}\n", warning);
   const Attached attached = AttachFriction(model, frictions, arguments.output, options);
-  for (const std::string& notice : attached.notices) fmt::print(stderr, "notice: {}\n", notice);
-  fmt::print(
-      WordsBeside({arguments.output}),
+  for (const std::string& notice : attached.notices) Say(stderr, "notice: {}\n", notice);
+  Say(WordsBeside({arguments.output}),
       "{}: friction on {} of its joints; load it with libwarmjoint_friction.so in MuJoCo {}\n",
       arguments.output, attached.joints.size(), mj_versionString());
   return ExitStatus::done;
@@ -90,13 +91,16 @@ void AddModelOptions(CLI::App& parser, AttachArguments& arguments) {
   parser
       .add_option("--armature", arguments.armatures,
                   "NAME=VALUE or PATTERN=VALUE: armature of these joints, kg.m^2 or kg")
+      ->type_name("JOINT=NUMBER")
       ->take_all();
-  parser.add_option("--integrator", arguments.settings.integrator, "integrator of the result")
-      ->check(CLI::IsMember(IntegratorNames()));
-  parser.add_option("--timestep", arguments.settings.timestep, "step of the result, s");
+  AddChoice(parser, "--integrator", arguments.settings.integrator, IntegratorNames(),
+            "integrator of the result");
+  parser.add_option("--timestep", arguments.settings.timestep, "step of the result, s")
+      ->type_name("NUMBER");
   parser
       .add_option("--package", arguments.packages,
                   "NAME=FOLDER: where package://NAME of a URDF's meshes lies")
+      ->type_name("NAME=DIR")
       ->take_all();
 }
 
@@ -107,22 +111,26 @@ Command AddAttachCommand(CLI::App& program) {
   CLI::App* parser = program.add_subcommand("attach", "Friction onto the joints of any robot");
   parser
       ->add_option("MODEL", arguments->model, "MJCF or URDF file, or one of: warmjoint list robots")
+      ->type_name("MODEL")
       ->required();
   parser
       ->add_option("--joint", arguments->joints,
                    "NAME=FILE or PATTERN=FILE (a regular expression): estimate.json or another "
                    "friction file for these joints")
+      ->type_name("JOINT=FILE")
       ->required()
       ->take_all();
-  parser->add_option("--as", arguments->settings.form, "actuator or passive: how friction acts")
-      ->check(CLI::IsMember({"actuator", "passive"}))
-      ->capture_default_str();
+  AddChoice(*parser, "--as", arguments->settings.form, {"actuator", "passive"},
+            "how friction acts");
   parser
       ->add_option("--initial", arguments->initial,
                    "heat at the start: cold, end (of the estimate's recording) or settled:SPEED")
+      ->type_name("TEXT")
       ->capture_default_str();
   AddModelOptions(*parser, *arguments);
-  parser->add_option("-o,--output", arguments->output, "the model with friction, MJCF")->required();
+  parser->add_option("-o,--output", arguments->output, "the model with friction, MJCF")
+      ->type_name("FILE")
+      ->required();
   return {parser, [arguments] { return Attach(*arguments); }};
 }
 

@@ -6,6 +6,7 @@
 #include "tools/cli/command.h"
 #include "tools/cluster/slurm.h"
 #include "tools/cluster/submissions.h"
+#include "tools/terminal/say.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -15,11 +16,11 @@ ExitStatus Cancel(const std::filesystem::path& given) {
   ReadPlan(run);
   const std::vector<std::string> jobs = ReadSubmissions(run).Jobs();
   if (jobs.empty()) {
-    fmt::print("{}: nothing was submitted\n", run.string());
+    Say(stdout, "{}: nothing was submitted\n", run.string());
     return ExitStatus::done;
   }
   Scancel(jobs);
-  fmt::print(
+  Say(stdout,
       "{}: jobs {} are cancelled; what is finished is kept, `warmjoint status {} --resubmit` goes "
       "on\n",
       run.string(), fmt::join(jobs, ", "), run.string());
@@ -31,7 +32,7 @@ ExitStatus Cancel(const std::filesystem::path& given) {
 Command AddCancelCommand(CLI::App& program) {
   auto run = std::make_shared<std::string>();
   CLI::App* parser = program.add_subcommand("cancel", "Cancel the jobs of a run");
-  parser->add_option("RUN", *run, "directory of `run --slurm`")->required();
+  parser->add_option("RUN", *run, "directory of `run --slurm`")->type_name("RUN")->required();
   return {parser, [run] { return Cancel(*run); }};
 }
 

@@ -9,6 +9,9 @@
 #include "tools/actions/outputs.h"
 #include "tools/cli/command.h"
 #include "tools/cli/recording_options.h"
+#include "tools/parser/choice.h"
+#include "tools/terminal/activity.h"
+#include "tools/terminal/say.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -39,18 +42,24 @@ ExitStatus Check(const CheckArguments& arguments) {
   std::string text;
   std::string segments = "recording,begin,end,velocity,samples\n";
   int number = 0;
+  Activity activity("reading the recording");
   for (Measurements& recording : ReadRecordings(arguments.recording)) {
+    activity.Is("checking " + recording.source);
     const PreparedLog log = Prepare(std::move(recording), arguments.recording.holds);
     AppendSegments(log, ++number, segments);
     const RecordingCheck check = CheckRecording(log);
     checks.push_back(CheckToJson(check));
     text += (text.empty() ? "" : "\n") + CheckToText(check);
   }
-  if (arguments.format == "json") {
-    text = (checks.size() == 1 ? checks.front() : checks).dump(2) + "\n";
-  }
   if (!arguments.segments.empty()) WriteWholeFile(arguments.segments, segments);
-  fmt::print(WordsBeside(outputs), "{}", text);
+  activity.Aside([&] {
+    if (arguments.format == "json") {
+      fmt::print(WordsBeside(outputs), "{}\n",
+                 (checks.size() == 1 ? checks.front() : checks).dump(2));
+    } else {
+      SayText(WordsBeside(outputs), text);
+    }
+  });
   return ExitStatus::done;
 }
 
@@ -62,12 +71,11 @@ Command AddCheckCommand(CLI::App& program) {
       program.add_subcommand("check", "What a log holds, and what can be identified from it");
   AddRecordingOptions(*parser, arguments->recording);
   AddHoldOptions(*parser, arguments->recording.holds);
-  parser->add_option(
-      "--segments", arguments->segments,
-      "the constant speeds that are kept, as CSV: begin and end in s, velocity in SI");
-  parser->add_option("--format", arguments->format, "text or json")
-      ->check(CLI::IsMember({"text", "json"}))
-      ->capture_default_str();
+  parser
+      ->add_option("--segments", arguments->segments,
+                   "the constant speeds that are kept, as CSV: begin and end in s, velocity in SI")
+      ->type_name("FILE");
+  AddChoice(*parser, "--format", arguments->format, {"text", "json"}, "of what is printed");
   return {parser, [arguments] { return Check(*arguments); }};
 }
 

@@ -6,7 +6,9 @@
 #include "tools/actions/read_board.h"
 #include "tools/board/format_board.h"
 #include "tools/cli/command.h"
+#include "tools/parser/choice.h"
 #include "tools/store/stored_suite.h"
+#include "tools/terminal/say.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -30,7 +32,13 @@ ExitStatus Compare(const CompareArguments& arguments) {
   const std::vector<NamedBoard> boards = ReadBoards(arguments.runs);
   for (const BoardFormat& format : BoardFormats()) {
     if (format.name != arguments.format) continue;
-    fmt::print("{}", boards.size() == 1 ? format.write(boards[0].board) : format.join(boards));
+    const std::string text =
+        boards.size() == 1 ? format.write(boards[0].board) : format.join(boards);
+    if (format.name == "text") {
+      SayText(stdout, text);
+    } else {
+      fmt::print("{}", text);
+    }
   }
   return ExitStatus::done;
 }
@@ -41,13 +49,11 @@ Command AddCompareCommand(CLI::App& program) {
   auto arguments = std::make_shared<CompareArguments>();
   CLI::App* parser =
       program.add_subcommand("compare", "Leaderboard of a run: which identifier to trust");
-  parser->add_option("RUN", arguments->runs, "run directories")->required();
+  parser->add_option("RUN", arguments->runs, "run directories")->type_name("RUN")->required();
 
   std::vector<std::string> names;
   for (const BoardFormat& format : BoardFormats()) names.push_back(format.name);
-  parser->add_option("--format", arguments->format, "text, markdown, json or csv")
-      ->check(CLI::IsMember(names))
-      ->capture_default_str();
+  AddChoice(*parser, "--format", arguments->format, names, "of the leaderboard");
   return {parser, [arguments] { return Compare(*arguments); }};
 }
 

@@ -12,7 +12,10 @@
 #include "tools/cli/command.h"
 #include "tools/cli/estimate_table.h"
 #include "tools/cli/recording_options.h"
+#include "tools/parser/choice.h"
 #include "tools/report/figures/fit_page.h"
+#include "tools/terminal/activity.h"
+#include "tools/terminal/say.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -25,6 +28,8 @@ struct IdentifyArguments {
   std::string output;
   std::string mjcf;
   std::string plot;
+  std::string format = "text";
+  bool explain = false;
   bool force = false;
 };
 
@@ -53,16 +58,15 @@ void CheckOutput(const std::string& path) {
 }
 
 /// measurements: of the log that the estimate tells of.
-void WriteOutputs(const IdentifyArguments& arguments, Estimate estimate,
-                  const Measurements& measurements) {
-  const std::string notice = TakeBackAmperes(measurements, estimate);
-  if (!notice.empty()) fmt::print(stderr, "{}\n", notice);
+void WriteOutputs(const IdentifyArguments& arguments, const Estimate& estimate,
+                  const Measurements& measurements, Activity& activity) {
   if (!arguments.output.empty()) {
     WriteWholeFile(arguments.output, EstimateFile(estimate, arguments.recording));
   }
   if (arguments.mjcf.empty()) return;
   if (!estimate.friction) {
-    fmt::print(stderr, "{} is not written: there is no friction to trust\n", arguments.mjcf);
+    activity.Aside(
+        [&] { Say(stderr, "{} is not written: there is no friction to trust\n", arguments.mjcf); });
     return;
   }
   WriteWholeFile(arguments.mjcf, MinimalModel(*estimate.friction, measurements.joint));
@@ -80,16 +84,31 @@ ExitStatus Identify(const IdentifyArguments& arguments) {
   CheckOutput(arguments.output);
   CheckOutput(arguments.mjcf);
   CheckOutput(arguments.plot);
+  Activity activity("reading the recording");
   const HoldOutSource holdout = ReadHoldOut(arguments);
   const PreparedLog log = ReadAndPrepare(arguments.recording);
   const auto& [measurements, selection] = log.taken();
 
+  activity.Is(fmt::format("fitting {} to {} samples", task.identifier.name, measurements.size()));
   const Estimate estimate = IdentifyLog(task, log, holdout);
-  WriteOutputs(arguments, estimate, measurements);
+  Estimate written = estimate;
+  const std::string notice = TakeBackAmperes(measurements, written);
+  if (!notice.empty()) activity.Aside([&] { Say(stderr, "{}\n", notice); });
+  WriteOutputs(arguments, written, measurements, activity);
   if (!arguments.plot.empty()) {
+    activity.Is("drawing " + arguments.plot);
     report::WriteFitPage(measurements, selection, estimate, arguments.plot);
   }
-  fmt::print(WordsBeside(outputs), "{}", EstimateToText(estimate, measurements));
+  std::FILE* const words = WordsBeside(outputs);
+  activity.Aside([&] {
+    if (arguments.format == "json") {
+      if (IsStandardOutput(arguments.output)) return;  // there it is already
+      fmt::print(words, "{}", EstimateFile(written, arguments.recording));
+    } else {
+      const Detail detail = arguments.explain ? Detail::full : Detail::brief;
+      SayText(words, EstimateToText(estimate, measurements, PageOf(words), detail));
+    }
+  });
   return estimate.status == Status::ok ? ExitStatus::done : ExitStatus::nothing_trustworthy;
 }
 
@@ -103,30 +122,39 @@ Command AddIdentifyCommand(CLI::App& program) {
   parser
       ->add_option("--identifier", arguments->settings.identifier,
                    "see: warmjoint list identifiers")
+      ->type_name("IDENTIFIER")
       ->capture_default_str();
-  parser->add_option("--gravity", arguments->settings.gravity, "none, sincos or paired")
-      ->check(CLI::IsMember({"none", "sincos", "paired"}))
-      ->capture_default_str();
+  AddChoice(*parser, "--gravity", arguments->settings.gravity, {"none", "sincos", "paired"},
+            "what gravity does to the torque: nothing, a sine of the angle, or what both "
+            "directions share at each position");
   parser
       ->add_option(
           "--holdout", arguments->holdout,
           "share of the record's end, or another file, for figures on unseen data; 0: none")
+      ->type_name("SHARE/FILE")
       ->capture_default_str();
-  parser
-      ->add_option("--start", arguments->settings.start,
-                   "cold: intervals hold for a joint that was cold at the start; unknown: they\n"
-                   "reach as far as a slightly warm start moves them; estimated: E(0) is fitted")
-      ->check(CLI::IsMember({"cold", "unknown", "estimated"}))
-      ->capture_default_str();
+  AddChoice(*parser, "--start", arguments->settings.start, {"cold", "unknown", "estimated"},
+            "cold: intervals hold for a joint that was cold at the start; unknown: they reach as "
+            "far as a slightly warm start moves them; estimated: E(0) is fitted",
+            {{"warm", "unknown"}, {"hot", "unknown"}});
   parser
       ->add_option("--relevance", arguments->settings.relevance,
                    "lack of fit, as a share of the friction, from which a model is refused")
+      ->type_name("NUMBER")
       ->capture_default_str();
   parser->add_option("--set", arguments->set, "option of the identifier, as law=asymmetric")
+      ->type_name("KEY=VALUE")
       ->take_all();
-  parser->add_option("-o,--output", arguments->output, "estimate.json");
-  parser->add_option("--plot", arguments->plot, "picture of data, fit and verdict (PNG)");
-  parser->add_option("--mjcf", arguments->mjcf, "MuJoCo model of a joint with this friction");
+  parser->add_option("-o,--output", arguments->output, "estimate.json; -: standard output")
+      ->type_name("FILE");
+  parser->add_option("--plot", arguments->plot, "picture of data, fit and verdict (PNG)")
+      ->type_name("FILE");
+  parser->add_option("--mjcf", arguments->mjcf, "MuJoCo model of a joint with this friction")
+      ->type_name("FILE");
+  AddChoice(*parser, "--format", arguments->format, {"text", "json"},
+            "of what is printed; json: as in estimate.json");
+  parser->add_flag("--explain", arguments->explain,
+                   "every remark, every test for lack of fit and every assumption");
   parser->add_flag("--force", arguments->force,
                    "show the numbers of an inadequate model with their intervals and write its\n"
                    "friction, all void; status and exit status 3 stay");

@@ -1,27 +1,57 @@
-// warmjoint list laws|identifiers|robots|suites: what there is to choose from.
-#include <fmt/format.h>
+// warmjoint list laws|identifiers|robots|suites [NAME]: what there is to choose from.
+#include <fmt/ranges.h>
 
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "models/foundation/bad_input.h"
+#include "models/foundation/excerpt.h"
+#include "models/foundation/nearest_name.h"
 #include "tools/cli/command.h"
 #include "tools/cli/families.h"
+#include "tools/parser/choice.h"
+#include "tools/terminal/page.h"
 
 namespace warmjoint::inline tools {
 namespace {
 
 struct ListArguments {
   std::string family;
+  std::string member;
   std::string format = "text";
 };
+
+/// The member of that name; all of them where it is empty.
+nlohmann::ordered_json Members(const Family& family, const std::string& name) {
+  if (name.empty()) return family.members();
+  std::vector<std::string> names;
+  for (nlohmann::ordered_json& member : family.members()) {
+    if (member["name"] == name) return nlohmann::ordered_json::array({std::move(member)});
+    names.push_back(member["name"]);
+  }
+  Refuse({"warmjoint list " + family.name}, "there is no '{}'{}", Excerpt(name),
+         Suggestion(name, names));
+}
+
+std::string Text(const Family& family, const ListArguments& arguments) {
+  const int width = PageOf(stdout).width;
+  std::string text;
+  for (const nlohmann::ordered_json& member : Members(family, arguments.member)) {
+    if (!text.empty()) text += "\n";
+    text += arguments.member.empty() ? family.line(member, width) : family.page(member, width);
+  }
+  return text;
+}
 
 ExitStatus List(const ListArguments& arguments) {
   for (const Family& family : Families()) {
     if (family.name != arguments.family) continue;
-    if (arguments.format == "json") {
-      fmt::print("{}\n", family.json().dump(2));
+    if (arguments.format == "names") {
+      fmt::print("{}\n", fmt::join(family.names(), "\n"));
+    } else if (arguments.format == "json") {
+      fmt::print("{}\n", Members(family, arguments.member).dump(2));
     } else {
-      fmt::print("{}", family.text());
+      fmt::print("{}", Text(family, arguments));
     }
   }
   return ExitStatus::done;
@@ -36,12 +66,12 @@ Command AddListCommand(CLI::App& program) {
 
   std::vector<std::string> names;
   for (const Family& family : Families()) names.push_back(family.name);
-  parser->add_option("FAMILY", arguments->family, fmt::format("{}", fmt::join(names, ", ")))
-      ->required()
-      ->check(CLI::IsMember(names));
-  parser->add_option("--format", arguments->format, "text or json")
-      ->check(CLI::IsMember({"text", "json"}))
-      ->capture_default_str();
+  AddChoice(*parser, "FAMILY", arguments->family, names, fmt::format("{}", fmt::join(names, ", ")))
+      ->required();
+  parser->add_option("NAME", arguments->member, "one member alone, with its options in full")
+      ->type_name("MEMBER");
+  AddChoice(*parser, "--format", arguments->format, {"text", "json", "names"},
+            "names: one name a line");
   return {parser, [arguments] { return List(*arguments); }};
 }
 

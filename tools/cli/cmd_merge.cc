@@ -8,6 +8,7 @@
 #include "tools/cli/command.h"
 #include "tools/cluster/gather.h"
 #include "tools/store/merge_runs.h"
+#include "tools/terminal/say.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -27,18 +28,18 @@ void TellMissing(const std::set<Unit>& missing) {
                         ? std::to_string(unit.realization)
                         : fmt::format("{} of variant {}", unit.realization, unit.variant));
   }
-  fmt::print(stderr,
-             "notice: no shard holds {} realizations ({}{}); merge with the shards that do, or go "
-             "on with `run`\n",
-             missing.size(), fmt::join(shown, ", "), missing.size() > most ? ", ..." : "");
+  Say(stderr,
+      "notice: no shard holds {} realizations ({}{}); merge with the shards that do, or go "
+      "on with `run`\n",
+      missing.size(), fmt::join(shown, ", "), missing.size() > most ? ", ..." : "");
 }
 
 /// A run that was planned as shards becomes whole in its own directory.
 ExitStatus MergeInPlace(const std::filesystem::path& given) {
   const std::filesystem::path run = std::filesystem::absolute(given).lexically_normal();
   const MergedRun merged = MergePlanned(run, ReadPlan(run));
-  fmt::print("{}: {} results, {} realizations; see: warmjoint compare {}\n", given.string(),
-             merged.results, merged.units, given.string());
+  Say(stdout, "{}: {} results, {} realizations; see: warmjoint compare {}\n", given.string(),
+      merged.results, merged.units, given.string());
   return ExitStatus::done;
 }
 
@@ -49,7 +50,7 @@ ExitStatus Merge(const MergeArguments& arguments) {
   }
   const MergedRun merged =
       MergeRuns(arguments.shards, arguments.output, {Overlap::refused, Access::read, &WriteTables});
-  fmt::print("{}: {} results of {} shards, {} of {} realizations; see: warmjoint compare {}\n",
+  Say(stdout, "{}: {} results of {} shards, {} of {} realizations; see: warmjoint compare {}\n",
              arguments.output, merged.results, arguments.shards.size(),
              merged.units - merged.missing.size(), merged.units, arguments.output);
   if (!merged.missing.empty()) TellMissing(merged.missing);
@@ -64,9 +65,12 @@ Command AddMergeCommand(CLI::App& program) {
   parser
       ->add_option("SHARD", arguments->shards,
                    "run directories made with --shard, or one that was planned")
+      ->type_name("RUN")
       ->required();
-  parser->add_option("-o,--output", arguments->output,
-                     "run directory to make; a planned run becomes whole in its own");
+  parser
+      ->add_option("-o,--output", arguments->output,
+                   "run directory to make; a planned run becomes whole in its own")
+      ->type_name("DIR");
   return {parser, [arguments] { return Merge(*arguments); }};
 }
 

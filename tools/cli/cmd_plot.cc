@@ -13,6 +13,8 @@
 #include "tools/report/draw/draw_figure.h"
 #include "tools/report/gl/film.h"
 #include "tools/report/page/contact_sheet.h"
+#include "tools/terminal/activity.h"
+#include "tools/terminal/say.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -33,13 +35,14 @@ struct PlotArguments {
 /// Draws figures into files and remembers the first of each kind for the contact sheet.
 class Album {
  public:
-  explicit Album(report::Canvas& canvas) : canvas_(canvas) {}
+  Album(report::Canvas& canvas, Activity& activity) : canvas_(canvas), activity_(activity) {}
 
   void Draw(const report::Figure& figure, const fs::path& folder) {
-    report::Image image = report::DrawFigure(canvas_, figure).image;
     const fs::path path = folder / (figure.name + ".png");
+    activity_.Is("drawing " + path.string());
+    report::Image image = report::DrawFigure(canvas_, figure).image;
     report::WritePng(image, figure.finding, path);
-    fmt::print("{}: {}\n", path.string(), figure.finding);
+    Tell(path, figure.finding);
     const bool is_new = std::none_of(pages_.begin(), pages_.end(),
                                      [&](const auto& page) { return page.first == figure.name; });
     if (is_new) pages_.emplace_back(figure.name, std::move(image));
@@ -49,12 +52,13 @@ class Album {
     if (film.empty()) return;
     std::vector<report::Image> frames;
     for (const report::Figure& frame : film) {
+      activity_.Is(fmt::format("drawing frame {} of {}", frames.size() + 1, film.size()));
       frames.push_back(report::Shrink(report::DrawFigure(canvas_, frame).image,
                                       report::Canvas::kPixelsPerPoint));
     }
     const fs::path path = folder / (film.front().name + ".png");
     WriteWholeFile(path, report::EncodeFilm(frames, kFrameSeconds, film.front().title));
-    fmt::print("{}: {}, {} frames\n", path.string(), film.front().title, frames.size());
+    Tell(path, fmt::format("{}, {} frames", film.front().title, frames.size()));
   }
 
   void WriteSheet(const fs::path& path) {
@@ -65,11 +69,16 @@ class Album {
     const report::Figure sheet =
         report::MakeContactSheet(pages_, columns, std::max(2, columns) * kSheetColumn);
     report::WritePng(report::DrawFigure(canvas_, sheet).image, sheet.finding, path);
-    fmt::print("{}: {}\n", path.string(), sheet.finding);
+    Tell(path, sheet.finding);
   }
 
  private:
+  void Tell(const fs::path& path, const std::string& finding) {
+    activity_.Aside([&] { Say(stdout, "{}: {}\n", path.string(), finding); });
+  }
+
   report::Canvas& canvas_;
+  Activity& activity_;
   std::vector<std::pair<std::string, report::Image>> pages_;
 };
 
@@ -93,9 +102,11 @@ ExitStatus PlotSources(const PlotArguments& arguments) {
   const std::vector<fs::path> folders = FoldersOf(arguments);
   // refused before the pictures are drawn; it is made anew when they are
   if (!arguments.sheet.empty()) AtomicFile(arguments.sheet);
+  Activity activity("preparing to draw");
   report::Canvas canvas;
-  Album album(canvas);
+  Album album(canvas, activity);
   for (std::size_t i = 0; i < folders.size(); ++i) {
+    activity.Is("reading " + arguments.sources[i]);
     const SourcePictures pictures = PicturesOf(arguments.sources[i], arguments.recording, canvas);
     std::error_code error;
     fs::create_directories(folders[i], error);
@@ -119,14 +130,20 @@ Command AddPlotCommand(CLI::App& program) {
       ->add_option("SOURCE", arguments->sources,
                    "directory of `run` or `simulate`, estimate file, or `kernels` (normalised and "
                    "plain kernels); several fill folders of their own")
+      ->type_name("SOURCE")
       ->required();
   parser->add_option("-o,--output", arguments->output, "directory for the pictures; made if absent")
+      ->type_name("DIR")
       ->required();
-  parser->add_option("--recording", arguments->recording.recordings,
-                     "data of an estimate, instead of the files that it remembers");
+  parser
+      ->add_option("--recording", arguments->recording.recordings,
+                   "data of an estimate, instead of the files that it remembers")
+      ->type_name("RECORDING");
   AddLayoutOptions(*parser, arguments->recording);
-  parser->add_option("--sheet", arguments->sheet,
-                     "contact sheet (PNG): the first picture of each kind");
+  parser
+      ->add_option("--sheet", arguments->sheet,
+                   "contact sheet (PNG): the first picture of each kind")
+      ->type_name("FILE");
   return {parser, [arguments] { return PlotSources(*arguments); }};
 }
 

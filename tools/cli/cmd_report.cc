@@ -8,11 +8,13 @@
 #include "tools/report/page/run_page.h"
 #include "tools/report/run/run_figures.h"
 #include "tools/store/stored_suite.h"
+#include "tools/terminal/activity.h"
 
 namespace warmjoint::inline tools {
 namespace {
 
 ExitStatus Report(const std::filesystem::path& directory) {
+  Activity activity("reading " + directory.string());
   const RunStore store = RunStore::OpenToRead(directory);
   TellOfEditedSuite(store);
   const report::RunView view = report::ReadRunView(store);
@@ -21,10 +23,11 @@ ExitStatus Report(const std::filesystem::path& directory) {
     if (auto made = figure.make(view)) page.figures.push_back(*std::move(made));
   }
 
+  activity.Is(fmt::format("drawing {} pictures", page.figures.size()));
   report::Canvas canvas;
   const std::filesystem::path target = directory / "report.html";
   WriteWholeFile(target, report::MakeRunPage(page, canvas));
-  fmt::print("{}\n", target.string());
+  activity.Aside([&] { fmt::print("{}\n", target.string()); });
   return ExitStatus::done;
 }
 
@@ -34,7 +37,7 @@ Command AddReportCommand(CLI::App& program) {
   auto directory = std::make_shared<std::string>();
   CLI::App* parser =
       program.add_subcommand("report", "RUN/report.html: a run explained on one page");
-  parser->add_option("RUN", *directory, "directory that `run` made")->required();
+  parser->add_option("RUN", *directory, "directory that `run` made")->type_name("RUN")->required();
   return {parser, [directory] { return Report(*directory); }};
 }
 

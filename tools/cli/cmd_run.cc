@@ -10,12 +10,14 @@
 #include "tools/actions/run_task.h"
 #include "tools/cli/command.h"
 #include "tools/cli/run_in_shards.h"
+#include "tools/cli/suite_names.h"
 #include "tools/cli/whole_number.h"
 #include "tools/suite/arithmetic.h"
 #include "tools/suite/engine.h"
 #include "tools/suite/external_identifier.h"
 #include "tools/suite/interrupt.h"
 #include "tools/suite/wall.h"
+#include "tools/terminal/say.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -40,18 +42,19 @@ void TellWall(const Suite& suite, const std::vector<std::filesystem::path>& secr
   bool told = false;
   for (const SuiteIdentifier& identifier : suite.identifiers) {
     if (identifier.name != kExternal) continue;
-    if (!std::exchange(told, true)) fmt::print(stderr, "{}\n", WallInWords());
+    if (!std::exchange(told, true)) Say(stderr, "{}\n", WallInWords());
     if (BestWall() == WallKind::none) return;
     for (const std::filesystem::path& secret : secrets) {
       if (WallHides(secret, ReadableBy(identifier))) continue;
-      fmt::print(stderr, "warning: {} can read {}: it lies where the wall is open; move it\n",
-                 identifier.label, secret.string());
+      Say(stderr, "warning: {} can read {}: it lies where the wall is open; move it\n",
+          identifier.label, secret.string());
     }
   }
 }
 
-ExitStatus Run(const RunArguments& arguments) {
+ExitStatus Run(RunArguments arguments) {
   SettleArithmetic();
+  arguments.suite = FindSuite(arguments.suite);
   if (arguments.in_shards()) return RunInShards(arguments);
   RefuseShardOptions(arguments);
 
@@ -62,8 +65,8 @@ ExitStatus Run(const RunArguments& arguments) {
   const RunOutcome outcome =
       RunSuite(task.suite, task.identifiers, {task.jobs, task.shard, arguments.keep}, store);
   if (outcome.interrupted) {
-    fmt::print(stderr, "interrupted: {} of {} realizations are kept; the same command goes on\n",
-               outcome.finished, outcome.total);
+    Say(stderr, "interrupted: {} of {} realizations are kept; the same command goes on\n",
+        outcome.finished, outcome.total);
     return ExitStatus::interrupted;
   }
   return Finish(store, task.shard);
@@ -75,21 +78,28 @@ Command AddRunCommand(CLI::App& program) {
   auto arguments = std::make_shared<RunArguments>();
   CLI::App* parser = program.add_subcommand(
       "run", "Run a suite: realizations, identifiers, scores; resumes where it stopped");
-  parser->add_option("SUITE", arguments->suite, "suite file (YAML)")->required();
+  parser
+      ->add_option("SUITE", arguments->suite, "suite file (YAML), or one of: warmjoint list suites")
+      ->type_name("SUITE")
+      ->required();
   parser->add_option("-o,--output", arguments->output, "run directory, made or resumed")
+      ->type_name("DIR")
       ->required();
   AddWholeNumber(*parser, "--jobs", arguments->jobs, 1, kMostJobs,
                  "threads; default: one for each core");
   AddWholeNumber(*parser, "--realizations", arguments->realizations, 1, kMostRealizations,
                  "instead of the suite's");
   AddWholeNumber(*parser, "--seed", arguments->seed, 0, kLargestSeed, "instead of the suite's");
-  parser->add_option("--identifier", arguments->identifiers,
-                     "only this one of the suite, another one with its defaults, or your own as\n"
-                     "'name=command {recording} {estimate}'; repeatable");
+  parser
+      ->add_option("--identifier", arguments->identifiers,
+                   "only this one of the suite, another one with its defaults, or your own as "
+                   "'name=command {recording} {estimate}'")
+      ->type_name("IDENTIFIER");
   parser
       ->add_option("--shard", arguments->shard,
-                   "part i of n, or realizations a to b - 1, to be merged later: i/n or\n"
+                   "part i of n, or realizations a to b - 1, to be merged later: i/n or "
                    "a:b")
+      ->type_name("TEXT")
       ->capture_default_str();
   parser->add_flag("--allow-commands", arguments->allow_commands,
                    "run the commands that the suite names as identifiers");

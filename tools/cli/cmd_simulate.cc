@@ -20,10 +20,11 @@
 #include "tools/cli/recording_options.h"
 #include "tools/cli/repeat_motion.h"
 #include "tools/cli/whole_number.h"
+#include "tools/parser/choice.h"
 #include "tools/store/stored_suite.h"
 #include "tools/suite/arithmetic.h"
 #include "tools/suite/memory_of_work.h"
-#include "tools/suite/progress_line.h"
+#include "tools/terminal/progress_line.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -124,24 +125,27 @@ Command AddSimulateCommand(CLI::App& program) {
   auto arguments = std::make_shared<SimulateArguments>();
   CLI::App* parser =
       program.add_subcommand("simulate", "Carry out a scenario: a recording and its truth");
-  parser->add_option("SCENARIO", arguments->scenario, "scenario file (YAML)");
-  parser->add_option("--from", arguments->from, "run directory: replay its --realization");
-  parser->add_option("--variant", arguments->variant, "of the run's ladder");
+  parser->add_option("SCENARIO", arguments->scenario, "scenario file (YAML)")
+      ->type_name("SCENARIO");
+  parser->add_option("--from", arguments->from, "run directory: replay its --realization")
+      ->type_name("RUN");
+  parser->add_option("--variant", arguments->variant, "of the run's ladder")->type_name("TEXT");
   parser
       ->add_option("--motion", arguments->motion.recordings,
                    "CSV or HDF5 file whose motion is carried out again; its torque is compared")
+      ->type_name("RECORDING")
       ->expected(1);
   AddLayoutOptions(*parser, arguments->motion);
   parser->add_option("--set", arguments->set, "another value for a key, as noise.torque=0.1")
+      ->type_name("ENTRY=VALUE")
       ->take_all();
   constexpr std::uint64_t largest = std::numeric_limits<std::uint64_t>::max();
   AddWholeNumber(*parser, "--seed", arguments->seed, 0, largest, "instead of the scenario's");
   AddWholeNumber(*parser, "--realization", arguments->realization, 0, largest,
                  "which of the seed's realizations; default: 0");
-  parser->add_option("--format", arguments->format, "of the recording: csv or h5 (HDF5)")
-      ->check(CLI::IsMember({"csv", "h5"}))
-      ->capture_default_str();
+  AddChoice(*parser, "--format", arguments->format, {"csv", "h5"}, "of the recording; h5: HDF5");
   parser->add_option("-o,--output", arguments->output, "directory for the files, made as a whole")
+      ->type_name("DIR")
       ->required();
   return {parser, [arguments] { return Simulate(*arguments); }};
 }

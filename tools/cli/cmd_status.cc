@@ -12,6 +12,7 @@
 #include "tools/cluster/run_layout.h"
 #include "tools/cluster/run_status.h"
 #include "tools/cluster/slurm.h"
+#include "tools/parser/choice.h"
 
 namespace warmjoint::inline tools {
 namespace fs = std::filesystem;
@@ -57,10 +58,9 @@ Command AddStatusCommand(CLI::App& program) {
   auto arguments = std::make_shared<StatusArguments>();
   CLI::App* parser = program.add_subcommand("status", "How far a planned run is");
   parser->add_option("RUN", arguments->run, "directory of `run --slurm` or --local-shards")
+      ->type_name("RUN")
       ->required();
-  parser->add_option("--format", arguments->format, "text or json")
-      ->check(CLI::IsMember({"text", "json"}))
-      ->capture_default_str();
+  AddChoice(*parser, "--format", arguments->format, {"text", "json"}, "of what is printed");
   parser->add_flag("--resubmit", arguments->resubmit,
                    "submit the shards that are missing or failed and not in the queue");
   AddWholeNumber(*parser, "--split", arguments->split, 1, kMostPieces,

@@ -46,8 +46,12 @@ Command AddTaskCommand(CLI::App& program) {
   auto arguments = std::make_shared<TaskArguments>();
   CLI::App* parser = program.add_subcommand(
       "task", "Run one shard of a planned run, as the tasks of `run --slurm` do");
-  parser->add_option("RUN", arguments->run, "run directory with a plan")->required();
-  parser->add_option("SHARD", arguments->shard, "number of the shard, from 1")->required();
+  parser->add_option("RUN", arguments->run, "run directory with a plan")
+      ->type_name("RUN")
+      ->required();
+  parser->add_option("SHARD", arguments->shard, "number of the shard, from 1")
+      ->type_name("INTEGER")
+      ->required();
   return {parser, [arguments] { return RunOneTask(*arguments); }};
 }
 

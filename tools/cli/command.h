@@ -28,6 +28,7 @@ struct Command {
 std::vector<Command> AddCommands(CLI::App& program);
 
 Command AddListCommand(CLI::App& program);
+Command AddNewCommand(CLI::App& program);
 Command AddSimulateCommand(CLI::App& program);
 Command AddCheckCommand(CLI::App& program);
 Command AddIdentifyCommand(CLI::App& program);
@@ -40,5 +41,8 @@ Command AddStatusCommand(CLI::App& program);
 Command AddCancelCommand(CLI::App& program);
 Command AddMergeCommand(CLI::App& program);
 Command AddCompareCommand(CLI::App& program);
+Command AddHelpCommand(CLI::App& program);
+Command AddManCommand(CLI::App& program);
+Command AddCompletionCommand(CLI::App& program);
 
 }  // namespace warmjoint::inline tools

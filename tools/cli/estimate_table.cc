@@ -1,8 +1,13 @@
 #include "tools/cli/estimate_table.h"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <string_view>
 
 #include "tools/board/table.h"
+#include "tools/terminal/wrap.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -35,13 +40,108 @@ void AddMetrics(Table& table, const std::string& name, const std::optional<Metri
                         fmt::format("{:.4g}", metrics->fpe)});
 }
 
+constexpr std::size_t kBriefly = 3;  // remarks
+
+/// The clause as a sentence: a capital at its beginning, unless a name stands there, and a stop.
+std::string AsSentence(std::string clause) {
+  const std::size_t word = clause.find_first_of(" _.=:");
+  const bool is_word = word == std::string::npos || clause[word] == ' ';
+  if (is_word && !clause.empty()) {
+    clause[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(clause[0])));
+  }
+  const bool stops =
+      !clause.empty() && std::string_view(".?!").find(clause.back()) != std::string_view::npos;
+  return stops ? clause : clause + ".";
+}
+
+/// Where a sentence or a clause ends: after "; " or ". " outside of brackets; the end of the text else.
+std::size_t EndOfClause(std::string_view text) {
+  int depth = 0;
+  for (std::size_t i = 0; i + 1 < text.size(); ++i) {
+    if (text[i] == '(') ++depth;
+    if (text[i] == ')') --depth;
+    const bool ends = text[i] == ';' || (text[i] == '.' && i > 0 &&
+                                         std::isalpha(static_cast<unsigned char>(text[i - 1])));
+    if (depth <= 0 && ends && text[i + 1] == ' ') return i;
+  }
+  return text.size();
+}
+
+void AddClauses(std::string_view text, std::vector<std::string>& sentences) {
+  while (!text.empty()) {
+    const std::size_t end = EndOfClause(text);
+    if (end > 0) sentences.push_back(AsSentence(std::string(text.substr(0, end))));
+    text.remove_prefix(std::min(end + 2, text.size()));
+  }
+}
+
+std::string RemarksText(const Estimate& estimate, int width, Detail detail) {
+  const std::vector<std::string> remarks = Remarks(estimate);
+  const std::size_t shown =
+      detail == Detail::full ? remarks.size() : std::min(kBriefly, remarks.size());
+  std::string text;
+  for (std::size_t i = 0; i < shown; ++i) text += fmt::format("  {}\n", remarks[i]);
+  if (shown < remarks.size()) {
+    text += fmt::format("  {} more remarks: --explain\n", remarks.size() - shown);
+  }
+  return Wrap(text, width, 2);
+}
+
+Table DiagnosticTable(const Estimate& estimate) {
+  Table table{{"test for lack of fit", "p", "effect", "verdict", "finding"}, {}};
+  for (const Diagnostic& one : estimate.diagnostics) {
+    table.rows.push_back({one.test, one.made ? fmt::format("{:.2g}", one.p_adjusted) : "-",
+                          one.made ? fmt::format("{:.2g} {}", one.effect, one.effect_unit) : "-",
+                          !one.made      ? "not made"
+                          : one.rejected ? "lack of fit"
+                                         : "passed",
+                          one.reason});
+  }
+  return table;
+}
+
+Table AssumptionTable(const Estimate& estimate) {
+  Table table{{"assumption", "would move", "if"}, {}};
+  for (const Assumption& one : estimate.assumptions) {
+    std::vector<std::string> moves;
+    for (const auto& [name, change] : one.moves)
+      moves.push_back(fmt::format("{} by {:.2g}", name, change));
+    table.rows.push_back({one.name, fmt::format("{}", fmt::join(moves, ", ")), one.meaning});
+  }
+  return table;
+}
+
+/// Every test for lack of fit and every assumption.
+std::string Explanation(const Estimate& estimate, int width) {
+  std::string text;
+  for (const Table& table : {DiagnosticTable(estimate), AssumptionTable(estimate)}) {
+    if (!table.rows.empty()) text += "\n" + TableToText(table, table.header.size(), width);
+  }
+  return text;
+}
+
+Colour ColourOf(Status status) {
+  if (status == Status::ok) return Colour::green;
+  return status == Status::bad_data ? Colour::red : Colour::yellow;
+}
+
 }  // namespace
 
-std::string EstimateToText(const Estimate& estimate, const Measurements& measurements) {
-  std::string text = fmt::format("{}: {}", estimate.identifier, StatusName(estimate.status));
-  text += estimate.FullMessage().empty() ? "\n" : fmt::format(". {}\n", estimate.FullMessage());
+std::vector<std::string> Remarks(const Estimate& estimate) {
+  std::vector<std::string> remarks;
+  AddClauses(estimate.message, remarks);
+  for (const std::string& warning : estimate.warnings) remarks.push_back(AsSentence(warning));
+  return remarks;
+}
+
+std::string EstimateToText(const Estimate& estimate, const Measurements& measurements,
+                           const Page& page, Detail detail) {
+  std::string text =
+      fmt::format("{}: {}\n", estimate.identifier,
+                  Paint(StatusName(estimate.status), ColourOf(estimate.status), page));
+  text += RemarksText(estimate, page.width, detail);
   if (!estimate.parameters.empty())
-    text += fmt::format("\n{}", TableToText(ParameterTable(estimate), 1));
+    text += fmt::format("\n{}", TableToText(ParameterTable(estimate), 1, page.width));
 
   const std::string& unit = measurements.torque_unit;
   if (estimate.gravity && estimate.gravity->kind == GravityKind::paired) {
@@ -52,7 +152,8 @@ std::string EstimateToText(const Estimate& estimate, const Measurements& measure
               {}};
   AddMetrics(table, "all data", estimate.metrics);
   AddMetrics(table, "held out", estimate.holdout);
-  if (!table.rows.empty()) text += fmt::format("\n{}", TableToText(table, 1));
+  if (!table.rows.empty()) text += fmt::format("\n{}", TableToText(table, 1, page.width));
+  if (detail == Detail::full) text += Explanation(estimate, page.width);
   return text;
 }
 

@@ -1,10 +1,10 @@
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <nlohmann/json.hpp>
 
 #include "identification/identifiers/identifier_list.h"
-#include "tools/board/table.h"
 #include "tools/cli/families.h"
+#include "tools/terminal/wrap.h"
 
 namespace warmjoint::inline tools {
 
@@ -26,16 +26,47 @@ ordered_json IdentifiersJson() {
   return all;
 }
 
-std::string IdentifiersText() {
-  std::string text;
-  for (const Identifier& identifier : Identifiers()) {
-    text += fmt::format("{}  {}\n", identifier.name, identifier.summary);
-    Table table{{"  --set", "default", "allowed", "meaning"}, {}};
-    for (const OptionInfo& option : identifier.options) {
-      table.rows.push_back(
-          {"  " + option.name, option.default_value, option.allowed, option.meaning});
-    }
-    text += TableToText(table, table.header.size()) + "\n";
+std::vector<std::string> IdentifierNames() {
+  std::vector<std::string> names;
+  for (const Identifier& identifier : Identifiers()) names.push_back(identifier.name);
+  return names;
+}
+
+namespace {
+
+std::string Head(const ordered_json& identifier) {
+  return fmt::format("{}\n    {}\n", identifier["name"].get<std::string>(),
+                     identifier["summary"].get<std::string>());
+}
+
+/// "one of coulomb, asymmetric", "number > 0", "text".
+std::string Allowed(const std::string& allowed) {
+  if (allowed.find('|') == std::string::npos) return allowed;
+  std::string words = "one of ";
+  for (const char c : allowed) words += c == '|' ? std::string(", ") : std::string(1, c);
+  return words;
+}
+
+}  // namespace
+
+std::string IdentifierLine(const ordered_json& identifier, int width) {
+  std::vector<std::string> options;
+  for (const ordered_json& option : identifier["options"]) options.push_back(option["name"]);
+  std::string text = Wrap(Head(identifier), width, 0);
+  if (options.empty()) return text;
+  return text + Wrap(fmt::format("    --set {}\n", fmt::join(options, ", ")), width, 6);
+}
+
+std::string IdentifierText(const ordered_json& identifier, int width) {
+  std::string text = Wrap(Head(identifier), width, 0);
+  if (identifier["options"].empty()) return text + "    It has no options.\n";
+  text += "\nOptions, each given as --set NAME=VALUE:\n";
+  for (const ordered_json& option : identifier["options"]) {
+    const auto member = [&](const char* key) { return option[key].get<std::string>(); };
+    const std::string initial = member("default").empty() ? "none" : member("default");
+    text += Wrap(fmt::format("  {}\n      {}\n      {}\n      default: {}\n", member("name"),
+                             member("meaning"), Allowed(member("allowed")), initial),
+                 width, 2);
   }
   return text;
 }

@@ -6,6 +6,7 @@
 #include "models/friction/friction_description.h"
 #include "tools/board/table.h"
 #include "tools/cli/families.h"
+#include "tools/terminal/wrap.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -67,7 +68,7 @@ std::string Words(const ordered_json& words) {
   return fmt::format("{}", fmt::join(words.get<std::vector<std::string>>(), ", "));
 }
 
-std::string ParametersText(const ordered_json& parameters) {
+std::string ParametersText(const ordered_json& parameters, int width) {
   Table table{{"  parameter", "symbol", "unit", "(linear)", "from", "to", "meaning"}, {}};
   for (const ordered_json& info : parameters) {
     const auto bound = [&](const char* key, const char* none) {
@@ -77,7 +78,7 @@ std::string ParametersText(const ordered_json& parameters) {
                           info["unit"]["rotary"], info["unit"]["linear"], bound("lower", "-inf"),
                           bound("upper", "inf"), info["meaning"]});
   }
-  return TableToText(table, table.header.size());
+  return TableToText(table, table.header.size(), width);
 }
 
 }  // namespace
@@ -90,16 +91,19 @@ nlohmann::ordered_json LawsJson() {
   return laws;
 }
 
-std::string LawsText() {
-  std::string text;
-  for (const ordered_json& law : LawsJson()) {
-    text +=
-        fmt::format("{}  {}\n", law["name"].get<std::string>(), law["equation"].get<std::string>());
-    if (!law["parameters"].empty()) text += ParametersText(law["parameters"]);
-    for (const char* key : {"quantities", "kernels", "factors"}) {
-      if (law.contains(key)) text += fmt::format("  {}: {}\n", key, Words(law[key]));
-    }
-    text += "\n";
+std::vector<std::string> LawNames() {
+  std::vector<std::string> names;
+  for (const Law& law : Laws()) names.emplace_back(law.name);
+  return names;
+}
+
+std::string LawText(const ordered_json& law, int width) {
+  std::string text = Wrap(
+      fmt::format("{}  {}\n", law["name"].get<std::string>(), law["equation"].get<std::string>()),
+      width, 4);
+  if (!law["parameters"].empty()) text += ParametersText(law["parameters"], width);
+  for (const char* key : {"quantities", "kernels", "factors"}) {
+    if (law.contains(key)) text += Wrap(fmt::format("  {}: {}\n", key, Words(law[key])), width);
   }
   return text;
 }

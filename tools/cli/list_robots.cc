@@ -6,6 +6,7 @@
 #include "models/robots/robot_list.h"
 #include "tools/board/table.h"
 #include "tools/cli/families.h"
+#include "tools/terminal/wrap.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -42,24 +43,28 @@ ordered_json RobotsJson() {
   return all;
 }
 
-std::string RobotsText() {
-  std::string text;
-  for (const RobotInfo& robot : Robots()) {
-    text += fmt::format("{}  {}\n", robot.name, robot.description);
-    Table table{{"  joint", "unit", "from", "to", "speed", "effort", "friction file"}, {}};
-    for (const RobotJoint& joint : robot.joints) {
-      const std::string_view unit = kPositionUnit.For(joint.kind);
-      table.rows.push_back(
-          {"  " + joint.name, std::string(unit), fmt::format("{:.4g}", joint.limits.first),
-           fmt::format("{:.4g}", joint.limits.second),
-           fmt::format("{:.4g} {}/s", joint.speed, unit),
-           fmt::format("{:g} {}", joint.effort, kTorqueUnit.For(joint.kind)),
-           joint.name == robot.friction_joint ? fmt::format("gear {:g}", robot.friction.gear)
-                                              : ""});
-    }
-    text += TableToText(table, 2) + "\n";
+std::string RobotText(const ordered_json& robot, int width) {
+  std::string text = Wrap(fmt::format("{}  {}\n", robot["name"].get<std::string>(),
+                                      robot["description"].get<std::string>()),
+                          width, 4);
+  Table table{{"  joint", "unit", "from", "to", "speed", "effort", "friction file"}, {}};
+  for (const ordered_json& joint : robot["joints"]) {
+    const auto limit = [&](const char* key, const char* none) {
+      return joint[key].is_null() ? std::string(none)
+                                  : fmt::format("{:.4g}", joint[key].get<double>());
+    };
+    const JointKind kind = joint["kind"] == "linear" ? JointKind::linear : JointKind::rotary;
+    const std::string_view unit = kPositionUnit.For(kind);
+    const ordered_json& friction = robot["friction"];
+    table.rows.push_back(
+        {"  " + joint["name"].get<std::string>(), std::string(unit), limit("lower", "-inf"),
+         limit("upper", "inf"), fmt::format("{:.4g} {}/s", joint["speed"].get<double>(), unit),
+         fmt::format("{:g} {}", joint["effort"].get<double>(), kTorqueUnit.For(kind)),
+         joint["name"] == friction["joint"]
+             ? fmt::format("gear {:g}", friction["gear"].get<double>())
+             : ""});
   }
-  return text;
+  return text + TableToText(table, 2, width);
 }
 
 }  // namespace warmjoint::inline tools

@@ -1,51 +1,49 @@
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <algorithm>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "models/robots/robot_folder.h"
 #include "scenarios/suite.h"
 #include "tools/cli/families.h"
+#include "tools/cli/suite_names.h"
+#include "tools/terminal/wrap.h"
 
 namespace warmjoint::inline tools {
-namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::ordered_json;
-
-/// Entries of a folder of the project in the order of their names.
-std::vector<fs::path> Entries(const fs::path& folder) {
-  std::vector<fs::path> entries;
-  if (!fs::is_directory(folder)) return entries;
-  for (const auto& entry : fs::directory_iterator(folder)) entries.push_back(entry.path());
-  std::sort(entries.begin(), entries.end());
-  return entries;
-}
-
-}  // namespace
 
 ordered_json SuitesJson() {
   ordered_json suites = ordered_json::array();
-  for (const fs::path& file : Entries(DataFolder() / "scenarios/suites")) {
-    if (file.extension() != ".yaml") continue;
+  for (const std::string& name : SuiteNames()) {
+    const std::string file = SuiteFile(name);
     const Suite suite = ReadSuite(file);
+    ordered_json identifiers = ordered_json::array();
+    for (const SuiteIdentifier& one : suite.identifiers) identifiers.push_back(one.label);
     suites.push_back({{"name", suite.name},
                       {"question", suite.question},
                       {"realizations", suite.realizations},
-                      {"file", file.string()}});
+                      {"variants", suite.variants()},
+                      {"identifiers", identifiers},
+                      {"file", file}});
   }
   return suites;
 }
 
-std::string SuitesText() {
-  std::string text;
-  for (const ordered_json& suite : SuitesJson()) {
-    text += fmt::format("{}  {} realizations  {}\n    {}\n", suite["name"].get<std::string>(),
-                        suite["realizations"].get<int>(), suite["file"].get<std::string>(),
-                        suite["question"].get<std::string>());
-  }
-  return text;
+std::string SuiteLine(const ordered_json& suite, int width) {
+  return Wrap(fmt::format("{}\n    {}\n", suite["name"].get<std::string>(),
+                          suite["question"].get<std::string>()),
+              width, 0);
+}
+
+std::string SuiteText(const ordered_json& suite, int width) {
+  return SuiteLine(suite, width) +
+         Wrap(fmt::format("    {} realizations of {}\n    identifiers: {}\n",
+                          suite["realizations"].get<int>(),
+                          suite["variants"] == 1
+                              ? std::string("one scenario")
+                              : fmt::format("each of {} scenarios", suite["variants"].get<int>()),
+                          fmt::join(suite["identifiers"].get<std::vector<std::string>>(), ", ")),
+              width, 2) +
+         fmt::format("    {}\n", suite["file"].get<std::string>());
 }
 
 }  // namespace warmjoint::inline tools

@@ -15,6 +15,8 @@
 #include "models/foundation/output_failed.h"
 #include "models/foundation/printable.h"
 #include "tools/cli/program.h"
+#include "tools/terminal/page.h"
+#include "tools/terminal/wrap.h"
 
 namespace {
 
@@ -29,10 +31,14 @@ void HoldStandardFiles() {
   }
 }
 
-/// One line on stderr, whatever the message holds; where that is full too there is nobody to tell.
+/// One line on stderr, whatever the message holds, on a terminal as many as it needs; where that is full
+/// too there is nobody to tell.
 void Tell(const char* kind, const std::string& message) {
-  const std::string line = fmt::format("{}: {}\n", kind, warmjoint::Printable(message));
-  std::fputs(line.c_str(), stderr);
+  const warmjoint::Page page = warmjoint::PageOf(stderr);
+  const std::string line =
+      fmt::format("{}: {}\n", warmjoint::Paint(kind, warmjoint::Colour::red, page),
+                  warmjoint::Printable(message));
+  std::fputs(page.terminal ? warmjoint::Wrap(line, page.width).c_str() : line.c_str(), stderr);
 }
 
 ExitStatus Run(int argc, char** argv) {

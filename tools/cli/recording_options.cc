@@ -1,44 +1,54 @@
 #include "tools/cli/recording_options.h"
 
+#include <limits>
+
+#include "tools/parser/choice.h"
+
 namespace warmjoint::inline tools {
 
 void AddRecordingOptions(CLI::App& parser, RecordingArguments& arguments) {
   parser
       .add_option("RECORDING", arguments.recordings,
                   "CSV or HDF5 file; several of one joint, each from a cold start")
+      ->type_name("RECORDING")
       ->required();
   AddLayoutOptions(parser, arguments);
 }
 
 void AddLayoutOptions(CLI::App& parser, RecordingArguments& arguments) {
   parser.add_option("--map", arguments.map, "columns of the file, as torque=force_N,time=t_s")
+      ->type_name("COLUMN=NAME")
       ->delimiter(',')
       ->take_all();
   parser.add_option("--unit", arguments.unit, "units of the file, as position=deg,time=ms")
+      ->type_name("COLUMN=UNIT")
       ->delimiter(',')
       ->take_all();
   parser
       .add_option("--scale", arguments.scale,
                   "factors on the columns of the file, as torque=-1,velocity=0.5")
+      ->type_name("COLUMN=NUMBER")
       ->delimiter(',')
       ->take_all();
-  parser.add_option(
-      "--wrap", arguments.wrap,
-      "range after which the position starts again, in its unit; a turn is undone anyway");
-  parser.add_option("--joint", arguments.joint, "rotary or linear")
-      ->check(CLI::IsMember({"rotary", "linear"}))
-      ->capture_default_str();
+  parser
+      .add_option(
+          "--wrap", arguments.wrap,
+          "range after which the position starts again, in its unit; a turn is undone anyway")
+      ->type_name("NUMBER");
+  AddChoice(
+      parser, "--joint", arguments.joint, {"rotary", "linear"}, "kind of the joint",
+      {{"prismatic", "linear"}, {"revolute", "rotary"}, {"hinge", "rotary"}, {"slide", "linear"}});
   parser.add_option("--gear", arguments.gear, "motor turns for each joint turn")
+      ->type_name("NUMBER")
       ->capture_default_str();
 }
 
 void AddHoldOptions(CLI::App& parser, HoldOptions& holds) {
-  parser.add_option("--trim", holds.trim, "s to leave out at each end of a constant speed")
-      ->check(CLI::NonNegativeNumber);
-  parser
-      .add_option("--shortest-hold", holds.shortest,
-                  "s; a constant speed that lasts less is left out")
-      ->check(CLI::NonNegativeNumber);
+  const Bounds seconds{0, std::numeric_limits<double>::infinity(), "of 0 or more, s"};
+  AddNumber(parser, "--trim", holds.trim, seconds,
+            "s to leave out at each end of a constant speed");
+  AddNumber(parser, "--shortest-hold", holds.shortest, seconds,
+            "s; a constant speed that lasts less is left out");
 }
 
 }  // namespace warmjoint::inline tools

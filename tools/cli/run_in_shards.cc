@@ -148,7 +148,8 @@ void AddShardOptions(CLI::App& parser, RunArguments& arguments) {
   AddWholeNumber(parser, "--shards", arguments.shards, 1, kMostShards,
                  "number of shards; default: of about 15 minutes each, by a timed probe")
       ->group("In shards");
-  parser.add_option("--sbatch", arguments.sbatch, "key=value for sbatch; repeatable")
+  parser.add_option("--sbatch", arguments.sbatch, "key=value for sbatch")
+      ->type_name("TEXT")
       ->group("In shards");
   AddWholeNumber(parser, "--array-parallelism", arguments.array_parallelism, 1, kMostShards,
                  "tasks at a time")

@@ -8,7 +8,7 @@
 #include "scenarios/parse_suite.h"
 #include "tools/cluster/run_layout.h"
 #include "tools/cluster/shard_state.h"
-#include "tools/suite/progress_line.h"
+#include "tools/terminal/progress_line.h"
 
 namespace warmjoint::inline tools {
 namespace fs = std::filesystem;

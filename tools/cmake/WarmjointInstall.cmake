@@ -24,6 +24,8 @@ endforeach()
 if(WARMJOINT_PROGRAM)
   set_target_properties(warmjoint PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
   install(TARGETS warmjoint RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+  # manual pages and completion
+  install(DIRECTORY ${PROJECT_BINARY_DIR}/share/ DESTINATION ${CMAKE_INSTALL_DATADIR} COMPONENT program)
 endif()
 set_target_properties(warmjoint_friction PROPERTIES INSTALL_RPATH "$ORIGIN")
 install(TARGETS warmjoint_friction LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT program)
@@ -34,7 +36,8 @@ install(DIRECTORY ${MuJoCo_INCLUDE_DIR}/mujoco DESTINATION ${CMAKE_INSTALL_INCLU
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/models/robots DESTINATION ${CMAKE_INSTALL_DATADIR}/warmjoint/models
   COMPONENT program
   FILES_MATCHING PATTERN "*.xml" PATTERN "*.urdf" PATTERN "*.json" PATTERN "README.md")
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios/suites DESTINATION ${CMAKE_INSTALL_DATADIR}/warmjoint/scenarios
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios/suites ${PROJECT_SOURCE_DIR}/scenarios/templates
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/warmjoint/scenarios
   COMPONENT program)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/docs/schemas DESTINATION ${CMAKE_INSTALL_DATADIR}/warmjoint COMPONENT program)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/warmjoint COMPONENT program)

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "models/foundation/bad_input.h"
+#include "models/foundation/excerpt.h"
 #include "scenarios/yaml_value.h"
 
 namespace warmjoint::inline tools {
@@ -62,6 +63,16 @@ void RefuseDifferentVersions(const RunDescription& stored, const RunDescription&
   Refuse(place, "was made with{}, which does not mix with this; run in another directory", made);
 }
 
+/// Refuses a suite of another name, which says more than all that differs.
+void RefuseDifferentSuite(const std::string& stored, const std::string& asked, const Place& place) {
+  std::map<std::string, std::string> before, after;
+  Flatten(YamlValue::Parse(stored, "the stored suite").node(), "", before);
+  Flatten(YamlValue::Parse(asked, "the suite").node(), "", after);
+  if (before["name"] == after["name"]) return;
+  Refuse(place, "was made by suite {}, and this is {}; choose another directory",
+         Excerpt(before["name"]), Excerpt(after["name"]));
+}
+
 }  // namespace
 
 void RefuseDifferentRun(const RunDescription& stored, const RunDescription& asked,
@@ -74,7 +85,8 @@ void RefuseDifferentRun(const RunDescription& stored, const RunDescription& aske
     Refuse(place, "holds no suite that can be read ({})", unreadable.what());
   }
   if (differences.empty()) return;
-  const size_t shown = std::min<size_t>(differences.size(), 5);
+  RefuseDifferentSuite(stored.suite_yaml, asked.suite_yaml, place);
+  const size_t shown = std::min<size_t>(differences.size(), 2);
   const std::string more =
       differences.size() > shown ? fmt::format("; and {} more", differences.size() - shown) : "";
   differences.resize(shown);

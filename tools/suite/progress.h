@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "tools/suite/progress_line.h"
+#include "tools/terminal/progress_line.h"
 
 namespace warmjoint::inline tools {
 

@@ -89,7 +89,7 @@ TEST(Leaderboard, NamesParametersThatCountAsZero) {
   const auto row = std::find_if(board.rows.begin(), board.rows.end(),
                                 [](const LeaderboardRow& one) { return one.identifier == "a"; });
   EXPECT_THAT(row->not_estimated, ElementsAre("coulomb"));
-  EXPECT_THAT(BoardToText(board), HasSubstr("a does not estimate coulomb, which count as 0"));
+  EXPECT_THAT(BoardToText(board, 80), HasSubstr("a does not estimate coulomb, which count as 0"));
 }
 
 TEST(Leaderboard, JsonHasTheKeysOfTheContract) {
@@ -124,7 +124,7 @@ TEST(Leaderboard, JsonSaysNullForWhatDoesNotExist) {
 
 TEST(Leaderboard, TextAnswersFirst) {
   const std::string text =
-      BoardToText(MakeLeaderboard(TwoIdentifiers(), AFailsTwiceAndBIsOftenWorse()));
+      BoardToText(MakeLeaderboard(TwoIdentifiers(), AFailsTwiceAndBIsOftenWorse()), 80);
   EXPECT_THAT(text, HasSubstr("little: Who is best?\nb is best: its median NPE is 7.50 %"));
   EXPECT_THAT(text, HasSubstr("2 of 4"));
   EXPECT_THAT(text, HasSubstr("Cramer-Rao bound"));

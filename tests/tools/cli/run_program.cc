@@ -1,10 +1,13 @@
 #include "tests/tools/cli/run_program.h"
 
 #include <fcntl.h>
+#include <pty.h>
 #include <signal.h>
+#include <stdlib.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <chrono>
 #include <thread>
 
@@ -15,21 +18,28 @@
 namespace warmjoint {
 namespace {
 
-/// Starts the program with its outputs in files; returns its process number.
-pid_t Start(const std::vector<std::string>& arguments, const std::string& out,
-            const std::string& err) {
-  static const std::string program = test::BuildFolder() / "warmjoint";
-  std::vector<const char*> argv{program.c_str()};
-  for (const std::string& argument : arguments) argv.push_back(argument.c_str());
+/// In the child: becomes the command.
+[[noreturn]] void Become(const std::vector<std::string>& words, const Surroundings& where) {
+  std::vector<const char*> argv;
+  for (const std::string& word : words) argv.push_back(word.c_str());
   argv.push_back(nullptr);
+  for (const char* name : {"COLUMNS", "NO_COLOR"}) unsetenv(name);
+  for (const auto& [name, value] : where.environment) setenv(name.c_str(), value.c_str(), 1);
+  if (where.folder.empty() || chdir(where.folder.c_str()) == 0) {
+    execvp(argv[0], const_cast<char* const*>(argv.data()));
+  }
+  _exit(127);
+}
 
+/// Starts a command with its outputs in files; returns its process number.
+pid_t Start(const std::vector<std::string>& words, const std::string& out, const std::string& err,
+            const Surroundings& where) {
   const pid_t child = fork();
   if (child != 0) return child;
   const int flags = O_WRONLY | O_CREAT | O_TRUNC;
   dup2(open(out.c_str(), flags, 0600), STDOUT_FILENO);
   dup2(open(err.c_str(), flags, 0600), STDERR_FILENO);
-  execv(program.c_str(), const_cast<char* const*>(argv.data()));
-  _exit(127);
+  Become(words, where);
 }
 
 int Wait(pid_t child) {
@@ -38,18 +48,47 @@ int Wait(pid_t child) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
+std::vector<std::string> WithProgram(const std::vector<std::string>& arguments) {
+  std::vector<std::string> words{test::BuildFolder() / "warmjoint"};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return words;
+}
+
 }  // namespace
 
-Answer RunWarmjoint(const std::vector<std::string>& arguments) {
+Answer RunCommandLine(const std::vector<std::string>& words, const Surroundings& where) {
   const ScratchDirectory scratch;
   const std::string out = scratch.path() / "out";
   const std::string err = scratch.path() / "err";
-  const int status = Wait(Start(arguments, out, err));
+  const int status = Wait(Start(words, out, err, where));
   return {status, ReadWholeFile(out), ReadWholeFile(err)};
 }
 
+Answer RunWarmjoint(const std::vector<std::string>& arguments, const Surroundings& where) {
+  return RunCommandLine(WithProgram(arguments), where);
+}
+
+Answer RunOnTerminal(const std::vector<std::string>& arguments, int columns,
+                     const Surroundings& where) {
+  const std::vector<std::string> words = WithProgram(arguments);
+  const winsize size{24, static_cast<unsigned short>(columns), 0, 0};
+  int terminal = -1;
+  const pid_t child = forkpty(&terminal, nullptr, nullptr, &size);
+  if (child == 0) Become(words, where);
+
+  // all that is shown, until the child has closed its side
+  Answer answer;
+  std::array<char, 4096> block;
+  for (ssize_t n; (n = read(terminal, block.data(), block.size())) > 0;) {
+    answer.out.append(block.data(), static_cast<std::size_t>(n));
+  }
+  close(terminal);
+  answer.status = Wait(child);
+  return answer;
+}
+
 int RunAndSignal(const std::vector<std::string>& arguments, int signal, double delay) {
-  const pid_t child = Start(arguments, "/dev/null", "/dev/null");
+  const pid_t child = Start(WithProgram(arguments), "/dev/null", "/dev/null", {});
   std::this_thread::sleep_for(std::chrono::duration<double>(delay));
   kill(child, signal);
   return Wait(child);

@@ -1,6 +1,8 @@
 // The program as its users meet it.
 #pragma once
 
+#include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -13,8 +15,23 @@ struct Answer {
   std::string err;  // stderr
 };
 
+/// Where the program runs. The variables that tell it how to lay out text (COLUMNS, NO_COLOR) are unset
+/// unless they are given here.
+struct Surroundings {
+  std::filesystem::path folder;                    // empty: that of the test
+  std::map<std::string, std::string> environment;  // more variables
+};
+
 /// Runs build/warmjoint with the arguments to its end.
-Answer RunWarmjoint(const std::vector<std::string>& arguments);
+Answer RunWarmjoint(const std::vector<std::string>& arguments, const Surroundings& where = {});
+
+/// Runs any command, given by its words, the first of which is found in PATH.
+Answer RunCommandLine(const std::vector<std::string>& words, const Surroundings& where = {});
+
+/// Runs build/warmjoint on a terminal of so many columns; `out` holds all that it showed there, stdout and
+/// stderr in turn, and `err` nothing.
+Answer RunOnTerminal(const std::vector<std::string>& arguments, int columns,
+                     const Surroundings& where = {});
 
 /// Starts it, sends the signal after `delay` seconds, and returns 128 + signal, or the exit status
 /// of a run that was quicker.

@@ -109,7 +109,10 @@ std::optional<Figure> IntervalCoverage(const RunView& run) {
 
   return SinglePlot(
       {"coverage", "Do 95 % intervals hold the truth?",
-       RunSubtitle(run, "dots are shares, lines what their number leaves open"), Finding(rows)},
+       RunSubtitle(
+           run,
+           "dots: share of intervals that contain the truth; bars: 95 % interval of that share"),
+       Finding(rows)},
       plot, 620, 420);
 }
 

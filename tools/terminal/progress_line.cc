@@ -1,10 +1,11 @@
-#include "tools/suite/progress_line.h"
+#include "tools/terminal/progress_line.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstdio>
+
+#include "tools/terminal/wrap.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -20,11 +21,9 @@ void Put(const std::string& text) {
 
 }  // namespace
 
-ProgressLine::ProgressLine() : terminal_(isatty(STDERR_FILENO) == 1) {}
+ProgressLine::ProgressLine() = default;
 
-ProgressLine::~ProgressLine() {
-  if (terminal_ && drawn_) Put("\r\033[K");
-}
+ProgressLine::~ProgressLine() { Clear(); }
 
 bool ProgressLine::Due() const {
   return Clock::now() - last_ >= (terminal_ ? kOnTerminal : kElsewhere);
@@ -33,7 +32,13 @@ bool ProgressLine::Due() const {
 void ProgressLine::Show(const std::string& words) {
   last_ = Clock::now();
   drawn_ = true;
-  Put(terminal_ ? "\r\033[K" + words : words + "\n");
+  // the last column stays free: some terminals go to the next row once it is filled
+  Put(terminal_ ? "\r\033[K" + CutToWidth(words, PageOf(stderr).width - 1) : words + "\n");
+}
+
+void ProgressLine::Clear() {
+  if (terminal_ && drawn_) Put("\r\033[K");
+  drawn_ = false;
 }
 
 double ProgressLine::seconds() const {

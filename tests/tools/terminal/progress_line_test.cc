@@ -1,4 +1,4 @@
-#include "tools/suite/progress_line.h"
+#include "tools/terminal/progress_line.h"
 
 #include <gtest/gtest.h>
 

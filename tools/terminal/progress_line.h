@@ -4,10 +4,12 @@
 #include <chrono>
 #include <string>
 
+#include "tools/terminal/page.h"
+
 namespace warmjoint::inline tools {
 
-/// On a terminal one line, drawn anew at most ten times a second and gone at the end; into a pipe or a file a line
-/// every ten seconds, so that a log tells that the job lives. One thread at a time.
+/// On a terminal one line, cut to its width, drawn anew at most ten times a second and gone at the end; into a pipe or
+/// a file a line every ten seconds, so that a log tells that the job lives. One thread at a time.
 class ProgressLine {
  public:
   ProgressLine();
@@ -18,13 +20,15 @@ class ProgressLine {
   /// Whether it is time for another line.
   bool Due() const;
   void Show(const std::string& words);
+  /// Takes the line off a terminal, so that other words can stand there.
+  void Clear();
   /// s since the beginning.
   double seconds() const;
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  bool terminal_;
+  bool terminal_ = PageOf(stderr).terminal;
   bool drawn_ = false;
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_ = start_;

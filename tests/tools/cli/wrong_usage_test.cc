@@ -1,0 +1,135 @@
+// Wrong usages: each is told in one or two lines with the nearest right thing, and leaves nothing behind.
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <set>
+
+#include "models/foundation/atomic_file.h"
+#include "tests/tools/cli/recording_file.h"
+#include "tests/tools/cli/run_program.h"
+#include "tests/tools/cli/table_one_yaml.h"
+#include "tests/tools/scratch_directory.h"
+#include "tools/terminal/wrap.h"
+
+namespace warmjoint {
+namespace {
+namespace fs = std::filesystem;
+
+struct WrongUsage {
+  std::vector<std::string> arguments;
+  std::string right;  // what the answer must name
+};
+
+const std::vector<WrongUsage>& WrongUsages() {
+  static const std::vector<WrongUsage> usages{
+      // commands
+      {{}, "identify"},
+      {{"idntify", "log.csv"}, "'identify'"},
+      {{"comapre", "R"}, "'compare'"},
+      {{"--jobs", "4", "run", "suite.yaml"}, "warmjoint run --jobs"},
+      {{"help", "idntify"}, "'identify'"},
+      {{"man", "runn"}, "'run'"},
+      {{"completion", "fish"}, "bash, zsh"},
+      // list
+      {{"list"}, "laws"},
+      {{"list", "law"}, "'laws'"},
+      {{"list", "laws", "assymetric"}, "'asymmetric'"},
+      {{"list", "identifiers", "energy-mll"}, "'energy-ml'"},
+      {{"list", "robots", "--format", "yaml"}, "text, json, names"},
+      // recordings
+      {{"check"}, "RECORDING is required"},
+      {{"check", "lgo.csv"}, "lgo.csv"},
+      {{"check", "log.csv", "--map", "torqe=torque"}, "'torque'"},
+      {{"check", "log.csv", "--map", "torque=torqe"}, "torque"},
+      {{"check", "log.csv", "--map", "torque"}, "key=value"},
+      {{"check", "log.csv", "--unit", "position=degree"}, "'deg'"},
+      {{"check", "log.csv", "--unit", "torque=Nmm"}, "'Nm'"},
+      {{"check", "log.csv", "--joint", "prismatic"}, "'linear'"},
+      {{"check", "log.csv", "--joint", "rotatory"}, "'rotary'"},
+      {{"check", "log.csv", "--trim", "-1"}, "0 or more"},
+      {{"check", "log.csv", "--gear", "ten"}, "number"},
+      {{"check", "log.csv", "--gear"}, "NUMBER"},
+      {{"check", "log.csv", "--identifier", "auto"}, "identify, run"},
+      {{"check", "suite.yaml"}, "time"},
+      // identify
+      {{"identify", "log.csv", "--identifier", "energyml"}, "'energy-ml'"},
+      {{"identify", "log.csv", "--set", "lw=coulomb"}, "'law'"},
+      {{"identify", "log.csv", "--set", "law=asymetric"}, "'asymmetric'"},
+      {{"identify", "log.csv", "--gravity", "sin"}, "'sincos'"},
+      {{"identify", "log.csv", "--start", "warm"}, "'unknown'"},
+      {{"identify", "log.csv", "--holdout", "2"}, "below 1"},
+      {{"identify", "log.csv", "--relevance", "5"}, "at most 1"},
+      {{"identify", "log.csv", "-o", "no/such/e.json"}, "no/such"},
+      {{"identify", "log.csv", "-o", "log.csv"}, "another output"},
+      {{"identify", "log.csv", "--format", "yaml"}, "text, json"},
+      {{"identify", "log.csv", "--explian"}, "'--explain'"},
+      // scenarios
+      {{"simulate", "-o", "d"}, "SCENARIO"},
+      {{"simulate", "scenari.yaml", "-o", "d"}, "scenari.yaml"},
+      {{"simulate", "scenario.yaml"}, "--output is required"},
+      {{"simulate", "scenario.yaml", "-o", "d", "--set", "noise.torqe=1"}, "'torque'"},
+      {{"simulate", "scenario.yaml", "-o", "d", "--set", "noise.torque=loud"}, "number"},
+      {{"simulate", "scenario.yaml", "-o", "d", "--set", "plant=mujocco"}, "mujoco"},
+      {{"simulate", "scenario.yaml", "-o", "d", "--seed", "-1"}, "from 0"},
+      {{"simulate", "scenario.yaml", "-o", "d", "--format", "hdf5"}, "'h5'"},
+      // suites
+      {{"run", "tabel1", "-o", "d"}, "'table1'"},
+      {{"run", "table1.yml", "-o", "d"}, "'table1'"},
+      {{"run", "suite.yaml"}, "--output is required"},
+      {{"run", "suite.yaml", "-o", "d", "--jobs", "0"}, "from 1 to 1024"},
+      {{"run", "suite.yaml", "-o", "d", "--realizations", "1.5"}, "whole number"},
+      {{"run", "suite.yaml", "-o", "d", "--identifier", "nominalls"}, "'nominal-ls'"},
+      {{"run", "suite.yaml", "-o", "d", "--shard", "3/2"}, "3/2"},
+      {{"run", "suite.yaml", "-o", "d", "--slurm", "--local-shards", "2"}, "not both"},
+      {{"compare", "nothing"}, "no run directory"},
+      {{"compare", "nothing", "--format", "markdwon"}, "'markdown'"},
+      {{"report", "log.csv"}, "log.csv"},
+      {{"merge", "a", "b"}, "-o"},
+      {{"status", "nothing"}, "nothing"},
+      {{"plot", "nothing", "-o", "d"}, "nothing"},
+      // robots
+      {{"attach", "pendulm", "--joint", "hinge=f.json", "-o", "d.xml"}, "'pendulum'"},
+      {{"attach", "pendulum", "--joint", "hinge", "-o", "d.xml"}, "NAME=FILE"},
+      {{"attach", "pendulum", "--joint", "hinge=f.json", "-o", "d.xml", "--as", "pasive"},
+       "'passive'"},
+      // templates
+      {{"new", "scenari", "mine"}, "'scenario'"},
+      {{"new", "scenario", "a/b"}, "letters"},
+      {{"new", "scenario", "scenario"}, "exists"},
+  };
+  return usages;
+}
+
+std::set<std::string> Holdings(const fs::path& folder) {
+  std::set<std::string> holdings;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    std::string bytes = entry.is_regular_file() ? ReadWholeFile(entry.path()) : "";
+    holdings.insert(entry.path().string() + ":" + bytes);
+  }
+  return holdings;
+}
+
+TEST(WrongUsage, IsToldBrieflyWithTheNearestRightThing) {
+  ASSERT_GE(WrongUsages().size(), 40u);
+  const ScratchDirectory scratch;
+  WriteRecordingFile(scratch.path() / "log.csv", 200,
+                     [](int i) { return (i / 20 % 2 ? -1 : 1) * (i / 40 % 2 ? 0.5 : 1.0); });
+  WriteWholeFile(scratch.path() / "scenario.yaml", TableOneYaml(60));
+  WriteWholeFile(scratch.path() / "suite.yaml", TableOneSuite(1, "  - {name: nominal-ls}\n"));
+  const std::set<std::string> before = Holdings(scratch.path());
+
+  for (const WrongUsage& usage : WrongUsages()) {
+    std::string typed = "warmjoint";
+    for (const std::string& argument : usage.arguments) typed += " " + argument;
+    const Answer answer = RunWarmjoint(usage.arguments, {scratch.path(), {}});
+    EXPECT_EQ(answer.status, 2) << typed;
+    EXPECT_EQ(answer.out, "") << typed;
+    EXPECT_THAT(answer.err, testing::HasSubstr(usage.right)) << typed;
+    // two lines of 80 columns
+    EXPECT_LE(Lines(Wrap(answer.err, 80)).size(), 2u) << typed << "\n" << answer.err;
+    EXPECT_EQ(Holdings(scratch.path()), before) << typed;
+  }
+}
+
+}  // namespace
+}  // namespace warmjoint

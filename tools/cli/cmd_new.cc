@@ -1,0 +1,91 @@
+// warmjoint new scenario|suite|identifier NAME: a commented file to begin with.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <memory>
+
+#include "models/foundation/atomic_file.h"
+#include "models/foundation/bad_input.h"
+#include "models/foundation/excerpt.h"
+#include "models/robots/robot_folder.h"
+#include "tools/cli/command.h"
+#include "tools/parser/choice.h"
+#include "tools/terminal/say.h"
+
+namespace warmjoint::inline tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What can be begun, and the command that uses it.
+struct Template {
+  const char* kind;
+  const char* file;  // in scenarios/templates
+  const char* next;  // NAME stands for what the user named
+};
+
+constexpr Template kTemplates[]{
+    {"scenario", "scenario.yaml", "warmjoint simulate NAME.yaml -o NAME"},
+    {"suite", "suite.yaml", "warmjoint run NAME.yaml -o NAME"},
+    {"identifier", "identifier.py",
+     "warmjoint run table1 -o NAME --realizations 5 --identifier 'NAME=python3 NAME.py {recording} "
+     "{estimate}'"},
+};
+
+struct NewArguments {
+  std::string kind;
+  std::string name;
+};
+
+/// The text with every "NAME" replaced.
+std::string Named(std::string text, const std::string& name) {
+  constexpr std::string_view mark = "NAME";
+  for (size_t at = text.find(mark); at != std::string::npos;
+       at = text.find(mark, at + name.size())) {
+    text.replace(at, mark.size(), name);
+  }
+  return text;
+}
+
+/// Names become files, labels of rows and words of a shell: letters, digits, - and _ do for all.
+void CheckName(const std::string& name) {
+  const bool plain = std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return c < 0x80 && (std::isalnum(c) || c == '-' || c == '_');
+  });
+  if (plain && !name.empty() && name.front() != '-') return;
+  Refuse({"NAME"}, "is '{}'; it must be of letters, digits, - and _, without folder and extension",
+         Excerpt(name));
+}
+
+ExitStatus MakeNew(const NewArguments& arguments) {
+  CheckName(arguments.name);
+  const auto chosen = std::find_if(std::begin(kTemplates), std::end(kTemplates),
+                                   [&](const Template& one) { return one.kind == arguments.kind; });
+  const fs::path source = DataFolder() / "scenarios" / "templates" / chosen->file;
+  const fs::path target = arguments.name + source.extension().string();
+  if (fs::exists(fs::symlink_status(target))) {
+    Refuse({target.string()}, "exists already; choose another name");
+  }
+  WriteWholeFile(target, Named(ReadWholeFile(source), arguments.name));
+  Say(stdout, "{}: try it as it stands:\n  {}\n", target.string(),
+      Named(chosen->next, arguments.name));
+  return ExitStatus::done;
+}
+
+}  // namespace
+
+Command AddNewCommand(CLI::App& program) {
+  auto arguments = std::make_shared<NewArguments>();
+  CLI::App* parser =
+      program.add_subcommand("new", "A commented scenario, suite or identifier to begin with");
+  std::vector<std::string> kinds;
+  for (const Template& one : kTemplates) kinds.emplace_back(one.kind);
+  AddChoice(*parser, "KIND", arguments->kind, kinds, "what to begin")->required();
+  parser->add_option("NAME", arguments->name, "of the file, without extension; it must not exist")
+      ->type_name("TEXT")
+      ->required();
+  return {parser, [arguments] { return MakeNew(*arguments); }};
+}
+
+}  // namespace warmjoint::inline tools
