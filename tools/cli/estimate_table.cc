@@ -75,14 +75,33 @@ void AddClauses(std::string_view text, std::vector<std::string>& sentences) {
   }
 }
 
+std::vector<std::string> Clauses(std::string_view text) {
+  std::vector<std::string> sentences;
+  AddClauses(text, sentences);
+  return sentences;
+}
+
+/// The remarks that count most: what was found, what would help where the answer failed, and what
+/// must be known before numbers that pass are used.
+std::vector<std::string> Brief(const Estimate& estimate) {
+  const std::vector<std::string> message = Clauses(estimate.message);
+  std::vector<std::string> brief;
+  if (!message.empty()) brief.push_back(message.front());
+  if (estimate.status != Status::ok && message.size() > 1) brief.push_back(message.back());
+  for (const std::string& warning : estimate.warnings) {
+    if (brief.size() < kBriefly) brief.push_back(AsSentence(warning));
+  }
+  return brief;
+}
+
 std::string RemarksText(const Estimate& estimate, int width, Detail detail) {
-  const std::vector<std::string> remarks = Remarks(estimate);
-  const std::size_t shown =
-      detail == Detail::full ? remarks.size() : std::min(kBriefly, remarks.size());
+  const std::vector<std::string> all = Remarks(estimate);
+  const std::vector<std::string> shown = detail == Detail::full ? all : Brief(estimate);
   std::string text;
-  for (std::size_t i = 0; i < shown; ++i) text += fmt::format("  {}\n", remarks[i]);
-  if (shown < remarks.size()) {
-    text += fmt::format("  {} more remarks: --explain\n", remarks.size() - shown);
+  for (const std::string& remark : shown) text += fmt::format("  {}\n", remark);
+  if (shown.size() < all.size()) {
+    const std::size_t more = all.size() - shown.size();
+    text += fmt::format("  --explain tells {} more remark{}.\n", more, more == 1 ? "" : "s");
   }
   return Wrap(text, width, 2);
 }
@@ -100,24 +119,26 @@ Table DiagnosticTable(const Estimate& estimate) {
   return table;
 }
 
-Table AssumptionTable(const Estimate& estimate) {
-  Table table{{"assumption", "would move", "if"}, {}};
+/// What was assumed, and what each parameter would do were it off by that much.
+std::string AssumptionsText(const Estimate& estimate, int width) {
+  std::string text;
   for (const Assumption& one : estimate.assumptions) {
     std::vector<std::string> moves;
-    for (const auto& [name, change] : one.moves)
+    for (const auto& [name, change] : one.moves) {
       moves.push_back(fmt::format("{} by {:.2g}", name, change));
-    table.rows.push_back({one.name, fmt::format("{}", fmt::join(moves, ", ")), one.meaning});
+    }
+    text +=
+        fmt::format("  {}: {}; else it moves {}\n", one.name, one.meaning, fmt::join(moves, ", "));
   }
-  return table;
+  return text.empty() ? "" : "\nassumptions\n" + Wrap(text, width, 2);
 }
 
 /// Every test for lack of fit and every assumption.
 std::string Explanation(const Estimate& estimate, int width) {
+  const Table tests = DiagnosticTable(estimate);
   std::string text;
-  for (const Table& table : {DiagnosticTable(estimate), AssumptionTable(estimate)}) {
-    if (!table.rows.empty()) text += "\n" + TableToText(table, table.header.size(), width);
-  }
-  return text;
+  if (!tests.rows.empty()) text = "\n" + TableToText(tests, tests.header.size(), width);
+  return text + AssumptionsText(estimate, width);
 }
 
 Colour ColourOf(Status status) {
@@ -128,8 +149,7 @@ Colour ColourOf(Status status) {
 }  // namespace
 
 std::vector<std::string> Remarks(const Estimate& estimate) {
-  std::vector<std::string> remarks;
-  AddClauses(estimate.message, remarks);
+  std::vector<std::string> remarks = Clauses(estimate.message);
   for (const std::string& warning : estimate.warnings) remarks.push_back(AsSentence(warning));
   return remarks;
 }

@@ -42,10 +42,10 @@ ExitStatus RunProgram(int argc, const char* const* argv) {
     return HelpOf(parser);
   });
   program.set_help_flag("-h,--help", "this help");
-  program.footer(Footer());
   program.set_version_flag("-V,--version", "warmjoint " WARMJOINT_VERSION, "the program's version");
   program.require_subcommand(1);
   const std::vector<Command> commands = AddCommands(program);
+  program.footer(Footer());  // behind the subcommands, which would take it over
 
   try {
     program.parse(argc, argv);

@@ -13,7 +13,7 @@ namespace {
 constexpr std::chrono::milliseconds kPatience{1000};  // before the first line
 constexpr std::chrono::milliseconds kStep{200};
 
-extern "C" void OnInterrupt(int signal) {
+void TellInterrupt(int signal) {
   constexpr std::string_view words = "\ninterrupted: what is not finished is not written\n";
   [[maybe_unused]] const auto written = write(STDERR_FILENO, words.data(), words.size());
   ::signal(signal, SIG_DFL);
@@ -23,7 +23,7 @@ extern "C" void OnInterrupt(int signal) {
 }  // namespace
 
 Activity::Activity(std::string words) : words_(std::move(words)) {
-  earlier_ = signal(SIGINT, OnInterrupt);
+  earlier_ = signal(SIGINT, TellInterrupt);
   if (earlier_ == SIG_IGN) signal(SIGINT, SIG_IGN);
   thread_ = std::jthread([this](const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
