@@ -75,8 +75,8 @@ std::string LikelyName(const RecordingColumn& column, const std::vector<std::str
            "example time,position,velocity,torque",
            fmt::join(lacking, " and no "), Excerpt(fmt::format("{}", fmt::join(names, ","))));
   }
-  Refuse(place, "has no column {}; it has: {}. Say which it is, for example --map {}",
-         fmt::join(lacking, " and no "), ExcerptOfList(names), fmt::join(remedy, ","));
+  Refuse(place, "has no column {}; it has: {}. Name them: --map {}", fmt::join(lacking, " and no "),
+         ExcerptOfList(names), fmt::join(remedy, ","));
 }
 
 /// Index of `theirs`, or the number of names where it is not there.

@@ -48,6 +48,10 @@ std::vector<std::string> CommandsWith(const CommandNode& program, const std::str
     Refuse(place, "{} stands behind its command: warmjoint {} {}", option,
            others.size() == 1 ? others.front() : "COMMAND", option);
   }
+  if (command && Holds(OptionNames(*command), option)) {
+    Refuse({program.name}, "{0} stands behind its command: warmjoint {1} {0}", option,
+           command->name);
+  }
   if (command && !others.empty()) {
     Refuse(place, "there is no option '{}' here; it belongs to: {}", option,
            fmt::join(others, ", "));
@@ -82,6 +86,18 @@ std::optional<OptionNode> Named(const CommandNode& command, const std::string& c
   return std::nullopt;
 }
 
+/// Says what form a value must have that could not be read: "Could not convert: --gear = ten".
+void RefuseValue(const CommandNode& command, const Place& place, const CLI::ParseError& error) {
+  const std::string complaint = error.what();
+  const size_t begin = complaint.find("--"), equals = complaint.find(" = ");
+  if (error.get_name() != "ConversionError" || begin > equals || equals == std::string::npos)
+    return;
+  const std::optional<OptionNode> option = Named(command, complaint.substr(begin));
+  if (!option) return;
+  Refuse(place, "{} is '{}'; it must be a {}: {}", option->names.back(),
+         Excerpt(complaint.substr(equals + 3)), option->value, option->description);
+}
+
 /// Says what is missing, where something is.
 void RefuseMissing(const CommandNode& command, const Place& place, const CLI::ParseError& error) {
   const std::optional<OptionNode> option = Named(command, error.what());
@@ -103,13 +119,13 @@ void RefuseArguments(const CLI::App& program, const CLI::ParseError& error) {
   const std::vector<CLI::App*> chosen = program.get_subcommands();
   if (chosen.empty()) {
     RefuseLeftovers(program, tree, nullptr, {tree.name});
-    Refuse({tree.name}, "which command? One of: {}; see --help",
-           fmt::join(NamesOf(tree.commands), ", "));
+    Refuse({tree.name}, "give a command, for example check, identify, simulate or run; see --help");
   }
   const CommandNode command = ReadTree(*chosen.front());
   const Place place{FullName(command, tree.name)};
   RefuseLeftovers(program, tree, &command, place);
   RefuseMissing(command, place, error);
+  RefuseValue(command, place, error);
   Refuse(place, "{}; see --help", Excerpt(error.what(), kLongestComplaint));
 }
 

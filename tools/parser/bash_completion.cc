@@ -18,26 +18,19 @@ _warmjoint_files() {
 
 # completes a value of the kind $1; $key stands before its '='
 _warmjoint_value() {
+  local newline=$'\n'
   case $1 in
-    *'|'*) _warmjoint_words "${1//|/$'\n'}" ;;
+    *'|'*) _warmjoint_words "${1//|/$newline}" ;;
     FILE|SCENARIO|RECORDING|SOURCE|JOINT=FILE|SHARE/FILE) _warmjoint_files -f ;;
     DIR|RUN) _warmjoint_files -d ;;
-    SUITE) _warmjoint_words "$(_warmjoint_names suites)";
-_warmjoint_files - f;
-;
-    ROBOT|MODEL) _warmjoint_words "$(_warmjoint_names robots)";
-    _warmjoint_files - f;
-    ;
-    IDENTIFIER) _warmjoint_words "$(_warmjoint_names identifiers)" ;
-    ;
-    MEMBER) _warmjoint_words "$(_warmjoint_names "$first")" ;
-    ;
-    KEY=VALUE) [[ $key == law ]] && _warmjoint_words "$(_warmjoint_names laws)" ;
-    ;
-    COMMAND) _warmjoint_words "$_warmjoint_commands" ;
-    ;
-    esac
-    }
+    SUITE) _warmjoint_words "$(_warmjoint_names suites)"; _warmjoint_files -f ;;
+    ROBOT|MODEL) _warmjoint_words "$(_warmjoint_names robots)"; _warmjoint_files -f ;;
+    IDENTIFIER) _warmjoint_words "$(_warmjoint_names identifiers)" ;;
+    MEMBER) _warmjoint_words "$(_warmjoint_names "$first")" ;;
+    KEY=VALUE) [[ $key == law ]] && _warmjoint_words "$(_warmjoint_names laws)" ;;
+    COMMAND) _warmjoint_words "$_warmjoint_commands" ;;
+  esac
+}
 )sh";
 
 constexpr const char* kMain = R"sh(

@@ -9,12 +9,11 @@ namespace {
 constexpr const char* kFunctions = R"sh(
 _warmjoint_names() {
   local -a names
-  names=(${(f)" $($program list $1-- format names 2 > / dev / null) "})
-                                   compadd -
-                                   a names
+  names=(${(f)"$($program list $1 --format names 2>/dev/null)"})
+  compadd -a names
 }
 
-#completes a value of the kind $1
+# completes a value of the kind $1
 _warmjoint_value() {
   case $1 in
     FILE|SCENARIO|RECORDING|SOURCE|SHARE/FILE) _files ;;
@@ -88,9 +87,10 @@ std::string ZshCompletion(const CommandNode& program) {
   for (const CommandNode& command : program.commands) {
     text += fmt::format("    {})\n{}      ;;\n", command.name, Arguments(command));
   }
+  // a file of fpath is called at once, another script says what it is for
   return text +
-         "  esac\n}\n\n[[ $zsh_eval_context[-1] == loadautofunc ]] && _warmjoint \"$@\" || "
-         "compdef _warmjoint warmjoint\n";
+         "  esac\n}\n\nif [[ $zsh_eval_context[-1] == loadautofunc ]]; then\n  _warmjoint \"$@\"\n"
+         "else\n  compdef _warmjoint warmjoint\nfi\n";
 }
 
 }  // namespace warmjoint::inline tools

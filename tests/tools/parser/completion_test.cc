@@ -105,6 +105,13 @@ TEST(ZshCompletion, IsReadByZsh) {
                                             " $fpath); autoload -Uz compinit; compinit -u -D; "
                                             "print $_comps[warmjoint]"});
   EXPECT_EQ(loaded.out, "_warmjoint\n") << loaded.err;
+
+  // names come from the program
+  const Answer names = RunCommandLine({"zsh", "-f", "-c",
+                                       "compdef() {}; compadd() { print -l -- ${(P)2} }; program=" +
+                                           (test::BuildFolder() / "warmjoint").string() +
+                                           "; source " + script + "; _warmjoint_names laws"});
+  EXPECT_THAT(Lines(names.out), IsSupersetOf({"coulomb", "asymmetric"})) << names.err;
 }
 
 }  // namespace
