@@ -10,7 +10,7 @@ namespace warmjoint::inline tools {
 namespace {
 
 constexpr size_t kBetween = 2;     // blanks between columns
-constexpr size_t kNarrowest = 20;  // columns that broken words need at least
+constexpr size_t kNarrowest = 16;  // columns that broken words need at least
 
 size_t Width(const std::string& text) { return static_cast<size_t>(ShownWidth(text)); }
 

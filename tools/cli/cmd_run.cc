@@ -28,11 +28,11 @@ constexpr std::uint64_t kLargestSeed = std::numeric_limits<std::uint64_t>::max()
 /// never answered is not; of a shard, which may hold few realizations or none, only the whole says.
 ExitStatus Finish(RunStore& store, const Shard& shard) {
   const RunEnding ending = EndRun(store);
-  fmt::print("{}: {} results, {} of them failures; see: warmjoint compare {}\n",
-             store.directory().string(), ending.results, ending.failed, store.directory().string());
+  Say(stdout, "{}: {} results, {} of them failures; see: warmjoint compare {}\n",
+      store.directory().string(), ending.results, ending.failed, store.directory().string());
   for (const auto& [label, message] : ending.silent) {
-    fmt::print(stderr, "{} answered in no realization; the first time: {}\n", Excerpt(label),
-               Excerpt(message, kLongestComplaint));
+    Say(stderr, "{} answered in no realization; the first time: {}\n", Excerpt(label),
+        Excerpt(message, kLongestComplaint));
   }
   return ending.silent.empty() || !shard.IsWhole() ? ExitStatus::done : ExitStatus::no_answer;
 }

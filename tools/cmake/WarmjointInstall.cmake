@@ -14,7 +14,7 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/interface/warmjoint DESTINATION ${
   FILES_MATCHING PATTERN "*.h")
 
 # the rooms below it, to be linked: their headers stay here
-set(rooms models recording robots scenarios truth plugin sim identification score store board actions)
+set(rooms models recording robots scenarios truth plugin sim identification score store terminal board actions)
 foreach(room ${rooms})
   set_target_properties(warmjoint_${room} PROPERTIES EXPORT_NAME ${room})
   install(TARGETS warmjoint_${room} EXPORT warmjointTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})

@@ -39,10 +39,9 @@ TEST(Table, BreaksTheLastColumnOfWords) {
       {{"stribeck", "friction that falls with speed and then grows"}, {"coulomb", "a level"}}};
   EXPECT_EQ(TableToText(words, 2, 34),
             "law       meaning\n"
-            "---------------------------------\n"
-            "stribeck  friction that falls\n"
-            "          with speed and then\n"
-            "          grows\n"
+            "----------------------------------\n"
+            "stribeck  friction that falls with\n"
+            "          speed and then grows\n"
             "coulomb   a level\n");
 }
 
