@@ -51,8 +51,8 @@ ExitStatus Merge(const MergeArguments& arguments) {
   const MergedRun merged =
       MergeRuns(arguments.shards, arguments.output, {Overlap::refused, Access::read, &WriteTables});
   Say(stdout, "{}: {} results of {} shards, {} of {} realizations; see: warmjoint compare {}\n",
-             arguments.output, merged.results, arguments.shards.size(),
-             merged.units - merged.missing.size(), merged.units, arguments.output);
+      arguments.output, merged.results, arguments.shards.size(),
+      merged.units - merged.missing.size(), merged.units, arguments.output);
   if (!merged.missing.empty()) TellMissing(merged.missing);
   return ExitStatus::done;
 }
