@@ -86,7 +86,7 @@ class Program:
 
     def suite(self, **entries):
         text = "".join(f"{key}: {value}\n" for key, value in {**SUITE, **entries}.items())
-        return self(text, "run", "--jobs", "1")
+        return self(text, "run", "--jobs", "1", "--allow-commands")
 
     def keys(self, section):
         """The keys that the program knows of a map, from its refusal of a word."""
