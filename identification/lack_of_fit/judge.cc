@@ -143,8 +143,8 @@ void WeighStart(const Examination& examination, const Identifier& identifier,
           ? ""
           : fmt::format(" (its clock begins at {:.4g} s: had the joint moved before?)", begins);
   inference.warnings.push_back(fmt::format(
-      "the joint is taken to be cold at the start of the log{}: a tenth of the warmth that it "
-      "reaches would move {} by {:.2g} {}; {}",
+      "this assumes a cold start{}: had the joint been warmed up by a tenth, {} would change by "
+      "{:.2g} {}; {}",
       clock, parameter.name, examination.by_start[worst], parameter.unit,
       AgainstWarmStart(identifier, input)));
 }
@@ -172,10 +172,12 @@ void WeighFindings(const Examination& examination, const Identifier& identifier,
   const Index misled = Misled(examination, inference, judging);
   if (IsRelevant(explained, examination, judging) || misled >= 0) {
     const std::string moves =
-        misled < 0 ? ""
-                   : fmt::format("; with it {} would move by {:.3g}",
-                                 fit.parameters[examination.rows[static_cast<size_t>(misled)]].name,
-                                 examination.moves[misled]);
+        misled < 0
+            ? ""
+            : fmt::format("; modelling this would change {} by {:.3g} {}",
+                          fit.parameters[examination.rows[static_cast<size_t>(misled)]].name,
+                          examination.moves[misled],
+                          fit.parameters[examination.rows[static_cast<size_t>(misled)]].unit);
     inference.Void(Status::inadequate_model, fmt::format("{}{}; {}", depends, moves, remedy));
     return;
   }
@@ -183,7 +185,7 @@ void WeighFindings(const Examination& examination, const Identifier& identifier,
   // small: the intervals hold it
   const bool unknown = Drifts(examination) && fit.RowOf(Role::heat);
   inference.warnings.push_back(fmt::format(
-      "{}: the intervals reach as far as that moves them{}; {}", depends,
+      "{}: intervals were widened to cover this{}; {}", depends,
       unknown ? ", and the warming has none, since it may have taken up part of that" : "",
       remedy));
   if (Drifts(examination)) DropWarming(fit, inference);

@@ -61,7 +61,8 @@ void AddLaw(const Law& law, const MapFit& maps, const Measurements& measurements
   }
   if (imitated.empty()) return;
   fit.warnings.push_back(fmt::format(
-      "the kernels can imitate {}, which the prior alone tells apart", fmt::join(imitated, ", ")));
+      "the data cannot separate {} from the map; use total friction (bands), not {}",
+      fmt::join(imitated, ", "), imitated.size() == 1 ? "this number" : "these numbers"));
 }
 
 }  // namespace

@@ -42,15 +42,17 @@ std::string MotionLine(const MotionCheck& motion, std::string_view length_unit) 
       motion.upper, length_unit);
 }
 
-/// "positive    16 segments: 0.0421 (8), 0.0826 (4), 0.125 (4) m/s"
+/// "positive    16 segments, at 0.0421 (8), 0.0826 (4) and so on", "positive    1 segment, at 0.5 rad/s"
 std::string DirectionLine(const MotionCheck& motion, int sign, std::string_view unit) {
   constexpr std::size_t most = 12;  // speeds listed
   int segments = 0;
   std::vector<std::string> speeds;
+  std::string only;
   for (const SpeedLevel& level : motion.levels) {
     if (sign * level.velocity <= 0) continue;
     segments += level.segments;
     speeds.push_back(fmt::format("{:.3g} ({})", std::abs(level.velocity), level.segments));
+    only = fmt::format("{:.3g}", std::abs(level.velocity));
   }
   if (sign < 0) std::reverse(speeds.begin(), speeds.end());
 
@@ -61,7 +63,11 @@ std::string DirectionLine(const MotionCheck& motion, int sign, std::string_view 
     return fmt::format("{}    {} segments at {} speeds {} {}\n", name, segments, speeds.size(),
                        range, unit);
   }
-  return fmt::format("{}    {} segments: {} {} (segments at each)\n", name, segments,
+  if (speeds.size() == 1) {
+    return fmt::format("{}    {} segment{}, at {} {}\n", name, segments, segments == 1 ? "" : "s",
+                       only, unit);
+  }
+  return fmt::format("{}    {} segments, at (how many) {} {}\n", name, segments,
                      fmt::join(speeds, ", "), unit);
 }
 

@@ -94,10 +94,10 @@ Judged Stribeck(const ShownMotion& e) {
     return {true, fmt::format("{} speeds, the slowest {:.2g} of the fastest", levels,
                               e.slowest() / e.fastest())};
   }
-  return {false,
-          fmt::format("{} speed{} down to {:.2g} of the fastest; the curve near standstill needs "
-                      "five or more, down to a twentieth",
-                      levels, levels == 1 ? "" : "s", e.slowest() / e.fastest())};
+  return {false, fmt::format(
+                     "needs at least 5 speeds, the slowest below 1/20 of the fastest; this log has "
+                     "{}, the slowest at {:.2g} of the fastest",
+                     levels, e.slowest() / e.fastest())};
 }
 
 Judged WarmUp(const ShownMotion& e) {

@@ -2,12 +2,8 @@
 
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <cctype>
-#include <string_view>
-
 #include "tools/board/table.h"
-#include "tools/terminal/wrap.h"
+#include "tools/cli/remarks.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -40,70 +36,13 @@ void AddMetrics(Table& table, const std::string& name, const std::optional<Metri
                         fmt::format("{:.4g}", metrics->fpe)});
 }
 
-constexpr std::size_t kBriefly = 3;  // remarks
-
-/// The clause as a sentence: a capital at its beginning, unless a name stands there, and a stop.
-std::string AsSentence(std::string clause) {
-  const std::size_t word = clause.find_first_of(" _.=:");
-  const bool is_word = word == std::string::npos || clause[word] == ' ';
-  if (is_word && !clause.empty()) {
-    clause[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(clause[0])));
-  }
-  const bool stops =
-      !clause.empty() && std::string_view(".?!").find(clause.back()) != std::string_view::npos;
-  return stops ? clause : clause + ".";
-}
-
-/// Where a sentence or a clause ends: after "; " or ". " outside of brackets; the end of the text else.
-std::size_t EndOfClause(std::string_view text) {
-  int depth = 0;
-  for (std::size_t i = 0; i + 1 < text.size(); ++i) {
-    if (text[i] == '(') ++depth;
-    if (text[i] == ')') --depth;
-    const bool ends = text[i] == ';' || (text[i] == '.' && i > 0 &&
-                                         std::isalpha(static_cast<unsigned char>(text[i - 1])));
-    if (depth <= 0 && ends && text[i + 1] == ' ') return i;
-  }
-  return text.size();
-}
-
-void AddClauses(std::string_view text, std::vector<std::string>& sentences) {
-  while (!text.empty()) {
-    const std::size_t end = EndOfClause(text);
-    if (end > 0) sentences.push_back(AsSentence(std::string(text.substr(0, end))));
-    text.remove_prefix(std::min(end + 2, text.size()));
-  }
-}
-
-std::vector<std::string> Clauses(std::string_view text) {
-  std::vector<std::string> sentences;
-  AddClauses(text, sentences);
-  return sentences;
-}
-
-/// The remarks that count most: what was found, what would help where the answer failed, and what
-/// must be known before numbers that pass are used.
-std::vector<std::string> Brief(const Estimate& estimate) {
-  const std::vector<std::string> message = Clauses(estimate.message);
-  std::vector<std::string> brief;
-  if (!message.empty()) brief.push_back(message.front());
-  if (estimate.status != Status::ok && message.size() > 1) brief.push_back(message.back());
-  for (const std::string& warning : estimate.warnings) {
-    if (brief.size() < kBriefly) brief.push_back(AsSentence(warning));
-  }
-  return brief;
-}
-
-std::string RemarksText(const Estimate& estimate, int width, Detail detail) {
+std::string RemarksText(const Estimate& estimate, Detail detail) {
   const std::vector<std::string> all = Remarks(estimate);
-  const std::vector<std::string> shown = detail == Detail::full ? all : Brief(estimate);
+  const std::vector<std::string> shown = detail == Detail::full ? all : BriefRemarks(estimate);
   std::string text;
   for (const std::string& remark : shown) text += fmt::format("  {}\n", remark);
-  if (shown.size() < all.size()) {
-    const std::size_t more = all.size() - shown.size();
-    text += fmt::format("  --explain tells {} more remark{}.\n", more, more == 1 ? "" : "s");
-  }
-  return Wrap(text, width, 2);
+  if (detail == Detail::brief && shown != all) text += "  --explain tells more.\n";
+  return text;
 }
 
 Table DiagnosticTable(const Estimate& estimate) {
@@ -120,7 +59,7 @@ Table DiagnosticTable(const Estimate& estimate) {
 }
 
 /// What was assumed, and what each parameter would do were it off by that much.
-std::string AssumptionsText(const Estimate& estimate, int width) {
+std::string AssumptionsText(const Estimate& estimate) {
   std::string text;
   for (const Assumption& one : estimate.assumptions) {
     std::vector<std::string> moves;
@@ -130,7 +69,7 @@ std::string AssumptionsText(const Estimate& estimate, int width) {
     text +=
         fmt::format("  {}: {}; else it moves {}\n", one.name, one.meaning, fmt::join(moves, ", "));
   }
-  return text.empty() ? "" : "\nassumptions\n" + Wrap(text, width, 2);
+  return text.empty() ? "" : "\nassumptions\n" + text;
 }
 
 /// Every test for lack of fit and every assumption.
@@ -138,7 +77,7 @@ std::string Explanation(const Estimate& estimate, int width) {
   const Table tests = DiagnosticTable(estimate);
   std::string text;
   if (!tests.rows.empty()) text = "\n" + TableToText(tests, tests.header.size(), width);
-  return text + AssumptionsText(estimate, width);
+  return text + AssumptionsText(estimate);
 }
 
 Colour ColourOf(Status status) {
@@ -148,18 +87,12 @@ Colour ColourOf(Status status) {
 
 }  // namespace
 
-std::vector<std::string> Remarks(const Estimate& estimate) {
-  std::vector<std::string> remarks = Clauses(estimate.message);
-  for (const std::string& warning : estimate.warnings) remarks.push_back(AsSentence(warning));
-  return remarks;
-}
-
 std::string EstimateToText(const Estimate& estimate, const Measurements& measurements,
                            const Page& page, Detail detail) {
   std::string text =
       fmt::format("{}: {}\n", estimate.identifier,
                   Paint(StatusName(estimate.status), ColourOf(estimate.status), page));
-  text += RemarksText(estimate, page.width, detail);
+  text += RemarksText(estimate, detail);
   if (!estimate.parameters.empty())
     text += fmt::format("\n{}", TableToText(ParameterTable(estimate), 1, page.width));
 

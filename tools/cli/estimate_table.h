@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "identification/estimate.h"
 #include "models/recording/measurements.h"
@@ -18,8 +17,5 @@ enum class Detail { brief, full };
 /// them, with every test for lack of fit and every assumption.
 std::string EstimateToText(const Estimate& estimate, const Measurements& measurements,
                            const Page& page, Detail detail);
-
-/// What an estimate says beside its status, a sentence each: its message, then its warnings.
-std::vector<std::string> Remarks(const Estimate& estimate);
 
 }  // namespace warmjoint::inline tools

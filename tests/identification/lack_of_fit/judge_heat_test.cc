@@ -50,7 +50,7 @@ TEST(JudgeHeat, FindsAWarmStart) {
 
 TEST(JudgeHeat, SaysHowMuchAColdStartMatters) {
   const Estimate estimate = Answer("energy-ml", RecordHour(test::TableOne(), 1));
-  EXPECT_THAT(estimate.FullMessage(), HasSubstr("taken to be cold at the start"));
+  EXPECT_THAT(estimate.FullMessage(), HasSubstr("this assumes a cold start"));
   EXPECT_THAT(estimate.FullMessage(), HasSubstr("--start estimated"));
   const auto estimated = std::map<std::string, std::string>{{"initial_energy", "estimated"}};
   EXPECT_THAT(Answer("energy-ml", RecordHour(test::TableOne(), 1), estimated).FullMessage(),

@@ -42,6 +42,43 @@ TEST(Identify, WritesTheContractsJsonAndAFrictionFile) {
   EXPECT_EQ(ReadFrictionFile(output).law, "viscous_coulomb");
 }
 
+TEST(Identify, PrintsTheSameJsonAsItWrites) {
+  const ScratchDirectory scratch;
+  const std::string recording = scratch.path() / "log.csv";
+  WriteRecordingFile(recording, 480, SeveralSpeeds);
+  const std::string output = scratch.path() / "estimate.json";
+  const std::vector<std::string> command{"identify", recording, "--identifier", "nominal-ls",
+                                         "--format", "json",    "-o",           output};
+  const Answer answer = RunWarmjoint(command);
+  ASSERT_EQ(answer.status, 0) << answer.err;
+  EXPECT_EQ(nlohmann::json::parse(answer.out), nlohmann::json::parse(ReadWholeFile(output)));
+
+  // once, where both go to standard output
+  std::vector<std::string> both = command;
+  both.back() = "-";
+  EXPECT_EQ(nlohmann::json::parse(RunWarmjoint(both).out), nlohmann::json::parse(answer.out));
+}
+
+TEST(Identify, ExplainsEveryTestAndAssumptionWhenAsked) {
+  const ScratchDirectory scratch;
+  const std::string recording = scratch.path() / "log.csv";
+  WriteRecordingFile(recording, 480, SeveralSpeeds);
+  const std::vector<std::string> command{"identify", recording, "--identifier", "nominal-ls"};
+  std::vector<std::string> more = command, json = command;
+  more.push_back("--explain");
+  json.insert(json.end(), {"--format", "json"});
+  const std::string brief = RunWarmjoint(command).out, full = RunWarmjoint(more).out;
+  const auto estimate = nlohmann::json::parse(RunWarmjoint(json).out);
+  ASSERT_FALSE(estimate.at("diagnostics").empty());
+  for (const auto& one : estimate.at("diagnostics")) {
+    EXPECT_THAT(full, HasSubstr("\n" + one.at("test").get<std::string>() + " "));
+  }
+  for (const auto& one : estimate.at("assumptions")) {
+    EXPECT_THAT(full, HasSubstr("  " + one.at("name").get<std::string>() + ": "));
+  }
+  EXPECT_THAT(brief, Not(HasSubstr("test for lack of fit")));
+}
+
 TEST(Identify, HoldsNothingOutWhenAsked) {
   const ScratchDirectory scratch;
   const std::string recording = scratch.path() / "log.csv";
