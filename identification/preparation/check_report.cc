@@ -42,33 +42,31 @@ std::string MotionLine(const MotionCheck& motion, std::string_view length_unit) 
       motion.upper, length_unit);
 }
 
-/// "positive    16 segments, at 0.0421 (8), 0.0826 (4) and so on", "positive    1 segment, at 0.5 rad/s"
+/// "positive    16 segments: 8 at 0.0421, 4 at 0.0826, 4 at 0.125 m/s", "negative    1 segment, at 0.5 rad/s"
 std::string DirectionLine(const MotionCheck& motion, int sign, std::string_view unit) {
   constexpr std::size_t most = 12;  // speeds listed
   int segments = 0;
-  std::vector<std::string> speeds;
-  std::string only;
+  std::vector<std::string> speeds, parts;
   for (const SpeedLevel& level : motion.levels) {
     if (sign * level.velocity <= 0) continue;
     segments += level.segments;
-    speeds.push_back(fmt::format("{:.3g} ({})", std::abs(level.velocity), level.segments));
-    only = fmt::format("{:.3g}", std::abs(level.velocity));
+    speeds.push_back(fmt::format("{:.3g}", std::abs(level.velocity)));
+    parts.push_back(fmt::format("{} at {}", level.segments, speeds.back()));
   }
-  if (sign < 0) std::reverse(speeds.begin(), speeds.end());
+  if (sign < 0) {
+    std::reverse(speeds.begin(), speeds.end());
+    std::reverse(parts.begin(), parts.end());
+  }
 
   const std::string name = sign > 0 ? "positive" : "negative";
   if (segments == 0) return fmt::format("{}    none\n", name);
-  if (speeds.size() > most) {
-    const std::string range = fmt::format("from {} to {}", speeds.front(), speeds.back());
-    return fmt::format("{}    {} segments at {} speeds {} {}\n", name, segments, speeds.size(),
-                       range, unit);
-  }
-  if (speeds.size() == 1) {
-    return fmt::format("{}    {} segment{}, at {} {}\n", name, segments, segments == 1 ? "" : "s",
-                       only, unit);
-  }
-  return fmt::format("{}    {} segments, at (how many) {} {}\n", name, segments,
-                     fmt::join(speeds, ", "), unit);
+  const std::string counted =
+      fmt::format("{}    {} segment{}", name, segments, segments == 1 ? "" : "s");
+  if (speeds.size() == 1) return fmt::format("{}, at {} {}\n", counted, speeds.front(), unit);
+  if (speeds.size() <= most)
+    return fmt::format("{}: {} {}\n", counted, fmt::join(parts, ", "), unit);
+  return fmt::format("{} at {} speeds from {} to {} {}\n", counted, speeds.size(), speeds.front(),
+                     speeds.back(), unit);
 }
 
 }  // namespace

@@ -11,8 +11,8 @@ constexpr std::size_t kBriefly = 3;  // remarks
 
 /// The clause as a sentence: a capital at its beginning, unless a name stands there, and a stop.
 std::string AsSentence(std::string clause) {
-  const std::size_t word = clause.find_first_of(" _.=:");
-  const bool is_word = word == std::string::npos || clause[word] == ' ';
+  const std::size_t word = clause.find_first_of(" :_.=");
+  const bool is_word = word == std::string::npos || clause[word] == ' ' || clause[word] == ':';
   if (is_word && !clause.empty()) {
     clause[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(clause[0])));
   }
@@ -21,14 +21,22 @@ std::string AsSentence(std::string clause) {
   return stops ? clause : clause + ".";
 }
 
+/// Whether the stop at `i` ends a sentence: behind a word or a bracket and before a capital, so neither
+/// that of "0.5 N.m" nor that of "Eq. (22)".
+bool IsFullStop(std::string_view text, std::size_t i) {
+  if (text[i] != '.' || i == 0 || i + 2 >= text.size()) return false;
+  const auto before = static_cast<unsigned char>(text[i - 1]);
+  const auto next = static_cast<unsigned char>(text[i + 2]);
+  return (std::isalpha(before) || before == ')') && std::isupper(next);
+}
+
 /// Where a sentence or a clause ends: after "; " or ". " outside of brackets; the end of the text else.
 std::size_t EndOfClause(std::string_view text) {
   int depth = 0;
   for (std::size_t i = 0; i + 1 < text.size(); ++i) {
     if (text[i] == '(') ++depth;
     if (text[i] == ')') --depth;
-    const bool ends = text[i] == ';' || (text[i] == '.' && i > 0 &&
-                                         std::isalpha(static_cast<unsigned char>(text[i - 1])));
+    const bool ends = text[i] == ';' || IsFullStop(text, i);
     if (depth <= 0 && ends && text[i + 1] == ' ') return i;
   }
   return text.size();

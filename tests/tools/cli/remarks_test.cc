@@ -16,11 +16,12 @@ Estimate Saying(Status status, const std::string& message, std::vector<std::stri
 }
 
 TEST(Remarks, AreSentencesOfTheMessageAndOneForEachWarning) {
-  const Estimate estimate = Saying(
-      Status::ok, "fitted to 12 samples; noise of 0.5 N.m (as before; so). Done", {"one: a; two"});
+  const Estimate estimate =
+      Saying(Status::ok, "fitted to 12 samples; noise of 0.5 N.m (as before; so). Done",
+             {"one: a, Eq. (22); two"});
   EXPECT_THAT(Remarks(estimate),
               ElementsAre("Fitted to 12 samples.", "Noise of 0.5 N.m (as before; so).", "Done.",
-                          "One: a; two."));
+                          "One: a, Eq. (22); two."));
 }
 
 TEST(Remarks, KeepNamesAsTheyAre) {

@@ -1,7 +1,10 @@
 // The program on a terminal and in a pipe: widths, colours, progress.
 #include <gmock/gmock.h>
 
+#include <filesystem>
+
 #include "models/foundation/atomic_file.h"
+#include "tests/support/folders.h"
 #include "tests/tools/cli/recording_file.h"
 #include "tests/tools/cli/run_program.h"
 #include "tests/tools/cli/table_one_yaml.h"
@@ -107,6 +110,21 @@ TEST_F(Terminal, IdentifyTellsWhatItIsAtFromTheFirstSecondOn) {
   const Answer shown = On(60, {"identify", "log.csv", "--identifier", "auto"});
   EXPECT_THAT(shown.out, HasSubstr("fitting auto to 100000 samples"));
   EXPECT_LE(WidestRow(shown.out), 60);
+}
+
+TEST_F(Terminal, AnInterruptedIdentifySaysSoAndLeavesNothing) {
+  if (RunCommandLine({"sh", "-c", "command -v timeout"}).status != 0) {
+    GTEST_SKIP() << "timeout is absent";
+  }
+  WriteLog(100000);
+  const std::string program = test::BuildFolder() / "warmjoint";
+  const Answer answer =
+      RunCommandLine({"timeout", "--preserve-status", "--signal=INT", "1.5", program, "identify",
+                      "log.csv", "--identifier", "auto", "-o", "estimate.json"},
+                     {scratch_.path(), {}});
+  EXPECT_EQ(answer.status, 130);
+  EXPECT_THAT(answer.err, HasSubstr("interrupted"));
+  EXPECT_FALSE(std::filesystem::exists(scratch_.path() / "estimate.json"));
 }
 
 }  // namespace
