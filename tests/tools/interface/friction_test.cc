@@ -55,6 +55,36 @@ TEST(FrictionModel, WarmsByTheExactZeroOrderHoldAlongAMotion) {
   EXPECT_NEAR(SettledEnergy(TableOne(), 0.3)->at(0), -0.9 * 16.5 / 1.9, 1e-9);
 }
 
+TEST(FrictionModel, TakesLoadAmbientPositionAndStartsOfAMotion) {
+  Friction friction = TableOne();
+  friction.load_gain = 0.1;
+  friction.level_per_temperature = -0.05;
+  // one plain kernel of 2 N.m at 1 rad
+  friction.maps = {{{{"position", {1}, 0.5, {}, false}}, false, "one", {2}}};
+  Motion motion;
+  motion.time = {0, 60, 120};
+  motion.velocity = {0.5, 0.5, 0.5};
+  motion.position = {1, 1, 1.5};
+  motion.load = {0, -20, 0};
+  motion.ambient_rise = {10, 10, 10};
+  motion.starts = {2};
+  const FrictionCourse course = FrictionModel(friction).Along(motion);
+  EXPECT_DOUBLE_EQ(course.force[0], 2.5 + 15 + 2);
+  // Eq. (22) with (1 - te) kT (Ts - T0) of the ambient
+  const double te = std::exp(-0.1);
+  const double energy = (1 - te) * (-3 * (2.5 + 15 + 2) * 0.5 - 0.05 * 10);
+  EXPECT_NEAR(course.energy[1], energy, 1e-12);
+  EXPECT_NEAR(course.force[1], 2.5 + 15 + 2 + 0.1 * 20 + energy, 1e-12);
+  // cold again; one width from the kernel's centre
+  EXPECT_EQ(course.energy[2], 0);
+  EXPECT_NEAR(course.force[2], 2.5 + 15 + 2 * std::exp(-0.5), 1e-12);
+
+  JointPlace place;
+  place.position = 1.5;
+  place.load = 20;
+  EXPECT_NEAR(FrictionModel(friction).Force(0.5, place), 2.5 + 15 + 2 * std::exp(-0.5) + 2, 1e-12);
+}
+
 TEST(FrictionModel, StepsAsThePluginDoes) {
   const double h = 0.002;
   const FrictionModel model(TableOne(), h);
@@ -77,6 +107,9 @@ TEST(Friction, ReadsBackWithAllItsParts) {
   friction.second_thermal = Thermal{-1, 60};
   friction.gear = 100;
   friction.load_gain = 0.1;
+  friction.ambient = 25;
+  friction.level_per_temperature = -0.05;
+  friction.viscous_per_energy = 0.02;
   friction.maps = {{{{"motor_position", {0, 1, 2, 3}, 1, 2 * std::acos(-1.0), false},
                      {"velocity", {-0.5, 0.5}, 0.5, {}, true}},
                     false,
@@ -90,7 +123,16 @@ TEST(Friction, ReadsBackWithAllItsParts) {
   EXPECT_TRUE(back.maps[0].axes[1].sides_apart);
   EXPECT_FALSE(back.maps[0].normalised);
   EXPECT_EQ(back.maps[0].weights, friction.maps[0].weights);
+  EXPECT_EQ(back.maps[0].factor, "direction");
+  EXPECT_DOUBLE_EQ(*back.maps[0].axes[0].period, 2 * std::acos(-1.0));
+  EXPECT_EQ(back.parameters, friction.parameters);
+  EXPECT_EQ(back.thermal->gain, -3);
   EXPECT_EQ(back.second_thermal->time_constant, 60);
+  EXPECT_EQ(back.ambient, 25);
+  EXPECT_EQ(back.gear, 100);
+  EXPECT_EQ(back.level_per_temperature, -0.05);
+  EXPECT_EQ(back.viscous_per_energy, 0.02);
+  EXPECT_EQ(back.load_gain, 0.1);
 
   const ScratchDirectory scratch;
   WriteWholeFile(scratch.path() / "friction.json", json);
