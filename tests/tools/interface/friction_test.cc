@@ -3,6 +3,7 @@
 #include <warmjoint/friction.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "models/foundation/atomic_file.h"
 #include "models/robots/robot_folder.h"
@@ -173,12 +174,26 @@ TEST(Friction, IsRefusedWithBoundOrNearestName) {
 }
 
 TEST(Laws, AreThoseOfTheCommand) {
-  const std::string listed = RunWarmjoint({"list", "laws"}).out;
+  const auto listed = nlohmann::json::parse(RunWarmjoint({"list", "laws", "--format", "json"}).out);
   const std::vector<LawInfo> laws = Laws();
   EXPECT_GE(laws.size(), 5u);
-  for (const LawInfo& law : laws) {
-    EXPECT_THAT(listed, HasSubstr(law.name + "  " + law.equation));
-    for (const ParameterInfo& one : law.parameters) EXPECT_THAT(listed, HasSubstr(one.meaning));
+  // the command tells of what joins a law behind them
+  ASSERT_LE(laws.size(), listed.size());
+  for (std::size_t i = 0; i < laws.size(); ++i) {
+    EXPECT_EQ(laws[i].name, listed[i].at("name"));
+    EXPECT_EQ(laws[i].equation, listed[i].at("equation"));
+    ASSERT_EQ(laws[i].parameters.size(), listed[i].at("parameters").size());
+    for (std::size_t k = 0; k < laws[i].parameters.size(); ++k) {
+      const ParameterInfo& info = laws[i].parameters[k];
+      const auto& row = listed[i]["parameters"][k];
+      EXPECT_EQ(info.name, row.at("name"));
+      EXPECT_EQ(info.symbol, row.at("symbol"));
+      EXPECT_EQ(info.rotary_unit, row.at("unit").at("rotary"));
+      EXPECT_EQ(info.linear_unit, row.at("unit").at("linear"));
+      EXPECT_EQ(info.default_value, row.at("default"));
+      EXPECT_EQ(info.meaning, row.at("meaning"));
+      EXPECT_EQ(std::isfinite(info.upper), !row.at("upper").is_null());
+    }
   }
 }
 

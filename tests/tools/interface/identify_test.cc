@@ -5,6 +5,7 @@
 
 #include <array>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "models/foundation/atomic_file.h"
@@ -205,12 +206,21 @@ TEST(Identify, AnswersTheSameInManyThreads) {
 }
 
 TEST(Identifiers, AreThoseOfTheCommandWithTheirOptions) {
-  const std::string listed = RunWarmjoint({"list", "identifiers"}).out;
+  const auto listed =
+      nlohmann::json::parse(RunWarmjoint({"list", "identifiers", "--format", "json"}).out);
   const std::vector<IdentifierInfo> all = Identifiers();
-  EXPECT_GE(all.size(), 10u);
-  for (const IdentifierInfo& one : all) {
-    EXPECT_THAT(listed, HasSubstr(one.name + "  " + one.summary));
-    for (const OptionInfo& option : one.options) EXPECT_THAT(listed, HasSubstr(option.meaning));
+  ASSERT_EQ(all.size(), listed.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    EXPECT_EQ(all[i].name, listed[i].at("name"));
+    EXPECT_EQ(all[i].summary, listed[i].at("summary"));
+    ASSERT_EQ(all[i].options.size(), listed[i].at("options").size());
+    for (std::size_t k = 0; k < all[i].options.size(); ++k) {
+      const auto& option = listed[i]["options"][k];
+      EXPECT_EQ(all[i].options[k].name, option.at("name"));
+      EXPECT_EQ(all[i].options[k].default_value, option.at("default"));
+      EXPECT_EQ(all[i].options[k].allowed, option.at("allowed"));
+      EXPECT_EQ(all[i].options[k].meaning, option.at("meaning"));
+    }
   }
 }
 
