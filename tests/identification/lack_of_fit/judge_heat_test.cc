@@ -54,7 +54,7 @@ TEST(JudgeHeat, SaysHowMuchAColdStartMatters) {
   EXPECT_THAT(estimate.FullMessage(), HasSubstr("--start estimated"));
   const auto estimated = std::map<std::string, std::string>{{"initial_energy", "estimated"}};
   EXPECT_THAT(Answer("energy-ml", RecordHour(test::TableOne(), 1), estimated).FullMessage(),
-              Not(HasSubstr("taken to be cold")));
+              Not(HasSubstr("assumes a cold start")));
 }
 
 TEST(JudgeHeat, GivesNoIntervalOfAWarmingBesideADrift) {
