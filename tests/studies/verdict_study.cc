@@ -6,8 +6,15 @@
 // how often each test for lack of fit is made and rejects, and how large what it finds is, as a
 // share of the friction's rms. Rates stand with their binomial standard error. On clean scenarios
 // the rates of rejection are false alarms, on spoilt ones power.
+//
+// A log counts as confidently wrong where its status is ok and the truth of a parameter lies more
+// than three deviations (interval / 3.92) beyond an end of its 95 % interval. Beside coverage stand,
+// over the Cramer-Rao bound of the noise: mean error, its rms, the reported standard deviation (rms),
+// and the median of the interval's width over 3.92.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <string>
@@ -22,6 +29,8 @@
 
 namespace warmjoint {
 namespace {
+
+constexpr double kWidth = 3.92;  // deviations of a 95 % interval of known variance
 
 /// How often something happened.
 struct Rate {
@@ -39,6 +48,37 @@ struct Rate {
   }
 };
 
+/// What became of one parameter.
+struct ParameterRates {
+  Rate covered;
+  double error = 0, squares = 0, variance = 0;  // sums, over the bound
+  std::vector<double> widths;
+
+  void Count(const ParameterScore& one, const EstimatedParameter& estimated) {
+    covered.Count(*one.covered);
+    const double off = (one.estimate - one.truth) / one.bound;
+    error += off;
+    squares += off * off;
+    if (estimated.std) variance += std::pow(*estimated.std / one.bound, 2);
+    const auto [lower, upper] = *estimated.interval95;
+    widths.push_back((upper - lower) / kWidth / one.bound);
+  }
+  std::string Text() {
+    const auto n = static_cast<double>(std::max(covered.of, 1));
+    std::ranges::nth_element(widths, widths.begin() + static_cast<Eigen::Index>(widths.size() / 2));
+    return fmt::format(
+        "{:16} mean error {:5.2f} +- {:.2f}, rms {:.2f}, std {:.2f}, width {:.2f} bounds",
+        covered.Text(), error / n, std::sqrt(squares / n / n), std::sqrt(squares / n),
+        std::sqrt(variance / n), widths[widths.size() / 2]);
+  }
+};
+
+/// Whether the truth lies more than three deviations beyond an end of the interval.
+bool IsFarOutside(const ParameterScore& one, const std::array<double, 2>& interval) {
+  const double deviation = (interval[1] - interval[0]) / kWidth;
+  return one.truth < interval[0] - 3 * deviation || one.truth > interval[1] + 3 * deviation;
+}
+
 /// Outcomes of one test.
 struct TestRates {
   Rate made, rejected;
@@ -48,11 +88,12 @@ struct TestRates {
 /// Outcomes of one identifier in one variant.
 struct Outcomes {
   std::map<std::string, int> statuses;
-  std::map<std::string, Rate> coverage;
+  std::map<std::string, ParameterRates> parameters;
   std::map<std::string, TestRates> tests;
   Rate alarms;   // any test rejects
   Rate refused;  // not ok
   Rate warned;   // ok, with a test that rejects
+  Rate wrong;    // confidently
 
   void Count(const Estimate& estimate, const Recording& recording, const Selection& selection) {
     ++statuses[std::string(StatusName(estimate.status))];
@@ -71,20 +112,26 @@ struct Outcomes {
     alarms.Count(any);
     refused.Count(!ok);
     warned.Count(ok && any);
-    if (!ok) return;
-    const Score score = ScoreEstimate(estimate, recording.measurements, selection, recording.truth);
-    for (const ParameterScore& one : score.continuous) {
-      if (one.covered) coverage[one.name].Count(*one.covered);
+    bool far = false;
+    if (ok) {
+      const Score score =
+          ScoreEstimate(estimate, recording.measurements, selection, recording.truth);
+      for (const ParameterScore& one : score.continuous) {
+        if (!one.covered) continue;
+        const EstimatedParameter& estimated = *estimate.Find(one.name);
+        parameters[one.name].Count(one, estimated);
+        far = far || IsFarOutside(one, *estimated.interval95);
+      }
     }
+    wrong.Count(far);
   }
 
-  void Print() const {
+  void Print() {
     for (const auto& [status, count] : statuses) fmt::print("    {}: {}\n", status, count);
     fmt::print("    any test rejects {}, refused {}, ok with a finding {}\n", alarms.Text(),
                refused.Text(), warned.Text());
-    for (const auto& [name, rate] : coverage) {
-      fmt::print("    intervals of {} hold the truth {}\n", name, rate.Text());
-    }
+    fmt::print("    confidently wrong {}\n", wrong.Text());
+    for (auto& [name, rates] : parameters) fmt::print("    {:24} {}\n", name, rates.Text());
     for (const auto& [name, test] : tests) {
       if (test.made.times == 0) continue;
       fmt::print("    {:20} made {:4}  rejects {:16}", name, test.made.times, test.rejected.Text());
