@@ -3,12 +3,14 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "identification/estimate.h"
 #include "identification/uncertainty/uncertainty.h"
+#include "identification/uncertainty/whitening.h"
 #include "models/friction/along_motion.h"
 #include "models/recording/selection.h"
 
@@ -40,6 +42,8 @@ struct ErrorModel {
   Eigen::VectorXd prior;     // [p] what is known beforehand (JudgeUncertainty); or empty
   Eigen::VectorXd scores;    // [n] in place of the residual, of a robust loss; or empty
   Eigen::VectorXd weights;   // [n] of the samples in the fit; or empty: 1
+  /// Of the rows that the fit solved, and with which C is; or none.
+  std::shared_ptr<const Whitening> whitening;
   /// Covariance of the table's estimated rows, where the identifier had to know it already.
   std::optional<Uncertainty> known;
 };

@@ -6,12 +6,17 @@
 
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
+#include "identification/inference/bounds.h"
 #include "identification/linear/fit_gravity.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/linear_task.h"
 #include "identification/linear/robust.h"
 #include "identification/maps/energy_ml_maps.h"
+#include "identification/uncertainty/disagreement.h"
+#include "identification/uncertainty/few_segments.h"
+#include "identification/uncertainty/tails.h"
+#include "identification/warming/further_passes.h"
 #include "identification/warming/gaps.h"
 #include "identification/warming/robust_warm_fit.h"
 #include "identification/warming/scan_time_constant.h"
@@ -25,17 +30,18 @@ namespace {
 constexpr const char* kName = "energy-ml";
 
 /// Why the warm-up cannot be told; nothing where it can. variance: of the noise; cofactor: of x;
-/// nominal_squares: of the fit without warming.
+/// nominal_squares: of the fit without warming; reach: of 95 % intervals in deviations, as a multiple
+/// of that of a known variance.
 std::optional<std::string> UntoldWarming(const WarmFit& fit, const WarmStart& scanned,
                                          double variance, double nominal_squares,
-                                         const Eigen::MatrixXd& cofactor) {
+                                         const Eigen::MatrixXd& cofactor, double reach) {
   const double explained = (nominal_squares - fit.solution.squares) / variance;
   if (!fit.converged) {
     if (auto why = UnseenWarming(explained)) return why;
     return RunawayWarming(fit.thermal().time_constant, scanned.longest / kScannedBeyond);
   }
   const Eigen::Index i = fit.law_parameters + 1;
-  return UnknownWarming({explained, std::sqrt(variance * cofactor(i, i)),
+  return UnknownWarming({explained, reach * std::sqrt(variance * cofactor(i, i)),
                          fit.thermal().time_constant, scanned.shortest, scanned.longest,
                          scanned.longest / kScannedBeyond});
 }
@@ -83,6 +89,8 @@ struct Task {
   const ClosedLoop& loop;
   const WarmStart& scanned;
   const std::vector<LogGap>& gaps;
+  std::shared_ptr<const Whitening> whitening;
+  std::optional<Disagreement> structure;  // why the rows were not whitened
 };
 
 /// What the errors of a fit follow from, whatever its loss. residual: [n]
@@ -92,6 +100,7 @@ ErrorModel ErrorsOf(const Task& task, const RobustWarmFit& robust,
   errors.prior = robust.fit.prior();
   if (std::isinf(robust.threshold)) {
     errors.cofactor = Cofactor(robust.fit.normal);
+    errors.whitening = task.whitening;
     return errors;
   }
   const Eigen::MatrixXd rows =
@@ -110,8 +119,11 @@ std::optional<Refusal> WhyRefused(const Task& task, const WarmFit& warm, double 
   const Measurements& m = task.input.measurements;
   const auto n = task.input.selection.count();
   const double variance = warm.solution.squares / static_cast<double>(n - warm.solution.x.size());
-  if (auto why =
-          UntoldWarming(warm, task.scanned, variance, nominal_squares, Cofactor(warm.normal))) {
+  const auto p = warm.solution.x.size();
+  const double reach = StudentQuantile(FewestFreedom(task.input.selection, p), kIntervalLevel) /
+                       StudentQuantile(kInfinity, kIntervalLevel);
+  if (auto why = UntoldWarming(warm, task.scanned, variance, nominal_squares, Cofactor(warm.normal),
+                               reach)) {
     return Refusal{Status::not_identifiable, *why};
   }
   if (!warm.converged) {
@@ -154,11 +166,18 @@ Fit Conclude(const Task& task, const RobustWarmFit& robust, double nominal_squar
   fit.jacobian = [loop = task.loop, gravity = task.gravity, warm] {
     return Jacobian(loop, gravity, warm);
   };
+  if (task.structure) {
+    const auto row = static_cast<size_t>(task.structure->parameter);
+    const bool named = row < fit.parameters.size() && !fit.parameters[row].name.empty();
+    fit.without_intervals =
+        DescribeDisagreement(*task.structure, named ? fit.parameters[row].name : "gravity");
+  }
   fit.count = static_cast<int>(warm.solution.x.size());
   fit.effective_parameters = fit.count;
   if (!std::isinf(robust.threshold)) fit.loss_bend = robust.threshold;
-  fit.summary = fmt::format("maximum likelihood on {} samples, refined in {} iterations",
-                            fit.torque.size(), warm.trace.size() - 1);
+  fit.summary =
+      fmt::format("maximum likelihood on {} samples{}, refined in {} iterations", fit.torque.size(),
+                  task.whitening ? kWhitened : "", warm.trace.size() - 1);
   if (!task.gaps.empty()) {
     fit.warnings.push_back(
         fmt::format("{}: what the joint lost there is not known, and is estimated with the rest",
@@ -187,29 +206,21 @@ double LeftOver(const Eigen::MatrixXd& A, const Eigen::VectorXd& y) {
   return fit.mixed.empty() ? (y - A * fit.solution).squaredNorm() : kInfinity;
 }
 
-/// Fits once more, the jumps of E at the gaps too; from a fit without them, whose place it takes.
-/// Returns how far they may be. [J]
-Eigen::VectorXd FitJumps(const ClosedLoop& loop, const Eigen::VectorXd& level,
-                         const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
-                         const std::vector<LogGap>& gaps, WarmFit& fit) {
-  const auto initial =
-      fit.estimates_initial_energy() ? InitialEnergy::estimated : InitialEnergy::zero;
-  const Thermal thermal = fit.thermal();
-  const Eigen::VectorXd none = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(gaps.size()));
-  const LoopResponse response =
-      loop.Simulate(fit.parameters(), thermal, fit.initial_energy(), none);
-  const Eigen::VectorXd spread =
-      JumpSpread(gaps, response.energy.cwiseAbs().maxCoeff(), thermal.time_constant);
-  const double scale = std::sqrt(fit.solution.squares / kept.sum());
-  WarmStart start;
-  start.parameters.resize(fit.law_parameters + fit.offsets);
-  start.parameters << fit.parameters(), fit.offset_values();
-  start.thermal = thermal;
-  WarmFit next = FitWarmFriction(loop, level, offsets, kept, start, initial, scale,
-                                 JumpWeights(scale, spread));
-  next.trace.insert(next.trace.begin(), fit.trace.begin(), fit.trace.end());
-  fit = std::move(next);
-  return spread;
+/// What whitening changes of a fit beyond doubt; nothing where the colour may be noise. plain: the
+/// fit before it.
+std::optional<Disagreement> FindStructure(const IdentifierInput& input, const GravityFit& gravity,
+                                          const ClosedLoop& loop, const WarmFit& plain,
+                                          const WarmFit& white, const Whitening& whitening) {
+  const LoopResponse response = loop.Simulate(plain.parameters(), plain.thermal(),
+                                              plain.initial_energy(), plain.jump_values());
+  const Eigen::VectorXd fitted = response.force + gravity.columns * plain.offset_values();
+  const Eigen::VectorXd residual = Kept(input.measurements.torque - fitted, input.selection);
+  const Uncertainty known =
+      JudgeUncertainty(Kept(Jacobian(loop, gravity, plain), input.selection),
+                       Cofactor(plain.normal), residual, input.selection, {}, plain.prior());
+  return FindDisagreement({plain.solution.x, known.covariance},
+                          {white.solution.x, whitening.noise().innovation * Cofactor(white.normal)},
+                          known.freedom);
 }
 
 Fit FitWarming(const IdentifierInput& given) {
@@ -233,7 +244,8 @@ Fit FitWarming(const IdentifierInput& given) {
   // scan tau, then refine everything over the closed loop
   ClosedLoop loop(m.time, m.velocity, columns.leftCols(task.law_count()), m.starts);
   const Eigen::VectorXd level = loop.direction().cwiseProduct(m.torque);
-  const Eigen::VectorXd kept = WithoutRest(input.selection, m).keep.cast<double>();
+  const Selection moving = WithoutRest(input.selection, m);
+  const Eigen::VectorXd kept = moving.keep.cast<double>();
   const WarmStart start = Scan(m, gravity, loop, columns, nominal, level, kept);
   const auto initial = input.options.Text("initial_energy") == "estimated"
                            ? InitialEnergy::estimated
@@ -254,7 +266,24 @@ Fit FitWarming(const IdentifierInput& given) {
     nominal_squares = LeftOver(root.asDiagonal() * kept_columns, root.cwiseProduct(torque));
   }
 
-  return Conclude({input, law, gravity, loop, start, gaps}, robust, nominal_squares);
+  // once more where the noise is coloured beyond doubt; samples at rest, which tell nothing, would
+  // part the rows of the fit from those of its errors
+  std::shared_ptr<const Whitening> whitening;
+  std::optional<Disagreement> structure;
+  const bool all_move = moving.count() == input.selection.count();
+  if (std::isinf(robust.threshold) && all_move) {
+    WarmFit plain = robust.fit;
+    whitening = FitWhitened(m, moving, loop, level, offsets, spread, robust.fit);
+    if (whitening) structure = FindStructure(input, gravity, loop, plain, robust.fit, *whitening);
+    if (structure || (whitening && LeavesBounds(LawParameters(law, robust.fit.parameters(), m)))) {
+      robust.fit = std::move(plain);
+      whitening = nullptr;
+    }
+  }
+  if (whitening) nominal_squares = LeftOver(whitening->Of(kept_columns), whitening->Of(torque));
+
+  return Conclude({input, law, gravity, loop, start, gaps, whitening, structure}, robust,
+                  nominal_squares);
 }
 
 }  // namespace

@@ -4,15 +4,29 @@
 
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
+#include "identification/inference/bounds.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/linear_task.h"
 #include "identification/linear/robust.h"
+#include "identification/uncertainty/disagreement.h"
 
 namespace warmjoint::inline identification {
 namespace {
 
 constexpr const char* kName = "nominal-ls";
+
+/// What whitening changes of a fit beyond doubt; nothing where the colour may be noise. A: [n x d];
+/// torque: [n].
+std::optional<Disagreement> FindStructure(const Eigen::MatrixXd& A, const Eigen::VectorXd& torque,
+                                          const LeastSquares& plain, const LeastSquares& white,
+                                          const Whitening& whitening, const Selection& selection) {
+  const Uncertainty known =
+      JudgeUncertainty(A, plain.cofactor, torque - A * plain.solution, selection);
+  return FindDisagreement({plain.solution, known.covariance},
+                          {white.solution, whitening.noise().innovation * white.cofactor},
+                          known.freedom);
+}
 
 Fit FitLaw(const IdentifierInput& given) {
   LinearTask task = BeginLinear(given, 0);
@@ -25,10 +39,10 @@ Fit FitLaw(const IdentifierInput& given) {
   const Eigen::MatrixXd A = Kept(columns, input.selection);
   const Eigen::VectorXd torque = Kept(m.torque, input.selection);
   const bool huber = input.options.Text("loss") == "huber";
-  const RobustLeastSquares robust =
+  RobustLeastSquares robust =
       huber ? SolveHuber(A, torque)
             : RobustLeastSquares{SolveLeastSquares(A, torque), kInfinity, true};
-  const LeastSquares& solved = robust.fit;
+  LeastSquares& solved = robust.fit;
   if (solved.rank < task.count()) {
     return Refused(kName, Status::not_identifiable,
                    IndistinctColumns(solved.mixed, law, gravity, input));
@@ -36,6 +50,21 @@ Fit FitLaw(const IdentifierInput& given) {
   if (!robust.converged) {
     return Refused(kName, Status::not_converged,
                    "the weights of Huber's loss still move after 100 rounds; use loss squares");
+  }
+
+  // once more where the noise is coloured beyond doubt
+  std::shared_ptr<const Whitening> whitening;
+  std::optional<Disagreement> structure;
+  if (!huber) whitening = WhiteningFor(torque - A * solved.solution, m, input.selection);
+  if (whitening) {
+    LeastSquares white = SolveLeastSquares(whitening->Of(A), whitening->Of(torque));
+    if (white.rank == task.count())
+      structure = FindStructure(A, torque, solved, white, *whitening, input.selection);
+    const bool is_friction =
+        white.rank == task.count() &&
+        !LeavesBounds(LawParameters(law, white.solution.head(task.law_count()), m));
+    if (structure || !is_friction) whitening = nullptr;
+    if (whitening) solved = std::move(white);
   }
 
   // the law, gravity beside it
@@ -51,11 +80,19 @@ Fit FitLaw(const IdentifierInput& given) {
   fit.torque = torque;
   fit.fitted = A * solved.solution;
   fit.errors.cofactor = solved.cofactor;
+  fit.errors.whitening = whitening;
   if (huber) fit.errors.scores = HuberScores(fit.residual(), robust.threshold);
   if (huber) fit.loss_bend = robust.threshold;
+  if (structure) {
+    const auto row = static_cast<size_t>(structure->parameter);
+    const bool named = row < fit.parameters.size() && !fit.parameters[row].name.empty();
+    fit.without_intervals =
+        DescribeDisagreement(*structure, named ? fit.parameters[row].name : "gravity");
+  }
   fit.count = task.count();
   fit.effective_parameters = task.count();
-  fit.summary = fmt::format("law {} by least squares on {} samples", law.name, torque.size());
+  fit.summary = fmt::format("law {} by least squares on {} samples{}", law.name, torque.size(),
+                            whitening ? kWhitened : "");
   fit.jacobian = [all = std::move(task.columns)] { return all; };
   return fit;
 }

@@ -74,6 +74,12 @@ bool RisesFromRest(const FrictionDescription& friction) {
 
 }  // namespace
 
+bool LeavesBounds(const std::vector<FitParameter>& parameters) {
+  return std::ranges::any_of(parameters, [](const FitParameter& one) {
+    return one.role == Role::law && !(one.value >= one.lower && one.value <= one.upper);
+  });
+}
+
 void JudgeBounds(const Fit& fit, Inference& inference) {
   const std::string& law = fit.friction.law;
   const std::vector<Excess> excesses = FindExcesses(fit, inference);

@@ -10,4 +10,7 @@ namespace warmjoint::inline identification {
 /// friction is given and a warning says so; else the friction may be used.
 void JudgeBounds(const Fit& fit, Inference& inference);
 
+/// Whether the value of a law parameter lies outside of its bounds, by chance or not.
+bool LeavesBounds(const std::vector<FitParameter>& parameters);
+
 }  // namespace warmjoint::inline identification

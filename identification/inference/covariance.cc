@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "identification/fit_data.h"
+#include "identification/uncertainty/few_segments.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -24,16 +25,42 @@ Uncertainty OfWeighted(const Eigen::MatrixXd& jacobian, const ErrorModel& errors
   return known;
 }
 
+/// Of least squares with a Jacobian J that is formed where it is needed.
+Uncertainty OfSquares(const Fit& fit, const Eigen::VectorXd& residual,
+                      const std::function<Eigen::MatrixXd()>& rows) {
+  const ErrorModel& errors = fit.errors;
+  Uncertainty known =
+      JudgeUncertainty(rows, errors.cofactor, residual, fit.used, fit.fitted, errors.prior);
+  const bool has_prior = errors.prior.size() > 0 && !errors.prior.isZero();
+  if (!has_prior && HasFewSegments(fit.used, errors.cofactor.rows())) {
+    CountSegments(rows(), errors.cofactor, residual, fit.used, known);
+  }
+  return known;
+}
+
+/// Of whitened rows: what colour is left of them counts, too. The freedom is that of noise of the
+/// colour that was taken off, since from the same samples that colour is known.
+Uncertainty OfWhitened(const Fit& fit, const Whitening& whitening) {
+  const auto rows = [&] { return whitening.Of(Kept(fit.jacobian(), fit.used)); };
+  Uncertainty known = OfSquares(fit, whitening.Of(fit.residual()).col(0), rows);
+  known.noise = whitening.noise();
+  const auto samples = static_cast<double>(whitening.size());
+  const auto count = static_cast<double>(fit.errors.cofactor.rows());
+  known.freedom = std::min(known.freedom, std::max(samples / known.noise.redundancy - count, 1.0));
+  return known;
+}
+
 }  // namespace
 
 Uncertainty CovarianceOf(const Fit& fit) {
   const ErrorModel& errors = fit.errors;
   if (errors.known) return *errors.known;
+  if (errors.whitening) return OfWhitened(fit, *errors.whitening);
   const Eigen::VectorXd residual = errors.scores.size() > 0 ? errors.scores : fit.residual();
   const auto jacobian = [&] { return Kept(fit.jacobian(), fit.used); };
   if (errors.weights.size() > 0) return OfWeighted(jacobian(), errors, residual, fit.used);
 
-  return JudgeUncertainty(jacobian, errors.cofactor, residual, fit.used, fit.fitted, errors.prior);
+  return OfSquares(fit, residual, jacobian);
 }
 
 }  // namespace warmjoint::inline identification

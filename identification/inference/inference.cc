@@ -31,11 +31,11 @@ KnownParameter Known(const FitParameter& parameter, double deviation, double qua
 /// One for each row of the table; those that were given, or that noise does not tell, have none.
 std::vector<KnownParameter> Intervals(const Fit& fit, const Uncertainty& known) {
   std::vector<KnownParameter> all;
-  const double quantile = StudentQuantile(known.freedom, kIntervalLevel);
   Eigen::Index column = 0;
   for (const FitParameter& parameter : fit.parameters) {
     KnownParameter one{parameter.value, {}, {}, 0};
     if (parameter.estimated) {
+      const double quantile = StudentQuantile(known.Freedom(column), kIntervalLevel);
       const double deviation = known.Deviation(column++);
       const bool tells = parameter.has_interval && fit.without_intervals.empty();
       if (tells) one = Known(parameter, deviation, quantile);

@@ -1,5 +1,7 @@
 #include "identification/score/cramer_rao.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "identification/fit_data.h"
@@ -10,8 +12,35 @@
 namespace warmjoint::inline identification {
 namespace {
 
+/// Rows W J with W R W^T = sigma^2 I, R the covariance of the noise at the kept samples: for coloured
+/// noise the innovations of a scalar Kalman filter that follows it, sigma over their deviation.
+/// jacobian: [n x p]; sigma: of the whole noise, N.m or N.
+Eigen::MatrixXd Whitened(const Eigen::MatrixXd& jacobian, const Measurements& measurements,
+                         const Selection& selection, const Truth& truth) {
+  if (!(truth.correlation_time > 0)) return jacobian;
+  const Eigen::VectorXd time = Kept(measurements.time, selection);
+  const double sigma = truth.torque_noise, coloured = std::pow(truth.coloured_noise, 2);
+  const double white = std::max(sigma * sigma - coloured, 0.0);
+  Eigen::MatrixXd rows = jacobian;
+  Eigen::RowVectorXd seen = Eigen::RowVectorXd::Zero(jacobian.cols());  // of each column, as noise
+  double variance = coloured;                                           // of what is not seen
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+    if (i > 0) {
+      const double kept = std::exp(-(time[i] - time[i - 1]) / truth.correlation_time);
+      seen *= kept;
+      variance = kept * kept * variance + (1 - kept * kept) * coloured;
+    }
+    const double innovation = variance + white;
+    const Eigen::RowVectorXd left = jacobian.row(i) - seen;
+    rows.row(i) = sigma / std::sqrt(innovation) * left;
+    seen += variance / innovation * left;
+    variance *= white / innovation;
+  }
+  return rows;
+}
+
 /// Standard deviations of the first `count` parameters; NaN where there are none.
-/// jacobian: [n x p]; sigma: N.m or N.
+/// jacobian: [n x p] for noise of deviation sigma, N.m or N, that is white.
 Eigen::VectorXd Deviations(const Eigen::MatrixXd& jacobian, double sigma, Eigen::Index count) {
   const Eigen::MatrixXd cofactor = Cofactor(jacobian.transpose() * jacobian);
   if (!(sigma > 0) || !cofactor.allFinite()) {
@@ -34,9 +63,12 @@ CramerRao CramerRaoBound(const Measurements& measurements, const Selection& sele
     return {none, none, {}};
   }
 
+  const auto rows_of = [&](const Eigen::MatrixXd& jacobian) {
+    return Whitened(Kept(jacobian, selection), measurements, selection, truth);
+  };
   const Eigen::MatrixXd columns = LawColumns(law, truth.velocity);
   if (!truth.friction.thermal) {
-    const Eigen::MatrixXd kept = Kept(columns, selection);
+    const Eigen::MatrixXd kept = rows_of(columns);
     const Eigen::VectorXd deviations = Deviations(kept, sigma, count);
     return {deviations, deviations, kept.transpose() * kept / (sigma * sigma)};
   }
@@ -49,9 +81,9 @@ CramerRao CramerRaoBound(const Measurements& measurements, const Selection& sele
       loop.Jacobian(Eigen::Map<const Eigen::VectorXd>(values.data(), d), *truth.friction.thermal,
                     truth.initial_energy);
   const Eigen::MatrixXd discrete = ByDiscretePair(continuous, *truth.friction.thermal, step);
-  const Eigen::MatrixXd kept = Kept(continuous, selection).leftCols(used);
+  const Eigen::MatrixXd kept = rows_of(continuous.leftCols(used));
   return {Deviations(kept, sigma, count),
-          Deviations(Kept(discrete, selection).leftCols(used), sigma, count),
+          Deviations(rows_of(discrete.leftCols(used)), sigma, count),
           kept.transpose() * kept / (sigma * sigma)};
 }
 

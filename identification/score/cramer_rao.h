@@ -19,8 +19,9 @@ struct CramerRao {
 /// Whether the initial energy counts as known.
 enum class KnownInitialEnergy { yes, no };
 
-/// sqrt(diag(I^-1)), I = J^T J / sigma^2 over the kept samples, J = dF/d(parameters) of the closed
-/// loop at the truth and sigma = truth.torque_noise (white). NaN where the bound does not exist: no
+/// sqrt(diag(I^-1)), I = J^T R^-1 J over the kept samples, J = dF/d(parameters) of the closed loop at
+/// the truth and R the covariance of the noise: sigma^2 = truth.torque_noise^2 in all, of which
+/// truth.coloured_noise^2 exp(-|t|/truth.correlation_time) remembers, the rest is white. NaN where the bound does not exist: no
 /// noise, parameters that the motion cannot tell apart, or a law that is not linear.
 /// step: sampling interval of the discrete pair, s.
 CramerRao CramerRaoBound(const Measurements& measurements, const Selection& selection,

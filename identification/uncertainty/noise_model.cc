@@ -4,12 +4,16 @@
 #include <cmath>
 #include <vector>
 
+#include "identification/uncertainty/tails.h"
+
 namespace warmjoint::inline identification {
 namespace {
 
 constexpr Eigen::Index kHighestOrder = 60;
 constexpr Eigen::Index kPatience = 6;  // orders without a better BIC
 constexpr Eigen::Index kBlock = 256;   // samples that are filtered at once
+constexpr double kDead = 1e-6;         // of the variance: covariances that are as good as 0
+constexpr double kBeyondDoubt = 5;     // deviations of a normal variable
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Autocovariances of a sequence with gaps. values: [N], 0 where not kept; kept: [N] 1 or 0.
@@ -92,11 +96,34 @@ NoiseModel FitNoise(const Eigen::VectorXd& residual, const Selection& selection)
     if (bic >= best_bic) continue;
     best_bic = bic;
     best.coefficients = a;
+    best.covariances = covariances.head(p + 1);
     best.innovation = innovation;
   }
   best.correlation = covariances[1] / best.variance;
   best.redundancy = best.order() > 0 ? Redundancy(best, covariances) : 1;
   return best;
+}
+
+Eigen::VectorXd CovariancesOf(const NoiseModel& noise, Eigen::Index last) {
+  const Eigen::Index p = noise.order();
+  const Eigen::VectorXd backwards = noise.coefficients.reverse();
+  Eigen::VectorXd r = Eigen::VectorXd::Zero(std::max(last, p) + 1);
+  r[0] = noise.variance;
+  if (p > 0) r.head(p + 1) = noise.covariances;
+  Eigen::Index small = 0;  // in a row
+  for (Eigen::Index lag = p + 1; p > 0 && lag <= last && small < p; ++lag) {
+    r[lag] = -backwards.dot(r.segment(lag - p, p));
+    small = std::abs(r[lag]) < kDead * noise.variance ? small + 1 : 0;
+  }
+  return r.head(last + 1);
+}
+
+bool IsSurelyColoured(const NoiseModel& noise, Eigen::Index n) {
+  if (noise.order() == 0 || !(noise.innovation > 0)) return false;
+  const auto p = static_cast<double>(noise.order()), samples = static_cast<double>(n);
+  const double ratio = samples * std::log(noise.variance / noise.innovation);
+  return static_cast<double>(kHighestOrder) * PValueOfF(ratio / p, p, samples) <
+         PValueOfNormal(kBeyondDoubt);
 }
 
 Eigen::MatrixXd ScatterThrough(const NoiseModel& noise, const Eigen::MatrixXd& A,

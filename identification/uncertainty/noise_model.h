@@ -11,6 +11,7 @@ namespace warmjoint::inline identification {
 /// Autoregressive noise e: e[i] + a_1 e[i-1] + ... + a_p e[i-p] = w[i], w white. White for p = 0.
 struct NoiseModel {
   Eigen::VectorXd coefficients;  // [p] a
+  Eigen::VectorXd covariances;   // [p + 1] of samples 0 to p apart; [1] or [0] for p = 0
   double variance = 0;           // of e, (N.m)^2 or N^2
   double innovation = 0;         // variance of w
   double correlation = 0;        // of neighbouring samples, -1 to 1
@@ -27,6 +28,15 @@ struct NoiseModel {
 /// residual: [n] over the kept samples; selection says where they stand. Neighbouring samples count
 /// as one sampling interval apart.
 NoiseModel FitNoise(const Eigen::VectorXd& residual, const Selection& selection);
+
+/// Covariances of samples 0 to `last` apart, as the model continues them; 0 once they have died away
+/// to 1e-6 of the variance. [last + 1]
+Eigen::VectorXd CovariancesOf(const NoiseModel& noise, Eigen::Index last);
+
+/// Whether the noise is coloured beyond doubt: the likelihood ratio n ln(variance / innovation) of
+/// white noise would happen by chance, in the order that was chosen of 60, less often than five
+/// deviations of a normal variable do. n: samples that the model was fitted to.
+bool IsSurelyColoured(const NoiseModel& noise, Eigen::Index n);
 
 /// A^T R A, where R is the covariance of the noise at the kept samples: what A^T e scatters by.
 /// A: [n x d]. Exact for a stationary e: each column is filtered backwards through the inverse of

@@ -13,11 +13,14 @@ namespace warmjoint::inline identification {
 struct Uncertainty {
   Eigen::MatrixXd covariance;  // [d x d] of the parameters
   double freedom = 1;          // degrees of freedom of the noise's variance
+  Eigen::VectorXd freedoms;    // [d] of the variance of each parameter, where they differ; or empty
   NoiseModel noise;
   double uneven = 0;  // deviations by which the noise's variance changes; 0 where it may be even
 
   /// Standard deviation of parameter i.
   double Deviation(Eigen::Index i) const { return std::sqrt(covariance(i, i)); }
+  /// Degrees of freedom of that.
+  double Freedom(Eigen::Index i) const { return freedoms.size() > 0 ? freedoms[i] : freedom; }
 };
 
 /// Covariance of x = argmin |y - f(x)|^2 for stationary noise: C (J^T R J) C, C = (J^T J)^-1, with

@@ -8,6 +8,7 @@
 
 #include "identification/forward/closed_loop_kernel.h"
 #include "identification/forward/row_products.h"
+#include "identification/uncertainty/whitening.h"
 #include "identification/warming/warm_fit.h"
 
 namespace warmjoint::inline identification {
@@ -25,16 +26,19 @@ class CondensedProblem {
   using Square = Eigen::Matrix<double, NUM_RESIDUALS, NUM_RESIDUALS>;
   using Vector = Eigen::Matrix<double, NUM_PARAMETERS, 1>;
 
-  /// jump_weights: [J] what each jump's square counts beside the squared residuals.
+  /// jump_weights: [J] what each jump's square counts beside the squared residuals; whitening: of the
+  /// rows, in the order of the samples that count; or none.
   CondensedProblem(const ClosedLoop& loop, const Eigen::VectorXd& level,
                    const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
-                   const Eigen::VectorXd& jump_weights, double scale)
+                   const Eigen::VectorXd& jump_weights, double scale,
+                   const Whitening* whitening = nullptr)
       : loop_(loop),
         level_(level),
         offsets_(offsets),
         weight_(kept.cwiseSqrt()),
         jump_weights_(jump_weights),
         scale_(scale),
+        whitening_(whitening),
         d_(loop.levels().cols()),
         x_(Vector::Constant(NumParameters(), std::numeric_limits<double>::quiet_NaN())) {}
 
@@ -68,15 +72,22 @@ class CondensedProblem {
     const double initial = Q == 3 ? x[d_ + Q - 1] : 0;
     if (D == Eigen::Dynamic) measured_ = level_ - offsets_ * x.tail(offsets_.cols());
     const double* measured = D == Eigen::Dynamic ? measured_.data() : level_.data();
-    RowProducts<NUM_RESIDUALS> products(NumResiduals());
-    WithHolds(loop_.intervals(), thermal, [&](const auto& hold) {
-      RunWithSensitivities<D>(loop_, x.data(), thermal.gain, initial, x.data() + d_ + Q, hold,
-                              [&](Eigen::Index n, double level, const double* g, const double* S) {
-                                if (weight_[n] == 0) return;
-                                Fill(n, measured[n] - level, g, S, products.Next());
-                              });
-    });
-    products_ = products.Sums();
+    const auto fill = [&](auto&& next) {
+      WithHolds(loop_.intervals(), thermal, [&](const auto& hold) {
+        RunWithSensitivities<D>(
+            loop_, x.data(), thermal.gain, initial, x.data() + d_ + Q, hold,
+            [&](Eigen::Index n, double level, const double* g, const double* S) {
+              if (weight_[n] != 0) Fill(n, measured[n] - level, g, S, next(n));
+            });
+      });
+    };
+    if (whitening_) {
+      products_ = WhitenedProducts(fill);
+    } else {
+      RowProducts<NUM_RESIDUALS> products(NumResiduals());
+      fill([&](Eigen::Index) { return products.Next(); });
+      products_ = products.Sums();
+    }
     if (D == Eigen::Dynamic) AddJumps(x);
     return products_;
   }
@@ -84,6 +95,24 @@ class CondensedProblem {
   std::vector<WarmIterate>& trace() const { return trace_; }
 
  private:
+  /// The products of the whitened rows. The noise has its colour as torque: rows of the level change
+  /// their sign with the direction.
+  template <typename Fill>
+  Square WhitenedProducts(Fill&& fill) const {
+    Whitening::Rows rows(whitening_->size(), NumResiduals());
+    Eigen::VectorXd sign(whitening_->size());
+    Eigen::Index count = 0;
+    fill([&](Eigen::Index n) {
+      sign[count] = loop_.direction()[n];
+      return rows.row(count++);
+    });
+    rows.array().colwise() *= sign.array();
+    whitening_->Apply(rows);
+    Eigen::MatrixXd products = Eigen::MatrixXd::Zero(rows.cols(), rows.cols());
+    products.selfadjointView<Eigen::Upper>().rankUpdate(rows.transpose());
+    return products.selfadjointView<Eigen::Upper>();
+  }
+
   /// Adds the rows sqrt(w) [-1, -b] of the jumps b, which are 0 but for their spread.
   void AddJumps(const Vector& x) const {
     const Eigen::Index first = d_ + Q, last = products_.rows() - 1;
@@ -117,6 +146,7 @@ class CondensedProblem {
   Eigen::VectorXd weight_;        // [N] of each row, the root of its square's
   Eigen::VectorXd jump_weights_;  // [J]
   double scale_;
+  const Whitening* whitening_;
   Eigen::Index d_;
 
   // the latest evaluation: Ceres asks for the residuals at a point, then for the derivatives there

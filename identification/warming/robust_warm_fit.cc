@@ -54,12 +54,8 @@ RobustWarmFit RefineByHuber(const ClosedLoop& loop, const Eigen::VectorXd& level
     robust.weight = kept.cwiseProduct(HuberWeights(residual, robust.threshold));
 
     // from where the fit before ended
-    WarmStart start;
-    start.parameters.resize(robust.fit.law_parameters + robust.fit.offsets);
-    start.parameters << robust.fit.parameters(), robust.fit.offset_values();
-    start.thermal = robust.fit.thermal();
-    WarmFit next = FitWarmFriction(loop, level, offsets, robust.weight, start, initial,
-                                   robust.threshold / kHuberBend,
+    WarmFit next = FitWarmFriction(loop, level, offsets, robust.weight, StartFrom(robust.fit),
+                                   initial, robust.threshold / kHuberBend,
                                    JumpWeights(robust.threshold / kHuberBend, spread));
     rests = AtRest(robust.fit, next, robust.threshold);
     next.trace.insert(next.trace.begin(), robust.fit.trace.begin(), robust.fit.trace.end());

@@ -58,10 +58,18 @@ Eigen::VectorXd WarmFit::prior() const {
   return all;
 }
 
+WarmStart StartFrom(const WarmFit& fit) {
+  WarmStart start;
+  start.parameters.resize(fit.law_parameters + fit.offsets);
+  start.parameters << fit.parameters(), fit.offset_values();
+  start.thermal = fit.thermal();
+  return start;
+}
+
 WarmFit FitWarmFriction(const ClosedLoop& loop, const Eigen::VectorXd& level,
                         const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
                         const WarmStart& start, InitialEnergy initial_energy, double scale,
-                        const Eigen::VectorXd& jump_weights) {
+                        const Eigen::VectorXd& jump_weights, const Whitening* whitening) {
   const Eigen::Index d = loop.levels().cols(), q = offsets.cols(), jumps = jump_weights.size();
   const int warming = initial_energy == InitialEnergy::estimated ? 3 : 2;
   Eigen::VectorXd x = Eigen::VectorXd::Zero(d + warming + jumps + q);
@@ -71,7 +79,8 @@ WarmFit FitWarmFriction(const ClosedLoop& loop, const Eigen::VectorXd& level,
 
   // sizes known at compile time for the common laws
   const auto solve = [&]<int D, int Q>() {
-    return Solve(CondensedProblem<D, Q>(loop, level, offsets, kept, jump_weights, scale), x);
+    return Solve(CondensedProblem<D, Q>(loop, level, offsets, kept, jump_weights, scale, whitening),
+                 x);
   };
   const auto solve_for = [&]<int D>() {
     return warming == 2 ? solve.template operator()<D, 2>() : solve.template operator()<D, 3>();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "identification/forward/closed_loop.h"
+#include "identification/uncertainty/whitening.h"
 #include "identification/warming/scan_time_constant.h"
 
 namespace warmjoint::inline identification {
@@ -21,7 +22,7 @@ struct WarmIterate {
 
 struct WarmFit {
   WarmIterate solution;
-  Eigen::MatrixXd normal;  // J^T J at the solution, by x, and the jumps' weights
+  Eigen::MatrixXd normal;  // J^T J at the solution, of the rows as fitted, and the jumps' weights
   std::vector<WarmIterate> trace;
   bool converged = false;
 
@@ -39,6 +40,9 @@ struct WarmFit {
   Eigen::Index offsets = 0;                                                   // q
 };
 
+/// To begin where a fit ended: its law and offsets, and its warming.
+WarmStart StartFrom(const WarmFit& fit);
+
 /// Minimises the squared residuals of the kept samples by Ceres' Levenberg-Marquardt with exact
 /// derivatives. Each evaluation is condensed: [J r] is replaced by a square factor R of the same
 /// products, R^T R = [J r]^T [J r], so that Ceres sees p + 1 residuals in place of N and steps
@@ -46,11 +50,13 @@ struct WarmFit {
 /// level: [N] sign(v) torque; offsets: [N x q] sign(v) dG/dg, torque that makes no heat (gravity);
 /// kept: [N] weight of each sample, 1 or 0 or between; start: parameters of the law and of the
 /// offsets [d + q]; scale: about the residuals' standard deviation, N.m or N; jump_weights: [J] of
-/// the loop's jumps (JumpWeights): each counts as a sample that measured 0.
+/// the loop's jumps (JumpWeights): each counts as a sample that measured 0; whitening: of the rows of
+/// the samples that count, whose weights are 1 then, as torque; or none.
 WarmFit FitWarmFriction(const ClosedLoop& loop, const Eigen::VectorXd& level,
                         const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
                         const WarmStart& start, InitialEnergy initial_energy, double scale,
-                        const Eigen::VectorXd& jump_weights = {});
+                        const Eigen::VectorXd& jump_weights = {},
+                        const Whitening* whitening = nullptr);
 
 /// The residuals' variance over the variance of each jump. scale: of the residuals, N.m or N;
 /// spread: [J] standard deviation that each jump is known to have, N.m or N.

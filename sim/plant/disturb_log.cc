@@ -20,6 +20,8 @@ void AddColouredNoise(const ColouredNoise& noise, double rate, RandomStream rand
     value = memory * value + fresh * random.Normal();
   }
   recording.truth.torque_noise = std::hypot(recording.truth.torque_noise, noise.deviation);
+  recording.truth.coloured_noise = noise.deviation;
+  recording.truth.correlation_time = noise.correlation_time;
 }
 
 void AddPeriodicTorque(const PeriodicTorque& periodic, RandomStream random, Measurements& log) {

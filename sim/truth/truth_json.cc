@@ -20,11 +20,13 @@ constexpr std::pair<const char*, Eigen::VectorXd Truth::*> kArrays[] = {
 };
 
 void CheckKeys(const json& object, const Place& place) {
-  static const std::vector<std::string> known{
+  static const std::vector<std::string> needed{
       "friction", "initial_energy", "torque_noise", "plant", "velocity", "force", "loss", "energy"};
+  std::vector<std::string> known = needed;
+  known.insert(known.end(), {"coloured_noise", "correlation_time"});
   if (!object.is_object()) Refuse(place, "holds no object; a truth file is one");
   RefuseUnknownKeys(object, "truth", known, place);
-  for (const std::string& key : known) {
+  for (const std::string& key : needed) {
     if (!object.contains(key)) Refuse(place, "lacks '{}'; is it a truth file?", key);
   }
 }
@@ -45,6 +47,10 @@ json TruthToJson(const Truth& truth) {
               {"initial_energy", truth.initial_energy},
               {"torque_noise", truth.torque_noise},
               {"plant", truth.plant}};
+  if (truth.correlation_time > 0) {
+    result["coloured_noise"] = truth.coloured_noise;
+    result["correlation_time"] = truth.correlation_time;
+  }
   for (const auto& [key, array] : kArrays) result[key] = truth.*array;
   return result;
 }
@@ -55,6 +61,12 @@ Truth TruthFromJson(const json& object, const Place& place) {
   truth.friction = FrictionFromJson(object["friction"], place);
   truth.initial_energy = Member<double>(object, "initial_energy", "a number", place);
   truth.torque_noise = Member<double>(object, "torque_noise", "a number", place);
+  if (object.contains("correlation_time")) {
+    truth.correlation_time = Member<double>(object, "correlation_time", "a number", place);
+  }
+  if (object.contains("coloured_noise")) {
+    truth.coloured_noise = Member<double>(object, "coloured_noise", "a number", place);
+  }
   truth.plant = Member<std::string>(object, "plant", "text", place);
 
   for (const auto& [key, array] : kArrays) {

@@ -9,7 +9,8 @@
 namespace warmjoint::inline sim {
 
 /// {friction{}, initial_energy, torque_noise, plant, velocity[N], force[N], loss[N], energy[N]},
-/// SI; numbers read back bit for bit.
+/// SI; where the noise is coloured also coloured_noise and correlation_time. Numbers read back bit
+/// for bit.
 nlohmann::json TruthToJson(const Truth& truth);
 
 /// The inverse. Missing or unknown keys, arrays of unlike lengths and wrong types throw BadInput

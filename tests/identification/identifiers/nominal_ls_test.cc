@@ -2,11 +2,13 @@
 
 #include <gmock/gmock.h>
 
+#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 
 #include "identification/answer/identify.h"
 #include "identification/preparation/select.h"
+#include "models/foundation/random_stream.h"
 #include "tests/support/vectors.h"
 
 namespace warmjoint {
@@ -108,6 +110,47 @@ TEST(NominalLs, CarriesTheUnitOfALoggedCurrent) {
   const Estimate estimate = Fit(current, "viscous_coulomb");
   EXPECT_EQ(estimate.Find("viscous")->unit, "A.s/rad");
   EXPECT_EQ(estimate.Find("coulomb")->unit, "A");
+}
+
+/// Speeds in turn, 20 samples each, under kv = 2 N.m.s/rad and kc = 7 N.m, with noise of 0.5 N.m whose
+/// neighbours correlate.
+Measurements WithColouredNoise(double pole, std::uint64_t seed) {
+  Eigen::VectorXd v(2000);
+  RandomStream random({seed, 0}, Stream::test);
+  for (Eigen::Index i = 0; i < v.size(); ++i) {
+    v[i] = i % 20 > 0 ? v[i - 1] : std::copysign(random.Uniform(0.1, 1), i % 40 < 20 ? 1 : -1);
+  }
+  Measurements m = test::Record(1, v, v.unaryExpr([](double x) { return 2 * x + 7 * Sign(x); }));
+  double noise = 0.5 * random.Normal();
+  for (double& torque : m.torque) {
+    torque += noise;
+    noise = pole * noise + 0.5 * std::sqrt(1 - pole * pole) * random.Normal();
+  }
+  return m;
+}
+
+TEST(NominalLs, WeighsColouredNoiseByItsColour) {
+  // plain squares leave 2.4 times the bound of such noise (README.md): 60 fits tell 1.0 from that
+  constexpr int kFits = 60;
+  double squares = 0, bound = 0;
+  int held = 0;
+  for (std::uint64_t seed = 0; seed < kFits; ++seed) {
+    const Measurements m = WithColouredNoise(0.9, seed);
+    const Estimate estimate = Fit(m, "viscous_coulomb");
+    const EstimatedParameter& coulomb = *estimate.Find("coulomb");
+    squares += std::pow(coulomb.value - 7, 2);
+    held += (*coulomb.interval95)[0] <= 7 && 7 <= (*coulomb.interval95)[1];
+
+    // differences e[i] - 0.9 e[i-1] are white
+    Eigen::MatrixXd A(m.size(), 2);
+    A << m.velocity, m.velocity.unaryExpr([](double x) { return static_cast<double>(Sign(x)); });
+    const Eigen::MatrixXd rows = A.bottomRows(m.size() - 1) - 0.9 * A.topRows(m.size() - 1);
+    const Eigen::Matrix2d normal = rows.transpose() * rows;
+    bound += 0.25 * (1 - 0.81) * normal.inverse()(1, 1);
+  }
+  // standard error of a root mean square of 60: 9 %
+  EXPECT_LT(std::sqrt(squares / bound), 1 + 3 * 0.09);
+  EXPECT_GE(held, 52);  // 95 %, less three deviations of 2.8 %
 }
 
 }  // namespace

@@ -2,8 +2,11 @@
 
 #include <gmock/gmock.h>
 
+#include <Eigen/Cholesky>
 #include <cmath>
 
+#include "identification/fit_data.h"
+#include "identification/linear/linear_laws.h"
 #include "identification/preparation/select.h"
 #include "identification/score/cramer_rao.h"
 #include "tests/support/vectors.h"
@@ -54,6 +57,29 @@ TEST(CramerRao, ReproducesTheGoldenBoundWithUnknownInitialEnergy) {
   const CramerRao bound =
       CramerRaoBound(recording, SelectMoving(recording), GoldenTruth(), KnownInitialEnergy::no, 15);
   ExpectNear(bound.continuous, {golden[0], golden[1], golden[2], golden[3]}, 1e-9);
+}
+
+TEST(CramerRao, OfColouredNoiseIsThatOfItsCovariance) {
+  const Measurements recording = test::GoldenRecording();
+  const Selection selection = SelectMoving(recording);
+  Truth truth = GoldenTruth();
+  truth.friction.thermal.reset();
+  truth.coloured_noise = 0.4;
+  truth.correlation_time = 40;
+  const CramerRao bound = CramerRaoBound(recording, selection, truth, KnownInitialEnergy::yes, 15);
+
+  // A^T R^-1 A written out
+  const Eigen::VectorXd time = Kept(recording.time, selection);
+  const Eigen::MatrixXd A =
+      Kept(LawColumns(*FindLaw("viscous_coulomb"), truth.velocity), selection);
+  Eigen::MatrixXd R = 0.09 * Eigen::MatrixXd::Identity(time.size(), time.size());
+  for (Eigen::Index i = 0; i < time.size(); ++i) {
+    for (Eigen::Index j = 0; j < time.size(); ++j) {
+      R(i, j) += 0.16 * std::exp(-std::abs(time[i] - time[j]) / 40);
+    }
+  }
+  const Eigen::MatrixXd expected = A.transpose() * R.llt().solve(A);
+  EXPECT_LT((bound.information - expected).norm(), 1e-9 * expected.norm());
 }
 
 TEST(CramerRao, DoesNotExistWithoutNoise) {

@@ -1,0 +1,42 @@
+#include "identification/uncertainty/disagreement.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "identification/uncertainty/tails.h"
+
+namespace warmjoint::inline identification {
+namespace {
+
+constexpr double kBeyondDoubt = 5;   // deviations of a normal variable
+constexpr double kLeastShare = 0.1;  // of the plain fit's variance
+
+}  // namespace
+
+std::optional<Disagreement> FindDisagreement(const FitOfRows& plain, const FitOfRows& whitened,
+                                             double freedom) {
+  Disagreement most;
+  for (Eigen::Index j = 0; j < plain.x.size(); ++j) {
+    const double before = plain.covariance(j, j);
+    const double variance = std::max(before - whitened.covariance(j, j), kLeastShare * before);
+    const double difference = whitened.x[j] - plain.x[j];
+    const double deviations = std::abs(difference) / std::sqrt(variance);
+    if (deviations > most.deviations) most = {j, difference, deviations};
+  }
+  if (!(most.deviations > 0)) return std::nullopt;
+  const double p = static_cast<double>(plain.x.size()) * PValueOfStudent(most.deviations, freedom);
+  if (p >= PValueOfNormal(kBeyondDoubt)) return std::nullopt;
+  return most;
+}
+
+std::string DescribeDisagreement(const Disagreement& found, const std::string& name) {
+  return fmt::format(
+      "no number has an interval, since the residual is structure and not noise: with its slow "
+      "part "
+      "taken for noise, {} would move by {:.2g} deviations of what noise does",
+      name, found.deviations);
+}
+
+}  // namespace warmjoint::inline identification

@@ -1,0 +1,119 @@
+#include "identification/uncertainty/few_segments.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace warmjoint::inline identification {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr Index kFewestFree = 8;  // segments beyond the parameters
+constexpr double kNone = 1e-9;    // of a residual that the fit leaves free: as good as 0
+
+/// Kept rows of one segment.
+struct Rows {
+  Index first = 0, count = 0;
+};
+
+std::vector<Rows> RowsOfSegments(const Selection& selection) {
+  std::vector<Rows> all;
+  Index sample = 0, row = 0;
+  for (const Segment& segment : selection.segments) {
+    row += selection.keep.segment(sample, segment.begin - sample).count();
+    const Index count = selection.keep.segment(segment.begin, segment.end - segment.begin).count();
+    if (count > 0) all.push_back({row, count});
+    row += count;
+    sample = segment.end;
+  }
+  return all;
+}
+
+/// What a segment gives to the variance of the parameters.
+struct Share {
+  VectorXd score;  // [p] s_g
+  MatrixXd own;    // [p x p] B^T B
+  MatrixXd cross;  // [p x p] X_g^T B,  B = (I - X_g C X_g^T)^(-1/2) X_g C
+};
+
+/// X: [m x p] of the segment; r: [m].
+Share ShareOf(const MatrixXd& X, const MatrixXd& cofactor, const VectorXd& r) {
+  // X = Q R, so that I - X C X^T is I beside Q and I - R C R^T on it
+  const Index q = std::min(X.rows(), X.cols());
+  const Eigen::HouseholderQR<MatrixXd> qr(X);
+  const MatrixXd Q = qr.householderQ() * MatrixXd::Identity(X.rows(), q);
+  const MatrixXd R = Q.transpose() * X;
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> left(MatrixXd::Identity(q, q) -
+                                                     R * cofactor * R.transpose());
+  const VectorXd root =
+      (left.eigenvalues().array() > kNone).select(left.eigenvalues().array().max(kNone).rsqrt(), 0);
+  const MatrixXd adjust = left.eigenvectors() * root.asDiagonal() * left.eigenvectors().transpose();
+
+  // all that counts lies in Q
+  const MatrixXd B = adjust * R * cofactor;
+  return {R.transpose() * adjust * (Q.transpose() * r), B.transpose() * B, R.transpose() * B};
+}
+
+}  // namespace
+
+bool HasFewSegments(const Selection& selection, Index p) {
+  const auto segments = static_cast<Index>(RowsOfSegments(selection).size());
+  return segments > 0 && segments < p + kFewestFree;
+}
+
+double FewestFreedom(const Selection& selection, Index p) {
+  if (!HasFewSegments(selection, p)) return std::numeric_limits<double>::infinity();
+  const auto segments = static_cast<double>(RowsOfSegments(selection).size());
+  return std::max(segments - static_cast<double>(p), 1.0);
+}
+
+void CountSegments(const MatrixXd& X, const MatrixXd& cofactor, const VectorXd& residual,
+                   const Selection& selection, Uncertainty& known) {
+  const Index p = cofactor.rows();
+  MatrixXd scatter = MatrixXd::Zero(p, p);
+  std::vector<Share> shares;
+  for (const Rows& rows : RowsOfSegments(selection)) {
+    shares.push_back(ShareOf(X.middleRows(rows.first, rows.count), cofactor,
+                             residual.segment(rows.first, rows.count)));
+    scatter += shares.back().score * shares.back().score.transpose();
+  }
+
+  // Of white noise the variance of parameter j is a sum of squares e^T P e, P over the segments with
+  // P_gh = [g = h] b_g^T b_g - u_g^T C u_h, b_g column j of B and u_g that of X_g^T B.
+  known.freedoms.setOnes(p);
+  known.freedom = 1;
+  if (static_cast<Index>(shares.size()) <= p) return;
+  const VectorXd before = known.covariance.diagonal();
+  MatrixXd covariance = cofactor * scatter * cofactor;
+  for (Index j = 0; j < p; ++j) {
+    const auto count = static_cast<Index>(shares.size());
+    MatrixXd P(count, count);
+    for (Index g = 0; g < count; ++g) {
+      const VectorXd pulled = cofactor * shares[static_cast<size_t>(g)].cross.col(j);
+      for (Index h = 0; h < count; ++h) {
+        P(g, h) = -pulled.dot(shares[static_cast<size_t>(h)].cross.col(j));
+      }
+      P(g, g) += shares[static_cast<size_t>(g)].own(j, j);
+    }
+    const double freedom =
+        P.trace() > kNone * cofactor(j, j) ? P.trace() * P.trace() / P.squaredNorm() : 0;
+    if (freedom >= 1 - kNone) {
+      known.freedoms[j] = std::max(freedom, 1.0);
+      continue;
+    }
+    const double scale = covariance(j, j) > 0 ? std::sqrt(before[j] / covariance(j, j)) : 0;
+    covariance.row(j) *= scale;
+    covariance.col(j) *= scale;
+    covariance(j, j) = before[j];
+  }
+  known.covariance = covariance;
+  known.freedom = known.freedoms.minCoeff();
+}
+
+}  // namespace warmjoint::inline identification

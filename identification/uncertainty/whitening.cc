@@ -1,0 +1,138 @@
+#include "identification/uncertainty/whitening.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "identification/uncertainty/turns_with_direction.h"
+#include "models/foundation/robust_noise.h"
+
+namespace warmjoint::inline identification {
+namespace {
+
+using Eigen::Index;
+
+constexpr Index kLongestGap = 1000;  // sampling intervals
+
+/// The kept samples. [n]
+std::vector<Index> KeptSamples(const Selection& selection) {
+  std::vector<Index> kept;
+  for (Index i = 0; i < selection.keep.size(); ++i) {
+    if (selection.keep[i]) kept.push_back(i);
+  }
+  return kept;
+}
+
+/// The median step between samples that are kept, s.
+double StepOfKept(const std::vector<Index>& kept, const Eigen::VectorXd& time) {
+  Eigen::VectorXd steps(static_cast<Index>(kept.size()) - 1);
+  for (size_t i = 1; i < kept.size(); ++i) {
+    steps[static_cast<Index>(i) - 1] = time[kept[i]] - time[kept[i - 1]];
+  }
+  return MedianInPlace(steps);
+}
+
+Eigen::VectorXd VelocityOf(const std::vector<Index>& kept, const Measurements& m) {
+  Eigen::VectorXd velocity(static_cast<Index>(kept.size()));
+  for (size_t i = 0; i < kept.size(); ++i) velocity[static_cast<Index>(i)] = m.velocity[kept[i]];
+  return velocity;
+}
+
+}  // namespace
+
+std::vector<Index> PlacesInTime(const Measurements& m, const Selection& selection) {
+  const std::vector<Index> kept = KeptSamples(selection);
+  std::vector<Index> places(kept.size(), 0);
+  if (kept.size() < 2) return places;
+  const double step = StepOfKept(kept, m.time);
+  size_t next = 0;
+  for (size_t i = 1; i < kept.size(); ++i) {
+    Index further = kLongestGap;
+    const double apart = (m.time[kept[i]] - m.time[kept[i - 1]]) / step;
+    if (apart < static_cast<double>(kLongestGap)) further = std::llround(apart);
+    while (next < m.starts.size() && m.starts[next] <= kept[i - 1]) ++next;
+    if (next < m.starts.size() && m.starts[next] <= kept[i]) further = kLongestGap;
+    places[i] = places[i - 1] + std::max<Index>(further, 1);
+  }
+  return places;
+}
+
+Selection OnEvenGrid(const std::vector<Index>& places) {
+  Selection grid;
+  grid.keep.setConstant(places.empty() ? 0 : places.back() + 1, false);
+  for (const Index place : places) grid.keep[place] = true;
+  return grid;
+}
+
+Whitening::Whitening(NoiseModel noise, const std::vector<Index>& places)
+    : noise_(std::move(noise)) {
+  const auto p = static_cast<size_t>(noise_.order());
+
+  // the places before each row, by which rows are predicted alike
+  std::map<std::vector<Index>, int> known;
+  std::vector<std::vector<Index>> patterns;
+  Index farthest = 0;
+  std::vector<Index> lags;
+  for (size_t i = 0; i < places.size(); ++i) {
+    lags.clear();
+    for (size_t j = i - std::min(i, p); j < i; ++j) lags.push_back(places[i] - places[j]);
+    if (!lags.empty()) farthest = std::max(farthest, lags.front());
+    const auto [at, fresh] = known.try_emplace(lags, static_cast<int>(patterns.size()));
+    if (fresh) patterns.push_back(lags);
+    which_.push_back(at->second);
+  }
+
+  // and how
+  const Eigen::VectorXd covariances = CovariancesOf(noise_, farthest);
+  for (const auto& pattern : patterns) predictors_.push_back(Solve(pattern, covariances));
+}
+
+Whitening::Predictor Whitening::Solve(const std::vector<Index>& lags,
+                                      const Eigen::VectorXd& covariances) const {
+  const auto m = static_cast<Index>(lags.size());
+  Eigen::MatrixXd among(m, m);
+  Eigen::VectorXd with(m);
+  for (Index i = 0; i < m; ++i) {
+    const Index lag = lags[static_cast<size_t>(i)];
+    with[i] = covariances[lag];
+    for (Index j = 0; j < m; ++j) {
+      among(i, j) = covariances[std::abs(lag - lags[static_cast<size_t>(j)])];
+    }
+  }
+  Predictor predictor;
+  predictor.weights = among.ldlt().solve(with).transpose();
+  const double left = noise_.variance - predictor.weights.dot(with);
+  predictor.scale = std::sqrt(noise_.innovation / std::max(left, noise_.innovation));
+  return predictor;
+}
+
+void Whitening::Apply(Rows& rows) const {
+  // from the last on, so that those before are still what they were
+  for (Index i = rows.rows() - 1; i >= 0; --i) {
+    const Predictor& predictor = predictors_[static_cast<size_t>(which_[static_cast<size_t>(i)])];
+    const Index m = predictor.weights.size();
+    if (m > 0) rows.row(i).noalias() -= predictor.weights * rows.middleRows(i - m, m);
+    rows.row(i) *= predictor.scale;
+  }
+}
+
+Eigen::MatrixXd Whitening::Of(const Eigen::MatrixXd& rows) const {
+  Rows whitened = rows;
+  Apply(whitened);
+  return whitened;
+}
+
+std::shared_ptr<const Whitening> WhiteningFor(const Eigen::VectorXd& residual,
+                                              const Measurements& measurements,
+                                              const Selection& selection) {
+  const std::vector<Index> places = PlacesInTime(measurements, selection);
+  const NoiseModel noise = FitNoise(residual, OnEvenGrid(places));
+  if (!IsSurelyColoured(noise, residual.size())) return nullptr;
+  const Eigen::VectorXd velocity = VelocityOf(KeptSamples(selection), measurements);
+  const auto turns = TurnsWithDirection(residual, velocity);
+  if (!turns || *turns) return nullptr;
+  return std::make_shared<const Whitening>(noise, places);
+}
+
+}  // namespace warmjoint::inline identification

@@ -1,0 +1,62 @@
+// Rows of a least-squares problem whose noise is coloured, made white.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "identification/uncertainty/noise_model.h"
+#include "models/recording/measurements.h"
+
+namespace warmjoint::inline identification {
+
+/// What a summary of a fit says of it.
+inline constexpr const char* kWhitened = ", whitened";
+
+/// Where the kept samples stand in time, in sampling intervals (the median step between neighbours
+/// that are kept): ascending from 0. Samples that preparation put in between take no place. A gap,
+/// or the start of another recording, counts a thousand intervals at most, or exactly. [n]
+std::vector<Eigen::Index> PlacesInTime(const Measurements& measurements,
+                                       const Selection& selection);
+
+/// The kept samples on an even grid of time: keep[i] where one has the place i.
+Selection OnEvenGrid(const std::vector<Eigen::Index>& places);
+
+/// W with W R W^T = s^2 I, R the covariance of the noise at the rows and s^2 its innovation: row i
+/// less its best prediction from the rows before, times s over the error of that. Of p rows before,
+/// p the order of the noise (Vecchia 1988): exact where all of them are neighbours, and for AR(1)
+/// across any gap; beyond it the covariances of the rows that are left predict.
+class Whitening {
+ public:
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+  /// noise: of order 1 or more, over places; places: [n] ascending.
+  Whitening(NoiseModel noise, const std::vector<Eigen::Index>& places);
+
+  /// rows: [n x q], replaced by W rows.
+  void Apply(Rows& rows) const;
+  Eigen::MatrixXd Of(const Eigen::MatrixXd& rows) const;
+
+  const NoiseModel& noise() const { return noise_; }
+  Eigen::Index size() const { return static_cast<Eigen::Index>(which_.size()); }
+
+ private:
+  /// How a row is predicted from those before it.
+  struct Predictor {
+    Eigen::RowVectorXd weights;  // [m] of the m rows before, the farthest first
+    double scale = 1;            // s over the deviation of what is left
+  };
+  Predictor Solve(const std::vector<Eigen::Index>& lags, const Eigen::VectorXd& covariances) const;
+
+  NoiseModel noise_;
+  std::vector<Predictor> predictors_;
+  std::vector<int> which_;  // [n] of them
+};
+
+/// The whitening of a fit whose residual is coloured beyond doubt (IsSurelyColoured); nothing where
+/// it may be white. residual: [n] over the kept samples, N.m or N.
+std::shared_ptr<const Whitening> WhiteningFor(const Eigen::VectorXd& residual,
+                                              const Measurements& measurements,
+                                              const Selection& selection);
+
+}  // namespace warmjoint::inline identification

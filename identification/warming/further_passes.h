@@ -1,0 +1,29 @@
+// What a joint fit of law and warming is refined by, from where it ended.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "identification/warming/gaps.h"
+#include "identification/warming/warm_fit.h"
+#include "models/recording/selection.h"
+
+namespace warmjoint::inline identification {
+
+/// Fits once more, the jumps of E at the gaps too; from a fit without them, whose place it takes.
+/// loop: with those jumps; level, offsets, kept: as of FitWarmFriction. Returns how far the jumps may
+/// be. [J]
+Eigen::VectorXd FitJumps(const ClosedLoop& loop, const Eigen::VectorXd& level,
+                         const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
+                         const std::vector<LogGap>& gaps, WarmFit& fit);
+
+/// Fits once more, the rows whitened by the colour of the residual that the fit leaves; from that
+/// fit, whose place it takes. Returns that whitening. Nothing, and the fit as it was, where the noise
+/// may be white (IsSurelyColoured) or the next fit does not settle. moving: the samples that count,
+/// none of them at rest; spread: [J] as FitJumps returns it. The trace goes on in whitened squares.
+std::shared_ptr<const Whitening> FitWhitened(const Measurements& m, const Selection& moving,
+                                             const ClosedLoop& loop, const Eigen::VectorXd& level,
+                                             const Eigen::MatrixXd& offsets,
+                                             const Eigen::VectorXd& spread, WarmFit& fit);
+
+}  // namespace warmjoint::inline identification
