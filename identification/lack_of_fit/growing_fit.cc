@@ -91,10 +91,12 @@ GrowingFit::Evidence GrowingFit::ByColour(const VectorXd& coefficients, const Ma
   // and with it R by a share of (4 R - 2)/m
   const double seen = scatter.selfadjointView<Eigen::Lower>().operatorNorm() / noise_.variance;
   const double small = 1 + std::max(4 * seen * (1 + 4 * seen / rows) - 2, 0.0) / rows;
-  const double red = small * seen;
+  // a fit that takes up what is slow leaves a rest that looks too fast: never quieter than white
+  const double least = std::max(small, 1 / std::max(seen, 1e-9));
+  const double red = least * seen;
   const double samples = rows / std::max(2 * red - 1, 1.0) - taken_;
   const double fewest = kFewestFree + static_cast<double>(own.cols());
-  const MatrixXd unbiased = small * scatter;
+  const MatrixXd unbiased = least * scatter;
   return {unbiased, HotellingPValue(coefficients, unbiased, std::max(samples, fewest))};
 }
 

@@ -3,9 +3,13 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <algorithm>
+#include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <vector>
+
+#include "identification/uncertainty/tails.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -16,6 +20,10 @@ using Eigen::VectorXd;
 
 constexpr Index kFewestFree = 8;  // segments beyond the parameters
 constexpr double kNone = 1e-9;    // of a residual that the fit leaves free: as good as 0
+constexpr double kMostFreedom = 1e4;
+constexpr int kHalvings = 30;      // of the range of its logarithm
+constexpr double kPrecise = 1e-7;  // of the integral for the coverage
+constexpr unsigned kDepth = 12;
 
 /// Kept rows of one segment.
 struct Rows {
@@ -60,6 +68,38 @@ Share ShareOf(const MatrixXd& X, const MatrixXd& cofactor, const VectorXd& r) {
   return {R.transpose() * adjust * (Q.transpose() * r), B.transpose() * B, R.transpose() * B};
 }
 
+/// P(N^2 <= q^2 e^T P e) for normal N and e, of independent entries of variance 1: of the weighted sum
+/// of chi^2 behind it by its characteristic function (Imhof 1961). weights: eigenvalues of P.
+double Coverage(double q, const VectorXd& weights) {
+  const auto integrand = [&](double u) {
+    double angle = 0.5 * std::atan(u), log_size = 0.25 * std::log1p(u * u);
+    for (const double weight : weights) {
+      const double w = q * q * weight * u;
+      angle -= 0.5 * std::atan(w);
+      log_size += 0.25 * std::log1p(w * w);
+    }
+    return std::sin(angle) / u * std::exp(-log_size);
+  };
+  using Rule = boost::math::quadrature::gauss_kronrod<double, 61>;
+  const double integral =
+      Rule::integrate(integrand, 0, std::numeric_limits<double>::infinity(), kDepth, kPrecise);
+  return 0.5 - integral / std::numbers::pi;
+}
+
+/// The degrees of freedom with which Student's quantile times sqrt(e^T P e) reaches as far as 95 % of
+/// the errors, whose variance is `variance` where that of e is 1; 1 at least.
+double FreedomOf(const MatrixXd& P, double variance) {
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(P, Eigen::EigenvaluesOnly);
+  const VectorXd weights = solver.eigenvalues().cwiseMax(0) / variance;
+  double least = 0, most = std::log(kMostFreedom);
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (least + most);
+    const double held = Coverage(StudentQuantile(std::exp(middle), kIntervalLevel), weights);
+    (held < kIntervalLevel ? most : least) = middle;
+  }
+  return std::exp(least);
+}
+
 }  // namespace
 
 bool HasFewSegments(const Selection& selection, Index p) {
@@ -101,10 +141,8 @@ void CountSegments(const MatrixXd& X, const MatrixXd& cofactor, const VectorXd& 
       }
       P(g, g) += shares[static_cast<size_t>(g)].own(j, j);
     }
-    const double freedom =
-        P.trace() > kNone * cofactor(j, j) ? P.trace() * P.trace() / P.squaredNorm() : 0;
-    if (freedom >= 1 - kNone) {
-      known.freedoms[j] = std::max(freedom, 1.0);
+    if (P.trace() > kNone * cofactor(j, j)) {
+      known.freedoms[j] = FreedomOf(P, cofactor(j, j));
       continue;
     }
     const double scale = covariance(j, j) > 0 ? std::sqrt(before[j] / covariance(j, j)) : 0;

@@ -21,11 +21,12 @@ double FewestFreedom(const Selection& selection, Eigen::Index p);
 ///
 ///     C (sum over segments g of s_g s_g^T) C,   s_g = X_g^T (I - X_g C X_g^T)^(-1/2) r_g,
 ///
-/// which is right on average for white noise whatever the number of segments (CR2), with the degrees
-/// of freedom, for each parameter, of the chi^2 that has mean and variance of its variance under
-/// white noise (Bell and McCaffrey 2002; Imbens and Kolesar 2016). A parameter with less than one
-/// degree of freedom keeps its deviation, and counts one; so do all where the segments are no more
-/// than the parameters, and their scatter tells nothing. Linear in the number of samples.
+/// which is right on average for white noise whatever the number of segments (CR2; Bell and McCaffrey
+/// 2002, Imbens and Kolesar 2016). Degrees of freedom, for each parameter, are those with which
+/// Student's quantile holds 95 % of white noise's errors: the variance is a sum of chi^2 with known
+/// weights, from whose mean and variance alone those authors take them. They are 1 at least, and 1
+/// with the deviation as it was where the segments are no more than the parameters, and their scatter
+/// tells nothing. Linear in the number of samples.
 /// X: [n x p] rows of the fit at the kept samples, whitened where they were; cofactor: C; residual:
 /// [n]; known: of the same fit.
 void CountSegments(const Eigen::MatrixXd& X, const Eigen::MatrixXd& cofactor,
