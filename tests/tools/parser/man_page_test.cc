@@ -8,6 +8,7 @@
 #include "tests/tools/cli/run_program.h"
 #include "tests/tools/parser/example_tree.h"
 #include "tests/tools/scratch_directory.h"
+#include "tools/terminal/wrap.h"
 
 namespace warmjoint {
 namespace {
@@ -55,7 +56,10 @@ TEST_F(ManPages, PassTheChecksOfMandoc) {
   if (!IsThere("mandoc")) GTEST_SKIP() << "mandoc is absent";
   for (const std::string& page : pages_) {
     const Answer answer = RunCommandLine({"mandoc", "-Tlint", "-Wwarning", page});
-    EXPECT_EQ(answer.out + answer.err, "") << page;
+    // pages bear no date, so that the same source makes the same bytes
+    for (const std::string& complaint : Lines(answer.out + answer.err)) {
+      EXPECT_THAT(complaint, HasSubstr("missing date"));
+    }
   }
 }
 
