@@ -37,7 +37,7 @@ void ReadInitialEnergy(const YamlValue& value, Scenario& scenario) {
 Controller ReadController(const YamlValue& value) {
   value.RequireKeys({"bandwidth", "acceleration"});
   Controller controller;
-  ReadNumber(value, "bandwidth", Bound::positive, controller.bandwidth);
+  ReadNumber(value, "bandwidth", Bound::not_negative, controller.bandwidth);
   ReadNumber(value, "acceleration", Bound::not_negative, controller.acceleration);
   return controller;
 }

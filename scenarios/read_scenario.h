@@ -21,7 +21,7 @@
 //       - {rest: 600}
 //     corners: [[0, 0], [1, 0.5]]     or a velocity that is linear between corners, s and rad/s,
 //     start: 0                        from this position on (mujoco)
-//   controller: {bandwidth: 20, acceleration: 0}           rad/s, rad/s^2 or m/s^2 (mujoco)
+//   controller: {bandwidth: 0, acceleration: 0}            rad/s, rad/s^2 or m/s^2; 0: chosen (README.md)
 //   noise: {torque: 0.5, velocity: 0, position: 0}         standard deviations
 //   disturbances:                none where not given (disturbances.h)
 //     outliers: {fraction: 0.01, size: 5}                  of the samples; N.m or N

@@ -27,7 +27,7 @@ Claim ReadClaim(const YamlValue& value) {
 }
 
 SuiteIdentifier ReadIdentifier(const YamlValue& value) {
-  value.RequireKeys({"name", "label", "options", "claim"});
+  value.RequireKeys({"name", "label", "options", "claim", "command"});
   SuiteIdentifier identifier;
   identifier.name = value.Require("name", "name an identifier (`list identifiers`)").Text();
   const auto label = value.Find("label");
@@ -39,6 +39,13 @@ SuiteIdentifier ReadIdentifier(const YamlValue& value) {
     }
   }
   if (const auto claim = value.Find("claim")) identifier.claim = ReadClaim(*claim);
+  if (const auto command = value.Find("command")) {
+    if (identifier.options.contains("command")) {
+      Refuse(command->place(), "{} stands in options too; keep one", command->key());
+    }
+    identifier.name = kExternal;
+    identifier.options["command"] = command->Text();
+  }
   return identifier;
 }
 

@@ -16,8 +16,9 @@ enum class PlantKind { ideal, mujoco };
 
 /// Velocity controller of the mujoco plant: torque = feedforward + kp e + ki integral(e).
 struct Controller {
-  double bandwidth =
-      20;  // rad/s, of the closed velocity loop; gains follow from the joint's inertia
+  /// rad/s, of the closed velocity loop; gains follow from the joint's inertia. 0: chosen by the
+  /// mujoco plant for inertia, friction, gravity and motion
+  double bandwidth = 0;
   double acceleration =
       0;  // rad/s^2 or m/s^2 of the reference between segments; 0: chosen by the mujoco plant, and
           // jumps in the ideal one

@@ -24,6 +24,10 @@ struct Claim {
   bool operator==(const Claim&) const = default;
 };
 
+/// Name under which a suite holds an identifier that is a command of its own; the command is the
+/// option of that name. An entry {name: mine, command: ...} is the same with the label mine.
+inline constexpr const char* kExternal = "external";
+
 /// An identifier as a suite runs it.
 struct SuiteIdentifier {
   std::string name;                            // in the list of identifiers
@@ -81,6 +85,8 @@ Scenario VariantScenario(const Suite& suite, int variant);
 ///   identifiers:
 ///     - {name: energy-em, label: energy-em-50, options: {iterations: 50},
 ///        claim: {source: "paper, Fig. 6", npe_continuous: 0.05}}
+///     - {name: mine, command: "python3 mine.py {recording} {estimate}"}      with --allow-commands;
+///                                  files that it names stand relative to the suite file
 /// Throws BadInput as ReadScenario does; every variant is checked.
 Suite ReadSuite(const std::string& path);
 

@@ -7,8 +7,10 @@
 #include "models/friction/joint_friction.h"
 #include "models/robots/robot_folder.h"
 #include "sim/plant/disturb_log.h"
+#include "sim/plant/drive_bandwidth.h"
 #include "sim/plant/sampling.h"
 #include "sim/plant/single_joint_model.h"
+#include "sim/plant/speed_watch.h"
 #include "sim/plant/velocity_drive.h"
 #include "sim/plant/velocity_reference.h"
 
@@ -19,6 +21,12 @@ namespace {
 /// decayed to e^-10 (1 + 10) = 5e-4 of its first size.
 constexpr double kRampTimes = 4;
 constexpr double kSettlingTimes = 10;
+
+/// An explicit loop is well damped up to this bandwidth times the step.
+constexpr double kLargestPhase = 0.2;
+
+/// The bandwidth of a drive that is not told one, where its joint needs no more, rad/s.
+constexpr double kCommonBandwidth = 20;
 
 /// Of the engine, between two calls of a watch: some milliseconds.
 constexpr long kStepsBetweenLooks = 4096;
@@ -56,49 +64,84 @@ class MujocoPlant : public Plant {
             WholeSteps(1 / scenario.sampling.rate, scenario.timestep, scenario, "sampling.rate")),
         steps_per_reading_(WholeSteps(1 / scenario.sampling.sensor_rate, scenario.timestep,
                                       scenario, "sampling.sensor_rate")) {
-    // an explicit loop is well damped up to a fifth of the step's rate
-    const double fastest = 0.2 / scenario.timestep;
-    if (!(scenario.controller.bandwidth > 0 && scenario.controller.bandwidth <= fastest)) {
+    const double fastest = FastestDrive();
+    if (!(scenario.controller.bandwidth >= 0 && scenario.controller.bandwidth <= fastest)) {
       Refuse({scenario.name},
-             "controller.bandwidth is {} rad/s; at timestep {} s it must be above "
-             "0 and at most {}",
+             "controller.bandwidth is {} rad/s; at timestep {} s it must be at most {}, or 0, "
+             "which chooses it",
              scenario.controller.bandwidth, scenario.timestep, fastest);
     }
+    const JointFriction friction(scenario.friction);
+    task_ = {joint_.inertia, friction.HoldingLevel(), friction.SteepestSlope(),
+             joint_.gravity_slope};
   }
 
  private:
   Recording CarryOut(std::uint64_t realization, const RunWatch& watch) override {
     const RandomKey key{scenario_.seed, realization};
     const double start = StartPosition(scenario_.motion, joint_.limits);
-    const VelocityReference reference = MakeReference(key, start);
+    const std::vector<MotionSegment> plan = CheckedPlan(key, start);
 
+    // a drive that this joint can follow, unless the scenario says which
     Recording recording = Empty();
+    recording.following = Sufficient(plan);
+    bandwidth_ = recording.following.bandwidth;
     SensorLog log(scenario_, key, recording.truth.velocity.size());
-    Move(reference, start, log, recording.truth, watch);
+    Move(MakeReference(plan), start, log, recording, watch);
     log.WriteTo(recording.measurements);
     DisturbLog(scenario_, realization, recording);
     return recording;
   }
 
-  VelocityReference MakeReference(RandomKey key, double start) const {
-    const double settling = kSettlingTimes / scenario_.controller.bandwidth;
+  /// The pieces at constant speed, of motions that stay within the joint's limits.
+  std::vector<MotionSegment> CheckedPlan(RandomKey key, double start) const {
     const std::vector<VelocityCorner>& corners = scenario_.motion.corners;
     if (!corners.empty()) {
       CheckReach(corners, start);
-      return VelocityReference::Through(corners, Acceleration(std::abs(corners.front().velocity)),
-                                        settling);
+      return HoldsBetween(corners);
     }
     RandomStream motion(key, Stream::motion);
     const auto plan = PlanMotion(scenario_.motion, scenario_.duration, joint_.limits, motion);
     CheckReach(plan, start);
-    return {plan, Acceleration(LargestChange(plan)), settling};
+    return plan;
+  }
+
+  double FastestDrive() const { return kLargestPhase / scenario_.timestep; }
+
+  /// The drive's bandwidth and the one that does.
+  Following Sufficient(const std::vector<MotionSegment>& plan) const {
+    Following following;
+    Advise(following, SufficientBandwidth(task_, plan));
+    following.bandwidth =
+        scenario_.controller.bandwidth != 0
+            ? scenario_.controller.bandwidth
+            : std::min(FastestDrive(), std::max(kCommonBandwidth, following.sufficient));
+    return following;
+  }
+
+  /// Sets the bandwidth that does, in two digits, and the step where the scenario's is too long for it.
+  void Advise(Following& following, double bandwidth) const {
+    if (bandwidth == 0) return;
+    const double unit = std::pow(10, std::floor(std::log10(bandwidth)) - 1);
+    following.sufficient = unit * std::ceil(bandwidth / unit);
+    const double parts = std::ceil(following.sufficient / FastestDrive() * (1 - 1e-12));
+    following.timestep = parts > 1 ? scenario_.timestep / parts : 0;
+  }
+
+  /// plan: of motions that are not given by corners.
+  VelocityReference MakeReference(const std::vector<MotionSegment>& plan) const {
+    const double settling = kSettlingTimes / bandwidth_;
+    const std::vector<VelocityCorner>& corners = scenario_.motion.corners;
+    if (corners.empty()) return {plan, Acceleration(LargestChange(plan)), settling};
+    return VelocityReference::Through(corners, Acceleration(std::abs(corners.front().velocity)),
+                                      settling);
   }
 
   /// Of ramps that change the velocity by up to `change`, rad/s^2 or m/s^2.
   double Acceleration(double change) const {
     const Controller& controller = scenario_.controller;
     if (controller.acceleration != 0) return controller.acceleration;
-    return change * controller.bandwidth / kRampTimes;
+    return change * bandwidth_ / kRampTimes;
   }
 
   /// Refuses motions that leave the joint's limits.
@@ -147,13 +190,14 @@ class MujocoPlant : public Plant {
   }
 
   /// Drives the joint along the reference; sensors read and samples are taken before their step.
-  void Move(VelocityReference reference, double start, SensorLog& log, Truth& truth,
+  void Move(VelocityReference reference, double start, SensorLog& log, Recording& recording,
             const RunWatch& watch) {
+    Truth& truth = recording.truth;
     const mjModel* m = joint_.model.get();
     mjData* d = data_.get();
     const double h = scenario_.timestep;
     const long run_up = std::lround(std::ceil(-reference.begin() / h));
-    VelocityDrive drive(joint_.inertia, scenario_.controller.bandwidth, h);
+    VelocityDrive drive(joint_.inertia, bandwidth_, h);
 
     // cold and at rest, so far back that the first sample is at the start
     mj_resetData(m, d);
@@ -163,6 +207,7 @@ class MujocoPlant : public Plant {
 
     const Eigen::Index n = truth.velocity.size();
     Eigen::Index sample = 0;
+    SpeedWatch speed;
     for (long step = -run_up; sample < n || !log.Full(); ++step) {
       if (step == 0) SetEnergy(state);
       const double time = static_cast<double>(step) * h;
@@ -174,6 +219,7 @@ class MujocoPlant : public Plant {
       const bool reads = step >= 0 && step % steps_per_reading_ == 0 && !log.Full();
       const bool stores = step >= 0 && step % steps_per_sample_ == 0 && sample < n;
       const double position = d->qpos[0], velocity = d->qvel[0];
+      if (step >= 0) speed.Look(wanted, velocity, reference.acceleration() == 0);
       if (stores) {
         truth.velocity[sample] = velocity;
         truth.energy[sample] = EnergyIn(state);
@@ -188,6 +234,11 @@ class MujocoPlant : public Plant {
         ++sample;
       }
     }
+    Following& following = recording.following;
+    following.share = speed.share();
+    // where the formula holds no answer, a faster drive is what can be tried
+    const bool did = following.bandwidth >= following.sufficient;
+    if (!following.Follows() && did) Advise(following, 2 * following.bandwidth);
   }
 
   /// E1 as the scenario begins, and no other heat.
@@ -217,6 +268,8 @@ class MujocoPlant : public Plant {
   const std::vector<StateMember> members_;  // of the friction, as they stand in act
   SingleJointModel joint_;
   DataPtr data_;
+  DriveTask task_;
+  double bandwidth_ = 0;  // of the realization at hand, rad/s
   long steps_per_sample_;
   long steps_per_reading_;
 };

@@ -1,7 +1,9 @@
 #include "sim/plant/single_joint_model.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <numbers>
 
 #include "models/foundation/bad_input.h"
 #include "sim/model/friction_actuator.h"
@@ -36,6 +38,23 @@ void SetUp(mjSpec* spec, mjsJoint* joint, double timestep) {
   joint->actfrclimited = mjLIMITED_FALSE;
 }
 
+/// Steepest slope of gravity over the position of the one joint, N.m/rad. About a fixed axis gravity is
+/// A sin(q + phase), so that two readings a quarter of a turn apart give A; along one it is constant.
+double GravitySlope(const mjModel* m) {
+  if (m->jnt_type[0] == mjJNT_SLIDE) return 0;
+  const DataPtr data(mj_makeData(m));
+  double squares = 0;
+  for (const double angle : {0.0, std::numbers::pi / 2}) {
+    data->qpos[0] = angle;
+    mj_kinematics(m, data.get());
+    mj_comPos(m, data.get());
+    mjtNum gravity = 0;
+    mj_rne(m, data.get(), 0, &gravity);
+    squares += gravity * gravity;
+  }
+  return std::sqrt(squares);
+}
+
 }  // namespace
 
 SingleJointModel LoadSingleJoint(const std::string& path, const std::string& joint,
@@ -56,6 +75,7 @@ SingleJointModel LoadSingleJoint(const std::string& path, const std::string& joi
   result.limits = m->jnt_limited[0] ? std::pair(m->jnt_range[0], m->jnt_range[1])
                                     : std::pair(-kInfinity, kInfinity);
   result.inertia = EffectiveInertia(m, 0);
+  result.gravity_slope = GravitySlope(m);
   result.friction_actuator = m->actuator_outadr[0];
   result.friction_state = m->actuator_actadr[0];
   result.friction_control = m->actuator_ctrladr[0];

@@ -15,6 +15,7 @@ struct SingleJointModel {
   JointKind kind = JointKind::rotary;
   std::pair<double, double> limits;  // rad or m; infinite where the joint has none
   double inertia = 0;                // effective, kg.m^2 or kg
+  double gravity_slope = 0;          // steepest, of gravity over the position, N.m/rad or N/m
   int friction_actuator = 0;         // its output in actuator_force
   int friction_state = 0;            // its first entry in act (StateOf)
   int friction_control = 0;          // the ambient temperature's rise in ctrl, K

@@ -57,6 +57,20 @@ class SuiteFile : public testing::Test {
       (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".yaml");
 };
 
+TEST_F(SuiteFile, NamesACommandAsAnIdentifier) {
+  const std::string entry =
+      "identifiers:\n  - {name: mine, command: \"python3 mine.py {recording} {estimate}\",\n"
+      "     options: {time_limit: 5}}\n";
+  const SuiteIdentifier mine = Read(kScenario + entry).identifiers.at(0);
+  EXPECT_EQ(mine.name, kExternal);
+  EXPECT_EQ(mine.label, "mine");
+  EXPECT_EQ(mine.options.at("command"), "python3 mine.py {recording} {estimate}");
+  EXPECT_EQ(mine.options.at("time_limit"), "5");
+  EXPECT_THAT(Refusal(kScenario + std::string("identifiers:\n  - {name: mine, command: a,\n"
+                                              "     options: {command: b}}\n")),
+              HasSubstr(":9: identifiers.0.command stands in options too"));
+}
+
 TEST_F(SuiteFile, IsReadWhole) {
   const Suite suite = Read(std::string(kScenario) + kIdentifiers);
   EXPECT_EQ(suite.name, "IsReadWhole");

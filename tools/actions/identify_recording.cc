@@ -57,16 +57,6 @@ std::map<std::string, std::string> GivenOptions(const IdentifySettings& settings
   return given;
 }
 
-/// --relevance and --start as far as the verdict reads them.
-Judging JudgingOf(const IdentifySettings& settings) {
-  if (!(settings.relevance > 0 && settings.relevance <= 1)) {
-    Refuse({"--relevance"}, "is {}; it must be a share of the friction above 0 and at most 1",
-           settings.relevance);
-  }
-  return {settings.relevance,
-          settings.start == "unknown" ? StartBelief::unknown : StartBelief::cold};
-}
-
 std::optional<Metrics> HoldOutFigures(const Identifier& identifier, const IdentifierInput& input,
                                       const Fit& fit, const HoldOutSource& source) {
   if (source.other) return HoldOut(identifier, fit, *source.other);
@@ -75,6 +65,15 @@ std::optional<Metrics> HoldOutFigures(const Identifier& identifier, const Identi
 }
 
 }  // namespace
+
+Judging JudgingOf(const IdentifySettings& settings) {
+  if (!(settings.relevance > 0 && settings.relevance <= 1)) {
+    Refuse({"--relevance"}, "is {}; it must be a share of the friction above 0 and at most 1",
+           settings.relevance);
+  }
+  return {settings.relevance,
+          settings.start == "unknown" ? StartBelief::unknown : StartBelief::cold};
+}
 
 IdentifyTask CheckSettings(const IdentifySettings& settings, JointKind joint) {
   RequireWord(settings.gravity, "--gravity", {"none", "sincos", "paired"});
@@ -114,10 +113,11 @@ std::string TakeBackAmperes(const Measurements& measurements, Estimate& estimate
       measurements.torque_unit, unit);
 }
 
-std::string EstimateFile(const Estimate& estimate,
-                         const std::optional<RecordingArguments>& source) {
+std::string EstimateFile(const Estimate& estimate, const std::optional<RecordingArguments>& source,
+                         const std::filesystem::path& target) {
   nlohmann::json file = EstimateToJson(estimate);
-  if (source) file["recording"] = RecordingToJson(*source);
+  if (source) file["recording"] = RecordingToJson(*source, target);
+  if (source && source->project) file["project"] = TakenProjectToJson(*source->project, target);
   return file.dump(2) + "\n";
 }
 

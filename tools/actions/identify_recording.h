@@ -1,6 +1,7 @@
 // What `identify` does between its arguments and its outputs.
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -31,6 +32,9 @@ struct IdentifyTask {
   VoidNumbers void_numbers;
 };
 
+/// What the verdict is told of them. Throws BadInput for a relevance that is no share.
+Judging JudgingOf(const IdentifySettings& settings);
+
 /// Throws BadInput for names, words and numbers that cannot be used, and for what the identifier or
 /// the kind of joint does not allow.
 IdentifyTask CheckSettings(const IdentifySettings& settings, JointKind joint);
@@ -52,7 +56,9 @@ Estimate IdentifyLog(const IdentifyTask& task, const PreparedLog& log,
 /// it; an empty text where nothing was done.
 std::string TakeBackAmperes(const Measurements& measurements, Estimate& estimate);
 
-/// The text of an estimate file. source: what its member `recording` says; none without it.
-std::string EstimateFile(const Estimate& estimate, const std::optional<RecordingArguments>& source);
+/// The text of an estimate file. source: what its members `recording` and `project` say; none without
+/// it. target: the file, from whose folder they are named.
+std::string EstimateFile(const Estimate& estimate, const std::optional<RecordingArguments>& source,
+                         const std::filesystem::path& target = {});
 
 }  // namespace warmjoint::inline tools

@@ -4,17 +4,38 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "models/foundation/atomic_file.h"
 #include "models/foundation/excerpt.h"
 #include "models/recording/join_recordings.h"
 #include "models/recording/read_recording.h"
 
 namespace warmjoint::inline tools {
+namespace fs = std::filesystem;
 namespace {
 
 /// The same for pairs in any order.
 std::vector<std::string> Sorted(std::vector<std::string> pairs) {
   std::sort(pairs.begin(), pairs.end());
   return pairs;
+}
+
+/// A file as it is called from the folder of another one; as it is where it is no file of a folder.
+std::string SeenFrom(const fs::path& file, const fs::path& other) {
+  std::error_code ignored;
+  if (other.empty() || IsStandardOutput(other) || !fs::is_regular_file(file, ignored)) return file;
+  const fs::path relative = fs::relative(file, fs::absolute(other).parent_path(), ignored);
+  return relative.empty() ? file : relative;
+}
+
+/// Where a file lies that another one names: seen from its folder, or as it is, or beside it; its name where
+/// it is nowhere.
+std::string Found(const fs::path& name, const fs::path& other) {
+  const fs::path folder = other.parent_path();
+  for (const fs::path& path : {folder / name, name, folder / name.filename()}) {
+    std::error_code ignored;
+    if (fs::exists(path, ignored)) return path;
+  }
+  return name;
 }
 
 }  // namespace
@@ -39,8 +60,10 @@ JointKind JointOf(const RecordingArguments& arguments) {
   return arguments.joint == "linear" ? JointKind::linear : JointKind::rotary;
 }
 
-nlohmann::json RecordingToJson(const RecordingArguments& arguments) {
-  nlohmann::json json{{"files", arguments.recordings},
+nlohmann::json RecordingToJson(const RecordingArguments& arguments, const fs::path& estimate) {
+  std::vector<std::string> files;
+  for (const std::string& file : arguments.recordings) files.push_back(SeenFrom(file, estimate));
+  nlohmann::json json{{"files", files},
                       {"map", Sorted(arguments.map)},
                       {"unit", Sorted(arguments.unit)},
                       {"joint", arguments.joint},
@@ -52,6 +75,10 @@ nlohmann::json RecordingToJson(const RecordingArguments& arguments) {
   if (arguments.holds.trim != 0) json["trim"] = arguments.holds.trim;
   if (arguments.holds.shortest != 0) json["shortest_hold"] = arguments.holds.shortest;
   return json;
+}
+
+nlohmann::json TakenProjectToJson(const TakenProject& project, const fs::path& estimate) {
+  return {{"file", SeenFrom(project.file, estimate)}, {"values", ProjectToJson(project.values)}};
 }
 
 RecordingArguments RecordingFromJson(const nlohmann::json& json, const Place& place) {
@@ -68,6 +95,7 @@ RecordingArguments RecordingFromJson(const nlohmann::json& json, const Place& pl
   } catch (const nlohmann::json::exception& error) {
     Refuse(place, "its member `recording` cannot be read ({}): give --recording", error.what());
   }
+  for (std::string& file : arguments.recordings) file = Found(file, place.file);
   return arguments;
 }
 

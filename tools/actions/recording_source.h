@@ -1,16 +1,25 @@
 // Where a recording comes from and how it is read, as commands and the public interface are told.
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "identification/preparation/prepared_log.h"
 #include "models/foundation/bad_input.h"
 #include "models/recording/csv.h"
+#include "tools/actions/project_file.h"
 
 namespace warmjoint::inline tools {
+
+/// What was taken of a project file.
+struct TakenProject {
+  std::filesystem::path file;
+  Project values;
+};
 
 /// The files of a recording, and what the command line says of them.
 struct RecordingArguments {
@@ -22,6 +31,7 @@ struct RecordingArguments {
   std::vector<std::string> scale;  // "torque=-1"
   double wrap = 0;                 // in the unit of the position; 0: a turn
   HoldOptions holds;
+  std::optional<TakenProject> project{};  // whose values stand above
 };
 
 /// Rotary or linear, as the command line says.
@@ -32,9 +42,17 @@ CsvLayout LayoutOf(const RecordingArguments& arguments);
 
 /// {files[], map[], unit[], joint, gear}, the pairs sorted, and {scale[], wrap, trim, shortest_hold} where one of them
 /// is given: the `recording` member of an estimate file, by which its pictures find the data again.
-nlohmann::json RecordingToJson(const RecordingArguments& arguments);
+/// estimate: that file; the recordings are named as seen from its folder, so that both can be found from
+/// anywhere and moved together. Empty: they are named as they are.
+nlohmann::json RecordingToJson(const RecordingArguments& arguments,
+                               const std::filesystem::path& estimate = {});
 
-/// The inverse. Throws BadInput from `place`.
+/// {file, values{}}: the `project` member of that file, what a project file set.
+nlohmann::json TakenProjectToJson(const TakenProject& project,
+                                  const std::filesystem::path& estimate = {});
+
+/// The inverse of RecordingToJson. place: of the estimate file; a recording that is not where it was is
+/// looked for beside that file. Throws BadInput from `place`.
 RecordingArguments RecordingFromJson(const nlohmann::json& json, const Place& place);
 
 /// Reads the recordings, several joined (join_recordings.h). Throws BadInput.

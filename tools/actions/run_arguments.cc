@@ -33,6 +33,9 @@ Suite ResolveSuite(const RunArguments& arguments) {
   Suite suite = ReadSuite(arguments.suite);
   if (arguments.realizations) suite.realizations = static_cast<int>(*arguments.realizations);
   if (arguments.seed) suite.scenario.seed = *arguments.seed;
+  for (SuiteIdentifier& identifier : suite.identifiers) {
+    identifier = WithFilesOfSuite(std::move(identifier), arguments.suite);
+  }
   const std::vector<SuiteIdentifier> own = suite.identifiers;
   suite.identifiers = ChooseIdentifiers(own, arguments.identifiers,
                                         arguments.shell ? CommandForm::shell : CommandForm::words);

@@ -1,8 +1,6 @@
 #include "tools/actions/run_task.h"
 
 #include <algorithm>
-#include <map>
-#include <set>
 #include <thread>
 
 #include "models/foundation/atomic_file.h"
@@ -13,12 +11,6 @@
 
 namespace warmjoint::inline tools {
 namespace {
-
-/// Whether an identifier answered, be it with a verdict.
-bool IsAnswer(const Result& result) {
-  static const std::set<std::string> none{"crashed", "timeout", "bad_answer", "not_simulated"};
-  return !none.contains(result.status);
-}
 
 /// A resumed run takes its own copy of the suite; one with a person's changes is left as it is.
 void RefuseEditedCopy(const RunArguments& arguments, const RunDescription& description) {
@@ -50,27 +42,8 @@ RunTask PrepareRun(const RunArguments& arguments) {
 
 RunEnding EndRun(RunStore& store) {
   store.Settle();
-  RunEnding ending;
-  ending.results = WriteTables(store);
-
-  // by position of the identifier: who answered, and the first failure of each
-  std::set<int> answered;
-  std::map<int, std::string> first;
-  store.ForEachUnit([&](const std::vector<Result>& unit) {
-    for (const Result& result : unit) {
-      if (IsAnswer(result)) answered.insert(result.identifier);
-      if (result.status == "ok") continue;
-      ++ending.failed;
-      first.emplace(result.identifier, result.message);
-    }
-  });
-
-  const std::vector<std::string> labels = store.ReadDescription().identifiers;
-  for (const auto& [identifier, message] : first) {
-    if (answered.contains(identifier)) continue;
-    ending.silent.emplace_back(labels[static_cast<std::size_t>(identifier)], message);
-  }
-  return ending;
+  WriteTables(store);
+  return EndingOf(store);
 }
 
 }  // namespace warmjoint::inline tools

@@ -1,11 +1,10 @@
 // What `run` does before and after the realizations of a suite.
 #pragma once
 
-#include <cstddef>
-#include <utility>
 #include <vector>
 
 #include "tools/actions/run_arguments.h"
+#include "tools/actions/run_ending.h"
 #include "tools/store/run_store.h"
 #include "tools/suite/prepared_identifier.h"
 #include "tools/suite/shard.h"
@@ -23,15 +22,6 @@ struct RunTask {
 
 /// Everything that can be refused is, before anything is written. Throws BadInput.
 RunTask PrepareRun(const RunArguments& arguments);
-
-/// What is said of a run at its end.
-struct RunEnding {
-  std::size_t results = 0;
-  std::size_t failed = 0;  // results that are not ok
-  /// Identifiers that answered in no realization, be it with a verdict: label, and the message of
-  /// the first failure.
-  std::vector<std::pair<std::string, std::string>> silent;
-};
 
 /// Settles the store, writes results.csv and sums up.
 RunEnding EndRun(RunStore& store);

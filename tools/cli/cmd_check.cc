@@ -9,6 +9,7 @@
 #include "tools/actions/outputs.h"
 #include "tools/cli/command.h"
 #include "tools/cli/recording_options.h"
+#include "tools/cli/take_project.h"
 #include "tools/parser/choice.h"
 #include "tools/terminal/activity.h"
 #include "tools/terminal/say.h"
@@ -76,7 +77,10 @@ Command AddCheckCommand(CLI::App& program) {
                    "the constant speeds that are kept, as CSV: begin and end in s, velocity in SI")
       ->type_name("FILE");
   AddChoice(*parser, "--format", arguments->format, {"text", "json"}, "of what is printed");
-  return {parser, [arguments] { return Check(*arguments); }};
+  return {parser, [arguments, parser] {
+            TakeProject(*parser, arguments->recording);
+            return Check(*arguments);
+          }};
 }
 
 }  // namespace warmjoint::inline tools

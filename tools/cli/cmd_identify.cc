@@ -7,11 +7,14 @@
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/parse_number.h"
 #include "sim/model/minimal_model.h"
+#include "tools/actions/identify_by_command.h"
 #include "tools/actions/identify_recording.h"
 #include "tools/actions/outputs.h"
 #include "tools/cli/command.h"
 #include "tools/cli/estimate_table.h"
 #include "tools/cli/recording_options.h"
+#include "tools/cli/take_project.h"
+#include "tools/cli/tell_wall.h"
 #include "tools/parser/choice.h"
 #include "tools/report/figures/fit_page.h"
 #include "tools/terminal/activity.h"
@@ -61,7 +64,7 @@ void CheckOutput(const std::string& path) {
 void WriteOutputs(const IdentifyArguments& arguments, const Estimate& estimate,
                   const Measurements& measurements, Activity& activity) {
   if (!arguments.output.empty()) {
-    WriteWholeFile(arguments.output, EstimateFile(estimate, arguments.recording));
+    WriteWholeFile(arguments.output, EstimateFile(estimate, arguments.recording, arguments.output));
   }
   if (arguments.mjcf.empty()) return;
   if (!estimate.friction) {
@@ -72,25 +75,25 @@ void WriteOutputs(const IdentifyArguments& arguments, const Estimate& estimate,
   WriteWholeFile(arguments.mjcf, MinimalModel(*estimate.friction, measurements.joint));
 }
 
-ExitStatus Identify(const IdentifyArguments& arguments) {
-  // everything that can be refused is, before any time is spent
-  const IdentifyTask task = CheckSettings(SettingsOf(arguments), JointOf(arguments.recording));
+std::vector<std::filesystem::path> OutputsOf(const IdentifyArguments& arguments) {
+  return {arguments.output, arguments.mjcf, arguments.plot};
+}
+
+/// Refuses outputs that are inputs too, or cannot be written, before any time is spent.
+void CheckOutputs(const IdentifyArguments& arguments) {
   std::vector<std::filesystem::path> inputs(arguments.recording.recordings.begin(),
                                             arguments.recording.recordings.end());
   inputs.emplace_back(arguments.holdout);
-  const std::vector<std::filesystem::path> outputs{arguments.output, arguments.mjcf,
-                                                   arguments.plot};
-  KeepApart(outputs, inputs);
+  KeepApart(OutputsOf(arguments), inputs);
   CheckOutput(arguments.output);
   CheckOutput(arguments.mjcf);
   CheckOutput(arguments.plot);
-  Activity activity("reading the recording");
-  const HoldOutSource holdout = ReadHoldOut(arguments);
-  const PreparedLog log = ReadAndPrepare(arguments.recording);
-  const auto& [measurements, selection] = log.taken();
+}
 
-  activity.Is(fmt::format("fitting {} to {} samples", task.identifier.name, measurements.size()));
-  const Estimate estimate = IdentifyLog(task, log, holdout);
+/// Writes and prints an estimate of the log.
+ExitStatus Deliver(const IdentifyArguments& arguments, const Estimate& estimate,
+                   const PreparedLog& log, Activity& activity) {
+  const auto& [measurements, selection] = log.taken();
   Estimate written = estimate;
   const std::string notice = TakeBackAmperes(measurements, written);
   if (!notice.empty()) activity.Aside([&] { Say(stderr, "{}\n", notice); });
@@ -99,17 +102,52 @@ ExitStatus Identify(const IdentifyArguments& arguments) {
     activity.Is("drawing " + arguments.plot);
     report::WriteFitPage(measurements, selection, estimate, arguments.plot);
   }
-  std::FILE* const words = WordsBeside(outputs);
+  std::FILE* const words = WordsBeside(OutputsOf(arguments));
   activity.Aside([&] {
     if (arguments.format == "json") {
       if (IsStandardOutput(arguments.output)) return;  // there it is already
-      fmt::print(words, "{}", EstimateFile(written, arguments.recording));
+      fmt::print(words, "{}", EstimateFile(written, arguments.recording, arguments.output));
     } else {
       const Detail detail = arguments.explain ? Detail::full : Detail::brief;
       SayText(words, EstimateToText(estimate, measurements, PageOf(words), detail));
     }
   });
   return estimate.status == Status::ok ? ExitStatus::done : ExitStatus::nothing_trustworthy;
+}
+
+/// A command of the user's in the place of an identifier.
+ExitStatus AskCommand(const IdentifyArguments& arguments) {
+  const CommandTask task = CheckCommand(SettingsOf(arguments));
+  CheckOutputs(arguments);
+  TellWall({task.command}, {});
+  Activity activity("reading the recording");
+  const HoldOutSource holdout = ReadHoldOut(arguments);
+  const PreparedLog log = ReadAndPrepare(arguments.recording);
+  try {
+    activity.Is("waiting for " + task.command.label);
+    return Deliver(arguments, IdentifyByCommand(task, log, holdout), log, activity);
+  } catch (const NoAnswer& failure) {
+    activity.Aside([&] {
+      Say(stderr, "{} gave no answer ({}): {}\n", task.command.label, failure.status,
+          failure.what());
+    });
+    return ExitStatus::nothing_trustworthy;
+  }
+}
+
+ExitStatus Identify(const IdentifyArguments& arguments) {
+  const bool command = arguments.settings.identifier.find('=') != std::string::npos;
+  if (command) return AskCommand(arguments);
+
+  // everything that can be refused is, before any time is spent
+  const IdentifyTask task = CheckSettings(SettingsOf(arguments), JointOf(arguments.recording));
+  CheckOutputs(arguments);
+  Activity activity("reading the recording");
+  const HoldOutSource holdout = ReadHoldOut(arguments);
+  const PreparedLog log = ReadAndPrepare(arguments.recording);
+  activity.Is(fmt::format("fitting {} to {} samples", task.identifier.name,
+                          log.taken().measurements.size()));
+  return Deliver(arguments, IdentifyLog(task, log, holdout), log, activity);
 }
 
 }  // namespace
@@ -121,7 +159,8 @@ Command AddIdentifyCommand(CLI::App& program) {
   AddHoldOptions(*parser, arguments->recording.holds);
   parser
       ->add_option("--identifier", arguments->settings.identifier,
-                   "see: warmjoint list identifiers")
+                   "see: warmjoint list identifiers; or a command of your own, as "
+                   "'mine=python3 mine.py {recording} {estimate}'")
       ->type_name("IDENTIFIER")
       ->capture_default_str();
   AddChoice(*parser, "--gravity", arguments->settings.gravity, {"none", "sincos", "paired"},
@@ -158,7 +197,10 @@ Command AddIdentifyCommand(CLI::App& program) {
   parser->add_flag("--force", arguments->force,
                    "show the numbers of an inadequate model with their intervals and write its\n"
                    "friction, all void; status and exit status 3 stay");
-  return {parser, [arguments] { return Identify(*arguments); }};
+  return {parser, [arguments, parser] {
+            TakeProject(*parser, arguments->recording);
+            return Identify(*arguments);
+          }};
 }
 
 }  // namespace warmjoint::inline tools

@@ -6,6 +6,7 @@
 #include "models/foundation/bad_input.h"
 #include "tools/board/write_tables.h"
 #include "tools/cli/command.h"
+#include "tools/cli/tell_run.h"
 #include "tools/cluster/gather.h"
 #include "tools/store/merge_runs.h"
 #include "tools/terminal/say.h"
@@ -37,10 +38,8 @@ void TellMissing(const std::set<Unit>& missing) {
 /// A run that was planned as shards becomes whole in its own directory.
 ExitStatus MergeInPlace(const std::filesystem::path& given) {
   const std::filesystem::path run = std::filesystem::absolute(given).lexically_normal();
-  const MergedRun merged = MergePlanned(run, ReadPlan(run));
-  Say(stdout, "{}: {} results, {} realizations; see: warmjoint compare {}\n", given.string(),
-      merged.results, merged.units, given.string());
-  return ExitStatus::done;
+  MergePlanned(run, ReadPlan(run));
+  return TellEnding(given, EndingOf(RunStore::OpenToRead(given)), RunPart::whole);
 }
 
 ExitStatus Merge(const MergeArguments& arguments) {
@@ -50,11 +49,11 @@ ExitStatus Merge(const MergeArguments& arguments) {
   }
   const MergedRun merged =
       MergeRuns(arguments.shards, arguments.output, {Overlap::refused, Access::read, &WriteTables});
-  Say(stdout, "{}: {} results of {} shards, {} of {} realizations; see: warmjoint compare {}\n",
-      arguments.output, merged.results, arguments.shards.size(),
-      merged.units - merged.missing.size(), merged.units, arguments.output);
+  Say(stdout, "{}: {} shards, {} of {} realizations\n", arguments.output, arguments.shards.size(),
+      merged.units - merged.missing.size(), merged.units);
   if (!merged.missing.empty()) TellMissing(merged.missing);
-  return ExitStatus::done;
+  return TellEnding(arguments.output, EndingOf(RunStore::OpenToRead(arguments.output)),
+                    merged.missing.empty() ? RunPart::whole : RunPart::shard);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "models/foundation/bad_input.h"
 #include "tools/cli/command.h"
 #include "tools/cli/plot_sources.h"
+#include "tools/cli/take_project.h"
 #include "tools/report/draw/draw_figure.h"
 #include "tools/report/gl/film.h"
 #include "tools/report/page/contact_sheet.h"
@@ -144,7 +145,10 @@ Command AddPlotCommand(CLI::App& program) {
       ->add_option("--sheet", arguments->sheet,
                    "contact sheet (PNG): the first picture of each kind")
       ->type_name("FILE");
-  return {parser, [arguments] { return PlotSources(*arguments); }};
+  return {parser, [arguments, parser] {
+            TakeProject(*parser, arguments->recording);
+            return PlotSources(*arguments);
+          }};
 }
 
 }  // namespace warmjoint::inline tools

@@ -3,54 +3,24 @@
 
 #include <limits>
 #include <memory>
-#include <utility>
 
-#include "models/foundation/excerpt.h"
 #include "scenarios/parse_suite.h"
 #include "tools/actions/run_task.h"
 #include "tools/cli/command.h"
 #include "tools/cli/run_in_shards.h"
 #include "tools/cli/suite_names.h"
+#include "tools/cli/tell_run.h"
+#include "tools/cli/tell_wall.h"
 #include "tools/cli/whole_number.h"
 #include "tools/suite/arithmetic.h"
 #include "tools/suite/engine.h"
-#include "tools/suite/external_identifier.h"
 #include "tools/suite/interrupt.h"
-#include "tools/suite/wall.h"
 #include "tools/terminal/say.h"
 
 namespace warmjoint::inline tools {
 namespace {
 
 constexpr std::uint64_t kLargestSeed = std::numeric_limits<std::uint64_t>::max();
-
-/// Verdicts are results: a suite that ends in failures alone is done. One with an identifier that
-/// never answered is not; of a shard, which may hold few realizations or none, only the whole says.
-ExitStatus Finish(RunStore& store, const Shard& shard) {
-  const RunEnding ending = EndRun(store);
-  Say(stdout, "{}: {} results, {} of them failures; see: warmjoint compare {}\n",
-      store.directory().string(), ending.results, ending.failed, store.directory().string());
-  for (const auto& [label, message] : ending.silent) {
-    Say(stderr, "{} answered in no realization; the first time: {}\n", Excerpt(label),
-        Excerpt(message, kLongestComplaint));
-  }
-  return ending.silent.empty() || !shard.IsWhole() ? ExitStatus::done : ExitStatus::no_answer;
-}
-
-/// Says what keeps commands of others from the truth, where there are any.
-void TellWall(const Suite& suite, const std::vector<std::filesystem::path>& secrets) {
-  bool told = false;
-  for (const SuiteIdentifier& identifier : suite.identifiers) {
-    if (identifier.name != kExternal) continue;
-    if (!std::exchange(told, true)) Say(stderr, "{}\n", WallInWords());
-    if (BestWall() == WallKind::none) return;
-    for (const std::filesystem::path& secret : secrets) {
-      if (WallHides(secret, ReadableBy(identifier))) continue;
-      Say(stderr, "warning: {} can read {}: it lies where the wall is open; move it\n",
-          identifier.label, secret.string());
-    }
-  }
-}
 
 ExitStatus Run(RunArguments arguments) {
   SettleArithmetic();
@@ -60,16 +30,18 @@ ExitStatus Run(RunArguments arguments) {
 
   const RunTask task = PrepareRun(arguments);
   RunStore store = RunStore::CreateOrResume(arguments.output, task.description);
-  TellWall(task.suite, {arguments.suite, arguments.output});
+  TellWall(task.suite.identifiers, {arguments.suite, arguments.output});
   CatchInterrupts();
   const RunOutcome outcome =
       RunSuite(task.suite, task.identifiers, {task.jobs, task.shard, arguments.keep}, store);
+  TellNotFollowing(outcome.following, task.description);
   if (outcome.interrupted) {
     Say(stderr, "interrupted: {} of {} realizations are kept; the same command goes on\n",
         outcome.finished, outcome.total);
     return ExitStatus::interrupted;
   }
-  return Finish(store, task.shard);
+  return TellEnding(store.directory(), EndRun(store),
+                    task.shard.IsWhole() ? RunPart::whole : RunPart::shard);
 }
 
 }  // namespace
@@ -93,7 +65,8 @@ Command AddRunCommand(CLI::App& program) {
   parser
       ->add_option("--identifier", arguments->identifiers,
                    "only this one of the suite, another one with its defaults, or your own as "
-                   "'name=command {recording} {estimate}'")
+                   "'name=command {recording} {estimate}'; +NAME or '+name=command ...' adds to "
+                   "those of the suite; repeatable")
       ->type_name("IDENTIFIER");
   parser
       ->add_option("--shard", arguments->shard,

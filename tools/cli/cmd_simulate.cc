@@ -19,12 +19,15 @@
 #include "tools/cli/command.h"
 #include "tools/cli/recording_options.h"
 #include "tools/cli/repeat_motion.h"
+#include "tools/cli/take_project.h"
 #include "tools/cli/whole_number.h"
 #include "tools/parser/choice.h"
 #include "tools/store/stored_suite.h"
 #include "tools/suite/arithmetic.h"
+#include "tools/suite/following_tally.h"
 #include "tools/suite/memory_of_work.h"
 #include "tools/terminal/progress_line.h"
+#include "tools/terminal/say.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -115,6 +118,9 @@ ExitStatus Simulate(const SimulateArguments& arguments) {
   directory.Commit();
   fmt::print("{}: {} samples over {:.6g} s\n", arguments.output, recording.measurements.size(),
              scenario.duration);
+  if (!recording.following.Follows()) {
+    Say(stderr, "notice: {}\n", NotFollowingInWords(recording.following));
+  }
   if (log) fmt::print("{}", CompareTorque(*log, recording.measurements));
   return ExitStatus::done;
 }
@@ -147,7 +153,10 @@ Command AddSimulateCommand(CLI::App& program) {
   parser->add_option("-o,--output", arguments->output, "directory for the files, made as a whole")
       ->type_name("DIR")
       ->required();
-  return {parser, [arguments] { return Simulate(*arguments); }};
+  return {parser, [arguments, parser] {
+            TakeProject(*parser, arguments->motion);
+            return Simulate(*arguments);
+          }};
 }
 
 }  // namespace warmjoint::inline tools

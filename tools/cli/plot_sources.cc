@@ -31,8 +31,7 @@ std::vector<report::Figure> Make(const std::vector<report::NamedFigure<View>>& f
   return figures;
 }
 
-/// The recording that an estimate file came from: the one given, else the one it remembers, as
-/// named there or beside it.
+/// The recording that an estimate file came from: the one given, else the one it remembers.
 std::optional<Measurements> RecordingOf(const nlohmann::json& file, const fs::path& path,
                                         const RecordingArguments& given) {
   if (!given.recordings.empty()) return ReadRecording(given);
@@ -41,10 +40,8 @@ std::optional<Measurements> RecordingOf(const nlohmann::json& file, const fs::pa
                path.string());
     return std::nullopt;
   }
-  RecordingArguments remembered = RecordingFromJson(file["recording"], {path});
-  for (std::string& recording : remembered.recordings) {
-    const fs::path beside = path.parent_path() / fs::path(recording).filename();
-    if (!fs::exists(recording) && fs::exists(beside)) recording = beside;
+  const RecordingArguments remembered = RecordingFromJson(file["recording"], {path});
+  for (const std::string& recording : remembered.recordings) {
     if (fs::exists(recording)) continue;
     fmt::print(
         stderr,

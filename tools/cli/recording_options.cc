@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "tools/cli/take_project.h"
 #include "tools/parser/choice.h"
 
 namespace warmjoint::inline tools {
@@ -41,6 +42,7 @@ void AddLayoutOptions(CLI::App& parser, RecordingArguments& arguments) {
   parser.add_option("--gear", arguments.gear, "motor turns for each joint turn")
       ->type_name("NUMBER")
       ->capture_default_str();
+  AddProjectOption(parser);
 }
 
 void AddHoldOptions(CLI::App& parser, HoldOptions& holds) {

@@ -6,6 +6,7 @@
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "scenarios/suite.h"
+#include "tools/cli/tell_run.h"
 #include "tools/cli/whole_number.h"
 #include "tools/cluster/batch_script.h"
 #include "tools/cluster/draw_id.h"
@@ -53,7 +54,9 @@ Plan MakePlan(const RunArguments& arguments, const Suite& suite) {
   plan.jobs = static_cast<int>(arguments.jobs.value_or(1));
   plan.array_parallelism = static_cast<int>(arguments.array_parallelism.value_or(0));
   plan.sbatch = arguments.sbatch;
-  plan.probe_seconds = ProbeSeconds(suite, identifiers);
+  const Probe probe = ProbeSuite(suite, identifiers);
+  TellNotFollowing(probe.following, description);
+  plan.probe_seconds = probe.seconds;
   const int count = arguments.shards
                         ? static_cast<int>(*arguments.shards)
                         : ShardCount(suite.realizations, plan.probe_seconds, plan.jobs);
@@ -100,10 +103,9 @@ std::vector<int> OpenShards(const fs::path& run, const Plan& plan) {
 }
 
 ExitStatus Conclude(const fs::path& run, const Plan& plan) {
-  const MergedRun merged = MergePlanned(run, plan);
-  fmt::print("{}: {} results; see: warmjoint compare {}\n", run.string(), merged.results,
-             run.string());
-  return ExitStatus::done;
+  // a job of the cluster may have merged them
+  if (!fs::exists(run / "results.sqlite")) MergePlanned(run, plan);
+  return TellEnding(run, EndingOf(RunStore::OpenToRead(run)), RunPart::whole);
 }
 
 ExitStatus RunHere(const fs::path& run, const Plan& plan, int at_once) {
@@ -134,7 +136,7 @@ ExitStatus SubmitAll(const fs::path& run, const Plan& plan, const RunArguments& 
   if (!arguments.wait) return ExitStatus::done;
   CatchInterrupts();
   if (!WaitForJobs(run, plan)) return ExitStatus::interrupted;
-  return fs::exists(run / "results.sqlite") ? ExitStatus::done : Conclude(run, plan);
+  return Conclude(run, plan);
 }
 
 }  // namespace
@@ -186,10 +188,7 @@ ExitStatus RunInShards(const RunArguments& arguments) {
     fmt::print("{}\n{}", (PlanFolder(run) / "array.sbatch").string(), ParallelRecipe(plan, run));
     return ExitStatus::done;
   }
-  if (fs::exists(run / "results.sqlite")) {
-    fmt::print("{}: all is there; see: warmjoint compare {}\n", run.string(), run.string());
-    return ExitStatus::done;
-  }
+  if (fs::exists(run / "results.sqlite")) return Conclude(run, plan);
   if (arguments.slurm) return SubmitAll(run, plan, arguments);
   return RunHere(run, plan, static_cast<int>(*arguments.local_shards));
 }

@@ -20,7 +20,8 @@ double Seconds(std::chrono::steady_clock::time_point since) {
 
 }  // namespace
 
-double ProbeSeconds(const Suite& suite, const std::vector<PreparedIdentifier>& identifiers) {
+Probe ProbeSuite(const Suite& suite, const std::vector<PreparedIdentifier>& identifiers) {
+  Probe probe;
   std::vector<Bench> benches;
   for (int variant = 0; variant < suite.variants(); ++variant) {
     benches.push_back(MakeBench(VariantScenario(suite, variant)));
@@ -29,19 +30,21 @@ double ProbeSeconds(const Suite& suite, const std::vector<PreparedIdentifier>& i
   const auto once = [&](int realization) {
     const auto start = std::chrono::steady_clock::now();
     for (int variant = 0; variant < suite.variants(); ++variant) {
-      RunRealization(benches[static_cast<std::size_t>(variant)], identifiers,
-                     {variant, realization}, keeper);
+      const Unit unit{variant, realization};
+      const Bench& bench = benches[static_cast<std::size_t>(variant)];
+      probe.following.Add(unit, RunRealization(bench, identifiers, unit, keeper).following);
     }
     return Seconds(start);
   };
 
   // the first one warms caches
-  const double first = once(0);
-  if (first > kLongEnough) return first;
+  probe.seconds = once(0);
+  if (probe.seconds > kLongEnough) return probe;
   double sum = 0;
   int count = 0;
   while (sum < kLongEnough) sum += once(count++ % suite.realizations);
-  return sum / count;
+  probe.seconds = sum / count;
+  return probe;
 }
 
 int ShardCount(int realizations, double probe_seconds, int jobs) {

@@ -5,6 +5,7 @@
 
 #include "scenarios/suite.h"
 #include "tools/cluster/plan.h"
+#include "tools/suite/following_tally.h"
 #include "tools/suite/prepared_identifier.h"
 
 namespace warmjoint::inline tools {
@@ -13,9 +14,15 @@ namespace warmjoint::inline tools {
 /// shorter ones keep it busy; longer ones lose more to a time limit.
 inline constexpr double kShardSeconds = 900;
 
-/// Wall time of one realization in all variants with all identifiers on one thread, s. What takes less
-/// than half a second is repeated, and the mean without the first is taken.
-double ProbeSeconds(const Suite& suite, const std::vector<PreparedIdentifier>& identifiers);
+/// What a look at the first realizations tells of the others.
+struct Probe {
+  double seconds = 0;  // wall time of one realization in all variants on one thread
+  FollowingTally following;
+};
+
+/// Runs realization 0 in all variants with all identifiers. What takes less than half a second is
+/// repeated, and the mean without the first is taken.
+Probe ProbeSuite(const Suite& suite, const std::vector<PreparedIdentifier>& identifiers);
 
 /// Number of shards so that one takes kShardSeconds on `jobs` threads; at least 1, at most one a
 /// realization.

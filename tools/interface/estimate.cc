@@ -21,10 +21,11 @@ Estimate FromJson(const nlohmann::json& json, const models::Place& place) {
   return estimate;
 }
 
-std::string TextOf(const Estimate& estimate) {
+/// target: the file, from whose folder its recordings are named.
+std::string TextOf(const Estimate& estimate, const std::filesystem::path& target = {}) {
   std::optional<tools::RecordingArguments> source;
   if (estimate.recording) source = ToArguments(*estimate.recording);
-  return tools::EstimateFile(ToEstimate(estimate), source);
+  return tools::EstimateFile(ToEstimate(estimate), source, target);
 }
 
 }  // namespace
@@ -53,7 +54,7 @@ Estimate ReadEstimate(const std::filesystem::path& file) {
 }
 
 void WriteEstimate(const Estimate& estimate, const std::filesystem::path& file) {
-  Guarded([&] { models::WriteWholeFile(file, TextOf(estimate)); });
+  Guarded([&] { models::WriteWholeFile(file, TextOf(estimate, file)); });
 }
 
 }  // namespace warmjoint::api

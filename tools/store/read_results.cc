@@ -42,6 +42,13 @@ std::set<Unit> RunStore::Finished() const {
   return finished;
 }
 
+std::map<std::string, int> RunStore::CountStatuses() const {
+  std::map<std::string, int> counts;
+  SQLite::Statement row(results_, "SELECT status, count(*) FROM result GROUP BY status");
+  while (row.executeStep()) counts[row.getColumn(0).getString()] = row.getColumn(1).getInt();
+  return counts;
+}
+
 void RunStore::ForEachUnit(const std::function<void(std::vector<Result>)>& work) const {
   Guarded(results_file(), [&] {
     UnitReader reader(results_, timings_ ? &*timings_ : nullptr, DigestOfPlan(ReadDescription()),

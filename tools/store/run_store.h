@@ -62,6 +62,9 @@ class RunStore {
   /// Calls work(unit) for the same in ascending order.
   void ForEachFinished(const std::function<void(Unit)>& work) const;
 
+  /// How many results have each status; as they stand there, unchecked.
+  std::map<std::string, int> CountStatuses() const;
+
   /// Calls work(results) for each unit in the order of (variant, realization): its results in the order
   /// of identifiers, without their traces. Memory does not grow with the run. Throws BadInput for a
   /// realization that is not what was stored.

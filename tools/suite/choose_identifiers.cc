@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "identification/identifiers/identifier_list.h"
+#include "models/foundation/excerpt.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -12,28 +13,39 @@ bool Contains(const std::vector<SuiteIdentifier>& identifiers, const std::string
                      [&](const SuiteIdentifier& one) { return one.label == label; });
 }
 
+/// Adds what one name stands for.
+void Add(const std::string& name, const std::vector<SuiteIdentifier>& suite, CommandForm form,
+         std::vector<SuiteIdentifier>& chosen) {
+  if (name.find('=') != std::string::npos) {
+    const SuiteIdentifier external = ReadExternal(name, form);
+    if (Contains(chosen, external.label)) {
+      Refuse({"--identifier"}, "there is a '{}' already; give yours another name",
+             Excerpt(external.label));
+    }
+    chosen.push_back(external);
+    return;
+  }
+  bool in_suite = false;
+  for (const SuiteIdentifier& one : suite) {
+    if (one.label != name && one.name != name) continue;
+    in_suite = true;
+    if (!Contains(chosen, one.label)) chosen.push_back(one);
+  }
+  if (!in_suite && !Contains(chosen, name)) {
+    chosen.push_back({FindIdentifier(name).name, name, {}, {}});
+  }
+}
+
 }  // namespace
 
 std::vector<SuiteIdentifier> ChooseIdentifiers(const std::vector<SuiteIdentifier>& suite,
                                                const std::vector<std::string>& names,
                                                CommandForm form) {
-  if (names.empty()) return suite;
+  const auto adds = [](const std::string& name) { return name.starts_with('+'); };
   std::vector<SuiteIdentifier> chosen;
-  for (const std::string& name : names) {
-    if (IsExternal(name)) {
-      chosen.push_back(ReadExternal(name, form));
-      continue;
-    }
-    bool in_suite = false;
-    for (const SuiteIdentifier& one : suite) {
-      if (one.label != name && one.name != name) continue;
-      in_suite = true;
-      if (!Contains(chosen, one.label)) chosen.push_back(one);
-    }
-    if (!in_suite && !Contains(chosen, name)) {
-      chosen.push_back({FindIdentifier(name).name, name, {}, {}});
-    }
-  }
+  if (std::all_of(names.begin(), names.end(), adds)) chosen = suite;
+  for (const std::string& name : names)
+    Add(adds(name) ? name.substr(1) : name, suite, form, chosen);
   return chosen;
 }
 

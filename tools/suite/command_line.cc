@@ -5,9 +5,12 @@
 #include <string_view>
 
 #include "models/foundation/excerpt.h"
+#include "tools/suite/run_command.h"
 
 namespace warmjoint::inline tools {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr std::string_view kBlanks = " \t\r\n";
 
@@ -20,6 +23,18 @@ bool IsPlain(const std::string& word) {
     const bool letter = ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z') || ('0' <= c && c <= '9');
     return letter || plain.find(c) != std::string_view::npos;
   });
+}
+
+/// Whether a word of a command names a file, seen from `folder`.
+bool NamesFile(const std::string& word, bool program, const fs::path& folder) {
+  std::error_code ignored;
+  if (word.empty() || !fs::is_regular_file(folder / word, ignored)) return false;
+  const bool has_folder = word.find('/') != std::string::npos;
+  return !program || has_folder || FindProgram(word) == word;
+}
+
+std::string Absolute(const std::string& word, const fs::path& folder) {
+  return fs::absolute(folder / word);
 }
 
 std::string Quoted(const std::string& word) {
@@ -67,17 +82,23 @@ std::string JoinCommand(const std::vector<std::string>& words) {
   return command;
 }
 
-std::string WithAbsoluteFiles(const std::string& command) {
+std::vector<std::string> WithAbsoluteFiles(std::vector<std::string> words, const fs::path& folder) {
+  for (size_t i = 0; i < words.size(); ++i) {
+    if (NamesFile(words[i], i == 0, folder)) words[i] = Absolute(words[i], folder);
+  }
+  return words;
+}
+
+std::string WithAbsoluteFiles(const std::string& line, const fs::path& folder) {
   std::string result;
-  for (size_t begin = 0; begin < command.size();) {
-    const bool blank = IsBlank(command[begin]);
+  bool first = true;
+  for (size_t begin = 0; begin < line.size();) {
+    const bool blank = IsBlank(line[begin]);
     size_t end = begin;
-    while (end < command.size() && IsBlank(command[end]) == blank) ++end;
-    const std::string part = command.substr(begin, end - begin);
-    std::error_code ignored;
-    const bool file =
-        part.find('/') != std::string::npos && std::filesystem::is_regular_file(part, ignored);
-    result += file ? Quoted(std::filesystem::absolute(part).string()) : part;
+    while (end < line.size() && IsBlank(line[end]) == blank) ++end;
+    const std::string part = line.substr(begin, end - begin);
+    result += !blank && NamesFile(part, first, folder) ? Quoted(Absolute(part, folder)) : part;
+    first = first && blank;
     begin = end;
   }
   return result;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <mutex>
 #include <thread>
+#include <utility>
 
 #include "sim/plant/plant.h"
 #include "tools/suite/finished_queue.h"
@@ -38,8 +40,15 @@ struct Work {
   std::atomic<size_t> next{0};
   std::atomic<bool> stop{false};
   FinishedQueue queue;
+  std::mutex counting{};
+  FollowingTally following{};
 
   bool Open() const { return !stop && !Interrupted(); }
+
+  void Count(Unit unit, const Following& joint) {
+    const std::lock_guard lock(counting);
+    following.Add(unit, joint);
+  }
 };
 
 void Labour(Work& work) {
@@ -53,7 +62,9 @@ void Labour(Work& work) {
       const Unit unit = work.units[i];
       Bench& bench = benches[static_cast<size_t>(unit.variant)];
       if (!bench.plant) bench = MakeBench(VariantScenario(work.suite, unit.variant));
-      work.queue.Put(RunRealization(bench, work.identifiers, unit, keeper));
+      Carried carried = RunRealization(bench, work.identifiers, unit, keeper);
+      work.Count(unit, carried.following);
+      work.queue.Put(std::move(carried.realization));
     }
   } catch (...) {
     error = std::current_exception();
@@ -103,7 +114,7 @@ RunOutcome RunSuite(const Suite& suite, const std::vector<PreparedIdentifier>& i
   const std::filesystem::path recordings =
       options.keep_recordings ? store.directory() / "recordings" : "";
   Work work{suite, identifiers, units, recordings, 0, false, FinishedQueue(workers)};
-  Progress progress(total, already);
+  Progress progress(total, already, store.CountStatuses());
   int told = already;
   const auto tell = [&](const std::vector<Realization>& batch) {
     if (!options.watch) return Report(progress, batch);
@@ -114,7 +125,7 @@ RunOutcome RunSuite(const Suite& suite, const std::vector<PreparedIdentifier>& i
   std::vector<std::jthread> threads;
   for (int i = 0; i < workers; ++i) threads.emplace_back(Labour, std::ref(work));
   const int finished = already + Store(work, store, tell);
-  return {finished, total, Interrupted() && finished < total};
+  return {finished, total, Interrupted() && finished < total, work.following};
 }
 
 }  // namespace warmjoint::inline tools

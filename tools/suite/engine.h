@@ -5,6 +5,7 @@
 
 #include "scenarios/suite.h"
 #include "tools/store/run_store.h"
+#include "tools/suite/following_tally.h"
 #include "tools/suite/prepared_identifier.h"
 #include "tools/suite/shard.h"
 
@@ -25,6 +26,7 @@ struct RunOutcome {
   int finished = 0;  // realizations of all variants of the shard that are in the store
   int total = 0;     // of the shard
   bool interrupted = false;
+  FollowingTally following{};  // of the realizations of this call
 };
 
 /// Runs the realizations that the store lacks, in batches of whole realizations, on threads

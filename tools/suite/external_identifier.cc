@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "identification/answer/judge_estimate.h"
 #include "identification/fit_data.h"
@@ -26,17 +24,6 @@ namespace warmjoint::inline tools {
 namespace {
 
 namespace fs = std::filesystem;
-
-const std::vector<OptionInfo>& ExternalOptions() {
-  static const std::vector<OptionInfo> options{
-      {"command", "", "text", "program and arguments with {recording} and {estimate}"},
-      {"shell", "no", "no|yes", "whether the command is a line for /bin/sh"},
-      {"time_limit", "60", "number > 0 <= 1000000", "s for each realization"},
-      {"memory", "4096", "number > 0 <= 1048576", "MiB of each process"},
-      {"reads", "", "text", "files and folders that it may read besides its own, parted by :"},
-  };
-  return options;
-}
 
 /// A directory of the system's for temporary files, removed at the end of its life.
 class WorkingDirectory {
@@ -59,16 +46,12 @@ class WorkingDirectory {
   fs::path path_;
 };
 
-bool Contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 void WriteMeasurements(const Measurements& measurements, const std::string& command,
                        const fs::path& directory) {
-  if (Contains(command, "{recording}")) {
+  if (Mentions(command, "{recording}")) {
     WriteRecording(measurements, directory / "recording.csv");
   }
-  if (Contains(command, "{recording.h5}")) {
+  if (Mentions(command, "{recording.h5}")) {
     WriteHdf5Alone(measurements, directory / "recording.h5");
   }
 }
@@ -141,55 +124,8 @@ struct Command {
   std::vector<std::string> words;  // with placeholders
   std::vector<fs::path> readable;  // besides its own directory
   CommandLimits limits;
+  Judging judging;
 };
-
-/// Whether `folder` is, or holds, `path`.
-bool IsAround(const fs::path& folder, const fs::path& path) {
-  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first ==
-         folder.end();
-}
-
-/// The folder of an interpreter's own libraries (a virtual environment, a Conda or pyenv one), by
-/// its program; empty where there is none, or where it would open what the wall has to hide.
-fs::path EnvironmentOf(const fs::path& program) {
-  if (program.parent_path().filename() != "bin") return {};
-  const fs::path prefix = program.parent_path().parent_path();
-  std::error_code ignored;
-  const bool known = fs::exists(prefix / "pyvenv.cfg", ignored) ||
-                     fs::exists(prefix / "conda-meta", ignored) ||
-                     fs::exists(prefix / "lib/python3", ignored);
-  return known && !IsAround(prefix, fs::current_path()) ? prefix : fs::path();
-}
-
-/// What a command must be able to read: the files that it names, what lies beside the first of them (a
-/// script's own modules) unless that is a folder around the current one, and its interpreter's
-/// libraries.
-std::vector<fs::path> Readable(const std::vector<std::string>& words, const std::string& more) {
-  std::vector<fs::path> readable;
-  std::error_code ignored;
-  for (const std::string& word : words) {
-    if (fs::path(word).is_absolute() && fs::is_regular_file(word, ignored)) {
-      readable.emplace_back(word);
-    }
-  }
-  if (!readable.empty()) {
-    const fs::path beside = readable.front().parent_path();
-    if (!IsAround(beside, fs::current_path())) readable.push_back(beside);
-  }
-  const fs::path program = FindProgram(words.front());
-  for (const fs::path& path : {program, fs::weakly_canonical(program, ignored)}) {
-    if (!path.is_absolute()) continue;
-    readable.push_back(path);
-    if (const fs::path libraries = EnvironmentOf(path); !libraries.empty()) {
-      readable.push_back(libraries);
-    }
-  }
-  std::istringstream paths(more);
-  for (std::string path; std::getline(paths, path, ':');) {
-    if (!path.empty()) readable.push_back(fs::absolute(path));
-  }
-  return readable;
-}
 
 /// The command for one directory, its placeholders filled in.
 std::vector<std::string> Filled(std::vector<std::string> words) {
@@ -222,61 +158,17 @@ Estimate Ask(const Command& command, const PreparedLog& log) {
   Estimate estimate = ReadAnswer(directory.path() / "estimate.json", command.label);
   AddDiscretePair(estimate, measurements);
   AddMetrics(estimate, measurements, selection);
-  JudgeEstimate(log, {}, estimate);
+  JudgeEstimate(log, command.judging, estimate);
   return estimate;
 }
 
 }  // namespace
 
-bool IsExternal(const std::string& argument) {
-  return argument.find('=') != std::string::npos &&
-         (Contains(argument, "{recording}") || Contains(argument, "{recording.h5}"));
-}
-
-SuiteIdentifier ReadExternal(const std::string& argument, CommandForm form) {
-  const size_t equals = argument.find('=');
-  const std::string label = argument.substr(0, equals);
-  const Place place{"--identifier " + Excerpt(label)};
-  if (label.empty()) Refuse({"--identifier"}, "'{}' lacks its name before '='", Excerpt(argument));
-  const std::string command = argument.substr(equals + 1);
-  if (!Contains(command, "{estimate}")) {
-    Refuse(place, "the command lacks {{estimate}}, the file that it has to write");
-  }
-  SuiteIdentifier identifier{kExternal, label, {}, {}};
-  if (form == CommandForm::shell) {
-    identifier.options = {{"command", WithAbsoluteFiles(command)}, {"shell", "yes"}};
-    return identifier;
-  }
-
-  // files are looked for from here, before the command runs elsewhere
-  std::vector<std::string> words = SplitCommand(command, place);
-  for (std::string& word : words) {
-    std::error_code ignored;
-    const bool file = Contains(word, "/") && fs::is_regular_file(word, ignored);
-    if (file) word = fs::absolute(word);
-  }
-  identifier.options = {{"command", JoinCommand(words)}};
-  return identifier;
-}
-
-bool NeedsShell(const SuiteIdentifier& identifier) {
-  const auto shell = identifier.options.find("shell");
-  return identifier.name == kExternal && shell != identifier.options.end() &&
-         shell->second == "yes";
-}
-
-std::vector<fs::path> ReadableBy(const SuiteIdentifier& identifier) {
-  const Options options(ExternalOptions(), identifier.options, {identifier.label});
-  const std::vector<std::string> words =
-      SplitCommand(options.Text("command"), {Excerpt(identifier.label)});
-  if (words.empty()) Refuse({Excerpt(identifier.label)}, "its command is empty");
-  return Readable(words, options.Text("reads"));
-}
-
-PreparedIdentifier PrepareExternal(const SuiteIdentifier& identifier, const Place& place) {
+PreparedIdentifier PrepareExternal(const SuiteIdentifier& identifier, const Place& place,
+                                   const Judging& judging) {
   const Options options(ExternalOptions(), identifier.options, place);
-  Command command{identifier.label, options.Text("command"), {}, {}, {}};
-  if (!Contains(command.text, "{estimate}")) {
+  Command command{identifier.label, options.Text("command"), {}, {}, {}, judging};
+  if (!Mentions(command.text, "{estimate}")) {
     Refuse(place, "the command of {} lacks {{estimate}}, the file that it has to write",
            Excerpt(identifier.label));
   }

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 
 #include "tools/terminal/progress_line.h"
 
@@ -11,8 +12,11 @@ namespace warmjoint::inline tools {
 /// Realizations with their rate, failures so far and time left, as ProgressLine shows them. One thread at a time.
 class Progress {
  public:
-  /// total: of things to do; already: of them done before.
-  Progress(int total, int already) : total_(total), already_(already) {}
+  /// total: of things to do; already: of them done before, with so many results of each status.
+  Progress(int total, int already, std::map<std::string, int> statuses = {})
+      : total_(total), already_(already), failures_(std::move(statuses)) {
+    failures_.erase("ok");
+  }
 
   /// Counts finished things, 0 too: time may have come for a line.
   void Add(int finished);

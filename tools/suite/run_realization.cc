@@ -80,10 +80,11 @@ std::vector<Result> AllFailed(size_t identifiers, const std::string& message) {
 
 Bench MakeBench(const Scenario& scenario) { return {scenario, MakePlant(scenario)}; }
 
-Realization RunRealization(const Bench& bench, const std::vector<PreparedIdentifier>& identifiers,
-                           Unit unit, const RecordingKeeper& keeper) {
+Carried RunRealization(const Bench& bench, const std::vector<PreparedIdentifier>& identifiers,
+                       Unit unit, const RecordingKeeper& keeper) {
   const auto realized = static_cast<std::uint64_t>(unit.realization);
-  Realization realization;
+  Carried carried;
+  Realization& realization = carried.realization;
   realization.unit = unit;
   const Stopwatch watch;
   std::optional<Recording> recording;
@@ -95,6 +96,7 @@ Realization RunRealization(const Bench& bench, const std::vector<PreparedIdentif
   realization.simulation_seconds = watch.Seconds();
 
   if (recording) {
+    carried.following = recording->following;
     const PreparedLog log = Prepare(recording->measurements);
     const StartKey start = StartKeyOf(bench.scenario.seed, realized);
     for (const PreparedIdentifier& identify : identifiers) {
@@ -109,7 +111,7 @@ Realization RunRealization(const Bench& bench, const std::vector<PreparedIdentif
     realization.results[i].realization = unit.realization;
     realization.results[i].identifier = static_cast<int>(i);
   }
-  return realization;
+  return carried;
 }
 
 }  // namespace warmjoint::inline tools

@@ -21,10 +21,16 @@ struct Bench {
 /// Throws BadInput where the plant cannot do the scenario.
 Bench MakeBench(const Scenario& scenario);
 
+/// A unit that was carried out.
+struct Carried {
+  Realization realization;
+  Following following;  // of the simulated joint
+};
+
 /// Simulates a unit on its variant's bench, keeps the recording where wanted, and scores every
 /// identifier on it. Never throws for what happens in a plant or an identifier: it becomes the
 /// status and message of the results concerned.
-Realization RunRealization(const Bench& bench, const std::vector<PreparedIdentifier>& identifiers,
-                           Unit unit, const RecordingKeeper& keeper);
+Carried RunRealization(const Bench& bench, const std::vector<PreparedIdentifier>& identifiers,
+                       Unit unit, const RecordingKeeper& keeper);
 
 }  // namespace warmjoint::inline tools

@@ -1,14 +1,27 @@
-// Options of the command line: the first line names an identifier, each other one is a --set, --map or --unit pair.
+// Options of the command line: the first line names an identifier, each other one is a --set, --map or --unit pair;
+// after a first line "project" the rest is a project file.
 #include "identification/identifiers/identifier_list.h"
 #include "tests/fuzz/fuzz.h"
+#include "tools/actions/project_file.h"
 #include "tools/actions/recording_source.h"
 
 namespace {
 
 using namespace warmjoint;
 
+/// A project file gives what the command line takes.
+void ReadProject(std::string_view bytes) {
+  const Project project = ParseProject(std::string(bytes), "fuzz.yaml");
+  for (const auto* pairs : {&project.map, &project.unit, &project.scale}) {
+    for (const auto& [column, value] : ReadPairs(*pairs, "--map")) fuzz::Require(!column.empty());
+  }
+  fuzz::Require(!project.gear || (std::isfinite(*project.gear) && *project.gear != 0));
+  fuzz::Require(!project.wrap || *project.wrap > 0);
+}
+
 void Read(std::string_view bytes) {
   const std::string name(fuzz::TakeLine(bytes));
+  if (name == "project") return ReadProject(bytes);
   std::vector<std::string> set, map, unit;
   while (!bytes.empty()) {
     std::string_view line = fuzz::TakeLine(bytes);

@@ -118,7 +118,7 @@ Recording Disturbed(const std::function<void(Disturbances&)>& set) {
 }
 
 TEST(Disturbances, ALagFollowsTheFrictionByItsTimeConstant) {
-  const auto [log, truth] = Disturbed([](Disturbances& set) { set.torque_lag = {2}; });
+  const auto [log, truth, drive] = Disturbed([](Disturbances& set) { set.torque_lag = {2}; });
   EXPECT_EQ(log.torque[0], truth.force[0]);
   for (Eigen::Index i = 1; i < log.size(); ++i) {
     const double share = -std::expm1(-0.5);
@@ -128,8 +128,8 @@ TEST(Disturbances, ALagFollowsTheFrictionByItsTimeConstant) {
 }
 
 TEST(Disturbances, AFilterOfTheVelocityLeavesPositionAndTorque) {
-  const auto [log, truth] = Disturbed([](Disturbances& set) { set.velocity_filter = {2}; });
-  const auto [plain, same] = Disturbed([](Disturbances&) {});
+  const auto [log, truth, drive] = Disturbed([](Disturbances& set) { set.velocity_filter = {2}; });
+  const auto [plain, same, other_drive] = Disturbed([](Disturbances&) {});
   EXPECT_EQ(log.position, plain.position);
   EXPECT_EQ(log.torque, plain.torque);
   EXPECT_EQ(log.velocity[0], plain.velocity[0]);
@@ -139,22 +139,25 @@ TEST(Disturbances, AFilterOfTheVelocityLeavesPositionAndTorque) {
 }
 
 TEST(Disturbances, PositionsAreLateOrCoarse) {
-  const auto [plain, truth] = Disturbed([](Disturbances&) {});
-  const auto [late, same] = Disturbed([](Disturbances& set) { set.stale_position = {1}; });
+  const auto [plain, truth, drive] = Disturbed([](Disturbances&) {});
+  const auto [late, same, other_drive] =
+      Disturbed([](Disturbances& set) { set.stale_position = {1}; });
   const Eigen::Index n = plain.size() - 1;
   EXPECT_EQ(late.position.tail(n), plain.position.head(n));
-  const auto [coarse, also] = Disturbed([](Disturbances& set) { set.encoder = {0.05}; });
+  const auto [coarse, also, third_drive] =
+      Disturbed([](Disturbances& set) { set.encoder = {0.05}; });
   EXPECT_LE((coarse.position - plain.position).cwiseAbs().maxCoeff(), 0.025 + 1e-12);
 }
 
 TEST(Disturbances, ALogMayHaveNoVelocity) {
-  const auto [log, truth] = Disturbed([](Disturbances& set) { set.without_velocity = true; });
+  const auto [log, truth, drive] =
+      Disturbed([](Disturbances& set) { set.without_velocity = true; });
   EXPECT_EQ(log.velocity.size(), 0);
   EXPECT_EQ(truth.velocity.size(), log.size());
 }
 
 TEST(Disturbances, FrictionThatNoModelKnowsOpposesTheMotion) {
-  const auto [plain, truth] = Disturbed([](Disturbances&) {});
+  const auto [plain, truth, drive] = Disturbed([](Disturbances&) {});
   const Eigen::ArrayXd sign = truth.velocity.array().sign();
   const auto added = [&](const std::function<void(Disturbances&)>& set) -> Eigen::ArrayXd {
     return (Disturbed(set).measurements.torque - plain.torque).array() * sign;

@@ -103,6 +103,67 @@ TEST(MujocoPlant, StandsStillInRests) {
   EXPECT_GT(r.truth.energy[38], r.truth.energy[22]) << "the joint cools";
 }
 
+/// A light elbow under gravity, 0.05 kg.m^2 and 1.96 N.m, that travels between its limits at three speeds.
+Scenario LightElbow(double coulomb) {
+  Scenario scenario;
+  scenario.name = "light-elbow";
+  scenario.plant = PlantKind::mujoco;
+  scenario.robot = testing::TempDir() + "/light_elbow.xml";
+  WriteWholeFile(scenario.robot, R"(<mujoco><compiler angle="radian"/><worldbody><body>
+    <joint name="elbow" axis="0 1 0" limited="true" range="-2 2"/>
+    <inertial pos="0 0 -0.2" mass="1" diaginertia="0.01 0.01 0.01"/></body></worldbody></mujoco>)");
+  scenario.joint = "elbow";
+  scenario.friction = {"coulomb", {{"coulomb", coulomb}}, std::nullopt};
+  scenario.motion.speed_list = {0.2, 0.5, 1};
+  scenario.motion.travel_between_joint_limits = true;
+  scenario.timestep = 0.001;
+  scenario.duration = 100;
+  return scenario;
+}
+
+TEST(MujocoPlant, NoticesAJointThatDoesNotFollowAndNamesTheDriveThatCuresIt) {
+  Scenario slow_drive = Table1();
+  slow_drive.controller.bandwidth = 5;
+  slow_drive.motion.speed_draws = Distribution{Distribution::Kind::fixed, 0.1};
+  Scenario elbow = LightElbow(4), stiff_elbow = LightElbow(8);
+  elbow.controller.bandwidth = stiff_elbow.controller.bandwidth = 20;
+  for (Scenario scenario : {slow_drive, elbow, stiff_elbow}) {
+    const Following astray = Record(scenario).following;
+    EXPECT_FALSE(astray.Follows()) << scenario.name << ": " << astray.share;
+    EXPECT_EQ(astray.bandwidth, scenario.controller.bandwidth);
+
+    scenario.controller.bandwidth = astray.sufficient;
+    if (astray.timestep != 0) scenario.timestep = astray.timestep;
+    const Following cured = Record(scenario).following;
+    EXPECT_GE(cured.share, 0.9) << scenario.name;
+  }
+  EXPECT_NE(Record(stiff_elbow).following.timestep, 0) << "its drive is too fast for 1 ms";
+}
+
+TEST(MujocoPlant, ChoosesADriveForInertiaFrictionGravityAndMotion) {
+  // (2 * 4 / 0.2) / 0.05 / 5.4 = 148 rad/s, in two digits
+  const Following elbow = Record(LightElbow(4)).following;
+  EXPECT_DOUBLE_EQ(elbow.bandwidth, 150);
+  EXPECT_GE(elbow.share, 0.9);
+  // 10 sqrt(1.962 / 0.05) = 62.6 rad/s
+  EXPECT_DOUBLE_EQ(Record(LightElbow(0.1)).following.bandwidth, 63);
+  // without need, and where the step allows no more
+  Scenario easy = Table1();
+  easy.controller.bandwidth = 0;
+  easy.friction = {"coulomb", {{"coulomb", 1}}, std::nullopt};
+  EXPECT_DOUBLE_EQ(Record(easy).following.bandwidth, 20);
+  EXPECT_DOUBLE_EQ(Record(LightElbow(8)).following.bandwidth, 0.2 / 0.001);
+}
+
+TEST(MujocoPlant, FollowsTableOneAndRests) {
+  Scenario scenario = Table1();
+  scenario.motion.rests = Rests{40, 20};
+  EXPECT_GE(Record(scenario).following.share, 0.95);
+  scenario.motion = {};
+  scenario.motion.corners = {{0, 0}, {200, 0}};
+  EXPECT_EQ(Record(scenario).following.share, 1) << "no speed is asked for";
+}
+
 template <typename Edit>
 void ExpectRefusal(const Edit& edit, const std::string& message) {
   Scenario scenario = Table1();

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -202,6 +203,62 @@ TEST(Identify, AnInadequateModelGivesStatus3AndVoidNumbersOnlyByForce) {
   EXPECT_THAT(estimate.at("message").get<std::string>(), HasSubstr("all numbers are void"));
   EXPECT_EQ(estimate.at("parameters").at("coulomb").at("interval95").size(), 2u);
   EXPECT_TRUE(std::filesystem::exists(model));
+}
+
+/// A script that answers 5 v + coulomb sign(v).
+std::string FixedAnswer(double coulomb) {
+  return fmt::format(R"(test $(wc -l < $1) -gt 50 || exit 1
+cat > $2 <<END
+{{"status": "ok", "parameters": {{
+   "viscous": {{"value": 5, "unit": "", "std": null, "interval95": null}},
+   "coulomb": {{"value": {0}, "unit": "", "std": null, "interval95": null}}}},
+ "friction": {{"law": "viscous_coulomb", "parameters": {{"viscous": 5, "coulomb": {0}}}}}}}
+END
+)",
+                     coulomb);
+}
+
+TEST(Identify, TriesACommandOnOneRecordingAndJudgesIt) {
+  const ScratchDirectory scratch;
+  WriteRecordingFile(scratch.path() / "log.csv", 480, SeveralSpeeds);
+  WriteWholeFile(scratch.path() / "good.sh", FixedAnswer(15));
+  WriteWholeFile(scratch.path() / "bad.sh", FixedAnswer(12));
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(scratch.path());
+  const auto identify = [&](const std::string& script, std::vector<std::string> more = {}) {
+    more.insert(more.begin(), {"identify", "log.csv", "--identifier",
+                               "mine=sh " + script + " {recording} {estimate}"});
+    return RunWarmjoint(more);
+  };
+  const Answer good = identify("good.sh", {"-o", "estimate.json", "--mjcf", "friction.xml"});
+  const Answer bad = identify("bad.sh"), crash = identify("none.sh");
+  const Answer slow = identify("good.sh", {"--set", "time_limit=0.0001"});
+  const Answer ours = identify("good.sh", {"--gravity", "sincos"});
+  const Answer word = identify("good.sh", {"--set", "time_limi=1"});
+  const Answer bare = RunWarmjoint({"identify", "log.csv", "--identifier", "mine=good.sh"});
+  std::filesystem::current_path(before);
+
+  EXPECT_EQ(good.status, 0) << good.err;
+  EXPECT_THAT(good.err, testing::AnyOf(HasSubstr("wall"), HasSubstr("no wall stands")));
+  const auto estimate = nlohmann::json::parse(ReadWholeFile(scratch.path() / "estimate.json"));
+  EXPECT_EQ(estimate.at("identifier"), "mine");
+  EXPECT_EQ(estimate.at("metrics").at("n"), 480);
+  EXPECT_LT(estimate.at("holdout").at("n").get<int>(), 480);
+  EXPECT_TRUE(std::filesystem::exists(scratch.path() / "friction.xml"));
+
+  // 12 in the place of 15 N.m leaves a residual that depends on direction
+  EXPECT_EQ(bad.status, 3);
+  EXPECT_THAT(bad.out, HasSubstr("inadequate_model"));
+  EXPECT_EQ(crash.status, 3);
+  EXPECT_THAT(crash.err, HasSubstr("mine gave no answer (crashed): exit status"));
+  EXPECT_EQ(slow.status, 3);
+  EXPECT_THAT(slow.err, HasSubstr("(timeout)"));
+  EXPECT_EQ(ours.status, 2);
+  EXPECT_THAT(ours.err, HasSubstr("--gravity: is for identifiers of the list"));
+  EXPECT_EQ(word.status, 2);
+  EXPECT_THAT(word.err, HasSubstr("did you mean 'time_limit'"));
+  EXPECT_EQ(bare.status, 2);
+  EXPECT_THAT(bare.err, HasSubstr("lacks {estimate}"));
 }
 
 TEST(Identify, ReadsAForeignLogOfALinearAxis) {

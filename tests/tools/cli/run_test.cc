@@ -220,11 +220,107 @@ TEST_F(Run, IsDoneWhenAllResultsAreVerdictsButNotWithoutAnyAnswer) {
   const Answer verdicts =
       RunWarmjoint(Command("run", {"--realizations", "2", "--identifier", "nominal-ls"}));
   EXPECT_EQ(verdicts.status, 0) << verdicts.err;
-  EXPECT_THAT(verdicts.out, HasSubstr("2 results, 2 of them failures"));
+  EXPECT_THAT(verdicts.out, HasSubstr("2 results, 2 refused by their own verdict;"));
   const Answer silence = RunWarmjoint(Command(
       "silent", {"--realizations", "2", "--identifier", "broken=false {recording} {estimate}"}));
   EXPECT_EQ(silence.status, 5);
-  EXPECT_THAT(silence.err, HasSubstr("broken answered in no realization"));
+  EXPECT_THAT(silence.out, HasSubstr("2 results, 2 without an answer;"));
+  EXPECT_THAT(
+      silence.err,
+      HasSubstr("broken answered in no realization; the first time: crashed: exit status 1"));
+}
+
+TEST_F(Run, SaysOfTheWholeWhatItsShardsDoNot) {
+  const std::vector<std::string> more{"--realizations", "2", "--identifier",
+                                      "broken=false {recording} {estimate}"};
+  std::vector<std::string> parts;
+  for (const std::string shard : {"1/2", "2/2"}) {
+    parts.push_back(Directory(shard.substr(0, 1)));
+    std::vector<std::string> command = Command(shard.substr(0, 1), more);
+    command.insert(command.end(), {"--shard", shard});
+    EXPECT_EQ(RunWarmjoint(command).status, 0);
+  }
+  EXPECT_EQ(RunWarmjoint({"merge", parts[0], "-o", Directory("half")}).status, 0);
+  const Answer whole = RunWarmjoint({"merge", parts[0], parts[1], "-o", Directory("whole")});
+  EXPECT_EQ(whole.status, 5);
+  EXPECT_THAT(whole.err, HasSubstr("broken answered in no realization"));
+
+  std::vector<std::string> planned = Command("planned", more);
+  planned.insert(planned.end(), {"--local-shards", "1", "--shards", "2"});
+  const Answer first = RunWarmjoint(planned);
+  EXPECT_EQ(first.status, 5) << first.err;
+  EXPECT_EQ(RunWarmjoint({"task", Directory("planned"), "1"}).status, 0);
+  EXPECT_EQ(RunWarmjoint(planned).status, 5) << "also when all is there";
+}
+
+/// A script beside the suite that answers with a level.
+const char* const kMine =
+    "head -1 $1 | grep -q ^time, || exit 1\n"
+    "echo '{\"status\": \"ok\", \"parameters\": {\"coulomb\": {\"value\": 15, \"unit\": "
+    "\"N.m\",'\\\n"
+    "  '\"std\": null, \"interval95\": null}}}' > $2\n";
+
+/// Labels of the rows of a board.
+std::vector<std::string> RowsOf(const std::string& directory) {
+  const auto board =
+      nlohmann::json::parse(RunWarmjoint({"compare", directory, "--format", "json"}).out);
+  std::vector<std::string> rows;
+  for (const auto& row : board.at("rows")) rows.push_back(row.at("identifier"));
+  return rows;
+}
+
+TEST_F(Run, ACommandJoinsTheSuitesIdentifiersWithItsFilesByBareName) {
+  WriteWholeFile(scratch_.path() / "mine.sh", kMine);
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(scratch_.path());
+  const Answer added =
+      RunWarmjoint({"run", "little.yaml", "-o", "added", "--realizations", "2", "--identifier",
+                    "+mine=sh mine.sh {recording} {estimate}", "--identifier", "+energy-ml"});
+  const Answer twice = RunWarmjoint({"run", "little.yaml", "-o", "twice", "--identifier",
+                                     "+em=sh mine.sh {recording} {estimate}"});
+  std::filesystem::current_path(before);
+  EXPECT_EQ(added.status, 0) << added.err;
+  EXPECT_THAT(RowsOf(Directory("added")),
+              testing::UnorderedElementsAre("nominal-ls", "em", "mine", "energy-ml"));
+  EXPECT_THAT(added.out, HasSubstr("8 results"));
+  EXPECT_THAT(added.out, Not(HasSubstr("without an answer")));
+  EXPECT_EQ(twice.status, 2);
+  EXPECT_THAT(twice.err, HasSubstr("there is a 'em' already"));
+}
+
+TEST_F(Run, ACommandOfASuiteFindsItsFilesBesideTheSuite) {
+  WriteWholeFile(scratch_.path() / "mine.sh", kMine);
+  WriteWholeFile(suite_, SuiteText() +
+                             "  - {name: mine, command: \"sh mine.sh {recording} "
+                             "{estimate}\"}\n");
+  const Answer asked = RunWarmjoint(Command("run", {"--realizations", "2"}));
+  EXPECT_EQ(asked.status, 2);
+  EXPECT_THAT(asked.err, HasSubstr("--allow-commands"));
+  const std::vector<std::string> more{"--realizations", "2", "--allow-commands"};
+  const Answer allowed = RunWarmjoint(Command("run", more));
+  EXPECT_EQ(allowed.status, 0) << allowed.err;
+  EXPECT_THAT(allowed.err, Not(HasSubstr("warning"))) << "the suite stays hidden from it";
+  EXPECT_THAT(RowsOf(Directory("run")), testing::Contains("mine"));
+
+  // its own copy of the suite is the same run
+  std::vector<std::string> again = Command("run", {"--allow-commands"});
+  again[1] = Directory("run") + "/suite.yaml";
+  EXPECT_EQ(RunWarmjoint(again).status, 0);
+}
+
+TEST_F(Run, NoticesJointsThatDoNotFollow) {
+  WriteWholeFile(suite_,
+                 "question: Does it follow?\nrealizations: 2\nscenario:\n  plant: mujoco\n"
+                 "  robot: rotary\n  joint: hinge\n"
+                 "  friction: {law: coulomb, parameters: {coulomb: 15}}\n"
+                 "  motion: {speeds: [0.1, 0.2], hold: 10}\n  timestep: 0.002\n  duration: 100\n"
+                 "ladder: {variable: controller.bandwidth, values: [5, 100]}\n"
+                 "identifiers:\n  - {name: nominal-ls}\n");
+  const Answer answer = RunWarmjoint(Command("run"));
+  EXPECT_THAT(answer.err, HasSubstr("in 2 of 4 simulated realizations the joint did not follow"));
+  EXPECT_THAT(answer.err, HasSubstr("of 5 the joint reached its commanded speed in"));
+  // (2 * 15 / 0.1) / 0.895 / 5.4 = 62.1 rad/s
+  EXPECT_THAT(answer.err, HasSubstr("set controller.bandwidth to 63 rad/s"));
 }
 
 TEST_F(Run, ComparesInEveryFormat) {

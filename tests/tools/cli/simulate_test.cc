@@ -89,6 +89,27 @@ TEST_F(Simulate, ReplacesAnOlderRecordingButNothingElse) {
   EXPECT_TRUE(std::filesystem::exists(scratch_.path() / "out/recording.h5"));
 }
 
+TEST_F(Simulate, NoticesAJointThatDoesNotFollowItsMotion) {
+  const std::vector<std::string> engine{"--set", "plant=mujoco",   "--set", "robot=rotary",
+                                        "--set", "joint=hinge",    "--set", "duration=60",
+                                        "--set", "timestep=0.002", "--set", "motion.speeds=[0.1]"};
+  const auto with = [&](const std::string& name, const std::string& bandwidth) {
+    std::vector<std::string> more = engine;
+    if (!bandwidth.empty()) {
+      more.insert(more.end(), {"--set", "controller.bandwidth=" + bandwidth});
+    }
+    const Answer answer = Into(name, more);
+    EXPECT_EQ(answer.status, 0) << answer.err;
+    return answer.err;
+  };
+  // (2 * 15 / 0.1 + 4.6 * 5) / 0.895 / 5.4 = 66.8 rad/s
+  EXPECT_THAT(with("slow", "5"), HasSubstr("set controller.bandwidth to 67 rad/s"));
+  EXPECT_EQ(with("cured", "67"), "");
+  EXPECT_EQ(with("chosen", ""), "");
+  EXPECT_EQ(with("zero", "0"), "");
+  EXPECT_EQ(File("zero/recording.csv"), File("chosen/recording.csv"));
+}
+
 TEST_F(Simulate, RefusesWhatCannotBeAndLeavesNothingBehind) {
   ExpectRefusal({"--set", "noise.torqu=1"}, "torque");
   ExpectRefusal({"--set", "noise.torque=-1"}, "-1");

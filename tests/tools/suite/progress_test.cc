@@ -16,6 +16,12 @@ TEST(Progress, TellsRateTimeLeftAndFailures) {
             "30/50 realizations, 2/s, 10 s left, failures: crashed 1, not_converged 2");
 }
 
+TEST(Progress, GoesOnCountingAfterAResume) {
+  Progress progress(50, 10, {{"ok", 18}, {"crashed", 2}});
+  progress.AddFailure("crashed");
+  EXPECT_EQ(progress.Line(0), "10/50 realizations, failures: crashed 3");
+}
+
 TEST(Progress, TellsLongTimesInLargerUnits) {
   Progress progress(101, 0);
   progress.Add(1);

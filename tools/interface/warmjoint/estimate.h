@@ -111,7 +111,8 @@ struct Estimate {
   const Parameter* Find(const std::string& name) const;
 };
 
-/// The text of estimate.json, as `warmjoint identify -o` writes it. What is no finite number is null.
+/// The text of estimate.json, as `warmjoint identify -o` writes it, but for its recordings, which are named
+/// as they are. What is no finite number is null.
 std::string EstimateToJson(const Estimate& estimate);
 
 /// The inverse: null numbers become NaN, parameters come sorted by name, the warnings at the end of `message` are taken off.

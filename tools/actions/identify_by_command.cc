@@ -1,0 +1,72 @@
+#include "tools/actions/identify_by_command.h"
+
+#include <utility>
+
+#include "identification/fit_data.h"
+#include "identification/warming/estimated_start.h"
+#include "models/recording/course_of.h"
+#include "tools/suite/external_identifier.h"
+
+namespace warmjoint::inline tools {
+namespace {
+
+/// Figures of an estimate's friction on samples that it has not seen; nothing where there is none.
+std::optional<Metrics> Figures(const Estimate& estimate, const LogView& log, const Selection& test,
+                               const CourseStart& start) {
+  if (!estimate.friction || test.count() == 0) return std::nullopt;
+  const Measurements& all = log.measurements;
+  const Eigen::VectorXd force =
+      PredictFriction(*estimate.friction, all, start, BristleStart::torque).force;
+  const auto parameters = static_cast<int>(estimate.parameters.size());
+  return ComputeMetrics(Kept(all.torque, test), Kept(force, test), parameters, parameters);
+}
+
+/// The same of a second answer, to the part of the log before the held-out share.
+std::optional<Metrics> HoldOut(const CommandTask& task, const PreparedLog& log, double fraction) {
+  const LogView& view = log.taken();
+  const Eigen::VectorXd& time = view.measurements.time;
+  const double begin = time[0], end = time[time.size() - 1];
+  const double split = begin + (1 - fraction) * (end - begin);
+  const Eigen::Index n = (time.array() < split).count();
+  if (fraction == 0 || n < 2) return std::nullopt;
+
+  Selection test = view.selection;
+  test.keep.head(n) = false;
+  try {
+    const Estimate before = task.ask(log.Before(split), {});
+    return Figures(before, view, test, StartOf(before, view.measurements));
+  } catch (const NoAnswer&) {
+    // part of a log may be too little for it; what it says of all of it stands
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+CommandTask CheckCommand(const IdentifySettings& settings) {
+  const std::pair<const char*, bool> ours[]{
+      {"--gravity", settings.gravity != "none"},
+      {"--start", settings.start == "estimated"},
+      {"--force", settings.void_numbers == VoidNumbers::show}};
+  for (const auto& [option, is_given] : ours) {
+    if (is_given) Refuse({option}, "is for identifiers of the list; leave it out with a command");
+  }
+  SuiteIdentifier command = ReadExternal(settings.identifier, CommandForm::words);
+  for (const auto& [name, value] : settings.options) {
+    command.options.insert_or_assign(name, value);
+  }
+  PreparedIdentifier ask = PrepareExternal(command, {"--set"}, JudgingOf(settings));
+  return {std::move(command), std::move(ask)};
+}
+
+Estimate IdentifyByCommand(const CommandTask& task, const PreparedLog& log,
+                           const HoldOutSource& holdout) {
+  Estimate estimate = task.ask(log, {});
+  if (estimate.status != Status::ok) return estimate;
+  estimate.holdout = holdout.other ? Figures(estimate, holdout.other->taken(),
+                                             holdout.other->taken().selection, {})
+                                   : HoldOut(task, log, holdout.fraction);
+  return estimate;
+}
+
+}  // namespace warmjoint::inline tools

@@ -1,0 +1,113 @@
+#include "tools/cli/take_project.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
+#include "models/foundation/atomic_file.h"
+#include "models/foundation/excerpt.h"
+#include "scenarios/yaml_value.h"
+#include "tools/terminal/say.h"
+
+namespace warmjoint::inline tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The project file beside the recordings; empty where there is none.
+fs::path ProjectFileOf(const std::vector<std::string>& recordings) {
+  std::optional<fs::path> found;
+  for (const std::string& recording : recordings) {
+    const fs::path file = fs::path(recording).parent_path() / kProjectFile;
+    std::error_code ignored;
+    const bool here = fs::exists(file, ignored);
+    if (here && !fs::is_regular_file(file, ignored)) {
+      Refuse({file.string()}, "is no regular file; give --no-project to leave it out");
+    }
+    const fs::path one = here ? fs::weakly_canonical(file, ignored) : fs::path();
+    if (found && *found != one) {
+      Refuse(
+          {recording},
+          "does not lie beside the project file of the other recordings, which may be of another "
+          "joint; give --no-project, and the options that describe them");
+    }
+    found = one;
+  }
+  if (!found || found->empty()) return {};
+  return fs::path(recordings.front()).parent_path() / kProjectFile;
+}
+
+/// Whether an option stands on the command line.
+bool IsGiven(const CLI::App& parser, const std::string& option) {
+  const CLI::Option* found = parser.get_option_no_throw(option);
+  return found && found->count() > 0;
+}
+
+/// What the project adds to the command line.
+class Taking {
+ public:
+  explicit Taking(const CLI::App& parser) : parser_(parser) {}
+
+  /// Adds the pairs whose column the command line does not name, and leaves these alone in `from`.
+  void Pairs(const char* name, std::vector<std::string>& from, std::vector<std::string>& into) {
+    const auto given = ReadPairs(into, std::string("--") + name);
+    std::erase_if(from, [&](const std::string& pair) {
+      return given.contains(pair.substr(0, pair.find('=')));
+    });
+    if (from.empty()) return;
+    into.insert(into.end(), from.begin(), from.end());
+    Note(name, fmt::format("{}", fmt::join(from, ",")));
+  }
+
+  /// Takes a value that the command line does not give, and empties `from` where it does.
+  template <typename T>
+  void Value(const char* name, std::optional<T>& from, T& into) {
+    std::string option = std::string("--") + name;
+    std::replace(option.begin(), option.end(), '_', '-');
+    if (IsGiven(parser_, option)) from.reset();
+    if (!from) return;
+    into = *from;
+    Note(name, fmt::format("{}", *from));
+  }
+
+  const std::string& words() const { return words_; }
+
+ private:
+  void Note(const char* name, const std::string& text) {
+    words_ += fmt::format("{}{} {}", words_.empty() ? "" : "; ", name, Excerpt(text));
+  }
+
+  const CLI::App& parser_;
+  std::string words_;
+};
+
+}  // namespace
+
+void AddProjectOption(CLI::App& parser) {
+  parser.add_flag("--no-project")->description("leave out the warmjoint.yaml beside the recording");
+}
+
+void TakeProject(const CLI::App& parser, RecordingArguments& arguments) {
+  if (IsGiven(parser, "--no-project")) return;
+  const fs::path file = ProjectFileOf(arguments.recordings);
+  if (file.empty()) return;
+
+  Project project = ParseProject(ReadWholeFile(file, kLargestDocument), file);
+  Taking taking(parser);
+  taking.Pairs("map", project.map, arguments.map);
+  taking.Pairs("unit", project.unit, arguments.unit);
+  taking.Pairs("scale", project.scale, arguments.scale);
+  taking.Value("wrap", project.wrap, arguments.wrap);
+  taking.Value("joint", project.joint, arguments.joint);
+  taking.Value("gear", project.gear, arguments.gear);
+  taking.Value("trim", project.trim, arguments.holds.trim);
+  taking.Value("shortest_hold", project.shortest_hold, arguments.holds.shortest);
+  arguments.project = TakenProject{file, project};
+  Say(stderr, "{}: {}\n", file.string(),
+      taking.words().empty() ? "sets nothing that the command line does not"
+                             : taking.words() + " (--no-project leaves it out)");
+}
+
+}  // namespace warmjoint::inline tools
