@@ -31,7 +31,7 @@ std::string ReadRobot(const YamlValue& value) {
 void ReadInitialEnergy(const YamlValue& value, Scenario& scenario) {
   const Distribution energy = ReadDistribution(value, Bound::any);
   scenario.initial_energy = energy.a;
-  if (energy.kind != Distribution::Kind::fixed) scenario.draws["initial_energy"] = energy;
+  if (energy.kind != Distribution::Kind::fixed) scenario.draws.numbers["initial_energy"] = energy;
 }
 
 Controller ReadController(const YamlValue& value) {

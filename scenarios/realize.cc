@@ -6,13 +6,13 @@ namespace warmjoint::inline scenarios {
 
 Scenario Realize(const Scenario& scenario, std::uint64_t realization) {
   Scenario realized = scenario;
-  realized.draws.clear();
+  realized.draws = {};
   if (scenario.draws.empty()) return realized;
 
   RandomStream random({scenario.seed, realization}, Stream::truth);
   realized.friction = DrawFriction(scenario.friction, scenario.draws, random, {scenario.name});
-  const auto energy = scenario.draws.find("initial_energy");
-  if (energy != scenario.draws.end()) realized.initial_energy = energy->second.Draw(random);
+  const auto energy = scenario.draws.numbers.find("initial_energy");
+  if (energy != scenario.draws.numbers.end()) realized.initial_energy = energy->second.Draw(random);
   return realized;
 }
 

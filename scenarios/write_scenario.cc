@@ -36,9 +36,10 @@ std::string ScenarioPartToYaml(const Scenario& scenario, const std::string& inde
   add("joint_kind", ChoiceName(scenario.joint_kind, JointKinds()));
   begin("friction");
   yaml += FrictionToYaml(scenario.friction, scenario.draws, indent + "  ");
-  const auto energy = scenario.draws.find("initial_energy");
-  add("initial_energy", energy == scenario.draws.end() ? fmt::format("{}", scenario.initial_energy)
-                                                       : DistributionToYaml(energy->second));
+  const auto energy = scenario.draws.numbers.find("initial_energy");
+  add("initial_energy", energy == scenario.draws.numbers.end()
+                            ? fmt::format("{}", scenario.initial_energy)
+                            : DistributionToYaml(energy->second));
 
   // how it moves and is logged
   begin("motion");

@@ -7,6 +7,7 @@
 
 #include "models/foundation/excerpt.h"
 #include "models/foundation/parse_number.h"
+#include "models/foundation/read_json.h"
 #include "scenarios/yaml_distribution.h"
 
 namespace warmjoint::inline scenarios {
@@ -43,7 +44,7 @@ json ToJson(const YamlValue& value, const std::string& key, TruthDraws& draws) {
     if (range.kind == Distribution::Kind::normal) {
       value.RefuseValue("uniform or log_uniform, which keep a truth within its bounds");
     }
-    draws[key] = range;
+    draws.numbers[key] = range;
     return Middle(range);
   }
   if (value.IsMap()) {
@@ -74,7 +75,7 @@ json ToJson(const YamlValue& value, const std::string& key, TruthDraws& draws) {
 void CheckEnds(const json& middles, const TruthDraws& draws, const Place& place) {
   json lower = middles;
   json upper = middles;
-  for (const auto& [key, range] : draws) {
+  for (const auto& [key, range] : draws.numbers) {
     if (!key.starts_with(kPrefix)) continue;
     lower[Pointer(key)] = range.a;
     upper[Pointer(key)] = range.b;
@@ -109,31 +110,57 @@ json DistributionToJson(const Distribution& range) {
   return {{logarithmic ? "log_uniform" : "uniform", {range.a, range.b}}};
 }
 
+/// A path relative to the file that names it.
+std::string Beside(const YamlValue& value) {
+  return std::filesystem::path(value.file()).parent_path() / value.Text();
+}
+
+/// {estimate: FILE}, and with `draw: posterior` what the estimate leaves open.
+FrictionDescription ReadEstimate(const YamlValue& value, TruthDraws& draws) {
+  value.RequireKeys({"estimate", "draw"});
+  const std::string path = Beside(*value.Find("estimate"));
+  const FrictionDescription friction = ReadFrictionFile(path);
+  if (const auto draw = value.Find("draw")) {
+    if (draw->Text() != "posterior") draw->RefuseValue("posterior");
+    draws.posterior = PosteriorOfEstimate(ReadJsonFile(path), friction, {path});
+  }
+  return friction;
+}
+
 }  // namespace
 
 FrictionDescription ReadFriction(const YamlValue& value, TruthDraws& draws) {
-  if (value.IsScalar()) {
-    const auto folder = std::filesystem::path(value.file()).parent_path();
-    return ReadFrictionFile((folder / value.Text()).string());
-  }
-  const json middles = ToJson(value, "friction", draws);
+  if (value.IsScalar()) return ReadFrictionFile(Beside(value));
+  if (value.IsMap() && value.Find("estimate")) return ReadEstimate(value, draws);
+  json middles = ToJson(value, "friction", draws);
+  const json posterior = middles.is_object() ? middles.value("posterior", json()) : json();
+  if (middles.is_object()) middles.erase("posterior");
   CheckEnds(middles, draws, value.place());
-  return FrictionFromJson(middles, value.place());
+  const FrictionDescription friction = FrictionFromJson(middles, value.place());
+  if (posterior.is_null()) return friction;
+  if (!draws.numbers.empty()) {
+    Refuse(value.place(), "friction has a posterior and a distribution for {}; give one of them",
+           draws.numbers.begin()->first);
+  }
+  draws.posterior = PosteriorFromJson(posterior, friction, value.place());
+  return friction;
 }
 
 std::string FrictionToYaml(const FrictionDescription& friction, const TruthDraws& draws,
                            const std::string& indent) {
   json object = FrictionToJson(friction);
-  for (const auto& [key, range] : draws) {
+  for (const auto& [key, range] : draws.numbers) {
     if (key.starts_with(kPrefix)) object[Pointer(key)] = DistributionToJson(range);
   }
+  if (draws.posterior) object["posterior"] = PosteriorToJson(*draws.posterior);
   return JsonToYaml(object, indent);
 }
 
 FrictionDescription DrawFriction(const FrictionDescription& friction, const TruthDraws& draws,
                                  RandomStream& random, const Place& place) {
+  if (draws.posterior) return Draw(*draws.posterior, friction, random, place);
   json object = FrictionToJson(friction);
-  for (const auto& [key, range] : draws) {
+  for (const auto& [key, range] : draws.numbers) {
     if (key.starts_with(kPrefix)) object[Pointer(key)] = range.Draw(random);
   }
   return FrictionFromJson(object, place);

@@ -23,7 +23,7 @@ class DrawnPlant : public Plant {
   explicit DrawnPlant(const Scenario& scenario) : scenario_(scenario) {
     // what cannot run in the middle of the draws is refused before anything runs
     Scenario middle = scenario;
-    middle.draws.clear();
+    middle.draws = {};
     MakeFixedPlant(middle);
   }
 

@@ -102,7 +102,7 @@ TEST(IdealPlant, RepeatsItsBitsForTheSameSeedAndRealizationOnly) {
 
 TEST(IdealPlant, DrawsATruthForEachRealization) {
   Scenario scenario = Table1();
-  scenario.draws["friction.parameters.viscous"] = {Distribution::Kind::uniform, 4, 6};
+  scenario.draws.numbers["friction.parameters.viscous"] = {Distribution::Kind::uniform, 4, 6};
   const double first = Simulate(scenario, 1).truth.friction.parameters.at("viscous");
   EXPECT_NE(Simulate(scenario, 2).truth.friction.parameters.at("viscous"), first);
   EXPECT_EQ(Simulate(scenario, 1).truth.friction.parameters.at("viscous"), first);

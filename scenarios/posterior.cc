@@ -1,0 +1,158 @@
+#include "scenarios/posterior.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "models/foundation/excerpt.h"
+
+namespace warmjoint::inline scenarios {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using nlohmann::json;
+
+/// Draws outside of the physical bounds in a row after which an estimate counts as beyond them.
+constexpr int kMostDraws = 1000;
+
+/// Where the parameter stands in a friction; nothing where it has none of that name.
+double* Find(FrictionDescription& friction, const std::string& name) {
+  if (const auto found = friction.parameters.find(name); found != friction.parameters.end()) {
+    return &found->second;
+  }
+  if (!friction.thermal) return nullptr;
+  if (name == "thermal_gain") return &friction.thermal->gain;
+  if (name == "thermal_time_constant") return &friction.thermal->time_constant;
+  return nullptr;
+}
+
+MatrixXd MatrixFromJson(const json& rows, std::size_t size, const Place& place) {
+  const auto wrong = [&] {
+    Refuse(place,
+           "covariance must be a matrix of numbers with {0} rows and {0} columns, one for "
+           "each of the parameters",
+           size);
+  };
+  if (!rows.is_array() || rows.size() != size) wrong();
+  MatrixXd matrix(static_cast<Index>(size), static_cast<Index>(size));
+  for (std::size_t i = 0; i < size; ++i) {
+    if (!rows[i].is_array() || rows[i].size() != size) wrong();
+    for (std::size_t j = 0; j < size; ++j) {
+      if (!rows[i][j].is_number()) wrong();
+      matrix(static_cast<Index>(i), static_cast<Index>(j)) = rows[i][j].get<double>();
+    }
+  }
+  return matrix;
+}
+
+/// The symmetric root; rounding in a singular covariance is taken for zero.
+MatrixXd RootOf(const MatrixXd& covariance) {
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(covariance);
+  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+}
+
+/// Units differ by many orders, so that the test is made on correlations.
+void CheckCovariance(const MatrixXd& covariance, const Place& place) {
+  const auto wrong = [&](const char* what) {
+    Refuse(place, "covariance {}; take it from estimate.json as it is", what);
+  };
+  constexpr double rounding = 1e-9;
+  if (!covariance.allFinite()) wrong("holds numbers that are not finite");
+  if (!(covariance.diagonal().array() >= 0).all()) wrong("has a negative variance");
+  const Eigen::VectorXd scale =
+      covariance.diagonal().cwiseSqrt().unaryExpr([](double s) { return s > 0 ? 1 / s : 1; });
+  const MatrixXd correlation = scale.asDiagonal() * covariance * scale.asDiagonal();
+  if (!correlation.isApprox(correlation.transpose(), rounding)) wrong("is not symmetric");
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(correlation, Eigen::EigenvaluesOnly);
+  if (covariance.size() > 0 && solver.eigenvalues()[0] < -rounding) {
+    wrong("has a negative variance in some direction");
+  }
+}
+
+}  // namespace
+
+Posterior PosteriorFromJson(const json& object, const FrictionDescription& friction,
+                            const Place& place) {
+  if (!object.is_object() || object.size() != 2 || !object.contains("parameters") ||
+      !object.contains("covariance") || !object["parameters"].is_array()) {
+    Refuse(place, "a posterior has the keys parameters, a list of names, and covariance, a matrix");
+  }
+  Posterior posterior;
+  FrictionDescription known = friction;
+  for (const json& name : object["parameters"]) {
+    if (!name.is_string()) Refuse(place, "the parameters of a posterior are names");
+    posterior.parameters.push_back(name.get<std::string>());
+    if (!Find(known, posterior.parameters.back())) {
+      Refuse(place, "the friction has no parameter '{}'", Excerpt(posterior.parameters.back()));
+    }
+  }
+  posterior.covariance = MatrixFromJson(object["covariance"], posterior.parameters.size(), place);
+  CheckCovariance(posterior.covariance, place);
+  return posterior;
+}
+
+json PosteriorToJson(const Posterior& posterior) {
+  json matrix = json::array();
+  for (const auto& row : posterior.covariance.rowwise()) {
+    matrix.push_back(std::vector<double>(row.begin(), row.end()));
+  }
+  return {{"parameters", posterior.parameters}, {"covariance", matrix}};
+}
+
+Posterior PosteriorOfEstimate(const json& estimate, const FrictionDescription& friction,
+                              const Place& place) {
+  const json covariance = estimate.value("covariance", json());
+  if (!covariance.is_object() || !covariance.contains("parameters") ||
+      !covariance["parameters"].is_array()) {
+    Refuse(place,
+           "the estimate has no covariance to draw from: it was refused, or its identifier "
+           "gives no intervals. Leave `draw` out to take its numbers as they are");
+  }
+  const json& names = covariance["parameters"];
+  const MatrixXd whole = MatrixFromJson(covariance.value("matrix", json()), names.size(), place);
+
+  // rows and columns of what the friction has
+  Posterior posterior;
+  FrictionDescription known = friction;
+  std::vector<Index> kept;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (!names[i].is_string() || !Find(known, names[i].get<std::string>())) continue;
+    posterior.parameters.push_back(names[i].get<std::string>());
+    kept.push_back(static_cast<Index>(i));
+  }
+  if (kept.empty()) {
+    Refuse(place,
+           "the estimate's covariance holds no parameter of its friction; leave `draw` out to take "
+           "its numbers as they are");
+  }
+  posterior.covariance = whole(kept, kept);
+  CheckCovariance(posterior.covariance, place);
+  return posterior;
+}
+
+FrictionDescription Draw(const Posterior& posterior, const FrictionDescription& friction,
+                         RandomStream& random, const Place& place) {
+  const MatrixXd root = RootOf(posterior.covariance);
+  for (int i = 0; i < kMostDraws; ++i) {
+    Eigen::VectorXd normal(root.cols());
+    for (double& value : normal) value = random.Normal();
+    const Eigen::VectorXd moves = root * normal;
+    FrictionDescription drawn = friction;
+    for (std::size_t k = 0; k < posterior.parameters.size(); ++k) {
+      *Find(drawn, posterior.parameters[k]) += moves[static_cast<Index>(k)];
+    }
+    try {
+      CheckFriction(drawn, place);
+      return drawn;
+    } catch (const BadInput&) {
+      // outside of the bounds
+    }
+  }
+  Refuse(place,
+         "of {} frictions drawn from its posterior none is within the physical bounds of its "
+         "parameters; the estimate is too uncertain to draw from",
+         kMostDraws);
+}
+
+}  // namespace warmjoint::inline scenarios

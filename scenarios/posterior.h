@@ -1,0 +1,45 @@
+// A truth that is drawn as an estimate leaves it open.
+#pragma once
+
+#include <Eigen/Core>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "models/foundation/random_stream.h"
+#include "models/friction/friction_description.h"
+
+namespace warmjoint::inline scenarios {
+
+/// Some of a friction's parameters, known with errors that are normal together.
+struct Posterior {
+  std::vector<std::string>
+      parameters;              // [p] names of the law's, thermal_gain, thermal_time_constant
+  Eigen::MatrixXd covariance;  // [p x p] in products of their units
+
+  bool operator==(const Posterior& other) const {
+    return parameters == other.parameters && covariance == other.covariance;
+  }
+};
+
+/// {parameters[], covariance[][]}. Throws BadInput from `place` for a parameter that `friction` does not
+/// have, and for a matrix that is no covariance: not square, not symmetric, or with a negative variance
+/// in some direction.
+Posterior PosteriorFromJson(const nlohmann::json& object, const FrictionDescription& friction,
+                            const Place& place);
+nlohmann::json PosteriorToJson(const Posterior& posterior);
+
+/// What estimate.json says of its friction's parameters: the rows and columns of its covariance that are
+/// the friction's; gravity, inertia and the start are integrated out. Throws BadInput from `place` where
+/// the estimate has no covariance.
+Posterior PosteriorOfEstimate(const nlohmann::json& estimate, const FrictionDescription& friction,
+                              const Place& place);
+
+/// A friction drawn from the normal distribution about `friction`, given that its parameters are within
+/// their physical bounds: draws outside of them are repeated. Throws BadInput from `place` where 1000
+/// draws are outside.
+FrictionDescription Draw(const Posterior& posterior, const FrictionDescription& friction,
+                         RandomStream& random, const Place& place);
+
+}  // namespace warmjoint::inline scenarios
