@@ -87,6 +87,19 @@ double NoiseOf(const Suite& suite) {
   return noise;
 }
 
+/// The smallest prime from `least` on, or 1: realizations at that distance share no period that a run
+/// may have.
+int PrimeFrom(int least) {
+  const auto divided = [](int n) {
+    for (int d = 2; d * d <= n; ++d) {
+      if (n % d == 0) return true;
+    }
+    return false;
+  };
+  while (divided(least)) ++least;
+  return least;
+}
+
 }  // namespace
 
 int RunRow::failed() const {
@@ -100,7 +113,7 @@ RunView ReadRunView(const RunStore& store, std::int64_t most_drawn) {
   BoardBuilder board(suite);
   RunView view;
   const std::int64_t units = std::int64_t{suite.realizations} * suite.variants();
-  view.drawn_every = static_cast<int>((units + most_drawn - 1) / most_drawn);
+  view.drawn_every = PrimeFrom(static_cast<int>((units + most_drawn - 1) / most_drawn));
   std::vector<RowBuilder> rows(suite.identifiers.size());
   store.ForEachUnit([&](const std::vector<Result>& unit) {
     board.Add(unit);
