@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "identification/answer/own_misfit.h"
 #include "identification/fit_parameters.h"
 #include "identification/lack_of_fit/judge.h"
 
@@ -81,7 +82,10 @@ void JudgeEstimate(const PreparedLog& log, const Judging& judging, Estimate& est
   }
   const Fit fit = FitOf(estimate, input.measurements);
   Inference inference = InferenceOf(estimate, fit);
+  const std::optional<std::string> misfit =
+      OwnMisfit(fit, inference, input.measurements, input.selection, judging);
   JudgeLackOfFit(identifier, input, fit, judging, inference);
+  if (misfit && inference.status == Status::ok) inference.Void(Status::inadequate_model, *misfit);
   TakeOver(fit, std::move(inference), estimate);
 }
 

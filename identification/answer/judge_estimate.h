@@ -10,7 +10,7 @@ namespace warmjoint::inline identification {
 /// Judges an estimate by its friction along the log, as FitAndJudge judges the fits of our own
 /// identifiers (lack_of_fit/judge.h): status, message, warnings, intervals, diagnostics and
 /// assumptions become those of the verdict. Where the model is inadequate, intervals and friction
-/// are taken back. An estimate that is not ok, or without a friction, keeps all it says, and its
+/// are taken back; so they are where its own law could follow the log better (own_misfit.h). An estimate that is not ok, or without a friction, keeps all it says, and its
 /// diagnostics say that no test was made.
 void JudgeEstimate(const PreparedLog& log, const Judging& judging, Estimate& estimate);
 

@@ -7,6 +7,7 @@
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
 #include "identification/inference/bounds.h"
+#include "identification/inference/hold_structure.h"
 #include "identification/linear/fit_gravity.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
@@ -166,12 +167,7 @@ Fit Conclude(const Task& task, const RobustWarmFit& robust, double nominal_squar
   fit.jacobian = [loop = task.loop, gravity = task.gravity, warm] {
     return Jacobian(loop, gravity, warm);
   };
-  if (task.structure) {
-    const auto row = static_cast<size_t>(task.structure->parameter);
-    const bool named = row < fit.parameters.size() && !fit.parameters[row].name.empty();
-    fit.without_intervals =
-        DescribeDisagreement(*task.structure, named ? fit.parameters[row].name : "gravity");
-  }
+  if (task.structure) HoldStructure(*task.structure, Kept(response.force, fit.used), fit);
   fit.count = static_cast<int>(warm.solution.x.size());
   fit.effective_parameters = fit.count;
   if (!std::isinf(robust.threshold)) fit.loss_bend = robust.threshold;

@@ -5,6 +5,7 @@
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
 #include "identification/inference/bounds.h"
+#include "identification/inference/hold_structure.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/linear_task.h"
@@ -83,17 +84,13 @@ Fit FitLaw(const IdentifierInput& given) {
   fit.errors.whitening = whitening;
   if (huber) fit.errors.scores = HuberScores(fit.residual(), robust.threshold);
   if (huber) fit.loss_bend = robust.threshold;
-  if (structure) {
-    const auto row = static_cast<size_t>(structure->parameter);
-    const bool named = row < fit.parameters.size() && !fit.parameters[row].name.empty();
-    fit.without_intervals =
-        DescribeDisagreement(*structure, named ? fit.parameters[row].name : "gravity");
-  }
   fit.count = task.count();
   fit.effective_parameters = task.count();
   fit.summary = fmt::format("law {} by least squares on {} samples{}", law.name, torque.size(),
                             whitening ? kWhitened : "");
+  const Eigen::VectorXd friction = A.leftCols(task.law_count()) * values;
   fit.jacobian = [all = std::move(task.columns)] { return all; };
+  if (structure) HoldStructure(*structure, friction, fit);
   return fit;
 }
 

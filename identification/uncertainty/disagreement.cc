@@ -23,11 +23,12 @@ std::optional<Disagreement> FindDisagreement(const FitOfRows& plain, const FitOf
     const double variance = std::max(before - whitened.covariance(j, j), kLeastShare * before);
     const double difference = whitened.x[j] - plain.x[j];
     const double deviations = std::abs(difference) / std::sqrt(variance);
-    if (deviations > most.deviations) most = {j, difference, deviations};
+    if (deviations > most.deviations) most = {j, difference, deviations, {}};
   }
   if (!(most.deviations > 0)) return std::nullopt;
   const double p = static_cast<double>(plain.x.size()) * PValueOfStudent(most.deviations, freedom);
   if (p >= PValueOfNormal(kBeyondDoubt)) return std::nullopt;
+  most.differences = whitened.x - plain.x;
   return most;
 }
 

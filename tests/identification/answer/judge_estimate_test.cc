@@ -37,6 +37,23 @@ TEST(JudgeEstimate, LetsTheTruthPass) {
   EXPECT_TRUE(test::Asked(estimate, "direction").made);
 }
 
+TEST(JudgeEstimate, FindsNumbersThatTheSameLawWouldBetter) {
+  // 12 for 15 N.m: the residual is 3 sign v, which the law itself can follow
+  FrictionDescription low = test::Cold();
+  low.parameters["coulomb"] = 12;
+  Estimate estimate = From(low, 0.1);
+  JudgeEstimate(Prepare(test::RecordHour(test::Cold(), 1)), {}, estimate);
+  EXPECT_EQ(estimate.status, Status::inadequate_model);
+  EXPECT_FALSE(estimate.friction);
+
+  // one per cent is below what matters
+  FrictionDescription close = test::Cold();
+  close.parameters["coulomb"] = 15.1;
+  Estimate passes = From(close, 0.1);
+  JudgeEstimate(Prepare(test::RecordHour(test::Cold(), 1)), {}, passes);
+  EXPECT_EQ(passes.status, Status::ok) << passes.message;
+}
+
 TEST(JudgeEstimate, SaysWhyNothingWasExamined) {
   Estimate estimate = From(test::Cold(), 0.1);
   estimate.friction.reset();

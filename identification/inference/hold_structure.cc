@@ -1,0 +1,41 @@
+#include "identification/inference/hold_structure.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "identification/fit_data.h"
+#include "identification/inference/covariance.h"
+
+namespace warmjoint::inline identification {
+namespace {
+
+constexpr double kRelevant = 0.02;  // of the friction's rms; the default of --relevance
+
+double Rms(const Eigen::VectorXd& values) {
+  return values.norm() / std::sqrt(static_cast<double>(values.size()));
+}
+
+}  // namespace
+
+void HoldStructure(const Disagreement& structure, const Eigen::VectorXd& friction, Fit& fit) {
+  const auto row = static_cast<std::size_t>(structure.parameter);
+  const bool named = row < fit.parameters.size() && !fit.parameters[row].name.empty();
+  const std::string name = named ? fit.parameters[row].name : "gravity";
+  const double moved = Rms(Kept(fit.jacobian(), fit.used) * structure.differences);
+  if (!(moved < kRelevant * Rms(friction))) {
+    fit.without_intervals = DescribeDisagreement(structure, name);
+    return;
+  }
+
+  Uncertainty known = CovarianceOf(fit);
+  known.covariance += structure.differences * structure.differences.transpose();
+  fit.errors.known = std::move(known);
+  fit.warnings.push_back(
+      fmt::format("the residual is not noise alone: with its slow part taken for noise, {} would "
+                  "move by {:.2g} "
+                  "deviations of what noise does; intervals were widened to cover this",
+                  name, structure.deviations));
+}
+
+}  // namespace warmjoint::inline identification

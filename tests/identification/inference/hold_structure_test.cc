@@ -1,0 +1,53 @@
+#include "identification/inference/hold_structure.h"
+
+#include <gtest/gtest.h>
+
+#include "identification/inference/covariance.h"
+
+namespace warmjoint {
+namespace {
+
+constexpr Eigen::Index kSamples = 400;
+
+/// 15 sign v with white noise of 0.1 N.m, J = sign v.
+Fit LevelFit() {
+  Fit fit;
+  const Eigen::Index n = kSamples;
+  Eigen::VectorXd sign(n), noise(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    sign[i] = i / 20 % 2 ? -1 : 1;
+    // white enough: a sequence of signs with little correlation
+    noise[i] = 0.1 * ((i * 7919 + i * i * 31) % 97 < 48 ? -1 : 1);
+  }
+  fit.parameters = {FitParameter{.name = "coulomb", .value = 15, .unit = "N.m"}};
+  fit.used.keep = decltype(fit.used.keep)::Constant(n, true);
+  fit.fitted = 15 * sign;
+  fit.torque = fit.fitted + noise;
+  fit.jacobian = [sign] { return Eigen::MatrixXd(sign); };
+  fit.errors.cofactor = Eigen::MatrixXd::Constant(1, 1, 1.0 / static_cast<double>(n));
+  return fit;
+}
+
+Disagreement MovedBy(double difference) {
+  return {0, difference, 9, Eigen::VectorXd::Constant(1, difference)};
+}
+
+TEST(HoldStructure, LetsTheErrorsReachAsFarAsTheWhitenedFit) {
+  Fit fit = LevelFit();
+  const double before = CovarianceOf(fit).covariance(0, 0);
+  HoldStructure(MovedBy(0.2), fit.fitted, fit);
+  EXPECT_TRUE(fit.without_intervals.empty());
+  EXPECT_EQ(fit.warnings.size(), 1u);
+  EXPECT_DOUBLE_EQ(CovarianceOf(fit).covariance(0, 0), before + 0.04);
+}
+
+TEST(HoldStructure, GivesNoIntervalsWhereItMovesTheFrictionByTwoPerCent) {
+  // J d is 0.31 N.m of 15 everywhere, 2.07 %
+  Fit fit = LevelFit();
+  HoldStructure(MovedBy(0.31), fit.fitted, fit);
+  EXPECT_FALSE(fit.without_intervals.empty());
+  EXPECT_FALSE(fit.errors.known);
+}
+
+}  // namespace
+}  // namespace warmjoint
