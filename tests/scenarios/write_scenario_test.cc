@@ -21,7 +21,8 @@ Scenario Unusual() {
                        Thermal{-1e-5 / 7, 1e5 / 3},
                        20.1,
                        -1.0 / 9};
-  scenario.draws.numbers["friction.parameters.coulomb_positive"] = {Distribution::Kind::uniform, 4, 6};
+  scenario.draws.numbers["friction.parameters.coulomb_positive"] = {Distribution::Kind::uniform, 4,
+                                                                    6};
   scenario.draws.numbers["initial_energy"] = {Distribution::Kind::normal, -0.1, 1.0 / 3};
   scenario.initial_energy = -0.1;
   scenario.motion.speed_list = {0.1, 1.0 / 3, 1e-7};

@@ -37,13 +37,9 @@ Simulation CarryOut(scenarios::Scenario scenario, const SimulateSettings& settin
 }  // namespace
 
 sim::Truth ToTruth(const Truth& truth) {
-  return {ToDescription(truth.friction),
-          truth.initial_energy,
-          truth.torque_noise,
-          truth.plant,
-          ToEigen(truth.velocity),
-          ToEigen(truth.force),
-          ToEigen(truth.loss),
+  return {ToDescription(truth.friction), truth.initial_energy,   truth.torque_noise,
+          truth.coloured_noise,          truth.correlation_time, truth.plant,
+          ToEigen(truth.velocity),       ToEigen(truth.force),   ToEigen(truth.loss),
           ToEigen(truth.energy)};
 }
 
@@ -51,6 +47,8 @@ Truth FromTruth(const sim::Truth& truth) {
   return {FromDescription(truth.friction),
           truth.initial_energy,
           truth.torque_noise,
+          truth.coloured_noise,
+          truth.correlation_time,
           truth.plant,
           FromEigen(truth.velocity),
           FromEigen(truth.force),

@@ -52,12 +52,18 @@ TEST(Identify, PrintsTheSameJsonAsItWrites) {
                                          "--format", "json",    "-o",           output};
   const Answer answer = RunWarmjoint(command);
   ASSERT_EQ(answer.status, 0) << answer.err;
-  EXPECT_EQ(nlohmann::json::parse(answer.out), nlohmann::json::parse(ReadWholeFile(output)));
+  auto printed = nlohmann::json::parse(answer.out);
+  EXPECT_EQ(printed, nlohmann::json::parse(ReadWholeFile(output)));
+  EXPECT_EQ(printed.at("recording").at("files"), nlohmann::json({"log.csv"}));
 
-  // once, where both go to standard output
+  // once, where both go to standard output, from which no folder of the recording follows
   std::vector<std::string> both = command;
   both.back() = "-";
-  EXPECT_EQ(nlohmann::json::parse(RunWarmjoint(both).out), nlohmann::json::parse(answer.out));
+  auto alone = nlohmann::json::parse(RunWarmjoint(both).out);
+  EXPECT_EQ(alone.at("recording").at("files"), nlohmann::json({recording}));
+  printed.erase("recording");
+  alone.erase("recording");
+  EXPECT_EQ(printed, alone);
 }
 
 TEST(Identify, ExplainsEveryTestAndAssumptionWhenAsked) {

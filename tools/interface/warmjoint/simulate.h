@@ -17,7 +17,10 @@ struct Truth {
   Friction friction{};
   double initial_energy = 0;  // E(0), N.m or N
   double torque_noise = 0;    // standard deviation of the noise on the torque, N.m or N
-  std::string plant{};        // that made the recording
+  /// Standard deviation of the part of it that remembers, N.m or N, and how long, s; 0: all is white.
+  double coloured_noise = 0;
+  double correlation_time = 0;
+  std::string plant{};  // that made the recording
   std::vector<double> velocity{}, force{}, loss{},
       energy{};  // [N] rad/s or m/s, N.m or N, W, N.m or N
 };
