@@ -15,14 +15,14 @@ namespace {
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-/// Twelve samples at two speeds.
+/// Twelve samples at two speeds, about 2 sign v.
 Measurements Log() {
   Measurements log;
   log.time = Eigen::VectorXd::LinSpaced(12, 0, 11);
   log.velocity = Eigen::VectorXd::Constant(12, 0.5);
   log.velocity.tail(6).setConstant(-1);
   log.position = Eigen::VectorXd::Zero(12);
-  log.torque = Eigen::VectorXd::LinSpaced(12, -1, 1);
+  log.torque = 2 * log.velocity.array().sign() + Eigen::ArrayXd::LinSpaced(12, -0.1, 0.1);
   return log;
 }
 
