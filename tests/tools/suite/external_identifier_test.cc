@@ -22,7 +22,7 @@ Measurements Log() {
   log.velocity = Eigen::VectorXd::Constant(12, 0.5);
   log.velocity.tail(6).setConstant(-1);
   log.position = Eigen::VectorXd::Zero(12);
-  log.torque = 2 * log.velocity.array().sign() + Eigen::ArrayXd::LinSpaced(12, -0.1, 0.1);
+  log.torque = 2 * log.velocity.array().sign() + Eigen::ArrayXd::LinSpaced(12, -0.01, 0.01);
   return log;
 }
 
