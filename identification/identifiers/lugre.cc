@@ -35,7 +35,7 @@ std::optional<Eigen::Vector4d> SteadyStart(const IdentifierInput& input, double 
   const Selection steady = SteadySamples(input, distance);
   if (steady.count() < 8) return std::nullopt;
   const Intervals intervals{{1}, std::vector<int>(static_cast<size_t>(m.size()), 0), 1};
-  const StribeckProblem problem{m, steady, intervals, 2, Warming::none, 1};
+  const StribeckProblem problem{m, steady, intervals, 2, FittedWarming::none, 1};
   const std::vector<StribeckPoint> scan = ScanStribeckVelocity(problem);
   if (scan.empty()) return std::nullopt;
   Eigen::Vector4d start = scan[0].x;

@@ -38,7 +38,7 @@ double SquaresWithout(const StribeckProblem& problem) {
   const Eigen::MatrixXd kept = Kept(columns, problem.selection);
   const LeastSquares cold = SolveLeastSquares(kept, torque);
   const double squares = (torque - kept * cold.solution).squaredNorm();
-  if (problem.warming == Warming::none) return squares;
+  if (problem.warming == FittedWarming::none) return squares;
 
   const ClosedLoop loop(m.time, m.velocity, columns, m.starts);
   const Eigen::VectorXd level = loop.direction().cwiseProduct(m.torque);
@@ -75,7 +75,7 @@ StribeckEvidence EvidenceOf(const StribeckFit& fit, const Uncertainty& known) {
 /// Why the warming cannot be told; nothing where it can, or is not asked for.
 std::optional<std::string> VagueWarming(const StribeckProblem& problem, const StribeckFit& fit,
                                         const Uncertainty& known, double cold_squares) {
-  if (problem.warming == Warming::none) return std::nullopt;
+  if (problem.warming == FittedWarming::none) return std::nullopt;
   const Eigen::VectorXd& time = problem.measurements.time;
   const double total = time[time.size() - 1] - time[0];
   const Eigen::Index n = fit.fitted.size();
@@ -94,7 +94,7 @@ Eigen::VectorXd LawAt(const StribeckProblem& problem, const Eigen::VectorXd& x) 
 
 /// The warming at x, where it is asked for.
 std::optional<Thermal> ThermalAt(const StribeckProblem& problem, const Eigen::VectorXd& x) {
-  if (problem.warming == Warming::none) return std::nullopt;
+  if (problem.warming == FittedWarming::none) return std::nullopt;
   return Thermal{x[kGain], std::exp(x[kGain + 1])};
 }
 
@@ -147,9 +147,9 @@ StribeckFit FitFrom(const StribeckProblem& problem, const std::vector<StribeckPo
 
 /// What the law leaves without warming; 0 where no warming is asked for. (N.m)^2 or N^2
 double ColdSquares(const StribeckProblem& problem) {
-  if (problem.warming == Warming::none) return 0;
+  if (problem.warming == FittedWarming::none) return 0;
   StribeckProblem cold = problem;
-  cold.warming = Warming::none;
+  cold.warming = FittedWarming::none;
   const std::vector<StribeckPoint> scan = ScanStribeckVelocity(cold);
   return scan.empty() ? kInfinity : RefineStribeck(cold, scan[0]).solution.squares;
 }
@@ -213,7 +213,7 @@ Fit FitStribeck(const IdentifierInput& input) {
       input.selection,
       FindIntervals(m.time, m.starts),
       input.options.Number("exponent"),
-      input.options.Text("warming") == "estimated" ? Warming::estimated : Warming::none,
+      input.options.Text("warming") == "estimated" ? FittedWarming::estimated : FittedWarming::none,
       torque.norm() / std::sqrt(static_cast<double>(torque.size()))};
   const double without = SquaresWithout(problem);
   const std::vector<StribeckPoint> scan = ScanStribeckVelocity(problem);
@@ -225,7 +225,7 @@ Fit FitStribeck(const IdentifierInput& input) {
   fit.trace = Trace(problem, scan);
   SetModel(problem, scan[0].x, fit);
   const double seen = Explained(input, without, scan[0]);
-  if (problem.warming == Warming::none && seen < 0.5 * kVisibleWarming) {
+  if (problem.warming == FittedWarming::none && seen < 0.5 * kVisibleWarming) {
     fit.refusal = {Status::not_identifiable, Unseen(input, seen)};
   } else {
     Conclude(input, problem, FitFrom(problem, scan), {without, ColdSquares(problem)}, fit);

@@ -108,7 +108,7 @@ std::optional<StribeckPoint> StartAt(const StribeckProblem& problem, double velo
   if (cold.rank < 3) return std::nullopt;
 
   StribeckPoint point;
-  if (problem.warming == Warming::none) {
+  if (problem.warming == FittedWarming::none) {
     point.x = Eigen::Vector4d(cold.solution[0], cold.solution[1], cold.solution[2], 0);
     point.squares = (torque - kept * cold.solution).squaredNorm();
   } else {
@@ -145,7 +145,8 @@ std::vector<StribeckPoint> ScanStribeckVelocity(const StribeckProblem& problem) 
 }
 
 StribeckFit RefineStribeck(const StribeckProblem& problem, const StribeckPoint& start) {
-  return problem.warming == Warming::none ? Refine<4>(problem, start) : Refine<6>(problem, start);
+  return problem.warming == FittedWarming::none ? Refine<4>(problem, start)
+                                                : Refine<6>(problem, start);
 }
 
 }  // namespace warmjoint::inline identification

@@ -11,7 +11,7 @@
 namespace warmjoint::inline identification {
 
 /// Whether E of Eqs. (19)-(22) is part of the fit.
-enum class Warming { none, estimated };
+enum class FittedWarming { none, estimated };
 
 /// What is fitted to what.
 struct StribeckProblem {
@@ -19,7 +19,7 @@ struct StribeckProblem {
   const Selection& selection;  // E runs over all samples, the fit is to those kept
   Intervals intervals;         // FindIntervals(time, starts)
   double exponent = 2;         // delta, fixed
-  Warming warming = Warming::none;
+  FittedWarming warming = FittedWarming::none;
   double scale = 1;  // about the torque's rms, N.m or N
 };
 

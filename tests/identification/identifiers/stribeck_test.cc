@@ -111,7 +111,8 @@ TEST(StribeckFit, HasTheJacobianOfFiniteDifferences) {
   warm.thermal = Thermal{-3, 60};
   const Measurements m = test::RecordFriction(warm, 0.1, test::SlowAndFast(500, 3), 0.3, 3);
   const Selection selection = SelectMoving(m);
-  const StribeckProblem problem{m, selection, FindIntervals(m.time), 2, Warming::estimated, 10};
+  const StribeckProblem problem{m, selection, FindIntervals(m.time), 2, FittedWarming::estimated,
+                                10};
   StribeckPoint start;
   start.x.resize(6);
   start.x << 5, 15, 20, std::log(0.05), -3, std::log(60);
