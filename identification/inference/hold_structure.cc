@@ -6,11 +6,10 @@
 
 #include "identification/fit_data.h"
 #include "identification/inference/covariance.h"
+#include "identification/relevance.h"
 
 namespace warmjoint::inline identification {
 namespace {
-
-constexpr double kRelevant = 0.02;  // of the friction's rms; the default of --relevance
 
 double Rms(const Eigen::VectorXd& values) {
   return values.norm() / std::sqrt(static_cast<double>(values.size()));
@@ -23,7 +22,7 @@ void HoldStructure(const Disagreement& structure, const Eigen::VectorXd& frictio
   const bool named = row < fit.parameters.size() && !fit.parameters[row].name.empty();
   const std::string name = named ? fit.parameters[row].name : "gravity";
   const double moved = Rms(Kept(fit.jacobian(), fit.used) * structure.differences);
-  if (!(moved < kRelevant * Rms(friction))) {
+  if (!(moved < kDefaultRelevance * Rms(friction))) {
     fit.without_intervals = DescribeDisagreement(structure, name);
     return;
   }

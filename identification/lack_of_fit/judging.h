@@ -1,6 +1,8 @@
 // How strict a verdict is, and what it takes for granted.
 #pragma once
 
+#include "identification/relevance.h"
+
 namespace warmjoint::inline identification {
 
 /// What is known of the warmth at the start of a log.
@@ -12,7 +14,7 @@ enum class StartBelief {
 struct Judging {
   /// Lack of fit from which a model is refused: its rms as a share of the friction's. Smaller lack
   /// of fit widens the intervals by what it moves. 0 < relevance <= 1.
-  double relevance = 0.02;
+  double relevance = kDefaultRelevance;
   StartBelief start = StartBelief::cold;
 };
 

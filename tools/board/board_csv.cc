@@ -45,10 +45,16 @@ std::string BoardToCsv(const Leaderboard& board) {
 }
 
 std::string SummaryToCsv(const Leaderboard& board) {
+  // wall times differ from run to run
+  const auto timeless = [](LeaderboardRow row) {
+    row.seconds.median = std::nan("");
+    return Row(row);
+  };
   std::string csv = "variant," + Header();
-  for (const LeaderboardRow& row : board.rows) csv += "all," + Row(row);
+  for (const LeaderboardRow& row : board.rows) csv += "all," + timeless(row);
   for (const Leaderboard& group : board.groups) {
-    for (const LeaderboardRow& row : group.rows) csv += CsvCell(group.variant) + "," + Row(row);
+    for (const LeaderboardRow& row : group.rows)
+      csv += CsvCell(group.variant) + "," + timeless(row);
   }
   return csv;
 }

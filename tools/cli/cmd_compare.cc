@@ -3,8 +3,8 @@
 
 #include <memory>
 
-#include "tools/actions/read_board.h"
 #include "tools/board/format_board.h"
+#include "tools/board/read_board.h"
 #include "tools/cli/command.h"
 #include "tools/parser/choice.h"
 #include "tools/store/stored_suite.h"

@@ -3,9 +3,9 @@
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
 #include "scenarios/parse_suite.h"
-#include "tools/actions/read_board.h"
 #include "tools/actions/run_task.h"
 #include "tools/board/format_board.h"
+#include "tools/board/read_board.h"
 #include "tools/interface/guarded.h"
 #include "tools/suite/engine.h"
 

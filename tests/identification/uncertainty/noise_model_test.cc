@@ -5,22 +5,12 @@
 #include <cmath>
 #include <vector>
 
-#include "models/foundation/random_stream.h"
+#include "tests/support/coloured_noise.h"
 
 namespace warmjoint {
 namespace {
 
-/// Stationary AR(1) noise of variance 1. [n]
-Eigen::VectorXd Coloured(Eigen::Index n, double pole, std::uint64_t seed) {
-  RandomStream random({seed, 0}, Stream::test);
-  Eigen::VectorXd e(n);
-  double last = random.Normal();
-  for (Eigen::Index i = 0; i < n; ++i) {
-    last = pole * last + std::sqrt(1 - pole * pole) * random.Normal();
-    e[i] = last;
-  }
-  return e;
-}
+using test::Coloured;
 
 Selection Keep(Eigen::Index n, Eigen::Index gap) {
   Selection selection{Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(n, true), {}};

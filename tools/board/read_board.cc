@@ -1,4 +1,4 @@
-#include "tools/actions/read_board.h"
+#include "tools/board/read_board.h"
 
 #include "tools/board/board_builder.h"
 #include "tools/store/stored_suite.h"
