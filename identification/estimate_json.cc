@@ -6,6 +6,7 @@
 
 #include "identification/estimate.h"
 #include "models/foundation/excerpt.h"
+#include "models/foundation/matrix_json.h"
 #include "models/foundation/nearest_name.h"
 
 namespace warmjoint::inline identification {
@@ -152,11 +153,7 @@ TraceEntry ToTraceEntry(const json& object, const Place& place) {
 
 json CovarianceToJson(const std::optional<ParameterCovariance>& covariance) {
   if (!covariance) return nullptr;
-  json matrix = json::array();
-  for (const auto& row : covariance->matrix.rowwise()) {
-    matrix.push_back(std::vector<double>(row.begin(), row.end()));
-  }
-  return {{"parameters", covariance->parameters}, {"matrix", matrix}};
+  return {{"parameters", covariance->parameters}, {"matrix", MatrixToJson(covariance->matrix)}};
 }
 
 /// Square, one row for each name.
@@ -166,21 +163,8 @@ std::optional<ParameterCovariance> ToCovariance(const json& object, const Place&
   for (const json& name : Member(object, "parameters", "covariance", place)) {
     covariance.parameters.push_back(ToText(name, "a parameter of covariance", place));
   }
-  const size_t p = covariance.parameters.size();
-  const json& matrix = Member(object, "matrix", "covariance", place);
-  if (!matrix.is_array() || matrix.size() != p) {
-    Refuse(place, "covariance.matrix must have {} rows, one for each of its parameters", p);
-  }
-  covariance.matrix.resize(static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(p));
-  for (size_t i = 0; i < p; ++i) {
-    if (!matrix[i].is_array() || matrix[i].size() != p) {
-      Refuse(place, "row {} of covariance.matrix must hold {} numbers", i + 1, p);
-    }
-    for (size_t j = 0; j < p; ++j) {
-      covariance.matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-          ToNumber(matrix[i][j], "covariance.matrix", place);
-    }
-  }
+  covariance.matrix = SquareFromJson(Member(object, "matrix", "covariance", place),
+                                     covariance.parameters.size(), "covariance.matrix", place);
   return covariance;
 }
 

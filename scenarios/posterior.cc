@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "models/foundation/excerpt.h"
+#include "models/foundation/matrix_json.h"
 
 namespace warmjoint::inline scenarios {
 namespace {
@@ -25,25 +26,6 @@ double* Find(FrictionDescription& friction, const std::string& name) {
   if (name == "thermal_gain") return &friction.thermal->gain;
   if (name == "thermal_time_constant") return &friction.thermal->time_constant;
   return nullptr;
-}
-
-MatrixXd MatrixFromJson(const json& rows, std::size_t size, const Place& place) {
-  const auto wrong = [&] {
-    Refuse(place,
-           "covariance must be a matrix of numbers with {0} rows and {0} columns, one for "
-           "each of the parameters",
-           size);
-  };
-  if (!rows.is_array() || rows.size() != size) wrong();
-  MatrixXd matrix(static_cast<Index>(size), static_cast<Index>(size));
-  for (std::size_t i = 0; i < size; ++i) {
-    if (!rows[i].is_array() || rows[i].size() != size) wrong();
-    for (std::size_t j = 0; j < size; ++j) {
-      if (!rows[i][j].is_number()) wrong();
-      matrix(static_cast<Index>(i), static_cast<Index>(j)) = rows[i][j].get<double>();
-    }
-  }
-  return matrix;
 }
 
 /// The symmetric root; rounding in a singular covariance is taken for zero.
@@ -87,17 +69,14 @@ Posterior PosteriorFromJson(const json& object, const FrictionDescription& frict
       Refuse(place, "the friction has no parameter '{}'", Excerpt(posterior.parameters.back()));
     }
   }
-  posterior.covariance = MatrixFromJson(object["covariance"], posterior.parameters.size(), place);
+  posterior.covariance =
+      SquareFromJson(object["covariance"], posterior.parameters.size(), "covariance", place);
   CheckCovariance(posterior.covariance, place);
   return posterior;
 }
 
 json PosteriorToJson(const Posterior& posterior) {
-  json matrix = json::array();
-  for (const auto& row : posterior.covariance.rowwise()) {
-    matrix.push_back(std::vector<double>(row.begin(), row.end()));
-  }
-  return {{"parameters", posterior.parameters}, {"covariance", matrix}};
+  return {{"parameters", posterior.parameters}, {"covariance", MatrixToJson(posterior.covariance)}};
 }
 
 Posterior PosteriorOfEstimate(const json& estimate, const FrictionDescription& friction,
@@ -110,7 +89,8 @@ Posterior PosteriorOfEstimate(const json& estimate, const FrictionDescription& f
            "gives no intervals. Leave `draw` out to take its numbers as they are");
   }
   const json& names = covariance["parameters"];
-  const MatrixXd whole = MatrixFromJson(covariance.value("matrix", json()), names.size(), place);
+  const MatrixXd whole =
+      SquareFromJson(covariance.value("matrix", json()), names.size(), "covariance.matrix", place);
 
   // rows and columns of what the friction has
   Posterior posterior;
