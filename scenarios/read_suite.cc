@@ -33,7 +33,7 @@ SuiteIdentifier ReadIdentifier(const YamlValue& value) {
   const auto label = value.Find("label");
   identifier.label = label ? label->Text() : identifier.name;
   if (const auto options = value.Find("options")) {
-    options->RequireKeys(options->Keys());
+    options->RequireDistinctKeys();
     for (const std::string& name : options->Keys()) {
       if (const auto option = options->Find(name)) identifier.options[name] = option->Text();
     }
@@ -75,12 +75,12 @@ std::vector<Variant> ReadValues(const YamlValue& values, const std::string& vari
 
 std::vector<Variant> ReadVariants(const YamlValue& value) {
   if (!value.IsMap()) value.RefuseValue("a map from names to changed entries");
-  value.RequireKeys(value.Keys());
+  value.RequireDistinctKeys();
   std::vector<Variant> variants;
   for (const std::string& name : value.Keys()) {
     Variant variant{name, std::nullopt, {}};
     if (const auto changes = value.Find(name)) {
-      changes->RequireKeys(changes->Keys());
+      changes->RequireDistinctKeys();
       for (const auto& entry : changes->node()) {
         variant.settings.push_back({entry.first.Scalar(), FlowYaml(entry.second)});
       }

@@ -49,7 +49,7 @@ json ToJson(const YamlValue& value, const std::string& key, TruthDraws& draws) {
   }
   if (value.IsMap()) {
     json object = json::object();
-    value.RequireKeys(value.Keys());
+    value.RequireDistinctKeys();
     for (const std::string& name : value.Keys()) {
       // names make dotted keys and paths into JSON
       if (name.empty() || name.find_first_of("./~") != std::string::npos) {

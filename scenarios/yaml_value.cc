@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
@@ -158,17 +159,28 @@ std::vector<std::string> YamlValue::Keys() const {
 void YamlValue::RequireKeys(const std::vector<std::string>& known) const {
   if (!IsMap())
     RefuseValue("a map with entries among: " + fmt::format("{}", fmt::join(known, ", ")));
-  std::vector<std::string> seen;
   for (const auto& entry : node_) {
     const std::string name = entry.first.Scalar();
     const Place where = YamlValue(entry.first, KeyOf(name), document_).place();
     if (std::find(known.begin(), known.end(), name) == known.end()) {
       Refuse(where, "unknown key '{}'{}", Excerpt(KeyOf(name)), Suggestion(name, known));
     }
-    if (std::find(seen.begin(), seen.end(), name) != seen.end()) {
-      Refuse(where, "the key '{}' stands twice; keep one", Excerpt(KeyOf(name)));
+    if (entry.second.IsNull()) {
+      Refuse(where, "the key '{}' has no value; give it one, or leave it out",
+             Excerpt(KeyOf(name)));
     }
-    seen.push_back(name);
+  }
+  RequireDistinctKeys();
+}
+
+void YamlValue::RequireDistinctKeys() const {
+  if (!IsMap()) RefuseValue("a map");
+  std::set<std::string> seen;
+  for (const auto& entry : node_) {
+    const std::string name = entry.first.Scalar();
+    if (seen.insert(name).second) continue;
+    Refuse(YamlValue(entry.first, KeyOf(name), document_).place(),
+           "the key '{}' stands twice; keep one", Excerpt(KeyOf(name)));
   }
 }
 

@@ -47,9 +47,11 @@ class YamlValue {
   bool IsScalar() const { return node_.IsScalar(); }
   const YAML::Node& node() const { return node_; }
 
-  /// Refuses a value that is no map, keys that stand twice, and keys that are not among `known`,
-  /// with the nearest.
+  /// Refuses a value that is no map, keys that stand twice or have no value, and keys that are not among
+  /// `known`, with the nearest.
   void RequireKeys(const std::vector<std::string>& known) const;
+  /// Refuses a value that is no map, and keys that stand twice.
+  void RequireDistinctKeys() const;
   /// Names of the keys, in their order in the file. Refuses a value that is no map.
   std::vector<std::string> Keys() const;
   /// The entry of that name; nothing where it is absent or null. The value must be a map.

@@ -11,4 +11,7 @@ namespace warmjoint::inline models {
 /// UTF-8, as \xCF.
 std::string Printable(std::string_view text);
 
+/// The same of each line of a text that keeps its line ends.
+std::string PrintableLines(std::string_view text);
+
 }  // namespace warmjoint::inline models

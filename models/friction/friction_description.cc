@@ -7,6 +7,7 @@
 
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
+#include "models/friction/survey_work.h"
 
 namespace warmjoint::inline models {
 namespace {
@@ -81,8 +82,17 @@ void CheckSlopeOverEnergy(const FrictionDescription& friction, const Place& plac
 }
 
 void CheckMaps(const FrictionDescription& friction, const Place& place) {
+  double work = 0;
   for (const FrictionMap& map : friction.maps) {
     CheckMap(map, place);
+    work += SurveyWork(map);
+    if (work > kMostSurveyWork) {
+      Refuse(place,
+             "its maps need {:.1g} evaluations of kernels before the first step, more than {:.1g}; "
+             "give that of {} weights "
+             "fewer axes or fewer centres",
+             work, kMostSurveyWork, map.size());
+    }
     for (const MapAxis& axis : map.axes) {
       if (axis.quantity != MapQuantity::motor_position) continue;
       const double period = axis.kernels.period.value_or(0);

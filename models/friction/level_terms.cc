@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "models/friction/survey_work.h"
+
 namespace warmjoint::inline models {
 namespace {
 
@@ -14,24 +16,6 @@ constexpr double kStill = std::numeric_limits<double>::min();
 bool Depends(const FrictionMap& map, MapQuantity quantity) {
   return std::any_of(map.axes.begin(), map.axes.end(),
                      [&](const MapAxis& axis) { return axis.quantity == quantity; });
-}
-
-/// Values of one quantity between which a map is sampled: its centres and three widths beyond;
-/// speeds four to a width. 0 alone where the map does not depend on it.
-std::vector<double> SamplesOf(const FrictionMap& map, MapQuantity quantity) {
-  for (const MapAxis& axis : map.axes) {
-    if (axis.quantity != quantity) continue;
-    const GaussianAxis& kernels = axis.kernels;
-    if (quantity != MapQuantity::velocity) return kernels.centres;
-    const double reach = 3 * kernels.width + std::max(std::abs(kernels.centres.front()),
-                                                      std::abs(kernels.centres.back()));
-    const int count = static_cast<int>(std::min(500.0, std::ceil(4 * reach / kernels.width)));
-    std::vector<double> speeds;
-    for (int i = 0; i <= count; ++i) speeds.push_back(reach * i / count);
-    return speeds;
-  }
-  if (quantity == MapQuantity::velocity) return {0, 1};
-  return {0};
 }
 
 }  // namespace
@@ -67,7 +51,7 @@ double LevelTerms::At(int side, double speed, const JointPlace& place) const {
 void LevelTerms::Survey(const FrictionDescription& friction) {
   for (size_t i = 0; i < maps_.size(); ++i) {
     const FrictionMap& map = friction.maps[i];
-    const auto samples = [&](MapQuantity quantity) { return SamplesOf(map, quantity); };
+    const auto samples = [&](MapQuantity quantity) { return SurveySamples(map, quantity); };
     const std::vector<double> speeds = samples(MapQuantity::velocity);
     double slope = 0, at_rest = 0;
     const auto along_speed = [&](MapPoint<double> point, int side) {

@@ -58,6 +58,13 @@ TEST(HostileYaml, TextThatIsNoUtf8IsRefusedWithItsLine) {
   EXPECT_THAT(Refusal(kRest + kFriction, {{"name", "\xCF"}}), HasSubstr("no UTF-8"));
 }
 
+TEST(HostileYaml, AKeyWithoutAValueIsNotTakenForItsDefault) {
+  for (const char* nothing : {"~", "null", ""}) {
+    EXPECT_THAT(Refusal(kRest + kFriction + fmt::format("noise: {}\n", nothing)),
+                HasSubstr("s.yaml:6: the key 'noise' has no value"));
+  }
+}
+
 TEST(HostileYaml, NamesThatWouldLeadElsewhereAreNoKeys) {
   for (const char* name : {"~x", "a.", "a/", "", "a.b"}) {
     const std::string text =

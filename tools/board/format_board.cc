@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "models/foundation/printable.h"
 #include "tools/board/board_tables.h"
 #include "tools/terminal/page.h"
 
@@ -27,6 +28,15 @@ Table SideBySide(const std::vector<NamedBoard>& boards) {
     }
   }
   return table;
+}
+
+/// Markdown in which nothing is HTML, and on which no terminal acts.
+std::string Harmless(const std::string& markdown) {
+  std::string text;
+  for (const char c : PrintableLines(markdown)) {
+    text += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
+  }
+  return text;
 }
 
 }  // namespace
@@ -56,7 +66,7 @@ std::string BoardToText(const Leaderboard& board, int width) {
   const Table parameters = ParameterTable(board);
   if (!parameters.rows.empty()) text += TableToText(parameters, 2, width) + "\n";
   for (const std::string& note : Notes(board)) text += fmt::format("* {}\n", note);
-  return text;
+  return PrintableLines(text);
 }
 
 std::string BoardToMarkdown(const Leaderboard& board) {
@@ -71,18 +81,18 @@ std::string BoardToMarkdown(const Leaderboard& board) {
   const Table parameters = ParameterTable(board);
   if (!parameters.rows.empty()) text += TableToMarkdown(parameters, 2) + "\n";
   for (const std::string& note : Notes(board)) text += fmt::format("- {}\n", note);
-  return text;
+  return Harmless(text);
 }
 
 std::string BoardsToText(const std::vector<NamedBoard>& boards, int width) {
-  std::string text = TableToText(SideBySide(boards), 2, width);
+  std::string text = PrintableLines(TableToText(SideBySide(boards), 2, width));
   for (const NamedBoard& named : boards)
     text += fmt::format("\n{}", BoardToText(named.board, width));
   return text;
 }
 
 std::string BoardsToMarkdown(const std::vector<NamedBoard>& boards) {
-  std::string text = TableToMarkdown(SideBySide(boards), 2);
+  std::string text = Harmless(TableToMarkdown(SideBySide(boards), 2));
   for (const NamedBoard& named : boards) text += fmt::format("\n{}", BoardToMarkdown(named.board));
   return text;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "models/foundation/printable.h"
 #include "tools/terminal/wrap.h"
 
 namespace warmjoint::inline tools {
@@ -77,6 +78,15 @@ Table Block(const Table& table, size_t left, size_t begin, size_t end) {
   return block;
 }
 
+/// The table with cells that no terminal acts on.
+Table Shown(Table table) {
+  for (std::string& cell : table.header) cell = Printable(cell);
+  for (auto& row : table.rows) {
+    for (std::string& cell : row) cell = Printable(cell);
+  }
+  return table;
+}
+
 std::string MarkdownLine(const std::vector<std::string>& cells) {
   std::string line = "|";
   for (const std::string& cell : cells) {
@@ -89,7 +99,8 @@ std::string MarkdownLine(const std::vector<std::string>& cells) {
 
 }  // namespace
 
-std::string TableToText(const Table& table, size_t left, int width) {
+std::string TableToText(const Table& given, size_t left, int width) {
+  const Table table = Shown(given);
   const size_t room = static_cast<size_t>(std::max(width, 0));
   const std::vector<size_t> widths = Widths(table);
   if (Total(widths) <= room) return Aligned(table, left);
@@ -109,7 +120,8 @@ std::string TableToText(const Table& table, size_t left, int width) {
   return text;
 }
 
-std::string TableToMarkdown(const Table& table, size_t left) {
+std::string TableToMarkdown(const Table& given, size_t left) {
+  const Table table = Shown(given);
   std::string text = MarkdownLine(table.header) + "|";
   for (size_t i = 0; i < table.header.size(); ++i) text += i < left ? " --- |" : " ---: |";
   text += "\n";

@@ -2,6 +2,7 @@
 
 #include <fmt/ranges.h>
 
+#include "models/foundation/printable.h"
 #include "tools/board/table.h"
 #include "tools/cli/remarks.h"
 
@@ -40,7 +41,7 @@ std::string RemarksText(const Estimate& estimate, Detail detail) {
   const std::vector<std::string> all = Remarks(estimate);
   const std::vector<std::string> shown = detail == Detail::full ? all : BriefRemarks(estimate);
   std::string text;
-  for (const std::string& remark : shown) text += fmt::format("  {}\n", remark);
+  for (const std::string& remark : shown) text += fmt::format("  {}\n", Printable(remark));
   if (detail == Detail::brief && shown != all) text += "  --explain tells more.\n";
   return text;
 }
@@ -90,7 +91,7 @@ Colour ColourOf(Status status) {
 std::string EstimateToText(const Estimate& estimate, const Measurements& measurements,
                            const Page& page, Detail detail) {
   std::string text =
-      fmt::format("{}: {}\n", estimate.identifier,
+      fmt::format("{}: {}\n", Printable(estimate.identifier),
                   Paint(StatusName(estimate.status), ColourOf(estimate.status), page));
   text += RemarksText(estimate, detail);
   if (!estimate.parameters.empty())

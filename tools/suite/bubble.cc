@@ -1,6 +1,7 @@
 #include "tools/suite/bubble.h"
 
 #include "tools/suite/run_command.h"
+#include "tools/suite/working_directory.h"
 
 namespace warmjoint::inline tools {
 namespace fs = std::filesystem;
@@ -10,12 +11,13 @@ constexpr double kPatience = 5;  // s, for a trial
 
 /// Whether it can make its namespaces here, and show the system's files and processes in them.
 bool Works(const fs::path& program) {
+  const WorkingDirectory directory;  // which goes where the trial is killed
   CommandLimits limits;
   limits.seconds = kPatience;
   const std::vector<std::string> trial{
       program.string(), "--unshare-all", "--ro-bind",         "/",   "/", "--proc", "/proc",
       "--dev",          "/dev",          "--die-with-parent", "true"};
-  return RunCommand(trial, "/", Wall(), limits).status == 0;
+  return RunCommand(trial, directory.path(), Wall(), limits).status == 0;
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 #include "models/foundation/excerpt.h"
 #include "tools/suite/command_line.h"
-#include "tools/suite/run_command.h"
+#include "tools/suite/interpreter.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -18,16 +18,27 @@ bool IsAround(const fs::path& folder, const fs::path& path) {
          folder.end();
 }
 
-/// The folder of an interpreter's own libraries (a virtual environment, a Conda or pyenv one), by
-/// its program; empty where there is none, or where it would open what the wall has to hide.
+/// Whether libraries of a Python lie in a folder: lib/python3.12.
+bool HoldsPython(const fs::path& folder) {
+  std::error_code ignored;
+  fs::directory_iterator entries(folder, ignored);
+  return std::any_of(begin(entries), end(entries), [](const fs::directory_entry& entry) {
+    return entry.path().filename().string().starts_with("python");
+  });
+}
+
+/// The folder of an interpreter's own libraries, by its program: a virtual environment, a Conda one, or the
+/// libraries of a Python built for itself, as pyenv's; empty where there is none, or where it would open what the wall has
+/// to hide.
 fs::path EnvironmentOf(const fs::path& program) {
   if (program.parent_path().filename() != "bin") return {};
   const fs::path prefix = program.parent_path().parent_path();
   std::error_code ignored;
-  const bool known = fs::exists(prefix / "pyvenv.cfg", ignored) ||
-                     fs::exists(prefix / "conda-meta", ignored) ||
-                     fs::exists(prefix / "lib/python3", ignored);
-  return known && !IsAround(prefix, fs::current_path()) ? prefix : fs::path();
+  const bool whole =
+      fs::exists(prefix / "pyvenv.cfg", ignored) || fs::exists(prefix / "conda-meta", ignored);
+  const fs::path libraries = whole ? prefix : prefix / "lib";
+  if (!whole && !HoldsPython(libraries)) return {};
+  return IsAround(libraries, fs::current_path()) ? fs::path() : libraries;
 }
 
 /// The files that a command names.
@@ -52,7 +63,7 @@ std::vector<fs::path> Readable(const std::vector<std::string>& words, const Opti
     const fs::path beside = readable.front().parent_path();
     if (!IsAround(beside, fs::current_path())) readable.push_back(beside);
   }
-  const fs::path program = FindProgram(words.front());
+  const fs::path program = FindInterpreter(words.front());
   for (const fs::path& path : {program, fs::weakly_canonical(program, ignored)}) {
     if (!path.is_absolute()) continue;
     readable.push_back(path);

@@ -11,40 +11,20 @@
 #include "identification/warming/estimated_start.h"
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/excerpt.h"
-#include "models/foundation/output_failed.h"
 #include "models/foundation/read_json.h"
 #include "models/foundation/robust_noise.h"
 #include "models/recording/course_of.h"
 #include "models/recording/read_recording.h"
 #include "tools/suite/command_line.h"
+#include "tools/suite/interpreter.h"
 #include "tools/suite/keep_recording.h"
 #include "tools/suite/run_command.h"
+#include "tools/suite/working_directory.h"
 
 namespace warmjoint::inline tools {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A directory of the system's for temporary files, removed at the end of its life.
-class WorkingDirectory {
- public:
-  WorkingDirectory() {
-    std::string pattern = fs::temp_directory_path() / "warmjoint_XXXXXX";
-    if (!mkdtemp(pattern.data())) FailOutput(pattern, errno);
-    path_ = pattern;
-  }
-  ~WorkingDirectory() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  WorkingDirectory(const WorkingDirectory&) = delete;
-  WorkingDirectory& operator=(const WorkingDirectory&) = delete;
-
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 void WriteMeasurements(const Measurements& measurements, const std::string& command,
                        const fs::path& directory) {
@@ -137,6 +117,14 @@ std::vector<std::string> Filled(std::vector<std::string> words) {
   return words;
 }
 
+/// What helps a command that found a program and was kept from starting it.
+std::string RemedyFor(const CommandEnd& end) {
+  constexpr int not_executable = 126;  // as shells have it
+  if (end.status != not_executable || BestWall() == WallKind::none) return "";
+  return "; the wall kept it from a program: name the interpreter by its full path, or its folder "
+         "in the option reads";
+}
+
 Estimate Ask(const Command& command, const PreparedLog& log) {
   const auto& [measurements, selection] = log.taken();
   const WorkingDirectory directory;
@@ -152,8 +140,8 @@ Estimate Ask(const Command& command, const PreparedLog& log) {
   if (end.status != 0) {
     // the directory's name is drawn anew each time; results are not
     const std::string last = Replaced(end.last_output, directory.path(), ".");
-    throw NoAnswer("crashed",
-                   fmt::format("exit status {}: {}", end.status, Excerpt(last, kLongestComplaint)));
+    throw NoAnswer("crashed", fmt::format("exit status {}: {}{}", end.status,
+                                          Excerpt(last, kLongestComplaint), RemedyFor(end)));
   }
   Estimate estimate = ReadAnswer(directory.path() / "estimate.json", command.label);
   AddDiscretePair(estimate, measurements);
@@ -175,6 +163,7 @@ PreparedIdentifier PrepareExternal(const SuiteIdentifier& identifier, const Plac
   const std::vector<std::string> words = SplitCommand(command.text, place);
   command.readable = ReadableBy(identifier);
   command.words = words;
+  command.words.front() = FindInterpreter(words.front());
   if (options.Text("shell") == "yes") command.words = {"/bin/sh", "-c", command.text};
   command.limits.seconds = options.Number("time_limit");
   command.limits.memory =

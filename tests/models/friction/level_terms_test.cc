@@ -1,5 +1,6 @@
 #include "models/friction/level_terms.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -48,6 +49,35 @@ TEST(LevelTerms, AddAForceToOneSideAndTakeItFromTheOther) {
   EXPECT_DOUBLE_EQ(LevelTerms(With({force})).At(1, 0, {}), 0.5);
   EXPECT_DOUBLE_EQ(LevelTerms(With({force})).At(-1, 0, {}), -0.5);
   EXPECT_DOUBLE_EQ(LevelTerms(With({level})).At(-1, 0, {}), 0.5);
+}
+
+TEST(LevelTerms, TakeNoMapThatWouldKeepThemForMinutes) {
+  const auto cube = [](int axes, int centres) {
+    FrictionMap map;
+    for (const MapQuantity quantity :
+         {MapQuantity::position, MapQuantity::velocity, MapQuantity::energy, MapQuantity::load}) {
+      if (static_cast<int>(map.axes.size()) < axes) {
+        map.axes.push_back({quantity, EvenAxis(-1, 1, centres)});
+      }
+    }
+    map.weights.assign(map.size(), 0.1);
+    return map;
+  };
+  const auto refusal = [](FrictionDescription friction) -> std::string {
+    friction.thermal = Thermal{-0.4, 900};
+    try {
+      CheckFriction(friction, {"friction.json"});
+    } catch (const BadInput& bad) {
+      return bad.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(refusal(With({cube(2, 128)})), "accepted");
+  EXPECT_EQ(refusal(With({cube(3, 32)})), "accepted");
+  EXPECT_EQ(refusal(With({cube(4, 8)})), "accepted");
+  EXPECT_THAT(refusal(With({cube(4, 32)})), testing::HasSubstr("friction.json: its maps need"));
+  // many maps add up
+  EXPECT_THAT(refusal(With(std::vector(40, cube(3, 32)))), testing::HasSubstr("fewer centres"));
 }
 
 TEST(LevelTerms, KnowTheirSteepestSlopeAndTheirSizeAtRest) {

@@ -141,6 +141,20 @@ TEST(Leaderboard, MarkdownAndCsvHaveARowForEachIdentifier) {
   EXPECT_THAT(BoardToCsv(board), HasSubstr("\na,4,2,"));
 }
 
+TEST(Leaderboard, TextOfSuitesReachesNoTerminalAndNoPageAsItIs) {
+  Leaderboard board = MakeLeaderboard(TwoIdentifiers(), AFailsTwiceAndBIsOftenWorse());
+  board.question = "Which \x1B[31m\u202E <b>?";
+  board.rows[0].identifier = "b\x1B]0;x\x07";
+  EXPECT_THAT(BoardToText(board, 80), HasSubstr(R"(little: Which \x1B[31m\u202E <b>?)"));
+  const std::string markdown = BoardToMarkdown(board);
+  EXPECT_THAT(markdown, HasSubstr(R"(Which \x1B[31m\u202E &lt;b>?)"));
+  for (const std::string& text :
+       {BoardToText(board, 80), markdown, BoardsToText({{"run\x1B", board}}, 80),
+        BoardsToMarkdown({{"run\x1B", board}})}) {
+    EXPECT_EQ(text.find_first_of("\x1B\x07"), std::string::npos) << text;
+  }
+}
+
 TEST(Leaderboard, FlagsErrorsThatNoDataAllow) {
   // 8 realizations; the bound is 0.5, so that errors of 0.001 are 1/500 of it and 0.4 are ordinary
   std::vector<Result> results;
