@@ -52,7 +52,7 @@ CASES = {
     "read only": ("mkdir d; : > d/f; chmod 0 d; exit 4", "crashed"), "signal the program": ("kill -9 $PPID; kill -TERM -1; sleep 9; exit 4", "timeout"),
     "cheat by the suite": ("cat $OLDPWD/t.yaml @WORK/t.yaml > {E}", "crashed"), "cheat by the run": ("cat @WORK/R/suite.yaml > {E}", "crashed"),
     "cheat by the store": ("cp @WORK/R/results.sqlite {E}", "crashed"), "cheat by processes": ("cat /proc/[0-9]*/cmdline > {E}", "crashed"),
-    "spoil the others": ("for f in @TMP/warmjoint_*/recording.csv; do : > $f; done; exit 4", "crashed"),
+    "spoil the others": ("for f in @TMP/warmjoint_*/*/recording.csv; do : > $f; done; exit 4", "crashed"),
     "spoil the store": (": > @WORK/R/results.sqlite; exit 4", "crashed"), "spoil the suite": ("rm -rf @WORK/R; exit 4", "crashed"),
 }
 

@@ -3,7 +3,7 @@
 timings becomes what an undisturbed run makes. kills.py WARMJOINT [KILLS SIGNALS DISKS]      default: 100 30 10
 
 The suite has an identifier from outside, none of whose processes and directories may outlive the run. The undisturbed run is
-made on 1, 2 and 8 threads, and in three shards that are merged. Full disks are small file systems in memory, which only root
+made on 1, 2 and 8 threads, in three shards that are merged, and in a run that is killed ten times. Full disks are small file systems in memory, which only root
 can make; without root they are limits on the size of files."""
 
 import filecmp
@@ -105,6 +105,21 @@ def kills(attack, count, signals, name, draws):
     print(f"{name}: {done}", flush=True)
 
 
+def ten_kills(attack, draws):
+    """One run that is killed ten times; with shorter lives where it ends before."""
+    for longest in (0.6, 0.4, 0.2, 0.1):
+        shutil.rmtree(attack.work / "R", ignore_errors=True)
+        done = 0
+        while done < 10 and stopped(attack, signal.SIGKILL, draws.uniform(0.3, 1) * longest, 2):
+            done += 1
+            nothing_left(attack, f"kill {done} of ten")
+        if done == 10:
+            attack.count += 1
+            finished(attack, "ten kills", 2)
+            return print("ten kills of one run, each after", longest, "s at most", flush=True)
+    return attack.fault("ten kills", "the run ends before")
+
+
 def full_disks(attack, count, draws):
     needed = sum(path.stat().st_size for path in (attack.work / "WHOLE1").rglob("*") if path.is_file())
     place = attack.work / "R"
@@ -139,6 +154,7 @@ def main():
     draws = random.Random(16)
     with Attack(sys.argv[1], sum(counts)) as attack:
         make(attack)
+        ten_kills(attack, draws)
         kills(attack, counts[0], [signal.SIGKILL], "kill -9", draws)
         kills(attack, counts[1], [signal.SIGTERM, signal.SIGINT], "SIGTERM and SIGINT", draws)
         full_disks(attack, counts[2], draws)

@@ -1,11 +1,15 @@
 // The fuzz targets without Clang: every file of the given folders as it is, then changed by chance.
-//   fuzz_NAME [--mutations N] [--seconds N] [--seed N] [--dictionary FILE] FILE|FOLDER...
-// N changed inputs of each file, or as many as N seconds allow. The same files, N and seed give the same inputs.
+//   fuzz_NAME [--mutations N] [--seconds N] [--seed N] [--dictionary FILE] [--found FILE] FILE|FOLDER...
+// N changed inputs of each file, or as many as N seconds allow. The same files, N and seed give the same inputs. What breaks
+// the reader, or keeps it for a minute, is written to the FILE of --found.
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <string>
@@ -28,7 +32,19 @@ struct Inputs {
   std::vector<std::string> tokens;  // that the reader knows
 };
 
+const std::string* current = nullptr;  // the input that the reader has
+const char* found = nullptr;           // the file for one that breaks it
+
+/// Writes the input by system calls alone, and ends as without this.
+void Keep(int signal) {
+  const int file = found && current ? open(found, O_WRONLY | O_CREAT | O_TRUNC, 0644) : -1;
+  if (file >= 0 && write(file, current->data(), current->size()) >= 0) close(file);
+  std::signal(signal, SIG_DFL);
+  raise(signal);
+}
+
 void Feed(const std::string& bytes) {
+  current = &bytes;
   alarm(kPatience);
   LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
 }
@@ -108,10 +124,13 @@ int main(int argc, char** argv) {
       seed = std::stoull(argv[++i]);
     } else if (argument == "--dictionary" && has_value) {
       inputs.tokens = ReadDictionary(argv[++i]);
+    } else if (argument == "--found" && has_value) {
+      found = argv[++i];
     } else {
       AddFiles(argument, inputs);
     }
   }
+  for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGALRM}) std::signal(signal, Keep);
   std::sort(inputs.files.begin(), inputs.files.end());
   if (inputs.files.empty()) {
     fmt::print(stderr, "no inputs were found\n");

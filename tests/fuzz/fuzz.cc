@@ -25,10 +25,12 @@ void MayRefuse(void (*work)(std::string_view), std::string_view bytes) {
   }
 }
 
+fs::path ScratchFolder() {
+  return access("/dev/shm", W_OK) == 0 ? fs::path("/dev/shm") : fs::temp_directory_path();
+}
+
 ScratchFile::ScratchFile(std::string_view bytes) {
-  const fs::path folder =
-      access("/dev/shm", W_OK) == 0 ? fs::path("/dev/shm") : fs::temp_directory_path();
-  std::string name = folder / "warmjoint_fuzz_XXXXXX";
+  std::string name = ScratchFolder() / "warmjoint_fuzz_XXXXXX";
   const int file = mkstemp(name.data());
   Require(file >= 0);
   path_ = name;

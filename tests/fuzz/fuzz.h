@@ -24,7 +24,10 @@ void Require(bool holds);
 /// Does the work. BadInput is an answer too, where it says something, and in a sentence rather than a book.
 void MayRefuse(void (*work)(std::string_view bytes), std::string_view bytes);
 
-/// A file that holds the bytes, in memory where there is a folder for such files; removed at the end of its life.
+/// A folder for scratch files, in memory where there is one.
+std::filesystem::path ScratchFolder();
+
+/// A file that holds the bytes, in ScratchFolder; removed at the end of its life.
 class ScratchFile {
  public:
   explicit ScratchFile(std::string_view bytes);

@@ -125,8 +125,8 @@ std::string RemedyFor(const CommandEnd& end) {
          "in the option reads";
 }
 
-Estimate Ask(const Command& command, const PreparedLog& log) {
-  const auto& [measurements, selection] = log.taken();
+/// What the command answers of the log. Its directory lives no longer than it does.
+Estimate Answer(const Command& command, const Measurements& measurements) {
   const WorkingDirectory directory;
   WriteMeasurements(measurements, command.text, directory.path());
   const Wall wall(command.readable, directory.path());
@@ -143,7 +143,12 @@ Estimate Ask(const Command& command, const PreparedLog& log) {
     throw NoAnswer("crashed", fmt::format("exit status {}: {}{}", end.status,
                                           Excerpt(last, kLongestComplaint), RemedyFor(end)));
   }
-  Estimate estimate = ReadAnswer(directory.path() / "estimate.json", command.label);
+  return ReadAnswer(directory.path() / "estimate.json", command.label);
+}
+
+Estimate Ask(const Command& command, const PreparedLog& log) {
+  const auto& [measurements, selection] = log.taken();
+  Estimate estimate = Answer(command, measurements);
   AddDiscretePair(estimate, measurements);
   AddMetrics(estimate, measurements, selection);
   JudgeEstimate(log, command.judging, estimate);

@@ -5,8 +5,8 @@
 
 namespace warmjoint::inline tools {
 
-/// A fresh directory of the system's for temporary files, removed at the end of its life. Throws
-/// OutputFailed where none can be made.
+/// A fresh directory within the system's for temporary files, removed at the end of its life, and with this process
+/// however that ends. Throws OutputFailed where none can be made.
 class WorkingDirectory {
  public:
   WorkingDirectory();

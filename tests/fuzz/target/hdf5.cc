@@ -8,13 +8,15 @@ namespace {
 using namespace warmjoint;
 using fuzz::Require;
 
-constexpr double kPatience = 0.25;  // s; some inputs make the library run for ever
+constexpr double kPatience =
+    0.05;  // s; some inputs make the library run for ever, good ones take 5 ms
 
 void Read(std::string_view bytes) {
   const fuzz::ScratchFile file(bytes);
   const Measurements log = ReadHdf5Apart(file.path().string(), {}, kPatience);
   const Eigen::Index n = log.size();
-  Require(n >= 3 && log.position.size() == n && log.velocity.size() == n);
+  Require(n >= 3 && log.position.size() == n);
+  Require(log.velocity.size() == n || log.velocity.size() == 0);
   Require(log.position.allFinite() && log.velocity.allFinite() && log.torque.allFinite());
   Require((log.time.tail(n - 1).array() > log.time.head(n - 1).array()).all());
 }

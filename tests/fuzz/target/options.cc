@@ -1,6 +1,9 @@
-// Options of the command line: the first line names an identifier, each other one is a --set, --map or --unit pair;
-// after a first line "project" the rest is a project file.
+// Options of the command line: the first line names an identifier, each other one is a --set, --map, --unit or --scale pair;
+// after a first line "project" the rest is a project file, after "recording" the member `recording` of an estimate file.
+#include <nlohmann/json.hpp>
+
 #include "identification/identifiers/identifier_list.h"
+#include "models/foundation/read_json.h"
 #include "tests/fuzz/fuzz.h"
 #include "tools/actions/project_file.h"
 #include "tools/actions/recording_source.h"
@@ -17,23 +20,37 @@ void ReadProject(std::string_view bytes) {
   }
   fuzz::Require(!project.gear || (std::isfinite(*project.gear) && *project.gear != 0));
   fuzz::Require(!project.wrap || *project.wrap > 0);
+  fuzz::Require(!TakenProjectToJson({"fuzz.yaml", project}).dump().empty());
+}
+
+/// What an estimate file keeps of its recording is read back as it was written.
+void ReadKept(std::string_view bytes) {
+  const Place place{"fuzz.json"};
+  const RecordingArguments arguments =
+      RecordingFromJson(ParseJson(std::string(bytes), place.file), place);
+  LayoutOf(arguments);
+  const nlohmann::json written = RecordingToJson(arguments);
+  fuzz::Require(RecordingToJson(RecordingFromJson(written, place)) == written);
 }
 
 void Read(std::string_view bytes) {
   const std::string name(fuzz::TakeLine(bytes));
   if (name == "project") return ReadProject(bytes);
-  std::vector<std::string> set, map, unit;
+  if (name == "recording") return ReadKept(bytes);
+  std::vector<std::string> set;
+  RecordingArguments arguments;
   while (!bytes.empty()) {
     std::string_view line = fuzz::TakeLine(bytes);
-    auto& pairs = line.starts_with("--map ") ? map : line.starts_with("--unit ") ? unit : set;
+    auto& pairs = line.starts_with("--map ")     ? arguments.map
+                  : line.starts_with("--unit ")  ? arguments.unit
+                  : line.starts_with("--scale ") ? arguments.scale
+                                                 : set;
     if (&pairs != &set) line.remove_prefix(line.find(' ') + 1);
     pairs.emplace_back(line);
   }
 
   // how a file is laid out, tried on a small one
-  CsvLayout layout;
-  layout.column = ReadPairs(map, "--map");
-  layout.unit = ReadPairs(unit, "--unit");
+  const CsvLayout layout = LayoutOf(arguments);
   ParseCsv("time,position,velocity,torque\n0,0,1,1\n1,1,1,2\n2,2,1,1\n", "fuzz.csv", layout);
 
   // what an identifier is told

@@ -19,6 +19,11 @@ void Read(std::string_view bytes) {
   fuzz::Require(truth.force.size() == n && truth.loss.size() == n && truth.energy.size() == n);
   const std::string written = TruthToJson(truth).dump();
   fuzz::Require(TruthToJson(Parsed(written)).dump() == written);
+
+  // and from file to file
+  const fuzz::ScratchFile file("");
+  WriteTruth(truth, file.path());
+  fuzz::Require(TruthToJson(ReadTruth(file.path())).dump() == written);
 }
 
 }  // namespace

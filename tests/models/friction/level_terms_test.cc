@@ -77,7 +77,7 @@ TEST(LevelTerms, TakeNoMapThatWouldKeepThemForMinutes) {
   EXPECT_EQ(refusal(With({cube(4, 8)})), "accepted");
   EXPECT_THAT(refusal(With({cube(4, 32)})), testing::HasSubstr("friction.json: its maps need"));
   // many maps add up
-  EXPECT_THAT(refusal(With(std::vector(40, cube(3, 32)))), testing::HasSubstr("fewer centres"));
+  EXPECT_THAT(refusal(With(std::vector(100, cube(3, 32)))), testing::HasSubstr("fewer centres"));
 }
 
 TEST(LevelTerms, KnowTheirSteepestSlopeAndTheirSizeAtRest) {
