@@ -24,6 +24,8 @@ Basis Orthonormal(const MatrixXd& columns, double distinct) {
   const Eigen::ColPivHouseholderQR<MatrixXd> qr(columns);
   const Index most = std::min(columns.rows(), columns.cols());
   const Index rank = (qr.matrixQR().diagonal().head(most).array().abs() > distinct).count();
+  // Eigen walks off a null pointer where there is nothing to multiply
+  if (rank == 0) return {MatrixXd(columns.rows(), 0), MatrixXd(columns.cols(), 0)};
   Basis result;
   result.basis = qr.householderQ() * MatrixXd::Identity(columns.rows(), rank);
   MatrixXd inverse = MatrixXd::Zero(columns.cols(), rank);

@@ -1,5 +1,6 @@
 #include "tools/board/sum_up.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -9,19 +10,23 @@ namespace {
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-void AddParameters(std::vector<ParameterSums>& sums, const Score& score) {
-  if (sums.empty()) {
-    for (const ParameterScore& one : score.continuous)
-      sums.push_back({one.name, 0, 0, false, {}, {}});
-  }
-  for (std::size_t i = 0; i < sums.size(); ++i) {
-    const ParameterScore& one = score.continuous.at(i);
-    sums[i].intervals += one.covered.has_value();
-    sums[i].covered += one.covered.value_or(false);
+/// The sums of a parameter, added where they are not there yet: truths of a ladder may have other ones.
+ParameterSums& SumsOf(std::vector<ParameterSums>& all, const std::string& name) {
+  const auto found = std::find_if(all.begin(), all.end(),
+                                  [&](const ParameterSums& sums) { return sums.name == name; });
+  if (found != all.end()) return *found;
+  return all.emplace_back(ParameterSums{name, 0, 0, false, {}, {}});
+}
+
+void AddParameters(std::vector<ParameterSums>& all, const Score& score) {
+  for (const ParameterScore& one : score.continuous) {
+    ParameterSums& sums = SumsOf(all, one.name);
+    sums.intervals += one.covered.has_value();
+    sums.covered += one.covered.value_or(false);
     if (!one.estimated) continue;
-    sums[i].estimated = true;
-    sums[i].error.Add(one.estimate - one.truth);
-    sums[i].bound.Add(one.bound);
+    sums.estimated = true;
+    sums.error.Add(one.estimate - one.truth);
+    sums.bound.Add(one.bound);
   }
 }
 
@@ -84,13 +89,8 @@ void IdentifierColumns::Add(const IdentifierColumns& other) {
   }
   for (const auto& [status, count] : other.failures_) failures_[status] += count;
   if (failure_example_.empty()) failure_example_ = other.failure_example_;
-  if (parameters_.empty()) {
-    parameters_ = other.parameters_;
-    return;
-  }
-  for (std::size_t i = 0; i < other.parameters_.size(); ++i) {
-    ParameterSums& sums = parameters_.at(i);
-    const ParameterSums& more = other.parameters_[i];
+  for (const ParameterSums& more : other.parameters_) {
+    ParameterSums& sums = SumsOf(parameters_, more.name);
     sums.intervals += more.intervals;
     sums.covered += more.covered;
     sums.estimated = sums.estimated || more.estimated;

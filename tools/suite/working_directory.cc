@@ -1,6 +1,7 @@
 #include "tools/suite/working_directory.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <sys/stat.h>
@@ -11,6 +12,7 @@
 #include <cerrno>
 #include <memory>
 #include <mutex>
+#include <random>
 #include <string>
 #include <system_error>
 
@@ -28,20 +30,25 @@ constexpr const char* kJanitor =
     "  rm -rf --one-file-system \"$0\"; [ -e \"$0\" ] || exit 0; sleep 0.2\n"
     "done";
 
+/// A name that nobody else draws.
+fs::path DrawnPath() {
+  std::random_device random;
+  return fs::temp_directory_path() / fmt::format("warmjoint_{:08x}{:08x}", random(), random());
+}
+
 /// Where all working directories of this process lie. A shell in a session of its own waits for the end of this process,
-/// and removes what it left, also where it was killed.
+/// and removes what it left, also where it was killed; it is there before the directory is.
 class Room {
  public:
-  Room() : owner_(getpid()) {
-    std::string pattern = fs::temp_directory_path() / "warmjoint_XXXXXX";
-    if (!mkdtemp(pattern.data())) FailOutput(pattern, errno);
-    path_ = pattern;
+  Room() : owner_(getpid()), path_(DrawnPath()) {
     int ends[2];
-    if (pipe2(ends, O_CLOEXEC) != 0) return;
-    janitor_ = fork();
-    if (janitor_ == 0) BecomeJanitor(ends[0]);
-    close(ends[0]);
-    alive_ = ends[1];
+    if (pipe2(ends, O_CLOEXEC) == 0) {
+      janitor_ = fork();
+      if (janitor_ == 0) BecomeJanitor(ends[0]);
+      close(ends[0]);
+      alive_ = ends[1];
+    }
+    if (mkdir(path_.c_str(), 0700) != 0) FailOutput(path_.string(), errno);
   }
   ~Room() {
     if (!mine()) return;

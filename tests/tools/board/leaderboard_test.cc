@@ -72,6 +72,27 @@ TEST(Leaderboard, SumsUpEachIdentifier) {
   EXPECT_DOUBLE_EQ(board.bound_npe_continuous, 0.05);
 }
 
+TEST(Leaderboard, VariantsWhoseTruthsHaveOtherParametersAreToldApartByName) {
+  Suite suite = TwoIdentifiers();
+  suite.ladder.emplace();
+  suite.ladder->variants = {{"plain", {}, {}}, {"richer", {}, {}}};
+  const auto answer = [](int variant, double estimate) {
+    Result result = Answer(0, 0, estimate);
+    result.variant = variant;
+    const ParameterScore more{"stribeck_velocity", 1, 3, true, false, 4};
+    if (variant == 1) result.score->continuous.insert(result.score->continuous.begin(), more);
+    return result;
+  };
+  const Leaderboard board = MakeLeaderboard(suite, {answer(0, 11), answer(1, 12)});
+  const auto& rows = board.rows[0].parameters;
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].name, "coulomb");
+  EXPECT_DOUBLE_EQ(rows[0].efficiency, std::sqrt(2.5) / 0.5);
+  EXPECT_EQ(rows[0].coverage95, std::optional(0.5));
+  EXPECT_EQ(rows[1].name, "stribeck_velocity");
+  EXPECT_DOUBLE_EQ(rows[1].efficiency, 0.5);
+}
+
 TEST(Leaderboard, FailuresAreCountedAndCannotWin) {
   const Leaderboard board = MakeLeaderboard(TwoIdentifiers(), AFailsTwiceAndBIsOftenWorse());
   const LeaderboardRow& a = board.rows[1];
