@@ -2,8 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "identification/fit.h"
@@ -13,27 +15,36 @@
 
 namespace warmjoint::inline identification {
 
+/// Told what is being tried, for people who wait; may be empty.
+using Narrator = std::function<void(const std::string& words)>;
+
 /// Everything an identifier may look at. Refers to the log's samples and to the options, which must
 /// outlive it.
 class IdentifierInput {
  public:
-  IdentifierInput(PreparedLog given, const Options& given_options, StartKey key)
+  IdentifierInput(PreparedLog given, const Options& given_options, StartKey key,
+                  Narrator listener = {})
       : IdentifierInput(given, given.steady().measurements, given.steady().selection, given_options,
-                        key) {}
+                        key, std::move(listener)) {}
+
+  /// Tells what is being tried, where someone listens.
+  void Tell(const std::string& words) const {
+    if (narrator) narrator(words);
+  }
 
   /// The same log with other samples taking part. `other` must outlive the answer.
   IdentifierInput With(const Selection& other) const {
-    return {log, measurements, other, options, start};
+    return {log, measurements, other, options, start, narrator};
   }
 
   /// The same samples with other options, which must outlive the answer.
   IdentifierInput With(const Options& other) const {
-    return {log, measurements, selection, other, start};
+    return {log, measurements, selection, other, start, narrator};
   }
 
   /// The log as it was taken, for fits that follow changes of speed.
   IdentifierInput AsTaken() const {
-    return {log, log.taken().measurements, log.taken().selection, options, start};
+    return {log, log.taken().measurements, log.taken().selection, options, start, narrator};
   }
 
   const PreparedLog log;
@@ -41,15 +52,17 @@ class IdentifierInput {
   const Selection& selection;  // filter over all samples, fit on those kept
   const Options& options;
   const StartKey start;  // for identifiers that draw their start
+  const Narrator narrator;
 
  private:
   IdentifierInput(PreparedLog of, const Measurements& samples, const Selection& kept,
-                  const Options& given_options, StartKey key)
+                  const Options& given_options, StartKey key, Narrator listener)
       : log(std::move(of)),
         measurements(samples),
         selection(kept),
         options(given_options),
-        start(key) {}
+        start(key),
+        narrator(std::move(listener)) {}
 };
 
 /// The motion that an identifier learns from, and with it how a log must reach it.

@@ -27,7 +27,7 @@ void CheckShape(const YAML::Node& node, int depth, int& count, const std::string
   if (node.IsMap()) {
     for (const auto& entry : node) {
       if (!entry.first.IsScalar()) {
-        Refuse({file, entry.first.Mark().line + 1}, "has a key that is no word; name it");
+        Refuse({file, entry.first.Mark().line + 1}, "has a key that is not a word; name it");
       }
       CheckShape(entry.second, depth + 1, count, file);
     }
@@ -56,7 +56,7 @@ YAML::Node ParseYaml(const std::string& text, const std::string& file) {
   if (const auto broken = FirstBrokenByte(text)) {
     const auto end = text.begin() + static_cast<std::ptrdiff_t>(*broken);
     const auto line = static_cast<int>(1 + std::count(text.begin(), end, '\n'));
-    Refuse({file, line}, "byte {} is no UTF-8 text; save the file as UTF-8", *broken + 1);
+    Refuse({file, line}, "byte {} is not UTF-8; save the file as UTF-8", *broken + 1);
   }
   if (const int line = SecondDocument(text)) {
     Refuse({file, line}, "begins another document; keep one");

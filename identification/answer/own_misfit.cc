@@ -50,9 +50,8 @@ std::optional<std::string> OwnMisfit(const Fit& fit, const Inference& inference,
 
   const FitParameter& parameter = fit.parameters[model->rows[static_cast<std::size_t>(most)]];
   return fmt::format(
-      "the estimate does not fit its log: the same law would follow it with {} changed by {:.3g} "
-      "{}; "
-      "fit again, and check units, signs and the samples that were used",
+      "the estimate does not fit its log: the same law fits it better with {} changed by {:.3g} "
+      "{}; fit again, and check units, signs and the samples that were used",
       parameter.name, step.solution[most], parameter.unit);
 }
 

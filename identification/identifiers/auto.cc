@@ -115,11 +115,10 @@ std::string Describe(const Trial& trial, const std::string& unit) {
 std::string Reason(const std::vector<Contender>& contenders, const Choice& choice, int blocks,
                    const std::string& unit) {
   const Contender& chosen = contenders[choice.chosen];
-  std::string reason =
-      fmt::format("chose {}: RMSE {:.4g} {} on {} blocks of time that each fit has not seen, ",
-                  chosen.name, std::sqrt(chosen.errors.mean()), unit, blocks);
-  if (choice.chosen == choice.best) return reason + "the least of all";
-  return reason + fmt::format("simpler than {} ({:.4g}) and not worse beyond doubt",
+  std::string reason = fmt::format("chose {}: RMSE {:.4g} {} on {} held-out blocks of time, ",
+                                   chosen.name, std::sqrt(chosen.errors.mean()), unit, blocks);
+  if (choice.chosen == choice.best) return reason + "the smallest of all";
+  return reason + fmt::format("simpler than {} ({:.4g}) and not significantly worse",
                               contenders[choice.best].name,
                               std::sqrt(contenders[choice.best].errors.mean()));
 }
@@ -137,6 +136,8 @@ Comparison Compare(std::vector<Trial>& trials, const IdentifierInput& input, int
   Comparison all;
   for (Trial& trial : trials) {
     if (trial.dropped.empty()) {
+      input.Tell(
+          fmt::format("comparing on {} held-out blocks: {}", blocks, trial.candidate.Name()));
       trial.errors = ErrorsOf(trial.candidate, input, bounds);
       if (!trial.errors) trial.dropped = "fails without one of the blocks";
     }
@@ -155,7 +156,10 @@ Fit FitChosen(const IdentifierInput& input) {
 
   // a law can be chosen only where the motion tells the parameters of the plain one apart
   std::vector<Trial> trials;
-  for (const Candidate& candidate : Candidates(input.measurements)) {
+  const std::vector<Candidate> candidates = Candidates(input.measurements);
+  for (const Candidate& candidate : candidates) {
+    input.Tell(fmt::format("trying structure {} of {}: {}", trials.size() + 1, candidates.size(),
+                           candidate.Name()));
     trials.push_back(Try(candidate, input));
     const Inference& plain = trials[0].told;
     if (plain.status == Status::not_identifiable) {

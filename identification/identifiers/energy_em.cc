@@ -78,11 +78,10 @@ Eigen::Index FeedsItselfAt(const Measurements& m, const Eigen::VectorXd& fitted)
 std::optional<Refusal> WhyRefused(const Measurements& m, const DescentState& last,
                                   const Eigen::VectorXd& friction) {
   if (!last.inside) {
-    return Refusal{
-        Status::not_identifiable,
-        fmt::format("thermal_time_constant runs to {:.3g} s, the end of what these samples can "
-                    "tell; record until the friction settles, or with rests",
-                    last.thermal.time_constant)};
+    return Refusal{Status::not_identifiable,
+                   fmt::format("thermal_time_constant grows to {:.3g} s, the largest that these "
+                               "samples can show; record until the friction settles, or with rests",
+                               last.thermal.time_constant)};
   }
   if (const Eigen::Index i = FeedsItselfAt(m, friction); i >= 0) {
     return Refusal{

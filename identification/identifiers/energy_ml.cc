@@ -129,8 +129,8 @@ std::optional<Refusal> WhyRefused(const Task& task, const WarmFit& warm, double 
   }
   if (!warm.converged) {
     return Refusal{Status::not_converged,
-                   fmt::format("the fit still moves after {} iterations; {}", warm.trace.size() - 1,
-                               WhyUnsettled(m, FrictionKind::warm_up))};
+                   fmt::format("the fit has not converged after {} iterations; {}",
+                               warm.trace.size() - 1, WhyUnsettled(m, FrictionKind::warm_up))};
   }
   if (response.feeds_itself) {
     return Refusal{Status::inadequate_model,
@@ -176,7 +176,7 @@ Fit Conclude(const Task& task, const RobustWarmFit& robust, double nominal_squar
                   task.whitening ? kWhitened : "", warm.trace.size() - 1);
   if (!task.gaps.empty()) {
     fit.warnings.push_back(
-        fmt::format("{}: what the joint lost there is not known, and is estimated with the rest",
+        fmt::format("{}: the losses during that time are unknown and are estimated, too",
                     DescribeGaps(task.gaps, m)));
   }
   return fit;

@@ -72,19 +72,19 @@ std::optional<std::string> VagueBristle(const Measurements& m, const LugreAnswer
   const double stiffness = answer.Deviation(kLugreLogStiffness);
   if (!(stiffness < kVagueBristle)) {
     return fmt::format(
-        "bristle_stiffness and bristle_damping cannot be told: the samples around turns {}; turn "
-        "slowly and over small ways, such that several "
-        "samples fall between standstill and sliding, or use the law stribeck",
+        "bristle_stiffness and bristle_damping cannot be estimated: the samples around reversals "
+        "{}; reverse slowly and over small distances, so that several samples fall between "
+        "standstill and sliding, or use the law stribeck",
         std::isfinite(stiffness) ? fmt::format("know the stiffness to a factor of {:.3g} only",
                                                std::exp(1.96 * std::min(stiffness, 100.0)))
-                                 : "say nothing of the stiffness");
+                                 : "do not determine the stiffness");
   }
   if (answer.rows[kLugreDamping] < 0) return std::nullopt;
   const double damping = answer.Deviation(kLugreDamping);
   if (damping < kVagueBristle * std::abs(p[5])) return std::nullopt;
   return fmt::format(
-      "bristle_damping cannot be told: it is {:.3g} with a standard deviation of {:.3g} {}; turn "
-      "faster within the {:.2g} {} that the bristle bends, sampled in steps well below "
+      "bristle_damping cannot be estimated: it is {:.3g} with a standard error of {:.3g} {}; "
+      "reverse faster within the {:.2g} {} that the bristle bends, sampled in steps well below "
       "bristle_damping / bristle_stiffness, or give --set damping=none where it can be neglected",
       p[5], damping, kViscousUnit.For(m.joint), p[2] / p[4], kPositionUnit.For(m.joint));
 }
@@ -99,8 +99,8 @@ std::optional<std::string> UnknownStribeck(const IdentifierInput& input,
   const double explained = fall * fall / variance;
   if (!(explained > kVisibleWarming)) {
     return fmt::format(
-        "no Stribeck effect can be seen: static less coulomb is {:.3g} standard deviations, below "
-        "{:.3g}; {}",
+        "no Stribeck effect can be seen: the difference of static and coulomb is {:.3g} standard "
+        "errors, below {:.3g}; {}",
         std::sqrt(std::max(explained, 0.0)), std::sqrt(kVisibleWarming),
         SlowSpeeds(input.measurements, SteadySamples(input, 0)));
   }
@@ -142,7 +142,7 @@ std::optional<Refusal> WhyRefused(const IdentifierInput& input, const LugreAnswe
   if (why) return Refusal{Status::not_identifiable, *why};
   if (answer.fit.converged) return std::nullopt;
   return Refusal{Status::not_converged,
-                 "the fit still moves after 100 iterations; " +
+                 "the fit has not converged after 100 iterations; " +
                      WhyUnsettled(input.measurements, FrictionKind::stribeck)};
 }
 
@@ -150,11 +150,12 @@ std::optional<Refusal> WhyRefused(const IdentifierInput& input, const LugreAnswe
 void JudgeTurns(const Measurements& m, const NoiseOfGroups& noise, Fit& fit) {
   const double friction = fit.torque.norm() / std::sqrt(static_cast<double>(fit.torque.size()));
   if (!(noise.others > kMissed * noise.kept) || !(noise.others > kNotable * friction)) return;
-  fit.voided = {Status::inadequate_model,
-                fmt::format("around turns the law leaves {:.3g} {} rms, at constant speeds {:.3g}: "
-                            "it misses what happens there; move more softly, log faster, or use "
-                            "the law stribeck",
-                            noise.others, m.torque_unit, noise.kept)};
+  fit.voided = {
+      Status::inadequate_model,
+      fmt::format(
+          "around reversals the residual is {:.3g} {} rms, at constant speeds {:.3g}: the law "
+          "misses what happens there; accelerate more slowly, log faster, or use the law stribeck",
+          noise.others, m.torque_unit, noise.kept)};
 }
 
 /// Puts an answer into `fit`, or why it cannot be trusted.
@@ -177,12 +178,12 @@ void Conclude(const IdentifierInput& input, const LugreProblem& problem, const L
   fit.errors.known->uneven = 0;
 
   const Eigen::Index turns = fit.torque.size() - input.selection.count();
-  fit.summary = fmt::format(
-      "least squares on {} samples{}", fit.torque.size(),
-      turns > 0 ? fmt::format(", {} of them around turns, where {:.3g} {} rms is left, elsewhere "
-                              "{:.3g}",
-                              turns, noise.others, m.torque_unit, noise.kept)
-                : "");
+  fit.summary =
+      fmt::format("least squares on {} samples{}", fit.torque.size(),
+                  turns > 0 ? fmt::format(", {} of them around reversals, where the residual is "
+                                          "{:.3g} {} rms; elsewhere it is {:.3g}",
+                                          turns, noise.others, m.torque_unit, noise.kept)
+                            : "");
   JudgeTurns(m, noise, fit);
 }
 

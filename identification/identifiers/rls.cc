@@ -119,14 +119,15 @@ Fit FitOnline(const IdentifierInput& given) {
 }  // namespace
 
 Identifier Rls() {
-  return {kName,
-          "a nominal law online, by recursive least squares with forgetting",
-          {{"law", "viscous_coulomb", LinearLawWords(), "nominal friction law"},
-           {"forgetting", "0.999", "number > 0 <= 1", "weight of a sample beside its successor"},
-           {"thermal_gain", "0", "number", "known thermal gain, N.m/W or N/W; 0: no warming"},
-           {"thermal_time_constant", "600", "number > 0", "known time constant of warming, s"},
-           GravityOption()},
-          &FitOnline};
+  return {
+      kName,
+      "a nominal law online, by recursive least squares with forgetting",
+      {{"law", "viscous_coulomb", LinearLawWords(), "nominal friction law"},
+       {"forgetting", "0.999", "number > 0 <= 1", "weight of a sample relative to the next one"},
+       {"thermal_gain", "0", "number", "known thermal gain, N.m/W or N/W; 0: no warming"},
+       {"thermal_time_constant", "600", "number > 0", "known time constant of warming, s"},
+       GravityOption()},
+      &FitOnline};
 }
 
 }  // namespace warmjoint::inline identification

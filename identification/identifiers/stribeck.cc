@@ -165,7 +165,7 @@ void Conclude(const IdentifierInput& input, const StribeckProblem& problem, cons
               const Rivals& rivals, Fit& fit) {
   if (!best.converged) {
     fit.refusal = {Status::not_converged,
-                   "the fit still moves after 100 iterations; " +
+                   "the fit has not converged after 100 iterations; " +
                        WhyUnsettled(input.measurements, FrictionKind::stribeck)};
     return;
   }

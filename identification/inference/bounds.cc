@@ -58,8 +58,8 @@ std::string_view Remedy(const FitParameter& parameter) {
            "energy-ml";
   }
   if (parameter.name.starts_with(kCoulombName)) {
-    return "a level that pushes is no friction: is a load, as gravity, in the torque (try "
-           "--gravity), or is its sign reversed?";
+    return "a negative level would push the joint: does the torque hold gravity or another load "
+           "(try --gravity), or is its sign reversed?";
   }
   return "try another law";
 }

@@ -31,9 +31,8 @@ void HoldStructure(const Disagreement& structure, const Eigen::VectorXd& frictio
   known.covariance += structure.differences * structure.differences.transpose();
   fit.errors.known = std::move(known);
   fit.warnings.push_back(
-      fmt::format("the residual is not noise alone: with its slow part taken for noise, {} would "
-                  "move by {:.2g} "
-                  "deviations of what noise does; intervals were widened to cover this",
+      fmt::format("the residual is not only noise: treating its slow part as noise would change {} "
+                  "by {:.2g} standard errors; intervals were widened to cover this",
                   name, structure.deviations));
 }
 

@@ -86,14 +86,15 @@ void FollowHeat(const Examination& examination, const Fit& fit, const Measuremen
   if (1 - share > sure && std::abs(share) < fits) return;
   const auto tau = std::ranges::find(examination.rows, *fit.RowOf(Role::heat, 1));
   const std::string what = fmt::format(
-      "Eq. (22) holds the losses over each step of {:.3g} s; losses that follow the "
-      "heat within it move thermal_time_constant by {:.2g} s",
+      "Eq. (22) takes the losses as constant within each step of {:.3g} s; losses that change with "
+      "the heat within a step change thermal_time_constant by {:.2g} s",
       MedianStep(m.time), examination.by_heat[tau - examination.rows.begin()]);
   if (share > sure && std::abs(1 - share) < fits) {
-    inference.warnings.push_back(fmt::format("{}, and fit better: the numbers are theirs", what));
+    inference.warnings.push_back(
+        fmt::format("{}, and describe the log better: the numbers given are theirs", what));
     Shift(examination, examination.by_heat, inference);
   } else {
-    inference.warnings.push_back(fmt::format("{}: the intervals hold both; log faster", what));
+    inference.warnings.push_back(fmt::format("{}: the intervals cover both; log faster", what));
     Widen(examination, examination.by_heat, inference);
   }
 }
@@ -101,10 +102,10 @@ void FollowHeat(const Examination& examination, const Fit& fit, const Measuremen
 /// Lets intervals reach as far as the gaps of the log may have moved the parameters.
 void WidenByGaps(const Examination& examination, const Measurements& m, Inference& inference) {
   if (examination.by_gaps.size() == 0) return;
-  inference.warnings.push_back(fmt::format(
-      "{}: what the joint lost there is not known: the intervals reach as far as that may move "
-      "them; record without gaps",
-      DescribeGaps(FindGaps(m), m)));
+  inference.warnings.push_back(
+      fmt::format("{}: the losses during that time are unknown, and intervals were widened to "
+                  "cover this; record without gaps",
+                  DescribeGaps(FindGaps(m), m)));
   Widen(examination, examination.by_gaps, inference);
 }
 
@@ -131,7 +132,8 @@ void WeighStart(const Examination& examination, const Identifier& identifier,
                 Inference& inference) {
   const Index worst = FarthestBeyond(examination.by_start, examination, inference);
   if (judging.start == StartBelief::unknown && examination.by_start.size() > 0) {
-    inference.message += "; the intervals hold a start a tenth as warm as the joint gets, too";
+    inference.message +=
+        "; the intervals also cover a start at a tenth of the warmth that the joint reaches";
     Widen(examination, examination.by_start, inference);
     return;
   }
@@ -186,7 +188,8 @@ void WeighFindings(const Examination& examination, const Identifier& identifier,
   const bool unknown = Drifts(examination) && fit.RowOf(Role::heat);
   inference.warnings.push_back(fmt::format(
       "{}: intervals were widened to cover this{}; {}", depends,
-      unknown ? ", and the warming has none, since it may have taken up part of that" : "",
+      unknown ? ", and the parameters of warming have none, since they may have absorbed part of it"
+              : "",
       remedy));
   if (Drifts(examination)) DropWarming(fit, inference);
   Widen(examination, examination.moves.cwiseAbs() + kNormal95 * examination.move_deviations,

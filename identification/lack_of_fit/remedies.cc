@@ -61,8 +61,7 @@ std::string AgainstSpeed(const Advice& advice) {
 std::string AgainstWarmingSlope(const Advice& advice) {
   // beside a map over position, the map over energy has to follow the slope too
   const bool mapped = !advice.fit.friction.maps.empty();
-  return Try(mapped ? "energy-map" : "lpv-energy", advice,
-             "more kernels over energy would follow it");
+  return Try(mapped ? "energy-map" : "lpv-energy", advice, "more kernels over energy would fit it");
 }
 
 std::string AgainstDirection(const Advice& advice) {
@@ -74,7 +73,7 @@ std::string AgainstDirection(const Advice& advice) {
 }
 
 std::string AgainstLoad(const Advice& advice) {
-  return Try("load-map", advice, "more kernels over load would follow it");
+  return Try("load-map", advice, "more kernels over load would fit it");
 }
 
 std::string AgainstTemperature(const Advice&) { return "record it at a steady temperature"; }
@@ -98,12 +97,12 @@ std::string AgainstLag(const Advice&) {
 }
 
 std::string AgainstFading(const Advice& advice) {
-  return Try("energy-map", advice, "more kernels over energy would follow it");
+  return Try("energy-map", advice, "more kernels over energy would fit it");
 }
 
 std::string AgainstPosition(const Advice& advice) {
   if (advice.finding.alike <= 0.8) {
-    return Try("position-ridge", advice, "a map over position would follow it");
+    return Try("position-ridge", advice, "a map over position would fit it");
   }
   const std::string alike = "it acts alike in both directions, as ";
   if (MayBeGravity(advice)) return alike + "gravity does: try --gravity sincos";
@@ -113,7 +112,7 @@ std::string AgainstPosition(const Advice& advice) {
 }
 
 std::string AgainstMotorAngle(const Advice& advice) {
-  return Try("motor-ridge", advice, "a map over the motor angle would follow it");
+  return Try("motor-ridge", advice, "a map over the motor angle would fit it");
 }
 
 }  // namespace warmjoint::inline identification

@@ -43,14 +43,14 @@ std::vector<Diagnostic> DiagnosticsOf(const Examination& examination, const Fit&
 std::vector<Assumption> AssumptionsOf(const Examination& examination, const Fit& fit) {
   std::vector<Assumption> assumptions;
   if (examination.by_start.size() > 0) {
-    assumptions.push_back({"cold_start",
-                           "the joint was cold at the start, and not a tenth as warm as it gets",
-                           Named(examination.by_start, examination, fit)});
+    assumptions.push_back(
+        {"cold_start",
+         "the joint was cold at the start, not at a tenth of the warmth that it reaches",
+         Named(examination.by_start, examination, fit)});
   }
   if (examination.by_drift.size() > 0) {
     assumptions.push_back({"no_slow_drift",
-                           "nothing but what the model holds changed the friction over the log, "
-                           "not by 1 %",
+                           "nothing outside of the model changed the friction by 1 % over the log",
                            Named(examination.by_drift, examination, fit)});
   }
   return assumptions;

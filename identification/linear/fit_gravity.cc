@@ -57,8 +57,8 @@ void SelectPairs(const IdentifierInput& input, GravityFit& fit) {
   if (cells >= kFewestCells && share >= kFewestShare) return;
   fit.status = Status::not_identifiable;
   fit.why = fmt::format(
-      "gravity paired: {:.3g} % of the samples have one of the other direction at their position, "
-      "over {:.2g} rad; at least {:.0f} % over {:.2g} rad are needed. Sweep one range in both "
+      "gravity paired: only {:.3g} % of the samples, over {:.2g} rad, were also passed in the "
+      "other direction; at least {:.0f} % over {:.2g} rad are needed. Sweep one range in both "
       "directions, or use gravity sincos",
       100 * share, static_cast<double>(cells) * kCell, 100 * kFewestShare, kFewestCells * kCell);
 }

@@ -76,8 +76,9 @@ std::optional<std::string> CannotCarry(MapQuantity quantity, const MapPoints& po
   }
   const double range = x.maxCoeff() - x.minCoeff();
   if (!(range > 1e-9 * x.cwiseAbs().maxCoeff())) {
-    return fmt::format("{} is {:.6g} at all samples, so that no map over it can be told; vary it",
-                       name, x[0]);
+    return fmt::format(
+        "{} is {:.6g} at all samples, so that no map over it can be estimated; vary it", name,
+        x[0]);
   }
   return std::nullopt;
 }

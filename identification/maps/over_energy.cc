@@ -44,8 +44,9 @@ Fit Complete(const Thermal& thermal, int rounds, const Measurements& m, Fit fit)
   fit.count += 2;
   fit.effective_parameters += 2;
   fit.afterword += fmt::format(
-      "; its own heat agrees with E after {} rounds; gain and time constant have no interval: maps "
-      "over the energy take part in what they do",
+      "; the energy state is consistent with the losses of the fit after {} rounds; thermal_gain "
+      "and thermal_time_constant have no interval, since maps over the energy absorb part of their "
+      "effect",
       rounds);
   return fit;
 }

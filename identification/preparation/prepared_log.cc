@@ -37,8 +37,9 @@ ConstantSpeed FindFromPositions(Measurements& m) {
   }
   const double fastest = m.velocity.cwiseAbs().maxCoeff();
   if (!(fastest <= kLargest)) {
-    Refuse({m.source}, "the positions change by {} {} at most; a velocity cannot be told from them",
-           fastest, kVelocityUnit.For(m.joint));
+    Refuse({m.source},
+           "the positions change by {} {} at most; no velocity can be computed from them", fastest,
+           kVelocityUnit.For(m.joint));
   }
   return found;
 }
@@ -90,10 +91,9 @@ std::optional<std::string> PathContradiction(const Measurements& m, const Consta
     return std::nullopt;
   }
   return fmt::format(
-      "the velocity column makes the path, changes of speed included, {:.2g} % {} than the "
-      "positions "
-      "do ({} ways from one speed to the next): it is filtered, late or scaled, and the positions "
-      "are taken instead",
+      "integrated over the changes of speed, the velocity column gives a path that is {:.2g} % {} "
+      "than that of the positions ({} changes): it is filtered, late or scaled, and the positions "
+      "are used instead",
       100 * std::abs(paths->excess), paths->excess < 0 ? "shorter" : "longer", paths->ways);
 }
 
@@ -134,7 +134,8 @@ PreparedLog Prepare(Measurements measurements, const HoldOptions& holds) {
   }
 
   // the positions tell the velocity
-  measurements.notes.emplace_back("velocity told by the positions: one for each segment");
+  measurements.notes.emplace_back(
+      "velocity computed from the positions, one value for each segment");
   PreparedLog::Log log{{std::move(measurements), {}}, {}, {}, 0, {}, {}};
   Measurements& taken = log.taken.measurements;
   ConstantSpeed found = FindFromPositions(taken);

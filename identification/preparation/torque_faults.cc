@@ -188,8 +188,8 @@ std::optional<std::string> AbsurdTorque(const Measurements& measurements,
     if (std::abs(torque[i]) == largest) worst = i;
   }
   return fmt::format(
-      "torque is absurd in {} sample{}, the worst {:.4g} {} at {:.6g} s: more than {} times the "
-      "99 % quantile of its size, {:.4g} {}; leave {} out",
+      "torque is far out of range in {} sample{}, the worst {:.4g} {} at {:.6g} s: more than {} "
+      "times the 99 % quantile of its size, {:.4g} {}; leave {} out",
       absurd, absurd == 1 ? "" : "s", torque[worst], measurements.torque_unit,
       measurements.time[worst], kAbsurd, quantile, measurements.torque_unit,
       absurd == 1 ? "it" : "them");

@@ -33,9 +33,9 @@ std::optional<std::string> TorqueSign(const Measurements& measurements,
   }
   if (segments < kFewest || against < kOfSegments * segments) return std::nullopt;
   return fmt::format(
-      "torque times velocity is negative in {:.0f} % of the samples at constant speed, and "
-      "friction "
-      "resists: the sign of the torque column is that of a reaction, or wrong (--scale torque=-1)",
+      "torque times velocity is negative in {:.0f} % of the samples at constant speed, while "
+      "friction resists motion: the torque column has the opposite sign (--scale torque=-1 turns "
+      "it)",
       100 * negative / samples);
 }
 

@@ -12,10 +12,11 @@ constexpr double kUnseenPath = 5e-3;  // share of the path
 
 void TellReversals(double unseen, Estimate& estimate) {
   if (unseen < kUnseenPath || !estimate.Find("thermal_gain")) return;
-  estimate.warnings.push_back(fmt::format(
-      "reversals happen between two samples, so that a slow drive could have travelled {:.1f} % "
-      "less than is charged: thermal_gain may be too small by as much; log faster to see them",
-      100 * unseen));
+  estimate.warnings.push_back(
+      fmt::format("reversals happen between two samples: if the drive reverses slowly, the joint "
+                  "travelled up to {:.1f} % less than assumed, and thermal_gain is too small by as "
+                  "much; log faster to see the reversals",
+                  100 * unseen));
 }
 
 }  // namespace
@@ -23,15 +24,15 @@ void TellReversals(double unseen, Estimate& estimate) {
 void TellVelocity(const VelocityNoise& taken, JointKind joint, Estimate& estimate) {
   const EstimatedParameter* viscous = estimate.Find("viscous");
   estimate.message += fmt::format(
-      "; velocity taken as one value for each segment: its noise of {:.2g} {} would move {} by "
+      "; velocity averaged over each segment, since its noise of {:.2g} {} would change {} by "
       "{:.2g} %",
       taken.noise, kVelocityUnit.For(joint), viscous ? "viscous" : "slopes over speed",
       -100 * taken.attenuation);
   if (taken.left <= kHarmless) return;
-  estimate.warnings.push_back(fmt::format(
-      "the noise of the velocity still moves {} by {:.2g} %, and intervals reach as far; hold each "
-      "speed for longer, or log a position that is finer",
-      viscous ? "viscous" : "slopes over speed", -100 * taken.left));
+  estimate.warnings.push_back(
+      fmt::format("the noise of the velocity may still change {} by {:.2g} %, and intervals were "
+                  "widened to cover this; hold each speed for longer, or log a finer position",
+                  viscous ? "viscous" : "slopes over speed", -100 * taken.left));
   if (!viscous) return;
   const double move = std::abs(taken.left * viscous->value);
   for (EstimatedParameter& parameter : estimate.parameters) {

@@ -34,9 +34,8 @@ std::optional<Disagreement> FindDisagreement(const FitOfRows& plain, const FitOf
 
 std::string DescribeDisagreement(const Disagreement& found, const std::string& name) {
   return fmt::format(
-      "no number has an interval, since the residual is structure and not noise: with its slow "
-      "part "
-      "taken for noise, {} would move by {:.2g} deviations of what noise does",
+      "no intervals are given, since the residual holds structure and not only noise: treating its "
+      "slow part as noise would change {} by {:.2g} standard errors",
       name, found.deviations);
 }
 

@@ -109,8 +109,8 @@ std::string ColourOf(const NoiseModel& noise) {
 std::string NoiseOf(const Uncertainty& known) {
   if (known.uneven == 0) return ColourOf(known.noise);
   return fmt::format(
-             "; noise is uneven (its variance goes with torque or time by {:.2g} deviations), "
-             "which the intervals account for",
+             "; the noise is uneven (its variance changes with torque or time, {:.2g} standard "
+             "errors beyond chance), which the intervals account for",
              known.uneven) +
          ColourOf(known.noise);
 }

@@ -54,8 +54,15 @@ void WriteWholeFile(const std::filesystem::path& target, std::string_view text);
 /// Largest file that ReadWholeFile takes: 4 GiB.
 inline constexpr std::size_t kLargestFile = std::size_t{4} << 30;
 
-/// The whole of a text file, regular or a pipe. Throws BadInput naming the file when it cannot be
-/// read, is a device, has more than `most` bytes, or is a pipe that nobody writes to.
+/// Whether an input's name stands for standard input: "-".
+bool IsStandardInput(const std::filesystem::path& path);
+
+/// An input as messages name it: its path, or "standard input".
+std::string InputName(const std::filesystem::path& path);
+
+/// The whole of a text file, regular or a pipe, or of standard input. Throws BadInput naming the file when
+/// it cannot be read, is a device, has more than `most` bytes, or is a pipe that nobody writes to;
+/// standard input is waited for.
 std::string ReadWholeFile(const std::filesystem::path& path, std::size_t most = kLargestFile);
 
 }  // namespace warmjoint::inline models

@@ -54,7 +54,7 @@ nlohmann::json ReadJsonFile(const std::filesystem::path& path) {
 
 nlohmann::json ParseJson(const std::string& text, const std::string& file) {
   if (const auto broken = FirstBrokenByte(text)) {
-    Refuse(PlaceOf(text, *broken, file), "byte {} is no UTF-8 text; JSON is", *broken + 1);
+    Refuse(PlaceOf(text, *broken, file), "byte {} is not UTF-8, as JSON must be", *broken + 1);
   }
   CheckDepth(text, file);
   try {

@@ -23,7 +23,9 @@ class OpenFile {
  public:
   // without blocking, so that a pipe without a writer does not hold the program
   explicit OpenFile(const fs::path& path)
-      : file_(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC)) {}
+      : file_(IsStandardInput(path)
+                  ? fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0)
+                  : open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC)) {}
   ~OpenFile() {
     if (file_ >= 0) close(file_);
   }
@@ -36,33 +38,46 @@ class OpenFile {
   int file_;
 };
 
-/// What the file is; refuses all but regular files and pipes that someone writes to.
-struct stat Examine(int file, const Place& place) {
-  struct stat status {};
-  if (fstat(file, &status) != 0 || S_ISDIR(status.st_mode)) {
-    Refuse(place, "is a folder; give a file");
-  }
-  if (S_ISREG(status.st_mode)) return status;
-  if (!S_ISFIFO(status.st_mode)) Refuse(place, "is a device; give a file");
-
+/// Waits for the first bytes of a pipe that was named, then reads it as any other file.
+void AwaitWriter(int file, const Place& place) {
   pollfd readable{file, POLLIN, 0};
   if (poll(&readable, 1, kPatience * 1000) == 0) {
     Refuse(place, "is a pipe that nobody wrote to within {} s; give a file", kPatience);
   }
   fcntl(file, F_SETFL, fcntl(file, F_GETFL) & ~O_NONBLOCK);
+}
+
+/// What the file is; refuses all but regular files and pipes that someone writes to.
+struct stat Examine(int file, const fs::path& path, const Place& place) {
+  struct stat status {};
+  if (fstat(file, &status) != 0 || S_ISDIR(status.st_mode)) {
+    Refuse(place, "is a folder; give a file");
+  }
+  if (S_ISREG(status.st_mode)) return status;
+  if (isatty(file)) Refuse(place, "is a terminal; give a file, or send one through a pipe");
+  if (!S_ISFIFO(status.st_mode) && !S_ISSOCK(status.st_mode)) {
+    Refuse(place, "is a device; give a file");
+  }
+  if (!IsStandardInput(path)) AwaitWriter(file, place);
   return status;
 }
 
 }  // namespace
 
+bool IsStandardInput(const fs::path& path) { return path == "-"; }
+
+std::string InputName(const fs::path& path) {
+  return IsStandardInput(path) ? "standard input" : path.string();
+}
+
 std::string ReadWholeFile(const fs::path& path, std::size_t most) {
   if (path.empty()) Refuse({"input"}, "the name of a file is empty; give one");
-  const Place place{path.string()};
+  const Place place{InputName(path)};
   const OpenFile file(path);
   if (file.get() < 0) {
     Refuse(place, "cannot be read ({}); does it exist?", std::generic_category().message(errno));
   }
-  const struct stat status = Examine(file.get(), place);
+  const struct stat status = Examine(file.get(), path, place);
   const auto refuse_size = [&] {
     Refuse(place, "has more than the {} MiB that are read at most; cut it", most >> 20);
   };

@@ -74,7 +74,7 @@ void RequireMemory(double bytes, std::string_view task, std::string_view remedy,
                    const Place& place) {
   const auto spare = static_cast<double>(SpareMemory());
   if (bytes <= spare) return;
-  Refuse(place, "{} take about {} of memory, and {} are to spare; {}", task, MemoryInWords(bytes),
+  Refuse(place, "{} take about {} of memory, and {} are free; {}", task, MemoryInWords(bytes),
          MemoryInWords(spare), remedy);
 }
 

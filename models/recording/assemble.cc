@@ -42,8 +42,8 @@ void CheckTime(const RawColumns& raw, const Eigen::VectorXd& time) {
   const double step = (time[n - 1] - time[0]) / static_cast<double>(n - 1);
   if (step < kShortestStep) {
     Refuse({raw.file},
-           "samples are {} s apart; less than {} s is no log. Give the unit of time, for "
-           "example --unit time=ms",
+           "samples are {} s apart, less than {} s, the least that is read; give the unit of time, "
+           "for example --unit time=ms",
            step, kShortestStep);
   }
 }
@@ -52,8 +52,7 @@ void CheckTorque(const RawColumns& raw, const Measurements& measurements) {
   const Eigen::VectorXd& torque = measurements.torque;
   if (torque.maxCoeff() > torque.minCoeff()) return;
   Refuse({raw.file},
-         "torque is {} {} in all {} samples; a log of friction must vary. Is it mapped "
-         "to the right column?",
+         "torque is {} {} in all {} samples; is it the right column (--map torque=NAME)?",
          torque[0], measurements.torque_unit, torque.size());
 }
 

@@ -9,7 +9,7 @@
 namespace warmjoint::inline models {
 
 Measurements ReadCsv(const std::string& path, const CsvLayout& layout) {
-  return ParseCsv(ReadWholeFile(path), path, layout);
+  return ParseCsv(ReadWholeFile(path), InputName(path), layout);
 }
 
 Measurements ParseCsv(std::string_view text, const std::string& name, const CsvLayout& layout) {

@@ -65,7 +65,7 @@ char SeparatorOf(std::string_view header) {
 [[noreturn]] void RefuseText(const Place& place, const std::string& column, std::string_view text) {
   if (text.empty()) Refuse(place, "{} is empty; every sample needs a number", Excerpt(column));
   const bool has_comma = text.find(',') != std::string_view::npos;
-  Refuse(place, "{} is '{}', which is no number{}", Excerpt(column), Excerpt(text),
+  Refuse(place, "{} is '{}', which is not a number{}", Excerpt(column), Excerpt(text),
          has_comma ? "; write decimals with a point" : "");
 }
 

@@ -53,7 +53,7 @@ urdf::ModelInterfaceSharedPtr ReadUrdf(const std::filesystem::path& path) {
   CheckDepth(text, {path.string()});
   Collector collector;
   urdf::ModelInterfaceSharedPtr robot = urdf::parseURDF(text);
-  if (!robot) Refuse({path.string()}, "is no URDF that can be used: {}", collector.errors);
+  if (!robot) Refuse({path.string()}, "cannot be used as URDF: {}", collector.errors);
   return robot;
 }
 

@@ -48,7 +48,9 @@ fs::path FindRobot(const std::string& name_or_path, const std::string& asked_by)
       name_or_path.find('/') != std::string::npos || fs::path(name_or_path).has_extension();
   if (is_path) {
     if (fs::is_regular_file(name_or_path)) return name_or_path;
-    Refuse({asked_by}, "robot '{}' is no file; give an MJCF or URDF file or a robot's name",
+    Refuse({asked_by},
+           "robot '{}' is neither a file nor a robot's name; give an MJCF or URDF file, or one of "
+           "`warmjoint list robots`",
            name_or_path);
   }
   const std::vector<std::string> names = RobotNames();

@@ -67,7 +67,7 @@ Motion MotionOf(const Measurements& measurements, const Selection& selection) {
   const Eigen::Index last = measurements.size() - 1;
   if (selection.segments.empty()) {
     Refuse({measurements.source},
-           "has no segment at constant speed to carry out again; record piecewise constant speeds");
+           "has no segment at constant speed to replay; record piecewise constant speeds");
   }
 
   // both ends of each segment, and of the recording

@@ -117,7 +117,7 @@ std::optional<Thermal> ReadThermal(const std::string& prefix, const AttributeRea
 std::vector<FrictionMap> ReadMaps(const std::string& text, const Place& place) {
   using nlohmann::json;
   const json list = json::parse(text, nullptr, false);
-  if (!list.is_array()) Refuse(place, "maps is no JSON list");
+  if (!list.is_array()) Refuse(place, "maps must be a JSON list");
   std::vector<FrictionMap> maps;
   for (const json& map : list) maps.push_back(MapFromJson(map, place));
   return maps;
@@ -143,7 +143,7 @@ FrictionOfJoints ReadJoints(const AttributeReader& read, const Place& place) {
   RefuseBeside("joints", read, place);
   const json object = ParseJoints(read("joints"), place);
   if (!object.is_object() || object.empty()) {
-    Refuse(place, "joints is no JSON object of joint names and their friction");
+    Refuse(place, "joints must be a JSON object of joint names and their friction");
   }
   FrictionOfJoints joints;
   for (const auto& [name, friction] : object.items()) {

@@ -71,7 +71,7 @@ TEST(HostileYaml, NamesThatWouldLeadElsewhereAreNoKeys) {
         kRest + fmt::format("friction: {{law: coulomb, \"{}\": {{uniform: [0, 1]}}}}\n", name);
     EXPECT_THAT(Refusal(text), HasSubstr("unknown key")) << name;
   }
-  EXPECT_THAT(Refusal(kRest + "? [a, b]\n: 1\n"), HasSubstr("a key that is no word"));
+  EXPECT_THAT(Refusal(kRest + "? [a, b]\n: 1\n"), HasSubstr("a key that is not a word"));
 }
 
 TEST(HostileYaml, PlansOfTooManySegmentsAreRefused) {

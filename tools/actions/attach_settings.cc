@@ -73,7 +73,8 @@ AttachOptions CheckedOptions(const AttachSettings& settings) {
   // where meshes lie
   for (const auto& [name, folder] : settings.packages) {
     if (!std::filesystem::is_directory(folder)) {
-      Refuse({"--package"}, "of '{}' is '{}', which is no folder", Excerpt(name), Excerpt(folder));
+      Refuse({"--package"}, "of '{}' is '{}', which is not a folder", Excerpt(name),
+             Excerpt(folder));
     }
     options.packages[name] = folder;
   }

@@ -90,9 +90,9 @@ HoldOutSource HoldOutShare(double fraction) {
   return {fraction, std::nullopt};
 }
 
-Estimate IdentifyLog(const IdentifyTask& task, const PreparedLog& log,
-                     const HoldOutSource& holdout) {
-  const IdentifierInput input{log, task.options, {}};
+Estimate IdentifyLog(const IdentifyTask& task, const PreparedLog& log, const HoldOutSource& holdout,
+                     const Narrator& narrator) {
+  const IdentifierInput input{log, task.options, {}, narrator};
   const Answer answer = FitAndJudge(task.identifier, input, task.judging);
   Estimate estimate = task.void_numbers == VoidNumbers::show
                           ? WithVoidNumbers(task.identifier, input, answer)

@@ -28,12 +28,12 @@ std::FILE* WordsBeside(const std::vector<fs::path>& outputs) {
 void KeepApart(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs) {
   for (auto output = outputs.begin(); output != outputs.end(); ++output) {
     for (const fs::path& input : inputs) {
-      if (!AreOne(*output, input)) continue;
+      if (IsStandardInput(input) || !AreOne(*output, input)) continue;
       Refuse({output->string()}, "is an input too, which would be lost; choose another output");
     }
     for (auto other = outputs.begin(); other != output; ++other) {
       if (!AreOne(*output, *other)) continue;
-      Refuse({output->string()}, "is to take two outputs; choose another name for one of them");
+      Refuse({output->string()}, "is given for two outputs; choose another name for one of them");
     }
   }
 }

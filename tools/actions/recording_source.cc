@@ -95,7 +95,12 @@ RecordingArguments RecordingFromJson(const nlohmann::json& json, const Place& pl
   } catch (const nlohmann::json::exception& error) {
     Refuse(place, "its member `recording` cannot be read ({}): give --recording", error.what());
   }
-  for (std::string& file : arguments.recordings) file = Found(file, place.file);
+  for (std::string& file : arguments.recordings) {
+    if (IsStandardInput(file)) {
+      Refuse(place, "its recording was read from standard input; give it with --recording");
+    }
+    file = Found(file, place.file);
+  }
   return arguments;
 }
 

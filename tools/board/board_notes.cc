@@ -55,9 +55,8 @@ std::string FailureNote(const LeaderboardRow& row) {
   for (const auto& [status, count] : row.failures) {
     counts.push_back(fmt::format("{} {}", count, status));
   }
-  return fmt::format("{}: {} of {} runs gave no answer to trust ({}), for example: {}",
-                     row.identifier, row.failed(), row.runs, fmt::join(counts, ", "),
-                     row.failure_example);
+  return fmt::format("{}: {} of {} runs failed ({}), for example: {}", row.identifier, row.failed(),
+                     row.runs, fmt::join(counts, ", "), row.failure_example);
 }
 
 /// Whether errors of `efficiency` (rms error / Cramer-Rao bound) in n realizations are smaller than

@@ -80,7 +80,7 @@ ExitStatus Attach(const AttachArguments& arguments) {
   KeepApart({arguments.output}, inputs);
   for (const std::string& warning : warnings) Say(stderr, "warning: {}\n", warning);
   const Attached attached = AttachFriction(model, frictions, arguments.output, options);
-  for (const std::string& notice : attached.notices) Say(stderr, "notice: {}\n", notice);
+  for (const std::string& notice : attached.notices) SayNotice("notice: {}\n", notice);
   Say(WordsBeside({arguments.output}),
       "{}: friction on {} of its joints; load it with libwarmjoint_friction.so in MuJoCo {}\n",
       arguments.output, attached.joints.size(), mj_versionString());

@@ -96,7 +96,7 @@ ExitStatus Deliver(const IdentifyArguments& arguments, const Estimate& estimate,
   const auto& [measurements, selection] = log.taken();
   Estimate written = estimate;
   const std::string notice = TakeBackAmperes(measurements, written);
-  if (!notice.empty()) activity.Aside([&] { Say(stderr, "{}\n", notice); });
+  if (!notice.empty()) activity.Aside([&] { SayNotice("{}\n", notice); });
   WriteOutputs(arguments, written, measurements, activity);
   if (!arguments.plot.empty()) {
     activity.Is("drawing " + arguments.plot);
@@ -145,9 +145,11 @@ ExitStatus Identify(const IdentifyArguments& arguments) {
   Activity activity("reading the recording");
   const HoldOutSource holdout = ReadHoldOut(arguments);
   const PreparedLog log = ReadAndPrepare(arguments.recording);
-  activity.Is(fmt::format("fitting {} to {} samples", task.identifier.name,
-                          log.taken().measurements.size()));
-  return Deliver(arguments, IdentifyLog(task, log, holdout), log, activity);
+  const std::string fitting = fmt::format("fitting {} to {} samples", task.identifier.name,
+                                          log.taken().measurements.size());
+  activity.Is(fitting);
+  const auto tell = [&](const std::string& words) { activity.Is(fitting + ", " + words); };
+  return Deliver(arguments, IdentifyLog(task, log, holdout, tell), log, activity);
 }
 
 }  // namespace
@@ -192,7 +194,7 @@ Command AddIdentifyCommand(CLI::App& program) {
       ->type_name("FILE");
   AddChoice(*parser, "--format", arguments->format, {"text", "json"},
             "of what is printed; json: as in estimate.json");
-  parser->add_flag("--explain", arguments->explain,
+  parser->add_flag("-v,--explain", arguments->explain,
                    "every remark, every test for lack of fit and every assumption");
   parser->add_flag("--force", arguments->force,
                    "show the numbers of an inadequate model with their intervals and write its\n"

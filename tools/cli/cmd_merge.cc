@@ -29,7 +29,7 @@ void TellMissing(const std::set<Unit>& missing) {
                         ? std::to_string(unit.realization)
                         : fmt::format("{} of variant {}", unit.realization, unit.variant));
   }
-  Say(stderr,
+  SayNotice(
       "notice: no shard holds {} realizations ({}{}); merge with the shards that do, or go "
       "on with `run`\n",
       missing.size(), fmt::join(shown, ", "), missing.size() > most ? ", ..." : "");

@@ -62,8 +62,8 @@ Scenario ScenarioOfRun(const SimulateArguments& arguments) {
   if (names.empty() && arguments.variant.empty()) return VariantScenario(suite, 0);
   const auto named = std::find(names.begin(), names.end(), arguments.variant);
   if (named == names.end()) {
-    Refuse({"--variant"}, "'{}' is no variant of {}{}", Excerpt(arguments.variant), arguments.from,
-           Suggestion(arguments.variant, names));
+    Refuse({"--variant"}, "there is no variant '{}' of {}{}", Excerpt(arguments.variant),
+           arguments.from, Suggestion(arguments.variant, names));
   }
   return VariantScenario(suite, static_cast<int>(named - names.begin()));
 }
@@ -119,7 +119,7 @@ ExitStatus Simulate(const SimulateArguments& arguments) {
   fmt::print("{}: {} samples over {:.6g} s\n", arguments.output, recording.measurements.size(),
              scenario.duration);
   if (!recording.following.Follows()) {
-    Say(stderr, "notice: {}\n", NotFollowingInWords(recording.following));
+    SayNotice("notice: {}\n", NotFollowingInWords(recording.following));
   }
   if (log) fmt::print("{}", CompareTorque(*log, recording.measurements));
   return ExitStatus::done;
@@ -130,7 +130,7 @@ ExitStatus Simulate(const SimulateArguments& arguments) {
 Command AddSimulateCommand(CLI::App& program) {
   auto arguments = std::make_shared<SimulateArguments>();
   CLI::App* parser =
-      program.add_subcommand("simulate", "Carry out a scenario: a recording and its truth");
+      program.add_subcommand("simulate", "Simulate a scenario: a recording and its truth");
   parser->add_option("SCENARIO", arguments->scenario, "scenario file (YAML)")
       ->type_name("SCENARIO");
   parser->add_option("--from", arguments->from, "run directory: replay its --realization")
@@ -138,7 +138,8 @@ Command AddSimulateCommand(CLI::App& program) {
   parser->add_option("--variant", arguments->variant, "of the run's ladder")->type_name("TEXT");
   parser
       ->add_option("--motion", arguments->motion.recordings,
-                   "CSV or HDF5 file whose motion is carried out again; its torque is compared")
+                   "CSV or HDF5 file whose motion is replayed; its torque is compared with the "
+                   "simulated one")
       ->type_name("RECORDING")
       ->expected(1);
   AddLayoutOptions(*parser, arguments->motion);

@@ -1,5 +1,6 @@
 #include <fmt/ranges.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "scenarios/suite.h"
@@ -10,6 +11,16 @@
 namespace warmjoint::inline tools {
 
 using nlohmann::ordered_json;
+namespace fs = std::filesystem;
+namespace {
+
+/// A file by the shorter of its names: from the working directory, or from the root.
+std::string SeenFromHere(const fs::path& file) {
+  const std::string here = fs::proximate(file);
+  return here.size() < file.native().size() ? here : file.native();
+}
+
+}  // namespace
 
 ordered_json SuitesJson() {
   ordered_json suites = ordered_json::array();
@@ -43,7 +54,7 @@ std::string SuiteText(const ordered_json& suite, int width) {
                               : fmt::format("each of {} scenarios", suite["variants"].get<int>()),
                           fmt::join(suite["identifiers"].get<std::vector<std::string>>(), ", ")),
               width, 2) +
-         fmt::format("    {}\n", suite["file"].get<std::string>());
+         fmt::format("    {}\n", SeenFromHere(suite["file"].get<std::string>()));
 }
 
 }  // namespace warmjoint::inline tools

@@ -9,6 +9,7 @@
 #include "tools/parser/exit_statuses.h"
 #include "tools/parser/help.h"
 #include "tools/terminal/page.h"
+#include "tools/terminal/quiet.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -28,6 +29,11 @@ std::string Footer() {
   return footer + ".";
 }
 
+void AddQuiet(CLI::App& parser) {
+  parser.add_flag_callback("-q,--quiet", BeQuiet,
+                           "no progress and no notices; results, warnings and errors stay");
+}
+
 /// Help of the program or of a subcommand.
 std::string HelpOf(const CLI::App* parser) {
   const CLI::App* program = parser->get_parent();
@@ -45,6 +51,8 @@ ExitStatus RunProgram(int argc, const char* const* argv) {
   program.set_version_flag("-V,--version", "warmjoint " WARMJOINT_VERSION, "the program's version");
   program.require_subcommand(1);
   const std::vector<Command> commands = AddCommands(program);
+  AddQuiet(program);
+  for (const Command& command : commands) AddQuiet(*command.parser);
   program.footer(Footer());  // behind the subcommands, which would take it over
 
   try {

@@ -9,8 +9,10 @@ namespace warmjoint::inline tools {
 
 void AddRecordingOptions(CLI::App& parser, RecordingArguments& arguments) {
   parser
-      .add_option("RECORDING", arguments.recordings,
-                  "CSV or HDF5 file; several of one joint, each from a cold start")
+      .add_option(
+          "RECORDING", arguments.recordings,
+          "CSV or HDF5 file, or - for a CSV on standard input; several of one joint, each from a "
+          "cold start")
       ->type_name("RECORDING")
       ->required();
   AddLayoutOptions(parser, arguments);

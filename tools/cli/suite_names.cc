@@ -41,7 +41,7 @@ std::string FindSuite(const std::string& name_or_path) {
     return SuiteFile(name_or_path);
   }
   const std::string stem = path.stem();
-  Refuse({name_or_path}, "is neither a file nor a suite of warmjoint{}", Suggestion(stem, names));
+  Refuse({name_or_path}, "is neither a file nor a shipped suite{}", Suggestion(stem, names));
 }
 
 }  // namespace warmjoint::inline tools

@@ -24,7 +24,7 @@ fs::path ProjectFileOf(const std::vector<std::string>& recordings) {
     std::error_code ignored;
     const bool here = fs::exists(file, ignored);
     if (here && !fs::is_regular_file(file, ignored)) {
-      Refuse({file.string()}, "is no regular file; give --no-project to leave it out");
+      Refuse({file.string()}, "is not a regular file; give --no-project to leave it out");
     }
     const fs::path one = here ? fs::weakly_canonical(file, ignored) : fs::path();
     if (found && *found != one) {
@@ -105,9 +105,9 @@ void TakeProject(const CLI::App& parser, RecordingArguments& arguments) {
   taking.Value("trim", project.trim, arguments.holds.trim);
   taking.Value("shortest_hold", project.shortest_hold, arguments.holds.shortest);
   arguments.project = TakenProject{file, project};
-  Say(stderr, "{}: {}\n", file.string(),
-      taking.words().empty() ? "sets nothing that the command line does not"
-                             : taking.words() + " (--no-project leaves it out)");
+  SayNotice("{}: {}\n", file.string(),
+            taking.words().empty() ? "sets nothing that the command line does not"
+                                   : taking.words() + " (--no-project leaves it out)");
 }
 
 }  // namespace warmjoint::inline tools

@@ -21,7 +21,7 @@ ExitStatus TellEnding(const std::filesystem::path& directory, const RunEnding& e
 
 void TellNotFollowing(const FollowingTally& following, const RunDescription& description) {
   const std::string words = following.Words(description.variants);
-  if (!words.empty()) Say(stderr, "notice: {}\n", words);
+  if (!words.empty()) SayNotice("notice: {}\n", words);
 }
 
 }  // namespace warmjoint::inline tools

@@ -15,8 +15,9 @@ void TellWall(const std::vector<SuiteIdentifier>& identifiers,
   bool told = false;
   for (const SuiteIdentifier& identifier : identifiers) {
     if (identifier.name != kExternal) continue;
-    if (!std::exchange(told, true)) Say(stderr, "{}\n", WallInWords());
-    if (BestWall() == WallKind::none) return;
+    // that there is none is a warning, which --quiet keeps
+    if (BestWall() == WallKind::none) return Say(stderr, "{}\n", WallInWords());
+    if (!std::exchange(told, true)) SayNotice("{}\n", WallInWords());
     for (const std::filesystem::path& secret : secrets) {
       if (WallHides(secret, ReadableBy(identifier))) continue;
       Say(stderr, "warning: {} can read {}: it lies where the wall is open; move it\n",

@@ -68,7 +68,7 @@ std::vector<PlannedShard> ReadShards(const json& list, const Place& place) {
     const bool fits = pair.is_array() && pair.size() == 2 && pair[0].is_number_unsigned() &&
                       pair[1].is_number_unsigned() && pair[0] <= pair[1] &&
                       pair[1] <= 1'000'000'000;
-    if (!fits) Refuse(place, "'shards' holds {}, which is no pair [first, end]", pair.dump());
+    if (!fits) Refuse(place, "'shards' holds {}, which is not a pair [first, end]", pair.dump());
     shards.push_back({pair[0].get<int>(), pair[1].get<int>()});
   }
   return shards;

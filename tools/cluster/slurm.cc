@@ -43,7 +43,7 @@ std::string Sbatch(const std::vector<std::string>& arguments) {
   // JOB or JOB;CLUSTER
   const std::string job = answer.out.substr(0, answer.out.find_first_of(";\n"));
   if (!ParseInteger(job)) {
-    Refuse({"sbatch"}, "answered '{}', which is no job number", Excerpt(answer.out));
+    Refuse({"sbatch"}, "answered '{}', which is not a job number", Excerpt(answer.out));
   }
   return job;
 }

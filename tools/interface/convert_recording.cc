@@ -126,7 +126,7 @@ Origin FromArguments(const tools::RecordingArguments& arguments, const models::P
   origin.read.unit = tools::ReadPairs(arguments.unit, "--unit");
   for (const auto& [column, text] : tools::ReadPairs(arguments.scale, "--scale")) {
     const std::optional<double> factor = models::ParseNumber(text);
-    if (!factor) models::Refuse(place, "recording.scale of {} is no number", column);
+    if (!factor) models::Refuse(place, "recording.scale of {} is not a number", column);
     origin.read.scale[column] = *factor;
   }
   origin.read.joint = FromKind(tools::JointOf(arguments));

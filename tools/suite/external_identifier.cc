@@ -42,7 +42,7 @@ std::string AnswerText(const fs::path& file) {
   const fs::file_status status = fs::symlink_status(file);
   if (!fs::exists(status)) throw NoAnswer("bad_answer", "wrote no estimate");
   if (!fs::is_regular_file(status)) {
-    throw NoAnswer("bad_answer", "the estimate is no regular file");
+    throw NoAnswer("bad_answer", "the estimate is not a regular file");
   }
   if (fs::file_size(file) > most) {
     throw NoAnswer("bad_answer", fmt::format("the estimate has more than {} MiB", most >> 20));
@@ -55,7 +55,7 @@ Estimate ReadAnswer(const fs::path& file, const std::string& label) {
   const std::string text = AnswerText(file);
   try {
     nlohmann::json json = ParseJson(text, "estimate.json");
-    if (!json.is_object()) throw NoAnswer("bad_answer", "the estimate is no JSON object");
+    if (!json.is_object()) throw NoAnswer("bad_answer", "the estimate is not a JSON object");
     const nlohmann::json absent{{"identifier", label},
                                 {"message", ""},
                                 {"metrics", nullptr},

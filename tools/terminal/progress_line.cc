@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "tools/terminal/quiet.h"
 #include "tools/terminal/wrap.h"
 
 namespace warmjoint::inline tools {
@@ -26,7 +27,7 @@ ProgressLine::ProgressLine() = default;
 ProgressLine::~ProgressLine() { Clear(); }
 
 bool ProgressLine::Due() const {
-  return Clock::now() - last_ >= (terminal_ ? kOnTerminal : kElsewhere);
+  return !IsQuiet() && Clock::now() - last_ >= (terminal_ ? kOnTerminal : kElsewhere);
 }
 
 void ProgressLine::Show(const std::string& words) {

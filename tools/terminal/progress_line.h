@@ -17,7 +17,7 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  /// Whether it is time for another line.
+  /// Whether it is time for another line; never with --quiet.
   bool Due() const;
   void Show(const std::string& words);
   /// Takes the line off a terminal, so that other words can stand there.

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <utility>
 
+#include "tools/terminal/quiet.h"
+
 namespace warmjoint::inline tools {
 
 /// Prints the text, on a terminal wrapped to its width. Into a pipe or a file it goes as it is, so that
@@ -17,6 +19,12 @@ void SayText(std::FILE* stream, std::string_view text);
 template <typename... Args>
 void Say(std::FILE* stream, fmt::format_string<Args...> format, Args&&... args) {
   SayText(stream, fmt::format(format, std::forward<Args>(args)...));
+}
+
+/// What is good to know and asks for nothing: on stderr, unless --quiet.
+template <typename... Args>
+void SayNotice(fmt::format_string<Args...> format, Args&&... args) {
+  if (!IsQuiet()) SayText(stderr, fmt::format(format, std::forward<Args>(args)...));
 }
 
 }  // namespace warmjoint::inline tools

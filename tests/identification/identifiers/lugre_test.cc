@@ -107,7 +107,7 @@ TEST(Lugre, SaysWhatTurnsBetweenTwoSamplesCannotTell) {
       EXPECT_TRUE(estimate.parameters.empty());
       EXPECT_FALSE(estimate.friction);
       EXPECT_THAT(estimate.message,
-                  AllOf(HasSubstr("bristle_stiffness"), HasSubstr("turn slowly")));
+                  AllOf(HasSubstr("bristle_stiffness"), HasSubstr("reverse slowly")));
     }
   }
 }

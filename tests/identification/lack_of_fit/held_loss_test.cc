@@ -90,10 +90,12 @@ TEST(HeldLoss, LeavesIntervalsThatHoldTheTruthOfAnIdealPlant) {
 }
 
 TEST(HeldLoss, IsToldOf) {
-  EXPECT_THAT(test::Answer("energy-ml", Quick(1, 50, 0.1)).FullMessage(),
-              HasSubstr("losses that follow the heat within it move thermal_time_constant by -"));
+  EXPECT_THAT(
+      test::Answer("energy-ml", Quick(1, 50, 0.1)).FullMessage(),
+      HasSubstr(
+          "losses that change with the heat within a step change thermal_time_constant by -"));
   EXPECT_THAT(test::Answer("energy-ml", test::RecordHour(test::TableOne(), 1)).FullMessage(),
-              Not(HasSubstr("follow the heat")));
+              Not(HasSubstr("change with the heat")));
 }
 
 }  // namespace

@@ -200,7 +200,7 @@ TEST(FindFaults, AllowsZerosWhereTorqueIsNearZero) {
 TEST(FindFaults, FindsTorqueThatIsAbsurd) {
   Measurements m = Log({});
   m.torque[333] = -1e4;
-  EXPECT_THAT(Faults(m), ElementsAre(AllOf(HasSubstr("absurd in 1 sample"),
+  EXPECT_THAT(Faults(m), ElementsAre(AllOf(HasSubstr("far out of range in 1 sample"),
                                            HasSubstr("-1e+04 N.m at 333 s"))));
   m.torque[333] = -500;
   EXPECT_THAT(Faults(m), IsEmpty()) << "below 50 times the 99 % quantile of 15 to 20 N.m";

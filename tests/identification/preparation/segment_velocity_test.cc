@@ -136,7 +136,7 @@ TEST(SegmentVelocity, LetsIntervalsHold) {
     ++ok;
     const auto interval = *estimate.Find("viscous")->interval95;
     held += interval[0] <= 5 && 5 <= interval[1];
-    EXPECT_THAT(estimate.message, HasSubstr("velocity taken as one value for each segment"));
+    EXPECT_THAT(estimate.message, HasSubstr("velocity averaged over each segment"));
   }
   // of 100 at 95 %, fewer than 87 come once in a thousand times
   EXPECT_GE(ok, 95);

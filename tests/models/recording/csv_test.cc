@@ -177,7 +177,7 @@ TEST(ReadCsv, RefusesUnknownUnits) {
 TEST(ReadCsv, RefusesBadRowsByLine) {
   const std::string header = "time,position,velocity,torque\n";
   EXPECT_THAT(Refusal(header + "0,0,1,1\n1,1,1,two\n2,2,1,3\n"),
-              HasSubstr("log.csv:3: torque is 'two', which is no number"));
+              HasSubstr("log.csv:3: torque is 'two', which is not a number"));
   EXPECT_THAT(Refusal(header + "0,0,1,1\n1,1,1,\n2,2,1,3\n"), HasSubstr(":3: torque is empty"));
   EXPECT_THAT(Refusal(header + "0,0,1,1\n1,1,1,2\n2,2,1\n"),
               HasSubstr(":4: has 3 fields where the header has 4"));

@@ -33,7 +33,7 @@ TEST(ReadUrdf, NamesFileAndJointOfAJointWithoutLimits) {
 TEST(ReadUrdf, RefusesWhatIsNoXml) {
   const TemporaryFile file("robot.urdf", "joints, links\n");
   EXPECT_THAT([&] { ReadUrdf(file.path()); },
-              ThrowsMessage<BadInput>(HasSubstr("is no URDF that can be used")));
+              ThrowsMessage<BadInput>(HasSubstr("cannot be used as URDF")));
 }
 
 TEST(ReadUrdf, RefusesDepthThatWouldEndItsParser) {

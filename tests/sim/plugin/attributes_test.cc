@@ -69,7 +69,7 @@ TEST(PluginAttributes, HoldTheFrictionOfSeveralJoints) {
     return ErrorOf({{"joints", EscapeXml(joints)}});
   };
   EXPECT_EQ(error(R"({"hinge": {"law": "coulomb", "parameters": {"coulomb": 6}}})"), "");
-  EXPECT_THAT(error("[]"), HasSubstr("joints is no JSON object"));
+  EXPECT_THAT(error("[]"), HasSubstr("joints must be a JSON object"));
   EXPECT_THAT(error(R"({"hinge": {"law": "coulomb", "parameters": {"coulomb": -6}}})"),
               AllOf(HasSubstr("actuator 'f': joints: hinge"), HasSubstr("coulomb is -6")));
   EXPECT_THAT(error(R"({"hing": {"law": "coulomb", "parameters": {"coulomb": 6}}})"),

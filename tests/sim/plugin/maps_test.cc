@@ -121,7 +121,7 @@ TEST(PluginMaps, AFileLiesBesideTheModelThatThisProgramLoads) {
 TEST(PluginMaps, AreRefusedWhereTheyMakeNoSense) {
   Config config{{"law", "coulomb"}, {"coulomb", "3"}, {"maps", "{}"}};
   const auto error = [&] { return Compile(LinkXml(FrictionSection(config), kNoGravity)).error; };
-  EXPECT_THAT(error(), HasSubstr("maps is no JSON list"));
+  EXPECT_THAT(error(), HasSubstr("maps must be a JSON list"));
   config["maps"] = "[{&quot;axes&quot;: []}]";
   EXPECT_THAT(error(), HasSubstr("a map lacks its weights"));
 }

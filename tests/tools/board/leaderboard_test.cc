@@ -149,9 +149,7 @@ TEST(Leaderboard, TextAnswersFirst) {
   EXPECT_THAT(text, HasSubstr("little: Who is best?\nb is best: its median NPE is 7.50 %"));
   EXPECT_THAT(text, HasSubstr("2 of 4"));
   EXPECT_THAT(text, HasSubstr("Cramer-Rao bound"));
-  EXPECT_THAT(
-      text,
-      HasSubstr("a: 2 of 4 runs gave no answer to trust (2 not_converged), for example: no idea"));
+  EXPECT_THAT(text, HasSubstr("a: 2 of 4 runs failed (2 not_converged), for example: no idea"));
   EXPECT_THAT(text,
               HasSubstr("b: the claim is NPE 5.00 % (someone); the median here is NPE 7.50 %"));
 }

@@ -87,7 +87,7 @@ TEST(AttachCommand, RefusesOptionsThatMakeNoSense) {
   EXPECT_THAT(refusal({"--armature", "hing=1"}), HasSubstr("did you mean 'hinge'"));
   EXPECT_THAT(refusal({"--timestep", "0"}), HasSubstr("above 0"));
   EXPECT_THAT(refusal({"--integrator", "RK45"}), HasSubstr("RK4"));
-  EXPECT_THAT(refusal({"--package", "rd=/no/such/folder"}), HasSubstr("no folder"));
+  EXPECT_THAT(refusal({"--package", "rd=/no/such/folder"}), HasSubstr("not a folder"));
   EXPECT_THAT(refusal({"--initial", "hot"}), HasSubstr("cold, end or settled:SPEED"));
   EXPECT_THAT(refusal({"--initial", "settled:fast"}), HasSubstr("rad/s"));
   EXPECT_THAT(refusal({"--initial", "end"}), HasSubstr("state_end"));

@@ -7,6 +7,7 @@
 
 #include "models/foundation/atomic_file.h"
 #include "models/friction/friction_description.h"
+#include "tests/support/folders.h"
 #include "tests/support/shared_data.h"
 #include "tests/tools/cli/recording_file.h"
 #include "tests/tools/cli/run_program.h"
@@ -41,6 +42,38 @@ TEST(Identify, WritesTheContractsJsonAndAFrictionFile) {
   EXPECT_EQ(estimate.at("metrics").at("n"), 480);
   EXPECT_LT(estimate.at("holdout").at("n").get<int>(), 480);
   EXPECT_EQ(ReadFrictionFile(output).law, "viscous_coulomb");
+}
+
+TEST(Identify, ReadsStandardInput) {
+  const ScratchDirectory scratch;
+  WriteRecordingFile(scratch.path() / "log.csv", 480, SeveralSpeeds);
+  const Surroundings here{scratch.path(), {}};
+  const std::string program = test::BuildFolder() / "warmjoint";
+  const auto piped = [&](const std::string& command) {
+    return RunCommandLine({"sh", "-c", command}, here);
+  };
+  const std::string rest = " identify - --identifier nominal-ls --format json";
+  const Answer file =
+      RunWarmjoint({"identify", "log.csv", "--identifier", "nominal-ls", "--format", "json"}, here);
+
+  // the same numbers through a pipe, also a slow one, and from a redirected file
+  for (const std::string& command :
+       {"cat log.csv | " + program + rest, program + rest + " < log.csv",
+        "(sleep 4; cat log.csv) | " + program + rest}) {
+    const Answer answer = piped(command);
+    ASSERT_EQ(answer.status, 0) << answer.err;
+    EXPECT_EQ(nlohmann::json::parse(answer.out).at("parameters"),
+              nlohmann::json::parse(file.out).at("parameters"));
+  }
+
+  // standard input is no output, and cannot be read again
+  const Answer both = piped("cat log.csv | " + program + " identify - -o - | head -c 1");
+  EXPECT_EQ(both.out, "{") << both.err;
+  ASSERT_EQ(piped("cat log.csv | " + program + " identify - -o estimate.json").status, 0);
+  const Answer plot = RunWarmjoint({"plot", "estimate.json", "-o", "plots"}, here);
+  EXPECT_EQ(plot.status, 2);
+  EXPECT_THAT(plot.err, HasSubstr("--recording"));
+  EXPECT_THAT(piped(program + " check - < /dev/null").err, HasSubstr("standard input"));
 }
 
 TEST(Identify, PrintsTheSameJsonAsItWrites) {

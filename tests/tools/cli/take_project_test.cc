@@ -111,7 +111,7 @@ TEST_F(TakesProject, RefusesFilesThatDisagreeOrAreNone) {
   EXPECT_THAT(command.err, HasSubstr("warmjoint.yaml:2: 'command' does not belong here"));
   fs::remove(Path("logs/warmjoint.yaml"));
   fs::create_directory(Path("logs/warmjoint.yaml"));
-  EXPECT_THAT(Identify().err, HasSubstr("is no regular file"));
+  EXPECT_THAT(Identify().err, HasSubstr("is not a regular file"));
 }
 
 TEST_F(TakesProject, LetsAnEstimateFindItsRecordingFromAnotherFolder) {

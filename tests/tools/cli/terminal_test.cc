@@ -71,6 +71,26 @@ TEST_F(Terminal, VerdictHasItsColourWhereOneIsWanted) {
   EXPECT_THAT(RunWarmjoint(command, {scratch_.path(), {}}).out, Not(HasSubstr(kEscape)));
 }
 
+TEST_F(Terminal, QuietLeavesOutNoticesAndKeepsResultsAndErrors) {
+  WriteLog(600);
+  WriteWholeFile(scratch_.path() / "warmjoint.yaml", "gear: 2\n");
+  const Surroundings here{scratch_.path(), {}};
+  std::vector<std::string> command{"check", "log.csv"};
+  const Answer told = RunWarmjoint(command, here);
+  EXPECT_THAT(told.err, HasSubstr("gear"));  // what the project file sets
+  for (const char* flag : {"-q", "--quiet"}) {
+    const Answer before = RunWarmjoint({flag, "check", "log.csv"}, here);
+    const Answer behind = RunWarmjoint({"check", "log.csv", flag}, here);
+    EXPECT_EQ(before.err, "");
+    EXPECT_EQ(behind.err, "");
+    EXPECT_EQ(before.out, told.out);
+    EXPECT_EQ(behind.out, told.out);
+  }
+  const Answer failed = RunWarmjoint({"-q", "check", "missing.csv"}, here);
+  EXPECT_EQ(failed.status, 2);
+  EXPECT_THAT(failed.err, HasSubstr("missing.csv"));
+}
+
 TEST_F(Terminal, MachinesReadWhatIsNeverWrappedOrColoured) {
   WriteLog(600);
   const std::vector<std::string> command{"check", "log.csv", "--format", "json"};

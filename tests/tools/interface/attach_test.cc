@@ -99,7 +99,7 @@ TEST(Attach, RefusesAndWritesNothing) {
   EXPECT_THAT(refusal(hinge, settings), HasSubstr("0 or more"));
   settings = {};
   settings.packages = {{"robot", "absent"}};
-  EXPECT_THAT(refusal(hinge, settings), HasSubstr("no folder"));
+  EXPECT_THAT(refusal(hinge, settings), HasSubstr("not a folder"));
   EXPECT_THROW(Attach("pendlum", {hinge}, out), BadInput);
   EXPECT_THROW(ReadJointFriction("hinge", FrictionFile("pendulum"), "warm"), BadInput);
   EXPECT_FALSE(std::filesystem::exists(out));

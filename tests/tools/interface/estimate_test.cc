@@ -31,7 +31,7 @@ Estimate Everything() {
   estimate.diagnostics = {
       {"lag", true, "found", 6, 1e-9, 1e-8, true, 0.3, "N.m", {{"coulomb", 0.4}}},
       {"direction", false, "too few samples", 0, 1, 1, false, 0, "", {}}};
-  estimate.assumptions = {{"cold_start", "a tenth as warm", {{"coulomb", 0.1}}}};
+  estimate.assumptions = {{"cold_start", "a tenth of the warmth", {{"coulomb", 0.1}}}};
   Origin origin;
   origin.files = {"a.csv", "b.csv"};
   origin.read.map = {{"torque", "force"}};

@@ -90,15 +90,16 @@ TEST(ExternalIdentifier, FailuresSayHow) {
 
 TEST(ExternalIdentifier, AnswersThatWereMadeToHurtAreBadAnswers) {
   const auto bad = [](const char* why) { return HasSubstr(std::string("bad_answer: ") + why); };
-  EXPECT_THAT(Failure("mkfifo estimate.json"), bad("the estimate is no regular file"));
-  EXPECT_THAT(Failure("ln -s /dev/zero estimate.json"), bad("the estimate is no regular file"));
-  EXPECT_THAT(Failure("ln -s /etc/passwd estimate.json"), bad("the estimate is no regular file"));
-  EXPECT_THAT(Failure("mkdir estimate.json"), bad("the estimate is no regular file"));
+  EXPECT_THAT(Failure("mkfifo estimate.json"), bad("the estimate is not a regular file"));
+  EXPECT_THAT(Failure("ln -s /dev/zero estimate.json"), bad("the estimate is not a regular file"));
+  EXPECT_THAT(Failure("ln -s /etc/passwd estimate.json"),
+              bad("the estimate is not a regular file"));
+  EXPECT_THAT(Failure("mkdir estimate.json"), bad("the estimate is not a regular file"));
   EXPECT_THAT(Failure("head -c 20000000 /dev/zero > estimate.json"), bad("the estimate has more"));
   EXPECT_THAT(Failure("head -c 300000 /dev/zero | tr '\\0' '[' > estimate.json"),
               HasSubstr("deeper than 64 levels"));
   EXPECT_THAT(Failure("echo '{\"status\": 1e999}' > estimate.json"), HasSubstr("1e999"));
-  EXPECT_THAT(Failure("printf '\\317' > estimate.json"), HasSubstr("no UTF-8"));
+  EXPECT_THAT(Failure("printf '\\317' > estimate.json"), HasSubstr("not UTF-8"));
 }
 
 TEST(ExternalIdentifier, MessagesAreBoundedAndTellNoDrawnNames) {
