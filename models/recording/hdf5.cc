@@ -5,8 +5,10 @@
 #include <algorithm>
 
 #include "models/foundation/atomic_file.h"
-#include "models/recording/assemble.h"
 #include "models/recording/hdf5_content.h"
+#include "models/recording/read_apart.h"
+#include "models/recording/recording_columns.h"
+#include "models/recording/units.h"
 
 namespace warmjoint::inline models {
 namespace {
@@ -18,20 +20,6 @@ const H5::StrType& Text() {
 
 void WriteAttribute(H5::H5Object& object, const std::string& name, const std::string& value) {
   object.createAttribute(name, Text(), H5::DataSpace()).write(Text(), value);
-}
-
-Measurements Assemble(const Hdf5Content& content, const std::string& path, const CsvLayout& given) {
-  const CsvLayout layout = WithAttributes(given, content);
-  const std::vector<ColumnSource> sources = FindColumns(NamesOf(content), layout, {path});
-  RawColumns raw{path, {}, {}};
-  for (const ColumnSource& source : sources) {
-    raw.values.push_back(content.columns[source.index].values);
-    if (raw.values.back().size() == raw.values.front().size()) continue;
-    Refuse({path}, "{} has {} samples where {} has {}; all columns must be of one length",
-           content.columns[source.index].name, raw.values.back().size(),
-           content.columns[sources.front().index].name, raw.values.front().size());
-  }
-  return AssembleMeasurements(std::move(raw), sources, layout);
 }
 
 /// Properties that leave the time of writing out, so that equal recordings are equal files.
@@ -80,11 +68,12 @@ std::string Image(const Measurements& measurements) {
 }  // namespace
 
 Measurements ReadHdf5(const std::string& path, const CsvLayout& layout) {
-  return Assemble(ReadHdf5Content(path, layout), path, layout);
+  return AssembleContent(ReadHdf5Content(path, layout), path, layout);
 }
 
 Measurements ReadHdf5Apart(const std::string& path, const CsvLayout& layout, double patience) {
-  return Assemble(ReadHdf5ContentApart(path, layout, patience), path, layout);
+  return AssembleContent(ReadApart({"HDF5", &ReadHdf5Content}, path, layout, patience), path,
+                         layout);
 }
 
 void WriteHdf5(const Measurements& measurements, const std::string& path) {

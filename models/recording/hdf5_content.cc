@@ -2,8 +2,6 @@
 
 #include <H5Cpp.h>
 
-#include <algorithm>
-
 #include "models/foundation/excerpt.h"
 #include "models/recording/recording_columns.h"
 
@@ -37,10 +35,10 @@ Eigen::VectorXd ReadValues(const H5::DataSet& data, const std::string& name, con
   return values;
 }
 
-Hdf5Content Read(const std::string& path, const CsvLayout& layout) {
+FileContent Read(const std::string& path, const CsvLayout& layout) {
   const H5::H5File file(path, H5F_ACC_RDONLY);
   const H5::Group root = file.openGroup("/");
-  Hdf5Content content;
+  FileContent content;
   content.joint = ReadTextAttribute(root, "joint");
   if (root.attrExists("gear")) {
     content.gear.emplace();
@@ -54,7 +52,7 @@ Hdf5Content Read(const std::string& path, const CsvLayout& layout) {
 
   const CsvLayout completed = WithAttributes(layout, content);
   for (const ColumnSource& source : FindColumns(NamesOf(content), completed, {path})) {
-    Hdf5Column& column = content.columns[source.index];
+    FileColumn& column = content.columns[source.index];
     column.values = ReadValues(root.openDataSet(column.name), column.name, {path});
   }
   return content;
@@ -62,28 +60,7 @@ Hdf5Content Read(const std::string& path, const CsvLayout& layout) {
 
 }  // namespace
 
-std::vector<std::string> NamesOf(const Hdf5Content& content) {
-  std::vector<std::string> names;
-  for (const Hdf5Column& column : content.columns) names.push_back(column.name);
-  return names;
-}
-
-CsvLayout WithAttributes(CsvLayout layout, const Hdf5Content& content) {
-  if (content.joint == "linear") layout.joint = JointKind::linear;
-  if (layout.gear == 1 && content.gear) layout.gear = *content.gear;
-  for (const RecordingColumn& column : RecordingColumns()) {
-    const auto mapped = layout.column.find(column.name);
-    const std::string theirs = mapped == layout.column.end() ? column.name : mapped->second;
-    const auto found = std::find_if(content.columns.begin(), content.columns.end(),
-                                    [&](const Hdf5Column& one) { return one.name == theirs; });
-    if (found != content.columns.end() && !found->unit.empty()) {
-      layout.unit.emplace(column.name, found->unit);
-    }
-  }
-  return layout;
-}
-
-Hdf5Content ReadHdf5Content(const std::string& path, const CsvLayout& layout) {
+FileContent ReadHdf5Content(const std::string& path, const CsvLayout& layout) {
   H5::Exception::dontPrint();
   try {
     return Read(path, layout);

@@ -4,6 +4,7 @@
 
 #include "models/foundation/bad_input.h"
 #include "models/recording/hdf5.h"
+#include "models/recording/matlab.h"
 
 namespace warmjoint::inline models {
 namespace {
@@ -17,6 +18,15 @@ bool IsHdf5(const std::string& path) {
   return extension == ".h5" || extension == ".hdf5";
 }
 
+/// Refuses what tools/convert makes readable.
+void RefuseUnreadable(const std::string& path) {
+  const std::string extension = Extension(path);
+  for (const char* other : {".db3", ".mcap", ".bag", ".parquet", ".npz", ".npy"}) {
+    if (extension != other) continue;
+    Refuse({path}, "{} is not read here; first: tools/convert {} -o log.h5", other, path);
+  }
+}
+
 }  // namespace
 
 Measurements ReadRecording(const std::string& path, const CsvLayout& layout) {
@@ -24,7 +34,9 @@ Measurements ReadRecording(const std::string& path, const CsvLayout& layout) {
 }
 
 Measurements ReadForeignRecording(const std::string& path, const CsvLayout& layout) {
-  return IsHdf5(path) ? ReadHdf5Apart(path, layout) : ReadCsv(path, layout);
+  RefuseUnreadable(path);
+  if (IsHdf5(path)) return ReadHdf5Apart(path, layout);
+  return Extension(path) == ".mat" ? ReadMatlabApart(path, layout) : ReadCsv(path, layout);
 }
 
 void WriteRecording(const Measurements& measurements, const std::string& path) {

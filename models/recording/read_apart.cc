@@ -1,4 +1,5 @@
-// The HDF5 library in a process of its own.
+#include "models/recording/read_apart.h"
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
@@ -19,7 +20,6 @@
 
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
-#include "models/recording/hdf5_content.h"
 
 namespace warmjoint::inline models {
 namespace {
@@ -52,7 +52,8 @@ class Answer {
 /// checked before it is believed.
 class AnswerReader {
  public:
-  AnswerReader(std::string_view bytes, const Place& place) : rest_(bytes), place_(place) {}
+  AnswerReader(std::string_view bytes, const char* format, const Place& place)
+      : rest_(bytes), format_(format), place_(place) {}
 
   std::uint64_t Number(std::uint64_t most) {
     std::uint64_t number = 0;
@@ -77,14 +78,15 @@ class AnswerReader {
 
  private:
   [[noreturn]] void RefuseAnswer() const {
-    Refuse(place_, "cannot be read as HDF5: its reader broke off; the file is damaged");
+    Refuse(place_, "cannot be read as {}: its reader broke off; the file is damaged", format_);
   }
 
   std::string_view rest_;
+  const char* format_;
   const Place& place_;
 };
 
-std::string Packed(const Hdf5Content& content) {
+std::string Packed(const FileContent& content) {
   Answer answer;
   answer.Put(&kContent, 1);
   answer.Put(content.joint);
@@ -92,7 +94,7 @@ std::string Packed(const Hdf5Content& content) {
   const double gear = content.gear.value_or(0);
   answer.Put(&gear, sizeof gear);
   answer.Put(std::uint64_t{content.columns.size()});
-  for (const Hdf5Column& column : content.columns) {
+  for (const FileColumn& column : content.columns) {
     answer.Put(column.name);
     answer.Put(column.unit);
     answer.Put(column.values);
@@ -100,15 +102,15 @@ std::string Packed(const Hdf5Content& content) {
   return std::move(answer.bytes);
 }
 
-Hdf5Content Unpacked(AnswerReader& reader) {
-  Hdf5Content content;
+FileContent Unpacked(AnswerReader& reader) {
+  FileContent content;
   content.joint = reader.Text();
   const bool has_gear = reader.Number(1) == 1;
   double gear = 0;
   std::memcpy(&gear, reader.Take(sizeof gear).data(), sizeof gear);
   if (has_gear) content.gear = gear;
   content.columns.resize(reader.Number(kMostColumns));
-  for (Hdf5Column& column : content.columns) {
+  for (FileColumn& column : content.columns) {
     column.name = reader.Text();
     column.unit = reader.Text();
     column.values = reader.Values();
@@ -134,8 +136,8 @@ void Limit(int resource, rlim_t value) {
 }
 
 /// The child's whole life: reads within its limits, answers, and ends without its parent's farewells.
-[[noreturn]] void ReadInChild(const std::string& path, const CsvLayout& layout, double seconds,
-                              int out) {
+[[noreturn]] void ReadInChild(const FileFormat& format, const std::string& path,
+                              const CsvLayout& layout, double seconds, int out) {
   Limit(RLIMIT_AS, OwnMemory() + kMemory);
   Limit(RLIMIT_CPU, static_cast<rlim_t>(std::ceil(seconds)));
   Limit(RLIMIT_CORE, 0);
@@ -145,11 +147,12 @@ void Limit(int resource, rlim_t value) {
 
   std::string answer;
   try {
-    answer = Packed(ReadHdf5Content(path, layout));
+    answer = Packed(format.read(path, layout));
   } catch (const BadInput& refusal) {
     answer = kRefusal + std::string(refusal.what());
   } catch (const std::exception& error) {
-    answer = kRefusal + path + ": cannot be read as HDF5: " + error.what();
+    answer =
+        kRefusal + fmt::format("{}: cannot be read as {}: {}", path, format.name, error.what());
   }
   for (std::string_view rest = answer; !rest.empty();) {
     const ssize_t written = write(out, rest.data(), rest.size());
@@ -177,15 +180,15 @@ bool ReadAll(int in, double seconds, std::string& bytes) {
 
 }  // namespace
 
-Hdf5Content ReadHdf5ContentApart(const std::string& path, const CsvLayout& layout,
-                                 double patience) {
+FileContent ReadApart(const FileFormat& format, const std::string& path, const CsvLayout& layout,
+                      double patience) {
   std::error_code absent;
   const auto size = std::filesystem::file_size(path, absent);
   const double seconds = patience + (absent ? 0 : 1e-7 * static_cast<double>(size));
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
   const pid_t child = fork();
-  if (child == 0) ReadInChild(path, layout, seconds, ends[1]);
+  if (child == 0) ReadInChild(format, path, layout, seconds, ends[1]);
   close(ends[1]);
   std::string bytes;
   const bool whole = child > 0 && ReadAll(ends[0], std::min(2 * seconds, seconds + 5), bytes);
@@ -198,14 +201,14 @@ Hdf5Content ReadHdf5ContentApart(const std::string& path, const CsvLayout& layou
   const Place place{path};
   const bool late = !whole || (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU);
   if (late) {
-    Refuse(place, "cannot be read as HDF5 within {:.3g} s; the file is damaged, or too large",
-           seconds);
+    Refuse(place, "cannot be read as {} within {:.3g} s; the file is damaged, or too large",
+           format.name, seconds);
   }
   if (!WIFEXITED(status)) {
-    Refuse(place, "cannot be read as HDF5: the library crashed on it (signal {}); it is damaged",
-           WTERMSIG(status));
+    Refuse(place, "cannot be read as {}: the library crashed on it (signal {}); it is damaged",
+           format.name, WTERMSIG(status));
   }
-  AnswerReader reader(bytes, place);
+  AnswerReader reader(bytes, format.name, place);
   const char kind = reader.Take(1)[0];
   if (kind == kRefusal) throw BadInput(bytes.substr(1, kLongestText));
   return Unpacked(reader);

@@ -1,0 +1,27 @@
+// Recordings as MATLAB files. As with HDF5, the library works in a child; what may not happen is that this process crashes.
+#include "models/recording/matlab.h"
+
+#include "tests/fuzz/fuzz.h"
+
+namespace {
+
+using namespace warmjoint;
+using fuzz::Require;
+
+constexpr double kPatience = 0.25;  // s
+
+void Read(std::string_view bytes) {
+  const fuzz::ScratchFile file(bytes);
+  const Measurements log = ReadMatlabApart(file.path().string(), {}, kPatience);
+  const Eigen::Index n = log.size();
+  Require(n >= 3 && log.position.size() == n);
+  Require(log.position.allFinite() && log.torque.allFinite());
+  Require((log.time.tail(n - 1).array() > log.time.head(n - 1).array()).all());
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  fuzz::MayRefuse(Read, fuzz::Text(data, size));
+  return 0;
+}
