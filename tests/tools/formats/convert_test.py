@@ -1,0 +1,185 @@
+"""tools/convert on small logs of every format, written here with the formats' own libraries.
+
+    convert_test.py ROOT [WARMJOINT]     PYTHONPATH: the packages of tools/formats/requirements.txt
+
+With the program, each HDF5 that comes out is also read by `warmjoint check`. Exits 77 where the packages are not there.
+"""
+
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+try:
+    import h5py
+    import numpy
+    import pyarrow
+    import pyarrow.parquet
+    from rosbags.rosbag2 import StoragePlugin, Writer
+    from rosbags.typesys import Stores, get_typestore
+except ImportError as error:
+    print(f"skipped: {error}; tools/convert fetches the packages")
+    sys.exit(77)
+
+ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
+PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else None
+COUNT = 200
+TIME = numpy.arange(COUNT) * 0.05  # s
+SPEED = numpy.where(numpy.arange(COUNT) // 40 % 2 == 0, 0.5, -0.5)  # rad/s
+POSITION = numpy.concatenate([[0], numpy.cumsum(SPEED[:-1] * 0.05)])  # rad
+TORQUE = 3 * numpy.sign(SPEED) + 0.1 * numpy.sin(numpy.arange(COUNT))  # N.m
+STORE = get_typestore(Stores.ROS2_HUMBLE)
+EPOCH = 1_700_000_000
+
+
+def convert(log, output, *options):
+    return subprocess.run([sys.executable, ROOT / "tools/formats/convert.py", log, "-o", output, *options],
+                          capture_output=True, text=True, check=False)
+
+
+def stamp(i):
+    return STORE.types["builtin_interfaces/msg/Time"](sec=EPOCH + int(TIME[i]), nanosec=round(TIME[i] % 1 * 1e9))
+
+
+def joint_state(i, names=("shoulder", "elbow")):
+    """The elbow is the last of the names; the others stand still."""
+    kind, still = STORE.types["sensor_msgs/msg/JointState"], [0.0] * (len(names) - 1)
+    header = STORE.types["std_msgs/msg/Header"](stamp=stamp(i), frame_id="")
+    return kind(header=header, name=list(names), position=numpy.array([*still, POSITION[i]]),
+                velocity=numpy.array([*still, SPEED[i]]), effort=numpy.array([*still, TORQUE[i]]))
+
+
+def wrench(i):
+    types = STORE.types
+    vector = types["geometry_msgs/msg/Vector3"]
+    header = types["std_msgs/msg/Header"](stamp=stamp(i), frame_id="")
+    return types["geometry_msgs/msg/WrenchStamped"](
+        header=header, wrench=types["geometry_msgs/msg/Wrench"](force=vector(x=POSITION[i], y=0.0, z=0.0), torque=vector(x=0.0, y=0.0, z=TORQUE[i])))
+
+
+def write_bag(folder, plugin, order=range(COUNT)):
+    with Writer(folder, version=9, storage_plugin=plugin) as writer:
+        states = writer.add_connection("/joint_states", "sensor_msgs/msg/JointState", typestore=STORE)
+        wrenches = writer.add_connection("/wrench", "geometry_msgs/msg/WrenchStamped", typestore=STORE)
+        for i in order:
+            when = EPOCH * 10**9 + round(TIME[i] * 1e9)
+            writer.write(states, when, STORE.serialize_cdr(joint_state(i), "sensor_msgs/msg/JointState"))
+            writer.write(wrenches, when, STORE.serialize_cdr(wrench(i), "geometry_msgs/msg/WrenchStamped"))
+
+
+class Convert(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.output = self.folder / "log.h5"
+
+    def columns(self, log, *options):
+        done = convert(log, self.output, *options)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        if PROGRAM:
+            checked = subprocess.run([PROGRAM, "check", self.output], capture_output=True, text=True, check=False)
+            self.assertEqual(checked.returncode, 0, checked.stderr)
+        with h5py.File(self.output) as file:
+            return {name: file[name][:] for name in file}
+
+    def refusal(self, log, *options, output=None):
+        done = convert(log, output or self.output, *options)
+        self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        self.assertFalse(self.output.exists())
+        self.assertFalse(list(self.folder.glob(".warmjoint*")))
+        return done.stderr
+
+    def is_the_log(self, found, names=("time", "position", "velocity", "torque")):
+        self.assertEqual(set(found), set(names))
+        wanted = {"time": TIME, "position": POSITION, "velocity": SPEED, "torque": TORQUE}
+        for name in names:
+            # stamps are whole nanoseconds
+            numpy.testing.assert_allclose(found[name], wanted[name], rtol=0, atol=2e-9 if name == "time" else 0)
+
+    def test_bags_of_both_storages(self):
+        for plugin in (StoragePlugin.SQLITE3, StoragePlugin.MCAP):
+            bag = self.folder / plugin.name.lower()
+            write_bag(bag, plugin)
+            self.is_the_log(self.columns(bag, "--joint", "elbow"))
+            lone = next(path for path in bag.iterdir() if path.suffix in {".db3", ".mcap"})
+            self.is_the_log(self.columns(lone, "--joint", "elbow"))
+            found = self.columns(bag, "--topic", "/wrench", "--map", "position=wrench.force.x,torque=wrench.torque.z")
+            self.is_the_log(found, ("time", "position", "torque"))
+
+    def test_a_lone_mcap_without_its_folder(self):
+        write_bag(self.folder / "bag", StoragePlugin.MCAP)
+        alone = self.folder / "drive.mcap"
+        next((self.folder / "bag").glob("*.mcap")).rename(alone)
+        self.is_the_log(self.columns(alone, "--joint", "elbow"))
+
+    def test_messages_in_any_order(self):
+        write_bag(self.folder / "bag", StoragePlugin.SQLITE3, [*range(100, COUNT), *range(100)])
+        self.is_the_log(self.columns(self.folder / "bag", "--joint", "elbow"))
+
+    def test_what_a_bag_lacks_is_named(self):
+        bag = self.folder / "bag"
+        write_bag(bag, StoragePlugin.SQLITE3)
+        self.assertIn("give --joint, one of shoulder, elbow", self.refusal(bag))
+        self.assertIn("did you mean 'elbow'?", self.refusal(bag, "--joint", "elbo"))
+        self.assertIn("did you mean '/wrench'?", self.refusal(bag, "--topic", "/wrenc"))
+        self.assertIn("give --map", self.refusal(bag, "--topic", "/wrench"))
+        self.assertIn("did you mean 'torque'?", self.refusal(bag, "--topic", "/wrench", "--map", "torque=wrench.torqe.z"))
+        self.assertIn("is no number", self.refusal(bag, "--topic", "/wrench", "--map", "torque=wrench"))
+
+    def test_parquet(self):
+        log = self.folder / "log.parquet"
+        state = pyarrow.array(numpy.stack([0 * POSITION, POSITION], axis=1).tolist(), pyarrow.list_(pyarrow.float64()))
+        pyarrow.parquet.write_table(pyarrow.table({"timestamp": TIME, "state": state, "tau": TORQUE}), log)
+        found = self.columns(log, "--map", "time=timestamp,position=state[1],torque=tau")
+        self.is_the_log(found, ("time", "position", "torque"))
+        self.output.unlink()
+        self.assertIn("an index is at most 1", self.refusal(log, "--map", "position=state[2]"))
+        self.assertIn("did you mean 'tau'?", self.refusal(log, "--map", "torque=taus"))
+
+    def test_parquet_stamps(self):
+        log = self.folder / "log.parquet"
+        stamps = pyarrow.array(EPOCH * 10**9 + numpy.round(TIME * 1e9).astype(numpy.int64), pyarrow.timestamp("ns"))
+        pyarrow.parquet.write_table(pyarrow.table({"time": stamps, "position": POSITION, "torque": TORQUE}), log)
+        found = self.columns(log, "--map", "time=time,position=position,torque=torque")
+        self.is_the_log(found, ("time", "position", "torque"))
+
+    def test_numpy(self):
+        log = self.folder / "log.npz"
+        numpy.savez(log, time=TIME, position=POSITION, torque=TORQUE, q=numpy.stack([POSITION, SPEED], axis=1))
+        self.is_the_log(self.columns(log), ("time", "position", "torque"))
+        found = self.columns(log, "--map", "time=time,position=q[0],velocity=q[1],torque=torque")
+        self.is_the_log(found)
+        table = numpy.zeros(COUNT, dtype=[("time", float), ("position", float), ("torque", "f4")])
+        table["time"], table["position"], table["torque"] = TIME, POSITION, 1 + TIME
+        numpy.save(self.folder / "log.npy", table)
+        self.assertEqual(self.columns(self.folder / "log.npy")["torque"][0], 1)
+
+    def test_objects_are_not_unpickled(self):
+        log = self.folder / "log.npz"
+        numpy.savez(log, time=numpy.array([print, print, print], dtype=object))
+        self.assertIn("cannot be read as NumPy's", self.refusal(log))
+
+    def test_damaged_files_and_wrong_names(self):
+        for name in ("a.parquet", "a.npz", "a.npy", "a.mcap", "a.db3", "a.bag"):
+            (self.folder / name).write_bytes(b"\x93NUMPY nothing of the kind")
+            self.assertIn(name, self.refusal(self.folder / name, *(["--joint", "elbow"] if name[2:] in {"mcap", "db3", "bag"} else [])))
+        self.assertIn("does not exist", self.refusal(self.folder / "none.npz"))
+        numpy.savez(self.folder / "log.npz", time=TIME, position=POSITION[:9])
+        self.assertIn("position has 9 samples where time has 200", self.refusal(self.folder / "log.npz"))
+        (self.folder / "log.txt").touch()
+        self.assertIn("is none of", self.refusal(self.folder / "log.txt"))
+        numpy.savez(self.folder / "good.npz", time=TIME)
+        self.assertIn("choose one of them", self.refusal(self.folder / "good.npz", output=self.folder / "log.xlsx"))
+
+    def test_csv_reads_back_bit_for_bit(self):
+        numpy.savez(self.folder / "log.npz", time=TIME, torque=TORQUE)
+        done = convert(self.folder / "log.npz", self.folder / "log.csv")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        read = numpy.loadtxt(self.folder / "log.csv", delimiter=",", skiprows=1)
+        numpy.testing.assert_array_equal(read[:, 1], TORQUE)
+
+
+unittest.main(verbosity=1)

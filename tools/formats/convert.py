@@ -1,0 +1,85 @@
+"""Makes a log that warmjoint reads of logs in other formats: see tools/convert."""
+
+import argparse
+import pathlib
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+
+from columns import Refusal, require_one_length  # noqa: E402
+
+EXAMPLES = """examples:
+  tools/convert drive.mcap -o elbow.h5 --joint elbow            # one joint of sensor_msgs/JointState
+  tools/convert bag/ -o log.csv --topic /motor --map position=q,torque=wrench.torque.z
+  tools/convert episode.parquet -o log.h5 --map time=timestamp,position=observation.state[3],torque=effort[3]
+  tools/convert run.npz -o log.h5                               # all vectors under their own names
+"""
+
+
+def read_map(words):
+    """{column: field} of COLUMN=FIELD,... as in `identify --map`."""
+    fields = {}
+    for word in ",".join(words).split(",") if words else []:
+        column, equals, field = word.partition("=")
+        if not (column and equals and field):
+            raise Refusal(f"--map: '{word}' is not of the form COLUMN=FIELD")
+        if column in fields:
+            raise Refusal(f"--map: {column} is given twice; leave one")
+        fields[column] = field
+    return fields
+
+
+def read(path, topic, joint, fields):
+    """The columns of a log, {name: vector}. Readers are loaded when they are needed."""
+    if not path.exists():
+        raise Refusal(f"{path}: does not exist")
+    kind = path.suffix
+    bag = path.is_dir() or kind in {".db3", ".mcap", ".bag"}
+    if not bag and (topic or joint):
+        raise Refusal(f"{path}: --topic and --joint are for bags; name columns with --map")
+    if bag:
+        import read_bag
+
+        return read_bag.columns(path, topic, joint, fields)
+    if kind == ".parquet":
+        import read_parquet
+
+        return read_parquet.columns(path, fields)
+    if kind in {".npz", ".npy"}:
+        import read_numpy
+
+        return read_numpy.columns(path, fields)
+    raise Refusal(f"{path}: '{kind}' is none of .mcap, .db3, .bag, .parquet, .npz, .npy; a folder is read as rosbag2")
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="tools/convert", description=__doc__, epilog=EXAMPLES,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("log", type=pathlib.Path, help="rosbag2 folder, .db3, .mcap, .bag, .parquet, .npz or .npy")
+    parser.add_argument("-o", "--output", type=pathlib.Path, required=True, help=".h5 or .csv")
+    parser.add_argument("--topic", help="of a bag; default: the only one of sensor_msgs/JointState")
+    parser.add_argument("--joint", help="of JointState messages; default: the only one")
+    parser.add_argument("--map", action="append", metavar="COLUMN=FIELD",
+                        help="fields of other messages, columns or arrays, as position=q[3],torque=wrench.torque.z")
+    given = parser.parse_args()
+    try:
+        from write_log import write
+
+        columns = read(given.log, given.topic, given.joint, read_map(given.map))
+        require_one_length(given.log, columns)
+        if given.output.exists() and given.output.samefile(given.log):
+            raise Refusal(f"{given.output}: is the input, which would be lost; choose another output")
+        write(columns, given.output)
+    except Refusal as refusal:
+        print(f"error: {refusal}", file=sys.stderr)
+        return 2
+    except OSError as error:
+        print(f"error: {error.filename or given.output}: {error.strerror or error}", file=sys.stderr)
+        return 4
+    first = next(iter(columns.values()))
+    print(f"{given.output}: {len(first)} samples of {', '.join(columns)}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
