@@ -55,7 +55,7 @@ TEST(HostileYaml, AliasesThatMultiplyAreCounted) {
 
 TEST(HostileYaml, TextThatIsNoUtf8IsRefusedWithItsLine) {
   EXPECT_THAT(Refusal(kRest + "friction: [\"\xCF\"]\n"), HasSubstr("s.yaml:5: byte"));
-  EXPECT_THAT(Refusal(kRest + kFriction, {{"name", "\xCF"}}), HasSubstr("no UTF-8"));
+  EXPECT_THAT(Refusal(kRest + kFriction, {{"name", "\xCF"}}), HasSubstr("not UTF-8"));
 }
 
 TEST(HostileYaml, AKeyWithoutAValueIsNotTakenForItsDefault) {

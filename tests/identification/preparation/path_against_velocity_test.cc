@@ -54,7 +54,7 @@ TEST(PathAgainstVelocity, LeavesAVelocityThatThePositionsConfirm) {
 
 TEST(PathAgainstVelocity, ReplacesAVelocityThatIsFiltered) {
   const PreparedLog prepared = Prepare(Filtered(Ramped(), 0.2));
-  EXPECT_THAT(prepared.warnings(), ElementsAre(HasSubstr("shorter than the positions")));
+  EXPECT_THAT(prepared.warnings(), ElementsAre(HasSubstr("shorter than that of the positions")));
   EXPECT_THAT(prepared.faults(), IsEmpty());
 
   // what is kept moves as the joint does
@@ -71,7 +71,7 @@ TEST(PathAgainstVelocity, ReplacesAVelocityThatIsFiltered) {
 TEST(PathAgainstVelocity, ReplacesAVelocityThatIsScaledByOnePercent) {
   Measurements log = Ramped();
   log.velocity *= 1.01;
-  EXPECT_THAT(Prepare(log).warnings(), ElementsAre(HasSubstr("1 % longer than the positions")));
+  EXPECT_THAT(Prepare(log).warnings(), ElementsAre(HasSubstr("1 % longer than that of the positions")));
 }
 
 TEST(PathAgainstVelocity, BelievesTheVelocityWhereThePositionIsStuckForAWhile) {

@@ -161,7 +161,7 @@ TEST(SegmentVelocity, WarnsOfWhatIsLeft) {
   estimate.parameters = {{"viscous", 5, "N.m.s/rad", 0.1, {{4.8, 5.2}}},
                          {"coulomb", 15, "N.m", 0.1, {{14.8, 15.2}}}};
   TellVelocity({0.05, 0.037, 0.0005, 0.5}, JointKind::rotary, estimate);
-  EXPECT_THAT(estimate.message, HasSubstr("noise of 0.05 rad/s would move viscous by -3.7 %"));
+  EXPECT_THAT(estimate.message, HasSubstr("noise of 0.05 rad/s would change viscous by -3.7 %"));
   EXPECT_TRUE(estimate.warnings.empty());
   EXPECT_EQ((*estimate.Find("viscous")->interval95)[0], 4.8);
   TellVelocity({0.05, 0.037, 0.01, 0.5}, JointKind::rotary, estimate);

@@ -31,7 +31,7 @@ TEST(ParseJson, NamesTheNumberThatNoDoubleHolds) {
 }
 
 TEST(ParseJson, RefusesWhatIsNoUtf8) {
-  EXPECT_THAT(Refusal("{\"a\":\n \"\xCF\"}"), HasSubstr("e.json:2: byte 9 is no UTF-8"));
+  EXPECT_THAT(Refusal("{\"a\":\n \"\xCF\"}"), HasSubstr("e.json:2: byte 9 is not UTF-8"));
   EXPECT_THAT(Refusal(std::string("{}\0", 3)), HasSubstr("byte 3"));
 }
 

@@ -34,7 +34,7 @@ TEST(RequireMemory, NamesAmountTaskAndRemedy) {
       },
       ThrowsMessage<BadInput>(
           AllOf(HasSubstr("s.yaml:2: 9 samples (duration) take about 2.66e+03 PiB"),
-                HasSubstr("are to spare; shorten duration"))));
+                HasSubstr("are free; shorten duration"))));
   EXPECT_NO_THROW(RequireMemory(1e6, "a little", "", {}));
 }
 

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 #include "models/foundation/atomic_file.h"
@@ -119,7 +120,7 @@ TEST(Matlab, ReadsStructsAndWhatTheFileSaysOfItself) {
           {version});
     const Measurements log = ReadForeignRecording(file.path());
     EXPECT_EQ(Values(log.time), kTime);
-    EXPECT_DOUBLE_EQ(log.position[2], 0.5 * EIGEN_PI / 180);
+    EXPECT_DOUBLE_EQ(log.position[2], 0.5 * std::numbers::pi / 180);
     EXPECT_EQ(log.gear, 50);
 
     // beside another vector: by struct and field
@@ -160,7 +161,8 @@ TEST(Matlab, RefusesFilesThatAreCutOrChanged) {
     const auto try_bytes = [&](const std::string& bytes) {
       WriteWholeFile(file.path(), bytes);
       const std::string refusal = Refusal(file.path());
-      if (!refusal.empty()) EXPECT_THAT(refusal, HasSubstr("log.mat"));
+      if (refusal.empty()) return;
+      EXPECT_THAT(refusal, HasSubstr("log.mat"));
     };
     const size_t step = 1 + whole.size() / 40;
     for (size_t size = 0; size < whole.size(); size += step) try_bytes(whole.substr(0, size));

@@ -30,7 +30,7 @@ TEST(RobotFolder, RefusesWhatIsNoRobot) {
               ThrowsMessage<BadInput>(HasSubstr("my.yaml: there is no robot 'rotari'; did you mean "
                                                 "'rotary'")));
   EXPECT_THAT([] { FindRobot("no/such.xml", "my.yaml"); },
-              ThrowsMessage<BadInput>(HasSubstr("'no/such.xml' is no file")));
+              ThrowsMessage<BadInput>(HasSubstr("'no/such.xml' is neither a file nor")));
 }
 
 TEST(RobotFolder, RefusesADataFolderWithoutRobots) {

@@ -69,7 +69,7 @@ TEST(Identify, ReadsStandardInput) {
   // standard input is no output, and cannot be read again
   const Answer both = piped("cat log.csv | " + program + " identify - -o - | head -c 1");
   EXPECT_EQ(both.out, "{") << both.err;
-  ASSERT_EQ(piped("cat log.csv | " + program + " identify - -o estimate.json").status, 0);
+  ASSERT_EQ(piped("cat log.csv | " + program + rest + " -o estimate.json").status, 0);
   const Answer plot = RunWarmjoint({"plot", "estimate.json", "-o", "plots"}, here);
   EXPECT_EQ(plot.status, 2);
   EXPECT_THAT(plot.err, HasSubstr("--recording"));
