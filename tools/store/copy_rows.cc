@@ -165,12 +165,14 @@ void CopyTables(SQLite::Database& fresh, const std::vector<RowSource>& sources,
 RowSource SourceOf(const std::filesystem::path& file) {
   RowSource source{file, {}};
   const SQLite::Database database = ReopenFrozen(file);
-  SQLite::Statement first(database,
-                          "SELECT variant, min(realization) FROM realization GROUP BY variant"
-                          " ORDER BY variant");
-  while (first.executeStep()) {
-    source.first.push_back({first.getColumn(0).getInt(), first.getColumn(1).getInt()});
-  }
+  Guarded(file, [&] {
+    SQLite::Statement first(database,
+                            "SELECT variant, min(realization) FROM realization GROUP BY variant"
+                            " ORDER BY variant");
+    while (first.executeStep()) {
+      source.first.push_back({first.getColumn(0).getInt(), first.getColumn(1).getInt()});
+    }
+  });
   return source;
 }
 

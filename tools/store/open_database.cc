@@ -2,7 +2,9 @@
 
 #include <sqlite3.h>
 
+#include <array>
 #include <cerrno>
+#include <fstream>
 
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
@@ -35,7 +37,19 @@ void CheckIntegrity(const SQLite::Database& database, const fs::path& path) {
          Excerpt(answer, kLongestComplaint));
 }
 
+/// Refuses SQLite's write-ahead mode, which another program set: it keeps rows in files of its own beside this one.
+void RefuseWriteAhead(const fs::path& path) {
+  std::array<char, 20> header{};
+  std::ifstream(path, std::ios::binary).read(header.data(), header.size());
+  constexpr char write_ahead = 2;  // version of the format, for readers
+  if (header[19] != write_ahead) return;
+  Refuse({path.string()},
+         "is in SQLite's write-ahead mode, which another program set; do `PRAGMA journal_mode = "
+         "DELETE` with it");
+}
+
 SQLite::Database OpenUnchecked(const fs::path& path, int flags, const char* locking) {
+  RefuseWriteAhead(path);
   SQLite::Database database(path.string(), flags, kPatience, locking);
   Disarm(database);
   return database;

@@ -258,7 +258,8 @@ INSTANTIATE_TEST_SUITE_P(
                   " ALL SELECT i + 1 FROM n) SELECT * FROM n",
                   "foreign 'view trace"},
         Tampering{"Column", "ALTER TABLE result ADD COLUMN more TEXT", "foreign 'table result"},
-        Tampering{"NoTable", "DROP TABLE trace", "lacks some of its tables"}),
+        Tampering{"NoTable", "DROP TABLE trace", "lacks some of its tables"},
+        Tampering{"WriteAhead", "PRAGMA journal_mode = WAL", "write-ahead mode"}),
     [](const auto& tampering) { return tampering.param.name; });
 
 TEST(RunStore, StartsAnewWhereNothingWasStoredYet) {
