@@ -126,11 +126,12 @@ Finding TestLag(const FittedModel& model, const Measurements& measurements, Vect
   fit.LearnNoise({decay});
   finding = fit.Test(decay);
   finding.test = &LagTest();
-  finding.p_adjusted = level.Adjusted(finding.p);
 
-  // a lag leaves a share of what was before, not of what comes
+  // a lag leaves a share of what was before, not of what comes: the test has one side
   const double share = fit.CoefficientOf(decays.col(best));
-  if (share <= 0 || finding.explained <= 0 || !level.Rejects(finding.p)) return finding;
+  if (share <= 0 || finding.explained <= 0) finding.p = 1;
+  finding.p_adjusted = level.Adjusted(finding.p);
+  if (!level.Rejects(finding.p)) return finding;
   finding.rejected = true;
   finding.lag = share * step / (1 - std::exp(-step / lags[best]));
 

@@ -152,4 +152,32 @@ TEST(IncludeRules, KnowWhatIsForbidden) {
   EXPECT_EQ(Breach("tools/cli/main.cc", "identification/score/npe.h"), "");
 }
 
+/// Folders of the project that hold sources or scripts of their own, relative to it.
+std::vector<fs::path> FoldersOfRooms() {
+  std::vector<fs::path> folders;
+  const fs::path project = warmjoint::test::SourceFolder();
+  for (const char* room : {"models", "sim", "identification", "tools"}) {
+    folders.emplace_back(room);
+    for (const auto& entry : fs::directory_iterator(project / room)) {
+      if (!entry.is_directory()) continue;
+      const bool has_sources = std::ranges::any_of(
+          fs::directory_iterator(entry.path()),
+          [](const fs::directory_entry& file) { return file.path().extension() == ".h"; });
+      if (has_sources) folders.push_back(fs::relative(entry.path(), project));
+    }
+  }
+  folders.emplace_back("scenarios");
+  folders.emplace_back("tests");
+  return folders;
+}
+
+TEST(Rooms, EachSaysWhatItIsForAndWhatMayEnter) {
+  const std::vector<fs::path> folders = FoldersOfRooms();
+  ASSERT_GT(folders.size(), 30u);
+  for (const fs::path& folder : folders) {
+    const fs::path readme = warmjoint::test::SourceFolder() / folder / "README.md";
+    EXPECT_TRUE(fs::is_regular_file(readme)) << "write " << readme;
+  }
+}
+
 }  // namespace

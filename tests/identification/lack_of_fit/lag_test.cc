@@ -88,6 +88,15 @@ TEST(TestLag, FindsNoneWhereThereIsNone) {
   EXPECT_LE(alarms, 5);
 }
 
+TEST(TestLag, HasOneSide) {
+  // a torque that goes beyond its new value at first, as a drive's overshoot, is no lag
+  const Diagnostic found =
+      Asked(Answer("energy-ml", Late(RecordHour(test::TableOne(), 1), -0.5)), "lag");
+  ASSERT_TRUE(found.made);
+  EXPECT_FALSE(found.rejected);
+  EXPECT_EQ(found.p_adjusted, 1);
+}
+
 TEST(TestLag, TakesWhatItFindsOffTheResidual) {
   const Measurements m = Late(RecordHour(test::Cold(), 1, 0.1), 0.4);
   FittedModel model;
