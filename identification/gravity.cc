@@ -141,6 +141,7 @@ GravityModel GravityFromJson(const nlohmann::json& json, const Place& place) {
     Refuse(place, "gravity has {} positions and {} torques; give as many of each", position.size(),
            torque.size());
   }
+  if (position.empty()) Refuse(place, "gravity has no positions; give its knots, or leave it out");
   for (const double p : position) {
     const auto knot = static_cast<int>(std::lround(p / kSpacing));
     const bool ascends = gravity.knots.empty() || knot > gravity.knots.back();

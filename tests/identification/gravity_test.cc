@@ -81,6 +81,7 @@ TEST(Gravity, RefusesJsonThatIsNone) {
   refuses(R"({"kind": "sincoss", "sine": 1, "cosine": 2})", "did you mean 'sincos'?");
   refuses(R"({"kind": "sincos", "sine": 1})", "cosine must be a number");
   refuses(R"({"kind": "paired", "position": [0], "torque": [1, 2]})", "1 positions and 2 torques");
+  refuses(R"({"kind": "paired", "position": [], "torque": []})", "no positions");
   refuses(R"({"kind": "paired", "position": [0.05], "torque": [1]})", "0.05 is not a knot");
 }
 

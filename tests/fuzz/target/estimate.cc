@@ -12,11 +12,17 @@ using namespace warmjoint;
 
 void Read(std::string_view bytes) {
   const Place place{"fuzz.json"};
-  const auto written =
-      EstimateToJson(EstimateFromJson(ParseJson(std::string(bytes), place.file), place));
+  const Estimate estimate = EstimateFromJson(ParseJson(std::string(bytes), place.file), place);
+  const auto written = EstimateToJson(estimate);
   const std::string text = written.dump();
   const auto again = EstimateToJson(EstimateFromJson(ParseJson(text, place.file), place));
   fuzz::Require(again.dump() == text);
+
+  // what gravity does over some turns
+  if (!estimate.gravity) return;
+  const Eigen::VectorXd position = Eigen::VectorXd::LinSpaced(50, -20, 20);
+  fuzz::Require(estimate.gravity->Torque(position).size() == position.size());
+  estimate.gravity->Covers(position[7]);
 }
 
 }  // namespace
