@@ -71,7 +71,8 @@ TEST(PathAgainstVelocity, ReplacesAVelocityThatIsFiltered) {
 TEST(PathAgainstVelocity, ReplacesAVelocityThatIsScaledByOnePercent) {
   Measurements log = Ramped();
   log.velocity *= 1.01;
-  EXPECT_THAT(Prepare(log).warnings(), ElementsAre(HasSubstr("1 % longer than that of the positions")));
+  EXPECT_THAT(Prepare(log).warnings(),
+              ElementsAre(HasSubstr("1 % longer than that of the positions")));
 }
 
 TEST(PathAgainstVelocity, BelievesTheVelocityWhereThePositionIsStuckForAWhile) {
