@@ -1,4 +1,4 @@
-// How long pictures take: WARMJOINT_GL chooses the context.
+// How long pictures take.
 #include <benchmark/benchmark.h>
 
 #include "models/foundation/random_stream.h"
@@ -30,9 +30,8 @@ Figure Noise(Eigen::Index points, Shape shape) {
 
 void DrawOnce(benchmark::State& state, Shape shape) {
   const Figure figure = Noise(state.range(0), shape);
-  Canvas canvas;
   for (auto step : state) {
-    const Drawn drawn = DrawFigure(canvas, figure);
+    const Drawn drawn = DrawFigure(figure);
     state.counters["marks"] = static_cast<double>(drawn.plots[0].series[0].points);
   }
 }

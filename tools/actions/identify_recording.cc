@@ -90,17 +90,23 @@ HoldOutSource HoldOutShare(double fraction) {
   return {fraction, std::nullopt};
 }
 
-Estimate IdentifyLog(const IdentifyTask& task, const PreparedLog& log, const HoldOutSource& holdout,
-                     const Narrator& narrator) {
+Identified IdentifyLog(const IdentifyTask& task, const PreparedLog& log,
+                       const HoldOutSource& holdout, const Narrator& narrator) {
   const IdentifierInput input{log, task.options, {}, narrator};
   const Answer answer = FitAndJudge(task.identifier, input, task.judging);
-  Estimate estimate = task.void_numbers == VoidNumbers::show
-                          ? WithVoidNumbers(task.identifier, input, answer)
-                          : ReportAnswer(task.identifier, input, answer);
+  Identified identified{ReportAnswer(task.identifier, input, answer),
+                        WithVoidNumbers(task.identifier, input, answer)};
+  auto& [estimate, shown] = identified;
+  if (task.void_numbers == VoidNumbers::show) {
+    estimate = shown;
+  } else {
+    shown.message = estimate.message;
+  }
   if (answer.inferred.status == Status::ok) {
     estimate.holdout = HoldOutFigures(task.identifier, input, answer.fit, holdout);
+    shown.holdout = estimate.holdout;
   }
-  return estimate;
+  return identified;
 }
 
 std::string TakeBackAmperes(const Measurements& measurements, Estimate& estimate) {

@@ -48,10 +48,17 @@ struct HoldOutSource {
 /// Throws BadInput for a share that is not at least 0 and below 1.
 HoldOutSource HoldOutShare(double fraction);
 
+/// What is reported of a log, and what pictures show of it: of a fit that the verdict voids, its
+/// numbers, too.
+struct Identified {
+  Estimate estimate;
+  Estimate shown;
+};
+
 /// Fits, judges, reports, and adds the figures on what was held out to an answer that stands. The
 /// narrator is told what is being tried.
-Estimate IdentifyLog(const IdentifyTask& task, const PreparedLog& log, const HoldOutSource& holdout,
-                     const Narrator& narrator = {});
+Identified IdentifyLog(const IdentifyTask& task, const PreparedLog& log,
+                       const HoldOutSource& holdout, const Narrator& narrator = {});
 
 /// MuJoCo knows torques and forces: takes a friction in amperes back and returns what to tell of
 /// it; an empty text where nothing was done.

@@ -11,6 +11,8 @@
 #include "tools/cli/recording_options.h"
 #include "tools/cli/take_project.h"
 #include "tools/parser/choice.h"
+#include "tools/report/draw/draw_figure.h"
+#include "tools/report/figures/log_figure.h"
 #include "tools/terminal/activity.h"
 #include "tools/terminal/say.h"
 
@@ -21,6 +23,7 @@ struct CheckArguments {
   RecordingArguments recording;
   std::string format = "text";
   std::string segments;
+  std::string plot;
 };
 
 /// The kept segments of a recording, a line for each. number: of the recording, from 1.
@@ -34,7 +37,12 @@ void AppendSegments(const PreparedLog& log, int number, std::string& csv) {
 }
 
 ExitStatus Check(const CheckArguments& arguments) {
-  const std::vector<std::filesystem::path> outputs{arguments.segments};
+  const std::vector<std::filesystem::path> outputs{arguments.segments, arguments.plot};
+  report::PageSetting setting;
+  if (!arguments.plot.empty()) {
+    setting.format = report::FormatOf(arguments.plot);
+    AtomicFile{arguments.plot};
+  }
   KeepApart(outputs,
             {arguments.recording.recordings.begin(), arguments.recording.recordings.end()});
 
@@ -48,6 +56,12 @@ ExitStatus Check(const CheckArguments& arguments) {
     activity.Is("checking " + recording.source);
     const PreparedLog log = Prepare(std::move(recording), arguments.recording.holds);
     AppendSegments(log, ++number, segments);
+    if (number == 1 && !arguments.plot.empty()) {
+      const auto& [measurements, selection] = log.taken();
+      const report::Figure figure =
+          report::MakeLogFigure(report::MakeFitView(measurements, selection, {}));
+      WriteWholeFile(arguments.plot, report::EncodeFigure(figure, setting).bytes);
+    }
     const RecordingCheck check = CheckRecording(log);
     checks.push_back(CheckToJson(check));
     text += (text.empty() ? "" : "\n") + CheckToText(check);
@@ -75,6 +89,10 @@ Command AddCheckCommand(CLI::App& program) {
   parser
       ->add_option("--segments", arguments->segments,
                    "the constant speeds that are kept, as CSV: begin and end in s, velocity in SI")
+      ->type_name("FILE");
+  parser
+      ->add_option("--plot", arguments->plot,
+                   "picture of the (first) recording with its kept segments: .png, .svg or .pdf")
       ->type_name("FILE");
   AddChoice(*parser, "--format", arguments->format, {"text", "json"}, "of what is printed");
   return {parser, [arguments, parser] {

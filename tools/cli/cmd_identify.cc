@@ -16,6 +16,7 @@
 #include "tools/cli/take_project.h"
 #include "tools/cli/tell_wall.h"
 #include "tools/parser/choice.h"
+#include "tools/report/draw/page_setting.h"
 #include "tools/report/figures/fit_page.h"
 #include "tools/terminal/activity.h"
 #include "tools/terminal/say.h"
@@ -88,19 +89,21 @@ void CheckOutputs(const IdentifyArguments& arguments) {
   CheckOutput(arguments.output);
   CheckOutput(arguments.mjcf);
   CheckOutput(arguments.plot);
+  if (!arguments.plot.empty()) report::FormatOf(arguments.plot);
 }
 
-/// Writes and prints an estimate of the log.
-ExitStatus Deliver(const IdentifyArguments& arguments, const Estimate& estimate,
+/// Writes, draws and prints an estimate of the log.
+ExitStatus Deliver(const IdentifyArguments& arguments, const Identified& identified,
                    const PreparedLog& log, Activity& activity) {
   const auto& [measurements, selection] = log.taken();
+  const auto& [estimate, shown] = identified;
   Estimate written = estimate;
   const std::string notice = TakeBackAmperes(measurements, written);
   if (!notice.empty()) activity.Aside([&] { SayNotice("{}\n", notice); });
   WriteOutputs(arguments, written, measurements, activity);
   if (!arguments.plot.empty()) {
     activity.Is("drawing " + arguments.plot);
-    report::WriteFitPage(measurements, selection, estimate, arguments.plot);
+    report::WriteFitPage(measurements, selection, shown, arguments.plot);
   }
   std::FILE* const words = WordsBeside(OutputsOf(arguments));
   activity.Aside([&] {
@@ -125,7 +128,8 @@ ExitStatus AskCommand(const IdentifyArguments& arguments) {
   const PreparedLog log = ReadAndPrepare(arguments.recording);
   try {
     activity.Is("waiting for " + task.command.label);
-    return Deliver(arguments, IdentifyByCommand(task, log, holdout), log, activity);
+    const Estimate estimate = IdentifyByCommand(task, log, holdout);
+    return Deliver(arguments, {estimate, estimate}, log, activity);
   } catch (const NoAnswer& failure) {
     activity.Aside([&] {
       Say(stderr, "{} gave no answer ({}): {}\n", task.command.label, failure.status,
@@ -188,7 +192,9 @@ Command AddIdentifyCommand(CLI::App& program) {
       ->take_all();
   parser->add_option("-o,--output", arguments->output, "estimate.json; -: standard output")
       ->type_name("FILE");
-  parser->add_option("--plot", arguments->plot, "picture of data, fit and verdict (PNG)")
+  parser
+      ->add_option("--plot", arguments->plot,
+                   "picture of data, fit and verdict: .png, .svg or .pdf")
       ->type_name("FILE");
   parser->add_option("--mjcf", arguments->mjcf, "MuJoCo model of a joint with this friction")
       ->type_name("FILE");

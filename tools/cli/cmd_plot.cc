@@ -2,16 +2,18 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <set>
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "tools/cli/command.h"
+#include "tools/cli/picture_options.h"
 #include "tools/cli/plot_sources.h"
 #include "tools/cli/take_project.h"
 #include "tools/report/draw/draw_figure.h"
+#include "tools/report/draw/figure_data.h"
+#include "tools/report/estimate/overlay.h"
 #include "tools/report/gl/film.h"
 #include "tools/report/page/contact_sheet.h"
 #include "tools/terminal/activity.h"
@@ -23,12 +25,12 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kFrameSeconds = 0.125;
-constexpr int kSheetColumn = 200;    // points
-constexpr double kSheetShape = 1.6;  // columns for each row
 
 struct PlotArguments {
   std::vector<std::string> sources;
   RecordingArguments recording;
+  PictureArguments pictures;
+  bool data = false;
   std::string output;
   std::string sheet;
 };
@@ -36,51 +38,62 @@ struct PlotArguments {
 /// Draws figures into files and remembers the first of each kind for the contact sheet.
 class Album {
  public:
-  Album(report::Canvas& canvas, Activity& activity) : canvas_(canvas), activity_(activity) {}
+  Album(const report::PageSetting& setting, Activity& activity)
+      : setting_(setting), activity_(activity) {}
 
   void Draw(const report::Figure& figure, const fs::path& folder) {
-    const fs::path path = folder / (figure.name + ".png");
+    const fs::path path = PathOf(figure.name, setting_.format, folder);
     activity_.Is("drawing " + path.string());
-    report::Image image = report::DrawFigure(canvas_, figure).image;
-    report::WritePng(image, figure.finding, path);
-    Tell(path, figure.finding);
+    const report::PictureFile file = report::EncodeFigure(figure, setting_);
+    WriteWholeFile(path, file.bytes);
+    Tell(path, file.caption);
     const bool is_new = std::none_of(pages_.begin(), pages_.end(),
-                                     [&](const auto& page) { return page.first == figure.name; });
-    if (is_new) pages_.emplace_back(figure.name, std::move(image));
+                                     [&](const auto& page) { return page.name == figure.name; });
+    if (is_new) pages_.push_back(figure);
+  }
+
+  /// The numbers that a figure shows.
+  void WriteData(const report::Figure& figure, const fs::path& folder) {
+    const fs::path path = folder / (figure.name + ".csv");
+    WriteWholeFile(path, report::FigureCsv(figure));
+    Tell(path, "the series of " + figure.name);
   }
 
   void DrawFilm(const std::vector<report::Figure>& film, const fs::path& folder) {
-    if (film.empty()) return;
+    if (film.empty() || setting_.format != report::FileFormat::png) return;
     std::vector<report::Image> frames;
     for (const report::Figure& frame : film) {
       activity_.Is(fmt::format("drawing frame {} of {}", frames.size() + 1, film.size()));
-      frames.push_back(report::Shrink(report::DrawFigure(canvas_, frame).image,
-                                      report::Canvas::kPixelsPerPoint));
+      frames.push_back(report::Shrink(report::DrawFigure(frame).image, report::kPixelsPerPoint));
     }
-    const fs::path path = folder / (film.front().name + ".png");
+    const fs::path path = PathOf(film.front().name, report::FileFormat::png, folder);
     WriteWholeFile(path, report::EncodeFilm(frames, kFrameSeconds, film.front().title));
     Tell(path, fmt::format("{}, {} frames", film.front().title, frames.size()));
   }
 
   void WriteSheet(const fs::path& path) {
     if (pages_.empty()) return;
-    // wider than high
-    const double count = static_cast<double>(pages_.size());
-    const int columns = static_cast<int>(std::ceil(std::sqrt(kSheetShape * count)));
-    const report::Figure sheet =
-        report::MakeContactSheet(pages_, columns, std::max(2, columns) * kSheetColumn);
-    report::WritePng(report::DrawFigure(canvas_, sheet).image, sheet.finding, path);
+    const report::Figure sheet = report::MakeContactSheet(pages_);
+    report::PageSetting setting = setting_;
+    setting.format = report::FormatOf(path.string());
+    setting.height = 0;
+    WriteWholeFile(path, report::EncodeFigure(sheet, setting).bytes);
     Tell(path, sheet.finding);
   }
 
  private:
+  static fs::path PathOf(const std::string& name, report::FileFormat format,
+                         const fs::path& folder) {
+    return folder / fmt::format("{}.{}", name, report::NameOf(format));
+  }
+
   void Tell(const fs::path& path, const std::string& finding) {
     activity_.Aside([&] { Say(stdout, "{}: {}\n", path.string(), finding); });
   }
 
-  report::Canvas& canvas_;
+  const report::PageSetting& setting_;
   Activity& activity_;
-  std::vector<std::pair<std::string, report::Image>> pages_;
+  std::vector<report::Figure> pages_;
 };
 
 /// The folder of each source: DIR for one, DIR/NAME for several.
@@ -102,21 +115,40 @@ std::vector<fs::path> FoldersOf(const PlotArguments& arguments) {
 ExitStatus PlotSources(const PlotArguments& arguments) {
   const std::vector<fs::path> folders = FoldersOf(arguments);
   // refused before the pictures are drawn; it is made anew when they are
-  if (!arguments.sheet.empty()) AtomicFile(arguments.sheet);
+  const report::PageSetting setting = SettingOf(arguments.pictures);
+  if (!arguments.sheet.empty()) {
+    report::FormatOf(arguments.sheet);
+    AtomicFile(arguments.sheet);
+  }
   Activity activity("preparing to draw");
-  report::Canvas canvas;
-  Album album(canvas, activity);
+  Album album(setting, activity);
+  std::vector<report::NamedEstimate> estimates;
   for (std::size_t i = 0; i < folders.size(); ++i) {
     activity.Is("reading " + arguments.sources[i]);
-    const SourcePictures pictures = PicturesOf(arguments.sources[i], arguments.recording, canvas);
+    SourcePictures pictures = PicturesOf(arguments.sources[i], arguments.recording);
+    if (!arguments.pictures.figures.empty()) pictures.film.clear();
+    const std::vector<report::Figure> figures =
+        Chosen(arguments.pictures, arguments.sources[i], std::move(pictures.figures));
     std::error_code error;
     fs::create_directories(folders[i], error);
     if (error || !fs::is_directory(folders[i])) {
       Refuse({folders[i].string()}, "cannot be made ({}); give a directory",
              error ? error.message() : "it is a file");
     }
-    for (const report::Figure& figure : pictures.figures) album.Draw(figure, folders[i]);
+    for (const report::Figure& figure : figures) {
+      album.Draw(figure, folders[i]);
+      if (arguments.data) album.WriteData(figure, folders[i]);
+    }
     album.DrawFilm(pictures.film, folders[i]);
+    if (pictures.estimate) {
+      const std::string name = fs::path(arguments.sources[i]).stem().string();
+      estimates.emplace_back(name, *std::move(pictures.estimate));
+    }
+  }
+  const bool all_figures = arguments.pictures.figures.empty();
+  if (const auto overlay = report::MakeOverlay(estimates); overlay && all_figures) {
+    album.Draw(*overlay, arguments.output);
+    if (arguments.data) album.WriteData(*overlay, arguments.output);
   }
   if (!arguments.sheet.empty()) album.WriteSheet(arguments.sheet);
   return ExitStatus::done;
@@ -126,7 +158,7 @@ ExitStatus PlotSources(const PlotArguments& arguments) {
 
 Command AddPlotCommand(CLI::App& program) {
   auto arguments = std::make_shared<PlotArguments>();
-  CLI::App* parser = program.add_subcommand("plot", "Pictures as PNG files");
+  CLI::App* parser = program.add_subcommand("plot", "Pictures as PNG, SVG or PDF files");
   parser
       ->add_option("SOURCE", arguments->sources,
                    "directory of `run` or `simulate`, estimate file, or `kernels` (normalised and "
@@ -141,9 +173,12 @@ Command AddPlotCommand(CLI::App& program) {
                    "data of an estimate, instead of the files that it remembers")
       ->type_name("RECORDING");
   AddLayoutOptions(*parser, arguments->recording);
+  AddPictureOptions(*parser, arguments->pictures);
+  parser->add_flag("--data", arguments->data,
+                   "also the series of each picture, before thinning, as NAME.csv");
   parser
       ->add_option("--sheet", arguments->sheet,
-                   "contact sheet (PNG): the first picture of each kind")
+                   "contact sheet: the first plot of the first figure of each kind")
       ->type_name("FILE");
   return {parser, [arguments, parser] {
             TakeProject(*parser, arguments->recording);

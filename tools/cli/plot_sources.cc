@@ -55,28 +55,29 @@ std::optional<Measurements> RecordingOf(const nlohmann::json& file, const fs::pa
 SourcePictures PicturesOfEstimate(const fs::path& path, const RecordingArguments& recording) {
   const nlohmann::json file = ReadJsonFile(path);
   Estimate estimate = EstimateFromJson(file, {path});
-  const auto view =
+  report::EstimateView view =
       report::MakeEstimateView(std::move(estimate), RecordingOf(file, path, recording));
-  return {Make(report::EstimateFigures(), view), {}};
+  SourcePictures pictures{Make(report::EstimateFigures(), view), {}};
+  pictures.estimate = std::move(view);
+  return pictures;
 }
 
-SourcePictures PicturesOfSimulation(const fs::path& directory, report::Canvas& canvas) {
+SourcePictures PicturesOfSimulation(const fs::path& directory) {
   const report::SimulationView view = report::ReadSimulationView(directory);
   SourcePictures pictures{Make(report::SimulationFigures(), view), {}};
-  if (auto robot = report::MakeWarmRobot(view, canvas.context())) {
-    pictures.figures.push_back(*std::move(robot));
-    pictures.film = report::MakeWarmRobotFilm(view, canvas.context(), kFilmFrames);
-  }
+  if (!report::HasWarmRobot(view)) return pictures;
+  const std::unique_ptr<report::GlContext> context = report::MakeGlContext();
+  pictures.figures.push_back(*report::MakeWarmRobot(view, *context));
+  pictures.film = report::MakeWarmRobotFilm(view, *context, kFilmFrames);
   return pictures;
 }
 
 }  // namespace
 
-SourcePictures PicturesOf(const std::string& source, const RecordingArguments& recording,
-                          report::Canvas& canvas) {
+SourcePictures PicturesOf(const std::string& source, const RecordingArguments& recording) {
   if (source == kKernelsSource && !fs::exists(source)) return {{report::MakeKernels()}, {}};
   if (fs::is_regular_file(source)) return PicturesOfEstimate(source, recording);
-  if (report::IsSimulation(source)) return PicturesOfSimulation(source, canvas);
+  if (report::IsSimulation(source)) return PicturesOfSimulation(source);
   return {Make(report::RunFigures(), report::ReadRunView(RunStore::OpenToRead(source))), {}};
 }
 

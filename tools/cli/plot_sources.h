@@ -2,12 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "tools/cli/recording_options.h"
 #include "tools/report/draw/figure.h"
-#include "tools/report/gl/canvas.h"
+#include "tools/report/estimate/estimate_view.h"
 
 namespace warmjoint::inline tools {
 
@@ -18,12 +19,12 @@ inline constexpr const char* kKernelsSource = "kernels";
 struct SourcePictures {
   std::vector<report::Figure> figures;
   std::vector<report::Figure> film;  // frames; empty where there is none
+  std::optional<report::EstimateView> estimate = std::nullopt;
 };
 
 /// A directory of `run` or `simulate`, an estimate file, or `kernels`. recording: in place of the
 /// one that an estimate file remembers, where given. Says on stderr what cannot be drawn.
 /// Throws BadInput.
-SourcePictures PicturesOf(const std::string& source, const RecordingArguments& recording,
-                          report::Canvas& canvas);
+SourcePictures PicturesOf(const std::string& source, const RecordingArguments& recording);
 
 }  // namespace warmjoint::inline tools

@@ -44,7 +44,8 @@ Estimate Identify(const PreparedLog& log, const IdentifySettings& settings) {
     const identification::PreparedLog& prepared = log.state().log;
     const models::Measurements& measurements = prepared.taken().measurements;
     const tools::IdentifyTask task = tools::CheckSettings(ToSettings(settings), measurements.joint);
-    identification::Estimate found = tools::IdentifyLog(task, prepared, ToHoldOut(settings));
+    identification::Estimate found =
+        tools::IdentifyLog(task, prepared, ToHoldOut(settings)).estimate;
     tools::TakeBackAmperes(measurements, found);
 
     // as a value

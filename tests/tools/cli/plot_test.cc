@@ -97,12 +97,32 @@ TEST(Plot, DrawsWhatASimulationAndItsEstimateTell) {
   const Answer plotted = Call({"plot", at("warm"), at("estimate.json"), "-o", at("both")});
   EXPECT_THAT(NamesOf(FilesOf(at("both/warm"))), UnorderedElementsAre("envelope.png"));
   const auto files = FilesOf(at("both/estimate"));
-  EXPECT_THAT(NamesOf(files), UnorderedElementsAre("fit.png", "friction_curve.png", "warm_up.png",
-                                                   "trace.png", "envelope.png"));
+  EXPECT_THAT(NamesOf(files),
+              UnorderedElementsAre("fit.png", "log.png", "predicted.png", "friction_curve.png",
+                                   "warm_up.png", "trace.png", "envelope.png"));
   // what the page of --plot says is what is said of it here
   const std::size_t begin = plotted.out.find("energy-ml: the numbers");
   const std::string finding = plotted.out.substr(begin, plotted.out.find('\n', begin) - begin);
   EXPECT_THAT(ReadWholeFile(at("fit.png")), HasSubstr(finding));
+}
+
+TEST(Plot, DrawsTheFigureThatThePaperNumbersInTheFormatAsked) {
+  const ScratchDirectory scratch;
+  const auto at = [&](const std::string& name) { return std::string(scratch.path() / name); };
+  for (const char* format : {"png", "svg", "pdf"}) {
+    Call({"plot", "kernels", "--figure", "3", "--format", format, "--style", "paper", "--size",
+          "180", "--title", "none", "--data", "-o", at(format)});
+    EXPECT_THAT(NamesOf(FilesOf(at(format))),
+                UnorderedElementsAre("kernels.csv", std::string("kernels.") + format));
+  }
+  EXPECT_THAT(FilesOf(at("svg")).at("kernels.csv"), HasSubstr("panel,series,kind,x,y"));
+
+  const Answer other = RunWarmjoint({"plot", "kernels", "--figure", "9", "-o", at("other")});
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.err, HasSubstr("figure 9 of the paper (motor_fit) needs an estimate with a map "
+                                   "over the motor's angle; this source gives: kernels"));
+  EXPECT_EQ(RunWarmjoint({"plot", "kernels", "--size", "5x5", "-o", at("other")}).status, 2);
+  EXPECT_FALSE(fs::exists(at("other")));
 }
 
 TEST(Plot, RefusesWhatIsNoSourceAndLeavesNothingBehind) {

@@ -12,12 +12,6 @@
 
 namespace warmjoint::report {
 
-/// The canvas of this test program.
-inline Canvas& TestCanvas() {
-  static Canvas canvas;
-  return canvas;
-}
-
 /// The plot of that title.
 inline const DrawnPlot& PlotNamed(const Drawn& drawn, const std::string& title) {
   for (const DrawnPlot& plot : drawn.plots) {
@@ -55,8 +49,7 @@ inline Pixel PixelOf(const DrawnPlot& plot, double x, double y, Scale x_scale = 
                      Scale y_scale = Scale::linear) {
   const double left = plot.area.left + plot.area.width() * Share(x, plot.x, x_scale);
   const double top = plot.area.bottom - plot.area.height() * Share(y, plot.y, y_scale);
-  return {static_cast<int>(Canvas::kPixelsPerPoint * left),
-          static_cast<int>(Canvas::kPixelsPerPoint * top)};
+  return {static_cast<int>(kPixelsPerPoint * left), static_cast<int>(kPixelsPerPoint * top)};
 }
 
 /// Largest difference of two colours in a channel, 0 ... 255.
@@ -77,9 +70,7 @@ inline bool HasColourNear(const Image& image, Pixel at, Rgb colour, int reach = 
 
 /// Share of pixels in a rectangle (points) that differ from the background.
 inline double Ink(const Image& image, const Rectangle& place, Rgb background) {
-  const auto pixel = [](float points) {
-    return static_cast<int>(Canvas::kPixelsPerPoint * points);
-  };
+  const auto pixel = [](double points) { return static_cast<int>(kPixelsPerPoint * points); };
   int inked = 0, all = 0;
   for (int y = pixel(place.top); y < pixel(place.bottom); ++y) {
     for (int x = pixel(place.left); x < pixel(place.right); ++x) {
@@ -96,8 +87,8 @@ inline double Ink(const Image& image, const Rectangle& place, Rgb background) {
 inline void ExpectTidy(const Figure& figure, const Drawn& drawn, const Theme& theme) {
   for (std::size_t i = 0; i < drawn.texts.size(); ++i) {
     const auto& [text, a] = drawn.texts[i];
-    EXPECT_TRUE(a.left >= 0 && a.top >= 0 && a.right <= static_cast<float>(figure.width) &&
-                a.bottom <= static_cast<float>(figure.height))
+    EXPECT_TRUE(a.left >= 0 && a.top >= 0 && a.right <= figure.width &&
+                kPixelsPerPoint * a.bottom <= drawn.image.height)
         << figure.name << ": '" << text << "' leaves the page";
     const bool blank = text.find_first_not_of(' ') == std::string::npos;
     EXPECT_TRUE(blank || Ink(drawn.image, a, theme.background) > 0.01)
@@ -129,14 +120,14 @@ inline void ExpectTidy(const Figure& figure, const Drawn& drawn, const Theme& th
 
 /// Draws the figure in the light theme and checks that it is tidy.
 inline Drawn DrawLight(const Figure& figure) {
-  Drawn light = DrawFigure(TestCanvas(), figure, LightTheme());
+  Drawn light = DrawFigure(figure, LightTheme());
   ExpectTidy(figure, light, LightTheme());
   return light;
 }
 
 /// Draws the figure in both themes and checks that it is tidy; returns the light one.
 inline Drawn DrawTidy(const Figure& figure) {
-  ExpectTidy(figure, DrawFigure(TestCanvas(), figure, DarkTheme()), DarkTheme());
+  ExpectTidy(figure, DrawFigure(figure, DarkTheme()), DarkTheme());
   return DrawLight(figure);
 }
 

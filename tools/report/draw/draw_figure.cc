@@ -1,5 +1,8 @@
 #include "tools/report/draw/draw_figure.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "tools/report/draw/draw_plot.h"
 #include "tools/report/draw/draw_words.h"
 #include "tools/report/draw/layout.h"
@@ -8,41 +11,56 @@
 namespace warmjoint::report {
 namespace {
 
-/// Title and subtitle of the figure; returns y below them.
-float DrawHead(Pen& pen, const Figure& figure) {
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  const float width = static_cast<float>(figure.width) - 2 * size::kMargin;
-  float y = size::kMargin - 4;
-  if (!figure.title.empty()) {
-    y += pen.Write(list, figure.title, {size::kTitle, true}, {size::kMargin, y}, pen.theme().text,
-                   width)
-             .y +
-         2;
-  }
-  if (!figure.subtitle.empty()) {
-    y += pen.Write(list, figure.subtitle, {size::kText}, {size::kMargin, y}, pen.theme().faint_text,
-                   width)
-             .y;
-  }
-  return y + 12;
+constexpr double kPointsPerMillimetre = 72 / 25.4;
+constexpr std::size_t kLargestVector = 300000;  // bytes
+constexpr double kCoarser = 1.4, kCoarsest = 4;
+constexpr Type kTitleType{size::kTitle, true}, kSubtitleType{size::kText};
+
+double WidthOfWords(const Figure& figure) { return figure.width - 2 * size::kMargin; }
+
+/// y below title and subtitle.
+double BelowHead(const Figure& figure) {
+  double y = size::kMargin - 4;
+  const double width = WidthOfWords(figure);
+  if (!figure.title.empty()) y += Measure(figure.title, kTitleType, width).height + 2;
+  if (!figure.subtitle.empty()) y += Measure(figure.subtitle, kSubtitleType, width).height;
+  return figure.title.empty() && figure.subtitle.empty() ? y : y + 12;
 }
 
-void DrawPanel(Pen& pen, const Panel& panel, const PanelPlace& place, int number) {
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  const auto* plot = std::get_if<Plot>(&panel.content);
-  // titles and legends start with the axis, or with the cell where the legend is long
-  float left = place.area.left;
-  if (plot && LegendHeight(pen, *plot, place.cell.right - left) >
-                  LegendHeight(pen, *plot, place.cell.width())) {
-    left = place.cell.left;
+void DrawHead(Pen& pen, const Figure& figure) {
+  double y = size::kMargin - 4;
+  const double width = WidthOfWords(figure);
+  if (!figure.title.empty()) {
+    const Point at{size::kMargin, y};
+    y += pen.Write(figure.title, kTitleType, at, pen.theme().text, width).height + 2;
   }
-  float y = place.cell.top;
+  if (!figure.subtitle.empty()) {
+    pen.Write(figure.subtitle, kSubtitleType, {size::kMargin, y}, pen.theme().faint_text, width);
+  }
+}
+
+void DrawPanel(Pen& pen, const Panel& panel, const PanelPlace& place) {
+  const auto* plot = std::get_if<Plot>(&panel.content);
+  const double right = place.cell.right;
+  // titles and legends start with the axis, or with the cell where they are long
+  double left = plot ? place.area.left : place.cell.left;
+  const Type type{size::kText, true};
+  const bool long_legend =
+      plot && LegendHeight(*plot, right - left) > LegendHeight(*plot, place.cell.width());
+  if (long_legend || Measure(panel.title, type).width > right - left) left = place.cell.left;
+  double y = place.cell.top;
   if (!panel.title.empty()) {
-    y += pen.Write(list, panel.title, {size::kText, true}, {left, y}, pen.theme().text).y + 4;
+    y += pen.Write(panel.title, type, {left, y}, pen.theme().text, place.cell.width()).height + 4;
+  }
+  if (panel.frame) {
+    constexpr double kBeside = 6, kWidth = 2;  // points
+    const Rectangle& c = place.cell;
+    pen.canvas().Outline({c.left - kBeside, c.top - kBeside, c.right + kBeside, c.bottom + kBeside},
+                         pen.theme().Colour(*panel.frame), kWidth);
   }
   if (plot) {
-    DrawLegend(pen, *plot, {left, y}, place.cell.right - left);
-    DrawPlot(pen, panel.title, *plot, place.area, place.cell.left + size::kText / 2 + 2, number);
+    DrawLegend(pen, *plot, {left, y}, right - left);
+    DrawPlot(pen, panel.title, *plot, place.area, place.cell.left + size::kText / 2 + 2);
   } else if (const auto* words = std::get_if<Words>(&panel.content)) {
     DrawWords(pen, *words, place.area);
   } else if (const auto* table = std::get_if<Table>(&panel.content)) {
@@ -52,42 +70,83 @@ void DrawPanel(Pen& pen, const Panel& panel, const PanelPlace& place, int number
   }
 }
 
-/// Pictures go into the finished pixels.
-void PastePictures(const Figure& figure, Drawn& drawn) {
-  auto place = drawn.pictures.begin();
+/// The figure with a height, once its width is known; refuses before anything is drawn.
+Figure Measured(Figure figure) {
   for (const Panel& panel : figure.panels) {
-    const auto* picture = std::get_if<Picture>(&panel.content);
-    if (!picture) continue;
-    const auto pixel = [](float points) {
-      return static_cast<int>(points * Canvas::kPixelsPerPoint + 0.5f);
-    };
-    Paste(picture->image, pixel(place->left), pixel(place->top), pixel(place->width()),
-          pixel(place->height()), drawn.image);
-    ++place;
+    if (const auto* plot = std::get_if<Plot>(&panel.content)) CheckAxes(*plot);
   }
+  if (figure.height == 0) figure.height = NaturalHeight(figure, BelowHead(figure));
+  return figure;
+}
+
+void Compose(Canvas& canvas, const Figure& figure, const Theme& theme, Drawn& drawn) {
+  Pen pen(canvas, theme, drawn);
+  const std::vector<PanelPlace> places = LayOut(figure, BelowHead(figure));
+  DrawHead(pen, figure);
+  for (std::size_t i = 0; i < places.size(); ++i) DrawPanel(pen, figure.panels[i], places[i]);
+}
+
+/// What a reader of a thinned picture must know; empty where every sample is drawn.
+std::string ThinningOf(const Drawn& drawn) {
+  const bool thinned = std::any_of(drawn.plots.begin(), drawn.plots.end(), [](const auto& plot) {
+    return std::any_of(plot.series.begin(), plot.series.end(),
+                       [](const auto& series) { return series.samples > series.points; });
+  });
+  if (!thinned) return "";
+  return " Long series are thinned; no extreme is lost.";
+}
+
+/// The figure on the page that the setting asks for.
+Figure OnPage(Figure figure, const PageSetting& setting) {
+  if (!setting.titled) {
+    figure.title.clear();
+    figure.subtitle.clear();
+  }
+  const double points = kPointsPerMillimetre / setting.style.scale;
+  const double width = setting.width > 0 ? setting.width : setting.style.width;
+  if (width > 0) figure.width = points * width;
+  if (setting.height > 0) figure.height = points * setting.height;
+  return figure;
 }
 
 }  // namespace
 
-Drawn DrawFigure(Canvas& canvas, const Figure& figure, const Theme& theme) {
-  // refuse before anything is drawn
-  for (const Panel& panel : figure.panels) {
-    if (const auto* plot = std::get_if<Plot>(&panel.content)) CheckAxes(*plot);
-  }
-
+Drawn DrawFigure(const Figure& figure, const Theme& theme) {
+  const Figure whole = Measured(figure);
+  Sheet sheet;
+  sheet.width = whole.width;
+  sheet.height = whole.height;
+  sheet.background = theme.background;
+  Canvas canvas(sheet);
   Drawn drawn;
-  drawn.image = canvas.Draw(figure.width, figure.height, theme.background, [&](const Brush& brush) {
-    // every frame draws it all: keep the record of the last
-    drawn = {};
-    Pen pen(brush, theme, drawn);
-    const float top = DrawHead(pen, figure);
-    const std::vector<PanelPlace> places = LayOut(pen, figure, top);
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      DrawPanel(pen, figure.panels[i], places[i], static_cast<int>(i));
-    }
-  });
-  PastePictures(figure, drawn);
+  Compose(canvas, whole, theme, drawn);
+  drawn.image = canvas.Pixels();
   return drawn;
+}
+
+PictureFile EncodeFigure(const Figure& figure, const PageSetting& setting) {
+  const Figure page = Measured(OnPage(figure, setting));
+  const Theme& theme = setting.style.theme();
+  const double scale = setting.style.scale;
+  Sheet sheet{setting.format,
+              page.width,
+              page.height,
+              scale,
+              setting.dpi > 0 ? setting.dpi : setting.style.dpi,
+              theme.background};
+  while (true) {
+    Canvas canvas(sheet);
+    Drawn drawn;
+    Compose(canvas, page, theme, drawn);
+    const std::string caption = figure.finding + ThinningOf(drawn);
+    std::string bytes = canvas.Finish({figure.title, caption});
+    // vector files of long recordings tell fewer places apart until they are small enough to be sent
+    const bool small = setting.format == FileFormat::png || bytes.size() <= kLargestVector;
+    if (small || sheet.coarseness > kCoarsest) {
+      return {std::move(bytes), caption, scale * page.width, scale * page.height};
+    }
+    sheet.coarseness *= kCoarser;
+  }
 }
 
 }  // namespace warmjoint::report

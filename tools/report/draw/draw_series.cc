@@ -1,13 +1,10 @@
 #include "tools/report/draw/draw_series.h"
 
-#include <implot.h>
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
 #include "tools/report/draw/reduce.h"
-#include "tools/report/draw/strokes.h"
 
 namespace warmjoint::report {
 namespace {
@@ -15,8 +12,8 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr std::size_t kCrowd = 50000;  // markers
-constexpr double kSpeck = 1.2;         // radius, points
+constexpr Index kCrowd = 2000;      // samples that are drawn one by one
+constexpr double kTouching = 0.52;  // radius of a stroke, in distances between them
 
 /// Values as the axis spaces them: logarithms where it is logarithmic, NaN where there is none.
 VectorXd OnAxis(const VectorXd& values, const Axis& axis) {
@@ -24,8 +21,8 @@ VectorXd OnAxis(const VectorXd& values, const Axis& axis) {
   return values.unaryExpr([](double v) { return v > 0 ? std::log10(v) : NAN; });
 }
 
-PixelSpan SpanOf(const Axis& axis, float points) {
-  const int count = std::max(1, static_cast<int>(points * Canvas::kPixelsPerPoint));
+CellSpan SpanOf(const Axis& axis, double points, double cell) {
+  const int count = std::max(1, static_cast<int>(points / cell));
   if (axis.scale == Scale::linear) return {axis.lower, axis.upper, count};
   return {std::log10(axis.lower), std::log10(axis.upper), count};
 }
@@ -33,176 +30,194 @@ PixelSpan SpanOf(const Axis& axis, float points) {
 /// Draws one series; one function for each shape.
 class Draughtsman {
  public:
-  Draughtsman(Pen& pen, const Plot& plot, const Series& series, const Rectangle& area)
-      : pen_(pen), plot_(plot), area_(area), list_(*ImPlot::GetPlotDrawList()) {
+  Draughtsman(Pen& pen, const Plot& plot, const Series& series, const Frame& frame)
+      : pen_(pen), plot_(plot), frame_(frame), canvas_(pen.canvas()) {
     drawn_.label = series.label;
     drawn_.colour = pen.theme().Colour(series.hue);
     drawn_.x = drawn_.y = {INFINITY, -INFINITY};
-    paint_ = Pen::Paint(drawn_.colour);
   }
 
   DrawnSeries Result() const { return drawn_; }
 
   void operator()(const Line& line) {
-    const auto chosen = ReduceCurve(OnAxis(line.x, plot_.x), OnAxis(line.y, plot_.y), AcrossSpan());
-    std::vector<ImVec2> path;
-    for (Index i : chosen) {
+    drawn_.samples = line.x.size();
+    std::vector<std::vector<Point>> paths(1);
+    for (Index i : CurveOf(line.x, line.y)) {
       // a gap, or what a logarithmic axis cannot show, ends the stroke
-      if (!Shown(line.x[i], line.y[i])) {
-        StrokePath(list_, path, paint_, static_cast<float>(line.width), line.dash);
-        path.clear();
-        continue;
+      if (Shown(line.x[i], line.y[i])) {
+        paths.back().push_back(Put(line.x[i], line.y[i]));
+      } else if (!paths.back().empty()) {
+        paths.emplace_back();
       }
-      path.push_back(Put(line.x[i], line.y[i]));
     }
-    StrokePath(list_, path, paint_, static_cast<float>(line.width), line.dash);
+    canvas_.Stroke(paths, drawn_.colour, line.width, line.dash);
   }
 
   void operator()(const Scatter& scatter) {
-    const auto chosen =
-        ReduceScatter(OnAxis(scatter.x, plot_.x), OnAxis(scatter.y, plot_.y), AcrossSpan(),
-                      SpanOf(plot_.y, area_.height()), scatter.size * Canvas::kPixelsPerPoint);
-    const ImU32 paint = Pen::Paint(drawn_.colour, scatter.opacity);
-    // in a crowd of specks nobody sees a shape, and squares draw three times as fast
-    const bool crowd = chosen.size() > kCrowd && scatter.size <= kSpeck;
-    const Marker marker = crowd ? Marker::square : scatter.marker;
-    for (Index i : chosen) {
-      StampMarker(list_, Put(scatter.x[i], scatter.y[i]), marker, static_cast<float>(scatter.size),
-                  paint);
+    drawn_.samples = scatter.x.size();
+    if (scatter.x.size() > kCrowd && scatter.marker == Marker::circle) return DrawCrowd(scatter);
+    std::vector<Point> centres;
+    for (Index i = 0; i < scatter.x.size(); ++i) {
+      if (Shown(scatter.x[i], scatter.y[i])) centres.push_back(Put(scatter.x[i], scatter.y[i]));
     }
+    canvas_.Stamp(centres, scatter.marker, scatter.size, drawn_.colour, scatter.opacity);
   }
 
   void operator()(const Band& band) {
+    drawn_.samples = band.x.size();
     // keep what either edge needs
-    auto chosen = ReduceCurve(OnAxis(band.x, plot_.x), OnAxis(band.lower, plot_.y), AcrossSpan());
-    const auto more =
-        ReduceCurve(OnAxis(band.x, plot_.x), OnAxis(band.upper, plot_.y), AcrossSpan());
+    const std::vector<Index> below = CurveOf(band.x, band.lower),
+                             above = CurveOf(band.x, band.upper);
     std::vector<Index> both;
-    std::set_union(chosen.begin(), chosen.end(), more.begin(), more.end(),
+    std::set_union(below.begin(), below.end(), above.begin(), above.end(),
                    std::back_inserter(both));
-    std::vector<double> x, lower, upper;
-    ImPlotSpec spec;
-    spec.FillColor = ImGui::ColorConvertU32ToFloat4(Pen::Paint(drawn_.colour, band.opacity));
-    spec.LineWeight = 0;
+    std::vector<Point> lower, upper;
     const auto fill = [&] {
-      if (x.size() > 1) {
-        ImPlot::PlotShaded("##band", x.data(), lower.data(), upper.data(),
-                           static_cast<int>(x.size()), spec);
-      }
-      for (auto* part : {&x, &lower, &upper}) part->clear();
+      lower.insert(lower.end(), upper.rbegin(), upper.rend());
+      canvas_.Fill(lower, drawn_.colour, band.opacity);
+      lower.clear();
+      upper.clear();
     };
     for (Index i : both) {
       // a gap ends the area, as it ends a line
-      if (!Shown(band.x[i], band.lower[i]) || !Shown(band.x[i], band.upper[i])) {
+      if (Shown(band.x[i], band.lower[i]) && Shown(band.x[i], band.upper[i])) {
+        lower.push_back(Put(band.x[i], band.lower[i]));
+        upper.push_back(Put(band.x[i], band.upper[i]));
+      } else {
         fill();
-        continue;
       }
-      Put(band.x[i], band.lower[i]);
-      Put(band.x[i], band.upper[i]);
-      x.push_back(band.x[i]);
-      lower.push_back(band.lower[i]);
-      upper.push_back(band.upper[i]);
     }
     fill();
   }
 
   void operator()(const Bars& bars) {
+    drawn_.samples = bars.x.size();
     const double base =
         plot_.y.scale == Scale::linear ? std::max(0.0, plot_.y.lower) : plot_.y.lower;
     for (Index i = 0; i < bars.x.size(); ++i) {
       if (!std::isfinite(bars.height[i])) continue;
-      const ImVec2 corner = Put(bars.x[i] - bars.width / 2, bars.height[i]);
-      const ImVec2 foot = Put(bars.x[i] + bars.width / 2, base);
-      list_.AddRectFilled({corner.x, std::min(corner.y, foot.y)},
-                          {foot.x, std::max(corner.y, foot.y)}, paint_);
+      const Point corner = Put(bars.x[i] - bars.width / 2, bars.height[i]);
+      const Point foot = Put(bars.x[i] + bars.width / 2, base);
+      canvas_.Fill(
+          Rectangle{corner.x, std::min(corner.y, foot.y), foot.x, std::max(corner.y, foot.y)},
+          drawn_.colour, bars.opacity);
     }
   }
 
   void operator()(const Box& box) {
+    constexpr double kThin = 1.3, kThick = 2.5, kDot = 1.8;  // points
     const double half = box.width / 2;
-    const ImVec2 low = Put(box.x, box.lower), high = Put(box.x, box.upper);
-    const ImVec2 corner = Put(box.x - half, box.q75), foot = Put(box.x + half, box.q25);
-    const ImVec2 middle = Put(box.x, box.median);
-    const float cap = 0.25f * (foot.x - corner.x);
+    const Point low = Put(box.x, box.lower), high = Put(box.x, box.upper);
+    const Point corner = Put(box.x - half, box.q75), foot = Put(box.x + half, box.q25);
+    const Point middle = Put(box.x, box.median);
+    const double cap = 0.25 * (foot.x - corner.x);
     for (const auto& [from, to] : {std::pair(low, foot), std::pair(high, corner)}) {
-      StrokeLine(list_, from, {from.x, to.y}, paint_, 1.3f);
-      StrokeLine(list_, {from.x - cap, from.y}, {from.x + cap, from.y}, paint_, 1.3f);
+      canvas_.Stroke(from, {from.x, to.y}, drawn_.colour, kThin);
+      canvas_.Stroke({from.x - cap, from.y}, {from.x + cap, from.y}, drawn_.colour, kThin);
     }
-    list_.AddRectFilled(corner, foot, Pen::Paint(drawn_.colour, 0.25));
-    const ImVec2 outline[] = {corner, {foot.x, corner.y}, foot, {corner.x, foot.y}};
-    list_.AddPolyline(outline, 4, paint_, ImDrawFlags_Closed, 1.3f);
-    StrokeLine(list_, {corner.x, middle.y}, {foot.x, middle.y}, paint_, 2.5f);
-    for (double value : box.outliers)
-      StampMarker(list_, Put(box.x, value), Marker::circle, 1.8f, paint_);
+    const Rectangle outline{corner.x, corner.y, foot.x, foot.y};
+    canvas_.Fill(outline, drawn_.colour, 0.25);
+    canvas_.Outline(outline, drawn_.colour, kThin);
+    canvas_.Stroke({corner.x, middle.y}, {foot.x, middle.y}, drawn_.colour, kThick);
+    std::vector<Point> outliers;
+    for (double value : box.outliers) outliers.push_back(Put(box.x, value));
+    canvas_.Stamp(outliers, Marker::circle, kDot, drawn_.colour);
   }
 
   void operator()(const HeatMap& map) {
-    const double across = (map.x.second - map.x.first) / static_cast<double>(map.values.cols());
-    const double up = (map.y.second - map.y.first) / static_cast<double>(map.values.rows());
-    for (Index row = 0; row < map.values.rows(); ++row) {
-      for (Index column = 0; column < map.values.cols(); ++column) {
-        const double value = map.values(row, column);
-        if (!std::isfinite(value)) continue;
-        const double x = map.x.first + across * static_cast<double>(column);
-        const double y = map.y.first + up * static_cast<double>(row);
-        const ImVec2 corner = Put(x, y + up), foot = Put(x + across, y);
-        const double fraction =
-            (value - map.colours.first) / (map.colours.second - map.colours.first);
-        list_.AddRectFilled(corner, foot, Pen::Paint(HeatColour(fraction)));
-      }
-    }
+    Put(map.x.first, map.y.first);
+    Put(map.x.second, map.y.second);
+    const auto cell = [](double value, const std::pair<double, double>& range, Index count) {
+      const double share = (value - range.first) / (range.second - range.first);
+      return share >= 0 && share <= 1
+                 ? std::min(count - 1, static_cast<Index>(share * static_cast<double>(count)))
+                 : Index{-1};
+    };
+    canvas_.Paint(frame_.area(), [&](Point p) -> std::optional<Rgb> {
+      const Index column = cell(frame_.ValueX(p), map.x, map.values.cols());
+      const Index row = cell(frame_.ValueY(p), map.y, map.values.rows());
+      if (column < 0 || row < 0 || !std::isfinite(map.values(row, column))) return std::nullopt;
+      const double above = map.values(row, column) - map.colours.first;
+      return HeatColour(above / (map.colours.second - map.colours.first));
+    });
   }
 
   void operator()(const LevelLine& level) {
-    std::vector<ImVec2> path;
+    std::vector<Point> path;
     if (level.vertical) {
       path = {Put(level.value, plot_.y.lower), Put(level.value, plot_.y.upper)};
     } else {
       path = {Put(plot_.x.lower, level.value), Put(plot_.x.upper, level.value)};
     }
-    StrokePath(list_, path, paint_, static_cast<float>(level.width), level.dash);
+    canvas_.Stroke({path}, drawn_.colour, level.width, level.dash);
   }
 
   void operator()(const Note& note) {
     const Type type{size::kTick};
-    const ImVec2 extent = pen_.Measure(note.text, type);
-    const ImVec2 at = Put(note.x, note.y);
-    const float shift = note.side == Side::left ? 0 : note.side == Side::centre ? 0.5f : 1;
-    pen_.Write(list_, note.text, type, {at.x - shift * extent.x, at.y - extent.y / 2},
+    const Extent extent = Measure(note.text, type);
+    const Point at = Put(note.x, note.y);
+    const double shift = note.side == Side::left ? 0 : note.side == Side::centre ? 0.5 : 1;
+    pen_.Write(note.text, type, {at.x - shift * extent.width, at.y - extent.height / 2},
                drawn_.colour);
   }
 
  private:
+  /// So many samples that they are drawn as strokes of a pen as wide as their markers.
+  void DrawCrowd(const Scatter& scatter) {
+    const double cell = canvas_.cell();
+    // markers so near leave notches between them that nobody sees: 6 % of their radius
+    const double reach = std::max(1.0, 0.7 * scatter.size / cell);
+    const Rectangle& area = frame_.area();
+    const CellSpan columns = SpanOf(plot_.x, area.width(), cell);
+    const CellSpan rows = SpanOf(plot_.y, area.height(), cell);
+    const double width = area.width() / columns.count;
+    const VectorXd x = OnAxis(scatter.x, plot_.x), y = OnAxis(scatter.y, plot_.y);
+    std::vector<std::pair<Point, Point>> strokes;
+    for (const auto& [from, to] : ReduceCloud(x, y, columns, rows, reach)) {
+      Point begin = Put(scatter.x[from], scatter.y[from]);
+      Point end = begin;
+      if (to != from) {
+        // strokes stand side by side in the middles of their columns
+        end = Put(scatter.x[to], scatter.y[to]);
+        begin.x = end.x = area.left + (std::floor((begin.x - area.left) / width) + 0.5) * width;
+      }
+      strokes.emplace_back(begin, end);
+    }
+    // neighbouring strokes touch
+    const double radius = std::max(scatter.size, kTouching * cell);
+    canvas_.Brush(strokes, radius, drawn_.colour, scatter.opacity);
+  }
+
+  std::vector<Index> CurveOf(const VectorXd& x, const VectorXd& y) const {
+    return ReduceCurve(OnAxis(x, plot_.x), OnAxis(y, plot_.y),
+                       SpanOf(plot_.x, frame_.area().width(), canvas_.cell()));
+  }
+
   bool Shown(double x, double y) const {
     return std::isfinite(x) && std::isfinite(y) && (plot_.x.scale == Scale::linear || x > 0) &&
            (plot_.y.scale == Scale::linear || y > 0);
   }
 
-  PixelSpan AcrossSpan() const { return SpanOf(plot_.x, area_.width()); }
-
   /// The place of a data point on the page; remembered in the result.
-  ImVec2 Put(double x, double y) {
+  Point Put(double x, double y) {
     ++drawn_.points;
     drawn_.x = {std::min(drawn_.x.first, x), std::max(drawn_.x.second, x)};
     drawn_.y = {std::min(drawn_.y.first, y), std::max(drawn_.y.second, y)};
-    return ImPlot::PlotToPixels(x, y);
+    return frame_.Put(x, y);
   }
 
   Pen& pen_;
   const Plot& plot_;
-  const Rectangle& area_;
-  ImDrawList& list_;
-  ImU32 paint_ = 0;
+  const Frame& frame_;
+  Canvas& canvas_;
   DrawnSeries drawn_;
 };
 
 }  // namespace
 
-DrawnSeries DrawSeries(Pen& pen, const Plot& plot, const Series& series, const Rectangle& area) {
-  Draughtsman draughtsman(pen, plot, series, area);
-  ImPlot::PushPlotClipRect();
+DrawnSeries DrawSeries(Pen& pen, const Plot& plot, const Series& series, const Frame& frame) {
+  Draughtsman draughtsman(pen, plot, series, frame);
   std::visit(draughtsman, series.shape);
-  ImPlot::PopPlotClipRect();
   return draughtsman.Result();
 }
 

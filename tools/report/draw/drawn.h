@@ -5,17 +5,10 @@
 #include <vector>
 
 #include "tools/report/draw/figure.h"
+#include "tools/report/draw/place.h"
 #include "tools/report/gl/image.h"
 
 namespace warmjoint::report {
-
-/// A rectangle in points, y downwards.
-struct Rectangle {
-  float left = 0, top = 0, right = 0, bottom = 0;
-
-  float width() const { return right - left; }
-  float height() const { return bottom - top; }
-};
 
 struct DrawnText {
   std::string text;
@@ -26,7 +19,8 @@ struct DrawnText {
 struct DrawnSeries {
   std::string label;
   Rgb colour;
-  Eigen::Index points = 0;            // after reduction
+  Eigen::Index samples = 0;           // before reduction
+  Eigen::Index points = 0;            // after it
   std::pair<double, double> x{0, 0};  // lowest and highest
   std::pair<double, double> y{0, 0};
 };

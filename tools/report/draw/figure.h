@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -62,6 +63,7 @@ struct Bars {
   Eigen::VectorXd x;  // centres
   Eigen::VectorXd height;
   double width = 0.8;
+  double opacity = 1;
 };
 
 /// A box plot of one sample.
@@ -142,17 +144,22 @@ struct Panel {
   int column = 0;
   int row_span = 1;
   int column_span = 1;
+  std::optional<Hue> frame = std::nullopt;  // around what a reader must not miss
 };
 
+/// One width for all figures: side by side they have words of one size.
+inline constexpr double kPageWidth = 960;  // points
+
 struct Figure {
-  std::string name;      // of the file, without .png
-  std::string title;     // what is shown
-  std::string subtitle;  // conditions: suite, realizations, ...
-  std::string finding;   // one sentence that says what one sees: the alt text
-  int width = 800;       // points; the picture has twice as many pixels
-  int height = 500;
-  std::vector<double> rows{1};  // relative heights
-  std::vector<double> columns{1};
+  std::string name;           // of the file, without its end
+  std::string title;          // what is shown
+  std::string subtitle;       // conditions: suite, realizations, ...
+  std::string finding;        // one sentence that says what one sees: the alt text
+  double width = kPageWidth;  // points
+  double height = 500;        // points; 0: what the rows need, which then are points
+  /// Relative heights; 0: what the row's words and tables need.
+  std::vector<double> rows{1};
+  std::vector<double> columns{1};  // relative widths
   std::vector<Panel> panels;
 };
 

@@ -4,19 +4,21 @@
 #include <vector>
 
 #include "tools/report/draw/figure.h"
-#include "tools/report/draw/pen.h"
+#include "tools/report/draw/place.h"
 
 namespace warmjoint::report {
 
 /// Rectangles of one panel, points.
 struct PanelPlace {
-  Rectangle cell;     // all of it
-  float content = 0;  // y below title and legend
-  Rectangle area;     // between the axes, for plots; else what lies below the title
+  Rectangle cell;  // all of it
+  Rectangle area;  // between the axes, for plots; else what lies below the title
 };
 
+/// Height of a figure whose rows have heights of their own, points. top: y below its title.
+double NaturalHeight(const Figure& figure, double top);
+
 /// One place for each panel. Plots of a column share their left and right edges, plots of a row
-/// their upper and lower ones. top: y below the figure's title.
-std::vector<PanelPlace> LayOut(const Pen& pen, const Figure& figure, float top);
+/// their upper and lower ones. Throws BadInput where a plot would have no room.
+std::vector<PanelPlace> LayOut(const Figure& figure, double top);
 
 }  // namespace warmjoint::report

@@ -1,6 +1,7 @@
 // The legend stands above the plot, where it cannot hide data.
+#include <algorithm>
+
 #include "tools/report/draw/draw_plot.h"
-#include "tools/report/draw/strokes.h"
 
 namespace warmjoint::report {
 namespace {
@@ -10,45 +11,44 @@ constexpr Type kType{size::kTick};
 /// The sample in front of a legend's words.
 class Key {
  public:
-  Key(ImDrawList& list, Rgb colour, ImVec2 left_middle)
-      : list_(list), colour_(colour), paint_(Pen::Paint(colour)), at_(left_middle) {}
+  Key(Canvas& canvas, Rgb colour, Point left_middle)
+      : canvas_(canvas), colour_(colour), at_(left_middle) {}
 
-  void operator()(const Line& line) { Stroke(static_cast<float>(line.width), line.dash); }
-  void operator()(const LevelLine& level) { Stroke(static_cast<float>(level.width), level.dash); }
+  void operator()(const Line& line) { Stroke(line.width, line.dash); }
+  void operator()(const LevelLine& level) { Stroke(level.width, level.dash); }
   void operator()(const Scatter& scatter) {
-    StampMarker(list_, {at_.x + size::kLegendKey / 2, at_.y}, scatter.marker,
-                std::max(2.5f, static_cast<float>(scatter.size)), paint_);
+    canvas_.Stamp({{at_.x + size::kLegendKey / 2, at_.y}}, scatter.marker,
+                  std::max(2.5, scatter.size), colour_);
   }
   void operator()(const Band& band) { Patch(band.opacity); }
-  void operator()(const Bars&) { Patch(1); }
+  void operator()(const Bars& bars) { Patch(bars.opacity); }
   void operator()(const Box&) { Patch(0.6); }
   void operator()(const HeatMap&) {}
   void operator()(const Note&) {}
 
  private:
-  void Stroke(float width, Dash dash) {
-    StrokePath(list_, {at_, {at_.x + size::kLegendKey, at_.y}}, paint_, width, dash);
+  void Stroke(double width, Dash dash) {
+    canvas_.Stroke({{at_, {at_.x + size::kLegendKey, at_.y}}}, colour_, width, dash);
   }
   void Patch(double opacity) {
-    list_.AddRectFilled({at_.x + 3, at_.y - 4}, {at_.x + size::kLegendKey - 3, at_.y + 4},
-                        Pen::Paint(colour_, opacity));
+    canvas_.Fill(Rectangle{at_.x + 3, at_.y - 4, at_.x + size::kLegendKey - 3, at_.y + 4}, colour_,
+                 opacity);
   }
 
-  ImDrawList& list_;
+  Canvas& canvas_;
   Rgb colour_;
-  ImU32 paint_;
-  ImVec2 at_;
+  Point at_;
 };
 
 /// Calls put(series, x, y) for each entry, from (0, 0), in lines; returns the height.
 template <typename Put>
-float Arrange(const Pen& pen, const Plot& plot, float width, const Put& put) {
-  float x = 0, y = 0, line = 0;
+double Arrange(const Plot& plot, double width, const Put& put) {
+  double x = 0, y = 0, line = 0;
   for (const Series& series : plot.series) {
     if (series.label.empty()) continue;
-    const ImVec2 words = pen.Measure(series.label, kType);
-    const float entry = size::kLegendKey + size::kPad + words.x;
-    line = words.y + 3;
+    const Extent words = Measure(series.label, kType);
+    const double entry = size::kLegendKey + size::kPad + words.width;
+    line = words.height + 3;
     if (x > 0 && x + entry > width) {
       x = 0;
       y += line;
@@ -61,17 +61,16 @@ float Arrange(const Pen& pen, const Plot& plot, float width, const Put& put) {
 
 }  // namespace
 
-float LegendHeight(const Pen& pen, const Plot& plot, float width) {
-  return Arrange(pen, plot, width, [](const Series&, float, float) {});
+double LegendHeight(const Plot& plot, double width) {
+  return Arrange(plot, width, [](const Series&, double, double) {});
 }
 
-void DrawLegend(Pen& pen, const Plot& plot, ImVec2 at, float width) {
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  Arrange(pen, plot, width, [&](const Series& series, float x, float y) {
+void DrawLegend(Pen& pen, const Plot& plot, Point at, double width) {
+  Arrange(plot, width, [&](const Series& series, double x, double y) {
     const Rgb colour = pen.theme().Colour(series.hue);
-    const float middle = at.y + y + size::kTick * 0.58f;
-    std::visit(Key(list, colour, {at.x + x, middle}), series.shape);
-    pen.Write(list, series.label, kType, {at.x + x + size::kLegendKey + size::kPad, at.y + y},
+    const double middle = at.y + y + size::kTick * 0.58;
+    std::visit(Key(pen.canvas(), colour, {at.x + x, middle}), series.shape);
+    pen.Write(series.label, kType, {at.x + x + size::kLegendKey + size::kPad, at.y + y},
               pen.theme().text);
   });
 }

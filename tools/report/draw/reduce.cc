@@ -10,7 +10,7 @@ namespace {
 using Eigen::Index;
 
 /// Cell of a value; -1 below the shown part or NaN, `count` above it.
-int CellOf(double value, const PixelSpan& span) {
+int CellOf(double value, const CellSpan& span) {
   const double place = (value - span.lower) / (span.upper - span.lower);
   if (!(place >= 0)) return -1;
   if (place > 1) return span.count;
@@ -37,42 +37,38 @@ void AddColumn(const Eigen::VectorXd& y, Index begin, Index end, std::vector<Ind
   chosen.insert(chosen.end(), marks.begin(), marks.end());
 }
 
-/// Which pixels of a plot have a marker.
-class TakenPixels {
+/// The lowest and the highest sample of each cell.
+class Cells {
  public:
-  TakenPixels(int columns, int rows)
-      : columns_(columns), rows_(rows), taken_(static_cast<std::size_t>(columns) * rows) {}
-
-  /// Whether the pixel is in the plot and had no marker before.
-  bool Take(int column, int row) {
-    if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return false;
-    const std::size_t cell = static_cast<std::size_t>(row) * columns_ + column;
-    if (taken_[cell]) return false;
-    return taken_[cell] = true;
-  }
-
-  /// Whether the marker of a pixel is below those of even rows and columns about it.
-  bool Covers(int column, int row) const {
-    if (column % 2 == 0 && row % 2 == 0) return false;
-    if (column == 0 || row == 0 || column + 1 >= columns_ || row + 1 >= rows_) return false;
-    for (int r = row - 1; r <= row + 1; ++r) {
-      for (int c = column - 1; c <= column + 1; ++c) {
-        if (!taken_[static_cast<std::size_t>(r) * columns_ + c]) return false;
-      }
+  Cells(const Eigen::VectorXd& x, const Eigen::VectorXd& y, const CellSpan& columns,
+        const CellSpan& rows)
+      : rows_(rows.count),
+        extremes_(static_cast<std::size_t>(columns.count) * rows.count, {-1, -1}) {
+    for (Index i = 0; i < x.size(); ++i) {
+      const int column = CellOf(x[i], columns), row = CellOf(y[i], rows);
+      if (column < 0 || row < 0 || column >= columns.count || row >= rows.count) continue;
+      auto& [low, high] = extremes_[Place(column, row)];
+      if (low < 0 || y[i] < y[low]) low = i;
+      if (high < 0 || y[i] > y[high]) high = i;
     }
-    return true;
   }
+
+  /// (-1, -1) where the cell has none.
+  std::pair<Index, Index> At(int column, int row) const { return extremes_[Place(column, row)]; }
 
  private:
-  int columns_;
+  std::size_t Place(int column, int row) const {
+    return static_cast<std::size_t>(column) * rows_ + row;
+  }
+
   int rows_;
-  std::vector<bool> taken_;
+  std::vector<std::pair<Index, Index>> extremes_;
 };
 
 }  // namespace
 
 std::vector<Index> ReduceCurve(const Eigen::VectorXd& x, const Eigen::VectorXd& y,
-                               const PixelSpan& columns) {
+                               const CellSpan& columns) {
   const Index n = x.size();
   std::vector<Index> chosen;
   if (n < 4 * Index{columns.count} || !std::is_sorted(x.begin(), x.end())) {
@@ -90,18 +86,24 @@ std::vector<Index> ReduceCurve(const Eigen::VectorXd& x, const Eigen::VectorXd& 
   return chosen;
 }
 
-std::vector<Index> ReduceScatter(const Eigen::VectorXd& x, const Eigen::VectorXd& y,
-                                 const PixelSpan& columns, const PixelSpan& rows, double radius) {
-  TakenPixels taken(columns.count, rows.count);
-  std::vector<Index> chosen;
-  for (Index i = 0; i < x.size(); ++i) {
-    if (taken.Take(CellOf(x[i], columns), CellOf(y[i], rows))) chosen.push_back(i);
+std::vector<std::pair<Index, Index>> ReduceCloud(const Eigen::VectorXd& x, const Eigen::VectorXd& y,
+                                                 const CellSpan& columns, const CellSpan& rows,
+                                                 double reach) {
+  const Cells cells(x, y, columns, rows);
+  std::vector<std::pair<Index, Index>> strokes;
+  const double apart = reach * (rows.upper - rows.lower) / rows.count;  // in units of y
+  for (int column = 0; column < columns.count; ++column) {
+    Index last = -1;
+    for (int row = 0; row < rows.count; ++row) {
+      const auto [low, high] = cells.At(column, row);
+      if (low < 0) continue;
+      const bool goes_on = last >= 0 && y[low] - y[last] <= apart;
+      if (!goes_on) strokes.emplace_back(low, high);
+      strokes.back().second = high;
+      last = high;
+    }
   }
-  constexpr double kCovering = 1.4;  // pixels to the next in the other rows and columns
-  if (radius < kCovering) return chosen;
-  std::erase_if(chosen,
-                [&](Index i) { return taken.Covers(CellOf(x[i], columns), CellOf(y[i], rows)); });
-  return chosen;
+  return strokes;
 }
 
 }  // namespace warmjoint::report

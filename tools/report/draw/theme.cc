@@ -48,6 +48,18 @@ const Theme& DarkTheme() {
   return theme;
 }
 
+const Theme& PaperTheme() {
+  static const Theme theme = [] {
+    Theme paper = LightTheme();
+    paper.name = "paper";
+    paper.text = paper.faint_text = paper.axis =
+        paper.hues[static_cast<int>(Hue::text)] = {0, 0, 0};
+    paper.hues[static_cast<int>(Hue::grey)] = {115, 115, 115};
+    return paper;
+  }();
+  return theme;
+}
+
 Hue IdentifierHue(std::string_view identifier) {
   static constexpr std::pair<std::string_view, Hue> kKnown[] = {
       {"nominal-ls", Hue::grey},      {"energy-em", Hue::vermilion},

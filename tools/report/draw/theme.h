@@ -26,21 +26,23 @@ struct Theme {
 
 const Theme& LightTheme();
 const Theme& DarkTheme();
+/// Light, with words and axes in black: for print.
+const Theme& PaperTheme();
 
 /// The hue of an identifier, the same in every figure: fixed for those that come with the program.
 Hue IdentifierHue(std::string_view identifier);
 
-/// Sizes in points (1/2 pixel of the picture).
+/// Sizes in points.
 namespace size {
-inline constexpr float kTitle = 16;
-inline constexpr float kText = 12;
-inline constexpr float kTick = 11;
-inline constexpr float kPad = 6;         // between neighbouring things
-inline constexpr float kMargin = 16;     // around the figure
-inline constexpr float kGap = 20;        // between panels
-inline constexpr float kTickMark = 4;    // length
-inline constexpr float kLegendKey = 20;  // length of the sample in a legend
-inline constexpr float kColourBar = 12;  // width
+inline constexpr double kTitle = 16;
+inline constexpr double kText = 12;
+inline constexpr double kTick = 11;
+inline constexpr double kPad = 6;         // between neighbouring things
+inline constexpr double kMargin = 16;     // around the figure
+inline constexpr double kGap = 20;        // between panels
+inline constexpr double kTickMark = 4;    // length
+inline constexpr double kLegendKey = 20;  // length of the sample in a legend
+inline constexpr double kColourBar = 12;  // width
 }  // namespace size
 
 }  // namespace warmjoint::report

@@ -10,17 +10,18 @@
 #include "tools/report/figures/fit_page.h"
 #include "tools/report/figures/fit_panels.h"
 #include "tools/report/figures/friction_map.h"
+#include "tools/report/figures/log_figure.h"
 #include "tools/report/figures/motor_angle.h"
+#include "tools/report/figures/predicted.h"
 #include "tools/report/figures/single_plot.h"
 
 namespace warmjoint::report {
 namespace {
 
-constexpr int kWidth = 720, kHeight = 440;  // points
-
 std::string ValuesOf(const Estimate& estimate) {
   std::string text;
   for (const EstimatedParameter& parameter : estimate.parameters) {
+    if (parameter.unit == "1") continue;  // the paper's discrete ones say nothing here
     text += fmt::format(" {} {} {},", parameter.name, SignificantText(parameter.value),
                         UnitText(parameter.unit));
   }
@@ -50,7 +51,7 @@ std::optional<Figure> CurveOf(const EstimateView& view) {
       {"friction_curve", "Friction over velocity",
        OriginOf(*view.fit) + (has_band ? "; bands are 95 % intervals of the curve" : ""),
        "Friction over velocity from these parameters:" + ValuesOf(view.estimate)},
-      plot, kWidth, kHeight);
+      plot);
 }
 
 std::optional<Figure> WarmUpOf(const EstimateView& view) {
@@ -60,7 +61,7 @@ std::optional<Figure> WarmUpOf(const EstimateView& view) {
       "Friction changes by E = {} {} at most, after {} {}.", SignificantText(WarmestEnergy(fit)),
       fit.torque_unit, SignificantText(WarmestTime(fit) / TimeUnit(fit)), TimeUnitName(fit));
   return SinglePlot({"warm_up", "Change of friction by its own heat", OriginOf(fit), finding},
-                    WarmUpCurve(fit), kWidth, kHeight);
+                    WarmUpCurve(fit));
 }
 
 std::optional<Figure> TraceOf(const EstimateView& view) {
@@ -68,7 +69,8 @@ std::optional<Figure> TraceOf(const EstimateView& view) {
 }
 
 std::optional<Figure> EnvelopeOf(const EstimateView& view) {
-  if (!view.fit) return std::nullopt;
+  // without a warming that was found, a guess of one means nothing
+  if (!view.fit || !view.fit->warms()) return std::nullopt;
   return MakeEnvelope(view.fit->source, *view.measurements, view.fit->selection, std::nullopt);
 }
 
@@ -77,7 +79,19 @@ std::optional<Figure> MotorAngleOf(const EstimateView& view) {
 }
 
 std::optional<Figure> MotorMapOf(const EstimateView& view) {
-  return view.fit ? MakeMotorMapFit(*view.fit) : std::nullopt;
+  return view.fit ? MakeMotorMap(*view.fit) : std::nullopt;
+}
+
+std::optional<Figure> MotorFitOf(const EstimateView& view) {
+  return view.fit ? MakeMotorFit(*view.fit) : std::nullopt;
+}
+
+std::optional<Figure> LogOf(const EstimateView& view) {
+  return view.fit ? std::optional(MakeLogFigure(*view.fit)) : std::nullopt;
+}
+
+std::optional<Figure> PredictedOf(const EstimateView& view) {
+  return view.fit ? MakePredicted(*view.fit) : std::nullopt;
 }
 
 std::optional<Figure> FrictionMapOf(const EstimateView& view) {
@@ -99,12 +113,15 @@ EstimateView MakeEstimateView(Estimate estimate, std::optional<Measurements> mea
 const std::vector<EstimateFigure>& EstimateFigures() {
   static const std::vector<EstimateFigure> figures{
       {"fit", "the story of one recording on one page", &FitPageOf},
+      {"log", "the recording with its kept segments", &LogOf},
+      {"predicted", "predicted torque over measured torque", &PredictedOf},
       {"friction_curve", "friction over velocity, cold and warm, with its band", &CurveOf},
       {"warm_up", "E over time with its interval", &WarmUpOf},
       {"trace", "parameters by iteration", &TraceOf},
       {"envelope", "the recording's envelope and the first guess", &EnvelopeOf},
       {"motor_angle", "torque over motor angle", &MotorAngleOf},
-      {"motor_map", "the fit with kernels over motor angle", &MotorMapOf},
+      {"motor_map", "the map over motor angle", &MotorMapOf},
+      {"motor_fit", "torque in time with and without that map", &MotorFitOf},
       {"friction_map", "friction over angle and velocity, cold and warm", &FrictionMapOf},
   };
   return figures;

@@ -6,7 +6,7 @@
 #include "tools/report/draw/ticks.h"
 #include "tools/report/estimate/estimate_figures.h"
 #include "tools/report/figures/axes.h"
-#include "tools/report/run/run_figures.h"
+#include "tools/report/figures/symbols.h"
 
 namespace warmjoint::report {
 namespace {
@@ -52,6 +52,16 @@ Eigen::VectorXd ValuesOf(const Estimate& estimate, const std::string& name) {
   return values;
 }
 
+/// The names as laws and warming list their parameters; others behind them.
+std::vector<std::string> InOrderOfTheLaw(const TraceEntry& entry) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : entry.parameters) names.push_back(name);
+  std::stable_sort(names.begin(), names.end(), [](const std::string& a, const std::string& b) {
+    return PlaceInLaws(a) < PlaceInLaws(b);
+  });
+  return names;
+}
+
 /// " (N·m)", the unit of its torques; nothing where no parameter tells.
 std::string TorqueUnitIn(const Estimate& estimate) {
   for (const EstimatedParameter& parameter : estimate.parameters) {
@@ -77,18 +87,18 @@ std::optional<Figure> MakeTrace(const Estimate& estimate, const std::string& wha
   figure.name = "trace";
   figure.title = fmt::format("Parameters by iteration: {}", estimate.identifier);
   figure.subtitle = what;
-  figure.width = 960;
-  figure.columns = {1, 1};
+  constexpr int kAcross = 3;
+  figure.columns.assign(kAcross, 1);
   figure.rows.clear();
   const auto add = [&](const std::string& title, const Plot& plot) {
     const auto place = static_cast<int>(figure.panels.size());
-    if (place % 2 == 0) figure.rows.push_back(1);
-    figure.panels.push_back({title, plot, place / 2, place % 2});
+    if (place % kAcross == 0) figure.rows.push_back(200);
+    figure.panels.push_back({title, plot, place / kAcross, place % kAcross});
   };
 
   const Hue hue = IdentifierHue(estimate.identifier);
   figure.finding = "From the first iteration to the last:";
-  for (const auto& [name, value] : estimate.trace.back().parameters) {
+  for (const std::string& name : InOrderOfTheLaw(estimate.trace.back())) {
     const Eigen::VectorXd values = ValuesOf(estimate, name);
     const EstimatedParameter* parameter = estimate.Find(name);
     // numbers without a dimension have the unit 1
@@ -96,7 +106,7 @@ std::optional<Figure> MakeTrace(const Estimate& estimate, const std::string& wha
     const std::string unit = has_unit ? fmt::format(" ({})", UnitText(parameter->unit)) : "";
     Plot plot = CourseOf(iteration, values, hue, SymbolOf(name) + unit);
     if (parameter) AddInterval(plot, *parameter, hue);
-    add(name, plot);
+    add(NameWithSymbol(name), plot);
     figure.finding += fmt::format(" {} {} to {},", name, SignificantText(values[0]),
                                   SignificantText(values[steps - 1]));
   }
@@ -104,7 +114,7 @@ std::optional<Figure> MakeTrace(const Estimate& estimate, const std::string& wha
   course.y = MagnitudeAxis(course.y.label, {rmse});
   add("Root mean square error of the fit", course);
   figure.finding.back() = '.';
-  figure.height = 80 + 250 * static_cast<int>(figure.rows.size());
+  figure.height = 0;
   return figure;
 }
 

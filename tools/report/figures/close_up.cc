@@ -17,19 +17,32 @@ Eigen::Index ShortSpan(const FitView& view) {
   return std::max<Eigen::Index>(std::min<Eigen::Index>(view.time.size(), 3), view.time.size() / 12);
 }
 
+/// Segments of a window: so many, or half of few.
+std::size_t CountOf(std::size_t all, int wanted) {
+  return std::clamp<std::size_t>(all / 2, 1, static_cast<std::size_t>(wanted));
+}
+
+/// A twentieth more at either end, where the recording has it: what was left out shows.
+Window Around(const FitView& view, Eigen::Index begin, Eigen::Index end) {
+  const Eigen::Index spare = (end - begin) / 20;
+  return {std::max<Eigen::Index>(0, begin - spare), std::min(view.time.size(), end + spare)};
+}
+
 }  // namespace
 
 Window ColdWindow(const FitView& view, int segments) {
   const auto& all = view.selection.segments;
-  if (all.size() < 2 * static_cast<std::size_t>(segments)) return {0, ShortSpan(view)};
-  return {all.front().begin, all[static_cast<std::size_t>(segments) - 1].end};
+  if (all.empty()) return {0, ShortSpan(view)};
+  const std::size_t count = CountOf(all.size(), segments);
+  return Around(view, all.front().begin, all[count - 1].end);
 }
 
 Window WarmWindow(const FitView& view, int segments) {
   const auto& all = view.selection.segments;
   const Eigen::Index n = view.time.size();
-  if (all.size() < 2 * static_cast<std::size_t>(segments)) return {n - ShortSpan(view), n};
-  return {all[all.size() - static_cast<std::size_t>(segments)].begin, all.back().end};
+  if (all.empty()) return {n - ShortSpan(view), n};
+  const std::size_t count = CountOf(all.size(), segments);
+  return Around(view, all[all.size() - count].begin, all.back().end);
 }
 
 std::pair<double, double> TorqueLimits(const FitView& view, const Window& a, const Window& b) {
@@ -47,9 +60,11 @@ Plot CloseUp(const FitView& view, const Window& window, const std::pair<double, 
   const Eigen::VectorXd time = Part(view.time, window) / TimeUnit(view);
   Plot plot;
   plot.series.push_back({"measured", Hue::grey, Line{time, Part(view.torque, window), 2.0}});
+  const Eigen::VectorXd kept = Part(KeptOrGap(view, view.torque), window);
+  plot.series.push_back({"kept: at constant speed", Hue::sky, Line{time, kept, 2.0}});
   if (view.has_fit) {
     const Eigen::VectorXd fitted = Part(KeptOrGap(view, view.fitted), window);
-    plot.series.push_back({"fit at the kept samples", Hue::blue, Line{time, fitted, 1.0}});
+    plot.series.push_back({FitLabel(view), Hue::vermilion, Line{time, fitted, 1.2, FitDash(view)}});
   }
   plot.x = {TimeLabel(view), time[0], time.tail(1)[0], Scale::linear, {}};
   plot.y = {TorqueLabel(view, "torque"), limits.first, limits.second, Scale::linear, {}};

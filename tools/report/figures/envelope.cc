@@ -24,7 +24,7 @@ Plot TorquePanel(const FitView& view, const TorqueEnvelope& envelope) {
   const Eigen::VectorXd middle = envelope.time / TimeUnit(view);
   Plot plot;
   plot.series.push_back({"torque", Hue::grey, Line{time, view.torque, 0.8}});
-  plot.series.push_back({"envelope", Hue::blue, Line{middle, envelope.level, 2}});
+  plot.series.push_back({"level of friction", Hue::blue, Line{middle, envelope.level, 2}});
   plot.series.push_back({"", Hue::blue, Line{middle, -envelope.level, 2}});
   plot.x = {TimeLabel(view), 0, time.tail(1)[0], Scale::linear, {}};
   // accelerations may leave the picture
@@ -42,7 +42,7 @@ Plot LevelPanel(const FitView& view, const TorqueEnvelope& envelope) {
   const Eigen::VectorXd middle = envelope.time / TimeUnit(view);
   Plot plot;
   plot.x = {TimeLabel(view), 0, end, Scale::linear, {}};
-  plot.y = LinearAxis(TorqueLabel(view, "sign(v) · torque − kv |v|"),
+  plot.y = LinearAxis(TorqueLabel(view, "sign(v) · torque − k_{v} |v|"),
                       {envelope.level, Eigen::Vector2d(envelope.cold, envelope.settled)});
   plot.series.push_back({"level of friction", Hue::blue, Line{middle, envelope.level, 1.4}});
   plot.series.push_back({"", Hue::blue, Scatter{middle, envelope.level, 3}});
@@ -69,7 +69,7 @@ std::optional<Figure> MakeEnvelope(const std::string& what, const Measurements& 
 
   Figure figure;
   figure.name = "envelope";
-  figure.title = "The torque's envelope and the first guess of its warming";
+  figure.title = "The level of friction and the first guess of its warming";
   const std::string read = ThermalText(*guess.thermal, measurements.joint);
   figure.subtitle = fmt::format("{}; first guess (25): {}", what, read);
   figure.finding = fmt::format(
@@ -82,10 +82,9 @@ std::optional<Figure> MakeEnvelope(const std::string& what, const Measurements& 
     figure.finding += fmt::format("; truth: {}", known);
   }
   figure.finding += ".";
-  figure.width = 960;
   figure.height = 430;
   figure.columns = {1, 1};
-  figure.panels = {{"The recording and its envelope", TorquePanel(view, envelope), 0, 0},
+  figure.panels = {{"The recording and its level of friction", TorquePanel(view, envelope), 0, 0},
                    {"What the guess is read off", LevelPanel(view, envelope), 0, 1}};
   return figure;
 }

@@ -78,7 +78,8 @@ std::string Finding(const ErrorByIteration& data) {
     text += fmt::format("{} {} %, ", course.label, SignificantText(100 * last));
   }
   if (data.cramer_rao) {
-    return text + fmt::format("Cramér-Rao bound {} %.", SignificantText(100 * *data.cramer_rao));
+    return text + fmt::format("median at the Cramér-Rao bound {} %.",
+                              SignificantText(100 * *data.cramer_rao));
   }
   text.resize(text.size() - 2);
   return text + ".";
@@ -92,12 +93,11 @@ Figure MakeErrorByIteration(const ErrorByIteration& data) {
   figure.title = "Parameter error and fit by iteration";
   figure.subtitle = MediansSubtitle(data.suite, data.realizations);
   figure.finding = Finding(data);
-  figure.width = 960;
   figure.height = 430;
   figure.columns = {1, 1};
 
   Plot npe = Draw(data, &IdentifierCourse::npe, 100, "NPE, continuous (%)");
-  if (data.cramer_rao) AddLevel(npe, "Cramér-Rao bound (rms)", 100 * *data.cramer_rao);
+  if (data.cramer_rao) AddLevel(npe, "median at the Cramér-Rao bound", 100 * *data.cramer_rao);
   Plot rmse =
       Draw(data, &IdentifierCourse::rmse, 1, fmt::format("RMSE ({})", UnitText(data.torque_unit)));
   if (data.noise) AddLevel(rmse, "noise", *data.noise);

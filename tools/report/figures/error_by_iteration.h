@@ -24,7 +24,7 @@ struct ErrorByIteration {
   int realizations = 0;
   std::string torque_unit = "N.m";
   std::vector<IdentifierCourse> identifiers;
-  std::optional<double> cramer_rao;  // rms NPE of the bound, 0.012 is 1.2 %
+  std::optional<double> cramer_rao;  // median NPE at the bound, 0.012 is 1.2 %
   std::optional<double> noise;       // standard deviation of the torque, torque_unit
 };
 

@@ -1,9 +1,13 @@
 #include "tools/report/figures/fit_page.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
+#include <optional>
 
+#include "models/foundation/atomic_file.h"
 #include "tools/report/draw/draw_figure.h"
 #include "tools/report/draw/ticks.h"
 #include "tools/report/figures/fit_panels.h"
@@ -12,12 +16,8 @@ namespace warmjoint::report {
 namespace {
 
 constexpr int kColumns = 6;
-constexpr int kHead = 65;                        // points, title and margins
-constexpr int kPlotRow = 200;                    // points
-constexpr int kWordsRow = 150;                   // points
-constexpr int kTableHead = 50, kTableRow = 19;   // points
-constexpr int kWordsHead = 30, kWordsLine = 13;  // points
-constexpr size_t kLettersInHalf = 72;            // of a line of words over half the page
+constexpr double kPlotRow = 200, kTallRow = 225;  // points
+constexpr double kWordsRow = 0;                   // as high as its words
 
 /// The page, and the row that is filled next.
 class Page {
@@ -25,14 +25,11 @@ class Page {
   explicit Page(Figure& figure) : figure_(figure) {
     figure_.columns.assign(kColumns, 1);
     figure_.rows.clear();
-    figure_.height = kHead;
+    figure_.height = 0;  // what the rows need
   }
 
   /// Begins a row. height: points.
-  void Row(int height) {
-    figure_.rows.push_back(height);
-    figure_.height += height + static_cast<int>(size::kGap);
-  }
+  void Row(double height) { figure_.rows.push_back(height); }
 
   template <typename Content>
   void Add(const std::string& title, const Content& content, int column, int span) {
@@ -42,6 +39,9 @@ class Page {
     panel.column_span = span;
     figure_.panels.push_back(panel);
   }
+
+  /// Frames the panel that was added last.
+  void Frame(Hue hue) { figure_.panels.back().frame = hue; }
 
  private:
   Figure& figure_;
@@ -56,29 +56,72 @@ std::string Finding(const FitView& view) {
   return text + ".";
 }
 
-/// Points that words need, with some to spare. letters: of a line.
-int HeightOf(const Words& words, size_t letters) {
-  size_t height = kWordsHead;
-  for (const Words::Paragraph& paragraph : words.paragraphs) {
-    const size_t lines = paragraph.text.size() / letters + 1;
-    height += lines * kWordsLine + static_cast<size_t>(size::kPad);
+/// What the residual is looked at against to see what a test for lack of fit found.
+Against AgainstOf(const std::string& test, const FitView& view) {
+  static const std::map<std::string, Against> kByTest{
+      {"direction", Against::velocity},     {"speed", Against::velocity},
+      {"energy", Against::energy},          {"initial_energy", Against::energy},
+      {"speed_by_energy", Against::energy}, {"position_by_energy", Against::position},
+      {"position", Against::position},      {"motor_angle", Against::motor_angle}};
+  const auto found = kByTest.find(test);
+  const Against against = found == kByTest.end() ? Against::time : found->second;
+  if (against == Against::energy && !view.warms()) return Against::time;
+  return against;
+}
+
+/// Tests that found something, by the panel that shows it.
+std::map<Against, std::vector<std::string>> Deciding(const FitView& view) {
+  std::map<Against, std::vector<std::string>> deciding;
+  for (const Diagnostic& diagnostic : view.estimate.diagnostics) {
+    if (diagnostic.rejected) {
+      deciding[AgainstOf(diagnostic.test, view)].push_back(diagnostic.test);
+    }
   }
-  return static_cast<int>(height);
+  return deciding;
+}
+
+/// Where the test shows that found the most; nothing where none found anything.
+std::optional<Against> Strongest(const FitView& view) {
+  std::optional<Against> strongest;
+  double largest = -1;
+  for (const Diagnostic& diagnostic : view.estimate.diagnostics) {
+    if (!diagnostic.rejected || diagnostic.effect <= largest) continue;
+    largest = diagnostic.effect;
+    strongest = AgainstOf(diagnostic.test, view);
+  }
+  return strongest;
+}
+
+/// A panel of residuals that names the tests which found something in it; the one that found the most
+/// is framed.
+void AddResiduals(Page& page, const FitView& view, Against against, const char* title, int column,
+                  int span) {
+  const auto deciding = Deciding(view);
+  const auto found = deciding.find(against);
+  if (found == deciding.end()) {
+    return page.Add(title, ResidualsOver(view, against), column, span);
+  }
+  std::string tests = fmt::format("{}", fmt::join(found->second, ", "));
+  std::replace(tests.begin(), tests.end(), '_', ' ');
+  const bool decided = Strongest(view) == against && view.estimate.status != Status::ok;
+  page.Add(fmt::format("{}: {} {}", title, decided ? "decided by" : "shows", tests),
+           ResidualsOver(view, against), column, span);
+  if (decided) page.Frame(Hue::vermilion);
 }
 
 void AddEvidence(Page& page, const FitView& view) {
   page.Row(kPlotRow);
-  page.Add("Residuals over time, with their mean", ResidualsOver(view, Against::time), 0, 3);
+  AddResiduals(page, view, Against::time, "Residuals over time, with their mean", 0, 3);
   page.Add("Correlation of residuals over lag; within the dashed lines if white",
            ResidualMemory(view), 3, 3);
   page.Row(kPlotRow);
-  if (view.warms()) {
-    page.Add("Residuals over position", ResidualsOver(view, Against::position), 0, 2);
-    page.Add("Residuals over velocity", ResidualsOver(view, Against::velocity), 2, 2);
-    page.Add("Residuals over warmth", ResidualsOver(view, Against::energy), 4, 2);
-  } else {
-    page.Add("Residuals over position", ResidualsOver(view, Against::position), 0, 3);
-    page.Add("Residuals over velocity", ResidualsOver(view, Against::velocity), 3, 3);
+  const int span = view.warms() ? 2 : 3;
+  AddResiduals(page, view, Against::position, "Residuals over position", 0, span);
+  AddResiduals(page, view, Against::velocity, "Residuals over velocity", span, span);
+  if (view.warms()) AddResiduals(page, view, Against::energy, "Residuals over warmth", 4, 2);
+  if (Deciding(view).contains(Against::motor_angle) && view.motor_angle.size() > 0) {
+    page.Row(kPlotRow);
+    AddResiduals(page, view, Against::motor_angle, "Residuals over motor angle", 0, kColumns);
   }
 }
 
@@ -90,27 +133,27 @@ Figure MakeFitPage(const FitView& view) {
   figure.title = view.source;
   figure.subtitle = fmt::format("identified by {}", view.estimate.identifier);
   figure.finding = Finding(view);
-  figure.width = 960;
 
   Page page(figure);
   const bool has_numbers = !view.estimate.parameters.empty();
-  const Words verdict = VerdictOf(view);
-  page.Row(std::max({kWordsRow, HeightOf(verdict, (has_numbers ? 1 : 2) * kLettersInHalf),
-                     kTableHead + kTableRow * static_cast<int>(view.estimate.parameters.size())}));
-  page.Add("Verdict", verdict, 0, has_numbers ? 3 : kColumns);
-  if (has_numbers) page.Add("Parameters", ParametersOf(view), 3, 3);
+  page.Row(kWordsRow);
+  page.Add("Verdict", VerdictOf(view), 0, has_numbers ? 3 : kColumns);
+  if (has_numbers)
+    page.Add(view.is_void() ? "Parameters (void)" : "Parameters", ParametersOf(view), 3, 3);
 
-  page.Row(kPlotRow + 25);
+  page.Row(kTallRow);
   page.Add(view.has_fit ? "Level of friction over time" : "Torque in the direction of motion",
            LevelOverTime(view), 0, kColumns);
 
   const Window cold = ColdWindow(view), warm = WarmWindow(view);
   const auto limits = TorqueLimits(view, cold, warm);
   page.Row(kPlotRow);
-  page.Add("The first segments", CloseUp(view, cold, limits), 0, 3);
-  page.Add("The last segments", CloseUp(view, warm, limits), 3, 3);
+  page.Add(view.selection.segments.empty() ? "The begin" : "The first segments",
+           CloseUp(view, cold, limits), 0, 3);
+  page.Add(view.selection.segments.empty() ? "The end" : "The last segments",
+           CloseUp(view, warm, limits), 3, 3);
 
-  page.Row(kPlotRow + 25);
+  page.Row(kTallRow);
   page.Add("Friction over velocity", FrictionCurve(view), 0, view.warms() ? 3 : kColumns);
   if (view.warms()) page.Add("Warm-up", WarmUpCurve(view), 3, 3);
   if (view.has_fit) AddEvidence(page, view);
@@ -120,9 +163,10 @@ Figure MakeFitPage(const FitView& view) {
 
 void WriteFitPage(const Measurements& measurements, const Selection& selection,
                   const Estimate& estimate, const std::string& path) {
+  PageSetting setting;
+  setting.format = FormatOf(path);
   const Figure page = MakeFitPage(MakeFitView(measurements, selection, estimate));
-  Canvas canvas;
-  WritePng(DrawFigure(canvas, page).image, page.finding, path);
+  WriteWholeFile(path, EncodeFigure(page, setting).bytes);
 }
 
 }  // namespace warmjoint::report

@@ -12,8 +12,8 @@ namespace warmjoint::report {
 /// evidence of the residuals. Without a fit: what the data look like and why there is none.
 Figure MakeFitPage(const FitView& view);
 
-/// Draws the page into a PNG file. Throws BadInput where the folder cannot be written, or the
-/// machine has no OpenGL.
+/// Draws the page into a file, PNG, SVG or PDF by its end. Throws BadInput for another end, and
+/// where the folder cannot be written.
 void WriteFitPage(const Measurements& measurements, const Selection& selection,
                   const Estimate& estimate, const std::string& path);
 

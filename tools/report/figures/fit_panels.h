@@ -17,7 +17,8 @@ struct Window {
   Eigen::Index end = 0;
 };
 
-/// The first and the last `segments` moving segments; a twelfth of a recording with few of them.
+/// The first and the last `segments` moving segments, half of them where they are few, and a little
+/// around them; a twelfth of a recording without.
 Window ColdWindow(const FitView& view, int segments = 6);
 Window WarmWindow(const FitView& view, int segments = 6);
 
@@ -26,19 +27,21 @@ Plot CloseUp(const FitView& view, const Window& window, const std::pair<double, 
 /// Limits that hold the torque of both windows at constant speed.
 std::pair<double, double> TorqueLimits(const FitView& view, const Window& a, const Window& b);
 
-/// Torque over velocity: samples, the fitted curve cold and warm with their 95 % bands.
+/// Torque over velocity: samples, the fitted curve cold and warm with their 95 % bands where these
+/// are wider than a line. Maps enter by their mean over the places of the samples.
 Plot FrictionCurve(const FitView& view);
 
 /// E over time with its 95 % band, over what the samples say of it, Eq. (23).
 Plot WarmUpCurve(const FitView& view);
 
 /// What residuals are looked at against.
-enum class Against { time, position, velocity, energy };
+enum class Against { time, position, velocity, energy, motor_angle };
 
 /// Residuals over one of these with their mean in 40 bins: flat where the model is complete.
 Plot ResidualsOver(const FitView& view, Against what);
 
-/// Correlation of residuals with those some time later; within the dashed lines where white.
+/// Correlation of residuals with those one sample later and more, over a logarithmic axis; within
+/// the dashed lines where white.
 Plot ResidualMemory(const FitView& view);
 
 /// Correlation of the residuals with those `lag` samples later, over pairs that are both kept.

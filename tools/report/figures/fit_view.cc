@@ -105,6 +105,10 @@ Eigen::VectorXd KeptOf(const FitView& view, const Eigen::VectorXd& all) {
 
 Eigen::VectorXd Residuals(const FitView& view) { return KeptOf(view, view.torque - view.fitted); }
 
+std::string FitLabel(const FitView& view) { return view.is_void() ? "fit (void)" : "fit"; }
+
+Dash FitDash(const FitView& view) { return view.is_void() ? Dash::dashed : Dash::solid; }
+
 Eigen::VectorXd KeptOrGap(const FitView& view, const Eigen::VectorXd& all) {
   Eigen::VectorXd result = all;
   for (Eigen::Index i = 0; i < all.size(); ++i) {

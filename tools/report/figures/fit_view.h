@@ -8,6 +8,7 @@
 #include "models/friction/along_motion.h"
 #include "models/recording/measurements.h"
 #include "models/recording/selection.h"
+#include "tools/report/draw/figure.h"
 
 namespace warmjoint::report {
 
@@ -37,6 +38,8 @@ struct FitView {
   Eigen::VectorXd energy_std;  // of E, torque_unit
 
   bool warms() const { return has_fit && estimate.friction->thermal.has_value(); }
+  /// Whether the verdict voids the fit: it is shown to be looked at alone.
+  bool is_void() const { return has_fit && estimate.status != Status::ok; }
 };
 
 /// Runs the estimate's friction over the recording.
@@ -52,6 +55,10 @@ Eigen::VectorXd KeptOf(const FitView& view, const Eigen::VectorXd& all);
 
 /// Torque less fit at the kept samples, [n].
 Eigen::VectorXd Residuals(const FitView& view);
+
+/// "fit", or "fit (void)", and how its lines are drawn.
+std::string FitLabel(const FitView& view);
+Dash FitDash(const FitView& view);
 
 /// The entries with NaN at the samples that are not kept, so that lines break there. all: [N].
 Eigen::VectorXd KeptOrGap(const FitView& view, const Eigen::VectorXd& all);

@@ -8,6 +8,7 @@
 
 #include "tools/report/draw/ticks.h"
 #include "tools/report/figures/fit_panels.h"
+#include "tools/report/figures/symbols.h"
 
 namespace warmjoint::report {
 namespace {
@@ -117,8 +118,9 @@ Words VerdictOf(const FitView& view) {
 Table ParametersOf(const FitView& view) {
   Table table{{{"parameter", "value", "95 % interval", "unit"}}};
   for (const EstimatedParameter& parameter : view.estimate.parameters) {
-    table.rows.push_back({parameter.name, WithDigitsOf(parameter.value, parameter.std),
-                          IntervalText(parameter), UnitText(parameter.unit)});
+    table.rows.push_back({NameWithSymbol(parameter.name),
+                          WithDigitsOf(parameter.value, parameter.std), IntervalText(parameter),
+                          UnitText(parameter.unit)});
   }
   return table;
 }

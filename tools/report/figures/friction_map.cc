@@ -2,9 +2,11 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
+#include <vector>
 
+#include "tools/report/draw/frame.h"
 #include "tools/report/draw/ticks.h"
 #include "tools/report/figures/axes.h"
 
@@ -38,7 +40,25 @@ std::pair<double, double> SpeedsOf(const FitView& view) {
   return RangeOf({KeptOf(view, view.velocity).cwiseAbs()});
 }
 
-/// sign(v) F with its rows at velocities from -fastest to fastest; NaN below the slowest speed.
+/// Which columns of the map the joint passed in a direction: near a kept sample that moved so.
+std::vector<bool> Passed(const FitView& view, const Across& across, int direction) {
+  constexpr Eigen::Index kNear = 2;  // columns
+  std::vector<bool> passed(kColumns, false);
+  const Eigen::VectorXd& angle =
+      across.quantity == MapQuantity::motor_position ? view.motor_angle : view.position;
+  for (Eigen::Index i = 0; i < view.time.size(); ++i) {
+    if (!view.selection.keep[i] || view.velocity[i] * direction <= 0) continue;
+    const auto column = static_cast<Eigen::Index>(kColumns * ShareOf(across.axis, angle[i]));
+    for (Eigen::Index c = std::max<Eigen::Index>(0, column - kNear);
+         c <= std::min(kColumns - 1, column + kNear); ++c) {
+      passed[static_cast<std::size_t>(c)] = true;
+    }
+  }
+  return passed;
+}
+
+/// sign(v) F with its rows at velocities from -fastest to fastest; NaN below the slowest speed, and
+/// where no kept sample is.
 HeatMap LevelMap(const FitView& view, const Across& across, double energy) {
   const auto [slowest, fastest] = SpeedsOf(view);
   HeatMap map{Eigen::MatrixXd(kRows, kColumns),
@@ -47,6 +67,7 @@ HeatMap LevelMap(const FitView& view, const Across& across, double energy) {
               {0, 1},
               TorqueLabel(view, "sign(v) · friction")};
   const double middle = KeptOf(view, view.position).mean();
+  const std::vector<bool> forwards = Passed(view, across, 1), backwards = Passed(view, across, -1);
   const JointFriction sliding(*view.estimate.friction);
   for (Eigen::Index row = 0; row < kRows; ++row) {
     const double v = fastest * (2 * (static_cast<double>(row) + 0.5) / kRows - 1);
@@ -55,21 +76,44 @@ HeatMap LevelMap(const FitView& view, const Across& across, double energy) {
       const double angle = across.axis.lower + share * (across.axis.upper - across.axis.lower);
       const bool over_motor = across.quantity == MapQuantity::motor_position;
       const JointPlace place{over_motor ? middle : angle, energy, 0, over_motor ? angle : 0};
+      const bool known = (v > 0 ? forwards : backwards)[static_cast<std::size_t>(column)];
       map.values(row, column) =
-          std::abs(v) < slowest ? std::nan("") : Sign(v) * sliding.SlidingForce(v, place);
+          std::abs(v) < slowest || !known ? std::nan("") : Sign(v) * sliding.SlidingForce(v, place);
     }
   }
   return map;
 }
 
-Plot PanelOf(const FitView& view, const Across& across, HeatMap map,
+/// A direction's half of the map with its own colours, and the samples in it.
+Plot PanelOf(const FitView& view, const Across& across, HeatMap map, int direction,
              const std::pair<double, double>& colours) {
   map.colours = colours;
+  const Eigen::VectorXd& angle =
+      across.quantity == MapQuantity::motor_position ? view.motor_angle : view.position;
   Plot plot;
   plot.x = across.axis;
-  plot.y = {SpeedLabel(view), map.y.first, map.y.second, Scale::linear, {}};
+  plot.y = {SpeedLabel(view),
+            direction > 0 ? 0 : map.y.first,
+            direction > 0 ? map.y.second : 0,
+            Scale::linear,
+            {}};
   plot.series.push_back({"", Hue::text, map});
+  plot.series.push_back(
+      {"samples", Hue::grey,
+       Scatter{KeptOf(view, angle), KeptOf(view, view.velocity), 0.7, Marker::circle, 0.6}});
   return plot;
+}
+
+/// Lowest and highest level of one direction over all maps.
+std::pair<double, double> ColoursOf(const std::vector<std::pair<std::string, HeatMap>>& maps,
+                                    int direction) {
+  std::vector<Eigen::VectorXd> all;
+  for (const auto& [title, map] : maps) {
+    const Eigen::MatrixXd half =
+        direction > 0 ? map.values.bottomRows(kRows / 2) : map.values.topRows(kRows / 2);
+    all.emplace_back(half.reshaped());
+  }
+  return RangeOf(all);
 }
 
 }  // namespace
@@ -79,21 +123,18 @@ std::optional<Figure> MakeFrictionMap(const FitView& view) {
   const std::optional<Across> across = AcrossOf(view);
   if (!across) return std::nullopt;
 
-  std::vector<std::pair<std::string, HeatMap>> maps{{"Cold", LevelMap(view, *across, 0)}};
+  std::vector<std::pair<std::string, HeatMap>> maps{{"cold", LevelMap(view, *across, 0)}};
   if (view.warms()) {
     const double warmest = WarmestEnergy(view);
-    maps.emplace_back(fmt::format("Warmest: E = {} {}", SignificantText(warmest), view.torque_unit),
+    maps.emplace_back(fmt::format("warmest: E = {} {}", SignificantText(warmest), view.torque_unit),
                       LevelMap(view, *across, warmest));
   }
-  std::vector<Eigen::VectorXd> all;
-  for (const auto& [title, map] : maps) all.emplace_back(map.values.reshaped());
-  const auto [lowest, highest] = RangeOf(all);
-  const std::pair<double, double> colours{lowest, highest > lowest ? highest : lowest + 1};
 
   Figure figure;
   figure.name = "friction_map";
-  figure.title = "Friction over angle and velocity";
-  figure.subtitle = OriginOf(view) + "; empty where the joint never moved so slowly";
+  const bool motor = across->quantity == MapQuantity::motor_position;
+  figure.title = fmt::format("Friction over {} and velocity", motor ? "motor angle" : "position");
+  figure.subtitle = OriginOf(view) + "; empty where the joint never was, or never moved so slowly";
   const auto range = [](const HeatMap& map) { return RangeOf({map.values.reshaped()}); };
   figure.finding = "Friction";
   for (const auto& [title, map] : maps) {
@@ -102,13 +143,23 @@ std::optional<Figure> MakeFrictionMap(const FitView& view) {
                                   SignificantText(range(map).second), view.torque_unit);
   }
   figure.finding.back() = '.';
-  figure.width = maps.size() > 1 ? 960 : 560;
-  figure.height = 430;
+  figure.height = 0;
+  figure.rows.clear();
   figure.columns.assign(maps.size(), 1);
-  for (std::size_t i = 0; i < maps.size(); ++i) {
-    figure.panels.push_back(
-        {maps[i].first, PanelOf(view, *across, maps[i].second, colours), 0, static_cast<int>(i)});
+  for (int direction : {1, -1}) {
+    const auto [lowest, highest] = ColoursOf(maps, direction);
+    if (!std::isfinite(lowest)) continue;  // it never moved so
+    const std::pair<double, double> colours{lowest, highest > lowest ? highest : lowest + 1};
+    const auto row = static_cast<int>(figure.rows.size());
+    figure.rows.push_back(260);
+    for (std::size_t i = 0; i < maps.size(); ++i) {
+      const std::string title =
+          fmt::format("{}, {}", direction > 0 ? "Forwards" : "Backwards", maps[i].first);
+      figure.panels.push_back({title, PanelOf(view, *across, maps[i].second, direction, colours),
+                               row, static_cast<int>(i)});
+    }
   }
+  if (figure.panels.empty()) return std::nullopt;
   return figure;
 }
 

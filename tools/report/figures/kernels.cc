@@ -88,7 +88,6 @@ Figure MakeKernels() {
       "edge of the data the function is {3}.",
       kView, SignificantText(plain[kPoints - 1], 2), SignificantText(normalised[kPoints - 1], 2),
       SignificantText(TheFunction(kReach), 2));
-  figure.width = 960;
   figure.height = 620;
   figure.rows = {1.6, 1};
   figure.columns = {1, 1};

@@ -69,7 +69,6 @@ std::optional<Figure> MakeMotorAngle(const FitView& view) {
       fmt::format("Over one turn of the motor the mean torque at a speed varies by up to {} {}.",
                   SignificantText(std::max(forwards.largest_swing, backwards.largest_swing), 2),
                   view.torque_unit);
-  figure.width = 960;
   figure.height = 430;
   figure.columns = {1, 1};
   int column = 0;

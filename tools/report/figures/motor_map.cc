@@ -1,4 +1,4 @@
-// The fit with kernels over motor angle, as in the paper's Fig. 10.
+// The fit with kernels over motor angle: the map as in the paper's Fig. 10, in time as in its Fig. 9.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -78,7 +78,7 @@ AnglePanel OverAngle(const FitView& view, int direction, const Eigen::VectorXd& 
   }
   plot.series.insert(plot.series.end(), lines.begin(), lines.end());
   plot.x = AngleAxis("motor angle (rad)");
-  plot.y = BulkAxis(TorqueLabel(view, "torque not of the law"), shown);
+  plot.y = BulkAxis(TorqueLabel(view, "torque − law"), shown);
   panel.beyond = CountBeyond(plot.y, shown);
   return panel;
 }
@@ -128,38 +128,64 @@ Plot InTime(const FitView& view, const Window& window, const Eigen::VectorXd& wi
   return plot;
 }
 
+bool HasMotorMap(const FitView& view) {
+  return view.has_fit && view.motor_angle.size() > 0 && !view.selection.segments.empty() &&
+         !MapsOverMotor(*view.estimate.friction, true).empty();
+}
+
+/// What both figures say of a map's worth.
+std::string Worth(const FitView& view, const Eigen::VectorXd& without,
+                  const Eigen::VectorXd& with) {
+  return fmt::format("The map over motor angle takes the RMSE from {} to {} {}.",
+                     SignificantText(RootMeanSquare(view, without)),
+                     SignificantText(RootMeanSquare(view, with)), view.torque_unit);
+}
+
+/// Two panels side by side; those without data are left out.
+Figure PairOf(Figure figure, const std::pair<std::string, Plot>& left,
+              const std::pair<std::string, Plot>& right) {
+  figure.height = 430;
+  figure.columns.clear();
+  for (const auto& [title, plot] : {left, right}) {
+    if (plot.series.empty()) continue;
+    figure.panels.push_back({title, plot, 0, static_cast<int>(figure.panels.size())});
+    figure.columns.push_back(1);
+  }
+  return figure;
+}
+
 }  // namespace
 
-std::optional<Figure> MakeMotorMapFit(const FitView& view) {
-  if (!view.has_fit || view.motor_angle.size() == 0 || view.selection.segments.empty() ||
-      MapsOverMotor(*view.estimate.friction, true).empty()) {
-    return std::nullopt;
-  }
+std::optional<Figure> MakeMotorMap(const FitView& view) {
+  if (!HasMotorMap(view)) return std::nullopt;
+  const Eigen::VectorXd with = ForceWith(view, view.estimate.friction->maps);
+  const Eigen::VectorXd without = ForceWith(view, MapsOverMotor(*view.estimate.friction, false));
+  const AnglePanel forwards = OverAngle(view, 1, without), backwards = OverAngle(view, -1, without);
+  Figure figure;
+  figure.name = "motor_map";
+  figure.title = "The map over motor angle";
+  figure.subtitle = OriginOf(view) + BeyondText(forwards.beyond + backwards.beyond);
+  figure.finding = Worth(view, without, with);
+  return PairOf(figure, {"Forwards: torque less law and warming", forwards.plot},
+                {"Backwards", backwards.plot});
+}
+
+std::optional<Figure> MakeMotorFit(const FitView& view) {
+  if (!HasMotorMap(view)) return std::nullopt;
   const Eigen::VectorXd with = ForceWith(view, view.estimate.friction->maps);
   const Eigen::VectorXd without = ForceWith(view, MapsOverMotor(*view.estimate.friction, false));
   const std::vector<Segment> slow = SlowSegments(view);
-  const AnglePanel forwards = OverAngle(view, 1, without), backwards = OverAngle(view, -1, without);
-
   Figure figure;
-  figure.name = "motor_map";
-  figure.title = "Fit with kernels over motor angle";
-  figure.subtitle = OriginOf(view) + BeyondText(forwards.beyond + backwards.beyond);
-  figure.finding = fmt::format("The map over motor angle takes the RMSE from {} to {} {}.",
-                               SignificantText(RootMeanSquare(view, without)),
-                               SignificantText(RootMeanSquare(view, with)), view.torque_unit);
-  figure.width = 960;
-  figure.height = 700;
-  figure.rows = figure.columns = {1, 1};
-  figure.panels = {
-      {"Forwards: torque less law and warming", forwards.plot, 0, 0},
-      {"Backwards", backwards.plot, 0, 1},
-      {"Cold: in the first slow segment", InTime(view, FewTurns(view, slow.front()), without, with),
-       1, 0},
-      {"Warm: in the last one", InTime(view, FewTurns(view, slow.back()), without, with), 1, 1},
-  };
-  std::erase_if(figure.panels,
-                [](const Panel& panel) { return std::get<Plot>(panel.content).series.empty(); });
-  return figure;
+  figure.name = "motor_fit";
+  figure.title = "Fit with and without the map over motor angle";
+  figure.subtitle = OriginOf(view);
+  figure.finding = Worth(view, without, with);
+  const bool warms = view.warms();
+  return PairOf(figure,
+                {warms ? "Cold: in the first slow segment" : "In the first slow segment",
+                 InTime(view, FewTurns(view, slow.front()), without, with)},
+                {warms ? "Warm: in the last one" : "In the last one",
+                 InTime(view, FewTurns(view, slow.back()), without, with)});
 }
 
 }  // namespace warmjoint::report

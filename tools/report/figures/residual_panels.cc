@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "models/foundation/robust_noise.h"
 #include "tools/report/figures/axes.h"
 #include "tools/report/figures/binned_mean.h"
 #include "tools/report/figures/fit_panels.h"
@@ -9,7 +10,7 @@ namespace warmjoint::report {
 namespace {
 
 constexpr int kBins = 40;
-constexpr int kLags = 60;           // of the correlation
+constexpr int kLags = 40;           // of the correlation
 constexpr double kNormal95 = 1.96;  // standard deviations of a 95 % interval
 
 struct Abscissa {
@@ -27,6 +28,8 @@ Abscissa AbscissaOf(const FitView& view, Against what) {
       return {KeptOf(view, view.velocity), SpeedLabel(view)};
     case Against::energy:
       return {KeptOf(view, view.energy), TorqueLabel(view, "E")};
+    case Against::motor_angle:
+      return {KeptOf(view, view.motor_angle), "motor angle (rad)"};
   }
   return {};
 }
@@ -44,6 +47,17 @@ Eigen::Index TypicalSegment(const FitView& view) {
   if (segments == 0) return n / 4;
   return std::clamp<Eigen::Index>(view.selection.count() / static_cast<Eigen::Index>(segments), 20,
                                   n / 4);
+}
+
+/// 1, 2, 3, ... and then ever further apart, in samples; at most kLags.
+std::vector<Eigen::Index> LagsTo(Eigen::Index longest) {
+  std::vector<Eigen::Index> lags{1};
+  const double growth = std::pow(std::max<double>(1, static_cast<double>(longest)), 1.0 / kLags);
+  for (double lag = 1; lags.back() < longest; lag *= growth) {
+    const auto next = static_cast<Eigen::Index>(std::lround(lag * growth));
+    if (next > lags.back()) lags.push_back(std::min(next, longest));
+  }
+  return lags;
 }
 
 }  // namespace
@@ -80,20 +94,20 @@ double ResidualCorrelation(const FitView& view, Eigen::Index lag) {
 
 Plot ResidualMemory(const FitView& view) {
   const Eigen::Index n = view.time.size();
-  const Eigen::Index stride = std::max<Eigen::Index>(1, TypicalSegment(view) / kLags);
-  const double step = view.time.tail(1)[0] / static_cast<double>(n - 1);  // s
-  const Eigen::Index lags = std::max<Eigen::Index>(1, std::min<Eigen::Index>(kLags, n / 4));
-  Eigen::VectorXd lag(lags), correlation(lags);
-  for (Eigen::Index k = 0; k < lags; ++k) {
-    lag[k] = static_cast<double>((k + 1) * stride) * step;
-    correlation[k] = ResidualCorrelation(view, (k + 1) * stride);
+  const double step = MedianStep(view.time);  // s
+  const std::vector<Eigen::Index> lags = LagsTo(std::min(TypicalSegment(view), n / 4));
+  Eigen::VectorXd lag(static_cast<Eigen::Index>(lags.size())), correlation(lag.size());
+  for (Eigen::Index k = 0; k < lag.size(); ++k) {
+    lag[k] = static_cast<double>(lags[static_cast<std::size_t>(k)]) * step;
+    correlation[k] = ResidualCorrelation(view, lags[static_cast<std::size_t>(k)]);
   }
   const double bound = kNormal95 / std::sqrt(static_cast<double>(view.selection.count()));
 
   Plot plot;
-  plot.series.push_back({"", Hue::blue, Bars{lag, correlation, 0.6 * lag[0]}});
+  plot.series.push_back({"", Hue::blue, Line{lag, correlation, 1.2}});
+  plot.series.push_back({"", Hue::blue, Scatter{lag, correlation, 2.5}});
   for (double level : {bound, -bound}) plot.series.push_back({"", Hue::text, LevelLine{level}});
-  plot.x = {"lag (s)", 0, lag[lags - 1] + lag[0], Scale::linear, {}};
+  plot.x = LogarithmicAxis("lag (s), from one sample on", {lag});
   plot.y = LinearAxis("correlation", {correlation, Eigen::Vector3d(0, 2 * bound, -2 * bound)});
   return plot;
 }

@@ -2,14 +2,13 @@
 
 namespace warmjoint::report {
 
-Figure SinglePlot(const Caption& caption, const Plot& plot, int width, int height) {
+Figure SinglePlot(const Caption& caption, const Plot& plot) {
   Figure figure;
   figure.name = caption.name;
   figure.title = caption.title;
   figure.subtitle = caption.subtitle;
   figure.finding = caption.finding;
-  figure.width = width;
-  figure.height = height;
+  figure.height = 440;
   figure.panels.push_back({"", plot});
   return figure;
 }

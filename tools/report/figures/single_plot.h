@@ -15,7 +15,7 @@ struct Caption {
   std::string finding;
 };
 
-/// A figure of that one plot. width, height: points.
-Figure SinglePlot(const Caption& caption, const Plot& plot, int width, int height);
+/// A figure of that one plot.
+Figure SinglePlot(const Caption& caption, const Plot& plot);
 
 }  // namespace warmjoint::report

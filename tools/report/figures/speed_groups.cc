@@ -76,15 +76,23 @@ std::vector<Speeds> ClustersOf(const Speeds& speeds) {
   return clusters;
 }
 
-/// "0.30 rad/s" where nearly all samples are about so fast, else "0.30 … 0.60 rad/s".
+/// Three digits, without zeros at the end: 0.125, 0.3.
+std::string SpeedText(double speed) {
+  std::string text = SignificantText(speed, 3);
+  if (text.find('.') == text.npos || text.find("·") != text.npos) return text;
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
+/// "0.3 rad/s" where nearly all samples are about so fast, else "0.3 … 0.6 rad/s".
 std::string LabelOf(const Speeds& speeds, const std::string& unit) {
   const double slow = Quantile(speeds, (1 - kLabelled) / 2);
   const double fast = Quantile(speeds, (1 + kLabelled) / 2);
   if (fast <= (1 + 2 * kAlike) * slow) {
-    return fmt::format("{} {}", SignificantText(Quantile(speeds, 0.5), 2), unit);
+    return fmt::format("{} {}", SpeedText(Quantile(speeds, 0.5)), unit);
   }
-  return fmt::format("{} … {} {}", SignificantText(speeds.front(), 2),
-                     SignificantText(speeds.back(), 2), unit);
+  return fmt::format("{} … {} {}", SpeedText(speeds.front()), SpeedText(speeds.back()), unit);
 }
 
 }  // namespace

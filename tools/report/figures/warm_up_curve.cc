@@ -6,7 +6,8 @@
 namespace warmjoint::report {
 namespace {
 
-constexpr double kNormal95 = 1.96;  // standard deviations of a 95 % interval
+constexpr double kNormal95 = 1.96;       // standard deviations of a 95 % interval
+constexpr double kThinnestBand = 0.008;  // of the axis: about a line's width
 
 }  // namespace
 
@@ -19,13 +20,18 @@ Plot WarmUpCurve(const FitView& view) {
 
   Plot plot;
   plot.series.push_back(
-      {"(torque − Fn) · sign(v)", Hue::grey, Scatter{KeptOf(view, time), observed, 1.1}});
+      {"(torque − F_{n}) · sign(v)", Hue::grey, Scatter{KeptOf(view, time), observed, 1.1}});
   if (view.energy_std.size() > 0) {
     const Eigen::VectorXd reach = kNormal95 * view.energy_std;
-    plot.series.push_back(
-        {"95 %", Hue::vermilion, Band{time, view.energy - reach, view.energy + reach, 0.35}});
+    const auto [lowest, highest] = RangeOf({observed});
+    // a band as thin as its line cannot be seen
+    if (2 * reach.maxCoeff() > kThinnestBand * (highest - lowest)) {
+      plot.series.push_back(
+          {"95 %", Hue::vermilion, Band{time, view.energy - reach, view.energy + reach, 0.35}});
+    }
   }
-  plot.series.push_back({"E", Hue::vermilion, Line{time, view.energy, 2.0}});
+  plot.series.push_back({view.is_void() ? "E (void)" : "E", Hue::vermilion,
+                         Line{time, view.energy, 2.0, FitDash(view)}});
   plot.x = {TimeLabel(view), 0, time.tail(1)[0], Scale::linear, {}};
   plot.y = LinearAxis(TorqueLabel(view, "change of the level, E"), {observed, view.energy});
   return plot;

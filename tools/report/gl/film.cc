@@ -60,27 +60,22 @@ std::string FrameControl(std::uint32_t number, const Image& frame, double second
 std::string EncodeFilm(const std::vector<Image>& frames, double seconds,
                        const std::string& description) {
   assert(!frames.empty());
-  std::uint32_t number = 0;  // of fcTL and fdAT chunks together
   std::string film;
-  // the first frame is an ordinary picture
-  const std::string first = EncodePng(frames[0], description);
-  film = first.substr(0, kSignature);
-  bool controlled = false;
-  ForEachChunk(first, [&](const std::string& type, const std::string& data) {
+  // the still that other viewers show is no frame of the film
+  const std::string still = EncodePng(frames.back(), description);
+  film = still.substr(0, kSignature);
+  ForEachChunk(still, [&](const std::string& type, const std::string& data) {
     if (type == "IEND") return;
-    if (type == "IDAT" && !controlled) {
-      film += FrameControl(number++, frames[0], seconds);
-      controlled = true;
-    }
     film += Chunk(type, data);
     if (type == "IHDR") {
       film +=
           Chunk("acTL", BigEndian(static_cast<std::uint32_t>(frames.size()), 4) + BigEndian(0, 4));
     }
   });
-  for (std::size_t i = 1; i < frames.size(); ++i) {
-    film += FrameControl(number++, frames[i], seconds);
-    ForEachChunk(EncodePng(frames[i], ""), [&](const std::string& type, const std::string& data) {
+  std::uint32_t number = 0;  // of fcTL and fdAT chunks together
+  for (const Image& frame : frames) {
+    film += FrameControl(number++, frame, seconds);
+    ForEachChunk(EncodePng(frame, ""), [&](const std::string& type, const std::string& data) {
       if (type == "IDAT") film += Chunk("fdAT", BigEndian(number++, 4) + data);
     });
   }

@@ -2,11 +2,9 @@
 
 #include <png.h>
 
-#include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <stdexcept>
-
-#include "models/foundation/atomic_file.h"
 
 namespace warmjoint::report {
 
@@ -33,34 +31,7 @@ Image Shrink(const Image& image, int factor) {
   return small;
 }
 
-void Paste(const Image& source, int left, int top, int width, int height, Image& target) {
-  // source pixels [begin, end) below pixel i of n
-  const auto begin = [](int i, int n, int size) { return i * size / n; };
-  const auto end = [](int i, int n, int size) {
-    return std::max(i * size / n + 1, (i + 1) * size / n);
-  };
-  for (int y = std::max(0, -top); y < std::min(height, target.height - top); ++y) {
-    for (int x = std::max(0, -left); x < std::min(width, target.width - left); ++x) {
-      unsigned sum[3] = {0, 0, 0}, count = 0;
-      for (int row = begin(y, height, source.height); row < end(y, height, source.height); ++row) {
-        for (int column = begin(x, width, source.width); column < end(x, width, source.width);
-             ++column) {
-          const Rgb pixel = source.At(column, row);
-          sum[0] += pixel.red;
-          sum[1] += pixel.green;
-          sum[2] += pixel.blue;
-          ++count;
-        }
-      }
-      const std::size_t at = 3 * (static_cast<std::size_t>(top + y) * target.width + left + x);
-      for (int c = 0; c < 3; ++c) {
-        target.pixels[at + c] = static_cast<std::uint8_t>((sum[c] + count / 2) / count);
-      }
-    }
-  }
-}
-
-std::string EncodePng(const Image& image, const std::string& description) {
+std::string EncodePng(const Image& image, const std::string& description, double dpi) {
   std::string bytes;
   png_structp png = png_create_write_struct(
       PNG_LIBPNG_VER_STRING, nullptr,
@@ -76,6 +47,10 @@ std::string EncodePng(const Image& image, const std::string& description) {
   png_set_IHDR(png, info, static_cast<png_uint_32>(image.width),
                static_cast<png_uint_32>(image.height), 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+
+  constexpr double kInchesPerMetre = 1 / 0.0254;
+  const auto per_metre = static_cast<png_uint_32>(std::lround(kInchesPerMetre * dpi));
+  png_set_pHYs(png, info, per_metre, per_metre, PNG_RESOLUTION_METER);
 
   // the alt text travels with the picture
   std::string key = "Description";
@@ -93,11 +68,6 @@ std::string EncodePng(const Image& image, const std::string& description) {
   png_write_end(png, info);
   png_destroy_write_struct(&png, &info);
   return bytes;
-}
-
-void WritePng(const Image& image, const std::string& description,
-              const std::filesystem::path& path) {
-  WriteWholeFile(path, EncodePng(image, description));
 }
 
 }  // namespace warmjoint::report

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -30,16 +29,8 @@ struct Image {
 /// The mean of each block of factor x factor pixels; width and height must be multiples of factor.
 Image Shrink(const Image& image, int factor);
 
-/// Copies a picture into another, stretched to width x height pixels with its upper left corner at
-/// (left, top); each pixel is the mean of what it covers. What would stand outside is left out.
-void Paste(const Image& source, int left, int top, int width, int height, Image& target);
-
-/// The bytes of a PNG file; `description` goes into its Description entry (the alt text).
-/// The same image and description give the same bytes.
-std::string EncodePng(const Image& image, const std::string& description);
-
-/// Writes a PNG as a whole. Throws BadInput where the folder cannot be written.
-void WritePng(const Image& image, const std::string& description,
-              const std::filesystem::path& path);
+/// The bytes of a PNG file; `description` goes into its Description entry (the alt text), `dpi`,
+/// pixels an inch, into its size on paper. The same image and description give the same bytes.
+std::string EncodePng(const Image& image, const std::string& description, double dpi = 144);
 
 }  // namespace warmjoint::report

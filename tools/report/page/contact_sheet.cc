@@ -3,40 +3,40 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cstdint>
 
 namespace warmjoint::report {
+namespace {
 
-Figure MakeContactSheet(std::vector<std::pair<std::string, Image>> pictures, int across,
-                        int width) {
-  // pictures of like proportions share a row
-  std::stable_sort(pictures.begin(), pictures.end(), [](const auto& a, const auto& b) {
-    return std::int64_t{a.second.height} * b.second.width <
-           std::int64_t{b.second.height} * a.second.width;
-  });
-  constexpr double kTitle = 20;  // points
-  const double margins = 2.0 * size::kMargin + (across - 1.0) * size::kGap;
-  const double cell = (width - margins) / across;
+constexpr int kAcross = 3;
+constexpr double kRow = 260;  // points
+
+/// The panel that speaks for its figure: the first that is no text.
+const Panel& LeadOf(const Figure& figure) {
+  const auto found =
+      std::find_if(figure.panels.begin(), figure.panels.end(), [](const auto& panel) {
+        return std::holds_alternative<Plot>(panel.content) ||
+               std::holds_alternative<Picture>(panel.content);
+      });
+  return found == figure.panels.end() ? figure.panels.front() : *found;
+}
+
+}  // namespace
+
+Figure MakeContactSheet(const std::vector<Figure>& figures) {
   Figure sheet;
   sheet.name = "contact_sheet";
-  sheet.width = width;
-  sheet.columns.assign(static_cast<std::size_t>(across), 1);
+  sheet.height = 0;
   sheet.rows.clear();
+  sheet.columns.assign(kAcross, 1);
   sheet.finding = "Contact sheet:";
-  double height = 2 * size::kMargin + 12;
-  for (std::size_t i = 0; i < pictures.size(); ++i) {
-    const auto& [name, image] = pictures[i];
-    const int row = static_cast<int>(i) / across, column = static_cast<int>(i) % across;
-    if (column == 0) sheet.rows.push_back(0);
-    // a row is as high as its highest picture
-    const double wanted = kTitle + cell * image.height / image.width;
-    sheet.rows.back() = std::max(sheet.rows.back(), wanted);
-    sheet.panels.push_back({name, Picture{image}, row, column});
-    sheet.finding += fmt::format(" {},", name);
+  for (const Figure& figure : figures) {
+    const auto place = static_cast<int>(sheet.panels.size());
+    if (place % kAcross == 0) sheet.rows.push_back(kRow);
+    const std::string title = figure.title.empty() ? figure.name : figure.title;
+    sheet.panels.push_back({title, LeadOf(figure).content, place / kAcross, place % kAcross});
+    sheet.finding += fmt::format(" {},", figure.name);
   }
   sheet.finding.back() = '.';
-  for (double row : sheet.rows) height += row + size::kGap;
-  sheet.height = static_cast<int>(height);
   return sheet;
 }
 

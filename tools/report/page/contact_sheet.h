@@ -1,16 +1,14 @@
-// Many pictures on one.
+// Many figures on one page.
 #pragma once
 
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "tools/report/draw/figure.h"
 
 namespace warmjoint::report {
 
-/// Named pictures in rows of `across`, each kept in proportion. width: points.
-/// pictures: at least one.
-Figure MakeContactSheet(std::vector<std::pair<std::string, Image>> pictures, int across, int width);
+/// The first plot or picture of each figure under the figure's title, in rows of three, with words
+/// as large as everywhere. figures: at least one.
+Figure MakeContactSheet(const std::vector<Figure>& figures);
 
 }  // namespace warmjoint::report

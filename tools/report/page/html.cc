@@ -51,42 +51,24 @@ std::string Hashes(const std::vector<std::string_view>& texts) {
   return hashes.empty() ? " 'none'" : hashes;
 }
 
+std::string Policy(const std::string& styles, const std::string& scripts) {
+  return fmt::format(
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "
+      "style-src{}; script-src{}; base-uri 'none'; form-action 'none'\">\n",
+      styles, scripts);
+}
+
 std::string DataUrl(std::string_view png) { return "data:image/png;base64," + Base64(png); }
 
 }  // namespace
 
-std::string Escape(std::string_view text) {
-  std::string escaped;
-  for (char letter : text) {
-    switch (letter) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      case '\'':
-        escaped += "&#39;";
-        break;
-      default:
-        escaped += letter;
-    }
-  }
-  return escaped;
-}
-
 std::string SecurityPolicy(const std::vector<std::string_view>& styles,
                            const std::vector<std::string_view>& scripts) {
-  return fmt::format(
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "
-      "style-src{}; script-src{}; base-uri 'none'; form-action 'none'\">\n",
-      Hashes(styles), Hashes(scripts));
+  return Policy(Hashes(styles), Hashes(scripts));
+}
+
+std::string ChartSecurityPolicy(const std::vector<std::string_view>& scripts) {
+  return Policy(" 'unsafe-inline'", Hashes(scripts));
 }
 
 std::string Base64(std::string_view bytes) {
@@ -139,15 +121,15 @@ std::string HtmlTable(const std::string& caption, const warmjoint::Table& table)
   return html + "</tbody>\n</table>\n</div>\n";
 }
 
-std::string HtmlPicture(const Figure& figure, std::string_view light, std::string_view dark) {
+std::string HtmlPicture(const Figure& figure, const PictureFile& light, const PictureFile& dark) {
   return fmt::format(
       "<figure id=\"{0}\">\n"
       "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{6}\">\n<picture>\n"
       "<source media=\"(prefers-color-scheme: dark)\" srcset=\"{1}\">\n"
-      "<img src=\"{2}\" width=\"{3}\" height=\"{4}\" alt=\"{5}\">\n</picture>\n</div>\n"
+      "<img src=\"{2}\" width=\"{3:.0f}\" height=\"{4:.0f}\" alt=\"{5}\">\n</picture>\n</div>\n"
       "<figcaption>{7}</figcaption>\n</figure>\n",
-      Escape(figure.name), DataUrl(dark), DataUrl(light), figure.width, figure.height,
-      Escape(figure.title + ". " + figure.finding), Escape(figure.title), Escape(figure.finding));
+      Escape(figure.name), DataUrl(dark.bytes), DataUrl(light.bytes), light.width, light.height,
+      Escape(figure.title + ". " + figure.finding), Escape(figure.title), Escape(light.caption));
 }
 
 }  // namespace warmjoint::report

@@ -6,12 +6,10 @@
 #include <vector>
 
 #include "tools/board/table.h"
-#include "tools/report/draw/figure.h"
+#include "tools/report/draw/draw_figure.h"
+#include "tools/report/draw/escape.h"
 
 namespace warmjoint::report {
-
-/// Text with the characters that HTML reads as its own replaced: & < > " '.
-std::string Escape(std::string_view text);
 
 /// RFC 4648 base 64.
 std::string Base64(std::string_view bytes);
@@ -20,6 +18,9 @@ std::string Base64(std::string_view bytes);
 /// texts of its own style and script elements, known by their sha256; pictures come as data.
 std::string SecurityPolicy(const std::vector<std::string_view>& styles,
                            const std::vector<std::string_view>& scripts);
+
+/// The same of a page with charts, whose library sets styles of single elements.
+std::string ChartSecurityPolicy(const std::vector<std::string_view>& scripts);
 
 /// <section> with a heading; id: its place in links.
 std::string Section(const std::string& id, const std::string& heading, const std::string& body);
@@ -31,7 +32,7 @@ std::string Paragraph(const std::string& text);
 /// numbers stand right.
 std::string HtmlTable(const std::string& caption, const warmjoint::Table& table);
 
-/// A picture inside the page, for light and for dark screens, with its alt text. PNG bytes.
-std::string HtmlPicture(const Figure& figure, std::string_view light, std::string_view dark);
+/// A picture inside the page, for light and for dark screens, with its alt text. PNG.
+std::string HtmlPicture(const Figure& figure, const PictureFile& light, const PictureFile& dark);
 
 }  // namespace warmjoint::report

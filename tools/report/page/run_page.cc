@@ -11,14 +11,12 @@
 namespace warmjoint::report {
 namespace {
 
-std::string Pictures(const std::vector<Figure>& figures, Canvas& canvas) {
+std::string Pictures(const std::vector<Figure>& figures) {
   std::string html;
+  PageSetting light, dark;
+  dark.style = StyleNamed("dark");
   for (const Figure& figure : figures) {
-    const std::string light =
-        EncodePng(DrawFigure(canvas, figure, LightTheme()).image, figure.finding);
-    const std::string dark =
-        EncodePng(DrawFigure(canvas, figure, DarkTheme()).image, figure.finding);
-    html += HtmlPicture(figure, light, dark);
+    html += HtmlPicture(figure, EncodeFigure(figure, light), EncodeFigure(figure, dark));
   }
   return html;
 }
@@ -68,7 +66,7 @@ std::string DataBlock(const Leaderboard& board) {
 
 }  // namespace
 
-std::string MakeRunPage(const RunPage& page, Canvas& canvas) {
+std::string MakeRunPage(const RunPage& page) {
   const Leaderboard& board = page.board;
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n{}"
@@ -82,7 +80,7 @@ std::string MakeRunPage(const RunPage& page, Canvas& canvas) {
       SecurityPolicy({kStyle}, {}), Escape(board.suite), kStyle, Escape(board.suite),
       Escape(board.question), Escape(Verdict(board)));
   html += Section("leaderboard", "Leaderboard", Leaderboards(board));
-  html += Section("pictures", "Pictures", Pictures(page.figures, canvas));
+  html += Section("pictures", "Pictures", Pictures(page.figures));
   html += Section("failures", "Failures and notes", NotesOf(board));
   html += Section("repeat", "How to repeat it", HowToRepeat(board, page.description));
   return html + "</main>\n" + DataBlock(board) + "</body>\n</html>\n";

@@ -6,7 +6,6 @@
 
 #include "tools/board/leaderboard.h"
 #include "tools/report/draw/figure.h"
-#include "tools/report/gl/canvas.h"
 #include "tools/store/run_description.h"
 
 namespace warmjoint::report {
@@ -19,6 +18,6 @@ struct RunPage {
 
 /// HTML: question, verdict, leaderboard, pictures, failures, how to repeat it. Pictures are inside
 /// it; nothing is asked of any server. The leaderboard's JSON stands in a data block, id "board".
-std::string MakeRunPage(const RunPage& page, Canvas& canvas);
+std::string MakeRunPage(const RunPage& page);
 
 }  // namespace warmjoint::report

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "tools/report/figures/error_by_iteration.h"
+#include "tools/report/run/median_bound.h"
 #include "tools/report/run/run_figures.h"
 
 namespace warmjoint::report {
@@ -36,7 +37,10 @@ std::optional<Figure> ErrorCourses(const RunView& run) {
     any = any || row.course.iteration.size() > 1;
   }
   if (!any) return std::nullopt;
-  if (std::isfinite(run.bound_npe)) data.cramer_rao = run.bound_npe;
+  // a median to compare medians with; variants have a bound each
+  if (run.bound_covariance.size() > 0 && run.rungs.values.size() < 2) {
+    data.cramer_rao = MedianNormOf(run.bound_covariance) / 100;
+  }
   if (std::isfinite(run.noise) && run.noise > 0) data.noise = run.noise;
   return MakeErrorByIteration(data);
 }

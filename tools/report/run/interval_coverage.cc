@@ -67,15 +67,18 @@ std::vector<std::size_t> ColumnsOf(const std::vector<RunRow>& rows) {
 }
 
 std::string Finding(const std::vector<RunRow>& rows) {
-  std::string text = "Of the 95 % intervals,";
+  std::string text = "95 % intervals:";
   for (const RunRow& row : rows) {
-    int hits = 0, tries = 0;
+    double least = 100, most = 0;
     for (const ParameterColumn& column : row.parameters) {
-      hits += column.covered;
-      tries += column.intervals;
+      if (column.intervals == 0) continue;
+      const double share = 100.0 * column.covered / column.intervals;
+      least = std::min(least, share);
+      most = std::max(most, share);
     }
     text +=
-        fmt::format(" {:.0f} % of those of {} hold the truth,", 100.0 * hits / tries, row.label);
+        fmt::format(" those of {} hold the truth in {:.0f} to {:.0f} % of the runs, by parameter,",
+                    row.label, least, most);
   }
   text.back() = '.';
   return text;
@@ -113,7 +116,7 @@ std::optional<Figure> IntervalCoverage(const RunView& run) {
            run,
            "dots: share of intervals that contain the truth; bars: 95 % interval of that share"),
        Finding(rows)},
-      plot, 620, 420);
+      plot);
 }
 
 }  // namespace warmjoint::report

@@ -63,12 +63,22 @@ std::string RangeText(const std::string& label, const Eigen::VectorXd& median,
                      names[static_cast<std::size_t>(worst)]);
 }
 
+/// "torque noise" for noise.torque, "controller bandwidth" for controller.bandwidth.
+std::string VariableName(std::string variable) {
+  const std::string noise = "noise.";
+  if (variable.starts_with(noise)) variable = variable.substr(noise.size()) + " noise";
+  for (char& letter : variable) {
+    if (letter == '.' || letter == '_') letter = ' ';
+  }
+  return variable;
+}
+
 std::string Finding(const RunView& run, const std::vector<std::string>& silent) {
   const Rungs& rungs = run.rungs;
-  std::string text =
-      rungs.names.empty()
-          ? fmt::format("Median NPE from the first rung of {} to the last:", rungs.variable)
-          : "Median NPE in the best and the worst variant:";
+  std::string text = rungs.names.empty()
+                         ? fmt::format("Median NPE from the first rung of {} to the last:",
+                                       VariableName(rungs.variable))
+                         : "Median NPE in the best and the worst variant:";
   for (const RunRow& row : run.rows) {
     text += RangeText(row.label, RungsOf(row, rungs).median, rungs.names);
   }
@@ -128,18 +138,18 @@ std::optional<Figure> LadderFigure(const RunView& run) {
   const std::string unit = rungs.unit.empty() ? "" : fmt::format(" ({})", UnitText(rungs.unit));
   const bool wide =
       rungs.values.minCoeff() > 0 && rungs.values.maxCoeff() > 10 * rungs.values.minCoeff();
-  plot.x = rungs.names.empty() ? (wide ? LogarithmicAxis(rungs.variable + unit, {rungs.values})
-                                       : LinearAxis(rungs.variable + unit, {rungs.values}))
-                               : CategoryAxis("", rungs.names);
+  plot.x = rungs.names.empty()
+               ? (wide ? LogarithmicAxis(VariableName(rungs.variable) + unit, {rungs.values})
+                       : LinearAxis(VariableName(rungs.variable) + unit, {rungs.values}))
+               : CategoryAxis("", rungs.names);
   plot.y = MagnitudeAxis("NPE, continuous (%)", shown);
 
   const std::vector<std::string> silent = MarkSilent(rungs, plot);
-  const std::string title = rungs.names.empty()
-                                ? fmt::format("Parameter error against {}", rungs.variable)
-                                : "Parameter error in each variant";
+  const std::string title =
+      rungs.names.empty() ? fmt::format("Parameter error against {}", VariableName(rungs.variable))
+                          : "Parameter error in each variant";
   return SinglePlot(
-      {"ladder", title, MediansSubtitle(run.suite, run.realizations), Finding(run, silent)}, plot,
-      720, 440);
+      {"ladder", title, MediansSubtitle(run.suite, run.realizations), Finding(run, silent)}, plot);
 }
 
 }  // namespace warmjoint::report

@@ -44,6 +44,21 @@ std::string LabelOf(const RunRow& row) {
   return label;
 }
 
+double RootMeanSquare(const Eigen::VectorXd& values) {
+  const auto finite = values.array().isFinite();
+  return std::sqrt(finite.select(values.array().square(), 0).sum() /
+                   static_cast<double>(finite.count()));
+}
+
+void Append(Eigen::VectorXd& values, double value) {
+  values.conservativeResize(values.size() + 1);
+  values[values.size() - 1] = value;
+}
+
+bool HasOneBound(const RunView& run) {
+  return std::isfinite(run.bound_npe) && run.rungs.values.size() < 2;
+}
+
 bool HasNumbers(const RunRow& row) { return row.npe.array().isFinite().any(); }
 
 std::string Finding(const RunView& run) {
@@ -55,7 +70,7 @@ std::string Finding(const RunView& run) {
     if (row.failed() > 0) text += fmt::format(" with {} of {} failed,", row.failed(), row.runs);
   }
   text.back() = '.';
-  if (std::isfinite(run.bound_npe)) {
+  if (HasOneBound(run)) {
     text += fmt::format(" The Cramér-Rao bound is {} % rms.", SignificantText(100 * run.bound_npe));
   }
   return text;
@@ -67,16 +82,21 @@ std::optional<Figure> NpeBoxes(const RunView& run) {
   Plot plot;
   std::vector<std::string> labels;
   std::vector<Eigen::VectorXd> shown;
+  Scatter means{Eigen::VectorXd(0), Eigen::VectorXd(0), 4, Marker::diamond};
   for (const RunRow& row : run.rows) {
     if (HasNumbers(row)) {
       const auto place = static_cast<double>(labels.size());
       plot.series.push_back({"", IdentifierHue(row.identifier), BoxOf(place, 100 * row.npe)});
       shown.push_back(100 * row.npe);
+      Append(means.x, place);
+      Append(means.y, 100 * RootMeanSquare(row.npe));
     }
     labels.push_back(LabelOf(row));
   }
   if (shown.empty()) return std::nullopt;
-  if (std::isfinite(run.bound_npe)) {
+  plot.series.push_back({"root mean square", Hue::text, means});
+  // variants have a bound each: one line for all of them would say nothing
+  if (HasOneBound(run)) {
     const double bound = 100 * run.bound_npe;
     plot.series.push_back({"Cramér-Rao bound (rms)", Hue::text, LevelLine{bound}});
     shown.push_back(Eigen::Vector2d(0.9 * bound, 1.1 * bound));
@@ -84,9 +104,10 @@ std::optional<Figure> NpeBoxes(const RunView& run) {
   plot.x = CategoryAxis("", labels);
   plot.y = MagnitudeAxis("NPE, continuous (%)", shown);
 
-  return SinglePlot({"npe_boxes", "Parameter error of each identifier",
-                     RunSubtitle(run, "boxes hold the middle half, whiskers 90 %"), Finding(run)},
-                    plot, std::max(560, 150 + 150 * static_cast<int>(labels.size())), 440);
+  return SinglePlot(
+      {"npe_boxes", "Parameter error of each identifier",
+       RunSubtitle(run, "boxes hold the middle half and its median, whiskers 90 %"), Finding(run)},
+      plot);
 }
 
 }  // namespace warmjoint::report

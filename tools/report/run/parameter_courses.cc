@@ -13,6 +13,15 @@
 namespace warmjoint::report {
 namespace {
 
+std::vector<double> SortedFinite(const Eigen::VectorXd& values) {
+  std::vector<double> sorted;
+  for (double value : values) {
+    if (std::isfinite(value)) sorted.push_back(value);
+  }
+  std::sort(sorted.begin(), sorted.end());
+  return sorted;
+}
+
 /// The row with the longest course, or nullptr.
 const RunRow* LongestCourse(const RunView& run) {
   const RunRow* longest = nullptr;
@@ -21,6 +30,21 @@ const RunRow* LongestCourse(const RunView& run) {
     if (length > 1 && (!longest || length > longest->course.iteration.size())) longest = &row;
   }
   return longest;
+}
+
+constexpr Eigen::Index kMostLines = 12;  // realizations that get a line each
+
+/// Where the middle 80 % and the middle half of the realizations run.
+void AddBands(Plot& plot, const Eigen::VectorXd& iteration, const Eigen::MatrixXd& values) {
+  for (const auto& [outer, label] : {std::pair(0.1, "middle 80 %"), {0.25, "middle half"}}) {
+    Band band{iteration, Eigen::VectorXd(iteration.size()), Eigen::VectorXd(iteration.size()), 0.3};
+    for (Eigen::Index k = 0; k < iteration.size(); ++k) {
+      const std::vector<double> sorted = SortedFinite(values.col(k));
+      band.lower[k] = sorted.empty() ? std::nan("") : Quantile(sorted, outer);
+      band.upper[k] = sorted.empty() ? std::nan("") : Quantile(sorted, 1 - outer);
+    }
+    plot.series.push_back({label, Hue::grey, band});
+  }
 }
 
 /// Lines of all realizations as one, with gaps between them. values: [R x K].
@@ -42,11 +66,7 @@ std::pair<double, double> LimitsOf(const Axis& axis, const Eigen::VectorXd& iter
   std::vector<Eigen::VectorXd> shown{truth};
   for (Eigen::Index k = 0; k < values.cols(); ++k) {
     if (iteration[k] < axis.lower) continue;
-    std::vector<double> sorted;
-    for (double value : values.col(k)) {
-      if (std::isfinite(value)) sorted.push_back(value);
-    }
-    std::sort(sorted.begin(), sorted.end());
+    const std::vector<double> sorted = SortedFinite(values.col(k));
     if (sorted.empty()) continue;
     shown.push_back(Eigen::Vector2d(Quantile(sorted, 0.1), Quantile(sorted, 0.9)));
   }
@@ -60,7 +80,11 @@ Plot PanelOf(const RunRow& row, const ParameterColumn& column, const Eigen::Matr
   const double truth = QuartilesOf(Eigen::VectorXd::Zero(1), column.truth).median[0];
 
   Plot plot;
-  plot.series.push_back({"realizations", Hue::grey, AllRealizations(iteration, values)});
+  if (values.rows() > kMostLines) {
+    AddBands(plot, iteration, values);
+  } else {
+    plot.series.push_back({"realizations", Hue::grey, AllRealizations(iteration, values)});
+  }
   plot.series.push_back({"median", hue, Line{iteration, middle.median, 2.2}});
   plot.series.push_back({"truth", Hue::text, LevelLine{truth}});
   plot.x = IterationAxis(iteration[0], iteration.tail(1)[0]);
@@ -79,8 +103,9 @@ std::optional<Figure> ParameterCourses(const RunView& run) {
   Figure figure;
   figure.name = "parameters_by_iteration";
   figure.title = fmt::format("Parameters by iteration: {}", row->label);
-  figure.subtitle = RunSubtitle(run, "each thin line is one of them");
-  figure.width = 960;
+  figure.subtitle =
+      RunSubtitle(run, row->course.npe.rows() > kMostLines ? "bands hold most of their courses"
+                                                           : "each thin line is one");
   figure.columns = {1, 1};
   figure.rows.clear();
   std::string last;
@@ -91,7 +116,7 @@ std::optional<Figure> ParameterCourses(const RunView& run) {
     const Eigen::MatrixXd& values =
         row->course.parameters[static_cast<std::size_t>(found - names.begin())];
     if (!values.array().isFinite().any()) continue;
-    Panel panel{column.name, PanelOf(*row, column, values)};
+    Panel panel{NameWithSymbol(column.name), PanelOf(*row, column, values)};
     const auto place = static_cast<int>(figure.panels.size());
     panel.row = place / 2;
     panel.column = place % 2;

@@ -95,6 +95,22 @@ Plot PairOf(const RunView& run, const RunRow& row, const Eigen::MatrixXd& errors
   return plot;
 }
 
+/// Gives all panels one scale: errors of all parameters are per cent.
+void ShareScale(std::vector<Panel>& panels) {
+  double reach = 0;
+  for (const Panel& panel : panels) {
+    const Plot& plot = std::get<Plot>(panel.content);
+    for (const Axis& axis : {plot.x, plot.y}) {
+      reach = std::max({reach, std::abs(axis.lower), std::abs(axis.upper)});
+    }
+  }
+  for (Panel& panel : panels) {
+    auto& [x, y, series] = std::get<Plot>(panel.content);
+    x.lower = y.lower = -reach;
+    x.upper = y.upper = reach;
+  }
+}
+
 std::string Finding(const RunRow& row, const Eigen::MatrixXd& errors) {
   const Eigen::MatrixXd covariance = CovarianceOf(errors);
   Eigen::Index a = 0, b = 1;
@@ -138,8 +154,8 @@ std::optional<Figure> ParameterPairs(const RunView& run) {
       figure.panels.push_back(panel);
     }
   }
+  ShareScale(figure.panels);
   figure.columns.assign(static_cast<std::size_t>(across), 1);
-  figure.width = across == 1 ? 560 : 1080;
   figure.height = 80 + 320 * static_cast<int>(figure.rows.size());
   return figure;
 }

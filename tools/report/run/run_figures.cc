@@ -2,11 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <map>
-
-#include "models/friction/law.h"
-#include "models/friction/thermal.h"
-
 namespace warmjoint::report {
 
 const std::vector<RunFigure>& RunFigures() {
@@ -20,24 +15,6 @@ const std::vector<RunFigure>& RunFigures() {
       {"parameter_pairs", "errors of pairs of parameters with their ellipses", &ParameterPairs},
   };
   return figures;
-}
-
-std::string SymbolOf(const std::string& parameter) {
-  std::string symbol = parameter;
-  for (const ParameterInfo& info : Thermal::parameters) {
-    if (info.name == parameter) symbol = info.symbol;
-  }
-  for (const Law& law : Laws()) {
-    for (const ParameterInfo& info : law.parameters) {
-      if (info.name == parameter) symbol = info.symbol;
-    }
-  }
-  static const std::map<std::string, std::string> kInPrint{
-      {"tau", "τ"},          {"kc-", "kc−"},   {"sigma0", "σ₀"},
-      {"sigma1", "σ₁"},      {"sigma2", "σ₂"}, {"thermal_gain_discrete", "ke"},
-      {"thermal_pole", "te"}};
-  const auto found = kInPrint.find(symbol);
-  return found == kInPrint.end() ? symbol : found->second;
 }
 
 std::string RunSubtitle(const RunView& run, const std::string& more) {

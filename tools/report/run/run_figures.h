@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tools/report/draw/named_figure.h"
+#include "tools/report/figures/symbols.h"
 #include "tools/report/run/run_view.h"
 
 namespace warmjoint::report {
@@ -23,9 +24,6 @@ std::optional<Figure> ParameterCourses(const RunView& run);
 std::optional<Figure> AgreementBars(const RunView& run);
 std::optional<Figure> IntervalCoverage(const RunView& run);
 std::optional<Figure> ParameterPairs(const RunView& run);
-
-/// Symbol of a parameter, as set in print: "τ" for thermal_time_constant.
-std::string SymbolOf(const std::string& parameter);
 
 /// "table1: 50 realizations" and what else is worth a word. Of a suite with a ladder: "of all its
 /// variants together".

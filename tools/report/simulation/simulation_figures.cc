@@ -8,6 +8,7 @@ namespace warmjoint::report {
 namespace {
 
 std::optional<Figure> EnvelopeOf(const SimulationView& view) {
+  if (!view.recording.truth.friction.thermal) return std::nullopt;
   return MakeEnvelope(view.scenario.name, view.recording.measurements, view.fit.selection,
                       view.recording.truth.friction.thermal);
 }

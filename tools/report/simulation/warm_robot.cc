@@ -61,11 +61,6 @@ class Model {
   int body_ = 0;
 };
 
-bool HasWarmRobot(const SimulationView& view) {
-  return view.scenario.plant == PlantKind::mujoco && view.fit.warms() &&
-         view.fit.energy.size() > 1 && view.fit.energy.cwiseAbs().maxCoeff() > 0;
-}
-
 double LargestEnergy(const SimulationView& view) { return view.fit.energy.cwiseAbs().maxCoeff(); }
 
 Index WarmestSample(const SimulationView& view) {
@@ -123,7 +118,7 @@ Plot HeatStrip(const SimulationView& view) {
               {0, fit.time.tail(1)[0] / TimeUnit(fit)},
               {0, 1},
               {0, LargestEnergy(view)},
-              TorqueLabel(fit, "|E|")};
+              TorqueLabel(fit, WarmestEnergy(fit) < 0 ? "−E" : "E")};
   for (Index i = 0; i < kCells; ++i) {
     map.values(0, i) = std::abs(fit.energy[i * (fit.energy.size() - 1) / (kCells - 1)]);
   }
@@ -147,6 +142,11 @@ std::string RobotTitle(const SimulationView& view) {
 }
 
 }  // namespace
+
+bool HasWarmRobot(const SimulationView& view) {
+  return view.scenario.plant == PlantKind::mujoco && view.fit.warms() &&
+         view.fit.energy.size() > 1 && view.fit.energy.cwiseAbs().maxCoeff() > 0;
+}
 
 std::optional<std::vector<Image>> RenderWarmRobot(const SimulationView& view, GlContext& context,
                                                   const std::vector<Index>& samples, int width,
@@ -179,12 +179,12 @@ std::optional<Figure> MakeWarmRobot(const SimulationView& view, GlContext& conte
   Figure figure;
   figure.name = "warm_robot";
   figure.title = RobotTitle(view);
-  figure.subtitle = fmt::format("{}; the joint's link has the colour of |E|", view.scenario.name);
+  figure.subtitle = fmt::format("{}; the joint's link has the colour of {}", view.scenario.name,
+                                WarmestEnergy(view.fit) < 0 ? "−E" : "E");
   figure.finding = fmt::format(
       "The joint's own heat changes its friction by {} {} at most, after {} {}.",
       SignificantText(view.fit.energy[warmest]), view.fit.torque_unit,
       SignificantText(view.fit.time[warmest] / TimeUnit(view.fit), 2), TimeUnitName(view.fit));
-  figure.width = 960;
   figure.height = 800;
   figure.rows = {2.3, 1.9, 0.8};
   figure.columns = {1, 1};

@@ -5,10 +5,13 @@
 #include <vector>
 
 #include "tools/report/draw/figure.h"
-#include "tools/report/gl/canvas.h"
+#include "tools/report/gl/context.h"
 #include "tools/report/simulation/simulation_view.h"
 
 namespace warmjoint::report {
+
+/// Whether the recording is of a robot, and warms.
+bool HasWarmRobot(const SimulationView& view);
 
 /// The robot of a simulated recording at some of its samples; the link that the joint carries has
 /// the colour of |E| (HeatColour, 0 to the largest of the recording). Images: one for each sample.

@@ -76,7 +76,7 @@ TEST(DrawFigure, WritesEveryWord) {
   std::vector<std::string> words;
   for (const DrawnText& text : drawn.texts) words.push_back(text.text);
   EXPECT_THAT(words, ::testing::IsSupersetOf({"Title", "Subtitle", "Panel", "time (s)",
-                                              "torque (N·m)", "measured", "0", "10", "−2"}));
+                                              "torque (N·m)", "measured", "0", "10", "−2.0"}));
 }
 
 TEST(DrawFigure, KeepsLegendsOffTheData) {
@@ -89,11 +89,11 @@ TEST(DrawFigure, KeepsLegendsOffTheData) {
 }
 
 TEST(DrawFigure, GivesTheSameBytesWhateverWasDrawnBefore) {
-  const std::string first = EncodePng(DrawFigure(TestCanvas(), OneLine()).image, "alt");
+  const std::string first = EncodePng(DrawFigure(OneLine()).image, "alt");
   Figure other = OneLine();
   other.title = "Other letters: xyzäöüβγ";
-  DrawFigure(TestCanvas(), other, DarkTheme());
-  EXPECT_EQ(EncodePng(DrawFigure(TestCanvas(), OneLine()).image, "alt"), first);
+  DrawFigure(other, DarkTheme());
+  EXPECT_EQ(EncodePng(DrawFigure(OneLine()).image, "alt"), first);
 }
 
 TEST(DrawFigure, ClipsToTheAxes) {
@@ -161,7 +161,7 @@ TEST(DrawFigure, RefusesAxesThatCannotBeDrawn) {
   auto& plot = std::get<Plot>(figure.panels[0].content);
   plot.y = {"error (%)", 0, 1, Scale::logarithmic, {}};
   try {
-    DrawFigure(TestCanvas(), figure);
+    DrawFigure(figure);
     FAIL() << "drawn";
   } catch (const BadInput& refusal) {
     EXPECT_THAT(refusal.what(), HasSubstr("axis 'error (%)' cannot run from 0 to 1"));
@@ -173,19 +173,97 @@ TEST(DrawFigure, RefusesAxesThatCannotBeDrawn) {
 TEST(DrawFigure, SaysWhichTextsItsTypefaceCannotSet) {
   Figure figure = OneLine();
   figure.title = "two signs \u4E2D";
-  EXPECT_THAT(DrawFigure(TestCanvas(), figure).unreadable, ::testing::ElementsAre(figure.title));
+  EXPECT_THAT(DrawFigure(figure).unreadable, ::testing::ElementsAre(figure.title));
 }
 
 TEST(DrawFigure, PutsPicturesWhereTheirPanelsAre) {
   Figure figure = OneLine();
   Image red{2, 1, {255, 0, 0, 0, 0, 255}};
   figure.panels = {{"", Picture{red}}};
-  const Drawn drawn = DrawFigure(TestCanvas(), figure);
+  const Drawn drawn = DrawFigure(figure);
   const Rectangle& place = drawn.pictures.at(0);
   EXPECT_NEAR(place.width(), 2 * place.height(), 0.01);
   const int y = static_cast<int>(place.top + place.bottom);
   EXPECT_EQ(drawn.image.At(static_cast<int>(2 * place.left + 3), y), (Rgb{255, 0, 0}));
   EXPECT_EQ(drawn.image.At(static_cast<int>(2 * place.right - 3), y), (Rgb{0, 0, 255}));
+}
+
+TEST(EncodeFigure, GivesTheSameBytesOfEachFormatWhateverWasDrawnBefore) {
+  for (FileFormat format : {FileFormat::png, FileFormat::svg, FileFormat::pdf}) {
+    PageSetting setting;
+    setting.format = format;
+    Figure figure = OneLine();
+    // an image inside: cairo numbers them through the process
+    HeatMap map{Eigen::MatrixXd{{0, 1}}, {0, 10}, {-2, 2}, {0, 1}, "z"};
+    std::get<Plot>(figure.panels[0].content).series.push_back({"", Hue::text, map});
+    const std::string first = EncodeFigure(figure, setting).bytes;
+    setting.style = StyleNamed("paper");
+    EncodeFigure(figure, setting);
+    setting.style = StyleNamed("screen");
+    EXPECT_TRUE(EncodeFigure(figure, setting).bytes == first) << NameOf(format);
+  }
+}
+
+TEST(EncodeFigure, WritesWordsAsWords) {
+  Figure figure = OneLine();
+  figure.panels[0].title = "k_{v} < 1 & more";
+  PageSetting setting;
+  setting.format = FileFormat::svg;
+  const std::string svg = EncodeFigure(figure, setting).bytes;
+  for (const char* words : {">Title</text>", ">torque (N·m)</text>", ">k</text>", ">v</text>",
+                            "> &lt; 1 &amp; more</text>", "<desc>A line.</desc>"}) {
+    EXPECT_THAT(svg, HasSubstr(words));
+  }
+  EXPECT_THAT(svg, HasSubstr("width=\"400pt\" height=\"300pt\""));
+}
+
+TEST(EncodeFigure, IsAsLargeAsAsked) {
+  PageSetting setting;
+  setting.style = StyleNamed("paper");
+  setting.width = 88;
+  setting.height = 60;
+  const PictureFile file = EncodeFigure(OneLine(), setting);
+  EXPECT_NEAR(file.width, 88 * 72 / 25.4, 1e-9) << "points";
+  EXPECT_NEAR(file.height, 60 * 72 / 25.4, 1e-9);
+  // 300 pixels an inch
+  const auto number = [&](std::size_t at) {
+    return static_cast<unsigned char>(file.bytes[at]) * 256 +
+           static_cast<unsigned char>(file.bytes[at + 1]);
+  };
+  EXPECT_EQ(number(18), 1039);
+  EXPECT_EQ(number(22), 709);
+  setting.height = 20;
+  EXPECT_THROW(EncodeFigure(OneLine(), setting), BadInput) << "no room between the axes";
+}
+
+TEST(EncodeFigure, LeavesTheTitleToTheCaption) {
+  PageSetting setting;
+  setting.format = FileFormat::svg;
+  setting.titled = false;
+  const std::string svg = EncodeFigure(OneLine(), setting).bytes;
+  EXPECT_EQ(svg.find(">Title</text>"), std::string::npos);
+  EXPECT_EQ(svg.find(">Subtitle</text>"), std::string::npos);
+  EXPECT_THAT(svg, HasSubstr("<title>Title</title>"));
+}
+
+TEST(EncodeFigure, ThinsAHundredThousandSamplesAndSaysSo) {
+  constexpr Eigen::Index kSamples = 100000;
+  const VectorXd x = VectorXd::LinSpaced(kSamples, 0, 10);
+  VectorXd y(kSamples);
+  for (Eigen::Index i = 0; i < kSamples; ++i)
+    y[i] = std::sin(x[i]) + 0.3 * std::sin(1e4 * x[i] * x[i]);
+  Figure figure = OneLine();
+  figure.width = 960;
+  auto& plot = std::get<Plot>(figure.panels[0].content);
+  plot.series = {{"dots", Hue::grey, Scatter{x, y, 1}}, {"line", Hue::blue, Line{x, y, 1}}};
+  PageSetting setting;
+  for (FileFormat format : {FileFormat::svg, FileFormat::pdf}) {
+    setting.format = format;
+    const PictureFile file = EncodeFigure(figure, setting);
+    EXPECT_LT(file.bytes.size(), 300000u) << NameOf(format);
+    EXPECT_THAT(file.caption, HasSubstr("thinned; no extreme is lost"));
+  }
+  EXPECT_EQ(EncodeFigure(OneLine(), setting).caption, "A line.");
 }
 
 }  // namespace

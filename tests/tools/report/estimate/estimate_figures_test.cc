@@ -70,7 +70,7 @@ TEST(EstimateFigures, ShowTheRecordingAloneWithoutAFriction) {
     shown.push_back(one.name);
     EXPECT_FALSE(DrawLight(*figure).plots.empty()) << one.name;
   }
-  EXPECT_THAT(shown, testing::ElementsAre("fit", "envelope", "motor_angle"));
+  EXPECT_THAT(shown, testing::ElementsAre("fit", "log", "motor_angle"));
 }
 
 TEST(Trace, ShowsEachParameterByIterationWithItsFinalInterval) {
@@ -78,7 +78,7 @@ TEST(Trace, ShowsEachParameterByIterationWithItsFinalInterval) {
   const Figure figure = *MakeTrace(view.estimate, "warm.csv");
   const Drawn drawn = DrawLight(figure);
   ASSERT_EQ(drawn.plots.size(), 5u) << "four parameters and the RMSE";
-  const DrawnPlot& gain = PlotNamed(drawn, "thermal_gain");
+  const DrawnPlot& gain = PlotNamed(drawn, "thermal_gain, k");
   EXPECT_EQ(gain.series[0].label, "final 95 % interval");
   EXPECT_EQ(gain.series[0].y, std::pair(-3.1, -2.9));
   EXPECT_EQ(gain.series[1].x, std::pair(0.0, 7.0));

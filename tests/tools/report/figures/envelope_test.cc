@@ -20,8 +20,8 @@ TEST(Envelope, ShowsTheLevelAndWhereTheGuessIsRead) {
   const Figure figure = *MakeEnvelope("warm", warm.measurements, warm.selection, Thermal{-3, 600});
   const Drawn drawn = DrawLight(figure);
 
-  const DrawnPlot& torque = PlotNamed(drawn, "The recording and its envelope");
-  EXPECT_EQ(SeriesNamed(torque, "envelope").y.second, envelope.level.maxCoeff());
+  const DrawnPlot& torque = PlotNamed(drawn, "The recording and its level of friction");
+  EXPECT_EQ(SeriesNamed(torque, "level of friction").y.second, envelope.level.maxCoeff());
   EXPECT_NEAR(SeriesNamed(torque, "torque").y.second, warm.measurements.torque.maxCoeff(), 1e-12);
   EXPECT_NEAR(SeriesNamed(torque, "torque").x.second, 20, 0.1) << "minutes";
 

@@ -39,7 +39,7 @@ TEST(ErrorByIteration, DrawsMediansInTheIdentifiersColours) {
   EXPECT_EQ(em.x, std::pair(1.0, 500.0));
   EXPECT_NEAR(em.y.first, 1, 1e-12) << "per cent";
   EXPECT_NEAR(em.y.second, 100, 1e-12);
-  EXPECT_EQ(SeriesNamed(npe, "Cramér-Rao bound (rms)").y, std::pair(1.2, 1.2));
+  EXPECT_EQ(SeriesNamed(npe, "median at the Cramér-Rao bound").y, std::pair(1.2, 1.2));
   EXPECT_EQ(SeriesNamed(npe, "nominal-ls").x, std::pair(1.0, 500.0)) << "a level";
 
   const DrawnPlot& rmse = PlotNamed(drawn, "Root mean square error of the fit");
@@ -63,7 +63,7 @@ TEST(ErrorByIteration, ShowsTheQuartilesAsABandOfTheSameColour) {
 TEST(ErrorByIteration, SaysInItsAltTextWhatOneSees) {
   EXPECT_EQ(MakeErrorByIteration(Example()).finding,
             "Median NPE after the last iteration: nominal-ls 120 %, energy-em 50 20.0 %, "
-            "energy-em 500 1.00 %, Cramér-Rao bound 1.20 %.");
+            "energy-em 500 1.00 %, median at the Cramér-Rao bound 1.20 %.");
 }
 
 TEST(ErrorByIteration, DrawsWithoutAnyThatIterates) {

@@ -57,12 +57,13 @@ TEST(FitPage, ExplainsWhyThereIsNoFit) {
 TEST(FitPage, GivesALongMessageTheRoomItNeeds) {
   WarmRecording warm;
   const auto height = [&] {
-    return MakeFitPage(MakeFitView(warm.measurements, warm.selection, warm.estimate)).rows[0];
+    return DrawLight(MakeFitPage(MakeFitView(warm.measurements, warm.selection, warm.estimate)))
+        .image.height;
   };
   warm.estimate.message = "short";
-  const double usual = height();
+  const int usual = height();
   for (int i = 0; i < 30; ++i) warm.estimate.message += " and another thing that the data shows";
-  EXPECT_GT(height(), usual + 100);
+  EXPECT_GT(height(), usual + 100) << "pixels";
 }
 
 TEST(FitPage, WarnsOfResidualsThatRemember) {
@@ -118,12 +119,82 @@ TEST(FrictionCurve, HasNoBandWhereMapsCarryPartOfTheFriction) {
   EXPECT_EQ(bands(), 0);
 }
 
+TEST(FrictionCurve, LeavesOutBandsThinnerThanTheirLine) {
+  WarmRecording warm;
+  for (EstimatedParameter& parameter : warm.estimate.parameters) *parameter.std *= 0.01;
+  const Plot plot = FrictionCurve(MakeFitView(warm.measurements, warm.selection, warm.estimate));
+  for (const Series& series : plot.series) {
+    EXPECT_FALSE(std::holds_alternative<Band>(series.shape));
+  }
+}
+
+TEST(FrictionCurve, RunsThroughTheDataWhereMapsCarryAConstant) {
+  WarmRecording warm;
+  FrictionMap map;
+  map.axes = {{MapQuantity::position, EvenAxis(-10, 10, 3)}};
+  map.weights = {4, 4, 4};
+  warm.estimate.friction->maps = {map};
+  warm.estimate.friction->parameters["coulomb"] = 11;
+  const Plot plot = FrictionCurve(MakeFitView(warm.measurements, warm.selection, warm.estimate));
+  // 11 + 5 v of the law and 4 of the map, forwards at the fastest
+  for (const Series& series : plot.series) {
+    if (series.label != "fit, mean over its maps, cold") continue;
+    const Line& line = std::get<Line>(series.shape);
+    EXPECT_NEAR(line.y.tail(1)[0], 15 + 5 * line.x.tail(1)[0], 0.01);
+    return;
+  }
+  FAIL() << "no curve";
+}
+
+TEST(FitPage, ShowsAVoidFitWithThePanelThatDecided) {
+  WarmRecording warm;
+  warm.estimate.status = Status::inadequate_model;
+  Diagnostic direction;
+  direction.test = "direction";
+  direction.made = direction.rejected = true;
+  warm.estimate.diagnostics = {direction};
+  const Figure page = MakeFitPage(MakeFitView(warm.measurements, warm.selection, warm.estimate));
+  int framed = 0;
+  for (const Panel& panel : page.panels) {
+    if (!panel.frame) continue;
+    ++framed;
+    EXPECT_EQ(panel.title, "Residuals over velocity: decided by direction");
+    EXPECT_EQ(*panel.frame, Hue::vermilion);
+  }
+  EXPECT_EQ(framed, 1);
+  const Drawn drawn = DrawLight(page);
+  EXPECT_GT(SeriesNamed(PlotNamed(drawn, "Level of friction over time"), "fit (void)").points, 100);
+  for (const Series& series :
+       FrictionCurve(MakeFitView(warm.measurements, warm.selection, warm.estimate)).series) {
+    const auto* line = std::get_if<Line>(&series.shape);
+    EXPECT_TRUE(!line || line->dash == Dash::dashed);
+  }
+}
+
+TEST(ResidualMemory, BeginsOneSampleOn) {
+  const WarmRecording warm;
+  const Plot plot = ResidualMemory(MakeFitView(warm.measurements, warm.selection, warm.estimate));
+  EXPECT_EQ(std::get<Line>(plot.series[0].shape).x[0], 1) << "s, the sampling interval";
+  EXPECT_EQ(plot.x.scale, Scale::logarithmic);
+}
+
 TEST(FitPage, LooksAtTheFirstAndTheLastSegments) {
   const WarmRecording warm;
   const FitView view = MakeFitView(warm.measurements, warm.selection, warm.estimate);
   EXPECT_EQ(ColdWindow(view, 6).begin, 0);
-  EXPECT_EQ(ColdWindow(view, 6).end, warm.selection.segments[5].end);
+  const Eigen::Index end = warm.selection.segments[5].end;
+  EXPECT_EQ(ColdWindow(view, 6).end, end + end / 20) << "with a little of what follows";
   EXPECT_EQ(WarmWindow(view, 6).end, warm.measurements.size());
+}
+
+TEST(FitPage, LooksAtSegmentsWhereThereAreFew) {
+  WarmRecording warm;
+  // two segments in the middle of the recording, as of a joint that rests before and after
+  warm.selection.segments = {{500, 520, 0.3}, {600, 620, -0.3}};
+  const FitView view = MakeFitView(warm.measurements, warm.selection, warm.estimate);
+  EXPECT_EQ(ColdWindow(view).begin, 499);
+  EXPECT_EQ(ColdWindow(view).end, 521);
+  EXPECT_EQ(WarmWindow(view).begin, 599);
 }
 
 TEST(FrictionSpread, AgreesWithTheClosedFormOfALinearLaw) {

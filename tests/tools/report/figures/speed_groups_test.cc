@@ -31,7 +31,7 @@ TEST(GroupBySpeed, NamesEverySpeedOfAFew) {
   const FitView view = Moving({1.5, -0.3, 0.1, -0.1, 0.3, 0.6, -1, 0.1001});
   const auto forwards = GroupBySpeed(view, 1), backwards = GroupBySpeed(view, -1);
   EXPECT_THAT(Labels(forwards),
-              ElementsAre("0.10 rad/s", "0.30 rad/s", "0.60 rad/s", "1.0 rad/s", "1.5 rad/s"));
+              ElementsAre("0.1 rad/s", "0.3 rad/s", "0.6 rad/s", "1 rad/s", "1.5 rad/s"));
   EXPECT_EQ(Labels(backwards), Labels(forwards));
   EXPECT_EQ(forwards[0].samples.size(), 200u);
   EXPECT_EQ(backwards[0].samples.size(), 100u);
@@ -43,7 +43,7 @@ TEST(GroupBySpeed, NamesEverySpeedOfAFew) {
 TEST(GroupBySpeed, LetsAStraySegmentJoinItsNeighbour) {
   // 5 of 405 samples
   const auto groups = GroupBySpeed(Moving({0.1, 0.083, 0.3, 0.6, 1}, {100, 5, 100, 100, 100}), 1);
-  EXPECT_THAT(Labels(groups), ElementsAre("0.10 rad/s", "0.30 rad/s", "0.60 rad/s", "1.0 rad/s"));
+  EXPECT_THAT(Labels(groups), ElementsAre("0.1 rad/s", "0.3 rad/s", "0.6 rad/s", "1 rad/s"));
   EXPECT_EQ(groups[0].samples.size(), 105u);
 }
 
@@ -52,7 +52,7 @@ TEST(GroupBySpeed, MakesThreeBinsOfManySpeeds) {
   for (int i = 0; i < 30; ++i) speeds.push_back(0.1 + 0.03 * i);
   const auto groups = GroupBySpeed(Moving(speeds), 1);
   ASSERT_EQ(groups.size(), 3u);
-  EXPECT_EQ(groups[0].label, "0.10 … 0.37 rad/s");
+  EXPECT_EQ(groups[0].label, "0.1 … 0.37 rad/s");
   EXPECT_EQ(groups[2].fastest, speeds.back());
   std::size_t all = 0;
   for (std::size_t i = 0; i < 3; ++i) {

@@ -7,39 +7,34 @@
 namespace warmjoint::report {
 namespace {
 
-TEST(ContactSheet, ShowsEveryPictureInItsPlaceUnderItsName) {
-  const Rgb colours[] = {{200, 30, 30}, {30, 160, 30}, {30, 30, 200}};
-  std::vector<std::pair<std::string, Image>> pictures;
-  for (Rgb colour : colours) {
-    Image image{400, 300, {}};
-    for (int i = 0; i < 400 * 300; ++i) {
-      image.pixels.insert(image.pixels.end(), {colour.red, colour.green, colour.blue});
-    }
-    pictures.emplace_back("picture " + std::to_string(pictures.size()), image);
-  }
-  const Figure sheet = MakeContactSheet(pictures, 2, 500);
-  const Drawn drawn = DrawLight(sheet);
-  ASSERT_EQ(drawn.pictures.size(), 3u);
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Rectangle& place = drawn.pictures[i];
-    EXPECT_NEAR(place.width() / place.height(), 400.0 / 300, 0.02) << "in proportion";
-    const Pixel middle{static_cast<int>(place.left + place.right),
-                       static_cast<int>(place.top + place.bottom)};
-    EXPECT_EQ(drawn.image.At(middle.x, middle.y), colours[i]);
-    EXPECT_EQ(drawn.texts[i].text, "picture " + std::to_string(i));
-    EXPECT_LE(drawn.texts[i].place.bottom, place.top + 1);
-  }
-  EXPECT_GT(drawn.pictures[2].top, drawn.pictures[0].bottom) << "a second row";
+/// A figure whose second panel is a plot of one level.
+Figure LevelAt(double value) {
+  Plot plot;
+  plot.x = plot.y = {"x", 0, 10, Scale::linear, {}};
+  plot.series = {{"", Hue::blue, LevelLine{value, Dash::solid}}};
+  Figure figure;
+  figure.name = "level_" + std::to_string(static_cast<int>(value));
+  figure.title = "Level " + std::to_string(static_cast<int>(value));
+  figure.panels = {{"Words", Words{{{"nothing to see", false, Hue::text}}}, 0, 0},
+                   {"", plot, 0, 1}};
+  figure.columns = {1, 1};
+  return figure;
 }
 
-TEST(ContactSheet, PutsPicturesOfLikeProportionsIntoOneRow) {
-  const auto blank = [](int width, int height) {
-    return Image{width, height, std::vector<std::uint8_t>(std::size_t{3} * width * height, 99)};
-  };
-  const Figure sheet = MakeContactSheet(
-      {{"high", blank(30, 90)}, {"flat", blank(90, 30)}, {"higher", blank(30, 93)}}, 2, 500);
-  EXPECT_EQ(sheet.panels[0].title, "flat");
-  EXPECT_EQ(sheet.panels[2].title, "higher");
+TEST(ContactSheet, ShowsThePlotOfEachFigureUnderItsTitleInRowsOfThree) {
+  const Figure sheet = MakeContactSheet({LevelAt(1), LevelAt(2), LevelAt(3), LevelAt(4)});
+  const Drawn drawn = DrawLight(sheet);
+  ASSERT_EQ(drawn.plots.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double value = static_cast<double>(i) + 1;
+    const DrawnPlot& plot = PlotNamed(drawn, "Level " + std::to_string(i + 1));
+    EXPECT_TRUE(
+        HasColourNear(drawn.image, PixelOf(plot, 5, value), LightTheme().Colour(Hue::blue)));
+    // large enough to be read where a page is shown at half its pixels
+    EXPECT_GT(plot.area.width(), 200);
+  }
+  EXPECT_GT(drawn.plots[3].area.top, drawn.plots[0].area.bottom) << "a second row";
+  EXPECT_NE(sheet.finding.find("level_4"), std::string::npos);
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ const std::string& ExamplePage() {
     example.description.identifiers = {"energy-ml"};
     example.description.versions = {{"warmjoint", "0.1.0"}};
     example.figures = {*NpeBoxes(ExampleRun())};
-    return MakeRunPage(example, TestCanvas());
+    return MakeRunPage(example);
   }();
   return page;
 }

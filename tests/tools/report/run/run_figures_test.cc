@@ -35,14 +35,26 @@ TEST(RunFigures, AreLeftOutWhereTheRunHasNoDataForThem) {
   for (const RunFigure& one : RunFigures()) EXPECT_FALSE(one.make(run)) << one.name;
 }
 
+TEST(NpeBoxes, HaveNoBoundWhereVariantsHaveOneEach) {
+  const Figure figure = *NpeBoxes(ExampleRun());
+  for (const Series& series : std::get<Plot>(figure.panels[0].content).series) {
+    EXPECT_FALSE(std::holds_alternative<LevelLine>(series.shape)) << series.label;
+  }
+  EXPECT_EQ(figure.finding.find("bound"), std::string::npos);
+}
+
 TEST(NpeBoxes, StandInTheIdentifiersColoursWithTheFailuresWrittenOut) {
-  const RunView run = ExampleRun();
+  RunView run = ExampleRun();
+  run.rungs = {};
   const Figure figure = *NpeBoxes(run);
   const Drawn drawn = DrawLight(figure);
   const DrawnPlot& plot = drawn.plots.at(0);
   EXPECT_EQ(plot.series[0].colour, LightTheme().Colour(IdentifierHue("energy-ml")));
   EXPECT_NEAR(plot.series[0].y.second, 100 * run.rows[0].npe.maxCoeff(), 1e-9) << "outliers too";
+  // an rms beside the bound's
   EXPECT_EQ(SeriesNamed(plot, "Cramér-Rao bound (rms)").y.first, 1.2);
+  const double rms = std::sqrt(run.rows[0].npe.squaredNorm() / kExampleRealizations);
+  EXPECT_NEAR(SeriesNamed(plot, "root mean square").y.first, 100 * rms, 1e-9);
   EXPECT_TRUE(Writes(drawn, "12 of 40 not_converged"));
   EXPECT_THAT(figure.finding, HasSubstr("with 12 of 40 failed"));
 }
@@ -63,8 +75,8 @@ TEST(NpeBoxes, CentreTheFailuresUnderTheIdentifier) {
     const double place = plot.area.left + plot.area.width() * 0.75;  // the second of two
     EXPECT_NEAR((text.place.left + text.place.right) / 2, place, 1);
     // each line by itself: ink to both sides of the middle is alike in the first, short one
-    const float bottom = text.place.top + (text.place.bottom - text.place.top) / 2 - 1;
-    const auto middle = static_cast<float>(place);
+    const double bottom = text.place.top + (text.place.bottom - text.place.top) / 2 - 1;
+    const double middle = place;
     const double left = Ink(drawn.image, {text.place.left, text.place.top, middle, bottom},
                             LightTheme().background);
     const double right = Ink(drawn.image, {middle, text.place.top, text.place.right, bottom},
@@ -86,8 +98,8 @@ TEST(Ladder, ShowsMediansAtTheRungsWithTheBound) {
   // the bounds of the columns are 1, 2 and 3 %
   const DrawnSeries& bound = SeriesNamed(plot, "Cramér-Rao bound (rms)");
   EXPECT_NEAR(bound.y.first, std::sqrt(14), 1e-9);
-  EXPECT_TRUE(Writes(drawn, "noise.torque (N·m)"));
-  EXPECT_THAT(figure.finding, HasSubstr("from the first rung of noise.torque to the last"));
+  EXPECT_TRUE(Writes(drawn, "torque noise (N·m)"));
+  EXPECT_THAT(figure.finding, HasSubstr("from the first rung of torque noise to the last"));
 }
 
 TEST(Ladder, SaysInWhichVariantsNobodyGivesNumbers) {
@@ -104,15 +116,23 @@ TEST(Ladder, SaysInWhichVariantsNobodyGivesNumbers) {
   EXPECT_THAT(figure.finding, HasSubstr("% (many speeds)"));
 }
 
-TEST(ParameterCourses, ShowEveryRealizationAndTheTruth) {
-  const RunView run = ExampleRun();
+TEST(ParameterCourses, ShowWhereMostRealizationsRunAndTheTruth) {
+  RunView run = ExampleRun();
   const Figure figure = *ParameterCourses(run);
   const Drawn drawn = DrawLight(figure);
-  const DrawnPlot& plot = PlotNamed(drawn, "viscous");
-  EXPECT_EQ(SeriesNamed(plot, "realizations").points, kExampleRealizations * 200);
+  const DrawnPlot& plot = PlotNamed(drawn, "viscous, k_{v}");
+  // starts are evenly between 5 1.5 and 5 2.5 times 0.95 at the first iteration
+  const DrawnSeries& band = SeriesNamed(plot, "middle 80 %");
+  EXPECT_NEAR(band.y.second, 5 * (1 + 1.4 * std::exp(-0.05)), 0.02);
   EXPECT_EQ(SeriesNamed(plot, "truth").y, std::pair(5.0, 5.0));
   EXPECT_EQ(SeriesNamed(plot, "median").colour, LightTheme().Colour(IdentifierHue("energy-em")));
   EXPECT_EQ(drawn.plots.size(), 1u) << "thermal_pole is no parameter of the continuous truth";
+
+  // few have a line each
+  Course& course = run.rows[1].course;
+  course.parameters[0] = course.parameters[0].topRows(3).eval();
+  const Drawn few = DrawLight(*ParameterCourses(run));
+  EXPECT_EQ(SeriesNamed(PlotNamed(few, "viscous, k_{v}"), "realizations").points, 3 * 200);
 }
 
 TEST(AgreementBars, AreMediansOfTheRightNumbers) {
@@ -155,7 +175,7 @@ TEST(IntervalCoverage, NamesOnlyParametersThatHaveIntervals) {
   RunView run = ExampleRun();
   for (RunRow& row : run.rows) row.parameters[1].intervals = row.parameters[1].covered = 0;
   const Drawn drawn = DrawLight(*IntervalCoverage(run));
-  EXPECT_FALSE(Writes(drawn, "kc"));
+  EXPECT_FALSE(Writes(drawn, "k_{c}"));
   EXPECT_EQ(drawn.plots[0].x, std::pair(-0.5, 1.5));
 }
 

@@ -57,11 +57,16 @@ double ShareLike(const Image& image, Rgb colour) {
   return static_cast<double>(alike) / (image.width * image.height);
 }
 
+/// The GL context of this test program.
+GlContext& TestContext() {
+  static const std::unique_ptr<GlContext> context = MakeGlContext();
+  return *context;
+}
+
 TEST(WarmRobot, PaintsTheJointsLinkInTheColourOfItsHeat) {
   const SimulationView view = ExampleSimulation();
   const Eigen::Index last = view.fit.time.size() - 1;
-  const auto images =
-      RenderWarmRobot(view, TestCanvas().context(), {0, last}, 300, 300, LightTheme());
+  const auto images = RenderWarmRobot(view, TestContext(), {0, last}, 300, 300, LightTheme());
   ASSERT_TRUE(images.has_value());
   const Rgb cold = HeatColour(0), hot = HeatColour(1);
   EXPECT_GT(ShareLike((*images)[0], cold), 0.01);
@@ -76,8 +81,7 @@ TEST(WarmRobot, PaintsTheJointsLinkInTheColourOfItsHeat) {
 TEST(WarmRobot, MovesWithTheRecording) {
   const SimulationView view = ExampleSimulation();
   // sample 19 is the end of the first turn, a radian from the start
-  const auto images =
-      RenderWarmRobot(view, TestCanvas().context(), {0, 19}, 200, 200, LightTheme());
+  const auto images = RenderWarmRobot(view, TestContext(), {0, 19}, 200, 200, LightTheme());
   int differing = 0;
   for (int i = 0; i < 200 * 200; ++i) {
     differing +=
@@ -88,7 +92,7 @@ TEST(WarmRobot, MovesWithTheRecording) {
 
 TEST(WarmRobot, StandsBesideTheTorqueThatItsHeatChanges) {
   const SimulationView view = ExampleSimulation();
-  const Figure figure = *MakeWarmRobot(view, TestCanvas().context());
+  const Figure figure = *MakeWarmRobot(view, TestContext());
   const Drawn drawn = DrawLight(figure);
   EXPECT_EQ(drawn.pictures.size(), 2u);
   const DrawnPlot& torque = drawn.plots[0];
@@ -103,13 +107,12 @@ TEST(WarmRobot, StandsBesideTheTorqueThatItsHeatChanges) {
   EXPECT_NEAR(SeriesNamed(torque, "measured").y.first, 15.25 - 7.6, 0.1);
   EXPECT_THAT(figure.finding, HasSubstr("by −7.60 N·m at most, after"));
   // MuJoCo's drawing leaves nothing behind that another figure would show
-  EXPECT_EQ(DrawFigure(TestCanvas(), figure).image.pixels, drawn.image.pixels);
+  EXPECT_EQ(DrawFigure(figure).image.pixels, drawn.image.pixels);
 }
 
 TEST(WarmRobot, FillsItsPicture) {
   const SimulationView view = ExampleSimulation();
-  const auto images =
-      RenderWarmRobot(view, TestCanvas().context(), {0, 19, 39}, 300, 200, LightTheme());
+  const auto images = RenderWarmRobot(view, TestContext(), {0, 19, 39}, 300, 200, LightTheme());
   double widest = 0;
   for (const Image& image : *images) {
     for (int y = 0; y < image.height; ++y) {
@@ -136,7 +139,7 @@ TEST(SimulationView, LeavesOutWhatOnlySeemsToMoveAtAConstantSpeed) {
 
 TEST(WarmRobot, FilmGrowsWithTheRecording) {
   const SimulationView view = ExampleSimulation();
-  const std::vector<Figure> film = MakeWarmRobotFilm(view, TestCanvas().context(), 3);
+  const std::vector<Figure> film = MakeWarmRobotFilm(view, TestContext(), 3);
   ASSERT_EQ(film.size(), 3u);
   const auto shown = [](const Figure& figure) {
     return std::get<Scatter>(std::get<Plot>(figure.panels[1].content).series[0].shape).x.size();
@@ -149,10 +152,10 @@ TEST(WarmRobot, FilmGrowsWithTheRecording) {
 TEST(WarmRobot, IsNothingWithoutARobotOrWarming) {
   SimulationView view = ExampleSimulation();
   view.scenario.plant = PlantKind::ideal;
-  EXPECT_FALSE(MakeWarmRobot(view, TestCanvas().context()));
+  EXPECT_FALSE(MakeWarmRobot(view, TestContext()));
   view = ExampleSimulation();
   view.fit.energy.setZero();
-  EXPECT_FALSE(MakeWarmRobot(view, TestCanvas().context()));
+  EXPECT_FALSE(MakeWarmRobot(view, TestContext()));
 }
 
 TEST(SimulationFigures, AreNamedAsTheirFiles) {

@@ -1,0 +1,133 @@
+#include "tools/cli/picture_options.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "models/foundation/bad_input.h"
+#include "models/foundation/parse_number.h"
+#include "tools/parser/choice.h"
+
+namespace warmjoint::inline tools {
+namespace {
+
+using Names = std::vector<std::string>;
+
+constexpr double kSmallest = 20, kLargest = 2000;  // mm
+
+/// A figure of the paper: ours that repeat it, and what they are drawn of.
+struct PaperFigure {
+  Names names;
+  const char* sources;
+};
+
+const std::map<std::string, PaperFigure>& PaperFigures() {
+  static const std::map<std::string, PaperFigure> figures{
+      {"3", {{"kernels"}, "`kernels`"}},
+      {"4", {{"envelope"}, "an estimate or a simulation of a log that warms"}},
+      {"5", {{"parameters_by_iteration"}, "a run of an identifier that iterates"}},
+      {"6", {{"error_by_iteration"}, "a run of an identifier that iterates"}},
+      {"7", {{"motor_angle"}, "an estimate of a log with a motor angle or a gear"}},
+      {"8", {{"parameters_by_iteration", "trace"}, "a run, or an estimate, that iterates"}},
+      {"9", {{"motor_fit"}, "an estimate with a map over the motor's angle"}},
+      {"10", {{"motor_map"}, "an estimate with a map over the motor's angle"}},
+      {"11", {{"agreement"}, "a run"}},
+      {"12", {{"agreement"}, "a run"}},
+  };
+  return figures;
+}
+
+double Millimetres(const std::string& text, const std::string& size) {
+  const std::optional<double> number = ParseNumber(text);
+  if (!number || !(*number >= kSmallest && *number <= kLargest)) {
+    Refuse({"--size"},
+           "'{}' is no size; give width x height in mm, {:.0f} to {:.0f} each, as 88x60, or the "
+           "width alone",
+           size, kSmallest, kLargest);
+  }
+  return *number;
+}
+
+Names NamesOf(const std::vector<report::Figure>& figures) {
+  Names names;
+  for (const report::Figure& figure : figures) names.push_back(figure.name);
+  return names;
+}
+
+}  // namespace
+
+void AddPictureOptions(CLI::App& parser, PictureArguments& arguments) {
+  AddChoice(parser, "--format", arguments.format, {"png", "svg", "pdf"}, "of the pictures");
+  Names styles;
+  std::string summary;
+  for (const report::Style& style : report::Styles()) {
+    styles.emplace_back(style.name);
+    summary += fmt::format("{}{}: {}", summary.empty() ? "" : "; ", style.name, style.summary);
+  }
+  AddChoice(parser, "--style", arguments.style, styles, summary);
+  parser
+      .add_option("--size", arguments.size,
+                  "width x height of each picture in mm, as 88x60, or its width alone")
+      ->type_name("WxH");
+  AddNumber(parser, "--dpi", arguments.dpi, {30, 1200, "30 to 1200"},
+            "pixels an inch of PNG; the style's where it is not given");
+  AddChoice(parser, "--title", arguments.title, {"shown", "none"},
+            "of the figures, which papers give in the caption");
+  parser
+      .add_option("--figure", arguments.figures,
+                  "only this one, by its name, or by the number (3 to 12) of the paper's figure "
+                  "that it repeats")
+      ->type_name("NAME|N")
+      ->take_all();
+}
+
+report::PageSetting SettingOf(const PictureArguments& arguments) {
+  report::PageSetting setting;
+  for (report::FileFormat format :
+       {report::FileFormat::png, report::FileFormat::svg, report::FileFormat::pdf}) {
+    if (report::NameOf(format) == arguments.format) setting.format = format;
+  }
+  setting.style = report::StyleNamed(arguments.style);
+  setting.dpi = arguments.dpi;
+  setting.titled = arguments.title != "none";
+  if (!arguments.size.empty()) {
+    const std::size_t cross = arguments.size.find('x');
+    setting.width = Millimetres(arguments.size.substr(0, cross), arguments.size);
+    if (cross != arguments.size.npos) {
+      setting.height = Millimetres(arguments.size.substr(cross + 1), arguments.size);
+    }
+  }
+  return setting;
+}
+
+std::vector<report::Figure> Chosen(const PictureArguments& arguments, const std::string& source,
+                                   std::vector<report::Figure> figures) {
+  if (arguments.figures.empty()) return figures;
+  Names wanted;
+  for (const std::string& figure : arguments.figures) {
+    const auto paper = PaperFigures().find(figure);
+    const Names names = paper == PaperFigures().end() ? Names{figure} : paper->second.names;
+    const Names there = NamesOf(figures);
+    const bool any = std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+      return std::find(there.begin(), there.end(), name) != there.end();
+    });
+    if (!any) {
+      const std::string what = paper == PaperFigures().end()
+                                   ? fmt::format("there is no figure '{}'", figure)
+                                   : fmt::format("figure {} of the paper ({}) needs {}", figure,
+                                                 fmt::join(names, " or "), paper->second.sources);
+      Refuse({source}, "{}; this source gives: {}", what,
+             there.empty() ? "none" : fmt::format("{}", fmt::join(there, ", ")));
+    }
+    wanted.insert(wanted.end(), names.begin(), names.end());
+  }
+  std::erase_if(figures, [&](const report::Figure& figure) {
+    return std::find(wanted.begin(), wanted.end(), figure.name) == wanted.end();
+  });
+  return figures;
+}
+
+}  // namespace warmjoint::inline tools

@@ -1,0 +1,106 @@
+#include "tools/report/draw/figure_data.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+
+namespace warmjoint::report {
+namespace {
+
+using Eigen::Index;
+
+/// A field of CSV, quoted where it must be.
+std::string Quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n\r#") == text.npos) return text;
+  std::string quoted = "\"";
+  for (char letter : text) {
+    if (letter == '"') quoted += '"';
+    quoted += letter == '\n' || letter == '\r' ? ' ' : letter;
+  }
+  return quoted + '"';
+}
+
+/// One line of the table; what is NaN stays empty.
+struct Row {
+  double x = NAN, y = NAN, lower = NAN, upper = NAN, value = NAN;
+};
+
+/// Writes the rows of one series; one function for each shape.
+class Writer {
+ public:
+  Writer(std::string head, std::string& csv) : head_(std::move(head)), csv_(csv) {}
+
+  void operator()(const Line& line) { Points("line", line.x, line.y); }
+  void operator()(const Scatter& scatter) { Points("dot", scatter.x, scatter.y); }
+  void operator()(const Bars& bars) { Points("bar", bars.x, bars.height); }
+  void operator()(const Band& band) {
+    for (Index i = 0; i < band.x.size(); ++i) {
+      Add("band", {band.x[i], NAN, band.lower[i], band.upper[i]});
+    }
+  }
+  void operator()(const Box& box) {
+    Add("box", {box.x, box.median, box.q25, box.q75});
+    Add("whiskers", {box.x, NAN, box.lower, box.upper});
+    for (double value : box.outliers) Add("outlier", {box.x, value});
+  }
+  void operator()(const HeatMap& map) {
+    const Index rows = map.values.rows(), columns = map.values.cols();
+    const auto middle = [](const std::pair<double, double>& range, Index i, Index count) {
+      return range.first + (range.second - range.first) * (static_cast<double>(i) + 0.5) /
+                               static_cast<double>(count);
+    };
+    for (Index row = 0; row < rows; ++row) {
+      for (Index column = 0; column < columns; ++column) {
+        Add("cell", {middle(map.x, column, columns), middle(map.y, row, rows), NAN, NAN,
+                     map.values(row, column)});
+      }
+    }
+  }
+  void operator()(const LevelLine& level) {
+    Add("level", level.vertical ? Row{level.value} : Row{NAN, level.value});
+  }
+  void operator()(const Note&) {}
+
+ private:
+  void Points(const char* kind, const Eigen::VectorXd& x, const Eigen::VectorXd& y) {
+    for (Index i = 0; i < x.size(); ++i) Add(kind, {x[i], y[i]});
+  }
+  void Add(const char* kind, const Row& row) {
+    auto out = std::back_inserter(csv_);
+    fmt::format_to(out, "{}{}", head_, kind);
+    for (double number : {row.x, row.y, row.lower, row.upper, row.value}) {
+      if (std::isnan(number)) {
+        csv_ += ',';
+      } else {
+        fmt::format_to(out, ",{}", number);
+      }
+    }
+    csv_ += '\n';
+  }
+
+  std::string head_;
+  std::string& csv_;
+};
+
+}  // namespace
+
+std::string FigureCsv(const Figure& figure) {
+  std::string axes, rows;
+  for (std::size_t i = 0; i < figure.panels.size(); ++i) {
+    const Panel& panel = figure.panels[i];
+    const auto* plot = std::get_if<Plot>(&panel.content);
+    if (!plot) continue;
+    const std::string name = panel.title.empty() ? fmt::format("panel {}", i + 1) : panel.title;
+    axes += fmt::format("# {}: x is {}; y is {}\n", name, plot->x.label, plot->y.label);
+    for (std::size_t k = 0; k < plot->series.size(); ++k) {
+      const Series& series = plot->series[k];
+      const std::string label =
+          series.label.empty() ? fmt::format("series {}", k + 1) : series.label;
+      std::visit(Writer(Quoted(name) + ',' + Quoted(label) + ',', rows), series.shape);
+    }
+  }
+  return axes + "panel,series,kind,x,y,lower,upper,value\n" + rows;
+}
+
+}  // namespace warmjoint::report

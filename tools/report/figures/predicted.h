@@ -1,0 +1,16 @@
+// What an estimate says of a recording against what was measured.
+#pragma once
+
+#include <optional>
+
+#include "tools/report/draw/figure.h"
+#include "tools/report/figures/fit_view.h"
+
+namespace warmjoint::report {
+
+/// Predicted over measured torque at the kept samples with the line of equality, and the residuals
+/// over the predicted torque. With another recording than the one that was fitted, this shows how the
+/// estimate carries over. Nothing without a fit.
+std::optional<Figure> MakePredicted(const FitView& view);
+
+}  // namespace warmjoint::report

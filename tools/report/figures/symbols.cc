@@ -1,0 +1,58 @@
+#include "tools/report/figures/symbols.h"
+
+#include <fmt/core.h>
+
+#include <map>
+
+#include "models/friction/law.h"
+#include "models/friction/thermal.h"
+
+namespace warmjoint::report {
+
+std::string SymbolOf(const std::string& parameter) {
+  std::string symbol = parameter;
+  for (const ParameterInfo& info : Thermal::parameters) {
+    if (info.name == parameter) symbol = info.symbol;
+  }
+  for (const Law& law : Laws()) {
+    for (const ParameterInfo& info : law.parameters) {
+      if (info.name == parameter) symbol = info.symbol;
+    }
+  }
+  static const std::map<std::string, std::string> kInPrint{{"tau", "τ"},
+                                                           {"kv", "k_{v}"},
+                                                           {"kc", "k_{c}"},
+                                                           {"kc+", "k_{c+}"},
+                                                           {"kc-", "k_{c−}"},
+                                                           {"ks", "k_{s}"},
+                                                           {"vs", "v_{s}"},
+                                                           {"sigma0", "σ_{0}"},
+                                                           {"sigma1", "σ_{1}"},
+                                                           {"sigma2", "σ_{2}"},
+                                                           {"thermal_gain_discrete", "k_{e}"},
+                                                           {"thermal_pole", "t_{e}"}};
+  const auto found = kInPrint.find(symbol);
+  return found == kInPrint.end() ? symbol : found->second;
+}
+
+std::size_t PlaceInLaws(const std::string& parameter) {
+  std::size_t place = 0;
+  for (const Law& law : Laws()) {
+    for (const ParameterInfo& info : law.parameters) {
+      if (info.name == parameter) return place;
+      ++place;
+    }
+  }
+  for (const ParameterInfo& info : Thermal::parameters) {
+    if (info.name == parameter) return place;
+    ++place;
+  }
+  return place;
+}
+
+std::string NameWithSymbol(const std::string& parameter) {
+  const std::string symbol = SymbolOf(parameter);
+  return symbol == parameter ? parameter : fmt::format("{}, {}", parameter, symbol);
+}
+
+}  // namespace warmjoint::report
