@@ -1,10 +1,18 @@
-// warmjoint report RUN: a run on one web page.
-#include <fmt/core.h>
+// warmjoint report SOURCE: a run, or a log with its estimate, on one web page.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "models/foundation/atomic_file.h"
+#include "models/foundation/bad_input.h"
+#include "models/foundation/read_json.h"
+#include "tools/actions/identify_recording.h"
 #include "tools/cli/command.h"
+#include "tools/cli/recording_options.h"
+#include "tools/cli/take_project.h"
+#include "tools/report/page/log_page.h"
 #include "tools/report/page/run_page.h"
 #include "tools/report/run/run_figures.h"
 #include "tools/store/stored_suite.h"
@@ -13,32 +21,134 @@
 namespace warmjoint::inline tools {
 namespace {
 
-ExitStatus Report(const std::filesystem::path& directory) {
-  Activity activity("reading " + directory.string());
-  const RunStore store = RunStore::OpenToRead(directory);
+namespace fs = std::filesystem;
+
+struct ReportArguments {
+  std::string source;
+  std::string output;
+  RecordingArguments recording;
+  IdentifySettings settings;
+  std::vector<std::string> set;
+};
+
+/// A finished page.
+struct Page {
+  fs::path target;
+  std::string html;
+};
+
+Page RunReport(const ReportArguments& arguments, Activity& activity) {
+  const RunStore store = RunStore::OpenToRead(arguments.source);
   TellOfEditedSuite(store);
   const report::RunView view = report::ReadRunView(store);
   report::RunPage page{view.board, store.ReadDescription(), {}};
   for (const report::RunFigure& figure : report::RunFigures()) {
     if (auto made = figure.make(view)) page.figures.push_back(*std::move(made));
   }
-
   activity.Is(fmt::format("drawing {} pictures", page.figures.size()));
-  report::Canvas canvas;
-  const std::filesystem::path target = directory / "report.html";
-  WriteWholeFile(target, report::MakeRunPage(page, canvas));
-  activity.Aside([&] { fmt::print("{}\n", target.string()); });
+  const fs::path beside = fs::path(arguments.source) / "report.html";
+  return {arguments.output.empty() ? beside : fs::path(arguments.output),
+          report::MakeRunPage(page)};
+}
+
+std::string LogReport(const PreparedLog& log, const Estimate& estimate,
+                      const std::vector<std::string>& commands) {
+  const auto& [measurements, selection] = log.taken();
+  return report::MakeLogPage(
+      {report::MakeFitView(measurements, selection, estimate), CheckRecording(log), commands});
+}
+
+bool IsEstimate(const fs::path& source) { return source.extension() == ".json"; }
+
+bool IsRecording(const fs::path& source) {
+  return !fs::is_directory(source) && !IsEstimate(source);
+}
+
+/// Of a log that is identified here, so that the page can show a void fit, too.
+std::string RecordingReport(const ReportArguments& arguments, Activity& activity) {
+  const RecordingArguments& recording = arguments.recording;
+  IdentifySettings settings = arguments.settings;
+  settings.options = ReadPairs(arguments.set, "--set");
+  const IdentifyTask task = CheckSettings(settings, JointOf(recording));
+  const PreparedLog log = ReadAndPrepare(recording);
+  activity.Is(fmt::format("fitting {} to {} samples", task.identifier.name,
+                          log.taken().measurements.size()));
+  const Estimate shown = IdentifyLog(task, log, HoldOutSource{}).shown;
+  activity.Is("drawing");
+  std::string options;
+  for (const std::string& pair : arguments.set) options += " --set " + pair;
+  if (settings.gravity != "none") options += " --gravity " + settings.gravity;
+  for (const std::string& map : recording.map) options += " --map " + map;
+  return LogReport(log, shown,
+                   {fmt::format("warmjoint identify {} --identifier {}{} -o estimate.json",
+                                arguments.source, task.identifier.name, options)});
+}
+
+/// Of an estimate file, with the recording that it remembers.
+std::string EstimateReport(const ReportArguments& arguments) {
+  const nlohmann::json file = ReadJsonFile(arguments.source);
+  const Estimate estimate = EstimateFromJson(file, {arguments.source});
+  if (!file.contains("recording")) {
+    Refuse({arguments.source}, "names no recording; give the report the recording itself");
+  }
+  const RecordingArguments recording = RecordingFromJson(file["recording"], {arguments.source});
+  return LogReport(ReadAndPrepare(recording), estimate,
+                   {fmt::format("warmjoint report {} -o {}", arguments.source, arguments.output)});
+}
+
+ExitStatus Report(const ReportArguments& arguments) {
+  Activity activity("reading " + arguments.source);
+  if (!fs::exists(arguments.source)) {
+    Refuse({arguments.source},
+           "is not there; give a directory of `run`, a recording or an estimate file");
+  }
+  Page page;
+  if (fs::is_directory(arguments.source)) {
+    page = RunReport(arguments, activity);
+  } else {
+    if (arguments.output.empty()) {
+      Refuse({arguments.source}, "is a log: name the page that is to be made, as -o page.html");
+    }
+    AtomicFile{arguments.output};  // refused before time is spent
+    page = {arguments.output, IsEstimate(arguments.source) ? EstimateReport(arguments)
+                                                           : RecordingReport(arguments, activity)};
+  }
+  WriteWholeFile(page.target, page.html);
+  activity.Aside([&] { fmt::print("{}\n", page.target.string()); });
   return ExitStatus::done;
 }
 
 }  // namespace
 
 Command AddReportCommand(CLI::App& program) {
-  auto directory = std::make_shared<std::string>();
-  CLI::App* parser =
-      program.add_subcommand("report", "RUN/report.html: a run explained on one page");
-  parser->add_option("RUN", *directory, "directory that `run` made")->type_name("RUN")->required();
-  return {parser, [directory] { return Report(*directory); }};
+  auto arguments = std::make_shared<ReportArguments>();
+  CLI::App* parser = program.add_subcommand(
+      "report", "One web page that explains a run, or a log and what was identified from it");
+  parser
+      ->add_option(
+          "SOURCE", arguments->source,
+          "directory of `run`, recording, or estimate file (.json) whose recording is there")
+      ->type_name("SOURCE")
+      ->required();
+  parser
+      ->add_option("-o,--output", arguments->output,
+                   "the page; RUN/report.html where it is not given for a run")
+      ->type_name("FILE");
+  parser->add_option("--identifier", arguments->settings.identifier, "of a recording")
+      ->type_name("IDENTIFIER")
+      ->capture_default_str();
+  parser->add_option("--set", arguments->set, "option of the identifier, as law=asymmetric")
+      ->type_name("KEY=VALUE")
+      ->take_all();
+  AddLayoutOptions(*parser, arguments->recording);
+  AddHoldOptions(*parser, arguments->recording.holds);
+  return {parser, [arguments, parser] {
+            if (IsRecording(arguments->source)) {
+              arguments->recording.recordings = {arguments->source};
+              TakeProject(*parser, arguments->recording);
+            }
+            return Report(*arguments);
+          }};
 }
 
 }  // namespace warmjoint::inline tools
