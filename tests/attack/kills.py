@@ -3,8 +3,8 @@
 timings becomes what an undisturbed run makes. kills.py WARMJOINT [KILLS SIGNALS DISKS]      default: 100 30 10
 
 The suite has an identifier from outside, none of whose processes and directories may outlive the run. The undisturbed run is
-made on 1, 2 and 8 threads, in three shards that are merged, and in a run that is killed ten times. Full disks are small file systems in memory, which only root
-can make; without root they are limits on the size of files."""
+made on 1, 2 and 8 threads, in three shards that are merged, and in a run that is killed ten times. Full disks are small file
+systems in memory, which only root can make; without root they are limits on the size of files."""
 
 import filecmp
 import os
