@@ -1,0 +1,111 @@
+#!/usr/bin/env python3
+"""Opens the page of a log in headless Chromium and checks what a reader relies on.
+
+    tests/browser/check_log_page.py LOG|estimate.json|SCENARIO.yaml [--warmjoint build/warmjoint] [--shots FOLDER] [--opt-in]
+
+Makes the page by `warmjoint report`, of a scenario after simulating it. Checked on a phone and on a desktop: no error on the console, no request to anywhere, charts that
+are drawn within 3 s and zoom together, a box that hides its series, nothing wider than the screen but what scrolls by itself, pictures
+with alt texts, every section there without JavaScript. --shots keeps pictures of the page. Exit statuses as check_report.py.
+"""
+
+import argparse
+import base64
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+
+from check_report import SIZES, Checks, check_silence
+from chromium import Browser, find_browser
+
+SECTIONS = ("verdict", "next", "parameters", "recording", "pictures", "tests", "assumptions", "mujoco", "terms", "repeat")
+DRAWN = """[...document.querySelectorAll('.chart')].length === 3 && [...document.querySelectorAll('.chart')].every(chart =>
+  [...chart.querySelectorAll('canvas')].some(canvas =>
+    canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data.some((v, i) => i % 4 === 3 && v > 0)))"""
+LABELS = """[...document.querySelectorAll('.chart')].map(chart =>
+  [...chart.querySelectorAll('.dygraph-axis-label-x')].map(label => label.textContent).join(' '))"""
+WIDE = """[...document.querySelectorAll('body *')].filter(e => !e.closest('.scroll, pre, .skip, .chart') &&
+  e.getBoundingClientRect().right > innerWidth + 1).map(e => e.tagName + ' ' + e.textContent.slice(0, 40))"""
+
+
+def check_charts(browser, checks):
+    whole = browser.value(LABELS)
+    browser.value("document.querySelector('.chart').scrollIntoView({block: 'center'})")
+    left, top, width, height = browser.value(
+        "(r => [r.left, r.top, r.width, r.height])(document.querySelector('.chart').getBoundingClientRect())")
+    for kind, share in (("mousePressed", 0.4), ("mouseMoved", 0.7), ("mouseReleased", 0.7)):
+        browser.call("Input.dispatchMouseEvent", type=kind, x=left + share * width, y=top + height / 2, button="left", clickCount=1)
+    near = browser.value(LABELS)
+    checks.expect(near != whole and len(set(near)) == 1, f"a drag does not zoom all charts: {near}")
+    picture = "document.querySelector('.chart canvas').toDataURL()"
+    before = browser.value(picture)
+    browser.value("document.getElementById('show-kept').click()")
+    checks.expect(browser.value(picture) != before, "a box hides nothing")
+
+
+def look(browser, checks, url, size, shots):
+    width, height = SIZES[size]
+    browser.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=size == "phone")
+    start = time.monotonic()
+    browser.open(url)
+    while not browser.value(DRAWN) and time.monotonic() - start < 10:
+        time.sleep(0.05)
+    took = time.monotonic() - start
+    print(f"{size}: charts drawn after {took:.2f} s")
+    checks.expect(took < 3, f"{size}: the charts are drawn after {took:.1f} s")
+    checks.expect(browser.value(WIDE) == [], f"{size}: wider than the screen: {browser.value(WIDE)[:3]}")
+    alts = browser.value("[...document.images].map(image => image.naturalWidth > 0 ? image.alt : '')")
+    checks.expect(alts and all(len(alt) > 30 for alt in alts), f"{size}: pictures without words: {alts}")
+    if shots:
+        shot = browser.call("Page.captureScreenshot", format="png", captureBeyondViewport=True)
+        (shots / f"log_{size}.png").write_bytes(base64.b64decode(shot["data"]))
+
+
+def check_without_scripts(browser, checks, url):
+    browser.call("Emulation.setScriptExecutionDisabled", value=True)
+    browser.open(url)
+    root = browser.call("DOM.getDocument", depth=0)["root"]["nodeId"]
+    for section in SECTIONS:
+        found = browser.call("DOM.querySelector", nodeId=root, selector=f"#{section}")["nodeId"]
+        text = browser.call("DOM.getOuterHTML", nodeId=found)["outerHTML"] if found else ""
+        checks.expect(len(text) > 100, f"without JavaScript the section {section} is not there")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("log", type=pathlib.Path)
+    parser.add_argument("--warmjoint", default="build/warmjoint")
+    parser.add_argument("--shots", type=pathlib.Path)
+    parser.add_argument("--opt-in", action="store_true")
+    arguments = parser.parse_args()
+    path = find_browser()
+    if not path or (arguments.opt_in and "WARMJOINT_BROWSER_TEST" not in os.environ):
+        print("not asked for, or no browser: set WARMJOINT_BROWSER_TEST=1, install chromium", file=sys.stderr)
+        return 77
+    if arguments.shots:
+        arguments.shots.mkdir(parents=True, exist_ok=True)
+    checks = Checks()
+    with tempfile.TemporaryDirectory(prefix="warmjoint-log-page-") as scratch:
+        page, log = pathlib.Path(scratch) / "log.html", arguments.log
+        if log.suffix == ".yaml":
+            subprocess.run([arguments.warmjoint, "simulate", str(log), "-o", scratch + "/simulated"], check=True, stdout=subprocess.DEVNULL)
+            log = pathlib.Path(scratch) / "simulated/recording.csv"
+        subprocess.run([arguments.warmjoint, "report", str(log), "-o", str(page)], check=True, stdout=subprocess.DEVNULL)
+        checks.expect(page.stat().st_size < 6_000_000, f"the page has {page.stat().st_size} bytes")
+        browser = Browser(path)
+        try:
+            for size in SIZES:
+                look(browser, checks, page.as_uri(), size, arguments.shots)
+            check_charts(browser, checks)
+            check_silence(browser, checks, page.as_uri())
+            check_without_scripts(browser, checks, page.as_uri())
+        finally:
+            browser.close()
+    print(f"{checks.count} checks, {len(checks.failures)} failed")
+    return 1 if checks.failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
