@@ -20,8 +20,9 @@ bool Disturbances::operator==(const Disturbances& other) const {
          ambient_temperature == other.ambient_temperature && torque_lag == other.torque_lag &&
          velocity_filter == other.velocity_filter && stale_position == other.stale_position &&
          encoder == other.encoder && hold_parity == other.hold_parity &&
-         step_in_time == other.step_in_time && run_in == other.run_in &&
-         without_velocity == other.without_velocity && heat(second_heat) == heat(other.second_heat);
+         step_in_time == other.step_in_time && run_in == other.run_in && hidden == other.hidden &&
+         faults == other.faults && without_velocity == other.without_velocity &&
+         heat(second_heat) == heat(other.second_heat);
 }
 
 std::string_view IdealOnly(const Disturbances& disturbances) {

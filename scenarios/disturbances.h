@@ -5,13 +5,16 @@
 #include <string_view>
 
 #include "models/friction/thermal.h"
+#include "scenarios/hidden_forces.h"
+#include "scenarios/sensor_faults.h"
 
 namespace warmjoint::inline scenarios {
 
 /// Single samples of the logged torque that are far off, at random.
 struct Outliers {
-  double fraction = 0;  // of the samples, below 1
-  double size = 0;      // standard deviation of what is added to them, N.m or N
+  double fraction = 0;   // of the samples, below 1
+  double size = 0;       // standard deviation of what is added to them, N.m or N
+  double one_sided = 0;  // 1: what is added is never negative
 
   bool operator==(const Outliers&) const = default;
 };
@@ -140,6 +143,8 @@ struct Disturbances {
   HoldParity hold_parity;
   StepInTime step_in_time;
   RunIn run_in;
+  HiddenForces hidden;
+  SensorFaults faults;
   bool without_velocity = false;       // the log has no velocity column
   std::optional<Thermal> second_heat;  // a second energy state fed by the same W; ideal plant only
 

@@ -19,12 +19,72 @@ struct Part {
   std::vector<Entry> entries;
 };
 
-/// The one table that reading and writing share. heat: stands for disturbances.second_heat.
-std::vector<Part> Parts(Disturbances& d, Thermal& heat) {
+/// Forces that no model holds.
+std::vector<Part> PartsOf(HiddenForces& h) {
+  return {
+      {"backlash",
+       {{"level", &h.backlash.level, Bound::any}, {"way", &h.backlash.way, Bound::not_negative}}},
+      {"hysteresis",
+       {{"level", &h.hysteresis.level, Bound::any}, {"way", &h.hysteresis.way, Bound::positive}}},
+      {"memory",
+       {{"slope", &h.memory.slope, Bound::any},
+        {"time_constant", &h.memory.time_constant, Bound::positive}}},
+      {"quadratic_drag", {{"coefficient", &h.quadratic_drag.coefficient, Bound::any}}},
+      {"ripple",
+       {{"amplitude", &h.ripple.amplitude, Bound::any},
+        {"period", &h.ripple.period, Bound::positive}}},
+      {"spring", {{"stiffness", &h.spring.stiffness, Bound::any}}},
+      {"inertia", {{"inertia", &h.inertia.inertia, Bound::not_negative}}},
+  };
+}
+
+/// Faults of sensors, clocks and files.
+std::vector<Part> PartsOf(SensorFaults& s) {
+  return {
+      {"sensor_drift",
+       {{"offset", &s.sensor_drift.offset, Bound::any, true},
+        {"gain", &s.sensor_drift.gain, Bound::any, true}}},
+      {"gain_step",
+       {{"factor", &s.gain_step.factor, Bound::any},
+        {"time", &s.gain_step.time, Bound::not_negative}}},
+      {"clock",
+       {{"factor", &s.clock.factor, Bound::positive, true},
+        {"jitter", &s.clock.jitter, Bound::not_negative, true}}},
+      {"column_scale",
+       {{"position", &s.column_scale.position, Bound::any, true},
+        {"velocity", &s.column_scale.velocity, Bound::any, true},
+        {"torque", &s.column_scale.torque, Bound::any, true}}},
+      {"stuck_position",
+       {{"time", &s.stuck_position.time, Bound::not_negative},
+        {"duration", &s.stuck_position.duration, Bound::not_negative}}},
+      {"stuck_velocity",
+       {{"time", &s.stuck_velocity.time, Bound::not_negative},
+        {"duration", &s.stuck_velocity.duration, Bound::not_negative}}},
+      {"stuck_torque",
+       {{"time", &s.stuck_torque.time, Bound::not_negative},
+        {"duration", &s.stuck_torque.duration, Bound::not_negative}}},
+      {"clipped", {{"level", &s.clipped.level, Bound::not_negative}}},
+      {"dead_band", {{"level", &s.dead_band.level, Bound::not_negative}}},
+      {"late_torque", {{"samples", &s.late_torque.samples, Bound::not_negative}}},
+      {"cut_start", {{"time", &s.cut_start.time, Bound::not_negative}}},
+      {"gap",
+       {{"time", &s.gap.time, Bound::not_negative},
+        {"duration", &s.gap.duration, Bound::not_negative}}},
+      {"restarted_clock", {}},
+      {"unsigned_torque", {}},
+      {"reversed_torque", {}},
+      {"swapped_columns", {}},
+      {"without_load", {}},
+  };
+}
+
+/// What acts on the joint or its log by models of its own. heat: stands for disturbances.second_heat.
+std::vector<Part> PartsOf(Disturbances& d, Thermal& heat) {
   return {
       {"outliers",
        {{"fraction", &d.outliers.fraction, Bound::not_negative},
-        {"size", &d.outliers.size, Bound::not_negative}}},
+        {"size", &d.outliers.size, Bound::not_negative},
+        {"one_sided", &d.outliers.one_sided, Bound::not_negative, true}}},
       {"coloured_noise",
        {{"deviation", &d.coloured_noise.deviation, Bound::not_negative},
         {"correlation_time", &d.coloured_noise.correlation_time, Bound::positive}}},
@@ -63,6 +123,33 @@ std::vector<Part> Parts(Disturbances& d, Thermal& heat) {
   };
 }
 
+/// The one table that reading and writing share.
+std::vector<Part> Parts(Disturbances& d, Thermal& heat) {
+  std::vector<Part> parts = PartsOf(d, heat);
+  for (const std::vector<Part>& more : {PartsOf(d.hidden), PartsOf(d.faults)}) {
+    parts.insert(parts.end(), more.begin(), more.end());
+  }
+  return parts;
+}
+
+/// Parts without entries, which are there or not.
+bool* FlagOf(const std::string& part, Disturbances& d) {
+  if (part == "without_velocity") return &d.without_velocity;
+  if (part == "restarted_clock") return &d.faults.restarted_clock;
+  if (part == "unsigned_torque") return &d.faults.unsigned_torque;
+  if (part == "reversed_torque") return &d.faults.reversed_torque;
+  if (part == "swapped_columns") return &d.faults.swapped_columns;
+  if (part == "without_load") return &d.faults.without_load;
+  return nullptr;
+}
+
+/// Refuses a number of a part that is not whole.
+void RequireWhole(const YamlValue& value, const char* part, const char* entry, double number) {
+  if (number == std::round(number)) return;
+  Refuse(value.Find(part)->place(), "{}.{}.{} is {}; it must be a whole number", value.key(), part,
+         entry, number);
+}
+
 void ReadPart(const YamlValue& value, const Part& part) {
   std::vector<std::string> names;
   for (const Entry& entry : part.entries) names.push_back(entry.name);
@@ -87,11 +174,14 @@ Disturbances ReadDisturbances(const YamlValue& value) {
     if (const auto given = value.Find(part.name)) ReadPart(*given, part);
   }
   if (value.Find("second_heat")) disturbances.second_heat = heat;
-  disturbances.without_velocity = value.Find("without_velocity").has_value();
-  const double late = disturbances.stale_position.samples;
-  if (late != std::round(late)) {
-    Refuse(value.Find("stale_position")->place(),
-           "{}.stale_position.samples is {}; it must be a whole number", value.key(), late);
+  for (const Part& part : parts) {
+    if (bool* flag = FlagOf(part.name, disturbances)) *flag = value.Find(part.name).has_value();
+  }
+  RequireWhole(value, "stale_position", "samples", disturbances.stale_position.samples);
+  RequireWhole(value, "late_torque", "samples", disturbances.faults.late_torque.samples);
+  if (disturbances.outliers.one_sided > 1) {
+    Refuse(value.Find("outliers")->place(), "{}.outliers.one_sided is {}; it must be 0 or 1",
+           value.key(), disturbances.outliers.one_sided);
   }
   if (disturbances.outliers.fraction >= 1) {
     Refuse(value.Find("outliers")->place(), "{}.outliers.fraction is {}; it must be below 1",
@@ -110,8 +200,8 @@ std::string DisturbancesToYaml(const Disturbances& disturbances, const std::stri
 
   std::string yaml;
   for (size_t i = 0; i < parts.size(); ++i) {
-    bool given = (parts[i].name == "second_heat" && disturbances.second_heat) ||
-                 (parts[i].name == "without_velocity" && disturbances.without_velocity);
+    const bool* const flag = FlagOf(parts[i].name, written);
+    bool given = (flag && *flag) || (parts[i].name == "second_heat" && disturbances.second_heat);
     std::string entries;
     for (size_t j = 0; j < parts[i].entries.size(); ++j) {
       const double number = *parts[i].entries[j].number;

@@ -1,0 +1,21 @@
+// What poor sensors, clocks and files make of a log.
+#pragma once
+
+#include "scenarios/disturbances.h"
+#include "sim/truth/simulated_recording.h"
+
+namespace warmjoint::inline sim {
+
+/// The motion as poorer sensors tell it: filtered, stale, coarse or missing (velocity_filter, stale_position, encoder,
+/// without_velocity).
+void DisturbMotion(const Disturbances& disturbances, Measurements& log);
+
+/// Faults of SensorFaults, in the order of their way: drift and factors of the torque, columns that stick, limits, late
+/// samples; then scales; then what the file leaves out and how its clock runs. Truth loses the samples that the log loses.
+void SpoilLog(const SensorFaults& faults, Recording& recording);
+
+/// x behind a first-order low-pass that each sample's value drives until the next one; settled on the first. time: [N] s; x: [N].
+Eigen::VectorXd LowPass(const Eigen::VectorXd& time, const Eigen::VectorXd& x,
+                        double time_constant);
+
+}  // namespace warmjoint::inline sim
