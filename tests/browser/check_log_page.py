@@ -17,6 +17,7 @@ import sys
 import tempfile
 import time
 
+from barriers import check_barriers
 from check_report import SIZES, Checks, check_silence
 from chromium import Browser, find_browser
 
@@ -39,6 +40,11 @@ def check_charts(browser, checks):
         browser.call("Input.dispatchMouseEvent", type=kind, x=left + share * width, y=top + height / 2, button="left", clickCount=1)
     near = browser.value(LABELS)
     checks.expect(near != whole and len(set(near)) == 1, f"a drag does not zoom all charts: {near}")
+    for name in ("whole", "in", "later", "earlier", "out"):
+        before = browser.value(LABELS)
+        browser.value(f"document.getElementById('zoom-{name}').click()")
+        after = browser.value(LABELS)
+        checks.expect(after != before and len(set(after)) == 1, f"the button zoom-{name} shows {after} after {before}")
     picture = "document.querySelector('.chart canvas').toDataURL()"
     before = browser.value(picture)
     browser.value("document.getElementById('show-kept').click()")
@@ -99,6 +105,7 @@ def main():
             for size in SIZES:
                 look(browser, checks, page.as_uri(), size, arguments.shots)
             check_charts(browser, checks)
+            check_barriers(browser, checks)
             check_silence(browser, checks, page.as_uri())
             check_without_scripts(browser, checks, page.as_uri())
         finally:

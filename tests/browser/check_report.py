@@ -24,6 +24,7 @@ import subprocess
 import sys
 import tempfile
 
+from barriers import check_barriers
 from chromium import Browser, find_browser
 
 SIZES = {"phone": (390, 844), "desktop": (1280, 900)}
@@ -215,6 +216,7 @@ def main():
         check_numbers(browser, checks, json.loads(compared.stdout))
         check_pictures(browser, checks)
         check_reading(browser, checks)
+        check_barriers(browser, checks)
         check_silence(browser, checks, url)
     finally:
         browser.close()

@@ -56,6 +56,12 @@ LogChart MakeLogChart(const FitView& view) {
       "<label><input type=\"checkbox\" id=\"show-kept\" checked> kept samples</label> "
       "<label><input type=\"checkbox\" id=\"show-fit\" checked> fit</label> "
       "<button type=\"button\" id=\"download\">Download these numbers (CSV)</button></p>\n"
+      "<p role=\"group\" aria-label=\"Part of the log that is shown\">"
+      "<button type=\"button\" id=\"zoom-whole\">Whole log</button> "
+      "<button type=\"button\" id=\"zoom-in\">Zoom in</button> "
+      "<button type=\"button\" id=\"zoom-out\">Zoom out</button> "
+      "<button type=\"button\" id=\"zoom-earlier\">Earlier</button> "
+      "<button type=\"button\" id=\"zoom-later\">Later</button></p>\n"
       "<div class=\"chart\" data-column=\"1\" data-name=\"{}\"></div>\n"
       "<div class=\"chart\" data-column=\"2\" data-name=\"{}\"></div>\n"
       "<div class=\"chart\" data-column=\"3\" data-name=\"{}\"></div>\n</div>\n"
@@ -118,6 +124,20 @@ std::string_view LogChartScript() {
     });
   }
   Array.prototype.forEach.call(document.querySelectorAll('.chart'), function (place) { graphs.push(draw(place)); });
+  // the same by keyboard and finger: the middle moves by `shift` of what is shown, which grows by `factor`
+  var whole = [samples[0][0], samples[samples.length - 1][0]];
+  function show(factor, shift) {
+    var range = graphs[0].xAxisRange(), length = range[1] - range[0];
+    var middle = (range[0] + range[1]) / 2 + shift * length, half = Math.min(length * factor, whole[1] - whole[0]) / 2;
+    middle = Math.min(Math.max(middle, whole[0] + half), whole[1] - half);
+    graphs[0].updateOptions({dateWindow: [middle - half, middle + half]});
+  }
+  function press(name, act) { document.getElementById(name).addEventListener('click', act); }
+  press('zoom-whole', function () { graphs[0].updateOptions({dateWindow: whole}); });
+  press('zoom-in', function () { show(0.5, 0); });
+  press('zoom-out', function () { show(2, 0); });
+  press('zoom-earlier', function () { show(1, -0.5); });
+  press('zoom-later', function () { show(1, 0.5); });
   ['show-all', 'show-kept', 'show-fit'].forEach(function (name, series) {
     document.getElementById(name).addEventListener('change', function (event) {
       graphs.forEach(function (graph) {
