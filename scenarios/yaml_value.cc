@@ -156,7 +156,7 @@ std::vector<std::string> YamlValue::Keys() const {
   return keys;
 }
 
-void YamlValue::RequireKeys(const std::vector<std::string>& known) const {
+void YamlValue::RequireKnownKeys(const std::vector<std::string>& known) const {
   if (!IsMap())
     RefuseValue("a map with entries among: " + fmt::format("{}", fmt::join(known, ", ")));
   for (const auto& entry : node_) {
@@ -165,12 +165,18 @@ void YamlValue::RequireKeys(const std::vector<std::string>& known) const {
     if (std::find(known.begin(), known.end(), name) == known.end()) {
       Refuse(where, "unknown key '{}'{}", Excerpt(KeyOf(name)), Suggestion(name, known));
     }
-    if (entry.second.IsNull()) {
-      Refuse(where, "the key '{}' has no value; give it one, or leave it out",
-             Excerpt(KeyOf(name)));
-    }
   }
   RequireDistinctKeys();
+}
+
+void YamlValue::RequireKeys(const std::vector<std::string>& known) const {
+  RequireKnownKeys(known);
+  for (const auto& entry : node_) {
+    if (!entry.second.IsNull()) continue;
+    const std::string name = entry.first.Scalar();
+    Refuse(YamlValue(entry.first, KeyOf(name), document_).place(),
+           "the key '{}' has no value; give it one, or leave it out", Excerpt(KeyOf(name)));
+  }
 }
 
 void YamlValue::RequireDistinctKeys() const {

@@ -47,6 +47,9 @@ class YamlValue {
   bool IsScalar() const { return node_.IsScalar(); }
   const YAML::Node& node() const { return node_; }
 
+  /// Refuses a value that is no map, keys that stand twice, and keys that are not among `known`, with the nearest.
+  void RequireKnownKeys(const std::vector<std::string>& known) const;
+
   /// Refuses a value that is no map, keys that stand twice or have no value, and keys that are not among
   /// `known`, with the nearest.
   void RequireKeys(const std::vector<std::string>& known) const;

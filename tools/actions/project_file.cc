@@ -37,7 +37,8 @@ void RefuseCommands(const YamlValue& document) {
 /// "column=text" for each entry of a map from columns, checked by `check`.
 template <typename Check>
 std::vector<std::string> ReadColumns(const YamlValue& map, const Check& check) {
-  map.RequireKeys(ColumnNames());
+  // a column without a name is left out
+  map.RequireKnownKeys(ColumnNames());
   std::vector<std::string> pairs;
   for (const std::string& column : map.Keys()) {
     const auto value = map.Find(column);
