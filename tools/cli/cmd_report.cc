@@ -9,6 +9,7 @@
 #include "models/foundation/bad_input.h"
 #include "models/foundation/read_json.h"
 #include "tools/actions/identify_recording.h"
+#include "tools/actions/outputs.h"
 #include "tools/cli/command.h"
 #include "tools/cli/recording_options.h"
 #include "tools/cli/take_project.h"
@@ -109,12 +110,13 @@ ExitStatus Report(const ReportArguments& arguments) {
     if (arguments.output.empty()) {
       Refuse({arguments.source}, "is a log: name the page that is to be made, as -o page.html");
     }
+    KeepApart({arguments.output}, {arguments.source});
     AtomicFile{arguments.output};  // refused before time is spent
     page = {arguments.output, IsEstimate(arguments.source) ? EstimateReport(arguments)
                                                            : RecordingReport(arguments, activity)};
   }
   WriteWholeFile(page.target, page.html);
-  activity.Aside([&] { fmt::print("{}\n", page.target.string()); });
+  activity.Aside([&] { fmt::print(WordsBeside({page.target}), "{}\n", page.target.string()); });
   return ExitStatus::done;
 }
 

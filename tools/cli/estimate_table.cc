@@ -4,7 +4,7 @@
 
 #include "models/foundation/printable.h"
 #include "tools/board/table.h"
-#include "tools/cli/remarks.h"
+#include "tools/report/estimate/remarks.h"
 
 namespace warmjoint::inline tools {
 namespace {

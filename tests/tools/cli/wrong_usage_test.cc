@@ -84,6 +84,7 @@ const std::vector<WrongUsage>& WrongUsages() {
       {{"compare", "nothing"}, "no run directory"},
       {{"compare", "nothing", "--format", "markdwon"}, "'markdown'"},
       {{"report", "log.csv"}, "log.csv"},
+      {{"report", "log.csv", "-o", "log.csv"}, "is an input too"},
       {{"merge", "a", "b"}, "-o"},
       {{"status", "nothing"}, "nothing"},
       {{"plot", "nothing", "-o", "d"}, "nothing"},

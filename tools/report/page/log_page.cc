@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <cctype>
-
 #include "tools/report/draw/ticks.h"
+#include "tools/report/estimate/remarks.h"
 #include "tools/report/figures/fit_panels.h"
 #include "tools/report/figures/log_figure.h"
 #include "tools/report/figures/predicted.h"
@@ -28,26 +27,11 @@ std::string List(const std::vector<std::string>& items) {
   return "<ul>\n" + html + "</ul>\n";
 }
 
-/// Clauses of a message as sentences.
-std::vector<std::string> SentencesOf(const std::string& message) {
-  std::vector<std::string> sentences;
-  for (std::size_t at = 0; at < message.size();) {
-    const std::size_t end = std::min(message.find("; ", at), message.size());
-    std::string clause = message.substr(at, end - at);
-    at = end + 2;
-    if (clause.starts_with("and ")) clause.erase(0, 4);
-    if (clause.empty()) continue;
-    clause[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(clause[0])));
-    sentences.push_back(clause.ends_with('.') ? clause : clause + '.');
-  }
-  return sentences;
-}
-
 std::string VerdictSection(const FitView& view) {
   std::string html = Paragraph(
       Passed(view) ? "The numbers below passed every test that this log allows."
                    : "The numbers below are void: they are shown so that you can see why.");
-  html += List(SentencesOf(view.estimate.FullMessage()));
+  html += List(Remarks(view.estimate));
   if (view.estimate.metrics) {
     const Metrics& metrics = *view.estimate.metrics;
     html += Paragraph(

@@ -1,4 +1,4 @@
-#include "tools/cli/remarks.h"
+#include "tools/report/estimate/remarks.h"
 
 #include <gmock/gmock.h>
 
