@@ -8,9 +8,7 @@ are drawn within 3 s and zoom together, a box that hides its series, nothing wid
 with alt texts, every section there without JavaScript. --shots keeps pictures of the page. Exit statuses as check_report.py.
 """
 
-import argparse
 import base64
-import os
 import pathlib
 import subprocess
 import sys
@@ -18,8 +16,7 @@ import tempfile
 import time
 
 from barriers import check_barriers
-from check_report import SIZES, Checks, check_silence
-from chromium import Browser, find_browser
+from page_checks import SIZES, arguments_of, check_silence, in_browser
 
 SECTIONS = ("verdict", "next", "parameters", "recording", "pictures", "tests", "assumptions", "mujoco", "terms", "repeat")
 DRAWN = """[...document.querySelectorAll('.chart')].length === 3 && [...document.querySelectorAll('.chart')].every(chart =>
@@ -51,22 +48,29 @@ def check_charts(browser, checks):
     checks.expect(browser.value(picture) != before, "a box hides nothing")
 
 
-def look(browser, checks, url, size, shots):
+MEDIA = {"light": {}, "dark": {"features": [{"name": "prefers-color-scheme", "value": "dark"}]}, "print": {"media": "print"}}
+
+
+def look(browser, checks, url, size, media, shots):
     width, height = SIZES[size]
     browser.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=size == "phone")
+    browser.call("Emulation.setEmulatedMedia", **{"media": "", "features": [], **MEDIA[media]})
     start = time.monotonic()
     browser.open(url)
-    while not browser.value(DRAWN) and time.monotonic() - start < 10:
-        time.sleep(0.05)
-    took = time.monotonic() - start
-    print(f"{size}: charts drawn after {took:.2f} s")
-    checks.expect(took < 3, f"{size}: the charts are drawn after {took:.1f} s")
+    if media == "print":
+        checks.expect(browser.value("getComputedStyle(document.getElementById('recording')).display") == "none", "charts are printed")
+    else:
+        while not browser.value(DRAWN) and time.monotonic() - start < 10:
+            time.sleep(0.05)
+        took = time.monotonic() - start
+        print(f"{size}, {media}: charts drawn after {took:.2f} s")
+        checks.expect(took < 3, f"{size}: the charts are drawn after {took:.1f} s")
     checks.expect(browser.value(WIDE) == [], f"{size}: wider than the screen: {browser.value(WIDE)[:3]}")
     alts = browser.value("[...document.images].map(image => image.naturalWidth > 0 ? image.alt : '')")
     checks.expect(alts and all(len(alt) > 30 for alt in alts), f"{size}: pictures without words: {alts}")
     if shots:
         shot = browser.call("Page.captureScreenshot", format="png", captureBeyondViewport=True)
-        (shots / f"log_{size}.png").write_bytes(base64.b64decode(shot["data"]))
+        (shots / f"log_{size}_{media}.png").write_bytes(base64.b64decode(shot["data"]))
 
 
 def check_without_scripts(browser, checks, url):
@@ -80,38 +84,25 @@ def check_without_scripts(browser, checks, url):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("log", type=pathlib.Path)
-    parser.add_argument("--warmjoint", default="build/warmjoint")
-    parser.add_argument("--shots", type=pathlib.Path)
-    parser.add_argument("--opt-in", action="store_true")
-    arguments = parser.parse_args()
-    path = find_browser()
-    if not path or (arguments.opt_in and "WARMJOINT_BROWSER_TEST" not in os.environ):
-        print("not asked for, or no browser: set WARMJOINT_BROWSER_TEST=1, install chromium", file=sys.stderr)
-        return 77
-    if arguments.shots:
-        arguments.shots.mkdir(parents=True, exist_ok=True)
-    checks = Checks()
+    arguments = arguments_of(__doc__, "log")
     with tempfile.TemporaryDirectory(prefix="warmjoint-log-page-") as scratch:
-        page, log = pathlib.Path(scratch) / "log.html", arguments.log
+        page, log = pathlib.Path(scratch) / "log.html", arguments.what
         if log.suffix == ".yaml":
             subprocess.run([arguments.warmjoint, "simulate", str(log), "-o", scratch + "/simulated"], check=True, stdout=subprocess.DEVNULL)
             log = pathlib.Path(scratch) / "simulated/recording.csv"
         subprocess.run([arguments.warmjoint, "report", str(log), "-o", str(page)], check=True, stdout=subprocess.DEVNULL)
-        checks.expect(page.stat().st_size < 6_000_000, f"the page has {page.stat().st_size} bytes")
-        browser = Browser(path)
-        try:
+
+        def work(browser, checks):
+            checks.expect(page.stat().st_size < 6_000_000, f"the page has {page.stat().st_size} bytes")
             for size in SIZES:
-                look(browser, checks, page.as_uri(), size, arguments.shots)
+                for media in ("print", "light", "dark"):
+                    look(browser, checks, page.as_uri(), size, media, arguments.shots)
             check_charts(browser, checks)
             check_barriers(browser, checks)
             check_silence(browser, checks, page.as_uri())
             check_without_scripts(browser, checks, page.as_uri())
-        finally:
-            browser.close()
-    print(f"{checks.count} checks, {len(checks.failures)} failed")
-    return 1 if checks.failures else 0
+
+        return in_browser(work)
 
 
 if __name__ == "__main__":

@@ -12,12 +12,10 @@ all holds; 1: something does not; 77: not opted in, or no browser here.
 Installs nothing: Debian's package is `chromium`; the environment variable CHROMIUM names another browser.
 """
 
-import argparse
 import atexit
 import base64
 import json
 import math
-import os
 import pathlib
 import shutil
 import subprocess
@@ -25,10 +23,9 @@ import sys
 import tempfile
 
 from barriers import check_barriers
-from chromium import Browser, find_browser
+from page_checks import SIZES, arguments_of, check_silence, in_browser
 
-SIZES = {"phone": (390, 844), "desktop": (1280, 900)}
-TABLES = """[...document.querySelectorAll('table')].map(table => ({
+TABLES = """[...document.querySelectorAll('table')].filter(table => !table.closest('#list')).map(table => ({
   caption: table.caption ? table.caption.innerText : '',
   head: [...table.tHead.rows[0].cells].map(cell => cell.innerText),
   rows: [...table.tBodies[0].rows].map(row => [...row.cells].map(cell => cell.innerText)),
@@ -40,7 +37,7 @@ DECODED = """Promise.all([...document.images].map(async image => {
     try { return await image.decode() } catch { await new Promise(done => setTimeout(done, 100)) }
   }
   throw new Error('not decoded: ' + image.alt)}))"""
-STOPS = """[...document.querySelectorAll('a[href], summary, [tabindex="0"]')]"""
+STOPS = """[...document.querySelectorAll('a[href], summary, button, select, [tabindex="0"]')]"""
 WIDE = """[...document.querySelectorAll('body *')].filter(e => !e.closest('.scroll, pre, .skip') &&
   e.getBoundingClientRect().right > innerWidth + 1).map(e => e.tagName + ' ' + e.textContent.slice(0, 40))"""
 
@@ -54,19 +51,6 @@ NAMELESS = """[...document.querySelectorAll('.scroll')].filter(box => box.queryS
 SMALL = "[...document.images].filter(image => image.width < 600 && image.width < image.naturalWidth / 2).map(i => i.alt)"
 
 
-class Checks:
-    """Counts what was looked at, and remembers what did not hold."""
-
-    def __init__(self):
-        self.count, self.failures = 0, []
-
-    def expect(self, holds, message):
-        self.count += 1
-        if not holds:
-            self.failures.append(message)
-            print(f"FAIL: {message}", file=sys.stderr)
-
-
 def shown_number(text):
     """The number that a cell begins with, and half of its last digit; None for words."""
     digits = text.split()[0] if text.split() else ""
@@ -78,20 +62,6 @@ def shown_number(text):
     decimals = len(mantissa.partition(".")[2])
     # trailing zeros that %g leaves out: at least three digits are right
     return value, max(0.5 * 10 ** (int(exponent or 0) - decimals), 0) + 5e-4 * abs(value)
-
-
-def check_silence(browser, checks, url):
-    for event in browser.events:
-        method, what = event["method"], event["params"]
-        if method == "Runtime.exceptionThrown":
-            checks.expect(False, f"exception: {what['exceptionDetails']['text']}")
-        if method == "Runtime.consoleAPICalled":
-            checks.expect(what["type"] not in ("error", "warning"), f"console: {what}")
-        if method == "Log.entryAdded":
-            checks.expect(what["entry"]["level"] not in ("error", "warning"), f"log: {what['entry']['text']}")
-        if method == "Network.requestWillBeSent":
-            target = what["request"]["url"]
-            checks.expect(target == url or target.startswith("data:"), f"request to {target[:100]}")
 
 
 def check_numbers(browser, checks, board):
@@ -180,35 +150,41 @@ def look(browser, checks, name, size, scheme, folder):
         (folder / f"report_{name}_{scheme}.png").write_bytes(base64.b64decode(shot["data"]))
 
 
+def check_list(browser, checks):
+    """The table of realizations sorts by a click on a heading, and shows what is chosen."""
+    column = """[...document.querySelectorAll('#list tbody tr')].filter(row => !row.hidden).map(row => row.cells[%d].textContent)"""
+    heads = browser.value("[...document.querySelectorAll('#list thead th')].map(head => head.textContent)")
+    npe, identifier = heads.index("NPE"), heads.index("identifier")
+    for order in ("ascending", "descending"):
+        browser.value(f"document.querySelectorAll('#list thead button')[{npe}].click()")
+        shown = [shown_number(cell)[0] for cell in browser.value(column % npe) if cell != "-"]
+        checks.expect(shown == sorted(shown, reverse=order == "descending"), f"not {order}: {shown[:5]}")
+    names = sorted(set(browser.value(column % identifier)))
+    all_rows = len(browser.value(column % identifier))
+    if len(names) > 1:
+        browser.value(f"""(list => {{ list.value = '{names[0]}'; list.dispatchEvent(new Event('change')) }})(
+          [...document.querySelectorAll('#choose label')].find(label => label.textContent.startsWith('identifier')).querySelector('select'))""")
+        left = browser.value(column % identifier)
+        checks.expect(left and len(left) < all_rows and set(left) == {names[0]}, f"the filter shows {set(left)}")
+        said = browser.value("document.getElementById('shown').textContent")
+        checks.expect(said.startswith(f"{len(left)} of {all_rows} "), f"'{said}' of {len(left)} rows")
+
+
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("run", type=pathlib.Path)
-    parser.add_argument("--warmjoint", default="build/warmjoint")
-    parser.add_argument("--shots", type=pathlib.Path)
-    parser.add_argument("--opt-in", action="store_true")
-    arguments = parser.parse_args()
-    if arguments.opt_in and not os.environ.get("WARMJOINT_BROWSER_TEST"):
-        print("not asked for: set WARMJOINT_BROWSER_TEST=1 to open a report in Chromium", file=sys.stderr)
-        return 77
-    path = find_browser()
-    if not path:
-        print("no Chromium here: install the package chromium, or set CHROMIUM", file=sys.stderr)
-        return 77
-    if arguments.run.is_file():
+    arguments = arguments_of(__doc__, "run")
+    if arguments.what.is_file():
         scratch = pathlib.Path(tempfile.mkdtemp(prefix="warmjoint-report-"))
         atexit.register(shutil.rmtree, scratch, ignore_errors=True)
-        subprocess.run([arguments.warmjoint, "run", str(arguments.run), "--realizations", "3", "-o", str(scratch / "run")],
+        subprocess.run([arguments.warmjoint, "run", str(arguments.what), "--realizations", "3", "-o", str(scratch / "run")],
                        check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        arguments.run = scratch / "run"
-    subprocess.run([arguments.warmjoint, "report", str(arguments.run)], check=True, stdout=subprocess.DEVNULL)
-    compared = subprocess.run([arguments.warmjoint, "compare", str(arguments.run), "--format", "json"], check=True,
+        arguments.what = scratch / "run"
+    run = arguments.what
+    subprocess.run([arguments.warmjoint, "report", str(run)], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    compared = subprocess.run([arguments.warmjoint, "compare", str(run), "--format", "json"], check=True,
                               capture_output=True)
-    if arguments.shots:
-        arguments.shots.mkdir(parents=True, exist_ok=True)
+    url = (run / "report.html").resolve().as_uri()
 
-    url = (arguments.run / "report.html").resolve().as_uri()
-    checks, browser = Checks(), Browser(path)
-    try:
+    def work(browser, checks):
         browser.open(url)
         for name, size in SIZES.items():
             for scheme in ("light", "dark"):
@@ -216,12 +192,11 @@ def main():
         check_numbers(browser, checks, json.loads(compared.stdout))
         check_pictures(browser, checks)
         check_reading(browser, checks)
+        check_list(browser, checks)
         check_barriers(browser, checks)
         check_silence(browser, checks, url)
-    finally:
-        browser.close()
-    print(f"{checks.count - len(checks.failures)} of {checks.count} checks hold")
-    return 1 if checks.failures else 0
+
+    return in_browser(work)
 
 
 if __name__ == "__main__":

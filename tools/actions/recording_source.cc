@@ -1,5 +1,7 @@
 #include "tools/actions/recording_source.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -58,6 +60,24 @@ std::map<std::string, std::string> ReadPairs(const std::vector<std::string>& pai
 
 JointKind JointOf(const RecordingArguments& arguments) {
   return arguments.joint == "linear" ? JointKind::linear : JointKind::rotary;
+}
+
+std::vector<std::string> WordsOf(const RecordingArguments& arguments) {
+  std::vector<std::string> words = arguments.recordings;
+  const auto add = [&](const char* option, const std::string& value) {
+    words.insert(words.end(), {option, value});
+  };
+  for (const std::string& pair : arguments.map) add("--map", pair);
+  for (const std::string& pair : arguments.unit) add("--unit", pair);
+  for (const std::string& pair : arguments.scale) add("--scale", pair);
+  const RecordingArguments usual;
+  if (arguments.wrap != usual.wrap) add("--wrap", fmt::format("{}", arguments.wrap));
+  if (arguments.joint != usual.joint) add("--joint", arguments.joint);
+  if (arguments.gear != usual.gear) add("--gear", fmt::format("{}", arguments.gear));
+  const auto& [trim, shortest] = arguments.holds;
+  if (trim != usual.holds.trim) add("--trim", fmt::format("{}", trim));
+  if (shortest != usual.holds.shortest) add("--shortest-hold", fmt::format("{}", shortest));
+  return words;
 }
 
 nlohmann::json RecordingToJson(const RecordingArguments& arguments, const fs::path& estimate) {

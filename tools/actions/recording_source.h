@@ -37,6 +37,9 @@ struct RecordingArguments {
 /// Rotary or linear, as the command line says.
 JointKind JointOf(const RecordingArguments& arguments);
 
+/// Files and options as they are typed on a command line, what is at its default left out.
+std::vector<std::string> WordsOf(const RecordingArguments& arguments);
+
 /// How the files are to be read. Throws BadInput for a gear or a range that is no such number.
 CsvLayout LayoutOf(const RecordingArguments& arguments);
 

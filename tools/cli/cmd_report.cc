@@ -10,14 +10,18 @@
 #include "models/foundation/read_json.h"
 #include "tools/actions/identify_recording.h"
 #include "tools/actions/outputs.h"
+#include "tools/actions/replay_unit.h"
 #include "tools/cli/command.h"
 #include "tools/cli/recording_options.h"
 #include "tools/cli/take_project.h"
 #include "tools/report/page/log_page.h"
 #include "tools/report/page/run_page.h"
+#include "tools/report/run/extremes.h"
 #include "tools/report/run/run_figures.h"
 #include "tools/store/stored_suite.h"
+#include "tools/suite/arithmetic.h"
 #include "tools/terminal/activity.h"
+#include "tools/terminal/shell_words.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -38,14 +42,47 @@ struct Page {
   std::string html;
 };
 
+/// Torque and fit of the extremes of the best identifier that is none from outside, each simulated and
+/// identified once more; or why there are none.
+void ReplayExtremes(report::RunPage& page, Activity& activity) {
+  const report::RunRow* row = nullptr;
+  std::size_t position = 0;
+  for (const LeaderboardRow& best : page.view.board.rows) {
+    if (row) break;
+    for (std::size_t i = 0; i < page.suite.identifiers.size(); ++i) {
+      const SuiteIdentifier& identifier = page.suite.identifiers[i];
+      if (identifier.label != best.identifier || identifier.name == kExternal) continue;
+      row = &page.view.rows[i];
+      position = i;
+    }
+  }
+  page.without_extremes = "No identifier of warmjoint's own gave numbers that could be shown.";
+  if (!row) return;
+
+  std::vector<report::ReplayedExtreme> replayed;
+  try {
+    for (const report::Extreme& extreme : report::ExtremesOf(*row)) {
+      activity.Is(fmt::format("simulating the {} realization again", extreme.rank));
+      const Replayed again = ReplayUnit(page.suite, extreme.unit, page.suite.identifiers[position]);
+      const auto& [measurements, selection] = again.log.taken();
+      replayed.push_back({extreme, NameOf(page.suite, extreme.unit),
+                          report::MakeFitView(measurements, selection, again.estimate)});
+    }
+  } catch (const BadInput& refusal) {
+    page.without_extremes = fmt::format("No realization is shown: {}.", refusal.what());
+    return;
+  }
+  if (!replayed.empty()) page.extremes = report::ExtremesFigure(row->label, replayed);
+}
+
 Page RunReport(const ReportArguments& arguments, Activity& activity) {
   const RunStore store = RunStore::OpenToRead(arguments.source);
   TellOfEditedSuite(store);
-  const report::RunView view = report::ReadRunView(store);
-  report::RunPage page{view.board, store.ReadDescription(), {}};
+  report::RunPage page{report::ReadRunView(store), StoredSuite(store), store.ReadDescription(), {}};
   for (const report::RunFigure& figure : report::RunFigures()) {
-    if (auto made = figure.make(view)) page.figures.push_back(*std::move(made));
+    if (auto made = figure.make(page.view)) page.figures.push_back(*std::move(made));
   }
+  ReplayExtremes(page, activity);
   activity.Is(fmt::format("drawing {} pictures", page.figures.size()));
   const fs::path beside = fs::path(arguments.source) / "report.html";
   return {arguments.output.empty() ? beside : fs::path(arguments.output),
@@ -76,13 +113,13 @@ std::string RecordingReport(const ReportArguments& arguments, Activity& activity
                           log.taken().measurements.size()));
   const Estimate shown = IdentifyLog(task, log, HoldOutSource{}).shown;
   activity.Is("drawing");
-  std::string options;
-  for (const std::string& pair : arguments.set) options += " --set " + pair;
-  if (settings.gravity != "none") options += " --gravity " + settings.gravity;
-  for (const std::string& map : recording.map) options += " --map " + map;
-  return LogReport(log, shown,
-                   {fmt::format("warmjoint identify {} --identifier {}{} -o estimate.json",
-                                arguments.source, task.identifier.name, options)});
+  std::vector<std::string> words{"warmjoint", "identify"};
+  const std::vector<std::string> typed = WordsOf(recording);
+  words.insert(words.end(), typed.begin(), typed.end());
+  words.insert(words.end(), {"--identifier", task.identifier.name});
+  for (const std::string& pair : arguments.set) words.insert(words.end(), {"--set", pair});
+  words.insert(words.end(), {"-o", "estimate.json"});
+  return LogReport(log, shown, {JoinCommand(words)});
 }
 
 /// Of an estimate file, with the recording that it remembers.
@@ -93,11 +130,13 @@ std::string EstimateReport(const ReportArguments& arguments) {
     Refuse({arguments.source}, "names no recording; give the report the recording itself");
   }
   const RecordingArguments recording = RecordingFromJson(file["recording"], {arguments.source});
-  return LogReport(ReadAndPrepare(recording), estimate,
-                   {fmt::format("warmjoint report {} -o {}", arguments.source, arguments.output)});
+  return LogReport(
+      ReadAndPrepare(recording), estimate,
+      {JoinCommand({"warmjoint", "report", arguments.source, "-o", arguments.output})});
 }
 
 ExitStatus Report(const ReportArguments& arguments) {
+  SettleArithmetic();
   Activity activity("reading " + arguments.source);
   if (!fs::exists(arguments.source)) {
     Refuse({arguments.source},

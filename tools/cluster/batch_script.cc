@@ -9,7 +9,7 @@
 #include "models/foundation/excerpt.h"
 #include "tools/cluster/arrays.h"
 #include "tools/cluster/run_layout.h"
-#include "tools/suite/command_line.h"
+#include "tools/terminal/shell_words.h"
 
 namespace warmjoint::inline tools {
 namespace fs = std::filesystem;

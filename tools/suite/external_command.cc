@@ -6,6 +6,7 @@
 #include "models/foundation/excerpt.h"
 #include "tools/suite/command_line.h"
 #include "tools/suite/interpreter.h"
+#include "tools/terminal/shell_words.h"
 
 namespace warmjoint::inline tools {
 namespace {

@@ -15,11 +15,11 @@
 #include "models/foundation/robust_noise.h"
 #include "models/recording/course_of.h"
 #include "models/recording/read_recording.h"
-#include "tools/suite/command_line.h"
 #include "tools/suite/interpreter.h"
 #include "tools/suite/keep_recording.h"
 #include "tools/suite/run_command.h"
 #include "tools/suite/working_directory.h"
+#include "tools/terminal/shell_words.h"
 
 namespace warmjoint::inline tools {
 namespace {

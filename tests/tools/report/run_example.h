@@ -28,6 +28,7 @@ inline RunRow ExampleRow(const std::string& label, const std::string& identifier
   row.identifier = identifier;
   row.runs = kExampleRealizations;
   row.variant = Eigen::VectorXi::LinSpaced(kExampleRealizations, 0, 1);
+  row.realization = Eigen::VectorXi::LinSpaced(kExampleRealizations, 0, kExampleRealizations - 1);
   row.npe = row.rmse = row.fit = row.fpe = row.mae = Eigen::VectorXd(kExampleRealizations);
   for (Eigen::Index i = 0; i < kExampleRealizations; ++i) {
     row.npe[i] = npe * std::exp(0.3 * random.Normal());

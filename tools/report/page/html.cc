@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "tools/store/sha256.h"
+#include "tools/terminal/shell_words.h"
 
 namespace warmjoint::report {
 namespace {
@@ -98,6 +99,14 @@ std::string Section(const std::string& id, const std::string& heading, const std
 
 std::string Paragraph(const std::string& text) { return "<p>" + Escape(text) + "</p>\n"; }
 
+std::string InPrint(std::string text) {
+  static constexpr std::pair<const char*, const char*> kPrint[] = {
+      {"N.m", "N·m"}, {")^2", ")²"}, {"Cramer-Rao", "Cramér-Rao"}};
+  for (const auto& [typed, printed] : kPrint) text = Replaced(std::move(text), typed, printed);
+  if (text.ends_with(" us")) text.replace(text.size() - 2, 1, "µ");
+  return text;
+}
+
 std::string HtmlTable(const std::string& caption, const warmjoint::Table& table) {
   // wide tables scroll by themselves, with the keyboard too
   std::string html = fmt::format(
@@ -105,7 +114,8 @@ std::string HtmlTable(const std::string& caption, const warmjoint::Table& table)
       "<caption>{0}</caption>\n<thead><tr>",
       Escape(caption));
   for (std::size_t i = 0; i < table.header.size(); ++i) {
-    html += fmt::format("<th scope=\"col\"{}>{}</th>", ClassOf(table, i), Escape(table.header[i]));
+    html += fmt::format("<th scope=\"col\"{}>{}</th>", ClassOf(table, i),
+                        Escape(InPrint(table.header[i])));
   }
   html += "</tr></thead>\n<tbody>\n";
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
@@ -113,15 +123,28 @@ std::string HtmlTable(const std::string& caption, const warmjoint::Table& table)
     for (std::size_t i = 0; i < table.rows[row].size(); ++i) {
       const std::string kind = ClassOf(table, i);
       html += i == HeadColumn(table)
-                  ? fmt::format("<th scope=\"row\"{}>{}</th>", kind, Escape(HeadOf(table, row)))
-                  : fmt::format("<td{}>{}</td>", kind, Escape(table.rows[row][i]));
+                  ? fmt::format("<th scope=\"row\"{}>{}</th>", kind,
+                                Escape(InPrint(HeadOf(table, row))))
+                  : fmt::format("<td{}>{}</td>", kind, Escape(InPrint(table.rows[row][i])));
     }
     html += "</tr>\n";
   }
   return html + "</tbody>\n</table>\n</div>\n";
 }
 
-std::string HtmlPicture(const Figure& figure, const PictureFile& light, const PictureFile& dark) {
+std::string HtmlTerms(const std::vector<std::pair<std::string, std::string>>& terms) {
+  std::string html = "<dl>\n";
+  for (const auto& [term, meaning] : terms) {
+    html += fmt::format("<dt>{}</dt><dd>{}</dd>\n", Escape(term), Escape(meaning));
+  }
+  return html + "</dl>\n";
+}
+
+std::string HtmlPicture(const Figure& figure) {
+  PageSetting setting;
+  const PictureFile light = EncodeFigure(figure, setting);
+  setting.style = StyleNamed("dark");
+  const PictureFile dark = EncodeFigure(figure, setting);
   return fmt::format(
       "<figure id=\"{0}\">\n"
       "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{6}\">\n<picture>\n"

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "tools/board/table.h"
@@ -28,11 +29,17 @@ std::string Section(const std::string& id, const std::string& heading, const std
 /// <p>, escaped.
 std::string Paragraph(const std::string& text);
 
-/// A table with its caption; the first column (after one of ranks, "#") heads the rows, cells with
+/// A text of the terminal as it is set in print: N·m, Cramér-Rao, µs.
+std::string InPrint(std::string text);
+
+/// A table with its caption, in print; the first column (after one of ranks, "#") heads the rows, cells with
 /// numbers stand right.
 std::string HtmlTable(const std::string& caption, const warmjoint::Table& table);
 
-/// A picture inside the page, for light and for dark screens, with its alt text. PNG.
-std::string HtmlPicture(const Figure& figure, const PictureFile& light, const PictureFile& dark);
+/// Terms and their meanings as a <dl>, escaped.
+std::string HtmlTerms(const std::vector<std::pair<std::string, std::string>>& terms);
+
+/// A figure drawn into the page, for light and for dark screens, with its alt text. PNG.
+std::string HtmlPicture(const Figure& figure);
 
 }  // namespace warmjoint::report

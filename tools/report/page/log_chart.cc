@@ -37,10 +37,9 @@ std::string Number(double value) {
 
 }  // namespace
 
-LogChart MakeLogChart(const FitView& view) {
+std::string MakeLogChart(const FitView& view) {
   const std::vector<Index> chosen = Thinned(view);
-  LogChart chart;
-  chart.thinned = static_cast<Index>(chosen.size()) < view.time.size();
+  const bool thinned = static_cast<Index>(chosen.size()) < view.time.size();
   std::string rows;
   for (Index i : chosen) {
     const bool kept = view.selection.keep[i];
@@ -49,8 +48,10 @@ LogChart MakeLogChart(const FitView& view) {
                         Number(view.position[i]), Number(view.velocity[i]), Number(view.torque[i]),
                         Number(fit), kept ? 1 : 0);
   }
-  chart.html = fmt::format(
-      "<div id=\"charts\" hidden>\n<p>Drag across to zoom, double-click to see all, hold Shift and "
+  return fmt::format(
+      "<noscript><p>The charts need JavaScript; the pictures below show the same.</p></noscript>\n"
+      "<div id=\"charts\" hidden>\n{}<p>Drag across to zoom, double-click to see all, hold Shift "
+      "and "
       "drag "
       "to move. <label><input type=\"checkbox\" id=\"show-all\" checked> all samples</label> "
       "<label><input type=\"checkbox\" id=\"show-kept\" checked> kept samples</label> "
@@ -66,9 +67,9 @@ LogChart MakeLogChart(const FitView& view) {
       "<div class=\"chart\" data-column=\"2\" data-name=\"{}\"></div>\n"
       "<div class=\"chart\" data-column=\"3\" data-name=\"{}\"></div>\n</div>\n"
       "<script type=\"application/json\" id=\"samples\">[{}]</script>\n",
+      thinned ? "<p>Thinned for this page without losing an extreme.</p>\n" : "",
       Escape(PositionLabel(view)), Escape(SpeedLabel(view)), Escape(TorqueLabel(view, "torque")),
       rows);
-  return chart;
 }
 
 std::string_view LogChartStyle() {
@@ -79,8 +80,7 @@ button { font: inherit; color: var(--ink); background: var(--soft); border: 1px 
 .dygraph-axis-label, .dygraph-label { color: var(--ink); font-size: .85rem; }
 .dygraph-legend { background: var(--paper); color: var(--ink); width: auto; font-size: .85rem; }
 .void { border-left-color: #d55e00; }
-dt { font-weight: 600; margin-top: .6rem; } dd { margin-left: 1.2rem; max-width: 44rem; }
-@media print { #charts { display: none; } }
+@media print { #recording { display: none; } }
 )";
 }
 

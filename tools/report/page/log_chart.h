@@ -8,15 +8,10 @@
 
 namespace warmjoint::report {
 
-/// Position, velocity and torque over time with the fit and what is kept, as a script that draws them.
-struct LogChart {
-  std::string html;  // its place on the page, and the numbers
-  bool thinned = false;
-};
-
-/// Long recordings are thinned: of each of 2500 parts, the first, lowest, highest and last sample of
-/// each column stay.
-LogChart MakeLogChart(const FitView& view);
+/// HTML of position, velocity and torque over time with the fit and what is kept: the charts' places and
+/// their numbers. Long recordings are thinned: of each of 2500 parts, the first, lowest, highest and last
+/// sample of each column stay.
+std::string MakeLogChart(const FitView& view);
 
 /// The script that draws it; the page's policy names its hash.
 std::string_view LogChartScript();

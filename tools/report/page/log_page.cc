@@ -164,20 +164,8 @@ std::vector<Figure> FiguresOf(const FitView& view) {
 
 std::string PicturesSection(const FitView& view) {
   std::string html;
-  PageSetting light, dark;
-  dark.style = StyleNamed("dark");
-  for (const Figure& figure : FiguresOf(view)) {
-    html += HtmlPicture(figure, EncodeFigure(figure, light), EncodeFigure(figure, dark));
-  }
+  for (const Figure& figure : FiguresOf(view)) html += HtmlPicture(figure);
   return html;
-}
-
-std::string TermsSection() {
-  std::string html = "<dl>\n";
-  for (const auto& [term, meaning] : Terms()) {
-    html += fmt::format("<dt>{}</dt><dd>{}</dd>\n", Escape(term), Escape(meaning));
-  }
-  return html + "</dl>\n";
 }
 
 std::string RepeatSection(const LogPage& page) {
@@ -210,7 +198,6 @@ std::string Head(const FitView& view, const std::string& own_style) {
 std::string MakeLogPage(const LogPage& page) {
   const FitView& view = page.view;
   const std::string own_style = std::string(ChartStyle()) + std::string(LogChartStyle());
-  const LogChart chart = MakeLogChart(view);
   struct Part {
     const char* id;
     const char* heading;
@@ -220,14 +207,12 @@ std::string MakeLogPage(const LogPage& page) {
       {"verdict", Passed(view) ? "Why it passes" : "Why it was refused", VerdictSection(view)},
       {"next", "What to do next", NextSection(page)},
       {"parameters", "Parameters", ParametersSection(view)},
-      {"recording", "The recording",
-       (chart.thinned ? Paragraph("Thinned for this page without losing an extreme.") : "") +
-           chart.html},
+      {"recording", "The recording", MakeLogChart(view)},
       {"pictures", "Pictures", PicturesSection(view)},
       {"tests", "Tests", TestsSection(view)},
       {"assumptions", "Assumptions", AssumptionsSection(view)},
       {"mujoco", "Into MuJoCo", MujocoSection(view)},
-      {"terms", "Terms", TermsSection()},
+      {"terms", "Terms", HtmlTerms(Terms())},
       {"repeat", "How to repeat it", RepeatSection(page)}};
   std::string links, body;
   for (const Part& part : parts) {

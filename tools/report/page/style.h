@@ -11,7 +11,7 @@ inline constexpr const char* kStyle = R"(
 * { box-sizing: border-box; }
 body { margin: 0 auto; max-width: 70rem; padding: 1.5rem 1rem 4rem; color: var(--ink);
   background: var(--paper); font: 1rem/1.55 system-ui, "DejaVu Sans", sans-serif; }
-h1 { font-size: 1.7rem; line-height: 1.2; margin: 0 0 .4rem; }
+h1 { font-size: 1.7rem; line-height: 1.2; margin: 0 0 .4rem; overflow-wrap: anywhere; }
 h2 { font-size: 1.2rem; margin: 2.4rem 0 .6rem; border-bottom: 1px solid var(--rule); padding-bottom: .2rem; }
 p { margin: .5rem 0; max-width: 46rem; }
 .question { color: var(--faint); }
@@ -36,6 +36,8 @@ figure { margin: 1.4rem 0; }
 img { max-width: 100%; height: auto; display: block; }
 figcaption { color: var(--faint); font-size: .92rem; max-width: 46rem; }
 pre { overflow-x: auto; background: var(--soft); padding: .8rem; font-size: .88rem; }
+h3 { font-size: 1rem; margin: 1.2rem 0 .3rem; }
+dt { font-weight: 600; margin-top: .6rem; } dd { margin-left: 1.2rem; max-width: 44rem; }
 @media (max-width: 44rem) { img { max-width: none; width: 40rem; } }
 @media print { nav, .skip { display: none; } figure { break-inside: avoid; } }
 )";

@@ -11,6 +11,7 @@
 #include "tools/board/board_builder.h"
 #include "tools/report/draw/ticks.h"
 #include "tools/report/figures/friction_spread.h"
+#include "tools/report/run/prime_distance.h"
 #include "tools/report/run/row_builder.h"
 #include "tools/report/run/run_view.h"
 #include "tools/store/stored_suite.h"
@@ -87,19 +88,6 @@ double NoiseOf(const Suite& suite) {
   return noise;
 }
 
-/// The smallest prime from `least` on, or 1: realizations at that distance share no period that a run
-/// may have.
-int PrimeFrom(int least) {
-  const auto divided = [](int n) {
-    for (int d = 2; d * d <= n; ++d) {
-      if (n % d == 0) return true;
-    }
-    return false;
-  };
-  while (divided(least)) ++least;
-  return least;
-}
-
 }  // namespace
 
 int RunRow::failed() const {
@@ -113,17 +101,20 @@ RunView ReadRunView(const RunStore& store, std::int64_t most_drawn) {
   BoardBuilder board(suite);
   RunView view;
   const std::int64_t units = std::int64_t{suite.realizations} * suite.variants();
-  view.drawn_every = PrimeFrom(static_cast<int>((units + most_drawn - 1) / most_drawn));
+  view.drawn_every = PrimeDistance(units, most_drawn);
+  ListingBuilder listing(units * static_cast<std::int64_t>(suite.identifiers.size()));
   std::vector<RowBuilder> rows(suite.identifiers.size());
   store.ForEachUnit([&](const std::vector<Result>& unit) {
     board.Add(unit);
     for (const Result& result : unit) {
       RowBuilder& row = rows[static_cast<std::size_t>(result.identifier)];
       row.Count(result);
+      listing.Add(result);
       if (result.realization % view.drawn_every == 0) row.Draw(result);
     }
   });
   view.board = board.Finish();
+  view.listing = std::move(listing).Finish();
   if (view.board.finished == 0) {
     Refuse({store.directory().string()},
            "no realization is finished yet; run the suite again to go on");

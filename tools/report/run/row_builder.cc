@@ -19,6 +19,10 @@ constexpr std::size_t kMostCourses = 2000;
 using Eigen::Index;
 using Eigen::VectorXd;
 
+Eigen::VectorXi Places(const std::vector<int>& numbers) {
+  return Eigen::Map<const Eigen::VectorXi>(numbers.data(), static_cast<Index>(numbers.size()));
+}
+
 VectorXd Column(const std::vector<double>& numbers) {
   return Eigen::Map<const VectorXd>(numbers.data(), static_cast<Index>(numbers.size()));
 }
@@ -103,6 +107,7 @@ void RowBuilder::Count(const Result& result) {
 void RowBuilder::Draw(const Result& result) {
   if (units_.size() < kMostCourses) units_.push_back({result.variant, result.realization});
   variant_.push_back(result.variant);
+  realization_.push_back(result.realization);
   npe_.push_back(result.score ? result.score->npe_continuous : kUnknown);
   const auto metric = [&](double Metrics::*member) {
     return result.metrics ? (*result.metrics).*member : kUnknown;
@@ -132,8 +137,8 @@ RunRow RowBuilder::Row(const RunStore& store, const Suite& suite,
   row.identifier = identifier.name;
   row.runs = runs_;
   row.failures = failures_;
-  row.variant =
-      Eigen::Map<const Eigen::VectorXi>(variant_.data(), static_cast<Index>(variant_.size()));
+  row.variant = Places(variant_);
+  row.realization = Places(realization_);
   row.npe = Column(npe_);
   row.rmse = Column(rmse_);
   row.fit = Column(fit_);

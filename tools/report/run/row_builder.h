@@ -34,7 +34,7 @@ class RowBuilder {
   int runs_ = 0;
   int identifier_ = 0;
   std::map<std::string, int> failures_;
-  std::vector<int> variant_;
+  std::vector<int> variant_, realization_;
   Numbers npe_, rmse_, fit_, fpe_, mae_;
   std::vector<ParameterNumbers> parameters_;  // of the first score on
 };

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tools/board/leaderboard.h"
+#include "tools/report/run/listing.h"
 #include "tools/store/run_store.h"
 
 namespace warmjoint::report {
@@ -47,7 +48,7 @@ struct RunRow {
   std::string identifier;                    // name in the list of identifiers: gives the colour
   int runs = 0;                              // all, drawn or not
   std::map<std::string, int> failures;       // status: count, of all
-  Eigen::VectorXi variant;                   // [R] position in the ladder
+  Eigen::VectorXi variant, realization;      // [R] position in the ladder, and number
   Eigen::VectorXd npe, rmse, fit, fpe, mae;  // [R], NaN without an answer
   std::vector<ParameterColumn> parameters;   // continuous, in the order of the truth
   Course course;                             // K = 0 where it does not iterate
@@ -69,6 +70,7 @@ struct RunView {
   /// Cramer-Rao covariance of the relative errors in per cent, [d x d], in the order of the truth's
   /// parameters; empty where unknown.
   Eigen::MatrixXd bound_covariance;
+  Listing listing;
 };
 
 /// Realizations of a run that pictures are drawn of; of a longer run, every second, third, ...

@@ -17,5 +17,11 @@ TEST(Html, ThePolicyAdmitsTheGivenTextsAlone) {
   EXPECT_THAT(SecurityPolicy({}, {"abc", "abc"}), HasSubstr("script-src " + abc + " " + abc + ";"));
 }
 
+TEST(Html, PrintsUnitsAndNamesAsBooksDo) {
+  EXPECT_EQ(InPrint("FPE (N.m)^2"), "FPE (N·m)²");
+  EXPECT_EQ(InPrint("861 us"), "861 µs");
+  EXPECT_EQ(InPrint("the Cramer-Rao bound is used"), "the Cramér-Rao bound is used");
+}
+
 }  // namespace
 }  // namespace warmjoint::report

@@ -3,14 +3,20 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <regex>
 
+#include "identification/identifiers/identifier_list.h"
+#include "scenarios/parse_suite.h"
 #include "tests/tools/report/look.h"
 #include "tests/tools/report/run_example.h"
 #include "tools/board/board_tables.h"
 #include "tools/board/format_board.h"
 #include "tools/report/page/html.h"
+#include "tools/report/page/realization_list.h"
+#include "tools/report/page/run_words.h"
+#include "tools/report/page/style.h"
 #include "tools/report/run/run_figures.h"
 
 namespace warmjoint::report {
@@ -18,6 +24,18 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+constexpr const char* kSuite = R"(name: table1
+question: Which?
+realizations: 40
+scenario:
+  friction: {law: viscous_coulomb, parameters: {viscous: 5, coulomb: 15}}
+  motion: {speeds: [1], hold: 2}
+  duration: 60
+identifiers: [{name: energy-ml}, {name: external, label: mine, options: {command: "python3 <mine>.py {recording} {estimate}"}}]
+)";
 
 Leaderboard ExampleBoard() {
   Leaderboard board;
@@ -40,7 +58,12 @@ Leaderboard ExampleBoard() {
 const std::string& ExamplePage() {
   static const std::string page = [] {
     RunPage example;
-    example.board = ExampleBoard();
+    example.view = ExampleRun();
+    example.view.board = ExampleBoard();
+    example.view.listing.answers = {{{0, 3}, 0, "ok", 0.011, 0.5, 93},
+                                    {{0, 4}, 1, "crashed", kUnknown, kUnknown, kUnknown}};
+    example.suite = ParseSuite(kSuite, "suite.yaml");
+    example.without_extremes = "Nothing could be simulated.";
     example.description.suite_yaml = "name: table1\n";
     example.description.identifiers = {"energy-ml"};
     example.description.versions = {{"warmjoint", "0.1.0"}};
@@ -85,10 +108,32 @@ TEST(RunPage, AsksNothingOfAnyServer) {
 TEST(RunPage, SaysQuestionVerdictNotesAndHowToRepeatIt) {
   const std::string& page = ExamplePage();
   EXPECT_THAT(page, HasSubstr("Which one is right &amp; why?"));
-  EXPECT_THAT(page, HasSubstr(Escape(Verdict(ExampleBoard()))));
+  EXPECT_THAT(page, HasSubstr(Escape(InPrint(Verdict(ExampleBoard())))));
   EXPECT_THAT(page, HasSubstr("it &lt;b&gt;moved&lt;/b&gt;"));
   EXPECT_THAT(page, HasSubstr("warmjoint run suite.yaml"));
   EXPECT_THAT(page, HasSubstr("name: table1"));
+}
+
+TEST(RunPage, ExplainsWhatWasSimulatedByWhomItWasIdentifiedAndItsTerms) {
+  const std::string& page = ExamplePage();
+  EXPECT_THAT(page, HasSubstr(Escape(WhatWasSimulated(ParseSuite(kSuite, "")).front())));
+  EXPECT_THAT(page, HasSubstr("<dt>energy-ml</dt><dd>" +
+                              Escape(FindIdentifier("energy-ml").summary) + "</dd>"));
+  EXPECT_THAT(page, HasSubstr("python3 &lt;mine&gt;.py"));
+  for (const auto& [term, meaning] : RunTerms()) EXPECT_THAT(page, HasSubstr(Escape(meaning)));
+}
+
+TEST(RunPage, ListsEveryAnswerWithTheCommandThatSimulatesItAgain) {
+  const std::string& page = ExamplePage();
+  EXPECT_EQ(Count(page, "warmjoint simulate --from RUN --realization"), 2);
+  EXPECT_THAT(page, HasSubstr("--realization 4 -o replay</td>"));
+  EXPECT_THAT(page, HasSubstr("Nothing could be simulated."));
+}
+
+TEST(RunPage, LetsItsOwnScriptRunAlone) {
+  const std::string& page = ExamplePage();
+  EXPECT_EQ(Count(page, SecurityPolicy({kStyle, RealizationStyle()}, {RealizationScript()})), 1);
+  EXPECT_EQ(Count(page, "<script>" + std::string(RealizationScript()) + "</script>"), 1);
 }
 
 TEST(RunPage, EscapesWhatOthersWrote) {
@@ -102,7 +147,7 @@ TEST(RunPage, HoldsTheNumbersOfCompare) {
   // for people: the cells of the ranking
   const warmjoint::Table ranking = RankingTable(ExampleBoard());
   for (const std::string& cell : ranking.rows[0]) {
-    EXPECT_THAT(page, HasSubstr(">" + Escape(cell) + "</t"));
+    EXPECT_THAT(page, HasSubstr(">" + Escape(InPrint(cell)) + "</t"));
   }
   // for programs: the same JSON
   const std::string open = "id=\"board\">";

@@ -1,0 +1,67 @@
+"""What every check of a page in Chromium needs: its arguments, a count of what was looked at, and a browser."""
+
+import argparse
+import os
+import pathlib
+import sys
+
+from chromium import Browser, find_browser
+
+SIZES = {"phone": (390, 844), "desktop": (1280, 900)}
+
+
+class Checks:
+    """Counts what was looked at, and remembers what did not hold."""
+
+    def __init__(self):
+        self.count, self.failures = 0, []
+
+    def expect(self, holds, message):
+        self.count += 1
+        if not holds:
+            self.failures.append(message)
+            print(f"FAIL: {message}", file=sys.stderr)
+
+
+def check_silence(browser, checks, url):
+    for event in browser.events:
+        method, what = event["method"], event["params"]
+        if method == "Runtime.exceptionThrown":
+            checks.expect(False, f"exception: {what['exceptionDetails']['text']}")
+        if method == "Runtime.consoleAPICalled":
+            checks.expect(what["type"] not in ("error", "warning"), f"console: {what}")
+        if method == "Log.entryAdded":
+            checks.expect(what["entry"]["level"] not in ("error", "warning"), f"log: {what['entry']['text']}")
+        if method == "Network.requestWillBeSent":
+            target = what["request"]["url"]
+            checks.expect(target == url or target.startswith("data:"), f"request to {target[:100]}")
+
+
+def arguments_of(doc, what):
+    """Of a check of `what`; ends with 77 where it is not asked for, or no browser is here."""
+    parser = argparse.ArgumentParser(description=doc.split("\n", maxsplit=1)[0])
+    parser.add_argument("what", metavar=what, type=pathlib.Path)
+    parser.add_argument("--warmjoint", default="build/warmjoint")
+    parser.add_argument("--shots", type=pathlib.Path, help="a folder for pictures of the page")
+    parser.add_argument("--opt-in", action="store_true", help="do nothing unless WARMJOINT_BROWSER_TEST is set")
+    arguments = parser.parse_args()
+    if arguments.opt_in and not os.environ.get("WARMJOINT_BROWSER_TEST"):
+        print("not asked for: set WARMJOINT_BROWSER_TEST=1 to open pages in Chromium", file=sys.stderr)
+        sys.exit(77)
+    if not find_browser():
+        print("no Chromium here: install the package chromium, or set CHROMIUM", file=sys.stderr)
+        sys.exit(77)
+    if arguments.shots:
+        arguments.shots.mkdir(parents=True, exist_ok=True)
+    return arguments
+
+
+def in_browser(work):
+    """Calls work(browser, checks); says what did not hold, and gives the exit status."""
+    checks, browser = Checks(), Browser(find_browser())
+    try:
+        work(browser, checks)
+    finally:
+        browser.close()
+    print(f"{checks.count - len(checks.failures)} of {checks.count} checks hold")
+    return 1 if checks.failures else 0

@@ -1,0 +1,27 @@
+// One realization of a run, simulated and identified once more.
+#pragma once
+
+#include "identification/estimate.h"
+#include "identification/preparation/prepared_log.h"
+#include "scenarios/suite.h"
+#include "tools/store/result.h"
+
+namespace warmjoint::inline tools {
+
+/// A realization with what an identifier makes of it.
+struct Replayed {
+  PreparedLog log;
+  Estimate estimate;
+};
+
+/// Simulates `unit` as the run did and identifies it with the same start. identifier: an entry of the suite
+/// that is no command from outside. Throws BadInput where the plant or the identifier cannot be made here.
+Replayed ReplayUnit(const Suite& suite, Unit unit, const SuiteIdentifier& identifier);
+
+/// "realization 17", with its variant where the suite has any.
+std::string NameOf(const Suite& suite, Unit unit);
+
+/// The command that simulates it again. run: the directory, as a reader calls it.
+std::string ReplayCommand(const Suite& suite, Unit unit, const std::string& run);
+
+}  // namespace warmjoint::inline tools

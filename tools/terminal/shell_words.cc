@@ -1,0 +1,69 @@
+#include "tools/terminal/shell_words.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include "models/foundation/excerpt.h"
+
+namespace warmjoint::inline tools {
+namespace {
+
+constexpr std::string_view kBlanks = " \t\r\n";
+
+bool IsBlank(char c) { return kBlanks.find(c) != std::string_view::npos; }
+
+/// Whether the word means itself to a shell.
+bool IsPlain(const std::string& word) {
+  constexpr std::string_view plain = "_-./:=,+@%{}";
+  return !word.empty() && std::all_of(word.begin(), word.end(), [&](char c) {
+    const bool letter = ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z') || ('0' <= c && c <= '9');
+    return letter || plain.find(c) != std::string_view::npos;
+  });
+}
+
+}  // namespace
+
+std::string ShellQuoted(const std::string& word) {
+  return IsPlain(word) ? word : "'" + Replaced(word, "'", R"('\'')") + "'";
+}
+
+std::string Replaced(std::string text, const std::string& from, const std::string& to) {
+  for (size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
+    text.replace(at, from.size(), to);
+  }
+  return text;
+}
+
+std::vector<std::string> SplitCommand(const std::string& command, const Place& place) {
+  std::vector<std::string> words;
+  bool within = false;  // a word, which may be empty between quotes
+  char quote = 0;
+  for (size_t i = 0; i < command.size(); ++i) {
+    const char c = command[i];
+    if (!quote && IsBlank(c)) {
+      within = false;
+      continue;
+    }
+    if (!within) words.emplace_back();
+    within = true;
+    if (c == quote) {
+      quote = 0;
+    } else if (!quote && (c == '\'' || c == '"')) {
+      quote = c;
+    } else if (c == '\\' && quote != '\'' && i + 1 < command.size()) {
+      words.back() += command[++i];
+    } else {
+      words.back() += c;
+    }
+  }
+  if (quote) Refuse(place, "the command '{}' has a {} without its end", Excerpt(command), quote);
+  return words;
+}
+
+std::string JoinCommand(const std::vector<std::string>& words) {
+  std::string command;
+  for (const std::string& word : words) command += (command.empty() ? "" : " ") + ShellQuoted(word);
+  return command;
+}
+
+}  // namespace warmjoint::inline tools
