@@ -16,6 +16,7 @@ struct Asymmetric {
   static constexpr std::string_view equation =
       "(3) F = kv v + kc+ sign(max(0,v)) + kc- sign(min(0,v))";
   static constexpr PreSliding pre_sliding = PreSliding::elastoplastic;
+  static constexpr bool level_at_any_speed = true;
   static constexpr std::array parameters{
       kViscousRow,
       ParameterInfo{"coulomb_positive", "kc+", kTorqueUnit, 0, kInfinity, 0, "level for v > 0"},

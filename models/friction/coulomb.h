@@ -14,6 +14,7 @@ struct Coulomb {
   static constexpr std::string_view name = "coulomb";
   static constexpr std::string_view equation = "(1) F = kc sign(v)";
   static constexpr PreSliding pre_sliding = PreSliding::elastoplastic;
+  static constexpr bool level_at_any_speed = true;
   static constexpr std::array parameters{
       kCoulombRow,
   };

@@ -8,9 +8,13 @@
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
 #include "models/friction/survey_work.h"
+#include "models/friction/thermal_bounds.h"
 
 namespace warmjoint::inline models {
 namespace {
+
+/// A level beyond so many times the load is a number that slipped.
+constexpr double kLargestLoadGain = 100;
 
 void CheckValue(const ParameterInfo& info, double value, const Place& place) {
   if (std::isfinite(value) && value >= info.lower && value <= info.upper) return;
@@ -33,6 +37,10 @@ void CheckStaticLevel(const FrictionDescription& friction, const Place& place) {
 
 void CheckThermal(const Thermal& thermal, const Place& place) {
   CheckValue(Thermal::parameters[0], thermal.gain, place);
+  if (std::abs(thermal.gain) > kLargestThermalGain) {
+    Refuse(place, "thermal_gain is {}; it must be from {} to {} (N.m/W)", thermal.gain,
+           -kLargestThermalGain, kLargestThermalGain);
+  }
   CheckValue(Thermal::parameters[1], thermal.time_constant, place);
   if (thermal.time_constant > 0) return;
   Refuse(place, "thermal_time_constant is 0 s; it must be positive");
@@ -154,7 +162,7 @@ std::span<const FrictionOption> FrictionOptions() {
                       "c",
                       {"1", "1"},
                       0,
-                      kInfinity,
+                      kLargestLoadGain,
                       0,
                       "growth of the level for each unit of the load's size"},
                      &FrictionDescription::load_gain},

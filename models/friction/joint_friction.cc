@@ -6,6 +6,7 @@
 
 #include "models/friction/law_list.h"
 #include "models/friction/lugre_bristle.h"
+#include "models/friction/thermal_bounds.h"
 
 namespace warmjoint::inline models {
 namespace {
@@ -71,7 +72,7 @@ JointFriction::JointFriction(const FrictionDescription& friction)
   second_stage_ = friction.second_thermal.has_value();
   slips_ = law_.pre_sliding == PreSliding::breakaway;
   friction_.maps.clear();
-  ChooseStep(AllLaws{});
+  ChooseLevel(AllLaws{});
   Derive();
 }
 
@@ -83,6 +84,12 @@ void JointFriction::Derive() {
   };
   viscous_ = value("viscous");
   per_energy_ = friction_.viscous_per_energy;
+  if (same_at_any_speed_) {
+    for (const int side : {-1, 1}) {
+      holding_[side > 0] = level_(false, side, 0, values_.data());
+      sliding_[side > 0] = level_(true, side, 0, values_.data());
+    }
+  }
   if (law_.pre_sliding != PreSliding::bristle) return;
   own_bristle_ = Bristle{value("bristle_stiffness"), value("bristle_damping")};
 }
@@ -106,6 +113,8 @@ bool JointFriction::SetNumber(size_t place, double value) {
   const ParameterInfo& info = own ? law_.parameters[place] : other->info;
   const bool time = info.name == Thermal::parameters[1].name;
   if (!(value >= info.lower && value <= info.upper) || (time && value == 0)) return false;
+  const bool gain = info.name == Thermal::parameters[0].name;
+  if (gain && std::abs(value) > kLargestThermalGain) return false;
   if (own) {
     values_[place] = value;
     Derive();
@@ -118,8 +127,15 @@ bool JointFriction::SetNumber(size_t place, double value) {
 }
 
 template <typename... L>
-void JointFriction::ChooseStep(LawList<L...>) {
-  ((law_.name == L::name ? void(step_ = &StepOf<L>) : void()), ...);
+void JointFriction::ChooseLevel(LawList<L...>) {
+  const auto choose = [&]<typename One>(const One*) {
+    if (law_.name != One::name) return;
+    same_at_any_speed_ = LawAtAnySpeed<One>;
+    level_ = [](bool sliding, int side, double speed, const double* p) {
+      return sliding ? One::Level(side, speed, p) : HoldingLevelOf<One>(side, speed, p);
+    };
+  };
+  (choose(static_cast<const L*>(nullptr)), ...);
 }
 
 void JointFriction::SetTimestep(double h) {
@@ -139,65 +155,33 @@ double JointFriction::SlidingForce(double v, const JointPlace& place) const {
   return law_.force(v, values_.data()) + SlopeChange(place.energy) * v + side * level;
 }
 
-/// L on each side of motion, N.m or N.
-template <typename L>
-struct JointFriction::Level {
-  const JointFriction& joint;
-  JointPlace place;
-  double v;
-  bool slips;  // broke away in the direction of v
+/// A level below zero takes from the viscous force, at most all of it.
+void JointFriction::TakeDeficit(const FrictionState& state, const JointMotion& motion,
+                                FrictionStep& step) const {
+  const double v = motion.velocity;
+  const double deficit = std::min(0.0, Level(Sign(v), state, motion));
+  if (deficit == 0) return;
+  const double left = std::abs(step.force) + deficit;
+  step.feeds_itself = left < 0;
+  step.force = Sign(v) * std::max(0.0, left);
+  step.loss = Loss(v, step.force);
+}
 
-  double operator()(int side) const {
-    const double* p = joint.values_.data();
-    const double speed = std::abs(v);
-    const bool slides = slips && side * v > 0;
-    double level = slides ? L::Level(side, speed, p) : HoldingLevelOf<L>(side, speed, p);
-    level += place.energy;
-    if (joint.has_terms_) level += joint.terms_->At(side, speed, place);
-    return level;
+FrictionStep JointFriction::Step(const FrictionState& state, const JointMotion& motion) const {
+  const double v = motion.velocity;
+  const auto level = [&](int side) { return Level(side, state, motion); };
+  if (own_bristle_) {
+    const Bristle own = LimitBristle(*own_bristle_, motion.inertia, h_);
+    const BristleStep bristle = StepLugreBristle(own, state.bristle, v, h_, level);
+    FrictionStep step =
+        Complete(state, motion, bristle, BristleLoss(own, state.bristle, bristle, v, h_));
+    step.next.slip = 0;
+    return step;
   }
-};
-
-template <typename L>
-FrictionStep JointFriction::StepOf(const JointFriction& joint, const FrictionState& state,
-                                   const JointMotion& motion) {
-  const double v = motion.velocity, h = joint.h_;
-  const double energy = state.energy + state.second_energy;
-  const double viscous = joint.Slope(energy) * v;
-  const Level<L> level{
-      joint, {motion.position, energy, motion.load}, v, state.slip * Sign(v) > 0.5};
-
-  // held by a bristle: the law's own, or one that the step chooses; the slope damps already
-  FrictionStep step;
-  BristleStep bristle;
-  if constexpr (L::pre_sliding == PreSliding::bristle) {
-    const Bristle own = LimitBristle(*joint.own_bristle_, motion.inertia, h);
-    bristle = StepLugreBristle(own, state.bristle, v, h, level);
-    step.loss = viscous * v + BristleLoss(own, state.bristle, bristle, v, h);
-  } else {
-    Bristle spring = ScaleBristle(joint.unit_, motion.inertia);
-    spring.damping = std::max(0.0, spring.damping - joint.Slope(energy));
-    bristle = StepBristle(spring, state.bristle, v, h, level);
-    step.next.slip = bristle.sliding ? Sign(v) : 0;
-    // only what slides gets warm
-    step.loss = viscous * v + (bristle.sliding ? Loss(v, bristle.force) : 0.0);
-  }
-  step.force = viscous + bristle.force;
-  step.sliding = bristle.sliding;
-
-  // a level below zero takes from the viscous force, at most all of it
-  const double deficit = bristle.force == 0 && v != 0 ? std::min(0.0, level(Sign(v))) : 0.0;
-  if (deficit < 0) {
-    const double left = std::abs(viscous) + deficit;
-    step.feeds_itself = left < 0;
-    step.force = Sign(v) * std::max(0.0, left);
-    step.loss = Loss(v, step.force);
-  }
-
-  step.next.bristle = bristle.load;
-  step.next.energy = joint.heat_.First(state.energy, step.loss, motion.ambient_rise);
-  step.next.second_energy = joint.heat_.Second(state.second_energy, step.loss);
-  return step;
+  // the slope damps already
+  Bristle spring = ScaleBristle(unit_, motion.inertia);
+  spring.damping = std::max(0.0, spring.damping - Slope(state.energy + state.second_energy));
+  return Complete(state, motion, StepBristle(spring, state.bristle, v, h_, level));
 }
 
 }  // namespace warmjoint::inline models

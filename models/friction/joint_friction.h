@@ -1,6 +1,8 @@
 // Friction of one joint from step to step: law, bristle, maps and heat together.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -97,9 +99,15 @@ class JointFriction {
   /// The largest load that a cold joint holds at rest, at most, N.m or N; without load_gain's part.
   double HoldingLevel() const;
 
-  FrictionStep Step(const FrictionState& state, const JointMotion& motion) const {
-    return step_(*this, state, motion);
-  }
+  /// A joint by itself, whose bristle follows from its effective inertia.
+  FrictionStep Step(const FrictionState& state, const JointMotion& motion) const;
+
+  /// L on one side of motion, 1 or -1, N.m or N; below 0 where friction would push.
+  double Level(int side, const FrictionState& state, const JointMotion& motion) const;
+
+  /// The rest of a step whose bristle is known, of a law without a bristle of its own.
+  FrictionStep Complete(const FrictionState& state, const JointMotion& motion,
+                        const BristleStep& bristle) const;
 
   /// The force of steady sliding at v != 0, Eq. (20) with maps, N.m or N; pushes where the level
   /// is below 0. v: rad/s or m/s.
@@ -118,13 +126,11 @@ class JointFriction {
   const std::vector<double>& values() const { return values_; }
 
  private:
-  template <typename L>
-  struct Level;
-  template <typename L>
-  static FrictionStep StepOf(const JointFriction& joint, const FrictionState& state,
-                             const JointMotion& motion);
+  FrictionStep Complete(const FrictionState& state, const JointMotion& motion,
+                        const BristleStep& bristle, double loss) const;
+  void TakeDeficit(const FrictionState& state, const JointMotion& motion, FrictionStep& step) const;
   template <typename... L>
-  void ChooseStep(LawList<L...>);
+  void ChooseLevel(LawList<L...>);
   void Derive();
   double Slope(double energy) const { return std::max(0.0, viscous_ + per_energy_ * energy); }
 
@@ -142,8 +148,50 @@ class JointFriction {
   Heat heat_;
   double h_ = 0;
   Bristle unit_;  // of an effective inertia of 1
-  FrictionStep (*step_)(const JointFriction&, const FrictionState&, const JointMotion&) = nullptr;
+  /// The law's level to a side, held or sliding, at a speed.
+  double (*level_)(bool sliding, int side, double speed, const double* p) = nullptr;
+  bool same_at_any_speed_ = false;
+  double holding_[2]{}, sliding_[2]{};  // to sides -1 and 1, where it is the same at any speed
 };
+
+inline double JointFriction::Level(int side, const FrictionState& state,
+                                   const JointMotion& motion) const {
+  const double energy = state.energy + state.second_energy;
+  const bool slides = slips_ && side * motion.velocity > 0 && side * state.slip > 0.5;
+  double level = same_at_any_speed_
+                     ? (slides ? sliding_ : holding_)[side > 0]
+                     : level_(slides, side, std::abs(motion.velocity), values_.data());
+  level += energy;
+  if (has_terms_) {
+    level += terms_->At(side, std::abs(motion.velocity), {motion.position, energy, motion.load});
+  }
+  return level;
+}
+
+inline FrictionStep JointFriction::Complete(const FrictionState& state, const JointMotion& motion,
+                                            const BristleStep& bristle) const {
+  // only what slides gets warm
+  return Complete(state, motion, bristle,
+                  bristle.sliding ? Loss(motion.velocity, bristle.force) : 0.0);
+}
+
+inline FrictionStep JointFriction::Complete(const FrictionState& state, const JointMotion& motion,
+                                            const BristleStep& bristle, double loss) const {
+  const double v = motion.velocity;
+  const double viscous = Slope(state.energy + state.second_energy) * v;
+  FrictionStep step;
+  step.next.slip = bristle.sliding ? Sign(v) : 0;
+  step.loss = viscous * v + loss;
+  step.force = viscous + bristle.force;
+  step.sliding = bristle.sliding;
+
+  if (bristle.force == 0 && v != 0) [[unlikely]]
+    TakeDeficit(state, motion, step);
+  step.next.bristle = bristle.load;
+  step.next.energy = heat_.First(state.energy, step.loss, motion.ambient_rise);
+  step.next.second_energy = heat_.Second(state.second_energy, step.loss);
+  return step;
+}
 
 inline FrictionState JointFriction::Load(const double* values) const {
   const auto finite = [](double value) { return value - value == 0 ? value : 0; };

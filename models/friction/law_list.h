@@ -22,6 +22,12 @@ T HoldingLevelOf(int side, double speed, const T* p) {
   }
 }
 
+/// Whether a law says of itself, by level_at_any_speed, that no level of it depends on the speed.
+template <typename L>
+concept LawAtAnySpeed = requires {
+  L::level_at_any_speed;
+};
+
 /// Whether a law brings hidden state that follows a motion: a Course<T> as BristleCourse is one,
 /// with BeginSliding, BeginBent, Follow, Force, Loss and load.
 template <typename L>

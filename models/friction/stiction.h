@@ -15,6 +15,7 @@ struct Stiction {
   static constexpr std::string_view name = "stiction";
   static constexpr std::string_view equation = "(4) F = kv v + kc sign(v); at rest the load, to ks";
   static constexpr PreSliding pre_sliding = PreSliding::breakaway;
+  static constexpr bool level_at_any_speed = true;
   static constexpr std::array parameters{
       kViscousRow,
       kCoulombRow,

@@ -14,6 +14,7 @@ struct ViscousCoulomb {
   static constexpr std::string_view name = "viscous_coulomb";
   static constexpr std::string_view equation = "(2) F = kv v + kc sign(v)";
   static constexpr PreSliding pre_sliding = PreSliding::elastoplastic;
+  static constexpr bool level_at_any_speed = true;
   static constexpr std::array parameters{
       kViscousRow,
       kCoulombRow,

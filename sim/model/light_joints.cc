@@ -41,7 +41,7 @@ class Trial {
     friction_.SetTimestep(timestep);
     std::optional<std::string> refusal;
     try {
-      CheckJoint(m_, joint_, friction_, {JointName(m_, joint_)});
+      CheckJoint(m_, joint_, friction_, kLoneBristles, {JointName(m_, joint_)});
     } catch (const BadInput& refused) {
       refusal = refused.what();
     }

@@ -10,6 +10,7 @@
 #include "models/foundation/nearest_name.h"
 #include "models/foundation/parse_number.h"
 #include "models/friction/law.h"
+#include "models/friction/thermal_bounds.h"
 #include "sim/plugin/model_folder.h"
 
 namespace warmjoint::inline sim {
@@ -18,6 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string BoundOf(const ParameterInfo& info) {
+  if (info.name == Thermal::parameters[0].name) {
+    return fmt::format("-{0:g} to {0:g}", kLargestThermalGain);
+  }
   if (info.lower == -kInfinity) return "any";
   const bool time = info.name == Thermal::parameters[1].name;
   if (info.lower == kSmallestPositive || time) return "> 0";

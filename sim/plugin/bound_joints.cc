@@ -37,11 +37,14 @@ std::vector<std::string> JointsIn(const mjModel* m) {
   return names;
 }
 
-BoundJoint BindJoint(const mjModel* m, int joint, const PreparedJoint& prepared) {
+/// others: the kinematic trees on which other instances act.
+BoundJoint BindJoint(const mjModel* m, int joint, const PreparedJoint& prepared,
+                     const std::set<int>& others) {
   BoundJoint bound{.friction = prepared.friction};
   bound.joint = joint;
   bound.dof = m->jnt_dofadr[joint];
   bound.position = m->jnt_qposadr[joint];
+  bound.shared = others.contains(m->dof_treeid[bound.dof]);
   bound.initial_energy = prepared.initial_energy;
   bound.needs_load = NeedsLoad(prepared.description);
   bound.needs_ambient = prepared.description.level_per_temperature != 0;
@@ -104,6 +107,29 @@ void RefuseSecond(const mjModel* m, int instance, int joint) {
       if (taken.joint == joint) refuse(InstanceName(m, other));
     }
   }
+}
+
+/// The kinematic trees on which other instances act, too.
+std::set<int> TreesOfOthers(const mjModel* m, int instance) {
+  std::set<int> trees;
+  const auto add = [&](int joint) { trees.insert(m->dof_treeid[m->jnt_dofadr[joint]]); };
+  for (int i = 0; i < m->nactuator; ++i) {
+    const int other = m->actuator_plugin[i];
+    const bool friction =
+        other >= 0 && other != instance && m->plugin[other] == m->plugin[instance];
+    if (friction && m->actuator_trntype[i] == mjTRN_JOINT) add(m->actuator_trnid[2 * i]);
+  }
+  for (int other = 0; other < m->nplugin; ++other) {
+    if (other == instance || m->plugin[other] != m->plugin[instance]) continue;
+    if (DrivenByActuators(m, other)) continue;
+    try {
+      const auto prepared = PrepareInstance(m, other, {InstanceName(m, other)});
+      for (const PassiveJoint& joint : FindPassive(m, other, *prepared)) add(joint.joint);
+    } catch (const BadInput&) {
+      // it refuses the model itself
+    }
+  }
+  return trees;
 }
 
 /// The friction of each joint that an instance's actuators drive.
@@ -186,11 +212,13 @@ bool BoundJoints::SameText(const mjModel* m) const {
 void BoundJoints::BindActuators(const mjModel* m) {
   const auto prepared = PrepareInstance(m, instance_, {InstanceName(m, instance_)});
   FrictionOfActuators frictions(m, instance_, *prepared);
+  const std::set<int> others = TreesOfOthers(m, instance_);
   for (int i = 0; i < m->nactuator; ++i) {
     if (m->actuator_plugin[i] != instance_) continue;
     const PreparedJoint& friction = frictions.Of(i);
     CheckActuator(m, i, friction.friction);
-    BoundJoint bound = BindJoint(m, m->actuator_trnid[2 * i], friction);
+    BoundJoint bound = BindJoint(m, m->actuator_trnid[2 * i], friction, others);
+    CheckJoint(m, bound.joint, bound.friction, BristlesOf(bound.shared), {ActuatorName(m, i)});
     if (bound.needs_ambient && m->actuator_ctrlnum[i] == 0) {
       Refuse({ActuatorName(m, i)}, "has no control, which would be the ambient temperature's rise");
     }
@@ -206,12 +234,13 @@ void BoundJoints::BindActuators(const mjModel* m) {
 void BoundJoints::BindPassive(const mjModel* m, int states) {
   const std::string name = InstanceName(m, instance_);
   const auto prepared = PrepareInstance(m, instance_, {name});
+  const std::set<int> others = TreesOfOthers(m, instance_);
   int state = m->plugin_stateadr[instance_] + states;
   for (const auto& [joint, friction] : FindPassive(m, instance_, *prepared)) {
     const Place place{fmt::format("{}: {}", name, JointName(m, joint))};
-    CheckJoint(m, joint, friction->friction, place);
     RefuseSecond(m, instance_, joint);
-    BoundJoint bound = BindJoint(m, joint, *friction);
+    BoundJoint bound = BindJoint(m, joint, *friction, others);
+    CheckJoint(m, joint, bound.friction, BristlesOf(bound.shared), place);
     bound.state = state;
     state += static_cast<int>(bound.friction.state().size());
     joints_.push_back(std::move(bound));
@@ -226,7 +255,7 @@ void BoundJoints::BindSensors(const mjModel* m) {
           {fmt::format("sensor '{}'", NameIn(m, mjOBJ_SENSOR, i))},
           "names an object; a sensor of friction reads all joints of its instance, leave it out");
     }
-    sensors_.push_back(m->sensor_adr[i]);
+    sensors_.push_back(i);
   }
 }
 

@@ -17,11 +17,12 @@ namespace warmjoint::inline sim {
 struct BoundJoint {
   int joint = 0;
   int dof = 0;
-  int position = 0;   // in qpos
-  int actuator = -1;  // -1 in the passive form
-  int state = 0;      // in act, or in plugin_state in the passive form
-  int control = -1;   // in ctrl; -1 where it has none
-  int output = -1;    // in actuator_force; -1 in the passive form
+  int position = 0;     // in qpos
+  int actuator = -1;    // -1 in the passive form
+  int state = 0;        // in act, or in plugin_state in the passive form
+  int control = -1;     // in ctrl; -1 where it has none
+  int output = -1;      // in actuator_force; -1 in the passive form
+  bool shared = false;  // its kinematic tree, with another instance
   bool needs_load = false;
   bool needs_ambient = false;
   std::array<double, 2> initial_energy{};  // {E1, E2} at a reset, N.m or N
@@ -54,7 +55,7 @@ class BoundJoints {
   bool passive() const { return passive_; }
   std::vector<BoundJoint>& joints() { return joints_; }
   const std::vector<BoundJoint>& joints() const { return joints_; }
-  /// Where in sensordata each sensor of the instance stands.
+  /// The model's sensors that read the instance.
   const std::vector<int>& sensors() const { return sensors_; }
 
   /// Sets the joints' numbers to those of the model's arrays; whether any is new. A number out of

@@ -37,7 +37,9 @@ void CheckElement(const mjModel* m, int i, const JointFriction& friction, const 
     for (const StateMember& member : friction.state()) {
       names += fmt::format("{}{}", names.empty() ? "" : ", ", member.name);
     }
-    Refuse(place, "actdim is {}; it must be {} ({})", states, friction.state().size(), names);
+    // the compiler takes a negative one as none
+    const std::string given = states == 0 ? "not given, or below 1" : std::to_string(states);
+    Refuse(place, "actdim is {}; it must be {} ({})", given, friction.state().size(), names);
   }
   if (m->actuator_actlimited[i]) {
     Refuse(place, "has an actrange, which would clip the states; leave it out");
@@ -76,7 +78,6 @@ void CheckActuator(const mjModel* m, int actuator, const JointFriction& friction
   CheckTransmission(m, actuator, place);
   CheckElement(m, actuator, friction, place);
   RefuseSecond(m, actuator, place);
-  CheckJoint(m, m->actuator_trnid[2 * actuator], friction, place);
 }
 
 }  // namespace warmjoint::inline sim

@@ -16,8 +16,7 @@ std::string ActuatorName(const mjModel* m, int actuator);
 std::string InstanceName(const mjModel* m, int instance);
 
 /// Throws BadInput, naming actuator, property, value and remedy, unless the actuator drives a
-/// hinge or slide joint directly and alone of its kind, holds the plugin's states, clips no force,
-/// and the engine's step can carry the friction (CheckJoint).
+/// joint directly and alone of its kind, holds the plugin's states, and clips no force.
 void CheckActuator(const mjModel* m, int actuator, const JointFriction& friction);
 
 }  // namespace warmjoint::inline sim

@@ -34,18 +34,18 @@ void CheckSlope(const JointFriction& friction, double inertia, double h, const P
          slope, inertia, h, RoundUp(needed - inertia), RoundDown(inertia / (2 * slope)));
 }
 
-/// How far the bristle winds up before it slides: level h^2 / (0.1 M).
-void CheckWindUp(const JointFriction& friction, double inertia, double h, JointKind kind,
-                 const Place& place) {
+/// How far the bristle winds up before it slides: level h^2 / (A M).
+void CheckWindUp(const JointFriction& friction, const BristleShape& bristles, double inertia,
+                 double h, JointKind kind, const Place& place) {
   const double level = friction.HoldingLevel();
   const double allowed = kind == JointKind::rotary ? kLargestWindUp : kLargestLinearWindUp;
-  const double needed = level * h * h / (kBristleStiffness * allowed);
+  const double needed = level * h * h / (bristles.stiffness * allowed);
   if (needed <= inertia) return;
   Refuse(place,
          "friction holds up to {:.3g} on an effective inertia of {:.3g} at timestep {}; it would "
          "give way by {:.3g} {} before it slides, at most {} are allowed: add an armature of "
          "{:.3g} or take a timestep of at most {:.3g} s",
-         level, inertia, h, level / MakeBristle(inertia, h).stiffness, kPositionUnit.For(kind),
+         level, inertia, h, level * h * h / (bristles.stiffness * inertia), kPositionUnit.For(kind),
          allowed, RoundUp(needed - inertia), RoundDown(h * std::sqrt(inertia / needed)));
 }
 
@@ -74,7 +74,8 @@ std::string JointName(const mjModel* m, int joint) {
   return fmt::format("joint {}", joint);
 }
 
-void CheckJoint(const mjModel* m, int joint, const JointFriction& friction, const Place& place) {
+void CheckJoint(const mjModel* m, int joint, const JointFriction& friction,
+                const BristleShape& bristles, const Place& place) {
   const int type = m->jnt_type[joint];
   if (type != mjJNT_HINGE && type != mjJNT_SLIDE) {
     Refuse(place, "{} is neither hinge nor slide; friction acts on these alone",
@@ -89,7 +90,7 @@ void CheckJoint(const mjModel* m, int joint, const JointFriction& friction, cons
   if (friction.own_bristle()) {
     CheckBristle(*friction.own_bristle(), inertia, m->opt.timestep, place);
   } else {
-    CheckWindUp(friction, inertia, m->opt.timestep, kind, place);
+    CheckWindUp(friction, bristles, inertia, m->opt.timestep, kind, place);
   }
 }
 

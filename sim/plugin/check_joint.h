@@ -8,6 +8,7 @@
 
 #include "models/foundation/bad_input.h"
 #include "models/friction/joint_friction.h"
+#include "sim/plugin/bristle_shape.h"
 
 namespace warmjoint::inline sim {
 
@@ -35,7 +36,9 @@ inline double EffectiveInertia(const mjModel* m, const mjData* d, int dof) {
 }
 
 /// Throws BadInput, from `place` and with the remedy, unless the joint is a hinge or slide whose
-/// effective inertia at the reference pose lets the model's step carry the friction.
-void CheckJoint(const mjModel* m, int joint, const JointFriction& friction, const Place& place);
+/// effective inertia at the reference pose lets the model's step carry the friction. bristles: those
+/// of a law that leaves them to the step.
+void CheckJoint(const mjModel* m, int joint, const JointFriction& friction,
+                const BristleShape& bristles, const Place& place);
 
 }  // namespace warmjoint::inline sim

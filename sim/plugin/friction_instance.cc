@@ -35,32 +35,59 @@ FrictionInstance::FrictionInstance(const mjModel* m, int instance)
 /// Finds the joints in the model that the instance is called with.
 void FrictionInstance::Bind(const mjModel* m) {
   if (!bound_.FitsModel(m)) Rebind(m);
-  if (bound_.ReadNumbers(m)) checked_ = false;
+  if (bound_.ReadNumbers(m)) {
+    ShapeBristles();
+    checked_ = false;
+  }
   if (timestep_ != m->opt.timestep) SetTimestep(m);
 }
 
 /// Makes scratch of the right size, and the joints ready for the model's step.
 void FrictionInstance::Rebind(const mjModel* m) {
   if (!bound_.FitsModel(m)) bound_ = BoundJoints(m, instance_, kFrictionReports);
+  const size_t joints = bound_.joints().size();
   size_t states = 0;
-  bool load = false;
+  needs_load_ = false;
   for (const BoundJoint& joint : bound_.joints()) {
     states += joint.friction.state().size();
-    load = load || joint.needs_load;
+    needs_load_ = needs_load_ || joint.needs_load;
   }
-  force_.assign(bound_.joints().size(), 0);
-  sensed_.assign(kSensed * bound_.joints().size(), 0);
+  now_.assign(joints, {});
+  motion_.assign(joints, {});
+  load_state_.assign(joints, 0);
+  bristle_.assign(joints, {});
+  force_.assign(joints, 0);
+  sensed_.assign(kSensed * joints, 0);
   next_.assign(states, 0);
-  load_.assign(load && bound_.passive() ? static_cast<size_t>(m->nv) : 0, 0);
+  load_.assign(needs_load_ && bound_.passive() ? static_cast<size_t>(m->nv) : 0, 0);
+  BindBristles(m);
   SetTimestep(m);
   checked_ = true;
-  stepped_ = false;
+  stepped_ = senses_ = false;
+}
+
+/// Couples the bristles that the step chooses; those of a law are each by itself.
+void FrictionInstance::BindBristles(const mjModel* m) {
+  std::vector<CoupledJoint> coupled;
+  for (size_t i = 0; i < bound_.joints().size(); ++i) {
+    const BoundJoint& joint = bound_.joints()[i];
+    const double inertia = EffectiveInertia(m, joint.dof);
+    if (joint.friction.own_bristle() || inertia <= 0) continue;
+    coupled.push_back({i, joint.dof, inertia, joint.shared});
+  }
+  bristles_ = CoupledBristles(m, coupled);
 }
 
 void FrictionInstance::SetTimestep(const mjModel* m) {
   timestep_ = m->opt.timestep;
   for (BoundJoint& joint : bound_.joints()) joint.friction.SetTimestep(timestep_);
+  ShapeBristles();
   checked_ = false;
+}
+
+void FrictionInstance::ShapeBristles() {
+  bristles_.SetTimestep(timestep_,
+                        [&](size_t i) { return bound_.joints()[i].friction.SteepestSlope(); });
 }
 
 /// A step or a number that a program set after loading is taken as it is, with a word about what it
@@ -71,7 +98,8 @@ void FrictionInstance::WarnOfTimestep(const mjModel* m, mjData* d) {
   if (reported != 0) return;
   for (const BoundJoint& joint : bound_.joints()) {
     try {
-      CheckJoint(m, joint.joint, joint.friction, {JointName(m, joint.joint)});
+      CheckJoint(m, joint.joint, joint.friction, BristlesOf(joint.shared),
+                 {JointName(m, joint.joint)});
     } catch (const BadInput& refusal) {
       reported = 1;
       mju_warning("%s: what was set at %g s is beyond what the step bears: %s", kFrictionPlugin,
@@ -87,64 +115,85 @@ void FrictionInstance::Prepare(const mjModel* m, mjData* d) {
   stepped_ = true;
 }
 
-JointMotion FrictionInstance::MotionOf(const mjModel* m, const mjData* d,
-                                       const BoundJoint& joint) const {
-  JointMotion motion;
-  motion.position = d->qpos[joint.position];
-  motion.velocity = d->qvel[joint.dof];
-  motion.inertia = EffectiveInertia(m, d, joint.dof);
-  if (!joint.needs_load) return motion;
+void FrictionInstance::ReadMotion(const mjModel* m, const mjData* d) {
   // passive forces come before the engine knows the bias
-  const auto dof = static_cast<size_t>(joint.dof);
-  motion.load = bound_.passive() ? load_[dof] : d->qfrc_bias[dof];
-  return motion;
+  const mjtNum* load = bound_.passive() ? load_.data() : d->qfrc_bias;
+  for (size_t i = 0; i < motion_.size(); ++i) {
+    const BoundJoint& joint = bound_.joints()[i];
+    JointMotion& motion = motion_[i];
+    motion.position = d->qpos[joint.position];
+    motion.velocity = d->qvel[joint.dof];
+    if (joint.needs_load) motion.load = load[joint.dof];
+    if (joint.friction.own_bristle()) motion.inertia = EffectiveInertia(m, d, joint.dof);
+    load_state_[i] = now_[i].bristle;
+  }
 }
 
-FrictionStep FrictionInstance::StepJoint(const mjModel* m, mjData* d, size_t i,
-                                         const FrictionState& now, double ambient_rise) {
-  const BoundJoint& joint = bound_.joints()[i];
-  JointMotion motion = MotionOf(m, d, joint);
-  motion.ambient_rise = ambient_rise;
-  FrictionStep step = joint.friction.Step(now, motion);
-  if (step.feeds_itself) Report(m, d, joint);
+/// Steps all joints from now_ and their ambient_rise to force_ and next_.
+void FrictionInstance::StepJoints(const mjModel* m, mjData* d) {
+  const std::vector<BoundJoint>& joints = bound_.joints();
+  ReadMotion(m, d);
+  const auto level = [&](size_t i, int side) {
+    return joints[i].friction.Level(side, now_[i], motion_[i]);
+  };
+  bristles_.Step(d, load_state_.data(), level, bristle_.data());
 
-  // a speed without bound must not stay in the heat
-  if (!std::isfinite(step.force + step.next.energy + step.next.second_energy)) {
-    step.force = 0;
-    step.next = now;
+  double* next = next_.data();
+  const bool senses = !bound_.sensors().empty();
+  for (size_t i = 0, count = joints.size(); i < count; ++i) {
+    const JointFriction& friction = joints[i].friction;
+    FrictionStep step = friction.own_bristle()
+                            ? friction.Step(now_[i], motion_[i])
+                            : friction.Complete(now_[i], motion_[i], bristle_[i]);
+    if (step.feeds_itself) [[unlikely]]
+      Report(m, d, joints[i]);
+
+    // a speed without bound must not stay in the heat
+    const double sum = step.force + step.next.bristle + step.next.energy + step.next.second_energy;
+    if (!std::isfinite(sum)) [[unlikely]] {
+      step.force = 0;
+      step.next = now_[i];
+    }
+    force_[i] = step.force;
+    friction.Store(step.next, next);
+    next += friction.state().size();
+    if (senses) NoteSensed(i, step);
   }
-  force_[i] = step.force;
-  if (!bound_.sensors().empty()) {
-    const double energy = now.energy + now.second_energy;
-    const double rise = joint.friction.level_per_temperature() != 0
-                            ? energy / joint.friction.level_per_temperature()
-                            : 0;
-    const double held = step.sliding ? 0 : 1;
-    double* sensed = sensed_.data() + kSensed * i;
-    for (const double value : {-step.force, energy, rise, step.loss, held}) *sensed++ = value;
-  }
-  return step;
+  if (!senses_) return;
+  senses_ = false;
+  WriteSensors(m, d);
+}
+
+void FrictionInstance::NoteSensed(size_t i, const FrictionStep& step) {
+  const double energy = now_[i].energy + now_[i].second_energy;
+  const double per_temperature = bound_.joints()[i].friction.level_per_temperature();
+  const double rise = per_temperature != 0 ? energy / per_temperature : 0;
+  const double held = step.sliding ? 0 : 1;
+  double* sensed = sensed_.data() + kSensed * i;
+  for (const double value : {-step.force, energy, rise, step.loss, held}) *sensed++ = value;
 }
 
 void FrictionInstance::StepActuators(const mjModel* m, mjData* d) {
   Prepare(m, d);
   const double rate = m->opt.integrator == mjINT_RK4 ? 0 : 1 / timestep_;
   const bool starts = d->plugin_state[m->plugin_stateadr[instance_] + kStartsWarm] != 0;
-  double* next = next_.data();
-  for (size_t i = 0; i < bound_.joints().size(); ++i) {
+  for (size_t i = 0; i < now_.size(); ++i) {
     const BoundJoint& joint = bound_.joints()[i];
-    const double ambient = joint.needs_ambient ? Finite(d->ctrl[joint.control]) : 0;
-    const mjtNum* act = d->act + joint.state;
-    FrictionState now = joint.friction.Load(act);
+    if (joint.needs_ambient) motion_[i].ambient_rise = Finite(d->ctrl[joint.control]);
+    FrictionState& now = now_[i] = joint.friction.Load(d->act + joint.state);
     if (starts && now.energy == 0 && now.second_energy == 0) {
       now.energy = joint.initial_energy[0];
       now.second_energy = joint.initial_energy[1];
     }
-    joint.friction.Store(StepJoint(m, d, i, now, ambient).next, next);
+  }
+  StepJoints(m, d);
 
+  const double* next = next_.data();
+  for (const BoundJoint& joint : bound_.joints()) {
+    const mjtNum* act = d->act + joint.state;
     mjtNum* act_dot = d->act_dot + joint.state;
-    for (size_t k = 0; k < joint.friction.state().size(); ++k) {
-      act_dot[k] = (*next++ - act[k]) * rate;
+    for (size_t k = joint.friction.state().size(); k > 0; --k) {
+      *act_dot++ = (*next++ - *act++) * rate;
     }
   }
 }
@@ -160,14 +209,14 @@ void FrictionInstance::StepPassive(const mjModel* m, mjData* d) {
   Prepare(m, d);
   if (!load_.empty()) mj_rne(m, d, 0, load_.data());
   const double ambient = Finite(d->plugin_state[m->plugin_stateadr[instance_] + kAmbientRise]);
-  double* next = next_.data();
-  for (size_t i = 0; i < bound_.joints().size(); ++i) {
+  for (size_t i = 0; i < now_.size(); ++i) {
     const BoundJoint& joint = bound_.joints()[i];
-    const FrictionState now = joint.friction.Load(d->plugin_state + joint.state);
-    const FrictionStep step = StepJoint(m, d, i, now, ambient);
-    joint.friction.Store(step.next, next);
-    next += joint.friction.state().size();
-    d->qfrc_passive[joint.dof] -= step.force;
+    now_[i] = joint.friction.Load(d->plugin_state + joint.state);
+    motion_[i].ambient_rise = ambient;
+  }
+  StepJoints(m, d);
+  for (size_t i = 0; i < force_.size(); ++i) {
+    d->qfrc_passive[bound_.joints()[i].dof] -= force_[i];
   }
 }
 
@@ -193,11 +242,21 @@ void FrictionInstance::Reset(const mjModel* m, mjtNum* state) {
 void FrictionInstance::Sense(const mjModel* m, mjData* d) {
   if (bound_.sensors().empty()) return;
   const bool off = passive() ? PassiveForcesOff(m) : m->opt.disableflags & mjDSBL_ACTUATION;
-  // sensors come before the actuators, which will step once more
-  if (!passive() && !off) StepActuators(m, d);
-  if (off) std::fill(sensed_.begin(), sensed_.end(), 0.0);
-  for (const int address : bound_.sensors()) {
-    std::copy(sensed_.begin(), sensed_.end(), d->sensordata + address);
+  senses_ = !off;
+  if (!off) return;
+  std::fill(sensed_.begin(), sensed_.end(), 0.0);
+  WriteSensors(m, d);
+}
+
+void FrictionInstance::WriteSensors(const mjModel* m, mjData* d) const {
+  for (const int sensor : bound_.sensors()) {
+    mjtNum* data = d->sensordata + m->sensor_adr[sensor];
+    std::copy(sensed_.begin(), sensed_.end(), data);
+
+    // the engine clips what stands there at the stage of positions
+    const double most = m->sensor_cutoff[sensor];
+    if (most <= 0) continue;
+    for (size_t i = 0; i < sensed_.size(); ++i) data[i] = std::clamp(data[i], -most, most);
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "models/friction/joint_friction.h"
 #include "sim/plugin/bound_joints.h"
+#include "sim/plugin/coupled_bristles.h"
 
 namespace warmjoint::inline sim {
 
@@ -56,7 +57,8 @@ class FrictionInstance {
   /// Writes the instance's part of plugin_state at a reset.
   void Reset(const mjModel* m, mjtNum* state);
 
-  /// Writes sensordata of the instance's sensors: kSensed numbers for each joint.
+  /// Lets the step that follows write sensordata of the instance's sensors, kSensed numbers for each
+  /// joint; writes zeros where none will follow.
   void Sense(const mjModel* m, mjData* d);
 
   /// Commits the states of the last step: plugin_state, or act where the engine's own integration
@@ -66,23 +68,35 @@ class FrictionInstance {
  private:
   void Bind(const mjModel* m);
   void Rebind(const mjModel* m);
+  void BindBristles(const mjModel* m);
   void SetTimestep(const mjModel* m);
+  void ShapeBristles();
   void WarnOfTimestep(const mjModel* m, mjData* d);
   void Prepare(const mjModel* m, mjData* d);
-  FrictionStep StepJoint(const mjModel* m, mjData* d, size_t i, const FrictionState& now,
-                         double ambient_rise);
-  JointMotion MotionOf(const mjModel* m, const mjData* d, const BoundJoint& joint) const;
+  void StepJoints(const mjModel* m, mjData* d);
+  void ReadMotion(const mjModel* m, const mjData* d);
   void Report(const mjModel* m, mjData* d, const BoundJoint& joint);
+  void NoteSensed(size_t i, const FrictionStep& step);
+  void WriteSensors(const mjModel* m, mjData* d) const;
 
   int instance_;
   BoundJoints bound_;
   double timestep_ = 0;
-  bool checked_ = true;         // the timestep, against the inertia
-  bool stepped_ = false;        // since the last Advance
-  std::vector<double> sensed_;  // [joints x kSensed] of the last step
-  std::vector<double> force_;   // [joints] F of the last step, N.m or N
-  std::vector<double> next_;    // [states] of the last step, in the order of the joints
-  std::vector<double> load_;    // [nv] transmitted by each joint, where the passive form needs it
+  bool checked_ = true;   // the timestep, against the inertia
+  bool stepped_ = false;  // since the last Advance
+  bool senses_ = false;   // in the step that follows
+  CoupledBristles bristles_;
+  bool needs_load_ = false;  // by one of the joints
+
+  // of the last step, [joints] each
+  std::vector<FrictionState> now_;
+  std::vector<JointMotion> motion_;
+  std::vector<double> load_state_;    // that the bristles begin with, N.m or N
+  std::vector<BristleStep> bristle_;  // where the step chooses it
+  std::vector<double> force_;         // F, N.m or N
+  std::vector<double> sensed_;        // [joints x kSensed]
+  std::vector<double> next_;          // [states], in the order of the joints
+  std::vector<double> load_;  // [nv] transmitted by each joint, where the passive form needs it
 };
 
 }  // namespace warmjoint::inline sim

@@ -54,9 +54,7 @@ void Guarded(const Callback& callback) {
 
 void Compute(const mjModel* m, mjData* d, int instance, int capability) {
   const bool passive = InstanceOf(d, instance)->passive();
-  if (capability == mjPLUGIN_SENSOR) {
-    Guarded([&] { InstanceOf(d, instance)->Sense(m, d); });
-  }
+  if (capability == mjPLUGIN_SENSOR) InstanceOf(d, instance)->Sense(m, d);
   if (capability == mjPLUGIN_ACTUATOR && !passive) InstanceOf(d, instance)->ApplyActuators(m, d);
   if (capability == mjPLUGIN_PASSIVE && passive) {
     Guarded([&] { InstanceOf(d, instance)->StepPassive(m, d); });
@@ -99,8 +97,9 @@ mjpPlugin MakePlugin() {
   plugin.nattribute = static_cast<int>(names.size());
   plugin.attributes = names.data();
   plugin.capabilityflags = mjPLUGIN_ACTUATOR | mjPLUGIN_PASSIVE | mjPLUGIN_SENSOR;
-  // at the stage of accelerations the engine would work out all forces on bodies for it
-  plugin.needstage = mjSTAGE_VEL;
+  // at later stages the engine would work out velocities or forces of all bodies for it; sensors
+  // are told at the first, and written by the step that follows
+  plugin.needstage = mjSTAGE_POS;
   plugin.nsensordata = SensorNumbers;
   plugin.nstate = States;
   plugin.init = Init;

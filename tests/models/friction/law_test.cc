@@ -8,6 +8,8 @@
 #include <set>
 #include <tuple>
 
+#include "models/friction/law_list.h"
+
 namespace warmjoint {
 
 void PrintTo(const Law& law, std::ostream* stream) { *stream << law.name; }
@@ -48,6 +50,29 @@ TEST_P(EveryLaw, MeansTheSameByANameAsEveryOtherLaw) {
       }
     }
   }
+}
+
+/// The levels of a law, which says of itself whether they are the same at any speed.
+template <typename L>
+void ExpectSameLevelAtAnySpeed() {
+  if constexpr (LawAtAnySpeed<L>) {
+    const std::vector<double> p(L::parameters.size(), 2.0);
+    for (const int side : {-1, 1}) {
+      for (const double speed : {1e-9, 0.3, 7.0}) {
+        EXPECT_EQ(L::Level(side, speed, p.data()), L::Level(side, 0, p.data())) << L::name;
+      }
+    }
+  }
+}
+
+template <typename... L>
+int ExpectSameLevels(LawList<L...>) {
+  (ExpectSameLevelAtAnySpeed<L>(), ...);
+  return (int{LawAtAnySpeed<L>} + ...);
+}
+
+TEST(Laws, SayRightlyThatTheirLevelIsTheSameAtAnySpeed) {
+  EXPECT_EQ(ExpectSameLevels(AllLaws{}), 4);
 }
 
 TEST_P(EveryLaw, VanishesAtRestAndBrakesOtherwise) {

@@ -43,6 +43,21 @@ TEST(PluginAttributes, RefuseAValueOutOfBounds) {
   EXPECT_THAT(ErrorOf(With("gear", "0")), HasSubstr("gear is 0"));
 }
 
+TEST(PluginAttributes, RefuseNumbersThatSlipped) {
+  EXPECT_THAT(ErrorOf(With("load_gain", "1e9")),
+              AllOf(HasSubstr("actuator 'f'"), HasSubstr("load_gain is 1000000000"),
+                    HasSubstr("from 0 to 100")));
+  Config hot = With("thermal_time_constant", "10");
+  hot["thermal_gain"] = "-1e300";
+  EXPECT_THAT(ErrorOf(hot), AllOf(HasSubstr("actuator 'f'"), HasSubstr("thermal_gain is -1e+300"),
+                                  HasSubstr("from -1000000")));
+}
+
+TEST(PluginAttributes, RefuseAnActdimBelowOne) {
+  EXPECT_THAT(Compile(LinkXml(FrictionSection(kGood, {.states = -1}), kNoGravity)).error,
+              HasSubstr("actdim is not given, or below 1; it must be 2 (bristle load, energy)"));
+}
+
 TEST(PluginAttributes, RefuseAnUnknownKeyLawOrParameter) {
   EXPECT_THAT(ErrorOf(With("viscos", "5")), HasSubstr("viscos"));
   EXPECT_THAT(ErrorOf(With("law", "viscous_coulom")), HasSubstr("did you mean 'viscous_coulomb'"));

@@ -13,6 +13,7 @@
 namespace warmjoint {
 namespace {
 
+/// Two links, the second beside the first or on its end.
 constexpr char kTwoLinks[] = R"(
 <mujoco>
   <option timestep="0.001" integrator="implicitfast"><flag contact="disable"/></option>
@@ -20,11 +21,11 @@ constexpr char kTwoLinks[] = R"(
     <body>
       <joint name="shoulder" axis="0 1 0"/>
       <geom type="capsule" fromto="0 0 0 0.4 0 0" size="0.04" mass="2"/>
-      <body pos="0.4 0 0">
+      {}
         <joint name="elbow" axis="0 1 0"/>
         <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.04" mass="1"/>
       </body>
-    </body>
+    {}
   </worldbody>
 </mujoco>)";
 
@@ -45,10 +46,16 @@ FrictionDescription Elbow() {
   return friction;
 }
 
+enum class Second { beside, on_the_end };
+
 /// The model with the frictions added in these groups, each of which shares an instance.
-ModelPtr TwoLinks(const std::vector<std::vector<FrictionForJoint>>& groups) {
+ModelPtr TwoLinks(Second second, const std::vector<std::vector<FrictionForJoint>>& groups) {
+  const bool beside = second == Second::beside;
+  const std::string xml =
+      fmt::format(kTwoLinks, beside ? R"(</body><body pos="0 1 0">)" : R"(<body pos="0.4 0 0">)",
+                  beside ? "" : "</body>");
   char error[500] = "";
-  const SpecPtr spec(mj_parseXMLString(kTwoLinks, nullptr, error, sizeof(error)));
+  const SpecPtr spec(mj_parseXMLString(xml.c_str(), nullptr, error, sizeof(error)));
   EXPECT_TRUE(spec) << error;
   for (const auto& group : groups) AddFriction(*spec, group, {"test"});
   return CompileModel(*spec, {"test"});
@@ -62,10 +69,10 @@ std::vector<double> Fall(const mjModel* m, mjData* d) {
   return state;
 }
 
-TEST(PluginJoints, MoveInOneInstanceAsInInstancesOfTheirOwn) {
+TEST(PluginJoints, OfTwoTreesMoveInOneInstanceAsInInstancesOfTheirOwn) {
   const FrictionForJoint shoulder{"shoulder", Shoulder()}, elbow{"elbow", Elbow()};
-  const ModelPtr shared = TwoLinks({{shoulder, elbow}});
-  const ModelPtr own = TwoLinks({{shoulder}, {elbow}});
+  const ModelPtr shared = TwoLinks(Second::beside, {{shoulder, elbow}});
+  const ModelPtr own = TwoLinks(Second::beside, {{shoulder}, {elbow}});
   ASSERT_EQ(shared->nplugin, 1);
   ASSERT_EQ(own->nplugin, 2);
 
@@ -79,6 +86,28 @@ TEST(PluginJoints, MoveInOneInstanceAsInInstancesOfTheirOwn) {
   EXPECT_EQ(a->plugin_state[shared->plugin_stateadr[0] + kReportsPush], 2);
   EXPECT_EQ(b->plugin_state[own->plugin_stateadr[0] + kReportsPush], 0);
   EXPECT_EQ(b->plugin_state[own->plugin_stateadr[1] + kReportsPush], 1);
+}
+
+/// How far the shoulder gives way when the links' weight sets in slowly, rad.
+double Give(const mjModel* model) {
+  const ModelPtr m(mj_copyModel(nullptr, model));
+  const DataPtr d(mj_makeData(m.get()));
+  while (d->time < 2) {
+    m->opt.gravity[2] = -9.81 * std::min(1.0, d->time);
+    mj_step(m.get(), d.get());
+  }
+  EXPECT_LT(std::abs(d->qvel[0]), 1e-9);
+  return std::abs(d->qpos[0]);
+}
+
+TEST(PluginJoints, OfOneTreeGiveWayByEightTimesAsMuchInInstancesOfTheirOwn) {
+  FrictionForJoint shoulder{"shoulder", Shoulder()}, elbow{"elbow", Shoulder()};
+  shoulder.friction.parameters["coulomb"] = elbow.friction.parameters["coulomb"] = 20;
+  const ModelPtr shared = TwoLinks(Second::on_the_end, {{shoulder, elbow}});
+  const ModelPtr own = TwoLinks(Second::on_the_end, {{shoulder}, {elbow}});
+  // and by more, since an instance holds what the other's joint leaves of the inertia
+  EXPECT_GT(Give(own.get()), 8 * Give(shared.get()));
+  EXPECT_LT(Give(own.get()), 0.001);
 }
 
 }  // namespace

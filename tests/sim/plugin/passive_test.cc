@@ -3,7 +3,9 @@
 
 #include <cmath>
 
+#include "models/foundation/atomic_file.h"
 #include "tests/sim/plugin/two_forms.h"
+#include "tests/support/folders.h"
 
 namespace warmjoint {
 namespace {
@@ -30,22 +32,58 @@ double Difference(const Model& a, const Model& b, double seconds, double ambient
   return worst;
 }
 
-TEST(PluginForms, MoveAlikeWithEveryLawAndIntegrator) {
-  for (const char* integrator : {"Euler", "implicit", "implicitfast", "discrete", "RK4"}) {
-    for (const FrictionDescription& friction : FrictionsOfEveryLaw()) {
-      const Model a = MustCompile(ArmXml(friction, Form::actuator, integrator));
-      const Model b = MustCompile(ArmXml(friction, Form::passive, integrator));
-      // the forces are summed in another order; joints near a reversal amplify the last bit
-      EXPECT_LT(Difference(a, b, 2, 10), 1e-11) << friction.law << " " << integrator;
-    }
-  }
+constexpr const char* kIntegrators[] = {"Euler", "implicit", "implicitfast", "discrete", "RK4"};
+
+/// What the README says of a law under an integrator, after both forms of it have moved an arm alike.
+std::string TryBothForms(const FrictionDescription& friction, const char* integrator) {
+  const Model a = MustCompile(ArmXml(friction, Form::actuator, integrator));
+  const Model b = MustCompile(ArmXml(friction, Form::passive, integrator));
+  if (!a || !b) return "refused";
+  // the forces are summed in another order; joints near a reversal amplify the last bit
+  const double difference = Difference(a, b, 2, 10);
+  EXPECT_LT(difference, 1e-11) << friction.law << " " << integrator;
+  return difference < 1e-11 ? "both, alike" : "both, apart";
 }
 
-TEST(PluginForms, MoveAlikeForAMinuteUnderGravity) {
+TEST(PluginForms, MoveAlikeWithEveryLawAndIntegratorAsTheReadmeSays) {
+  std::string table = "| law |";
+  for (const char* integrator : kIntegrators) table += fmt::format(" {} |", integrator);
+  table += "\n|---|---|---|---|---|---|\n";
+  for (const FrictionDescription& friction : FrictionsOfEveryLaw()) {
+    table += fmt::format("| {} |", friction.law);
+    for (const char* integrator : kIntegrators) {
+      table += fmt::format(" {} |", TryBothForms(friction, integrator));
+    }
+    table += "\n";
+  }
+  const std::string readme = ReadWholeFile(SourceFolder() / "sim/plugin/README.md");
+  EXPECT_THAT(readme, testing::HasSubstr(table)) << "write this table into sim/plugin/README.md:\n"
+                                                 << table;
+}
+
+/// The largest difference within so many seconds between the passive form and itself begun 1e-15 rad
+/// away.
+double Sensitivity(const Model& m, double seconds) {
+  const Data a(mj_makeData(m.get())), b(mj_makeData(m.get()));
+  b->qpos[0] = 1e-15;
+  double worst = 0;
+  while (a->time < seconds) {
+    DriveArm(m.get(), a.get(), 1);
+    DriveArm(m.get(), b.get(), 1);
+    for (int k = 0; k < kArmJoints; ++k) {
+      worst = std::max(worst, std::abs(a->qpos[k] - b->qpos[k]));
+    }
+  }
+  return worst;
+}
+
+TEST(PluginForms, MoveAlikeForAMinuteUnderGravityAsFarAsTheArmIsPredictable) {
   const FrictionDescription friction = FrictionsOfEveryLaw()[2];
   const Model a = MustCompile(ArmXml(friction, Form::actuator, "implicitfast"));
   const Model b = MustCompile(ArmXml(friction, Form::passive, "implicitfast"));
-  EXPECT_LT(Difference(a, b, 60, 0), 1e-12);
+  EXPECT_LT(Difference(a, b, 20, 0), 1e-12);
+  // the engine sums the forces in another order: some ten last bits, which the arm amplifies
+  EXPECT_LT(Difference(a, b, 60, 0), 10 * Sensitivity(b, 60));
 }
 
 TEST(PluginPassive, LeavesTheRobotsOwnNumbersAsTheyWere) {

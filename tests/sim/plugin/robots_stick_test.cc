@@ -80,14 +80,14 @@ INSTANTIATE_TEST_SUITE_P(All, RobotsStick, testing::ValuesIn(test::kRobots),
 TEST(RobotsStick, AWristTooLightForItsFrictionIsRefusedWithTheArmatureThatItNeeds) {
   WARMJOINT_NEED_SHARED("robots/universal_robots_ur5e/ur5e_nomesh.xml");
   const test::Robot bare = test::LoadRobot("universal_robots_ur5e/ur5e_nomesh.xml", 0);
-  // 2 N.m on 1.3e-4 kg.m^2 at 1 ms would give way by 0.15 rad; 0.05 rad need 4e-4 kg.m^2
-  EXPECT_THAT([&] { WithFriction(bare, 0.001, mjINT_EULER); },
+  // 2 N.m on 1.3e-4 kg.m^2 at 2 ms would give way by 0.075 rad; 0.05 rad need 2e-4 kg.m^2
+  EXPECT_THAT([&] { WithFriction(bare, 0.002, mjINT_EULER); },
               ThrowsMessage<BadInput>(HasSubstr("actuator 'wrist_3_friction'")));
-  EXPECT_THAT([&] { WithFriction(bare, 0.001, mjINT_EULER); },
-              ThrowsMessage<BadInput>(HasSubstr("add an armature of 0.000271")));
+  EXPECT_THAT([&] { WithFriction(bare, 0.002, mjINT_EULER); },
+              ThrowsMessage<BadInput>(HasSubstr("add an armature of 6.95e-05")));
 
-  const test::Robot geared = test::LoadRobot("universal_robots_ur5e/ur5e_nomesh.xml", 0.000271);
-  const ModelPtr m = WithFriction(geared, 0.001, mjINT_EULER);
+  const test::Robot geared = test::LoadRobot("universal_robots_ur5e/ur5e_nomesh.xml", 6.95e-05);
+  const ModelPtr m = WithFriction(geared, 0.002, mjINT_EULER);
   const DataPtr d(mj_makeData(m.get()));
   std::copy(geared.pose.begin(), geared.pose.end(), d->qpos);
   while (d->time < 5) mj_step(m.get(), d.get());

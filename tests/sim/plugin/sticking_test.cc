@@ -62,7 +62,7 @@ TEST_P(Sticking, BreaksAwayWithinAPercentOfItsLevel) {
     const Model m = Link("0 0 0");
     const Data d(mj_makeData(m.get()));
     // the load rises by 2 N.m/s, 0.004 N.m in the largest step
-    const double elastic = 6 * step() * step() / (0.1 * 0.25);
+    const double elastic = 6 * step() * step() / (0.8 * 0.25);
     while (sign * d->qpos[0] < 1.05 * elastic) {
       d->qfrc_applied[0] = sign * 2 * d->time;
       mj_step(m.get(), d.get());

@@ -20,7 +20,7 @@ class Stiction : public testing::TestWithParam<std::tuple<double, const char*>> 
   double step() const { return std::get<0>(GetParam()); }
 
   /// How far the bristle of the link, 0.25 kg.m^2, gives way under a load, rad.
-  double Elastic(double load) const { return load * step() * step() / (0.1 * 0.25); }
+  double Elastic(double load) const { return load * step() * step() / (0.8 * 0.25); }
 
   Model Link() const {
     const Config config{{"law", "stiction"}, {"viscous", "0"}, {"coulomb", "5"}, {"static", "8"}};

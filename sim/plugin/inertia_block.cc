@@ -1,0 +1,97 @@
+#include "sim/plugin/inertia_block.h"
+
+namespace warmjoint::inline sim {
+
+InertiaBlock::InertiaBlock(const mjModel* m, int tree)
+    : first_(m->tree_dofadr[tree]), address_(m->M_rowadr[first_]) {
+  for (int dof = first_; dof < first_ + m->tree_dofnum[tree]; ++dof) {
+    row_.push_back(m->M_rowadr[dof] - address_);
+    others_.push_back(m->M_rownnz[dof] - 1);
+    for (int j = 0; j < m->M_rownnz[dof]; ++j) {
+      column_.push_back(m->M_colind[m->M_rowadr[dof] + j] - first_);
+    }
+  }
+  length_ = others_;
+  taken_ = column_;
+  value_.resize(column_.size());
+  inverse_.assign(others_.size(), 0);
+}
+
+void InertiaBlock::Multiply(const mjData* d, const double* x, const double* y, double* mx,
+                            double* my) const {
+  const double* inertia = d->M + address_;
+  const int* column = column_.data();
+  for (int k = 0; k < size(); ++k, ++inertia, ++column) {
+    const double xk = x[k], yk = y[k];
+    double sum_x = 0, sum_y = 0;
+    for (int j = others_[k]; j > 0; --j, ++inertia, ++column) {
+      const int i = *column;
+      sum_x += *inertia * x[i];
+      sum_y += *inertia * y[i];
+      mx[i] += *inertia * xk;
+      my[i] += *inertia * yk;
+    }
+    mx[k] = sum_x + *inertia * xk;
+    my[k] = sum_y + *inertia * yk;
+  }
+}
+
+void InertiaBlock::Subtract(const mjData* d, const double* x, double* y) const {
+  const double* inertia = d->M + address_;
+  const int* column = column_.data();
+  for (int k = 0; k < size(); ++k, ++inertia, ++column) {
+    const double xk = x[k];
+    double sum = 0;
+    for (int j = others_[k]; j > 0; --j, ++inertia, ++column) {
+      sum += *inertia * x[*column];
+      y[*column] -= *inertia * xk;
+    }
+    y[k] -= sum + *inertia * xk;
+  }
+}
+
+/// The ancestors of an ancestor are the beginning of a row's own, so that no element is added, and
+/// rows are indexed alike.
+void InertiaBlock::Factorise(const mjData* d, const std::vector<char>& takes) {
+  const double* inertia = d->M + address_;
+  for (int k = 0; k < size(); ++k) {
+    int length = 0;
+    const int row = row_[k];
+    for (int j = row; takes[k] && j < row + others_[k]; ++j) {
+      if (!takes[column_[j]]) continue;
+      taken_[row + length] = column_[j];
+      value_[row + length++] = inertia[j];
+    }
+    length_[k] = length;
+    inverse_[k] = takes[k] ? inertia[row + others_[k]] : 0;
+  }
+  for (int k = size() - 1; k >= 0; --k) {
+    if (!takes[k]) continue;
+    const double inverse = inverse_[k] = 1 / inverse_[k];
+    double* const own = value_.data() + row_[k];
+    const int* const column = taken_.data() + row_[k];
+    for (int p = length_[k] - 1; p >= 0; --p) {
+      const int i = column[p];
+      const double element = own[p], factor = element * inverse;
+      double* const above = value_.data() + row_[i];
+      for (int q = 0; q < p; ++q) above[q] -= factor * own[q];
+      inverse_[i] -= factor * element;
+      own[p] = factor;
+    }
+  }
+}
+
+void InertiaBlock::SolveBy(const double* value, const double* inverse, const int* column,
+                           const int* length, double* x) const {
+  for (int k = size() - 1; k >= 0; --k) {
+    const double xk = x[k];
+    for (int j = row_[k]; j < row_[k] + length[k]; ++j) x[column[j]] -= value[j] * xk;
+  }
+  for (int k = 0; k < size(); ++k) {
+    double xk = x[k] * inverse[k];
+    for (int j = row_[k]; j < row_[k] + length[k]; ++j) xk -= value[j] * x[column[j]];
+    x[k] = xk;
+  }
+}
+
+}  // namespace warmjoint::inline sim

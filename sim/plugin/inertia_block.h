@@ -1,0 +1,56 @@
+// The inertia matrix of one kinematic tree, and factors of its blocks.
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include <vector>
+
+namespace warmjoint::inline sim {
+
+/// The rows of the inertia matrix M that belong to one kinematic tree, as MuJoCo holds them: of each
+/// degree of freedom the elements of those before it on its way to the root, then its own.
+class InertiaBlock {
+ public:
+  InertiaBlock() = default;
+  /// tree: its number in the model.
+  InertiaBlock(const mjModel* m, int tree);
+
+  int first() const { return first_; }
+  int size() const { return static_cast<int>(others_.size()); }
+
+  /// M x and M y. All: [size].
+  void Multiply(const mjData* d, const double* x, const double* y, double* mx, double* my) const;
+
+  /// Takes M x from y. x, y: [size].
+  void Subtract(const mjData* d, const double* x, double* y) const;
+
+  /// Replaces x by M^-1 x with the engine's own factors. x: [size].
+  void Solve(const mjData* d, double* x) const {
+    SolveBy(d->qLD + address_, d->qLDiagInv + first_, column_.data(), others_.data(), x);
+  }
+
+  /// M = L'DL of the degrees of freedom that `takes` names: [size], the others are left out.
+  void Factorise(const mjData* d, const std::vector<char>& takes);
+
+  /// Replaces x by the solution with the block of the last Factorise; what was left out stays 0. x:
+  /// [size], 0 where left out.
+  void SolveBlock(double* x) const {
+    SolveBy(value_.data(), inverse_.data(), taken_.data(), length_.data(), x);
+  }
+
+ private:
+  void SolveBy(const double* value, const double* inverse, const int* column, const int* length,
+               double* x) const;
+
+  int first_ = 0;            // degree of freedom
+  int address_ = 0;          // of its row in mjData.M
+  std::vector<int> row_;     // [size] address of each row from there
+  std::vector<int> others_;  // [size] elements of each row besides its diagonal
+  std::vector<int> column_;  // counted from first
+
+  // factors: rows as above without what was left out
+  std::vector<int> length_, taken_;
+  std::vector<double> value_, inverse_;
+};
+
+}  // namespace warmjoint::inline sim

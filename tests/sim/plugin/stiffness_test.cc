@@ -1,0 +1,165 @@
+// How stiff joints hold and how soon they rest: a link, and robots without armature.
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "models/foundation/random_stream.h"
+#include "sim/model/friction_actuator.h"
+#include "sim/plugin/bristle_shape.h"
+#include "sim/plugin/check_joint.h"
+#include "sim/plugin/friction_instance.h"
+#include "tests/sim/plugin/friction_models.h"
+#include "tests/sim/plugin/friction_robots.h"
+#include "tests/support/shared_data.h"
+
+namespace warmjoint {
+namespace {
+
+/// How far a link of 0.005 kg.m^2 for each N.m of level has moved after a second under a load of
+/// nine tenths of its level that sets in within a fifth of one, rad.
+double Give(double step, const char* integrator) {
+  const double level = 50;
+  const test::Model m = test::MustCompile(test::LinkXml(
+      test::FrictionSection({{"law", "coulomb"}, {"coulomb", "50"}}),
+      fmt::format(R"(timestep="{}" integrator="{}" gravity="0 0 0")", step, integrator)));
+  const test::Data d(mj_makeData(m.get()));
+  while (d->time < 1) {
+    d->qfrc_applied[0] = 0.9 * level * std::min(1.0, d->time / 0.2);
+    mj_step(m.get(), d.get());
+  }
+  EXPECT_LT(std::abs(d->qvel[0]), 1e-9);
+  return d->qpos[0];
+}
+
+TEST(PluginStiffness, GivesWayByLessThanAMilliradAtNineTenthsOfTheLevel) {
+  for (const char* integrator : {"Euler", "implicit", "implicitfast", "discrete", "RK4"}) {
+    for (const double step : {0.0005, 0.001, 0.002}) {
+      // 0.9 h^2 / (0.8 0.005)
+      EXPECT_NEAR(Give(step, integrator), 225 * step * step, 1e-9);
+      EXPECT_LT(Give(step, integrator), 0.001);
+    }
+    // stable, and softer
+    EXPECT_NEAR(Give(0.005, integrator), 225 * 0.005 * 0.005, 1e-9);
+  }
+}
+
+/// A robot whose joints hold what lets their bristles give way by 20 mrad (2 mm), without gravity.
+ModelPtr Holding(const test::Robot& robot, double step, mjtIntegrator integrator,
+                 FrictionForm form) {
+  const SpecPtr spec(mj_copySpec(robot.spec.get()));
+  spec->option.timestep = step;
+  spec->option.integrator = integrator;
+  mju_zero3(spec->option.gravity);
+  const ModelPtr bare = CompileModel(*spec, {robot.path});
+  std::vector<FrictionForJoint> frictions;
+  for (int i = 0; i < bare->njnt; ++i) {
+    FrictionDescription friction;
+    friction.law = "coulomb";
+    const double give = bare->jnt_type[i] == mjJNT_SLIDE ? 0.002 : 0.02;
+    friction.parameters = {{"coulomb", give * kLoneBristles.stiffness *
+                                           EffectiveInertia(bare.get(), bare->jnt_dofadr[i]) /
+                                           (step * step)}};
+    frictions.push_back({mj_id2name(bare.get(), mjOBJ_JOINT, i), friction});
+  }
+  AddFriction(*spec, frictions, {robot.path}, form);
+  return CompileModel(*spec, {robot.path});
+}
+
+/// The states of the bristles, two of each joint.
+mjtNum* States(const mjModel* m, mjData* d) {
+  return m->na > 0 ? d->act : d->plugin_state + m->plugin_stateadr[0] + kFrictionReports;
+}
+
+void DrawPose(const mjModel* m, mjData* d, RandomStream& random) {
+  for (int i = 0; i < m->njnt; ++i) {
+    const bool limited = m->jnt_limited[i];
+    d->qpos[i] =
+        random.Uniform(limited ? m->jnt_range[2 * i] : -3, limited ? m->jnt_range[2 * i + 1] : 3);
+  }
+}
+
+/// The largest eigenvalue of what a step does to speeds and bristles of a robot at rest.
+double SpectralRadius(const mjModel* m, mjData* d) {
+  const auto n = static_cast<int>(m->nv);
+  const std::vector<mjtNum> pose(d->qpos, d->qpos + m->nq);
+  const double size = 1e-7;
+  const auto after = [&](int k) {
+    std::copy(pose.begin(), pose.end(), d->qpos);
+    std::fill_n(d->qvel, n, 0.0);
+    std::fill_n(States(m, d), 2 * n, 0.0);
+    std::fill_n(d->qacc_warmstart, n, 0.0);
+    if (k >= 0) (k < n ? d->qvel[k] : States(m, d)[2 * (k - n)]) = size;
+    mj_step(m, d);
+    Eigen::VectorXd state(2 * n);
+    for (int i = 0; i < n; ++i) {
+      state[i] = d->qvel[i];
+      state[n + i] = States(m, d)[2 * i];
+    }
+    return state;
+  };
+  const Eigen::VectorXd rest = after(-1);
+  Eigen::MatrixXd map(2 * n, 2 * n);
+  for (int k = 0; k < 2 * n; ++k) map.col(k) = (after(k) - rest) / size;
+  std::copy(pose.begin(), pose.end(), d->qpos);
+  return map.eigenvalues().cwiseAbs().maxCoeff();
+}
+
+class ArmsWithoutArmature : public testing::TestWithParam<test::RobotCase> {};
+
+TEST_P(ArmsWithoutArmature, AreStableInEveryPose) {
+  WARMJOINT_NEED_SHARED(std::string("robots/") + GetParam().file);
+  const test::Robot robot = test::LoadRobot(GetParam().file, 0);
+  for (const mjtIntegrator integrator : {mjINT_EULER, mjINT_IMPLICITFAST, mjINT_RK4}) {
+    for (const double step : {0.001, 0.005}) {
+      const FrictionForm form =
+          integrator == mjINT_EULER ? FrictionForm::actuator : FrictionForm::passive;
+      const ModelPtr m = Holding(robot, step, integrator, form);
+      const DataPtr d(mj_makeData(m.get()));
+      RandomStream random({9, 0}, Stream::test);
+      double worst = 0;
+      for (int pose = 0; pose < 50; ++pose) {
+        DrawPose(m.get(), d.get(), random);
+        worst = std::max(worst, SpectralRadius(m.get(), d.get()));
+      }
+      // each mode: z^2 - 0.4 z + 0.2, of size 0.447; RK4's stages see the arm move
+      EXPECT_LT(worst, integrator == mjINT_RK4 ? 0.9 : 0.6) << "step " << step;
+    }
+  }
+}
+
+TEST_P(ArmsWithoutArmature, RestWithin25StepsOfAPush) {
+  WARMJOINT_NEED_SHARED(std::string("robots/") + GetParam().file);
+  const test::Robot robot = test::LoadRobot(GetParam().file, 0);
+  for (const mjtIntegrator integrator : {mjINT_EULER, mjINT_IMPLICITFAST}) {
+    for (const double step : {0.0005, 0.001, 0.002}) {
+      for (const FrictionForm form : {FrictionForm::actuator, FrictionForm::passive}) {
+        const ModelPtr m = Holding(robot, step, integrator, form);
+        const DataPtr d(mj_makeData(m.get()));
+        RandomStream random({10, 0}, Stream::test);
+        for (int run = 0; run < 10; ++run) {
+          mj_resetData(m.get(), d.get());
+          DrawPose(m.get(), d.get(), random);
+          // a tenth of a milliradian of each bristle, held, then released
+          for (int i = 0; i < m->nv; ++i) {
+            const double inertia = EffectiveInertia(m.get(), i);
+            d->qfrc_applied[i] = random.Uniform(-1, 1) * 1e-4 * inertia / (step * step);
+          }
+          for (int i = 0; i < 100; ++i) mj_step(m.get(), d.get());
+          std::fill_n(d->qfrc_applied, m->nv, 0.0);
+          for (int i = 0; i < 25; ++i) mj_step(m.get(), d.get());
+          for (int i = 0; i < m->nv; ++i) EXPECT_LT(std::abs(d->qvel[i]), 1e-4) << "joint " << i;
+        }
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ArmsWithoutArmature, testing::ValuesIn(test::kRobots),
+                         [](const auto& test) { return test.param.name(); });
+
+}  // namespace
+}  // namespace warmjoint
