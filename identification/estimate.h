@@ -61,6 +61,7 @@ struct ParameterCovariance {
 
 struct Estimate {
   std::string identifier;
+  std::map<std::string, std::string> options;  // of the identifier, those not at their defaults
   Status status = Status::ok;
   std::string message;  // one sentence; for a failure: what is wrong and what would help
   /// What must be known before numbers that pass are used, each a clause: "the kernels can imitate
@@ -84,7 +85,7 @@ struct Estimate {
   std::string FullMessage() const;
 };
 
-/// The estimate as JSON: {identifier, status, message, parameters{name: {value, unit, std,
+/// The estimate as JSON: {identifier, options{name: text}, status, message, parameters{name: {value, unit, std,
 /// interval95}}, metrics{}, holdout{}, trace[{iteration, rmse, parameters{}}], friction{},
 /// gravity{}, warnings[], bands[{quantities[], points[][], value[], std[], interval95[][]}],
 /// covariance{parameters[], matrix[][]}, diagnostics[{test, made, reason, statistic, p, p_adjusted,

@@ -251,6 +251,7 @@ json EstimateToJson(const Estimate& estimate) {
               {"friction", estimate.friction ? FrictionToJson(*estimate.friction) : json(nullptr)},
               {"gravity", estimate.gravity ? GravityToJson(*estimate.gravity) : json(nullptr)},
               {"covariance", CovarianceToJson(estimate.covariance)}};
+  if (!estimate.options.empty()) result["options"] = estimate.options;
   if (!estimate.warnings.empty()) result["warnings"] = estimate.warnings;
   for (const MapBand& band : estimate.bands) result["bands"].push_back(BandToJson(band));
   for (const Diagnostic& one : estimate.diagnostics) {
@@ -269,6 +270,9 @@ Estimate EstimateFromJson(const json& object, const Place& place) {
   };
   Estimate estimate;
   estimate.identifier = ToText(member("identifier"), "identifier", place);
+  for (const auto& [name, value] : member("options").items()) {
+    estimate.options[name] = ToText(value, "an option", place);
+  }
   estimate.status = ToStatus(member("status"), place);
   estimate.message = ToText(member("message"), "message", place);
   for (const json& warning : member("warnings")) {

@@ -101,8 +101,10 @@ Options::Options(const std::vector<OptionInfo>& table,
       const std::string known = names.empty() ? "; there are none here" : Suggestion(name, names);
       Refuse(place, "there is no option '{}'{}", Excerpt(name), known);
     }
-    CheckValue(table[static_cast<size_t>(row - names.begin())], value, place);
+    const OptionInfo& option = table[static_cast<size_t>(row - names.begin())];
+    CheckValue(option, value, place);
     values_[name] = value;
+    if (value != option.default_value) changed_[name] = value;
   }
 }
 

@@ -35,8 +35,12 @@ class Options {
   /// "lower:upper", for example "-9:0"; lower <= upper.
   std::pair<double, double> Range(std::string_view name) const;
 
+  /// What is not at its default, by name.
+  const std::map<std::string, std::string>& changed() const { return changed_; }
+
  private:
   std::map<std::string, std::string, std::less<>> values_;
+  std::map<std::string, std::string> changed_;
 };
 
 }  // namespace warmjoint::inline identification

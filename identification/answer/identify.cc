@@ -33,6 +33,7 @@ Estimate ReportAnswer(const Identifier& identifier, const IdentifierInput& given
                       const Answer& answer) {
   const IdentifierInput input = identifier.Seen(given);
   Estimate estimate = ReportFit(answer.fit, answer.judged, input.measurements);
+  estimate.options = input.options.changed();
   const bool steady = identifier.regime == Regime::steady;
   if (steady && input.log.faults().empty()) TellPreparation(input.log, estimate);
   return estimate;

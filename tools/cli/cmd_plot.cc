@@ -1,7 +1,8 @@
 // warmjoint plot SOURCE... -o DIR: pictures of runs, estimates and simulated recordings.
-#include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <set>
 
@@ -112,6 +113,18 @@ std::vector<fs::path> FoldersOf(const PlotArguments& arguments) {
   return folders;
 }
 
+/// Says which figures of its family a source does not give, and why.
+void TellLeftOut(const std::string& source, const SourcePictures& pictures) {
+  std::map<std::string, std::vector<std::string>> by_need;
+  for (const auto& [name, need] : pictures.left_out) by_need[need].push_back(name);
+  std::vector<std::string> clauses;
+  for (const auto& [need, names] : by_need) {
+    clauses.push_back(fmt::format("{} ({} {})", fmt::join(names, ", "),
+                                  names.size() == 1 ? "needs" : "need", need));
+  }
+  if (!clauses.empty()) SayNotice("{}: left out: {}\n", source, fmt::join(clauses, "; "));
+}
+
 ExitStatus PlotSources(const PlotArguments& arguments) {
   const std::vector<fs::path> folders = FoldersOf(arguments);
   // refused before the pictures are drawn; it is made anew when they are
@@ -126,9 +139,11 @@ ExitStatus PlotSources(const PlotArguments& arguments) {
   for (std::size_t i = 0; i < folders.size(); ++i) {
     activity.Is("reading " + arguments.sources[i]);
     SourcePictures pictures = PicturesOf(arguments.sources[i], arguments.recording);
-    if (!arguments.pictures.figures.empty()) pictures.film.clear();
+    const bool all = arguments.pictures.figures.empty();
+    if (!all) pictures.film.clear();
+    if (all) activity.Aside([&] { TellLeftOut(arguments.sources[i], pictures); });
     const std::vector<report::Figure> figures =
-        Chosen(arguments.pictures, arguments.sources[i], std::move(pictures.figures));
+        Chosen(arguments.pictures, arguments.sources[i], pictures);
     std::error_code error;
     fs::create_directories(folders[i], error);
     if (error || !fs::is_directory(folders[i])) {

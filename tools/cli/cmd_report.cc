@@ -8,6 +8,7 @@
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "models/foundation/read_json.h"
+#include "tools/actions/fit_again.h"
 #include "tools/actions/identify_recording.h"
 #include "tools/actions/outputs.h"
 #include "tools/actions/replay_unit.h"
@@ -130,8 +131,9 @@ std::string EstimateReport(const ReportArguments& arguments) {
     Refuse({arguments.source}, "names no recording; give the report the recording itself");
   }
   const RecordingArguments recording = RecordingFromJson(file["recording"], {arguments.source});
+  const PreparedLog log = ReadAndPrepare(recording);
   return LogReport(
-      ReadAndPrepare(recording), estimate,
+      log, WithFitAgain(estimate, log),
       {JoinCommand({"warmjoint", "report", arguments.source, "-o", arguments.output})});
 }
 

@@ -57,6 +57,14 @@ Names NamesOf(const std::vector<report::Figure>& figures) {
   return names;
 }
 
+/// Why a source has no figure of that name.
+std::string Lacking(const std::string& figure, const SourcePictures& pictures) {
+  for (const auto& [name, need] : pictures.left_out) {
+    if (name == figure) return fmt::format("{} needs {}", figure, need);
+  }
+  return fmt::format("there is no figure '{}'", figure);
+}
+
 }  // namespace
 
 void AddPictureOptions(CLI::App& parser, PictureArguments& arguments) {
@@ -104,7 +112,8 @@ report::PageSetting SettingOf(const PictureArguments& arguments) {
 }
 
 std::vector<report::Figure> Chosen(const PictureArguments& arguments, const std::string& source,
-                                   std::vector<report::Figure> figures) {
+                                   const SourcePictures& pictures) {
+  std::vector<report::Figure> figures = pictures.figures;
   if (arguments.figures.empty()) return figures;
   Names wanted;
   for (const std::string& figure : arguments.figures) {
@@ -116,7 +125,7 @@ std::vector<report::Figure> Chosen(const PictureArguments& arguments, const std:
     });
     if (!any) {
       const std::string what = paper == PaperFigures().end()
-                                   ? fmt::format("there is no figure '{}'", figure)
+                                   ? Lacking(figure, pictures)
                                    : fmt::format("figure {} of the paper ({}) needs {}", figure,
                                                  fmt::join(names, " or "), paper->second.sources);
       Refuse({source}, "{}; this source gives: {}", what,

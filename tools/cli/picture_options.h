@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/cli/plot_sources.h"
 #include "tools/report/draw/figure.h"
 #include "tools/report/draw/page_setting.h"
 
@@ -27,8 +28,9 @@ void AddPictureOptions(CLI::App& parser, PictureArguments& arguments);
 report::PageSetting SettingOf(const PictureArguments& arguments);
 
 /// Leaves the figures that --figure names, by name or by the number that the paper gives them; all
-/// without it. source: what they are of. Throws BadInput where one of them is not among them.
+/// without it. source: what they are of. Throws BadInput where one of them is not among them, and says
+/// what it needs.
 std::vector<report::Figure> Chosen(const PictureArguments& arguments, const std::string& source,
-                                   std::vector<report::Figure> figures);
+                                   const SourcePictures& pictures);
 
 }  // namespace warmjoint::inline tools

@@ -20,25 +20,26 @@ namespace fs = std::filesystem;
 
 constexpr int kFilmFrames = 24;
 
-/// All members of a family that have something to show.
+/// All members of a family that have something to show, and what the others lack.
 template <typename View>
-std::vector<report::Figure> Make(const std::vector<report::NamedFigure<View>>& family,
-                                 const View& view) {
-  std::vector<report::Figure> figures;
+SourcePictures Make(const std::vector<report::NamedFigure<View>>& family, const View& view) {
+  SourcePictures pictures;
   for (const auto& one : family) {
-    if (auto figure = one.make(view)) figures.push_back(*std::move(figure));
+    if (auto figure = one.make(view)) {
+      pictures.figures.push_back(*std::move(figure));
+    } else {
+      pictures.left_out.emplace_back(one.name, one.needs);
+    }
   }
-  return figures;
+  return pictures;
 }
 
-/// The recording that an estimate file came from: the one given, else the one it remembers.
-std::optional<Measurements> RecordingOf(const nlohmann::json& file, const fs::path& path,
-                                        const RecordingArguments& given) {
-  if (!given.recordings.empty()) return ReadRecording(given);
+/// The estimate of a file beside its own recording, where that is there.
+report::EstimateView OwnView(const nlohmann::json& file, const fs::path& path, Estimate estimate) {
   if (!file.contains("recording")) {
     fmt::print(stderr, "{}: names no recording; give --recording for the pictures that need it\n",
                path.string());
-    return std::nullopt;
+    return report::MakeEstimateView(std::move(estimate));
   }
   const RecordingArguments remembered = RecordingFromJson(file["recording"], {path});
   for (const std::string& recording : remembered.recordings) {
@@ -47,24 +48,26 @@ std::optional<Measurements> RecordingOf(const nlohmann::json& file, const fs::pa
         stderr,
         "{}: its recording {} is not there; give --recording for the pictures that need it\n",
         path.string(), recording);
-    return std::nullopt;
+    return report::MakeEstimateView(std::move(estimate));
   }
-  return ReadRecording(remembered);
+  return report::ViewOwnRecording(std::move(estimate), ReadAndPrepare(remembered));
 }
 
 SourcePictures PicturesOfEstimate(const fs::path& path, const RecordingArguments& recording) {
   const nlohmann::json file = ReadJsonFile(path);
   Estimate estimate = EstimateFromJson(file, {path});
   report::EstimateView view =
-      report::MakeEstimateView(std::move(estimate), RecordingOf(file, path, recording));
-  SourcePictures pictures{Make(report::EstimateFigures(), view), {}};
+      recording.recordings.empty()
+          ? OwnView(file, path, std::move(estimate))
+          : report::MakeEstimateView(std::move(estimate), ReadAndPrepare(recording));
+  SourcePictures pictures = Make(report::EstimateFigures(), view);
   pictures.estimate = std::move(view);
   return pictures;
 }
 
 SourcePictures PicturesOfSimulation(const fs::path& directory) {
   const report::SimulationView view = report::ReadSimulationView(directory);
-  SourcePictures pictures{Make(report::SimulationFigures(), view), {}};
+  SourcePictures pictures = Make(report::SimulationFigures(), view);
   if (!report::HasWarmRobot(view)) return pictures;
   const std::unique_ptr<report::GlContext> context = report::MakeGlContext();
   pictures.figures.push_back(*report::MakeWarmRobot(view, *context));
@@ -75,10 +78,10 @@ SourcePictures PicturesOfSimulation(const fs::path& directory) {
 }  // namespace
 
 SourcePictures PicturesOf(const std::string& source, const RecordingArguments& recording) {
-  if (source == kKernelsSource && !fs::exists(source)) return {{report::MakeKernels()}, {}};
+  if (source == kKernelsSource && !fs::exists(source)) return {{report::MakeKernels()}, {}, {}};
   if (fs::is_regular_file(source)) return PicturesOfEstimate(source, recording);
   if (report::IsSimulation(source)) return PicturesOfSimulation(source);
-  return {Make(report::RunFigures(), report::ReadRunView(RunStore::OpenToRead(source))), {}};
+  return Make(report::RunFigures(), report::ReadRunView(RunStore::OpenToRead(source)));
 }
 
 }  // namespace warmjoint::inline tools

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tools/cli/recording_options.h"
@@ -19,6 +20,8 @@ inline constexpr const char* kKernelsSource = "kernels";
 struct SourcePictures {
   std::vector<report::Figure> figures;
   std::vector<report::Figure> film;  // frames; empty where there is none
+  /// Figures that this source does not give, and what they need.
+  std::vector<std::pair<std::string, std::string>> left_out;
   std::optional<report::EstimateView> estimate = std::nullopt;
 };
 

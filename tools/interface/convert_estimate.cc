@@ -90,6 +90,7 @@ Metrics FromMetrics(const identification::Metrics& metrics) {
 identification::Estimate ToEstimate(const Estimate& estimate) {
   identification::Estimate made;
   made.identifier = estimate.identifier;
+  made.options = estimate.options;
   made.status = ToStatus(estimate.status);
   made.message = estimate.message;
   made.warnings = estimate.warnings;
@@ -130,6 +131,7 @@ identification::Estimate ToEstimate(const Estimate& estimate) {
 Estimate FromEstimate(const identification::Estimate& estimate) {
   Estimate made;
   made.identifier = estimate.identifier;
+  made.options = estimate.options;
   made.status = FromStatus(estimate.status);
   made.message = estimate.message;
   made.warnings = estimate.warnings;

@@ -7,6 +7,7 @@
 #include "tests/fuzz/fuzz.h"
 #include "tools/actions/project_file.h"
 #include "tools/actions/recording_source.h"
+#include "tools/terminal/shell_words.h"
 
 namespace {
 
@@ -31,6 +32,10 @@ void ReadKept(std::string_view bytes) {
   LayoutOf(arguments);
   const nlohmann::json written = RecordingToJson(arguments);
   fuzz::Require(RecordingToJson(RecordingFromJson(written, place)) == written);
+
+  // typed for a shell, it is read back word for word
+  const std::vector<std::string> words = WordsOf(arguments);
+  fuzz::Require(SplitCommand(JoinCommand(words), place) == words);
 }
 
 void Read(std::string_view bytes) {

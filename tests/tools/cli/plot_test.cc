@@ -97,9 +97,10 @@ TEST(Plot, DrawsWhatASimulationAndItsEstimateTell) {
   const Answer plotted = Call({"plot", at("warm"), at("estimate.json"), "-o", at("both")});
   EXPECT_THAT(NamesOf(FilesOf(at("both/warm"))), UnorderedElementsAre("envelope.png"));
   const auto files = FilesOf(at("both/estimate"));
-  EXPECT_THAT(NamesOf(files),
-              UnorderedElementsAre("fit.png", "log.png", "predicted.png", "friction_curve.png",
-                                   "warm_up.png", "trace.png", "envelope.png"));
+  EXPECT_THAT(
+      NamesOf(files),
+      UnorderedElementsAre("fit.png", "log.png", "predicted.png", "held_out.png", "hysteresis.png",
+                           "friction_curve.png", "warm_up.png", "trace.png", "envelope.png"));
   // what the page of --plot says is what is said of it here
   const std::size_t begin = plotted.out.find("energy-ml: the numbers");
   const std::string finding = plotted.out.substr(begin, plotted.out.find('\n', begin) - begin);

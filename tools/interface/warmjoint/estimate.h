@@ -90,6 +90,7 @@ struct Assumption {
 
 struct Estimate {
   std::string identifier{};
+  std::map<std::string, std::string> options{};  // of the identifier, those not at their defaults
   Status status = Status::ok;
   std::string message{};                // for a failure: what is wrong and what would help
   std::vector<std::string> warnings{};  // what must be known before numbers that pass are used

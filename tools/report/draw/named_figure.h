@@ -14,6 +14,7 @@ struct NamedFigure {
   std::string name;     // of the file
   std::string summary;  // what it shows, one line
   std::optional<Figure> (*make)(const View& view);
+  std::string needs;  // what a view without it lacks
 };
 
 }  // namespace warmjoint::report

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 
-#include "identification/preparation/prepared_log.h"
 #include "tools/report/draw/ticks.h"
 #include "tools/report/figures/envelope.h"
 #include "tools/report/figures/fit_page.h"
 #include "tools/report/figures/fit_panels.h"
 #include "tools/report/figures/friction_map.h"
+#include "tools/report/figures/hysteresis.h"
 #include "tools/report/figures/log_figure.h"
 #include "tools/report/figures/motor_angle.h"
 #include "tools/report/figures/predicted.h"
@@ -94,35 +94,40 @@ std::optional<Figure> PredictedOf(const EstimateView& view) {
   return view.fit ? MakePredicted(*view.fit) : std::nullopt;
 }
 
+std::optional<Figure> HeldOutOf(const EstimateView& view) {
+  return view.held_out ? MakeHeldOut(*view.held_out) : std::nullopt;
+}
+
+std::optional<Figure> HysteresisOf(const EstimateView& view) {
+  return view.fit ? MakeHysteresis(*view.fit) : std::nullopt;
+}
+
 std::optional<Figure> FrictionMapOf(const EstimateView& view) {
   return view.fit ? MakeFrictionMap(*view.fit) : std::nullopt;
 }
 
 }  // namespace
 
-EstimateView MakeEstimateView(Estimate estimate, std::optional<Measurements> measurements) {
-  EstimateView view{std::move(estimate), std::move(measurements), std::nullopt};
-  if (view.measurements) {
-    const PreparedLog log = Prepare(*std::move(view.measurements));
-    view.measurements = log.taken().measurements;
-    view.fit = MakeFitView(log.taken().measurements, log.taken().selection, view.estimate);
-  }
-  return view;
-}
-
 const std::vector<EstimateFigure>& EstimateFigures() {
   static const std::vector<EstimateFigure> figures{
-      {"fit", "the story of one recording on one page", &FitPageOf},
-      {"log", "the recording with its kept segments", &LogOf},
-      {"predicted", "predicted torque over measured torque", &PredictedOf},
-      {"friction_curve", "friction over velocity, cold and warm, with its band", &CurveOf},
-      {"warm_up", "E over time with its interval", &WarmUpOf},
-      {"trace", "parameters by iteration", &TraceOf},
-      {"envelope", "the recording's envelope and the first guess", &EnvelopeOf},
-      {"motor_angle", "torque over motor angle", &MotorAngleOf},
-      {"motor_map", "the map over motor angle", &MotorMapOf},
-      {"motor_fit", "torque in time with and without that map", &MotorFitOf},
-      {"friction_map", "friction over angle and velocity, cold and warm", &FrictionMapOf},
+      {"fit", "the story of one recording on one page", &FitPageOf, "its recording"},
+      {"log", "the recording with its kept segments", &LogOf, "its recording"},
+      {"predicted", "predicted torque over measured torque", &PredictedOf, "a fit"},
+      {"held_out", "the same on samples that the fit has not seen", &HeldOutOf,
+       "figures on held-out samples of its own recording"},
+      {"friction_curve", "friction over velocity, cold and warm, with its band", &CurveOf, "a fit"},
+      {"hysteresis", "torque over position, back and forth, at first and at last", &HysteresisOf,
+       "segments in both directions"},
+      {"warm_up", "E over time with its interval", &WarmUpOf, "a fit that warms"},
+      {"trace", "parameters by iteration", &TraceOf, "an identifier that iterates"},
+      {"envelope", "the recording's envelope and the first guess", &EnvelopeOf, "a fit that warms"},
+      {"motor_angle", "torque over motor angle", &MotorAngleOf,
+       "a gear or the column motor_position"},
+      {"motor_map", "the map over motor angle", &MotorMapOf, "a map over the motor's angle"},
+      {"motor_fit", "torque in time with and without that map", &MotorFitOf,
+       "a map over the motor's angle"},
+      {"friction_map", "friction over angle and velocity, cold and warm", &FrictionMapOf,
+       "a map over position or the motor's angle"},
   };
   return figures;
 }

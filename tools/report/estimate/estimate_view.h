@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "identification/estimate.h"
+#include "identification/preparation/prepared_log.h"
 #include "models/recording/measurements.h"
 #include "tools/report/figures/fit_view.h"
 
@@ -14,8 +15,18 @@ struct EstimateView {
   Estimate estimate;
   std::optional<Measurements> measurements;
   std::optional<FitView> fit;  // with measurements
+  /// The last part of the recording, predicted by a fit that has seen the rest alone.
+  std::optional<FitView> held_out = std::nullopt;
 };
 
-EstimateView MakeEstimateView(Estimate estimate, std::optional<Measurements> measurements);
+/// Of an estimate file alone.
+EstimateView MakeEstimateView(Estimate estimate);
+
+/// Beside another recording than the one that was fitted.
+EstimateView MakeEstimateView(Estimate estimate, const PreparedLog& other);
+
+/// With its own recording. Where the file holds no friction, that of its fit is made again; where it
+/// holds figures on held-out samples, so is the fit that has not seen them.
+EstimateView ViewOwnRecording(Estimate estimate, const PreparedLog& own);
 
 }  // namespace warmjoint::report

@@ -40,17 +40,24 @@ std::pair<double, double> SpeedsOf(const FitView& view) {
   return RangeOf({KeptOf(view, view.velocity).cwiseAbs()});
 }
 
-/// Which columns of the map the joint passed in a direction: near a kept sample that moved so.
+/// Which columns of the map the joint passed in a direction: those of its kept samples, and those between
+/// two of them that follow each other.
 std::vector<bool> Passed(const FitView& view, const Across& across, int direction) {
-  constexpr Eigen::Index kNear = 2;  // columns
   std::vector<bool> passed(kColumns, false);
   const Eigen::VectorXd& angle =
       across.quantity == MapQuantity::motor_position ? view.motor_angle : view.position;
+  const auto column_of = [&](Eigen::Index i) {
+    const auto column = static_cast<Eigen::Index>(kColumns * ShareOf(across.axis, angle[i]));
+    return std::clamp<Eigen::Index>(column, 0, kColumns - 1);
+  };
   for (Eigen::Index i = 0; i < view.time.size(); ++i) {
     if (!view.selection.keep[i] || view.velocity[i] * direction <= 0) continue;
-    const auto column = static_cast<Eigen::Index>(kColumns * ShareOf(across.axis, angle[i]));
-    for (Eigen::Index c = std::max<Eigen::Index>(0, column - kNear);
-         c <= std::min(kColumns - 1, column + kNear); ++c) {
+    const Eigen::Index here = column_of(i);
+    const bool follows = i > 0 && view.selection.keep[i - 1];
+    Eigen::Index before = follows ? column_of(i - 1) : here;
+    // a motor's angle begins anew after each turn
+    if (std::abs(here - before) > kColumns / 2) before = here;
+    for (Eigen::Index c = std::min(here, before); c <= std::max(here, before); ++c) {
       passed[static_cast<std::size_t>(c)] = true;
     }
   }

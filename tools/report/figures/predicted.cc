@@ -34,26 +34,39 @@ Plot ResidualOverPredicted(const FitView& view, const Eigen::VectorXd& residuals
   return plot;
 }
 
-}  // namespace
+/// What differs between the figures.
+struct Words {
+  std::string name, title, samples;
+};
 
-std::optional<Figure> MakePredicted(const FitView& view) {
+std::optional<Figure> Make(const FitView& view, const Words& words) {
   if (!view.has_fit || view.selection.count() == 0) return std::nullopt;
   const Eigen::VectorXd measured = KeptOf(view, view.torque), predicted = KeptOf(view, view.fitted);
   const Eigen::VectorXd residuals = measured - predicted;
   const std::string rmse =
       SignificantText(std::sqrt(residuals.array().square().mean())) + " " + view.torque_unit;
   Figure figure;
-  figure.name = "predicted";
-  figure.title = view.is_void() ? "Predicted against measured torque (void)"
-                                : "Predicted against measured torque";
-  figure.subtitle =
-      fmt::format("{}: RMSE {} over {} samples", OriginOf(view), rmse, view.selection.count());
+  figure.name = words.name;
+  figure.title = words.title + (view.is_void() ? " (void)" : "");
+  figure.subtitle = fmt::format("{}: RMSE {} over {} {}", OriginOf(view), rmse,
+                                view.selection.count(), words.samples);
   figure.finding = fmt::format("Measured and predicted torque differ by {} rms.", rmse);
   figure.height = 430;
   figure.columns = {1, 1};
   figure.panels = {{"", PredictedOverMeasured(view, measured, predicted), 0, 0},
                    {"", ResidualOverPredicted(view, residuals, predicted), 0, 1}};
   return figure;
+}
+
+}  // namespace
+
+std::optional<Figure> MakePredicted(const FitView& view) {
+  return Make(view, {"predicted", "Predicted against measured torque", "samples"});
+}
+
+std::optional<Figure> MakeHeldOut(const FitView& view) {
+  return Make(view, {"held_out", "Predicted against measured torque, on samples that were held out",
+                     "samples that this fit has not seen"});
 }
 
 }  // namespace warmjoint::report

@@ -13,4 +13,7 @@ namespace warmjoint::report {
 /// estimate carries over. Nothing without a fit.
 std::optional<Figure> MakePredicted(const FitView& view);
 
+/// The same of samples that the fit has not seen, the only ones that `view` keeps.
+std::optional<Figure> MakeHeldOut(const FitView& view);
+
 }  // namespace warmjoint::report

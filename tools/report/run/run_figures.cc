@@ -6,13 +6,19 @@ namespace warmjoint::report {
 
 const std::vector<RunFigure>& RunFigures() {
   static const std::vector<RunFigure> figures{
-      {"npe_boxes", "parameter error of each identifier, beside the Cramér-Rao bound", &NpeBoxes},
-      {"ladder", "parameter error against what the suite's ladder climbs", &LadderFigure},
-      {"error_by_iteration", "parameter error and fit by iteration", &ErrorCourses},
-      {"parameters_by_iteration", "parameters of all realizations by iteration", &ParameterCourses},
-      {"agreement", "Fit, FPE, RMSE and MAE of each identifier", &AgreementBars},
-      {"coverage", "how often 95 % intervals hold the truth", &IntervalCoverage},
-      {"parameter_pairs", "errors of pairs of parameters with their ellipses", &ParameterPairs},
+      {"npe_boxes", "parameter error of each identifier, beside the Cramér-Rao bound", &NpeBoxes,
+       "answers with parameters"},
+      {"ladder", "parameter error against what the suite's ladder climbs", &LadderFigure,
+       "a suite with a ladder"},
+      {"error_by_iteration", "parameter error and fit by iteration", &ErrorCourses,
+       "an identifier that iterates"},
+      {"parameters_by_iteration", "parameters of all realizations by iteration", &ParameterCourses,
+       "an identifier that iterates"},
+      {"agreement", "Fit, FPE, RMSE and MAE of each identifier", &AgreementBars, "answers"},
+      {"coverage", "how often 95 % intervals hold the truth", &IntervalCoverage,
+       "answers with intervals"},
+      {"parameter_pairs", "errors of pairs of parameters with their ellipses", &ParameterPairs,
+       "an identifier whose errors are near the bound"},
   };
   return figures;
 }

@@ -23,9 +23,11 @@ std::optional<Figure> FrictionMapOf(const SimulationView& view) {
 
 const std::vector<SimulationFigure>& SimulationFigures() {
   static const std::vector<SimulationFigure> figures{
-      {"envelope", "the recording's envelope and the first guess beside the truth", &EnvelopeOf},
-      {"motor_angle", "torque over motor angle", &MotorAngleOf},
-      {"friction_map", "friction over angle and velocity, cold and warm", &FrictionMapOf},
+      {"envelope", "the recording's envelope and the first guess beside the truth", &EnvelopeOf,
+       "friction that warms"},
+      {"motor_angle", "torque over motor angle", &MotorAngleOf, "a gear"},
+      {"friction_map", "friction over angle and velocity, cold and warm", &FrictionMapOf,
+       "a map over position or the motor's angle"},
   };
   return figures;
 }

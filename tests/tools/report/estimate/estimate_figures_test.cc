@@ -3,12 +3,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "identification/answer/identify.h"
+#include "identification/holdout/hold_out.h"
+#include "identification/identifiers/identifier_list.h"
 #include "tests/tools/report/look.h"
 #include "tests/tools/report/mapped_recording.h"
+#include "tests/tools/report/warm_recording.h"
 
 namespace warmjoint::report {
 namespace {
@@ -33,6 +39,7 @@ EstimateView ExampleView() {
   EstimateView view{mapped.estimate, mapped.measurements, std::nullopt};
   view.fit = mapped.View();
   view.fit->estimate = view.estimate;
+  view.held_out = view.fit;
   return view;
 }
 
@@ -52,7 +59,7 @@ TEST(EstimateFigures, AreTidyAndNamedAsTheirFiles) {
 
 TEST(EstimateFigures, ShowWhatTheEstimateAloneTellsWithoutItsRecording) {
   EstimateView view = ExampleView();
-  view = MakeEstimateView(view.estimate, std::nullopt);
+  view = MakeEstimateView(view.estimate);
   for (const EstimateFigure& one : EstimateFigures()) {
     EXPECT_EQ(one.make(view).has_value(), one.name == "trace") << one.name;
   }
@@ -62,7 +69,7 @@ TEST(EstimateFigures, ShowTheRecordingAloneWithoutAFriction) {
   EstimateView view = ExampleView();
   view.estimate.friction.reset();
   view.estimate.trace.clear();
-  view = MakeEstimateView(view.estimate, view.measurements);
+  view = MakeEstimateView(view.estimate, Prepare(*view.measurements));
   std::vector<std::string> shown;
   for (const EstimateFigure& one : EstimateFigures()) {
     const auto figure = one.make(view);
@@ -70,7 +77,41 @@ TEST(EstimateFigures, ShowTheRecordingAloneWithoutAFriction) {
     shown.push_back(one.name);
     EXPECT_FALSE(DrawLight(*figure).plots.empty()) << one.name;
   }
-  EXPECT_THAT(shown, testing::ElementsAre("fit", "log", "motor_angle"));
+  EXPECT_THAT(shown, testing::ElementsAre("fit", "log", "hysteresis", "motor_angle"));
+}
+
+/// An answer that knows no warming about a joint that warms, as its file holds it after a verdict.
+Estimate Refused(const PreparedLog& log, std::map<std::string, std::string> options) {
+  const Identifier& identifier = FindIdentifier("nominal-ls");
+  Estimate estimate = IdentifyAndJudge(identifier, {log, {identifier.options, options, {}}, {}});
+  EXPECT_NE(estimate.status, Status::ok);
+  return EstimateFromJson(EstimateToJson(estimate), {"estimate.json"});
+}
+
+TEST(EstimateFigures, ShowTheFitOfARefusedEstimateWithItsOptions) {
+  const PreparedLog log = Prepare(WarmRecording().measurements);
+  const Estimate refused = Refused(log, {{"law", "coulomb"}});
+  ASSERT_FALSE(refused.friction.has_value());
+  const EstimateView view = ViewOwnRecording(refused, log);
+  ASSERT_TRUE(view.fit->has_fit);
+  EXPECT_TRUE(view.fit->is_void());
+  EXPECT_EQ(view.estimate.friction->law, "coulomb");
+  EXPECT_EQ(view.estimate.parameters.size(), 1u);
+}
+
+TEST(EstimateFigures, PredictTheHeldOutSamplesByAFitThatHasNotSeenThem) {
+  const PreparedLog log = Prepare(WarmRecording().measurements);
+  const Identifier& identifier = FindIdentifier("energy-ml");
+  const Options options(identifier.options, {}, {});
+  const IdentifierInput input{log, options, {}};
+  Estimate estimate = IdentifyAndJudge(identifier, input);
+  estimate.holdout = HoldOut(identifier, input, 0.3);
+  const EstimateView view = ViewOwnRecording(estimate, log);
+  ASSERT_TRUE(view.held_out.has_value());
+  EXPECT_EQ(view.held_out->selection.count(), estimate.holdout->n);
+  const double rmse = std::sqrt(Residuals(*view.held_out).array().square().mean());
+  EXPECT_NEAR(rmse, estimate.holdout->rmse, 1e-9 * rmse) << "the same fit and the same samples";
+  EXPECT_FALSE(MakeEstimateView(estimate, log).held_out.has_value()) << "of another recording";
 }
 
 TEST(Trace, ShowsEachParameterByIterationWithItsFinalInterval) {

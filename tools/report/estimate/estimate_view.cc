@@ -1,0 +1,46 @@
+#include "tools/report/estimate/estimate_view.h"
+
+#include "tools/actions/fit_again.h"
+#include "tools/actions/identify_recording.h"
+
+namespace warmjoint::report {
+namespace {
+
+/// The kept samples from a time (s) on.
+Selection From(double time, const Measurements& measurements, Selection selection) {
+  for (Eigen::Index i = 0; i < measurements.size() && measurements.time[i] < time; ++i) {
+    selection.keep[i] = false;
+  }
+  std::erase_if(selection.segments,
+                [&](const Segment& segment) { return measurements.time[segment.begin] < time; });
+  return selection;
+}
+
+}  // namespace
+
+EstimateView MakeEstimateView(Estimate estimate) {
+  return {std::move(estimate), std::nullopt, std::nullopt, std::nullopt};
+}
+
+EstimateView MakeEstimateView(Estimate estimate, const PreparedLog& other) {
+  const auto& [measurements, selection] = other.taken();
+  EstimateView view = MakeEstimateView(std::move(estimate));
+  view.measurements = measurements;
+  view.fit = MakeFitView(measurements, selection, view.estimate);
+  return view;
+}
+
+EstimateView ViewOwnRecording(Estimate estimate, const PreparedLog& own) {
+  EstimateView view = MakeEstimateView(WithFitAgain(std::move(estimate), own), own);
+  if (!view.estimate.holdout) return view;
+  const auto& [measurements, selection] = own.taken();
+  const double share = 1 - HoldOutSource{}.fraction;
+  if (const auto first = FitOnFirst(view.estimate, own, share)) {
+    const double length = measurements.time.tail(1)[0] - measurements.time[0];
+    const double split = measurements.time[0] + share * length;
+    view.held_out = MakeFitView(measurements, From(split, measurements, selection), *first);
+  }
+  return view;
+}
+
+}  // namespace warmjoint::report

@@ -1,0 +1,56 @@
+#include "tools/report/figures/hysteresis.h"
+
+#include "tools/report/figures/axes.h"
+#include "tools/report/figures/fit_panels.h"
+
+namespace warmjoint::report {
+namespace {
+
+constexpr int kSegments = 4;  // a loop, and a reversal on either side
+
+Eigen::VectorXd Part(const Eigen::VectorXd& all, const Window& window) {
+  return all.segment(window.begin, window.end - window.begin);
+}
+
+bool GoesBothWays(const FitView& view) {
+  const Eigen::VectorXd kept = KeptOf(view, view.velocity);
+  return kept.size() > 0 && kept.minCoeff() < 0 && kept.maxCoeff() > 0;
+}
+
+/// Torque over position within a window. limits: of the torque.
+Plot Loop(const FitView& view, const Window& window, const std::pair<double, double>& limits) {
+  const Eigen::VectorXd position = Part(view.position, window);
+  Plot plot;
+  plot.series = {{"measured", Hue::grey, Line{position, Part(view.torque, window), 1.4}}};
+  if (view.has_fit) {
+    const Eigen::VectorXd fitted = Part(KeptOrGap(view, view.fitted), window);
+    plot.series.push_back(
+        {FitLabel(view), Hue::vermilion, Line{position, fitted, 1.6, FitDash(view)}});
+  }
+  plot.x = LinearAxis(PositionLabel(view), {position});
+  plot.y = {TorqueLabel(view, "torque"), limits.first, limits.second, Scale::linear, {}};
+  return plot;
+}
+
+}  // namespace
+
+std::optional<Figure> MakeHysteresis(const FitView& view) {
+  if (!GoesBothWays(view)) return std::nullopt;
+  const Window first = ColdWindow(view, kSegments), last = WarmWindow(view, kSegments);
+  const auto limits = TorqueLimits(view, first, last);
+  Figure figure;
+  figure.name = "hysteresis";
+  figure.title = "Torque over position, back and forth";
+  figure.subtitle = OriginOf(view);
+  figure.finding =
+      "The height of the loop is twice the friction; from the first to the last segments it "
+      "changes by "
+      "what the joint has warmed.";
+  figure.height = 400;
+  figure.columns = {1, 1};
+  figure.panels = {{"First segments", Loop(view, first, limits), 0, 0},
+                   {"Last segments", Loop(view, last, limits), 0, 1}};
+  return figure;
+}
+
+}  // namespace warmjoint::report
