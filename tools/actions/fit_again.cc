@@ -34,7 +34,9 @@ std::optional<Estimate> FitOnFirst(const Estimate& estimate, const PreparedLog& 
   const Eigen::VectorXd& time = log.taken().measurements.time;
   const double end = time[0] + share * (time.tail(1)[0] - time[0]);
   std::optional<Estimate> fit = FitBehind(estimate, log.Before(end));
-  return fit && fit->friction ? fit : std::nullopt;
+  if (!fit || !fit->friction) return std::nullopt;
+  fit->status = estimate.status;
+  return fit;
 }
 
 }  // namespace warmjoint::inline tools

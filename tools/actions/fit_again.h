@@ -13,7 +13,7 @@ namespace warmjoint::inline tools {
 /// friction, or its identifier is none of ours.
 Estimate WithFitAgain(Estimate estimate, const PreparedLog& log);
 
-/// The same identifier on the first part of the recording. Nothing where it is none of ours or gives no
+/// The same identifier on the first part of the recording, with the verdict on the whole. Nothing where it is none of ours or gives no
 /// friction there.
 std::optional<Estimate> FitOnFirst(const Estimate& estimate, const PreparedLog& log, double share);
 

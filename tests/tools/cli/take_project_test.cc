@@ -127,7 +127,7 @@ TEST_F(TakesProject, LetsAnEstimateFindItsRecordingFromAnotherFolder) {
 
   // from here, after both have moved, and where the recording came along into its folder
   const auto plots = [&](const std::string& file) {
-    return RunWarmjoint({"plot", file, "-o", Path("pictures")}).err;
+    return RunWarmjoint({"-q", "plot", file, "-o", Path("pictures")}).err;
   };
   EXPECT_EQ(plots(Path("estimates/one.json")), "");
   fs::create_directory(Path("moved"));
