@@ -6,6 +6,7 @@
 // settling; break-away, without gravity, by a load that rises from 3 N.m by 0.1 N.m/s, as the load
 // at which the joint exceeds 0.05 rad/s; drift by 3 N.m and 2.5 N.m of 20 Hz about it, over half a
 // minute; chatter by 12 N.m at 1 Hz, as the changes of direction beyond 1 mrad/s at each reversal.
+// Stick-slip: the link driven for ten seconds, with and without a weight that hangs from it.
 // Robots: every joint with a level of 1.5 times its gravity load plus 2 N.m, the worst joint over
 // ten seconds after ten of settling, over three steps and three integrators.
 #include <fmt/format.h>
@@ -15,6 +16,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "models/foundation/bad_input.h"
 #include "sim/model/friction_actuator.h"
@@ -34,35 +36,50 @@ const char* NameOf(mjtIntegrator integrator) {
   return integrator == mjINT_DISCRETE ? "discrete" : "implicitfast";
 }
 
-/// A friction and how a joint of a model gets it. level: N.m; inertia: effective, kg.m^2.
+/// A joint that gets friction.
+struct Holding {
+  std::string joint;
+  double level;    // N.m
+  double inertia;  // effective, kg.m^2
+};
+
+/// A friction and how the joints of a model get it.
 struct Kind {
   const char* name;
-  void (*add)(mjSpec& spec, const std::string& joint, double level, double inertia);
+  void (*add)(mjSpec& spec, const std::vector<Holding>& joints);
   int noslip = 0;  // iterations
 };
 
 template <FrictionForm form>
-void AddOurs(mjSpec& spec, const std::string& joint, double level, double) {
-  FrictionDescription friction;
-  friction.law = "coulomb";
-  friction.parameters = {{"coulomb", level}};
-  AddFriction(spec, {{joint, friction}}, {"sticking_table"}, form);
+void AddOurs(mjSpec& spec, const std::vector<Holding>& joints) {
+  std::vector<FrictionForJoint> frictions;
+  for (const Holding& joint : joints) {
+    FrictionDescription friction;
+    friction.law = "coulomb";
+    friction.parameters = {{"coulomb", joint.level}};
+    frictions.push_back({joint.joint, friction});
+  }
+  AddFriction(spec, frictions, {"sticking_table"}, form);
 }
 
-void AddFrictionLoss(mjSpec& spec, const std::string& joint, double level, double) {
-  FindJoint(spec, joint, {"sticking_table"})->frictionloss = level;
+void AddFrictionLoss(mjSpec& spec, const std::vector<Holding>& joints) {
+  for (const Holding& joint : joints) {
+    FindJoint(spec, joint.joint, {"sticking_table"})->frictionloss = joint.level;
+  }
 }
 
-/// A bristle that gives way by 0.6 mrad at the level, with a damping ratio of 0.6.
-void AddLugre(mjSpec& spec, const std::string& joint, double level, double inertia) {
-  mjsActuator* motor = mjs_addActuator(&spec, nullptr);
-  mjs_setString(motor->target, joint.c_str());
-  motor->trntype = mjTRN_JOINT;
-  const double stiffness = level / 0.0006, damping = 1.2 * std::sqrt(stiffness * inertia);
-  double constants[2] = {0, 0}, lugre[5] = {stiffness, damping, level, level, 0.01};
-  const std::string refusal = mjs_setToDCMotor(motor, constants, 1, nullptr, nullptr, nullptr,
-                                               nullptr, nullptr, nullptr, lugre, mjINPUT_NONE);
-  if (!refusal.empty()) Refuse({"sticking_table"}, "{}", refusal);
+/// Bristles that give way by 0.6 mrad at the level, with a damping ratio of 0.6.
+void AddLugre(mjSpec& spec, const std::vector<Holding>& joints) {
+  for (const auto& [joint, level, inertia] : joints) {
+    mjsActuator* motor = mjs_addActuator(&spec, nullptr);
+    mjs_setString(motor->target, joint.c_str());
+    motor->trntype = mjTRN_JOINT;
+    const double stiffness = level / 0.0006, damping = 1.2 * std::sqrt(stiffness * inertia);
+    double constants[2] = {0, 0}, lugre[5] = {stiffness, damping, level, level, 0.01};
+    const std::string refusal = mjs_setToDCMotor(motor, constants, 1, nullptr, nullptr, nullptr,
+                                                 nullptr, nullptr, nullptr, lugre, mjINPUT_NONE);
+    if (!refusal.empty()) Refuse({"sticking_table"}, "{}", refusal);
+  }
 }
 
 constexpr Kind kKinds[] = {{"ours, actuator", AddOurs<FrictionForm::actuator>},
@@ -92,7 +109,7 @@ class Link {
     spec->option.integrator = integrator;
     spec->option.gravity[2] = -gravity;
     spec->option.noslip_iterations = kind.noslip;
-    kind.add(*spec, "hinge", 6, 0.25);
+    kind.add(*spec, {{"hinge", 6, 0.25}});
     model_ = CompileModel(*spec, {kind.name});
     data_.reset(mj_makeData(model_.get()));
   }
@@ -186,10 +203,12 @@ ModelPtr WithFriction(const test::Robot& robot, const Kind& kind, double step,
   spec->option.timestep = step;
   spec->option.integrator = integrator;
   spec->option.noslip_iterations = kind.noslip;
+  std::vector<Holding> joints;
   for (int i = 0; i < bare->njnt; ++i) {
-    kind.add(*spec, mj_id2name(bare.get(), mjOBJ_JOINT, i), robot.level[static_cast<size_t>(i)],
-             1 / bare->dof_invweight0[bare->jnt_dofadr[i]]);
+    joints.push_back({mj_id2name(bare.get(), mjOBJ_JOINT, i), robot.level[static_cast<size_t>(i)],
+                      1 / bare->dof_invweight0[bare->jnt_dofadr[i]]});
   }
+  kind.add(*spec, joints);
   return CompileModel(*spec, {robot.path});
 }
 
@@ -239,9 +258,61 @@ void PrintRobots() {
   }
 }
 
+/// A drive of the link, N.m and Hz, with the weight's torque when it has turned by a quarter, N.m.
+struct Drive {
+  double torque, frequency, weight;
+  double At(double time) const {
+    return torque * std::sin(2 * std::numbers::pi * frequency * time);
+  }
+};
+constexpr double kDriven = 10;  // s
+
+/// Where the link ends, rad, by set-valued friction (Moreau's stepping).
+double EndByMoreau(const Drive& drive, double step) {
+  double position = 0, speed = 0;
+  const long steps = std::lround(kDriven / step);
+  for (long i = 0; i < steps; ++i) {
+    const double load = drive.At(static_cast<double>(i) * step) - drive.weight * std::sin(position);
+    const double free = speed + step * load / 0.25, most = step * 6 / 0.25;
+    speed = free - std::clamp(free, -most, most);
+    position += step * speed;
+  }
+  return position;
+}
+
+double EndByEngine(const Drive& drive, const Kind& kind, double step) {
+  Link link(kind, step, mjINT_IMPLICITFAST, 0);
+  mjData& d = link.data();
+  const long steps = std::lround(kDriven / step);
+  for (long i = 0; i < steps; ++i) {
+    const double time = static_cast<double>(i) * step;
+    d.qfrc_applied[0] = drive.At(time) - drive.weight * std::sin(d.qpos[0]);
+    link.Step();
+  }
+  return d.qpos[0];
+}
+
+/// The error of where the link ends after ten seconds, against Moreau's stepping by 20 us.
+void PrintStickSlip() {
+  fmt::print("\n{:<32} {:>5} {:>10} {:>10} {:>13}\n", "drive", "step", "Moreau", "ours",
+             "frictionloss");
+  for (const Drive& drive : {Drive{8, 0.5, 0}, Drive{10, 0.3, 0}, Drive{8, 0.5, 4.905},
+                             Drive{10, 0.3, 4.905}, Drive{6, 1, 4.905}}) {
+    const double truth = EndByMoreau(drive, 2e-5);
+    for (const double step : {0.0005, 0.001, 0.002, 0.005}) {
+      fmt::print(
+          "{:<32} {:5.1f} {:10.1e} {:10.1e} {:13.1e}\n",
+          fmt::format("{} N.m {} Hz, weight {} N.m", drive.torque, drive.frequency, drive.weight),
+          1e3 * step, EndByMoreau(drive, step) - truth, EndByEngine(drive, kKinds[1], step) - truth,
+          EndByEngine(drive, kKinds[2], step) - truth);
+    }
+  }
+}
+
 void Print() {
   RegisterFrictionPlugin();
   PrintLink();
+  PrintStickSlip();
   if (std::filesystem::exists(test::SharedFolder() / "robots")) {
     PrintRobots();
   } else {
