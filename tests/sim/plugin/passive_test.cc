@@ -110,33 +110,6 @@ TEST(PluginPassive, WorksBesideALimitOfTheMotorsForce) {
   EXPECT_EQ(d->qfrc_actuator[0], 1);
 }
 
-TEST(PluginPassive, ContinuesBitForBit) {
-  for (const char* integrator : {"implicitfast", "RK4"}) {
-    for (const FrictionDescription& friction : FrictionsOfEveryLaw()) {
-      SCOPED_TRACE(friction.law);
-      const Model m = MustCompile(ArmXml(friction, Form::passive, integrator));
-      const Data d(mj_makeData(m.get())), restored(mj_makeData(m.get()));
-      DriveArm(m.get(), d.get(), 400);
-      const Data copy(mj_copyData(nullptr, m.get(), d.get()));
-      const std::vector<mjtNum> half = FullState(m.get(), d.get());
-      DriveArm(m.get(), d.get(), 400);
-      const std::vector<mjtNum> end = FullState(m.get(), d.get());
-
-      // into data that was elsewhere, with forwards in between
-      DriveArm(m.get(), restored.get(), 123);
-      mj_setState(m.get(), restored.get(), half.data(), mjSTATE_FULLPHYSICS);
-      mj_forward(m.get(), restored.get());
-      DriveArm(m.get(), restored.get(), 400);
-      EXPECT_EQ(FullState(m.get(), restored.get()), end);
-      DriveArm(m.get(), copy.get(), 400);
-      EXPECT_EQ(FullState(m.get(), copy.get()), end);
-      mj_resetData(m.get(), restored.get());
-      DriveArm(m.get(), restored.get(), 400);
-      EXPECT_EQ(FullState(m.get(), restored.get()), half);
-    }
-  }
-}
-
 TEST(PluginPassive, RefusesJointsThatItCannotServe) {
   const FrictionDescription friction = FrictionsOfEveryLaw()[0];
   const auto error = [&](const std::string& from, const std::string& to) {
