@@ -215,8 +215,12 @@ void FrictionInstance::StepPassive(const mjModel* m, mjData* d) {
     motion_[i].ambient_rise = ambient;
   }
   StepJoints(m, d);
+  // the engine clears the forces of trees that are awake alone
+  const bool sleeps = m->opt.enableflags & mjENBL_SLEEP;
   for (size_t i = 0; i < force_.size(); ++i) {
-    d->qfrc_passive[bound_.joints()[i].dof] -= force_[i];
+    const int dof = bound_.joints()[i].dof;
+    if (sleeps && d->tree_asleep[m->dof_treeid[dof]] >= 0) continue;
+    d->qfrc_passive[dof] -= force_[i];
   }
 }
 
