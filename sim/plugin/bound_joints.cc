@@ -318,7 +318,9 @@ bool DrivenByActuators(const mjModel* m, int instance) {
 int PassiveStates(const mjModel* m, int instance) {
   const auto prepared = PrepareInstance(m, instance, {InstanceName(m, instance)});
   size_t states = 0;
-  for (const auto& [name, joint] : prepared->joints) states += joint.friction.state().size();
+  for (const PassiveJoint& joint : FindPassive(m, instance, *prepared)) {
+    states += joint.prepared->friction.state().size();
+  }
   return static_cast<int>(states);
 }
 

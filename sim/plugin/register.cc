@@ -1,15 +1,19 @@
 #include "sim/plugin/register.h"
 
+#include <fmt/format.h>
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <exception>
 #include <memory>
 #include <vector>
 
 #include "sim/plugin/attributes.h"
+#include "sim/plugin/check_actuator.h"
 #include "sim/plugin/friction_instance.h"
+#include "sim/plugin/prepared_joints.h"
 
 namespace warmjoint::inline sim {
 namespace {
@@ -31,14 +35,28 @@ int Init(const mjModel* m, mjData* d, int instance) {
   }
 }
 
-/// The numbers of plugin_state that an instance needs; a refusal is told by Init.
-int States(const mjModel* m, int instance) {
+/// Reads the attributes and counts the numbers of plugin_state; what they refuse goes to `refusal`.
+template <size_t n>
+int CountStates(const mjModel* m, int instance, std::array<char, n>& refusal) {
   try {
+    PrepareInstance(m, instance, {InstanceName(m, instance)});
     const bool passive = !DrivenByActuators(m, instance);
     return kFrictionReports + (passive ? PassiveStates(m, instance) : 0);
-  } catch (const std::exception&) {
-    return kFrictionReports;
+  } catch (const std::exception& refused) {
+    fmt::format_to_n(refusal.begin(), n - 1, "{}", refused.what());
+    return 0;
   }
+}
+
+/// The numbers of plugin_state that an instance needs. The compiler asks first of all for them, and
+/// tells an error once, where it tells what Init refuses twice. The error leaves by longjmp, so that
+/// nothing here may wait for its end.
+int States(const mjModel* m, int instance) {
+  static thread_local std::array<char, 900> refusal;
+  refusal.fill(0);
+  const int states = CountStates(m, instance, refusal);
+  if (refusal[0] != 0) mju_error("%s: %s", kFrictionPlugin, refusal.data());
+  return states;
 }
 
 /// Runs a callback; what it refuses in the middle of a run, where a model is another one than the

@@ -53,6 +53,17 @@ TEST(PluginAttributes, RefuseNumbersThatSlipped) {
                                   HasSubstr("from -1000000")));
 }
 
+TEST(PluginAttributes, TellARefusalOnce) {
+  for (const Config& config :
+       {Config{{"coulomb", "6"}}, With("viscous", "-1"), With("maps", "[")}) {
+    const std::string error = ErrorOf(config);
+    const std::string start = "warmjoint.friction: actuator 'f': ";
+    const size_t first = error.find(start);
+    ASSERT_NE(first, std::string::npos) << error;
+    EXPECT_EQ(error.find(start, first + 1), std::string::npos) << error;
+  }
+}
+
 TEST(PluginAttributes, RefuseAnActdimBelowOne) {
   EXPECT_THAT(Compile(LinkXml(FrictionSection(kGood, {.states = -1}), kNoGravity)).error,
               HasSubstr("actdim is not given, or below 1; it must be 2 (bristle load, energy)"));
