@@ -37,14 +37,19 @@ std::vector<std::string> JointsIn(const mjModel* m) {
   return names;
 }
 
-/// others: the kinematic trees on which other instances act.
+/// Instances by the kinematic trees on which they act.
+using OtherInstances = std::map<int, std::set<int>>;
+
+/// others: the other instances on each kinematic tree.
 BoundJoint BindJoint(const mjModel* m, int joint, const PreparedJoint& prepared,
-                     const std::set<int>& others) {
+                     const OtherInstances& others) {
   BoundJoint bound{.friction = prepared.friction};
   bound.joint = joint;
   bound.dof = m->jnt_dofadr[joint];
   bound.position = m->jnt_qposadr[joint];
-  bound.shared = others.contains(m->dof_treeid[bound.dof]);
+  if (const auto found = others.find(m->dof_treeid[bound.dof]); found != others.end()) {
+    bound.instances += static_cast<int>(found->second.size());
+  }
   bound.initial_energy = prepared.initial_energy;
   bound.needs_load = NeedsLoad(prepared.description);
   bound.needs_ambient = prepared.description.level_per_temperature != 0;
@@ -109,27 +114,28 @@ void RefuseSecond(const mjModel* m, int instance, int joint) {
   }
 }
 
-/// The kinematic trees on which other instances act, too.
-std::set<int> TreesOfOthers(const mjModel* m, int instance) {
-  std::set<int> trees;
-  const auto add = [&](int joint) { trees.insert(m->dof_treeid[m->jnt_dofadr[joint]]); };
+OtherInstances FindOthers(const mjModel* m, int instance) {
+  OtherInstances others;
+  const auto add = [&](int joint, int other) {
+    others[m->dof_treeid[m->jnt_dofadr[joint]]].insert(other);
+  };
   for (int i = 0; i < m->nactuator; ++i) {
     const int other = m->actuator_plugin[i];
     const bool friction =
         other >= 0 && other != instance && m->plugin[other] == m->plugin[instance];
-    if (friction && m->actuator_trntype[i] == mjTRN_JOINT) add(m->actuator_trnid[2 * i]);
+    if (friction && m->actuator_trntype[i] == mjTRN_JOINT) add(m->actuator_trnid[2 * i], other);
   }
   for (int other = 0; other < m->nplugin; ++other) {
     if (other == instance || m->plugin[other] != m->plugin[instance]) continue;
     if (DrivenByActuators(m, other)) continue;
     try {
       const auto prepared = PrepareInstance(m, other, {InstanceName(m, other)});
-      for (const PassiveJoint& joint : FindPassive(m, other, *prepared)) add(joint.joint);
+      for (const PassiveJoint& joint : FindPassive(m, other, *prepared)) add(joint.joint, other);
     } catch (const BadInput&) {
       // it refuses the model itself
     }
   }
-  return trees;
+  return others;
 }
 
 /// The friction of each joint that an instance's actuators drive.
@@ -212,13 +218,13 @@ bool BoundJoints::SameText(const mjModel* m) const {
 void BoundJoints::BindActuators(const mjModel* m) {
   const auto prepared = PrepareInstance(m, instance_, {InstanceName(m, instance_)});
   FrictionOfActuators frictions(m, instance_, *prepared);
-  const std::set<int> others = TreesOfOthers(m, instance_);
+  const OtherInstances others = FindOthers(m, instance_);
   for (int i = 0; i < m->nactuator; ++i) {
     if (m->actuator_plugin[i] != instance_) continue;
     const PreparedJoint& friction = frictions.Of(i);
     CheckActuator(m, i, friction.friction);
     BoundJoint bound = BindJoint(m, m->actuator_trnid[2 * i], friction, others);
-    CheckJoint(m, bound.joint, bound.friction, BristlesOf(bound.shared), {ActuatorName(m, i)});
+    CheckJoint(m, bound.joint, bound.friction, BristlesOf(bound.instances), {ActuatorName(m, i)});
     if (bound.needs_ambient && m->actuator_ctrlnum[i] == 0) {
       Refuse({ActuatorName(m, i)}, "has no control, which would be the ambient temperature's rise");
     }
@@ -234,13 +240,13 @@ void BoundJoints::BindActuators(const mjModel* m) {
 void BoundJoints::BindPassive(const mjModel* m, int states) {
   const std::string name = InstanceName(m, instance_);
   const auto prepared = PrepareInstance(m, instance_, {name});
-  const std::set<int> others = TreesOfOthers(m, instance_);
+  const OtherInstances others = FindOthers(m, instance_);
   int state = m->plugin_stateadr[instance_] + states;
   for (const auto& [joint, friction] : FindPassive(m, instance_, *prepared)) {
     const Place place{fmt::format("{}: {}", name, JointName(m, joint))};
     RefuseSecond(m, instance_, joint);
     BoundJoint bound = BindJoint(m, joint, *friction, others);
-    CheckJoint(m, joint, bound.friction, BristlesOf(bound.shared), place);
+    CheckJoint(m, joint, bound.friction, BristlesOf(bound.instances), place);
     bound.state = state;
     state += static_cast<int>(bound.friction.state().size());
     joints_.push_back(std::move(bound));

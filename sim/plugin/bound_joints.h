@@ -17,12 +17,12 @@ namespace warmjoint::inline sim {
 struct BoundJoint {
   int joint = 0;
   int dof = 0;
-  int position = 0;     // in qpos
-  int actuator = -1;    // -1 in the passive form
-  int state = 0;        // in act, or in plugin_state in the passive form
-  int control = -1;     // in ctrl; -1 where it has none
-  int output = -1;      // in actuator_force; -1 in the passive form
-  bool shared = false;  // its kinematic tree, with another instance
+  int position = 0;   // in qpos
+  int actuator = -1;  // -1 in the passive form
+  int state = 0;      // in act, or in plugin_state in the passive form
+  int control = -1;   // in ctrl; -1 where it has none
+  int output = -1;    // in actuator_force; -1 in the passive form
+  int instances = 1;  // on its kinematic tree
   bool needs_load = false;
   bool needs_ambient = false;
   std::array<double, 2> initial_energy{};  // {E1, E2} at a reset, N.m or N

@@ -37,14 +37,11 @@ CoupledBristles::CoupledBristles(const mjModel* m, const std::vector<CoupledJoin
 
 /// Sets what follows from the step. slope: of friction over speed, at most, in units of M/h.
 void CoupledBristles::Shape(Tree& tree, double slope) const {
-  bool shared = false;
-  for (const CoupledJoint& joint : tree.joints) shared = shared || joint.shared;
-
   // the slope damps already
   slope = std::min(slope, kMostSlope);
-  BristleShape shape = BristlesOf(shared);
+  BristleShape shape = BristlesOf(tree.joints.front().instances);
+  shape.stiffness *= 1 - slope;
   shape.damping = std::max(0.0, shape.damping - slope);
-  if (!shared) shape.stiffness *= 1 - slope;
   tree.stiffness = shape.stiffness / (h_ * h_);
   tree.damping = shape.damping / h_;
   for (const CoupledJoint& joint : tree.joints) {

@@ -16,10 +16,10 @@ namespace warmjoint::inline sim {
 
 /// A joint that CoupledBristles hold.
 struct CoupledJoint {
-  size_t place = 0;     // in the arrays that Step takes
-  int dof = 0;          // of the model
-  double inertia = 1;   // at the reference pose, kg.m^2 or kg
-  bool shared = false;  // its tree, with other instances
+  size_t place = 0;    // in the arrays that Step takes
+  int dof = 0;         // of the model
+  double inertia = 1;  // at the reference pose, kg.m^2 or kg
+  int instances = 1;   // on its kinematic tree, of the same kind as this one
 };
 
 /// One step of the bristles of several joints, elastic and perfectly plastic in the metric of the

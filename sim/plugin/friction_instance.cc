@@ -73,7 +73,7 @@ void FrictionInstance::BindBristles(const mjModel* m) {
     const BoundJoint& joint = bound_.joints()[i];
     const double inertia = EffectiveInertia(m, joint.dof);
     if (joint.friction.own_bristle() || inertia <= 0) continue;
-    coupled.push_back({i, joint.dof, inertia, joint.shared});
+    coupled.push_back({i, joint.dof, inertia, joint.instances});
   }
   bristles_ = CoupledBristles(m, coupled);
 }
@@ -98,7 +98,7 @@ void FrictionInstance::WarnOfTimestep(const mjModel* m, mjData* d) {
   if (reported != 0) return;
   for (const BoundJoint& joint : bound_.joints()) {
     try {
-      CheckJoint(m, joint.joint, joint.friction, BristlesOf(joint.shared),
+      CheckJoint(m, joint.joint, joint.friction, BristlesOf(joint.instances),
                  {JointName(m, joint.joint)});
     } catch (const BadInput& refusal) {
       reported = 1;
