@@ -14,6 +14,7 @@
 #include "tools/cli/take_project.h"
 #include "tools/report/draw/draw_figure.h"
 #include "tools/report/draw/figure_data.h"
+#include "tools/report/draw/layout.h"
 #include "tools/report/estimate/overlay.h"
 #include "tools/report/gl/film.h"
 #include "tools/report/page/contact_sheet.h"
@@ -151,7 +152,15 @@ ExitStatus PlotSources(const PlotArguments& arguments) {
              error ? error.message() : "it is a file");
     }
     for (const report::Figure& figure : figures) {
-      album.Draw(figure, folders[i]);
+      try {
+        album.Draw(figure, folders[i]);
+      } catch (const report::TooSmall& refusal) {
+        // one that was not asked for by name is no reason to lose the others
+        if (!all) throw;
+        activity.Aside(
+            [&] { SayNotice("{}: left out: {}\n", arguments.sources[i], refusal.what()); });
+        continue;
+      }
       if (arguments.data) album.WriteData(figure, folders[i]);
     }
     album.DrawFilm(pictures.film, folders[i]);

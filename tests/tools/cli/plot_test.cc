@@ -123,6 +123,15 @@ TEST(Plot, DrawsTheFigureThatThePaperNumbersInTheFormatAsked) {
   EXPECT_THAT(other.err, HasSubstr("figure 9 of the paper (motor_fit) needs an estimate with a map "
                                    "over the motor's angle; this source gives: kernels"));
   EXPECT_EQ(RunWarmjoint({"plot", "kernels", "--size", "5x5", "-o", at("other")}).status, 2);
+  EXPECT_EQ(RunWarmjoint({"plot", "kernels", "--figure", "3", "--size", "20x20", "-o", at("named")})
+                .status,
+            2)
+      << "it has no room";
+  // without a name it is left out, and told
+  const Answer small = RunWarmjoint({"plot", "kernels", "--size", "20x20", "-o", at("small")});
+  EXPECT_EQ(small.status, 0);
+  EXPECT_THAT(small.err, HasSubstr("kernels: left out: 'kernels' is too small"));
+  EXPECT_TRUE(fs::is_empty(at("small")));
   EXPECT_FALSE(fs::exists(at("other")));
 }
 

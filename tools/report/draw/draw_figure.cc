@@ -7,6 +7,7 @@
 #include "tools/report/draw/draw_words.h"
 #include "tools/report/draw/layout.h"
 #include "tools/report/draw/pen.h"
+#include "tools/report/draw/stacked.h"
 
 namespace warmjoint::report {
 namespace {
@@ -105,8 +106,13 @@ Figure OnPage(Figure figure, const PageSetting& setting) {
   const double points = kPointsPerMillimetre / setting.style.scale;
   const double width = setting.width > 0 ? setting.width : setting.style.width;
   if (width > 0) figure.width = points * width;
-  if (setting.height > 0) figure.height = points * setting.height;
-  return figure;
+  // a height that was asked for is that of the figure as it stands
+  if (setting.height > 0) {
+    figure.height = points * setting.height;
+    return figure;
+  }
+  const double head = BelowHead(figure);
+  return Stacked(std::move(figure), head);
 }
 
 }  // namespace

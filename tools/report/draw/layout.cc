@@ -129,12 +129,11 @@ std::vector<PanelPlace> LayOut(const Figure& figure, double top) {
             std::round(area.right - right[panel.column + panel.column_span - 1]),
             std::round(area.bottom - bottom[panel.row + panel.row_span - 1])};
     if (area.width() < kLeastWidth || area.height() < kLeastHeight) {
-      Refuse(
-          {},
+      throw TooSmall(fmt::format(
           "'{}' is too small for '{}': {:.0f} x {:.0f} points are left between its axes, {:.0f} x "
           "{:.0f} are needed; give it more room",
           figure.name, panel.title, std::max(0.0, area.width()), std::max(0.0, area.height()),
-          kLeastWidth, kLeastHeight);
+          kLeastWidth, kLeastHeight));
     }
   }
   return places;

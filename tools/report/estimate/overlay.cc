@@ -31,10 +31,13 @@ Fits FitsOf(const std::vector<NamedEstimate>& estimates) {
 Hue HueAt(std::size_t place) { return kHues[place % std::size(kHues)]; }
 Dash DashAt(std::size_t place) { return kDashes[place / std::size(kHues) % std::size(kDashes)]; }
 
-/// The cold curves of all over the samples of the first.
+/// The cold curves of all over the samples of the first; each curve without warming is cold all along.
 Plot Curves(const Fits& fits) {
   Plot plot = FrictionCurve(*fits.front().second);
-  std::vector<Series> series{plot.series.front()};
+  std::vector<Series> series = plot.series;
+  std::erase_if(series, [](const Series& one) {
+    return !std::holds_alternative<Scatter>(one.shape) || one.label.empty();
+  });
   for (std::size_t i = 0; i < fits.size(); ++i) {
     std::string label = fits[i].first;
     for (const Series& own : FrictionCurve(*fits[i].second).series) {

@@ -28,7 +28,7 @@ Plot CloseUp(const FitView& view, const Window& window, const std::pair<double, 
 std::pair<double, double> TorqueLimits(const FitView& view, const Window& a, const Window& b);
 
 /// Torque over velocity: samples, the fitted curve cold and warm with their 95 % bands where these
-/// are wider than a line. Maps enter by their mean over the places of the samples.
+/// are wider than a line. With maps, the mean at each speed over the places where the joint moved so.
 Plot FrictionCurve(const FitView& view);
 
 /// E over time with its 95 % band, over what the samples say of it, Eq. (23).

@@ -4,6 +4,7 @@
 #include "tools/report/figures/axes.h"
 #include "tools/report/figures/fit_panels.h"
 #include "tools/report/figures/friction_spread.h"
+#include "tools/report/figures/speed_groups.h"
 
 namespace warmjoint::report {
 namespace {
@@ -13,30 +14,49 @@ constexpr std::size_t kPlaces = 300;
 constexpr double kThinnestBand = 0.008;  // of the axis: about a line's width
 constexpr double kNormal95 = 1.96;       // standard deviations of a 95 % interval
 
-/// Places of kept samples of one direction, evenly over the recording, at one energy.
-std::vector<JointPlace> PlacesOf(const FitView& view, int direction, double energy) {
-  std::vector<Eigen::Index> samples;
-  for (Eigen::Index i = 0; i < view.time.size(); ++i) {
-    if (view.selection.keep[i] && view.velocity[i] * direction > 0) samples.push_back(i);
-  }
-  std::vector<JointPlace> places;
+/// The force of steady sliding at an energy and the mean speed of some samples: its mean over their places.
+Eigen::Vector2d MeanOfMaps(const FitView& view, const std::vector<Eigen::Index>& samples,
+                           double energy) {
+  const JointFriction joint(*view.estimate.friction);
+  const double speed = view.velocity(samples).mean();
   const std::size_t step = std::max<std::size_t>(1, samples.size() / kPlaces);
-  for (std::size_t i = 0; i < samples.size(); i += step) {
-    places.push_back(PlaceAt(view, samples[i]));
-    places.back().energy = energy;
+  double sum = 0, count = 0;
+  for (std::size_t i = 0; i < samples.size(); i += step, ++count) {
+    JointPlace place = PlaceAt(view, samples[i]);
+    place.energy = energy;
+    sum += joint.SlidingForce(speed, place);
   }
-  return places;
+  return {speed, sum / count};
 }
 
-/// The force of steady sliding, Eq. (20), at each speed: its mean over the places.
+/// A friction with maps has no curve over velocity: its mean at each speed, over the places where the joint
+/// moved so.
+void AddMeansOfMaps(Plot& plot, const FitView& view, double energy, Hue hue, std::string label,
+                    std::vector<Eigen::VectorXd>& shown) {
+  for (int direction : {1, -1}) {
+    std::vector<double> speeds, forces;
+    for (const SpeedGroup& group : GroupBySpeed(view, direction)) {
+      if (group.samples.empty()) continue;
+      const Eigen::Vector2d mean = MeanOfMaps(view, group.samples, energy);
+      speeds.push_back(mean[0]);
+      forces.push_back(mean[1]);
+    }
+    const auto count = static_cast<Eigen::Index>(speeds.size());
+    if (count == 0) continue;
+    const Eigen::VectorXd x = Eigen::Map<Eigen::VectorXd>(speeds.data(), count);
+    const Eigen::VectorXd y = Eigen::Map<Eigen::VectorXd>(forces.data(), count);
+    plot.series.push_back({label, hue, Line{x, y, 2.0, FitDash(view)}});
+    plot.series.push_back({"", hue, Scatter{x, y, 3.0, Marker::diamond}});
+    label.clear();
+    shown.push_back(y);
+  }
+}
+
+/// The force of steady sliding, Eq. (20), at each speed, of a friction without maps.
 Eigen::VectorXd CurveOf(const FrictionDescription& friction, const Eigen::VectorXd& speeds,
-                        const std::vector<JointPlace>& places) {
+                        double energy) {
   const JointFriction joint(friction);
-  return speeds.unaryExpr([&](double v) {
-    double sum = 0;
-    for (const JointPlace& place : places) sum += joint.SlidingForce(v, place);
-    return sum / static_cast<double>(places.size());
-  });
+  return speeds.unaryExpr([&](double v) { return joint.SlidingForce(v, {0, energy, 0}); });
 }
 
 /// Speeds of one direction from the slowest to the fastest kept one; empty where it never moved so.
@@ -59,15 +79,10 @@ void AddCurves(Plot& plot, const FitView& view, const FrictionSpread& spread, do
   for (int direction : {1, -1}) {
     const Eigen::VectorXd speeds = SpeedsOf(KeptOf(view, view.velocity), direction);
     if (speeds.size() == 0) continue;
-    // without maps every place is as good as another
-    const std::vector<JointPlace> places = friction.maps.empty()
-                                               ? std::vector<JointPlace>{{0, energy, 0}}
-                                               : PlacesOf(view, direction, energy);
-    if (places.empty()) continue;
-    const Eigen::VectorXd force = CurveOf(friction, speeds, places);
+    const Eigen::VectorXd force = CurveOf(friction, speeds, energy);
     const Eigen::VectorXd deviation = SpreadOfPrediction(
         spread, friction,
-        [&](const FrictionDescription& other) { return CurveOf(other, speeds, places); });
+        [&](const FrictionDescription& other) { return CurveOf(other, speeds, energy); });
     if (deviation.size() > 0 && 2 * kNormal95 * deviation.maxCoeff() > kThinnestBand * range) {
       plot.series.push_back(
           {"", hue,
@@ -96,6 +111,31 @@ void AddMeasured(Plot& plot, const FitView& view, const Eigen::VectorXd& velocit
   plot.series.push_back({"while warm", Hue::orange, Scatter{velocity(warm), torque(warm), kDot}});
 }
 
+/// The fit, cold and where it is warmest.
+void AddFit(Plot& plot, const FitView& view, const Eigen::VectorXd& torque,
+            std::vector<Eigen::VectorXd>& shown) {
+  struct Level {
+    double energy;
+    Hue hue;
+    const char* name;
+  };
+  std::vector<Level> levels{{0, Hue::blue, view.warms() ? ", cold" : ""}};
+  if (view.warms()) levels.push_back({WarmestEnergy(view), Hue::vermilion, ", warmest"});
+  const bool has_maps = !view.estimate.friction->maps.empty();
+  const auto [lowest, highest] = RangeOf({torque});
+  const FrictionSpread spread =
+      has_maps ? FrictionSpread{}
+               : SpreadOf(view.estimate, view.course, view.start, view.selection);
+  for (const auto& [energy, hue, name] : levels) {
+    if (has_maps) {
+      AddMeansOfMaps(plot, view, energy, hue, FitLabel(view) + ", mean at each speed" + name,
+                     shown);
+    } else {
+      AddCurves(plot, view, spread, energy, highest - lowest, hue, FitLabel(view) + name, shown);
+    }
+  }
+}
+
 }  // namespace
 
 Plot FrictionCurve(const FitView& view) {
@@ -104,22 +144,7 @@ Plot FrictionCurve(const FitView& view) {
   Plot plot;
   AddMeasured(plot, view, velocity, torque);
   std::vector<Eigen::VectorXd> shown{torque};
-  if (view.has_fit) {
-    // parameters and maps stand in for each other: the spread of the law alone says nothing then
-    const bool has_maps = !view.estimate.friction->maps.empty();
-    const FrictionSpread spread =
-        has_maps ? FrictionSpread{}
-                 : SpreadOf(view.estimate, view.course, view.start, view.selection);
-    const std::string what = FitLabel(view) + (has_maps ? ", mean over its maps" : "");
-    const auto [lowest, highest] = RangeOf({torque});
-    const double range = highest - lowest;
-    AddCurves(plot, view, spread, 0, range, Hue::blue, view.warms() ? what + ", cold" : what,
-              shown);
-    if (view.warms()) {
-      AddCurves(plot, view, spread, WarmestEnergy(view), range, Hue::vermilion, what + ", warmest",
-                shown);
-    }
-  }
+  if (view.has_fit) AddFit(plot, view, torque, shown);
   plot.x = LinearAxis(SpeedLabel(view), {velocity});
   plot.y = LinearAxis(TorqueLabel(view, "torque"), shown);
   return plot;

@@ -14,15 +14,18 @@
 namespace warmjoint::report {
 namespace {
 
+/// The row's NPE at one rung, NaN at the others, per cent, [R].
+Eigen::VectorXd AtRung(const RunRow& row, Eigen::Index rung) {
+  return (row.variant.array() == static_cast<int>(rung)).select(100 * row.npe, std::nan(""));
+}
+
 /// Quartiles of the row's NPE at each rung, per cent.
 QuartileCurve RungsOf(const RunRow& row, const Rungs& rungs) {
   const Eigen::Index count = rungs.values.size();
   QuartileCurve curve{rungs.values, Eigen::VectorXd(count), Eigen::VectorXd(count),
                       Eigen::VectorXd(count)};
   for (Eigen::Index rung = 0; rung < count; ++rung) {
-    const Eigen::VectorXd npe =
-        (row.variant.array() == static_cast<int>(rung)).select(100 * row.npe, std::nan(""));
-    const QuartileCurve one = QuartilesOf(Eigen::VectorXd::Zero(1), npe);
+    const QuartileCurve one = QuartilesOf(Eigen::VectorXd::Zero(1), AtRung(row, rung));
     curve.q25[rung] = one.q25[0];
     curve.median[rung] = one.median[0];
     curve.q75[rung] = one.q75[0];
@@ -44,6 +47,21 @@ Eigen::VectorXd BoundOf(const RunRow& row, const Rungs& rungs) {
     bound[rung] = std::sqrt(here.select(squares, 0).sum() / count);
   }
   return row.parameters.empty() ? bound.setConstant(std::nan("")) : bound;
+}
+
+/// The rms NPE of every row at every rung, which stands beside the bound, as the median does not.
+Scatter MeansOf(const RunView& run) {
+  const Eigen::Index count = run.rungs.values.size();
+  const auto rows = static_cast<Eigen::Index>(run.rows.size());
+  Scatter means{Eigen::VectorXd(count * rows), Eigen::VectorXd(count * rows), 3, Marker::diamond};
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    for (Eigen::Index rung = 0; rung < count; ++rung) {
+      means.x[i * count + rung] = run.rungs.values[rung];
+      means.y[i * count + rung] =
+          RootMeanSquare(AtRung(run.rows[static_cast<std::size_t>(i)], rung));
+    }
+  }
+  return means;
 }
 
 /// " energy-ml 0.107 to 10.7 %," along the ladder; " energy-ml 0.84 % (ladder) to 8.7 % (slow),"
@@ -128,6 +146,8 @@ std::optional<Figure> LadderFigure(const RunView& run) {
   }
   if (!std::isfinite(RangeOf(shown).first)) return std::nullopt;
   plot.series.insert(plot.series.end(), lines.begin(), lines.end());
+  const Scatter means = MeansOf(run);
+  shown.push_back(means.y);
   const Eigen::VectorXd bound = BoundOf(run.rows.front(), rungs);
   if (bound.array().isFinite().any()) {
     plot.series.push_back(
@@ -145,6 +165,7 @@ std::optional<Figure> LadderFigure(const RunView& run) {
   plot.y = MagnitudeAxis("NPE, continuous (%)", shown);
 
   const std::vector<std::string> silent = MarkSilent(rungs, plot);
+  plot.series.push_back({"root mean square", Hue::text, means});
   const std::string title =
       rungs.names.empty() ? fmt::format("Parameter error against {}", VariableName(rungs.variable))
                           : "Parameter error in each variant";

@@ -7,7 +7,9 @@
 #include "tools/report/draw/ticks.h"
 #include "tools/report/figures/axes.h"
 #include "tools/report/figures/single_plot.h"
+#include "tools/report/run/quartiles.h"
 #include "tools/report/run/run_figures.h"
+#include "tools/terminal/shell_words.h"
 
 namespace warmjoint::report {
 namespace {
@@ -39,15 +41,9 @@ Box BoxOf(double x, const Eigen::VectorXd& values) {
 std::string LabelOf(const RunRow& row) {
   std::string label = row.label;
   for (const auto& [status, count] : row.failures) {
-    label += fmt::format("\n{} of {} {}", count, row.runs, status);
+    label += fmt::format("\n{} of {} {}", count, row.runs, Replaced(status, "_", " "));
   }
   return label;
-}
-
-double RootMeanSquare(const Eigen::VectorXd& values) {
-  const auto finite = values.array().isFinite();
-  return std::sqrt(finite.select(values.array().square(), 0).sum() /
-                   static_cast<double>(finite.count()));
 }
 
 void Append(Eigen::VectorXd& values, double value) {

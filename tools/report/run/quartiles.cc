@@ -16,6 +16,12 @@ std::string MediansSubtitle(const std::string& suite, int realizations) {
       realizations, realizations == 1 ? "" : "s");
 }
 
+double RootMeanSquare(const Eigen::VectorXd& values) {
+  const auto finite = values.array().isFinite();
+  return std::sqrt(finite.select(values.array().square(), 0).sum() /
+                   static_cast<double>(finite.count()));
+}
+
 QuartileCurve QuartilesOf(const Eigen::VectorXd& x, const Eigen::MatrixXd& values) {
   const Eigen::Index columns = values.cols();
   QuartileCurve curve{x, Eigen::VectorXd(columns), Eigen::VectorXd(columns),

@@ -18,6 +18,9 @@ struct QuartileCurve {
 /// medians, bands reach from quartile to quartile".
 std::string MediansSubtitle(const std::string& suite, int realizations);
 
+/// Of what is finite; NaN where nothing is.
+double RootMeanSquare(const Eigen::VectorXd& values);
+
 /// values: [R x K], NaN left out; x: [K].
 QuartileCurve QuartilesOf(const Eigen::VectorXd& x, const Eigen::MatrixXd& values);
 

@@ -138,7 +138,7 @@ TEST(FrictionCurve, RunsThroughTheDataWhereMapsCarryAConstant) {
   const Plot plot = FrictionCurve(MakeFitView(warm.measurements, warm.selection, warm.estimate));
   // 11 + 5 v of the law and 4 of the map, forwards at the fastest
   for (const Series& series : plot.series) {
-    if (series.label != "fit, mean over its maps, cold") continue;
+    if (series.label != "fit, mean at each speed, cold") continue;
     const Line& line = std::get<Line>(series.shape);
     EXPECT_NEAR(line.y.tail(1)[0], 15 + 5 * line.x.tail(1)[0], 0.01);
     return;

@@ -55,7 +55,7 @@ TEST(NpeBoxes, StandInTheIdentifiersColoursWithTheFailuresWrittenOut) {
   EXPECT_EQ(SeriesNamed(plot, "Cramér-Rao bound (rms)").y.first, 1.2);
   const double rms = std::sqrt(run.rows[0].npe.squaredNorm() / kExampleRealizations);
   EXPECT_NEAR(SeriesNamed(plot, "root mean square").y.first, 100 * rms, 1e-9);
-  EXPECT_TRUE(Writes(drawn, "12 of 40 not_converged"));
+  EXPECT_TRUE(Writes(drawn, "12 of 40 not converged"));
   EXPECT_THAT(figure.finding, HasSubstr("with 12 of 40 failed"));
 }
 
@@ -71,7 +71,7 @@ TEST(NpeBoxes, CentreTheFailuresUnderTheIdentifier) {
   const Drawn drawn = DrawLight(*NpeBoxes(ExampleRun()));
   const DrawnPlot& plot = drawn.plots.at(0);
   for (const DrawnText& text : drawn.texts) {
-    if (text.text.find("not_converged") == std::string::npos) continue;
+    if (text.text.find("not converged") == std::string::npos) continue;
     const double place = plot.area.left + plot.area.width() * 0.75;  // the second of two
     EXPECT_NEAR((text.place.left + text.place.right) / 2, place, 1);
     // each line by itself: ink to both sides of the middle is alike in the first, short one
