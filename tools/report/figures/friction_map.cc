@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "tools/report/draw/frame.h"
@@ -35,15 +36,22 @@ std::optional<Across> AcrossOf(const FitView& view) {
   return std::nullopt;
 }
 
-/// Slowest and fastest kept speed, rad/s or m/s.
-std::pair<double, double> SpeedsOf(const FitView& view) {
-  return RangeOf({KeptOf(view, view.velocity).cwiseAbs()});
-}
+/// Speeds at which the joint passed a column of the map, rad/s or m/s; none where it never did.
+struct Passage {
+  double slowest = std::numeric_limits<double>::infinity();
+  double fastest = 0;
 
-/// Which columns of the map the joint passed in a direction: those of its kept samples, and those between
-/// two of them that follow each other.
-std::vector<bool> Passed(const FitView& view, const Across& across, int direction) {
-  std::vector<bool> passed(kColumns, false);
+  /// Whether a speed is among them, or hardly another.
+  bool Holds(double speed) const {
+    constexpr double kSpare = 0.1;  // of a speed: over so little no friction changes much
+    return speed >= (1 - kSpare) * slowest && speed <= (1 + kSpare) * fastest;
+  }
+};
+
+/// The passages of a direction by column: those of its kept samples, and of what lies between two of them
+/// that follow each other.
+std::vector<Passage> Passages(const FitView& view, const Across& across, int direction) {
+  std::vector<Passage> passages(kColumns);
   const Eigen::VectorXd& angle =
       across.quantity == MapQuantity::motor_position ? view.motor_angle : view.position;
   const auto column_of = [&](Eigen::Index i) {
@@ -51,30 +59,34 @@ std::vector<bool> Passed(const FitView& view, const Across& across, int directio
     return std::clamp<Eigen::Index>(column, 0, kColumns - 1);
   };
   for (Eigen::Index i = 0; i < view.time.size(); ++i) {
-    if (!view.selection.keep[i] || view.velocity[i] * direction <= 0) continue;
+    const double speed = view.velocity[i] * direction;
+    if (!view.selection.keep[i] || speed <= 0) continue;
     const Eigen::Index here = column_of(i);
     const bool follows = i > 0 && view.selection.keep[i - 1];
     Eigen::Index before = follows ? column_of(i - 1) : here;
     // a motor's angle begins anew after each turn
     if (std::abs(here - before) > kColumns / 2) before = here;
     for (Eigen::Index c = std::min(here, before); c <= std::max(here, before); ++c) {
-      passed[static_cast<std::size_t>(c)] = true;
+      Passage& passage = passages[static_cast<std::size_t>(c)];
+      passage.slowest = std::min(passage.slowest, speed);
+      passage.fastest = std::max(passage.fastest, speed);
     }
   }
-  return passed;
+  return passages;
 }
 
-/// sign(v) F with its rows at velocities from -fastest to fastest; NaN below the slowest speed, and
-/// where no kept sample is.
+/// sign(v) F with its rows at velocities from -fastest to fastest; NaN where the joint never moved so
+/// fast or so slowly at that place.
 HeatMap LevelMap(const FitView& view, const Across& across, double energy) {
-  const auto [slowest, fastest] = SpeedsOf(view);
+  const double fastest = KeptOf(view, view.velocity).cwiseAbs().maxCoeff();
   HeatMap map{Eigen::MatrixXd(kRows, kColumns),
               {across.axis.lower, across.axis.upper},
               {-fastest, fastest},
               {0, 1},
               TorqueLabel(view, "sign(v) · friction")};
   const double middle = KeptOf(view, view.position).mean();
-  const std::vector<bool> forwards = Passed(view, across, 1), backwards = Passed(view, across, -1);
+  const std::vector<Passage> forwards = Passages(view, across, 1),
+                             backwards = Passages(view, across, -1);
   const JointFriction sliding(*view.estimate.friction);
   for (Eigen::Index row = 0; row < kRows; ++row) {
     const double v = fastest * (2 * (static_cast<double>(row) + 0.5) / kRows - 1);
@@ -83,9 +95,9 @@ HeatMap LevelMap(const FitView& view, const Across& across, double energy) {
       const double angle = across.axis.lower + share * (across.axis.upper - across.axis.lower);
       const bool over_motor = across.quantity == MapQuantity::motor_position;
       const JointPlace place{over_motor ? middle : angle, energy, 0, over_motor ? angle : 0};
-      const bool known = (v > 0 ? forwards : backwards)[static_cast<std::size_t>(column)];
+      const Passage& passage = (v > 0 ? forwards : backwards)[static_cast<std::size_t>(column)];
       map.values(row, column) =
-          std::abs(v) < slowest || !known ? std::nan("") : Sign(v) * sliding.SlidingForce(v, place);
+          passage.Holds(std::abs(v)) ? Sign(v) * sliding.SlidingForce(v, place) : std::nan("");
     }
   }
   return map;
@@ -141,7 +153,7 @@ std::optional<Figure> MakeFrictionMap(const FitView& view) {
   figure.name = "friction_map";
   const bool motor = across->quantity == MapQuantity::motor_position;
   figure.title = fmt::format("Friction over {} and velocity", motor ? "motor angle" : "position");
-  figure.subtitle = OriginOf(view) + "; empty where the joint never was, or never moved so slowly";
+  figure.subtitle = OriginOf(view) + "; empty where the joint never moved so";
   const auto range = [](const HeatMap& map) { return RangeOf({map.values.reshaped()}); };
   figure.finding = "Friction";
   for (const auto& [title, map] : maps) {

@@ -23,7 +23,7 @@ bool Passed(const FitView& view) { return view.estimate.status == Status::ok; }
 
 std::string List(const std::vector<std::string>& items) {
   std::string html;
-  for (const std::string& item : items) html += "<li>" + Escape(item) + "</li>\n";
+  for (const std::string& item : items) html += "<li>" + Escape(InPrint(item)) + "</li>\n";
   return "<ul>\n" + html + "</ul>\n";
 }
 

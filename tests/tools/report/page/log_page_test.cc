@@ -32,7 +32,7 @@ TEST(LogPage, SaysWhyALogWasRefusedAndWhatToRecord) {
   warm.estimate.diagnostics = {direction};
   const std::string page = PageOf(warm);
   EXPECT_THAT(page, HasSubstr("the model does not describe these data: do not use the numbers"));
-  EXPECT_THAT(page, HasSubstr("The residual depends on direction &lt;3 N.m&gt;."));
+  EXPECT_THAT(page, HasSubstr("The residual depends on direction &lt;3 N·m&gt;."));
   EXPECT_THAT(page, HasSubstr("Do forward and backward motion leave different residuals?"));
   EXPECT_THAT(page, HasSubstr("try --set law=asymmetric"));
   EXPECT_THAT(page, HasSubstr("Void: parameters of a fit that failed"));
