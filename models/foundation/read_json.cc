@@ -6,6 +6,7 @@
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/excerpt.h"
+#include "models/foundation/json_turn.h"
 #include "models/foundation/utf8.h"
 
 namespace warmjoint::inline models {
@@ -58,6 +59,7 @@ nlohmann::json ParseJson(const std::string& text, const std::string& file) {
   }
   CheckDepth(text, file);
   try {
+    const auto turn = JsonTurn();
     return nlohmann::json::parse(text);
   } catch (const nlohmann::json::parse_error& error) {
     Refuse(PlaceOf(text, error.byte, file), "is not JSON: {}",

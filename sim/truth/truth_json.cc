@@ -5,6 +5,7 @@
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/json_members.h"
+#include "models/foundation/json_turn.h"
 #include "models/foundation/read_json.h"
 
 namespace warmjoint::inline sim {
@@ -81,7 +82,12 @@ Truth TruthFromJson(const json& object, const Place& place) {
 }
 
 void WriteTruth(const Truth& truth, const std::string& path) {
-  WriteWholeFile(path, TruthToJson(truth).dump() + "\n");
+  const nlohmann::json json = TruthToJson(truth);
+  const auto written = [&] {
+    const auto turn = JsonTurn();
+    return json.dump() + "\n";
+  };
+  WriteWholeFile(path, written());
 }
 
 Truth ReadTruth(const std::string& path) { return TruthFromJson(ReadJsonFile(path), {path}); }
