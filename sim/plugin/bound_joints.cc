@@ -12,6 +12,7 @@
 #include "sim/plugin/check_actuator.h"
 #include "sim/plugin/check_joint.h"
 #include "sim/plugin/joint_names.h"
+#include "sim/plugin/plugin_instances.h"
 #include "sim/plugin/prepared_joints.h"
 
 namespace warmjoint::inline sim {
@@ -19,26 +20,6 @@ namespace {
 
 /// Of longer attributes the beginning and the end are compared at each step.
 constexpr size_t kCompared = 2048;  // bytes
-
-std::string NameIn(const mjModel* m, mjtObj type, int id) {
-  const char* name = mj_id2name(m, type, id);
-  return name ? name : "";
-}
-
-std::vector<std::string> JointsOf(const PreparedInstance& prepared) {
-  std::vector<std::string> names;
-  for (const auto& [name, unused] : prepared.joints) names.push_back(name);
-  return names;
-}
-
-std::vector<std::string> JointsIn(const mjModel* m) {
-  std::vector<std::string> names;
-  for (int i = 0; i < m->njnt; ++i) names.push_back(NameIn(m, mjOBJ_JOINT, i));
-  return names;
-}
-
-/// Instances by the kinematic trees on which they act.
-using OtherInstances = std::map<int, std::set<int>>;
 
 /// others: the other instances on each kinematic tree.
 BoundJoint BindJoint(const mjModel* m, int joint, const PreparedJoint& prepared,
@@ -54,88 +35,6 @@ BoundJoint BindJoint(const mjModel* m, int joint, const PreparedJoint& prepared,
   bound.needs_load = NeedsLoad(prepared.description);
   bound.needs_ambient = prepared.description.level_per_temperature != 0;
   return bound;
-}
-
-/// The joints of a passive instance: each joint of the model that `joints` names, in the model's
-/// order.
-struct PassiveJoint {
-  int joint;
-  const PreparedJoint* prepared;
-};
-
-std::vector<PassiveJoint> FindPassive(const mjModel* m, int instance,
-                                      const PreparedInstance& prepared) {
-  const Place place{InstanceName(m, instance)};
-  if (prepared.joints.contains("")) {
-    Refuse(place,
-           "no actuator refers to it; one that acts by itself needs the attribute joints, which "
-           "names them");
-  }
-  const std::vector<std::string> all = JointsIn(m), named = JointsOf(prepared);
-  const std::set<std::string> known(all.begin(), all.end());
-  const InstanceNames names{prepared.written_name, NameIn(m, mjOBJ_PLUGIN, instance)};
-  const auto exists = [&](const std::string& name) { return known.contains(name); };
-  const Renaming renaming = FindRenaming(names, named, {}, exists);
-
-  std::vector<PassiveJoint> joints;
-  for (const auto& [name, joint] : prepared.joints) {
-    const std::string actual = renaming(name);
-    const int id = mj_name2id(m, mjOBJ_JOINT, actual.c_str());
-    if (id < 0) {
-      Refuse(place, "joints names '{}', which the model lacks{}", Excerpt(name),
-             Suggestion(name, all));
-    }
-    joints.push_back({id, &joint});
-  }
-  const auto before = [](const PassiveJoint& a, const PassiveJoint& b) {
-    return a.joint < b.joint;
-  };
-  std::sort(joints.begin(), joints.end(), before);
-  return joints;
-}
-
-/// Two frictions on one joint would be one friction that is stiffer than the step can carry.
-void RefuseSecond(const mjModel* m, int instance, int joint) {
-  const auto refuse = [&](const std::string& other) {
-    Refuse({InstanceName(m, instance)}, "{} has friction already, by {}; remove one of the two",
-           JointName(m, joint), other);
-  };
-  for (int i = 0; i < m->nactuator; ++i) {
-    const int plugin = m->actuator_plugin[i];
-    const bool ours = plugin >= 0 && m->plugin[plugin] == m->plugin[instance];
-    if (ours && m->actuator_trnid[2 * i] == joint) refuse(ActuatorName(m, i));
-  }
-  for (int other = 0; other < instance; ++other) {
-    if (m->plugin[other] != m->plugin[instance] || DrivenByActuators(m, other)) continue;
-    const auto prepared = PrepareInstance(m, other, {InstanceName(m, other)});
-    for (const PassiveJoint& taken : FindPassive(m, other, *prepared)) {
-      if (taken.joint == joint) refuse(InstanceName(m, other));
-    }
-  }
-}
-
-OtherInstances FindOthers(const mjModel* m, int instance) {
-  OtherInstances others;
-  const auto add = [&](int joint, int other) {
-    others[m->dof_treeid[m->jnt_dofadr[joint]]].insert(other);
-  };
-  for (int i = 0; i < m->nactuator; ++i) {
-    const int other = m->actuator_plugin[i];
-    const bool friction =
-        other >= 0 && other != instance && m->plugin[other] == m->plugin[instance];
-    if (friction && m->actuator_trntype[i] == mjTRN_JOINT) add(m->actuator_trnid[2 * i], other);
-  }
-  for (int other = 0; other < m->nplugin; ++other) {
-    if (other == instance || m->plugin[other] != m->plugin[instance]) continue;
-    if (DrivenByActuators(m, other)) continue;
-    try {
-      const auto prepared = PrepareInstance(m, other, {InstanceName(m, other)});
-      for (const PassiveJoint& joint : FindPassive(m, other, *prepared)) add(joint.joint, other);
-    } catch (const BadInput&) {
-      // it refuses the model itself
-    }
-  }
-  return others;
 }
 
 /// The friction of each joint that an instance's actuators drive.
@@ -314,20 +213,6 @@ int SensorSize(const mjModel* m, int instance) {
   }
   const int *begin = m->actuator_plugin, *end = begin + m->nactuator;
   return kSensed * static_cast<int>(std::count(begin, end, instance));
-}
-
-bool DrivenByActuators(const mjModel* m, int instance) {
-  const int *begin = m->actuator_plugin, *end = begin + m->nactuator;
-  return std::find(begin, end, instance) != end;
-}
-
-int PassiveStates(const mjModel* m, int instance) {
-  const auto prepared = PrepareInstance(m, instance, {InstanceName(m, instance)});
-  size_t states = 0;
-  for (const PassiveJoint& joint : FindPassive(m, instance, *prepared)) {
-    states += joint.prepared->friction.state().size();
-  }
-  return static_cast<int>(states);
 }
 
 }  // namespace warmjoint::inline sim

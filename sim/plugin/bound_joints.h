@@ -88,10 +88,4 @@ inline constexpr int kSensed = 5;
 /// Numbers of sensordata that a sensor of the instance needs: kSensed for each of its joints.
 int SensorSize(const mjModel* m, int instance);
 
-/// Whether an actuator refers to the instance; one that none refers to is passive.
-bool DrivenByActuators(const mjModel* m, int instance);
-
-/// Numbers of state that the joints of a passive instance need together. Throws BadInput.
-int PassiveStates(const mjModel* m, int instance);
-
 }  // namespace warmjoint::inline sim

@@ -13,7 +13,7 @@
 #include "sim/plugin/attributes.h"
 #include "sim/plugin/check_actuator.h"
 #include "sim/plugin/friction_instance.h"
-#include "sim/plugin/prepared_joints.h"
+#include "sim/plugin/plugin_instances.h"
 
 namespace warmjoint::inline sim {
 namespace {
