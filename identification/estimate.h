@@ -53,6 +53,22 @@ struct TraceEntry {
   double rmse = 0;  // over the kept samples, N.m or N
 };
 
+/// A structure that was tried.
+struct StructureTrial {
+  std::string name;            // identifier and options: "energy-ml law=coulomb"
+  std::optional<double> rmse;  // on held-out blocks, N.m or N; none where it was dropped before
+  double parameters = 0;       // effective number; 0 where nothing was fitted
+  std::string dropped;         // why it was no contender; empty for one that was
+};
+
+/// Which of several structures was chosen, and why.
+struct StructureChoice {
+  std::string chosen;
+  std::string reason;  // one clause
+  int blocks = 0;      // of time that were held out in turn
+  std::vector<StructureTrial> trials;
+};
+
 /// Covariance of some of an estimate's values.
 struct ParameterCovariance {
   std::vector<std::string> parameters;  // [p] names
@@ -77,6 +93,10 @@ struct Estimate {
   std::optional<ParameterCovariance> covariance;  // of the values with intervals, by noise alone
   std::vector<Diagnostic> diagnostics;            // of the verdict; empty where there is none
   std::vector<Assumption> assumptions;
+  /// The heat at the end of the log, a row for each stage: `energy`, `second_energy`; empty where
+  /// nothing warms or the friction cannot be trusted.
+  std::vector<EstimatedParameter> state_end;
+  std::optional<StructureChoice> choice;  // of identifiers that choose a structure
 
   /// The parameter of that name, or nullptr.
   const EstimatedParameter* Find(std::string_view name) const;
@@ -88,7 +108,8 @@ struct Estimate {
 /// The estimate as JSON: {identifier, options{name: text}, status, message, parameters{name: {value, unit, std,
 /// interval95}}, metrics{}, holdout{}, trace[{iteration, rmse, parameters{}}], friction{},
 /// gravity{}, warnings[], bands[{quantities[], points[][], value[], std[], interval95[][]}],
-/// covariance{parameters[], matrix[][]}, diagnostics[{test, made, reason, statistic, p, p_adjusted,
+/// state_end{energy: {value, unit, std, interval95}, second_energy}, choice{chosen, reason, blocks,
+/// trials[{name, rmse, parameters, dropped}]}, covariance{parameters[], matrix[][]}, diagnostics[{test, made, reason, statistic, p, p_adjusted,
 /// rejected, effect{value, unit}, moves{}}], assumptions[{name, meaning, moves{}}]};
 /// message is the full one, and `warnings` repeats its last clauses where there are any; bands only
 /// where maps are. What is absent, or is not a finite number, is null.

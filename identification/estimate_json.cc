@@ -226,6 +226,41 @@ Diagnostic ToDiagnostic(const json& object, const Place& place) {
   return one;
 }
 
+json ChoiceToJson(const StructureChoice& choice) {
+  json trials = json::array();
+  for (const StructureTrial& one : choice.trials) {
+    trials.push_back({{"name", one.name},
+                      {"rmse", one.rmse ? NumberToJson(*one.rmse) : json(nullptr)},
+                      {"parameters", NumberToJson(one.parameters)},
+                      {"dropped", one.dropped.empty() ? json(nullptr) : json(one.dropped)}});
+  }
+  return {{"chosen", choice.chosen},
+          {"reason", choice.reason},
+          {"blocks", choice.blocks},
+          {"trials", trials}};
+}
+
+StructureChoice ToChoice(const json& object, const Place& place) {
+  const auto member = [&](const char* key) -> const json& {
+    return Member(object, key, "choice", place);
+  };
+  StructureChoice choice;
+  choice.chosen = ToText(member("chosen"), "chosen", place);
+  choice.reason = ToText(member("reason"), "reason", place);
+  choice.blocks = ToInteger(member("blocks"), "blocks", place);
+  for (const json& one : member("trials")) {
+    const auto of = [&](const char* key) -> const json& {
+      return Member(one, key, "a trial", place);
+    };
+    StructureTrial& trial = choice.trials.emplace_back();
+    trial.name = ToText(of("name"), "name", place);
+    if (!of("rmse").is_null()) trial.rmse = ToNumber(of("rmse"), "rmse", place);
+    trial.parameters = ToNumber(of("parameters"), "parameters", place);
+    if (!of("dropped").is_null()) trial.dropped = ToText(of("dropped"), "dropped", place);
+  }
+  return choice;
+}
+
 Assumption ToAssumption(const json& object, const Place& place) {
   const auto member = [&](const char* key) -> const json& {
     return Member(object, key, "an assumption", place);
@@ -261,6 +296,10 @@ json EstimateToJson(const Estimate& estimate) {
     result["assumptions"].push_back(
         {{"name", one.name}, {"meaning", one.meaning}, {"moves", MovesToJson(one.moves)}});
   }
+  for (const EstimatedParameter& one : estimate.state_end) {
+    result["state_end"][one.name] = ParameterToJson(one);
+  }
+  if (estimate.choice) result["choice"] = ChoiceToJson(*estimate.choice);
   return result;
 }
 
@@ -302,6 +341,10 @@ Estimate EstimateFromJson(const json& object, const Place& place) {
   for (const json& one : member("assumptions")) {
     estimate.assumptions.push_back(ToAssumption(one, place));
   }
+  for (const auto& [name, value] : member("state_end").items()) {
+    estimate.state_end.push_back(ToParameter(name, value, place));
+  }
+  if (!member("choice").is_null()) estimate.choice = ToChoice(member("choice"), place);
   return estimate;
 }
 

@@ -16,6 +16,8 @@
 
 namespace warmjoint::inline identification {
 
+class IdentifierInput;
+
 /// What a parameter is part of.
 enum class Role { law, heat, start, jump, gravity, inertia };
 
@@ -63,7 +65,7 @@ struct Refusal {
   std::string message;
 };
 
-/// A fit of the model F + G to the samples that `used` keeps.
+/// A fit of the model F + G + M a to the samples that `used` keeps.
 struct Fit {
   std::string identifier;
   std::optional<Refusal> refusal;  // then nothing else is known but the trace
@@ -75,6 +77,7 @@ struct Fit {
   // the model
   FrictionDescription friction;  // law, warming and maps, whatever their bounds
   std::optional<GravityModel> gravity;
+  std::optional<double> inertia;           // torque over acceleration, kg.m^2 or kg
   double initial_energy = 0;               // E(0), N.m or N
   std::vector<Eigen::Index> jump_samples;  // [J] where E jumps by a parameter with Role::jump
   std::vector<FitParameter> parameters;    // [P]; those estimated come in the order of x
@@ -82,8 +85,8 @@ struct Fit {
   // what it was fitted to, and how well
   Selection used;
   Eigen::VectorXd torque;  // [n] measured, N.m or N
-  Eigen::VectorXd fitted;  // [n] F + G, N.m or N
-  /// d(F + G)/dx over all samples, [N x p], exact; of a fit whose errors.known is not set.
+  Eigen::VectorXd fitted;  // [n] F + G + M a, N.m or N
+  /// d(F + G + M a)/dx over all samples, [N x p], exact; of a fit whose errors.known is not set.
   std::function<Eigen::MatrixXd()> jacobian;
   ErrorModel errors;
   int count = 0;                    // of parameters, kernels included
@@ -91,6 +94,10 @@ struct Fit {
   std::optional<double> loss_bend;  // where a robust loss bends, N.m or N
   std::vector<MapBand> bands;       // one for each of the friction's maps
   std::vector<Iterate> trace;
+
+  std::optional<StructureChoice> choice;  // of an identifier that chooses
+  /// The same structure, fitted to other samples: of an identifier that chooses one; else not set.
+  std::function<Fit(const IdentifierInput&)> structure;
 
   std::string without_intervals;  // why no number gets an interval: a clause; empty: they do
 

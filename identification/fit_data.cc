@@ -41,6 +41,10 @@ std::optional<std::string> Unusable(const IdentifierInput& input, int parameters
 
   const auto count = input.selection.count();
   if (count <= parameters) {
+    if (m.acceleration) {
+      return fmt::format("{} of {} samples move clearly, too few for {} parameters; record longer",
+                         count, m.size(), parameters);
+    }
     return fmt::format(
         "{} of {} samples move at a constant speed, too few for {} parameters; record longer, or "
         "hold each speed longer",

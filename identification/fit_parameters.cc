@@ -5,6 +5,12 @@
 #include "identification/fit_data.h"
 
 namespace warmjoint::inline identification {
+namespace {
+
+constexpr ParameterInfo kInertiaInfo{"inertia", "M", {"N.m.s^2/rad", "N.s^2/m"}, 0,
+                                     kInfinity, 0,   "torque over acceleration"};
+
+}  // namespace
 
 FitParameter TableParameter(const ParameterInfo& info, Role role, double value,
                             const Measurements& measurements) {
@@ -63,6 +69,10 @@ std::vector<FitParameter> GravityParameters(GravityKind kind, const Eigen::Vecto
         {names[i], Role::gravity, values[static_cast<Eigen::Index>(i)], measurements.torque_unit});
   }
   return rows;
+}
+
+FitParameter InertiaParameter(double value, const Measurements& measurements) {
+  return TableParameter(kInertiaInfo, Role::inertia, value, measurements);
 }
 
 void Append(const std::vector<FitParameter>& rows, Fit& fit) {

@@ -32,6 +32,9 @@ std::vector<FitParameter> JumpParameters(const Eigen::VectorXd& values,
 std::vector<FitParameter> GravityParameters(GravityKind kind, const Eigen::VectorXd& values,
                                             const Measurements& measurements);
 
+/// inertia, M of Eq. (5).
+FitParameter InertiaParameter(double value, const Measurements& measurements);
+
 /// Puts rows behind those of the fit's table.
 void Append(const std::vector<FitParameter>& rows, Fit& fit);
 

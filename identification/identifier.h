@@ -42,9 +42,19 @@ class IdentifierInput {
     return {log, measurements, selection, other, start, narrator};
   }
 
+  /// The same log through another view of it, which must outlive the answer.
+  IdentifierInput On(const LogView& view) const {
+    return {log, view.measurements, view.selection, options, start, narrator};
+  }
+
   /// The log as it was taken, for fits that follow changes of speed.
   IdentifierInput AsTaken() const {
     return {log, log.taken().measurements, log.taken().selection, options, start, narrator};
+  }
+
+  /// The log with its accelerations, for fits to motion of any kind.
+  IdentifierInput Moving() const {
+    return {log, log.moving().measurements, log.moving().selection, options, start, narrator};
   }
 
   const PreparedLog log;
@@ -87,9 +97,15 @@ struct Identifier {
     return std::ranges::find(options, option, &OptionInfo::name) != options.end();
   }
 
-  /// The input with the samples that the identifier learns from.
+  /// The input with the samples that the identifier learns from: those of its regime; of one that
+  /// has the option `motion`, all that move where that asks for them, or where the log shows no
+  /// constant speeds.
   IdentifierInput Seen(const IdentifierInput& input) const {
-    return regime == Regime::transient ? input.AsTaken() : input;
+    if (regime == Regime::transient) return input.AsTaken();
+    if (!Has("motion")) return input;
+    const std::string& motion = input.options.Text("motion");
+    const bool any = motion == "any" || (motion == "chosen" && !input.log.HoldsSpeeds());
+    return any ? input.Moving() : input;
   }
 };
 

@@ -50,7 +50,7 @@ struct Spring {
   bool operator==(const Spring&) const = default;
 };
 
-/// The torque that accelerates a mass: inertia dv/dt, between the samples.
+/// The torque that accelerates a mass: inertia dv/dt; between the samples where speeds are held.
 struct Inertia {
   double inertia = 0;  // kg.m^2 or kg
 

@@ -150,6 +150,7 @@ std::optional<std::pair<double, double>> TravelLimits(const Motion& motion,
 }
 
 double StartPosition(const Motion& motion, std::pair<double, double> joint_limits) {
+  if (motion.moves) return 0.5 * (motion.moves->between.first + motion.moves->between.second);
   const auto limits = TravelLimits(motion, joint_limits);
   return limits ? limits->first : motion.start;
 }

@@ -38,6 +38,27 @@ struct VelocityCorner {
   bool operator==(const VelocityCorner&) const = default;
 };
 
+/// Fourier excitation: the velocity is a sum of cosines and sines of a period and its harmonics, their
+/// coefficients drawn for each realization; 0 at time 0, its largest value is `speed`.
+struct FourierMotion {
+  double period = 0;     // s
+  double harmonics = 0;  // a whole number, 1 or more
+  double speed = 0;      // rad/s or m/s
+
+  bool operator==(const FourierMotion&) const = default;
+};
+
+/// Pick and place: from one place to the next, drawn uniformly between two limits, by ramps of one
+/// acceleration up to a speed and down from it, with a pause at each place.
+struct MovesBetween {
+  std::pair<double, double> between;  // lower, upper, rad or m
+  double speed = 0;                   // rad/s or m/s, at most
+  double acceleration = 0;            // rad/s^2 or m/s^2
+  double pause = 0;                   // s
+
+  bool operator==(const MovesBetween&) const = default;
+};
+
 /// Piecewise constant velocity: a speed for each segment, held for a time or until a joint limit;
 /// or phases of such motions; or a velocity that is given by its corners, as a recorded one is.
 struct Motion {
@@ -48,9 +69,11 @@ struct Motion {
   bool travel_between_joint_limits = false;         // travel between the robot's own limits
   SegmentOrder order = SegmentOrder::alternating;
   std::optional<Rests> rests;
-  std::vector<MotionPhase> phases;      // instead of all above: in turn, again from the first
-  std::vector<VelocityCorner> corners;  // instead of all above, in order of time; mujoco plant only
-  double start = 0;                     // with corners: position at time 0, rad or m
+  std::vector<MotionPhase> phases;       // instead of all above: in turn, again from the first
+  std::vector<VelocityCorner> corners;   // instead of all above, in order of time
+  double start = 0;                      // with corners: position at time 0, rad or m
+  std::optional<FourierMotion> fourier;  // instead of all above but start
+  std::optional<MovesBetween> moves;     // instead of all above
 
   bool operator==(const Motion&) const;
 };
@@ -75,14 +98,21 @@ struct MotionSegment {
 std::optional<std::pair<double, double>> TravelLimits(const Motion& motion,
                                                       std::pair<double, double> joint_limits);
 
-/// Where the motion begins, rad or m: at the lower travel limit; at `start` with corners; else at
-/// 0.
+/// Where the motion begins, rad or m: at the lower travel limit; at `start` with corners and
+/// `fourier`; in the middle of `moves`; else at 0.
 double StartPosition(const Motion& motion, std::pair<double, double> joint_limits);
 
 /// The plan that covers exactly `duration` seconds: the last segment is cut. Draws come from
 /// `random`. joint_limits: rad or m, used by motions that travel; motion must have been checked and
-/// has no corners.
+/// is none that FollowsCorners.
 std::vector<MotionSegment> PlanMotion(const Motion& motion, double duration,
                                       std::pair<double, double> joint_limits, RandomStream& random);
+
+/// Whether the velocity is linear from corner to corner instead of held from segment to segment.
+bool FollowsCorners(const Motion& motion);
+
+/// The corners of a motion that FollowsCorners, over `duration` seconds. Draws come from `random`.
+std::vector<VelocityCorner> PlanCorners(const Motion& motion, double duration,
+                                        RandomStream& random);
 
 }  // namespace warmjoint::inline scenarios

@@ -20,7 +20,11 @@
 //       - {duration: 3000, speeds: [0.1, 1], hold: 20}             first until the duration is over
 //       - {rest: 600}
 //     corners: [[0, 0], [1, 0.5]]     or a velocity that is linear between corners, s and rad/s,
-//     start: 0                        from this position on (mujoco)
+//     start: 0                        from this position on
+//     fourier: {period: 10, harmonics: 5, speed: 1}    or a sum of harmonics drawn anew, s; 1; rad/s,
+//                                     from `start` on
+//     moves: {between: [-1, 1], speed: 1, acceleration: 5, pause: 0.2}     or from place to place,
+//                                     drawn anew, rad or m; rad/s; rad/s^2; s
 //   controller: {bandwidth: 0, acceleration: 0}            rad/s, rad/s^2 or m/s^2; 0: chosen (README.md)
 //   noise: {torque: 0.5, velocity: 0, position: 0}         standard deviations
 //   disturbances:                none where not given (disturbances.h)

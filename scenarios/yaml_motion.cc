@@ -2,6 +2,8 @@
 
 #include <fmt/ranges.h>
 
+#include <cmath>
+
 #include "scenarios/yaml_choice.h"
 #include "scenarios/yaml_distribution.h"
 
@@ -123,14 +125,57 @@ Motion ReadCorners(const YamlValue& value, const YamlValue& corners) {
   return motion;
 }
 
+/// {period, harmonics, speed}, and the position at which it begins.
+Motion ReadFourier(const YamlValue& value, const YamlValue& fourier) {
+  value.RequireKeys({"fourier", "start"});
+  fourier.RequireKeys({"period", "harmonics", "speed"});
+  const auto number = [&](const char* key, const char* what) {
+    return fourier.Require(key, what).Number(Bound::positive);
+  };
+  const FourierMotion made{number("period", "give the seconds after which it repeats itself"),
+                           number("harmonics", "give the number of harmonics, as 5"),
+                           number("speed", "give the largest speed, rad/s or m/s")};
+  if (made.harmonics != std::floor(made.harmonics) || made.harmonics > 1000) {
+    fourier.Find("harmonics")->RefuseValue("a whole number up to 1000");
+  }
+  Motion motion;
+  motion.fourier = made;
+  if (const auto start = value.Find("start")) motion.start = start->Number();
+  return motion;
+}
+
+/// {between: [lower, upper], speed, acceleration, pause}.
+Motion ReadMoves(const YamlValue& value, const YamlValue& moves) {
+  value.RequireKeys({"moves"});
+  moves.RequireKeys({"between", "speed", "acceleration", "pause"});
+  const auto number = [&](const char* key, const char* what) {
+    return moves.Require(key, what).Number(Bound::positive);
+  };
+  MovesBetween made;
+  made.between = moves.Require("between", "give [lower, upper], rad or m").Interval();
+  made.speed = number("speed", "give the largest speed, rad/s or m/s");
+  made.acceleration = number("acceleration", "give that of the ramps, rad/s^2 or m/s^2");
+  if (const auto pause = moves.Find("pause")) made.pause = pause->Number(Bound::not_negative);
+  Motion motion;
+  motion.moves = made;
+  return motion;
+}
+
 }  // namespace
 
 Motion ReadMotion(const YamlValue& value) {
   const auto corners = value.IsMap() ? value.Find("corners") : std::nullopt;
   if (corners) return ReadCorners(value, *corners);
+  if (const auto fourier = value.IsMap() ? value.Find("fourier") : std::nullopt) {
+    return ReadFourier(value, *fourier);
+  }
+  if (const auto moves = value.IsMap() ? value.Find("moves") : std::nullopt) {
+    return ReadMoves(value, *moves);
+  }
   const auto phases = value.IsMap() ? value.Find("phases") : std::nullopt;
   if (!phases) {
-    value.RequireKeys({"speeds", "hold", "travel", "order", "rests", "phases", "corners"});
+    value.RequireKeys(
+        {"speeds", "hold", "travel", "order", "rests", "phases", "corners", "fourier", "moves"});
     return ReadSteadyMotion(value);
   }
   value.RequireKeys({"phases"});
@@ -145,6 +190,16 @@ std::string MotionToYaml(const Motion& motion, const std::string& indent) {
   if (!motion.corners.empty()) {
     return fmt::format("{0}corners: {1}\n{0}start: {2}\n", indent, CornersToYaml(motion.corners),
                        motion.start);
+  }
+  if (motion.fourier) {
+    const auto& [period, harmonics, speed] = *motion.fourier;
+    return fmt::format("{0}fourier: {{period: {1}, harmonics: {2}, speed: {3}}}\n{0}start: {4}\n",
+                       indent, period, harmonics, speed, motion.start);
+  }
+  if (motion.moves) {
+    const auto& [between, speed, acceleration, pause] = *motion.moves;
+    return fmt::format("{}moves: {{between: [{}, {}], speed: {}, acceleration: {}, pause: {}}}\n",
+                       indent, between.first, between.second, speed, acceleration, pause);
   }
   if (motion.phases.empty()) return SteadyMotionToYaml(motion, indent);
   std::string yaml = indent + "phases:\n";

@@ -52,7 +52,7 @@ NominalPart PrepareNominalPart(const IdentifierInput& given, const std::string& 
   const Measurements& m = given.measurements;
   const Law& law = *FindLaw(given.options.Text("law"));
   NominalPart part;
-  part.gravity = PrepareGravity(given);
+  part.gravity = PrepareRigid(given);
   if (part.gravity.why) {
     part.refusal = Refusal{part.gravity.status, *part.gravity.why};
     return part;

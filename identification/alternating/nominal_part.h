@@ -2,15 +2,15 @@
 // it.
 #pragma once
 
-#include "identification/linear/fit_gravity.h"
 #include "identification/linear/least_squares.h"
+#include "identification/linear/rigid_part.h"
 #include "identification/maps/identify_maps.h"
 
 namespace warmjoint::inline identification {
 
 struct NominalPart {
   Selection moving;         // samples that take part: kept, and not at rest
-  GravityFit gravity;       // none beside a map
+  RigidPart gravity;        // none beside a map
   Eigen::MatrixXd columns;  // [N x p] over all samples: law (d), then gravity or kernels (q)
   /// [p x p] (A^T A + s P)^-1 over the moving samples; P: 1 on the kernels' diagonal.
   Eigen::MatrixXd cofactor;

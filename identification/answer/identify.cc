@@ -34,7 +34,7 @@ Estimate ReportAnswer(const Identifier& identifier, const IdentifierInput& given
   const IdentifierInput input = identifier.Seen(given);
   Estimate estimate = ReportFit(answer.fit, answer.judged, input.measurements);
   estimate.options = input.options.changed();
-  const bool steady = identifier.regime == Regime::steady;
+  const bool steady = identifier.regime == Regime::steady && !input.measurements.acceleration;
   if (steady && input.log.faults().empty()) TellPreparation(input.log, estimate);
   return estimate;
 }

@@ -1,8 +1,8 @@
 #include "identification/holdout/evaluate.h"
 
 #include "identification/fit_data.h"
+#include "identification/holdout/predict_torque.h"
 #include "identification/inference/inference.h"
-#include "models/recording/course_of.h"
 
 namespace warmjoint::inline identification {
 
@@ -10,21 +10,16 @@ std::optional<Metrics> Evaluate(const Fit& fit, const Measurements& measurements
                                 const CourseStart& start) {
   if (!Infer(fit).gives_friction) return std::nullopt;
   const FrictionDescription& friction = fit.friction;
-  Eigen::VectorXd predicted = PredictFriction(friction, measurements, start).force;
+  const TorquePrediction predicted =
+      PredictTorque({friction, fit.gravity, fit.inertia}, measurements, std::move(test), start);
+  if (predicted.known.count() == 0) return std::nullopt;
   auto parameters = friction.parameters.size() + (friction.thermal ? 2 : 0);
   for (const FrictionMap& map : friction.maps) parameters += map.weights.size();
-
-  // gravity where the fit knows it
-  if (fit.gravity) {
-    predicted += fit.gravity->Torque(measurements.position);
-    parameters += fit.gravity->values.size();
-    for (Eigen::Index i = 0; i < measurements.size(); ++i) {
-      test.keep[i] = test.keep[i] && fit.gravity->Covers(measurements.position[i]);
-    }
-  }
-  if (test.count() == 0) return std::nullopt;
-  return ComputeMetrics(Kept(measurements.torque, test), Kept(predicted, test),
-                        static_cast<int>(parameters), fit.effective_parameters);
+  if (fit.gravity) parameters += fit.gravity->values.size();
+  if (fit.inertia) ++parameters;
+  return ComputeMetrics(Kept(measurements.torque, predicted.known),
+                        Kept(predicted.torque, predicted.known), static_cast<int>(parameters),
+                        fit.effective_parameters);
 }
 
 }  // namespace warmjoint::inline identification

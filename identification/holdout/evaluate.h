@@ -7,7 +7,7 @@
 
 namespace warmjoint::inline identification {
 
-/// Compares the torque that the fit's friction and gravity predict along a log with the samples that
+/// Compares the torque that the fit's friction, gravity and inertia predict along a log with the samples that
 /// `test` keeps; where the fit knows its gravity only in places, with those there. The prediction
 /// runs from the first sample on, from `start`. Nothing where the fit gives no
 /// friction or no sample is left.

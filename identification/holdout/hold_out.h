@@ -11,8 +11,9 @@ namespace warmjoint::inline identification {
 /// rest. The prediction starts with the recording, at E(0) where the fit estimates it, so that the
 /// joint comes to the test part as warm as it was. 0 < fraction < 1. Nothing where that fit gives
 /// no friction or the rest keeps no sample.
+/// Where the fit of all samples chose a structure (Fit::structure), that structure is fitted.
 std::optional<Metrics> HoldOut(const Identifier& identifier, const IdentifierInput& input,
-                               double fraction);
+                               double fraction, const Fit& fit = {});
 
 /// Evaluates a fit of the identifier on the kept samples of another recording, which starts cold.
 /// Nothing where the fit gives no friction.

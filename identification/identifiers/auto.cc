@@ -2,42 +2,30 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "identification/fit_data.h"
 #include "identification/holdout/blocked_hold_out.h"
 #include "identification/holdout/structure_choice.h"
-#include "identification/identifiers/energy_ml.h"
-#include "identification/identifiers/motor_ridge.h"
-#include "identification/identifiers/nominal_ls.h"
-#include "identification/identifiers/position_ridge.h"
-#include "identification/identifiers/stribeck.h"
+#include "identification/identifiers/structures.h"
 #include "identification/inference/inference.h"
-#include "models/recording/motor_angle.h"
+#include "identification/linear/rigid_part.h"
+#include "identification/preparation/condense.h"
 
 namespace warmjoint::inline identification {
 namespace {
 
 constexpr const char* kName = "auto";
+constexpr Eigen::Index kRows = 3000;    // on which structures are compared
+constexpr double kHopeless = 4;         // of the mean squared error of another
+constexpr double kFewParameters = 0.1;  // of the rows
 
-/// One structure to try.
-struct Candidate {
-  Identifier identifier;
-  std::map<std::string, std::string> given;  // its options
-
-  std::string Name() const {
-    std::string name = identifier.name;
-    for (const auto& [key, value] : given) name += fmt::format(" {}={}", key, value);
-    return name;
-  }
-};
-
-/// What became of it.
+/// What became of a structure on the rows that are compared.
 struct Trial {
-  Candidate candidate;
-  Fit fit;                                // on all the data
-  Inference told;                         // by that fit
+  Structure structure;
+  Fit fit;
+  Inference told;
   std::string dropped;                    // why it is no contender; empty for one that is
   std::optional<Eigen::VectorXd> errors;  // on blocks, of a contender
 
@@ -47,28 +35,8 @@ struct Trial {
   }
 };
 
-/// All structures, the plain law (2) first.
-std::vector<Candidate> Candidates(const Measurements& m) {
-  std::vector<Candidate> candidates;
-  for (const char* law : {"viscous_coulomb", "coulomb", "asymmetric"}) {
-    candidates.push_back({NominalLs(), {{"law", law}}});
-  }
-  for (const char* law : {"coulomb", "viscous_coulomb", "asymmetric"}) {
-    candidates.push_back({EnergyMl(), {{"law", law}}});
-  }
-  for (const char* warming : {"none", "estimated"}) {
-    candidates.push_back({StribeckByCeres(), {{"warming", warming}}});
-  }
-  candidates.push_back({PositionRidge(), {}});
-  candidates.push_back({EnergyMl(), {{"position", "map"}}});
-  if (KnowsMotorAngle(m)) candidates.push_back({MotorRidge(), {}});
-  return candidates;
-}
-
-/// The candidate on all the data.
-Trial Try(const Candidate& candidate, const IdentifierInput& input) {
-  const Options options(candidate.identifier.options, candidate.given, {});
-  Trial trial{candidate, candidate.identifier.fit(input.With(options)), {}, {}, {}};
+Trial Try(const Structure& structure, const IdentifierInput& input) {
+  Trial trial{structure, structure.Fitted(input), {}, {}, {}};
   trial.told = Infer(trial.fit);
   if (trial.told.status != Status::ok) {
     trial.dropped = StatusName(trial.told.status);
@@ -78,37 +46,111 @@ Trial Try(const Candidate& candidate, const IdentifierInput& input) {
   return trial;
 }
 
-/// Its errors on blocks that it has not seen.
-std::optional<Eigen::VectorXd> ErrorsOf(const Candidate& candidate, const IdentifierInput& input,
-                                        const std::vector<Eigen::Index>& bounds) {
-  const Options options(candidate.identifier.options, candidate.given, {});
-  return BlockedErrors(candidate.identifier, input.With(options), bounds);
-}
+/// Everything that is tried on one log.
+class Tournament {
+ public:
+  /// quick: the rows on which structures are compared.
+  explicit Tournament(const IdentifierInput& quick)
+      : quick_(quick), rows_(static_cast<double>(quick.selection.count())) {}
 
-/// Drops those that could not be chosen whatever the blocks say: BIC prefers a simpler one.
-void DropOutdone(std::vector<Trial>& trials, double samples) {
-  const auto bic = [&](const Trial& one) {
-    return Bic(one.MeanSquare(), one.Parameters(), samples);
-  };
-  std::vector<bool> standing;
-  for (const Trial& trial : trials) standing.push_back(trial.dropped.empty());
-  for (size_t i = 0; i < trials.size(); ++i) {
-    for (size_t j = 0; j < trials.size() && standing[i]; ++j) {
-      if (!standing[j] || trials[j].Parameters() >= trials[i].Parameters()) continue;
-      if (bic(trials[j]) > bic(trials[i])) continue;
-      trials[i].dropped =
-          fmt::format("outdone by {}, which is simpler", trials[j].candidate.Name());
-      break;
+  void Add(const std::vector<Structure>& structures) {
+    for (const Structure& structure : structures) {
+      quick_.Tell("trying " + structure.Name());
+      trials_.push_back(Try(structure, quick_));
     }
   }
-}
 
-/// "nominal-ls law=coulomb 2.3 N.m (1 parameter)" or why it was dropped.
-std::string Describe(const Trial& trial, const std::string& unit) {
-  const std::string name = trial.candidate.Name();
-  if (!trial.errors) return fmt::format("{} ({})", name, trial.dropped);
-  return fmt::format("{} {:.4g} {} ({:.3g} parameters)", name, std::sqrt(trial.errors->mean()),
-                     unit, trial.Parameters());
+  /// The structure that BIC prefers so far, of those that fit all rows; none where nothing does.
+  const Structure* Best() const {
+    const Trial* best = nullptr;
+    for (const Trial& trial : trials_) {
+      const bool fits = trial.told.status == Status::ok && trial.told.gives_friction;
+      if (fits && (!best || BicOf(trial) < BicOf(*best))) best = &trial;
+    }
+    return best ? &best->structure : nullptr;
+  }
+
+  /// Drops those that cannot be chosen whatever the blocks say: BIC prefers a simpler one, or another
+  /// leaves half of the residual.
+  void DropHopeless() {
+    std::vector<bool> standing;
+    for (const Trial& trial : trials_) standing.push_back(trial.dropped.empty());
+    for (size_t i = 0; i < trials_.size(); ++i) {
+      for (size_t j = 0; j < trials_.size() && standing[i] && trials_[i].dropped.empty(); ++j) {
+        if (j != i && standing[j]) trials_[i].dropped = WhyOutdone(trials_[i], trials_[j]);
+      }
+    }
+  }
+
+  /// Errors of those that stand, on blocks that they have not seen.
+  std::vector<Contender> Compare(int blocks) {
+    const std::vector<Eigen::Index> bounds = CutIntoBlocks(quick_.selection, blocks);
+    std::vector<Contender> contenders;
+    standing_.clear();
+    for (Trial& trial : trials_) {
+      if (!trial.dropped.empty()) continue;
+      quick_.Tell(
+          fmt::format("comparing on {} held-out blocks: {}", blocks, trial.structure.Name()));
+      trial.errors = trial.structure.ErrorsOn(quick_, bounds);
+      if (!trial.errors) trial.dropped = "fails without one of the blocks";
+      if (!trial.errors || !trial.errors->allFinite()) continue;
+      standing_.push_back(&trial);
+      contenders.push_back(
+          {trial.structure.Name(), *trial.errors, trial.MeanSquare(), trial.Parameters()});
+    }
+    return contenders;
+  }
+
+  const Structure& Contending(size_t i) const { return standing_[i]->structure; }
+  const Trial& First() const { return trials_.front(); }
+  double rows() const { return rows_; }
+
+  std::vector<StructureTrial> Told() const {
+    std::vector<StructureTrial> told;
+    for (const Trial& trial : trials_) {
+      StructureTrial& one = told.emplace_back();
+      one.name = trial.structure.Name();
+      one.parameters = trial.Parameters();
+      one.dropped = trial.dropped;
+      if (trial.errors) one.rmse = std::sqrt(trial.errors->mean());
+    }
+    return told;
+  }
+
+ private:
+  double BicOf(const Trial& one) const { return Bic(one.MeanSquare(), one.Parameters(), rows_); }
+
+  std::string WhyOutdone(const Trial& one, const Trial& other) const {
+    if (other.Parameters() < one.Parameters() && BicOf(other) <= BicOf(one)) {
+      return fmt::format("outdone by {}, which is simpler", other.structure.Name());
+    }
+    if (other.Parameters() < kFewParameters * rows_ &&
+        kHopeless * other.MeanSquare() < one.MeanSquare()) {
+      return fmt::format("{} leaves less than half of its residual", other.structure.Name());
+    }
+    return "";
+  }
+
+  const IdentifierInput& quick_;
+  double rows_;
+  std::vector<Trial> trials_;
+  std::vector<const Trial*> standing_;
+};
+
+/// Laws with and without warming, then gravity beside the best of them, then what bends or ripples.
+void TryAll(const IdentifierInput& input, Tournament& tournament) {
+  const std::vector<std::string> kinds = GravityKinds(input);
+  for (const std::string& gravity : kinds) {
+    if (gravity != "paired" || kinds.size() == 1) tournament.Add(LinearStructures(gravity));
+  }
+  if (kinds.size() > 1 && kinds.back() == "paired") {
+    if (const Structure* best = tournament.Best()) {
+      tournament.Add({best->With("gravity", "paired")});
+    }
+  }
+  const Structure* best = tournament.Best();
+  const std::string gravity = best ? best->Given("gravity", "none") : kinds.front();
+  tournament.Add(CurvedStructures(input, gravity));
 }
 
 /// Why the chosen one.
@@ -123,75 +165,66 @@ std::string Reason(const std::vector<Contender>& contenders, const Choice& choic
                               std::sqrt(contenders[choice.best].errors.mean()));
 }
 
-/// Those that stand on blocks, and a table of all.
-struct Comparison {
-  std::vector<Contender> contenders;
-  std::vector<const Trial*> standing;
-  std::string table;
-};
-
-/// The trials that were not dropped, on blocks that they have not seen.
-Comparison Compare(std::vector<Trial>& trials, const IdentifierInput& input, int blocks) {
-  const std::vector<Eigen::Index> bounds = CutIntoBlocks(input.selection, blocks);
-  Comparison all;
-  for (Trial& trial : trials) {
-    if (trial.dropped.empty()) {
-      input.Tell(
-          fmt::format("comparing on {} held-out blocks: {}", blocks, trial.candidate.Name()));
-      trial.errors = ErrorsOf(trial.candidate, input, bounds);
-      if (!trial.errors) trial.dropped = "fails without one of the blocks";
-    }
-    all.table += (all.table.empty() ? "" : "; ") + Describe(trial, input.measurements.torque_unit);
-    if (!trial.errors || !trial.errors->allFinite()) continue;
-    all.standing.push_back(&trial);
-    all.contenders.push_back(
-        {trial.candidate.Name(), *trial.errors, trial.MeanSquare(), trial.Parameters()});
-  }
-  return all;
+/// Nothing that was tried fits.
+Fit NothingFits(const Tournament& tournament, StructureChoice choice) {
+  const Inference& first = tournament.First().told;
+  const Status status = first.status == Status::ok ? Status::not_identifiable : first.status;
+  Fit fit = Refused(kName, status,
+                    fmt::format("none of {} structures fits; {} says: {}", choice.trials.size(),
+                                tournament.First().structure.Name(), first.message));
+  fit.choice = std::move(choice);
+  return fit;
 }
 
 Fit FitChosen(const IdentifierInput& input) {
   const int blocks = input.options.Integer("blocks");
   if (auto why = Unusable(input, 2 * blocks)) return Refused(kName, Status::bad_data, *why);
 
-  // a law can be chosen only where the motion tells the parameters of the plain one apart
-  std::vector<Trial> trials;
-  const std::vector<Candidate> candidates = Candidates(input.measurements);
-  for (const Candidate& candidate : candidates) {
-    input.Tell(fmt::format("trying structure {} of {}: {}", trials.size() + 1, candidates.size(),
-                           candidate.Name()));
-    trials.push_back(Try(candidate, input));
-    const Inference& plain = trials[0].told;
-    if (plain.status == Status::not_identifiable) {
-      return Refused(kName, plain.status, plain.message);
-    }
-  }
-  const auto samples = static_cast<double>(input.selection.count());
-  DropOutdone(trials, samples);
-  const auto [contenders, standing, table] = Compare(trials, input, blocks);
+  // compare on rows that hold the means of neighbours
+  const LogView view = Condense({input.measurements, input.selection}, kRows);
+  const IdentifierInput quick = input.On(view);
+  Tournament tournament(quick);
+  TryAll(quick, tournament);
+  tournament.DropHopeless();
+  const std::vector<Contender> contenders = tournament.Compare(blocks);
+  StructureChoice told{"", "", blocks, tournament.Told()};
+  const Structure* best = tournament.Best();
+  if (!best) return NothingFits(tournament, std::move(told));
+
+  // by the blocks, or by BIC where none can do without one of them, as one that holds the warm-up
+  Structure chosen = *best;
   if (contenders.empty()) {
-    const Inference& plain = trials[0].told;
-    const Status status = plain.status == Status::ok ? Status::not_identifiable : plain.status;
-    return Refused(kName, status,
-                   fmt::format("no structure fits: {}; the first says: {}", table, plain.message));
+    told.reason = fmt::format("chose {} by BIC: none can do without one of the {} blocks of time",
+                              chosen.Name(), blocks);
+  } else {
+    const Choice choice = ChooseStructure(contenders, tournament.rows());
+    chosen = tournament.Contending(choice.chosen);
+    told.reason = Reason(contenders, choice, blocks, input.measurements.torque_unit);
   }
 
-  // the chosen one's fit, with the reason around what it says
-  const Choice choice = ChooseStructure(contenders, samples);
-  Fit fit = standing[choice.chosen]->fit;
+  // on every sample, with the reason before what it says
+  input.Tell("fitting " + chosen.Name() + " to every sample");
+  Fit fit = chosen.Fitted(input);
+  told.chosen = chosen.Name();
   fit.identifier = kName;
-  fit.summary = fmt::format(
-      "{}; {}", Reason(contenders, choice, blocks, input.measurements.torque_unit), fit.summary);
-  fit.afterword += ". Tried: " + table;
+  fit.summary = fmt::format("{}; {}", told.reason, fit.summary);
+  fit.choice = std::move(told);
+  fit.structure = [chosen](const IdentifierInput& other) { return chosen.Fitted(other); };
   return fit;
 }
 
 }  // namespace
 
 Identifier Auto() {
+  OptionInfo gravity = GravityOption();
+  gravity.default_value = "chosen";
+  gravity.allowed = "chosen|" + gravity.allowed;
   return {kName,
-          "chooses law, warming and maps by hold-out, the simplest that is not worse, and says why",
-          {{"blocks", "6", "integer >= 3 <= 50", "contiguous parts of the recording to hold out"}},
+          "chooses law, gravity, warming and maps by hold-out, the simplest that is not worse, and "
+          "says why",
+          {{"blocks", "6", "integer >= 3 <= 50", "contiguous parts of the recording to hold out"},
+           gravity,
+           MotionOption()},
           &FitChosen};
 }
 

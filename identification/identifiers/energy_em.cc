@@ -150,7 +150,7 @@ Fit ModelOf(const IdentifierInput& input, const NominalPart& part, const Descent
   fit.friction.maps = part.MapsOf(last.nominal);
   fit.parameters = LawParameters(law, values, m);
   Append(HeatParameters(last.thermal, m), fit);
-  AddGravity(part.gravity, last.nominal.tail(part.gravity.count()), m, fit);
+  AddRigid(part.gravity, last.nominal.tail(part.gravity.count()), m, fit);
   return fit;
 }
 
@@ -209,7 +209,7 @@ std::vector<Iterate> Trace(const std::vector<DescentState>& states, Eigen::Index
 Fit FitInTurn(const IdentifierInput& input) {
   const NominalPart part = PrepareNominalPart(input, kName);
   if (part.refusal) return Refused(kName, *part.refusal);
-  const GravityFit& gravity = part.gravity;
+  const RigidPart& gravity = part.gravity;
 
   FirstGuess start = Start(gravity.Of(input));
   if (!start.thermal) return Refused(kName, Status::not_identifiable, start.why);

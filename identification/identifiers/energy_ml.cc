@@ -8,10 +8,10 @@
 #include "identification/fit_parameters.h"
 #include "identification/inference/bounds.h"
 #include "identification/inference/hold_structure.h"
-#include "identification/linear/fit_gravity.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/linear_task.h"
+#include "identification/linear/rigid_part.h"
 #include "identification/linear/robust.h"
 #include "identification/maps/energy_ml_maps.h"
 #include "identification/uncertainty/disagreement.h"
@@ -48,13 +48,13 @@ std::optional<std::string> UntoldWarming(const WarmFit& fit, const WarmStart& sc
 }
 
 /// The table of parameters in the order of x: law, heat, E(0), jumps, gravity.
-void FillTable(const WarmFit& warm, const Law& law, const GravityFit& gravity,
-               const Measurements& m, Fit& fit) {
+void FillTable(const WarmFit& warm, const Law& law, const RigidPart& gravity, const Measurements& m,
+               Fit& fit) {
   fit.parameters = LawParameters(law, warm.parameters(), m);
   Append(HeatParameters(warm.thermal(), m), fit);
   if (warm.estimates_initial_energy()) Append({StartParameter(warm.initial_energy(), m)}, fit);
   Append(JumpParameters(warm.jump_values(), m), fit);
-  AddGravity(gravity, warm.offset_values(), m, fit);
+  AddRigid(gravity, warm.offset_values(), m, fit);
 }
 
 std::vector<Iterate> Trace(const WarmFit& warm, Eigen::Index n) {
@@ -71,7 +71,7 @@ std::vector<Iterate> Trace(const WarmFit& warm, Eigen::Index n) {
 }
 
 /// d(F + G)/dx over all samples, [N x p].
-Eigen::MatrixXd Jacobian(const ClosedLoop& loop, const GravityFit& gravity, const WarmFit& fit) {
+Eigen::MatrixXd Jacobian(const ClosedLoop& loop, const RigidPart& gravity, const WarmFit& fit) {
   const Thermal thermal = fit.thermal();
   const Eigen::MatrixXd all =
       loop.Jacobian(fit.parameters(), thermal, fit.initial_energy(), fit.jump_values());
@@ -86,7 +86,7 @@ Eigen::MatrixXd Jacobian(const ClosedLoop& loop, const GravityFit& gravity, cons
 struct Task {
   const IdentifierInput& input;
   const Law& law;
-  const GravityFit& gravity;
+  const RigidPart& gravity;
   const ClosedLoop& loop;
   const WarmStart& scanned;
   const std::vector<LogGap>& gaps;
@@ -171,9 +171,9 @@ Fit Conclude(const Task& task, const RobustWarmFit& robust, double nominal_squar
   fit.count = static_cast<int>(warm.solution.x.size());
   fit.effective_parameters = fit.count;
   if (!std::isinf(robust.threshold)) fit.loss_bend = robust.threshold;
-  fit.summary =
-      fmt::format("maximum likelihood on {} samples{}, refined in {} iterations", fit.torque.size(),
-                  task.whitening ? kWhitened : "", warm.trace.size() - 1);
+  fit.summary = fmt::format("maximum likelihood on {} samples{}{}, refined in {} iterations",
+                            fit.torque.size(), m.acceleration ? kOfAnyMotion : "",
+                            task.whitening ? kWhitened : "", warm.trace.size() - 1);
   if (!task.gaps.empty()) {
     fit.warnings.push_back(
         fmt::format("{}: the losses during that time are unknown and are estimated, too",
@@ -184,7 +184,7 @@ Fit Conclude(const Task& task, const RobustWarmFit& robust, double nominal_squar
 
 /// A start for all linear parameters, law before gravity, and the warming: the scan over tau once
 /// gravity is out of the loss. nominal: the fit without warming.
-WarmStart Scan(const Measurements& m, const GravityFit& gravity, const ClosedLoop& loop,
+WarmStart Scan(const Measurements& m, const RigidPart& gravity, const ClosedLoop& loop,
                const Eigen::MatrixXd& columns, const LeastSquares& nominal,
                const Eigen::VectorXd& level, const Eigen::VectorXd& kept) {
   if (gravity.count() == 0) return ScanTimeConstant(loop, level, kept);
@@ -204,7 +204,7 @@ double LeftOver(const Eigen::MatrixXd& A, const Eigen::VectorXd& y) {
 
 /// What whitening changes of a fit beyond doubt; nothing where the colour may be noise. plain: the
 /// fit before it.
-std::optional<Disagreement> FindStructure(const IdentifierInput& input, const GravityFit& gravity,
+std::optional<Disagreement> FindStructure(const IdentifierInput& input, const RigidPart& gravity,
                                           const ClosedLoop& loop, const WarmFit& plain,
                                           const WarmFit& white, const Whitening& whitening) {
   const LoopResponse response = loop.Simulate(plain.parameters(), plain.thermal(),
@@ -290,6 +290,7 @@ Identifier EnergyMl() {
                  {{"initial_energy", "zero", "zero|estimated",
                    "E(0): 0 for a cold joint, or estimated at a cost of accuracy"},
                   GravityOption(),
+                  MotionOption(),
                   LossOption()});
   return {kName,
           "law and warming together by maximum likelihood over the closed loop; needs no start",

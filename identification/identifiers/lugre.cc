@@ -25,9 +25,6 @@ constexpr double kNotable = 0.02;      // of the torque's rms
 constexpr double kMissed = 2;          // rms around turns over that at constant speeds
 constexpr double kVagueBristle = 0.5;  // standard deviation of a logarithm: a factor of e
 
-constexpr ParameterInfo kInertiaInfo{"inertia", "M", {"N.m.s^2/rad", "N.s^2/m"}, 0,
-                                     kInfinity, 0,   "torque over acceleration"};
-
 /// {kv, kc, ks, ln vs} of the Stribeck curve, were presliding over after `distance`, rad or m;
 /// nothing where the samples do not show one. A start, so that ks is kept within 1 and 3 kc.
 std::optional<Eigen::Vector4d> SteadyStart(const IdentifierInput& input, double distance) {
@@ -121,7 +118,7 @@ void SetModel(const Measurements& m, const LugreProblem& problem, const LugrePoi
   fit.parameters[kLugreDamping].coordinate = Coordinate::positive;
   fit.parameters[kLugreDamping].estimated = !problem.IsConstant(kLugreDamping);
   if (problem.IsConstant(kLugreInertia)) return;
-  Append({TableParameter(kInertiaInfo, Role::inertia, point.x[kLugreInertia], m)}, fit);
+  Append({InertiaParameter(point.x[kLugreInertia], m)}, fit);
 }
 
 std::vector<Iterate> Trace(const LugreProblem& problem, const std::vector<LugrePoint>& scan) {

@@ -74,7 +74,7 @@ Fit FitLaw(const IdentifierInput& given) {
   fit.identifier = kName;
   fit.friction = FrictionOf(law, values, m);
   fit.parameters = LawParameters(law, values, m);
-  AddGravity(gravity, solved.solution.tail(gravity.count()), m, fit);
+  AddRigid(gravity, solved.solution.tail(gravity.count()), m, fit);
 
   // and how well they fit
   fit.used = input.selection;
@@ -86,8 +86,8 @@ Fit FitLaw(const IdentifierInput& given) {
   if (huber) fit.loss_bend = robust.threshold;
   fit.count = task.count();
   fit.effective_parameters = task.count();
-  fit.summary = fmt::format("law {} by least squares on {} samples{}", law.name, torque.size(),
-                            whitening ? kWhitened : "");
+  fit.summary = fmt::format("law {} by least squares on {} samples{}{}", law.name, torque.size(),
+                            m.acceleration ? kOfAnyMotion : "", whitening ? kWhitened : "");
   const Eigen::VectorXd friction = A.leftCols(task.law_count()) * values;
   fit.jacobian = [all = std::move(task.columns)] { return all; };
   if (structure) HoldStructure(*structure, friction, fit);
@@ -101,6 +101,7 @@ Identifier NominalLs() {
           "a nominal law by linear least squares, without warming",
           {{"law", "viscous_coulomb", LinearLawWords(), "nominal friction law"},
            GravityOption(),
+           MotionOption(),
            LossOption()},
           &FitLaw};
 }

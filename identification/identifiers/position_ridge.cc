@@ -8,8 +8,11 @@ namespace {
 
 constexpr const char* kName = "position-ridge";
 
-Fit FitMap(const IdentifierInput& input) {
-  MapBeginning begin = BeginMaps(input, kName, {MapQuantity::position});
+Fit FitMap(const IdentifierInput& given) {
+  const RigidPart rigid = PrepareRigid(given);
+  if (rigid.why) return Refused(kName, {rigid.status, *rigid.why});
+  const IdentifierInput input = rigid.Of(given);
+  MapBeginning begin = BeginMaps(input, kName, {MapQuantity::position}, rigid);
   if (begin.refusal) return Refused(kName, *begin.refusal);
   MapTask& task = begin.task;
   task.candidates = PositionMaps(input.options, task.settings, begin.points);
@@ -21,6 +24,8 @@ Fit FitMap(const IdentifierInput& input) {
 Identifier PositionRidge() {
   std::vector<OptionInfo> options = MapOptions();
   for (const OptionInfo& option : PositionMapOptions()) options.push_back(option);
+  options.push_back(GravityOption());
+  options.push_back(MotionOption());
   return {kName, "a nominal law and a map over position by ridge regression, without warming",
           options, &FitMap};
 }

@@ -61,7 +61,7 @@ Eigen::VectorXd Run(const Eigen::MatrixXd& A, const Eigen::VectorXd& y, double f
 }
 
 /// Gravity by plain least squares beside the law, [N] N.m or N; 0 where columns are mixed.
-Eigen::VectorXd Pull(const IdentifierInput& input, const GravityFit& gravity,
+Eigen::VectorXd Pull(const IdentifierInput& input, const RigidPart& gravity,
                      const Eigen::MatrixXd& columns) {
   const LeastSquares plain = SolveLeastSquares(Kept(columns, input.selection),
                                                Kept(input.measurements.torque, input.selection));
@@ -100,7 +100,7 @@ Fit FitOnline(const IdentifierInput& given) {
   fit.friction = FrictionOf(law, values, m);
   fit.friction.thermal = thermal;
   fit.parameters = LawParameters(law, values, m);
-  AddGravity(gravity, x.tail(gravity.count()), m, fit);
+  AddRigid(gravity, x.tail(gravity.count()), m, fit);
 
   // and how well they fit
   fit.used = input.selection;

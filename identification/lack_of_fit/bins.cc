@@ -45,6 +45,7 @@ Bins MakeBins(const Measurements& measurements, const Selection& selection) {
   const Eigen::ArrayXi segment = SegmentOf(v.size(), selection);
   const auto together = [&](Index first, Index other) {
     if (segment.size() > 0) return segment[first] == segment[other];
+    if (measurements.acceleration) return v[first] * v[other] > 0;
     return std::abs(v[other] - v[first]) <= kOneSpeed * std::abs(v[first]);
   };
 

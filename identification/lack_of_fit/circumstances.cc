@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "identification/forward/thermal_filter.h"
-#include "identification/linear/fit_gravity.h"
+#include "identification/linear/rigid_part.h"
 #include "models/foundation/robust_noise.h"
 
 namespace warmjoint::inline identification {

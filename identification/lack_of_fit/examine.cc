@@ -11,7 +11,7 @@
 #include "identification/lack_of_fit/lag.h"
 #include "identification/lack_of_fit/ripple.h"
 #include "identification/lack_of_fit/sensitivity.h"
-#include "identification/linear/fit_gravity.h"
+#include "identification/linear/rigid_part.h"
 
 namespace warmjoint::inline identification {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "identification/linear/fit_gravity.h"
+#include "identification/linear/rigid_part.h"
 
 namespace warmjoint::inline identification {
 namespace {

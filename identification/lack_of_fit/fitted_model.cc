@@ -6,8 +6,8 @@
 
 #include "identification/forward/closed_loop.h"
 #include "identification/lack_of_fit/held_loss.h"
-#include "identification/linear/fit_gravity.h"
 #include "identification/linear/linear_laws.h"
+#include "identification/linear/rigid_part.h"
 #include "identification/warming/estimated_start.h"
 #include "identification/warming/gaps.h"
 #include "models/recording/course_of.h"
@@ -113,6 +113,7 @@ std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& infere
   model.has_bristle = law.pre_sliding == PreSliding::bristle;
   model.torque = m.torque;
   if (fit.gravity) TakeOff(*fit.gravity, m.position, model);
+  if (fit.inertia) model.torque -= *fit.inertia * *m.acceleration;
   const Prediction prediction = PredictFriction(fit.friction, m, fit.Start(), BristleStart::torque);
   model.residual = model.torque - prediction.force;
   model.energy = prediction.energy;
@@ -120,11 +121,13 @@ std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& infere
 
   // and how its parameters could change that
   model.rows = RowsOf(fit, {Role::law, Role::heat, Role::start, Role::gravity});
+  if (fit.inertia) model.rows.push_back(*fit.RowOf(Role::inertia));
   model.derivatives = NominalDerivatives(law, values, m.velocity);
   model.knows_warming = fit.friction.thermal && !fit.Values(Role::heat).empty();
   Eigen::MatrixXd by_jumps(m.size(), 0);
   if (model.knows_warming) by_jumps = AddWarming(fit, inference, m, model);
   if (fit.gravity) AddGravity(*fit.gravity, m.position, model);
+  if (fit.inertia) model.derivatives = Beside(model.derivatives, *m.acceleration);
   model.derivatives = Beside(model.derivatives, by_jumps);
   return model;
 }

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "identification/lack_of_fit/significance.h"
-#include "identification/linear/fit_gravity.h"
+#include "identification/linear/rigid_part.h"
 
 namespace warmjoint::inline identification {
 namespace {

@@ -10,9 +10,47 @@
 namespace warmjoint::inline identification {
 namespace {
 
-/// "try NAME" for an identifier other than the one that was used; else `otherwise`.
-std::string Try(std::string_view name, const Advice& advice, const std::string& otherwise) {
-  return advice.fit.identifier == name ? otherwise : fmt::format("try {}", name);
+/// What a model holds already, whoever fitted it: `auto` is not told to try what it chose.
+bool HoldsMap(const Advice& advice, MapQuantity quantity) {
+  const std::vector<FrictionMap>& maps = advice.fit.friction.maps;
+  return std::ranges::any_of(maps, [&](const FrictionMap& map) {
+    return std::ranges::any_of(map.axes,
+                               [&](const MapAxis& axis) { return axis.quantity == quantity; });
+  });
+}
+bool HoldsWarming(const Advice& advice) { return advice.fit.RowOf(Role::heat).has_value(); }
+
+/// "try --identifier NAME ...", with the gravity that the fit has.
+std::string Try(const Advice& advice, const std::string& command) {
+  const bool sincos = advice.fit.gravity && advice.fit.gravity->kind == GravityKind::sincos;
+  const char* gravity = !advice.fit.gravity ? ""
+                        : sincos            ? " --gravity sincos"
+                                            : " --gravity paired";
+  const bool can = command.starts_with("energy-ml") || command.starts_with("nominal-ls") ||
+                   command.starts_with("position-ridge");
+  return fmt::format("try --identifier {}{}", command, can ? gravity : "");
+}
+
+/// Kernels of the first axis over a quantity; 0 where there is none.
+size_t KernelsOver(const Advice& advice, MapQuantity quantity) {
+  for (const FrictionMap& map : advice.fit.friction.maps) {
+    for (const MapAxis& axis : map.axes) {
+      if (axis.quantity == quantity) return axis.kernels.size();
+    }
+  }
+  return 0;
+}
+
+/// A map with twice as many kernels, as far as there are any.
+std::string Finer(const Advice& advice, MapQuantity quantity, const char* option, size_t most) {
+  const size_t kernels = 2 * KernelsOver(advice, quantity);
+  if (kernels > most) return "no map of this program is finer: the joint ripples in another way";
+  const bool position = quantity == MapQuantity::position;
+  const std::string name =
+      HoldsWarming(advice) ? fmt::format("energy-ml --set position={}", position ? "map" : "motor")
+      : position           ? "position-ridge"
+                           : "motor-ridge";
+  return Try(advice, fmt::format("{} --set {}={}", name, option, kernels));
 }
 
 /// Whether E(0) can be estimated: the fits with maps cannot.
@@ -26,8 +64,7 @@ bool MayBeGravity(const Advice& advice) {
   const Eigen::VectorXd& position = advice.input.measurements.position;
   const double travel = position.maxCoeff() - position.minCoeff();
   const bool slow = advice.finding.period > std::min(std::numbers::pi, 0.9 * travel);
-  return advice.input.measurements.joint == JointKind::rotary && slow &&
-         advice.identifier.Has("gravity") && !advice.fit.gravity;
+  return advice.input.measurements.joint == JointKind::rotary && slow && !advice.fit.gravity;
 }
 
 }  // namespace
@@ -38,8 +75,13 @@ std::string AgainstWarmStart(const Identifier& identifier, const IdentifierInput
 }
 
 std::string AgainstWarming(const Advice& advice) {
-  if (!advice.fit.RowOf(Role::heat)) {
-    return Try("energy-ml", advice, "record it at a steady temperature");
+  if (!HoldsWarming(advice)) {
+    const bool curved = advice.fit.friction.law == "stribeck";
+    if (HoldsMap(advice, MapQuantity::motor_position)) {
+      return Try(advice, "energy-ml --set position=motor");
+    }
+    if (HoldsMap(advice, MapQuantity::position)) return Try(advice, "energy-ml --set position=map");
+    return Try(advice, curved ? "stribeck --set warming=estimated" : "energy-ml");
   }
   if (TakesStart(advice.identifier, advice.input) &&
       advice.input.options.Text("initial_energy") == "zero") {
@@ -55,25 +97,53 @@ std::string AgainstStart(const Advice& advice) {
 }
 
 std::string AgainstSpeed(const Advice& advice) {
-  return Try("stribeck", advice, "the law lacks a curve over speed (Stribeck)");
+  if (advice.fit.friction.law == "stribeck" || advice.fit.friction.law == "lugre") {
+    return "the law has a curve over speed already, and the joint's is another one";
+  }
+  if (HoldsMap(advice, MapQuantity::velocity) && KernelsOver(advice, MapQuantity::velocity) > 2) {
+    return "the map has kernels over speed already, and friction depends on it in another way";
+  }
+  if (HoldsMap(advice, MapQuantity::position)) {
+    return Try(advice, HoldsWarming(advice) ? "energy-ml --set position=map --set basis=velocity"
+                                            : "position-ridge --set basis=velocity");
+  }
+  return Try(advice, HoldsWarming(advice) ? "stribeck --set warming=estimated" : "stribeck");
 }
 
 std::string AgainstWarmingSlope(const Advice& advice) {
+  if (HoldsMap(advice, MapQuantity::energy)) {
+    return "the map over energy does not follow it: record more than one warm-up";
+  }
   // beside a map over position, the map over energy has to follow the slope too
-  const bool mapped = !advice.fit.friction.maps.empty();
-  return Try(mapped ? "energy-map" : "lpv-energy", advice, "more kernels over energy would fit it");
+  return Try(advice, advice.fit.friction.maps.empty() ? "lpv-energy" : "energy-map");
 }
 
 std::string AgainstDirection(const Advice& advice) {
-  const bool can = advice.identifier.Has("law") && advice.input.options.Text("law") != "asymmetric";
-  if (can) return "try --set law=asymmetric";
-  const std::string slope = "friction differs in slope between the directions";
-  const std::string next = Try("position-ridge", advice, "");
-  return next.empty() ? slope : fmt::format("{}: {} with --set basis=velocity", slope, next);
+  const bool can = advice.identifier.Has("law");
+  const bool mapped = HoldsMap(advice, MapQuantity::position);
+  const std::string map = mapped && HoldsWarming(advice) ? " --set position=map" : "";
+  if (can && advice.fit.friction.law != "asymmetric" && !advice.fit.gravity) {
+    return Try(advice, fmt::format("{} --set law=asymmetric{}", advice.identifier.name, map));
+  }
+  if (!mapped && !advice.fit.gravity) {
+    return fmt::format(
+        "something pushes in one direction, as a load or an offset of the sensor "
+        "does: try --identifier {} --gravity paired",
+        HoldsWarming(advice) ? "energy-ml" : "nominal-ls");
+  }
+  if (HoldsMap(advice, MapQuantity::velocity)) {
+    return "the map tells the directions apart already, and they differ in another way";
+  }
+  const char* warm = HoldsWarming(advice) ? "energy-ml --set position=map --set basis=velocity"
+                                          : "position-ridge --set basis=velocity";
+  return "friction differs in slope between the directions: " + Try(advice, warm);
 }
 
 std::string AgainstLoad(const Advice& advice) {
-  return Try("load-map", advice, "more kernels over load would fit it");
+  if (HoldsMap(advice, MapQuantity::load)) {
+    return "the map over load does not follow it: friction depends on more than the load";
+  }
+  return Try(advice, "load-map");
 }
 
 std::string AgainstTemperature(const Advice&) { return "record it at a steady temperature"; }
@@ -97,22 +167,36 @@ std::string AgainstLag(const Advice&) {
 }
 
 std::string AgainstFading(const Advice& advice) {
-  return Try("energy-map", advice, "more kernels over energy would fit it");
+  if (HoldsMap(advice, MapQuantity::energy)) {
+    return "the map over energy does not follow it: record more than one warm-up";
+  }
+  return Try(advice, "energy-map");
 }
 
 std::string AgainstPosition(const Advice& advice) {
-  if (advice.finding.alike <= 0.8) {
-    return Try("position-ridge", advice, "a map over position would fit it");
+  const bool warm = HoldsWarming(advice);
+  const bool alike = advice.finding.alike > 0.8;
+  const std::string how = alike ? "it acts alike in both directions, as " : "";
+  if (alike && MayBeGravity(advice)) {
+    return how + fmt::format("gravity does: try --identifier {} --gravity sincos",
+                             advice.identifier.Has("gravity") ? advice.fit.identifier
+                             : warm                           ? "energy-ml"
+                                                              : "nominal-ls");
   }
-  const std::string alike = "it acts alike in both directions, as ";
-  if (MayBeGravity(advice)) return alike + "gravity does: try --gravity sincos";
-  const std::string next = Try("position-ridge", advice, "");
-  return alike + "a load does that depends on position" +
-         (next.empty() ? next : ": " + next + " with --set basis=position");
+  if (HoldsMap(advice, MapQuantity::position)) {
+    return Finer(advice, MapQuantity::position, "kernels", 128);
+  }
+  const std::string map = warm ? "energy-ml --set position=map" : "position-ridge";
+  if (!alike) return Try(advice, map);
+  return how +
+         "a load does that depends on position: " + Try(advice, map + " --set basis=position");
 }
 
 std::string AgainstMotorAngle(const Advice& advice) {
-  return Try("motor-ridge", advice, "a map over the motor angle would fit it");
+  if (HoldsMap(advice, MapQuantity::motor_position)) {
+    return Finer(advice, MapQuantity::motor_position, "motor_kernels", 128);
+  }
+  return Try(advice, HoldsWarming(advice) ? "energy-ml --set position=motor" : "motor-ridge");
 }
 
 }  // namespace warmjoint::inline identification

@@ -3,8 +3,8 @@
 #include <Eigen/QR>
 #include <cmath>
 
-#include "identification/linear/fit_gravity.h"
 #include "identification/linear/least_squares.h"
+#include "identification/linear/rigid_part.h"
 
 namespace warmjoint::inline identification {
 namespace {

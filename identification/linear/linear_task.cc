@@ -6,8 +6,8 @@
 namespace warmjoint::inline identification {
 
 LinearTask BeginLinear(const IdentifierInput& given, int more) {
-  LinearTask task{*FindLaw(given.options.Text("law")), PrepareGravity(given), {}, {}};
-  const GravityFit& gravity = task.gravity;
+  LinearTask task{*FindLaw(given.options.Text("law")), PrepareRigid(given), {}, {}};
+  const RigidPart& gravity = task.gravity;
   if (gravity.why) {
     task.refusal = Refusal{gravity.status, *gravity.why};
     return task;

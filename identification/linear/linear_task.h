@@ -1,14 +1,17 @@
 // What a fit of a linear law begins with.
 #pragma once
 
-#include "identification/linear/fit_gravity.h"
+#include "identification/linear/rigid_part.h"
 
 namespace warmjoint::inline identification {
 
-/// Law and gravity, both linear in their parameters, on usable data.
+/// What a summary adds of samples that accelerate.
+inline constexpr const char* kOfAnyMotion = " of motion of any kind, with inertia";
+
+/// Law, gravity and inertia, all linear in their parameters, on usable data.
 struct LinearTask {
   const Law& law;
-  GravityFit gravity;
+  RigidPart gravity;
   Eigen::MatrixXd columns;         // [N x d] over all samples: law, then gravity
   std::optional<Refusal> refusal;  // why nothing can be fitted; then there are no columns
 

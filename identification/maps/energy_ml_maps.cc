@@ -13,18 +13,19 @@ namespace warmjoint::inline identification {
 namespace {
 
 /// Options that say something about fits without maps, and the value that says nothing.
-constexpr std::array<std::array<const char*, 2>, 3> kAlone{
-    {{"gravity", "none"}, {"initial_energy", "zero"}, {"loss", "squares"}}};
+constexpr std::array<std::array<const char*, 2>, 2> kAlone{
+    {{"initial_energy", "zero"}, {"loss", "squares"}}};
 
 /// Kernels over the joint's position beside the motor's map where none are asked for.
 constexpr int kArmKernels = 20;
 
 /// What a law with a map over position, or over the motor's angle, begins with.
-MapBeginning Begin(const std::string& identifier, const IdentifierInput& input) {
+MapBeginning Begin(const std::string& identifier, const IdentifierInput& input,
+                   const RigidPart& rigid) {
   if (input.options.Text("position") == "map") {
-    return BeginMaps(input, identifier, {MapQuantity::position});
+    return BeginMaps(input, identifier, {MapQuantity::position}, rigid);
   }
-  return BeginMaps(input, identifier, {MapQuantity::position, MapQuantity::motor_position});
+  return BeginMaps(input, identifier, {MapQuantity::position, MapQuantity::motor_position}, rigid);
 }
 
 /// The shapes that the option `position` names.
@@ -49,8 +50,11 @@ std::vector<OptionInfo> WarmMapOptions() {
   return options;
 }
 
-Fit FitWithMaps(const std::string& identifier, const IdentifierInput& input) {
-  MapBeginning begin = Begin(identifier, input);
+Fit FitWithMaps(const std::string& identifier, const IdentifierInput& given) {
+  const RigidPart rigid = PrepareRigid(given);
+  if (rigid.why) return Refused(identifier, {rigid.status, *rigid.why});
+  const IdentifierInput input = rigid.Of(given);
+  MapBeginning begin = Begin(identifier, input, rigid);
   if (begin.refusal) return Refused(identifier, *begin.refusal);
   const std::string& position = input.options.Text("position");
   for (const auto& [option, nothing] : kAlone) {
@@ -58,7 +62,7 @@ Fit FitWithMaps(const std::string& identifier, const IdentifierInput& input) {
     if (value == nothing) continue;
     return Refused(identifier, Status::bad_data,
                    fmt::format("position={} cannot be had together with {}={}; leave one of them "
-                               "out (basis=position takes gravity up into the map)",
+                               "out",
                                position, option, value));
   }
   begin.task.candidates = Candidates(input.options, begin);

@@ -9,6 +9,7 @@
 #include "identification/inference/inference.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
+#include "identification/maps/holes.h"
 #include "identification/maps/make_bands.h"
 #include "models/friction/sign.h"
 
@@ -16,15 +17,16 @@ namespace warmjoint::inline identification {
 namespace {
 
 /// Why the law alone cannot be fitted, or the data not used; nothing where all is well.
-std::optional<Refusal> RefuseForMaps(const IdentifierInput& input, const Law& law) {
-  const auto d = static_cast<int>(law.parameters.size());
+std::optional<Refusal> RefuseForMaps(const IdentifierInput& input, const Law& law,
+                                     const RigidPart& rigid) {
+  const auto d = static_cast<int>(law.parameters.size() + rigid.count());
   if (auto why = Unusable(input, d + 2)) return Refusal{Status::bad_data, *why};
-  const Eigen::MatrixXd A =
-      LawColumns(law, Kept(input.measurements.velocity, input.selection).col(0));
-  const LeastSquares fit = SolveLeastSquares(A, Kept(input.measurements.torque, input.selection));
+  Eigen::MatrixXd columns = LawColumns(law, input.measurements.velocity);
+  if (rigid.count() > 0) columns = Beside(columns, rigid.columns);
+  const LeastSquares fit = SolveLeastSquares(Kept(columns, input.selection),
+                                             Kept(input.measurements.torque, input.selection));
   if (fit.mixed.empty()) return std::nullopt;
-  return Refusal{Status::not_identifiable,
-                 Indistinct(fit.mixed, law, input.measurements, input.selection)};
+  return Refusal{Status::not_identifiable, IndistinctColumns(fit.mixed, law, rigid, input)};
 }
 
 /// Why no map over a quantity can be told from the kept samples, [n x 5] `points`.
@@ -55,6 +57,7 @@ void AddLaw(const Law& law, const MapFit& maps, const Measurements& measurements
   fit.parameters = LawParameters(law, maps.x.head(maps.free), measurements);
   std::vector<std::string> imitated;
   for (const Eigen::Index i : ImitatedColumns(maps)) {
+    if (i >= static_cast<Eigen::Index>(law.parameters.size())) continue;
     FitParameter& parameter = fit.parameters[static_cast<size_t>(i)];
     parameter.has_interval = false;
     imitated.push_back(parameter.name);
@@ -67,10 +70,14 @@ void AddLaw(const Law& law, const MapFit& maps, const Measurements& measurements
 
 }  // namespace
 
+Eigen::Index MapTask::law_count() const {
+  return static_cast<Eigen::Index>(FindLaw(settings.law)->parameters.size());
+}
+
 MapBeginning BeginMaps(const IdentifierInput& input, const std::string& identifier,
-                       std::initializer_list<MapQuantity> quantities) {
-  MapBeginning begin{{identifier, ReadMapSettings(input.options), {}, {}}, {}, {}};
-  begin.refusal = RefuseForMaps(input, *FindLaw(begin.task.settings.law));
+                       std::initializer_list<MapQuantity> quantities, const RigidPart& rigid) {
+  MapBeginning begin{{identifier, ReadMapSettings(input.options), {}, {}, rigid}, {}, {}};
+  begin.refusal = RefuseForMaps(input, *FindLaw(begin.task.settings.law), rigid);
   if (begin.refusal) return begin;
   begin.points = Kept(PointsOf(input.measurements), input.selection);
   for (const MapQuantity quantity : quantities) {
@@ -97,8 +104,8 @@ Refusal Unsolvable() {
 }
 
 std::optional<MapChoice> ChooseAndFit(const IdentifierInput& input, const MapTask& task) {
-  const Eigen::MatrixXd columns =
-      LawColumns(*FindLaw(task.settings.law), input.measurements.velocity);
+  Eigen::MatrixXd columns = LawColumns(*FindLaw(task.settings.law), input.measurements.velocity);
+  if (task.rigid.count() > 0) columns = Beside(columns, task.rigid.columns);
   const MapPoints all = PointsOf(input.measurements, task.energy);
   MapProblem problem{{},
                      Kept(all, input.selection),
@@ -110,6 +117,7 @@ std::optional<MapChoice> ChooseAndFit(const IdentifierInput& input, const MapTas
   for (const ParameterInfo& info : FindLaw(task.settings.law)->parameters) {
     problem.lower.push_back(info.lower);
   }
+  problem.lower.resize(static_cast<size_t>(columns.cols()), -kInfinity);
 
   // a choice costs fits, so one is made only where there is something to choose
   ChosenMaps best{0, task.settings.strength, 0};
@@ -144,6 +152,7 @@ Fit AsFit(const IdentifierInput& input, const MapTask& task, const MapFit& maps,
   fit.friction = FrictionOf(law, maps.x.head(maps.free), m);
   fit.friction.maps = maps.maps;
   AddLaw(law, maps, m, fit);
+  AddRigid(task.rigid, maps.x.segment(task.law_count(), task.rigid.count()), m, fit);
 
   // how well they fit
   fit.used = input.selection;
@@ -159,6 +168,13 @@ Fit AsFit(const IdentifierInput& input, const MapTask& task, const MapFit& maps,
   // and how sure they are
   fit.errors.known = known;
   fit.errors.known->covariance = known.covariance.topLeftCorner(maps.free, maps.free);
+  const std::vector<std::string> holes = NameHoles(maps.maps, maps.unseen, m.joint);
+  if (!holes.empty()) {
+    fit.warnings.push_back(
+        fmt::format("the map has no data at {}: it follows its neighbours there, and its bands are "
+                    "wide",
+                    fmt::join(holes, ", ")));
+  }
   if (!Infer(fit).gives_friction) return fit;
   fit.bands = MakeBands(law, maps, known, Kept(PointsOf(m, task.energy), fit.used));
   return fit;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "identification/identifier.h"
+#include "identification/linear/rigid_part.h"
 #include "identification/maps/map_options.h"
 
 namespace warmjoint::inline identification {
@@ -18,6 +19,10 @@ struct MapTask {
   std::vector<std::vector<FrictionMap>> candidates;
   /// [N] E, N.m or N, as far as it is known: sign(v) E is taken off the torque. Empty: 0.
   Eigen::VectorXd energy;
+  /// Gravity and inertia beside law and maps, free of any prior; no columns: none.
+  RigidPart rigid{};
+
+  Eigen::Index law_count() const;  // parameters of the law
 };
 
 /// Where an identifier with maps begins: its settings, and the samples that it fits.
@@ -29,9 +34,9 @@ struct MapBeginning {
 
 /// Reads the options that all identifiers with maps share (map_options.h) and looks whether the
 /// data tell the law's parameters apart and vary in each of the quantities that maps are wanted
-/// over. identifier: its name.
+/// over. identifier: its name; rigid: fitted beside law and maps.
 MapBeginning BeginMaps(const IdentifierInput& input, const std::string& identifier,
-                       std::initializer_list<MapQuantity> quantities);
+                       std::initializer_list<MapQuantity> quantities, const RigidPart& rigid = {});
 
 /// The fit that was chosen, and what it was made of.
 struct MapChoice {

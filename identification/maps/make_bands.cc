@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "identification/linear/linear_laws.h"
+#include "identification/maps/holes.h"
 #include "identification/ridge/local_rows.h"
 #include "identification/uncertainty/tails.h"
 #include "models/foundation/robust_noise.h"
@@ -77,7 +78,8 @@ std::vector<MapBand> MakeBands(const Law& law, const MapFit& fit, const Uncertai
     const Index size = places.rows();
     Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(size, fit.x.size());
     if (!IsAlikeBothWays(map)) {
-      rows.leftCols(fit.free) = LawColumns(law, places.col(kVelocity));
+      const Eigen::MatrixXd columns = LawColumns(law, places.col(kVelocity));
+      rows.leftCols(columns.cols()) = columns;
       for (const int direction : {-1, 1}) {
         const Eigen::RowVectorXd others = MeanRow(fit.maps, kept, direction);
         for (Index i = 0; others.size() > 0 && i < size; ++i) {
@@ -86,12 +88,16 @@ std::vector<MapBand> MakeBands(const Law& law, const MapFit& fit, const Uncertai
       }
     }
     rows.middleCols(first, size) = DenseKernels({map}, places, 0, size);
+    const auto kernel = static_cast<size_t>(first - fit.free);
+    const std::vector<double> doubt = DoubtOfHoles(map, kernel, fit.unseen, fit.x.tail(q));
     first += size;
 
     const Eigen::VectorXd value = rows * fit.x;
     const Eigen::VectorXd variance = (rows * covariance).cwiseProduct(rows).rowwise().sum();
     for (Index i = 0; i < size; ++i) {
-      const double deviation = std::sqrt(std::max(0.0, variance[i]));
+      // where the map has no data it may be as far off as it varies elsewhere
+      const double deviation =
+          std::hypot(std::sqrt(std::max(0.0, variance[i])), doubt[static_cast<size_t>(i)]);
       band.value.push_back(value[i]);
       band.std.push_back(deviation);
       band.interval95.push_back({value[i] - reach * deviation, value[i] + reach * deviation});

@@ -12,7 +12,8 @@ namespace warmjoint::inline identification {
 /// well as their sum is. A place is at the speed of its centre or, where the map has no axis of
 /// velocity, at the median speed forwards; the other maps count with their mean over the samples of
 /// that direction. A map that is alike in both directions stands alone: no law imitates it. The
-/// warming E is left out.
+/// warming E is left out. Where a kernel has no data (MapFit::unseen), the spread of the seen ones joins
+/// its deviation.
 /// known: about law, weights and maybe more; kept: [n x 5] points of the fit.
 std::vector<MapBand> MakeBands(const Law& law, const MapFit& fit, const Uncertainty& known,
                                const MapPoints& kept);

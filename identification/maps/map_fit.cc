@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "identification/maps/holes.h"
 #include "identification/ridge/local_ridge.h"
 #include "identification/uncertainty/penalised_uncertainty.h"
 
@@ -27,7 +28,10 @@ std::optional<MapFit> FitMaps(const MapProblem& problem, double strength) {
   fit.gram = normal.gram;
   const Eigen::Index d = normal.product.size();
   Eigen::MatrixXd gram = normal.gram;
-  gram.diagonal().tail(d - fit.free).array() += strength;
+  // where there are no data the neighbours tell more than the law alone
+  fit.unseen = UnseenKernels(problem.maps, problem.points);
+  gram.bottomRightCorner(d - fit.free, d - fit.free) +=
+      strength * PriorOf(problem.maps, fit.unseen);
   const Eigen::LLT<Eigen::MatrixXd> factors(gram);
   if (factors.info() != Eigen::Success || !std::isfinite(normal.squares)) return std::nullopt;
   fit.inverse = factors.solve(Eigen::MatrixXd::Identity(d, d));

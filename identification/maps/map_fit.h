@@ -33,9 +33,10 @@ struct MapFit {
   Eigen::MatrixXd gram;           // [p + q]^2 A^T A
   Eigen::MatrixXd inverse;        // [p + q]^2 (A^T A + s P)^-1
   std::vector<FrictionMap> maps;  // with their weights
+  std::vector<bool> unseen;       // [q] kernels without data (holes.h)
 };
 
-/// argmin |y - A x|^2 + s |w|^2. Nothing where the system is singular to rounding or overflows.
+/// argmin |y - A x|^2 + s w^T P w, P: PriorOf (holes.h). Nothing where the system is singular to rounding or overflows.
 std::optional<MapFit> FitMaps(const MapProblem& problem, double strength);
 
 /// The maps with their weights, one map's after the other's. weights: [q]

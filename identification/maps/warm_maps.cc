@@ -28,7 +28,7 @@ Eigen::MatrixXd Columns(const IdentifierInput& input, const Law& law, const MapF
   const Measurements& m = input.measurements;
   const Eigen::MatrixXd columns = LawColumns(law, m.velocity);
   const Eigen::VectorXd values = EvaluateMaps(fit.maps, PointsOf(m));
-  if (!(values.norm() > 1e-9 * (columns * fit.x.head(fit.free)).norm())) return columns;
+  if (!(values.norm() > 1e-9 * (columns * fit.x.head(columns.cols())).norm())) return columns;
   Eigen::MatrixXd both(columns.rows(), columns.cols() + 1);
   both << columns, values;
   return both;
@@ -40,19 +40,25 @@ struct WarmStep {
   Eigen::VectorXd energy;  // [N] N.m or N
 };
 
-WarmStep FitWarming(const IdentifierInput& input, const Law& law, const MapFit& maps,
+WarmStep FitWarming(const IdentifierInput& input, const MapTask& task, const MapFit& maps,
                     const std::optional<Thermal>& start) {
+  const Law& law = *FindLaw(task.settings.law);
   const Measurements& m = input.measurements;
   const ClosedLoop loop(m.time, m.velocity, Columns(input, law, maps), m.starts);
   const Eigen::VectorXd level = loop.direction().cwiseProduct(m.torque);
   const Eigen::VectorXd kept = WithoutRest(input.selection, m).keep.cast<double>();
-  WarmStart from = ScanTimeConstant(loop, level, kept);
+  // gravity and inertia make no heat: out of the scan, beside the loop in the fit
+  const Eigen::MatrixXd offsets = loop.direction().asDiagonal() * task.rigid.columns;
+  const Eigen::VectorXd weights = maps.x.segment(task.law_count(), task.rigid.count());
+  WarmStart from = ScanTimeConstant(loop, level - offsets * weights, kept);
   if (start) from.thermal = *start;
+  const Eigen::Index d = from.parameters.size();
+  from.parameters.conservativeResize(d + weights.size());
+  from.parameters.tail(weights.size()) = weights;
   const double scale = (Kept(m.torque, input.selection).col(0) - maps.fitted).norm() /
                        std::sqrt(static_cast<double>(input.selection.count()));
   WarmStep step;
-  step.fit = FitWarmFriction(loop, level, Eigen::MatrixXd(m.size(), 0), kept, from,
-                             InitialEnergy::zero, scale);
+  step.fit = FitWarmFriction(loop, level, offsets, kept, from, InitialEnergy::zero, scale);
   step.energy = loop.Simulate(step.fit.parameters(), step.fit.thermal()).energy;
   return step;
 }
@@ -66,7 +72,7 @@ double Squares(const MapChoice& choice) {
   return (choice.problem.torque - choice.fit.fitted).squaredNorm();
 }
 
-/// d(F)/d(law, weights, k, log tau) at the kept samples, [n x (p + q + 2)].
+/// d(F + G + M a)/d(law, rigid part, weights, k, log tau) at the kept samples.
 Eigen::MatrixXd JointJacobian(const IdentifierInput& input, const WarmMaps& warm) {
   const Measurements& m = input.measurements;
   const Eigen::MatrixXd law = LawColumns(*FindLaw(warm.task.settings.law), m.velocity);
@@ -74,7 +80,13 @@ Eigen::MatrixXd JointJacobian(const IdentifierInput& input, const WarmMaps& warm
   Eigen::MatrixXd columns(m.size(), law.cols() + kernels.cols());
   columns << law, kernels;
   const ClosedLoop loop(m.time, m.velocity, columns, m.starts);
-  Eigen::MatrixXd jacobian = loop.Jacobian(warm.fit.x, warm.thermal).leftCols(columns.cols() + 2);
+  const Eigen::Index d = law.cols(), q = kernels.cols();
+  Eigen::VectorXd warming(d + q);
+  warming << warm.fit.x.head(d), warm.fit.x.tail(q);
+  const Eigen::MatrixXd all = loop.Jacobian(warming, warm.thermal);
+  const Eigen::MatrixXd& rigid = warm.task.rigid.columns;
+  Eigen::MatrixXd jacobian(m.size(), d + rigid.cols() + q + 2);
+  jacobian << all.leftCols(d), rigid, all.middleCols(d, q + 2);
   jacobian.rightCols(1) *= warm.thermal.time_constant;
   return Kept(jacobian, input.selection);
 }
@@ -136,7 +148,6 @@ void AddRipple(const MapFit& maps, const Uncertainty& known, const Measurements&
 }  // namespace
 
 std::optional<WarmMaps> FitWarmMaps(const IdentifierInput& input, const MapTask& task) {
-  const Law& law = *FindLaw(task.settings.law);
   MapTask current = task;
   current.energy = Eigen::VectorXd();
   std::optional<MapChoice> choice = ChooseAndFit(input, current);
@@ -146,7 +157,7 @@ std::optional<WarmMaps> FitWarmMaps(const IdentifierInput& input, const MapTask&
   WarmMaps warm;
   std::optional<Thermal> before;
   for (warm.rounds = 1; warm.rounds <= kMostRounds; ++warm.rounds) {
-    const WarmStep step = FitWarming(input, law, choice->fit, before);
+    const WarmStep step = FitWarming(input, current, choice->fit, before);
     if (!step.fit.converged || !step.energy.allFinite()) break;
     warm.thermal = step.fit.thermal();
     warm.converged = before && AtRest(*before, warm.thermal);

@@ -8,6 +8,7 @@
 #include "identification/preparation/derive_velocity.h"
 #include "identification/preparation/log_faults.h"
 #include "identification/preparation/motion_from_positions.h"
+#include "identification/preparation/moving_view.h"
 #include "identification/preparation/path_against_velocity.h"
 #include "identification/preparation/position_noise.h"
 #include "identification/preparation/select.h"
@@ -110,6 +111,18 @@ void KeepAlso(const Eigen::Array<bool, Eigen::Dynamic, 1>& keep, const Eigen::Ve
 }
 
 }  // namespace
+
+const LogView& PreparedLog::moving() const {
+  std::call_once(moving_->once, [&] { moving_->view = ViewMotion(log_->taken.measurements); });
+  return moving_->view;
+}
+
+bool PreparedLog::HoldsSpeeds() const {
+  constexpr double fewest = 0.1;  // of the samples that move clearly
+  const Measurements& m = log_->taken.measurements;
+  const auto moving = static_cast<double>((m.velocity.array().abs() > ClearSpeed(m)).count());
+  return static_cast<double>(log_->taken.selection.count()) >= fewest * moving;
+}
 
 PreparedLog PreparedLog::Before(double time) const {
   Log before = *log_;

@@ -2,22 +2,18 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "identification/preparation/log_view.h"
 #include "identification/preparation/segment_velocity.h"
 #include "identification/preparation/select.h"
 #include "models/recording/measurements.h"
 #include "models/recording/selection.h"
 
 namespace warmjoint::inline identification {
-
-/// A log and the samples of it that take part in fits.
-struct LogView {
-  Measurements measurements;
-  Selection selection;
-};
 
 /// A recording prepared for a fit: what moves at constant speed, one velocity for each segment where
 /// the noise of the samples' would bias a fit (segment_velocity.h), a sample at each switch of speed
@@ -33,6 +29,14 @@ class PreparedLog {
 
   /// The log as fits at constant speed see it.
   const LogView& steady() const { return log_->steady ? *log_->steady : log_->taken; }
+
+  /// The log as fits to motion of any kind see it: as it was taken, with its acceleration; all samples
+  /// take part that move clearly (moving_view.h).
+  const LogView& moving() const;
+
+  /// Whether constant speeds are what the log shows of friction: a tenth or more of what moves
+  /// clearly moves at a constant speed.
+  bool HoldsSpeeds() const;
 
   /// What was done to the velocity, if anything.
   const std::optional<VelocityNoise>& velocity_noise() const { return log_->velocity_noise; }
@@ -58,11 +62,18 @@ class PreparedLog {
     std::vector<std::string> faults;
     std::vector<std::string> warnings;
   };
+
+  /// What is made when it is first asked for.
+  struct Moving {
+    std::once_flag once;
+    LogView view;
+  };
   explicit PreparedLog(Log log) : log_(std::make_shared<const Log>(std::move(log))) {}
   friend PreparedLog Prepare(Measurements measurements, const HoldOptions& holds);
   friend PreparedLog Prepare(Measurements measurements, Selection known);
 
   std::shared_ptr<const Log> log_;
+  std::shared_ptr<Moving> moving_ = std::make_shared<Moving>();
 };
 
 /// Prepares a log: the samples at constant speed are found in it (select.h). The one path of command

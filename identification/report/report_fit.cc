@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "identification/report/discrete_pair.h"
+#include "identification/report/end_state.h"
 #include "models/foundation/robust_noise.h"
 
 namespace warmjoint::inline identification {
@@ -85,6 +86,7 @@ Estimate ReportFit(const Fit& fit, const Inference& inference, const Measurement
   estimate.warnings = inference.warnings;
   estimate.diagnostics = inference.diagnostics;
   estimate.assumptions = inference.assumptions;
+  estimate.choice = fit.choice;
   const double h = MedianStep(measurements.time);
   for (const Iterate& iterate : fit.trace) {
     estimate.trace.push_back(EntryOf(fit, iterate, h));
@@ -99,6 +101,7 @@ Estimate ReportFit(const Fit& fit, const Inference& inference, const Measurement
 
   // and what can be used elsewhere
   estimate.friction = FrictionOf(fit, inference);
+  estimate.state_end = EndState(fit, inference, *estimate.friction, measurements);
   if (inference.gives_bands) estimate.bands = fit.bands;
   if (fit.without_intervals.empty()) estimate.covariance = CovarianceOfValues(fit, inference);
   return estimate;

@@ -8,6 +8,7 @@
 #include "identification/forward/closed_loop.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
+#include "identification/linear/rigid_part.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -52,7 +53,8 @@ Eigen::VectorXd Deviations(const Eigen::MatrixXd& jacobian, double sigma, Eigen:
 }  // namespace
 
 CramerRao CramerRaoBound(const Measurements& measurements, const Selection& selection,
-                         const Truth& truth, KnownInitialEnergy initial_energy, double step) {
+                         const Truth& truth, KnownInitialEnergy initial_energy, double step,
+                         const Eigen::MatrixXd& nuisance) {
   const Law& law = *FindLaw(truth.friction.law);
   const auto d = static_cast<Eigen::Index>(law.parameters.size());
   const double sigma = truth.torque_noise;
@@ -64,7 +66,9 @@ CramerRao CramerRaoBound(const Measurements& measurements, const Selection& sele
   }
 
   const auto rows_of = [&](const Eigen::MatrixXd& jacobian) {
-    return Whitened(Kept(jacobian, selection), measurements, selection, truth);
+    const Eigen::MatrixXd all =
+        nuisance.size() > 0 ? Beside(jacobian, nuisance) : Eigen::MatrixXd(jacobian);
+    return Whitened(Kept(all, selection), measurements, selection, truth);
   };
   const Eigen::MatrixXd columns = LawColumns(law, truth.velocity);
   if (!truth.friction.thermal) {

@@ -23,8 +23,10 @@ enum class KnownInitialEnergy { yes, no };
 /// the truth and R the covariance of the noise: sigma^2 = truth.torque_noise^2 in all, of which
 /// truth.coloured_noise^2 exp(-|t|/truth.correlation_time) remembers, the rest is white. NaN where the bound does not exist: no
 /// noise, parameters that the motion cannot tell apart, or a law that is not linear.
+/// nuisance: [N x q] further columns of J, of parameters that are unknown too and get no bound.
 /// step: sampling interval of the discrete pair, s.
 CramerRao CramerRaoBound(const Measurements& measurements, const Selection& selection,
-                         const Truth& truth, KnownInitialEnergy initial_energy, double step);
+                         const Truth& truth, KnownInitialEnergy initial_energy, double step,
+                         const Eigen::MatrixXd& nuisance = {});
 
 }  // namespace warmjoint::inline identification

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "identification/linear/rigid_part.h"
 #include "identification/score/cramer_rao.h"
 #include "identification/score/npe.h"
 #include "models/foundation/robust_noise.h"
@@ -53,7 +54,20 @@ double BoundNpe(const std::vector<ParameterScore>& all) {
   return std::sqrt(sum);
 }
 
+/// Columns of what else a fit to motion of any kind estimates: inertia, and gravity where it did.
+Eigen::MatrixXd Nuisance(const Estimate& estimate, const Measurements& m) {
+  if (!m.acceleration) return {};
+  if (!estimate.gravity) return *m.acceleration;
+  const GravityModel& gravity = *estimate.gravity;
+  return Beside(GravityColumns(gravity.kind, gravity.knots, m.position), *m.acceleration);
+}
+
 }  // namespace
+
+const LogView& ScoredView(const Estimate& estimate, const PreparedLog& log) {
+  const bool any = estimate.Find("inertia") && !estimate.Find("bristle_stiffness");
+  return any ? log.moving() : log.taken();
+}
 
 Score ScoreEstimate(const Estimate& estimate, const Measurements& measurements,
                     const Selection& selection, const Truth& truth) {
@@ -76,7 +90,8 @@ Score ScoreEstimate(const Estimate& estimate, const Measurements& measurements,
 
   const auto known =
       estimate.Find("initial_energy") ? KnownInitialEnergy::no : KnownInitialEnergy::yes;
-  const CramerRao bound = CramerRaoBound(measurements, selection, truth, known, step);
+  const CramerRao bound =
+      CramerRaoBound(measurements, selection, truth, known, step, Nuisance(estimate, measurements));
   for (size_t i = 0; i < score.continuous.size(); ++i) {
     score.continuous[i].bound = bound.continuous[i];
     score.discrete[i].bound = bound.discrete[i];

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "identification/estimate.h"
+#include "identification/preparation/prepared_log.h"
 #include "models/recording/measurements.h"
 #include "models/recording/selection.h"
 #include "sim/truth/truth.h"
@@ -32,12 +33,17 @@ struct Score {
   double bound_npe_discrete = 0;
 };
 
+/// The samples that an estimate is scored on: those of the log as it was taken at constant speed, or
+/// all that move where it took motion of any kind.
+const LogView& ScoredView(const Estimate& estimate, const PreparedLog& log);
+
 /// Scores an estimate of the measurements behind which `truth` stands. Parameters are matched by
 /// name: one of the truth that the estimate lacks (another law's, or the thermal ones of an
 /// identifier without warming) counts as estimated 0 in the NPE. Parameters whose truth is 0 are
 /// listed but left out of the NPE, which is relative. The discrete pair is that of the recording's
 /// mean sampling interval, for truth and estimate alike. The bounds count
-/// E(0) as known unless the estimate holds it.
+/// E(0) as known unless the estimate holds it; with an acceleration, inertia and the gravity that was
+/// fitted count as unknown.
 Score ScoreEstimate(const Estimate& estimate, const Measurements& measurements,
                     const Selection& selection, const Truth& truth);
 

@@ -6,9 +6,9 @@
 
 #include "identification/fit_data.h"
 #include "identification/forward/thermal_filter.h"
-#include "identification/linear/fit_gravity.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
+#include "identification/linear/rigid_part.h"
 
 namespace warmjoint::inline identification {
 namespace {

@@ -25,6 +25,8 @@ struct Measurements {
   std::optional<Eigen::VectorXd> motor_position;  // [N] rad
   std::optional<Eigen::VectorXd> load;            // [N] N.m or N
   std::optional<Eigen::VectorXd> temperature;     // [N] degC
+  /// [N] rad/s^2 or m/s^2: no log holds it; preparation finds it for fits to motion of any kind.
+  std::optional<Eigen::VectorXd> acceleration;
 
   /// Of several recordings joined (join_recordings.h): the first sample of each but the first. The
   /// joint is cold there again.
@@ -38,7 +40,7 @@ struct Measurements {
 template <typename Log, typename Use>
 void ForEachColumn(Log& log, Use&& use) {
   for (auto* column : {&log.time, &log.position, &log.velocity, &log.torque}) use(*column);
-  for (auto* column : {&log.motor_position, &log.load, &log.temperature}) {
+  for (auto* column : {&log.motor_position, &log.load, &log.temperature, &log.acceleration}) {
     if (*column) use(**column);
   }
 }

@@ -43,14 +43,16 @@ void AddOutliers(const Outliers& outliers, RandomStream random, Measurements& lo
 
 }  // namespace
 
-void DisturbLog(const Scenario& scenario, std::uint64_t realization, Recording& recording) {
+void DisturbLog(const Scenario& scenario, std::uint64_t realization, Recording& recording,
+                const Eigen::VectorXd& acceleration) {
   const RandomKey key{scenario.seed, realization};
   const Disturbances& disturbances = scenario.disturbances;
   Measurements& log = recording.measurements;
   if (const double lag = disturbances.torque_lag.time_constant; lag > 0) {
     log.torque += LowPass(log.time, recording.truth.force, lag) - recording.truth.force;
   }
-  log.torque += HiddenTorque(disturbances, log.time, recording.truth.velocity, log.position);
+  log.torque +=
+      HiddenTorque(disturbances, log.time, recording.truth.velocity, log.position, acceleration);
   DisturbMotion(disturbances, log);
   AddColouredNoise(disturbances.coloured_noise, scenario.sampling.rate,
                    {key, Stream::coloured_noise}, recording);

@@ -10,6 +10,8 @@ namespace warmjoint::inline sim {
 /// periodic torque; makes of the motion what poorer sensors log; and spoils what is left as faulty sensors, clocks and
 /// files do. Random numbers come from streams of their own, so that they leave all others as they are.
 /// Coloured noise joins Truth.torque_noise; outliers, being no noise of one size, do not.
-void DisturbLog(const Scenario& scenario, std::uint64_t realization, Recording& recording);
+/// acceleration: as of HiddenTorque.
+void DisturbLog(const Scenario& scenario, std::uint64_t realization, Recording& recording,
+                const Eigen::VectorXd& acceleration = {});
 
 }  // namespace warmjoint::inline sim

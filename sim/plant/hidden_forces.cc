@@ -75,7 +75,8 @@ VectorXd Acceleration(const VectorXd& time, const VectorXd& velocity) {
 }  // namespace
 
 VectorXd HiddenTorque(const Disturbances& disturbances, const VectorXd& time,
-                      const VectorXd& velocity, const VectorXd& position) {
+                      const VectorXd& velocity, const VectorXd& position,
+                      const VectorXd& acceleration) {
   const HiddenForces& hidden = disturbances.hidden;
   VectorXd levels = Levels(disturbances, time, velocity, position);
   if (hidden.memory.slope != 0) {
@@ -89,7 +90,10 @@ VectorXd HiddenTorque(const Disturbances& disturbances, const VectorXd& time,
 
   VectorXd torque = velocity.unaryExpr(&Sign).cwiseProduct(levels);
   torque += hidden.spring.stiffness * position;
-  if (hidden.inertia.inertia != 0) torque += hidden.inertia.inertia * Acceleration(time, velocity);
+  if (hidden.inertia.inertia != 0) {
+    const bool known = acceleration.size() > 0;
+    torque += hidden.inertia.inertia * (known ? acceleration : Acceleration(time, velocity));
+  }
   return torque;
 }
 

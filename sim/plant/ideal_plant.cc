@@ -11,17 +11,19 @@
 namespace warmjoint::inline sim {
 namespace {
 
-/// Planned velocity and position at the stored samples.
+/// Planned motion at samples.
 struct SampledPlan {
-  Eigen::VectorXd time;      // [N] s
-  Eigen::VectorXd velocity;  // [N] rad/s or m/s
-  Eigen::VectorXd position;  // [N] rad or m
+  Eigen::VectorXd time;          // [N] s
+  Eigen::VectorXd velocity;      // [N] rad/s or m/s
+  Eigen::VectorXd position;      // [N] rad or m
+  Eigen::VectorXd acceleration;  // [N] rad/s^2 or m/s^2
 };
 
 SampledPlan SamplePlan(const std::vector<MotionSegment>& plan, double start, double rate,
                        double duration) {
   const auto n = static_cast<Eigen::Index>(std::llround(duration * rate));
-  SampledPlan samples{Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n)};
+  SampledPlan samples{Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n),
+                      Eigen::VectorXd::Zero(n)};
 
   // a sample on a boundary belongs to the segment that begins there, whatever the rounding
   const double tolerance = 1e-6 / rate;
@@ -46,19 +48,25 @@ constexpr double kFinestStep = 0.002;
 
 /// Samples of each stored one: 1 where speeds jump.
 int PartsOfStep(const Scenario& scenario) {
-  if (scenario.controller.acceleration == 0) return 1;
+  if (scenario.controller.acceleration == 0 && !FollowsCorners(scenario.motion)) return 1;
   return static_cast<int>(std::ceil(1 / (scenario.sampling.rate * kFinestStep)));
 }
 
-/// The same with ramps from one speed to the next, from rest before the first one.
-SampledPlan SampleRamps(const std::vector<MotionSegment>& plan, double start, double rate,
-                        double duration, double acceleration) {
-  VelocityReference reference(plan, acceleration, 0);
+/// The same of a velocity with ramps, from rest.
+SampledPlan SampleRamps(VelocityReference reference, double start, double rate, double duration) {
+  constexpr double kBeside = 1e-7;  // s
+  VelocityReference before = reference, behind = reference;
   const auto n = static_cast<Eigen::Index>(std::llround(duration * rate));
-  SampledPlan samples{Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n)};
+  SampledPlan samples{Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n),
+                      Eigen::VectorXd(n)};
   for (Eigen::Index i = 0; i < n; ++i) {
     samples.time[i] = static_cast<double>(i) / rate;
     samples.velocity[i] = reference.Velocity(samples.time[i]);
+
+    // at a corner, between the slopes of both sides
+    before.Velocity(samples.time[i] - kBeside);
+    behind.Velocity(samples.time[i] + kBeside);
+    samples.acceleration[i] = 0.5 * (before.acceleration() + behind.acceleration());
     samples.position[i] = start;
     if (i > 0) {
       samples.position[i] =
@@ -84,11 +92,6 @@ class IdealPlant : public Plant {
  public:
   explicit IdealPlant(const Scenario& scenario) : scenario_(scenario) {
     CheckFriction(scenario.friction, {scenario.name});
-    if (!scenario.motion.corners.empty()) {
-      Refuse({scenario.name},
-             "the ideal plant knows constant speeds alone, and motion.corners accelerate; use the "
-             "mujoco plant");
-    }
     if (scenario.friction.second_thermal && scenario.disturbances.second_heat) {
       Refuse({scenario.name},
              "friction.thermal.second and disturbances.second_heat are both given; the joint has "
@@ -104,20 +107,15 @@ class IdealPlant : public Plant {
  private:
   Recording CarryOut(std::uint64_t realization, const RunWatch&) override {
     const RandomKey key{scenario_.seed, realization};
-    RandomStream motion_stream(key, Stream::motion);
-    const auto plan = PlanMotion(scenario_.motion, scenario_.duration, {}, motion_stream);
     const int parts = PartsOfStep(scenario_);
     const double rate = parts * scenario_.sampling.rate;
-    const double start = StartPosition(scenario_.motion, {});
-    const double acceleration = scenario_.controller.acceleration;
-    SampledPlan samples = acceleration > 0
-                              ? SampleRamps(plan, start, rate, scenario_.duration, acceleration)
-                              : SamplePlan(plan, start, rate, scenario_.duration);
+    SampledPlan samples = Sample(rate, key);
     Prediction friction = AlongMotion(FrictionOfPlant())
                               .Predict(CourseOf(samples, 1 / rate), {scenario_.initial_energy});
     RefusePush(samples, friction);
-    for (Eigen::VectorXd* column : {&samples.time, &samples.velocity, &samples.position,
-                                    &friction.force, &friction.loss, &friction.energy}) {
+    for (Eigen::VectorXd* column :
+         {&samples.time, &samples.velocity, &samples.position, &samples.acceleration,
+          &friction.force, &friction.loss, &friction.energy}) {
       *column = EveryOf(*column, parts);
     }
 
@@ -132,8 +130,25 @@ class IdealPlant : public Plant {
     truth.force = std::move(friction.force);
     truth.loss = std::move(friction.loss);
     truth.energy = std::move(friction.energy);
-    DisturbLog(scenario_, realization, recording);
+    const bool follows = FollowsCorners(scenario_.motion);
+    DisturbLog(scenario_, realization, recording,
+               follows ? samples.acceleration : Eigen::VectorXd());
     return recording;
+  }
+
+  /// The planned motion. rate: Hz
+  SampledPlan Sample(double rate, RandomKey key) const {
+    const Motion& motion = scenario_.motion;
+    const double duration = scenario_.duration, acceleration = scenario_.controller.acceleration;
+    const double start = StartPosition(motion, {});
+    RandomStream random(key, Stream::motion);
+    if (FollowsCorners(motion)) {
+      const std::vector<VelocityCorner> corners = PlanCorners(motion, duration, random);
+      return SampleRamps(VelocityReference::Through(corners, 1, 0), start, rate, duration);
+    }
+    const std::vector<MotionSegment> plan = PlanMotion(motion, duration, {}, random);
+    if (acceleration == 0) return SamplePlan(plan, start, rate, duration);
+    return SampleRamps(VelocityReference(plan, acceleration, 0), start, rate, duration);
   }
 
   /// Beyond that sample the model has left its domain.

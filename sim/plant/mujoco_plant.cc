@@ -80,7 +80,11 @@ class MujocoPlant : public Plant {
   Recording CarryOut(std::uint64_t realization, const RunWatch& watch) override {
     const RandomKey key{scenario_.seed, realization};
     const double start = StartPosition(scenario_.motion, joint_.limits);
-    const std::vector<MotionSegment> plan = CheckedPlan(key, start);
+    RandomStream motion(key, Stream::motion);
+    corners_ = FollowsCorners(scenario_.motion)
+                   ? PlanCorners(scenario_.motion, scenario_.duration, motion)
+                   : std::vector<VelocityCorner>{};
+    const std::vector<MotionSegment> plan = CheckedPlan(motion, start);
 
     // a drive that this joint can follow, unless the scenario says which
     Recording recording = Empty();
@@ -94,13 +98,11 @@ class MujocoPlant : public Plant {
   }
 
   /// The pieces at constant speed, of motions that stay within the joint's limits.
-  std::vector<MotionSegment> CheckedPlan(RandomKey key, double start) const {
-    const std::vector<VelocityCorner>& corners = scenario_.motion.corners;
-    if (!corners.empty()) {
-      CheckReach(corners, start);
-      return HoldsBetween(corners);
+  std::vector<MotionSegment> CheckedPlan(RandomStream& motion, double start) const {
+    if (!corners_.empty()) {
+      CheckReach(corners_, start);
+      return HoldsBetween(corners_);
     }
-    RandomStream motion(key, Stream::motion);
     const auto plan = PlanMotion(scenario_.motion, scenario_.duration, joint_.limits, motion);
     CheckReach(plan, start);
     return plan;
@@ -131,9 +133,8 @@ class MujocoPlant : public Plant {
   /// plan: of motions that are not given by corners.
   VelocityReference MakeReference(const std::vector<MotionSegment>& plan) const {
     const double settling = kSettlingTimes / bandwidth_;
-    const std::vector<VelocityCorner>& corners = scenario_.motion.corners;
-    if (corners.empty()) return {plan, Acceleration(LargestChange(plan)), settling};
-    return VelocityReference::Through(corners, Acceleration(std::abs(corners.front().velocity)),
+    if (corners_.empty()) return {plan, Acceleration(LargestChange(plan)), settling};
+    return VelocityReference::Through(corners_, Acceleration(std::abs(corners_.front().velocity)),
                                       settling);
   }
 
@@ -269,7 +270,8 @@ class MujocoPlant : public Plant {
   SingleJointModel joint_;
   DataPtr data_;
   DriveTask task_;
-  double bandwidth_ = 0;  // of the realization at hand, rad/s
+  double bandwidth_ = 0;                 // of the realization at hand, rad/s
+  std::vector<VelocityCorner> corners_;  // of the realization at hand; or none
   long steps_per_sample_;
   long steps_per_reading_;
 };

@@ -37,6 +37,15 @@ BESIDE = {
     "motion.travel": "motion={speeds: [0.1, 1], travel: %s}",
     "motion.phases": "motion={phases: %s}",
     "motion.corners": "motion={corners: %s}",
+    "motion.fourier": "motion={fourier: %s}",
+    "motion.moves": "motion={moves: %s}",
+    "motion.fourier.period": "motion={fourier: {period: %s, harmonics: 2, speed: 1}}",
+    "motion.fourier.harmonics": "motion={fourier: {period: 5, harmonics: %s, speed: 1}}",
+    "motion.fourier.speed": "motion={fourier: {period: 5, harmonics: 2, speed: %s}}",
+    "motion.moves.between": "motion={moves: {between: %s, speed: 1, acceleration: 5}}",
+    "motion.moves.speed": "motion={moves: {between: [-1, 1], speed: %s, acceleration: 5}}",
+    "motion.moves.acceleration": "motion={moves: {between: [-1, 1], speed: 1, acceleration: %s}}",
+    "motion.moves.pause": "motion={moves: {between: [-1, 1], speed: 1, acceleration: 5, pause: %s}}",
     "motion.rests.run": "motion.rests={run: %s, rest: 1}",
     "motion.rests.rest": "motion.rests={run: 1, rest: %s}",
     "motion.phases.duration": "motion={phases: [{duration: %s, speeds: [1], hold: 2}]}",
@@ -102,6 +111,8 @@ class Program:
             words = self.suite(identifiers="[{name: nominal-ls, claim: word}]")[1]
         elif section == "motion.phases":
             words = self(IDEAL, "simulate", "--set=motion={phases: [word]}")[1]
+        elif section in ("motion.fourier", "motion.moves"):
+            words = self(IDEAL, "simulate", "--set=motion={%s: word}" % section.split(".")[1])[1]
         else:
             words = self(IDEAL, "simulate", f"--set={section}=word")[1]
         known = re.search(r"a map with entries among: ([\w, ]*)", words.replace("\n", " "))
@@ -169,8 +180,8 @@ def main():
         program = Program(sys.argv[2], folder)
         resolved = program.defaults()
         # the sections that there must be: the wholes, and every map that one of them holds
-        wanted = ["", "motion", "motion.rests", "motion.phases", "controller", "noise", "sampling", "disturbances", "suite",
-                  "suite.ladder", "suite.identifiers", "suite.claim"]
+        wanted = ["", "motion", "motion.rests", "motion.phases", "motion.fourier", "motion.moves", "controller", "noise",
+                  "sampling", "disturbances", "suite", "suite.ladder", "suite.identifiers", "suite.claim"]
         parts = program.keys("disturbances")
         wanted += [f"disturbances.{part}" for part in sorted(parts) if program.keys(f"disturbances.{part}")]
         problems = [f"there is no section {section}" for section in documented.keys() - set(wanted)]

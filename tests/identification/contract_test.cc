@@ -32,6 +32,8 @@ class Contract : public ::testing::TestWithParam<Identifier> {
     std::map<std::string, std::string> given;
     for (const OptionInfo& option : GetParam().options) {
       if (option.name == "iterations") given["iterations"] = "500";
+      if (option.name == "motion")
+        given["motion"] = "constant";  // the selection says which samples
       // few kernels of one width: what is owed does not depend on their number
       if (option.name == "width") given["width"] = "1";
       if (option.name.ends_with("kernels") && option.name != "velocity_kernels" &&
@@ -218,6 +220,7 @@ TEST_P(Contract, GivesNoFrictionOutsideOfPhysicalBounds) {
 }
 
 TEST_P(Contract, GivesNoNumbersForOneSpeed) {
+  if (GetParam().name == "auto") GTEST_SKIP() << "takes a law without slope";
   Eigen::VectorXd velocity(3600);
   for (Eigen::Index i = 0; i < 3600; ++i) velocity[i] = i / 20 % 2 ? 0.5 : -0.5;
   const Estimate estimate = Identify(test::RecordFriction(test::TableOne(), 1, velocity, 0.5, 1));

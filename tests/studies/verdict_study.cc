@@ -95,7 +95,7 @@ struct Outcomes {
   Rate warned;   // ok, with a test that rejects
   Rate wrong;    // confidently
 
-  void Count(const Estimate& estimate, const Recording& recording, const Selection& selection) {
+  void Count(const Estimate& estimate, const Recording& recording, const LogView& view) {
     ++statuses[std::string(StatusName(estimate.status))];
     const double friction = std::sqrt(recording.truth.force.squaredNorm() /
                                       static_cast<double>(recording.truth.force.size()));
@@ -115,7 +115,7 @@ struct Outcomes {
     bool far = false;
     if (ok) {
       const Score score =
-          ScoreEstimate(estimate, recording.measurements, selection, recording.truth);
+          ScoreEstimate(estimate, view.measurements, view.selection, recording.truth);
       for (const ParameterScore& one : score.continuous) {
         if (!one.covered) continue;
         const EstimatedParameter& estimated = *estimate.Find(one.name);
@@ -158,7 +158,7 @@ void Study(const Suite& suite, int variant, int realizations) {
       const Identifier& identifier = FindIdentifier(one.name);
       const Options options(identifier.options, one.options, {one.label});
       const Estimate estimate = IdentifyAndJudge(identifier, {log, options, {}});
-      outcomes[i].Count(estimate, recording, log.taken().selection);
+      outcomes[i].Count(estimate, recording, ScoredView(estimate, log));
     }
   }
   for (size_t i = 0; i < outcomes.size(); ++i) {

@@ -7,7 +7,7 @@
 
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/linear/fit_gravity.h"
+#include "identification/linear/rigid_part.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
 
@@ -38,11 +38,24 @@ void AddStart(const Identifier& identifier, std::map<std::string, std::string>& 
   given["initial_energy"] = "estimated";
 }
 
-/// --set, and --start and --gravity as two of them.
+/// --motion as an option of the identifier.
+void AddMotion(const std::string& motion, const Identifier& identifier,
+               std::map<std::string, std::string>& given) {
+  if (motion == "chosen") return;
+  if (!identifier.Has("motion")) {
+    if (motion == "constant" && identifier.regime == Regime::steady) return;
+    Refuse({"--motion"}, "{} cannot be told which motion to learn from; use one of: {}",
+           identifier.name, Able([](const Identifier& one) { return one.Has("motion"); }));
+  }
+  given["motion"] = motion;
+}
+
+/// --set, and --start, --motion and --gravity as three of them.
 std::map<std::string, std::string> GivenOptions(const IdentifySettings& settings,
                                                 const Identifier& identifier, JointKind joint) {
   auto given = settings.options;
   if (settings.start == "estimated") AddStart(identifier, given);
+  AddMotion(settings.motion, identifier, given);
   if (settings.gravity == "none") return given;
   if (!TellsGravity(identifier)) {
     Refuse({"--gravity"}, "{} cannot tell gravity from friction; use one of: {}", identifier.name,
@@ -61,7 +74,7 @@ std::optional<Metrics> HoldOutFigures(const Identifier& identifier, const Identi
                                       const Fit& fit, const HoldOutSource& source) {
   if (source.other) return HoldOut(identifier, fit, *source.other);
   if (source.fraction == 0) return std::nullopt;
-  return HoldOut(identifier, input, source.fraction);
+  return HoldOut(identifier, input, source.fraction, fit);
 }
 
 }  // namespace
@@ -77,6 +90,7 @@ Judging JudgingOf(const IdentifySettings& settings) {
 
 IdentifyTask CheckSettings(const IdentifySettings& settings, JointKind joint) {
   RequireWord(settings.gravity, "--gravity", {"none", "sincos", "paired"});
+  RequireWord(settings.motion, "--motion", {"chosen", "constant", "any"});
   RequireWord(settings.start, "--start", {"cold", "unknown", "estimated"});
   const Identifier& identifier = FindIdentifier(settings.identifier);
   Options options(identifier.options, GivenOptions(settings, identifier, joint), {"--set"});
@@ -105,6 +119,17 @@ Identified IdentifyLog(const IdentifyTask& task, const PreparedLog& log,
   if (answer.inferred.status == Status::ok) {
     estimate.holdout = HoldOutFigures(task.identifier, input, answer.fit, holdout);
     shown.holdout = estimate.holdout;
+    const bool asked = holdout.other || holdout.fraction > 0;
+    if (asked && !estimate.holdout) {
+      const std::string why = holdout.other ? "no sample of the held-out file can be compared"
+                                            : fmt::format(
+                                                  "a fit to the first {:.0f} % of the log gives no "
+                                                  "friction, or the rest keeps no sample",
+                                                  100 * (1 - holdout.fraction));
+      for (Estimate* one : {&estimate, &shown}) {
+        one->warnings.push_back(fmt::format("there are no held-out figures: {}", why));
+      }
+    }
   }
   return identified;
 }
@@ -114,8 +139,8 @@ std::string TakeBackAmperes(const Measurements& measurements, Estimate& estimate
   if (!estimate.friction || measurements.torque_unit == unit) return "";
   estimate.friction.reset();
   return fmt::format(
-      "no `friction` is written for MuJoCo: parameters are in {}; multiply the column by the "
-      "motor's constant to get {}",
+      "no `friction` is written for MuJoCo: parameters are in {}; --torque-constant K, in {}/A "
+      "at the joint, makes torque of the current",
       measurements.torque_unit, unit);
 }
 

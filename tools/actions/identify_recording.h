@@ -22,6 +22,7 @@ struct IdentifySettings {
   double relevance = Judging{}.relevance;
   std::map<std::string, std::string> options;  // of the identifier, as --set
   VoidNumbers void_numbers = VoidNumbers::withhold;
+  std::string motion = "chosen";  // chosen, constant or any
 };
 
 /// Settings that were checked and looked up.

@@ -40,6 +40,21 @@ std::string Found(const fs::path& name, const fs::path& other) {
   return name;
 }
 
+/// Makes torque of a current, by the motor's constant seen at the joint.
+void TakeTorqueConstant(double constant, Measurements& log) {
+  const std::string_view unit = kTorqueUnit.For(log.joint);
+  if (log.torque_unit != "A") {
+    Refuse(
+        {"--torque-constant"},
+        "makes torque of a current, and the torque of {} is in {}; give --unit torque=A where it "
+        "is in amperes",
+        log.source, log.torque_unit);
+  }
+  log.torque *= constant;
+  log.torque_unit = unit;
+  log.notes.push_back(fmt::format("torque: current times {:.6g} {}/A", constant, unit));
+}
+
 }  // namespace
 
 std::map<std::string, std::string> ReadPairs(const std::vector<std::string>& pairs,
@@ -92,6 +107,7 @@ nlohmann::json RecordingToJson(const RecordingArguments& arguments, const fs::pa
   // what is rarely asked for stands there only where it is
   if (!arguments.scale.empty()) json["scale"] = Sorted(arguments.scale);
   if (arguments.wrap != 0) json["wrap"] = arguments.wrap;
+  if (arguments.torque_constant != 0) json["torque_constant"] = arguments.torque_constant;
   if (arguments.holds.trim != 0) json["trim"] = arguments.holds.trim;
   if (arguments.holds.shortest != 0) json["shortest_hold"] = arguments.holds.shortest;
   return json;
@@ -111,6 +127,7 @@ RecordingArguments RecordingFromJson(const nlohmann::json& json, const Place& pl
     json.at("gear").get_to(arguments.gear);
     arguments.scale = json.value("scale", arguments.scale);
     arguments.wrap = json.value("wrap", 0.0);
+    arguments.torque_constant = json.value("torque_constant", 0.0);
     arguments.holds = {json.value("trim", 0.0), json.value("shortest_hold", 0.0)};
   } catch (const nlohmann::json::exception& error) {
     Refuse(place, "its member `recording` cannot be read ({}): give --recording", error.what());
@@ -139,6 +156,10 @@ CsvLayout LayoutOf(const RecordingArguments& arguments) {
   if (!std::isfinite(arguments.wrap) || arguments.wrap < 0) {
     Refuse({"--wrap"}, "is {}; it must be a finite number above 0", arguments.wrap);
   }
+  if (!std::isfinite(arguments.torque_constant)) {
+    Refuse({"--torque-constant"}, "is {}; it must be a finite number, N.m/A or N/A at the joint",
+           arguments.torque_constant);
+  }
   CsvLayout layout;
   layout.scale = ReadPairs(arguments.scale, "--scale");
   layout.wrap = arguments.wrap;
@@ -154,6 +175,9 @@ std::vector<Measurements> ReadRecordings(const RecordingArguments& arguments) {
   std::vector<Measurements> recordings;
   for (const std::string& path : arguments.recordings) {
     recordings.push_back(ReadForeignRecording(path, layout));
+    if (arguments.torque_constant != 0) {
+      TakeTorqueConstant(arguments.torque_constant, recordings.back());
+    }
   }
   return recordings;
 }

@@ -31,6 +31,7 @@ struct RecordingArguments {
   std::vector<std::string> scale;  // "torque=-1"
   double wrap = 0;                 // in the unit of the position; 0: a turn
   HoldOptions holds;
+  double torque_constant = 0;             // N.m/A or N/A at the joint; 0: not given
   std::optional<TakenProject> project{};  // whose values stand above
 };
 

@@ -1,15 +1,21 @@
 // warmjoint identify RECORDING: friction from a log.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 
+#include "identification/identifiers/identifier_list.h"
 #include "models/foundation/atomic_file.h"
+#include "models/foundation/excerpt.h"
 #include "models/foundation/parse_number.h"
 #include "sim/model/minimal_model.h"
+#include "tools/actions/compare_identifiers.h"
 #include "tools/actions/identify_by_command.h"
 #include "tools/actions/identify_recording.h"
 #include "tools/actions/outputs.h"
+#include "tools/board/table.h"
 #include "tools/cli/command.h"
 #include "tools/cli/estimate_table.h"
 #include "tools/cli/recording_options.h"
@@ -27,6 +33,7 @@ namespace {
 struct IdentifyArguments {
   RecordingArguments recording;
   IdentifySettings settings;
+  std::vector<std::string> identifiers{IdentifySettings{}.identifier};
   std::string holdout = "0.3";
   std::vector<std::string> set;
   std::string output;
@@ -48,9 +55,10 @@ HoldOutSource ReadHoldOut(const IdentifyArguments& arguments) {
   return HoldOutShare(*fraction);
 }
 
-/// The settings with --set and --force.
-IdentifySettings SettingsOf(const IdentifyArguments& arguments) {
+/// The settings with --set and --force, of one identifier.
+IdentifySettings SettingsOf(const IdentifyArguments& arguments, const std::string& identifier) {
   IdentifySettings settings = arguments.settings;
+  settings.identifier = identifier;
   settings.options = ReadPairs(arguments.set, "--set");
   if (arguments.force) settings.void_numbers = VoidNumbers::show;
   return settings;
@@ -120,7 +128,7 @@ ExitStatus Deliver(const IdentifyArguments& arguments, const Identified& identif
 
 /// A command of the user's in the place of an identifier.
 ExitStatus AskCommand(const IdentifyArguments& arguments) {
-  const CommandTask task = CheckCommand(SettingsOf(arguments));
+  const CommandTask task = CheckCommand(SettingsOf(arguments, arguments.identifiers.front()));
   CheckOutputs(arguments);
   TellWall({task.command}, {});
   Activity activity("reading the recording");
@@ -139,12 +147,83 @@ ExitStatus AskCommand(const IdentifyArguments& arguments) {
   }
 }
 
+/// The settings of one of several identifiers: options that it does not have are for the others.
+IdentifySettings SettingsOfOne(const IdentifyArguments& arguments, const std::string& name) {
+  IdentifySettings settings = SettingsOf(arguments, name);
+  const Identifier& identifier = FindIdentifier(name);
+  std::erase_if(settings.options, [&](const auto& option) {
+    const bool known = std::ranges::any_of(arguments.identifiers, [&](const std::string& other) {
+      return FindIdentifier(other).Has(option.first);
+    });
+    return known && !identifier.Has(option.first);
+  });
+  if (!identifier.Has("gravity")) settings.gravity = "none";
+  return settings;
+}
+
+/// A table of several identifiers.
+std::string ComparedToText(const std::vector<ComparedIdentifier>& compared, const std::string& unit,
+                           int width) {
+  Table table{{"identifier", "verdict", fmt::format("held-out RMSE {}", unit), "Fit %",
+               fmt::format("above the best {}", unit)},
+              {}};
+  for (const ComparedIdentifier& one : compared) {
+    std::vector<std::string> row{one.name, std::string(StatusName(one.status)), "-", "-", "-"};
+    if (one.rmse) {
+      row[2] = fmt::format("{:.4g}", *one.rmse);
+      row[3] = fmt::format("{:.2f}", one.fit);
+      row[4] = fmt::format("{:.2g} +- {:.2g}", one.difference, one.doubt);
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return fmt::format(
+      "{} blocks of time, each held out from a fit to the others; differences are "
+      "paired over the blocks, with their standard error\n\n{}",
+      kComparedBlocks, TableToText(table, 2, width));
+}
+
+/// Several identifiers on the same held-out blocks.
+ExitStatus Compare(const IdentifyArguments& arguments) {
+  for (const auto& [option, value] :
+       {std::pair{"--output", &arguments.output}, std::pair{"--mjcf", &arguments.mjcf},
+        std::pair{"--plot", &arguments.plot}}) {
+    if (value->empty()) continue;
+    Refuse({option}, "is for one identifier, and {} are given", arguments.identifiers.size());
+  }
+  std::vector<IdentifyTask> tasks;
+  for (const std::string& identifier : arguments.identifiers) {
+    if (identifier.find('=') != std::string::npos) {
+      Refuse({"--identifier"}, "'{}' is a command, and commands are tried alone; leave the others",
+             Excerpt(identifier));
+    }
+    tasks.push_back(
+        CheckSettings(SettingsOfOne(arguments, identifier), JointOf(arguments.recording)));
+  }
+  Activity activity("reading the recording");
+  const PreparedLog log = ReadAndPrepare(arguments.recording);
+  const auto compared = CompareIdentifiers(
+      tasks, log, [&](const std::string& words) { activity.Is("comparing: " + words); });
+  activity.Aside([&] {
+    if (arguments.format == "json") {
+      fmt::print("{}\n", ComparedToJson(compared).dump(2));
+    } else {
+      SayText(stdout,
+              ComparedToText(compared, log.taken().measurements.torque_unit, PageOf(stdout).width));
+    }
+  });
+  const bool any_ok = std::ranges::any_of(
+      compared, [](const ComparedIdentifier& one) { return one.status == Status::ok; });
+  return any_ok ? ExitStatus::done : ExitStatus::nothing_trustworthy;
+}
+
 ExitStatus Identify(const IdentifyArguments& arguments) {
-  const bool command = arguments.settings.identifier.find('=') != std::string::npos;
-  if (command) return AskCommand(arguments);
+  if (arguments.identifiers.size() > 1) return Compare(arguments);
+  const std::string& identifier = arguments.identifiers.front();
+  if (identifier.find('=') != std::string::npos) return AskCommand(arguments);
 
   // everything that can be refused is, before any time is spent
-  const IdentifyTask task = CheckSettings(SettingsOf(arguments), JointOf(arguments.recording));
+  const IdentifyTask task =
+      CheckSettings(SettingsOf(arguments, identifier), JointOf(arguments.recording));
   CheckOutputs(arguments);
   Activity activity("reading the recording");
   const HoldOutSource holdout = ReadHoldOut(arguments);
@@ -164,14 +243,19 @@ Command AddIdentifyCommand(CLI::App& program) {
   AddRecordingOptions(*parser, arguments->recording);
   AddHoldOptions(*parser, arguments->recording.holds);
   parser
-      ->add_option("--identifier", arguments->settings.identifier,
+      ->add_option("--identifier", arguments->identifiers,
                    "see: warmjoint list identifiers; or a command of your own, as "
-                   "'mine=python3 mine.py {recording} {estimate}'")
+                   "'mine=python3 mine.py {recording} {estimate}'; given several times: a table of "
+                   "their errors on held-out blocks")
+      ->take_all()
       ->type_name("IDENTIFIER")
       ->capture_default_str();
   AddChoice(*parser, "--gravity", arguments->settings.gravity, {"none", "sincos", "paired"},
             "what gravity does to the torque: nothing, a sine of the angle, or what both "
             "directions share at each position");
+  AddChoice(*parser, "--motion", arguments->settings.motion, {"chosen", "constant", "any"},
+            "constant: samples at constant speed; any: all that move, with the inertia beside the "
+            "friction; chosen: any where the log holds no speeds");
   parser
       ->add_option(
           "--holdout", arguments->holdout,

@@ -32,6 +32,7 @@ Command AddNewCommand(CLI::App& program);
 Command AddSimulateCommand(CLI::App& program);
 Command AddCheckCommand(CLI::App& program);
 Command AddIdentifyCommand(CLI::App& program);
+Command AddPredictCommand(CLI::App& program);
 Command AddPlotCommand(CLI::App& program);
 Command AddReportCommand(CLI::App& program);
 Command AddAttachCommand(CLI::App& program);

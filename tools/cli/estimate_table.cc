@@ -59,6 +59,18 @@ Table DiagnosticTable(const Estimate& estimate) {
   return table;
 }
 
+/// The structures that were tried.
+Table TrialTable(const StructureChoice& choice, const std::string& unit) {
+  Table table{{"structure", "parameters", fmt::format("held-out RMSE {}", unit), "remark"}, {}};
+  for (const StructureTrial& one : choice.trials) {
+    table.rows.push_back({one.name,
+                          one.parameters > 0 ? fmt::format("{:.3g}", one.parameters) : "-",
+                          one.rmse ? fmt::format("{:.4g}", *one.rmse) : "-",
+                          one.name == choice.chosen ? "chosen" : one.dropped});
+  }
+  return table;
+}
+
 /// What was assumed, and what each parameter would do were it off by that much.
 std::string AssumptionsText(const Estimate& estimate) {
   std::string text;
@@ -93,6 +105,9 @@ std::string EstimateToText(const Estimate& estimate, const Measurements& measure
   std::string text =
       fmt::format("{}: {}\n", Printable(estimate.identifier),
                   Paint(StatusName(estimate.status), ColourOf(estimate.status), page));
+  if (estimate.choice && estimate.status != Status::ok && !estimate.choice->chosen.empty()) {
+    text += fmt::format("  {}\n", Printable(estimate.choice->reason));
+  }
   text += RemarksText(estimate, detail);
   if (!estimate.parameters.empty())
     text += fmt::format("\n{}", TableToText(ParameterTable(estimate), 1, page.width));
@@ -107,6 +122,9 @@ std::string EstimateToText(const Estimate& estimate, const Measurements& measure
   AddMetrics(table, "all data", estimate.metrics);
   AddMetrics(table, "held out", estimate.holdout);
   if (!table.rows.empty()) text += fmt::format("\n{}", TableToText(table, 1, page.width));
+  if (detail == Detail::full && estimate.choice) {
+    text += "\n" + TableToText(TrialTable(*estimate.choice, unit), 1, page.width);
+  }
   if (detail == Detail::full) text += Explanation(estimate, page.width);
   return text;
 }

@@ -44,6 +44,12 @@ void AddLayoutOptions(CLI::App& parser, RecordingArguments& arguments) {
   parser.add_option("--gear", arguments.gear, "motor turns for each joint turn")
       ->type_name("NUMBER")
       ->capture_default_str();
+  parser
+      .add_option(
+          "--torque-constant", arguments.torque_constant,
+          "torque of the joint for each ampere, N.m/A or N/A with the gear in it; makes N.m "
+          "or N of --unit torque=A")
+      ->type_name("NUMBER");
   AddProjectOption(parser);
 }
 

@@ -125,6 +125,18 @@ identification::Estimate ToEstimate(const Estimate& estimate) {
   for (const Assumption& one : estimate.assumptions) {
     made.assumptions.push_back({one.name, one.meaning, one.moves});
   }
+
+  // the end, and the choice
+  for (const Parameter& one : estimate.state_end) {
+    made.state_end.push_back({one.name, one.value, one.unit, one.std, one.interval95});
+  }
+  if (estimate.choice) {
+    const StructureChoice& choice = *estimate.choice;
+    made.choice = {choice.chosen, choice.reason, choice.blocks, {}};
+    for (const StructureTrial& one : choice.trials) {
+      made.choice->trials.push_back({one.name, one.rmse, one.parameters, one.dropped});
+    }
+  }
   return made;
 }
 
@@ -165,6 +177,18 @@ Estimate FromEstimate(const identification::Estimate& estimate) {
   }
   for (const identification::Assumption& one : estimate.assumptions) {
     made.assumptions.push_back({one.name, one.meaning, one.moves});
+  }
+
+  // the end, and the choice
+  for (const identification::EstimatedParameter& one : estimate.state_end) {
+    made.state_end.push_back({one.name, one.value, one.unit, one.std, one.interval95});
+  }
+  if (estimate.choice) {
+    const identification::StructureChoice& choice = *estimate.choice;
+    made.choice = {choice.chosen, choice.reason, choice.blocks, {}};
+    for (const identification::StructureTrial& one : choice.trials) {
+      made.choice->trials.push_back({one.name, one.rmse, one.parameters, one.dropped});
+    }
   }
   return made;
 }

@@ -115,6 +115,7 @@ tools::RecordingArguments ToArguments(const Origin& origin) {
   arguments.joint = origin.read.joint == JointKind::linear ? "linear" : "rotary";
   arguments.gear = origin.read.gear;
   arguments.wrap = origin.read.wrap;
+  arguments.torque_constant = origin.read.torque_constant;
   arguments.holds = {origin.prepare.trim, origin.prepare.shortest_hold};
   return arguments;
 }
@@ -132,6 +133,7 @@ Origin FromArguments(const tools::RecordingArguments& arguments, const models::P
   origin.read.joint = FromKind(tools::JointOf(arguments));
   origin.read.gear = arguments.gear;
   origin.read.wrap = arguments.wrap;
+  origin.read.torque_constant = arguments.torque_constant;
   origin.prepare = {arguments.holds.trim, arguments.holds.shortest};
   return origin;
 }

@@ -16,7 +16,8 @@ tools::IdentifySettings ToSettings(const IdentifySettings& settings) {
           settings.relevance,
           settings.options,
           settings.void_numbers == VoidNumbers::show ? tools::VoidNumbers::show
-                                                     : tools::VoidNumbers::withhold};
+                                                     : tools::VoidNumbers::withhold,
+          settings.motion};
 }
 
 tools::HoldOutSource ToHoldOut(const IdentifySettings& settings) {

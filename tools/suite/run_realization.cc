@@ -31,7 +31,7 @@ const std::string* NotFinite(const Estimate& estimate) {
 }
 
 void Fill(Result& result, const Estimate& estimate, const Recording& recording,
-          const Selection& selection) {
+          const LogView& view) {
   result.status = StatusName(estimate.status);
   result.message = estimate.FullMessage();
   if (const std::string* name = NotFinite(estimate)) {
@@ -41,7 +41,7 @@ void Fill(Result& result, const Estimate& estimate, const Recording& recording,
   // no numbers, nothing to score
   result.metrics = estimate.metrics;
   if (estimate.parameters.empty()) return;
-  result.score = ScoreEstimate(estimate, recording.measurements, selection, recording.truth);
+  result.score = ScoreEstimate(estimate, view.measurements, view.selection, recording.truth);
   result.trace =
       MakeTraceTable(estimate.trace, *result.score, MedianStep(recording.measurements.time));
 }
@@ -53,7 +53,7 @@ Result RunIdentifier(const PreparedIdentifier& identify, const Recording& record
   try {
     const Estimate estimate = identify(log, start);
     result.seconds = watch.Seconds();
-    Fill(result, estimate, recording, log.taken().selection);
+    Fill(result, estimate, recording, ScoredView(estimate, log));
   } catch (const NoAnswer& failure) {
     result.seconds = watch.Seconds();
     result.status = failure.status;

@@ -20,7 +20,7 @@ void Read(std::string_view bytes) {
 
   // a truth by chance, and a plan of a length that is soon made
   Realize(scenario, 0);
-  if (!scenario.motion.corners.empty() || scenario.duration > 1e5) return;
+  if (FollowsCorners(scenario.motion) || scenario.duration > 1e5) return;
   RandomStream random({scenario.seed, 0}, Stream::motion);
   double time = 0;
   for (const MotionSegment& segment :

@@ -91,7 +91,7 @@ TEST(JudgeHeat, FindsAMapThatFadesWithTheHeat) {
   map["position"] = "map";
   const Estimate told = Answer("energy-ml", record(fading), map);
   EXPECT_THAT(told.FullMessage(), HasSubstr("depends on position x energy"));
-  EXPECT_THAT(told.FullMessage(), HasSubstr("try energy-map"));
+  EXPECT_THAT(told.FullMessage(), HasSubstr("try --identifier energy-map"));
   EXPECT_THAT(Answer("energy-ml", record(steady), map).FullMessage(), Not(HasSubstr("depends on")));
 
   // the map over the energy follows it; gain and maps then share what fades
@@ -105,7 +105,7 @@ TEST(JudgeHeat, FindsASlopeThatWarms) {
   m.torque += 0.1 * m.velocity.cwiseProduct(PredictFriction(test::TableOne(), m).energy);
   const Estimate estimate = Answer("energy-ml", m);
   EXPECT_THAT(estimate.FullMessage(), HasSubstr("speed x energy"));
-  EXPECT_THAT(estimate.FullMessage(), HasSubstr("try lpv-energy"));
+  EXPECT_THAT(estimate.FullMessage(), HasSubstr("try --identifier lpv-energy"));
 }
 
 TEST(JudgeHeat, FindsALoadThatTheLogHolds) {
@@ -118,7 +118,7 @@ TEST(JudgeHeat, FindsALoadThatTheLogHolds) {
     return m;
   };
   EXPECT_GE(CountRejected("energy-ml", "load", loaded), kNearlyAll);
-  EXPECT_THAT(Answer("energy-ml", loaded(1)).FullMessage(), HasSubstr("try load-map"));
+  EXPECT_THAT(Answer("energy-ml", loaded(1)).FullMessage(), HasSubstr("try --identifier load-map"));
   Measurements unmoved = RecordHour(test::TableOne(), 1);
   unmoved.load = loaded(1).load;
   EXPECT_THAT(Answer("energy-ml", unmoved).FullMessage(), Not(HasSubstr("depends on")));

@@ -53,7 +53,7 @@ Measurements Travel(std::uint64_t seed) {
 TEST(Judge, FindsThatAJointWarmsUp) {
   const auto warm = [](std::uint64_t seed) { return RecordHour(test::TableOne(), seed); };
   EXPECT_GE(CountRejected("nominal-ls", "energy", warm), kNearlyAll);
-  EXPECT_THAT(Answer("nominal-ls", warm(1)).FullMessage(), HasSubstr("try energy-ml"));
+  EXPECT_THAT(Answer("nominal-ls", warm(1)).FullMessage(), HasSubstr("try --identifier energy-ml"));
 }
 
 TEST(Judge, FindsTheRippleOfTheMotor) {

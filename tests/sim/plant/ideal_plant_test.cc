@@ -124,12 +124,24 @@ TEST(IdealPlant, RefusesJointLimitsItDoesNotKnow) {
       BadInput);
 }
 
-TEST(IdealPlant, RefusesToAccelerate) {
+TEST(IdealPlant, FollowsCornersWithInertia) {
+  // up to 1 rad/s within a second, steady for one, and so on for ever
   Scenario scenario = test::Table1();
+  scenario.noise.torque = 0;
+  scenario.friction.thermal.reset();
   scenario.motion = {};
-  scenario.motion.corners = {{0, 0}, {1, 1}};
-  EXPECT_THAT([&] { MakeIdealPlant(scenario); },
-              testing::ThrowsMessage<BadInput>(testing::HasSubstr("use the mujoco plant")));
+  scenario.motion.corners = {{0, 0}, {1, 1}, {2, 1}};
+  scenario.disturbances.hidden.inertia.inertia = 2;
+  scenario.sampling.rate = 10;
+  scenario.duration = 2;
+  const Recording recording = MakeIdealPlant(scenario)->Run(0);
+  const Measurements& m = recording.measurements;
+
+  // 5 v + 15 + 2 a; at the corner the slopes of both sides count half
+  EXPECT_NEAR(m.velocity[5], 0.5, 1e-12);
+  EXPECT_NEAR(m.torque[5], 2.5 + 15 + 2, 1e-9);
+  EXPECT_NEAR(m.torque[10], 5 + 15 + 1, 1e-9);
+  EXPECT_NEAR(m.torque[15], 5 + 15, 1e-9);
 }
 
 TEST(IdealPlant, ChangesSpeedsByRamps) {

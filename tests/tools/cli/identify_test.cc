@@ -146,6 +146,7 @@ TEST(Identify, OneSpeedAloneGivesStatus3AndNoNumbers) {
       nlohmann::json::parse(RunWarmjoint({"list", "identifiers", "--format", "json"}).out);
   for (const auto& identifier : identifiers) {
     const std::string name = identifier.at("name");
+    if (name == "auto") continue;  // takes a law without slope
     const std::string output = scratch.path() / (name + ".json");
     const Answer answer = RunWarmjoint({"identify", recording, "--identifier", name, "-o", output,
                                         "--mjcf", scratch.path() / (name + ".xml")});
@@ -198,10 +199,9 @@ TEST(Identify, TellsGravityFromFrictionOrSaysWhyNot) {
   const Answer linear = identify({"--joint", "linear", "--gravity", "sincos"});
   EXPECT_EQ(linear.status, 2);
   EXPECT_THAT(linear.err, HasSubstr("use paired"));
-  const Answer unable = identify({"--identifier", "position-ridge", "--gravity", "sincos"});
+  const Answer unable = identify({"--identifier", "stribeck", "--gravity", "sincos"});
   EXPECT_EQ(unable.status, 2);
-  EXPECT_THAT(unable.err,
-              HasSubstr("position-ridge cannot tell gravity from friction; use one of"));
+  EXPECT_THAT(unable.err, HasSubstr("stribeck cannot tell gravity from friction; use one of"));
 }
 
 TEST(Identify, WritesAMuJoCoModel) {

@@ -74,7 +74,7 @@ TEST_F(Simulate, WritesHdf5ThatIdentifyReads) {
   EXPECT_THAT(RunWarmjoint({"identify", scratch_.path() / "out/recording.h5", "--identifier",
                             "nominal-ls", "--holdout", "0"})
                   .out,
-              HasSubstr("Try energy-ml"));
+              HasSubstr("Try --identifier energy-ml"));
 }
 
 TEST_F(Simulate, ReplacesAnOlderRecordingButNothingElse) {

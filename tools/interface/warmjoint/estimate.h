@@ -88,6 +88,22 @@ struct Assumption {
   std::vector<std::pair<std::string, double>> moves{};
 };
 
+/// A structure that an identifier tried.
+struct StructureTrial {
+  std::string name{};
+  std::optional<double> rmse{};  // on held-out blocks, N.m or N
+  double parameters = 0;         // effective number
+  std::string dropped{};         // why it was no contender; empty for one that was
+};
+
+/// Which of several structures was chosen, and why.
+struct StructureChoice {
+  std::string chosen{};
+  std::string reason{};
+  int blocks = 0;  // of time that were held out in turn
+  std::vector<StructureTrial> trials{};
+};
+
 struct Estimate {
   std::string identifier{};
   std::map<std::string, std::string> options{};  // of the identifier, those not at their defaults
@@ -107,6 +123,8 @@ struct Estimate {
   std::vector<Assumption> assumptions{};
   std::optional<Origin>
       recording{};  // the files that it tells of; none of recordings that were made of vectors
+  std::vector<Parameter> state_end{};       // heat at the end of the log: energy, second_energy
+  std::optional<StructureChoice> choice{};  // of identifiers that choose a structure
 
   /// The parameter of that name, or nullptr.
   const Parameter* Find(const std::string& name) const;

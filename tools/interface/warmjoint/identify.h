@@ -44,6 +44,7 @@ struct IdentifySettings {
   double holdout = 0.3;  // share of the recording's end for figures on unseen data; 0: none
   std::optional<PreparedLog> holdout_log{};  // another recording for them, instead
   VoidNumbers void_numbers = VoidNumbers::withhold;
+  std::string motion = "chosen";  // constant, any, or chosen: any where the log holds no speeds
 };
 
 /// Fits, judges and reports. The verdict is the estimate's status, with a message and data (diagnostics); mathematics that

@@ -52,6 +52,7 @@ struct ReadSettings {
   double wrap = 0;                        // range of the position sensor, in its unit; 0: a turn
   JointKind joint = JointKind::rotary;
   double gear = 1;  // motor turns for each joint turn (rotary), rad of motor per m (linear)
+  double torque_constant = 0;  // N.m/A or N/A at the joint: makes torque of a current; 0: none
 };
 
 /// What is asked of the constant speeds that fits use.

@@ -38,6 +38,8 @@ std::string MotionOf(const Scenario& scenario) {
   const Motion& motion = scenario.motion;
   std::string words = "It moves forwards and backwards at constant speeds";
   if (!motion.corners.empty()) words = "It repeats a recorded motion";
+  if (motion.fourier) words = "It moves by Fourier excitation, which never holds a speed";
+  if (motion.moves) words = "It moves from place to place, as in pick and place";
   if (!motion.phases.empty()) words = "It works in phases of motion and rest";
   if (!motion.speed_list.empty()) {
     std::vector<std::string> speeds;

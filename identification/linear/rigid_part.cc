@@ -1,6 +1,7 @@
-#include "identification/linear/fit_gravity.h"
+#include "identification/linear/rigid_part.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -41,7 +42,7 @@ std::array<bool, kGravityKnots> PairedCells(const IdentifierInput& input) {
 }
 
 /// Keeps paired samples; says why not where they are too few.
-void SelectPairs(const IdentifierInput& input, GravityFit& fit) {
+void SelectPairs(const IdentifierInput& input, RigidPart& fit) {
   const Measurements& m = input.measurements;
   const auto paired = PairedCells(input);
   for (Eigen::Index i = 0; i < m.size(); ++i) {
@@ -82,17 +83,21 @@ OptionInfo GravityOption() {
           "directions have in common at one position"};
 }
 
+OptionInfo MotionOption() {
+  return {"motion", "chosen", "chosen|constant|any",
+          "constant: samples at constant speed; any: all that move, with inertia beside friction; "
+          "chosen: any where the log holds no speeds"};
+}
+
 bool TellsGravity(const Identifier& identifier) { return identifier.Has("gravity"); }
 
-IdentifierInput GravityFit::Of(const IdentifierInput& given) const { return given.With(selection); }
+IdentifierInput RigidPart::Of(const IdentifierInput& given) const { return given.With(selection); }
 
-GravityFit PrepareGravity(const IdentifierInput& input) {
+namespace {
+
+/// Sets the columns of G and their transform, or says why there are none.
+void PrepareGravity(const IdentifierInput& input, const std::string& asked, RigidPart& fit) {
   const Measurements& m = input.measurements;
-  GravityFit fit;
-  fit.selection = input.selection;
-  fit.columns.resize(m.size(), 0);
-  const std::string& asked = input.options.Text("gravity");
-  if (asked == "none") return fit;
 
   // a linear joint carries one weight wherever it is
   const bool linear = m.joint == JointKind::linear;
@@ -102,49 +107,74 @@ GravityFit PrepareGravity(const IdentifierInput& input) {
   if (linear && asked == "sincos") {
     fit.status = Status::bad_data;
     fit.why = "gravity sincos needs an angle and the joint is linear; use gravity paired";
-    return fit;
+    return;
   }
   if (!m.position.allFinite()) {
     fit.status = Status::bad_data;
     fit.why = "position is not finite throughout, and gravity depends on it; repair it";
-    return fit;
+    return;
   }
 
   if (fit.kind == GravityKind::paired) SelectPairs(input, fit);
-  if (fit.why) return fit;
+  if (fit.why) return;
   const Eigen::MatrixXd columns = GravityColumns(fit.kind, fit.knots, m.position);
   fit.transform = fit.kind == GravityKind::paired
                       ? FilledDirections(Kept(columns, fit.selection))
                       : Eigen::MatrixXd::Identity(columns.cols(), columns.cols());
   fit.columns = columns * fit.transform;
+}
+
+}  // namespace
+
+RigidPart PrepareRigid(const IdentifierInput& input) {
+  RigidPart fit;
+  fit.selection = input.selection;
+  fit.columns.resize(input.measurements.size(), 0);
+  const std::string& asked = input.options.Text("gravity");
+  if (asked != "none") PrepareGravity(input, asked, fit);
+  const auto& acceleration = input.measurements.acceleration;
+  fit.inertia = acceleration && !fit.why;
+  if (fit.inertia) fit.columns = Beside(fit.columns, *acceleration);
   return fit;
 }
 
 std::string IndistinctColumns(const std::vector<Eigen::Index>& mixed, const Law& law,
-                              const GravityFit& gravity, const IdentifierInput& input) {
+                              const RigidPart& gravity, const IdentifierInput& input) {
   const auto d = static_cast<Eigen::Index>(law.parameters.size());
   if (std::all_of(mixed.begin(), mixed.end(), [d](Eigen::Index i) { return i < d; })) {
     return Indistinct(mixed, law, input.measurements, input.selection);
   }
+  // those of the law by their names, then gravity and inertia
   std::vector<std::string> names;
+  bool moves_mass = false, lifts = false;
   for (const Eigen::Index i : mixed) {
     if (i < d) names.emplace_back(law.parameters[static_cast<size_t>(i)].name);
+    if (i >= d + gravity.gravity_count()) moves_mass = true;
+    if (i >= d && i < d + gravity.gravity_count()) lifts = true;
   }
+  std::vector<std::string> parts;
+  if (!names.empty()) parts.push_back(fmt::format("{}", fmt::join(names, ", ")));
+  if (lifts) parts.push_back(fmt::format("gravity ({})", GravityName(gravity.kind)));
+  if (moves_mass) parts.emplace_back("inertia");
 
-  const std::string parts = names.empty() ? "" : fmt::format("{} and ", fmt::join(names, ", "));
-  const bool turns = gravity.kind != GravityKind::constant;
+  const bool turns = lifts && gravity.kind != GravityKind::constant;
   return fmt::format(
-      "the motion cannot tell apart: {}gravity ({}); {}at two or more speeds in both directions, "
-      "or "
-      "use a law that is alike in both directions, as viscous_coulomb",
-      parts, GravityName(gravity.kind), turns ? "move over a larger part of a turn, " : "move ");
+      "the motion cannot tell apart: {}; {}at two or more speeds in both directions{}, or use a "
+      "law that is alike in both directions, as viscous_coulomb",
+      fmt::join(parts, " and "), turns ? "move over a larger part of a turn, " : "move ",
+      moves_mass ? ", with accelerations that differ" : "");
 }
 
-void AddGravity(const GravityFit& gravity, const Eigen::VectorXd& values,
-                const Measurements& measurements, Fit& fit) {
-  if (gravity.count() == 0) return;
-  fit.gravity = GravityModel{gravity.kind, gravity.knots, gravity.transform * values};
-  Append(GravityParameters(gravity.kind, values, measurements), fit);
+void AddRigid(const RigidPart& rigid, const Eigen::VectorXd& values,
+              const Measurements& measurements, Fit& fit) {
+  const Eigen::Index q = rigid.gravity_count();
+  if (q > 0) {
+    fit.gravity = GravityModel{rigid.kind, rigid.knots, rigid.transform * values.head(q)};
+    Append(GravityParameters(rigid.kind, values.head(q), measurements), fit);
+  }
+  if (!rigid.inertia) return;
+  fit.inertia = values[q];
+  Append({InertiaParameter(values[q], measurements)}, fit);
 }
 
 Eigen::MatrixXd Beside(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {

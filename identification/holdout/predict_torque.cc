@@ -1,0 +1,23 @@
+#include "identification/holdout/predict_torque.h"
+
+#include "models/recording/course_of.h"
+
+namespace warmjoint::inline identification {
+
+TorquePrediction PredictTorque(const TorqueModel& model, const Measurements& m, Selection asked,
+                               const CourseStart& start) {
+  TorquePrediction predicted{{}, std::move(asked), PredictFriction(model.friction, m, start)};
+  predicted.torque = predicted.friction.force;
+  if (model.inertia && m.acceleration) predicted.torque += *model.inertia * *m.acceleration;
+  if (!model.gravity) return predicted;
+
+  // gravity where it is known
+  predicted.torque += model.gravity->Torque(m.position);
+  for (Eigen::Index i = 0; i < m.size(); ++i) {
+    bool& keep = predicted.known.keep[i];
+    keep = keep && model.gravity->Covers(m.position[i]);
+  }
+  return predicted;
+}
+
+}  // namespace warmjoint::inline identification

@@ -1,0 +1,32 @@
+// The torque that a model predicts along a log.
+#pragma once
+
+#include <optional>
+
+#include "identification/gravity.h"
+#include "models/friction/along_motion.h"
+#include "models/friction/friction_description.h"
+#include "models/recording/measurements.h"
+#include "models/recording/selection.h"
+
+namespace warmjoint::inline identification {
+
+/// What acts on a joint, as far as a fit knows it: F + G + M a, Eqs. (5) and (20).
+struct TorqueModel {
+  FrictionDescription friction;
+  std::optional<GravityModel> gravity;
+  std::optional<double> inertia;  // kg.m^2 or kg
+};
+
+struct TorquePrediction {
+  Eigen::VectorXd torque;  // [N] N.m or N
+  Selection known;         // of the samples asked for, those where the model knows its gravity
+  Prediction friction;
+};
+
+/// Along the motion from its first sample on, from `start`. Inertia acts where the log has an
+/// acceleration (PreparedLog::moving). asked: samples that are to be compared.
+TorquePrediction PredictTorque(const TorqueModel& model, const Measurements& measurements,
+                               Selection asked, const CourseStart& start);
+
+}  // namespace warmjoint::inline identification

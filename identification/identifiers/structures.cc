@@ -1,0 +1,89 @@
+#include "identification/identifiers/structures.h"
+
+#include <fmt/format.h>
+
+#include "identification/holdout/blocked_hold_out.h"
+#include "identification/identifiers/energy_ml.h"
+#include "identification/identifiers/motor_ridge.h"
+#include "identification/identifiers/nominal_ls.h"
+#include "identification/identifiers/position_ridge.h"
+#include "identification/identifiers/stribeck.h"
+#include "models/recording/motor_angle.h"
+
+namespace warmjoint::inline identification {
+
+std::string Structure::Name() const {
+  std::string name = identifier.name;
+  for (const auto& [key, value] : given) name += fmt::format(" {}={}", key, value);
+  return name;
+}
+
+std::string Structure::Given(const std::string& option, const std::string& otherwise) const {
+  const auto found = given.find(option);
+  return found == given.end() ? otherwise : found->second;
+}
+
+Structure Structure::With(const std::string& option, const std::string& value) const {
+  Structure other = *this;
+  other.given[option] = value;
+  return other;
+}
+
+Fit Structure::Fitted(const IdentifierInput& input) const {
+  const Options options(identifier.options, given, {});
+  return identifier.fit(input.With(options));
+}
+
+std::optional<Eigen::VectorXd> Structure::ErrorsOn(const IdentifierInput& input,
+                                                   const std::vector<Eigen::Index>& bounds) const {
+  const Options options(identifier.options, given, {});
+  return BlockedErrors(identifier, input.With(options), bounds);
+}
+
+std::vector<std::string> GravityKinds(const IdentifierInput& input) {
+  const std::string& asked = input.options.Text("gravity");
+  if (asked != "chosen") return {asked};
+  const Eigen::VectorXd& position = input.measurements.position;
+  if (!position.allFinite() || position.maxCoeff() == position.minCoeff()) return {"none"};
+  if (input.measurements.joint == JointKind::linear) return {"none", "paired"};
+  return {"none", "sincos", "paired"};
+}
+
+std::vector<Structure> LinearStructures(const std::string& gravity) {
+  std::vector<Structure> structures;
+  for (const char* law : {"viscous_coulomb", "coulomb", "asymmetric"}) {
+    structures.push_back({NominalLs(), {{"law", law}}});
+  }
+  for (const char* law : {"coulomb", "viscous_coulomb", "asymmetric"}) {
+    structures.push_back({EnergyMl(), {{"law", law}}});
+  }
+  if (gravity == "none") return structures;
+  for (Structure& one : structures) one = one.With("gravity", gravity);
+  return structures;
+}
+
+std::vector<Structure> CurvedStructures(const IdentifierInput& input, const std::string& gravity) {
+  // the Stribeck law is fitted without gravity
+  std::vector<Structure> structures;
+  for (const char* warming : {"none", "estimated"}) {
+    structures.push_back({StribeckByCeres(), {{"warming", warming}}});
+  }
+
+  // what looks like gravity beside a law that is too simple may be a map's
+  std::vector<std::string> kinds{"none"};
+  if (gravity != "none") kinds.push_back(gravity);
+  const bool knows_motor = KnowsMotorAngle(input.measurements);
+  for (const std::string& kind : kinds) {
+    std::map<std::string, std::string> given;
+    if (kind != "none") given = {{"gravity", kind}};
+    const Structure warm = Structure{EnergyMl(), given}.With("position", "map");
+    structures.push_back({PositionRidge(), given});
+    structures.push_back(warm);
+    if (!knows_motor) continue;
+    if (kind == "none") structures.push_back({MotorRidge(), {}});
+    structures.push_back(warm.With("position", "motor"));
+  }
+  return structures;
+}
+
+}  // namespace warmjoint::inline identification

@@ -1,0 +1,42 @@
+// The structures that `auto` chooses from.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "identification/identifier.h"
+
+namespace warmjoint::inline identification {
+
+/// An identifier with its options.
+struct Structure {
+  Identifier identifier;
+  std::map<std::string, std::string> given;
+
+  /// "energy-ml law=coulomb gravity=sincos"
+  std::string Name() const;
+  /// What an option was given as; `otherwise` where it was not.
+  std::string Given(const std::string& option, const std::string& otherwise) const;
+  /// The same with another option.
+  Structure With(const std::string& option, const std::string& value) const;
+
+  /// Fitted to the samples of the input.
+  Fit Fitted(const IdentifierInput& input) const;
+  /// Mean squared errors on blocks that it has not seen (BlockedErrors).
+  std::optional<Eigen::VectorXd> ErrorsOn(const IdentifierInput& input,
+                                          const std::vector<Eigen::Index>& bounds) const;
+};
+
+/// Kinds of gravity to try, the simplest first: the one that the option `gravity` names, or none,
+/// sincos and paired for a joint that turns, none and paired for one that slides.
+std::vector<std::string> GravityKinds(const IdentifierInput& input);
+
+/// Laws that are linear in their parameters, without warming and with it, beside gravity.
+std::vector<Structure> LinearStructures(const std::string& gravity);
+
+/// The Stribeck law and maps, without warming and with it; maps also beside gravity.
+std::vector<Structure> CurvedStructures(const IdentifierInput& input, const std::string& gravity);
+
+}  // namespace warmjoint::inline identification

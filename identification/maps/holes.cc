@@ -1,0 +1,226 @@
+#include "identification/maps/holes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "models/foundation/robust_noise.h"
+#include "models/friction/joint_kind.h"
+
+namespace warmjoint::inline identification {
+namespace {
+
+using Eigen::Index;
+
+constexpr double kFewest = 2;    // samples
+constexpr double kShare = 0.02;  // of the median
+constexpr size_t kMostNamed = 3;
+
+/// Kernels along the first axis, and how far apart they lie among a map's weights.
+struct Lines {
+  size_t length = 0, stride = 1;
+  bool circular = false;
+
+  explicit Lines(const FrictionMap& map)
+      : length(map.axes[0].kernels.centres.size()),
+        stride(map.size() / map.axes[0].kernels.centres.size()),
+        circular(map.axes[0].kernels.period.has_value()) {}
+};
+
+/// The next seen kernel of a line from i on in steps of +-1; nothing where there is none.
+std::optional<size_t> NextSeen(const Lines& lines, const std::vector<bool>& unseen, size_t first,
+                               size_t i, int step) {
+  const auto n = static_cast<long>(lines.length);
+  for (long away = 1; away < n; ++away) {
+    long at = static_cast<long>(i) + step * away;
+    if (lines.circular) at = ((at % n) + n) % n;
+    if (at < 0 || at >= n) return std::nullopt;
+    if (!unseen[first + static_cast<size_t>(at) * lines.stride]) return static_cast<size_t>(away);
+  }
+  return std::nullopt;
+}
+
+/// The kernel whose centre is nearest to a sample.
+Index NearestKernel(const FrictionMap& map, const MapPoints& points, Index sample) {
+  size_t kernel = 0;
+  for (const MapAxis& axis : map.axes) {
+    const std::vector<double>& centres = axis.kernels.centres;
+    const double x = points(sample, static_cast<Index>(axis.quantity));
+    size_t nearest = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (size_t c = 0; c < centres.size(); ++c) {
+      double away = std::abs(x - centres[c]);
+      if (axis.kernels.period) away = std::abs(std::remainder(away, *axis.kernels.period));
+      const bool other_side = axis.kernels.sides == Sides::apart && x * centres[c] < 0;
+      if (other_side || away >= least) continue;
+      least = away;
+      nearest = c;
+    }
+    kernel = kernel * centres.size() + nearest;
+  }
+  return static_cast<Index>(kernel);
+}
+
+double MeanOfSeen(size_t first, size_t size, const std::vector<bool>& unseen,
+                  const Eigen::VectorXd& weights) {
+  double sum = 0, count = 0;
+  for (size_t i = first; i < first + size; ++i) {
+    if (unseen[i]) continue;
+    sum += weights[static_cast<Index>(i)];
+    ++count;
+  }
+  return count > 0 ? sum / count : 0;
+}
+
+/// A run of unseen kernels.
+struct Hole {
+  double width = 0;  // of its axis
+  std::string words;
+};
+
+/// "backwards", "forwards", or nothing where the map does not tell the directions apart.
+std::string DirectionOf(const FrictionMap& map, size_t line) {
+  for (size_t a = map.axes.size(); a-- > 1;) {
+    const std::vector<double>& centres = map.axes[a].kernels.centres;
+    const double centre = centres[line % centres.size()];
+    line /= centres.size();
+    if (map.axes[a].quantity != MapQuantity::velocity) continue;
+    const char* way = centre < 0 ? "backwards" : "forwards";
+    return centres.size() > 2 ? fmt::format(" {} at {:.3g}", way, std::abs(centre))
+                              : fmt::format(" {}", way);
+  }
+  return "";
+}
+
+std::string_view UnitOf(MapQuantity quantity, JointKind joint) {
+  if (quantity == MapQuantity::position) return kPositionUnit.For(joint);
+  if (quantity == MapQuantity::motor_position) return "rad";
+  if (quantity == MapQuantity::velocity) return kVelocityUnit.For(joint);
+  return kTorqueUnit.For(joint);
+}
+
+/// The runs of one line of a map.
+void AddHoles(const FrictionMap& map, size_t first, size_t line, const std::vector<bool>& unseen,
+              JointKind joint, std::vector<Hole>& holes) {
+  const Lines lines(map);
+  const MapAxis& axis = map.axes[0];
+  const std::vector<double>& centres = axis.kernels.centres;
+  const double half = lines.length > 1 ? 0.5 * (centres[1] - centres[0]) : 0;
+  for (size_t i = 0; i < lines.length; ++i) {
+    if (!unseen[first + i * lines.stride + line]) continue;
+    size_t end = i;
+    while (end + 1 < lines.length && unseen[first + (end + 1) * lines.stride + line]) ++end;
+    const bool inside = lines.circular || (i > 0 && end + 1 < lines.length);
+    if (!inside) {
+      i = end;
+      continue;
+    }
+    const double lower = centres[i] - half, upper = centres[end] + half;
+    holes.push_back({upper - lower,
+                     fmt::format("{} {:.3g} to {:.3g} {}{}", MapQuantityName(axis.quantity), lower,
+                                 upper, UnitOf(axis.quantity, joint), DirectionOf(map, line))});
+    i = end;
+  }
+}
+
+}  // namespace
+
+std::vector<bool> UnseenKernels(const std::vector<FrictionMap>& maps, const MapPoints& points) {
+  std::vector<bool> unseen;
+  for (const FrictionMap& map : maps) {
+    const auto size = static_cast<Index>(map.size());
+    Eigen::VectorXd counts = Eigen::VectorXd::Zero(size);
+    for (Index i = 0; i < points.rows(); ++i) ++counts[NearestKernel(map, points, i)];
+    Eigen::VectorXd seen(size);
+    Index count = 0;
+    for (const double one : counts) {
+      if (one >= kFewest) seen[count++] = one;
+    }
+    seen.conservativeResize(count);
+    const double least = std::max(kFewest, count > 0 ? kShare * MedianInPlace(seen) : 0.0);
+    for (const double one : counts) unseen.push_back(one < least);
+  }
+  return unseen;
+}
+
+Eigen::MatrixXd PriorOf(const std::vector<FrictionMap>& maps, const std::vector<bool>& unseen) {
+  const auto q = static_cast<Index>(unseen.size());
+  Eigen::MatrixXd prior = Eigen::MatrixXd::Identity(q, q);
+  size_t first = 0;
+  for (const FrictionMap& map : maps) {
+    const Lines lines(map);
+    const auto n = static_cast<long>(lines.length);
+    for (size_t k = 0; k < map.size(); ++k) {
+      if (!unseen[first + k]) continue;
+      const size_t line = first + k % lines.stride;
+      const auto i = static_cast<long>(k / lines.stride);
+      const auto below = NextSeen(lines, unseen, line, static_cast<size_t>(i), -1);
+      const auto above = NextSeen(lines, unseen, line, static_cast<size_t>(i), 1);
+      if (!below && !above) continue;
+
+      // w - (u a + d b) / (u + d), a and b being d below and u above
+      const auto place = [&](long at) {
+        return static_cast<Index>(line + static_cast<size_t>((at % n + n) % n) * lines.stride);
+      };
+      const double down = below ? static_cast<double>(*below) : 0;
+      const double up = above ? static_cast<double>(*above) : 0;
+      Eigen::VectorXd row = Eigen::VectorXd::Unit(q, static_cast<Index>(first + k));
+      if (below) row[place(i - static_cast<long>(*below))] -= above ? up / (up + down) : 1;
+      if (above) row[place(i + static_cast<long>(*above))] -= below ? down / (up + down) : 1;
+      prior(static_cast<Index>(first + k), static_cast<Index>(first + k)) -= 1;
+      prior += row * row.transpose();
+    }
+    first += map.size();
+  }
+  return prior;
+}
+
+std::vector<double> DoubtOfHoles(const FrictionMap& map, size_t first,
+                                 const std::vector<bool>& unseen, const Eigen::VectorXd& weights) {
+  const double mean = MeanOfSeen(first, map.size(), unseen, weights);
+  double squares = 0, count = 0;
+  for (size_t i = first; i < first + map.size(); ++i) {
+    if (unseen[i]) continue;
+    squares += std::pow(weights[static_cast<Index>(i)] - mean, 2);
+    ++count;
+  }
+  const double spread = count > 1 ? std::sqrt(squares / (count - 1)) : 0;
+
+  // less beside a kernel that is seen
+  const Lines lines(map);
+  std::vector<double> doubt(map.size());
+  for (size_t k = 0; k < map.size(); ++k) {
+    if (!unseen[first + k]) continue;
+    const size_t line = first + k % lines.stride, i = k / lines.stride;
+    const auto below = NextSeen(lines, unseen, line, i, -1);
+    const auto above = NextSeen(lines, unseen, line, i, 1);
+    const bool beside = below == 1u || above == 1u;
+    if (beside && !(below && above)) continue;  // half a cell at the end of the travel
+    doubt[k] = beside ? 0.5 * spread : spread;
+  }
+  return doubt;
+}
+
+std::vector<std::string> NameHoles(const std::vector<FrictionMap>& maps,
+                                   const std::vector<bool>& unseen, JointKind joint) {
+  std::vector<Hole> holes;
+  size_t first = 0;
+  for (const FrictionMap& map : maps) {
+    for (size_t line = 0; line < Lines(map).stride; ++line) {
+      AddHoles(map, first, line, unseen, joint, holes);
+    }
+    first += map.size();
+  }
+  std::ranges::stable_sort(holes, std::ranges::greater{}, &Hole::width);
+  std::vector<std::string> names;
+  for (size_t i = 0; i < std::min(kMostNamed, holes.size()); ++i) names.push_back(holes[i].words);
+  if (holes.size() > kMostNamed) {
+    names.push_back(fmt::format("{} smaller ones", holes.size() - kMostNamed));
+  }
+  return names;
+}
+
+}  // namespace warmjoint::inline identification

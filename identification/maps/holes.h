@@ -1,0 +1,36 @@
+// Where a map has no data.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "identification/ridge/local_rows.h"
+#include "models/friction/friction_map.h"
+#include "models/friction/joint_kind.h"
+
+namespace warmjoint::inline identification {
+
+/// Kernels to which fewer than 3 samples are nearest, or fewer than a twentieth of the median of their
+/// map's: there the prior would set the map to 0, to the law's bare level, whatever its neighbours are.
+/// points: [n x 5] of the samples; returns [q] of all maps' kernels, one map's after the other's.
+std::vector<bool> UnseenKernels(const std::vector<FrictionMap>& maps, const MapPoints& points);
+
+/// [q x q] P of the prior s w^T P w: 1 on the diagonal for seen kernels. An unseen one is drawn to the
+/// straight line between its next seen neighbours along the first axis instead, or to the one that
+/// there is; where its whole line is unseen, to 0.
+Eigen::MatrixXd PriorOf(const std::vector<FrictionMap>& maps, const std::vector<bool>& unseen);
+
+/// What the weights may be off where a map has no data, as a standard deviation: 0 for seen kernels, the
+/// rms spread of the map's seen weights around their mean for unseen ones, half of it beside a seen one,
+/// and 0 there at an end of the range, where data reach into the half cell. first: the map's first
+/// kernel among all; weights: [q]; returns one for each kernel of the map.
+std::vector<double> DoubtOfHoles(const FrictionMap& map, size_t first,
+                                 const std::vector<bool>& unseen, const Eigen::VectorXd& weights);
+
+/// "position 0.015 to 0.027 m backwards": the runs of unseen kernels of all maps along their first
+/// axis with seen ones on both sides, the widest three.
+std::vector<std::string> NameHoles(const std::vector<FrictionMap>& maps,
+                                   const std::vector<bool>& unseen, JointKind joint);
+
+}  // namespace warmjoint::inline identification

@@ -1,0 +1,94 @@
+#include "identification/preparation/condense.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "models/recording/motor_angle.h"
+#include "models/recording/sampling.h"
+
+namespace warmjoint::inline identification {
+namespace {
+
+using Eigen::Index;
+
+constexpr double kTravelParts = 48;
+constexpr double kTurnParts = 24;
+
+int Direction(double velocity) { return velocity > 0 ? 1 : velocity < 0 ? -1 : 0; }
+
+/// How far the joint may go within a row, rad or m.
+double LongestWay(const Measurements& m) {
+  const double travel = m.position.maxCoeff() - m.position.minCoeff();
+  const double way = travel / kTravelParts;
+  if (!KnowsMotorAngle(m)) return way;
+  return std::min(way, 2 * std::numbers::pi / (kTurnParts * std::abs(m.gear)));
+}
+
+/// The segment of each sample, -1 for none. [N]
+Eigen::ArrayXi SegmentOf(const LogView& all) {
+  Eigen::ArrayXi segment = Eigen::ArrayXi::Constant(all.measurements.size(), -1);
+  const std::vector<Segment>& segments = all.selection.segments;
+  for (size_t s = 0; s < segments.size(); ++s) {
+    segment.segment(segments[s].begin, segments[s].end - segments[s].begin) = static_cast<int>(s);
+  }
+  return segment;
+}
+
+/// First sample of each row, and N.
+std::vector<Index> RowsOf(const LogView& all, Index together) {
+  const Measurements& m = all.measurements;
+  const auto& keep = all.selection.keep;
+  const Eigen::ArrayXi segment = SegmentOf(all);
+  const double longest = LongestStep(m.time), way = LongestWay(m);
+  std::vector<Index> first{0};
+  size_t next = 0;  // recording
+  for (Index i = 1; i < m.size(); ++i) {
+    const bool starts = next < m.starts.size() && m.starts[next] == i;
+    if (starts) ++next;
+    const Index begin = first.back();
+    const bool alike = keep[i] == keep[begin] && segment[i] == segment[begin] &&
+                       Direction(m.velocity[i]) == Direction(m.velocity[begin]) &&
+                       m.time[i] - m.time[i - 1] <= longest;
+    const bool near = std::abs(m.position[i] - m.position[begin]) <= way || !keep[i];
+    if (starts || !alike || !near || i - begin >= together) first.push_back(i);
+  }
+  first.push_back(m.size());
+  return first;
+}
+
+}  // namespace
+
+LogView Condense(const LogView& all, Index rows) {
+  const Index together = (all.selection.count() + rows - 1) / rows;
+  if (together <= 1) return all;
+  const std::vector<Index> first = RowsOf(all, together);
+  const auto count = static_cast<Index>(first.size()) - 1;
+
+  // the columns
+  LogView view = all;
+  ForEachColumn(view.measurements, [&](Eigen::VectorXd& column) {
+    if (column.size() == 0) return;
+    Eigen::VectorXd means(count);
+    for (Index r = 0; r < count; ++r) {
+      means[r] = column.segment(first[r], first[r + 1] - first[r]).mean();
+    }
+    column = std::move(means);
+  });
+
+  // and what refers to samples
+  const auto row = [&](Index sample) {
+    return std::lower_bound(first.begin(), first.end(), sample) - first.begin();
+  };
+  view.selection.keep.resize(count);
+  for (Index r = 0; r < count; ++r) view.selection.keep[r] = all.selection.keep[first[r]];
+  for (Index& start : view.measurements.starts) start = row(start);
+  for (Segment& one : view.selection.segments) {
+    one.begin = row(one.begin);
+    one.end = row(one.end);
+  }
+  return view;
+}
+
+}  // namespace warmjoint::inline identification

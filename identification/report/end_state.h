@@ -1,0 +1,20 @@
+// The heat that a joint has at the end of its log.
+#pragma once
+
+#include <vector>
+
+#include "identification/fit.h"
+#include "identification/inference/inference.h"
+#include "models/recording/measurements.h"
+
+namespace warmjoint::inline identification {
+
+/// E at the log's last sample, N.m or N: `energy`, and `second_energy` of a second stage. Along the
+/// motion with the friction that is reported; the interval follows from the parameters' covariance
+/// by central differences, and reaches farther by what the verdict widened them. Empty where
+/// nothing warms.
+std::vector<EstimatedParameter> EndState(const Fit& fit, const Inference& inference,
+                                         const FrictionDescription& friction,
+                                         const Measurements& measurements);
+
+}  // namespace warmjoint::inline identification

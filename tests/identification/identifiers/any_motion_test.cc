@@ -1,0 +1,115 @@
+// Identifiers on motion that never holds a speed.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "identification/answer/identify.h"
+#include "identification/holdout/hold_out.h"
+#include "identification/identifiers/identifier_list.h"
+#include "tests/support/warm_recording.h"
+
+namespace warmjoint {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr double kInertia = 2, kSine = 5, kCosine = 1.5, kNoise = 0.5;
+constexpr double kStep = 0.02;
+
+/// Three harmonics that never repeat each other, with inertia and gravity in the torque.
+Measurements Excited(const FrictionDescription& friction, Eigen::Index n, std::uint64_t seed) {
+  const Eigen::ArrayXd t = kStep * Eigen::ArrayXd::LinSpaced(n, 0, static_cast<double>(n - 1));
+  const auto velocity =
+      (0.6 * (0.7 * t).sin() + 0.5 * (1.9 * t).sin() + 0.4 * (3.1 * t).sin()).eval();
+  const auto acceleration =
+      (0.42 * (0.7 * t).cos() + 0.95 * (1.9 * t).cos() + 1.24 * (3.1 * t).cos()).eval();
+  const auto position =
+      (-0.6 / 0.7 * (0.7 * t).cos() - 0.5 / 1.9 * (1.9 * t).cos() - 0.4 / 3.1 * (3.1 * t).cos())
+          .eval();
+  Measurements m = test::RecordFriction(friction, kStep, velocity.matrix(), kNoise, seed);
+  m.position = position.matrix();
+  m.torque +=
+      (kInertia * acceleration + kSine * position.sin() + kCosine * position.cos()).matrix();
+  return m;
+}
+
+Estimate Answer(const std::string& name, const Measurements& m,
+                std::map<std::string, std::string> given = {{"gravity", "sincos"}}) {
+  const Identifier& identifier = FindIdentifier(name);
+  const Options options(identifier.options, given, {});
+  return IdentifyAndJudge(identifier, {Prepare(m), options, {}});
+}
+
+/// Within 4 standard deviations, and not by an interval that says nothing.
+void ExpectTold(const Estimate& estimate, const std::string& name, double truth, double most) {
+  const EstimatedParameter* one = estimate.Find(name);
+  ASSERT_TRUE(one && one->std) << name << ": " << estimate.message;
+  EXPECT_NEAR(one->value, truth, 4 * *one->std) << name;
+  EXPECT_LT(*one->std, most) << name;
+}
+
+TEST(AnyMotion, NominalLawInertiaAndGravityAreToldTogether) {
+  FrictionDescription cold = test::TableOne();
+  cold.thermal.reset();
+  const Estimate estimate = Answer("nominal-ls", Excited(cold, 6000, 1));
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+  // white noise of 0.5 N.m on 5000 samples: some 0.5/sqrt(5000) = 0.007 over the columns' spread
+  ExpectTold(estimate, "viscous", 5, 0.05);
+  ExpectTold(estimate, "coulomb", 15, 0.05);
+  ExpectTold(estimate, "inertia", kInertia, 0.02);
+  ExpectTold(estimate, "gravity_sine", kSine, 0.05);
+  ExpectTold(estimate, "gravity_cosine", kCosine, 0.05);
+}
+
+TEST(AnyMotion, WarmingIsToldBesideInertiaAndGravity) {
+  FrictionDescription warm = test::TableOne();
+  warm.thermal->time_constant = 100;
+  const Estimate estimate = Answer("energy-ml", Excited(warm, 25000, 2));
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+  ExpectTold(estimate, "viscous", 5, 0.05);
+  ExpectTold(estimate, "coulomb", 15, 0.1);
+  ExpectTold(estimate, "thermal_gain", -3, 0.05);
+  ExpectTold(estimate, "thermal_time_constant", 100, 3);
+  ExpectTold(estimate, "inertia", kInertia, 0.02);
+  ASSERT_EQ(estimate.state_end.size(), 1u);
+  EXPECT_EQ(estimate.state_end[0].name, "energy");
+}
+
+TEST(AnyMotion, AutoTakesItTogetherWithGravity) {
+  FrictionDescription warm = test::TableOne();
+  warm.thermal->time_constant = 100;
+  const Estimate estimate = Answer("auto", Excited(warm, 25000, 3), {});
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+  ASSERT_TRUE(estimate.choice);
+  EXPECT_EQ(estimate.choice->chosen, "energy-ml gravity=sincos law=viscous_coulomb");
+  ExpectTold(estimate, "inertia", kInertia, 0.02);
+}
+
+TEST(AnyMotion, GravityThatIsLeftOutIsNamed) {
+  FrictionDescription cold = test::TableOne();
+  cold.thermal.reset();
+  const Estimate estimate = Answer("nominal-ls", Excited(cold, 6000, 4), {});
+  EXPECT_EQ(estimate.status, Status::inadequate_model);
+  EXPECT_THAT(estimate.message, HasSubstr("--gravity sincos"));
+}
+
+TEST(AnyMotion, HeldOutFiguresAreOfTheSameModel) {
+  FrictionDescription cold = test::TableOne();
+  cold.thermal.reset();
+  const Identifier& identifier = FindIdentifier("nominal-ls");
+  const Options options(identifier.options, {{"gravity", "sincos"}}, {});
+  const auto held = HoldOut(identifier, {Prepare(Excited(cold, 6000, 5)), options, {}}, 0.3);
+  ASSERT_TRUE(held);
+  // noise alone: 0.5 with a standard error of 0.5/sqrt(2 * 1500)
+  EXPECT_NEAR(held->rmse, kNoise, 0.04);
+}
+
+TEST(AnyMotion, IsRefusedWhereConstantSpeedIsAskedFor) {
+  const Estimate estimate =
+      Answer("nominal-ls", Excited(test::TableOne(), 3000, 6), {{"motion", "constant"}});
+  EXPECT_NE(estimate.status, Status::ok);
+}
+
+}  // namespace
+}  // namespace warmjoint

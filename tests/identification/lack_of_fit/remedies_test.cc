@@ -1,0 +1,148 @@
+// Every remedy is tried on a log that provokes it: it must lead on, to a smaller error, and to an end.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <regex>
+#include <set>
+
+#include "identification/holdout/hold_out.h"
+#include "tests/support/judging.h"
+#include "tests/support/slow_recording.h"
+#include "tests/support/travelling.h"
+
+namespace warmjoint {
+namespace {
+
+using Options_ = std::map<std::string, std::string>;
+
+/// What one command makes of a log.
+struct Step {
+  std::string identifier;
+  Options_ given;
+  Estimate estimate;
+  double held_out = 0;  // RMSE, N.m
+
+  std::string Name() const {
+    std::string name = identifier;
+    for (const auto& [key, value] : given) name += " " + key + "=" + value;
+    return name;
+  }
+};
+
+Step Take(const std::string& name, const Options_& given, const Measurements& m) {
+  const Identifier& identifier = FindIdentifier(name);
+  const Options options(identifier.options, given, {});
+  const IdentifierInput input{Prepare(m), options, {}};
+  Step step{name, given, IdentifyAndJudge(identifier, input), 0};
+  const auto held = HoldOut(identifier, input, 0.3);
+  step.held_out = held ? held->rmse : kInfinity;
+  return step;
+}
+
+/// The command that a message names: "try --identifier NAME --set key=value --gravity kind".
+std::optional<std::pair<std::string, Options_>> CommandIn(const std::string& message) {
+  std::smatch found;
+  const std::regex command("try --identifier ([a-z-]+)((?: --(?:set|gravity) [a-z_=0-9-]+)*)");
+  if (!std::regex_search(message, found, command)) return std::nullopt;
+  Options_ given;
+  const std::string options = found[2];
+  const std::regex option("--(set|gravity) ([a-z_0-9-]+)(?:=([a-z_0-9-]+))?");
+  for (std::sregex_iterator one(options.begin(), options.end(), option), end; one != end; ++one) {
+    const bool gravity = (*one)[1] == "gravity";
+    given[gravity ? "gravity" : std::string((*one)[2])] = gravity ? (*one)[2] : (*one)[3];
+  }
+  return std::pair{std::string(found[1]), given};
+}
+
+/// Follows the advice until an answer is ok.
+void ExpectLeadsSomewhere(const std::string& identifier, const Measurements& m,
+                          const Options_& given = {}) {
+  Step step = Take(identifier, given, m);
+  ASSERT_EQ(step.estimate.status, Status::inadequate_model) << step.estimate.message;
+  std::set<std::string> seen{step.Name()};
+  for (int steps = 0; step.estimate.status != Status::ok; ++steps) {
+    ASSERT_LT(steps, 4) << "the advice has no end: " << step.Name();
+    const auto next = CommandIn(step.estimate.FullMessage());
+    ASSERT_TRUE(next) << step.Name() << ": " << step.estimate.FullMessage();
+    Step other = Take(next->first, next->second, m);
+    ASSERT_TRUE(seen.insert(other.Name()).second) << "in a circle: " << other.Name();
+    EXPECT_LT(other.held_out, step.held_out)
+        << step.Name() << " says: " << step.estimate.FullMessage() << "\n and " << other.Name()
+        << " says: " << other.estimate.FullMessage();
+    step = std::move(other);
+  }
+}
+
+/// Travels over 5 rad at three speeds, h = 0.1 s, 20 min.
+Measurements Travelling(const FrictionDescription& friction, std::uint64_t seed) {
+  return test::RecordFriction(friction, 0.1, test::Travel(12000, 0.1, 2.5, {0.2, 0.5, 0.9}), 0.3,
+                              seed);
+}
+
+TEST(Remedies, AgainstWarming) {
+  ExpectLeadsSomewhere("nominal-ls", test::RecordHour(test::TableOne(), 1));
+}
+
+TEST(Remedies, AgainstDirection) {
+  Measurements m = test::RecordHour(test::Cold(), 1);
+  m.torque.array() += 1.5;
+  ExpectLeadsSomewhere("nominal-ls", m);
+}
+
+TEST(Remedies, AgainstDirectionOfAJointThatWarms) {
+  Measurements m = test::RecordHour(test::TableOne(), 1);
+  m.torque.array() += 1.5;
+  ExpectLeadsSomewhere("energy-ml", m);
+}
+
+TEST(Remedies, AgainstSpeed) {
+  ExpectLeadsSomewhere("nominal-ls", test::RecordFriction(test::StribeckJoint(), 1,
+                                                          test::SlowAndFast(3600, 1), 0.3, 1));
+}
+
+TEST(Remedies, AgainstSpeedOfAJointThatWarms) {
+  FrictionDescription warm = test::StribeckJoint();
+  warm.thermal = Thermal{-3, 600};
+  ExpectLeadsSomewhere("stribeck",
+                       test::RecordFriction(warm, 1, test::SlowAndFast(3600, 1), 0.3, 1));
+}
+
+TEST(Remedies, AgainstRippleAlongTheJoint) {
+  FrictionDescription rippled = test::Cold();
+  rippled.maps = {test::PositionLevel(2.5, 1.5)};
+  ExpectLeadsSomewhere("nominal-ls", Travelling(rippled, 1));
+}
+
+TEST(Remedies, AgainstRippleOfAJointThatWarms) {
+  FrictionDescription rippled = test::TableOne();
+  rippled.maps = {test::PositionLevel(2.5, 1.5)};
+  ExpectLeadsSomewhere("energy-ml", Travelling(rippled, 1));
+  ExpectLeadsSomewhere("position-ridge", Travelling(rippled, 1));
+}
+
+TEST(Remedies, AgainstRippleOfTheMotor) {
+  FrictionDescription rippled = test::Cold();
+  rippled.gear = 10;
+  rippled.maps = {test::MotorRipple(2, 1.5)};
+  Measurements m = test::RecordFriction(test::Cold(), 0.02,
+                                        test::Travel(20000, 0.02, 2.5, {0.2, 0.5, 0.9}), 0, 1);
+  m.gear = 10;
+  m.torque = PredictFriction(rippled, m).force;
+  test::AddNoise(m, 0.3, 0, 1);
+  ExpectLeadsSomewhere("nominal-ls", m);
+}
+
+TEST(Remedies, AgainstGravity) {
+  Measurements m = Travelling(test::Cold(), 1);
+  m.torque.array() += 4 * m.position.array().sin() + 2 * m.position.array().cos();
+  ExpectLeadsSomewhere("nominal-ls", m);
+}
+
+TEST(Remedies, AgainstGravityOfAJointThatWarms) {
+  Measurements m = Travelling(test::TableOne(), 1);
+  m.torque.array() += 4 * m.position.array().sin() + 2 * m.position.array().cos();
+  ExpectLeadsSomewhere("energy-ml", m);
+}
+
+}  // namespace
+}  // namespace warmjoint

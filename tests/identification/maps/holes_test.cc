@@ -1,0 +1,96 @@
+#include "identification/maps/holes.h"
+
+#include <gmock/gmock.h>
+
+#include "identification/answer/identify.h"
+#include "identification/identifiers/identifier_list.h"
+#include "tests/support/travelling.h"
+#include "tests/support/warm_recording.h"
+
+namespace warmjoint {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+FrictionMap FivePlaces() {
+  return {{{MapQuantity::position, EvenAxis(0, 4, 5)}}, KernelKind::normalised, {}};
+}
+
+/// Samples at positions, and nothing else.
+MapPoints At(const std::vector<double>& positions) {
+  MapPoints points = MapPoints::Zero(static_cast<Eigen::Index>(positions.size()), 5);
+  for (size_t i = 0; i < positions.size(); ++i)
+    points(static_cast<Eigen::Index>(i), 0) = positions[i];
+  return points;
+}
+
+/// The weights that a prior alone draws to, where the seen ones are given.
+double DrawnTo(const std::vector<FrictionMap>& maps, const std::vector<bool>& unseen,
+               Eigen::Index i, const Eigen::VectorXd& weights) {
+  const Eigen::MatrixXd prior = PriorOf(maps, unseen);
+  return -(prior.row(i).dot(weights) - prior(i, i) * weights[i]) / prior(i, i);
+}
+
+TEST(Holes, AreKernelsThatHardlyAnySampleIsNearTo) {
+  EXPECT_THAT(UnseenKernels({FivePlaces()}, At({0, 0.1, 0.2, 1, 1, 1.1, 2.1, 4, 4, 4})),
+              ElementsAre(false, false, true, true, false));
+}
+
+TEST(Holes, AreDrawnToTheLineBetweenTheirNeighbours) {
+  const Eigen::VectorXd weights = (Eigen::VectorXd(5) << 1, 2, 0, 4, 5).finished();
+  EXPECT_NEAR(DrawnTo({FivePlaces()}, {false, false, true, false, false}, 2, weights), 3, 1e-12);
+
+  // at an end to the one neighbour that there is
+  EXPECT_NEAR(DrawnTo({FivePlaces()}, {true, false, false, false, false}, 0, weights), 2, 1e-12);
+}
+
+TEST(Holes, OnACircleHaveNeighboursOnBothSides) {
+  const FrictionMap turn{
+      {{MapQuantity::motor_position, CircleAxis(4, 4)}}, KernelKind::normalised, {}};
+  const Eigen::VectorXd weights = (Eigen::VectorXd(4) << 0, 2, 7, 4).finished();
+  EXPECT_NEAR(DrawnTo({turn}, {true, false, false, false}, 0, weights), 3, 1e-12);
+}
+
+TEST(Holes, AreNamed) {
+  EXPECT_THAT(NameHoles({FivePlaces()}, {false, false, true, true, false}, JointKind::linear),
+              ElementsAre("position 1.5 to 3.5 m"));
+}
+
+TEST(Holes, AHoleInALogHoldsTheTruthAndIsToldOf) {
+  // a level that rises from 5 to 25 N.m over the travel; nothing is logged backwards from 0.5 to 1.5 rad
+  FrictionDescription friction = test::TableOne();
+  friction.thermal.reset();
+  friction.maps = {test::Sampled(MapQuantity::position, EvenAxis(-2.5, 2.5, 64),
+                                 MapFactor::direction, [](double p) { return 4 * p; })};
+  Measurements m =
+      test::RecordFriction(friction, 0.05, test::Travel(16000, 0.05, 2.5, {0.2, 0.5, 0.9}), 0.3, 1);
+  const Identifier& identifier = FindIdentifier("position-ridge");
+  const Options options(identifier.options, {{"kernels", "20"}}, {});
+  Selection selection = Prepare(m).steady().selection;
+  for (Eigen::Index i = 0; i < m.size(); ++i) {
+    if (m.velocity[i] < 0 && m.position[i] > 0.5 && m.position[i] < 1.5) selection.keep[i] = false;
+  }
+  const Estimate estimate = IdentifyUnjudged(identifier, {Prepare(m, selection), options, {}});
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+  EXPECT_THAT(estimate.FullMessage(), HasSubstr("the map has no data at position"));
+  EXPECT_THAT(estimate.FullMessage(), HasSubstr("backwards"));
+
+  // in the middle of the hole: between the neighbours, and the interval holds the truth
+  const MapBand& band = estimate.bands[0];
+  bool looked = false;
+  for (size_t i = 0; i < band.points.size(); ++i) {
+    const double p = band.points[i][0], v = band.points[i][1];
+    if (v > 0 || std::abs(p - 1) > 0.2) continue;
+    const double truth = -(15 + 5 * std::abs(v) + 4 * p);
+    EXPECT_NEAR(band.value[i], truth, 2) << p;
+    EXPECT_LT(band.interval95[i][0], truth);
+    EXPECT_GT(band.interval95[i][1], truth);
+    EXPECT_GT(band.std[i], 2) << p;
+    looked = true;
+  }
+  EXPECT_TRUE(looked);
+}
+
+}  // namespace
+}  // namespace warmjoint

@@ -1,0 +1,75 @@
+#include "identification/preparation/moving_view.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "identification/preparation/prepared_log.h"
+#include "models/foundation/random_stream.h"
+#include "tests/support/vectors.h"
+
+namespace warmjoint {
+namespace {
+
+/// n samples of v = sin(w t), h apart, with white noise on the velocity.
+Measurements Sine(Eigen::Index n, double h, double w, double noise = 0) {
+  const Eigen::VectorXd time = h * Eigen::VectorXd::LinSpaced(n, 0, static_cast<double>(n - 1));
+  Measurements m = test::Record(h, (w * time.array()).sin().matrix(), Eigen::VectorXd::Zero(n));
+  RandomStream random({1, 0}, Stream::velocity_noise);
+  for (double& v : m.velocity) v += noise * random.Normal();
+  return m;
+}
+
+double RmsError(const Measurements& m, double w) {
+  const Eigen::ArrayXd truth = w * (w * m.time.array()).cos();
+  return std::sqrt((Acceleration(m).array() - truth).square().mean());
+}
+
+TEST(MovingView, DifferentiatesASmoothVelocity) {
+  // central differences miss w cos by its share (w h)^2 / 6 = 1.7e-5, and one-sided ones at both ends
+  // by w^2 h / 2: 0.005 in two of 1000 samples
+  EXPECT_LT(RmsError(Sine(1000, 0.01, 1), 1), 3e-4);
+}
+
+TEST(MovingView, SmoothsNoiseUntilItIsSmall) {
+  // 0.01 at 100 Hz would leave 0.7 of an acceleration of 0.7 rms; lines through 65 samples leave
+  // 0.01 / (0.01 sqrt(22880)) = 0.007, and bend by w^2 (0.32)^2 / 10 = 1 %
+  EXPECT_LT(RmsError(Sine(4000, 0.01, 1, 0.01), 1), 0.06);
+}
+
+TEST(MovingView, KeepsWhatMovesClearlyAndAlike) {
+  const Measurements sine = Sine(1000, 0.01, 1);
+  const LogView view = ViewMotion(sine);
+  EXPECT_NEAR(ClearSpeed(sine), 0.05 * std::sqrt(0.5), 0.002);
+  for (Eigen::Index i = 0; i < 1000; ++i) {
+    const double v = view.measurements.velocity[i];
+    const bool kept = view.selection.keep[i];
+    EXPECT_TRUE(!kept || std::abs(v) > ClearSpeed(sine)) << i;
+    EXPECT_TRUE(kept || std::abs(v) < 0.1 || i == 0 || i == 999) << i;
+  }
+}
+
+TEST(MovingView, LeavesOutCornersOfTheVelocity) {
+  // up for a second, steady for one, down for one: the slope at a corner is that of neither side
+  Eigen::VectorXd velocity(300);
+  for (Eigen::Index i = 0; i < 300; ++i) {
+    velocity[i] = i < 100   ? 0.01 * static_cast<double>(i)
+                  : i < 200 ? 1
+                            : 3 - 0.01 * static_cast<double>(i);
+  }
+  const LogView view = ViewMotion(test::Record(0.01, velocity, Eigen::VectorXd::Zero(300)));
+  EXPECT_FALSE(view.selection.keep[100]);
+  EXPECT_FALSE(view.selection.keep[200]);
+  EXPECT_TRUE(view.selection.keep[50]);
+  EXPECT_TRUE(view.selection.keep[150]);
+}
+
+TEST(PreparedLog, TellsWhetherItHoldsSpeeds) {
+  EXPECT_FALSE(Prepare(Sine(2000, 0.01, 1)).HoldsSpeeds());
+  Eigen::VectorXd holds(400);
+  for (Eigen::Index i = 0; i < 400; ++i) holds[i] = i / 40 % 2 ? -0.5 : 1;
+  EXPECT_TRUE(Prepare(test::Record(1, holds, Eigen::VectorXd::Zero(400))).HoldsSpeeds());
+}
+
+}  // namespace
+}  // namespace warmjoint

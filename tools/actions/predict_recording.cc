@@ -1,0 +1,79 @@
+#include "tools/actions/predict_recording.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "identification/fit_data.h"
+#include "models/foundation/read_json.h"
+
+namespace warmjoint::inline tools {
+
+StoredModel ReadStoredModel(const std::string& file) {
+  const nlohmann::json object = ReadJsonFile(file);
+  StoredModel stored;
+  if (!object.is_object() || !object.contains("identifier")) {
+    stored.identifier = "friction file";
+    stored.model.friction = ReadFrictionFile(file);
+    return stored;
+  }
+  const Estimate estimate = EstimateFromJson(object, {file});
+  if (!estimate.friction) {
+    Refuse({file}, "is {} and holds no friction; identify again with --force to use it anyway",
+           StatusName(estimate.status));
+  }
+  stored.identifier = estimate.identifier;
+  stored.status = estimate.status;
+  stored.model = {*estimate.friction, estimate.gravity, {}};
+  if (const EstimatedParameter* inertia = estimate.Find("inertia")) {
+    stored.model.inertia = inertia->value;
+  }
+  return stored;
+}
+
+Predicted PredictLog(const StoredModel& stored, const PreparedLog& log, const CourseStart& start) {
+  const LogView& view = stored.model.inertia ? log.moving() : log.steady();
+  const Measurements& m = view.measurements;
+  const std::string_view unit = kTorqueUnit.For(m.joint);
+  if (m.torque_unit != unit) {
+    Refuse({m.source}, "has a torque in {} and friction is in {}; give --torque-constant",
+           m.torque_unit, unit);
+  }
+  Predicted predicted{m, PredictTorque(stored.model, m, view.selection, start), {}};
+  const Selection& known = predicted.torque.known;
+  if (known.count() == 0) {
+    Refuse({m.source}, "no sample can be compared: {} of {} samples {}{}", view.selection.count(),
+           m.size(), stored.model.inertia ? "move clearly" : "move at a constant speed",
+           view.selection.count() > 0 ? ", all where the estimate knows no gravity" : "");
+  }
+  predicted.metrics =
+      ComputeMetrics(Kept(m.torque, known), Kept(predicted.torque.torque, known), 0, 0);
+  return predicted;
+}
+
+nlohmann::json PredictedToJson(const StoredModel& stored, const Predicted& predicted) {
+  const Metrics& metrics = predicted.metrics;
+  nlohmann::json json{
+      {"identifier", stored.identifier},
+      {"status", StatusName(stored.status)},
+      {"metrics",
+       {{"n", metrics.n}, {"rmse", metrics.rmse}, {"mae", metrics.mae}, {"fit", metrics.fit}}}};
+  const FrictionState& end = predicted.torque.friction.end;
+  if (stored.model.friction.thermal) json["state_end"]["energy"] = end.energy;
+  if (stored.model.friction.second_thermal) json["state_end"]["second_energy"] = end.second_energy;
+  return json;
+}
+
+std::string PredictedToCsv(const Predicted& predicted) {
+  const Measurements& m = predicted.measurements;
+  const TorquePrediction& torque = predicted.torque;
+  std::string csv = "time,position,velocity,torque,predicted,residual,energy,compared\n";
+  for (Eigen::Index i = 0; i < m.size(); ++i) {
+    csv += fmt::format("{},{},{},{},{},{},{},{:d}\n", m.time[i], m.position[i], m.velocity[i],
+                       m.torque[i], torque.torque[i], m.torque[i] - torque.torque[i],
+                       torque.friction.energy[i], torque.known.keep[i]);
+  }
+  return csv;
+}
+
+}  // namespace warmjoint::inline tools

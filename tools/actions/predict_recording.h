@@ -1,0 +1,41 @@
+// A stored estimate on another recording.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "identification/estimate.h"
+#include "identification/holdout/predict_torque.h"
+#include "identification/preparation/prepared_log.h"
+
+namespace warmjoint::inline tools {
+
+/// What an estimate file knows of the joint. The log's acceleration is used where it holds an inertia.
+struct StoredModel {
+  std::string identifier;
+  Status status = Status::ok;
+  TorqueModel model;
+};
+
+/// Of estimate.json, or of a friction file. Throws BadInput from `file` where it holds no friction.
+StoredModel ReadStoredModel(const std::string& file);
+
+/// What the model predicts, and how well.
+struct Predicted {
+  Measurements measurements;  // of the log as the model sees it
+  TorquePrediction torque;
+  Metrics metrics;  // over the samples that take part; its parameters count 0, since none is fitted
+};
+
+/// Along the log, whose heat begins with `start`. Throws BadInput where the log is in another unit
+/// than friction for MuJoCo is, or no sample is left to compare.
+Predicted PredictLog(const StoredModel& stored, const PreparedLog& log, const CourseStart& start);
+
+/// {identifier, status, metrics{n, rmse, mae, fit}, state_end{energy, second_energy}}
+nlohmann::json PredictedToJson(const StoredModel& stored, const Predicted& predicted);
+
+/// time, position, velocity, torque, predicted, residual, energy, compared (1 or 0): a row a sample,
+/// SI.
+std::string PredictedToCsv(const Predicted& predicted);
+
+}  // namespace warmjoint::inline tools
