@@ -146,13 +146,26 @@ std::vector<bool> UnseenKernels(const std::vector<FrictionMap>& maps, const MapP
   return unseen;
 }
 
-Eigen::MatrixXd PriorOf(const std::vector<FrictionMap>& maps, const std::vector<bool>& unseen) {
+double PullOver(const Eigen::MatrixXd& gram, const std::vector<bool>& unseen, double strength) {
+  Eigen::VectorXd seen(gram.rows());
+  Index count = 0;
+  for (Index i = 0; i < gram.rows(); ++i) {
+    if (!unseen[static_cast<size_t>(i)]) seen[count++] = gram(i, i);
+  }
+  seen.conservativeResize(count);
+  return count > 0 && strength > 0 ? std::max(1.0, MedianInPlace(seen) / strength) : 1;
+}
+
+Eigen::MatrixXd PriorOf(const std::vector<FrictionMap>& maps, const std::vector<bool>& unseen,
+                        double pull) {
   const auto q = static_cast<Index>(unseen.size());
   Eigen::MatrixXd prior = Eigen::MatrixXd::Identity(q, q);
   size_t first = 0;
   for (const FrictionMap& map : maps) {
     const Lines lines(map);
     const auto n = static_cast<long>(lines.length);
+    const double firm =
+        FindAxis(map, MapQuantity::energy) || FindAxis(map, MapQuantity::load) ? 1 : pull;
     for (size_t k = 0; k < map.size(); ++k) {
       if (!unseen[first + k]) continue;
       const size_t line = first + k % lines.stride;
@@ -171,7 +184,7 @@ Eigen::MatrixXd PriorOf(const std::vector<FrictionMap>& maps, const std::vector<
       if (below) row[place(i - static_cast<long>(*below))] -= above ? up / (up + down) : 1;
       if (above) row[place(i + static_cast<long>(*above))] -= below ? down / (up + down) : 1;
       prior(static_cast<Index>(first + k), static_cast<Index>(first + k)) -= 1;
-      prior += row * row.transpose();
+      prior += (below && above ? firm : 1) * row * row.transpose();
     }
     first += map.size();
   }

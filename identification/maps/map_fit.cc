@@ -13,6 +13,38 @@ namespace {
 
 constexpr double kImitated = 1e-3;  // share of a column's squares
 
+/// x and inverse of gram x = product; false where it is singular.
+bool Solve(const Eigen::MatrixXd& gram, const Eigen::VectorXd& product, MapFit& fit) {
+  const Eigen::LLT<Eigen::MatrixXd> factors(gram);
+  if (factors.info() != Eigen::Success) return false;
+  const Eigen::Index d = product.size();
+  fit.inverse = factors.solve(Eigen::MatrixXd::Identity(d, d));
+  fit.x = factors.solve(product);
+  return fit.x.allFinite();
+}
+
+/// Puts a parameter of the law that lies below its bound onto it where the kernels can take up the
+/// difference: how a constant is shared out between law and maps is the prior's taste alone. One that they
+/// cannot imitate stays where the data put it.
+void HoldAtBounds(const std::vector<double>& lower, Eigen::MatrixXd gram, Eigen::VectorXd product,
+                  MapFit& fit) {
+  if (lower.empty()) return;
+  for (const Eigen::Index j : ImitatedColumns(fit)) {
+    const double bound = lower[static_cast<size_t>(j)];
+    if (!(fit.x[j] < bound)) continue;
+    product -= bound * gram.col(j);
+    product[j] = bound;
+    gram.row(j).setZero();
+    gram.col(j).setZero();
+    gram(j, j) = 1;
+    MapFit held = fit;
+    if (!Solve(gram, product, held)) return;
+    fit = held;
+    fit.inverse.row(j).setZero();
+    fit.inverse.col(j).setZero();
+  }
+}
+
 }  // namespace
 
 NormalEquations NormalOf(const MapProblem& problem) {
@@ -30,14 +62,12 @@ std::optional<MapFit> FitMaps(const MapProblem& problem, double strength) {
   Eigen::MatrixXd gram = normal.gram;
   // where there are no data the neighbours tell more than the law alone
   fit.unseen = UnseenKernels(problem.maps, problem.points);
-  gram.bottomRightCorner(d - fit.free, d - fit.free) +=
-      strength * PriorOf(problem.maps, fit.unseen);
-  const Eigen::LLT<Eigen::MatrixXd> factors(gram);
-  if (factors.info() != Eigen::Success || !std::isfinite(normal.squares)) return std::nullopt;
-  fit.inverse = factors.solve(Eigen::MatrixXd::Identity(d, d));
-  fit.x = factors.solve(normal.product);
+  const Eigen::Index q = d - fit.free;
+  const double pull = PullOver(normal.gram.bottomRightCorner(q, q), fit.unseen, strength);
+  gram.bottomRightCorner(q, q) += strength * PriorOf(problem.maps, fit.unseen, pull);
+  if (!std::isfinite(normal.squares) || !Solve(gram, normal.product, fit)) return std::nullopt;
+  HoldAtBounds(problem.lower, gram, normal.product, fit);
   fit.effective = fit.inverse.cwiseProduct(fit.gram).sum();
-  if (!fit.x.allFinite()) return std::nullopt;
 
   fit.maps = WithWeights(problem.maps, fit.x.tail(d - fit.free));
   fit.fitted = problem.free * fit.x.head(fit.free) + EvaluateMaps(fit.maps, problem.points);

@@ -36,7 +36,8 @@ struct MapFit {
   std::vector<bool> unseen;       // [q] kernels without data (holes.h)
 };
 
-/// argmin |y - A x|^2 + s w^T P w, P: PriorOf (holes.h). Nothing where the system is singular to rounding or overflows.
+/// argmin |y - A x|^2 + s w^T P w, P: PriorOf (holes.h), with the law's parameters that kernels can imitate at
+/// or above their bounds. Nothing where the system is singular to rounding or overflows.
 std::optional<MapFit> FitMaps(const MapProblem& problem, double strength);
 
 /// The maps with their weights, one map's after the other's. weights: [q]

@@ -28,7 +28,7 @@ MapPoints At(const std::vector<double>& positions) {
 /// The weights that a prior alone draws to, where the seen ones are given.
 double DrawnTo(const std::vector<FrictionMap>& maps, const std::vector<bool>& unseen,
                Eigen::Index i, const Eigen::VectorXd& weights) {
-  const Eigen::MatrixXd prior = PriorOf(maps, unseen);
+  const Eigen::MatrixXd prior = PriorOf(maps, unseen, 1);
   return -(prior.row(i).dot(weights) - prior(i, i) * weights[i]) / prior(i, i);
 }
 
@@ -43,6 +43,17 @@ TEST(Holes, AreDrawnToTheLineBetweenTheirNeighbours) {
 
   // at an end to the one neighbour that there is
   EXPECT_NEAR(DrawnTo({FivePlaces()}, {true, false, false, false, false}, 0, weights), 2, 1e-12);
+}
+
+TEST(Holes, BetweenSeenKernelsAreHeldAsDataHoldThose) {
+  const std::vector<bool> unseen{false, false, true, false, true};
+  const Eigen::MatrixXd gram = Eigen::VectorXd({{40, 10, 0.1, 20, 0.2}}).asDiagonal();
+  EXPECT_EQ(PullOver(gram, unseen, 0.01), 2000);
+  EXPECT_EQ(PullOver(gram, unseen, 100), 1) << "a strong prior stays as it is";
+  const Eigen::MatrixXd prior = PriorOf({FivePlaces()}, unseen, 2000);
+  EXPECT_EQ(prior(2, 2), 2000);
+  EXPECT_EQ(prior(4, 4), 1) << "at an end, where data reach into its cell";
+  EXPECT_EQ(prior(0, 0), 1);
 }
 
 TEST(Holes, OnACircleHaveNeighboursOnBothSides) {
