@@ -12,6 +12,7 @@ namespace warmjoint::inline identification {
 namespace {
 
 constexpr double kImitated = 1e-3;  // share of a column's squares
+constexpr double kChance = 6.63;    // chi-squared of one degree of freedom, 1 %
 
 /// x and inverse of gram x = product; false where it is singular.
 bool Solve(const Eigen::MatrixXd& gram, const Eigen::VectorXd& product, MapFit& fit) {
@@ -23,15 +24,22 @@ bool Solve(const Eigen::MatrixXd& gram, const Eigen::VectorXd& product, MapFit& 
   return fit.x.allFinite();
 }
 
-/// Puts a parameter of the law that lies below its bound onto it where the kernels can take up the
-/// difference: how a constant is shared out between law and maps is the prior's taste alone. One that they
-/// cannot imitate stays where the data put it.
+/// Mean square of the residual, (N.m)^2 or N^2.
+double MeanSquare(const NormalEquations& normal, const Eigen::VectorXd& x, Eigen::Index samples) {
+  const double sum = normal.squares - 2 * x.dot(normal.product) + x.dot(normal.gram * x);
+  return std::max(sum, 0.0) / static_cast<double>(samples);
+}
+
+/// Puts a parameter of the law that lies below its bound onto it where that costs less than noise does and the
+/// kernels take up the difference: how a constant is shared out between law and maps is the prior's taste
+/// alone. All others stay where the data put them. gram: with the prior; noise: mean square of the residual.
 void HoldAtBounds(const std::vector<double>& lower, Eigen::MatrixXd gram, Eigen::VectorXd product,
-                  MapFit& fit) {
+                  double noise, MapFit& fit) {
   if (lower.empty()) return;
   for (const Eigen::Index j : ImitatedColumns(fit)) {
-    const double bound = lower[static_cast<size_t>(j)];
-    if (!(fit.x[j] < bound)) continue;
+    const double bound = lower[static_cast<size_t>(j)], below = bound - fit.x[j];
+    const bool cheap = below * below <= kChance * noise * fit.inverse(j, j);
+    if (!(below > 0) || !cheap) continue;
     product -= bound * gram.col(j);
     product[j] = bound;
     gram.row(j).setZero();
@@ -66,7 +74,8 @@ std::optional<MapFit> FitMaps(const MapProblem& problem, double strength) {
   const double pull = PullOver(normal.gram.bottomRightCorner(q, q), fit.unseen, strength);
   gram.bottomRightCorner(q, q) += strength * PriorOf(problem.maps, fit.unseen, pull);
   if (!std::isfinite(normal.squares) || !Solve(gram, normal.product, fit)) return std::nullopt;
-  HoldAtBounds(problem.lower, gram, normal.product, fit);
+  const double noise = MeanSquare(normal, fit.x, problem.torque.size());
+  HoldAtBounds(problem.lower, gram, normal.product, noise, fit);
   fit.effective = fit.inverse.cwiseProduct(fit.gram).sum();
 
   fit.maps = WithWeights(problem.maps, fit.x.tail(d - fit.free));
