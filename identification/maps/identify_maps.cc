@@ -77,6 +77,8 @@ Eigen::Index MapTask::law_count() const {
 MapBeginning BeginMaps(const IdentifierInput& input, const std::string& identifier,
                        std::initializer_list<MapQuantity> quantities, const RigidPart& rigid) {
   MapBeginning begin{{identifier, ReadMapSettings(input.options), {}, {}, rigid}, {}, {}};
+  // one that is not asked for has no columns, over all samples
+  if (rigid.count() == 0) begin.task.rigid.columns.resize(input.measurements.size(), 0);
   begin.refusal = RefuseForMaps(input, *FindLaw(begin.task.settings.law), rigid);
   if (begin.refusal) return begin;
   begin.points = Kept(PointsOf(input.measurements), input.selection);
