@@ -14,23 +14,25 @@ IdentifierInput SeenAs(const IdentifierInput& input, const Identifier& identifie
 
 }  // namespace
 
-std::optional<Metrics> HoldOut(const Identifier& identifier, const IdentifierInput& given,
-                               double fraction, const Fit& all_data) {
-  // the first sample of the test part
+std::optional<FirstPart> FitFirstPart(const Identifier& identifier, const IdentifierInput& given,
+                                      double fraction, const Fit& all_data) {
   const IdentifierInput input = identifier.Seen(given);
-  const Measurements& all = input.measurements;
-  const double duration = all.time[all.size() - 1] - all.time[0];
-  const double split = all.time[0] + (1 - fraction) * duration;
-  const Eigen::Index n = (all.time.array() < split).count();
-  if (n < 2) return std::nullopt;
-
-  // fit on what lies before it, evaluate on the rest
+  const Eigen::VectorXd& time = input.measurements.time;
+  const double split = time[0] + (1 - fraction) * (time[time.size() - 1] - time[0]);
+  if ((time.array() < split).count() < 2) return std::nullopt;
   const IdentifierInput before{input.log.Before(split), input.options, input.start};
   const IdentifierInput seen = SeenAs(input, identifier, before);
-  const Fit fit = all_data.structure ? all_data.structure(seen) : identifier.fit(seen);
+  return FirstPart{split, all_data.structure ? all_data.structure(seen) : identifier.fit(seen)};
+}
+
+std::optional<Metrics> HoldOut(const Identifier& identifier, const IdentifierInput& given,
+                               double fraction, const Fit& all_data) {
+  const auto first = FitFirstPart(identifier, given, fraction, all_data);
+  if (!first) return std::nullopt;
+  const IdentifierInput input = identifier.Seen(given);
   Selection test = input.selection;
-  test.keep.head(n) = false;
-  return Evaluate(fit, all, test, fit.Start());
+  test.keep.head((input.measurements.time.array() < first->split).count()) = false;
+  return Evaluate(first->fit, input.measurements, test, first->fit.Start());
 }
 
 std::optional<Metrics> HoldOut(const Identifier& identifier, const Fit& fit,

@@ -7,13 +7,23 @@
 
 namespace warmjoint::inline identification {
 
-/// Fits on the first 1 - fraction of the recording's time and evaluates on the kept samples of the
+/// A fit that has seen the samples before a time alone.
+struct FirstPart {
+  double split = 0;  // s
+  Fit fit;
+};
+
+/// Fits the first 1 - fraction of the recording's time, 0 < fraction < 1; where the fit of all samples chose
+/// a structure (Fit::structure), that one. Nothing where fewer than two samples are left.
+std::optional<FirstPart> FitFirstPart(const Identifier& identifier, const IdentifierInput& input,
+                                      double fraction, const Fit& all_data);
+
+/// FitFirstPart, evaluated on the kept samples of the
 /// rest. The prediction starts with the recording, at E(0) where the fit estimates it, so that the
 /// joint comes to the test part as warm as it was. 0 < fraction < 1. Nothing where that fit gives
 /// no friction or the rest keeps no sample.
-/// Where the fit of all samples chose a structure (Fit::structure), that structure is fitted.
 std::optional<Metrics> HoldOut(const Identifier& identifier, const IdentifierInput& input,
-                               double fraction, const Fit& fit = {});
+                               double fraction, const Fit& all_data = {});
 
 /// Evaluates a fit of the identifier on the kept samples of another recording, which starts cold.
 /// Nothing where the fit gives no friction.

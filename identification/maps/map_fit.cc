@@ -30,14 +30,24 @@ double MeanSquare(const NormalEquations& normal, const Eigen::VectorXd& x, Eigen
   return std::max(sum, 0.0) / static_cast<double>(samples);
 }
 
+/// Whether one of the free parameters lies below its bound.
+bool LiesBelow(const std::vector<double>& lower, const Eigen::VectorXd& x) {
+  for (size_t j = 0; j < lower.size(); ++j) {
+    if (x[static_cast<Eigen::Index>(j)] < lower[j]) return true;
+  }
+  return false;
+}
+
 /// Puts a parameter of the law that lies below its bound onto it where that costs less than noise does and the
 /// kernels take up the difference: how a constant is shared out between law and maps is the prior's taste
-/// alone. All others stay where the data put them. gram: with the prior; noise: mean square of the residual.
-void HoldAtBounds(const std::vector<double>& lower, Eigen::MatrixXd gram, Eigen::VectorXd product,
-                  double noise, MapFit& fit) {
-  if (lower.empty()) return;
+/// alone. All others stay where the data put them. gram: normal's with the prior.
+void HoldAtBounds(const MapProblem& problem, const NormalEquations& normal, Eigen::MatrixXd gram,
+                  MapFit& fit) {
+  if (!LiesBelow(problem.lower, fit.x)) return;
+  const double noise = MeanSquare(normal, fit.x, problem.torque.size());
+  Eigen::VectorXd product = normal.product;
   for (const Eigen::Index j : ImitatedColumns(fit)) {
-    const double bound = lower[static_cast<size_t>(j)], below = bound - fit.x[j];
+    const double bound = problem.lower[static_cast<size_t>(j)], below = bound - fit.x[j];
     const bool cheap = below * below <= kChance * noise * fit.inverse(j, j);
     if (!(below > 0) || !cheap) continue;
     product -= bound * gram.col(j);
@@ -74,8 +84,7 @@ std::optional<MapFit> FitMaps(const MapProblem& problem, double strength) {
   const double pull = PullOver(normal.gram.bottomRightCorner(q, q), fit.unseen, strength);
   gram.bottomRightCorner(q, q) += strength * PriorOf(problem.maps, fit.unseen, pull);
   if (!std::isfinite(normal.squares) || !Solve(gram, normal.product, fit)) return std::nullopt;
-  const double noise = MeanSquare(normal, fit.x, problem.torque.size());
-  HoldAtBounds(problem.lower, gram, normal.product, noise, fit);
+  HoldAtBounds(problem, normal, gram, fit);
   fit.effective = fit.inverse.cwiseProduct(fit.gram).sum();
 
   fit.maps = WithWeights(problem.maps, fit.x.tail(d - fit.free));

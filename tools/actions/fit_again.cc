@@ -3,40 +3,58 @@
 #include <algorithm>
 
 #include "identification/answer/identify.h"
+#include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
+#include "identification/report/report_fit.h"
 
 namespace warmjoint::inline tools {
 namespace {
 
-/// The fit before any verdict; nothing where the identifier is none of ours.
-std::optional<Estimate> FitBehind(const Estimate& estimate, const PreparedLog& log) {
+/// What made an estimate.
+struct Maker {
+  const Identifier& identifier;
+  Options options;
+};
+
+/// Nothing where the identifier is none of ours.
+std::optional<Maker> MakerOf(const Estimate& estimate) {
   const auto& all = Identifiers();
   const auto found = std::ranges::find(all, estimate.identifier, &Identifier::name);
   if (found == all.end()) return std::nullopt;
-  const Options options(found->options, estimate.options, {"options of the estimate"});
-  return IdentifyUnjudged(*found, {log, options, {}});
+  return Maker{*found, Options(found->options, estimate.options, {"options of the estimate"})};
 }
 
 }  // namespace
 
 Estimate WithFitAgain(Estimate estimate, const PreparedLog& log) {
   if (estimate.friction) return estimate;
-  std::optional<Estimate> fit = FitBehind(estimate, log);
-  if (!fit) return estimate;
-  estimate.parameters = std::move(fit->parameters);
-  estimate.friction = std::move(fit->friction);
-  estimate.gravity = std::move(fit->gravity);
-  estimate.bands = std::move(fit->bands);
+  const std::optional<Maker> maker = MakerOf(estimate);
+  if (!maker) return estimate;
+  Estimate fit = IdentifyUnjudged(maker->identifier, {log, maker->options, {}});
+  estimate.parameters = std::move(fit.parameters);
+  estimate.friction = std::move(fit.friction);
+  estimate.gravity = std::move(fit.gravity);
+  estimate.bands = std::move(fit.bands);
   return estimate;
 }
 
-std::optional<Estimate> FitOnFirst(const Estimate& estimate, const PreparedLog& log, double share) {
-  const Eigen::VectorXd& time = log.taken().measurements.time;
-  const double end = time[0] + share * (time.tail(1)[0] - time[0]);
-  std::optional<Estimate> fit = FitBehind(estimate, log.Before(end));
-  if (!fit || !fit->friction) return std::nullopt;
-  fit->status = estimate.status;
-  return fit;
+std::optional<HeldOutFit> FitFirstPartAgain(const Estimate& estimate, const PreparedLog& log,
+                                            double fraction) {
+  const std::optional<Maker> maker = MakerOf(estimate);
+  if (!maker) return std::nullopt;
+  const auto& [identifier, options] = *maker;
+  const IdentifierInput input{log, options, {}};
+
+  // one that chooses a structure has chosen it on all samples
+  const Fit all_data = estimate.choice ? identifier.fit(identifier.Seen(input)) : Fit{};
+  const auto first = FitFirstPart(identifier, input, fraction, all_data);
+  if (!first) return std::nullopt;
+  const PreparedLog seen = log.Before(first->split);
+  HeldOutFit made{first->split,
+                  ReportFit(first->fit, Infer(first->fit), seen.steady().measurements)};
+  if (!made.estimate.friction) return std::nullopt;
+  made.estimate.status = estimate.status;
+  return made;
 }
 
 }  // namespace warmjoint::inline tools

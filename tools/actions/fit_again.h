@@ -13,8 +13,15 @@ namespace warmjoint::inline tools {
 /// friction, or its identifier is none of ours.
 Estimate WithFitAgain(Estimate estimate, const PreparedLog& log);
 
-/// The same identifier on the first part of the recording, with the verdict on the whole. Nothing where it is none of ours or gives no
-/// friction there.
-std::optional<Estimate> FitOnFirst(const Estimate& estimate, const PreparedLog& log, double share);
+/// A fit to the samples before `split` (s), with the verdict on the whole.
+struct HeldOutFit {
+  double split = 0;
+  Estimate estimate;
+};
+
+/// The fit behind the figures on held-out samples, the last `fraction` of the recording (hold_out.h).
+/// Nothing where the identifier is none of ours or gives no friction there.
+std::optional<HeldOutFit> FitFirstPartAgain(const Estimate& estimate, const PreparedLog& log,
+                                            double fraction);
 
 }  // namespace warmjoint::inline tools

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
@@ -43,28 +44,29 @@ struct Page {
   std::string html;
 };
 
-/// Torque and fit of the extremes of the best identifier that is none from outside, each simulated and
-/// identified once more; or why there are none.
-void ReplayExtremes(report::RunPage& page, Activity& activity) {
-  const report::RunRow* row = nullptr;
-  std::size_t position = 0;
+/// Position of the best identifier of the suite that is none from outside; nothing where all are.
+std::optional<std::size_t> BestOfOurs(const report::RunPage& page) {
   for (const LeaderboardRow& best : page.view.board.rows) {
-    if (row) break;
     for (std::size_t i = 0; i < page.suite.identifiers.size(); ++i) {
       const SuiteIdentifier& identifier = page.suite.identifiers[i];
-      if (identifier.label != best.identifier || identifier.name == kExternal) continue;
-      row = &page.view.rows[i];
-      position = i;
+      if (identifier.label == best.identifier && identifier.name != kExternal) return i;
     }
   }
-  page.without_extremes = "No identifier of warmjoint's own gave numbers that could be shown.";
-  if (!row) return;
+  return std::nullopt;
+}
 
+/// Torque and fit of the extremes of that identifier, each simulated and identified once more; or why there
+/// are none.
+void ReplayExtremes(report::RunPage& page, Activity& activity) {
+  page.without_extremes = "No identifier of warmjoint's own gave numbers that could be shown.";
+  const std::optional<std::size_t> best = BestOfOurs(page);
+  if (!best) return;
+  const report::RunRow& row = page.view.rows[*best];
   std::vector<report::ReplayedExtreme> replayed;
   try {
-    for (const report::Extreme& extreme : report::ExtremesOf(*row)) {
+    for (const report::Extreme& extreme : report::ExtremesOf(row)) {
       activity.Is(fmt::format("simulating the {} realization again", extreme.rank));
-      const Replayed again = ReplayUnit(page.suite, extreme.unit, page.suite.identifiers[position]);
+      const Replayed again = ReplayUnit(page.suite, extreme.unit, page.suite.identifiers[*best]);
       const auto& [measurements, selection] = again.log.taken();
       replayed.push_back({extreme, NameOf(page.suite, extreme.unit),
                           report::MakeFitView(measurements, selection, again.estimate)});
@@ -73,7 +75,7 @@ void ReplayExtremes(report::RunPage& page, Activity& activity) {
     page.without_extremes = fmt::format("No realization is shown: {}.", refusal.what());
     return;
   }
-  if (!replayed.empty()) page.extremes = report::ExtremesFigure(row->label, replayed);
+  if (!replayed.empty()) page.extremes = report::ExtremesFigure(row.label, replayed);
 }
 
 Page RunReport(const ReportArguments& arguments, Activity& activity) {

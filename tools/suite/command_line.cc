@@ -1,8 +1,6 @@
 #include "tools/suite/command_line.h"
 
-#include <algorithm>
 #include <filesystem>
-#include <string_view>
 
 #include "tools/suite/run_command.h"
 #include "tools/terminal/shell_words.h"
@@ -11,10 +9,6 @@ namespace warmjoint::inline tools {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::string_view kBlanks = " \t\r\n";
-
-bool IsBlank(char c) { return kBlanks.find(c) != std::string_view::npos; }
 
 /// Whether a word of a command names a file, seen from `folder`.
 bool NamesFile(const std::string& word, bool program, const fs::path& folder) {

@@ -10,8 +10,6 @@ namespace {
 
 constexpr std::string_view kBlanks = " \t\r\n";
 
-bool IsBlank(char c) { return kBlanks.find(c) != std::string_view::npos; }
-
 /// Whether the word means itself to a shell.
 bool IsPlain(const std::string& word) {
   constexpr std::string_view plain = "_-./:=,+@%{}";
@@ -22,6 +20,8 @@ bool IsPlain(const std::string& word) {
 }
 
 }  // namespace
+
+bool IsBlank(char c) { return kBlanks.find(c) != std::string_view::npos; }
 
 std::string ShellQuoted(const std::string& word) {
   return IsPlain(word) ? word : "'" + Replaced(word, "'", R"('\'')") + "'";

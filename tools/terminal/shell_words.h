@@ -8,6 +8,9 @@
 
 namespace warmjoint::inline tools {
 
+/// Whether a character parts words.
+bool IsBlank(char c);
+
 /// The word as a shell reads it back: in quotes where it needs them.
 std::string ShellQuoted(const std::string& word);
 

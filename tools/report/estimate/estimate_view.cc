@@ -34,11 +34,9 @@ EstimateView ViewOwnRecording(Estimate estimate, const PreparedLog& own) {
   EstimateView view = MakeEstimateView(WithFitAgain(std::move(estimate), own), own);
   if (!view.estimate.holdout) return view;
   const auto& [measurements, selection] = own.taken();
-  const double share = 1 - HoldOutSource{}.fraction;
-  if (const auto first = FitOnFirst(view.estimate, own, share)) {
-    const double length = measurements.time.tail(1)[0] - measurements.time[0];
-    const double split = measurements.time[0] + share * length;
-    view.held_out = MakeFitView(measurements, From(split, measurements, selection), *first);
+  if (const auto first = FitFirstPartAgain(view.estimate, own, HoldOutSource{}.fraction)) {
+    view.held_out =
+        MakeFitView(measurements, From(first->split, measurements, selection), first->estimate);
   }
   return view;
 }
