@@ -1,5 +1,7 @@
 #include "identification/forward/thermal_filter.h"
 
+#include <algorithm>
+
 namespace warmjoint::inline identification {
 
 ThermalFilter::ThermalFilter(const Eigen::VectorXd& time, std::vector<Eigen::Index> starts)
@@ -22,6 +24,21 @@ Eigen::VectorXd ThermalFilter::Energy(const Thermal& thermal, const Eigen::Vecto
     if (Starts(i + 1, next)) energy[i + 1] = 0;
   }
   return energy;
+}
+
+Eigen::VectorXd ThermalFilter::Transposed(const Thermal& thermal,
+                                          const Eigen::VectorXd& weights) const {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(size());
+  const ThermalHold<> mean = HoldOver(mean_step_, thermal.time_constant);
+  double later = 0;  // what E at sample i + 1 weighs, with all that follows from it
+  for (Eigen::Index i = steps_.size() - 1; i >= 0; --i) {
+    const ThermalHold<> hold = even_ ? mean : HoldOver(steps_[i], thermal.time_constant);
+    later = weights[i + 1] + later;
+    if (std::binary_search(starts_.begin(), starts_.end(), i + 1)) later = 0;
+    result[i] = thermal.gain * hold.cooling * later;
+    later *= hold.pole;
+  }
+  return result;
 }
 
 }  // namespace warmjoint::inline identification

@@ -39,6 +39,11 @@ class ThermalFilter {
   Eigen::VectorXd Energy(const Thermal& thermal, const Eigen::VectorXd& loss,
                          double initial = 0) const;
 
+  /// The transpose of that linear map, from weights of E to weights of the loss: u . Energy(W) =
+  /// Transposed(u) . W. Runs back in time, l[i] = u[i] + te l[i+1], and gives gain (1 - te) l[i+1].
+  /// weights: [N] u; returns [N].
+  Eigen::VectorXd Transposed(const Thermal& thermal, const Eigen::VectorXd& weights) const;
+
   /// Calls visit(i, UnitEnergy) for each sample i, from a state of 0. loss: [N] W.
   template <typename Visit>
   void ForEach(double time_constant, const Eigen::VectorXd& loss, Visit visit) const;

@@ -6,10 +6,11 @@
 
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
-#include "identification/forward/thermal_filter.h"
+#include "identification/inference/covariance.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/linear_task.h"
+#include "identification/online/measured_heat.h"
 #include "identification/online/recursive_least_squares.h"
 
 namespace warmjoint::inline identification {
@@ -23,16 +24,6 @@ std::optional<Thermal> GivenThermal(const Options& options) {
   const double gain = options.Number("thermal_gain");
   if (gain == 0) return std::nullopt;
   return Thermal{gain, options.Number("thermal_time_constant")};
-}
-
-/// sign(v) E over all samples, from the measured losses (19). pull: [N] gravity, which makes no
-/// heat. [N] N.m or N.
-Eigen::VectorXd Warming(const std::optional<Thermal>& thermal, const Measurements& m,
-                        const Eigen::VectorXd& pull) {
-  if (!thermal) return Eigen::VectorXd::Zero(m.size());
-  const Eigen::VectorXd loss = (m.torque - pull).cwiseProduct(m.velocity).cwiseAbs();
-  const Eigen::VectorXd energy = ThermalFilter(m.time, m.starts).Energy(*thermal, loss);
-  return m.velocity.array().sign().matrix().cwiseProduct(energy);
 }
 
 /// Weight of each sample, f^age. [n]
@@ -60,13 +51,39 @@ Eigen::VectorXd Run(const Eigen::MatrixXd& A, const Eigen::VectorXd& y, double f
   return state.estimate.cwiseQuotient(scale.transpose());
 }
 
-/// Gravity by plain least squares beside the law, [N] N.m or N; 0 where columns are mixed.
-Eigen::VectorXd Pull(const IdentifierInput& input, const RigidPart& gravity,
-                     const Eigen::MatrixXd& columns) {
-  const LeastSquares plain = SolveLeastSquares(Kept(columns, input.selection),
-                                               Kept(input.measurements.torque, input.selection));
-  if (plain.rank < columns.cols()) return Eigen::VectorXd::Zero(columns.rows());
-  return gravity.columns * plain.solution.tail(gravity.count());
+/// Rows of the regression and the torque that they explain, over all samples.
+struct ColdRows {
+  Eigen::MatrixXd rows;    // [N x d]
+  Eigen::VectorXd torque;  // [N] N.m or N
+};
+
+/// A known warming is taken off the torque, and off gravity, which makes no heat. columns: [N x d],
+/// the last `pulls` of them gravity's.
+ColdRows Cold(const std::optional<MeasuredHeat>& heat, Eigen::MatrixXd columns, Eigen::Index pulls,
+              const Eigen::VectorXd& torque) {
+  if (!heat) return {std::move(columns), torque};
+  columns.rightCols(pulls) = heat->TakenOff(columns.rightCols(pulls));
+  return {std::move(columns), heat->TakenOff(torque)};
+}
+
+/// Covariance of what rows [N x d] of a measured heat tell, with weights [n] of the kept samples:
+/// the noise of all samples comes through the heat (measured_heat.h), that of those not kept taken
+/// for that of the others. residual: [n]; cofactor: [d x d].
+Uncertainty ThroughHeat(const MeasuredHeat& heat, const Eigen::MatrixXd& rows,
+                        const Eigen::VectorXd& weights, const Eigen::VectorXd& residual,
+                        const Eigen::MatrixXd& cofactor, const Selection& used) {
+  Eigen::MatrixXd weighted = Eigen::MatrixXd::Zero(rows.rows(), rows.cols());
+  Eigen::Index row = 0;
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+    if (used.keep[i]) weighted.row(i) = weights[row++] * rows.row(i);
+  }
+  const Selection all{Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(rows.rows(), true), {}};
+  Uncertainty known;
+  known.noise = FitNoise(residual, used);
+  known.covariance =
+      cofactor * ScatterThrough(known.noise, heat.Transposed(weighted), all) * cofactor;
+  known.freedom = FreedomOfWeights(weights, known.noise, rows.cols());
+  return known;
 }
 
 Fit FitOnline(const IdentifierInput& given) {
@@ -76,14 +93,15 @@ Fit FitOnline(const IdentifierInput& given) {
   const auto& [law, gravity, columns, refusal] = task;
   const IdentifierInput input = gravity.Of(given);
 
+  const std::optional<Thermal> thermal = GivenThermal(input.options);
+  std::optional<MeasuredHeat> heat;
+  if (thermal) heat.emplace(m, *thermal);
+  ColdRows cold = Cold(heat, columns, gravity.count(), m.torque);
+
   // what the remembered samples can tell apart, from their weighted columns
   const double forgetting = input.options.Number("forgetting");
-  const std::optional<Thermal> thermal = GivenThermal(input.options);
-  const Eigen::MatrixXd A = Kept(columns, input.selection);
-  const Eigen::VectorXd warming =
-      Kept(Warming(thermal, m, Pull(input, gravity, columns)), input.selection);
-  const Eigen::VectorXd torque = Kept(m.torque, input.selection);
-  const Eigen::VectorXd y = torque - warming;
+  const Eigen::MatrixXd A = Kept(cold.rows, input.selection);
+  const Eigen::VectorXd y = Kept(cold.torque, input.selection);
   const Eigen::VectorXd weights = Weights(y.size(), forgetting);
   const Eigen::VectorXd roots = weights.cwiseSqrt();
   const LeastSquares weighted = SolveLeastSquares(roots.asDiagonal() * A, roots.cwiseProduct(y));
@@ -103,16 +121,21 @@ Fit FitOnline(const IdentifierInput& given) {
   AddRigid(gravity, x.tail(gravity.count()), m, fit);
 
   // and how well they fit
+  const Eigen::VectorXd residual = y - A * x;
   fit.used = input.selection;
-  fit.torque = torque;
-  fit.fitted = A * x + warming;
+  fit.torque = Kept(m.torque, input.selection);
+  fit.fitted = fit.torque - residual;
   fit.errors.cofactor = weighted.cofactor;
   fit.errors.weights = weights;
+  if (heat) {
+    fit.errors.known =
+        ThroughHeat(*heat, cold.rows, weights, residual, weighted.cofactor, input.selection);
+  }
   fit.count = task.count();
   fit.effective_parameters = fit.count;
   fit.summary = fmt::format("law {} as the last {:.0f} of {} samples show it", law.name,
                             weights.sum(), y.size());
-  fit.jacobian = [all = std::move(task.columns)] { return all; };
+  fit.jacobian = [all = std::move(cold.rows)] { return all; };
   return fit;
 }
 

@@ -16,12 +16,7 @@ Uncertainty OfWeighted(const Eigen::MatrixXd& jacobian, const ErrorModel& errors
   const Eigen::MatrixXd scatter =
       ScatterThrough(known.noise, errors.weights.asDiagonal() * jacobian, used);
   known.covariance = errors.cofactor * scatter * errors.cofactor;
-
-  // as many samples as the weights leave
-  const double sum = errors.weights.sum();
-  const double effective = sum * sum / errors.weights.squaredNorm();
-  known.freedom =
-      std::max(effective / known.noise.redundancy - static_cast<double>(jacobian.cols()), 1.0);
+  known.freedom = FreedomOfWeights(errors.weights, known.noise, jacobian.cols());
   return known;
 }
 
@@ -61,6 +56,12 @@ Uncertainty CovarianceOf(const Fit& fit) {
   if (errors.weights.size() > 0) return OfWeighted(jacobian(), errors, residual, fit.used);
 
   return OfSquares(fit, residual, jacobian);
+}
+
+double FreedomOfWeights(const Eigen::VectorXd& weights, const NoiseModel& noise, Eigen::Index d) {
+  const double sum = weights.sum();
+  const double effective = sum * sum / weights.squaredNorm();
+  return std::max(effective / noise.redundancy - static_cast<double>(d), 1.0);
 }
 
 }  // namespace warmjoint::inline identification

@@ -56,6 +56,20 @@ TEST(ThermalFilter, SensitivitiesAreTheGoldenOnesByTheChainRule) {
   });
 }
 
+TEST(ThermalFilter, TransposedIsItsAdjoint) {
+  Eigen::VectorXd time = EvenTime(60, 1.0);
+  for (const bool even : {true, false}) {
+    if (!even) time[30] += 0.4;
+    const ThermalFilter filter(time, {25});
+    const Eigen::VectorXd loss = SomeLosses(60), weights = SomeLosses(61).tail(60);
+    const Thermal thermal{-2, 20};
+    const double forwards = weights.dot(filter.Energy(thermal, loss));
+    // 1e-13: sums of 60 products
+    EXPECT_NEAR(filter.Transposed(thermal, weights).dot(loss), forwards,
+                1e-13 * std::abs(forwards));
+  }
+}
+
 TEST(ThermalFilter, DerivativesAgreeWithFiniteDifferences) {
   Eigen::VectorXd time = EvenTime(60, 1.0);
   for (Eigen::Index i = 0; i < 60; ++i) time[i] += 0.3 * std::sin(2.1 * static_cast<double>(i));

@@ -53,5 +53,36 @@ TEST(Rls, TakesOffTheWarmingThatIsKnown) {
   EXPECT_EQ(online.friction->thermal->gain, -3);
 }
 
+TEST(Rls, LetsIntervalsHoldWhereTheNoiseComesThroughTheHeat) {
+  // the heat's share of the level's variance is a quarter here, and of the slope's little
+  int held = 0;
+  constexpr int kLogs = 400;
+  for (int seed = 1; seed <= kLogs; ++seed) {
+    const Measurements m = test::RecordFriction(
+        test::TableOne(), 1, test::AlternatingSpeeds(1800, static_cast<std::uint64_t>(seed)), 0.5,
+        static_cast<std::uint64_t>(seed));
+    const Estimate online =
+        Answer(Rls(), m, {{"thermal_gain", "-3"}, {"thermal_time_constant", "600"}});
+    const auto& [lower, upper] = *online.Find("coulomb")->interval95;
+    held += lower <= 15 && 15 <= upper;
+  }
+  // 380 expected, binomial deviation 4.4; without the heat's share 355
+  EXPECT_GE(held, 380 - 3 * 4.4);
+}
+
+TEST(Rls, TakesGravityOffTheHeat) {
+  Measurements m =
+      test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 4), 0, 4);
+  m.torque += 6 * m.position.array().sin().matrix();
+  const Estimate online = Answer(Rls(), m,
+                                 {{"thermal_gain", "-3"},
+                                  {"thermal_time_constant", "600"},
+                                  {"gravity", "sincos"},
+                                  {"forgetting", "1"}});
+  // without noise all of it is linear: what is left is the first doubt, 1e-8 of 3600 samples
+  EXPECT_NEAR(online.Find("viscous")->value, 5, 1e-6);
+  EXPECT_NEAR(online.Find("coulomb")->value, 15, 1e-6);
+}
+
 }  // namespace
 }  // namespace warmjoint
