@@ -54,6 +54,11 @@ struct FrictionStep {
   FrictionState next;
 };
 
+/// Slope of the force over speed at heat E, (27): never below 0. N.m.s/rad or N.s/m.
+inline double SlopeAt(double viscous, double per_energy, double energy) {
+  return std::max(0.0, viscous + per_energy * energy);
+}
+
 /// Steps F = (kv + b E) v + bristle, whose level on the side of motion is
 ///   L(side) = g(side, |v|) + E + maps and load (LevelTerms),   E = E1 + E2.
 /// Sliding, F is Eq. (20) with maps exactly and W = |F v| (19); at rest the bristle holds, W = 0.
@@ -70,6 +75,19 @@ class JointFriction {
 
   /// Slope of a cold joint's force over speed, at most, N.m.s/rad or N.s/m: kv and the maps'.
   double SteepestSlope() const { return viscous_ + terms_->SteepestSlope(); }
+
+  /// Slope of a cold joint's force over speed without the maps', and its change with the heat:
+  /// kv, N.m.s/rad or N.s/m, and b, s/rad or s/m. At E the slope is SlopeAt(kv, b, E).
+  double viscous() const { return viscous_; }
+  double viscous_per_energy() const { return per_energy_; }
+
+  /// The step of the energies, for the timestep that was set.
+  const Heat& heat() const { return heat_; }
+
+  /// The law's own level at rest to a side, 1 or -1, N.m or N, without heat, load and maps; where
+  /// level_follows_heat_alone, Level is that plus E wherever and however fast the joint moves.
+  double OwnLevelAtRest(int side) const { return level_(false, side, 0, values_.data()); }
+  bool level_follows_heat_alone() const { return same_at_any_speed_ && !has_terms_ && !slips_; }
 
   /// The law's own bristle; none where the step chooses it (MakeBristle).
   const std::optional<Bristle>& own_bristle() const { return own_bristle_; }
@@ -132,7 +150,7 @@ class JointFriction {
   template <typename... L>
   void ChooseLevel(LawList<L...>);
   void Derive();
-  double Slope(double energy) const { return std::max(0.0, viscous_ + per_energy_ * energy); }
+  double Slope(double energy) const { return SlopeAt(viscous_, per_energy_, energy); }
 
   FrictionDescription friction_;  // without its maps
   Law law_;
@@ -194,11 +212,17 @@ inline FrictionStep JointFriction::Complete(const FrictionState& state, const Jo
 }
 
 inline FrictionState JointFriction::Load(const double* values) const {
-  const auto finite = [](double value) { return value - value == 0 ? value : 0; };
-  FrictionState state{finite(values[0]), finite(values[1])};
+  FrictionState state{values[0], values[1]};
   values += 2;
-  if (second_stage_) state.second_energy = finite(*values++);
-  if (slips_) state.slip = finite(*values);
+  if (second_stage_) state.second_energy = *values++;
+  if (slips_) state.slip = *values;
+
+  // a sum is finite only where all of its terms are
+  const double sum = state.bristle + state.energy + state.second_energy + state.slip;
+  if (sum - sum != 0) [[unlikely]] {
+    const auto finite = [](double& value) { value = value - value == 0 ? value : 0; };
+    finite(state.bristle), finite(state.energy), finite(state.second_energy), finite(state.slip);
+  }
   return state;
 }
 

@@ -5,30 +5,12 @@
 
 #include <vector>
 
-#include "models/friction/joint_friction.h"
 #include "sim/plugin/bound_joints.h"
-#include "sim/plugin/coupled_bristles.h"
+#include "sim/plugin/friction_reports.h"
+#include "sim/plugin/friction_sensors.h"
+#include "sim/plugin/joint_rows.h"
 
 namespace warmjoint::inline sim {
-
-/// Name under which MuJoCo knows the plugin.
-inline constexpr char kFrictionPlugin[] = "warmjoint.friction";
-
-/// Entries of mjData.plugin_state of each instance, before the states of a passive one's joints.
-enum FrictionReport : int {
-  /// The sum of 2^i over those of the instance's joints, counted from 0 in their order (BoundJoints),
-  /// in which friction would have pushed, until a reset. Never read by the dynamics.
-  kReportsPush,
-  /// 1 where the model's step was set to one that cannot carry the friction, until a reset. Never
-  /// read by the dynamics.
-  kReportsStep,
-  /// Passive form: rise of the ambient temperature, Ts - T0, K, for all joints; 0 after a reset.
-  kAmbientRise,
-  /// Actuator form: 1 from a reset to the first step where joints start warm; that step begins at
-  /// their initial energy where act holds 0.
-  kStartsWarm = kAmbientRise,
-  kFrictionReports,
-};
 
 /// Friction of the joints of one plugin instance, in two forms:
 ///   actuator: actuators refer to the instance; states in mjData.act, forces in actuator_force
@@ -68,35 +50,21 @@ class FrictionInstance {
  private:
   void Bind(const mjModel* m);
   void Rebind(const mjModel* m);
-  void BindBristles(const mjModel* m);
-  void SetTimestep(const mjModel* m);
-  void ShapeBristles();
-  void WarnOfTimestep(const mjModel* m, mjData* d);
+  void ReadNumbers(const mjModel* m);
   void Prepare(const mjModel* m, mjData* d);
-  void StepJoints(const mjModel* m, mjData* d);
-  void ReadMotion(const mjModel* m, const mjData* d);
-  void Report(const mjModel* m, mjData* d, const BoundJoint& joint);
-  void NoteSensed(size_t i, const FrictionStep& step);
-  void WriteSensors(const mjModel* m, mjData* d) const;
+  void Step(const mjModel* m, mjData* d, const mjtNum* load);
+  void AdvancePassive(const mjModel* m, mjData* d) const;
+  void AdvanceActuators(const mjModel* m, mjData* d) const;
 
   int instance_;
   BoundJoints bound_;
+  JointRows rows_;
+  FrictionSensors sensors_;
   double timestep_ = 0;
-  bool checked_ = true;   // the timestep, against the inertia
-  bool stepped_ = false;  // since the last Advance
-  bool senses_ = false;   // in the step that follows
-  CoupledBristles bristles_;
-  bool needs_load_ = false;  // by one of the joints
-
-  // of the last step, [joints] each
-  std::vector<FrictionState> now_;
-  std::vector<JointMotion> motion_;
-  std::vector<double> load_state_;    // that the bristles begin with, N.m or N
-  std::vector<BristleStep> bristle_;  // where the step chooses it
-  std::vector<double> force_;         // F, N.m or N
-  std::vector<double> sensed_;        // [joints x kSensed]
-  std::vector<double> next_;          // [states], in the order of the joints
-  std::vector<double> load_;  // [nv] transmitted by each joint, where the passive form needs it
+  bool checked_ = true;         // the numbers, against the inertia
+  bool stepped_ = false;        // since the last Advance
+  bool needs_ambient_ = false;  // by one of the joints
+  std::vector<mjtNum> load_;    // [nv] where a joint of the passive form needs it
 };
 
 }  // namespace warmjoint::inline sim

@@ -17,22 +17,19 @@ InertiaBlock::InertiaBlock(const mjModel* m, int tree)
   inverse_.assign(others_.size(), 0);
 }
 
-void InertiaBlock::Multiply(const mjData* d, const double* x, const double* y, double* mx,
-                            double* my) const {
+void InertiaBlock::Multiply(const mjData* d, const Eigen::Array2d* x, Eigen::Array2d* mx) const {
   const double* inertia = d->M + address_;
   const int* column = column_.data();
-  for (int k = 0; k < size(); ++k, ++inertia, ++column) {
-    const double xk = x[k], yk = y[k];
-    double sum_x = 0, sum_y = 0;
+  const int rows = size();
+  for (int k = 0; k < rows; ++k, ++inertia, ++column) {
+    const Eigen::Array2d xk = x[k];
+    Eigen::Array2d sum = Eigen::Array2d::Zero();
     for (int j = others_[k]; j > 0; --j, ++inertia, ++column) {
       const int i = *column;
-      sum_x += *inertia * x[i];
-      sum_y += *inertia * y[i];
+      sum += *inertia * x[i];
       mx[i] += *inertia * xk;
-      my[i] += *inertia * yk;
     }
-    mx[k] = sum_x + *inertia * xk;
-    my[k] = sum_y + *inertia * yk;
+    mx[k] = sum + *inertia * xk;
   }
 }
 

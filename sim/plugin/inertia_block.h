@@ -3,6 +3,7 @@
 
 #include <mujoco/mujoco.h>
 
+#include <Eigen/Core>
 #include <vector>
 
 namespace warmjoint::inline sim {
@@ -18,8 +19,8 @@ class InertiaBlock {
   int first() const { return first_; }
   int size() const { return static_cast<int>(others_.size()); }
 
-  /// M x and M y. All: [size].
-  void Multiply(const mjData* d, const double* x, const double* y, double* mx, double* my) const;
+  /// M x, of two vectors at once. Both: [size].
+  void Multiply(const mjData* d, const Eigen::Array2d* x, Eigen::Array2d* mx) const;
 
   /// Takes M x from y. x, y: [size].
   void Subtract(const mjData* d, const double* x, double* y) const;

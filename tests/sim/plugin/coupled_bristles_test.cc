@@ -84,11 +84,55 @@ VectorXd Project(const MatrixXd& inertia, const VectorXd& aim,
   return aim;
 }
 
+/// {L-, L+} of each joint.
+class Levels : public LevelSource {
+ public:
+  explicit Levels(std::vector<std::array<double, 2>> levels) : levels_(std::move(levels)) {}
+  double LevelAt(size_t row, int side) const override { return levels_[row][side > 0]; }
+
+ private:
+  std::vector<std::array<double, 2>> levels_;
+};
+
 class CoupledBristlesOfATree : public testing::Test {
  protected:
   CoupledBristlesOfATree() : m(MustCompile(kTree)), d(mj_makeData(m.get())) {
-    for (size_t i = 0; i < kJoints; ++i)
-      joints.push_back({i, static_cast<int>(i), 0.1 + 0.05 * static_cast<double>(i)});
+    for (int i = 0; i < kJoints; ++i) joints.push_back({i, 0.1 + 0.05 * i});
+  }
+
+  /// Makes bristles of the joints; every other one asks for its levels.
+  void MakeBristles(bool asks) {
+    for (CoupledJoint& joint : joints) joint.asks_level = (joint.dof % 2 == 0) == asks;
+    bristles = CoupledBristles(m.get(), joints);
+    bristles.SetTimestep(kStep, [](int) { return 0.0; });
+    numbers.assign(NumbersOf(bristles.size()), 0);
+    for (const CoupledJoint& joint : joints) {
+      RowOf(joint.dof)[kInertia] = joint.inertia;
+      RowOf(joint.dof)[kPerInertia] = 1 / joint.inertia;
+    }
+  }
+
+  Row RowOf(int dof) { return {numbers.data() + PlaceOf(bristles.RowOf(dof))}; }
+
+  /// One step from these loads at the data's speeds.
+  std::vector<BristleStep> Step(const std::vector<double>& loads,
+                                const std::vector<std::array<double, 2>>& levels) {
+    for (const CoupledJoint& joint : joints) {
+      const Row row = RowOf(joint.dof);
+      row[kSpeed] = d->qvel[joint.dof];
+      row[kLoad] = loads[joint.dof];
+      // of those that ask a guess, which may be wrong
+      const auto [lower, upper] = levels[joint.dof];
+      row[kUpper] = std::max(0.0, joint.asks_level ? 0.3 * upper : upper);
+      row[kLower] = std::max(0.0, joint.asks_level ? 2 * lower : lower);
+    }
+    bristles.Step(d.get(), Levels(levels), {numbers.data()});
+    std::vector<BristleStep> steps(kJoints);
+    for (const CoupledJoint& joint : joints) {
+      const Row row = RowOf(joint.dof);
+      steps[joint.dof] = {row[kFriction], row[kLoad], row[kSliding] != 0};
+    }
+    return steps;
   }
 
   void Pose(RandomStream& random) {
@@ -110,6 +154,8 @@ class CoupledBristlesOfATree : public testing::Test {
   Data d;
   MatrixXd inertia;
   std::vector<CoupledJoint> joints;
+  CoupledBristles bristles;
+  RowNumbers numbers;
 };
 
 TEST_F(CoupledBristlesOfATree, ProjectExactlyHoweverManySlide) {
@@ -117,8 +163,7 @@ TEST_F(CoupledBristlesOfATree, ProjectExactlyHoweverManySlide) {
   std::array<int, kJoints + 1> slid{};
   for (int run = 0; run < 3000; ++run) {
     Pose(random);
-    CoupledBristles bristles(m.get(), joints);
-    bristles.SetTimestep(kStep, [](size_t) { return 0.0; });
+    MakeBristles(run % 2 == 0);
     std::vector<std::array<double, 2>> level(kJoints);
     std::vector<double> loads(kJoints);
     VectorXd v(kJoints), stretch(kJoints);
@@ -129,10 +174,7 @@ TEST_F(CoupledBristlesOfATree, ProjectExactlyHoweverManySlide) {
       v[i] = d->qvel[i] = speed * random.Normal();
       stretch[i] = loads[i] * kStep * kStep / (kLoneBristles.stiffness * joints[i].inertia);
     }
-    std::vector<BristleStep> steps(kJoints);
-    bristles.Step(
-        d.get(), loads.data(), [&](size_t i, int side) { return level[i][side > 0]; },
-        steps.data());
+    const std::vector<BristleStep> steps = Step(loads, level);
 
     // twice, and the stretch that the first leaves
     const VectorXd trial = stretch + kStep * v;
@@ -160,10 +202,8 @@ TEST_F(CoupledBristlesOfATree, NeverGiveEnergyForAnyMotionAndLevels) {
   for (std::uint64_t run = 0; run < 200; ++run) {
     RandomStream random({4, run}, Stream::test);
     Pose(random);
-    CoupledBristles bristles(m.get(), joints);
-    bristles.SetTimestep(kStep, [](size_t) { return 0.0; });
+    MakeBristles(run % 2 == 0);
     std::vector<double> loads(kJoints, 0.0);
-    std::vector<BristleStep> steps(kJoints);
     const double speed = std::pow(10, random.Uniform(-3, 1));
     double moved = 1e-20;  // J at most in a step, and what is nothing
     for (int step = 0; step < 500; ++step) {
@@ -173,9 +213,7 @@ TEST_F(CoupledBristlesOfATree, NeverGiveEnergyForAnyMotionAndLevels) {
       }
       std::vector<std::array<double, 2>> level(kJoints);
       for (auto& both : level) both = {random.Uniform(-0.5, 3), random.Uniform(-0.5, 3)};
-      bristles.Step(
-          d.get(), loads.data(), [&](size_t i, int side) { return level[i][side > 0]; },
-          steps.data());
+      const std::vector<BristleStep> steps = Step(loads, level);
       const double before = Energy(loads);
       double work = 0, scale = 0;
       for (int i = 0; i < kJoints; ++i) {
@@ -195,16 +233,13 @@ TEST_F(CoupledBristlesOfATree, TakeJointsWithoutFrictionAsFree) {
   joints.pop_back();
   RandomStream random({5, 0}, Stream::test);
   Pose(random);
-  CoupledBristles bristles(m.get(), joints);
-  bristles.SetTimestep(kStep, [](size_t) { return 0.0; });
-  std::vector<double> loads(kJoints, 0.0);
-  std::vector<BristleStep> steps(kJoints);
+  MakeBristles(true);
   VectorXd v(2);
   v << 1e-3, -2e-3;
   d->qvel[1] = v[0];
   d->qvel[2] = v[1];
-  bristles.Step(
-      d.get(), loads.data(), [](size_t, int) { return 100.0; }, steps.data());
+  const std::vector<BristleStep> steps =
+      Step(std::vector<double>(kJoints, 0.0), {kJoints, std::array{100.0, 100.0}});
   const MatrixXd schur = MatrixXd(inertia.inverse().block(1, 1, 2, 2)).inverse();
   const VectorXd force = (kLoneBristles.stiffness + kLoneBristles.damping) / kStep * (schur * v);
   EXPECT_NEAR(steps[1].force, force[0], 1e-12);

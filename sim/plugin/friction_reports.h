@@ -1,0 +1,40 @@
+// The entries that an instance has in mjData.plugin_state, and the warnings that it gives once.
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include <vector>
+
+#include "sim/plugin/bound_joints.h"
+
+namespace warmjoint::inline sim {
+
+/// Name under which MuJoCo knows the plugin.
+inline constexpr char kFrictionPlugin[] = "warmjoint.friction";
+
+/// Entries of mjData.plugin_state of each instance, before the states of a passive one's joints.
+enum FrictionReport : int {
+  /// The sum of 2^i over those of the instance's joints, counted from 0 in their order (BoundJoints),
+  /// in which friction would have pushed, until a reset. Never read by the dynamics.
+  kReportsPush,
+  /// 1 where the model's step was set to one that cannot carry the friction, until a reset. Never
+  /// read by the dynamics.
+  kReportsStep,
+  /// Passive form: rise of the ambient temperature, Ts - T0, K, for all joints; 0 after a reset.
+  kAmbientRise,
+  /// Actuator form: 1 from a reset to the first step where joints start warm; that step begins at
+  /// their initial energy where act holds 0.
+  kStartsWarm = kAmbientRise,
+  kFrictionReports,
+};
+
+/// Warns, once until a reset, of a joint whose step or numbers a program set after loading to what
+/// the step does not bear; they are taken as they are.
+void WarnOfNumbers(const mjModel* m, mjData* d, int instance,
+                   const std::vector<BoundJoint>& joints);
+
+/// Warns, once until a reset for each joint, that friction would push it. place: of the joint.
+void WarnOfPush(const mjModel* m, mjData* d, int instance, const std::vector<BoundJoint>& joints,
+                size_t place);
+
+}  // namespace warmjoint::inline sim

@@ -1,0 +1,80 @@
+// The numbers of friction in a step, two degrees of freedom side by side.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/StdVector>
+#include <vector>
+
+namespace warmjoint::inline sim {
+
+/// Two neighbours, which a processor steps at once.
+using Two = Eigen::Array2d;
+
+/// What a step takes and finds of a row: a degree of freedom of a kinematic tree on which joints with
+/// friction are, or a joint by itself. Rows without friction hold zeros.
+enum Column : int {
+  // numbers of the joint's friction (JointFriction)
+  kUpperAtRest,  // the law's own levels, N.m or N
+  kLowerAtRest,
+  kSlope,  // kv and b
+  kPerEnergy,
+  kPole,  // of the heat's first stage
+  kGain,
+  kAmbientGain,
+  kSecondPole,
+  kSecondGain,
+  kInertia,  // of the bristle at the reference pose, kg.m^2 or kg, and 1 over it
+  kPerInertia,
+
+  // with which a step begins
+  kSpeed,  // rad/s or m/s
+  kLoad,   // of the bristle, N.m or N; then the next one
+  kFirst,  // E1 and E2, N.m or N
+  kSecond,
+  kRise,  // of the ambient, K
+
+  // what it finds
+  kUpper,  // L+ and L-, not negative, N.m or N; where a row asks for them, roughly at first
+  kLower,
+  kStretch,    // A/h^2 (z + h v), rad/s^2 or m/s^2
+  kSlack,      // not below 0 where the bristle could stop the joint in a step
+  kFriction,   // f, N.m or N
+  kSliding,    // 1 where the bristle has yielded in the direction of motion, or 0
+  kForce,      // F, N.m or N
+  kLoss,       // W, W
+  kNextFirst,  // E1' and E2'
+  kNextSecond,
+  kColumns,
+};
+
+/// The numbers of one row, of which its neighbour's lie between.
+struct Row {
+  double* numbers;
+  double& operator[](Column column) const { return numbers[2 * column]; }
+};
+
+/// Two rows.
+struct RowPair {
+  double* numbers;
+  Eigen::Map<Two, Eigen::Aligned16> operator[](Column column) const {
+    return Eigen::Map<Two, Eigen::Aligned16>(numbers + 2 * column);
+  }
+};
+
+/// Where a row lies in the numbers of all.
+inline size_t PlaceOf(size_t row) { return row / 2 * 2 * kColumns + row % 2; }
+
+/// The numbers of so many rows, a whole number of pairs.
+inline size_t NumbersOf(size_t rows) { return (rows + 1) / 2 * 2 * kColumns; }
+
+/// Rows from one on, which is the first of a pair.
+struct Rows {
+  double* numbers;
+  Row at(size_t place) const { return {numbers + place}; }
+  RowPair pair(size_t k) const { return {numbers + k * 2 * kColumns}; }
+};
+
+/// Storage of rows.
+using RowNumbers = std::vector<double, Eigen::aligned_allocator<double>>;
+
+}  // namespace warmjoint::inline sim
