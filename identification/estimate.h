@@ -86,6 +86,7 @@ struct Estimate {
   std::vector<EstimatedParameter> parameters;  // empty where nothing trustworthy is known
   std::optional<Metrics> metrics;
   std::optional<Metrics> holdout;
+  std::string without_holdout;  // why there is none: a clause; empty: there is, or none was tried
   std::vector<TraceEntry> trace;
   std::optional<FrictionDescription> friction;
   std::optional<GravityModel> gravity;            // what the fit took for gravity beside friction
@@ -93,9 +94,12 @@ struct Estimate {
   std::optional<ParameterCovariance> covariance;  // of the values with intervals, by noise alone
   std::vector<Diagnostic> diagnostics;            // of the verdict; empty where there is none
   std::vector<Assumption> assumptions;
-  /// The heat at the end of the log, a row for each stage: `energy`, `second_energy`; empty where
-  /// nothing warms or the friction cannot be trusted.
+  /// The heat at the end of the log, at its last stamp, `time`: a row for each stage, `energy`,
+  /// `second_energy`; empty where nothing warms or the friction cannot be trusted.
   std::vector<EstimatedParameter> state_end;
+  /// How E goes with the log's temperature (report/heat_beside_temperature.h); empty where the log has
+  /// none, or nothing warms.
+  std::vector<EstimatedParameter> temperature;
   std::optional<StructureChoice> choice;  // of identifiers that choose a structure
 
   /// The parameter of that name, or nullptr.
@@ -106,9 +110,9 @@ struct Estimate {
 };
 
 /// The estimate as JSON: {identifier, options{name: text}, status, message, parameters{name: {value, unit, std,
-/// interval95}}, metrics{}, holdout{}, trace[{iteration, rmse, parameters{}}], friction{},
+/// interval95}}, metrics{}, holdout{}, without_holdout, trace[{iteration, rmse, parameters{}}], friction{},
 /// gravity{}, warnings[], bands[{quantities[], points[][], value[], std[], interval95[][]}],
-/// state_end{energy: {value, unit, std, interval95}, second_energy}, choice{chosen, reason, blocks,
+/// state_end{time: {value, unit, std, interval95}, energy, second_energy}, temperature{name: as of parameters}, choice{chosen, reason, blocks,
 /// trials[{name, rmse, parameters, dropped}]}, covariance{parameters[], matrix[][]}, diagnostics[{test, made, reason, statistic, p, p_adjusted,
 /// rejected, effect{value, unit}, moves{}}], assumptions[{name, meaning, moves{}}]};
 /// message is the full one, and `warnings` repeats its last clauses where there are any; bands only

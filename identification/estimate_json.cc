@@ -299,6 +299,10 @@ json EstimateToJson(const Estimate& estimate) {
   for (const EstimatedParameter& one : estimate.state_end) {
     result["state_end"][one.name] = ParameterToJson(one);
   }
+  for (const EstimatedParameter& one : estimate.temperature) {
+    result["temperature"][one.name] = ParameterToJson(one);
+  }
+  if (!estimate.without_holdout.empty()) result["without_holdout"] = estimate.without_holdout;
   if (estimate.choice) result["choice"] = ChoiceToJson(*estimate.choice);
   return result;
 }
@@ -343,6 +347,12 @@ Estimate EstimateFromJson(const json& object, const Place& place) {
   }
   for (const auto& [name, value] : member("state_end").items()) {
     estimate.state_end.push_back(ToParameter(name, value, place));
+  }
+  for (const auto& [name, value] : member("temperature").items()) {
+    estimate.temperature.push_back(ToParameter(name, value, place));
+  }
+  if (!member("without_holdout").is_null()) {
+    estimate.without_holdout = ToText(member("without_holdout"), "without_holdout", place);
   }
   if (!member("choice").is_null()) estimate.choice = ToChoice(member("choice"), place);
   return estimate;

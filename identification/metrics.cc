@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 
 #include "identification/estimate.h"
 
@@ -17,8 +18,10 @@ Metrics ComputeMetrics(const Eigen::VectorXd& measured, const Eigen::VectorXd& f
   metrics.effective_parameters = effective_parameters;
   metrics.rmse = std::sqrt(mean_square);
   metrics.mae = error.cwiseAbs().mean();
-  metrics.fit = 100 * (1 - error.norm() / spread);
-  metrics.fpe = mean_square * (1 + parameters / n) / (1 - parameters / n);
+  // neither a constant torque has a share to explain, nor a fit with no sample to spare an error to predict
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  metrics.fit = spread > 0 ? 100 * (1 - error.norm() / spread) : none;
+  metrics.fpe = parameters < n ? mean_square * (1 + parameters / n) / (1 - parameters / n) : none;
   return metrics;
 }
 

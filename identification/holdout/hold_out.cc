@@ -1,6 +1,9 @@
 #include "identification/holdout/hold_out.h"
 
+#include <fmt/format.h>
+
 #include "identification/holdout/evaluate.h"
+#include "identification/inference/inference.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -10,6 +13,19 @@ IdentifierInput SeenAs(const IdentifierInput& input, const Identifier& identifie
                        const IdentifierInput& other) {
   if (input.measurements.acceleration) return other.Moving();
   return identifier.regime == Regime::transient ? other.AsTaken() : other;
+}
+
+/// Another recording as the fit's model is compared with it.
+const LogView& SeenBy(const Identifier& identifier, const Fit& fit, const PreparedLog& other) {
+  if (fit.inertia) return other.moving();
+  return identifier.regime == Regime::transient ? other.taken() : other.steady();
+}
+
+/// Why samples that were asked for are not compared.
+std::string WhyNone(const Fit& fit, Eigen::Index asked) {
+  if (asked > 0 && fit.gravity) return "the fit knows gravity at none of the places it reaches";
+  return fit.inertia ? "no sample moves clearly"
+                     : "no sample moves at a constant speed";
 }
 
 }  // namespace
@@ -38,10 +54,33 @@ std::optional<Metrics> HoldOut(const Identifier& identifier, const IdentifierInp
 std::optional<Metrics> HoldOut(const Identifier& identifier, const Fit& fit,
                                const PreparedLog& other) {
   const CourseStart cold;
-  const LogView& seen = fit.inertia                              ? other.moving()
-                        : identifier.regime == Regime::transient ? other.taken()
-                                                                 : other.steady();
+  const LogView& seen = SeenBy(identifier, fit, other);
   return Evaluate(fit, seen.measurements, seen.selection, cold);
+}
+
+std::string WhyNoHoldOut(const Identifier& identifier, const IdentifierInput& given,
+                         double fraction, const Fit& all_data) {
+  const std::string part = fmt::format("the first {:.3g} % of the log", 100 * (1 - fraction));
+  const auto first = FitFirstPart(identifier, given, fraction, all_data);
+  if (!first) return fmt::format("{} hold fewer than two samples", part);
+  const Inference inferred = Infer(first->fit);
+  if (!inferred.gives_friction) {
+    const std::string& why = inferred.status == Status::ok && !inferred.warnings.empty()
+                                 ? inferred.warnings.front()
+                                 : inferred.message;
+    return fmt::format("a fit to {} gives no friction ({})", part, why);
+  }
+  const IdentifierInput input = identifier.Seen(given);
+  const auto before = (input.measurements.time.array() < first->split).count();
+  const Eigen::Index left = input.measurements.size() - before;
+  return fmt::format("of the last {:.3g} % of the log, {}", 100 * fraction,
+                     WhyNone(first->fit, input.selection.keep.tail(left).count()));
+}
+
+std::string WhyNoHoldOut(const Identifier& identifier, const Fit& fit, const PreparedLog& other) {
+  if (!Infer(fit).gives_friction) return "the fit gives no friction that could predict them";
+  const LogView& seen = SeenBy(identifier, fit, other);
+  return fmt::format("of {}, {}", seen.measurements.source, WhyNone(fit, seen.selection.count()));
 }
 
 }  // namespace warmjoint::inline identification

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "identification/identifier.h"
 
@@ -29,5 +30,10 @@ std::optional<Metrics> HoldOut(const Identifier& identifier, const IdentifierInp
 /// Nothing where the fit gives no friction.
 std::optional<Metrics> HoldOut(const Identifier& identifier, const Fit& fit,
                                const PreparedLog& other);
+
+/// Why HoldOut gives nothing for these arguments: a clause.
+std::string WhyNoHoldOut(const Identifier& identifier, const IdentifierInput& input,
+                         double fraction, const Fit& all_data);
+std::string WhyNoHoldOut(const Identifier& identifier, const Fit& fit, const PreparedLog& other);
 
 }  // namespace warmjoint::inline identification

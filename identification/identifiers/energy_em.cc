@@ -10,6 +10,7 @@
 #include "identification/alternating/nominal_part.h"
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
+#include "identification/linear/against_pushing.h"
 #include "identification/maps/position_maps.h"
 
 namespace warmjoint::inline identification {
@@ -84,9 +85,8 @@ std::optional<Refusal> WhyRefused(const Measurements& m, const DescentState& las
                                last.thermal.time_constant)};
   }
   if (const Eigen::Index i = FeedsItselfAt(m, friction); i >= 0) {
-    return Refusal{
-        Status::inadequate_model,
-        WouldFeedItself(m.time[i], "try law asymmetric, or start nearer to the solution")};
+    return Refusal{Status::inadequate_model,
+                   WouldFeedItself(m.time[i], AgainstPushing("energy-ml", "", "none"))};
   }
   return std::nullopt;
 }

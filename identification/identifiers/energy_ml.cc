@@ -8,6 +8,7 @@
 #include "identification/fit_parameters.h"
 #include "identification/inference/bounds.h"
 #include "identification/inference/hold_structure.h"
+#include "identification/linear/against_pushing.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/linear_task.h"
@@ -17,6 +18,7 @@
 #include "identification/uncertainty/disagreement.h"
 #include "identification/uncertainty/few_segments.h"
 #include "identification/uncertainty/tails.h"
+#include "identification/warming/expected_start.h"
 #include "identification/warming/further_passes.h"
 #include "identification/warming/gaps.h"
 #include "identification/warming/robust_warm_fit.h"
@@ -133,8 +135,10 @@ std::optional<Refusal> WhyRefused(const Task& task, const WarmFit& warm, double 
                                warm.trace.size() - 1, WhyUnsettled(m, FrictionKind::warm_up))};
   }
   if (response.feeds_itself) {
-    return Refusal{Status::inadequate_model,
-                   WouldFeedItself(m.time[*response.feeds_itself], "try another law")};
+    return Refusal{
+        Status::inadequate_model,
+        WouldFeedItself(m.time[*response.feeds_itself],
+                        AgainstPushing(kName, task.law.name, task.input.options.Text("gravity")))};
   }
   return std::nullopt;
 }
@@ -202,18 +206,23 @@ double LeftOver(const Eigen::MatrixXd& A, const Eigen::VectorXd& y) {
   return fit.mixed.empty() ? (y - A * fit.solution).squaredNorm() : kInfinity;
 }
 
+/// How sure a fit to plain squares is of its x, whatever the colour of the noise.
+Uncertainty KnownOf(const IdentifierInput& input, const RigidPart& gravity, const ClosedLoop& loop,
+                    const WarmFit& plain) {
+  const LoopResponse response = loop.Simulate(plain.parameters(), plain.thermal(),
+                                              plain.initial_energy(), plain.jump_values());
+  const Eigen::VectorXd fitted = response.force + gravity.columns * plain.offset_values();
+  const Eigen::VectorXd residual = Kept(input.measurements.torque - fitted, input.selection);
+  return JudgeUncertainty(Kept(Jacobian(loop, gravity, plain), input.selection),
+                          Cofactor(plain.normal), residual, input.selection, {}, plain.prior());
+}
+
 /// What whitening changes of a fit beyond doubt; nothing where the colour may be noise. plain: the
 /// fit before it.
 std::optional<Disagreement> FindStructure(const IdentifierInput& input, const RigidPart& gravity,
                                           const ClosedLoop& loop, const WarmFit& plain,
                                           const WarmFit& white, const Whitening& whitening) {
-  const LoopResponse response = loop.Simulate(plain.parameters(), plain.thermal(),
-                                              plain.initial_energy(), plain.jump_values());
-  const Eigen::VectorXd fitted = response.force + gravity.columns * plain.offset_values();
-  const Eigen::VectorXd residual = Kept(input.measurements.torque - fitted, input.selection);
-  const Uncertainty known =
-      JudgeUncertainty(Kept(Jacobian(loop, gravity, plain), input.selection),
-                       Cofactor(plain.normal), residual, input.selection, {}, plain.prior());
+  const Uncertainty known = KnownOf(input, gravity, loop, plain);
   return FindDisagreement({plain.solution.x, known.covariance},
                           {white.solution.x, whitening.noise().innovation * Cofactor(white.normal)},
                           known.freedom);
@@ -243,13 +252,17 @@ Fit FitWarming(const IdentifierInput& given) {
   const Selection moving = WithoutRest(input.selection, m);
   const Eigen::VectorXd kept = moving.keep.cast<double>();
   const WarmStart start = Scan(m, gravity, loop, columns, nominal, level, kept);
-  const auto initial = input.options.Text("initial_energy") == "estimated"
-                           ? InitialEnergy::estimated
-                           : InitialEnergy::zero;
   const double scale = std::sqrt(nominal_squares / static_cast<double>(torque.size()));
   const Eigen::MatrixXd offsets = loop.direction().asDiagonal() * gravity.columns;
-  RobustWarmFit robust{FitWarmFriction(loop, level, offsets, kept, start, initial, scale), kept,
-                       kInfinity};
+  RobustWarmFit robust{
+      FitWarmFriction(loop, level, offsets, kept, start, InitialEnergyOf(input.options), scale),
+      kept, kInfinity};
+  const std::string unlike_before = WeighStart(
+      loop, level, offsets, kept,
+      [&](const WarmFit& alone) {
+        return KnownOf(input, gravity, loop, alone).Deviation(alone.law_parameters + 2);
+      },
+      robust.fit);
   const std::vector<LogGap> gaps = FindGaps(m);
   Eigen::VectorXd spread;
   if (!gaps.empty()) {
@@ -278,20 +291,19 @@ Fit FitWarming(const IdentifierInput& given) {
   }
   if (whitening) nominal_squares = LeftOver(whitening->Of(kept_columns), whitening->Of(torque));
 
-  return Conclude({input, law, gravity, loop, start, gaps, whitening, structure}, robust,
-                  nominal_squares);
+  Fit fit = Conclude({input, law, gravity, loop, start, gaps, whitening, structure}, robust,
+                     nominal_squares);
+  if (!unlike_before.empty()) fit.warnings.push_back(unlike_before);
+  return fit;
 }
 
 }  // namespace
 
 Identifier EnergyMl() {
   std::vector<OptionInfo> options = WarmMapOptions();
-  options.insert(options.begin() + 1,
-                 {{"initial_energy", "zero", "zero|estimated",
-                   "E(0): 0 for a cold joint, or estimated at a cost of accuracy"},
-                  GravityOption(),
-                  MotionOption(),
-                  LossOption()});
+  options.insert(options.begin() + 1, {GravityOption(), MotionOption(), LossOption()});
+  const std::vector<OptionInfo> start = InitialEnergyOptions();
+  options.insert(options.begin() + 1, start.begin(), start.end());
   return {kName,
           "law and warming together by maximum likelihood over the closed loop; needs no start",
           options, &FitWarming};

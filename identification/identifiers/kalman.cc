@@ -8,6 +8,7 @@
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
 #include "identification/inference/inference.h"
+#include "identification/linear/against_pushing.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/online/kalman_passes.h"
@@ -70,8 +71,9 @@ std::optional<Refusal> WhyRefused(const KalmanTrack& track, const Fit& fit, cons
     return Refusal{Status::not_identifiable, *why};
   }
   if (response.feeds_itself) {
-    return Refusal{Status::inadequate_model,
-                   WouldFeedItself(m.time[*response.feeds_itself], "try another law")};
+    return Refusal{
+        Status::inadequate_model,
+        WouldFeedItself(m.time[*response.feeds_itself], AgainstPushing("energy-ml", "", "none"))};
   }
   return std::nullopt;
 }

@@ -19,11 +19,12 @@ namespace warmjoint::inline identification {
 namespace {
 
 constexpr const char* kName = "lugre";
-constexpr size_t kRefined = 3;         // starts
-constexpr int kPasses = 3;             // of weighing the samples
-constexpr double kNotable = 0.02;      // of the torque's rms
-constexpr double kMissed = 2;          // rms around turns over that at constant speeds
-constexpr double kVagueBristle = 0.5;  // standard deviation of a logarithm: a factor of e
+constexpr size_t kRefined = 3;          // starts
+constexpr int kPasses = 3;              // of weighing the samples
+constexpr double kNotable = 0.02;       // of the torque's rms
+constexpr double kMissed = 2;           // rms around turns over that at constant speeds
+constexpr double kVagueBristle = 0.5;   // standard deviation of a logarithm: a factor of e
+constexpr double kNothingKnown = 2.35;  // the same: a factor of 100
 
 /// {kv, kc, ks, ln vs} of the Stribeck curve, were presliding over after `distance`, rad or m;
 /// nothing where the samples do not show one. A start, so that ks is kept within 1 and 3 kc.
@@ -71,10 +72,10 @@ std::optional<std::string> VagueBristle(const Measurements& m, const LugreAnswer
     return fmt::format(
         "bristle_stiffness and bristle_damping cannot be estimated: the samples around reversals "
         "{}; reverse slowly and over small distances, so that several samples fall between "
-        "standstill and sliding, or use the law stribeck",
-        std::isfinite(stiffness) ? fmt::format("know the stiffness to a factor of {:.3g} only",
-                                               std::exp(1.96 * std::min(stiffness, 100.0)))
-                                 : "do not determine the stiffness");
+        "standstill and sliding, or try --identifier stribeck",
+        stiffness < kNothingKnown ? fmt::format("know the stiffness to a factor of {:.3g} only",
+                                                std::exp(1.96 * stiffness))
+                                  : "do not determine the stiffness");
   }
   if (answer.rows[kLugreDamping] < 0) return std::nullopt;
   const double damping = answer.Deviation(kLugreDamping);

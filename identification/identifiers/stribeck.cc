@@ -7,6 +7,7 @@
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
 #include "identification/inference/inference.h"
+#include "identification/linear/against_pushing.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/nonlinear/stribeck_fit.h"
@@ -117,8 +118,8 @@ void JudgeWarmth(const Measurements& m, Fit& fit) {
   if (!fit.friction.thermal || !Infer(fit).gives_friction) return;
   const Prediction predicted = PredictFriction(fit.friction, m);
   if (predicted.feeds_itself == m.size()) return;
-  fit.voided = {Status::inadequate_model,
-                WouldFeedItself(m.time[predicted.feeds_itself], "try another law")};
+  fit.voided = {Status::inadequate_model, WouldFeedItself(m.time[predicted.feeds_itself],
+                                                          AgainstPushing("energy-ml", "", "none"))};
 }
 
 std::vector<Iterate> Trace(const StribeckProblem& problem, const std::vector<StribeckPoint>& scan) {

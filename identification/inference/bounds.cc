@@ -51,17 +51,44 @@ std::string Words(const Excess& excess) {
 
 bool IsSlope(const FitParameter& parameter) { return parameter.name == kViscousName; }
 
+bool Warms(const Fit& fit) { return fit.RowOf(Role::heat).has_value(); }
+
+/// The identifier of the linear laws that knows as much of warming as a fit does.
+std::string_view Linear(const Fit& fit) { return Warms(fit) ? "energy-ml" : "nominal-ls"; }
+
+/// What to try against friction that falls with speed: what the fit has of curve and warming is not
+/// named again.
+std::string AgainstFallingSlope(const Fit& fit) {
+  const bool curved = fit.friction.law == "stribeck" || fit.friction.law == "lugre";
+  if (curved && Warms(fit)) {
+    return "friction falls with speed beyond the law's curve and its warming: record higher speeds";
+  }
+  if (curved) {
+    return "friction that falls with speed beyond the law's curve is warming: try --identifier "
+           "stribeck --set warming=estimated";
+  }
+  if (Warms(fit)) {
+    return "friction that falls with speed is a Stribeck effect: try --identifier stribeck --set "
+           "warming=estimated";
+  }
+  return "friction that falls with speed is warming, or a Stribeck effect: try --identifier "
+         "energy-ml, or --identifier stribeck where the joint does not warm";
+}
+
 /// What makes a fit leave its bounds, and what to try.
-std::string_view Remedy(const FitParameter& parameter) {
-  if (IsSlope(parameter)) {
-    return "friction that falls with speed is a Stribeck effect or warming: try stribeck or "
-           "energy-ml";
+std::string Remedy(const Fit& fit, const FitParameter& parameter) {
+  if (IsSlope(parameter)) return AgainstFallingSlope(fit);
+  if (!parameter.name.starts_with(kCoulombName)) {
+    return fmt::format("try --identifier {}", Linear(fit));
   }
-  if (parameter.name.starts_with(kCoulombName)) {
-    return "a negative level would push the joint: does the torque hold gravity or another load "
-           "(try --gravity), or is its sign reversed?";
-  }
-  return "try another law";
+  const char* push = "a negative level would push the joint: ";
+  if (fit.gravity)
+    return fmt::format("{}is the sign of the torque reversed (--scale torque=-1)?", push);
+  return fmt::format(
+      "{}does the torque hold gravity or another load (try --identifier {} --gravity paired), or "
+      "is "
+      "its sign reversed (--scale torque=-1)?",
+      push, Linear(fit));
 }
 
 /// Whether the static level is below the Coulomb level, of a law that has both.
@@ -88,15 +115,15 @@ void JudgeBounds(const Fit& fit, Inference& inference) {
   if (const auto sure = std::ranges::find_if(excesses, &Excess::beyond); sure != excesses.end()) {
     inference.Void(Status::inadequate_model,
                    fmt::format("{}: law {} does not describe these data; {}", Words(*sure), law,
-                               Remedy(sure->parameter)));
+                               Remedy(fit, sure->parameter)));
     return;
   }
   if (RisesFromRest(fit.friction)) {
     inference.Void(
         Status::inadequate_model,
         fmt::format("static is below coulomb: friction rises from rest with speed, where law {} "
-                    "lets it fall; try law viscous_coulomb, or another",
-                    law));
+                    "lets it fall; try --identifier {} --set law=viscous_coulomb",
+                    law, Linear(fit)));
     return;
   }
 
@@ -104,7 +131,9 @@ void JudgeBounds(const Fit& fit, Inference& inference) {
   for (const Excess& excess : excesses) {
     inference.warnings.push_back(
         fmt::format("{}: no friction is given; record longer{}", Words(excess),
-                    IsSlope(excess.parameter) ? ", or try law coulomb" : ""));
+                    IsSlope(excess.parameter)
+                        ? fmt::format(", or try --identifier {} --set law=coulomb", Linear(fit))
+                        : ""));
   }
   inference.gives_friction = excesses.empty();
 }

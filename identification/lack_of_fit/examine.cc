@@ -109,7 +109,7 @@ void Measure(const FittedModel& model, const Bins& bins, const Eigen::MatrixXd& 
 }  // namespace
 
 double Examination::Rms(const Finding& finding) const {
-  return std::sqrt(finding.explained / samples);
+  return std::sqrt(std::min(finding.explained, squares) / samples);
 }
 
 std::vector<const Finding*> Examination::Found() const {

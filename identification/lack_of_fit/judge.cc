@@ -167,6 +167,7 @@ void WeighFindings(const Examination& examination, const Identifier& identifier,
   const std::vector<const Finding*> found = examination.Found();
   double explained = 0;
   for (const Finding* finding : found) explained += finding->explained;
+  explained = std::min(explained, examination.squares);
   const std::string depends = Depends(examination, input.measurements);
   const std::string remedy = found[0]->test->remedy({*found[0], identifier, input, fit});
 

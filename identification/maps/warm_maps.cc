@@ -9,6 +9,7 @@
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
 #include "identification/inference/inference.h"
+#include "identification/linear/against_pushing.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/maps/motor_maps.h"
 #include "identification/uncertainty/penalised_uncertainty.h"
@@ -208,8 +209,11 @@ Fit AsFit(const IdentifierInput& input, const WarmMaps& warm) {
   if (!Infer(fit).gives_friction) return fit;
   AddRipple(warm.fit, known, m, fit);
   if (const auto at = PredictFriction(fit.friction, m).feeds_itself; at < m.size()) {
-    return Refused(name, Status::inadequate_model,
-                   WouldFeedItself(m.time[at], "try another law, or --gravity"));
+    return Refused(
+        name, Status::inadequate_model,
+        WouldFeedItself(m.time[at],
+                        AgainstPushing("energy-ml", fit.friction.law,
+                                       fit.gravity ? GravityName(fit.gravity->kind) : "none")));
   }
   return fit;
 }

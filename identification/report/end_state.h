@@ -9,7 +9,8 @@
 
 namespace warmjoint::inline identification {
 
-/// E at the log's last sample, N.m or N: `energy`, and `second_energy` of a second stage. Along the
+/// E at the log's last sample, N.m or N: `energy`, and `second_energy` of a second stage; before
+/// them the stamp of that sample, `time`, s, where the log is one recording. Along the
 /// motion with the friction that is reported; the interval follows from the parameters' covariance
 /// by central differences, and reaches farther by what the verdict widened them. Empty where
 /// nothing warms.

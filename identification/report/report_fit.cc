@@ -4,6 +4,7 @@
 
 #include "identification/report/discrete_pair.h"
 #include "identification/report/end_state.h"
+#include "identification/report/heat_beside_temperature.h"
 #include "models/foundation/robust_noise.h"
 
 namespace warmjoint::inline identification {
@@ -102,6 +103,7 @@ Estimate ReportFit(const Fit& fit, const Inference& inference, const Measurement
   // and what can be used elsewhere
   estimate.friction = FrictionOf(fit, inference);
   estimate.state_end = EndState(fit, inference, *estimate.friction, measurements);
+  estimate.temperature = HeatBesideTemperature(fit, inference, *estimate.friction, measurements);
   if (inference.gives_bands) estimate.bands = fit.bands;
   if (fit.without_intervals.empty()) estimate.covariance = CovarianceOfValues(fit, inference);
   return estimate;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <string_view>
 
 namespace warmjoint::inline identification {
 namespace {
@@ -19,20 +20,33 @@ void TellReversals(double unseen, Estimate& estimate) {
                   100 * unseen));
 }
 
+/// What of an estimate slopes over speed, for noise of the velocity to change; empty: nothing does.
+std::string_view SlopeOf(const Estimate& estimate) {
+  if (estimate.Find("viscous")) return "viscous";
+  if (!estimate.friction) return "";
+  for (const FrictionMap& map : estimate.friction->maps) {
+    for (const MapAxis& axis : map.axes) {
+      if (axis.quantity == MapQuantity::velocity) return "slopes over speed";
+    }
+  }
+  return "";
+}
+
 }  // namespace
 
 void TellVelocity(const VelocityNoise& taken, JointKind joint, Estimate& estimate) {
+  const std::string_view slope = SlopeOf(estimate);
+  if (slope.empty()) return;
   const EstimatedParameter* viscous = estimate.Find("viscous");
   estimate.message += fmt::format(
       "; velocity averaged over each segment, since its noise of {:.2g} {} would change {} by "
       "{:.2g} %",
-      taken.noise, kVelocityUnit.For(joint), viscous ? "viscous" : "slopes over speed",
-      -100 * taken.attenuation);
+      taken.noise, kVelocityUnit.For(joint), slope, -100 * taken.attenuation);
   if (taken.left <= kHarmless) return;
   estimate.warnings.push_back(
       fmt::format("the noise of the velocity may still change {} by {:.2g} %, and intervals were "
                   "widened to cover this; hold each speed for longer, or log a finer position",
-                  viscous ? "viscous" : "slopes over speed", -100 * taken.left));
+                  slope, -100 * taken.left));
   if (!viscous) return;
   const double move = std::abs(taken.left * viscous->value);
   for (EstimatedParameter& parameter : estimate.parameters) {

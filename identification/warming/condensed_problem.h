@@ -16,6 +16,12 @@ namespace warmjoint::inline identification {
 /// Sums n, or Dynamic where one of them is.
 constexpr int Plus(int a, int b) { return a == Eigen::Dynamic ? a : a + b; }
 
+/// What pulls E(0) to its expected value: weight (E(0) - mean)^2 beside the squared residuals.
+struct StartPull {
+  double mean = 0;    // N.m or N
+  double weight = 0;  // of one squared residual
+};
+
 /// The condensed least-squares problem, as ceres::TinySolver wants it. D: law parameters, Q: 2 for
 /// (k, log tau), 3 with E(0). Jumps of E and offsets come last, and only where D is Dynamic.
 template <int D, int Q>
@@ -26,17 +32,18 @@ class CondensedProblem {
   using Square = Eigen::Matrix<double, NUM_RESIDUALS, NUM_RESIDUALS>;
   using Vector = Eigen::Matrix<double, NUM_PARAMETERS, 1>;
 
-  /// jump_weights: [J] what each jump's square counts beside the squared residuals; whitening: of the
-  /// rows, in the order of the samples that count; or none.
+  /// jump_weights: [J] what each jump's square counts beside the squared residuals; pull: on E(0), where
+  /// Q is 3; whitening: of the rows, in the order of the samples that count; or none.
   CondensedProblem(const ClosedLoop& loop, const Eigen::VectorXd& level,
                    const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
-                   const Eigen::VectorXd& jump_weights, double scale,
+                   const Eigen::VectorXd& jump_weights, const StartPull& pull, double scale,
                    const Whitening* whitening = nullptr)
       : loop_(loop),
         level_(level),
         offsets_(offsets),
         weight_(kept.cwiseSqrt()),
         jump_weights_(jump_weights),
+        pull_(pull),
         scale_(scale),
         whitening_(whitening),
         d_(loop.levels().cols()),
@@ -88,7 +95,12 @@ class CondensedProblem {
       fill([&](Eigen::Index) { return products.Next(); });
       products_ = products.Sums();
     }
-    if (D == Eigen::Dynamic) AddJumps(x);
+    if (D == Eigen::Dynamic) {
+      for (Eigen::Index i = 0; i < jump_weights_.size(); ++i) {
+        AddKnown(d_ + Q + i, jump_weights_[i], x[d_ + Q + i]);
+      }
+    }
+    if (Q == 3) AddKnown(d_ + 2, pull_.weight, initial - pull_.mean);
     return products_;
   }
 
@@ -113,16 +125,14 @@ class CondensedProblem {
     return products.selfadjointView<Eigen::Upper>();
   }
 
-  /// Adds the rows sqrt(w) [-1, -b] of the jumps b, which are 0 but for their spread.
-  void AddJumps(const Vector& x) const {
-    const Eigen::Index first = d_ + Q, last = products_.rows() - 1;
-    for (Eigen::Index i = 0; i < jump_weights_.size(); ++i) {
-      const double w = jump_weights_[i], jump = x[first + i];
-      products_(first + i, first + i) += w;
-      products_(first + i, last) += w * jump;
-      products_(last, first + i) += w * jump;
-      products_(last, last) += w * jump * jump;
-    }
+  /// Adds the row sqrt(w) [-1, -b] of parameter i, which lies b from what it is known for but for its
+  /// spread.
+  void AddKnown(Eigen::Index i, double w, double b) const {
+    const Eigen::Index last = products_.rows() - 1;
+    products_(i, i) += w;
+    products_(i, last) += w * b;
+    products_(last, i) += w * b;
+    products_(last, last) += w * b * b;
   }
 
   /// Sets the row [-da/dx, r] of sample n.
@@ -145,6 +155,7 @@ class CondensedProblem {
   const Eigen::MatrixXd& offsets_;
   Eigen::VectorXd weight_;        // [N] of each row, the root of its square's
   Eigen::VectorXd jump_weights_;  // [J]
+  StartPull pull_;
   double scale_;
   const Whitening* whitening_;
   Eigen::Index d_;

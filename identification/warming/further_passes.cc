@@ -9,8 +9,6 @@ namespace warmjoint::inline identification {
 Eigen::VectorXd FitJumps(const ClosedLoop& loop, const Eigen::VectorXd& level,
                          const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
                          const std::vector<LogGap>& gaps, WarmFit& fit) {
-  const auto initial =
-      fit.estimates_initial_energy() ? InitialEnergy::estimated : InitialEnergy::zero;
   const Thermal thermal = fit.thermal();
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(gaps.size()));
   const LoopResponse response =
@@ -18,7 +16,7 @@ Eigen::VectorXd FitJumps(const ClosedLoop& loop, const Eigen::VectorXd& level,
   const Eigen::VectorXd spread =
       JumpSpread(gaps, response.energy.cwiseAbs().maxCoeff(), thermal.time_constant);
   const double scale = std::sqrt(fit.solution.squares / kept.sum());
-  WarmFit next = FitWarmFriction(loop, level, offsets, kept, StartFrom(fit), initial, scale,
+  WarmFit next = FitWarmFriction(loop, level, offsets, kept, StartFrom(fit), fit.initial, scale,
                                  JumpWeights(scale, spread));
   next.trace.insert(next.trace.begin(), fit.trace.begin(), fit.trace.end());
   fit = std::move(next);
@@ -38,11 +36,9 @@ std::shared_ptr<const Whitening> FitWhitened(const Measurements& m, const Select
   auto whitening = WhiteningFor(Kept(left, moving), m, moving);
   if (!whitening) return nullptr;
 
-  const auto initial =
-      fit.estimates_initial_energy() ? InitialEnergy::estimated : InitialEnergy::zero;
   const double scale = std::sqrt(whitening->noise().innovation);
   WarmFit next = FitWarmFriction(loop, level, offsets, moving.keep.cast<double>(), StartFrom(fit),
-                                 initial, scale, JumpWeights(scale, spread), whitening.get());
+                                 fit.initial, scale, JumpWeights(scale, spread), whitening.get());
   if (!next.converged) return nullptr;
   next.trace.insert(next.trace.begin(), fit.trace.begin(), fit.trace.end());
   fit = std::move(next);

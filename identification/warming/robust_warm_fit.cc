@@ -43,8 +43,6 @@ RobustWarmFit RefineByHuber(const ClosedLoop& loop, const Eigen::VectorXd& level
                             const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
                             WarmFit fit, const Eigen::VectorXd& spread) {
   RobustWarmFit robust{std::move(fit), kept, 0};
-  const auto initial =
-      robust.fit.estimates_initial_energy() ? InitialEnergy::estimated : InitialEnergy::zero;
   bool rests = false;
   for (int round = 0; round < kMostRounds && robust.fit.converged && !rests; ++round) {
     const Eigen::VectorXd residual = Residual(loop, level, offsets, kept, robust.fit);
@@ -55,7 +53,7 @@ RobustWarmFit RefineByHuber(const ClosedLoop& loop, const Eigen::VectorXd& level
 
     // from where the fit before ended
     WarmFit next = FitWarmFriction(loop, level, offsets, robust.weight, StartFrom(robust.fit),
-                                   initial, robust.threshold / kHuberBend,
+                                   robust.fit.initial, robust.threshold / kHuberBend,
                                    JumpWeights(robust.threshold / kHuberBend, spread));
     rests = AtRest(robust.fit, next, robust.threshold);
     next.trace.insert(next.trace.begin(), robust.fit.trace.begin(), robust.fit.trace.end());

@@ -55,6 +55,7 @@ Eigen::VectorXd WarmFit::jump_values() const {
 Eigen::VectorXd WarmFit::prior() const {
   Eigen::VectorXd all = Eigen::VectorXd::Zero(solution.x.size());
   all.segment(all.size() - offsets - jump_weights.size(), jump_weights.size()) = jump_weights;
+  if (estimates_initial_energy()) all[law_parameters + 2] = start_weight;
   return all;
 }
 
@@ -68,19 +69,22 @@ WarmStart StartFrom(const WarmFit& fit) {
 
 WarmFit FitWarmFriction(const ClosedLoop& loop, const Eigen::VectorXd& level,
                         const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
-                        const WarmStart& start, InitialEnergy initial_energy, double scale,
+                        const WarmStart& start, const InitialEnergy& initial, double scale,
                         const Eigen::VectorXd& jump_weights, const Whitening* whitening) {
   const Eigen::Index d = loop.levels().cols(), q = offsets.cols(), jumps = jump_weights.size();
-  const int warming = initial_energy == InitialEnergy::estimated ? 3 : 2;
+  const int warming = initial.spread > 0 ? 3 : 2;
+  const StartPull pull{initial.mean, StartWeight(scale, initial)};
   Eigen::VectorXd x = Eigen::VectorXd::Zero(d + warming + jumps + q);
   x.head(d + 2) << start.parameters.head(d), start.thermal.gain,
       std::log(start.thermal.time_constant);
   x.tail(q) = start.parameters.tail(q);
+  if (warming == 3) x[d + 2] = initial.mean;
 
   // sizes known at compile time for the common laws
   const auto solve = [&]<int D, int Q>() {
-    return Solve(CondensedProblem<D, Q>(loop, level, offsets, kept, jump_weights, scale, whitening),
-                 x);
+    return Solve(
+        CondensedProblem<D, Q>(loop, level, offsets, kept, jump_weights, pull, scale, whitening),
+        x);
   };
   const auto solve_for = [&]<int D>() {
     return warming == 2 ? solve.template operator()<D, 2>() : solve.template operator()<D, 3>();
@@ -102,6 +106,8 @@ WarmFit FitWarmFriction(const ClosedLoop& loop, const Eigen::VectorXd& level,
   fit.law_parameters = d;
   fit.jump_weights = jump_weights;
   fit.offsets = q;
+  fit.initial = initial;
+  fit.start_weight = pull.weight;
   return fit;
 }
 

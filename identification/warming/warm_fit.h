@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
+#include <limits>
 #include <vector>
 
 #include "identification/forward/closed_loop.h"
@@ -10,8 +12,23 @@
 
 namespace warmjoint::inline identification {
 
-/// What is known of the initial energy.
-enum class InitialEnergy { zero, estimated };
+/// What is known of E(0) before the fit: it is normal about a mean. A spread of 0 holds it there, an
+/// infinite one says nothing.
+struct InitialEnergy {
+  double mean = 0;    // N.m or N
+  double spread = 0;  // standard deviation, N.m or N
+
+  static const InitialEnergy zero, estimated;
+
+  /// N.m or N; a spread so small that it says: exactly.
+  static constexpr double kExact = 1e-12;
+
+  /// Whether there is something to fit it to beside the log.
+  bool is_expected() const { return spread > 0 && std::isfinite(spread); }
+};
+
+inline constexpr InitialEnergy InitialEnergy::zero{0, 0};
+inline constexpr InitialEnergy InitialEnergy::estimated{0, std::numeric_limits<double>::infinity()};
 
 /// One iterate of the fit.
 struct WarmIterate {
@@ -38,6 +55,8 @@ struct WarmFit {
   Eigen::Index law_parameters = 0;                                            // d
   Eigen::VectorXd jump_weights;                                               // [J]
   Eigen::Index offsets = 0;                                                   // q
+  InitialEnergy initial;    // what was known of E(0)
+  double start_weight = 0;  // of its distance from the mean, StartWeight
 };
 
 /// To begin where a fit ended: its law and offsets, and its warming.
@@ -50,13 +69,20 @@ WarmStart StartFrom(const WarmFit& fit);
 /// level: [N] sign(v) torque; offsets: [N x q] sign(v) dG/dg, torque that makes no heat (gravity);
 /// kept: [N] weight of each sample, 1 or 0 or between; start: parameters of the law and of the
 /// offsets [d + q]; scale: about the residuals' standard deviation, N.m or N; jump_weights: [J] of
-/// the loop's jumps (JumpWeights): each counts as a sample that measured 0; whitening: of the rows of
-/// the samples that count, whose weights are 1 then, as torque; or none.
+/// the loop's jumps (JumpWeights): each counts as a sample that measured 0, and an expected E(0) as one
+/// that measured its mean; whitening: of the rows of the samples that count, whose weights are 1 then,
+/// as torque; or none.
 WarmFit FitWarmFriction(const ClosedLoop& loop, const Eigen::VectorXd& level,
                         const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
-                        const WarmStart& start, InitialEnergy initial_energy, double scale,
+                        const WarmStart& start, const InitialEnergy& initial, double scale,
                         const Eigen::VectorXd& jump_weights = {},
                         const Whitening* whitening = nullptr);
+
+/// The residuals' variance over that of E(0), or 0. scale: of the residuals, N.m or N.
+inline double StartWeight(double scale, const InitialEnergy& initial) {
+  if (!initial.is_expected()) return 0;
+  return std::pow(scale / std::max(initial.spread, 1e-9 * scale), 2);
+}
 
 /// The residuals' variance over the variance of each jump. scale: of the residuals, N.m or N;
 /// spread: [J] standard deviation that each jump is known to have, N.m or N.

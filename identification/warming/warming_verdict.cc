@@ -7,6 +7,24 @@
 
 namespace warmjoint::inline identification {
 
+namespace {
+
+constexpr double kNotAtAll = 100;  // a factor within which nothing is known
+
+/// What a fit knows of tau, where that is too little.
+std::string WhatIsKnown(const WarmingEvidence& evidence) {
+  const double tau = evidence.time_constant;
+  const double factor = std::exp(1.96 * evidence.log_deviation);
+  if (!(factor < kNotAtAll)) return "nothing is known of tau";
+  if (tau < evidence.shortest / 4 || tau > evidence.longest * 4) {
+    return fmt::format("tau is {:.3g} s, and the log can show {:.3g} to {:.3g} s", tau,
+                       evidence.shortest, evidence.longest);
+  }
+  return fmt::format("tau is known to a factor of {:.3g} only", factor);
+}
+
+}  // namespace
+
 std::optional<std::string> UnseenWarming(double explained, const WarmingContext& context) {
   if (explained > kVisibleWarming) return std::nullopt;
   return fmt::format(
@@ -26,9 +44,9 @@ std::optional<std::string> UnknownWarming(const WarmingEvidence& evidence,
   }
   if (auto why = RunawayWarming(tau, evidence.duration)) return why;
   return fmt::format(
-      "thermal_gain and thermal_time_constant cannot be told apart: tau is known to a factor of "
-      "{:.3g} only; record longer, from cold until friction settles, or with rests",
-      std::exp(1.96 * evidence.log_deviation));
+      "thermal_gain and thermal_time_constant cannot be told apart: {}; record longer, from cold "
+      "until friction settles, or with rests",
+      WhatIsKnown(evidence));
 }
 
 std::optional<std::string> RunawayWarming(double time_constant, double duration) {

@@ -100,7 +100,7 @@ Measurements AssembleMeasurements(RawColumns raw, const std::vector<ColumnSource
   // to SI, each value checked
   double range = 0;  // after which the position sensor starts again, rad or m
   for (std::size_t k = 0; k < sources.size(); ++k) {
-    const auto& [column, index, unit] = sources[k];
+    const auto& [column, index, unit, found_as] = sources[k];
     CheckValues(raw, column->name, raw.values[k]);
     Eigen::VectorXd values = std::move(raw.values[k]);
     const double scale = ScaleOf(column->name, layout);
@@ -110,6 +110,10 @@ Measurements AssembleMeasurements(RawColumns raw, const std::vector<ColumnSource
     if (column->name == "position") range = std::abs(unit.factor * scale) * layout.wrap;
     if (column->name == "torque") measurements.torque_unit = unit.base;
     column->set(measurements, std::move(values));
+    if (!found_as.empty()) {
+      measurements.notes.push_back(
+          fmt::format("{} from the column '{}'", column->name, Excerpt(found_as)));
+    }
   }
 
   CheckCourse(raw, measurements);

@@ -8,11 +8,14 @@
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
 #include "models/foundation/parse_number.h"
+#include "models/recording/temperature_column.h"
 
 namespace warmjoint::inline models {
 namespace {
 
 using Values = Eigen::VectorXd;
+
+constexpr const char* kTemperature = "temperature";
 
 template <auto member>
 const Values* Get(const Measurements& measurements) {
@@ -124,7 +127,7 @@ const std::vector<RecordingColumn>& RecordingColumns() {
        Get<&M::motor_position>,
        Set<&M::motor_position>},
       {"load", false, {"N.m"}, {"N"}, {"load"}, Get<&M::load>, Set<&M::load>},
-      {"temperature",
+      {kTemperature,
        false,
        {"degC"},
        {"degC"},
@@ -153,13 +156,20 @@ std::vector<ColumnSource> FindColumns(const std::vector<std::string>& names,
     const auto mapped = layout.column.find(column.name);
     const bool is_mapped = mapped != layout.column.end();
     const std::string theirs = is_mapped ? mapped->second : column.name;
-    const std::size_t index = theirs.empty() ? names.size() : IndexOf(theirs, names, place);
+    std::size_t index = theirs.empty() ? names.size() : IndexOf(theirs, names, place);
+    const bool is_temperature = column.name == kTemperature;
+    if (is_temperature && !is_mapped && index == names.size()) {
+      index = FindTemperature(names).value_or(index);
+    }
     const auto unit = layout.unit.find(column.name);
 
     if (index < names.size()) {
       const std::vector<std::string>& bases = column.Units(layout.joint);
-      const std::string& name = unit == layout.unit.end() ? bases.front() : unit->second;
+      const std::string usual =
+          (is_temperature ? TemperatureUnitIn(names[index]) : std::nullopt).value_or(bases.front());
+      const std::string& name = unit == layout.unit.end() ? usual : unit->second;
       sources.push_back({&column, index, FindUnit(name, bases, column.name, place)});
+      if (!is_mapped && names[index] != column.name) sources.back().found_as = names[index];
     } else if (is_mapped && !theirs.empty()) {
       Refuse(place, "has no column '{}' (for {}){}", Excerpt(theirs), column.name,
              Suggestion(theirs, names));

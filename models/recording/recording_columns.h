@@ -38,11 +38,14 @@ struct ColumnSource {
   const RecordingColumn* column;
   std::size_t index;  // among the names of the file
   Unit unit;          // in the file
+  std::string
+      found_as{};  // its name in the file, where the unit in that told what it is; else empty
 };
 
 /// Finds our columns among the names that a file has. Throws BadInput for a missing column (naming
 /// what is there and the --map that would help), one that stands there twice, and unknown names
-/// and units in the layout. place: of the header.
+/// and units in the layout. A temperature that nothing names is found by its unit
+/// (temperature_column.h). place: of the header.
 std::vector<ColumnSource> FindColumns(const std::vector<std::string>& names,
                                       const CsvLayout& layout, const Place& place);
 

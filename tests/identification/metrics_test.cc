@@ -54,5 +54,16 @@ TEST(Metrics, GiveAFitThatIsNoBetterThanTheMeanNoPerCent) {
   EXPECT_NEAR(ComputeMetrics(measured, worse, 1, 1).fit, -100, 1e-12);
 }
 
+TEST(Metrics, KnowNoErrorToPredictWithoutASampleToSpare) {
+  // (1 + d/n)/(1 - d/n) has no meaning from d = n on, where it would be negative
+  const Eigen::Vector3d measured(1, 2, 6), fitted(1, 2, 5);
+  EXPECT_GT(ComputeMetrics(measured, fitted, 2, 2).fpe, 0);
+  EXPECT_TRUE(std::isnan(ComputeMetrics(measured, fitted, 3, 3).fpe));
+  EXPECT_TRUE(std::isnan(ComputeMetrics(measured, fitted, 40, 3).fpe));
+  // nor a constant torque a share to explain
+  const Eigen::Vector3d constant(2, 2, 2);
+  EXPECT_TRUE(std::isnan(ComputeMetrics(constant, fitted, 1, 1).fit));
+}
+
 }  // namespace
 }  // namespace warmjoint

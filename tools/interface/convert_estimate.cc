@@ -130,6 +130,10 @@ identification::Estimate ToEstimate(const Estimate& estimate) {
   for (const Parameter& one : estimate.state_end) {
     made.state_end.push_back({one.name, one.value, one.unit, one.std, one.interval95});
   }
+  for (const Parameter& one : estimate.temperature) {
+    made.temperature.push_back({one.name, one.value, one.unit, one.std, one.interval95});
+  }
+  made.without_holdout = estimate.without_holdout;
   if (estimate.choice) {
     const StructureChoice& choice = *estimate.choice;
     made.choice = {choice.chosen, choice.reason, choice.blocks, {}};
@@ -183,6 +187,10 @@ Estimate FromEstimate(const identification::Estimate& estimate) {
   for (const identification::EstimatedParameter& one : estimate.state_end) {
     made.state_end.push_back({one.name, one.value, one.unit, one.std, one.interval95});
   }
+  for (const identification::EstimatedParameter& one : estimate.temperature) {
+    made.temperature.push_back({one.name, one.value, one.unit, one.std, one.interval95});
+  }
+  made.without_holdout = estimate.without_holdout;
   if (estimate.choice) {
     const identification::StructureChoice& choice = *estimate.choice;
     made.choice = {choice.chosen, choice.reason, choice.blocks, {}};

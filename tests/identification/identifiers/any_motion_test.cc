@@ -7,32 +7,14 @@
 #include "identification/answer/identify.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
-#include "tests/support/warm_recording.h"
+#include "tests/support/excited_recording.h"
 
 namespace warmjoint {
 namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double kInertia = 2, kSine = 5, kCosine = 1.5, kNoise = 0.5;
-constexpr double kStep = 0.02;
-
-/// Three harmonics that never repeat each other, with inertia and gravity in the torque.
-Measurements Excited(const FrictionDescription& friction, Eigen::Index n, std::uint64_t seed) {
-  const Eigen::ArrayXd t = kStep * Eigen::ArrayXd::LinSpaced(n, 0, static_cast<double>(n - 1));
-  const auto velocity =
-      (0.6 * (0.7 * t).sin() + 0.5 * (1.9 * t).sin() + 0.4 * (3.1 * t).sin()).eval();
-  const auto acceleration =
-      (0.42 * (0.7 * t).cos() + 0.95 * (1.9 * t).cos() + 1.24 * (3.1 * t).cos()).eval();
-  const auto position =
-      (-0.6 / 0.7 * (0.7 * t).cos() - 0.5 / 1.9 * (1.9 * t).cos() - 0.4 / 3.1 * (3.1 * t).cos())
-          .eval();
-  Measurements m = test::RecordFriction(friction, kStep, velocity.matrix(), kNoise, seed);
-  m.position = position.matrix();
-  m.torque +=
-      (kInertia * acceleration + kSine * position.sin() + kCosine * position.cos()).matrix();
-  return m;
-}
+using test::Excited, test::kInertia, test::kSine, test::kCosine;
 
 Estimate Answer(const std::string& name, const Measurements& m,
                 std::map<std::string, std::string> given = {{"gravity", "sincos"}}) {
@@ -72,8 +54,9 @@ TEST(AnyMotion, WarmingIsToldBesideInertiaAndGravity) {
   ExpectTold(estimate, "thermal_gain", -3, 0.05);
   ExpectTold(estimate, "thermal_time_constant", 100, 3);
   ExpectTold(estimate, "inertia", kInertia, 0.02);
-  ASSERT_EQ(estimate.state_end.size(), 1u);
-  EXPECT_EQ(estimate.state_end[0].name, "energy");
+  ASSERT_EQ(estimate.state_end.size(), 2u);
+  EXPECT_EQ(estimate.state_end[0].name, "time");
+  EXPECT_EQ(estimate.state_end[1].name, "energy");
 }
 
 TEST(AnyMotion, AutoTakesItTogetherWithGravity) {
@@ -102,7 +85,7 @@ TEST(AnyMotion, HeldOutFiguresAreOfTheSameModel) {
   const auto held = HoldOut(identifier, {Prepare(Excited(cold, 6000, 5)), options, {}}, 0.3);
   ASSERT_TRUE(held);
   // noise alone: 0.5 with a standard error of 0.5/sqrt(2 * 1500)
-  EXPECT_NEAR(held->rmse, kNoise, 0.04);
+  EXPECT_NEAR(held->rmse, test::kExcitedNoise, 0.04);
 }
 
 TEST(AnyMotion, IsRefusedWhereConstantSpeedIsAskedFor) {

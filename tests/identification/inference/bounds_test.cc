@@ -75,6 +75,38 @@ TEST(JudgeBounds, DoesNotLetFrictionRiseFromRest) {
   EXPECT_EQ(judged.Judge().status, Status::inadequate_model);
 }
 
+TEST(JudgeBounds, NeverNamesWhatTheFitHoldsAlready) {
+  const auto message = [](const char* identifier, const char* law, std::vector<double> values,
+                          bool warms) {
+    Judged judged(law, values);
+    judged.fit.identifier = identifier;
+    if (warms) {
+      for (FitParameter& row : HeatParameters({-3, 600}, {})) {
+        judged.fit.parameters.push_back(std::move(row));
+        judged.inference.parameters.push_back({1, 0.05, {{0.9, 1.1}}, 0});
+      }
+    }
+    return judged.Judge().message;
+  };
+  const std::vector<double> falling{-2, 2};
+  const std::string nominal = message("nominal-ls", "viscous_coulomb", falling, false);
+  EXPECT_THAT(nominal, HasSubstr("try --identifier energy-ml, or --identifier stribeck"));
+  const std::string warm = message("energy-ml", "viscous_coulomb", falling, true);
+  EXPECT_THAT(warm, HasSubstr("try --identifier stribeck --set warming=estimated"));
+  EXPECT_THAT(warm, testing::Not(HasSubstr("energy-ml")));
+
+  // viscous, coulomb, static, stribeck_velocity, exponent
+  const std::vector<double> curve{-2, 2, 3, 0.1, 1};
+  EXPECT_THAT(message("stribeck", "stribeck", curve, false),
+              HasSubstr("try --identifier stribeck --set warming=estimated"));
+  EXPECT_THAT(message("stribeck", "stribeck", curve, true),
+              testing::AllOf(HasSubstr("record higher speeds"), testing::Not(HasSubstr("try"))));
+
+  // a negative level, with the gravity that may be meant, and without where that is fitted
+  EXPECT_THAT(message("energy-ml", "viscous_coulomb", {0.5, -2}, true),
+              HasSubstr("try --identifier energy-ml --gravity paired"));
+}
+
 TEST(JudgeBounds, SeldomVoidsTheRightModelAtItsBound) {
   // without viscous friction half of the values fall below 0, and 2.5 % with their whole interval
   FrictionDescription friction{"viscous_coulomb", {{"viscous", 0}, {"coulomb", 15}}, {}, 0, 1};

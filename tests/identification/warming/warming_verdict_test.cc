@@ -26,6 +26,18 @@ TEST(WarmingVerdict, SaysThatTheTimeConstantRanAway) {
   EXPECT_FALSE(RunawayWarming(5999, 1200));
 }
 
+TEST(WarmingVerdict, NamesWhatIsWrongWithTheTimeConstant) {
+  // a factor of 2 % would be good: what is wrong is that the log cannot show so short a tau
+  const std::string beyond = *UnknownWarming(Twenty(0.2, 0.01));
+  EXPECT_THAT(beyond, HasSubstr("tau is 0.2 s, and the log can show 2.4 to 6e+03 s"));
+  EXPECT_THAT(beyond, testing::Not(HasSubstr("factor")));
+  for (const double unknown : {5.0, 1e6, std::numeric_limits<double>::infinity()}) {
+    const std::string words = *UnknownWarming(Twenty(300, unknown));
+    EXPECT_THAT(words, HasSubstr("nothing is known of tau"));
+    EXPECT_THAT(words, testing::Not(HasSubstr("inf")));
+  }
+}
+
 TEST(WarmingVerdict, SaysThatNoWarmingCanBeSeen) {
   EXPECT_THAT(*UnknownWarming({19, 0.1, 300, 2.4, 6000, 1200}),
               HasSubstr("no warm-up can be seen"));

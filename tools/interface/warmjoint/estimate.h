@@ -123,7 +123,9 @@ struct Estimate {
   std::vector<Assumption> assumptions{};
   std::optional<Origin>
       recording{};  // the files that it tells of; none of recordings that were made of vectors
-  std::vector<Parameter> state_end{};       // heat at the end of the log: energy, second_energy
+  std::vector<Parameter> state_end{};       // at the end of the log: time, energy, second_energy
+  std::vector<Parameter> temperature{};     // how the heat goes with the log's temperature
+  std::string without_holdout{};            // why `holdout` is none, where it was asked for
   std::optional<StructureChoice> choice{};  // of identifiers that choose a structure
 
   /// The parameter of that name, or nullptr.

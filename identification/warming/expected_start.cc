@@ -1,0 +1,67 @@
+#include "identification/warming/expected_start.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace warmjoint::inline identification {
+namespace {
+
+constexpr double kBeyondDoubt = 4;  // deviations
+
+/// Once more from where a fit ended, which it takes the place of.
+WarmFit Again(const ClosedLoop& loop, const Eigen::VectorXd& level, const Eigen::MatrixXd& offsets,
+              const Eigen::VectorXd& kept, const InitialEnergy& initial, const WarmFit& fit) {
+  const double scale = std::sqrt(fit.solution.squares / kept.sum());
+  WarmFit next =
+      FitWarmFriction(loop, level, offsets, kept, StartFrom(fit), initial, scale, fit.jump_weights);
+  next.trace.insert(next.trace.begin(), fit.trace.begin(), fit.trace.end());
+  return next;
+}
+
+}  // namespace
+
+std::vector<OptionInfo> InitialEnergyOptions() {
+  return {
+      {"initial_energy", "zero", "zero|estimated|expected",
+       "E(0): 0 for a cold joint; estimated at a cost of accuracy; or expected at about a value, "
+       "as --follows has it"},
+      {"expected_energy", "0", "number", "N.m or N; E(0) where it is expected"},
+      {"expected_energy_std", "0", "number >= 0",
+       "N.m or N; standard deviation of that; 0: known exactly"}};
+}
+
+InitialEnergy InitialEnergyOf(const Options& options) {
+  const std::string& word = options.Text("initial_energy");
+  if (word == "zero") return InitialEnergy::zero;
+  if (word == "estimated") return InitialEnergy::estimated;
+  const double spread = options.Number("expected_energy_std");
+  return {options.Number("expected_energy"), std::max(spread, InitialEnergy::kExact)};
+}
+
+std::string WeighStart(const ClosedLoop& loop, const Eigen::VectorXd& level,
+                       const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
+                       const std::function<double(const WarmFit&)>& deviation, WarmFit& fit) {
+  const InitialEnergy initial = fit.initial;
+  if (!initial.is_expected()) return "";
+
+  // the log alone, which says what its noise is, too
+  const WarmFit alone = Again(loop, level, offsets, kept, InitialEnergy::estimated, fit);
+  if (alone.converged) {
+    const double off = alone.initial_energy() - initial.mean;
+    if (std::abs(off) > kBeyondDoubt * std::hypot(deviation(alone), initial.spread)) {
+      fit = alone;
+      return fmt::format(
+          "the log begins at a heat of {:.3g}, not at the {:.3g} +- {:.2g} that the recording "
+          "before "
+          "it left: E(0) is taken from this log alone; check the pause, and that the joint rested "
+          "in it",
+          alone.initial_energy(), initial.mean, initial.spread);
+    }
+  }
+  const WarmFit& better = alone.converged ? alone : fit;
+  fit = Again(loop, level, offsets, kept, initial, better);
+  return "";
+}
+
+}  // namespace warmjoint::inline identification

@@ -1,0 +1,28 @@
+// A start of which something is known: what a recording before left of the heat.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "identification/options.h"
+#include "identification/warming/warm_fit.h"
+
+namespace warmjoint::inline identification {
+
+/// The rows of the table of options that say what is known of E(0).
+std::vector<OptionInfo> InitialEnergyOptions();
+
+/// What they say.
+InitialEnergy InitialEnergyOf(const Options& options);
+
+/// Fits once more where E(0) was expected, by the noise that the fit leaves: the fit before it knew no
+/// noise to weigh the expectation by. Where the log itself contradicts what was expected, by more than
+/// four deviations of both, E(0) is estimated from the log alone. loop, level, offsets, kept: as of
+/// FitWarmFriction; fit: takes the place of the one given. deviation: of E(0) in a fit that knows
+/// nothing of it, N.m or N. Returns the clause that tells of a contradiction, else an empty text.
+std::string WeighStart(const ClosedLoop& loop, const Eigen::VectorXd& level,
+                       const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
+                       const std::function<double(const WarmFit&)>& deviation, WarmFit& fit);
+
+}  // namespace warmjoint::inline identification

@@ -1,0 +1,50 @@
+#include "models/recording/temperature_column.h"
+
+#include <gmock/gmock.h>
+
+#include "models/foundation/bad_input.h"
+#include "models/recording/csv.h"
+
+namespace warmjoint {
+namespace {
+
+constexpr const char* kRows = "0,0,1,10,300\n1,1,1,11,301\n2,2,1,12,302\n";
+
+Measurements Read(const std::string& name, const CsvLayout& layout = {}) {
+  return ParseCsv("time,position,velocity,torque," + name + "\n" + kRows, "log.csv", layout);
+}
+
+TEST(TemperatureColumn, IsKnownByItsUnit) {
+  for (const char* name : {"motor_degC", "case [degC]", "T (degC)", "oil/degC"}) {
+    EXPECT_EQ(TemperatureUnitIn(name), "degC") << name;
+  }
+  for (const char* name : {"temp_K", "T_K", "t [K]", "Temperature (K)"}) {
+    EXPECT_EQ(TemperatureUnitIn(name), "K") << name;
+  }
+  for (const char* name : {"gain_K", "K", "degC", "torque", "", "T_", "BREAK"}) {
+    EXPECT_FALSE(TemperatureUnitIn(name)) << name;
+  }
+  EXPECT_FALSE(FindTemperature({"a_degC", "b_degC"}));
+  EXPECT_EQ(FindTemperature({"time", "b_degC"}), 1u);
+}
+
+TEST(TemperatureColumn, IsReadInItsUnit) {
+  const Measurements kelvin = Read("case_temp_K");
+  ASSERT_TRUE(kelvin.temperature);
+  EXPECT_NEAR((*kelvin.temperature)[0], 300 - 273.15, 1e-12);
+  ASSERT_EQ(kelvin.notes.size(), 1u);
+  EXPECT_EQ(kelvin.notes[0], "temperature from the column 'case_temp_K'");
+  EXPECT_EQ((*Read("case_degC").temperature)[0], 300);
+
+  // what is said counts, and what is left out is
+  CsvLayout layout;
+  layout.unit = {{"temperature", "K"}};
+  EXPECT_NEAR((*Read("case_degC", layout).temperature)[0], 300 - 273.15, 1e-12);
+  layout = {};
+  layout.column = {{"temperature", ""}};
+  EXPECT_FALSE(Read("case_degC", layout).temperature);
+  EXPECT_FALSE(Read("speed_of_fan").temperature);
+}
+
+}  // namespace
+}  // namespace warmjoint
