@@ -24,8 +24,7 @@ const LogView& SeenBy(const Identifier& identifier, const Fit& fit, const Prepar
 /// Why samples that were asked for are not compared.
 std::string WhyNone(const Fit& fit, Eigen::Index asked) {
   if (asked > 0 && fit.gravity) return "the fit knows gravity at none of the places it reaches";
-  return fit.inertia ? "no sample moves clearly"
-                     : "no sample moves at a constant speed";
+  return fit.inertia ? "no sample moves clearly" : "no sample moves at a constant speed";
 }
 
 }  // namespace

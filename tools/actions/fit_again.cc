@@ -50,8 +50,8 @@ std::optional<HeldOutFit> FitFirstPartAgain(const Estimate& estimate, const Prep
   const auto first = FitFirstPart(identifier, input, fraction, all_data);
   if (!first) return std::nullopt;
   const PreparedLog seen = log.Before(first->split);
-  HeldOutFit made{first->split,
-                  ReportFit(first->fit, Infer(first->fit), seen.steady().measurements)};
+  const LogView& fitted = first->fit.inertia ? seen.moving() : seen.steady();
+  HeldOutFit made{first->split, ReportFit(first->fit, Infer(first->fit), fitted.measurements)};
   if (!made.estimate.friction) return std::nullopt;
   made.estimate.status = estimate.status;
   return made;

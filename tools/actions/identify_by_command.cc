@@ -1,5 +1,7 @@
 #include "tools/actions/identify_by_command.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "identification/fit_data.h"
@@ -62,10 +64,18 @@ CommandTask CheckCommand(const IdentifySettings& settings) {
 Estimate IdentifyByCommand(const CommandTask& task, const PreparedLog& log,
                            const HoldOutSource& holdout) {
   Estimate estimate = task.ask(log, {});
-  if (estimate.status != Status::ok) return estimate;
+  if (!holdout.other && holdout.fraction == 0) return estimate;
+  if (estimate.status != Status::ok) {
+    estimate.without_holdout = fmt::format("the answer is {}", StatusName(estimate.status));
+    return estimate;
+  }
   estimate.holdout = holdout.other ? Figures(estimate, holdout.other->taken(),
                                              holdout.other->taken().selection, {})
                                    : HoldOut(task, log, holdout.fraction);
+  if (!estimate.holdout) {
+    estimate.without_holdout =
+        "the command gave no friction for the part before, or the rest keeps no sample";
+  }
   return estimate;
 }
 

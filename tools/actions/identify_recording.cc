@@ -29,13 +29,30 @@ void RequireWord(const std::string& given, const char* option,
   Refuse({option}, "is '{}'{}", Excerpt(given), Suggestion(given, words));
 }
 
-/// --start estimated as an option of the identifier.
-void AddStart(const Identifier& identifier, std::map<std::string, std::string>& given) {
+/// --start estimated, or --follows, as options of the identifier.
+void AddStart(const IdentifySettings& settings, const Identifier& identifier,
+              std::map<std::string, std::string>& given) {
+  if (settings.start != "estimated" && !settings.follows) return;
+  const char* option = settings.follows ? "--follows" : "--start";
   if (!identifier.Has("initial_energy")) {
-    Refuse({"--start"}, "{} cannot estimate E(0); use one of: {}", identifier.name,
+    Refuse({option}, "{} cannot estimate E(0); use one of: {}", identifier.name,
            Able([](const Identifier& one) { return one.Has("initial_energy"); }));
   }
-  given["initial_energy"] = "estimated";
+  if (!settings.follows) {
+    given["initial_energy"] = "estimated";
+    return;
+  }
+  if (settings.start != "cold" || given.contains("initial_energy")) {
+    Refuse({option}, "says how warm the joint is at the start, and so does {}; leave one of them",
+           settings.start != "cold" ? "--start" : "--set initial_energy");
+  }
+  if (settings.follows->energy.size() > 1) {
+    Refuse({option}, "{} holds two stages of warming, and {} fits one", settings.follows->file,
+           identifier.name);
+  }
+  given["initial_energy"] = "expected";
+  given["expected_energy"] = fmt::format("{}", settings.follows->energy[0]);
+  given["expected_energy_std"] = fmt::format("{}", settings.follows->std[0]);
 }
 
 /// --motion as an option of the identifier.
@@ -54,7 +71,7 @@ void AddMotion(const std::string& motion, const Identifier& identifier,
 std::map<std::string, std::string> GivenOptions(const IdentifySettings& settings,
                                                 const Identifier& identifier, JointKind joint) {
   auto given = settings.options;
-  if (settings.start == "estimated") AddStart(identifier, given);
+  AddStart(settings, identifier, given);
   AddMotion(settings.motion, identifier, given);
   if (settings.gravity == "none") return given;
   if (!TellsGravity(identifier)) {
@@ -70,11 +87,24 @@ std::map<std::string, std::string> GivenOptions(const IdentifySettings& settings
   return given;
 }
 
-std::optional<Metrics> HoldOutFigures(const Identifier& identifier, const IdentifierInput& input,
-                                      const Fit& fit, const HoldOutSource& source) {
-  if (source.other) return HoldOut(identifier, fit, *source.other);
-  if (source.fraction == 0) return std::nullopt;
-  return HoldOut(identifier, input, source.fraction, fit);
+/// The figures on what was held out, or why there are none.
+void AddHoldOut(const Identifier& identifier, const IdentifierInput& input, const Answer& answer,
+                const HoldOutSource& source, Estimate& estimate) {
+  if (!source.other && source.fraction == 0) return;
+  if (answer.inferred.status != Status::ok) {
+    estimate.without_holdout =
+        fmt::format("the fit to all data is {}", StatusName(answer.inferred.status));
+  } else if (source.other) {
+    estimate.holdout = HoldOut(identifier, answer.fit, *source.other);
+    if (!estimate.holdout) {
+      estimate.without_holdout = WhyNoHoldOut(identifier, answer.fit, *source.other);
+    }
+  } else {
+    estimate.holdout = HoldOut(identifier, input, source.fraction, answer.fit);
+    if (!estimate.holdout) {
+      estimate.without_holdout = WhyNoHoldOut(identifier, input, source.fraction, answer.fit);
+    }
+  }
 }
 
 }  // namespace
@@ -116,21 +146,9 @@ Identified IdentifyLog(const IdentifyTask& task, const PreparedLog& log,
   } else {
     shown.message = estimate.message;
   }
-  if (answer.inferred.status == Status::ok) {
-    estimate.holdout = HoldOutFigures(task.identifier, input, answer.fit, holdout);
-    shown.holdout = estimate.holdout;
-    const bool asked = holdout.other || holdout.fraction > 0;
-    if (asked && !estimate.holdout) {
-      const std::string why = holdout.other ? "no sample of the held-out file can be compared"
-                                            : fmt::format(
-                                                  "a fit to the first {:.0f} % of the log gives no "
-                                                  "friction, or the rest keeps no sample",
-                                                  100 * (1 - holdout.fraction));
-      for (Estimate* one : {&estimate, &shown}) {
-        one->warnings.push_back(fmt::format("there are no held-out figures: {}", why));
-      }
-    }
-  }
+  AddHoldOut(task.identifier, input, answer, holdout, estimate);
+  shown.holdout = estimate.holdout;
+  shown.without_holdout = estimate.without_holdout;
   return identified;
 }
 
@@ -145,9 +163,11 @@ std::string TakeBackAmperes(const Measurements& measurements, Estimate& estimate
 }
 
 std::string EstimateFile(const Estimate& estimate, const std::optional<RecordingArguments>& source,
-                         const std::filesystem::path& target) {
+                         const std::filesystem::path& target,
+                         const std::optional<CarriedHeat>& follows) {
   nlohmann::json file = EstimateToJson(estimate);
   if (source) file["recording"] = RecordingToJson(*source, target);
+  if (follows) file["follows"] = CarriedHeatToJson(*follows);
   if (source && source->project) file["project"] = TakenProjectToJson(*source->project, target);
   return file.dump(2) + "\n";
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "identification/answer/identify.h"
+#include "tools/actions/carried_heat.h"
 #include "tools/actions/recording_source.h"
 
 namespace warmjoint::inline tools {
@@ -22,7 +23,8 @@ struct IdentifySettings {
   double relevance = Judging{}.relevance;
   std::map<std::string, std::string> options;  // of the identifier, as --set
   VoidNumbers void_numbers = VoidNumbers::withhold;
-  std::string motion = "chosen";  // chosen, constant or any
+  std::string motion = "chosen";         // chosen, constant or any
+  std::optional<CarriedHeat> follows{};  // what an earlier recording left of its heat
 };
 
 /// Settings that were checked and looked up.
@@ -66,8 +68,9 @@ Identified IdentifyLog(const IdentifyTask& task, const PreparedLog& log,
 std::string TakeBackAmperes(const Measurements& measurements, Estimate& estimate);
 
 /// The text of an estimate file. source: what its members `recording` and `project` say; none without
-/// it. target: the file, from whose folder they are named.
+/// it. target: the file, from whose folder they are named. follows: its member of that name.
 std::string EstimateFile(const Estimate& estimate, const std::optional<RecordingArguments>& source,
-                         const std::filesystem::path& target = {});
+                         const std::filesystem::path& target = {},
+                         const std::optional<CarriedHeat>& follows = {});
 
 }  // namespace warmjoint::inline tools

@@ -12,7 +12,7 @@ constexpr const char* kUnknown = "-";
 /// Two decimals below ten, then fewer: "1.10 %", "23.4 %", "200 %".
 std::string Percent(double share, const char* sign) {
   if (std::isnan(share)) return kUnknown;
-  if (std::isinf(share)) return share > 0 ? "inf" : "-inf";
+  if (std::isinf(share)) return "open";  // of one that failed too often
   const double percent = 100 * share;
   const int decimals = percent < 9.995 ? 2 : percent < 99.95 ? 1 : 0;
   return fmt::format("{:.{}f}{}", percent, decimals, sign);
@@ -38,6 +38,7 @@ std::string FailedCell(const LeaderboardRow& row) {
 std::string BehindCell(const LeaderboardRow& row) {
   if (!row.behind) return "";
   if (row.behind->tie()) return "tie";
+  if (std::isinf(row.behind->median)) return "fails too often";
   return fmt::format("{} ({} .. {})", PercentText(row.behind->median),
                      Percent(row.behind->lower, ""), Percent(row.behind->upper, ""));
 }
@@ -57,7 +58,7 @@ std::string GroupCell(const Leaderboard& group, const std::string& identifier) {
 std::string PercentText(double share) { return Percent(share, " %"); }
 
 std::string NumberText(double value) {
-  return std::isnan(value) ? kUnknown : fmt::format("{:.3g}", value);
+  return std::isfinite(value) ? fmt::format("{:.3g}", value) : kUnknown;
 }
 
 Table RankingTable(const Leaderboard& board) {

@@ -1,11 +1,14 @@
 // warmjoint check RECORDING: what a log holds, and what can be identified from it.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "identification/preparation/check_report.h"
 #include "models/foundation/atomic_file.h"
+#include "tools/actions/check_together.h"
 #include "tools/actions/outputs.h"
 #include "tools/cli/command.h"
 #include "tools/cli/recording_options.h"
@@ -36,6 +39,43 @@ void AppendSegments(const PreparedLog& log, int number, std::string& csv) {
   }
 }
 
+void Draw(const PreparedLog& log, const std::string& file, const report::PageSetting& setting) {
+  const report::Figure figure = report::MakeLogFigure(report::MakeFitView(log, {}));
+  WriteWholeFile(file, report::EncodeFigure(figure, setting).bytes);
+}
+
+/// Reads, prepares and checks one of the recordings. One of several that cannot be read is told as
+/// such; one alone throws.
+CheckedFile CheckOne(const RecordingArguments& arguments, const std::string& path,
+                     std::optional<PreparedLog>& log) {
+  RecordingArguments one = arguments;
+  one.recordings = {path};
+  try {
+    Measurements recording = std::move(ReadRecordings(one).front());
+    std::vector<std::string> columns = OptionalColumns(recording);
+    log = Prepare(std::move(recording), arguments.holds);
+    return {path, CheckRecording(*log), {}, std::move(columns)};
+  } catch (const BadInput& refusal) {
+    if (arguments.recordings.size() == 1) throw;
+    return {path, std::nullopt, refusal.what(), {}};
+  }
+}
+
+/// Of one recording its check; of several a table, what differs, and each by itself.
+std::string Text(const std::vector<CheckedFile>& files, int width) {
+  if (files.size() == 1) return CheckToText(*files.front().check);
+  std::string text = CheckedTogetherToText(files, width);
+  for (const CheckedFile& file : files) {
+    text += "\n" + (file.check ? CheckToText(*file.check)
+                               : fmt::format("recording   {}\n", file.unreadable));
+  }
+  return text;
+}
+
+nlohmann::json Json(const std::vector<CheckedFile>& files) {
+  return files.size() == 1 ? CheckToJson(*files.front().check) : CheckedTogetherToJson(files);
+}
+
 ExitStatus Check(const CheckArguments& arguments) {
   const std::vector<std::filesystem::path> outputs{arguments.segments, arguments.plot};
   report::PageSetting setting;
@@ -46,36 +86,30 @@ ExitStatus Check(const CheckArguments& arguments) {
   KeepApart(outputs,
             {arguments.recording.recordings.begin(), arguments.recording.recordings.end()});
 
-  // an object for one recording, a list of them for several
-  nlohmann::json checks = nlohmann::json::array();
-  std::string text;
+  LayoutOf(arguments.recording);
+  std::vector<CheckedFile> files;
   std::string segments = "recording,begin,end,velocity,samples\n";
-  int number = 0;
   Activity activity("reading the recording");
-  for (Measurements& recording : ReadRecordings(arguments.recording)) {
-    activity.Is("checking " + recording.source);
-    const PreparedLog log = Prepare(std::move(recording), arguments.recording.holds);
-    AppendSegments(log, ++number, segments);
-    if (number == 1 && !arguments.plot.empty()) {
-      const auto& [measurements, selection] = log.taken();
-      const report::Figure figure =
-          report::MakeLogFigure(report::MakeFitView(measurements, selection, {}));
-      WriteWholeFile(arguments.plot, report::EncodeFigure(figure, setting).bytes);
-    }
-    const RecordingCheck check = CheckRecording(log);
-    checks.push_back(CheckToJson(check));
-    text += (text.empty() ? "" : "\n") + CheckToText(check);
+  for (const std::string& path : arguments.recording.recordings) {
+    activity.Is("checking " + path);
+    std::optional<PreparedLog> log;
+    files.push_back(CheckOne(arguments.recording, path, log));
+    if (!log) continue;
+    AppendSegments(*log, static_cast<int>(files.size()), segments);
+    if (files.size() == 1 && !arguments.plot.empty()) Draw(*log, arguments.plot, setting);
   }
   if (!arguments.segments.empty()) WriteWholeFile(arguments.segments, segments);
+  std::FILE* const words = WordsBeside(outputs);
   activity.Aside([&] {
     if (arguments.format == "json") {
-      fmt::print(WordsBeside(outputs), "{}\n",
-                 (checks.size() == 1 ? checks.front() : checks).dump(2));
+      fmt::print(words, "{}\n", Json(files).dump(2));
     } else {
-      SayText(WordsBeside(outputs), text);
+      SayText(words, Text(files, PageOf(words).width));
     }
   });
-  return ExitStatus::done;
+  const bool all_read =
+      std::ranges::all_of(files, [](const CheckedFile& file) { return file.check.has_value(); });
+  return all_read ? ExitStatus::done : ExitStatus::bad_input;
 }
 
 }  // namespace

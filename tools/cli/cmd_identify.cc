@@ -18,6 +18,7 @@
 #include "tools/board/table.h"
 #include "tools/cli/command.h"
 #include "tools/cli/estimate_table.h"
+#include "tools/cli/follow_options.h"
 #include "tools/cli/recording_options.h"
 #include "tools/cli/take_project.h"
 #include "tools/cli/tell_wall.h"
@@ -33,6 +34,7 @@ namespace {
 struct IdentifyArguments {
   RecordingArguments recording;
   IdentifySettings settings;
+  FollowArguments follow;
   std::vector<std::string> identifiers{IdentifySettings{}.identifier};
   std::string holdout = "0.3";
   std::vector<std::string> set;
@@ -73,7 +75,8 @@ void CheckOutput(const std::string& path) {
 void WriteOutputs(const IdentifyArguments& arguments, const Estimate& estimate,
                   const Measurements& measurements, Activity& activity) {
   if (!arguments.output.empty()) {
-    WriteWholeFile(arguments.output, EstimateFile(estimate, arguments.recording, arguments.output));
+    WriteWholeFile(arguments.output, EstimateFile(estimate, arguments.recording, arguments.output,
+                                                  arguments.settings.follows));
   }
   if (arguments.mjcf.empty()) return;
   if (!estimate.friction) {
@@ -93,6 +96,7 @@ void CheckOutputs(const IdentifyArguments& arguments) {
   std::vector<std::filesystem::path> inputs(arguments.recording.recordings.begin(),
                                             arguments.recording.recordings.end());
   inputs.emplace_back(arguments.holdout);
+  inputs.emplace_back(arguments.follow.file);
   KeepApart(OutputsOf(arguments), inputs);
   CheckOutput(arguments.output);
   CheckOutput(arguments.mjcf);
@@ -103,7 +107,7 @@ void CheckOutputs(const IdentifyArguments& arguments) {
 /// Writes, draws and prints an estimate of the log.
 ExitStatus Deliver(const IdentifyArguments& arguments, const Identified& identified,
                    const PreparedLog& log, Activity& activity) {
-  const auto& [measurements, selection] = log.taken();
+  const Measurements& measurements = log.taken().measurements;
   const auto& [estimate, shown] = identified;
   Estimate written = estimate;
   const std::string notice = TakeBackAmperes(measurements, written);
@@ -111,13 +115,15 @@ ExitStatus Deliver(const IdentifyArguments& arguments, const Identified& identif
   WriteOutputs(arguments, written, measurements, activity);
   if (!arguments.plot.empty()) {
     activity.Is("drawing " + arguments.plot);
-    report::WriteFitPage(measurements, selection, shown, arguments.plot);
+    report::WriteFitPage(log, shown, arguments.plot);
   }
   std::FILE* const words = WordsBeside(OutputsOf(arguments));
   activity.Aside([&] {
     if (arguments.format == "json") {
       if (IsStandardOutput(arguments.output)) return;  // there it is already
-      fmt::print(words, "{}", EstimateFile(written, arguments.recording, arguments.output));
+      fmt::print(
+          words, "{}",
+          EstimateFile(written, arguments.recording, arguments.output, arguments.settings.follows));
     } else {
       const Detail detail = arguments.explain ? Detail::full : Detail::brief;
       SayText(words, EstimateToText(estimate, measurements, PageOf(words), detail));
@@ -128,6 +134,9 @@ ExitStatus Deliver(const IdentifyArguments& arguments, const Identified& identif
 
 /// A command of the user's in the place of an identifier.
 ExitStatus AskCommand(const IdentifyArguments& arguments) {
+  if (arguments.follow.are_given()) {
+    Refuse({"--follows"}, "is for identifiers of the list: a command learns nothing of it");
+  }
   const CommandTask task = CheckCommand(SettingsOf(arguments, arguments.identifiers.front()));
   CheckOutputs(arguments);
   TellWall({task.command}, {});
@@ -186,7 +195,7 @@ std::string ComparedToText(const std::vector<ComparedIdentifier>& compared, cons
 ExitStatus Compare(const IdentifyArguments& arguments) {
   for (const auto& [option, value] :
        {std::pair{"--output", &arguments.output}, std::pair{"--mjcf", &arguments.mjcf},
-        std::pair{"--plot", &arguments.plot}}) {
+        std::pair{"--plot", &arguments.plot}, std::pair{"--follows", &arguments.follow.file}}) {
     if (value->empty()) continue;
     Refuse({option}, "is for one identifier, and {} are given", arguments.identifiers.size());
   }
@@ -216,18 +225,33 @@ ExitStatus Compare(const IdentifyArguments& arguments) {
   return any_ok ? ExitStatus::done : ExitStatus::nothing_trustworthy;
 }
 
-ExitStatus Identify(const IdentifyArguments& arguments) {
+/// Adds the heat that an earlier recording left, and tells it.
+void TakeFollowed(const PreparedLog& log, Activity& activity, IdentifyArguments& arguments) {
+  if (!arguments.follow.are_given()) return;
+  activity.Is("following " + arguments.follow.file);
+  arguments.settings.follows =
+      HeatBefore(arguments.follow, arguments.recording,
+                 SettingsOf(arguments, arguments.identifiers.front()), log.taken().measurements);
+  activity.Aside([&] { SayNotice("{}\n", Describe(*arguments.settings.follows)); });
+}
+
+ExitStatus Identify(IdentifyArguments arguments) {
+  CheckFollow(arguments.follow, arguments.recording);
   if (arguments.identifiers.size() > 1) return Compare(arguments);
   const std::string& identifier = arguments.identifiers.front();
   if (identifier.find('=') != std::string::npos) return AskCommand(arguments);
 
   // everything that can be refused is, before any time is spent
-  const IdentifyTask task =
-      CheckSettings(SettingsOf(arguments, identifier), JointOf(arguments.recording));
+  IdentifySettings asked = SettingsOf(arguments, identifier);
+  if (arguments.follow.are_given()) asked.follows = CarriedHeat{{}, 0, {}, {}, {0}, {0}};
+  CheckSettings(asked, JointOf(arguments.recording));
   CheckOutputs(arguments);
   Activity activity("reading the recording");
   const HoldOutSource holdout = ReadHoldOut(arguments);
   const PreparedLog log = ReadAndPrepare(arguments.recording);
+  TakeFollowed(log, activity, arguments);
+  const IdentifyTask task =
+      CheckSettings(SettingsOf(arguments, identifier), JointOf(arguments.recording));
   const std::string fitting = fmt::format("fitting {} to {} samples", task.identifier.name,
                                           log.taken().measurements.size());
   activity.Is(fitting);
@@ -266,6 +290,7 @@ Command AddIdentifyCommand(CLI::App& program) {
             "cold: intervals hold for a joint that was cold at the start; unknown: they reach as "
             "far as a slightly warm start moves them; estimated: E(0) is fitted",
             {{"warm", "unknown"}, {"hot", "unknown"}});
+  AddFollowOptions(*parser, arguments->follow);
   parser
       ->add_option("--relevance", arguments->settings.relevance,
                    "lack of fit, as a share of the friction, from which a model is refused")

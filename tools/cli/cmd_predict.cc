@@ -10,6 +10,7 @@
 #include "tools/actions/predict_recording.h"
 #include "tools/board/table.h"
 #include "tools/cli/command.h"
+#include "tools/cli/follow_options.h"
 #include "tools/cli/recording_options.h"
 #include "tools/cli/take_project.h"
 #include "tools/parser/choice.h"
@@ -23,22 +24,48 @@ struct PredictArguments {
   std::string estimate;
   RecordingArguments recording;
   std::string initial = "cold";
+  FollowArguments follow;
   std::string output;
   std::string format = "text";
 };
 
-/// The heat at the first sample.
-CourseStart StartOf(const PredictArguments& arguments, const StoredModel& stored) {
-  const std::vector<double> energies =
-      InitialEnergy(arguments.initial, stored.model.friction, arguments.estimate);
+/// With which heat the recording begins.
+struct Begin {
+  CourseStart start;
+  std::string words;  // "cold"
+  std::optional<CarriedHeat> follows;
+};
+
+CourseStart StartWith(const std::vector<double>& energies) {
   CourseStart start;
   if (!energies.empty()) start.energy = energies[0];
   if (energies.size() > 1) start.second_energy = energies[1];
   return start;
 }
 
+Begin BeginOf(const PredictArguments& arguments, const StoredModel& stored,
+              const Measurements& next) {
+  if (!arguments.follow.are_given()) {
+    return {StartWith(InitialEnergy(arguments.initial, stored.model.friction, arguments.estimate)),
+            arguments.initial, std::nullopt};
+  }
+  const CarriedHeat carried = HeatBefore(arguments.follow, arguments.recording, stored, next);
+  return {
+      StartWith(carried.energy),
+      fmt::format("at {:.4g}, {:.6g} s after {}", carried.energy[0], carried.pause, carried.file),
+      carried};
+}
+
+/// Refuses what cannot be had together, before any time is spent.
+void CheckStart(const PredictArguments& arguments) {
+  CheckFollow(arguments.follow, arguments.recording);
+  if (!arguments.follow.are_given() || arguments.initial == "cold") return;
+  Refuse({"--follows"},
+         "says how warm the joint is at the start, and so does --initial; leave one");
+}
+
 std::string PredictedToText(const PredictArguments& arguments, const StoredModel& stored,
-                            const Predicted& predicted, int width) {
+                            const Predicted& predicted, const Begin& begin, int width) {
   const Metrics& metrics = predicted.metrics;
   const std::string& unit = predicted.measurements.torque_unit;
   Table table{
@@ -51,7 +78,7 @@ std::string PredictedToText(const PredictArguments& arguments, const StoredModel
                      TableToText(table, 1, width);
   if (stored.model.friction.thermal) {
     text += fmt::format("\nE at the end: {:.4g} {} (begun {})\n",
-                        predicted.torque.friction.energy.tail<1>()[0], unit, arguments.initial);
+                        predicted.torque.friction.energy.tail<1>()[0], unit, begin.words);
   }
   return text;
 }
@@ -60,14 +87,16 @@ ExitStatus Predict(const PredictArguments& arguments) {
   std::vector<std::filesystem::path> inputs(arguments.recording.recordings.begin(),
                                             arguments.recording.recordings.end());
   inputs.emplace_back(arguments.estimate);
+  inputs.emplace_back(arguments.follow.file);
+  CheckStart(arguments);
   KeepApart({arguments.output}, inputs);
   if (!arguments.output.empty()) AtomicFile{arguments.output};
 
   Activity activity("reading the recording");
   const StoredModel stored = ReadStoredModel(arguments.estimate);
-  const CourseStart start = StartOf(arguments, stored);
   const PreparedLog log = ReadAndPrepare(arguments.recording);
-  const Predicted predicted = PredictLog(stored, log, start);
+  const Begin begin = BeginOf(arguments, stored, log.taken().measurements);
+  const Predicted predicted = PredictLog(stored, log, begin.start);
   if (!arguments.output.empty()) WriteWholeFile(arguments.output, PredictedToCsv(predicted));
   std::FILE* const words = WordsBeside({arguments.output});
   activity.Aside([&] {
@@ -76,9 +105,11 @@ ExitStatus Predict(const PredictArguments& arguments) {
           arguments.estimate, StatusName(stored.status));
     }
     if (arguments.format == "json") {
-      fmt::print(words, "{}\n", PredictedToJson(stored, predicted).dump(2));
+      nlohmann::json told = PredictedToJson(stored, predicted);
+      if (begin.follows) told["follows"] = CarriedHeatToJson(*begin.follows);
+      fmt::print(words, "{}\n", told.dump(2));
     } else {
-      SayText(words, PredictedToText(arguments, stored, predicted, PageOf(words).width));
+      SayText(words, PredictedToText(arguments, stored, predicted, begin, PageOf(words).width));
     }
   });
   return ExitStatus::done;
@@ -102,6 +133,7 @@ Command AddPredictCommand(CLI::App& program) {
                    "recording; settled:SPEED, that of sliding at SPEED for long")
       ->type_name("cold|end|settled:SPEED")
       ->capture_default_str();
+  AddFollowOptions(*parser, arguments->follow);
   parser
       ->add_option("-o,--output", arguments->output,
                    "CSV of time, position, velocity, torque, predicted, residual, energy and "

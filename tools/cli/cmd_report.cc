@@ -67,9 +67,8 @@ void ReplayExtremes(report::RunPage& page, Activity& activity) {
     for (const report::Extreme& extreme : report::ExtremesOf(row)) {
       activity.Is(fmt::format("simulating the {} realization again", extreme.rank));
       const Replayed again = ReplayUnit(page.suite, extreme.unit, page.suite.identifiers[*best]);
-      const auto& [measurements, selection] = again.log.taken();
       replayed.push_back({extreme, NameOf(page.suite, extreme.unit),
-                          report::MakeFitView(measurements, selection, again.estimate)});
+                          report::MakeFitView(again.log, again.estimate)});
     }
   } catch (const BadInput& refusal) {
     page.without_extremes = fmt::format("No realization is shown: {}.", refusal.what());
@@ -94,9 +93,7 @@ Page RunReport(const ReportArguments& arguments, Activity& activity) {
 
 std::string LogReport(const PreparedLog& log, const Estimate& estimate,
                       const std::vector<std::string>& commands) {
-  const auto& [measurements, selection] = log.taken();
-  return report::MakeLogPage(
-      {report::MakeFitView(measurements, selection, estimate), CheckRecording(log), commands});
+  return report::MakeLogPage({report::MakeFitView(log, estimate), CheckRecording(log), commands});
 }
 
 bool IsEstimate(const fs::path& source) { return source.extension() == ".json"; }

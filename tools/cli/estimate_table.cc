@@ -2,6 +2,8 @@
 
 #include <fmt/ranges.h>
 
+#include <cmath>
+
 #include "models/foundation/printable.h"
 #include "tools/board/table.h"
 #include "tools/report/estimate/remarks.h"
@@ -30,11 +32,17 @@ std::string PairedGravity(const GravityModel& gravity, const std::string& unit) 
                      turn * static_cast<double>(gravity.knots.size()));
 }
 
+/// A figure that may not exist.
+std::string FigureText(double figure, int digits) {
+  return std::isfinite(figure) ? fmt::format("{:.{}g}", figure, digits) : "-";
+}
+
 void AddMetrics(Table& table, const std::string& name, const std::optional<Metrics>& metrics) {
   if (!metrics) return;
   table.rows.push_back({name, std::to_string(metrics->n), fmt::format("{:.4g}", metrics->rmse),
-                        fmt::format("{:.4g}", metrics->mae), fmt::format("{:.2f}", metrics->fit),
-                        fmt::format("{:.4g}", metrics->fpe)});
+                        fmt::format("{:.4g}", metrics->mae),
+                        std::isfinite(metrics->fit) ? fmt::format("{:.2f}", metrics->fit) : "-",
+                        FigureText(metrics->fpe, 4)});
 }
 
 std::string RemarksText(const Estimate& estimate, Detail detail) {
@@ -57,6 +65,20 @@ Table DiagnosticTable(const Estimate& estimate) {
                           one.reason});
   }
   return table;
+}
+
+/// How the heat goes with the log's temperature.
+std::string TemperatureText(const Estimate& estimate, int width) {
+  if (estimate.temperature.empty()) return "";
+  Table table{{"temperature beside E", "value", "unit", "95 % interval"}, {}};
+  for (const EstimatedParameter& one : estimate.temperature) {
+    table.rows.push_back({one.name, fmt::format("{:.4g}", one.value), one.unit,
+                          one.interval95 ? fmt::format("{:.4g} .. {:.4g}", (*one.interval95)[0],
+                                                       (*one.interval95)[1])
+                                         : "-"});
+  }
+  return "\n" + TableToText(table, 1, width) +
+         "the fit has not used the temperature; both may follow something else\n";
 }
 
 /// The structures that were tried.
@@ -122,6 +144,10 @@ std::string EstimateToText(const Estimate& estimate, const Measurements& measure
   AddMetrics(table, "all data", estimate.metrics);
   AddMetrics(table, "held out", estimate.holdout);
   if (!table.rows.empty()) text += fmt::format("\n{}", TableToText(table, 1, page.width));
+  if (!estimate.without_holdout.empty()) {
+    text += fmt::format("\nno held-out figures: {}\n", Printable(estimate.without_holdout));
+  }
+  text += TemperatureText(estimate, page.width);
   if (detail == Detail::full && estimate.choice) {
     text += "\n" + TableToText(TrialTable(*estimate.choice, unit), 1, page.width);
   }

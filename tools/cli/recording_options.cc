@@ -38,6 +38,13 @@ void AddLayoutOptions(CLI::App& parser, RecordingArguments& arguments) {
           "--wrap", arguments.wrap,
           "range after which the position starts again, in its unit; a turn is undone anyway")
       ->type_name("NUMBER");
+  parser
+      .add_option_function<std::string>(
+          "--temperature",
+          [&arguments](const std::string& name) { arguments.map.push_back("temperature=" + name); },
+          "column with a temperature, as --map temperature=NAME: the answer is set beside it; one "
+          "whose name ends in degC, or as temp_K, is found")
+      ->type_name("NAME");
   AddChoice(
       parser, "--joint", arguments.joint, {"rotary", "linear"}, "kind of the joint",
       {{"prismatic", "linear"}, {"revolute", "rotary"}, {"hinge", "rotary"}, {"slide", "linear"}});

@@ -10,7 +10,7 @@ namespace warmjoint::inline tools {
 /// Adds RECORDING... and the options of AddLayoutOptions.
 void AddRecordingOptions(CLI::App& parser, RecordingArguments& arguments);
 
-/// Adds --map, --unit, --scale, --wrap, --joint, --gear, --torque-constant and --no-project.
+/// Adds --map, --unit, --scale, --wrap, --temperature, --joint, --gear, --torque-constant and --no-project.
 void AddLayoutOptions(CLI::App& parser, RecordingArguments& arguments);
 
 /// Adds --trim and --shortest-hold.

@@ -174,9 +174,32 @@ TEST(Identify, TakesSeveralRecordingsAtOnce) {
 
   const Answer check = RunWarmjoint({"check", first, second, "--format", "json"});
   ASSERT_EQ(check.status, 0) << check.err;
-  EXPECT_EQ(nlohmann::json::parse(check.out).size(), 2u);
+  EXPECT_EQ(nlohmann::json::parse(check.out).at("recordings").size(), 2u);
   EXPECT_THAT(RunWarmjoint({"check", first, second}).out,
               testing::AllOf(HasSubstr("monday.csv"), HasSubstr("tuesday.csv")));
+}
+
+TEST(Identify, SaysWhyThereAreNoHeldOutFigures) {
+  const ScratchDirectory scratch;
+  const std::string recording = scratch.path() / "log.csv", still = scratch.path() / "still.csv";
+  WriteRecordingFile(recording, 480, SeveralSpeeds);
+  WriteRecordingFile(still, 480, [](int) { return 0.0; });
+  const auto reason = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> command{"identify", recording, "--identifier", "nominal-ls"};
+    command.insert(command.end(), more.begin(), more.end());
+    const Answer text = RunWarmjoint(command);
+    command.insert(command.end(), {"--format", "json"});
+    const auto estimate = nlohmann::json::parse(RunWarmjoint(command).out);
+    const std::string why = estimate.value("without_holdout", "");
+    // either figures, or a reason in both
+    EXPECT_EQ(estimate.at("holdout").is_null(), !why.empty());
+    EXPECT_EQ(text.out.find("no held-out figures: ") != std::string::npos, !why.empty());
+    return why;
+  };
+  EXPECT_EQ(reason({}), "");
+  EXPECT_THAT(reason({"--holdout", "0.98"}),
+              HasSubstr("a fit to the first 2 % of the log gives no friction (the motion cannot"));
+  EXPECT_THAT(reason({"--holdout", still}), HasSubstr("no sample moves at a constant speed"));
 }
 
 TEST(Identify, TellsGravityFromFrictionOrSaysWhyNot) {

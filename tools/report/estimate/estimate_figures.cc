@@ -14,6 +14,7 @@
 #include "tools/report/figures/motor_angle.h"
 #include "tools/report/figures/predicted.h"
 #include "tools/report/figures/single_plot.h"
+#include "tools/report/figures/temperature.h"
 
 namespace warmjoint::report {
 namespace {
@@ -64,13 +65,17 @@ std::optional<Figure> WarmUpOf(const EstimateView& view) {
                     WarmUpCurve(fit));
 }
 
+std::optional<Figure> TemperatureOf(const EstimateView& view) {
+  return view.fit ? MakeTemperature(*view.fit) : std::nullopt;
+}
+
 std::optional<Figure> TraceOf(const EstimateView& view) {
   return MakeTrace(view.estimate, view.fit ? view.fit->source : "");
 }
 
 std::optional<Figure> EnvelopeOf(const EstimateView& view) {
-  // without a warming that was found, a guess of one means nothing
-  if (!view.fit || !view.fit->warms()) return std::nullopt;
+  // without a warming that was found, or constant speeds, a guess of one means nothing
+  if (!view.fit || !view.fit->warms() || IsOfAnyMotion(*view.fit)) return std::nullopt;
   return MakeEnvelope(view.fit->source, *view.measurements, view.fit->selection, std::nullopt);
 }
 
@@ -119,8 +124,11 @@ const std::vector<EstimateFigure>& EstimateFigures() {
       {"hysteresis", "torque over position, back and forth, at first and at last", &HysteresisOf,
        "segments in both directions"},
       {"warm_up", "E over time with its interval", &WarmUpOf, "a fit that warms"},
+      {"temperature", "E beside the measured temperature, over time and one over the other",
+       &TemperatureOf, "a fit that warms and a column temperature"},
       {"trace", "parameters by iteration", &TraceOf, "an identifier that iterates"},
-      {"envelope", "the recording's envelope and the first guess", &EnvelopeOf, "a fit that warms"},
+      {"envelope", "the recording's envelope and the first guess", &EnvelopeOf,
+       "a fit that warms, of constant speeds"},
       {"motor_angle", "torque over motor angle", &MotorAngleOf,
        "a gear or the column motor_position"},
       {"motor_map", "the map over motor angle", &MotorMapOf, "a map over the motor's angle"},

@@ -23,17 +23,17 @@ EstimateView MakeEstimateView(Estimate estimate) {
 }
 
 EstimateView MakeEstimateView(Estimate estimate, const PreparedLog& other) {
-  const auto& [measurements, selection] = other.taken();
   EstimateView view = MakeEstimateView(std::move(estimate));
-  view.measurements = measurements;
-  view.fit = MakeFitView(measurements, selection, view.estimate);
+  view.measurements = other.taken().measurements;
+  view.fit = MakeFitView(other, view.estimate);
   return view;
 }
 
 EstimateView ViewOwnRecording(Estimate estimate, const PreparedLog& own) {
   EstimateView view = MakeEstimateView(WithFitAgain(std::move(estimate), own), own);
   if (!view.estimate.holdout) return view;
-  const auto& [measurements, selection] = own.taken();
+  const auto& [measurements, selection] =
+      view.estimate.Find("inertia") ? own.moving() : own.taken();
   if (const auto first = FitFirstPartAgain(view.estimate, own, HoldOutSource{}.fraction)) {
     view.held_out =
         MakeFitView(measurements, From(first->split, measurements, selection), first->estimate);

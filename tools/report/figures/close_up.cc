@@ -61,7 +61,8 @@ Plot CloseUp(const FitView& view, const Window& window, const std::pair<double, 
   Plot plot;
   plot.series.push_back({"measured", Hue::grey, Line{time, Part(view.torque, window), 2.0}});
   const Eigen::VectorXd kept = Part(KeptOrGap(view, view.torque), window);
-  plot.series.push_back({"kept: at constant speed", Hue::sky, Line{time, kept, 2.0}});
+  plot.series.push_back({IsOfAnyMotion(view) ? "kept: moves clearly" : "kept: at constant speed",
+                         Hue::sky, Line{time, kept, 2.0}});
   if (view.has_fit) {
     const Eigen::VectorXd fitted = Part(KeptOrGap(view, view.fitted), window);
     plot.series.push_back({FitLabel(view), Hue::vermilion, Line{time, fitted, 1.2, FitDash(view)}});

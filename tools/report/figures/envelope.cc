@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "identification/alternating/first_guess.h"
+#include "identification/fit_parameters.h"
 #include "tools/report/draw/ticks.h"
 #include "tools/report/figures/axes.h"
 #include "tools/report/figures/fit_view.h"
@@ -11,11 +12,10 @@ namespace warmjoint::report {
 namespace {
 
 /// "gain −3.0 N·m/W, time constant 600 s"
-std::string ThermalText(const Thermal& thermal, JointKind joint) {
-  const auto& [gain, time_constant] = Thermal::parameters;
-  return fmt::format("k = {} {}, τ = {} {}", SignificantText(thermal.gain),
-                     UnitText(gain.unit.For(joint)), SignificantText(thermal.time_constant),
-                     UnitText(time_constant.unit.For(joint)));
+std::string ThermalText(const Thermal& thermal, const Measurements& measurements) {
+  const std::vector<FitParameter> rows = HeatParameters(thermal, measurements);
+  return fmt::format("k = {} {}, τ = {} {}", SignificantText(thermal.gain), UnitText(rows[0].unit),
+                     SignificantText(thermal.time_constant), UnitText(rows[1].unit));
 }
 
 /// The torque as logged, between the friction levels of both directions.
@@ -70,14 +70,14 @@ std::optional<Figure> MakeEnvelope(const std::string& what, const Measurements& 
   Figure figure;
   figure.name = "envelope";
   figure.title = "The level of friction and the first guess of its warming";
-  const std::string read = ThermalText(*guess.thermal, measurements.joint);
+  const std::string read = ThermalText(*guess.thermal, measurements);
   figure.subtitle = fmt::format("{}; first guess (25): {}", what, read);
   figure.finding = fmt::format(
       "The level of friction goes from {} to {} {}; 63 % of the way takes {} {}. Guess: {}",
       SignificantText(envelope.cold), SignificantText(envelope.settled), view.torque_unit,
       SignificantText(envelope.time_to_63 / TimeUnit(view)), TimeUnitName(view), read);
   if (truth) {
-    const std::string known = ThermalText(*truth, measurements.joint);
+    const std::string known = ThermalText(*truth, measurements);
     figure.subtitle += fmt::format("; truth: {}", known);
     figure.finding += fmt::format("; truth: {}", known);
   }

@@ -161,11 +161,10 @@ Figure MakeFitPage(const FitView& view) {
   return figure;
 }
 
-void WriteFitPage(const Measurements& measurements, const Selection& selection,
-                  const Estimate& estimate, const std::string& path) {
+void WriteFitPage(const PreparedLog& log, const Estimate& estimate, const std::string& path) {
   PageSetting setting;
   setting.format = FormatOf(path);
-  const Figure page = MakeFitPage(MakeFitView(measurements, selection, estimate));
+  const Figure page = MakeFitPage(MakeFitView(log, estimate));
   WriteWholeFile(path, EncodeFigure(page, setting).bytes);
 }
 

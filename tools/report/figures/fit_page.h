@@ -14,7 +14,6 @@ Figure MakeFitPage(const FitView& view);
 
 /// Draws the page into a file, PNG, SVG or PDF by its end. Throws BadInput for another end, and
 /// where the folder cannot be written.
-void WriteFitPage(const Measurements& measurements, const Selection& selection,
-                  const Estimate& estimate, const std::string& path);
+void WriteFitPage(const PreparedLog& log, const Estimate& estimate, const std::string& path);
 
 }  // namespace warmjoint::report

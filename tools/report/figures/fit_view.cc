@@ -27,9 +27,16 @@ TimeScale ScaleOf(const FitView& view) {
   return {1, "s"};
 }
 
-/// Leaves friction in the torque, where gravity is known.
-void TakeGravityOff(const GravityModel& gravity, FitView& view) {
-  view.torque -= gravity.Torque(view.position);
+/// Leaves friction in the torque, where gravity and inertia are known.
+void TakeRigidOff(const Estimate& estimate, const Measurements& measurements, FitView& view) {
+  view.rigid = Eigen::VectorXd::Zero(measurements.size());
+  const EstimatedParameter* inertia = estimate.Find("inertia");
+  if (inertia && measurements.acceleration)
+    view.rigid += inertia->value * *measurements.acceleration;
+  if (estimate.gravity) view.rigid += estimate.gravity->Torque(view.position);
+  view.torque -= view.rigid;
+  if (!estimate.gravity) return;
+  const GravityModel& gravity = *estimate.gravity;
   for (Eigen::Index i = 0; i < view.position.size(); ++i) {
     view.selection.keep[i] = view.selection.keep[i] && gravity.Covers(view.position[i]);
   }
@@ -60,7 +67,8 @@ FitView WithoutFit(const Measurements& measurements, const Selection& selection,
   view.position = measurements.position;
   view.velocity = measurements.velocity;
   view.torque = measurements.torque;
-  if (estimate.gravity) TakeGravityOff(*estimate.gravity, view);
+  if (measurements.temperature) view.temperature = *measurements.temperature;
+  TakeRigidOff(estimate, measurements, view);
   view.motor_angle = MotorAngle(measurements);
 
   view.course = CourseOf(measurements);
@@ -69,6 +77,11 @@ FitView WithoutFit(const Measurements& measurements, const Selection& selection,
 }
 
 }  // namespace
+
+FitView MakeFitView(const PreparedLog& log, const Estimate& estimate) {
+  const auto& [measurements, selection] = estimate.Find("inertia") ? log.moving() : log.taken();
+  return MakeFitView(measurements, selection, estimate);
+}
 
 FitView MakeFitView(const Measurements& measurements, const Selection& selection,
                     const Estimate& estimate) {
@@ -93,6 +106,8 @@ FitView MakeFitView(const Measurements& measurements, const Selection& selection
   }
   return view;
 }
+
+bool IsOfAnyMotion(const FitView& view) { return view.estimate.Find("inertia") != nullptr; }
 
 Eigen::VectorXd KeptOf(const FitView& view, const Eigen::VectorXd& all) {
   Eigen::VectorXd kept(view.selection.count());

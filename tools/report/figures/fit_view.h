@@ -5,6 +5,7 @@
 #include <string>
 
 #include "identification/estimate.h"
+#include "identification/preparation/prepared_log.h"
 #include "models/friction/along_motion.h"
 #include "models/recording/measurements.h"
 #include "models/recording/selection.h"
@@ -23,7 +24,10 @@ struct FitView {
   Eigen::VectorXd time;      // s, from the first sample
   Eigen::VectorXd position;  // rad or m
   Eigen::VectorXd velocity;  // rad/s or m/s
-  Eigen::VectorXd torque;    // torque_unit, less gravity where the estimate has it
+  Eigen::VectorXd torque;    // torque_unit, less `rigid`
+  Eigen::VectorXd
+      rigid;  // torque_unit, gravity and inertia as far as the estimate has them; else 0
+  Eigen::VectorXd temperature;  // degC; empty where the recording has none
   /// Motor angle, rad, 0 ... 2 pi; empty where neither it nor a gear is known.
   Eigen::VectorXd motor_angle;
   JointCourse course;  // what the forward model reads of the recording
@@ -42,13 +46,20 @@ struct FitView {
   bool is_void() const { return has_fit && estimate.status != Status::ok; }
 };
 
-/// Runs the estimate's friction over the recording.
+/// Runs the estimate's friction over the recording as the fit saw it: with its accelerations where the
+/// estimate has an inertia.
+FitView MakeFitView(const PreparedLog& log, const Estimate& estimate);
+
+/// The same over samples that are given.
 FitView MakeFitView(const Measurements& measurements, const Selection& selection,
                     const Estimate& estimate);
 
 /// The same with what the friction gave along the recording, where that is known.
 FitView MakeFitView(const Measurements& measurements, const Selection& selection,
                     const Estimate& estimate, const Prediction& given);
+
+/// Whether the fit was to motion of any kind.
+bool IsOfAnyMotion(const FitView& view);
 
 /// The entries of the kept samples. all: [N]; returns [n].
 Eigen::VectorXd KeptOf(const FitView& view, const Eigen::VectorXd& all);

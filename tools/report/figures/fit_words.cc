@@ -104,13 +104,20 @@ Words VerdictOf(const FitView& view) {
     words.paragraphs.push_back(
         {"Held out: " + MetricsSentence(*estimate.holdout, view.torque_unit) + "."});
   }
+  if (!estimate.without_holdout.empty()) {
+    words.paragraphs.push_back({"No held-out figures: " + Sentence(estimate.without_holdout)});
+  }
   const double share =
       static_cast<double>(view.selection.count()) / static_cast<double>(view.time.size());
   words.paragraphs.push_back(
-      {fmt::format("{:.0f} % of the {} samples are at a constant speed and kept.", 100 * share,
-                   view.time.size())});
-  if (estimate.gravity) {
-    words.paragraphs.push_back({"Gravity is taken off the torque that is shown."});
+      {fmt::format("{:.0f} % of the {} samples {} and are kept.", 100 * share, view.time.size(),
+                   IsOfAnyMotion(view) ? "move clearly" : "move at a constant speed")});
+  const char* taken = estimate.gravity && IsOfAnyMotion(view) ? "Gravity and inertia are"
+                      : estimate.gravity                      ? "Gravity is"
+                      : IsOfAnyMotion(view)                   ? "Inertia is"
+                                                              : nullptr;
+  if (taken) {
+    words.paragraphs.push_back({fmt::format("{} taken off the torque that is shown.", taken)});
   }
   return words;
 }

@@ -27,14 +27,17 @@ Figure MakeLogFigure(const FitView& view) {
   Figure figure;
   figure.name = "log";
   figure.title = view.source;
-  figure.subtitle = fmt::format("{} samples; {:.0f} % of them are kept, in {} segments", samples,
-                                share, view.selection.segments.size());
+  const std::string segments = IsOfAnyMotion(view) ? "from motion of any kind"
+                                                   : fmt::format("in {} segments of constant speed",
+                                                                 view.selection.segments.size());
+  figure.subtitle =
+      fmt::format("{} samples; {:.0f} % of them are kept, {}", samples, share, segments);
   figure.finding =
-      fmt::format("Of {} samples {:.0f} % are kept for the fit, in {} segments of constant speed.",
-                  samples, share, view.selection.segments.size());
+      fmt::format("Of {} samples {:.0f} % are kept for the fit, {}.", samples, share, segments);
   figure.height = 0;
   figure.rows = {170, 170, 170};
-  const Eigen::VectorXd* columns[] = {&view.position, &view.velocity, &view.torque};
+  const Eigen::VectorXd torque = view.torque + view.rigid;
+  const Eigen::VectorXd* columns[] = {&view.position, &view.velocity, &torque};
   const std::string labels[] = {PositionLabel(view), SpeedLabel(view), TorqueLabel(view, "torque")};
   for (int i = 0; i < 3; ++i) {
     Plot plot = ColumnPlot(view, *columns[i], labels[i]);

@@ -41,7 +41,8 @@ struct Words {
 
 std::optional<Figure> Make(const FitView& view, const Words& words) {
   if (!view.has_fit || view.selection.count() == 0) return std::nullopt;
-  const Eigen::VectorXd measured = KeptOf(view, view.torque), predicted = KeptOf(view, view.fitted);
+  const Eigen::VectorXd measured = KeptOf(view, view.torque + view.rigid);
+  const Eigen::VectorXd predicted = KeptOf(view, view.fitted + view.rigid);
   const Eigen::VectorXd residuals = measured - predicted;
   const std::string rmse =
       SignificantText(std::sqrt(residuals.array().square().mean())) + " " + view.torque_unit;

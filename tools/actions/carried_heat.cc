@@ -1,0 +1,135 @@
+#include "tools/actions/carried_heat.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "identification/uncertainty/tails.h"
+#include "models/foundation/atomic_file.h"
+#include "models/foundation/bad_input.h"
+
+namespace warmjoint::inline tools {
+namespace {
+
+constexpr const char* kStages[] = {"energy", "second_energy"};
+
+/// The deviation that a 95 % interval stands for, whatever widened it; nothing where there is none.
+std::optional<double> DeviationOf(const EstimatedParameter& one) {
+  if (!one.interval95) return std::nullopt;
+  const auto& [lower, upper] = *one.interval95;
+  return (upper - lower) / (2 * StudentQuantile(kInfinity, kIntervalLevel));
+}
+
+const EstimatedParameter* FindIn(const std::vector<EstimatedParameter>& all,
+                                 std::string_view name) {
+  const auto found = std::ranges::find(all, name, &EstimatedParameter::name);
+  return found == all.end() ? nullptr : &*found;
+}
+
+/// How long the joint paused by the stamps of both recordings.
+double PauseByStamps(const LeftHeat& left, const Measurements& next) {
+  const char* remedy =
+      "give --pause SECONDS, from the last sample of the one to the first of the other";
+  if (!left.stamp) {
+    Refuse({"--follows"}, "{} does not tell when it ended: {}", left.file, remedy);
+  }
+  const double pause = next.time[0] - *left.stamp;
+  if (pause > 0) return pause;
+  Refuse({"--follows"},
+         "{} begins at {:.6g} s, and {} ends at {:.6g} s, so their stamps share no clock: {}",
+         next.source, next.time[0], left.file, *left.stamp, remedy);
+}
+
+}  // namespace
+
+bool IsJsonFile(const std::string& file) {
+  if (IsStandardInput(file)) return false;
+  std::ifstream stream(file);
+  char first = 0;
+  stream >> first;
+  return first == '{';
+}
+
+LeftHeat HeatLeftBy(const Estimate& estimate, const std::string& file) {
+  const Place place{file};
+  if (!FindIn(estimate.state_end, kStages[0])) {
+    const bool ok = estimate.status == Status::ok;
+    Refuse(place, "tells of no heat at its end, so nothing can follow it: {}",
+           ok ? std::string("its estimate knows no warming; take energy-ml")
+              : fmt::format("identified by itself it is {} ({})", StatusName(estimate.status),
+                            estimate.message));
+  }
+  LeftHeat left{file, {}, FindIn(estimate.state_end, kStages[0])->unit, {}};
+  if (const EstimatedParameter* time = FindIn(estimate.state_end, "time")) left.stamp = time->value;
+
+  // its stages, each with its time constant
+  for (const auto& [name, thermal, tau_name] :
+       {std::tuple(kStages[0], estimate.friction ? estimate.friction->thermal : std::nullopt,
+                   "thermal_time_constant"),
+        std::tuple(kStages[1], estimate.friction ? estimate.friction->second_thermal : std::nullopt,
+                   "second_thermal_time_constant")}) {
+    const EstimatedParameter* energy = FindIn(estimate.state_end, name);
+    if (!energy) continue;
+    const std::optional<double> deviation = DeviationOf(*energy);
+    if (!thermal || !deviation) {
+      Refuse(place, "its state_end.{} has no {}, so nothing is known of what is left after a pause",
+             name, thermal ? "interval" : "time constant");
+    }
+    const EstimatedParameter* tau = estimate.Find(tau_name);
+    const double tau_deviation = tau ? DeviationOf(*tau).value_or(0) : 0;
+    left.stages.push_back({energy->value, *deviation, thermal->time_constant, tau_deviation});
+  }
+  return left;
+}
+
+CarriedHeat CarryOver(const LeftHeat& left, std::optional<double> pause, const Measurements& next) {
+  if (left.unit != next.torque_unit) {
+    Refuse({"--follows"}, "{} holds its heat in {} and the torque of {} is in {}", left.file,
+           left.unit, next.source, next.torque_unit);
+  }
+  if (pause && !(*pause >= 0 && std::isfinite(*pause))) {
+    Refuse({"--pause"}, "is {}; it must be a number of seconds, 0 or more", *pause);
+  }
+  CarriedHeat carried{left.file,
+                      pause ? *pause : PauseByStamps(left, next),
+                      pause ? "given" : "stamps",
+                      left.unit,
+                      {},
+                      {}};
+  for (const LeftStage& stage : left.stages) {
+    const double times = carried.pause / stage.time_constant, kept = std::exp(-times);
+    carried.energy.push_back(stage.energy * kept);
+    const double by_time_constant =
+        std::abs(stage.energy) * kept * times * stage.time_constant_std / stage.time_constant;
+    carried.std.push_back(stage.std * kept + by_time_constant);
+  }
+  return carried;
+}
+
+std::string Describe(const CarriedHeat& carried) {
+  std::string energies;
+  for (size_t i = 0; i < carried.energy.size(); ++i) {
+    energies += fmt::format("{}{:.4g}", i > 0 ? " and " : "", carried.energy[i]);
+    if (carried.std[i] > 0) energies += fmt::format(" +- {:.2g}", carried.std[i]);
+  }
+  return fmt::format(
+      "E(0) is expected at {} {}, which {} left, after a pause of {:.6g} s ({}) at rest", energies,
+      carried.unit, carried.file, carried.pause,
+      carried.pause_from == "stamps" ? "by the stamps" : "given");
+}
+
+nlohmann::json CarriedHeatToJson(const CarriedHeat& carried) {
+  nlohmann::json json{
+      {"file", carried.file}, {"pause", carried.pause}, {"pause_from", carried.pause_from}};
+  for (size_t i = 0; i < carried.energy.size(); ++i) {
+    json[kStages[i]] = {
+        {"value", carried.energy[i]}, {"unit", carried.unit}, {"std", carried.std[i]}};
+  }
+  return json;
+}
+
+}  // namespace warmjoint::inline tools

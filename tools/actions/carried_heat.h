@@ -1,0 +1,59 @@
+// The heat that one recording leaves to the next one of the same joint.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "identification/estimate.h"
+#include "models/recording/measurements.h"
+
+namespace warmjoint::inline tools {
+
+/// One stage of warming at the end of a recording.
+struct LeftStage {
+  double energy = 0;             // E, N.m or N
+  double std = 0;                // of that
+  double time_constant = 0;      // s
+  double time_constant_std = 0;  // s
+};
+
+/// What a recording leaves.
+struct LeftHeat {
+  std::string file;             // that tells of it
+  std::optional<double> stamp;  // of its last sample, s; none where that is not known
+  std::string unit;             // N.m or N
+  std::vector<LeftStage> stages;
+};
+
+/// What is left of it at the first sample of the next recording, E(0) = E exp(-pause/tau) for each
+/// stage, Eq. (22) without losses.
+struct CarriedHeat {
+  std::string file;
+  double pause = 0;        // s
+  std::string pause_from;  // "stamps" or "given"
+  std::string unit;
+  std::vector<double> energy;  // of each stage, N.m or N
+  std::vector<double> std;     // the deviations by E and by tau added up, as if one error made both
+};
+
+/// Whether a file is an estimate.json (or another JSON document), not a recording.
+bool IsJsonFile(const std::string& file);
+
+/// Of an estimate. Throws BadInput from `file` where it holds no heat that can be trusted.
+LeftHeat HeatLeftBy(const Estimate& estimate, const std::string& file);
+
+/// Lets it cool until the next recording begins. pause: s, from the last sample of one to the first
+/// of the other, as given; else the stamps of both tell it. Throws BadInput where they cannot, since
+/// the next one does not begin behind the end of the one before, or for another unit of the torque.
+CarriedHeat CarryOver(const LeftHeat& left, std::optional<double> pause, const Measurements& next);
+
+/// "E(0) is expected at -4.21 +- 0.3 N.m: what day1.csv left, after a pause of 300 s (given) at rest"
+std::string Describe(const CarriedHeat& carried);
+
+/// {file, pause, pause_from, energy{value, unit, std}}, and second_energy: the `follows` member of
+/// an estimate file.
+nlohmann::json CarriedHeatToJson(const CarriedHeat& carried);
+
+}  // namespace warmjoint::inline tools
