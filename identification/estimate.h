@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "identification/diagnostic.h"
+#include "identification/friction_at_speed.h"
 #include "identification/gravity.h"
 #include "identification/map_band.h"
 #include "models/friction/friction_description.h"
@@ -89,8 +90,11 @@ struct Estimate {
   std::string without_holdout;  // why there is none: a clause; empty: there is, or none was tried
   std::vector<TraceEntry> trace;
   std::optional<FrictionDescription> friction;
-  std::optional<GravityModel> gravity;            // what the fit took for gravity beside friction
-  std::vector<MapBand> bands;                     // one for each of the friction's maps
+  std::optional<GravityModel> gravity;  // what the fit took for gravity beside friction
+  std::vector<MapBand> bands;           // one for each of the friction's maps
+  /// Beside maps, in place of parameters of the law that only the prior tells: friction at the lowest,
+  /// the median and the highest speed.
+  std::vector<FrictionAtSpeed> at_speeds;
   std::optional<ParameterCovariance> covariance;  // of the values with intervals, by noise alone
   std::vector<Diagnostic> diagnostics;            // of the verdict; empty where there is none
   std::vector<Assumption> assumptions;

@@ -77,8 +77,13 @@ struct Fit {
   // the model
   FrictionDescription friction;  // law, warming and maps, whatever their bounds
   std::optional<GravityModel> gravity;
-  std::optional<double> inertia;           // torque over acceleration, kg.m^2 or kg
-  double initial_energy = 0;               // E(0), N.m or N
+  std::optional<double> inertia;  // torque over acceleration, kg.m^2 or kg
+  /// [N] M a where the fit made its own a of the velocities, N.m or N; else empty.
+  Eigen::VectorXd inertia_torque;
+  double initial_energy = 0;  // E(0), N.m or N
+  /// Friction with which each recording begins, [R] N.m or N, where it bends a bristle and was
+  /// estimated; else empty.
+  std::vector<double> first_friction;
   std::vector<Eigen::Index> jump_samples;  // [J] where E jumps by a parameter with Role::jump
   std::vector<FitParameter> parameters;    // [P]; those estimated come in the order of x
 
@@ -93,6 +98,8 @@ struct Fit {
   double effective_parameters = 0;  // trace of the hat matrix
   std::optional<double> loss_bend;  // where a robust loss bends, N.m or N
   std::vector<MapBand> bands;       // one for each of the friction's maps
+  /// In place of parameters of the law that only a prior tells from a map.
+  std::vector<FrictionAtSpeed> at_speeds;
   std::vector<Iterate> trace;
 
   std::optional<StructureChoice> choice;  // of an identifier that chooses

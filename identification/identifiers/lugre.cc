@@ -60,7 +60,10 @@ void RefineBest(const LugreProblem& problem, const std::vector<LugrePoint>& poin
 LugreFit FitFrom(const LugreProblem& problem, const std::vector<LugrePoint>& scan, double fastest) {
   std::optional<LugreFit> best;
   RefineBest(problem, scan, best);
-  RefineBest(problem, ScanFall(problem, best->solution, fastest), best);
+  // its levels may have run away around a fall that is not there: those of the scan have not
+  LugrePoint bristle = best->solution;
+  bristle.x.head(kLugreLogVs) = scan[0].x.head(kLugreLogVs);
+  RefineBest(problem, ScanFall(problem, bristle, fastest), best);
   return *best;
 }
 
@@ -166,9 +169,16 @@ void Conclude(const IdentifierInput& input, const LugreProblem& problem, const L
   const Measurements& m = input.measurements;
   SetModel(m, problem, answer.fit.solution, fit);
   fit.used = problem.used;
+  fit.inertia_torque = answer.fit.solution.x[kLugreInertia] * problem.acceleration;
+  const double viscous = answer.fit.solution.x[kLugreViscous];
+  for (size_t r = 0; r < answer.fit.loads.size(); ++r) {
+    const Eigen::Index first = r == 0 ? 0 : m.starts[r - 1];
+    fit.first_friction.push_back(answer.fit.loads[r] + viscous * problem.motion.velocity(first));
+  }
   fit.torque = Kept(m.torque, fit.used);
   fit.fitted = fit.torque - answer.fit.residual.cwiseProduct(problem.deviation);
-  fit.count = static_cast<int>(answer.known.covariance.rows());
+  fit.count =
+      static_cast<int>(answer.known.covariance.rows()) + static_cast<int>(answer.fit.loads.size());
   fit.effective_parameters = fit.count;
 
   // over its deviations, which take up what is uneven, a residual tells its colour alone

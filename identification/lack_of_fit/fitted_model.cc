@@ -72,6 +72,15 @@ std::vector<size_t> RowsOf(const Fit& fit, std::initializer_list<Role> roles) {
   return rows;
 }
 
+/// The motion, with a bristle bent at each start as the fit tells, else as the torque does.
+JointCourse CourseFor(const Fit& fit, const Measurements& m) {
+  JointCourse course = CourseOf(m, BristleStart::torque);
+  for (size_t r = 0; r < fit.first_friction.size(); ++r) {
+    course.torque[r == 0 ? 0 : m.starts[r - 1]] = fit.first_friction[r];
+  }
+  return course;
+}
+
 /// Beside a warming that was estimated, the law's parameters act through the losses too. Returns the
 /// derivatives by the jumps at the log's gaps, [N x J].
 Eigen::MatrixXd AddWarming(const Fit& fit, const Inference& inference, const Measurements& m,
@@ -114,7 +123,8 @@ std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& infere
   model.torque = m.torque;
   if (fit.gravity) TakeOff(*fit.gravity, m.position, model);
   if (fit.inertia) model.torque -= *fit.inertia * *m.acceleration;
-  const Prediction prediction = PredictFriction(fit.friction, m, fit.Start(), BristleStart::torque);
+  if (fit.inertia_torque.size() > 0) model.torque -= fit.inertia_torque;
+  const Prediction prediction = AlongMotion(fit.friction).Predict(CourseFor(fit, m), fit.Start());
   model.residual = model.torque - prediction.force;
   model.energy = prediction.energy;
   if (!fit.friction.maps.empty()) model.maps = MapForce(law, values, m, prediction);

@@ -44,8 +44,8 @@ Eigen::MatrixXd FreeColumns(const LugreProblem& problem, const Eigen::MatrixXd& 
 Eigen::VectorXd SamplingShift(const IdentifierInput& input, const LugreProblem& problem,
                               const LugreFit& fit, const Eigen::MatrixXd& jacobian) {
   const HalvedProblem halved = Halve(input, problem);
-  const Eigen::VectorXd full = LugreTorque(problem, fit.solution);
-  const Eigen::VectorXd half = LugreTorque(halved.problem, fit.solution);
+  const Eigen::VectorXd full = LugreTorque(problem, fit.solution, fit.loads);
+  const Eigen::VectorXd half = LugreTorque(halved.problem, fit.solution, fit.loads);
   std::vector<Eigen::Index> row(static_cast<size_t>(full.size()), -1);
   Eigen::Index rows = 0;
   for (Eigen::Index i = 0; i < full.size(); ++i) {

@@ -10,7 +10,7 @@ namespace warmjoint::inline identification {
 ///   used      from the first kept sample of each recording to its last one: those kept, and those
 ///             in between that are not at rest, which are starts, stops and turns
 ///   bristle   runs over all samples; in rests of five samples and more, whose speed is noise
-///             (VelocityScale::Rest), it stays as it is; at each start the torque tells its bend
+///             (VelocityScale::Rest), it stays as it is; its bend at each start is estimated
 ///   a         central differences of the velocity; 0 in segments of constant speed, where they
 ///             would be noise alone
 LugreProblem MakeLugreProblem(const IdentifierInput& input, double scale);

@@ -7,6 +7,8 @@
 #include <memory>
 
 #include "identification/fit_data.h"
+#include "identification/linear/least_squares.h"
+#include "identification/nonlinear/lugre_course.h"
 #include "identification/nonlinear/solve_by_ceres.h"
 #include "models/foundation/robust_noise.h"
 
@@ -15,6 +17,7 @@ namespace {
 
 constexpr int kDistances = 16;  // of the grids
 constexpr int kVelocities = 16;
+constexpr double kFall = 1.3;  // ks over kc before a fall is known
 
 /// Residuals (F + M a - tau) / deviation of the used samples.
 class Residuals {
@@ -24,16 +27,12 @@ class Residuals {
   template <typename T>
   bool operator()(const T* x, T* residuals) const {
     using std::isfinite;
-    const auto n = static_cast<size_t>(problem_.motion.size());
-    const std::array<T, 6> p = LugreValues(x);
-    std::vector<T> force(n), load(n);
-    RunBristle<LuGre>(problem_.motion, problem_.torque, p.data(), force.data(), load.data());
+    const std::vector<T> torque = FollowLugre(problem_, x).torque;
     Eigen::Index row = 0;
-    for (size_t k = 0; k < n; ++k) {
+    for (size_t k = 0; k < torque.size(); ++k) {
       const auto i = static_cast<Eigen::Index>(k);
       if (!problem_.used.keep[i]) continue;
-      const T torque = force[k] + x[kLugreInertia] * problem_.acceleration[i];
-      residuals[row] = (torque - problem_.torque[i]) / problem_.deviation[row];
+      residuals[row] = (torque[k] - problem_.torque[i]) / problem_.deviation[row];
       if (!isfinite(residuals[row])) return false;
       ++row;
     }
@@ -87,6 +86,36 @@ void Complete(const LugreProblem& problem, const Residuals& residuals, LugrePoin
   point.squares = (r + point.x[kLugreInertia] * a).squaredNorm();
 }
 
+/// Moves kv, kc, ks and M, of which the torque is nearly linear, to what suits the rest of a point
+/// best: steps of Gauss and Newton, with ks within 1 and 3 kc as starts are.
+void CompleteLevels(const LugreProblem& problem, const Residuals& residuals, LugrePoint& point) {
+  constexpr int kSteps = 2;
+  const auto n = static_cast<int>(problem.used.count());
+  const Cost cost(new Residuals(problem), n);
+  std::vector<Eigen::Index> linear{kLugreViscous, kLugreCoulomb, kLugreStatic};
+  if (!problem.IsConstant(kLugreInertia)) linear.push_back(kLugreInertia);
+  Eigen::VectorXd r(n);
+  Eigen::Matrix<double, Eigen::Dynamic, kLugreSize, Eigen::RowMajor> jacobian(n, kLugreSize);
+  for (int step = 0; step < kSteps; ++step) {
+    const double* at = point.x.data();
+    double* into = jacobian.data();
+    if (!cost.Evaluate(&at, r.data(), &into) || !jacobian.allFinite()) break;
+    const Eigen::MatrixXd J = jacobian(Eigen::all, linear);
+    const Eigen::VectorXd change = SolveLeastSquares(J, -r).solution;
+    if (change.size() == 0) break;  // the samples do not tell them apart
+    LugrePoint next = point;
+    for (size_t i = 0; i < linear.size(); ++i) {
+      next.x[linear[i]] += change[static_cast<Eigen::Index>(i)];
+    }
+    if (!next.x.allFinite() || !(next.x[kLugreCoulomb] > 0)) break;
+    const double coulomb = next.x[kLugreCoulomb];
+    next.x[kLugreStatic] = std::clamp(next.x[kLugreStatic], coulomb, 3 * coulomb);
+    next.x[kLugreInertia] = std::max(0.0, next.x[kLugreInertia]);
+    point = next;
+  }
+  point.squares = residuals(point.x.data(), r.data()) ? r.squaredNorm() : kInfinity;
+}
+
 std::vector<LugrePoint> Sorted(std::vector<LugrePoint> points) {
   std::stable_sort(points.begin(), points.end(),
                    [](const auto& a, const auto& b) { return a.squares < b.squares; });
@@ -125,13 +154,11 @@ std::vector<LugrePoint> ScanFall(const LugreProblem& problem, const LugrePoint& 
   const Residuals residuals(problem);
   std::vector<LugrePoint> points;
   for (int i = 0; i < kVelocities; ++i) {
-    for (const double ratio : {1.2, 1.6}) {
-      LugrePoint other = point;
-      other.x[kLugreLogVs] = std::log(fastest) - std::log(1000) * i / (kVelocities - 1.0);
-      other.x[kLugreStatic] = ratio * point.x[kLugreCoulomb];
-      Complete(problem, residuals, other);
-      if (std::isfinite(other.squares)) points.push_back(other);
-    }
+    LugrePoint other = point;
+    other.x[kLugreLogVs] = std::log(fastest) - std::log(1000) * i / (kVelocities - 1.0);
+    other.x[kLugreStatic] = kFall * point.x[kLugreCoulomb];
+    CompleteLevels(problem, residuals, other);
+    if (std::isfinite(other.squares)) points.push_back(other);
   }
   return Sorted(std::move(points));
 }
@@ -146,15 +173,23 @@ LugreFit RefineLugre(const LugreProblem& problem, const LugrePoint& start) {
   fit.residual = -solution.residuals;
   fit.jacobian = solution.jacobian;
   fit.solution = {x, solution.residuals.squaredNorm()};
+  fit.loads = FollowLugre(problem, x.data()).loads;
   return fit;
 }
 
-Eigen::VectorXd LugreTorque(const LugreProblem& problem, const LugrePoint& point) {
+Eigen::VectorXd LugreTorque(const LugreProblem& problem, const LugrePoint& point,
+                            const std::vector<double>& loads) {
   const Eigen::Index n = problem.motion.size();
   const auto p = LugreValues(point.x.data());
-  Eigen::VectorXd force(n), load(n);
-  RunBristle<LuGre>(problem.motion, problem.torque, p.data(), force.data(), load.data());
-  return force + point.x[kLugreInertia] * problem.acceleration;
+  Eigen::VectorXd torque = point.x[kLugreInertia] * problem.acceleration;
+  size_t recording = 0;
+  for (Eigen::Index first = 0, end = 0; first < n; first = end) {
+    end = problem.EndOfRecording(first);
+    const LugreRun<double> run(problem.motion, first, end, p, loads[recording++]);
+    torque.segment(first, end - first) +=
+        Eigen::Map<const Eigen::VectorXd>(run.force.data(), end - first);
+  }
+  return torque;
 }
 
 }  // namespace warmjoint::inline identification

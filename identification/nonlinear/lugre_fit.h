@@ -26,8 +26,8 @@ enum LugreIndex : Eigen::Index {
   kLugreSize
 };
 
-/// tau = F + M a over the samples of `used`. The bristle runs over all samples, bent at each start
-/// as the torque tells.
+/// tau = F + M a over the samples of `used`. The bristle runs over all samples; how it is bent as
+/// each recording begins is estimated beside x (lugre_course.h).
 struct LugreProblem {
   MotionPieces motion;           // of the N samples
   Eigen::VectorXd acceleration;  // [N] rad/s^2 or m/s^2
@@ -38,6 +38,12 @@ struct LugreProblem {
 
   bool IsConstant(int parameter) const {
     return std::count(constant.begin(), constant.end(), parameter) > 0;
+  }
+  /// One past the last sample of the recording that begins at `first`.
+  Eigen::Index EndOfRecording(Eigen::Index first) const {
+    Eigen::Index end = first + 1;
+    while (end < motion.size() && !motion.Begins(end)) ++end;
+    return end;
   }
 };
 
@@ -64,21 +70,24 @@ std::vector<LugrePoint> ScanBristle(
     const std::function<std::optional<Eigen::Vector4d>(double distance)>& steady);
 
 /// A point with its fall from static to coulomb replaced by others: vs at 16 values, even in ln vs
-/// over three decades up to the fastest sample, ks at 1.2 and 1.6 kc. Best first.
+/// over three decades up to the fastest sample, each with the levels, the slope and the inertia that
+/// suit it best: those of the point may have grown around a fall that is not there. Best first.
 std::vector<LugrePoint> ScanFall(const LugreProblem& problem, const LugrePoint& point,
                                  double fastest);
 
 struct LugreFit {
   LugrePoint solution;
-  Eigen::VectorXd residual;  // [n] tau - F - M a, over the deviations
-  Eigen::MatrixXd jacobian;  // [n x kLugreSize] of F + M a by x, over the deviations, exact
+  Eigen::VectorXd residual;   // [n] tau - F - M a, over the deviations
+  Eigen::MatrixXd jacobian;   // [n x kLugreSize] of F + M a by x, over the deviations, exact
+  std::vector<double> loads;  // [R] with which the recordings begin, N.m or N
   bool converged = false;
 };
 
 /// Minimises the sum of squares from a start by Levenberg-Marquardt.
 LugreFit RefineLugre(const LugreProblem& problem, const LugrePoint& start);
 
-/// F + M a at x over all samples of a problem. [N] N.m or N
-Eigen::VectorXd LugreTorque(const LugreProblem& problem, const LugrePoint& point);
+/// F + M a at x over all samples of a problem whose recordings begin with `loads`. [N] N.m or N
+Eigen::VectorXd LugreTorque(const LugreProblem& problem, const LugrePoint& point,
+                            const std::vector<double>& loads);
 
 }  // namespace warmjoint::inline identification

@@ -12,6 +12,8 @@
 #include <memory>
 #include <vector>
 
+#include "identification/nonlinear/quiet_ceres.h"
+
 namespace warmjoint::inline identification {
 
 /// Where a minimisation ended.
@@ -50,6 +52,7 @@ class FiniteCost final : public ceres::SizedCostFunction<ceres::DYNAMIC, P> {
 template <int P>
 CeresSolution<P> SolveByCeres(std::unique_ptr<ceres::CostFunction> cost,
                               const std::vector<int>& constant, double* x) {
+  QuietCeres();
   ceres::Problem problem;
   auto* finite = new FiniteCost<P>(std::move(cost));  // owned by problem
   problem.AddResidualBlock(finite, nullptr, x);

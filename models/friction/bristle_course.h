@@ -45,6 +45,12 @@ class BristleCourse {
     load_ = carried > limit ? limit : carried < -limit ? T(-limit) : carried;
   }
 
+  /// A recording begins at velocity v with a load s that is known, within the level or not.
+  void BeginLoaded(double v, const T& load) {
+    level_ = L::Level(Sign(v), std::abs(v), p_);
+    load_ = load;
+  }
+
   /// before, after: A on the piece's side at its begin and end, N.m or N.
   void Follow(const MotionPiece& piece, double before, double after) {
     using std::expm1;
@@ -89,25 +95,5 @@ class BristleCourse {
   T level_{0};  // g at the last sample or piece, N.m or N
   T load_{0};
 };
-
-/// F and s of a cold joint without maps at every sample of a motion. torque: [N] N.m or N, that
-/// tells how the bristle is bent at each start, or empty: in steady sliding. p: of the law's table;
-/// force, load: [N] N.m or N.
-template <typename L, typename T>
-void RunBristle(const MotionPieces& motion, const Eigen::VectorXd& torque, const T* p, T* force,
-                T* load) {
-  BristleCourse<L, T> course(p);
-  for (Eigen::Index i = 0; i < motion.size(); ++i) {
-    const double v = motion.velocity(i);
-    if (motion.Begins(i) && torque.size() > 0) {
-      course.BeginBent(v, 0, torque[i]);
-    } else if (motion.Begins(i)) {
-      course.BeginSliding(v, 0);
-    }
-    for (const MotionPiece& piece : motion.Before(i)) course.Follow(piece, 0, 0);
-    force[i] = course.Force(v, 0);
-    load[i] = course.load();
-  }
-}
 
 }  // namespace warmjoint::inline models

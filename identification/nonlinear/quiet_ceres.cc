@@ -1,0 +1,15 @@
+#include "identification/nonlinear/quiet_ceres.h"
+
+#include <glog/logging.h>
+
+#include <algorithm>
+
+namespace warmjoint::inline identification {
+
+void QuietCeres() {
+  // glog reads its level unguarded: set once, before the first fit of any thread
+  [[maybe_unused]] static const int level =
+      (FLAGS_minloglevel = std::max(FLAGS_minloglevel, google::GLOG_FATAL));
+}
+
+}  // namespace warmjoint::inline identification
