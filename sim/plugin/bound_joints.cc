@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <set>
 
@@ -17,9 +16,6 @@
 
 namespace warmjoint::inline sim {
 namespace {
-
-/// Of longer attributes the beginning and the end are compared at each step.
-constexpr size_t kCompared = 2048;  // bytes
 
 /// others: the other instances on each kinematic tree.
 BoundJoint BindJoint(const mjModel* m, int joint, const PreparedJoint& prepared,
@@ -92,8 +88,7 @@ class FrictionOfActuators {
 BoundJoints::BoundJoints(const mjModel* m, int instance, int states)
     : instance_(instance),
       model_(m),
-      text_(m->plugin_attr + m->plugin_attradr[instance]),
-      copy_(AttributeText(m, instance)),
+      text_(AttributeText(m, instance)),
       signature_(m->signature),
       passive_(!DrivenByActuators(m, instance)) {
   if (passive_) {
@@ -103,15 +98,6 @@ BoundJoints::BoundJoints(const mjModel* m, int instance, int states)
   }
   BindSensors(m);
   BindNumbers(m);
-}
-
-bool BoundJoints::SameText(const mjModel* m) const {
-  const std::string_view text = AttributeText(m, instance_);
-  if (text.size() != copy_.size() || m->signature != signature_) return false;
-  if (text.size() <= 2 * kCompared) return text == copy_;
-  const size_t tail = text.size() - kCompared;
-  return std::memcmp(text.data(), copy_.data(), kCompared) == 0 &&
-         std::memcmp(text.data() + tail, copy_.data() + tail, kCompared) == 0;
 }
 
 void BoundJoints::BindActuators(const mjModel* m) {

@@ -5,11 +5,11 @@
 
 #include <array>
 #include <optional>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "models/friction/joint_friction.h"
+#include "sim/plugin/attribute_watch.h"
+#include "sim/plugin/prepared_joints.h"
 
 namespace warmjoint::inline sim {
 
@@ -46,10 +46,9 @@ class BoundJoints {
   /// names actuator or joint, attribute, value and bound.
   BoundJoints(const mjModel* m, int instance, int states);
 
-  /// Whether these joints are those of the instance in that model. A model that was freed may have
-  /// left its place in memory to another one.
-  bool FitsModel(const mjModel* m) const {
-    return m == model_ && m->plugin_attr + m->plugin_attradr[instance_] == text_ && SameText(m);
+  /// Whether these joints are those of the instance in that model.
+  bool FitsModel(const mjModel* m) {
+    return m == model_ && m->signature == signature_ && text_.Same(AttributeText(m, instance_));
   }
 
   bool passive() const { return passive_; }
@@ -63,7 +62,6 @@ class BoundJoints {
   bool ReadNumbers(const mjModel* m);
 
  private:
-  bool SameText(const mjModel* m) const;
   void BindActuators(const mjModel* m);
   void BindPassive(const mjModel* m, int states);
   void BindSensors(const mjModel* m);
@@ -71,8 +69,7 @@ class BoundJoints {
 
   int instance_;
   const mjModel* model_;
-  const char* text_;    // where the model holds its attributes
-  std::string copy_;    // of them
+  AttributeWatch text_;
   uint64_t signature_;  // of the model
   bool passive_;
   std::vector<BoundJoint> joints_;

@@ -125,8 +125,7 @@ bool BristleTree::Slide(const mjData* d, Rows rows) {
     const int side = side_[i] = row[kStretch] < 0 ? -1 : 1;
     level_[i] = row[kFriction] = side * Ask(row, i, side);
   }
-  std::copy(level_.begin(), level_.end(), slip_.begin());
-  inertia_.Solve(d, slip_.data());
+  slow_.Solve(inertia_, d, level_.data(), slip_.data());
   bool all = true;
   for (const auto& [i, place] : joint_at_) {
     const Row row = rows.at(place);
@@ -136,12 +135,12 @@ bool BristleTree::Slide(const mjData* d, Rows rows) {
     row[kSliding] = v != 0;
     slip_[i] = slip;
   }
-  return all || SlideButFew(d, rows);
+  return all || SlideButFew(rows);
 }
 
 /// The same where some of the slow ones would slide against their side, and are held.
-bool BristleTree::SlideButFew(const mjData* d, Rows rows) {
-  if (slow_.Choose(inertia_, d, side_.data(), slip_.data()) == 0) return false;
+bool BristleTree::SlideButFew(Rows rows) {
+  if (slow_.Choose(side_.data(), slip_.data()) == 0) return false;
   for (int n = 0; n < slow_.count(); ++n) {
     const int k = slow_.held(n);
     Ask(rows.at(PlaceOf(static_cast<size_t>(k))), k, -side_[k]);

@@ -53,7 +53,7 @@ class BristleTree {
   void Multiply(const mjData* d, Rows rows);
   bool Hold(Rows rows);
   bool Slide(const mjData* d, Rows rows);
-  bool SlideButFew(const mjData* d, Rows rows);
+  bool SlideButFew(Rows rows);
   void Search(const mjData* d, Rows rows);
 
   struct At {

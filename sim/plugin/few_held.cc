@@ -4,44 +4,62 @@
 
 namespace warmjoint::inline sim {
 
-int FewHeld::Choose(const InertiaBlock& inertia, const mjData* d, const signed char* side,
-                    const double* slip) {
+void FewHeld::Solve(const InertiaBlock& inertia, const mjData* d, const double* level,
+                    double* bearing) {
+  const size_t size = solved_.size();
+  for (size_t i = 0; i < size; ++i) solved_[i] = {level[i], 0};
+  if (slow_count_ > 0) solved_[slow_[0]][1] = 1;
+  inertia.Solve(d, solved_.data());
+  for (size_t i = 0; i < size; ++i) bearing[i] = solved_[i][0];
+  if (slow_count_ < 2) return;
+  std::fill(other_.begin(), other_.end(), Two::Zero());
+  for (int n = 1; n < std::min(slow_count_, kMost); ++n) other_[slow_[n]][n - 1] = 1;
+  inertia.Solve(d, other_.data());
+}
+
+int FewHeld::Choose(const signed char* side, const double* slip) {
   count_ = 0;
   for (int n = 0; n < slow_count_; ++n) {
-    const int k = slow_[n];
-    if (side[k] * slip[k] < 0) held_[count_++] = k;
-  }
-  for (int n = 0; n < count_; ++n) {
-    std::vector<double>& column = column_[n];
-    std::fill(column.begin(), column.end(), 0.0);
-    column[held_[n]] = 1;
-    inertia.Solve(d, column.data());
+    if (side[slow_[n]] * slip[slow_[n]] < 0) held_[count_++] = n;
   }
   return count_;
 }
 
-bool FewHeld::Hold(Rows rows, const signed char* side, const double* level, double* slip) const {
-  double lack[kMost]{};
-  if (count_ == 1) {
-    const int k = held_[0];
-    lack[0] = -slip[k] / column_[0][k];
-  } else if (count_ == 2) {
-    const auto [j, k] = held_;
-    const double a = column_[0][j], b = column_[1][j], c = column_[1][k];
-    lack[0] = (b * slip[k] - c * slip[j]) / (a * c - b * b);
-    lack[1] = (b * slip[j] - a * slip[k]) / (a * c - b * b);
+std::array<double, FewHeld::kMost> FewHeld::Lack(const double* slip) const {
+  // the matrix of the held rows of their columns is positive definite, so that no pivot is 0
+  double matrix[kMost][kMost];
+  std::array<double, kMost> lack{};
+  for (int r = 0; r < count_; ++r) {
+    for (int c = 0; c < count_; ++c) matrix[r][c] = Column(held_[c], held(r));
+    lack[r] = -slip[held(r)];
   }
-  const size_t size = column_[0].size();
+  for (int p = 0; p < count_; ++p) {
+    for (int r = p + 1; r < count_; ++r) {
+      const double factor = matrix[r][p] / matrix[p][p];
+      for (int c = p + 1; c < count_; ++c) matrix[r][c] -= factor * matrix[p][c];
+      lack[r] -= factor * lack[p];
+    }
+  }
+  for (int p = count_ - 1; p >= 0; --p) {
+    for (int c = p + 1; c < count_; ++c) lack[p] -= matrix[p][c] * lack[c];
+    lack[p] /= matrix[p][p];
+  }
+  return lack;
+}
+
+bool FewHeld::Hold(Rows rows, const signed char* side, const double* level, double* slip) const {
+  const std::array<double, kMost> lack = Lack(slip);
+  const auto size = static_cast<int>(solved_.size());
   for (int n = 0; n < count_; ++n) {
-    const int k = held_[n];
+    const int k = held(n);
     const Row row = rows.at(PlaceOf(static_cast<size_t>(k)));
     const double force = row[kFriction] = level[k] - lack[n];
     if (!(force <= row[kUpper] && -force <= row[kLower])) return false;
-    for (size_t i = 0; i < size; ++i) slip[i] += column_[n][i] * lack[n];
+    for (int i = 0; i < size; ++i) slip[i] += Column(held_[n], i) * lack[n];
   }
-  for (int n = 0; n < count_; ++n) slip[held_[n]] = 0;
+  for (int n = 0; n < count_; ++n) slip[held(n)] = 0;
   bool right = true;
-  for (size_t i = 0; i < size; ++i) right = right && !(side[i] * slip[i] < 0);
+  for (int i = 0; i < size; ++i) right = right && !(side[i] * slip[i] < 0);
   return right;
 }
 

@@ -18,12 +18,10 @@ namespace warmjoint::inline sim {
 class FewHeld {
  public:
   /// So many may be held before a block of M is factorised instead.
-  static constexpr int kMost = 2;
+  static constexpr int kMost = 3;
 
   FewHeld() = default;
-  explicit FewHeld(size_t size) {
-    for (std::vector<double>& column : column_) column.assign(size, 0);
-  }
+  explicit FewHeld(size_t size) : solved_(size, Two::Zero()), other_(size, Two::Zero()) {}
 
   /// The joints that may have to be held; slow_count goes on counting beyond kMost.
   void Clear() { slow_count_ = 0; }
@@ -32,12 +30,13 @@ class FewHeld {
     ++slow_count_;
   }
   int slow_count() const { return slow_count_; }
-  int slow(int n) const { return slow_[n]; }
 
-  /// Holds those that would slide against their side. side: 1, -1, or 0 without friction; slip: of
-  /// all. Returns how many those are.
-  int Choose(const InertiaBlock& inertia, const mjData* d, const signed char* side,
-             const double* slip);
+  /// M^-1 level, and the columns of the slow ones. level: N.m or N, 0 without friction.
+  void Solve(const InertiaBlock& inertia, const mjData* d, const double* level, double* bearing);
+
+  /// Holds the slow ones that would slide against their side. side: 1, -1, or 0 without friction;
+  /// slip: of all. Returns how many those are.
+  int Choose(const signed char* side, const double* slip);
 
   /// Holds them: lets `slip` be what is left of it, and friction the held ones' forces. level: on
   /// the sides, N.m or N. False where a joint would slide against its side, or a force be out of
@@ -45,12 +44,18 @@ class FewHeld {
   bool Hold(Rows rows, const signed char* side, const double* level, double* slip) const;
 
   int count() const { return count_; }
-  int held(int n) const { return held_[n]; }
+  int held(int n) const { return slow_[held_[n]]; }
 
  private:
+  /// What the held forces lack to their levels.
+  std::array<double, kMost> Lack(const double* slip) const;
+
+  /// M^-1's column of a slow joint.
+  double Column(int n, int row) const { return n == 0 ? solved_[row][1] : other_[row][n - 1]; }
+
   int slow_count_ = 0, count_ = 0;
   std::array<int, kMost> slow_{}, held_{};
-  std::array<std::vector<double>, kMost> column_{};  // of M^-1
+  std::vector<Two> solved_, other_;  // {M^-1 level, column}, {column, column}
 };
 
 }  // namespace warmjoint::inline sim

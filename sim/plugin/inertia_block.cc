@@ -1,5 +1,10 @@
 #include "sim/plugin/inertia_block.h"
 
+#include <array>
+#include <utility>
+
+#include "sim/plugin/chain_products.h"
+
 namespace warmjoint::inline sim {
 
 InertiaBlock::InertiaBlock(const mjModel* m, int tree)
@@ -15,9 +20,26 @@ InertiaBlock::InertiaBlock(const mjModel* m, int tree)
   taken_ = column_;
   value_.resize(column_.size());
   inverse_.assign(others_.size(), 0);
+  chain_ = FindChain();
 }
 
-void InertiaBlock::Multiply(const mjData* d, const Eigen::Array2d* x, Eigen::Array2d* mx) const {
+/// Null where the tree branches, or is a long one.
+const InertiaBlock::Chain* InertiaBlock::FindChain() const {
+  constexpr int longest = 8;
+  static const auto chains = []<int... i>(std::integer_sequence<int, i...>) {
+    return std::array{Chain{&ChainProducts<i + 1>::Multiply, &ChainProducts<i + 1>::Solve}...};
+  }
+  (std::make_integer_sequence<int, longest>());
+
+  // then each row holds all those before it
+  for (int k = 0; k < size(); ++k) {
+    if (others_[k] != k) return nullptr;
+  }
+  return size() <= longest ? &chains[static_cast<size_t>(size() - 1)] : nullptr;
+}
+
+void InertiaBlock::MultiplyRows(const mjData* d, const Eigen::Array2d* x,
+                                Eigen::Array2d* mx) const {
   const double* inertia = d->M + address_;
   const int* column = column_.data();
   const int rows = size();
@@ -75,19 +97,6 @@ void InertiaBlock::Factorise(const mjData* d, const std::vector<char>& takes) {
       inverse_[i] -= factor * element;
       own[p] = factor;
     }
-  }
-}
-
-void InertiaBlock::SolveBy(const double* value, const double* inverse, const int* column,
-                           const int* length, double* x) const {
-  for (int k = size() - 1; k >= 0; --k) {
-    const double xk = x[k];
-    for (int j = row_[k]; j < row_[k] + length[k]; ++j) x[column[j]] -= value[j] * xk;
-  }
-  for (int k = 0; k < size(); ++k) {
-    double xk = x[k] * inverse[k];
-    for (int j = row_[k]; j < row_[k] + length[k]; ++j) xk -= value[j] * x[column[j]];
-    x[k] = xk;
   }
 }
 

@@ -20,18 +20,19 @@ JointRows::JointRows(const mjModel* m, const std::vector<BoundJoint>& joints) {
         {joint.dof, inertia, joint.instances, !joint.friction.level_follows_heat_alone()});
   }
   bristles_ = CoupledBristles(m, coupled);
-  size_t rows = bristles_.size(), states = 0;
+  size_t rows = bristles_.size();
+  int states = 0;
   joint_at_.assign(rows, 0);
   for (size_t i = 0; i < joints.size(); ++i) {
     const BoundJoint& joint = joints[i];
     const size_t row = is_coupled[i] ? bristles_.RowOf(joint.dof) : rows++;
-    const size_t own_states = joint.friction.state().size();
-    at_.push_back({PlaceOf(row), joint.dof, joint.state, own_states == 2});
+    at_.push_back({PlaceOf(row), joint.dof, joint.state, states});
     if (is_coupled[i]) joint_at_[row] = i;
     if (joint.friction.own_bristle()) alone_.push_back(i);
-    states += own_states;
+    states += static_cast<int>(joint.friction.state().size());
   }
-  next_.assign(states, 0);
+  next_.assign(static_cast<size_t>(states), 0);
+  FindTwos(joints);
   numbers_.assign(NumbersOf(rows), 0);
   for (const CoupledJoint& joint : coupled) {
     const size_t i = joint_at_[bristles_.RowOf(joint.dof)];
@@ -59,24 +60,49 @@ void JointRows::ReadNumbers(const std::vector<BoundJoint>& joints, double h) {
       h, [&](int dof) { return joints[joint_at_[bristles_.RowOf(dof)]].friction.SteepestSlope(); });
 }
 
+/// Joints that are neighbours, and have the same two states, are loaded and stored together.
+void JointRows::FindTwos(const std::vector<BoundJoint>& joints) {
+  const auto plain = [&](size_t i) { return joints[i].friction.state().size() == 2; };
+  for (size_t i = 0; i < joints.size(); ++i) {
+    const bool first = at_[i].place % (2 * kColumns) == 0;
+    const bool two = first && i + 1 < joints.size() && at_[i + 1].place == at_[i].place + 1;
+    if (two && plain(i) && plain(i + 1)) {
+      twos_.push_back({at_[i], at_[i + 1]});
+      ++i;
+    } else {
+      ones_.push_back(i);
+    }
+  }
+}
+
 void JointRows::Load(const mjData* d, const std::vector<BoundJoint>& joints, const mjtNum* states) {
   d_ = d;
   joints_ = joints.data();
   states_ = states;
-  for (const At& at : at_) {
-    const Row row{numbers_.data() + at.place};
-    const mjtNum* state = states + at.state;
-    row[kSpeed] = d->qvel[at.dof];
-    row[kLoad] = state[0];
-    row[kFirst] = state[1];
-    const double sum = state[0] + state[1];
-    if (at.plain && sum - sum == 0) [[likely]]
-      continue;
-    const FrictionState whole = joints[&at - at_.data()].friction.Load(state);
-    row[kLoad] = whole.bristle;
-    row[kFirst] = whole.energy;
-    row[kSecond] = whole.second_energy;
+  Two finite = Two::Zero();
+  for (const auto& [a, b] : twos_) {
+    const RowPair row{numbers_.data() + a.place};
+    const mjtNum *one = states + a.state, *other = states + b.state;
+    const Two load{one[0], other[0]}, first{one[1], other[1]}, sum = load + first;
+    row[kSpeed] = Two{d->qvel[a.dof], d->qvel[b.dof]};
+    row[kLoad] = load;
+    row[kFirst] = first;
+    finite += sum - sum;
   }
+  for (const size_t i : ones_) LoadOne(i);
+
+  // a sum is finite only where all of its terms are
+  if (finite[0] == 0 && finite[1] == 0) [[likely]]
+    return;
+  for (size_t i = 0; i < at_.size(); ++i) LoadOne(i);
+}
+
+void JointRows::LoadOne(size_t i) {
+  const FrictionState state = joints_[i].friction.Load(states_ + at_[i].state);
+  Of(i, kSpeed) = d_->qvel[at_[i].dof];
+  Of(i, kLoad) = state.bristle;
+  Of(i, kFirst) = state.energy;
+  Of(i, kSecond) = state.second_energy;
 }
 
 void JointRows::Step(const mjModel* m, const mjtNum* load) {
@@ -165,24 +191,27 @@ void JointRows::TakeDeficit(size_t i) {
 
 /// Stores the states of all joints.
 void JointRows::Store() {
-  double* next = next_.data();
-  for (const At& at : at_) {
-    const Row row{numbers_.data() + at.place};
+  for (size_t i = 0; i < at_.size(); ++i) {
+    const Row row{numbers_.data() + at_[i].place};
     if (row[kFriction] == 0 && row[kSpeed] != 0) [[unlikely]]
-      TakeDeficit(static_cast<size_t>(&at - at_.data()));
-    next[0] = row[kLoad];
-    next[1] = row[kNextFirst];
-    const double sum = row[kForce] + next[0] + next[1];
-    if (at.plain && sum - sum == 0) [[likely]] {
-      next += 2;
-    } else {
-      next += StoreWhole(static_cast<size_t>(&at - at_.data()), next);
-    }
+      TakeDeficit(i);
   }
+  double* const next = next_.data();
+  Two finite = Two::Zero();
+  for (const auto& [a, b] : twos_) {
+    const RowPair row{numbers_.data() + a.place};
+    const Two load = row[kLoad], first = row[kNextFirst], sum = row[kForce] + load + first;
+    Two::Map(next + a.next) = Two{load[0], first[0]};
+    Two::Map(next + b.next) = Two{load[1], first[1]};
+    finite += sum - sum;
+  }
+  for (const size_t i : ones_) StoreOne(i);
+  if (finite[0] == 0 && finite[1] == 0) [[likely]]
+    return;
+  for (size_t i = 0; i < at_.size(); ++i) StoreOne(i);
 }
 
-/// Returns how many numbers there were.
-size_t JointRows::StoreWhole(size_t i, double* next) {
+void JointRows::StoreOne(size_t i) {
   const double v = Of(i, kSpeed);
   FrictionState state{Of(i, kLoad), Of(i, kNextFirst), Of(i, kNextSecond),
                       Of(i, kSliding) != 0 ? static_cast<double>(Sign(v)) : 0.0};
@@ -194,8 +223,7 @@ size_t JointRows::StoreWhole(size_t i, double* next) {
     force = 0;
     state = StateOf(i);
   }
-  joints_[i].friction.Store(state, next);
-  return joints_[i].friction.state().size();
+  joints_[i].friction.Store(state, next_.data() + at_[i].next);
 }
 
 }  // namespace warmjoint::inline sim

@@ -64,22 +64,26 @@ class JointRows : private LevelSource {
   void StepAlone(const mjModel* m);
   void Take(size_t joint, const FrictionStep& step);
   void TakeDeficit(size_t joint);
+  void FindTwos(const std::vector<BoundJoint>& joints);
+  void LoadOne(size_t joint);
   void Store();
-  size_t StoreWhole(size_t joint, double* next);
+  void StoreOne(size_t joint);
 
   /// Where a joint's numbers are.
   struct At {
     size_t place;  // in numbers_
     int dof;
-    int state;   // in act or plugin_state
-    bool plain;  // whether it has two states
+    int state;  // in act or plugin_state
+    int next;   // in next_
   };
 
   CoupledBristles bristles_;
   RowNumbers numbers_;
-  std::vector<At> at_;            // of each joint
-  std::vector<size_t> alone_;     // joints with a bristle of their own
-  std::vector<size_t> joint_at_;  // of each row
+  std::vector<At> at_;                   // of each joint
+  std::vector<std::array<At, 2>> twos_;  // joints that are one pair of rows, with two states each
+  std::vector<size_t> ones_;             // the others
+  std::vector<size_t> alone_;            // joints with a bristle of their own
+  std::vector<size_t> joint_at_;         // of each row
 
   // of one step
   const mjData* d_ = nullptr;

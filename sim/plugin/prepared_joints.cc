@@ -4,6 +4,8 @@
 #include <mutex>
 #include <unordered_map>
 
+#include "sim/plugin/attribute_watch.h"
+
 namespace warmjoint::inline sim {
 namespace {
 
@@ -45,15 +47,9 @@ Shelf& TheShelf() {
 
 }  // namespace
 
-std::string_view AttributeText(const mjModel* m, int instance) {
-  const bool last = instance + 1 == m->nplugin;
-  const auto begin = static_cast<size_t>(m->plugin_attradr[instance]);
-  const auto end = static_cast<size_t>(last ? m->npluginattr : m->plugin_attradr[instance + 1]);
-  return {m->plugin_attr + begin, end - begin};
-}
-
 std::shared_ptr<const PreparedInstance> PrepareInstance(const mjModel* m, int instance,
                                                         const Place& place) {
+  AttributeWatch::Prepared();
   const auto read = [&](const std::string& name) -> std::string {
     const char* text = mj_getPluginConfig(m, instance, name.c_str());
     return text ? text : "";

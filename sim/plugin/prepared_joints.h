@@ -29,7 +29,12 @@ struct PreparedInstance {
 
 /// The values of all the instance's attributes, as the model holds them: one after the other, each
 /// ended by a 0.
-std::string_view AttributeText(const mjModel* m, int instance);
+inline std::string_view AttributeText(const mjModel* m, int instance) {
+  const bool last = instance + 1 == m->nplugin;
+  const auto begin = static_cast<size_t>(m->plugin_attradr[instance]);
+  const auto end = static_cast<size_t>(last ? m->npluginattr : m->plugin_attradr[instance + 1]);
+  return {m->plugin_attr + begin, end - begin};
+}
 
 /// The instance's attributes, read and checked, and its maps surveyed. Instances with the same
 /// attributes share one, so that copies of data and lists of models parse once; a friction file

@@ -7,6 +7,7 @@
 // "sliding" is under a drive that keeps all joints in motion, "held" at rest under gravity.
 // Each round runs all variants in turn; the ratio is the median over rounds of the thread's time to that
 // of the arm without friction in the same round, so that a busy machine disturbs both alike.
+// "idle plugin" is one that does nothing: what the engine itself charges for a plugin in that form.
 #include <fmt/format.h>
 #include <time.h>
 
@@ -132,6 +133,46 @@ Change WithFriction(const FrictionDescription& friction, FrictionForm form) {
   };
 }
 
+/// An instance of a plugin that does nothing, with as many states as six joints have.
+mjsPlugin* AddIdlePlugin(mjSpec& spec) {
+  constexpr char name[] = "warmjoint.idle";
+  static const int slot = [] {
+    mjpPlugin plugin;
+    mjp_defaultPlugin(&plugin);
+    plugin.name = name;
+    plugin.capabilityflags = mjPLUGIN_ACTUATOR | mjPLUGIN_PASSIVE | mjPLUGIN_SENSOR;
+    plugin.needstage = mjSTAGE_POS;
+    plugin.nstate = [](const mjModel*, int) { return 15; };
+    plugin.nsensordata = [](const mjModel*, int, int) { return 0; };
+    plugin.actuator_act_dot = [](const mjModel*, mjData*, int) {};
+    plugin.compute = [](const mjModel*, mjData*, int, int) {};
+    plugin.advance = [](const mjModel*, mjData*, int) {};
+    return mjp_registerPlugin(&plugin);
+  }();
+  static_cast<void>(slot);
+  mjs_activatePlugin(&spec, name);
+  mjsPlugin* instance = mjs_addPlugin(&spec);
+  instance->active = 1;
+  mjs_setString(instance->plugin_name, name);
+  mjs_setName(instance->element, "idle");
+  mjs_setString(instance->name, "idle");
+  return instance;
+}
+
+void WithIdlePassive(mjSpec& spec, const std::vector<std::string>&) { AddIdlePlugin(spec); }
+
+void WithIdleActuators(mjSpec& spec, const std::vector<std::string>& joints) {
+  const mjsPlugin* instance = AddIdlePlugin(spec);
+  for (const std::string& joint : joints) {
+    mjsActuator* actuator = AddActuator(spec, joint);
+    actuator->actdim = 2;
+    actuator->plugin.active = 1;
+    actuator->plugin.element = instance->element;
+    mjs_setString(actuator->plugin.plugin_name, mjs_getString(instance->plugin_name));
+    mjs_setString(actuator->plugin.name, "idle");
+  }
+}
+
 void WithMotors(mjSpec& spec, const std::vector<std::string>& joints) {
   for (const std::string& joint : joints) mjs_setToMotor(AddActuator(spec, joint));
 }
@@ -202,8 +243,10 @@ std::vector<Variant> MakeVariants(Arm arm, mjtIntegrator integrator, int noslip)
   add("six more motors", WithMotors);
   add("frictionloss", WithFrictionLoss(LevelOf(arm)));
   add("dcmotor LuGre", WithDcMotors(LevelOf(arm)));
+  add("idle plugin, passive", WithIdlePassive);
   add("passive, simple", WithFriction(Simple(arm), FrictionForm::passive));
   add("passive, full", WithFriction(Full(arm), FrictionForm::passive));
+  add("idle plugin, six actuators of two states", WithIdleActuators);
   add("actuator, simple", WithFriction(Simple(arm), FrictionForm::actuator));
   add("actuator, full", WithFriction(Full(arm), FrictionForm::actuator));
   return variants;

@@ -1,6 +1,7 @@
 // Bristles that the inertia matrix couples, against all ways to hold and slide, and their energy.
 #include "sim/plugin/coupled_bristles.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -41,6 +42,19 @@ constexpr char kTree[] = R"(
   </worldbody>
 </mujoco>)";
 constexpr int kJoints = 4;
+
+/// A chain of so many hinges without branches.
+std::string ChainXml(int joints) {
+  std::string bodies, ends;
+  const char* axes[] = {"0 0 1", "0 1 0", "1 0 0"};
+  for (int i = 0; i < joints; ++i) {
+    bodies += fmt::format(
+        R"(<body pos=".2 0 0"><joint axis="{}"/><geom type="capsule" fromto="0 0 0 .2 0 .05" size=".03"/>)",
+        axes[i % 3]);
+    ends += "</body>";
+  }
+  return "<mujoco><worldbody>" + bodies + ends + "</worldbody></mujoco>";
+}
 
 MatrixXd InertiaOf(const mjModel* m, const mjData* d) {
   MatrixXd inertia(m->nv, m->nv);
@@ -196,6 +210,34 @@ TEST_F(CoupledBristlesOfATree, ProjectExactlyHoweverManySlide) {
     ++slid[sliding];
   }
   for (const int count : slid) EXPECT_GT(count, 20);
+}
+
+TEST(InertiaBlock, MultipliesAndSolvesChainsOfAnyLength) {
+  // chains of up to eight have products of their own
+  RandomStream random({6, 0}, Stream::test);
+  for (int n = 1; n <= 10; ++n) {
+    const Model m = MustCompile(ChainXml(n));
+    const Data d(mj_makeData(m.get()));
+    for (int i = 0; i < n; ++i) d->qpos[i] = random.Uniform(-3, 3);
+    mj_forward(m.get(), d.get());
+    const MatrixXd inertia = InertiaOf(m.get(), d.get());
+    const InertiaBlock block(m.get(), 0);
+    Eigen::MatrixX2d x(n, 2);
+    std::vector<Eigen::Array2d> pairs(n), products(n);
+    for (int i = 0; i < n; ++i) {
+      x.row(i) << random.Normal(), random.Normal();
+      pairs[i] = x.row(i).transpose();
+    }
+    block.Multiply(d.get(), pairs.data(), products.data());
+    block.Solve(d.get(), pairs.data());
+    const Eigen::MatrixX2d multiplied = inertia * x, solved = inertia.ldlt().solve(x);
+    for (int i = 0; i < n; ++i) {
+      for (int k = 0; k < 2; ++k) {
+        EXPECT_NEAR(products[i][k], multiplied(i, k), 1e-13 * multiplied.norm()) << n;
+        EXPECT_NEAR(pairs[i][k], solved(i, k), 1e-10 * solved.norm()) << n;
+      }
+    }
+  }
 }
 
 TEST_F(CoupledBristlesOfATree, NeverGiveEnergyForAnyMotionAndLevels) {

@@ -73,16 +73,34 @@ TEST(PluginModels, AModelAtTheSamePlaceInMemoryIsAnotherOne) {
   EXPECT_EQ(SpeedIn(m, d.get()), SpeedIn(other, fresh.get()));
 }
 
-TEST(PluginModels, DataOfAMappedArmParsesOnce) {
-  // parsing and surveying takes some milliseconds; a hundred data would take half a second of it
+/// With a map whose weights, all but one, are of this many N.m.
+FrictionDescription Mapped(double weight, double other) {
   FrictionDescription friction = FrictionsOfEveryLaw()[2];
   FrictionMap map{{{MapQuantity::motor_position, CircleAxis(6.283185307179586, 36)},
                    {MapQuantity::velocity, SpeedAxis(0.2, 2, 3)}},
                   KernelKind::normalised,
-                  std::vector<double>(36 * 6, 0.01),
+                  std::vector<double>(36 * 6, weight),
                   MapFactor::direction};
+  map.weights[100] = other;
   friction.maps = {map};
-  const Model m = MustCompile(ArmXml(friction, Form::passive, "implicitfast"));
+  return friction;
+}
+
+TEST(PluginModels, AMappedModelAtTheSamePlaceInMemoryIsAnotherOneWhereverItDiffers) {
+  const Model m = MustCompile(ArmXml(Mapped(0.01, 0.01), Form::passive, "implicitfast"));
+  const Data d(mj_makeData(m.get()));
+  SpeedIn(m, d.get());
+  const Model other = MustCompile(ArmXml(Mapped(0.01, 0.31), Form::passive, "implicitfast"));
+  ASSERT_EQ(m->npluginattr, other->npluginattr);
+  std::copy_n(other->plugin_attr, m->npluginattr, m->plugin_attr);
+  const Data fresh(mj_makeData(other.get()));
+  // one number amidst thousands
+  EXPECT_EQ(SpeedIn(m, d.get()), SpeedIn(other, fresh.get()));
+}
+
+TEST(PluginModels, DataOfAMappedArmParsesOnce) {
+  // parsing and surveying takes some milliseconds; a hundred data would take half a second of it
+  const Model m = MustCompile(ArmXml(Mapped(0.01, 0.01), Form::passive, "implicitfast"));
   const auto first = PrepareInstance(m.get(), 0, {"test"});
   EXPECT_EQ(PrepareInstance(m.get(), 0, {"test"}), first);
 }

@@ -1,0 +1,51 @@
+// Whether a text is the one that was bound.
+#include "sim/plugin/attribute_watch.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace warmjoint {
+namespace {
+
+TEST(AttributeWatch, TellsAnyDifferenceOfAShortText) {
+  std::string text(2000, 'a');
+  AttributeWatch watch(text);
+  EXPECT_TRUE(watch.Same(text));
+  for (size_t i = 0; i < text.size(); i += 7) {
+    text[i] = 'b';
+    EXPECT_FALSE(watch.Same(text)) << i;
+    text[i] = 'a';
+    EXPECT_TRUE(watch.Same(text)) << i;
+  }
+  EXPECT_FALSE(watch.Same(text + "a"));
+}
+
+TEST(AttributeWatch, TellsAnyDifferenceOfALongTextThatWasPrepared) {
+  std::string text(30000, 'a');
+  AttributeWatch watch(text);
+  for (size_t i = 0; i < text.size(); i += 131) {
+    text[i] = 'b';
+    AttributeWatch::Prepared();
+    EXPECT_FALSE(watch.Same(text)) << i;
+    text[i] = 'a';
+    AttributeWatch::Prepared();
+    EXPECT_TRUE(watch.Same(text)) << i;
+  }
+}
+
+TEST(AttributeWatch, TellsADifferentLongTextThatNothingAnnounced) {
+  std::string text(30000, 'a');
+  AttributeWatch watch(text);
+  EXPECT_TRUE(watch.Same(text));
+  // both ends, and every stretch that is longer than what is between two blocks
+  for (const size_t begin : {size_t{0}, size_t{9000}, text.size() - 2100}) {
+    std::string other = text;
+    other.replace(begin, 2100, 2100, 'b');
+    EXPECT_FALSE(watch.Same(other)) << begin;
+  }
+  EXPECT_TRUE(watch.Same(text));
+}
+
+}  // namespace
+}  // namespace warmjoint
