@@ -101,10 +101,12 @@ std::pair<bool, std::string> Arrival(const std::vector<DescentState>& states,
                               "are within {:.2g} % of where they go",
                               iterations, distance.rate, 100 * distance.remaining)};
   }
-  return {false, fmt::format("stopped after {} iterations while the parameters still move: at the "
-                             "observed rate of {:.4f} an iteration they end up to {:.2g} % from "
-                             "here (tolerance {:.2g} %); give more iterations, or use energy-ml",
-                             iterations, distance.rate, 100 * distance.remaining, 100 * tolerance)};
+  return {
+      false,
+      fmt::format("stopped after {} iterations while the parameters still move: at the "
+                  "observed rate of {:.4f} an iteration they end up to {:.2g} % from "
+                  "here (tolerance {:.2g} %); give more iterations, or try --identifier energy-ml",
+                  iterations, distance.rate, 100 * distance.remaining, 100 * tolerance)};
 }
 
 /// (J^T J + s P)^-1 of both blocks together; nothing where the motion cannot tell them apart.

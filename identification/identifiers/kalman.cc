@@ -35,7 +35,7 @@ void JudgePasses(const std::vector<KalmanPass>& passes, Fit& fit) {
   if ((moved.head(p).cwiseAbs().array() <= deviation).all()) return;
   fit.voided = {Status::not_converged,
                 "the last pass still moved parameters by more than their standard deviation; give "
-                "more passes, or use energy-ml"};
+                "more passes, or try --identifier energy-ml"};
 }
 
 /// Law and warming where the last pass ended.
@@ -130,8 +130,9 @@ Fit FitOnline(const IdentifierInput& input) {
   const Law& law = *FindLaw(input.options.Text("law"));
   const auto d = static_cast<int>(law.parameters.size());
   if (!m.starts.empty()) {
-    return Refused(kName, Status::bad_data,
-                   "kalman follows one recording; give one, or use energy-ml for several");
+    return Refused(
+        kName, Status::bad_data,
+        "kalman follows one recording; give one, or try --identifier energy-ml for several");
   }
   if (auto why = Unusable(input, d + 2)) return Refused(kName, Status::bad_data, *why);
 

@@ -155,7 +155,8 @@ void JudgeTurns(const Measurements& m, const NoiseOfGroups& noise, Fit& fit) {
       Status::inadequate_model,
       fmt::format(
           "around reversals the residual is {:.3g} {} rms, at constant speeds {:.3g}: the law "
-          "misses what happens there; accelerate more slowly, log faster, or use the law stribeck",
+          "misses what happens there; accelerate more slowly, log faster, or try --identifier "
+          "stribeck",
           noise.others, m.torque_unit, noise.kept)};
 }
 

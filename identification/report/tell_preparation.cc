@@ -25,9 +25,8 @@ std::string_view SlopeOf(const Estimate& estimate) {
   if (estimate.Find("viscous")) return "viscous";
   if (!estimate.friction) return "";
   for (const FrictionMap& map : estimate.friction->maps) {
-    for (const MapAxis& axis : map.axes) {
-      if (axis.quantity == MapQuantity::velocity) return "slopes over speed";
-    }
+    if (FindAxis(map, MapQuantity::velocity)) return "slopes over speed";
+    if (map.factor == MapFactor::velocity) return "slopes over speed";
   }
   return "";
 }
@@ -36,7 +35,12 @@ std::string_view SlopeOf(const Estimate& estimate) {
 
 void TellVelocity(const VelocityNoise& taken, JointKind joint, Estimate& estimate) {
   const std::string_view slope = SlopeOf(estimate);
-  if (slope.empty()) return;
+  if (slope.empty()) {
+    estimate.message +=
+        fmt::format("; velocity averaged over each segment, for its noise of {:.2g} {}",
+                    taken.noise, kVelocityUnit.For(joint));
+    return;
+  }
   const EstimatedParameter* viscous = estimate.Find("viscous");
   estimate.message += fmt::format(
       "; velocity averaged over each segment, since its noise of {:.2g} {} would change {} by "

@@ -29,7 +29,9 @@ std::optional<std::string> UnseenWarming(double explained, const WarmingContext&
   if (explained > kVisibleWarming) return std::nullopt;
   return fmt::format(
       "no warm-up can be seen{}: thermal_gain and thermal_time_constant explain {:.3g} times the "
-      "noise variance, below {:.3g}; record from cold until friction settles, or use {}",
+      "noise variance, below {:.3g}; {} fits without warming, and a drift that it shows here is "
+      "not "
+      "of the losses; to see a warm-up, record from cold until friction settles",
       context.beside, std::max(explained, 0.0), kVisibleWarming, context.instead);
 }
 
