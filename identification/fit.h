@@ -19,7 +19,7 @@ namespace warmjoint::inline identification {
 class IdentifierInput;
 
 /// What a parameter is part of.
-enum class Role { law, heat, start, jump, gravity, inertia };
+enum class Role { law, heat, start, jump, gravity, inertia, lag };
 
 /// The coordinate x in which a fit works, and the one whose errors are about normal: the value for
 /// both, the logarithm of a positive value for both, or x the value and its logarithm normal.
@@ -42,7 +42,7 @@ struct FitParameter {
 struct ErrorModel {
   Eigen::MatrixXd cofactor;  // [p x p] C, the inverse of what the fit solved
   Eigen::VectorXd prior;     // [p] what is known beforehand (JudgeUncertainty); or empty
-  Eigen::VectorXd scores;    // [n] in place of the residual, of a robust loss; or empty
+  Eigen::VectorXd scores;    // [n] in place of the residual, of a robust loss or a lag; or empty
   Eigen::VectorXd weights;   // [n] of the samples in the fit; or empty: 1
   /// Of the rows that the fit solved, and with which C is; or none.
   std::shared_ptr<const Whitening> whitening;
@@ -57,6 +57,12 @@ struct Iterate {
   double rmse = 0;             // over the kept samples, N.m or N
   /// E at this moment, N.m or N, of a filter whose iterations are the samples that it has seen.
   std::optional<double> energy{};
+};
+
+/// A first-order lag of the torque's way into the log.
+struct TorqueLag {
+  double time_constant = 0;  // s
+  Eigen::VectorXd adds;      // [N] to F + G at the kept samples, N.m or N; 0 elsewhere
 };
 
 /// Why there is no fit to trust.
@@ -80,7 +86,8 @@ struct Fit {
   std::optional<double> inertia;  // torque over acceleration, kg.m^2 or kg
   /// [N] M a where the fit made its own a of the velocities, N.m or N; else empty.
   Eigen::VectorXd inertia_torque;
-  double initial_energy = 0;  // E(0), N.m or N
+  std::optional<TorqueLag> torque_lag;  // where the log showed one and it was fitted
+  double initial_energy = 0;            // E(0), N.m or N
   /// Friction with which each recording begins, [R] N.m or N, where it bends a bristle and was
   /// estimated; else empty.
   std::vector<double> first_friction;
@@ -90,7 +97,7 @@ struct Fit {
   // what it was fitted to, and how well
   Selection used;
   Eigen::VectorXd torque;  // [n] measured, N.m or N
-  Eigen::VectorXd fitted;  // [n] F + G + M a, N.m or N
+  Eigen::VectorXd fitted;  // [n] F + G + M a, behind the lag where there is one, N.m or N
   /// d(F + G + M a)/dx over all samples, [N x p], exact; of a fit whose errors.known is not set.
   std::function<Eigen::MatrixXd()> jacobian;
   ErrorModel errors;

@@ -10,6 +10,14 @@ namespace {
 constexpr ParameterInfo kInertiaInfo{"inertia", "M", {"N.m.s^2/rad", "N.s^2/m"}, 0,
                                      kInfinity, 0,   "torque over acceleration"};
 
+constexpr ParameterInfo kTorqueLagInfo{"torque_lag",
+                                       "T",
+                                       {"s", "s"},
+                                       kSmallestPositive,
+                                       kInfinity,
+                                       0,
+                                       "time constant of the torque's lag"};
+
 }  // namespace
 
 FitParameter TableParameter(const ParameterInfo& info, Role role, double value,
@@ -73,6 +81,12 @@ std::vector<FitParameter> GravityParameters(GravityKind kind, const Eigen::Vecto
 
 FitParameter InertiaParameter(double value, const Measurements& measurements) {
   return TableParameter(kInertiaInfo, Role::inertia, value, measurements);
+}
+
+FitParameter TorqueLagParameter(double time_constant, const Measurements& measurements) {
+  FitParameter row = TableParameter(kTorqueLagInfo, Role::lag, time_constant, measurements);
+  row.coordinate = Coordinate::logarithm;
+  return row;
 }
 
 void Append(const std::vector<FitParameter>& rows, Fit& fit) {

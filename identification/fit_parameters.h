@@ -35,6 +35,9 @@ std::vector<FitParameter> GravityParameters(GravityKind kind, const Eigen::Vecto
 /// inertia, M of Eq. (5).
 FitParameter InertiaParameter(double value, const Measurements& measurements);
 
+/// torque_lag: T of a first-order lag, s, by its logarithm.
+FitParameter TorqueLagParameter(double time_constant, const Measurements& measurements);
+
 /// Puts rows behind those of the fit's table.
 void Append(const std::vector<FitParameter>& rows, Fit& fit);
 

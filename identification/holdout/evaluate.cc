@@ -10,13 +10,15 @@ std::optional<Metrics> Evaluate(const Fit& fit, const Measurements& measurements
                                 const CourseStart& start) {
   if (!Infer(fit).gives_friction) return std::nullopt;
   const FrictionDescription& friction = fit.friction;
-  const TorquePrediction predicted =
-      PredictTorque({friction, fit.gravity, fit.inertia}, measurements, std::move(test), start);
+  TorqueModel model{friction, fit.gravity, fit.inertia};
+  if (fit.torque_lag) model.lag = fit.torque_lag->time_constant;
+  const TorquePrediction predicted = PredictTorque(model, measurements, std::move(test), start);
   if (predicted.known.count() == 0) return std::nullopt;
   auto parameters = friction.parameters.size() + (friction.thermal ? 2 : 0);
   for (const FrictionMap& map : friction.maps) parameters += map.weights.size();
   if (fit.gravity) parameters += fit.gravity->values.size();
   if (fit.inertia) ++parameters;
+  if (fit.torque_lag) ++parameters;
   return ComputeMetrics(Kept(measurements.torque, predicted.known),
                         Kept(predicted.torque, predicted.known), static_cast<int>(parameters),
                         fit.effective_parameters);

@@ -1,5 +1,6 @@
 #include "identification/holdout/predict_torque.h"
 
+#include "models/foundation/low_pass.h"
 #include "models/recording/course_of.h"
 
 namespace warmjoint::inline identification {
@@ -9,14 +10,16 @@ TorquePrediction PredictTorque(const TorqueModel& model, const Measurements& m, 
   TorquePrediction predicted{{}, std::move(asked), PredictFriction(model.friction, m, start)};
   predicted.torque = predicted.friction.force;
   if (model.inertia && m.acceleration) predicted.torque += *model.inertia * *m.acceleration;
-  if (!model.gravity) return predicted;
 
   // gravity where it is known
-  predicted.torque += model.gravity->Torque(m.position);
-  for (Eigen::Index i = 0; i < m.size(); ++i) {
-    bool& keep = predicted.known.keep[i];
-    keep = keep && model.gravity->Covers(m.position[i]);
+  if (model.gravity) {
+    predicted.torque += model.gravity->Torque(m.position);
+    for (Eigen::Index i = 0; i < m.size(); ++i) {
+      bool& keep = predicted.known.keep[i];
+      keep = keep && model.gravity->Covers(m.position[i]);
+    }
   }
+  if (model.lag) predicted.torque = LowPass(m.time, predicted.torque, *model.lag);
   return predicted;
 }
 

@@ -16,10 +16,11 @@ struct TorqueModel {
   FrictionDescription friction;
   std::optional<GravityModel> gravity;
   std::optional<double> inertia;  // kg.m^2 or kg
+  std::optional<double> lag{};    // s, of the torque's way into the log, first order
 };
 
 struct TorquePrediction {
-  Eigen::VectorXd torque;  // [N] N.m or N
+  Eigen::VectorXd torque;  // [N] as the log would hold it, N.m or N
   Selection known;         // of the samples asked for, those where the model knows its gravity
   Prediction friction;
 };

@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
 
 #include "identification/fit_data.h"
 #include "identification/holdout/blocked_hold_out.h"
 #include "identification/holdout/structure_choice.h"
+#include "identification/identifiers/lag_of_log.h"
 #include "identification/identifiers/structures.h"
 #include "identification/inference/inference.h"
 #include "identification/linear/rigid_part.h"
@@ -49,9 +52,13 @@ Trial Try(const Structure& structure, const IdentifierInput& input) {
 /// Everything that is tried on one log.
 class Tournament {
  public:
-  /// quick: the rows on which structures are compared.
-  explicit Tournament(const IdentifierInput& quick)
-      : quick_(quick), rows_(static_cast<double>(quick.selection.count())) {}
+  /// On rows that hold the means of neighbouring samples. selection: of the samples that take part.
+  Tournament(const IdentifierInput& input, const Selection& selection)
+      : view_(Condense({input.measurements, selection}, kRows)),
+        quick_(input.On(view_)),
+        rows_(static_cast<double>(quick_.selection.count())) {}
+  Tournament(const Tournament&) = delete;
+  Tournament& operator=(const Tournament&) = delete;
 
   void Add(const std::vector<Structure>& structures) {
     for (const Structure& structure : structures) {
@@ -131,14 +138,15 @@ class Tournament {
     return "";
   }
 
-  const IdentifierInput& quick_;
+  const LogView view_;
+  const IdentifierInput quick_;
   double rows_;
   std::vector<Trial> trials_;
   std::vector<const Trial*> standing_;
 };
 
-/// Laws with and without warming, then gravity beside the best of them, then what bends or ripples.
-void TryAll(const IdentifierInput& input, Tournament& tournament) {
+/// Laws with and without warming, then gravity beside the best of them.
+void TryLinear(const IdentifierInput& input, Tournament& tournament) {
   const std::vector<std::string> kinds = GravityKinds(input);
   for (const std::string& gravity : kinds) {
     if (gravity != "paired" || kinds.size() == 1) tournament.Add(LinearStructures(gravity));
@@ -148,9 +156,51 @@ void TryAll(const IdentifierInput& input, Tournament& tournament) {
       tournament.Add({best->With("gravity", "paired")});
     }
   }
+}
+
+/// What bends or ripples, with the gravity of the best linear one.
+void TryCurved(const IdentifierInput& input, Tournament& tournament) {
   const Structure* best = tournament.Best();
-  const std::string gravity = best ? best->Given("gravity", "none") : kinds.front();
+  const std::string gravity = best ? best->Given("gravity", "none") : GravityKinds(input).front();
   tournament.Add(CurvedStructures(input, gravity));
+}
+
+/// Everything, on samples behind whose lag the torque has settled, if the best linear structure finds
+/// one.
+struct Trials {
+  std::unique_ptr<Tournament> tournament;
+  std::optional<double> lag;  // s
+};
+
+Trials TryAll(const IdentifierInput& input) {
+  Trials trials;
+  trials.tournament = std::make_unique<Tournament>(input, input.selection);
+  TryLinear(input, *trials.tournament);
+  if (const Structure* best = trials.tournament->Best()) {
+    input.Tell("looking for a lag of the torque");
+    trials.lag = LagOf(*best, input);
+  }
+  if (trials.lag) {
+    trials.tournament = std::make_unique<Tournament>(
+        input, Settled(input.measurements, input.selection, *trials.lag));
+    TryLinear(input, *trials.tournament);
+  }
+  TryCurved(input, *trials.tournament);
+  return trials;
+}
+
+/// The chosen structure on every sample: behind the lag where it can estimate one, else on samples
+/// where the torque has settled.
+Fit FitOnAll(const Structure& chosen, const std::optional<double>& lag,
+             const IdentifierInput& input) {
+  if (!lag || chosen.CanTellLag()) return chosen.Fitted(input);
+  const Selection settled = Settled(input.measurements, input.selection, *lag);
+  Fit fit = chosen.Fitted(input.With(settled));
+  fit.warnings.push_back(
+      fmt::format("the torque lags by {:.3g} s: samples within five times that after a change of "
+                  "speed are left out",
+                  *lag));
+  return fit;
 }
 
 /// Why the chosen one.
@@ -181,10 +231,8 @@ Fit FitChosen(const IdentifierInput& input) {
   if (auto why = Unusable(input, 2 * blocks)) return Refused(kName, Status::bad_data, *why);
 
   // compare on rows that hold the means of neighbours
-  const LogView view = Condense({input.measurements, input.selection}, kRows);
-  const IdentifierInput quick = input.On(view);
-  Tournament tournament(quick);
-  TryAll(quick, tournament);
+  const Trials trials = TryAll(input);
+  Tournament& tournament = *trials.tournament;
   tournament.DropHopeless();
   const std::vector<Contender> contenders = tournament.Compare(blocks);
   StructureChoice told{"", "", blocks, tournament.Told()};
@@ -203,13 +251,18 @@ Fit FitChosen(const IdentifierInput& input) {
   }
 
   // on every sample, with the reason before what it says
+  if (trials.lag && chosen.CanTellLag()) {
+    chosen = chosen.With("torque_lag", "estimated");
+  }
   input.Tell("fitting " + chosen.Name() + " to every sample");
-  Fit fit = chosen.Fitted(input);
+  Fit fit = FitOnAll(chosen, trials.lag, input);
   told.chosen = chosen.Name();
   fit.identifier = kName;
   fit.summary = fmt::format("{}; {}", told.reason, fit.summary);
   fit.choice = std::move(told);
-  fit.structure = [chosen](const IdentifierInput& other) { return chosen.Fitted(other); };
+  fit.structure = [chosen, lag = trials.lag](const IdentifierInput& other) {
+    return FitOnAll(chosen, lag, other);
+  };
   return fit;
 }
 

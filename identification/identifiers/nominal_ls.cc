@@ -6,6 +6,7 @@
 #include "identification/fit_parameters.h"
 #include "identification/inference/bounds.h"
 #include "identification/inference/hold_structure.h"
+#include "identification/lagged/lagged_fit.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/linear_task.h"
@@ -29,7 +30,30 @@ std::optional<Disagreement> FindStructure(const Eigen::MatrixXd& A, const Eigen:
                           known.freedom);
 }
 
+/// The law once more behind the lag of the torque that leaves the least squares, in place of the fit
+/// without; nothing, and the fit as it was, where the log shows none. columns: [N x d]; A, torque: their
+/// kept rows.
+std::shared_ptr<const LaggedRows> FitBehindLag(const IdentifierInput& input,
+                                               const Eigen::MatrixXd& columns,
+                                               const Eigen::MatrixXd& A,
+                                               const Eigen::VectorXd& torque, LeastSquares& fit) {
+  const auto solve = [&](const LaggedRows& rows) {
+    return SolveLeastSquares(rows.Of(A), rows.Of(rows.Unlagged(torque)));
+  };
+  const auto runs = std::make_shared<const KeptRuns>(FindRuns(input.measurements, input.selection));
+  auto rows =
+      SearchLag(runs, torque, A * fit.solution, [&](const LaggedRows& at) -> ModelBehindLag {
+        const LeastSquares one = solve(at);
+        if (one.rank < A.cols()) return {};
+        const Eigen::VectorXd left = at.Of(at.Unlagged(torque) - A * one.solution);
+        return {left.squaredNorm(), columns * one.solution};
+      });
+  if (rows) fit = solve(*rows);
+  return rows;
+}
+
 Fit FitLaw(const IdentifierInput& given) {
+  if (auto why = WhyNoLag(given)) return Refused(kName, Status::bad_data, *why);
   LinearTask task = BeginLinear(given, 0);
   if (task.refusal) return Refused(kName, *task.refusal);
   const auto& [law, gravity, columns, refusal] = task;
@@ -53,10 +77,12 @@ Fit FitLaw(const IdentifierInput& given) {
                    "the weights of Huber's loss still move after 100 rounds; use loss squares");
   }
 
-  // once more where the noise is coloured beyond doubt
+  // once more behind the lag of the torque, or where the noise is coloured beyond doubt
+  std::shared_ptr<const LaggedRows> lag;
+  if (AsksForLag(given)) lag = FitBehindLag(input, columns, A, torque, solved);
   std::shared_ptr<const Whitening> whitening;
   std::optional<Disagreement> structure;
-  if (!huber) whitening = WhiteningFor(torque - A * solved.solution, m, input.selection);
+  if (!huber && !lag) whitening = WhiteningFor(torque - A * solved.solution, m, input.selection);
   if (whitening) {
     LeastSquares white = SolveLeastSquares(whitening->Of(A), whitening->Of(torque));
     if (white.rank == task.count())
@@ -86,11 +112,14 @@ Fit FitLaw(const IdentifierInput& given) {
   if (huber) fit.loss_bend = robust.threshold;
   fit.count = task.count();
   fit.effective_parameters = task.count();
-  fit.summary = fmt::format("law {} by least squares on {} samples{}{}", law.name, torque.size(),
-                            m.acceleration ? kOfAnyMotion : "", whitening ? kWhitened : "");
+  fit.summary = fmt::format("law {} by least squares on {} samples{}{}{}", law.name, torque.size(),
+                            m.acceleration ? kOfAnyMotion : "", lag ? kBehindLag : "",
+                            whitening ? kWhitened : "");
   const Eigen::VectorXd friction = A.leftCols(task.law_count()) * values;
   fit.jacobian = [all = std::move(task.columns)] { return all; };
   if (structure) HoldStructure(*structure, friction, fit);
+  if (lag) AddLag(lag, fit.jacobian() * solved.solution, m, fit);
+  if (!lag && AsksForLag(given)) fit.afterword = kNoLagSeen;
   return fit;
 }
 
@@ -102,7 +131,8 @@ Identifier NominalLs() {
           {{"law", "viscous_coulomb", LinearLawWords(), "nominal friction law"},
            GravityOption(),
            MotionOption(),
-           LossOption()},
+           LossOption(),
+           TorqueLagOption()},
           &FitLaw};
 }
 

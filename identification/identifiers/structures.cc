@@ -29,6 +29,10 @@ Structure Structure::With(const std::string& option, const std::string& value) c
   return other;
 }
 
+bool Structure::CanTellLag() const {
+  return identifier.Has("torque_lag") && Given("position", "none") == "none";
+}
+
 Fit Structure::Fitted(const IdentifierInput& input) const {
   const Options options(identifier.options, given, {});
   return identifier.fit(input.With(options));

@@ -22,6 +22,9 @@ struct Structure {
   /// The same with another option.
   Structure With(const std::string& option, const std::string& value) const;
 
+  /// Whether it could estimate a lag of the torque, too.
+  bool CanTellLag() const;
+
   /// Fitted to the samples of the input.
   Fit Fitted(const IdentifierInput& input) const;
   /// Mean squared errors on blocks that it has not seen (BlockedErrors).

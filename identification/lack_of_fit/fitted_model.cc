@@ -124,6 +124,7 @@ std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& infere
   if (fit.gravity) TakeOff(*fit.gravity, m.position, model);
   if (fit.inertia) model.torque -= *fit.inertia * *m.acceleration;
   if (fit.inertia_torque.size() > 0) model.torque -= fit.inertia_torque;
+  if (fit.torque_lag) model.torque -= fit.torque_lag->adds;
   const Prediction prediction = AlongMotion(fit.friction).Predict(CourseFor(fit, m), fit.Start());
   model.residual = model.torque - prediction.force;
   model.energy = prediction.energy;

@@ -12,7 +12,7 @@ namespace warmjoint::inline identification {
 
 struct FittedModel {
   Selection selection;          // samples that took part
-  Eigen::VectorXd torque;       // [N] tau less gravity and inertia, N.m or N
+  Eigen::VectorXd torque;       // [N] tau less gravity, inertia and what a lag adds, N.m or N
   Eigen::VectorXd residual;     // [N] that less F, N.m or N
   Eigen::MatrixXd derivatives;  // [N x (p + J)] dF/dx at the estimate; dF/db of the jumps b that
                                 // E makes at the gaps of the log (gaps.h)

@@ -6,6 +6,8 @@
 #include <numbers>
 
 #include "identification/lack_of_fit/words.h"
+#include "identification/linear/linear_laws.h"
+#include "models/friction/law.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -162,8 +164,17 @@ std::string AgainstPeriod(const Advice&) {
   return "something acts on the joint in a rhythm of its own: log it as load, or record without it";
 }
 
-std::string AgainstLag(const Advice&) {
-  return "is the torque filtered or late? shift it against the velocity, or log both alike";
+std::string AgainstLag(const Advice& advice) {
+  const Law& law = *FindLaw(advice.fit.friction.law);
+  const bool can = IsLinear(law) && advice.fit.friction.maps.empty() && !advice.fit.inertia;
+  if (!can || advice.fit.torque_lag) {
+    return "is the torque filtered or late? shift it against the velocity, or log both alike";
+  }
+  const bool by_default = law.name == "viscous_coulomb";
+  return "is the torque filtered or late? " +
+         Try(advice, fmt::format("{}{}{} --set torque_lag=estimated",
+                                 HoldsWarming(advice) ? "energy-ml" : "nominal-ls",
+                                 by_default ? "" : " --set law=", by_default ? "" : law.name));
 }
 
 std::string AgainstFading(const Advice& advice) {

@@ -19,6 +19,10 @@ namespace {
 constexpr int kVelocities = 16;  // of the grid
 constexpr int kParameters = 4;   // kv, kc, ks, ln vs
 
+/// A friction that feeds itself grows without end; while it is below this, its derivatives are finite, too, so
+/// that a point at which Ceres finds the residuals also has a Jacobian. N.m or N
+constexpr double kRunaway = 1e100;
+
 /// Residuals (F - tau) / scale of the kept samples, as Ceres' automatic derivatives want them. P: 4
 /// without warming, 6 with it.
 template <int P>
@@ -28,6 +32,7 @@ class Residuals {
 
   template <typename T>
   bool operator()(const T* x, T* residuals) const {
+    using std::abs;
     using std::exp;
     using std::isfinite;
     const Measurements& m = problem_.measurements;
@@ -42,7 +47,7 @@ class Residuals {
         const ThermalHold<T>& hold = holds[problem_.intervals.which[i]];
         energy = ThermalStep(T(x[4] * hold.cooling), hold.pole, energy, Loss(v, force));
       }
-      if (!isfinite(force)) return false;
+      if (!isfinite(force) || abs(force) > kRunaway) return false;
       if (problem_.selection.keep[i]) *residuals++ = (force - m.torque[i]) / problem_.scale;
     }
     return isfinite(energy) && isfinite(law[3]);

@@ -117,12 +117,6 @@ void Whitening::Apply(Rows& rows) const {
   }
 }
 
-Eigen::MatrixXd Whitening::Of(const Eigen::MatrixXd& rows) const {
-  Rows whitened = rows;
-  Apply(whitened);
-  return whitened;
-}
-
 std::shared_ptr<const Whitening> WhiteningFor(const Eigen::VectorXd& residual,
                                               const Measurements& measurements,
                                               const Selection& selection) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "identification/uncertainty/noise_model.h"
+#include "identification/uncertainty/row_transform.h"
 #include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
@@ -26,19 +27,15 @@ Selection OnEvenGrid(const std::vector<Eigen::Index>& places);
 /// less its best prediction from the rows before, times s over the error of that. Of p rows before,
 /// p the order of the noise (Vecchia 1988): exact where all of them are neighbours, and for AR(1)
 /// across any gap; beyond it the covariances of the rows that are left predict.
-class Whitening {
+class Whitening final : public RowTransform {
  public:
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
   /// noise: of order 1 or more, over places; places: [n] ascending.
   Whitening(NoiseModel noise, const std::vector<Eigen::Index>& places);
 
-  /// rows: [n x q], replaced by W rows.
-  void Apply(Rows& rows) const;
-  Eigen::MatrixXd Of(const Eigen::MatrixXd& rows) const;
+  void Apply(Rows& rows) const override;
+  Eigen::Index size() const override { return static_cast<Eigen::Index>(which_.size()); }
 
   const NoiseModel& noise() const { return noise_; }
-  Eigen::Index size() const { return static_cast<Eigen::Index>(which_.size()); }
 
  private:
   /// How a row is predicted from those before it.

@@ -8,7 +8,7 @@
 
 #include "identification/forward/closed_loop_kernel.h"
 #include "identification/forward/row_products.h"
-#include "identification/uncertainty/whitening.h"
+#include "identification/uncertainty/row_transform.h"
 #include "identification/warming/warm_fit.h"
 
 namespace warmjoint::inline identification {
@@ -33,11 +33,11 @@ class CondensedProblem {
   using Vector = Eigen::Matrix<double, NUM_PARAMETERS, 1>;
 
   /// jump_weights: [J] what each jump's square counts beside the squared residuals; pull: on E(0), where
-  /// Q is 3; whitening: of the rows, in the order of the samples that count; or none.
+  /// Q is 3; transform: of the rows, in the order of the samples that count; or none.
   CondensedProblem(const ClosedLoop& loop, const Eigen::VectorXd& level,
                    const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
                    const Eigen::VectorXd& jump_weights, const StartPull& pull, double scale,
-                   const Whitening* whitening = nullptr)
+                   const RowTransform* transform = nullptr)
       : loop_(loop),
         level_(level),
         offsets_(offsets),
@@ -45,7 +45,7 @@ class CondensedProblem {
         jump_weights_(jump_weights),
         pull_(pull),
         scale_(scale),
-        whitening_(whitening),
+        transform_(transform),
         d_(loop.levels().cols()),
         x_(Vector::Constant(NumParameters(), std::numeric_limits<double>::quiet_NaN())) {}
 
@@ -88,8 +88,8 @@ class CondensedProblem {
             });
       });
     };
-    if (whitening_) {
-      products_ = WhitenedProducts(fill);
+    if (transform_) {
+      products_ = TransformedProducts(fill);
     } else {
       RowProducts<NUM_RESIDUALS> products(NumResiduals());
       fill([&](Eigen::Index) { return products.Next(); });
@@ -107,19 +107,19 @@ class CondensedProblem {
   std::vector<WarmIterate>& trace() const { return trace_; }
 
  private:
-  /// The products of the whitened rows. The noise has its colour as torque: rows of the level change
+  /// The products of the mapped rows. The map is one of torque: rows of the level change
   /// their sign with the direction.
   template <typename Fill>
-  Square WhitenedProducts(Fill&& fill) const {
-    Whitening::Rows rows(whitening_->size(), NumResiduals());
-    Eigen::VectorXd sign(whitening_->size());
+  Square TransformedProducts(Fill&& fill) const {
+    RowTransform::Rows rows(transform_->size(), NumResiduals());
+    Eigen::VectorXd sign(transform_->size());
     Eigen::Index count = 0;
     fill([&](Eigen::Index n) {
       sign[count] = loop_.direction()[n];
       return rows.row(count++);
     });
     rows.array().colwise() *= sign.array();
-    whitening_->Apply(rows);
+    transform_->Apply(rows);
     Eigen::MatrixXd products = Eigen::MatrixXd::Zero(rows.cols(), rows.cols());
     products.selfadjointView<Eigen::Upper>().rankUpdate(rows.transpose());
     return products.selfadjointView<Eigen::Upper>();
@@ -157,7 +157,7 @@ class CondensedProblem {
   Eigen::VectorXd jump_weights_;  // [J]
   StartPull pull_;
   double scale_;
-  const Whitening* whitening_;
+  const RowTransform* transform_;
   Eigen::Index d_;
 
   // the latest evaluation: Ceres asks for the residuals at a point, then for the derivatives there

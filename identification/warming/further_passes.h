@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "identification/uncertainty/whitening.h"
 #include "identification/warming/gaps.h"
 #include "identification/warming/warm_fit.h"
 #include "models/recording/selection.h"

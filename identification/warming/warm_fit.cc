@@ -70,7 +70,7 @@ WarmStart StartFrom(const WarmFit& fit) {
 WarmFit FitWarmFriction(const ClosedLoop& loop, const Eigen::VectorXd& level,
                         const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
                         const WarmStart& start, const InitialEnergy& initial, double scale,
-                        const Eigen::VectorXd& jump_weights, const Whitening* whitening) {
+                        const Eigen::VectorXd& jump_weights, const RowTransform* transform) {
   const Eigen::Index d = loop.levels().cols(), q = offsets.cols(), jumps = jump_weights.size();
   const int warming = initial.spread > 0 ? 3 : 2;
   const StartPull pull{initial.mean, StartWeight(scale, initial)};
@@ -83,7 +83,7 @@ WarmFit FitWarmFriction(const ClosedLoop& loop, const Eigen::VectorXd& level,
   // sizes known at compile time for the common laws
   const auto solve = [&]<int D, int Q>() {
     return Solve(
-        CondensedProblem<D, Q>(loop, level, offsets, kept, jump_weights, pull, scale, whitening),
+        CondensedProblem<D, Q>(loop, level, offsets, kept, jump_weights, pull, scale, transform),
         x);
   };
   const auto solve_for = [&]<int D>() {

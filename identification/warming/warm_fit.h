@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "identification/forward/closed_loop.h"
-#include "identification/uncertainty/whitening.h"
+#include "identification/uncertainty/row_transform.h"
 #include "identification/warming/scan_time_constant.h"
 
 namespace warmjoint::inline identification {
@@ -70,13 +70,13 @@ WarmStart StartFrom(const WarmFit& fit);
 /// kept: [N] weight of each sample, 1 or 0 or between; start: parameters of the law and of the
 /// offsets [d + q]; scale: about the residuals' standard deviation, N.m or N; jump_weights: [J] of
 /// the loop's jumps (JumpWeights): each counts as a sample that measured 0, and an expected E(0) as one
-/// that measured its mean; whitening: of the rows of the samples that count, whose weights are 1 then,
+/// that measured its mean; transform: of the rows of the samples that count, whose weights are 1 then,
 /// as torque; or none.
 WarmFit FitWarmFriction(const ClosedLoop& loop, const Eigen::VectorXd& level,
                         const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
                         const WarmStart& start, const InitialEnergy& initial, double scale,
                         const Eigen::VectorXd& jump_weights = {},
-                        const Whitening* whitening = nullptr);
+                        const RowTransform* transform = nullptr);
 
 /// The residuals' variance over that of E(0), or 0. scale: of the residuals, N.m or N.
 inline double StartWeight(double scale, const InitialEnergy& initial) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "models/foundation/low_pass.h"
 #include "sim/plant/hidden_forces.h"
 #include "sim/plant/sensor_faults.h"
 

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <vector>
 
+#include "models/foundation/low_pass.h"
+
 namespace warmjoint::inline sim {
 namespace {
 
@@ -85,15 +87,6 @@ void SpoilClock(const Clock& clock, VectorXd& time) {
 }
 
 }  // namespace
-
-VectorXd LowPass(const VectorXd& time, const VectorXd& x, double time_constant) {
-  VectorXd filtered = x;
-  for (Index i = 1; i < x.size(); ++i) {
-    const double share = -std::expm1(-(time[i] - time[i - 1]) / time_constant);
-    filtered[i] = filtered[i - 1] + share * (x[i - 1] - filtered[i - 1]);
-  }
-  return filtered;
-}
 
 void DisturbMotion(const Disturbances& disturbances, Measurements& log) {
   if (disturbances.velocity_filter.time_constant > 0) {

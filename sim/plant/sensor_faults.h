@@ -14,8 +14,4 @@ void DisturbMotion(const Disturbances& disturbances, Measurements& log);
 /// samples; then scales; then what the file leaves out and how its clock runs. Truth loses the samples that the log loses.
 void SpoilLog(const SensorFaults& faults, Recording& recording);
 
-/// x behind a first-order low-pass that each sample's value drives until the next one; settled on the first. time: [N] s; x: [N].
-Eigen::VectorXd LowPass(const Eigen::VectorXd& time, const Eigen::VectorXd& x,
-                        double time_constant);
-
 }  // namespace warmjoint::inline sim

@@ -99,10 +99,9 @@ TEST(IncludeRules, EveryIncludeGoesDownTheFlow) {
 
 /// Folders of identification in the order in which data flows; "" is its top.
 const std::vector<std::string> kIdentificationOrder{
-    "preparation", "forward",   "uncertainty", "",        "linear",
-    "inference",   "report",    "warming",     "ridge",   "maps",
-    "alternating", "nonlinear", "online",      "holdout", "identifiers",
-    "lack_of_fit", "answer",    "score"};
+    "preparation", "forward",     "uncertainty", "",       "linear",      "lagged",    "inference",
+    "report",      "warming",     "ridge",       "maps",   "alternating", "nonlinear", "online",
+    "holdout",     "identifiers", "lack_of_fit", "answer", "score"};
 
 /// Place in that order of a file's folder; the number of folders where it is none of them.
 size_t PlaceInIdentification(const std::string& file) {

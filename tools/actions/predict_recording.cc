@@ -28,6 +28,7 @@ StoredModel ReadStoredModel(const std::string& file) {
   if (const EstimatedParameter* inertia = estimate.Find("inertia")) {
     stored.model.inertia = inertia->value;
   }
+  if (const EstimatedParameter* lag = estimate.Find("torque_lag")) stored.model.lag = lag->value;
   return stored;
 }
 

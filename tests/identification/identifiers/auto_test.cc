@@ -4,6 +4,8 @@
 
 #include "identification/answer/identify.h"
 #include "identification/preparation/select.h"
+#include "models/foundation/low_pass.h"
+#include "models/foundation/random_stream.h"
 #include "tests/support/slow_recording.h"
 
 namespace warmjoint {
@@ -91,6 +93,23 @@ TEST(Auto, FindsGravity) {
   ASSERT_TRUE(estimate.choice);
   EXPECT_EQ(estimate.choice->chosen, "energy-ml gravity=sincos law=viscous_coulomb");
   EXPECT_TRUE(estimate.gravity.has_value());
+}
+
+TEST(Auto, FindsALagOfTheTorque) {
+  Eigen::VectorXd velocity(36000);
+  const Eigen::VectorXd speeds = test::AlternatingSpeeds(3600, 5);
+  for (Eigen::Index i = 0; i < 36000; ++i) velocity[i] = speeds[i / 10];
+  Measurements m = test::RecordFriction(test::TableOne(), 0.1, velocity, 0, 5);
+  m.torque = LowPass(m.time, m.torque, 0.4);
+  RandomStream random({5, 0}, Stream::test);
+  for (double& torque : m.torque) torque += 0.5 * random.Normal();
+  const Estimate estimate = Answer(m);
+  ASSERT_TRUE(estimate.choice);
+  EXPECT_EQ(estimate.choice->chosen, "energy-ml law=viscous_coulomb torque_lag=estimated");
+  ASSERT_NE(estimate.Find("torque_lag"), nullptr);
+  const auto& interval = *estimate.Find("torque_lag")->interval95;
+  EXPECT_LT(interval[0], 0.4);
+  EXPECT_GT(interval[1], 0.4);
 }
 
 TEST(Auto, ComparesOnFewerRowsAndFitsEverySample) {

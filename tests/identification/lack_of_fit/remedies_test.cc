@@ -6,6 +6,7 @@
 #include <set>
 
 #include "identification/holdout/hold_out.h"
+#include "models/foundation/low_pass.h"
 #include "tests/support/judging.h"
 #include "tests/support/slow_recording.h"
 #include "tests/support/travelling.h"
@@ -130,6 +131,25 @@ TEST(Remedies, AgainstRippleOfTheMotor) {
   m.torque = PredictFriction(rippled, m).force;
   test::AddNoise(m, 0.3, 0, 1);
   ExpectLeadsSomewhere("nominal-ls", m);
+}
+
+/// 40 min at 10 Hz behind a lag of 0.4 s.
+Measurements Lagging(const FrictionDescription& friction, std::uint64_t seed) {
+  Eigen::VectorXd velocity(24000);
+  const Eigen::VectorXd speeds = test::AlternatingSpeeds(2400, seed);
+  for (Eigen::Index i = 0; i < velocity.size(); ++i) velocity[i] = speeds[i / 10];
+  Measurements m = test::RecordFriction(friction, 0.1, velocity, 0, seed);
+  m.torque = LowPass(m.time, m.torque, 0.4);
+  test::AddNoise(m, 0.3, 0, seed);
+  return m;
+}
+
+TEST(Remedies, AgainstALagOfTheTorque) {
+  ExpectLeadsSomewhere("nominal-ls", Lagging(test::Cold(), 1));
+}
+
+TEST(Remedies, AgainstALagOfTheTorqueOfAJointThatWarms) {
+  ExpectLeadsSomewhere("energy-ml", Lagging(test::TableOne(), 1));
 }
 
 TEST(Remedies, AgainstGravity) {

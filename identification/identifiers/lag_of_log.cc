@@ -1,0 +1,40 @@
+#include "identification/identifiers/lag_of_log.h"
+
+#include <algorithm>
+
+#include "identification/lagged/kept_runs.h"
+#include "identification/lagged/seen_lag.h"
+
+namespace warmjoint::inline identification {
+namespace {
+
+constexpr double kSettledAfter = 5;  // time constants: e^-5 = 1/150
+
+}  // namespace
+
+std::optional<double> LagOf(const Structure& structure, const IdentifierInput& input) {
+  if (input.measurements.acceleration || !structure.CanTellLag()) {
+    return std::nullopt;
+  }
+  const Fit without = structure.Fitted(input);
+  if (without.refusal) return std::nullopt;
+  const auto runs = std::make_shared<const KeptRuns>(FindRuns(input.measurements, without.used));
+  if (!ShowsLag(runs, without.fitted, without.residual())) return std::nullopt;
+  const Fit behind = structure.With("torque_lag", "estimated").Fitted(input);
+  if (behind.refusal || !behind.torque_lag) return std::nullopt;
+  return behind.torque_lag->time_constant;
+}
+
+Selection Settled(const Measurements& m, Selection selection, double lag) {
+  const KeptRuns all = FindRuns(m, selection);
+  for (const KeptRun& run : all.runs) {
+    const double begin = all.time[run.begin];
+    const double wait = std::min(kSettledAfter * lag, 0.5 * (all.time[run.end - 1] - begin));
+    for (Eigen::Index i = run.begin; i < run.end && all.time[i] < begin + wait; ++i) {
+      selection.keep[all.samples[static_cast<std::size_t>(i)]] = false;
+    }
+  }
+  return selection;
+}
+
+}  // namespace warmjoint::inline identification

@@ -1,0 +1,177 @@
+#include "identification/lagged/lagged_fit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "identification/fit_data.h"
+#include "identification/fit_parameters.h"
+#include "identification/lagged/lag_search.h"
+#include "identification/lagged/seen_lag.h"
+#include "identification/linear/least_squares.h"
+#include "identification/linear/rigid_part.h"
+
+namespace warmjoint::inline identification {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Rows of the kept samples. [n x q]
+MatrixXd AtKept(const MatrixXd& all, const KeptRuns& runs) { return all(runs.samples, Eigen::all); }
+
+/// What the lag leaves of measured torque, whatever its runs began with. [n]
+VectorXd Residual(const LaggedRows& rows, const VectorXd& measured, const VectorXd& torque) {
+  const VectorXd left = measured - rows.Lagged(torque);
+  return left - rows.Dying(rows.HeldBy(left));
+}
+
+/// AR(1) with a correlation between neighbours, of that variance.
+NoiseModel Autoregressive(double correlation, double variance) {
+  NoiseModel noise;
+  noise.coefficients = VectorXd::Constant(1, -correlation);
+  noise.covariances = variance * Eigen::Vector2d(1, correlation);
+  noise.variance = variance;
+  noise.innovation = variance * (1 - correlation * correlation);
+  noise.correlation = correlation;
+  noise.redundancy = (1 + correlation * correlation) / (1 - correlation * correlation);
+  return noise;
+}
+
+/// What a search found.
+struct Found {
+  std::shared_ptr<const LaggedRows> rows;
+  double squares = kInfinity;
+};
+
+/// The best lag with noise of one colour. colour: of the time constant; none where it is white.
+Found BestOf(const std::shared_ptr<const KeptRuns>& runs, const FitAtLag& fit_at,
+             const std::function<std::shared_ptr<const Whitening>(double lag)>& colour) {
+  const auto lag = FindLag(LagsOf(*runs), [&](double trial) {
+    return fit_at(LaggedRows(runs, trial, colour(trial))).squares;
+  });
+  if (!lag) return {};
+  Found found{std::make_shared<const LaggedRows>(runs, *lag, colour(*lag))};
+  found.squares = fit_at(*found.rows).squares;
+  return found;
+}
+
+/// d(L f + d exp(-(t - t0)/T)) / d log T at fixed d, by central differences. [n]
+VectorXd ByLogarithm(const LaggedRows& rows, const VectorXd& torque, const VectorXd& held) {
+  constexpr double step = 1e-5;
+  const auto at = [&](double lag) -> VectorXd {
+    const LaggedRows other(rows.runs(), lag);
+    return other.Lagged(torque) + other.Dying(held);
+  };
+  return (at(rows.lag() * std::exp(step)) - at(rows.lag() * std::exp(-step))) / (2 * step);
+}
+
+/// Rows of the kept samples, at their places among all. [N x q]
+MatrixXd AtSamples(const MatrixXd& kept, const KeptRuns& runs, Index all) {
+  MatrixXd spread = MatrixXd::Zero(all, kept.cols());
+  spread(runs.samples, Eigen::all) = kept;
+  return spread;
+}
+
+}  // namespace
+
+OptionInfo TorqueLagOption() {
+  return {"torque_lag", "none", "none|estimated",
+          "the torque's first-order lag, estimated where the log shows one"};
+}
+
+bool AsksForLag(const IdentifierInput& input) {
+  return input.options.Text("torque_lag") == "estimated";
+}
+
+std::optional<std::string> WhyNoLag(const IdentifierInput& input) {
+  if (!AsksForLag(input)) return std::nullopt;
+  if (input.measurements.acceleration) {
+    return "torque_lag is told by segments of constant speed, which a fit of any motion does not "
+           "look at; use motion constant, or torque_lag none";
+  }
+  if (input.options.Text("loss") == "huber") {
+    return "torque_lag is estimated by least squares; use loss squares, or torque_lag none";
+  }
+  return std::nullopt;
+}
+
+std::shared_ptr<const LaggedRows> SearchLag(const std::shared_ptr<const KeptRuns>& runs,
+                                            const VectorXd& measured, const VectorXd& without,
+                                            const FitAtLag& fit_at) {
+  if (!ShowsLag(runs, without, measured - without)) return nullptr;
+
+  // noise that is white where it joins the torque
+  const Found plain = BestOf(runs, fit_at, [](double) { return nullptr; });
+  if (!plain.rows) return nullptr;
+  const VectorXd all = fit_at(*plain.rows).torque;
+  if (all.size() == 0) return nullptr;
+  const VectorXd torque = AtKept(all, *runs);
+  const VectorXd left = measured - plain.rows->Lagged(torque);
+  if (!LookForLag(*plain.rows, torque, left).IsSeen()) return nullptr;
+
+  // its own colour, or that of white noise behind the lag, where it surely has one
+  Selection grid;
+  grid.keep.setConstant(measured.size(), true);
+  const NoiseModel noise = FitNoise(Residual(*plain.rows, measured, torque), grid);
+  if (!IsSurelyColoured(noise, measured.size())) return plain.rows;
+  const double step = runs->Step();
+  const auto own = WhiteningOfRuns(noise, *runs);
+  const Found coloured = BestOf(runs, fit_at, [&](double) { return own; });
+  const Found passed = BestOf(runs, fit_at, [&](double lag) {
+    return WhiteningOfRuns(Autoregressive(std::exp(-step / lag), noise.variance), *runs);
+  });
+  // both maps have the determinant 1 but for the first samples of runs
+  if (passed.squares <= coloured.squares) return passed.rows ? passed.rows : plain.rows;
+  return coloured.rows;
+}
+
+void AddLag(const std::shared_ptr<const LaggedRows>& rows, const VectorXd& model,
+            const Measurements& m, Fit& fit) {
+  const KeptRuns& runs = *rows->runs();
+  const VectorXd torque = AtKept(model, runs);
+  const VectorXd measured = AtKept(m.torque, runs);
+  const VectorXd lagged = rows->Lagged(torque);
+  const VectorXd held = rows->HeldBy(measured - lagged).col(0);
+
+  // the model behind the lag
+  Append({TorqueLagParameter(rows->lag(), m)}, fit);
+  fit.torque = measured;
+  fit.fitted = lagged + rows->Dying(held);
+  fit.torque_lag = TorqueLag{rows->lag(), AtSamples(fit.fitted - torque, runs, m.size())};
+
+  // how all estimated values move it together, what runs begin with left out
+  fit.jacobian = [rows, of_model = std::move(fit.jacobian), torque, held, all = m.size()] {
+    const KeptRuns& kept = *rows->runs();
+    MatrixXd columns =
+        Beside(rows->Lagged(AtKept(of_model(), kept)), ByLogarithm(*rows, torque, held));
+    columns -= rows->Dying(rows->HeldBy(columns));
+    return AtSamples(columns, kept, all);
+  };
+
+  // and their errors
+  ErrorModel& errors = fit.errors;
+  MatrixXd columns = AtKept(fit.jacobian(), runs);
+  if (rows->whitening()) columns = rows->whitening()->Of(columns);
+  MatrixXd normal = columns.transpose() * columns;
+  if (errors.prior.size() > 0) {
+    errors.prior.conservativeResize(normal.cols());
+    errors.prior[normal.cols() - 1] = 0;
+    normal.diagonal() += errors.prior;
+  }
+  errors.cofactor = Cofactor(normal);
+  errors.whitening = rows->whitening();
+
+  // what runs begin with is fitted, too: it has left the residual smaller than the noise
+  const auto samples = static_cast<double>(runs.count());
+  const auto begun = static_cast<double>(runs.run_count());
+  const double grown = std::sqrt(samples / std::max(samples - begun, 1.0));
+  if (!errors.whitening) errors.scores = grown * fit.residual();
+  ++fit.count;
+  fit.effective_parameters += 1 + begun;
+}
+
+}  // namespace warmjoint::inline identification

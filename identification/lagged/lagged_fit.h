@@ -1,0 +1,56 @@
+// What a fit becomes where its torque has passed a lag.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "identification/fit.h"
+#include "identification/identifier.h"
+#include "identification/lagged/lagged_rows.h"
+
+namespace warmjoint::inline identification {
+
+/// The row of an identifier that can estimate a lag in its table of options.
+OptionInfo TorqueLagOption();
+
+/// Whether the option asks for a lag.
+bool AsksForLag(const IdentifierInput& input);
+
+/// Why the other options or the log rule out the lag that is asked for; nothing where they do not, or
+/// none is.
+std::optional<std::string> WhyNoLag(const IdentifierInput& input);
+
+/// A model fitted at one time constant of the lag.
+struct ModelBehindLag {
+  double squares = kInfinity;  // of its mapped rows
+  Eigen::VectorXd torque;      // [N] of the model, without the lag; empty where there is no fit
+};
+
+/// Fits a model to rows of the lag.
+using FitAtLag = std::function<ModelBehindLag(const LaggedRows& rows)>;
+
+/// The rows of the best lag, the noise of white colour or, where that would be wrong beyond doubt
+/// (IsSurelyColoured), of the likelier of two: the one that the residual shows, and that of white
+/// noise which the lag has passed, AR(1) with exp(-h / T). Nothing where no lag is seen (SeenLag),
+/// neither beside the fit without one nor behind the best.
+/// measured: [n]; without: [n] torque of that fit.
+std::shared_ptr<const LaggedRows> SearchLag(const std::shared_ptr<const KeptRuns>& runs,
+                                            const Eigen::VectorXd& measured,
+                                            const Eigen::VectorXd& without,
+                                            const FitAtLag& fit_at);
+
+/// Puts the lag into a fit of the model alone to those rows: its row of the table, what it makes of
+/// the model's torque and Jacobian, the errors of all estimated values together. The fit has its
+/// table, model and used samples, `jacobian` of the model without lag, and prior of the errors.
+/// model: [N] torque of the model without lag.
+void AddLag(const std::shared_ptr<const LaggedRows>& rows, const Eigen::VectorXd& model,
+            const Measurements& measurements, Fit& fit);
+
+/// What the message of a fit adds that was asked for a lag and sees none.
+inline constexpr const char* kNoLagSeen = "; the torque shows no lag, so that none is fitted";
+/// What its summary says where it has one.
+inline constexpr const char* kBehindLag = " behind a lag of the torque";
+
+}  // namespace warmjoint::inline identification

@@ -1,0 +1,114 @@
+#include "identification/lagged/lagged_rows.h"
+
+#include <cmath>
+#include <utility>
+
+#include "models/foundation/low_pass.h"
+
+namespace warmjoint::inline identification {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr Index kApart = 1000;  // sampling intervals between runs, as far as a gap counts
+
+}  // namespace
+
+LaggedRows::LaggedRows(std::shared_ptr<const KeptRuns> runs, double lag,
+                       std::shared_ptr<const Whitening> whitening)
+    : runs_(std::move(runs)), lag_(lag), whitening_(std::move(whitening)) {
+  share_.setZero(size());
+  dying_.setOnes(size());
+  for (const KeptRun& run : runs_->runs) {
+    for (Index i = run.begin + 1; i < run.end; ++i) {
+      share_[i] = ShareFollowed(runs_->time[i] - runs_->time[i - 1], lag_);
+      dying_[i] = (1 - share_[i]) * dying_[i - 1];
+    }
+  }
+  across_ = whitening_ ? whitening_->Of(dying_).col(0) : dying_;
+  length_.resize(runs_->run_count());
+  for (Index r = 0; r < length_.size(); ++r) {
+    const KeptRun& run = runs_->runs[static_cast<std::size_t>(r)];
+    length_[r] = across_.segment(run.begin, run.size()).norm();
+    across_.segment(run.begin, run.size()) /= length_[r];
+  }
+}
+
+void LaggedRows::Lag(Rows& rows) const {
+  Eigen::RowVectorXd before, held;
+  for (const KeptRun& run : runs_->runs) {
+    before = held = rows.row(run.begin);
+    for (Index i = run.begin + 1; i < run.end; ++i) {
+      held += share_[i] * (before - held);
+      before = rows.row(i);
+      rows.row(i) = held;
+    }
+  }
+}
+
+void LaggedRows::Apply(Rows& rows) const {
+  Lag(rows);
+  if (whitening_) whitening_->Apply(rows);
+  for (const KeptRun& run : runs_->runs) {
+    const auto across = across_.segment(run.begin, run.size());
+    auto part = rows.middleRows(run.begin, run.size());
+    const Eigen::RowVectorXd along = across.transpose() * part;
+    part.noalias() -= across * along;
+  }
+}
+
+VectorXd LaggedRows::Unlagged(const VectorXd& torque) const {
+  VectorXd before = torque;
+  for (const KeptRun& run : runs_->runs) {
+    for (Index i = run.begin + 1; i < run.end; ++i) {
+      before[i - 1] = torque[i - 1] + (torque[i] - torque[i - 1]) / share_[i];
+    }
+  }
+  return before;
+}
+
+MatrixXd LaggedRows::Lagged(const MatrixXd& rows) const {
+  Rows lagged = rows;
+  Lag(lagged);
+  return lagged;
+}
+
+MatrixXd LaggedRows::HeldBy(const MatrixXd& rows) const {
+  const MatrixXd white = whitening_ ? whitening_->Of(rows) : rows;
+  MatrixXd held(runs_->run_count(), rows.cols());
+  for (Index r = 0; r < held.rows(); ++r) {
+    const KeptRun& run = runs_->runs[static_cast<std::size_t>(r)];
+    held.row(r) = across_.segment(run.begin, run.size()).transpose() *
+                  white.middleRows(run.begin, run.size()) / length_[r];
+  }
+  return held;
+}
+
+MatrixXd LaggedRows::Dying(const MatrixXd& held) const {
+  MatrixXd dying(size(), held.cols());
+  for (Index r = 0; r < held.rows(); ++r) {
+    const KeptRun& run = runs_->runs[static_cast<std::size_t>(r)];
+    dying.middleRows(run.begin, run.size()) = dying_.segment(run.begin, run.size()) * held.row(r);
+  }
+  return dying;
+}
+
+std::shared_ptr<const Whitening> WhiteningOfRuns(const NoiseModel& noise, const KeptRuns& runs) {
+  std::vector<Index> places(runs.samples.size());
+  Index next = 0;
+  const double step = runs.Step();
+  for (const KeptRun& run : runs.runs) {
+    const Index first = next;
+    for (Index i = run.begin; i < run.end; ++i) {
+      const auto on = first + std::llround((runs.time[i] - runs.time[run.begin]) / step);
+      next = places[static_cast<std::size_t>(i)] =
+          std::max<Index>(on, i > run.begin ? next + 1 : on);
+    }
+    next += kApart;
+  }
+  return std::make_shared<const Whitening>(noise, places);
+}
+
+}  // namespace warmjoint::inline identification

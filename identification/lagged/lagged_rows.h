@@ -1,0 +1,61 @@
+// Rows of a fit to torque that has passed a first-order lag.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "identification/lagged/kept_runs.h"
+#include "identification/uncertainty/row_transform.h"
+#include "identification/uncertainty/whitening.h"
+
+namespace warmjoint::inline identification {
+
+/// What a log holds of a torque f behind a lag T (low_pass.h) in each run of samples:
+///
+///     tau = L f + d exp(-(t - t0) / T) + noise,
+///
+/// L the lag settled on the run's first sample. d is what the lag held of all that was before, the
+/// ramp, its inertia and the friction of the run before, none of which need be known: each run has a
+/// d of its own, and the rows are those orthogonal to exp(-(t - t0) / T), so that the others are
+/// fitted as if beside all d. Exact, and linear in f.
+class LaggedRows final : public RowTransform {
+ public:
+  /// lag: T > 0, s; whitening: of the noise of tau, which must not reach from one run to the next
+  /// (WhiteningOfRuns); or none.
+  LaggedRows(std::shared_ptr<const KeptRuns> runs, double lag,
+             std::shared_ptr<const Whitening> whitening = nullptr);
+
+  /// W P L rows: behind the lag, whitened, and without what any d explains.
+  void Apply(Rows& rows) const override;
+  Eigen::Index size() const override { return runs_->count(); }
+
+  /// The torque whose L is the one given, so that a fit may subtract its model before Apply. The two
+  /// may differ by some d exp(-(t - t0) / T). torque: [n]
+  Eigen::VectorXd Unlagged(const Eigen::VectorXd& torque) const;
+  /// L rows. [n x q]
+  Eigen::MatrixXd Lagged(const Eigen::MatrixXd& rows) const;
+  /// The d that explain most of the rows, by the noise's colour. rows: [n x q]; returns [R x q].
+  Eigen::MatrixXd HeldBy(const Eigen::MatrixXd& rows) const;
+  /// d exp(-(t - t0) / T). held: [R x q]; returns [n x q].
+  Eigen::MatrixXd Dying(const Eigen::MatrixXd& held) const;
+
+  double lag() const { return lag_; }
+  const std::shared_ptr<const KeptRuns>& runs() const { return runs_; }
+  const std::shared_ptr<const Whitening>& whitening() const { return whitening_; }
+
+ private:
+  void Lag(Rows& rows) const;
+
+  std::shared_ptr<const KeptRuns> runs_;
+  double lag_;
+  std::shared_ptr<const Whitening> whitening_;
+  Eigen::VectorXd share_;   // [n] of a step that the lag follows from the sample before to this one
+  Eigen::VectorXd dying_;   // [n] exp(-(t - t0) / T)
+  Eigen::VectorXd across_;  // [n] W of that, of length 1 in each run
+  Eigen::VectorXd length_;  // [R] of W of it
+};
+
+/// Whitening by a colour of noise that every run has by itself.
+std::shared_ptr<const Whitening> WhiteningOfRuns(const NoiseModel& noise, const KeptRuns& runs);
+
+}  // namespace warmjoint::inline identification

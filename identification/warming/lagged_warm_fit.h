@@ -1,0 +1,22 @@
+// Law and warming of a joint whose torque is logged behind a lag.
+#pragma once
+
+#include <memory>
+
+#include "identification/lagged/lagged_rows.h"
+#include "identification/warming/warm_fit.h"
+#include "models/recording/selection.h"
+
+namespace warmjoint::inline identification {
+
+/// Fits once more, behind the lag of the torque that leaves the least squares; from a fit without
+/// one, whose place it takes. Returns the rows of that lag. Nothing, and the fit as it was, where the
+/// log shows no lag (SearchLag). Losses follow from the friction itself, which no lag touches.
+/// moving: the samples that count, none of them at rest; offsets: [N x q] sign(v) dG/dg; spread: [J] as
+/// FitJumps returns it.
+std::shared_ptr<const LaggedRows> FitBehindLag(const Measurements& m, const Selection& moving,
+                                               const ClosedLoop& loop,
+                                               const Eigen::MatrixXd& offsets,
+                                               const Eigen::VectorXd& spread, WarmFit& fit);
+
+}  // namespace warmjoint::inline identification

@@ -1,0 +1,172 @@
+#include "identification/warming/warm_answer.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "identification/fit_data.h"
+#include "identification/fit_parameters.h"
+#include "identification/inference/hold_structure.h"
+#include "identification/lagged/lagged_fit.h"
+#include "identification/linear/against_pushing.h"
+#include "identification/linear/least_squares.h"
+#include "identification/linear/linear_task.h"
+#include "identification/linear/robust.h"
+#include "identification/uncertainty/few_segments.h"
+#include "identification/uncertainty/tails.h"
+#include "identification/warming/unsettled.h"
+#include "identification/warming/warming_verdict.h"
+
+namespace warmjoint::inline identification {
+namespace {
+
+/// Why the warm-up cannot be told; nothing where it can. variance: of the noise; cofactor: of x;
+/// nominal_squares: of the fit without warming; reach: of 95 % intervals in deviations, as a multiple
+/// of that of a known variance.
+std::optional<std::string> UntoldWarming(const WarmFit& fit, const WarmStart& scanned,
+                                         double variance, double nominal_squares,
+                                         const Eigen::MatrixXd& cofactor, double reach) {
+  const double explained = (nominal_squares - fit.solution.squares) / variance;
+  if (!fit.converged) {
+    if (auto why = UnseenWarming(explained)) return why;
+    return RunawayWarming(fit.thermal().time_constant, scanned.longest / kScannedBeyond);
+  }
+  const Eigen::Index i = fit.law_parameters + 1;
+  return UnknownWarming({explained, reach * std::sqrt(variance * cofactor(i, i)),
+                         fit.thermal().time_constant, scanned.shortest, scanned.longest,
+                         scanned.longest / kScannedBeyond});
+}
+
+/// The table of parameters in the order of x: law, heat, E(0), jumps, gravity.
+void FillTable(const WarmFit& warm, const Law& law, const RigidPart& gravity, const Measurements& m,
+               Fit& fit) {
+  fit.parameters = LawParameters(law, warm.parameters(), m);
+  Append(HeatParameters(warm.thermal(), m), fit);
+  if (warm.estimates_initial_energy()) Append({StartParameter(warm.initial_energy(), m)}, fit);
+  Append(JumpParameters(warm.jump_values(), m), fit);
+  AddRigid(gravity, warm.offset_values(), m, fit);
+}
+
+std::vector<Iterate> Trace(const WarmFit& warm, Eigen::Index n) {
+  std::vector<Iterate> trace;
+  for (const WarmIterate& iterate : warm.trace) {
+    Iterate& entry = trace.emplace_back();
+    entry.iteration = static_cast<int>(trace.size()) - 1;
+    entry.rmse = std::sqrt(iterate.squares / static_cast<double>(n));
+    const Eigen::Index d = warm.law_parameters;
+    entry.values.assign(iterate.x.begin(), iterate.x.begin() + d + 2);
+    entry.values.back() = std::exp(entry.values.back());
+  }
+  return trace;
+}
+
+/// What the errors of a fit follow from, whatever its loss. residual: [n]
+ErrorModel ErrorsOf(const WarmTask& task, const RobustWarmFit& robust,
+                    const Eigen::VectorXd& residual) {
+  ErrorModel errors;
+  errors.prior = robust.fit.prior();
+  if (std::isinf(robust.threshold)) {
+    errors.cofactor = Cofactor(robust.fit.normal);
+    errors.whitening = task.whitening;
+    return errors;
+  }
+  const Eigen::MatrixXd rows =
+      Kept(WarmJacobian(task.loop, task.gravity, robust.fit), task.input.selection);
+  Eigen::MatrixXd normal = rows.transpose() * rows;
+  normal.diagonal() += errors.prior;
+  errors.cofactor = Cofactor(normal);
+  errors.scores = HuberScores(residual, robust.threshold);
+  return errors;
+}
+
+/// Why there is no fit to trust; nothing where there is. nominal_squares: of the fit without
+/// warming.
+std::optional<Refusal> WhyRefused(const char* name, const WarmTask& task, const WarmFit& warm,
+                                  double nominal_squares, const LoopResponse& response) {
+  const Measurements& m = task.input.measurements;
+  const auto n = task.input.selection.count();
+  const double variance = warm.solution.squares / static_cast<double>(n - warm.solution.x.size());
+  const auto p = warm.solution.x.size();
+  const double reach = StudentQuantile(FewestFreedom(task.input.selection, p), kIntervalLevel) /
+                       StudentQuantile(kInfinity, kIntervalLevel);
+  if (auto why = UntoldWarming(warm, task.scanned, variance, nominal_squares, Cofactor(warm.normal),
+                               reach)) {
+    return Refusal{Status::not_identifiable, *why};
+  }
+  if (!warm.converged) {
+    return Refusal{Status::not_converged,
+                   fmt::format("the fit has not converged after {} iterations; {}",
+                               warm.trace.size() - 1, WhyUnsettled(m, FrictionKind::warm_up))};
+  }
+  if (response.feeds_itself) {
+    return Refusal{
+        Status::inadequate_model,
+        WouldFeedItself(m.time[*response.feeds_itself],
+                        AgainstPushing(name, task.law.name, task.input.options.Text("gravity")))};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Eigen::MatrixXd WarmJacobian(const ClosedLoop& loop, const RigidPart& gravity, const WarmFit& fit) {
+  const Thermal thermal = fit.thermal();
+  const Eigen::MatrixXd all =
+      loop.Jacobian(fit.parameters(), thermal, fit.initial_energy(), fit.jump_values());
+  const Eigen::Index first = fit.law_parameters + (fit.estimates_initial_energy() ? 3 : 2);
+  Eigen::MatrixXd jacobian = all.leftCols(first);
+  jacobian.col(fit.law_parameters + 1) *= thermal.time_constant;  // from tau to log(tau)
+  jacobian = Beside(jacobian, all.rightCols(fit.jump_weights.size()));
+  return Beside(jacobian, gravity.columns);
+}
+
+Fit ConcludeWarm(const char* name, const WarmTask& task, const RobustWarmFit& robust,
+                 double nominal_squares) {
+  const IdentifierInput& input = task.input;
+  const Measurements& m = input.measurements;
+  const WarmFit& warm = robust.fit;
+  const LoopResponse response = task.loop.Simulate(warm.parameters(), warm.thermal(),
+                                                   warm.initial_energy(), warm.jump_values());
+  Fit fit;
+  fit.identifier = name;
+  fit.trace = Trace(warm, input.selection.count());
+  fit.refusal = WhyRefused(name, task, warm, nominal_squares, response);
+  FillTable(warm, task.law, task.gravity, m, fit);
+  if (fit.refusal) return fit;
+
+  // the model
+  fit.friction = FrictionOf(task.law, warm.parameters(), m);
+  fit.friction.thermal = warm.thermal();
+  fit.initial_energy = warm.initial_energy();
+  fit.jump_samples = task.loop.jumps();
+
+  // and how well it fits
+  fit.used = input.selection;
+  fit.torque = Kept(m.torque, fit.used);
+  fit.fitted = Kept(response.force + task.gravity.columns * warm.offset_values(), fit.used);
+  fit.errors = ErrorsOf(task, robust, fit.residual());
+  fit.jacobian = [loop = task.loop, gravity = task.gravity, warm] {
+    return WarmJacobian(loop, gravity, warm);
+  };
+  if (task.structure) HoldStructure(*task.structure, Kept(response.force, fit.used), fit);
+  fit.count = static_cast<int>(warm.solution.x.size());
+  fit.effective_parameters = fit.count;
+  if (!std::isinf(robust.threshold)) fit.loss_bend = robust.threshold;
+  fit.summary =
+      fmt::format("maximum likelihood on {} samples{}{}{}, refined in {} iterations",
+                  fit.torque.size(), m.acceleration ? kOfAnyMotion : "", task.lag ? kBehindLag : "",
+                  task.whitening ? kWhitened : "", warm.trace.size() - 1);
+  if (!task.gaps.empty()) {
+    fit.warnings.push_back(
+        fmt::format("{}: the losses during that time are unknown and are estimated, too",
+                    DescribeGaps(task.gaps, m)));
+  }
+  if (task.lag) {
+    AddLag(task.lag, response.force + task.gravity.columns * warm.offset_values(), m, fit);
+  } else if (AsksForLag(input)) {
+    fit.afterword = kNoLagSeen;
+  }
+  return fit;
+}
+
+}  // namespace warmjoint::inline identification

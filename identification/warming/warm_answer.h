@@ -1,0 +1,40 @@
+// The answer of a joint fit of law and warming.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "identification/fit.h"
+#include "identification/identifier.h"
+#include "identification/lagged/lagged_rows.h"
+#include "identification/linear/rigid_part.h"
+#include "identification/uncertainty/disagreement.h"
+#include "identification/warming/gaps.h"
+#include "identification/warming/robust_warm_fit.h"
+#include "identification/warming/scan_time_constant.h"
+
+namespace warmjoint::inline identification {
+
+/// What a fit is made of.
+struct WarmTask {
+  const IdentifierInput& input;
+  const Law& law;
+  const RigidPart& gravity;
+  const ClosedLoop& loop;
+  const WarmStart& scanned;
+  const std::vector<LogGap>& gaps;
+  std::shared_ptr<const Whitening> whitening;
+  std::optional<Disagreement> structure;  // why the rows were not whitened
+  std::shared_ptr<const LaggedRows> lag;  // of a torque that lags; or none
+};
+
+/// d(F + G)/dx over all samples, without lag. [N x p]
+Eigen::MatrixXd WarmJacobian(const ClosedLoop& loop, const RigidPart& gravity, const WarmFit& fit);
+
+/// The fit as a value, or why there is none to trust. name: of the identifier; nominal_squares: of the
+/// fit without warming, its rows mapped as those of `robust`.
+Fit ConcludeWarm(const char* name, const WarmTask& task, const RobustWarmFit& robust,
+                 double nominal_squares);
+
+}  // namespace warmjoint::inline identification
