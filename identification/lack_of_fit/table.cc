@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
+#include <optional>
 
 #include "identification/lack_of_fit/features.h"
+#include "identification/lack_of_fit/one_speed.h"
 #include "identification/lack_of_fit/remedies.h"
 
 namespace warmjoint::inline identification {
@@ -16,8 +19,20 @@ std::string Say(const Finding&, const Measurements&) {
   return text;
 }
 
-std::string Period(const Finding& finding, const Measurements&) {
-  return fmt::format("time (periodic, {:.3g} s)", finding.period);
+/// "; at the log's one speed it may as well be ...", or nothing where the speeds tell. other: of that speed.
+template <typename Other>
+std::string OrElse(const Measurements& measurements, Other&& other) {
+  const std::optional<double> speed = OneSpeed(measurements);
+  if (!speed) return "";
+  return fmt::format("; the log's one speed cannot tell that from {}", other(*speed));
+}
+
+std::string Period(const Finding& finding, const Measurements& measurements) {
+  const auto turned = [&](double speed) {
+    return fmt::format("position, period {:.3g} {}", speed * finding.period,
+                       kPositionUnit.For(measurements.joint));
+  };
+  return fmt::format("time (periodic, {:.3g} s{})", finding.period, OrElse(measurements, turned));
 }
 
 std::string Lag(const Finding& finding, const Measurements&) {
@@ -25,13 +40,25 @@ std::string Lag(const Finding& finding, const Measurements&) {
                      finding.lag);
 }
 
-std::string Position(const Finding& finding, const Measurements& measurements) {
-  return fmt::format("position (period {:.3g} {})", finding.period,
-                     kPositionUnit.For(measurements.joint));
+/// "2.5 Hz", of what has that period at a speed.
+std::string InTime(double speed, double period) {
+  return fmt::format("time, {:.3g} Hz", speed / period);
 }
 
-std::string MotorAngle(const Finding& finding, const Measurements&) {
-  return fmt::format("motor angle (period {:.3g} rad)", finding.period);
+std::string Position(const Finding& finding, const Measurements& measurements) {
+  const bool turns = measurements.joint == JointKind::rotary;
+  return fmt::format(
+      "position (period {:.3g} {}{}{})", finding.period, kPositionUnit.For(measurements.joint),
+      turns ? fmt::format(", {:.3g} a turn", 2 * std::numbers::pi / finding.period) : "",
+      OrElse(measurements, [&](double speed) { return InTime(speed, finding.period); }));
+}
+
+std::string MotorAngle(const Finding& finding, const Measurements& measurements) {
+  const auto in_time = [&](double speed) {
+    return InTime(measurements.gear * speed, finding.period);
+  };
+  return fmt::format("motor angle (period {:.3g} rad{})", finding.period,
+                     OrElse(measurements, in_time));
 }
 
 constexpr const char* kDirection = "direction";

@@ -1,0 +1,305 @@
+#include "identification/preparation/position_plateaus.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "models/foundation/robust_noise.h"
+#include "models/recording/sampling.h"
+
+namespace warmjoint::inline identification {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr int kPasses = 3;          // lines and changes of speed, in turn
+constexpr Index kBeside = 10;       // samples of a segment that must follow a change beside it
+constexpr Index kHiddenShare = 6;   // of a segment at each end, as a divisor
+constexpr double kStraight = 2;     // deviations of the positions
+constexpr double kHarmless = 2e-4;  // of the way of a segment: the path may be off by as much
+constexpr double kCertain = 4;      // standard errors
+constexpr size_t kFewestRamps = 5;  // that tell the acceleration of others
+constexpr double kOneAcceleration = 0.1;  // median deviation, of the acceleration
+constexpr double kShareOfEnd = 0.15;      // of a bent segment, whose end a line follows
+constexpr double kMostOfEnd = 0.45;
+constexpr Index kFewestOfEnd = 6;  // samples
+
+/// Positions less the first, [N] rad or m.
+VectorXd Relative(const VectorXd& position) {
+  const auto [steps, step] = FromFirst(position);
+  return step * steps;
+}
+
+/// Finds plateaus in one recording.
+class PlateauSearch {
+ public:
+  PlateauSearch(const Measurements& log, const Selection& selection,
+                const std::vector<Segment>& rests, SampleRange range)
+      : first_(range.first), count_(range.count) {
+    found_.time = log.time.segment(first_, count_);
+    found_.position = Relative(log.position.segment(first_, count_));
+    found_.keep = selection.keep.segment(first_, count_);
+    found_.longest = LongestStep(found_.time);
+    found_.noise = MeasurePositionNoise(found_.position);
+    for (const Segment& segment : selection.segments) Add(segment, true);
+    for (const Segment& rest : rests) Add(rest, false);
+    std::ranges::sort(found_.plateaus, {}, &Plateau::begin);
+    JoinFragments();
+    found_.changes.resize(found_.plateaus.empty() ? 0 : found_.plateaus.size() - 1);
+  }
+
+  PositionPlateaus Solve() && {
+    for (int pass = 0; pass < kPasses; ++pass) {
+      FitLines();
+      for (size_t i = 0; i + 1 < found_.plateaus.size(); ++i) found_.changes[i] = FindChange(i);
+    }
+    ShareAcceleration();
+    for (size_t i = 0; i + 1 < found_.plateaus.size(); ++i) {
+      if (found_.changes[i]) Extend(i);
+    }
+    ReachToEnds();
+    KeepWhatIsOnTheLine();
+    LeaveLastSamples();
+    return std::move(found_);
+  }
+
+ private:
+  void Add(const Segment& segment, bool moves) {
+    if (segment.begin < first_ || segment.begin >= first_ + count_) return;
+    found_.plateaus.push_back({segment.begin - first_, segment.end - first_, moves, {}, 0, true});
+  }
+
+  /// Samples of a plateau that no change of speed beside it touches: an end at which the change is
+  /// not known yet is taken to hide some of it.
+  std::pair<Index, Index> Untouched(size_t i) const {
+    Index first = found_.plateaus[i].begin, last = found_.plateaus[i].end - 1;
+    const Index hidden = (last - first + 1) / kHiddenShare;
+    if (i == 0 || !found_.changes[i - 1]) first += hidden;
+    if (i >= found_.changes.size() || !found_.changes[i]) last -= hidden;
+    if (i > 0 && found_.changes[i - 1]) {
+      const double from = found_.changes[i - 1]->end() + found_.changes[i - 1]->margin;
+      while (first < last && found_.time[first] <= from) ++first;
+    }
+    if (i < found_.changes.size() && found_.changes[i]) {
+      const double until = found_.changes[i]->begin() - found_.changes[i]->margin;
+      while (last > first && found_.time[last] >= until) --last;
+    }
+    return {first, last};
+  }
+
+  /// Joins neighbours whose samples, and those between them, lie on one line: a velocity that was
+  /// smoothed from counts rings, so that the choice by velocity may have cut one speed to pieces.
+  void JoinFragments() {
+    const Eigen::Array<bool, Eigen::Dynamic, 1> all =
+        Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(count_, true);
+    std::vector<Plateau> joined;
+    for (const Plateau& next : found_.plateaus) {
+      if (joined.empty() || !LieOnOneLine(joined.back(), next, all)) {
+        joined.push_back(next);
+      } else {
+        joined.back().end = next.end;
+      }
+    }
+    found_.plateaus = std::move(joined);
+  }
+
+  bool LieOnOneLine(const Plateau& one, const Plateau& next,
+                    const Eigen::Array<bool, Eigen::Dynamic, 1>& all) const {
+    if (one.moves != next.moves || HasGap(one.end - 1, next.begin)) return false;
+    auto line = FitPositionLine(found_.time, found_.position, one.begin, next.end - 1, all);
+    if (!line) return false;
+    line->deviation = found_.noise.deviation;
+    for (Index n = one.begin; n < next.end; ++n) {
+      if (!IsOn(*line, n)) return false;
+    }
+    return true;
+  }
+
+  void FitLines() {
+    Eigen::Array<bool, Eigen::Dynamic, 1> use = found_.keep;
+    for (size_t i = 0; i < found_.plateaus.size(); ++i) {
+      Plateau& plateau = found_.plateaus[i];
+      if (!plateau.moves) use.segment(plateau.begin, plateau.end - plateau.begin).setConstant(true);
+      const auto [first, last] = Untouched(i);
+      plateau.line = FitPositionLine(found_.time, found_.position, first, last, use);
+      if (!plateau.line) continue;
+      plateau.is_straight = plateau.line->deviation <= kStraight * found_.noise.deviation;
+      plateau.line->deviation = std::max(plateau.line->deviation, found_.noise.deviation);
+      plateau.drift = plateau.is_straight ? 0 : FindDrift(plateau, first, last, use);
+    }
+  }
+
+  /// Slope of the velocity, from the bend of the positions beyond their line. The bend of a segment
+  /// is that of b (x^2 - mean x^2), x the time from its middle.
+  double FindDrift(const Plateau& plateau, Index first, Index last,
+                   const Eigen::Array<bool, Eigen::Dynamic, 1>& use) const {
+    const PositionLine& line = *plateau.line;
+    const double mean = line.spread / line.samples;
+    double product = 0, squares = 0, strays = 0;
+    for (Index i = first; i <= last; ++i) {
+      if (!use[i]) continue;
+      const double bend = std::pow(found_.time[i] - line.time, 2) - mean;
+      const double stray = found_.position[i] - line.At(found_.time[i]);
+      product += bend * stray;
+      squares += bend * bend;
+      strays += stray * stray;
+    }
+    if (squares == 0 || line.samples < 4) return 0;
+    const double bent = product / squares;
+    const double left = std::max(strays - bent * product, 0.0) / (line.samples - 3);
+    const bool shows = std::abs(bent) > kCertain * std::sqrt(left / squares);
+    return shows ? 2 * bent : 0;
+  }
+
+  /// The line of a plateau where it meets the change of speed behind it (or before it): that of its
+  /// end where its positions bend.
+  std::optional<PositionLine> LineAtEnd(size_t i, bool behind) const {
+    const Plateau& plateau = found_.plateaus[i];
+    if (!plateau.line || plateau.is_straight) return plateau.line;
+    const auto [first, last] = Untouched(i);
+    const Index all = last - first + 1;
+    const auto share = static_cast<Index>(kShareOfEnd * static_cast<double>(all));
+    const auto most = static_cast<Index>(kMostOfEnd * static_cast<double>(all));
+    const Index count = std::min(std::max(share, kFewestOfEnd), std::max<Index>(most, 2));
+    const Index from = behind ? last - count + 1 : first;
+    auto line = FitPositionLine(found_.time, found_.position, from, from + count - 1,
+                                Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(count_, true));
+    if (line) line->deviation = std::max(line->deviation, found_.noise.deviation);
+    return line;
+  }
+
+  /// rad or m
+  double WayOf(const Plateau& plateau) const {
+    return std::abs(plateau.line->velocity) *
+           (found_.time[plateau.end - 1] - found_.time[plateau.begin]);
+  }
+
+  bool HasGap(Index first, Index last) const {
+    for (Index i = first; i < last; ++i) {
+      if (found_.time[i + 1] - found_.time[i] > found_.longest) return true;
+    }
+    return false;
+  }
+
+  /// The change of speed between plateaus i and i + 1, if the way between them is one.
+  std::optional<SpeedChange> FindChange(size_t i) const {
+    const Plateau &one = found_.plateaus[i], &next = found_.plateaus[i + 1];
+    if (HasGap(one.end - 1, next.begin)) return std::nullopt;
+    const auto before = LineAtEnd(i, true), behind = LineAtEnd(i + 1, false);
+    if (!before || !behind) return std::nullopt;
+    const Index between = next.begin - one.end;
+    const Index beside = std::max(kBeside, between);
+    const Index first = std::max((one.begin + one.end) / 2, one.end - beside);
+    const Index last = std::min((next.begin + next.end) / 2, next.begin + beside);
+
+    // what positions may be off, at least as much as does not matter beside the way of a segment
+    PositionNoise noise = found_.noise;
+    noise.reach = std::max(noise.reach, kHarmless * std::min(WayOf(one), WayOf(next)));
+    return FindSpeedChange(found_.time, found_.position, *before, *behind, first, last, noise);
+  }
+
+  /// Gives the changes of speed whose ramp no sample shows the acceleration of those that samples do
+  /// show, where that is one: a drive has one limit. A ramp that would reach past a sample would
+  /// have shown.
+  void ShareAcceleration() {
+    std::vector<double> shown;
+    for (const auto& change : found_.changes) {
+      if (change && change->duration > 0) shown.push_back(change->Leap() / change->duration);
+    }
+    if (shown.size() < kFewestRamps) return;
+    using Column = Eigen::Map<const VectorXd>;
+    VectorXd all = Column(shown.data(), static_cast<Index>(shown.size()));
+    const double acceleration = MedianInPlace(all);
+    all = (all.array() - acceleration).abs();
+    if (MedianInPlace(all) > kOneAcceleration * acceleration) return;
+
+    for (auto& change : found_.changes) {
+      if (!change || change->duration > 0) continue;
+      const double* begin = found_.time.data();
+      const auto behind = std::upper_bound(begin, begin + count_, change->time) - begin;
+      if (behind == 0 || behind == count_) continue;
+      const double nearest =
+          std::min(found_.time[behind] - change->time, change->time - found_.time[behind - 1]);
+      change->duration = std::min(change->Leap() / acceleration, 2 * nearest);
+    }
+  }
+
+  /// Lets the plateaus beside a change of speed reach to its margins, or shrink to them.
+  void Extend(size_t i) {
+    Plateau &one = found_.plateaus[i], &next = found_.plateaus[i + 1];
+    const double until = found_.changes[i]->begin() - found_.changes[i]->margin;
+    const double from = found_.changes[i]->end() + found_.changes[i]->margin;
+    Index end = one.end, begin = next.begin;
+    while (end < next.begin && found_.time[end] < until) found_.keep[end++] = one.moves;
+    while (end > one.begin && found_.time[end - 1] >= until) found_.keep[--end] = false;
+    while (begin > end && found_.time[begin - 1] > from) found_.keep[--begin] = next.moves;
+    while (begin < next.end && found_.time[begin] <= from) found_.keep[begin++] = false;
+    one.end = end;
+    next.begin = begin;
+  }
+
+  /// Lets a plateau reach the end of the recording, or a gap, where its line leads there.
+  void ReachToEnds() {
+    for (size_t i = 0; i < found_.plateaus.size(); ++i) {
+      Plateau& plateau = found_.plateaus[i];
+      if (!plateau.line || !plateau.is_straight) continue;
+      const Index lowest = i > 0 ? found_.plateaus[i - 1].end : 0;
+      const Index highest = i + 1 < found_.plateaus.size() ? found_.plateaus[i + 1].begin : count_;
+      const auto is_on = [&](Index n) { return IsOn(*plateau.line, n); };
+      Index begin = plateau.begin, end = plateau.end;
+      while (begin > lowest && is_on(begin - 1) &&
+             found_.time[begin] - found_.time[begin - 1] <= found_.longest) {
+        --begin;
+      }
+      while (end < highest && is_on(end) &&
+             found_.time[end] - found_.time[end - 1] <= found_.longest)
+        ++end;
+      if (begin == 0 ||
+          (begin > 0 && found_.time[begin] - found_.time[begin - 1] > found_.longest)) {
+        while (plateau.begin > begin) found_.keep[--plateau.begin] = plateau.moves;
+      }
+      if (end == count_ ||
+          (end < count_ && found_.time[end] - found_.time[end - 1] > found_.longest)) {
+        while (plateau.end < end) found_.keep[plateau.end++] = plateau.moves;
+      }
+    }
+  }
+
+  bool IsOn(const PositionLine& line, Index n) const {
+    return std::abs(found_.position[n] - line.At(found_.time[n])) <=
+           found_.noise.reach + kCertain * line.ErrorAt(found_.time[n]);
+  }
+
+  /// Keeps all samples of a straight plateau that lie on its line: its velocities may have been
+  /// smoothed from positions whose noise rings.
+  void KeepWhatIsOnTheLine() {
+    for (const Plateau& plateau : found_.plateaus) {
+      if (!plateau.moves || !plateau.line || !plateau.is_straight) continue;
+      for (Index n = plateau.begin; n < plateau.end; ++n) found_.keep[n] = IsOn(*plateau.line, n);
+    }
+  }
+
+  /// Leaves the last sample of a plateau out of it where the way on is followed from sample to
+  /// sample: until the next one, its speed may already change.
+  void LeaveLastSamples() {
+    for (size_t i = 0; i < found_.plateaus.size(); ++i) {
+      Plateau& plateau = found_.plateaus[i];
+      const bool is_followed =
+          i < found_.changes.size() ? !found_.changes[i] : plateau.end < count_;
+      if (is_followed && plateau.end - plateau.begin > 1) found_.keep[--plateau.end] = false;
+    }
+  }
+
+  Index first_, count_;
+  PositionPlateaus found_;
+};
+
+}  // namespace
+
+PositionPlateaus FindPlateaus(const Measurements& log, const Selection& selection,
+                              const std::vector<Segment>& rests, SampleRange range) {
+  return PlateauSearch(log, selection, rests, range).Solve();
+}
+
+}  // namespace warmjoint::inline identification
