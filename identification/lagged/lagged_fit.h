@@ -38,8 +38,7 @@ using FitAtLag = std::function<ModelBehindLag(const LaggedRows& rows)>;
 /// measured: [n]; without: [n] torque of that fit.
 std::shared_ptr<const LaggedRows> SearchLag(const std::shared_ptr<const KeptRuns>& runs,
                                             const Eigen::VectorXd& measured,
-                                            const Eigen::VectorXd& without,
-                                            const FitAtLag& fit_at);
+                                            const Eigen::VectorXd& without, const FitAtLag& fit_at);
 
 /// Puts the lag into a fit of the model alone to those rows: its row of the table, what it makes of
 /// the model's torque and Jacobian, the errors of all estimated values together. The fit has its
