@@ -26,13 +26,14 @@ JointRows::JointRows(const mjModel* m, const std::vector<BoundJoint>& joints) {
   for (size_t i = 0; i < joints.size(); ++i) {
     const BoundJoint& joint = joints[i];
     const size_t row = is_coupled[i] ? bristles_.RowOf(joint.dof) : rows++;
-    at_.push_back({PlaceOf(row), joint.dof, joint.state, states});
+    const size_t own_states = joint.friction.state().size();
+    at_.push_back({PlaceOf(row), joint.dof, joint.state, states, own_states == 2});
     if (is_coupled[i]) joint_at_[row] = i;
     if (joint.friction.own_bristle()) alone_.push_back(i);
-    states += static_cast<int>(joint.friction.state().size());
+    states += static_cast<int>(own_states);
   }
   next_.assign(static_cast<size_t>(states), 0);
-  FindTwos(joints);
+  FindTwos();
   numbers_.assign(NumbersOf(rows), 0);
   for (const CoupledJoint& joint : coupled) {
     const size_t i = joint_at_[bristles_.RowOf(joint.dof)];
@@ -61,12 +62,11 @@ void JointRows::ReadNumbers(const std::vector<BoundJoint>& joints, double h) {
 }
 
 /// Joints that are neighbours, and have the same two states, are loaded and stored together.
-void JointRows::FindTwos(const std::vector<BoundJoint>& joints) {
-  const auto plain = [&](size_t i) { return joints[i].friction.state().size() == 2; };
-  for (size_t i = 0; i < joints.size(); ++i) {
+void JointRows::FindTwos() {
+  for (size_t i = 0; i < at_.size(); ++i) {
     const bool first = at_[i].place % (2 * kColumns) == 0;
-    const bool two = first && i + 1 < joints.size() && at_[i + 1].place == at_[i].place + 1;
-    if (two && plain(i) && plain(i + 1)) {
+    const bool two = first && i + 1 < at_.size() && at_[i + 1].place == at_[i].place + 1;
+    if (two && at_[i].plain && at_[i + 1].plain) {
       twos_.push_back({at_[i], at_[i + 1]});
       ++i;
     } else {
@@ -128,7 +128,13 @@ void JointRows::SetLevels() {
 /// The level of one side where more than heat changes it.
 double JointRows::LevelAt(size_t row, int side) const {
   const size_t i = joint_at_[row];
-  return joints_[i].friction.Level(side, StateOf(i), MotionOf(i));
+  FrictionState state;
+  if (at_[i].plain) {
+    state.energy = Of(i, kFirst);
+  } else {
+    state = StateOf(i);
+  }
+  return joints_[i].friction.Level(side, state, MotionOf(i));
 }
 
 /// The state with which the step began.

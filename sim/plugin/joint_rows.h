@@ -64,7 +64,7 @@ class JointRows : private LevelSource {
   void StepAlone(const mjModel* m);
   void Take(size_t joint, const FrictionStep& step);
   void TakeDeficit(size_t joint);
-  void FindTwos(const std::vector<BoundJoint>& joints);
+  void FindTwos();
   void LoadOne(size_t joint);
   void Store();
   void StoreOne(size_t joint);
@@ -73,8 +73,9 @@ class JointRows : private LevelSource {
   struct At {
     size_t place;  // in numbers_
     int dof;
-    int state;  // in act or plugin_state
-    int next;   // in next_
+    int state;   // in act or plugin_state
+    int next;    // in next_
+    bool plain;  // whether it has two states
   };
 
   CoupledBristles bristles_;

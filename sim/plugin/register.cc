@@ -18,21 +18,44 @@
 namespace warmjoint::inline sim {
 namespace {
 
+/// Of a refusal, characters; the engine cuts errors off before that.
+constexpr size_t kMostRefusal = 900;
+
 FrictionInstance* InstanceOf(const mjData* d, int instance) {
   return reinterpret_cast<FrictionInstance*>(d->plugin_data[instance]);
 }
 
-/// Binds an instance to the data; a refusal becomes a warning and -1, so that nothing is thrown
-/// through the engine.
-int Init(const mjModel* m, mjData* d, int instance) {
+/// Writes what was refused, as far as it fits.
+template <size_t n>
+void Note(const std::exception& refused, std::array<char, n>& refusal) {
+  fmt::format_to_n(refusal.begin(), n - 1, "{}", refused.what());
+}
+
+/// Binds an instance to the data; what that refuses goes to `refusal`.
+template <size_t n>
+void MakeInstance(const mjModel* m, mjData* d, int instance, std::array<char, n>& refusal) {
   try {
     d->plugin_data[instance] =
         reinterpret_cast<uintptr_t>(std::make_unique<FrictionInstance>(m, instance).release());
-    return 0;
-  } catch (const std::exception& refusal) {
-    mju_warning("%s: %s", kFrictionPlugin, refusal.what());
-    return -1;
+  } catch (const std::exception& refused) {
+    Note(refused, refusal);
   }
+}
+
+/// Binds an instance to the data. Where that is refused, the data is freed as the engine frees it
+/// after a -1, and the error told in our words: after a -1 the engine tells one of its own, to which
+/// its compiler appends twice what the plugin warned of. The error leaves by longjmp, so that nothing
+/// here may wait for its end.
+int Init(const mjModel* m, mjData* d, int instance) {
+  static thread_local std::array<char, kMostRefusal> refusal;
+  refusal.fill(0);
+  MakeInstance(m, d, instance, refusal);
+  if (refusal[0] == 0) return 0;
+  mju_free(d->buffer);
+  mju_free(d->arena);
+  mju_free(d);
+  mju_error("%s: %s", kFrictionPlugin, refusal.data());
+  return -1;
 }
 
 /// Reads the attributes and counts the numbers of plugin_state; what they refuse goes to `refusal`.
@@ -43,16 +66,15 @@ int CountStates(const mjModel* m, int instance, std::array<char, n>& refusal) {
     const bool passive = !DrivenByActuators(m, instance);
     return kFrictionReports + (passive ? PassiveStates(m, instance) : 0);
   } catch (const std::exception& refused) {
-    fmt::format_to_n(refusal.begin(), n - 1, "{}", refused.what());
+    Note(refused, refusal);
     return 0;
   }
 }
 
-/// The numbers of plugin_state that an instance needs. The compiler asks first of all for them, and
-/// tells an error once, where it tells what Init refuses twice. The error leaves by longjmp, so that
-/// nothing here may wait for its end.
+/// The numbers of plugin_state that an instance needs. The error leaves by longjmp, so that nothing
+/// here may wait for its end.
 int States(const mjModel* m, int instance) {
-  static thread_local std::array<char, 900> refusal;
+  static thread_local std::array<char, kMostRefusal> refusal;
   refusal.fill(0);
   const int states = CountStates(m, instance, refusal);
   if (refusal[0] != 0) mju_error("%s: %s", kFrictionPlugin, refusal.data());

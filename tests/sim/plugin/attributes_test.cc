@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
+#include <string>
+#include <vector>
 
 #include "models/foundation/atomic_file.h"
 #include "sim/model/escape_xml.h"
@@ -54,9 +56,14 @@ TEST(PluginAttributes, RefuseNumbersThatSlipped) {
 }
 
 TEST(PluginAttributes, TellARefusalOnce) {
-  for (const Config& config :
-       {Config{{"coulomb", "6"}}, With("viscous", "-1"), With("maps", "[")}) {
-    const std::string error = ErrorOf(config);
+  // those of actdim and of the give are found last, when the engine makes its data
+  std::vector<std::string> errors{
+      Compile(LinkXml(FrictionSection(kGood, {.states = 3}), kNoGravity)).error};
+  for (const Config& config : {Config{{"coulomb", "6"}}, With("viscous", "-1"), With("maps", "["),
+                               With("coulomb", "100000")}) {
+    errors.push_back(ErrorOf(config));
+  }
+  for (const std::string& error : errors) {
     const std::string start = "warmjoint.friction: actuator 'f': ";
     const size_t first = error.find(start);
     ASSERT_NE(first, std::string::npos) << error;
