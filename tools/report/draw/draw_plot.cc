@@ -12,6 +12,9 @@
 namespace warmjoint::report {
 namespace {
 
+// height of a plot, over what it is taken to be before its margins are known
+constexpr double kHigher = 1.3;
+
 constexpr Type kTickType{size::kTick};
 constexpr Type kLabelType{size::kText};
 constexpr double kPointsPerTickX = 45, kPointsPerTickY = 18;
@@ -167,8 +170,10 @@ void CheckAxes(const Plot& plot) {
 Margins PlotMargins(const Plot& plot, Extent extent) {
   const std::vector<Tick> across = TicksX(plot.x, extent.width);
   Margins margins;
-  margins.left = size::kTickMark + 3 + WidestLabel(TicksY(plot.y, extent.height)) + size::kPad +
-                 kLabelType.size + 4;
+  // a plot that comes out higher may have finer ticks, with longer labels
+  const double labels_left = std::max(WidestLabel(TicksY(plot.y, extent.height)),
+                                      WidestLabel(TicksY(plot.y, kHigher * extent.height)));
+  margins.left = size::kTickMark + 3 + labels_left + size::kPad + kLabelType.size + 4;
   margins.right = 4;
   // the last label may stand half outside
   if (!across.empty() && plot.x.ticks.empty()) {

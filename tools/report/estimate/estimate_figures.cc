@@ -50,7 +50,8 @@ std::optional<Figure> CurveOf(const EstimateView& view) {
   });
   return SinglePlot(
       {"friction_curve", "Friction over velocity",
-       OriginOf(*view.fit) + (has_band ? "; bands are 95 % intervals of the curve" : ""),
+       OriginOf(*view.fit) + (TakenOff(*view.fit).empty() ? "" : "; the torque is less ") +
+           TakenOff(*view.fit) + (has_band ? "; bands are 95 % intervals of the curve" : ""),
        "Friction over velocity from these parameters:" + ValuesOf(view.estimate)},
       plot);
 }

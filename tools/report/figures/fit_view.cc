@@ -155,6 +155,12 @@ std::string OriginOf(const FitView& view) {
                             : fmt::format("{}, identified by {}", view.source, identifier);
 }
 
+std::string TakenOff(const FitView& view) {
+  const bool gravity = view.estimate.gravity.has_value(), inertia = IsOfAnyMotion(view);
+  if (gravity && inertia) return "gravity and inertia";
+  return gravity ? "gravity" : inertia ? "inertia" : "";
+}
+
 std::string BeyondText(Eigen::Index samples) {
   if (samples == 0) return "";
   return fmt::format("; {} of the samples {} beyond the axes", samples,

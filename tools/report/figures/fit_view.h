@@ -87,6 +87,9 @@ double WarmestEnergy(const FitView& view);
 /// no identifier is named.
 std::string OriginOf(const FitView& view);
 
+/// What is taken off the torque that a view shows: "gravity and inertia"; empty: nothing.
+std::string TakenOff(const FitView& view);
+
 /// "; 3 of the samples are beyond the axes" for a subtitle, nothing where there are none.
 std::string BeyondText(Eigen::Index samples);
 

@@ -112,12 +112,9 @@ Words VerdictOf(const FitView& view) {
   words.paragraphs.push_back(
       {fmt::format("{:.0f} % of the {} samples {} and are kept.", 100 * share, view.time.size(),
                    IsOfAnyMotion(view) ? "move clearly" : "move at a constant speed")});
-  const char* taken = estimate.gravity && IsOfAnyMotion(view) ? "Gravity and inertia are"
-                      : estimate.gravity                      ? "Gravity is"
-                      : IsOfAnyMotion(view)                   ? "Inertia is"
-                                                              : nullptr;
-  if (taken) {
-    words.paragraphs.push_back({fmt::format("{} taken off the torque that is shown.", taken)});
+  if (const std::string taken = TakenOff(view); !taken.empty()) {
+    words.paragraphs.push_back(
+        {Sentence(fmt::format("the torque that is shown is less {}", taken))});
   }
   return words;
 }

@@ -41,15 +41,16 @@ std::optional<Figure> MakeHysteresis(const FitView& view) {
   Figure figure;
   figure.name = "hysteresis";
   figure.title = "Torque over position, back and forth";
-  figure.subtitle = OriginOf(view);
+  const std::string taken = TakenOff(view);
+  figure.subtitle = OriginOf(view) + (taken.empty() ? "" : "; the torque is less " + taken);
   figure.finding =
-      "The height of the loop is twice the friction; from the first to the last segments it "
-      "changes by "
-      "what the joint has warmed.";
+      "The height of the loop is twice the friction; from the first to the last it changes by what "
+      "the joint has warmed.";
   figure.height = 400;
   figure.columns = {1, 1};
-  figure.panels = {{"First segments", Loop(view, first, limits), 0, 0},
-                   {"Last segments", Loop(view, last, limits), 0, 1}};
+  const bool any = view.selection.segments.empty();
+  figure.panels = {{any ? "The begin" : "First segments", Loop(view, first, limits), 0, 0},
+                   {any ? "The end" : "Last segments", Loop(view, last, limits), 0, 1}};
   return figure;
 }
 
