@@ -125,6 +125,21 @@ EstimatedParameter ToParameter(const std::string& name, const json& object, cons
   return parameter;
 }
 
+FrictionAtSpeed ToFrictionAtSpeed(const json& object, const Place& place) {
+  const auto number = [&](const char* key) {
+    return ToNumber(Member(object, key, "friction_at_speeds", place), key, place);
+  };
+  const json& interval = Member(object, "interval95", "friction_at_speeds", place);
+  if (!interval.is_array() || interval.size() != 2) {
+    Refuse(place, "interval95 of friction_at_speeds is {}; it must be [lower, upper]",
+           Excerpt(interval.dump()));
+  }
+  return {number("speed"),
+          number("value"),
+          number("std"),
+          {ToNumber(interval[0], "interval95", place), ToNumber(interval[1], "interval95", place)}};
+}
+
 std::optional<Metrics> ToMetrics(const json& object, const char* owner, const Place& place) {
   if (object.is_null()) return std::nullopt;
   const auto number = [&](const char* key) {
@@ -289,6 +304,12 @@ json EstimateToJson(const Estimate& estimate) {
   if (!estimate.options.empty()) result["options"] = estimate.options;
   if (!estimate.warnings.empty()) result["warnings"] = estimate.warnings;
   for (const MapBand& band : estimate.bands) result["bands"].push_back(BandToJson(band));
+  for (const FrictionAtSpeed& one : estimate.at_speeds) {
+    result["friction_at_speeds"].push_back({{"speed", one.speed},
+                                            {"value", one.value},
+                                            {"std", one.std},
+                                            {"interval95", one.interval95}});
+  }
   for (const Diagnostic& one : estimate.diagnostics) {
     result["diagnostics"].push_back(DiagnosticToJson(one));
   }
@@ -332,6 +353,9 @@ Estimate EstimateFromJson(const json& object, const Place& place) {
   estimate.holdout = ToMetrics(member("holdout"), "holdout", place);
   for (const json& entry : member("trace")) estimate.trace.push_back(ToTraceEntry(entry, place));
   for (const json& band : member("bands")) estimate.bands.push_back(BandFromJson(band, place));
+  for (const json& one : member("friction_at_speeds")) {
+    estimate.at_speeds.push_back(ToFrictionAtSpeed(one, place));
+  }
   if (!member("friction").is_null()) {
     estimate.friction = FrictionFromJson(member("friction"), place);
   }

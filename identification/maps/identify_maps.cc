@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "identification/fit_data.h"
@@ -9,6 +10,8 @@
 #include "identification/inference/inference.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
+#include "identification/maps/finer_maps.h"
+#include "identification/maps/friction_at_speeds.h"
 #include "identification/maps/holes.h"
 #include "identification/maps/make_bands.h"
 #include "models/friction/sign.h"
@@ -64,7 +67,8 @@ void AddLaw(const Law& law, const MapFit& maps, const Measurements& measurements
   }
   if (imitated.empty()) return;
   fit.warnings.push_back(fmt::format(
-      "the data cannot separate {} from the map; use total friction (bands), not {}",
+      "the data cannot separate {} from the map; use total friction (at three speeds, and bands), "
+      "not {}",
       fmt::join(imitated, ", "), imitated.size() == 1 ? "this number" : "these numbers"));
 }
 
@@ -178,7 +182,14 @@ Fit AsFit(const IdentifierInput& input, const MapTask& task, const MapFit& maps,
                     fmt::join(holes, ", ")));
   }
   if (!Infer(fit).gives_friction) return fit;
-  fit.bands = MakeBands(law, maps, known, Kept(PointsOf(m, task.energy), fit.used));
+  const MapPoints kept = Kept(PointsOf(m, task.energy), fit.used);
+  MapTask twice = Settled(task, maps);
+  twice.candidates = {TwiceAsFine(maps.maps)};
+  const auto finer = ChooseAndFit(input, twice);
+  fit.bands = MakeBands(law, maps, known, kept, finer ? &finer->fit : nullptr);
+  const bool shares = std::ranges::any_of(
+      fit.parameters, [](const FitParameter& one) { return !one.has_interval; });
+  if (shares) fit.at_speeds = FrictionAtSpeeds(law, maps, known, kept);
   return fit;
 }
 

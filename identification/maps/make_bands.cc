@@ -61,43 +61,72 @@ Eigen::RowVectorXd MeanRow(const std::vector<FrictionMap>& maps, const MapPoints
   return DenseKernels(maps, points, 0, some).colwise().mean();
 }
 
+/// Rows whose products with a fit's x are law and maps at places of its which-th map.
+Eigen::MatrixXd RowsAt(const Law& law, const MapFit& fit, size_t which, const MapPoints& places,
+                       const MapPoints& kept) {
+  const Index size = places.rows(), q = fit.x.size() - fit.free;
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(size, fit.x.size());
+  if (!IsAlikeBothWays(fit.maps[which])) {
+    const Eigen::MatrixXd columns = LawColumns(law, places.col(kVelocity));
+    rows.leftCols(columns.cols()) = columns;
+    for (const int direction : {-1, 1}) {
+      const Eigen::RowVectorXd others = MeanRow(fit.maps, kept, direction);
+      for (Index i = 0; others.size() > 0 && i < size; ++i) {
+        if (Sign(places(i, kVelocity)) == direction) rows.row(i).tail(q) = others;
+      }
+    }
+  }
+  Index first = fit.free;
+  for (size_t i = 0; i < which; ++i) first += static_cast<Index>(fit.maps[i].size());
+  const auto own = static_cast<Index>(fit.maps[which].size());
+  rows.middleCols(first, own) = DenseKernels({fit.maps[which]}, places, 0, size);
+  return rows;
+}
+
+/// Squares averaged with those of both neighbours along a map's first axis, 1 : 2 : 1.
+Eigen::VectorXd AlongFirstAxis(const FrictionMap& map, const Eigen::VectorXd& squares) {
+  const auto length = static_cast<Index>(map.axes[0].kernels.centres.size());
+  const Index stride = squares.size() / length;
+  Eigen::VectorXd mean(squares.size());
+  for (Index i = 0; i < squares.size(); ++i) {
+    double sum = 2 * squares[i], count = 2;
+    for (const Index j : {i - stride, i + stride}) {
+      if (j < 0 || j >= squares.size()) continue;
+      sum += squares[j];
+      ++count;
+    }
+    mean[i] = sum / count;
+  }
+  return mean;
+}
+
 }  // namespace
 
 std::vector<MapBand> MakeBands(const Law& law, const MapFit& fit, const Uncertainty& known,
-                               const MapPoints& kept) {
+                               const MapPoints& kept, const MapFit* finer) {
   Eigen::VectorXd speeds = kept.col(kVelocity).cwiseAbs();
   const double speed = MedianInPlace(speeds);
-  const Index q = fit.x.size() - fit.free;
   const Eigen::MatrixXd covariance = known.covariance.topLeftCorner(fit.x.size(), fit.x.size());
   const double reach = StudentQuantile(known.freedom, kIntervalLevel);
   std::vector<MapBand> bands;
-  Index first = fit.free;
-  for (const FrictionMap& map : fit.maps) {
+  size_t first = 0;
+  for (size_t which = 0; which < fit.maps.size(); ++which) {
+    const FrictionMap& map = fit.maps[which];
     MapBand& band = bands.emplace_back();
     const MapPoints places = Places(map, speed, band);
-    const Index size = places.rows();
-    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(size, fit.x.size());
-    if (!IsAlikeBothWays(map)) {
-      const Eigen::MatrixXd columns = LawColumns(law, places.col(kVelocity));
-      rows.leftCols(columns.cols()) = columns;
-      for (const int direction : {-1, 1}) {
-        const Eigen::RowVectorXd others = MeanRow(fit.maps, kept, direction);
-        for (Index i = 0; others.size() > 0 && i < size; ++i) {
-          if (Sign(places(i, kVelocity)) == direction) rows.row(i).tail(q) = others;
-        }
-      }
-    }
-    rows.middleCols(first, size) = DenseKernels({map}, places, 0, size);
-    const auto kernel = static_cast<size_t>(first - fit.free);
-    const std::vector<double> doubt = DoubtOfHoles(map, kernel, fit.unseen, fit.x.tail(q));
-    first += size;
-
+    const Eigen::MatrixXd rows = RowsAt(law, fit, which, places, kept);
     const Eigen::VectorXd value = rows * fit.x;
-    const Eigen::VectorXd variance = (rows * covariance).cwiseProduct(rows).rowwise().sum();
-    for (Index i = 0; i < size; ++i) {
+    Eigen::VectorXd variance = (rows * covariance).cwiseProduct(rows).rowwise().sum().cwiseMax(0);
+    if (finer) {
+      const Eigen::VectorXd missed = value - RowsAt(law, *finer, which, places, kept) * finer->x;
+      variance += AlongFirstAxis(map, missed.cwiseAbs2());
+    }
+    const std::vector<double> doubt =
+        DoubtOfHoles(map, first, fit.unseen, fit.x.tail(fit.x.size() - fit.free));
+    first += map.size();
+    for (Index i = 0; i < places.rows(); ++i) {
       // where the map has no data it may be as far off as it varies elsewhere
-      const double deviation =
-          std::hypot(std::sqrt(std::max(0.0, variance[i])), doubt[static_cast<size_t>(i)]);
+      const double deviation = std::hypot(std::sqrt(variance[i]), doubt[static_cast<size_t>(i)]);
       band.value.push_back(value[i]);
       band.std.push_back(deviation);
       band.interval95.push_back({value[i] - reach * deviation, value[i] + reach * deviation});

@@ -104,7 +104,10 @@ Estimate ReportFit(const Fit& fit, const Inference& inference, const Measurement
   estimate.friction = FrictionOf(fit, inference);
   estimate.state_end = EndState(fit, inference, *estimate.friction, measurements);
   estimate.temperature = HeatBesideTemperature(fit, inference, *estimate.friction, measurements);
-  if (inference.gives_bands) estimate.bands = fit.bands;
+  if (inference.gives_bands) {
+    estimate.bands = fit.bands;
+    estimate.at_speeds = fit.at_speeds;
+  }
   if (fit.without_intervals.empty()) estimate.covariance = CovarianceOfValues(fit, inference);
   return estimate;
 }

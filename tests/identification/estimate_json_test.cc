@@ -57,6 +57,20 @@ TEST(EstimateJson, ReadsBackBitForBit) {
   EXPECT_EQ(back.Find("gain"), nullptr);
 }
 
+TEST(EstimateJson, KeepsFrictionAtSpeeds) {
+  Estimate estimate = Example();
+  EXPECT_FALSE(EstimateToJson(estimate).contains("friction_at_speeds"));
+  estimate.at_speeds = {{0.3, 2.15, 0.01, {2.13, 2.17}}, {0.8, 2.4, 0.02, {2.36, 2.44}}};
+  const json object = EstimateToJson(estimate);
+  EXPECT_EQ(object["friction_at_speeds"][0],
+            json({{"speed", 0.3}, {"value", 2.15}, {"std", 0.01}, {"interval95", {2.13, 2.17}}}));
+  EXPECT_EQ(EstimateToJson(EstimateFromJson(object, {})), object);
+
+  json wrong = object;
+  wrong["friction_at_speeds"][1]["interval95"] = 3;
+  EXPECT_THAT(Refusal(wrong), HasSubstr("must be [lower, upper]"));
+}
+
 TEST(EstimateJson, KeepsWarningsApartAndInTheMessage) {
   Estimate estimate = Example();
   EXPECT_FALSE(EstimateToJson(estimate).contains("warnings"));
