@@ -118,7 +118,11 @@ std::vector<MapBand> MakeBands(const Law& law, const MapFit& fit, const Uncertai
     const Eigen::VectorXd value = rows * fit.x;
     Eigen::VectorXd variance = (rows * covariance).cwiseProduct(rows).rowwise().sum().cwiseMax(0);
     if (finer) {
-      const Eigen::VectorXd missed = value - RowsAt(law, *finer, which, places, kept) * finer->x;
+      Eigen::VectorXd missed = value - RowsAt(law, *finer, which, places, kept) * finer->x;
+      // where there are no data neither of them follows anything
+      for (Index i = 0; i < missed.size(); ++i) {
+        if (fit.unseen[first + static_cast<size_t>(i)]) missed[i] = 0;
+      }
       variance += AlongFirstAxis(map, missed.cwiseAbs2());
     }
     const std::vector<double> doubt =
