@@ -24,4 +24,11 @@ inline BristleShape BristlesOf(int instances) {
   return {1.2 / instances, 1.2 / instances};
 }
 
+/// Damping of RK4, beside that of integrators which ask for the force once a step: its stages see
+/// speeds that the damper has slowed, so that a mode follows
+///   v' = -(A + B) v/h - A z/h^2,   z' = z + h v of the last stage
+/// by the method's polynomial, of spectral radius 0.65 with this at 1 and 0.43 here. Over poses of five
+/// arms without armature at 5 ms the largest is 0.81 with 1, 0.72 with 0.6 and 0.68 here.
+inline constexpr double kDampingOfStages = 0.45;
+
 }  // namespace warmjoint::inline sim

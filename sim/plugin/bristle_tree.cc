@@ -34,12 +34,12 @@ BristleTree::BristleTree(const mjModel* m, int tree, const std::vector<CoupledJo
   }
 }
 
-void BristleTree::Shape(double h, double slope) {
+void BristleTree::Shape(double h, double slope, double damping) {
   // the slope damps already
   slope = std::min(slope, kMostSlope);
   const BristleShape shape = BristlesOf(joints_.front().instances);
   impulse_ = shape.stiffness * (1 - slope) / h;
-  damping_ = std::max(0.0, shape.damping - slope) / h;
+  damping_ = std::max(0.0, damping * shape.damping - slope) / h;
 }
 
 void BristleTree::Step(const mjData* d, const LevelSource& levels, Rows rows, size_t first) {

@@ -41,8 +41,9 @@ class BristleTree {
   int first_dof() const { return inertia_.first(); }
   const std::vector<CoupledJoint>& joints() const { return joints_; }
 
-  /// Sets what follows from the step h, s. slope: of friction over speed, at most, in units of M/h.
-  void Shape(double h, double slope);
+  /// Sets what follows from the step h, s. slope: of friction over speed, at most, in units of M/h;
+  /// damping: of the bristles, beside that of BristlesOf.
+  void Shape(double h, double slope, double damping);
 
   /// Finds friction, sliding and the next load from v, load and levels. first: row of its first.
   void Step(const mjData* d, const LevelSource& levels, Rows rows, size_t first);

@@ -34,15 +34,16 @@ class CoupledBristles {
   /// The row of a joint's degree of freedom.
   size_t RowOf(int dof) const;
 
-  /// Sets the step, s. slope(dof): of friction over speed at most, N.m.s/rad or N.s/m.
+  /// Sets the step, s. damping: beside that of BristlesOf, for the integrator; slope(dof): of friction
+  /// over speed at most, N.m.s/rad or N.s/m.
   template <typename Slope>
-  void SetTimestep(double h, const Slope& slope) {
+  void SetTimestep(double h, double damping, const Slope& slope) {
     for (auto& [tree, first] : trees_) {
       double steepest = 0;
       for (const CoupledJoint& joint : tree.joints()) {
         steepest = std::max(steepest, slope(joint.dof) * h / joint.inertia);
       }
-      tree.Shape(h, steepest);
+      tree.Shape(h, steepest, damping);
     }
   }
 

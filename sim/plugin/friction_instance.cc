@@ -33,7 +33,8 @@ void FrictionInstance::Bind(const mjModel* m) {
     bound_ = BoundJoints(m, instance_, kFrictionReports);
     Rebind(m);
   }
-  if (bound_.ReadNumbers(m) || timestep_ != m->opt.timestep) [[unlikely]]
+  const bool same = timestep_ == m->opt.timestep && integrator_ == m->opt.integrator;
+  if (bound_.ReadNumbers(m) || !same) [[unlikely]]
     ReadNumbers(m);
 }
 
@@ -53,8 +54,9 @@ void FrictionInstance::Rebind(const mjModel* m) {
 
 void FrictionInstance::ReadNumbers(const mjModel* m) {
   timestep_ = m->opt.timestep;
+  integrator_ = m->opt.integrator;
   for (BoundJoint& joint : bound_.joints()) joint.friction.SetTimestep(timestep_);
-  rows_.ReadNumbers(bound_.joints(), timestep_);
+  rows_.ReadNumbers(m, bound_.joints());
   checked_ = false;
 }
 

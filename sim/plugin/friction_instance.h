@@ -61,6 +61,7 @@ class FrictionInstance {
   JointRows rows_;
   FrictionSensors sensors_;
   double timestep_ = 0;
+  int integrator_ = 0;
   bool checked_ = true;         // the numbers, against the inertia
   bool stepped_ = false;        // since the last Advance
   bool needs_ambient_ = false;  // by one of the joints

@@ -43,7 +43,7 @@ JointRows::JointRows(const mjModel* m, const std::vector<BoundJoint>& joints) {
   pushed_.reserve(joints.size());
 }
 
-void JointRows::ReadNumbers(const std::vector<BoundJoint>& joints, double h) {
+void JointRows::ReadNumbers(const mjModel* m, const std::vector<BoundJoint>& joints) {
   for (size_t i = 0; i < joints.size(); ++i) {
     const JointFriction& friction = joints[i].friction;
     const Heat& heat = friction.heat();
@@ -57,8 +57,10 @@ void JointRows::ReadNumbers(const std::vector<BoundJoint>& joints, double h) {
     Of(i, kSecondPole) = heat.second.pole;
     Of(i, kSecondGain) = heat.second.gain;
   }
-  bristles_.SetTimestep(
-      h, [&](int dof) { return joints[joint_at_[bristles_.RowOf(dof)]].friction.SteepestSlope(); });
+  const double damping = m->opt.integrator == mjINT_RK4 ? kDampingOfStages : 1;
+  bristles_.SetTimestep(m->opt.timestep, damping, [&](int dof) {
+    return joints[joint_at_[bristles_.RowOf(dof)]].friction.SteepestSlope();
+  });
 }
 
 /// Joints that are neighbours, and have the same two states, are loaded and stored together.

@@ -20,8 +20,8 @@ class JointRows : private LevelSource {
   JointRows() = default;
   JointRows(const mjModel* m, const std::vector<BoundJoint>& joints);
 
-  /// Takes over the joints' numbers and the step h, s. joints: as before, with their step set.
-  void ReadNumbers(const std::vector<BoundJoint>& joints, double h);
+  /// Takes over the joints' numbers and the model's step. joints: as before, with their step set.
+  void ReadNumbers(const mjModel* m, const std::vector<BoundJoint>& joints);
 
   /// Begins a step with the joints' speeds and states. joints: as before, and until the step has
   /// ended; states: d->act or d->plugin_state.
