@@ -115,6 +115,9 @@ identification::Estimate ToEstimate(const Estimate& estimate) {
   for (const MapBand& band : estimate.bands) {
     made.bands.push_back({band.quantities, band.points, band.value, band.std, band.interval95});
   }
+  for (const FrictionAtSpeed& one : estimate.friction_at_speeds) {
+    made.at_speeds.push_back({one.speed, one.value, one.std, one.interval95});
+  }
 
   // the verdict
   for (const Diagnostic& one : estimate.diagnostics) {
@@ -171,6 +174,9 @@ Estimate FromEstimate(const identification::Estimate& estimate) {
   }
   for (const identification::MapBand& band : estimate.bands) {
     made.bands.push_back({band.quantities, band.points, band.value, band.std, band.interval95});
+  }
+  for (const identification::FrictionAtSpeed& one : estimate.at_speeds) {
+    made.friction_at_speeds.push_back({one.speed, one.value, one.std, one.interval95});
   }
 
   // the verdict

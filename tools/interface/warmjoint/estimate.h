@@ -62,6 +62,14 @@ struct MapBand {
   std::vector<std::array<double, 2>> interval95{};  // [g]
 };
 
+/// What law and maps brake with at one speed, the mean over the places of the samples.
+struct FrictionAtSpeed {
+  double speed = 0;  // rad/s or m/s
+  double value = 0;  // N.m or N
+  double std = 0;
+  std::array<double, 2> interval95{};
+};
+
 /// Covariance of the values with intervals, by noise alone.
 struct Covariance {
   std::vector<std::string> parameters{};      // [p] names
@@ -118,6 +126,8 @@ struct Estimate {
       friction{};  // none where it cannot be trusted, or MuJoCo cannot use its unit
   std::optional<Gravity> gravity{};
   std::vector<MapBand> bands{};  // one for each of the friction's maps
+  /// Where a map can imitate a constant of the law, in place of that constant.
+  std::vector<FrictionAtSpeed> friction_at_speeds{};
   std::optional<Covariance> covariance{};
   std::vector<Diagnostic> diagnostics{};
   std::vector<Assumption> assumptions{};
