@@ -16,6 +16,7 @@ namespace {
 using Eigen::Index;
 
 constexpr Index kEnough = 1000;  // samples that tell the mean of a map
+constexpr double kBlind = 0.05;  // share of kernels without data
 constexpr int kVelocity = static_cast<int>(MapQuantity::velocity);
 
 bool IsAlikeBothWays(const FrictionMap& map) {
@@ -83,6 +84,15 @@ Eigen::MatrixXd RowsAt(const Law& law, const MapFit& fit, size_t which, const Ma
   return rows;
 }
 
+/// How much of a place's kernels has no data.
+double ShareOfUnseen(const Eigen::RowVectorXd& row, const MapFit& fit) {
+  double share = 0;
+  for (size_t k = 0; k < fit.unseen.size(); ++k) {
+    if (fit.unseen[k]) share += row[fit.free + static_cast<Index>(k)];
+  }
+  return share;
+}
+
 /// Squares averaged with those of both neighbours along a map's first axis, 1 : 2 : 1.
 Eigen::VectorXd AlongFirstAxis(const FrictionMap& map, const Eigen::VectorXd& squares) {
   const auto length = static_cast<Index>(map.axes[0].kernels.centres.size());
@@ -118,10 +128,12 @@ std::vector<MapBand> MakeBands(const Law& law, const MapFit& fit, const Uncertai
     const Eigen::VectorXd value = rows * fit.x;
     Eigen::VectorXd variance = (rows * covariance).cwiseProduct(rows).rowwise().sum().cwiseMax(0);
     if (finer) {
-      Eigen::VectorXd missed = value - RowsAt(law, *finer, which, places, kept) * finer->x;
-      // where there are no data neither of them follows anything
+      const Eigen::MatrixXd more = RowsAt(law, *finer, which, places, kept);
+      Eigen::VectorXd missed = value - more * finer->x;
+      // where one of them has no data it follows nothing
       for (Index i = 0; i < missed.size(); ++i) {
-        if (fit.unseen[first + static_cast<size_t>(i)]) missed[i] = 0;
+        const bool blind = fit.unseen[first + static_cast<size_t>(i)];
+        if (blind || ShareOfUnseen(more.row(i), *finer) > kBlind) missed[i] = 0;
       }
       variance += AlongFirstAxis(map, missed.cwiseAbs2());
     }
