@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "identification/warming/estimated_start.h"
+#include "models/foundation/low_pass.h"
 #include "models/recording/course_of.h"
 #include "models/recording/motor_angle.h"
 #include "tools/report/draw/ticks.h"
@@ -96,6 +97,9 @@ FitView MakeFitView(const Measurements& measurements, const Selection& selection
   FitView view = WithoutFit(measurements, selection, estimate);
   view.has_fit = true;
   view.fitted = given.force;
+  if (const EstimatedParameter* lag = estimate.Find("torque_lag")) {
+    view.fitted = LowPass(view.time, given.force + view.rigid, lag->value) - view.rigid;
+  }
   view.energy = given.energy;
   if (view.warms()) {
     const FrictionSpread spread = SpreadOf(estimate, view.course, view.start, selection);

@@ -6,8 +6,10 @@
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
+#include "models/foundation/low_pass.h"
 #include "tests/support/excited_recording.h"
 #include "tests/tools/report/look.h"
+#include "tests/tools/report/warm_recording.h"
 #include "tools/report/estimate/estimate_figures.h"
 #include "tools/report/figures/fit_page.h"
 #include "tools/report/figures/predicted.h"
@@ -98,6 +100,17 @@ TEST(FitView, OfACurrentSaysAmperesEverywhere) {
     DrawLight(*figure);
   }
   EXPECT_GE(figures, 8);
+}
+
+TEST(FitView, ShowsTheFitBehindALagOfTheTorque) {
+  constexpr double lag = 3;  // s
+  WarmRecording warm;
+  const FitView plain = MakeFitView(warm.measurements, warm.selection, warm.estimate);
+  Measurements& m = warm.measurements;
+  m.torque = LowPass(m.time, plain.fitted, lag);
+  EXPECT_GT(Residuals(MakeFitView(m, warm.selection, warm.estimate)).norm(), 1);
+  warm.estimate.parameters.push_back({"torque_lag", lag, "s", {}, {}});
+  EXPECT_LT(Residuals(MakeFitView(m, warm.selection, warm.estimate)).norm(), 1e-9);
 }
 
 }  // namespace
