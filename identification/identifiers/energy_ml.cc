@@ -158,7 +158,10 @@ Fit FitWarming(const IdentifierInput& given) {
   const bool by_squares = std::isinf(robust.threshold) && moving.count() == input.selection.count();
   std::shared_ptr<const LaggedRows> lag;
   if (by_squares && AsksForLag(given)) {
-    lag = FitBehindLag(m, moving, loop, offsets, spread, robust.fit);
+    const auto scan = [&](const Eigen::VectorXd& at) {
+      return Scan(m, gravity, loop, columns, nominal, at, kept);
+    };
+    lag = FitBehindLag(m, moving, loop, offsets, spread, scan, robust.fit);
   }
   Whitened whitened;
   if (by_squares && !lag) {

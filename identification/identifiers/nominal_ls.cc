@@ -7,6 +7,7 @@
 #include "identification/inference/bounds.h"
 #include "identification/inference/hold_structure.h"
 #include "identification/lagged/lagged_fit.h"
+#include "identification/lagged/linear_lag.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/linear_task.h"
@@ -28,28 +29,6 @@ std::optional<Disagreement> FindStructure(const Eigen::MatrixXd& A, const Eigen:
   return FindDisagreement({plain.solution, known.covariance},
                           {white.solution, whitening.noise().innovation * white.cofactor},
                           known.freedom);
-}
-
-/// The law once more behind the lag of the torque that leaves the least squares, in place of the fit
-/// without; nothing, and the fit as it was, where the log shows none. columns: [N x d]; A, torque: their
-/// kept rows.
-std::shared_ptr<const LaggedRows> FitBehindLag(const IdentifierInput& input,
-                                               const Eigen::MatrixXd& columns,
-                                               const Eigen::MatrixXd& A,
-                                               const Eigen::VectorXd& torque, LeastSquares& fit) {
-  const auto solve = [&](const LaggedRows& rows) {
-    return SolveLeastSquares(rows.Of(A), rows.Of(rows.Unlagged(torque)));
-  };
-  const auto runs = std::make_shared<const KeptRuns>(FindRuns(input.measurements, input.selection));
-  auto rows =
-      SearchLag(runs, torque, A * fit.solution, [&](const LaggedRows& at) -> ModelBehindLag {
-        const LeastSquares one = solve(at);
-        if (one.rank < A.cols()) return {};
-        const Eigen::VectorXd left = at.Of(at.Unlagged(torque) - A * one.solution);
-        return {left.squaredNorm(), columns * one.solution};
-      });
-  if (rows) fit = solve(*rows);
-  return rows;
 }
 
 Fit FitLaw(const IdentifierInput& given) {
@@ -79,7 +58,13 @@ Fit FitLaw(const IdentifierInput& given) {
 
   // once more behind the lag of the torque, or where the noise is coloured beyond doubt
   std::shared_ptr<const LaggedRows> lag;
-  if (AsksForLag(given)) lag = FitBehindLag(input, columns, A, torque, solved);
+  if (AsksForLag(given)) {
+    const auto runs = std::make_shared<const KeptRuns>(FindRuns(m, input.selection));
+    if (auto behind = FitLinearLag(runs, A, torque, A * solved.solution)) {
+      lag = behind->rows;
+      solved = std::move(behind->fit);
+    }
+  }
   std::shared_ptr<const Whitening> whitening;
   std::optional<Disagreement> structure;
   if (!huber && !lag) whitening = WhiteningFor(torque - A * solved.solution, m, input.selection);

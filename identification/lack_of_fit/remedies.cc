@@ -22,7 +22,7 @@ bool HoldsMap(const Advice& advice, MapQuantity quantity) {
 }
 bool HoldsWarming(const Advice& advice) { return advice.fit.RowOf(Role::heat).has_value(); }
 
-/// "try --identifier NAME ...", with the gravity that the fit has.
+/// "try --identifier NAME ...", with the gravity and the lag of the torque that the fit has.
 std::string Try(const Advice& advice, const std::string& command) {
   const bool sincos = advice.fit.gravity && advice.fit.gravity->kind == GravityKind::sincos;
   const char* gravity = !advice.fit.gravity ? ""
@@ -30,7 +30,10 @@ std::string Try(const Advice& advice, const std::string& command) {
                                             : " --gravity paired";
   const bool can = command.starts_with("energy-ml") || command.starts_with("nominal-ls") ||
                    command.starts_with("position-ridge");
-  return fmt::format("try --identifier {}{}", command, can ? gravity : "");
+  const bool lags = advice.fit.torque_lag && command.find("position") == std::string::npos &&
+                    (command.starts_with("energy-ml") || command.starts_with("nominal-ls"));
+  return fmt::format("try --identifier {}{}{}", command, can ? gravity : "",
+                     lags ? " --set torque_lag=estimated" : "");
 }
 
 /// Kernels of the first axis over a quantity; 0 where there is none.
@@ -167,7 +170,9 @@ std::string AgainstPeriod(const Advice&) {
 std::string AgainstLag(const Advice& advice) {
   const Law& law = *FindLaw(advice.fit.friction.law);
   const bool can = IsLinear(law) && advice.fit.friction.maps.empty() && !advice.fit.inertia;
-  if (!can || advice.fit.torque_lag) {
+  const bool asked =
+      advice.identifier.Has("torque_lag") && advice.input.options.Text("torque_lag") == "estimated";
+  if (!can || asked || advice.fit.torque_lag) {
     return "is the torque filtered or late? shift it against the velocity, or log both alike";
   }
   const bool by_default = law.name == "viscous_coulomb";

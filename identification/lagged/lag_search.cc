@@ -14,7 +14,7 @@ constexpr std::uintmax_t kMostFits = 40;
 
 LagRange LagsOf(const KeptRuns& runs) {
   const double step = runs.Step();
-  return {step / 8, std::max(0.5 * runs.Duration(), step)};
+  return {step / 8, std::max(runs.Duration(), step)};
 }
 
 std::vector<double> LagRange::Tried() const {

@@ -13,7 +13,7 @@ namespace warmjoint::inline identification {
 inline constexpr int kLagsTried = 14;
 
 /// Time constants between which a lag can be told, s: from an eighth of a sampling interval, whose
-/// e^-8 no sample shows, to half of a run, beyond which what it holds looks like the run's level.
+/// e^-8 no sample shows, to the duration of a run, beyond which what it holds looks like a drift of the run.
 struct LagRange {
   double shortest = 0;
   double longest = 0;

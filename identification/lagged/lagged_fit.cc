@@ -102,14 +102,13 @@ std::optional<std::string> WhyNoLag(const IdentifierInput& input) {
 std::shared_ptr<const LaggedRows> SearchLag(const std::shared_ptr<const KeptRuns>& runs,
                                             const VectorXd& measured, const VectorXd& without,
                                             const FitAtLag& fit_at) {
-  if (!ShowsLag(runs, without, measured - without)) return nullptr;
+  if (without.size() > 0 && !ShowsLag(runs, without, measured - without)) return nullptr;
 
   // noise that is white where it joins the torque
   const Found plain = BestOf(runs, fit_at, [](double) { return nullptr; });
   if (!plain.rows) return nullptr;
-  const VectorXd all = fit_at(*plain.rows).torque;
-  if (all.size() == 0) return nullptr;
-  const VectorXd torque = AtKept(all, *runs);
+  const VectorXd torque = fit_at(*plain.rows).torque;
+  if (torque.size() == 0) return nullptr;
   const VectorXd left = measured - plain.rows->Lagged(torque);
   if (!LookForLag(*plain.rows, torque, left).IsSeen()) return nullptr;
 

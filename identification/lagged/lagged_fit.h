@@ -35,7 +35,7 @@ using FitAtLag = std::function<ModelBehindLag(const LaggedRows& rows)>;
 /// (IsSurelyColoured), of the likelier of two: the one that the residual shows, and that of white
 /// noise which the lag has passed, AR(1) with exp(-h / T). Nothing where no lag is seen (SeenLag),
 /// neither beside the fit without one nor behind the best.
-/// measured: [n]; without: [n] torque of that fit.
+/// measured: [n]; without: [n] torque of that fit, empty where it went astray.
 std::shared_ptr<const LaggedRows> SearchLag(const std::shared_ptr<const KeptRuns>& runs,
                                             const Eigen::VectorXd& measured,
                                             const Eigen::VectorXd& without, const FitAtLag& fit_at);

@@ -1,41 +1,81 @@
 #include "identification/warming/lagged_warm_fit.h"
 
 #include <cmath>
+#include <optional>
 
 #include "identification/lagged/lagged_fit.h"
+#include "identification/lagged/linear_lag.h"
+#include "identification/linear/rigid_part.h"
 
 namespace warmjoint::inline identification {
+
+namespace {
+
+/// A start from the level of friction that is left where what a lag adds to law and offsets alone is taken off
+/// the torque; nothing where that shows no lag.
+std::optional<WarmStart> StartBehindLag(const Measurements& m,
+                                        const std::shared_ptr<const KeptRuns>& runs,
+                                        const ClosedLoop& loop, const Eigen::MatrixXd& offsets,
+                                        const StartFromLevel& scan) {
+  const Eigen::MatrixXd columns = loop.direction().asDiagonal() * Beside(loop.levels(), offsets);
+  const Eigen::MatrixXd A = columns(runs->samples, Eigen::all);
+  const Eigen::VectorXd measured = m.torque(runs->samples);
+  const auto found = FitLinearLag(runs, A, measured, {});
+  if (!found) return std::nullopt;
+  const Eigen::VectorXd model = A * found->fit.solution;
+  const Eigen::VectorXd lagged = found->rows->Lagged(model);
+  const Eigen::VectorXd held = found->rows->HeldBy(measured - lagged).col(0);
+  Eigen::VectorXd torque = m.torque;
+  torque(runs->samples) -= lagged + found->rows->Dying(held) - model;
+  return scan(loop.direction().cwiseProduct(torque));
+}
+
+}  // namespace
 
 std::shared_ptr<const LaggedRows> FitBehindLag(const Measurements& m, const Selection& moving,
                                                const ClosedLoop& loop,
                                                const Eigen::MatrixXd& offsets,
-                                               const Eigen::VectorXd& spread, WarmFit& fit) {
+                                               const Eigen::VectorXd& spread,
+                                               const StartFromLevel& scan, WarmFit& fit) {
   const auto runs = std::make_shared<const KeptRuns>(FindRuns(m, moving));
   const Eigen::VectorXd measured = m.torque(runs->samples);
   const Eigen::VectorXd kept = moving.keep.cast<double>();
   const double scale = std::sqrt(fit.solution.squares / kept.sum());
 
-  // each from where the latest ended
+  // [N]; empty where the friction feeds itself
+  const auto torque_of = [&](const WarmFit& one) -> Eigen::VectorXd {
+    const LoopResponse response =
+        loop.Simulate(one.parameters(), one.thermal(), one.initial_energy(), one.jump_values());
+    if (response.feeds_itself) return {};
+    return response.force + loop.direction().cwiseProduct(offsets * one.offset_values());
+  };
+
+  // each from where the latest ended; a fit without the lag may have gone astray
   WarmFit latest = fit;
+  WarmStart start = StartFrom(fit);
+  if (!fit.converged) {
+    const auto behind = StartBehindLag(m, runs, loop, offsets, scan);
+    if (!behind) return nullptr;
+    start = *behind;
+  }
   const auto fit_at = [&](const LaggedRows& rows) -> ModelBehindLag {
     Eigen::VectorXd level = Eigen::VectorXd::Zero(m.size());
     level(runs->samples) = rows.Unlagged(measured);
     level.array() *= loop.direction().array();
-    WarmFit next = FitWarmFriction(loop, level, offsets, kept, StartFrom(latest), fit.initial,
-                                   scale, JumpWeights(scale, spread), &rows);
+    WarmFit next = FitWarmFriction(loop, level, offsets, kept, start, fit.initial, scale,
+                                   JumpWeights(scale, spread), &rows);
     if (!next.converged) return {};
-    const LoopResponse response =
-        loop.Simulate(next.parameters(), next.thermal(), next.initial_energy(), next.jump_values());
-    if (response.feeds_itself) return {};
+    const Eigen::VectorXd torque = torque_of(next);
+    if (torque.size() == 0) return {};
     latest = std::move(next);
-    const Eigen::VectorXd beside = offsets * latest.offset_values();
-    return {latest.solution.squares, response.force + loop.direction().cwiseProduct(beside)};
+    start = StartFrom(latest);
+    return {latest.solution.squares, torque(runs->samples)};
   };
-  const LoopResponse before =
-      loop.Simulate(fit.parameters(), fit.thermal(), fit.initial_energy(), fit.jump_values());
-  const Eigen::VectorXd without =
-      before.force + loop.direction().cwiseProduct(offsets * fit.offset_values());
-  auto rows = SearchLag(runs, measured, Eigen::VectorXd(without(runs->samples)), fit_at);
+  Eigen::VectorXd without;
+  if (const Eigen::VectorXd all = torque_of(fit); fit.converged && all.size() > 0) {
+    without = all(runs->samples);
+  }
+  auto rows = SearchLag(runs, measured, without, fit_at);
   if (!rows || fit_at(*rows).torque.size() == 0) return nullptr;
   latest.trace.insert(latest.trace.begin(), fit.trace.begin(), fit.trace.end());
   fit = std::move(latest);

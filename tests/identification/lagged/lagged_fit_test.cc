@@ -57,6 +57,25 @@ TEST(TorqueLag, IsFoundByALawWithoutWarming) {
   EXPECT_NEAR(cold.Find("coulomb")->value, 15, 1e-6);
 }
 
+TEST(TorqueLag, IsFoundWhereTheFitWithoutItGoesAstray) {
+  // a lag of 0.8 s in holds of 2 s leaves torque of the wrong sign in a third of the samples
+  FrictionDescription joint = test::TableOne();
+  const VectorXd speeds = test::AlternatingSpeeds(4200, 11);
+  VectorXd velocity(21000);
+  for (Eigen::Index i = 0; i < velocity.size(); ++i) velocity[i] = speeds[i / 5];
+  Measurements m = test::Record(0.02, velocity, velocity);
+  for (Eigen::Index i = 1; i < m.size(); ++i) {
+    m.position[i] = m.position[i - 1] + 0.02 * velocity[i - 1];
+  }
+  m.torque = LowPass(m.time, PredictFriction(joint, m, {}).force, 0.8);
+  RandomStream random({31, 0}, Stream::test);
+  for (double& torque : m.torque) torque += 0.3 * random.Normal();
+  const Estimate estimate = Identified("energy-ml", m);
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+  EXPECT_NEAR(estimate.Find("torque_lag")->value, 0.8, 4 * *estimate.Find("torque_lag")->std);
+  EXPECT_NEAR(estimate.Find("coulomb")->value, 15, 4 * *estimate.Find("coulomb")->std);
+}
+
 TEST(TorqueLag, IsNotFittedWhereTheTorqueShowsNone) {
   for (const char* name : {"energy-ml", "nominal-ls"}) {
     const std::optional<Thermal> thermal =

@@ -1,0 +1,25 @@
+#include "identification/lagged/linear_lag.h"
+
+#include "identification/lagged/lagged_fit.h"
+
+namespace warmjoint::inline identification {
+
+std::optional<LinearLag> FitLinearLag(const std::shared_ptr<const KeptRuns>& runs,
+                                      const Eigen::MatrixXd& A, const Eigen::VectorXd& measured,
+                                      const Eigen::VectorXd& without) {
+  const auto solve = [&](const LaggedRows& rows) {
+    return SolveLeastSquares(rows.Of(A), rows.Of(rows.Unlagged(measured)));
+  };
+  auto rows = SearchLag(runs, measured, without, [&](const LaggedRows& at) -> ModelBehindLag {
+    const LeastSquares one = solve(at);
+    if (one.rank < A.cols()) return {};
+    Eigen::VectorXd torque = A * one.solution;
+    const Eigen::VectorXd left = at.Of(at.Unlagged(measured) - torque);
+    return {left.squaredNorm(), std::move(torque)};
+  });
+  if (!rows) return std::nullopt;
+  LeastSquares fit = solve(*rows);
+  return LinearLag{std::move(rows), std::move(fit)};
+}
+
+}  // namespace warmjoint::inline identification
