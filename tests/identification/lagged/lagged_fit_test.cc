@@ -54,7 +54,8 @@ TEST(TorqueLag, IsFoundByALawWithoutWarming) {
   const Estimate cold = Identified("nominal-ls", Lagging(kLag, 0, std::nullopt));
   ASSERT_EQ(cold.status, Status::ok) << cold.message;
   EXPECT_NEAR(cold.Find("torque_lag")->value, kLag, 1e-5 * kLag);
-  EXPECT_NEAR(cold.Find("coulomb")->value, 15, 1e-6);
+  // 1e-6 of T moves the torque by 1e-6 of the largest drop, 40 N.m, at most
+  EXPECT_NEAR(cold.Find("coulomb")->value, 15, 4e-5);
 }
 
 TEST(TorqueLag, IsFoundWhereTheFitWithoutItGoesAstray) {
