@@ -6,13 +6,18 @@
 
 namespace warmjoint::inline identification {
 
+TorqueModel ModelOf(const Fit& fit) {
+  TorqueModel model{fit.friction, fit.gravity, fit.inertia};
+  if (fit.torque_lag) model.lag = fit.torque_lag->time_constant;
+  return model;
+}
+
 std::optional<Metrics> Evaluate(const Fit& fit, const Measurements& measurements, Selection test,
                                 const CourseStart& start) {
   if (!Infer(fit).gives_friction) return std::nullopt;
   const FrictionDescription& friction = fit.friction;
-  TorqueModel model{friction, fit.gravity, fit.inertia};
-  if (fit.torque_lag) model.lag = fit.torque_lag->time_constant;
-  const TorquePrediction predicted = PredictTorque(model, measurements, std::move(test), start);
+  const TorquePrediction predicted =
+      PredictTorque(ModelOf(fit), measurements, std::move(test), start);
   if (predicted.known.count() == 0) return std::nullopt;
   auto parameters = friction.parameters.size() + (friction.thermal ? 2 : 0);
   for (const FrictionMap& map : friction.maps) parameters += map.weights.size();

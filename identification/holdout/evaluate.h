@@ -4,8 +4,12 @@
 #include <optional>
 
 #include "identification/fit.h"
+#include "identification/holdout/predict_torque.h"
 
 namespace warmjoint::inline identification {
+
+/// What the fit knows of the torque, its lag on the way into the log too.
+TorqueModel ModelOf(const Fit& fit);
 
 /// Compares the torque that the fit's friction, gravity and inertia predict along a log with the samples that
 /// `test` keeps; where the fit knows its gravity only in places, with those there. The prediction

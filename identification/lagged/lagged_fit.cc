@@ -23,12 +23,6 @@ using Eigen::VectorXd;
 /// Rows of the kept samples. [n x q]
 MatrixXd AtKept(const MatrixXd& all, const KeptRuns& runs) { return all(runs.samples, Eigen::all); }
 
-/// What the lag leaves of measured torque, whatever its runs began with. [n]
-VectorXd Residual(const LaggedRows& rows, const VectorXd& measured, const VectorXd& torque) {
-  const VectorXd left = measured - rows.Lagged(torque);
-  return left - rows.Dying(rows.HeldBy(left));
-}
-
 /// AR(1) with a correlation between neighbours, of that variance.
 NoiseModel Autoregressive(double correlation, double variance) {
   NoiseModel noise;
@@ -115,7 +109,7 @@ std::shared_ptr<const LaggedRows> SearchLag(const std::shared_ptr<const KeptRuns
   // its own colour, or that of white noise behind the lag, where it surely has one
   Selection grid;
   grid.keep.setConstant(measured.size(), true);
-  const NoiseModel noise = FitNoise(Residual(*plain.rows, measured, torque), grid);
+  const NoiseModel noise = FitNoise(measured - plain.rows->FittedTo(measured, torque), grid);
   if (!IsSurelyColoured(noise, measured.size())) return plain.rows;
   const double step = runs->Step();
   const auto own = WhiteningOfRuns(noise, *runs);

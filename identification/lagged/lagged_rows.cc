@@ -95,6 +95,11 @@ MatrixXd LaggedRows::Dying(const MatrixXd& held) const {
   return dying;
 }
 
+VectorXd LaggedRows::FittedTo(const VectorXd& measured, const VectorXd& torque) const {
+  const VectorXd lagged = Lagged(torque);
+  return lagged + Dying(HeldBy(measured - lagged));
+}
+
 std::shared_ptr<const Whitening> WhiteningOfRuns(const NoiseModel& noise, const KeptRuns& runs) {
   std::vector<Index> places(runs.samples.size());
   Index next = 0;

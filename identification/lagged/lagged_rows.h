@@ -38,6 +38,9 @@ class LaggedRows final : public RowTransform {
   Eigen::MatrixXd HeldBy(const Eigen::MatrixXd& rows) const;
   /// d exp(-(t - t0) / T). held: [R x q]; returns [n x q].
   Eigen::MatrixXd Dying(const Eigen::MatrixXd& held) const;
+  /// L f + d exp(-(t - t0) / T) with the d of what L f leaves: f as the log would show it. torque: f;
+  /// measured: [n]
+  Eigen::VectorXd FittedTo(const Eigen::VectorXd& measured, const Eigen::VectorXd& torque) const;
 
   double lag() const { return lag_; }
   const std::shared_ptr<const KeptRuns>& runs() const { return runs_; }

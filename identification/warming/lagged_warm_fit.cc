@@ -23,10 +23,8 @@ std::optional<WarmStart> StartBehindLag(const Measurements& m,
   const auto found = FitLinearLag(runs, A, measured, {});
   if (!found) return std::nullopt;
   const Eigen::VectorXd model = A * found->fit.solution;
-  const Eigen::VectorXd lagged = found->rows->Lagged(model);
-  const Eigen::VectorXd held = found->rows->HeldBy(measured - lagged).col(0);
   Eigen::VectorXd torque = m.torque;
-  torque(runs->samples) -= lagged + found->rows->Dying(held) - model;
+  torque(runs->samples) -= found->rows->FittedTo(measured, model) - model;
   return scan(loop.direction().cwiseProduct(torque));
 }
 

@@ -16,13 +16,14 @@
 #include "identification/answer/identify.h"
 #include "identification/fit_data.h"
 #include "identification/holdout/blocked_hold_out.h"
+#include "identification/holdout/evaluate.h"
 #include "identification/holdout/predict_torque.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/identifiers/structures.h"
 #include "identification/uncertainty/tails.h"
-#include "models/foundation/parse_number.h"
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"
+#include "tests/studies/for_each_variant.h"
 
 namespace warmjoint {
 namespace {
@@ -49,10 +50,8 @@ const std::map<std::string, std::pair<std::string, Given>> kRight{
 std::optional<Eigen::VectorXd> ErrorsOn(const PreparedLog& log, const Fit& fit) {
   if (fit.refusal) return std::nullopt;
   const LogView& view = fit.inertia ? log.moving() : log.steady();
-  TorqueModel model{fit.friction, fit.gravity, fit.inertia};
-  if (fit.torque_lag) model.lag = fit.torque_lag->time_constant;
   const TorquePrediction predicted =
-      PredictTorque(model, view.measurements, view.selection, fit.Start());
+      PredictTorque(ModelOf(fit), view.measurements, view.selection, fit.Start());
   const std::vector<Eigen::Index> bounds = CutIntoBlocks(view.selection, kBlocks);
   const Eigen::ArrayXd squares = (view.measurements.torque - predicted.torque).array().square();
   Eigen::VectorXd errors(kBlocks);
@@ -134,22 +133,5 @@ void Study(const Suite& suite, int variant, int realizations) {
 }  // namespace warmjoint
 
 int main(int count, char** arguments) {
-  using namespace warmjoint;
-  if (count < 2) {
-    fmt::print(stderr, "structure_study SUITE.yaml [REALIZATIONS [VARIANT]]\n");
-    return 2;
-  }
-  try {
-    const Suite suite = ReadSuite(arguments[1]);
-    const std::optional<double> asked = count > 2 ? ParseNumber(arguments[2]) : std::nullopt;
-    const int realizations = asked ? static_cast<int>(*asked) : suite.realizations;
-    for (int variant = 0; variant < suite.variants(); ++variant) {
-      const std::string& name = suite.ladder->variants[static_cast<size_t>(variant)].name;
-      if (count < 4 || name == arguments[3]) Study(suite, variant, realizations);
-    }
-  } catch (const BadInput& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 2;
-  }
-  return 0;
+  return warmjoint::StudyVariants("structure_study", count, arguments, warmjoint::Study);
 }

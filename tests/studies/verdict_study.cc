@@ -23,9 +23,9 @@
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/score/score.h"
-#include "models/foundation/parse_number.h"
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"
+#include "tests/studies/for_each_variant.h"
 
 namespace warmjoint {
 namespace {
@@ -172,24 +172,5 @@ void Study(const Suite& suite, int variant, int realizations) {
 }  // namespace warmjoint
 
 int main(int count, char** arguments) {
-  using namespace warmjoint;
-  if (count < 2) {
-    fmt::print(stderr, "verdict_study SUITE.yaml [REALIZATIONS [VARIANT]]\n");
-    return 2;
-  }
-  try {
-    const Suite suite = ReadSuite(arguments[1]);
-    const std::optional<double> given = count > 2 ? ParseNumber(arguments[2]) : std::nullopt;
-    const int realizations = given ? static_cast<int>(*given) : suite.realizations;
-    for (int variant = 0; variant < suite.variants(); ++variant) {
-      const bool wanted =
-          count < 4 || (suite.ladder &&
-                        suite.ladder->variants[static_cast<size_t>(variant)].name == arguments[3]);
-      if (wanted) Study(suite, variant, realizations);
-    }
-  } catch (const BadInput& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 2;
-  }
-  return 0;
+  return warmjoint::StudyVariants("verdict_study", count, arguments, warmjoint::Study);
 }
