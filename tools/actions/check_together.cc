@@ -29,12 +29,12 @@ std::vector<const CheckedFile*> Readable(const std::vector<CheckedFile>& files) 
 using Files = std::vector<const CheckedFile*>;
 
 /// The recordings by a value of theirs, in the order in which values come.
-Difference By(const std::string& what, const Files& files,
-              const std::function<std::string(const CheckedFile&)>& value_of) {
-  Difference difference{what, {}};
+RecordingDifference By(const std::string& what, const Files& files,
+                       const std::function<std::string(const CheckedFile&)>& value_of) {
+  RecordingDifference difference{what, {}};
   for (const CheckedFile* file : files) {
     const std::string value = value_of(*file);
-    auto found = std::ranges::find(difference.values, value, &Difference::Value::value);
+    auto found = std::ranges::find(difference.values, value, &RecordingDifference::Value::value);
     if (found == difference.values.end()) {
       difference.values.push_back({value, {}});
       found = std::prev(difference.values.end());
@@ -114,9 +114,9 @@ std::string VerdictOf(const CheckedFile& file) {
   return any ? "ok" : "no friction";
 }
 
-std::vector<Difference> DifferencesOf(const std::vector<CheckedFile>& files) {
+std::vector<RecordingDifference> DifferencesOf(const std::vector<CheckedFile>& files) {
   const Files readable = Readable(files);
-  std::vector<Difference> differences{
+  std::vector<RecordingDifference> differences{
       By("joint", readable,
          [](const CheckedFile& one) {
            return std::string(one.check->joint == JointKind::rotary ? "rotary" : "linear");
@@ -145,7 +145,7 @@ std::vector<Difference> DifferencesOf(const std::vector<CheckedFile>& files) {
                          kPositionUnit.For(one.check->joint));
     }));
   }
-  std::erase_if(differences, [](const Difference& one) { return one.values.size() < 2; });
+  std::erase_if(differences, [](const RecordingDifference& one) { return one.values.size() < 2; });
   return differences;
 }
 
@@ -170,9 +170,9 @@ std::string CheckedTogetherToText(const std::vector<CheckedFile>& files, int wid
   }
   std::string text = TableToText(table, 1, width) + "\n";
 
-  const std::vector<Difference> differences = DifferencesOf(files);
+  const std::vector<RecordingDifference> differences = DifferencesOf(files);
   if (differences.empty()) text += "units, columns, wraps and rates are the same in all of them\n";
-  for (const Difference& one : differences) {
+  for (const RecordingDifference& one : differences) {
     std::vector<std::string> values;
     for (const auto& [value, sharing] : one.values) {
       values.push_back(fmt::format("{} ({})", value, fmt::join(sharing, ", ")));
@@ -185,7 +185,7 @@ std::string CheckedTogetherToText(const std::vector<CheckedFile>& files, int wid
 nlohmann::json CheckedTogetherToJson(const std::vector<CheckedFile>& files) {
   nlohmann::json recordings = nlohmann::json::array(), differences = nlohmann::json::array();
   for (const CheckedFile& file : files) recordings.push_back(RowToJson(file));
-  for (const Difference& one : DifferencesOf(files)) {
+  for (const RecordingDifference& one : DifferencesOf(files)) {
     nlohmann::json values = nlohmann::json::array();
     for (const auto& [value, sharing] : one.values) {
       values.push_back({{"value", value}, {"files", sharing}});

@@ -27,7 +27,7 @@ std::vector<std::string> OptionalColumns(const Measurements& as_read);
 std::string VerdictOf(const CheckedFile& file);
 
 /// One thing in which recordings differ, and the recordings that share each value of it.
-struct Difference {
+struct RecordingDifference {
   struct Value {
     std::string value;
     std::vector<std::string> files;
@@ -38,7 +38,7 @@ struct Difference {
 
 /// Kind of joint, unit of the torque, columns, turns that were undone, rates (by more than 1 %),
 /// fastest speeds (by more than five times) and travels that do not meet, of those that could be read.
-std::vector<Difference> DifferencesOf(const std::vector<CheckedFile>& files);
+std::vector<RecordingDifference> DifferencesOf(const std::vector<CheckedFile>& files);
 
 /// A table of file, samples, rate, duration, segments, speeds, faults and verdict, and a line for each
 /// difference. width: of the page
