@@ -19,8 +19,8 @@ struct Asymmetric {
   static constexpr bool level_at_any_speed = true;
   static constexpr std::array parameters{
       kViscousRow,
-      ParameterInfo{"coulomb_positive", "kc+", kTorqueUnit, 0, kInfinity, 0, "level for v > 0"},
-      ParameterInfo{"coulomb_negative", "kc-", kTorqueUnit, 0, kInfinity, 0, "level for v < 0"},
+      kCoulombPositiveRow,
+      kCoulombNegativeRow,
   };
 
   /// side: direction of motion, 1 or -1; p: {kv, kc+, kc-}; returns N.m or N, at any speed.

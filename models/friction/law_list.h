@@ -2,6 +2,8 @@
 #pragma once
 
 #include "models/friction/asymmetric.h"
+#include "models/friction/asymmetric_lugre.h"
+#include "models/friction/asymmetric_stribeck.h"
 #include "models/friction/coulomb.h"
 #include "models/friction/dahl.h"
 #include "models/friction/lugre.h"
@@ -42,6 +44,7 @@ struct LawList {
 };
 
 /// All laws: a new one is its own header and one line here.
-using AllLaws = LawList<Coulomb, ViscousCoulomb, Asymmetric, Stiction, Stribeck, Dahl, LuGre>;
+using AllLaws = LawList<Coulomb, ViscousCoulomb, Asymmetric, Stiction, Stribeck, AsymmetricStribeck,
+                        Dahl, LuGre, AsymmetricLuGre>;
 
 }  // namespace warmjoint::inline models

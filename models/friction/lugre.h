@@ -2,12 +2,11 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 
 #include "models/friction/bristle_course.h"
 #include "models/friction/parameter_rows.h"
 #include "models/friction/pre_sliding.h"
-#include "models/friction/sign.h"
+#include "models/friction/sliding_force.h"
 #include "models/friction/stribeck.h"
 
 namespace warmjoint::inline models {
@@ -21,13 +20,8 @@ struct LuGre {
       "dz/dt = v - sigma0 |v| z/g, F = sigma0 z + sigma1 dz/dt + kv v; steady: stribeck, delta 2";
   static constexpr PreSliding pre_sliding = PreSliding::bristle;
   static constexpr std::array parameters{
-      kViscousRow,
-      kCoulombRow,
-      kStaticRow,
-      kStribeckVelocityRow,
-      kBristleStiffnessRow,
-      ParameterInfo{"bristle_damping", "sigma1", kViscousUnit, 0, kInfinity, 0,
-                    "damping of the bristle's motion"},
+      kViscousRow,          kCoulombRow,          kStaticRow,
+      kStribeckVelocityRow, kBristleStiffnessRow, kBristleDampingRow,
   };
 
   /// speed: |v|; p: {kv, kc, ks, vs, sigma0, sigma1}; returns g, N.m or N.
@@ -47,7 +41,7 @@ struct LuGre {
   /// Steady sliding. v: rad/s or m/s; p: {kv, kc, ks, vs, sigma0, sigma1}; returns N.m or N.
   template <typename T>
   static T Force(double v, const T* p) {
-    return p[0] * v + T(Sign(v)) * Level(Sign(v), std::abs(v), p);
+    return SlidingForceOf<LuGre>(v, p);
   }
 };
 

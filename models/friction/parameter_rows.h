@@ -25,6 +25,26 @@ inline constexpr ParameterInfo kCoulombRow{
     .meaning = "level at any speed",
 };
 
+inline constexpr ParameterInfo kCoulombPositiveRow{
+    .name = "coulomb_positive",
+    .symbol = "kc+",
+    .unit = kTorqueUnit,
+    .lower = 0,
+    .upper = kInfinity,
+    .default_value = 0,
+    .meaning = "level for v > 0",
+};
+
+inline constexpr ParameterInfo kCoulombNegativeRow{
+    .name = "coulomb_negative",
+    .symbol = "kc-",
+    .unit = kTorqueUnit,
+    .lower = 0,
+    .upper = kInfinity,
+    .default_value = 0,
+    .meaning = "level for v < 0",
+};
+
 inline constexpr ParameterInfo kStaticRow{
     .name = "static",
     .symbol = "ks",
@@ -33,6 +53,16 @@ inline constexpr ParameterInfo kStaticRow{
     .upper = kInfinity,
     .default_value = 0,
     .meaning = "level at rest, >= coulomb",
+};
+
+inline constexpr ParameterInfo kStaticRiseRow{
+    .name = "static_rise",
+    .symbol = "kr",
+    .unit = kTorqueUnit,
+    .lower = 0,
+    .upper = kInfinity,
+    .default_value = 0,
+    .meaning = "level at rest less that at any speed, in both directions",
 };
 
 inline constexpr ParameterInfo kStribeckVelocityRow{
@@ -45,6 +75,17 @@ inline constexpr ParameterInfo kStribeckVelocityRow{
     .meaning = "speed over which static falls to coulomb",
 };
 
+inline constexpr ParameterInfo kStribeckExponentRow{
+    .name = "stribeck_exponent",
+    .symbol = "delta",
+    .unit = {"1", "1"},
+    .lower = 0.1,
+    .upper = 10,
+    .default_value = 2,
+    .meaning = "sharpness of that fall",
+    .given = Given::or_default,
+};
+
 inline constexpr ParameterInfo kBristleStiffnessRow{
     .name = "bristle_stiffness",
     .symbol = "sigma0",
@@ -53,6 +94,16 @@ inline constexpr ParameterInfo kBristleStiffnessRow{
     .upper = kInfinity,
     .default_value = 1,
     .meaning = "slope of the force over travel before sliding",
+};
+
+inline constexpr ParameterInfo kBristleDampingRow{
+    .name = "bristle_damping",
+    .symbol = "sigma1",
+    .unit = kViscousUnit,
+    .lower = 0,
+    .upper = kInfinity,
+    .default_value = 0,
+    .meaning = "damping of the bristle's motion",
 };
 
 }  // namespace warmjoint::inline models

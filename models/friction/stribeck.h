@@ -7,7 +7,7 @@
 
 #include "models/friction/parameter_rows.h"
 #include "models/friction/pre_sliding.h"
-#include "models/friction/sign.h"
+#include "models/friction/sliding_force.h"
 
 namespace warmjoint::inline models {
 
@@ -44,18 +44,7 @@ struct Stribeck {
       "F = kv v + g sign(v), g = kc + (ks - kc) exp(-(|v|/vs)^delta)";
   static constexpr PreSliding pre_sliding = PreSliding::elastoplastic;
   static constexpr std::array parameters{
-      kViscousRow,
-      kCoulombRow,
-      kStaticRow,
-      kStribeckVelocityRow,
-      ParameterInfo{"stribeck_exponent",
-                    "delta",
-                    {"1", "1"},
-                    0.1,
-                    10,
-                    2,
-                    "sharpness of that fall",
-                    Given::or_default},
+      kViscousRow, kCoulombRow, kStaticRow, kStribeckVelocityRow, kStribeckExponentRow,
   };
 
   /// speed: |v|; p: {kv, kc, ks, vs, delta}; returns g, N.m or N.
@@ -67,7 +56,7 @@ struct Stribeck {
   /// v: rad/s or m/s; p: {kv, kc, ks, vs, delta}; returns N.m or N.
   template <typename T>
   static T Force(double v, const T* p) {
-    return p[0] * v + T(Sign(v)) * Level(Sign(v), std::abs(v), p);
+    return SlidingForceOf<Stribeck>(v, p);
   }
 };
 

@@ -7,11 +7,11 @@ on both sides of a test. It needs Python's own library only and gives the same b
 
     python3 tests/golden/generate.py        # writes LAW.json and everything.json beside itself
 
-Laws that slide steadily (coulomb, viscous_coulomb, asymmetric, stiction, stribeck) hold one speed
-after the other, the sign alternating, and follow the sampled equations exactly,
+Laws that slide steadily (coulomb, viscous_coulomb, asymmetric, stiction, stribeck,
+asymmetric_stribeck) hold one speed after the other, the sign alternating, and follow the sampled equations exactly,
     F = Fn(v) + sign(v) E,  W = |F v|,  E[i+1] = te E[i] + k (1 - te) W[i],  te = exp(-h/tau).
-Laws with a bristle (dahl, lugre) follow the differential equations
-    ds/dt = sigma0 (v - |v| s/(g + E)),  F = s + sigma1 (v - |v| s/(g + E)) + kv v,
+Laws with a bristle (dahl, lugre, asymmetric_lugre) follow the differential equations
+    ds/dt = sigma0 (v - |v| s/(g(v) + E)),  F = s + sigma1 (v - |v| s/(g(v) + E)) + kv v,
     tau dE/dt = k W - E,  W = F v - s/sigma0 ds/dt
 along a smooth velocity, by Runge-Kutta in steps of 0.1 ms; halving the step changes what is
 written by 2e-7 N.m at most. `everything` has two stages of heat, surroundings, load, a slope that
@@ -42,6 +42,10 @@ def stribeck_level(speed, kc, ks, vs):
     return kc + (ks - kc) * math.exp(-((speed / vs) ** 2))
 
 
+def two_levels(v, forwards, backwards, rise, vs):
+    return (backwards if v < 0 else forwards) + rise * math.exp(-((v / vs) ** 2))
+
+
 def steady_laws():
     """name -> (parameters, Fn(v))"""
     return {
@@ -65,6 +69,17 @@ def steady_laws():
             },
             lambda v: 5 * v + stribeck_level(abs(v), 15, 20, 0.15) * sign(v),
         ),
+        "asymmetric_stribeck": (
+            {
+                "viscous": 5.0,
+                "coulomb_positive": 15.0,
+                "coulomb_negative": 12.0,
+                "static_rise": 5.0,
+                "stribeck_velocity": 0.15,
+                "stribeck_exponent": 2.0,
+            },
+            lambda v: 5 * v + two_levels(v, 15, 12, 5, 0.15) * sign(v),
+        ),
     }
 
 
@@ -82,9 +97,9 @@ def warm(nominal):
 
 
 def bristle_laws():
-    """name -> (parameters, g(|v|), sigma0, sigma1, kv)"""
+    """name -> (parameters, g(v), sigma0, sigma1, kv)"""
     return {
-        "dahl": ({"coulomb": 15.0, "bristle_stiffness": 500.0}, lambda u: 15.0, 500.0, 0.0, 0.0),
+        "dahl": ({"coulomb": 15.0, "bristle_stiffness": 500.0}, lambda v: 15.0, 500.0, 0.0, 0.0),
         "lugre": (
             {
                 "viscous": 5.0,
@@ -94,7 +109,22 @@ def bristle_laws():
                 "bristle_stiffness": 500.0,
                 "bristle_damping": 5.0,
             },
-            lambda u: stribeck_level(u, 15, 20, 0.1),
+            lambda v: stribeck_level(abs(v), 15, 20, 0.1),
+            500.0,
+            5.0,
+            5.0,
+        ),
+        "asymmetric_lugre": (
+            {
+                "viscous": 5.0,
+                "coulomb_positive": 15.0,
+                "coulomb_negative": 12.0,
+                "static_rise": 5.0,
+                "stribeck_velocity": 0.1,
+                "bristle_stiffness": 500.0,
+                "bristle_damping": 5.0,
+            },
+            lambda v: two_levels(v, 15, 12, 5, 0.1),
             500.0,
             5.0,
             5.0,
@@ -116,7 +146,7 @@ def bend(level, sigma0, sigma1, kv):
 
     def force_and_rates(t, s, energy):
         v = smooth_velocity(t)
-        rate = v - abs(v) * s / (level(abs(v)) + energy)
+        rate = v - abs(v) * s / (level(v) + energy)
         force = s + sigma1 * rate + kv * v
         loss = force * v - s * rate
         return force, sigma0 * rate, (BRISTLE_GAIN * loss - energy) / BRISTLE_TIME_CONSTANT

@@ -272,7 +272,7 @@ TEST(AlongMotion, BendsBristlesAsThePluginStepsThem) {
       EXPECT_GT(p.bristle[59], p.bristle[2] + 1) << L::name << " bends on the way";
     }
   });
-  EXPECT_EQ(laws, 2);
+  EXPECT_EQ(laws, 3);
 }
 
 TEST(AlongMotion, FollowsFinelySteppedBristlesThatWarm) {

@@ -72,6 +72,19 @@ TEST(FrictionDescription, TakesDefaultsForWhatMayBeLeftOut) {
   EXPECT_EQ(FrictionFromJson(object, {"robot.json"}).parameters.at("stribeck_exponent"), 2);
 }
 
+TEST(FrictionDescription, RefusesALevelAtRestBelowThatOfSliding) {
+  json object = Example();
+  object["law"] = "asymmetric_stribeck";
+  object["parameters"] = {{"viscous", 5.0},
+                          {"coulomb_positive", 15.0},
+                          {"coulomb_negative", 12.0},
+                          {"static_rise", 3.0},
+                          {"stribeck_velocity", 0.1}};
+  EXPECT_EQ(RefusalOf(object), "accepted");
+  object["parameters"]["static_rise"] = -1;
+  EXPECT_THAT(RefusalOf(object), HasSubstr("static_rise is -1; it must be a finite number from 0"));
+}
+
 TEST(FrictionDescription, SurvivesARoundTripWithAllItsParts) {
   json object = Example();
   object["thermal"]["second"] = {{"thermal_gain", -1.0}, {"thermal_time_constant", 20.0}};

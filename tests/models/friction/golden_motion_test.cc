@@ -19,8 +19,8 @@ TEST(GoldenMotion, EveryLawHasOne) {
 }
 
 TEST(GoldenMotion, IsWhatTheForwardModelGivesForLawsThatSlideSteadily) {
-  for (const char* name :
-       {"coulomb", "viscous_coulomb", "asymmetric", "stiction", "stribeck", "everything"}) {
+  for (const char* name : {"coulomb", "viscous_coulomb", "asymmetric", "stiction", "stribeck",
+                           "asymmetric_stribeck", "everything"}) {
     const test::GoldenMotion golden = test::ReadGoldenMotion(name);
     const Prediction p =
         AlongMotion(golden.friction).Predict(golden.course, {golden.initial_energy});
@@ -40,7 +40,7 @@ double ErrorOfEvery(const test::GoldenMotion& golden, Index every) {
 }
 
 TEST(GoldenMotion, IsWhatTheForwardModelTendsToForLawsWithABristle) {
-  for (const char* name : {"dahl", "lugre"}) {
+  for (const char* name : {"dahl", "lugre", "asymmetric_lugre"}) {
     const test::GoldenMotion golden = test::ReadGoldenMotion(name);
     // (22) holds W over each step, so that E trails by half of it: to first order
     const double most_heat = Largest((golden.energy.tail(2000) - golden.energy.head(2000))) / 0.01;
@@ -53,7 +53,7 @@ TEST(GoldenMotion, IsWhatTheForwardModelTendsToForLawsWithABristle) {
 }
 
 TEST(GoldenMotion, BendsTheBristleOfTheForwardModelFromRest) {
-  for (const char* name : {"dahl", "lugre"}) {
+  for (const char* name : {"dahl", "lugre", "asymmetric_lugre"}) {
     const test::GoldenMotion golden = test::ReadGoldenMotion(name);
     const Prediction p = AlongMotion(golden.friction).Predict(golden.course);
     EXPECT_EQ(p.bristle[0], 0) << name;
@@ -65,7 +65,7 @@ TEST(GoldenMotion, IsWhatThePluginsKernelStepsTo) {
   // the recorded velocity, linear between samples, in steps of 0.1 ms
   constexpr Index kParts = 100;
   const double h = 1e-4;
-  for (const char* name : {"dahl", "lugre"}) {
+  for (const char* name : {"dahl", "lugre", "asymmetric_lugre"}) {
     const test::GoldenMotion golden = test::ReadGoldenMotion(name);
     JointFriction joint(golden.friction);
     joint.SetTimestep(h);
@@ -91,7 +91,8 @@ TEST(GoldenMotion, IsWhatThePluginsKernelStepsTo) {
 
 TEST(GoldenMotion, IsWhatThePluginsKernelSlidesAt) {
   // steps of the samples' length and a bristle that yields at once
-  for (const char* name : {"coulomb", "viscous_coulomb", "asymmetric", "stribeck", "everything"}) {
+  for (const char* name : {"coulomb", "viscous_coulomb", "asymmetric", "stribeck",
+                           "asymmetric_stribeck", "everything"}) {
     const test::GoldenMotion golden = test::ReadGoldenMotion(name);
     JointFriction joint(golden.friction);
     joint.SetTimestep(golden.course.step);

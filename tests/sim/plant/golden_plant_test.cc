@@ -9,7 +9,8 @@ namespace warmjoint {
 namespace {
 
 TEST(GoldenPlant, LogsTheRecordingOfEveryLawThatSlidesSteadily) {
-  for (const char* name : {"coulomb", "viscous_coulomb", "asymmetric", "stiction", "stribeck"}) {
+  for (const char* name : {"coulomb", "viscous_coulomb", "asymmetric", "stiction", "stribeck",
+                           "asymmetric_stribeck"}) {
     const test::GoldenMotion golden = test::ReadGoldenMotion(name);
     const nlohmann::json plan = test::ReadGolden(name);
     Scenario scenario = test::Table1();

@@ -30,7 +30,7 @@ inline std::vector<FrictionDescription> FrictionsOfEveryLaw() {
     all.push_back(friction);
     return &all.back();
   };
-  all.reserve(8);
+  all.reserve(Laws().size());
   add("coulomb", {{"coulomb", 0.8}});
   add("viscous_coulomb", {{"viscous", 0.1}, {"coulomb", 0.8}})->level_per_temperature = -0.02;
   auto* mapped =
@@ -51,6 +51,18 @@ inline std::vector<FrictionDescription> FrictionsOfEveryLaw() {
                 {"stribeck_velocity", 0.1},
                 {"bristle_stiffness", 500},
                 {"bristle_damping", 2}});
+  add("asymmetric_stribeck", {{"viscous", 0.1},
+                              {"coulomb_positive", 0.6},
+                              {"coulomb_negative", 0.8},
+                              {"static_rise", 0.3},
+                              {"stribeck_velocity", 0.1}});
+  add("asymmetric_lugre", {{"viscous", 0.1},
+                           {"coulomb_positive", 0.6},
+                           {"coulomb_negative", 0.8},
+                           {"static_rise", 0.3},
+                           {"stribeck_velocity", 0.1},
+                           {"bristle_stiffness", 500},
+                           {"bristle_damping", 2}});
   return all;
 }
 
