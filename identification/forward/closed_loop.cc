@@ -14,9 +14,19 @@ ClosedLoop::ClosedLoop(const Eigen::VectorXd& time, const Eigen::VectorXd& veloc
       levels_(direction_.asDiagonal() * columns),
       intervals_(FindIntervals(time, starts)) {}
 
+ClosedLoop ClosedLoop::Along(const Measurements& m, const Eigen::MatrixXd& columns,
+                             const Eigen::MatrixXd& loss_columns) {
+  ClosedLoop loop(m.time, m.velocity, columns, m.starts);
+  if (m.mean_speed) loop.speed_ = *m.mean_speed;
+  if (loss_columns.size() > 0) loop.loss_levels_ = loop.direction_.asDiagonal() * loss_columns;
+  return loop;
+}
+
 LoopResponse ClosedLoop::Simulate(const Eigen::VectorXd& parameters, const Thermal& thermal,
                                   double initial_energy, const Eigen::VectorXd& jumps) const {
   const Eigen::VectorXd nominal = levels_ * parameters;
+  const Eigen::VectorXd nominal_of_loss =
+      loss_levels_.size() > 0 ? Eigen::VectorXd(loss_levels_ * parameters) : nominal;
   LoopResponse response;
   response.force.resize(size());
   response.loss.resize(size());
@@ -36,8 +46,8 @@ LoopResponse ClosedLoop::Simulate(const Eigen::VectorXd& parameters, const Therm
       }
       response.energy[n] = energy;
       response.force[n] = direction_[n] * level;
-      response.loss[n] = Loss(speed_[n], level);
-      energy = (hold.pole + feedback) * energy + feedback * nominal[n];
+      response.loss[n] = Loss(speed_[n], level + (nominal_of_loss[n] - nominal[n]));
+      energy = (hold.pole + feedback) * energy + feedback * nominal_of_loss[n];
     }
   });
   return response;

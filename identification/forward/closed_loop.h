@@ -6,6 +6,7 @@
 
 #include "models/friction/intervals.h"
 #include "models/friction/law.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
 
@@ -26,6 +27,7 @@ struct LoopResponse {
 /// so that the derivatives S of E by all parameters share lambda:
 ///     p:  S[n+1] = lambda S[n] + ke |v| g          k:        lambda S[n] + (1 - te) |v| a
 ///     E0: S[n+1] = lambda S[n], S[0] = 1           log tau:  lambda S[n] + te h/tau (E - k |v| a)
+/// Where losses have levels of their own, a and g in those of k|v| a and k|v| g are theirs.
 /// Samples at rest have W = 0 and keep cooling. Uneven sampling holds each interval exactly.
 /// Where E jumps by b at a sample (WithJumps): b: S = 0 before, 1 there, then lambda S[n].
 class ClosedLoop {
@@ -46,13 +48,21 @@ class ClosedLoop {
   Eigen::MatrixXd Jacobian(const Eigen::VectorXd& parameters, const Thermal& thermal,
                            double initial_energy = 0, const Eigen::VectorXd& jumps = {}) const;
 
+  /// Along a recording. Where it tells mean speeds, these make the losses, with loss_columns, which are
+  /// `columns` at its loss velocity; empty: the same. Both [N x d].
+  static ClosedLoop Along(const Measurements& measurements, const Eigen::MatrixXd& columns,
+                          const Eigen::MatrixXd& loss_columns = {});
+
   /// The same loop whose E jumps at samples, ascending: [J]
   ClosedLoop WithJumps(std::vector<Eigen::Index> samples) const;
 
   Eigen::Index size() const { return speed_.size(); }
-  const Eigen::VectorXd& speed() const { return speed_; }          // [N] |v|, rad/s or m/s
+  const Eigen::VectorXd& speed() const { return speed_; }  // [N] of the losses, |v|, rad/s or m/s
   const Eigen::VectorXd& direction() const { return direction_; }  // [N] sign(v)
   const Rows& levels() const { return levels_; }                   // [N x d] g
+  const Rows& loss_levels() const {                                // [N x d] g of the losses
+    return loss_levels_.size() > 0 ? loss_levels_ : levels_;
+  }
   const Intervals& intervals() const { return intervals_; }
   const std::vector<Eigen::Index>& jumps() const { return jumps_; }  // [J] samples
 
@@ -60,6 +70,7 @@ class ClosedLoop {
   Eigen::VectorXd speed_;
   Eigen::VectorXd direction_;
   Rows levels_;
+  Rows loss_levels_;  // empty: levels_
   Intervals intervals_;
   std::vector<Eigen::Index> jumps_;
 };

@@ -60,10 +60,12 @@ void RunWithSensitivities(const ClosedLoop& loop, const double* parameters, doub
   S[d + 2] = 1;
   double energy = initial_energy;
   const double* g = loop.levels().data();
+  const double* of_loss = loop.loss_levels().data();
+  const bool apart = of_loss != g;
   const double* speed = loop.speed().data();
 
   size_t jumped = 0;
-  for (Eigen::Index n = 0; n < loop.size(); ++n, g += d) {
+  for (Eigen::Index n = 0; n < loop.size(); ++n, g += d, of_loss += d) {
     if constexpr (D == Eigen::Dynamic) {
       if (jumped < jump_at.size() && jump_at[jumped] == n) {
         energy += jumps[jumped];
@@ -79,8 +81,12 @@ void RunWithSensitivities(const ClosedLoop& loop, const double* parameters, doub
     const IntervalHold& hold = hold_after[n];
     const double feedback = hold.gain * speed[n];
     const double lambda = hold.pole + feedback;
-    const double loss = speed[n] * level;
-    for (Eigen::Index i = 0; i < d; ++i) S[i] = lambda * S[i] + feedback * g[i];
+    if (apart) {
+      nominal = of_loss[0] * parameters[0];
+      for (Eigen::Index i = 1; i < d; ++i) nominal += of_loss[i] * parameters[i];
+    }
+    const double loss = speed[n] * (nominal + energy);
+    for (Eigen::Index i = 0; i < d; ++i) S[i] = lambda * S[i] + feedback * of_loss[i];
     S[d] = lambda * S[d] + hold.cooling * loss;
     S[d + 1] = lambda * S[d + 1] + hold.pole_slope * (energy - gain * loss);
     S[d + 2] = lambda * S[d + 2];

@@ -33,7 +33,7 @@ WarmStart Scan(const Measurements& m, const RigidPart& gravity, const ClosedLoop
                const Eigen::MatrixXd& columns, const LeastSquares& nominal,
                const Eigen::VectorXd& level, const Eigen::VectorXd& kept) {
   if (gravity.count() == 0) return ScanTimeConstant(loop, level, kept);
-  const ClosedLoop together(m.time, m.velocity, columns, m.starts);
+  const ClosedLoop together = ClosedLoop::Along(m, columns);
   const Eigen::VectorXd weight = nominal.solution.tail(gravity.count());
   const Eigen::VectorXd pull = gravity.columns * weight;
   WarmStart start = ScanTimeConstant(together, level - loop.direction().cwiseProduct(pull), kept);
@@ -125,7 +125,7 @@ Fit FitWarming(const IdentifierInput& given) {
   double nominal_squares = (torque - kept_columns * nominal.solution).squaredNorm();
 
   // scan tau, then refine everything over the closed loop
-  ClosedLoop loop(m.time, m.velocity, columns.leftCols(task.law_count()), m.starts);
+  ClosedLoop loop = ClosedLoop::Along(m, columns.leftCols(task.law_count()), LossColumns(law, m));
   const Eigen::VectorXd level = loop.direction().cwiseProduct(m.torque);
   const Selection moving = WithoutRest(input.selection, m);
   const Eigen::VectorXd kept = moving.keep.cast<double>();

@@ -41,7 +41,7 @@ double SquaresWithout(const StribeckProblem& problem) {
   const double squares = (torque - kept * cold.solution).squaredNorm();
   if (problem.warming == FittedWarming::none) return squares;
 
-  const ClosedLoop loop(m.time, m.velocity, columns, m.starts);
+  const ClosedLoop loop = ClosedLoop::Along(m, columns);
   const Eigen::VectorXd level = loop.direction().cwiseProduct(m.torque);
   const Eigen::VectorXd weight = problem.selection.keep.cast<double>();
   const WarmStart start = ScanTimeConstant(loop, level, weight);

@@ -89,8 +89,11 @@ Eigen::MatrixXd AddWarming(const Fit& fit, const Inference& inference, const Mea
   const Thermal& thermal = *fit.friction.thermal;
   const std::vector<LogGap> gaps = FindGaps(m);
   const auto jumps = static_cast<Eigen::Index>(gaps.size());
-  const ClosedLoop loop =
-      ClosedLoop(m.time, m.velocity, model.derivatives, m.starts).WithJumps(Behind(gaps));
+  Eigen::MatrixXd of_loss;
+  if (m.loss_velocity) {
+    of_loss = NominalDerivatives(*FindLaw(fit.friction.law), values, *m.loss_velocity);
+  }
+  const ClosedLoop loop = ClosedLoop::Along(m, model.derivatives, of_loss).WithJumps(Behind(gaps));
   const auto d = static_cast<Eigen::Index>(values.size());
   const Eigen::Map<const Eigen::VectorXd> parameters(values.data(), d);
   // the jumps that were fitted, else none

@@ -56,4 +56,8 @@ Eigen::MatrixXd LawColumns(const Law& law, const Eigen::VectorXd& velocity) {
   return columns;
 }
 
+Eigen::MatrixXd LossColumns(const Law& law, const Measurements& m) {
+  return m.loss_velocity ? LawColumns(law, *m.loss_velocity) : Eigen::MatrixXd();
+}
+
 }  // namespace warmjoint::inline identification

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "models/friction/law.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
 
@@ -18,5 +19,9 @@ std::string LinearLawWords();
 /// Regressor A of Fn = A p, one column for each parameter: [v, sign v] for Eq. (2).
 /// velocity: [N] rad/s or m/s; returns [N x d]. The law must be linear.
 Eigen::MatrixXd LawColumns(const Law& law, const Eigen::VectorXd& velocity);
+
+/// The same at the loss velocity of a log, which makes the losses of ClosedLoop::Along; empty where it
+/// tells none.
+Eigen::MatrixXd LossColumns(const Law& law, const Measurements& measurements);
 
 }  // namespace warmjoint::inline identification

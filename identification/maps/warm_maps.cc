@@ -11,6 +11,7 @@
 #include "identification/inference/inference.h"
 #include "identification/linear/against_pushing.h"
 #include "identification/linear/linear_laws.h"
+#include "identification/linear/rigid_part.h"
 #include "identification/maps/motor_maps.h"
 #include "identification/uncertainty/penalised_uncertainty.h"
 #include "identification/warming/warming_verdict.h"
@@ -24,15 +25,16 @@ constexpr int kMostRounds = 50;
 constexpr double kAtRest = 1e-6;  // of gain and time constant between rounds, relative
 constexpr WarmingContext kContext{" beside the maps", "position-ridge"};
 
-/// Law columns and the maps' values, [N x p] or, with maps that are not 0, [N x (p + 1)].
-Eigen::MatrixXd Columns(const IdentifierInput& input, const Law& law, const MapFit& fit) {
+/// The loop of law columns and, with maps that are not 0, the maps' values as one column more.
+ClosedLoop LoopOf(const IdentifierInput& input, const Law& law, const MapFit& fit) {
   const Measurements& m = input.measurements;
-  const Eigen::MatrixXd columns = LawColumns(law, m.velocity);
+  const Eigen::MatrixXd columns = LawColumns(law, m.velocity), of_loss = LossColumns(law, m);
   const Eigen::VectorXd values = EvaluateMaps(fit.maps, PointsOf(m));
-  if (!(values.norm() > 1e-9 * (columns * fit.x.head(columns.cols())).norm())) return columns;
-  Eigen::MatrixXd both(columns.rows(), columns.cols() + 1);
-  both << columns, values;
-  return both;
+  if (!(values.norm() > 1e-9 * (columns * fit.x.head(columns.cols())).norm())) {
+    return ClosedLoop::Along(m, columns, of_loss);
+  }
+  return ClosedLoop::Along(m, Beside(columns, values),
+                           of_loss.size() > 0 ? Beside(of_loss, values) : of_loss);
 }
 
 /// The warming beside a law and maps, refined from `start`, or from a scan where there is none.
@@ -45,7 +47,7 @@ WarmStep FitWarming(const IdentifierInput& input, const MapTask& task, const Map
                     const std::optional<Thermal>& start) {
   const Law& law = *FindLaw(task.settings.law);
   const Measurements& m = input.measurements;
-  const ClosedLoop loop(m.time, m.velocity, Columns(input, law, maps), m.starts);
+  const ClosedLoop loop = LoopOf(input, law, maps);
   const Eigen::VectorXd level = loop.direction().cwiseProduct(m.torque);
   const Eigen::VectorXd kept = WithoutRest(input.selection, m).keep.cast<double>();
   // gravity and inertia make no heat: out of the scan, beside the loop in the fit
@@ -76,11 +78,12 @@ double Squares(const MapChoice& choice) {
 /// d(F + G + M a)/d(law, rigid part, weights, k, log tau) at the kept samples.
 Eigen::MatrixXd JointJacobian(const IdentifierInput& input, const WarmMaps& warm) {
   const Measurements& m = input.measurements;
-  const Eigen::MatrixXd law = LawColumns(*FindLaw(warm.task.settings.law), m.velocity);
+  const Law& nominal = *FindLaw(warm.task.settings.law);
+  const Eigen::MatrixXd law = LawColumns(nominal, m.velocity);
+  const Eigen::MatrixXd of_loss = LossColumns(nominal, m);
   const Eigen::MatrixXd kernels = DenseKernels(warm.fit.maps, PointsOf(m), 0, m.size());
-  Eigen::MatrixXd columns(m.size(), law.cols() + kernels.cols());
-  columns << law, kernels;
-  const ClosedLoop loop(m.time, m.velocity, columns, m.starts);
+  const ClosedLoop loop = ClosedLoop::Along(
+      m, Beside(law, kernels), of_loss.size() > 0 ? Beside(of_loss, kernels) : of_loss);
   const Eigen::Index d = law.cols(), q = kernels.cols();
   Eigen::VectorXd warming(d + q);
   warming << warm.fit.x.head(d), warm.fit.x.tail(q);

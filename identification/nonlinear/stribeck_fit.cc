@@ -117,7 +117,7 @@ std::optional<StribeckPoint> StartAt(const StribeckProblem& problem, double velo
     point.x = Eigen::Vector4d(cold.solution[0], cold.solution[1], cold.solution[2], 0);
     point.squares = (torque - kept * cold.solution).squaredNorm();
   } else {
-    const ClosedLoop loop(m.time, m.velocity, columns, m.starts);
+    const ClosedLoop loop = ClosedLoop::Along(m, columns);
     const Eigen::VectorXd level = loop.direction().cwiseProduct(m.torque);
     const Eigen::VectorXd weight = problem.selection.keep.cast<double>();
     const WarmStart start = ScanTimeConstant(loop, level, weight);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "identification/preparation/between_samples.h"
 #include "models/foundation/robust_noise.h"
 #include "models/recording/recordings_of.h"
 #include "models/recording/sampling.h"
@@ -119,6 +120,9 @@ LogView ViewMotion(const Measurements& measurements) {
 
   // samples that move clearly, between neighbours that move alike
   const double clear = ClearSpeed(m);
+  const BetweenSamples between = MeansBetween(m, pieces, clear);
+  m.mean_speed = between.mean_speed;
+  m.loss_velocity = between.loss_velocity;
   auto& keep = view.selection.keep;
   keep = m.velocity.array().abs() > clear;
   for (const auto& [first, count] : pieces) {

@@ -14,7 +14,7 @@ double ClearSpeed(const Measurements& measurements);
 /// velocity leaves 5 % of the acceleration's root mean square or less. [N] rad/s^2 or m/s^2
 Eigen::VectorXd Acceleration(const Measurements& measurements);
 
-/// The log with its acceleration. It keeps the samples above ClearSpeed whose neighbours move in the
+/// The log with its acceleration and its means between samples (between_samples.h). It keeps the samples above ClearSpeed whose neighbours move in the
 /// same direction, but for those at which the acceleration jumps, where its slope is that of neither
 /// side: by a tenth of its root mean square, and four times as far as in the median. No segments.
 LogView ViewMotion(const Measurements& measurements);

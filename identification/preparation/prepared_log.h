@@ -30,8 +30,8 @@ class PreparedLog {
   /// The log as fits at constant speed see it.
   const LogView& steady() const { return log_->steady ? *log_->steady : log_->taken; }
 
-  /// The log as fits to motion of any kind see it: as it was taken, with its acceleration; all samples
-  /// take part that move clearly (moving_view.h).
+  /// The log as fits to motion of any kind see it: as it was taken, with its acceleration and means
+  /// between samples; all samples take part that move clearly (moving_view.h).
   const LogView& moving() const;
 
   /// Whether constant speeds are what the log shows of friction: a tenth or more of what moves

@@ -31,13 +31,21 @@ class LawAlong {
     const double v = course_.velocity[i];
     if (v == 0) return {};
     const double force = joint_.SlidingForce(v, place) + Sign(v) * At(course_.level, i);
-    return {force, Loss(v, force), FeedsItself(v, force)};
+    return {force, LossAt(i, place, force), FeedsItself(v, force)};
   }
 
   static constexpr bool kHasBristle = false;
   double bristle() const { return 0; }
 
  private:
+  /// Until the next sample, W. force: at the sample, N.m or N.
+  double LossAt(Index i, const JointPlace& place, double force) const {
+    if (course_.mean_speed.size() == 0) return Loss(course_.velocity[i], force);
+    const double v = course_.loss_velocity[i];
+    return Loss(course_.mean_speed[i],
+                joint_.SlidingForce(v, place) + Sign(v) * At(course_.level, i));
+  }
+
   const JointFriction& joint_;
   const JointCourse& course_;
 };
@@ -127,7 +135,8 @@ bool IsColumn(const Eigen::VectorXd& column, Index n) {
   const Index n = c.velocity.size();
   return c.time.size() == n && IsColumn(c.position, n) && IsColumn(c.motor_position, n) &&
          IsColumn(c.load, n) && IsColumn(c.ambient_rise, n) && IsColumn(c.level, n) &&
-         IsColumn(c.torque, n);
+         IsColumn(c.torque, n) && IsColumn(c.mean_speed, n) &&
+         c.loss_velocity.size() == c.mean_speed.size();
 }
 
 JointPlace PlaceAt(const JointCourse& course, Index i, double energy) {

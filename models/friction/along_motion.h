@@ -18,6 +18,10 @@ struct JointCourse {
   Eigen::VectorXd load{};            // [N] that the joint transmits, N.m or N
   Eigen::VectorXd ambient_rise{};    // [N] Ts - T0, K
   Eigen::VectorXd level{};           // [N] A, what else joins E, N.m or N
+  /// [N] rad/s or m/s, for the loss of laws without a bristle of their own: mean of |v| until the next
+  /// sample, and mean of v^2 over that, with the sign of v; both empty: |v| and v
+  Eigen::VectorXd mean_speed{};
+  Eigen::VectorXd loss_velocity{};
   /// [N] N.m or N: tells how a bristle is bent where a recording begins; empty: as in steady sliding
   Eigen::VectorXd torque{};
   /// Samples, above 0 and ascending, at which another recording begins: the joint is cold again.
@@ -52,7 +56,7 @@ struct Prediction {
 /// One joint's friction as a model of its torque. Laws without a bristle of their own slide
 /// steadily wherever the joint moves, by JointFriction::SlidingForce,
 ///   F = Fn(v) + b E v + sign(v) (E + A + c |load|) + maps                           (20)
-///   W = |F v|                                                                       (19)
+///   W = |F v|, or the mean speed times F at the loss velocity where both are given  (19)
 /// and carry at rest what the motion does not tell, for which F is 0. Others bring a Course in
 /// their own header (bristle_course.h) that follows the motion, and lose what they do not store.
 /// E1 and E2 take the exact step of Heat, Eq. (22), over each interval.

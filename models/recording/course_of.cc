@@ -7,6 +7,10 @@ JointCourse CourseOf(const Measurements& measurements, BristleStart bristle) {
   JointCourse course{m.time, m.velocity, m.position};
   course.motor_position = m.motor_position.value_or(m.gear * m.position);
   if (m.load) course.load = *m.load;
+  if (m.mean_speed && m.loss_velocity) {
+    course.mean_speed = *m.mean_speed;
+    course.loss_velocity = *m.loss_velocity;
+  }
   if (bristle == BristleStart::torque) course.torque = m.torque;
   course.starts = m.starts;
   return course;

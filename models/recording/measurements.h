@@ -27,6 +27,10 @@ struct Measurements {
   std::optional<Eigen::VectorXd> temperature;     // [N] degC
   /// [N] rad/s^2 or m/s^2: no log holds it; preparation finds it for fits to motion of any kind.
   std::optional<Eigen::VectorXd> acceleration;
+  /// [N] rad/s or m/s, the same: mean of |v| until the next sample, and mean of v^2 over that, with
+  /// the sign of v, at which a straight line of force over speed has its mean loss.
+  std::optional<Eigen::VectorXd> mean_speed;
+  std::optional<Eigen::VectorXd> loss_velocity;
 
   /// Of several recordings joined (join_recordings.h): the first sample of each but the first. The
   /// joint is cold there again.
@@ -40,7 +44,8 @@ struct Measurements {
 template <typename Log, typename Use>
 void ForEachColumn(Log& log, Use&& use) {
   for (auto* column : {&log.time, &log.position, &log.velocity, &log.torque}) use(*column);
-  for (auto* column : {&log.motor_position, &log.load, &log.temperature, &log.acceleration}) {
+  for (auto* column : {&log.motor_position, &log.load, &log.temperature, &log.acceleration,
+                       &log.mean_speed, &log.loss_velocity}) {
     if (*column) use(**column);
   }
 }

@@ -1,6 +1,8 @@
 #include <warmjoint/identify.h>
 
 #include "identification/identifiers/identifier_list.h"
+#include "models/foundation/bad_input.h"
+#include "tools/actions/carried_heat.h"
 #include "tools/actions/identify_recording.h"
 #include "tools/interface/convert_estimate.h"
 #include "tools/interface/convert_recording.h"
@@ -9,7 +11,18 @@
 namespace warmjoint::api {
 namespace {
 
-tools::IdentifySettings ToSettings(const IdentifySettings& settings) {
+/// next: the recording that is to be identified.
+tools::IdentifySettings ToSettings(const IdentifySettings& settings,
+                                   const models::Measurements& next) {
+  std::optional<tools::CarriedHeat> follows;
+  if (settings.follows) {
+    const tools::LeftHeat left =
+        tools::HeatLeftBy(ToEstimate(*settings.follows), "IdentifySettings::follows");
+    follows = tools::CarryOver(left, settings.pause, next);
+  } else if (settings.pause) {
+    models::Refuse({"pause"},
+                   "is the time since an earlier recording; give that one's estimate as follows");
+  }
   return {settings.identifier,
           settings.gravity,
           settings.start,
@@ -17,7 +30,8 @@ tools::IdentifySettings ToSettings(const IdentifySettings& settings) {
           settings.options,
           settings.void_numbers == VoidNumbers::show ? tools::VoidNumbers::show
                                                      : tools::VoidNumbers::withhold,
-          settings.motion};
+          settings.motion,
+          follows};
 }
 
 tools::HoldOutSource ToHoldOut(const IdentifySettings& settings) {
@@ -44,7 +58,8 @@ Estimate Identify(const PreparedLog& log, const IdentifySettings& settings) {
     // the walk of the command
     const identification::PreparedLog& prepared = log.state().log;
     const models::Measurements& measurements = prepared.taken().measurements;
-    const tools::IdentifyTask task = tools::CheckSettings(ToSettings(settings), measurements.joint);
+    const tools::IdentifyTask task =
+        tools::CheckSettings(ToSettings(settings, measurements), measurements.joint);
     identification::Estimate found =
         tools::IdentifyLog(task, prepared, ToHoldOut(settings)).estimate;
     tools::TakeBackAmperes(measurements, found);

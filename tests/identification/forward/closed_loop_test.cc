@@ -6,6 +6,7 @@
 #include "identification/linear/linear_laws.h"
 #include "models/friction/along_motion.h"
 #include "models/friction/viscous_coulomb.h"
+#include "models/recording/course_of.h"
 #include "tests/support/vectors.h"
 
 namespace warmjoint {
@@ -130,6 +131,46 @@ TEST(ClosedLoop, IsTheForwardModelWithJumpsAndColdStarts) {
   ExpectNear(response.force, p.force, 1e-14);
   ExpectNear(response.loss, p.loss, 1e-14);
   ExpectNear(response.energy, p.energy, 1e-14);
+}
+
+TEST(ClosedLoop, LosesByTheMeansBetweenSamplesAsTheForwardModel) {
+  // an asymmetric law, so that levels and losses differ by side and speed
+  Measurements m;
+  m.time = (Eigen::VectorXd(7) << 0, 1, 2.5, 3, 4, 6, 7).finished();
+  m.velocity = (Eigen::VectorXd(7) << 0.5, 0.1, -0.8, 0, 0.9, 0.4, -0.7).finished();
+  m.mean_speed = (Eigen::VectorXd(7) << 0.3, 0.4, 0.4, 0, 0.7, 0.3, 0.7).finished();
+  m.loss_velocity = (Eigen::VectorXd(7) << 0.35, 0.6, -0.5, 0, 0.72, 0.4, -0.7).finished();
+  const Law& law = *FindLaw("asymmetric");
+  const ClosedLoop loop = ClosedLoop::Along(m, LawColumns(law, m.velocity), LossColumns(law, m));
+  const Eigen::Vector3d p(5, 15, 12);
+  const Thermal thermal{-0.8, 7};
+
+  // rounding of seven steps
+  const FrictionDescription friction{
+      "asymmetric",
+      {{"viscous", p[0]}, {"coulomb_positive", p[1]}, {"coulomb_negative", p[2]}},
+      thermal};
+  const LoopResponse response = loop.Simulate(p, thermal, -0.5);
+  m.position = m.torque = Eigen::VectorXd::Zero(7);
+  const Prediction predicted = PredictFriction(friction, m, {-0.5});
+  ExpectNear(response.force, predicted.force, 1e-14);
+  ExpectNear(response.loss, predicted.loss, 1e-14);
+  ExpectNear(response.energy, predicted.energy, 1e-14);
+
+  // central differences: the error is of order step^2 = 1e-10
+  Eigen::VectorXd x(6);
+  x << p, thermal.gain, thermal.time_constant, -0.5;
+  Eigen::MatrixXd differences(7, 6);
+  for (int i = 0; i < 6; ++i) {
+    const auto force = [&](double step) {
+      Eigen::VectorXd at = x;
+      at[i] += step;
+      return loop.Simulate(at.head(3), {at[3], at[4]}, at[5]).force;
+    };
+    const double step = 1e-5 * std::abs(x[i]);
+    differences.col(i) = (force(step) - force(-step)) / (2 * step);
+  }
+  ExpectNear(loop.Jacobian(p, thermal, -0.5), differences, 1e-8);
 }
 
 TEST(ClosedLoop, CoolsThroughRests) {

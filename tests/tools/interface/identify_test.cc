@@ -152,6 +152,29 @@ TEST(Identify, JoinsRecordingsAndHoldsOutOnAnotherAsTheCommand) {
   EXPECT_EQ(estimate.holdout->n, 240);
 }
 
+TEST(Identify, FollowsAnEarlierRecordingAsTheCommand) {
+  const ScratchDirectory scratch;
+  const std::string log = scratch.path() / "log.csv", earlier = scratch.path() / "earlier.json";
+  const std::string file = scratch.path() / "estimate.json";
+  WriteRecording(SimulateText(TableOneYaml(3600)).recording, log);
+  RunWarmjoint({"identify", log, "-o", earlier});
+  RunWarmjoint({"identify", log, "--follows", earlier, "--pause", "60", "-o", file});
+  IdentifySettings settings;
+  settings.follows = Identify(ReadRecording(log));
+  settings.pause = 60;
+  const Estimate estimate = Identify(ReadRecording(log), settings);
+
+  // all that the fit made; the file tells of the earlier recording, too
+  const Estimate asked = ReadEstimate(file);
+  EXPECT_EQ(estimate.options, asked.options);
+  EXPECT_EQ(estimate.options.count("expected_energy"), 1u);
+  ASSERT_EQ(estimate.parameters.size(), asked.parameters.size());
+  for (const Parameter& parameter : asked.parameters) {
+    ASSERT_NE(estimate.Find(parameter.name), nullptr) << parameter.name;
+    EXPECT_EQ(estimate.Find(parameter.name)->value, parameter.value) << parameter.name;
+  }
+}
+
 TEST(Identify, ShowsVoidNumbersWhereAskedAsTheCommand) {
   const ScratchDirectory scratch;
   const std::string log = scratch.path() / "log.csv", file = scratch.path() / "estimate.json";
@@ -190,6 +213,7 @@ TEST(Identify, RefusesSettingsWithTheBoundOrTheNearestName) {
   EXPECT_THAT(refusal([](auto& s) { s.start = "cool"; }), HasSubstr("'cold'"));
   EXPECT_THAT(refusal([](auto& s) { s.relevance = 2; }), HasSubstr("at most 1"));
   EXPECT_THAT(refusal([](auto& s) { s.holdout = 1; }), HasSubstr("below 1"));
+  EXPECT_THAT(refusal([](auto& s) { s.pause = 60; }), HasSubstr("as follows"));
 }
 
 TEST(Identify, AnswersTheSameInManyThreads) {

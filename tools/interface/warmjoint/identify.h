@@ -45,6 +45,10 @@ struct IdentifySettings {
   std::optional<PreparedLog> holdout_log{};  // another recording for them, instead
   VoidNumbers void_numbers = VoidNumbers::withhold;
   std::string motion = "chosen";  // constant, any, or chosen: any where the log holds no speeds
+  /// As --follows: of the recording before this one, whose heat is there at the start, less what cooled
+  /// in the pause between, s; without one the stamps of both tell it.
+  std::optional<Estimate> follows{};
+  std::optional<double> pause{};
 };
 
 /// Fits, judges and reports. The verdict is the estimate's status, with a message and data (diagnostics); mathematics that
