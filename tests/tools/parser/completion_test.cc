@@ -77,9 +77,9 @@ TEST_F(Completion, OffersMembersOfFamiliesByName) {
   EXPECT_THAT(Offers({"attach", "pend"}), UnorderedElementsAre("pendulum"));
   EXPECT_THAT(Offers({"identify", "log.csv", "--identifier", "energy-"}),
               IsSupersetOf({"energy-ml", "energy-em"}));
-  EXPECT_THAT(Offers({"identify", "log.csv", "--set", "law", "=", "asym"}),
-              UnorderedElementsAre("asymmetric"));
-  EXPECT_THAT(Offers({"list", "laws", "asym"}), UnorderedElementsAre("asymmetric"));
+  EXPECT_THAT(Offers({"identify", "log.csv", "--set", "law", "=", "visc"}),
+              UnorderedElementsAre("viscous_coulomb"));
+  EXPECT_THAT(Offers({"list", "laws", "visc"}), UnorderedElementsAre("viscous_coulomb"));
 }
 
 TEST_F(Completion, OffersFilesAndFolders) {
