@@ -13,7 +13,6 @@
 #include "identification/nonlinear/stribeck_verdict.h"
 #include "identification/warming/unsettled.h"
 #include "identification/warming/warming_verdict.h"
-#include "models/friction/lugre.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -26,20 +25,21 @@ constexpr double kMissed = 2;           // rms around turns over that at constan
 constexpr double kVagueBristle = 0.5;   // standard deviation of a logarithm: a factor of e
 constexpr double kNothingKnown = 2.35;  // the same: a factor of 100
 
-/// {kv, kc, ks, ln vs} of the Stribeck curve, were presliding over after `distance`, rad or m;
-/// nothing where the samples do not show one. A start, so that ks is kept within 1 and 3 kc.
-std::optional<Eigen::Vector4d> SteadyStart(const IdentifierInput& input, double distance) {
+/// x up to ln vs of the Stribeck curve, were presliding over after `distance`, rad or m; nothing where
+/// the samples do not show one. A start, so that ks is kept within 1 and 3 kc.
+std::optional<Eigen::VectorXd> SteadyStart(const IdentifierInput& input, const FallingLaw& law,
+                                           double distance) {
   const Measurements& m = input.measurements;
   const Selection steady = SteadySamples(input, distance);
   if (steady.count() < 8) return std::nullopt;
   const Intervals intervals{{1}, std::vector<int>(static_cast<size_t>(m.size()), 0), 1};
-  const StribeckProblem problem{m, steady, intervals, 2, FittedWarming::none, 1};
+  const StribeckProblem problem{
+      m, steady, intervals, 2, FittedWarming::none, 1, FindFallingLaw(law.steady)};
   const std::vector<StribeckPoint> scan = ScanStribeckVelocity(problem);
   if (scan.empty()) return std::nullopt;
-  Eigen::Vector4d start = scan[0].x;
-  if (!(start[kLugreCoulomb] > 0)) return std::nullopt;
-  start[kLugreStatic] =
-      std::clamp(start[kLugreStatic], start[kLugreCoulomb], 3 * start[kLugreCoulomb]);
+  Eigen::VectorXd start = scan[0].x;
+  if (!(law.coulomb(start.data()) > 0)) return std::nullopt;
+  law.keep(start.data(), 1, 3);
   return start;
 }
 
@@ -62,15 +62,15 @@ LugreFit FitFrom(const LugreProblem& problem, const std::vector<LugrePoint>& sca
   RefineBest(problem, scan, best);
   // its levels may have run away around a fall that is not there: those of the scan have not
   LugrePoint bristle = best->solution;
-  bristle.x.head(kLugreLogVs) = scan[0].x.head(kLugreLogVs);
+  bristle.x.head(problem.log_vs()) = scan[0].x.head(problem.log_vs());
   RefineBest(problem, ScanFall(problem, bristle, fastest), best);
   return *best;
 }
 
 /// Why bristle_stiffness cannot be told, or bristle_damping; nothing where they can.
-std::optional<std::string> VagueBristle(const Measurements& m, const LugreAnswer& answer) {
-  const auto p = LugreValues(answer.fit.solution.x.data());
-  const double stiffness = answer.Deviation(kLugreLogStiffness);
+std::optional<std::string> VagueBristle(const Measurements& m, const LugreProblem& problem,
+                                        const LugreAnswer& answer) {
+  const double stiffness = answer.Deviation(problem.log_stiffness());
   if (!(stiffness < kVagueBristle)) {
     return fmt::format(
         "bristle_stiffness and bristle_damping cannot be estimated: the samples around reversals "
@@ -80,66 +80,69 @@ std::optional<std::string> VagueBristle(const Measurements& m, const LugreAnswer
                                                 std::exp(1.96 * stiffness))
                                   : "do not determine the stiffness");
   }
-  if (answer.rows[kLugreDamping] < 0) return std::nullopt;
-  const double damping = answer.Deviation(kLugreDamping);
-  if (damping < kVagueBristle * std::abs(p[5])) return std::nullopt;
+  if (problem.IsConstant(problem.damping())) return std::nullopt;
+  const Eigen::VectorXd& x = answer.fit.solution.x;
+  const double damping = x[problem.damping()], deviation = answer.Deviation(problem.damping());
+  if (deviation < kVagueBristle * std::abs(damping)) return std::nullopt;
   return fmt::format(
       "bristle_damping cannot be estimated: it is {:.3g} with a standard error of {:.3g} {}; "
       "reverse faster within the {:.2g} {} that the bristle bends, sampled in steps well below "
       "bristle_damping / bristle_stiffness, or give --set damping=none where it can be neglected",
-      p[5], damping, kViscousUnit.For(m.joint), p[2] / p[4], kPositionUnit.For(m.joint));
+      damping, deviation, kViscousUnit.For(m.joint),
+      problem.law->at_rest(x.data()) / std::exp(x[problem.log_stiffness()]),
+      kPositionUnit.For(m.joint));
 }
 
-/// Why static and stribeck_velocity cannot be told; nothing where they can.
+/// Why the level at rest and stribeck_velocity cannot be told; nothing where they can.
 std::optional<std::string> UnknownStribeck(const IdentifierInput& input,
-                                           const LugreAnswer& answer) {
-  const double fall = answer.fit.solution.x[kLugreStatic] - answer.fit.solution.x[kLugreCoulomb];
-  const double variance = answer.Variance(kLugreStatic, kLugreStatic) +
-                          answer.Variance(kLugreCoulomb, kLugreCoulomb) -
-                          2 * answer.Variance(kLugreStatic, kLugreCoulomb);
-  const double explained = fall * fall / variance;
+                                           const LugreProblem& problem, const LugreAnswer& answer) {
+  // none of the linear parameters is constant, so that they come first in the covariance
+  const Eigen::Index levels = problem.law->levels();
+  const StribeckEvidence evidence = EvidenceOf(
+      *problem.law, answer.fit.solution.x, answer.known.covariance.topLeftCorner(levels, levels),
+      answer.Deviation(problem.log_vs()));
+  const double explained = std::pow(evidence.fall / evidence.fall_deviation, 2);
   if (!(explained > kVisibleWarming)) {
     return fmt::format(
-        "no Stribeck effect can be seen: the difference of static and coulomb is {:.3g} standard "
-        "errors, below {:.3g}; {}",
-        std::sqrt(std::max(explained, 0.0)), std::sqrt(kVisibleWarming),
+        "no Stribeck effect can be seen: {} is {:.3g} standard errors, below {:.3g}; {}",
+        problem.law->fall_words, std::sqrt(std::max(explained, 0.0)), std::sqrt(kVisibleWarming),
         SlowSpeeds(input.measurements, SteadySamples(input, 0)));
   }
-  return VagueStribeck({fall, std::sqrt(variance), answer.Deviation(kLugreLogVs)},
-                       input.measurements, SteadySamples(input, 0));
+  return VagueStribeck(*problem.law, evidence, input.measurements, SteadySamples(input, 0));
 }
 
 /// Law and, where it is estimated, inertia at a point: the model and its table.
 void SetModel(const Measurements& m, const LugreProblem& problem, const LugrePoint& point,
               Fit& fit) {
-  const Law& law = *FindLaw(LuGre::name);
-  const auto p = LugreValues(point.x.data());
+  const Law& law = problem.law->law;
+  const std::vector<double> p = LugreValuesAt(problem, point);
   const Eigen::Map<const Eigen::VectorXd> values(p.data(), static_cast<Eigen::Index>(p.size()));
   fit.friction = FrictionOf(law, values, m);
   fit.parameters = LawParameters(law, values, m);
-  fit.parameters[kLugreLogVs].coordinate = Coordinate::logarithm;
-  fit.parameters[kLugreLogStiffness].coordinate = Coordinate::logarithm;
-  fit.parameters[kLugreDamping].coordinate = Coordinate::positive;
-  fit.parameters[kLugreDamping].estimated = !problem.IsConstant(kLugreDamping);
-  if (problem.IsConstant(kLugreInertia)) return;
-  Append({InertiaParameter(point.x[kLugreInertia], m)}, fit);
+  const auto vs = static_cast<size_t>(problem.log_vs());
+  fit.parameters[vs].coordinate = Coordinate::logarithm;
+  fit.parameters[vs + 1].coordinate = Coordinate::logarithm;
+  fit.parameters[vs + 2].coordinate = Coordinate::positive;
+  fit.parameters[vs + 2].estimated = !problem.IsConstant(problem.damping());
+  if (problem.IsConstant(problem.inertia())) return;
+  Append({InertiaParameter(point.x[problem.inertia()], m)}, fit);
 }
 
 std::vector<Iterate> Trace(const LugreProblem& problem, const std::vector<LugrePoint>& scan) {
   std::vector<Iterate> trace;
   const auto n = static_cast<double>(problem.deviation.size());
   for (const LugrePoint& point : scan) {
-    const auto p = LugreValues(point.x.data());
     const double rmse = problem.deviation[0] * std::sqrt(point.squares / n);
-    trace.push_back({static_cast<int>(trace.size()), {p.begin(), p.end()}, rmse});
+    trace.push_back({static_cast<int>(trace.size()), LugreValuesAt(problem, point), rmse});
   }
   return trace;
 }
 
 /// Why there is no fit to trust; nothing where there is.
-std::optional<Refusal> WhyRefused(const IdentifierInput& input, const LugreAnswer& answer) {
-  auto why = VagueBristle(input.measurements, answer);
-  if (!why) why = UnknownStribeck(input, answer);
+std::optional<Refusal> WhyRefused(const IdentifierInput& input, const LugreProblem& problem,
+                                  const LugreAnswer& answer) {
+  auto why = VagueBristle(input.measurements, problem, answer);
+  if (!why) why = UnknownStribeck(input, problem, answer);
   if (why) return Refusal{Status::not_identifiable, *why};
   if (answer.fit.converged) return std::nullopt;
   return Refusal{Status::not_converged,
@@ -163,15 +166,15 @@ void JudgeTurns(const Measurements& m, const NoiseOfGroups& noise, Fit& fit) {
 /// Puts an answer into `fit`, or why it cannot be trusted.
 void Conclude(const IdentifierInput& input, const LugreProblem& problem, const LugreAnswer& answer,
               const NoiseOfGroups& noise, Fit& fit) {
-  fit.refusal = WhyRefused(input, answer);
+  fit.refusal = WhyRefused(input, problem, answer);
   if (fit.refusal) return;
 
   // the model, and how well it fits
   const Measurements& m = input.measurements;
   SetModel(m, problem, answer.fit.solution, fit);
   fit.used = problem.used;
-  fit.inertia_torque = answer.fit.solution.x[kLugreInertia] * problem.acceleration;
-  const double viscous = answer.fit.solution.x[kLugreViscous];
+  fit.inertia_torque = answer.fit.solution.x[problem.inertia()] * problem.acceleration;
+  const double viscous = answer.fit.solution.x[0];
   for (size_t r = 0; r < answer.fit.loads.size(); ++r) {
     const Eigen::Index first = r == 0 ? 0 : m.starts[r - 1];
     fit.first_friction.push_back(answer.fit.loads[r] + viscous * problem.motion.velocity(first));
@@ -199,18 +202,23 @@ void Conclude(const IdentifierInput& input, const LugreProblem& problem, const L
 Fit FitLugre(const IdentifierInput& given) {
   const IdentifierInput input = given.AsTaken();
   const Measurements& m = input.measurements;
-  if (auto why = Unusable(input, kLugreSize + 1)) return Refused(kName, Status::bad_data, *why);
-  if (auto why = UnknownSliding(input, LuGre::parameters)) return Refused(kName, *why);
+  const FallingLaw& law = FindFallingLaw(input.options.Text("law"));
+  if (auto why = Unusable(input, static_cast<int>(law.levels()) + 5)) {
+    return Refused(kName, Status::bad_data, *why);
+  }
+  if (auto why = UnknownSliding(input, law, law.law.parameters)) return Refused(kName, *why);
 
   // scan the bristle
   const Eigen::VectorXd torque = Kept(m.torque, input.selection);
   const double scale = torque.norm() / std::sqrt(static_cast<double>(torque.size()));
-  LugreProblem problem = MakeLugreProblem(input, scale);
-  if (input.options.Text("damping") == "none") problem.constant.push_back(kLugreDamping);
-  if (input.options.Text("inertia") == "none") problem.constant.push_back(kLugreInertia);
+  LugreProblem problem = MakeLugreProblem(input, law, scale);
+  if (input.options.Text("damping") == "none")
+    problem.constant.push_back(static_cast<int>(problem.damping()));
+  if (input.options.Text("inertia") == "none")
+    problem.constant.push_back(static_cast<int>(problem.inertia()));
   const std::vector<LugrePoint> scan =
-      ScanBristle(problem, m, [&](double distance) { return SteadyStart(input, distance); });
-  if (scan.empty()) return Refused(kName, NoFall(m, SteadySamples(input, 0)));
+      ScanBristle(problem, m, [&](double distance) { return SteadyStart(input, law, distance); });
+  if (scan.empty()) return Refused(kName, NoFall(law, m, SteadySamples(input, 0)));
   Fit fit;
   fit.identifier = kName;
   fit.trace = Trace(problem, scan);
@@ -232,7 +240,9 @@ Fit FitLugre(const IdentifierInput& given) {
 Identifier LuGreByCeres() {
   return {kName,
           "the LuGre law by least squares over turns and constant speeds; needs no start",
-          {{"damping", "estimated", "estimated|none", "bristle_damping, or 0"},
+          {{"law", std::string(LuGre::name), LawWords(BristleFallingLaws{}),
+            "one Coulomb level, or one for each direction"},
+           {"damping", "estimated", "estimated|none", "bristle_damping, or 0"},
            {"inertia", "estimated", "estimated|none",
             "torque for acceleration, beside the friction, or none"}},
           &FitLugre,

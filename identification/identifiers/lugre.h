@@ -5,8 +5,8 @@
 
 namespace warmjoint::inline identification {
 
-/// (kv, kc, ks, vs, sigma0, sigma1, M) = argmin sum ((tau - F - M a) / s)^2, F the LuGre law over
-/// the recorded motion (bristle_course.h). Starts, stops and turns take part beside the samples
+/// (kv, kc, ks, vs, sigma0, sigma1, M) = argmin sum ((tau - F - M a) / s)^2, F the LuGre law, or
+/// the one with a level for each direction (kc+, kc- and kr for kc and ks), over the recorded motion (bristle_course.h). Starts, stops and turns take part beside the samples
 /// kept, since they alone show the bristle (lugre_data.h); M, which acts there too, is estimated
 /// beside the law, and so is how far the bristle is bent as each recording begins (lugre_course.h). s is the rms of the residual, one value for the samples kept and one for the
 /// others, larger for outliers (Huber's weights), from three passes. Starts from the Stribeck curve
@@ -14,7 +14,7 @@ namespace warmjoint::inline identification {
 /// by Ceres. Standard deviations and intervals as in uncertainty.h, those of vs, sigma0 and sigma1
 /// through their logarithms.
 ///
-/// not_identifiable where the motion cannot tell viscous from coulomb; where the Stribeck effect is
+/// not_identifiable where the motion cannot tell the law without bristle and fall; where the Stribeck effect is
 /// not seen (stribeck_verdict.h); where sigma0 or sigma1 are not known to a factor of e. What the
 /// sampling shifts the parameters by counts as a standard deviation beside the noise: a third of
 /// what leaving out every other sample changes (Richardson). inadequate_model where friction rises

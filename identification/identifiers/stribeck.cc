@@ -17,8 +17,6 @@
 #include "identification/warming/unsettled.h"
 #include "identification/warming/warm_fit.h"
 #include "identification/warming/warming_verdict.h"
-#include "models/friction/stribeck.h"
-#include "models/friction/viscous_coulomb.h"
 #include "models/recording/course_of.h"
 #include "models/recording/without_rest.h"
 
@@ -26,15 +24,16 @@ namespace warmjoint::inline identification {
 namespace {
 
 constexpr const char* kName = "stribeck";
-constexpr size_t kRefined = 3;                 // starts
-constexpr Eigen::Index kLogVs = 3, kGain = 4;  // in x
-constexpr Eigen::Index kExponent = 4;          // in the law's table, where vs stands as in x
+constexpr size_t kRefined = 3;  // starts
+
+/// Where ln vs and k stand in x; in the law's table vs stands where ln vs does, then its exponent.
+Eigen::Index LogVs(const StribeckProblem& problem) { return problem.law.levels(); }
+Eigen::Index Gain(const StribeckProblem& problem) { return LogVs(problem) + 1; }
 
 /// What the law without the Stribeck effect leaves, with the same warming. (N.m)^2 or N^2
 double SquaresWithout(const StribeckProblem& problem) {
   const Measurements& m = problem.measurements;
-  const Law& law = *FindLaw(ViscousCoulomb::name);
-  const Eigen::MatrixXd columns = LawColumns(law, m.velocity);
+  const Eigen::MatrixXd columns = LawColumns(problem.law.without, m.velocity);
   const Eigen::VectorXd torque = Kept(m.torque, problem.selection);
   const Eigen::MatrixXd kept = Kept(columns, problem.selection);
   const LeastSquares cold = SolveLeastSquares(kept, torque);
@@ -51,26 +50,19 @@ double SquaresWithout(const StribeckProblem& problem) {
   return std::min(squares, fit.solution.squares);
 }
 
-/// The drop of |e|^2 / s^2 that static and stribeck_velocity bring.
+/// The drop of |e|^2 / s^2 that the level at rest and stribeck_velocity bring.
 double Explained(const IdentifierInput& input, double without, const StribeckPoint& point) {
   const auto freedom = static_cast<double>(input.selection.count() - point.x.size());
   return (without - point.squares) / (point.squares / freedom);
 }
 
 /// Why they cannot be seen: one sentence.
-std::string Unseen(const IdentifierInput& input, double explained) {
+std::string Unseen(const IdentifierInput& input, const FallingLaw& law, double explained) {
   return fmt::format(
-      "no Stribeck effect can be seen: static and stribeck_velocity explain {:.3g} times the noise "
+      "no Stribeck effect can be seen: {} and stribeck_velocity explain {:.3g} times the noise "
       "variance, below {:.3g}; {}",
-      explained > 0 ? explained : 0.0, kVisibleWarming,
+      law.rest(), explained > 0 ? explained : 0.0, kVisibleWarming,
       SlowSpeeds(input.measurements, input.selection));
-}
-
-/// What the fit says of the two parameters of the effect.
-StribeckEvidence EvidenceOf(const StribeckFit& fit, const Uncertainty& known) {
-  const Eigen::VectorXd& x = fit.solution.x;
-  const Eigen::Matrix2d c = known.covariance.block<2, 2>(1, 1);
-  return {x[2] - x[1], std::sqrt(c(0, 0) + c(1, 1) - 2 * c(0, 1)), known.Deviation(kLogVs)};
 }
 
 /// Why the warming cannot be told; nothing where it can, or is not asked for.
@@ -81,52 +73,55 @@ std::optional<std::string> VagueWarming(const StribeckProblem& problem, const St
   const double total = time[time.size() - 1] - time[0];
   const Eigen::Index n = fit.fitted.size();
   const double variance = fit.solution.squares / static_cast<double>(n - fit.solution.x.size());
-  return UnknownWarming({(cold_squares - fit.solution.squares) / variance,
-                         known.Deviation(kGain + 1), std::exp(fit.solution.x[kGain + 1]),
-                         2 * problem.intervals.typical, 5 * total});
+  return UnknownWarming(
+      {(cold_squares - fit.solution.squares) / variance, known.Deviation(Gain(problem) + 1),
+       std::exp(fit.solution.x[Gain(problem) + 1]), 2 * problem.intervals.typical, 5 * total});
 }
 
-/// The law's values at x. [5]
+/// The law's values at x. [l + 2]
 Eigen::VectorXd LawAt(const StribeckProblem& problem, const Eigen::VectorXd& x) {
-  Eigen::VectorXd values(Stribeck::parameters.size());
-  values << x.head(kLogVs), std::exp(x[kLogVs]), problem.exponent;
+  const Eigen::Index log_vs = LogVs(problem);
+  Eigen::VectorXd values(log_vs + 2);
+  values << x.head(log_vs), std::exp(x[log_vs]), problem.exponent;
   return values;
 }
 
 /// The warming at x, where it is asked for.
 std::optional<Thermal> ThermalAt(const StribeckProblem& problem, const Eigen::VectorXd& x) {
   if (problem.warming == FittedWarming::none) return std::nullopt;
-  return Thermal{x[kGain], std::exp(x[kGain + 1])};
+  return Thermal{x[Gain(problem)], std::exp(x[Gain(problem) + 1])};
 }
 
 /// Law, whose exponent was given, and warming at x: the model and its table.
 void SetModel(const StribeckProblem& problem, const Eigen::VectorXd& x, Fit& fit) {
   const Measurements& m = problem.measurements;
-  const Law& law = *FindLaw(Stribeck::name);
+  const Law& law = problem.law.law;
+  const auto vs = static_cast<size_t>(LogVs(problem));
   const Eigen::VectorXd values = LawAt(problem, x);
   fit.friction = FrictionOf(law, values, m);
   fit.friction.thermal = ThermalAt(problem, x);
   fit.parameters = LawParameters(law, values, m);
-  fit.parameters[kLogVs].coordinate = Coordinate::logarithm;
-  fit.parameters[kExponent].estimated = false;
+  fit.parameters[vs].coordinate = Coordinate::logarithm;
+  fit.parameters[vs + 1].estimated = false;
   if (fit.friction.thermal) Append(HeatParameters(*fit.friction.thermal, m), fit);
 }
 
 /// Voids a fit whose friction feeds itself on this motion. Where the data rule the law out, or
 /// chance alone may keep it within its bounds, there is no friction to run.
-void JudgeWarmth(const Measurements& m, Fit& fit) {
+void JudgeWarmth(const Measurements& m, std::string_view without, Fit& fit) {
   if (!fit.friction.thermal || !Infer(fit).gives_friction) return;
   const Prediction predicted = PredictFriction(fit.friction, m);
   if (predicted.feeds_itself == m.size()) return;
-  fit.voided = {Status::inadequate_model, WouldFeedItself(m.time[predicted.feeds_itself],
-                                                          AgainstPushing("energy-ml", "", "none"))};
+  fit.voided = {Status::inadequate_model,
+                WouldFeedItself(m.time[predicted.feeds_itself],
+                                AgainstPushing("energy-ml", without, "none"))};
 }
 
 std::vector<Iterate> Trace(const StribeckProblem& problem, const std::vector<StribeckPoint>& scan) {
   std::vector<Iterate> trace;
   const auto n = static_cast<double>(problem.selection.count());
   for (const StribeckPoint& point : scan) {
-    const Eigen::VectorXd values = LawAt(problem, point.x).head(kExponent);
+    const Eigen::VectorXd values = LawAt(problem, point.x).head(LogVs(problem) + 1);
     trace.push_back({static_cast<int>(trace.size()),
                      {values.begin(), values.end()},
                      std::sqrt(point.squares / n)});
@@ -172,7 +167,7 @@ void Conclude(const IdentifierInput& input, const StribeckProblem& problem, cons
   }
   const double explained = Explained(input, rivals.without, best.solution);
   if (!(explained > kVisibleWarming)) {
-    fit.refusal = {Status::not_identifiable, Unseen(input, explained)};
+    fit.refusal = {Status::not_identifiable, Unseen(input, problem.law, explained)};
     return;
   }
 
@@ -191,21 +186,27 @@ void Conclude(const IdentifierInput& input, const StribeckProblem& problem, cons
       JudgeUncertainty(best.jacobian, Cofactor(best.jacobian.transpose() * best.jacobian),
                        fit.residual(), fit.used, fit.fitted);
   const Uncertainty& known = *fit.errors.known;
-  auto why = VagueStribeck(EvidenceOf(best, known), input.measurements, input.selection);
+  const StribeckEvidence evidence = EvidenceOf(
+      problem.law, best.solution.x, known.covariance.topLeftCorner(LogVs(problem), LogVs(problem)),
+      known.Deviation(LogVs(problem)));
+  auto why = VagueStribeck(problem.law, evidence, input.measurements, input.selection);
   if (!why) why = VagueWarming(problem, best, known, rivals.cold);
   if (why) {
     fit.refusal = Refusal{Status::not_identifiable, *why};
     return;
   }
-  JudgeWarmth(input.measurements, fit);
+  JudgeWarmth(input.measurements, problem.law.without.name, fit);
 }
 
 Fit FitStribeck(const IdentifierInput& input) {
   const Measurements& m = input.measurements;
-  if (auto why = Unusable(input, 7)) return Refused(kName, Status::bad_data, *why);
-
-  const auto unknown = std::span(Stribeck::parameters).first(kExponent);
-  if (auto why = UnknownSliding(input, unknown)) return Refused(kName, *why);
+  const FallingLaw& law = FindFallingLaw(input.options.Text("law"));
+  const auto levels = static_cast<size_t>(law.levels());
+  if (auto why = Unusable(input, static_cast<int>(levels) + 4)) {
+    return Refused(kName, Status::bad_data, *why);
+  }
+  const auto unknown = law.law.parameters.first(levels + 1);
+  if (auto why = UnknownSliding(input, law, unknown)) return Refused(kName, *why);
 
   // scan vs, then refine the best
   const Eigen::VectorXd torque = Kept(m.torque, input.selection);
@@ -215,10 +216,12 @@ Fit FitStribeck(const IdentifierInput& input) {
       FindIntervals(m.time, m.starts),
       input.options.Number("exponent"),
       input.options.Text("warming") == "estimated" ? FittedWarming::estimated : FittedWarming::none,
-      torque.norm() / std::sqrt(static_cast<double>(torque.size()))};
+      torque.norm() / std::sqrt(static_cast<double>(torque.size())),
+      law};
   const double without = SquaresWithout(problem);
   const std::vector<StribeckPoint> scan = ScanStribeckVelocity(problem);
-  if (scan.empty() || !std::isfinite(without)) return Refused(kName, NoFall(m, input.selection));
+  if (scan.empty() || !std::isfinite(without))
+    return Refused(kName, NoFall(law, m, input.selection));
 
   // where the scan, within a few per cent of the best, sees next to nothing, so will the fit
   Fit fit;
@@ -227,7 +230,7 @@ Fit FitStribeck(const IdentifierInput& input) {
   SetModel(problem, scan[0].x, fit);
   const double seen = Explained(input, without, scan[0]);
   if (problem.warming == FittedWarming::none && seen < 0.5 * kVisibleWarming) {
-    fit.refusal = {Status::not_identifiable, Unseen(input, seen)};
+    fit.refusal = {Status::not_identifiable, Unseen(input, law, seen)};
   } else {
     Conclude(input, problem, FitFrom(problem, scan), {without, ColdSquares(problem)}, fit);
   }
@@ -239,7 +242,9 @@ Fit FitStribeck(const IdentifierInput& input) {
 Identifier StribeckByCeres() {
   return {kName,
           "the Stribeck law by least squares, with or without warming; needs no start",
-          {{"warming", "none", "none|estimated", "whether friction warms up"},
+          {{"law", std::string(Stribeck::name), LawWords(SteadyFallingLaws{}),
+            "one Coulomb level, or one for each direction"},
+           {"warming", "none", "none|estimated", "whether friction warms up"},
            {"exponent", "2", "number >= 0.1 <= 10", "the law's stribeck_exponent, fixed"}},
           &FitStribeck};
 }

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 
+#include "identification/linear/against_curve.h"
+#include "models/friction/parameter_rows.h"
+
 namespace warmjoint::inline identification {
 namespace {
 
@@ -59,27 +62,30 @@ std::string_view Linear(const Fit& fit) { return Warms(fit) ? "energy-ml" : "nom
 /// What to try against friction that falls with speed: what the fit has of curve and warming is not
 /// named again.
 std::string AgainstFallingSlope(const Fit& fit) {
-  const bool curved = fit.friction.law == "stribeck" || fit.friction.law == "lugre";
+  const std::string& law = fit.friction.law;
+  const bool curved = fit.friction.parameters.contains(std::string(kStribeckVelocityRow.name));
   if (curved && Warms(fit)) {
     return "friction falls with speed beyond the law's curve and its warming: record higher speeds";
   }
   if (curved) {
-    return "friction that falls with speed beyond the law's curve is warming: try --identifier "
-           "stribeck --set warming=estimated";
+    return "friction that falls with speed beyond the law's curve is warming: try --identifier " +
+           CurveCommand(law, "estimated");
   }
   if (Warms(fit)) {
-    return "friction that falls with speed is a Stribeck effect: try --identifier stribeck --set "
-           "warming=estimated";
+    return "friction that falls with speed is a Stribeck effect: try --identifier " +
+           CurveCommand(law, "estimated");
   }
-  return "friction that falls with speed is warming, or a Stribeck effect: try --identifier "
-         "energy-ml, or --identifier stribeck where the joint does not warm";
+  return fmt::format(
+      "friction that falls with speed is warming, or a Stribeck effect: try --identifier {}, or "
+      "--identifier {} where the joint does not warm",
+      LinearCommand("energy-ml", law), CurveCommand(law, "none"));
 }
 
 /// What makes a fit leave its bounds, and what to try.
 std::string Remedy(const Fit& fit, const FitParameter& parameter) {
   if (IsSlope(parameter)) return AgainstFallingSlope(fit);
   if (!parameter.name.starts_with(kCoulombName)) {
-    return fmt::format("try --identifier {}", Linear(fit));
+    return fmt::format("try --identifier {}", LinearCommand(Linear(fit), fit.friction.law));
   }
   const char* push = "a negative level would push the joint: ";
   if (fit.gravity)
@@ -91,12 +97,18 @@ std::string Remedy(const Fit& fit, const FitParameter& parameter) {
       push, Linear(fit));
 }
 
-/// Whether the static level is below the Coulomb level, of a law that has both.
-bool RisesFromRest(const FrictionDescription& friction) {
-  const auto at_rest = friction.parameters.find("static");
+bool IsRise(const FitParameter& parameter) { return parameter.name == kStaticRiseRow.name; }
+
+/// In words that the level at rest is below that of sliding, of a law that has both; nothing where it is
+/// not.
+std::optional<std::string> RisesFromRest(const FrictionDescription& friction) {
+  const auto at_rest = friction.parameters.find(std::string(kStaticRow.name));
   const auto coulomb = friction.parameters.find(std::string(kCoulombName));
+  const auto rise = friction.parameters.find(std::string(kStaticRiseRow.name));
   const auto none = friction.parameters.end();
-  return at_rest != none && coulomb != none && at_rest->second < coulomb->second;
+  if (rise != none && rise->second < 0) return "static_rise is below 0";
+  const bool below = at_rest != none && coulomb != none && at_rest->second < coulomb->second;
+  return below ? std::optional<std::string>("static is below coulomb") : std::nullopt;
 }
 
 }  // namespace
@@ -111,19 +123,22 @@ void JudgeBounds(const Fit& fit, Inference& inference) {
   const std::string& law = fit.friction.law;
   const std::vector<Excess> excesses = FindExcesses(fit, inference);
 
-  // beyond doubt
-  if (const auto sure = std::ranges::find_if(excesses, &Excess::beyond); sure != excesses.end()) {
+  // beyond doubt; that friction rises from rest has words of its own
+  const auto sure = std::ranges::find_if(
+      excesses, [](const Excess& excess) { return excess.beyond && !IsRise(excess.parameter); });
+  if (sure != excesses.end()) {
     inference.Void(Status::inadequate_model,
                    fmt::format("{}: law {} does not describe these data; {}", Words(*sure), law,
                                Remedy(fit, sure->parameter)));
     return;
   }
-  if (RisesFromRest(fit.friction)) {
+  if (const auto rises = RisesFromRest(fit.friction)) {
     inference.Void(
         Status::inadequate_model,
-        fmt::format("static is below coulomb: friction rises from rest with speed, where law {} "
-                    "lets it fall; try --identifier {} --set law=viscous_coulomb",
-                    law, Linear(fit)));
+        fmt::format("{}: friction rises from rest with speed, where law {} lets it fall; try "
+                    "--identifier {} --set law={}",
+                    *rises, law, Linear(fit),
+                    TellsDirections(law) ? "asymmetric" : "viscous_coulomb"));
     return;
   }
 

@@ -6,8 +6,11 @@
 #include <numbers>
 
 #include "identification/lack_of_fit/words.h"
+#include "identification/linear/against_curve.h"
 #include "identification/linear/linear_laws.h"
 #include "models/friction/law.h"
+#include "models/friction/law_list.h"
+#include "models/friction/parameter_rows.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -35,6 +38,14 @@ std::string Try(const Advice& advice, const std::string& command) {
   return fmt::format("try --identifier {}{}{}", command, can ? gravity : "",
                      lags ? " --set torque_lag=estimated" : "");
 }
+
+/// Whether the law has a curve over speed.
+bool HoldsCurve(const Advice& advice) {
+  return advice.fit.friction.parameters.contains(std::string(kStribeckVelocityRow.name));
+}
+
+/// The warming that a fit holds, as an option's word.
+const char* WarmingOf(const Advice& advice) { return HoldsWarming(advice) ? "estimated" : "none"; }
 
 /// Kernels of the first axis over a quantity; 0 where there is none.
 size_t KernelsOver(const Advice& advice, MapQuantity quantity) {
@@ -81,12 +92,12 @@ std::string AgainstWarmStart(const Identifier& identifier, const IdentifierInput
 
 std::string AgainstWarming(const Advice& advice) {
   if (!HoldsWarming(advice)) {
-    const bool curved = advice.fit.friction.law == "stribeck";
     if (HoldsMap(advice, MapQuantity::motor_position)) {
       return Try(advice, "energy-ml --set position=motor");
     }
     if (HoldsMap(advice, MapQuantity::position)) return Try(advice, "energy-ml --set position=map");
-    return Try(advice, curved ? "stribeck --set warming=estimated" : "energy-ml");
+    if (HoldsCurve(advice)) return Try(advice, CurveCommand(advice.fit.friction.law, "estimated"));
+    return Try(advice, "energy-ml");
   }
   if (TakesStart(advice.identifier, advice.input) &&
       advice.input.options.Text("initial_energy") == "zero") {
@@ -102,7 +113,7 @@ std::string AgainstStart(const Advice& advice) {
 }
 
 std::string AgainstSpeed(const Advice& advice) {
-  if (advice.fit.friction.law == "stribeck" || advice.fit.friction.law == "lugre") {
+  if (HoldsCurve(advice)) {
     return "the law has a curve over speed already, and the joint's is another one";
   }
   if (HoldsMap(advice, MapQuantity::velocity) && KernelsOver(advice, MapQuantity::velocity) > 2) {
@@ -112,7 +123,7 @@ std::string AgainstSpeed(const Advice& advice) {
     return Try(advice, HoldsWarming(advice) ? "energy-ml --set position=map --set basis=velocity"
                                             : "position-ridge --set basis=velocity");
   }
-  return Try(advice, HoldsWarming(advice) ? "stribeck --set warming=estimated" : "stribeck");
+  return Try(advice, CurveCommand(advice.fit.friction.law, WarmingOf(advice)));
 }
 
 std::string AgainstWarmingSlope(const Advice& advice) {
@@ -123,7 +134,23 @@ std::string AgainstWarmingSlope(const Advice& advice) {
   return Try(advice, advice.fit.friction.maps.empty() ? "lpv-energy" : "energy-map");
 }
 
+/// What to try where a law with a curve misses something that turns with the direction.
+std::string AgainstDirectionOfACurve(const Advice& advice) {
+  const FrictionDescription& friction = advice.fit.friction;
+  if (TellsDirections(friction.law)) {
+    return "the law has a level for each direction already: they differ in slope, or in how much "
+           "more the joint bears at rest";
+  }
+  if (friction.law != LuGre::name) {
+    return Try(advice, CurveCommand(AsymmetricStribeck::name, WarmingOf(advice)));
+  }
+  const bool damped = friction.parameters.at(std::string(kBristleDampingRow.name)) != 0;
+  return Try(advice, fmt::format("lugre --set law={}{}", AsymmetricLuGre::name,
+                                 damped ? "" : " --set damping=none"));
+}
+
 std::string AgainstDirection(const Advice& advice) {
+  if (HoldsCurve(advice)) return AgainstDirectionOfACurve(advice);
   const bool can = advice.identifier.Has("law");
   const bool mapped = HoldsMap(advice, MapQuantity::position);
   const std::string map = mapped && HoldsWarming(advice) ? " --set position=map" : "";

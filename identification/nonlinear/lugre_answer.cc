@@ -30,9 +30,10 @@ double RobustRms(std::vector<double> residuals) {
 
 /// The columns of the Jacobian that belong to parameters which are not constant.
 Eigen::MatrixXd FreeColumns(const LugreProblem& problem, const Eigen::MatrixXd& jacobian) {
-  Eigen::MatrixXd free(jacobian.rows(), kLugreSize - problem.constant.size());
+  Eigen::MatrixXd free(jacobian.rows(),
+                       problem.size() - static_cast<Eigen::Index>(problem.constant.size()));
   Eigen::Index column = 0;
-  for (int i = 0; i < kLugreSize; ++i) {
+  for (Eigen::Index i = 0; i < problem.size(); ++i) {
     if (!problem.IsConstant(i)) free.col(column++) = jacobian.col(i);
   }
   return free;
@@ -77,7 +78,8 @@ NoiseOfGroups WeighLugre(const Selection& selection, const LugreFit& fit, LugreP
   NoiseOfGroups noise;
   noise.kept = RobustRms(kept);
   // a handful of samples tells no noise
-  noise.others = others.size() < 3 * kLugreSize ? noise.kept : RobustRms(others);
+  const bool few = static_cast<Eigen::Index>(others.size()) < 3 * problem.size();
+  noise.others = few ? noise.kept : RobustRms(others);
   const double least = 1e-12 * problem.torque.cwiseAbs().maxCoeff();
   row = 0;
   for (Eigen::Index i = 0; i < problem.used.keep.size(); ++i) {
@@ -92,7 +94,7 @@ NoiseOfGroups WeighLugre(const Selection& selection, const LugreFit& fit, LugreP
 
 LugreAnswer JudgeLugre(const IdentifierInput& input, const LugreProblem& problem, LugreFit fit) {
   LugreAnswer answer;
-  for (int i = 0, row = 0; i < kLugreSize; ++i) {
+  for (Eigen::Index i = 0, row = 0; i < problem.size(); ++i) {
     answer.rows.push_back(problem.IsConstant(i) ? -1 : row++);
   }
   const Eigen::MatrixXd jacobian = FreeColumns(problem, fit.jacobian);

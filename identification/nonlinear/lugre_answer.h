@@ -13,14 +13,11 @@ namespace warmjoint::inline identification {
 struct LugreAnswer {
   LugreFit fit;
   Uncertainty known;               // of the parameters that are not constant
-  std::vector<Eigen::Index> rows;  // [kLugreSize] of each parameter in `known`, or -1
+  std::vector<Eigen::Index> rows;  // [l + 4] of each parameter in `known`, or -1
 
   double Deviation(Eigen::Index i) const {
     const Eigen::Index row = rows[static_cast<size_t>(i)];
     return row < 0 ? 0 : known.Deviation(row);
-  }
-  double Variance(Eigen::Index i, Eigen::Index j) const {
-    return known.covariance(rows[static_cast<size_t>(i)], rows[static_cast<size_t>(j)]);
   }
 };
 

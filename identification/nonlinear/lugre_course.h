@@ -1,4 +1,4 @@
-// Torque of the LuGre law over a recorded motion, each recording bent at its start as suits it best.
+// Torque of a LuGre law over a recorded motion, each recording bent at its start as suits it best.
 #pragma once
 
 #include <array>
@@ -17,15 +17,15 @@ struct LugreCourse {
   std::vector<T> loads;   // [R] N.m or N
 };
 
-/// F and s over the samples of one recording, from its first to one before its end.
-template <typename T>
+/// F and s over the samples of one recording, from its first to one before its end, by law L.
+template <typename L, typename T>
 struct LugreRun {
   std::vector<T> force, load;  // N.m or N
 
   /// load: s at its first sample; p: of the law's table.
   LugreRun(const MotionPieces& motion, Eigen::Index first, Eigen::Index end,
-           const std::array<T, 6>& p, const T& begin) {
-    BristleCourse<LuGre, T> course(p.data());
+           const std::array<T, L::parameters.size()>& p, const T& begin) {
+    BristleCourse<L, T> course(p.data());
     course.BeginLoaded(motion.velocity(first), begin);
     for (Eigen::Index i = first; i < end; ++i) {
       for (const MotionPiece& piece : motion.Before(i)) course.Follow(piece, 0, 0);
@@ -37,11 +37,11 @@ struct LugreRun {
 
 /// b = dF/ds0 over the first samples of a recording, until less than 1e-9 of s0 is left: what a
 /// load of 1 at its start adds to `run`, which began with 0.
-template <typename T>
-std::vector<T> ByLoad(const MotionPieces& motion, Eigen::Index first, const std::array<T, 6>& p,
-                      const LugreRun<T>& run) {
+template <typename L, typename T>
+std::vector<T> ByLoad(const MotionPieces& motion, Eigen::Index first,
+                      const std::array<T, L::parameters.size()>& p, const LugreRun<L, T>& run) {
   constexpr double kForgotten = 1e-9;
-  BristleCourse<LuGre, T> course(p.data());
+  BristleCourse<L, T> course(p.data());
   course.BeginLoaded(motion.velocity(first), T(1));
   std::vector<T> by_load;
   for (size_t k = 0; k < run.force.size(); ++k) {
@@ -62,23 +62,24 @@ std::vector<T> ByLoad(const MotionPieces& motion, Eigen::Index first, const std:
 /// over the used samples with their deviations d. q, the rms of the torque, keeps s0 near 0 where
 /// none of them tells. Derivatives by x go through s0, so that a covariance from them knows that it
 /// was estimated, too. x: as LugrePoint has it.
-template <typename T>
+template <typename L, typename T>
 LugreCourse<T> FollowLugre(const LugreProblem& problem, const T* x) {
   const Eigen::Index n = problem.motion.size();
-  const std::array<T, 6> p = LugreValues(x);
+  const auto p = LugreValues<L>(x);
+  const T& inertia = x[problem.inertia()];
   LugreCourse<T> course;
   course.torque.reserve(static_cast<size_t>(n));
   Eigen::Index row = 0;  // of the used samples
   for (Eigen::Index first = 0, end = 0; first < n; first = end) {
     end = problem.EndOfRecording(first);
-    const LugreRun<T> run(problem.motion, first, end, p, T(0));
-    const std::vector<T> by_load = ByLoad(problem.motion, first, p, run);
+    const LugreRun<L, T> run(problem.motion, first, end, p, T(0));
+    const std::vector<T> by_load = ByLoad<L>(problem.motion, first, p, run);
 
     // from a start without load, and what the samples tell of it
     T told(0), weight(static_cast<double>(n) / problem.torque.squaredNorm());
     for (Eigen::Index i = first; i < end; ++i) {
       const auto k = static_cast<size_t>(i - first);
-      course.torque.push_back(run.force[k] + x[kLugreInertia] * problem.acceleration[i]);
+      course.torque.push_back(run.force[k] + inertia * problem.acceleration[i]);
       if (!problem.used.keep[i]) continue;
       const double deviation = problem.deviation[row++];
       if (k >= by_load.size()) continue;

@@ -68,8 +68,8 @@ Eigen::VectorXd Acceleration(const Eigen::VectorXd& time, const Eigen::VectorXd&
 }
 
 /// The problem on a grid. used: [N] of all samples; scale: N.m or N.
-LugreProblem ProblemOn(const Grid& grid, const IdentifierInput& input, const Mask& used,
-                       double scale) {
+LugreProblem ProblemOn(const Grid& grid, const IdentifierInput& input, const FallingLaw& law,
+                       const Mask& used, double scale) {
   const Measurements& m = input.measurements;
   const Eigen::VectorXd still = Rests(m).select(0.0, m.velocity.array());
   const Eigen::VectorXd time = m.time(grid.samples);
@@ -85,12 +85,13 @@ LugreProblem ProblemOn(const Grid& grid, const IdentifierInput& input, const Mas
           m.torque(grid.samples),
           {use, {}},
           Eigen::VectorXd::Constant(use.count(), scale),
-          {}};
+          {},
+          &law};
 }
 
 }  // namespace
 
-LugreProblem MakeLugreProblem(const IdentifierInput& input, double scale) {
+LugreProblem MakeLugreProblem(const IdentifierInput& input, const FallingLaw& law, double scale) {
   const Measurements& m = input.measurements;
   const Mask& keep = input.selection.keep;
   const Mask rests = Rests(m);
@@ -106,12 +107,12 @@ LugreProblem MakeLugreProblem(const IdentifierInput& input, double scale) {
     const Index n = last - first + 1;
     used.segment(first, n) = keep.segment(first, n) || !rests.segment(first, n);
   }
-  return ProblemOn(EverySample(m, 1), input, used, scale);
+  return ProblemOn(EverySample(m, 1), input, law, used, scale);
 }
 
 HalvedProblem Halve(const IdentifierInput& input, const LugreProblem& problem) {
   Grid grid = EverySample(input.measurements, 2);
-  LugreProblem halved = ProblemOn(grid, input, problem.used.keep, 1);
+  LugreProblem halved = ProblemOn(grid, input, *problem.law, problem.used.keep, 1);
   return {std::move(grid.samples), std::move(halved)};
 }
 

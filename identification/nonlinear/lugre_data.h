@@ -6,14 +6,14 @@
 
 namespace warmjoint::inline identification {
 
-/// The problem of a recording, its deviations at `scale` throughout.
+/// The problem of a law on a recording, its deviations at `scale` throughout.
 ///   used      from the first kept sample of each recording to its last one: those kept, and those
 ///             in between that are not at rest, which are starts, stops and turns
 ///   bristle   runs over all samples; in rests of five samples and more, whose speed is noise
 ///             (VelocityScale::Rest), it stays as it is; its bend at each start is estimated
 ///   a         central differences of the velocity; 0 in segments of constant speed, where they
 ///             would be noise alone
-LugreProblem MakeLugreProblem(const IdentifierInput& input, double scale);
+LugreProblem MakeLugreProblem(const IdentifierInput& input, const FallingLaw& law, double scale);
 
 /// Every other sample of each recording, and its problem as if the log held no others.
 struct HalvedProblem {

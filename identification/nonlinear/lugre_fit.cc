@@ -19,7 +19,10 @@ constexpr int kDistances = 16;  // of the grids
 constexpr int kVelocities = 16;
 constexpr double kFall = 1.3;  // ks over kc before a fall is known
 
-/// Residuals (F + M a - tau) / deviation of the used samples.
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Residuals (F + M a - tau) / deviation of the used samples, F by law L.
+template <typename L>
 class Residuals {
  public:
   explicit Residuals(const LugreProblem& problem) : problem_(problem) {}
@@ -27,7 +30,7 @@ class Residuals {
   template <typename T>
   bool operator()(const T* x, T* residuals) const {
     using std::isfinite;
-    const std::vector<T> torque = FollowLugre(problem_, x).torque;
+    const std::vector<T> torque = FollowLugre<L>(problem_, x).torque;
     Eigen::Index row = 0;
     for (size_t k = 0; k < torque.size(); ++k) {
       const auto i = static_cast<Eigen::Index>(k);
@@ -43,7 +46,33 @@ class Residuals {
   const LugreProblem& problem_;
 };
 
-using Cost = ceres::AutoDiffCostFunction<Residuals, ceres::DYNAMIC, kLugreSize>;
+/// How many parameters x has of law L.
+template <typename L>
+constexpr int kSize = LevelsOf<L>() + 4;
+
+template <typename L>
+using Cost = ceres::AutoDiffCostFunction<Residuals<L>, ceres::DYNAMIC, kSize<L>>;
+
+template <typename F>
+auto ForLaw(const LugreProblem& problem, const F& f) {
+  return ForLawNamed(BristleFallingLaws{}, problem.law->law.name, f);
+}
+
+/// The residuals at x; false where they are no numbers. residuals: [n]
+bool ResidualsAt(const LugreProblem& problem, const Eigen::VectorXd& x, double* residuals) {
+  return ForLaw(problem, [&]<typename L>() { return Residuals<L>(problem)(x.data(), residuals); });
+}
+
+/// The same with the Jacobian, which is finite then. jacobian: [n x (l + 4)]
+bool DerivativesAt(const LugreProblem& problem, const Eigen::VectorXd& x,
+                   Eigen::VectorXd& residuals, RowMajor& jacobian) {
+  return ForLaw(problem, [&]<typename L>() {
+    const Cost<L> cost(new Residuals<L>(problem), static_cast<int>(residuals.size()));
+    const double* at = x.data();
+    double* into = jacobian.data();
+    return cost.Evaluate(&at, residuals.data(), &into) && jacobian.allFinite();
+  });
+}
 
 /// The ways, rad or m, from one turn or rest to the next.
 std::vector<double> Ways(const Measurements& m) {
@@ -70,36 +99,34 @@ std::pair<double, double> Distances(const Measurements& m) {
 }
 
 /// Fits the inertia to a point, and sums the squares.
-void Complete(const LugreProblem& problem, const Residuals& residuals, LugrePoint& point) {
+void Complete(const LugreProblem& problem, LugrePoint& point) {
   const Eigen::Index n = problem.used.count();
-  point.x[kLugreInertia] = 0;
+  double& inertia = point.x[problem.inertia()];
+  inertia = 0;
   Eigen::VectorXd r(n);
   point.squares = kInfinity;
-  if (!residuals(point.x.data(), r.data())) return;
+  if (!ResidualsAt(problem, point.x, r.data())) return;
   point.squares = r.squaredNorm();
-  if (problem.IsConstant(kLugreInertia)) return;
+  if (problem.IsConstant(problem.inertia())) return;
   const Eigen::VectorXd a =
       Kept(problem.acceleration, problem.used).cwiseQuotient(problem.deviation);
-  const double inertia = -a.dot(r) / a.squaredNorm();
-  if (!std::isfinite(inertia)) return;
-  point.x[kLugreInertia] = std::max(0.0, inertia);
-  point.squares = (r + point.x[kLugreInertia] * a).squaredNorm();
+  const double best = -a.dot(r) / a.squaredNorm();
+  if (!std::isfinite(best)) return;
+  inertia = std::max(0.0, best);
+  point.squares = (r + inertia * a).squaredNorm();
 }
 
-/// Moves kv, kc, ks and M, of which the torque is nearly linear, to what suits the rest of a point
+/// Moves the linear parameters and M, of which the torque is nearly linear, to what suits the rest of a point
 /// best: steps of Gauss and Newton, with ks within 1 and 3 kc as starts are.
-void CompleteLevels(const LugreProblem& problem, const Residuals& residuals, LugrePoint& point) {
+void CompleteLevels(const LugreProblem& problem, LugrePoint& point) {
   constexpr int kSteps = 2;
-  const auto n = static_cast<int>(problem.used.count());
-  const Cost cost(new Residuals(problem), n);
-  std::vector<Eigen::Index> linear{kLugreViscous, kLugreCoulomb, kLugreStatic};
-  if (!problem.IsConstant(kLugreInertia)) linear.push_back(kLugreInertia);
-  Eigen::VectorXd r(n);
-  Eigen::Matrix<double, Eigen::Dynamic, kLugreSize, Eigen::RowMajor> jacobian(n, kLugreSize);
+  std::vector<Eigen::Index> linear;
+  for (Eigen::Index i = 0; i < problem.law->levels(); ++i) linear.push_back(i);
+  if (!problem.IsConstant(problem.inertia())) linear.push_back(problem.inertia());
+  Eigen::VectorXd r(problem.used.count());
+  RowMajor jacobian(r.size(), problem.size());
   for (int step = 0; step < kSteps; ++step) {
-    const double* at = point.x.data();
-    double* into = jacobian.data();
-    if (!cost.Evaluate(&at, r.data(), &into) || !jacobian.allFinite()) break;
+    if (!DerivativesAt(problem, point.x, r, jacobian)) break;
     const Eigen::MatrixXd J = jacobian(Eigen::all, linear);
     const Eigen::VectorXd change = SolveLeastSquares(J, -r).solution;
     if (change.size() == 0) break;  // the samples do not tell them apart
@@ -107,13 +134,12 @@ void CompleteLevels(const LugreProblem& problem, const Residuals& residuals, Lug
     for (size_t i = 0; i < linear.size(); ++i) {
       next.x[linear[i]] += change[static_cast<Eigen::Index>(i)];
     }
-    if (!next.x.allFinite() || !(next.x[kLugreCoulomb] > 0)) break;
-    const double coulomb = next.x[kLugreCoulomb];
-    next.x[kLugreStatic] = std::clamp(next.x[kLugreStatic], coulomb, 3 * coulomb);
-    next.x[kLugreInertia] = std::max(0.0, next.x[kLugreInertia]);
+    if (!next.x.allFinite() || !(problem.law->coulomb(next.x.data()) > 0)) break;
+    problem.law->keep(next.x.data(), 1, 3);
+    next.x[problem.inertia()] = std::max(0.0, next.x[problem.inertia()]);
     point = next;
   }
-  point.squares = residuals(point.x.data(), r.data()) ? r.squaredNorm() : kInfinity;
+  point.squares = ResidualsAt(problem, point.x, r.data()) ? r.squaredNorm() : kInfinity;
 }
 
 std::vector<LugrePoint> Sorted(std::vector<LugrePoint> points) {
@@ -124,25 +150,31 @@ std::vector<LugrePoint> Sorted(std::vector<LugrePoint> points) {
 
 }  // namespace
 
+std::vector<double> LugreValuesAt(const LugreProblem& problem, const LugrePoint& point) {
+  return ForLaw(problem, [&]<typename L>() {
+    const auto values = LugreValues<L>(point.x.data());
+    return std::vector<double>(values.begin(), values.end());
+  });
+}
+
 std::vector<LugrePoint> ScanBristle(
     const LugreProblem& problem, const Measurements& measurements,
-    const std::function<std::optional<Eigen::Vector4d>(double distance)>& steady) {
+    const std::function<std::optional<Eigen::VectorXd>(double distance)>& steady) {
   const Measurements& m = measurements;
   const auto [shortest, longest] = Distances(m);
   std::vector<LugrePoint> points;
   if (!(shortest > 0) || !(longest > shortest)) return points;
   const double step = MedianStep(m.time);
-  const Residuals residuals(problem);
   for (int i = 0; i < kDistances; ++i) {
     const double distance = shortest * std::pow(longest / shortest, i / (kDistances - 1.0));
-    const std::optional<Eigen::Vector4d> curve = steady(distance);
+    const std::optional<Eigen::VectorXd> curve = steady(distance);
     if (!curve) continue;
-    const double stiffness = (*curve)[kLugreStatic] / distance;
+    const double stiffness = problem.law->at_rest(curve->data()) / distance;
     for (const double times : {0.0, 1.0, 10.0}) {
-      if (times > 0 && problem.IsConstant(kLugreDamping)) continue;
-      LugrePoint point;
+      if (times > 0 && problem.IsConstant(problem.damping())) continue;
+      LugrePoint point{Eigen::VectorXd(problem.size())};
       point.x << *curve, std::log(stiffness), times * step * stiffness, 0;
-      Complete(problem, residuals, point);
+      Complete(problem, point);
       if (std::isfinite(point.squares)) points.push_back(point);
     }
   }
@@ -151,45 +183,48 @@ std::vector<LugrePoint> ScanBristle(
 
 std::vector<LugrePoint> ScanFall(const LugreProblem& problem, const LugrePoint& point,
                                  double fastest) {
-  const Residuals residuals(problem);
   std::vector<LugrePoint> points;
   for (int i = 0; i < kVelocities; ++i) {
     LugrePoint other = point;
-    other.x[kLugreLogVs] = std::log(fastest) - std::log(1000) * i / (kVelocities - 1.0);
-    other.x[kLugreStatic] = kFall * point.x[kLugreCoulomb];
-    CompleteLevels(problem, residuals, other);
+    other.x[problem.log_vs()] = std::log(fastest) - std::log(1000) * i / (kVelocities - 1.0);
+    problem.law->keep(other.x.data(), kFall, kFall);
+    CompleteLevels(problem, other);
     if (std::isfinite(other.squares)) points.push_back(other);
   }
   return Sorted(std::move(points));
 }
 
 LugreFit RefineLugre(const LugreProblem& problem, const LugrePoint& start) {
-  const auto n = static_cast<int>(problem.used.count());
-  Eigen::Matrix<double, kLugreSize, 1> x = start.x;
-  const auto solution = SolveByCeres<kLugreSize>(std::make_unique<Cost>(new Residuals(problem), n),
-                                                 problem.constant, x.data());
-  LugreFit fit;
-  fit.converged = solution.converged;
-  fit.residual = -solution.residuals;
-  fit.jacobian = solution.jacobian;
-  fit.solution = {x, solution.residuals.squaredNorm()};
-  fit.loads = FollowLugre(problem, x.data()).loads;
-  return fit;
+  return ForLaw(problem, [&]<typename L>() {
+    const auto n = static_cast<int>(problem.used.count());
+    Eigen::VectorXd x = start.x;
+    const auto solution = SolveByCeres<kSize<L>>(
+        std::make_unique<Cost<L>>(new Residuals<L>(problem), n), problem.constant, x.data());
+    LugreFit fit;
+    fit.converged = solution.converged;
+    fit.residual = -solution.residuals;
+    fit.jacobian = solution.jacobian;
+    fit.solution = {x, solution.residuals.squaredNorm()};
+    fit.loads = FollowLugre<L>(problem, x.data()).loads;
+    return fit;
+  });
 }
 
 Eigen::VectorXd LugreTorque(const LugreProblem& problem, const LugrePoint& point,
                             const std::vector<double>& loads) {
   const Eigen::Index n = problem.motion.size();
-  const auto p = LugreValues(point.x.data());
-  Eigen::VectorXd torque = point.x[kLugreInertia] * problem.acceleration;
-  size_t recording = 0;
-  for (Eigen::Index first = 0, end = 0; first < n; first = end) {
-    end = problem.EndOfRecording(first);
-    const LugreRun<double> run(problem.motion, first, end, p, loads[recording++]);
-    torque.segment(first, end - first) +=
-        Eigen::Map<const Eigen::VectorXd>(run.force.data(), end - first);
-  }
-  return torque;
+  return ForLaw(problem, [&]<typename L>() {
+    const auto p = LugreValues<L>(point.x.data());
+    Eigen::VectorXd torque = point.x[problem.inertia()] * problem.acceleration;
+    size_t recording = 0;
+    for (Eigen::Index first = 0, end = 0; first < n; first = end) {
+      end = problem.EndOfRecording(first);
+      const LugreRun<L, double> run(problem.motion, first, end, p, loads[recording++]);
+      torque.segment(first, end - first) +=
+          Eigen::Map<const Eigen::VectorXd>(run.force.data(), end - first);
+    }
+    return torque;
+  });
 }
 
 }  // namespace warmjoint::inline identification

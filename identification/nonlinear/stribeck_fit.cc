@@ -3,6 +3,7 @@
 #include <ceres/autodiff_cost_function.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 
@@ -11,21 +12,22 @@
 #include "identification/linear/least_squares.h"
 #include "identification/nonlinear/solve_by_ceres.h"
 #include "identification/warming/scan_time_constant.h"
-#include "models/friction/stribeck.h"
 
 namespace warmjoint::inline identification {
 namespace {
 
 constexpr int kVelocities = 16;  // of the grid
-constexpr int kParameters = 4;   // kv, kc, ks, ln vs
 
 /// A friction that feeds itself grows without end; while it is below this, its derivatives are finite, too, so
 /// that a point at which Ceres finds the residuals also has a Jacobian. N.m or N
 constexpr double kRunaway = 1e100;
 
-/// Residuals (F - tau) / scale of the kept samples, as Ceres' automatic derivatives want them. P: 4
-/// without warming, 6 with it.
-template <int P>
+/// How many parameters x has of law L.
+template <typename L, FittedWarming W>
+constexpr int kSize = LevelsOf<L>() + (W == FittedWarming::none ? 1 : 3);
+
+/// Residuals (F - tau) / scale of the kept samples, as Ceres' automatic derivatives want them.
+template <typename L, FittedWarming W>
 class Residuals {
  public:
   explicit Residuals(const StribeckProblem& problem) : problem_(problem) {}
@@ -36,31 +38,36 @@ class Residuals {
     using std::exp;
     using std::isfinite;
     const Measurements& m = problem_.measurements;
-    const T law[] = {x[0], x[1], x[2], exp(x[3]), T(problem_.exponent)};
+    std::array<T, L::parameters.size()> law;
+    std::copy_n(x, kLogVs, law.begin());
+    law[kLogVs] = exp(x[kLogVs]);
+    law[kLogVs + 1] = T(problem_.exponent);
     const std::vector<ThermalHold<T>> holds = HoldsOf(x);
     T energy(0);
     for (Eigen::Index i = 0; i < m.size(); ++i) {
       const double v = m.velocity[i];
-      T force = Stribeck::Force(v, law);
-      if constexpr (P > kParameters) {
+      T force = L::Force(v, law.data());
+      if constexpr (W == FittedWarming::estimated) {
         force = WarmForce(v, force, energy);
         const ThermalHold<T>& hold = holds[problem_.intervals.which[i]];
-        energy = ThermalStep(T(x[4] * hold.cooling), hold.pole, energy, Loss(v, force));
+        energy = ThermalStep(T(x[kLogVs + 1] * hold.cooling), hold.pole, energy, Loss(v, force));
       }
       if (!isfinite(force) || abs(force) > kRunaway) return false;
       if (problem_.selection.keep[i]) *residuals++ = (force - m.torque[i]) / problem_.scale;
     }
-    return isfinite(energy) && isfinite(law[3]);
+    return isfinite(energy) && isfinite(law[kLogVs]);
   }
 
  private:
+  static constexpr int kLogVs = LevelsOf<L>();
+
   /// Eq. (22) over each distinct interval; none without warming.
   template <typename T>
   std::vector<ThermalHold<T>> HoldsOf(const T* x) const {
     std::vector<ThermalHold<T>> holds;
-    if constexpr (P > kParameters) {
+    if constexpr (W == FittedWarming::estimated) {
       using std::exp;
-      const T rate = exp(-x[5]);
+      const T rate = exp(-x[kLogVs + 2]);
       for (const double h : problem_.intervals.length) {
         // nothing is left where another recording starts cold
         holds.push_back(std::isinf(h) ? ThermalHold<T>{T(0), T(0), T(0)}
@@ -73,15 +80,14 @@ class Residuals {
   const StribeckProblem& problem_;
 };
 
-template <int P>
-using Cost = ceres::AutoDiffCostFunction<Residuals<P>, ceres::DYNAMIC, P>;
-
-template <int P>
+template <typename L, FittedWarming W>
 StribeckFit Refine(const StribeckProblem& problem, const StribeckPoint& start) {
+  constexpr int P = kSize<L, W>;
+  using Cost = ceres::AutoDiffCostFunction<Residuals<L, W>, ceres::DYNAMIC, P>;
   const auto n = static_cast<int>(problem.selection.count());
   Eigen::VectorXd x = start.x;
   const auto solution =
-      SolveByCeres<P>(std::make_unique<Cost<P>>(new Residuals<P>(problem), n), {}, x.data());
+      SolveByCeres<P>(std::make_unique<Cost>(new Residuals<L, W>(problem), n), {}, x.data());
   StribeckFit fit;
   fit.converged = solution.converged;
   fit.jacobian = problem.scale * solution.jacobian;
@@ -91,14 +97,16 @@ StribeckFit Refine(const StribeckProblem& problem, const StribeckPoint& start) {
   return fit;
 }
 
-/// dF/d(kv, kc, ks) at a given vs. [N x 3]
+/// The derivatives of F by the linear parameters at a given vs. [N x l]
 Eigen::MatrixXd LinearColumns(const StribeckProblem& problem, double velocity) {
   const Eigen::VectorXd& v = problem.measurements.velocity;
-  Eigen::MatrixXd columns(v.size(), 3);
-  for (int j = 0; j < 3; ++j) {
-    double p[] = {0, 0, 0, velocity, problem.exponent};
-    p[j] = 1;
-    for (Eigen::Index i = 0; i < v.size(); ++i) columns(i, j) = Stribeck::Force(v[i], p);
+  const Eigen::Index levels = problem.law.levels();
+  Eigen::MatrixXd columns(v.size(), levels);
+  for (Eigen::Index j = 0; j < levels; ++j) {
+    Eigen::VectorXd p(levels + 2);
+    p << Eigen::VectorXd::Unit(levels, j), velocity, problem.exponent;
+    for (Eigen::Index i = 0; i < v.size(); ++i)
+      columns(i, j) = problem.law.law.force(v[i], p.data());
   }
   return columns;
 }
@@ -110,23 +118,24 @@ std::optional<StribeckPoint> StartAt(const StribeckProblem& problem, double velo
   const Eigen::MatrixXd kept = Kept(columns, problem.selection);
   const Eigen::VectorXd torque = Kept(m.torque, problem.selection);
   const LeastSquares cold = SolveLeastSquares(kept, torque, 1e-3);
-  if (cold.rank < 3) return std::nullopt;
+  if (cold.rank < columns.cols()) return std::nullopt;
 
   StribeckPoint point;
   if (problem.warming == FittedWarming::none) {
-    point.x = Eigen::Vector4d(cold.solution[0], cold.solution[1], cold.solution[2], 0);
+    point.x.resize(columns.cols() + 1);
+    point.x << cold.solution, 0;
     point.squares = (torque - kept * cold.solution).squaredNorm();
   } else {
     const ClosedLoop loop = ClosedLoop::Along(m, columns);
     const Eigen::VectorXd level = loop.direction().cwiseProduct(m.torque);
     const Eigen::VectorXd weight = problem.selection.keep.cast<double>();
     const WarmStart start = ScanTimeConstant(loop, level, weight);
-    point.x.resize(6);
+    point.x.resize(columns.cols() + 3);
     point.x << start.parameters, 0, start.thermal.gain, std::log(start.thermal.time_constant);
     const Eigen::VectorXd force = loop.Simulate(start.parameters, start.thermal).force;
     point.squares = (torque - Kept(force, problem.selection)).squaredNorm();
   }
-  point.x[3] = std::log(velocity);
+  point.x[columns.cols()] = std::log(velocity);
   if (!point.x.allFinite() || !std::isfinite(point.squares)) return std::nullopt;
   return point;
 }
@@ -150,8 +159,11 @@ std::vector<StribeckPoint> ScanStribeckVelocity(const StribeckProblem& problem) 
 }
 
 StribeckFit RefineStribeck(const StribeckProblem& problem, const StribeckPoint& start) {
-  return problem.warming == FittedWarming::none ? Refine<4>(problem, start)
-                                                : Refine<6>(problem, start);
+  return ForLawNamed(SteadyFallingLaws{}, problem.law.law.name, [&]<typename L>() {
+    return problem.warming == FittedWarming::none
+               ? Refine<L, FittedWarming::none>(problem, start)
+               : Refine<L, FittedWarming::estimated>(problem, start);
+  });
 }
 
 }  // namespace warmjoint::inline identification

@@ -1,9 +1,10 @@
-// Least squares of the Stribeck law over a recorded motion, with or without warming, by Ceres.
+// Least squares of a law with the Stribeck effect over a recorded motion, with or without warming, by Ceres.
 #pragma once
 
 #include <Eigen/Core>
 #include <vector>
 
+#include "identification/nonlinear/falling_law.h"
 #include "models/friction/intervals.h"
 #include "models/recording/measurements.h"
 #include "models/recording/selection.h"
@@ -20,12 +21,14 @@ struct StribeckProblem {
   Intervals intervals;         // FindIntervals(time, starts)
   double exponent = 2;         // delta, fixed
   FittedWarming warming = FittedWarming::none;
-  double scale = 1;  // about the torque's rms, N.m or N
+  double scale = 1;                                        // about the torque's rms, N.m or N
+  const FallingLaw& law = FindFallingLaw(Stribeck::name);  // one of SteadyFallingLaws
 };
 
-/// Where a fit begins or ends. x: kv, kc, ks, ln vs, and with warming k, ln tau.
+/// Where a fit begins or ends. x: the law's l linear parameters, as kv, kc, ks; ln vs; and with warming
+/// k, ln tau.
 struct StribeckPoint {
-  Eigen::VectorXd x;   // [4 or 6]
+  Eigen::VectorXd x;   // [l + 1 or l + 3]
   double squares = 0;  // sum of squared residuals over the kept samples, (N.m)^2 or N^2
 };
 

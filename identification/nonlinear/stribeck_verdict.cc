@@ -7,7 +7,6 @@
 #include "identification/fit_data.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
-#include "models/friction/viscous_coulomb.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -27,10 +26,10 @@ std::string SlowSpeeds(const Measurements& measurements, const Selection& select
       slowest, unit, slowest / 10, unit);
 }
 
-std::optional<Refusal> UnknownSliding(const IdentifierInput& input,
+std::optional<Refusal> UnknownSliding(const IdentifierInput& input, const FallingLaw& law,
                                       std::span<const ParameterInfo> unknown) {
   const Measurements& m = input.measurements;
-  const Eigen::MatrixXd columns = LawColumns(*FindLaw(ViscousCoulomb::name), m.velocity);
+  const Eigen::MatrixXd columns = LawColumns(law.without, m.velocity);
   const LeastSquares sliding =
       SolveLeastSquares(Kept(columns, input.selection), Kept(m.torque, input.selection));
   if (sliding.rank == columns.cols()) return std::nullopt;
@@ -39,12 +38,19 @@ std::optional<Refusal> UnknownSliding(const IdentifierInput& input,
   return Refusal{Status::not_identifiable, Indistinct(names, m, input.selection)};
 }
 
-Refusal NoFall(const Measurements& measurements, const Selection& selection) {
-  return {Status::not_identifiable, "static and stribeck_velocity cannot be told from coulomb; " +
-                                        SlowSpeeds(measurements, selection)};
+Refusal NoFall(const FallingLaw& law, const Measurements& measurements,
+               const Selection& selection) {
+  return {Status::not_identifiable,
+          fmt::format("{} and stribeck_velocity cannot be told from coulomb; {}", law.rest(),
+                      SlowSpeeds(measurements, selection))};
 }
 
-std::optional<std::string> VagueStribeck(const StribeckEvidence& evidence,
+StribeckEvidence EvidenceOf(const FallingLaw& law, const Eigen::VectorXd& x,
+                            const Eigen::MatrixXd& covariance, double log_deviation) {
+  return {law.FallAt(x), std::sqrt(law.fall.dot(covariance * law.fall)), log_deviation};
+}
+
+std::optional<std::string> VagueStribeck(const FallingLaw& law, const StribeckEvidence& evidence,
                                          const Measurements& measurements,
                                          const Selection& selection) {
   if (evidence.log_deviation < kVagueLogVs &&
@@ -52,10 +58,10 @@ std::optional<std::string> VagueStribeck(const StribeckEvidence& evidence,
     return std::nullopt;
   }
   return fmt::format(
-      "static and stribeck_velocity cannot be told apart: stribeck_velocity is known to a factor "
-      "of {:.3g} only, static less coulomb to {:.3g}; {}",
-      std::exp(1.96 * evidence.log_deviation), 1.96 * evidence.fall_deviation,
-      SlowSpeeds(measurements, selection));
+      "{} and stribeck_velocity cannot be told apart: stribeck_velocity is known to a factor of "
+      "{:.3g} only, {} to {:.3g}; {}",
+      law.rest(), std::exp(1.96 * evidence.log_deviation), law.fall_words,
+      1.96 * evidence.fall_deviation, SlowSpeeds(measurements, selection));
 }
 
 }  // namespace warmjoint::inline identification

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "identification/identifier.h"
-#include "models/friction/parameter_info.h"
+#include "identification/nonlinear/falling_law.h"
 
 namespace warmjoint::inline identification {
 
@@ -21,17 +21,22 @@ struct StribeckEvidence {
 /// missing slow speeds. selection: samples at constant speed.
 std::string SlowSpeeds(const Measurements& measurements, const Selection& selection);
 
-/// Why not even viscous and coulomb, Eq. (2), can be told apart, which comes before any Stribeck
-/// effect; nothing where they can. unknown: rows of the law that then cannot be told.
-std::optional<Refusal> UnknownSliding(const IdentifierInput& input,
+/// Why not even the law without its fall, Eq. (2) or (3), can be told, which comes before any Stribeck
+/// effect; nothing where it can. unknown: rows of the law that then cannot be told.
+std::optional<Refusal> UnknownSliding(const IdentifierInput& input, const FallingLaw& law,
                                       std::span<const ParameterInfo> unknown);
 
-/// Why no scan finds a fall from static to coulomb. selection: samples at constant speed.
-Refusal NoFall(const Measurements& measurements, const Selection& selection);
+/// Why no scan finds a fall from the level at rest. selection: samples at constant speed.
+Refusal NoFall(const FallingLaw& law, const Measurements& measurements, const Selection& selection);
 
-/// Why static and stribeck_velocity cannot be told apart: vs is not known to a factor of e, or
+/// What a fit says of its effect. x: its linear parameters, at least; log_deviation: of ln(vs);
+/// covariance: of the linear parameters, [l x l].
+StribeckEvidence EvidenceOf(const FallingLaw& law, const Eigen::VectorXd& x,
+                            const Eigen::MatrixXd& covariance, double log_deviation);
+
+/// Why ks and stribeck_velocity cannot be told apart: vs is not known to a factor of e, or
 /// ks - kc not to a half of itself. Nothing where they can.
-std::optional<std::string> VagueStribeck(const StribeckEvidence& evidence,
+std::optional<std::string> VagueStribeck(const FallingLaw& law, const StribeckEvidence& evidence,
                                          const Measurements& measurements,
                                          const Selection& selection);
 

@@ -24,6 +24,16 @@ inline FrictionDescription LuGreJoint() {
           1};
 }
 
+/// The same with a level of 15 N.m forwards and 12 N.m backwards.
+inline FrictionDescription TwoLevelLuGreJoint() {
+  FrictionDescription friction = TwoLevelStribeckJoint();
+  friction.law = "asymmetric_lugre";
+  friction.parameters.erase("stribeck_exponent");
+  friction.parameters["bristle_stiffness"] = 2000;
+  friction.parameters["bristle_damping"] = 40;
+  return friction;
+}
+
 /// Velocity over time in turns of 4 s, from the second 0 on, rad/s: to and fro at one of the speeds
 /// 0.005 to 1 rad/s, even in their logarithm, joined by ramps of 0.1 s; then, where `wobbles`, 1 s
 /// of a sinusoid of 20 mrad at 1 Hz and 1 s of 6 mrad at 4 Hz.

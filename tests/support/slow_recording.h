@@ -18,6 +18,20 @@ inline FrictionDescription StribeckJoint() {
           1};
 }
 
+/// The same with a level of 15 N.m forwards and 12 N.m backwards.
+inline FrictionDescription TwoLevelStribeckJoint() {
+  return {"asymmetric_stribeck",
+          {{"viscous", 5},
+           {"coulomb_positive", 15},
+           {"coulomb_negative", 12},
+           {"static_rise", 5},
+           {"stribeck_velocity", 0.05},
+           {"stribeck_exponent", 2}},
+          {},
+          0,
+          1};
+}
+
 /// Speeds from 0.005 to 1 rad/s, even in their logarithm, held for `hold` samples, of alternating
 /// sign. n: samples.
 inline Eigen::VectorXd SlowAndFast(Eigen::Index n, std::uint64_t seed, Eigen::Index hold = 20) {

@@ -53,9 +53,12 @@ TEST(GoldenRecording, IsRecoveredByMaximumLikelihood) {
 }
 
 TEST(GoldenRecording, OfTheStribeckEffectIsRecovered) {
-  const Estimate estimate = Identify("stribeck", GoldenLog("stribeck"), {{"warming", "estimated"}});
-  EXPECT_EQ(estimate.status, Status::ok) << estimate.FullMessage();
-  EXPECT_LT(LargestError("stribeck", estimate), 1e-6);  // an iterative optimiser
+  for (const char* law : {"stribeck", "asymmetric_stribeck"}) {
+    const Estimate estimate =
+        Identify("stribeck", GoldenLog(law), {{"law", law}, {"warming", "estimated"}});
+    EXPECT_EQ(estimate.status, Status::ok) << estimate.FullMessage();
+    EXPECT_LT(LargestError(law, estimate), 1e-6) << law;  // an iterative optimiser
+  }
 }
 
 TEST(GoldenRecording, IsRecoveredByTheAlternatingMethodAndTheFilter) {

@@ -20,10 +20,10 @@ using ::testing::HasSubstr;
 
 constexpr double kInertia = 0.3;  // kg.m^2
 
-/// A minute of the joint with a bristle. rate: Hz; noise: N.m.
-Measurements Minute(std::uint64_t seed, double rate = 100, double noise = 0.5) {
-  return test::RecordBristle(test::LuGreJoint(), test::TurningMotion(60, seed), 60, rate, kInertia,
-                             noise, seed);
+/// A minute of a joint with a bristle. rate: Hz; noise: N.m.
+Measurements Minute(std::uint64_t seed, double rate = 100, double noise = 0.5,
+                    const FrictionDescription& joint = test::LuGreJoint()) {
+  return test::RecordBristle(joint, test::TurningMotion(60, seed), 60, rate, kInertia, noise, seed);
 }
 
 /// The answer of an identifier, judged where `verdict` says so.
@@ -46,19 +46,52 @@ const std::map<std::string, double> kTruth{{"viscous", 5},
                                            {"bristle_damping", 40},
                                            {"inertia", kInertia}};
 
-TEST(Lugre, HoldsTheTruthInItsIntervals) {
+/// Of 30 realizations, how often each interval holds the truth.
+std::map<std::string, int> CountHeld(const FrictionDescription& joint) {
+  std::map<std::string, double> values = joint.parameters;
+  values["inertia"] = kInertia;
   std::map<std::string, int> held;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
-    const Measurements m = Minute(seed);
-    const Estimate estimate = Answer(m, SelectMoving(m));
-    ASSERT_EQ(estimate.status, Status::ok) << seed << estimate.message;
-    for (const auto& [name, truth] : kTruth) {
+    const Measurements m = Minute(seed, 100, 0.5, joint);
+    const Estimate estimate = Answer(m, SelectMoving(m), {{"law", joint.law}});
+    EXPECT_EQ(estimate.status, Status::ok) << seed << estimate.message;
+    if (estimate.status != Status::ok) continue;
+    for (const auto& [name, truth] : values) {
       const auto& [lower, upper] = *estimate.Find(name)->interval95;
       held[name] += lower <= truth && truth <= upper;
     }
   }
-  // 28.5 of 30 expected, binomial deviation 1.2; four of them
-  for (const auto& [name, count] : held) EXPECT_GE(count, 24) << name;
+  return held;
+}
+
+// 28.5 of 30 expected, binomial deviation 1.2; four of them
+constexpr int kHeld = 24;
+
+TEST(Lugre, HoldsTheTruthInItsIntervals) {
+  const auto held = CountHeld(test::LuGreJoint());
+  EXPECT_EQ(held.size(), 7u);
+  for (const auto& [name, count] : held) EXPECT_GE(count, kHeld) << name;
+}
+
+TEST(Lugre, HoldsTwoLevelsInItsIntervals) {
+  const auto held = CountHeld(test::TwoLevelLuGreJoint());
+  EXPECT_EQ(held.size(), 8u);
+  for (const auto& [name, count] : held) EXPECT_GE(count, kHeld) << name;
+}
+
+TEST(Lugre, FindsTheLawExactlyWhereTheTorqueIsItsOwn) {
+  // the forward model's torque along the samples as they are
+  for (const FrictionDescription& joint : {test::LuGreJoint(), test::TwoLevelLuGreJoint()}) {
+    Measurements m = Minute(1);
+    m.torque = PredictFriction(joint, m).force;
+    const Estimate estimate =
+        Answer(m, SelectMoving(m), {{"law", joint.law}, {"inertia", "none"}}, Verdict::unjudged);
+    ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+    // iterative optimisers (golden/README)
+    for (const auto& [name, truth] : joint.parameters) {
+      EXPECT_NEAR(estimate.Find(name)->value, truth, 1e-6 * truth) << joint.law << name;
+    }
+  }
 }
 
 TEST(Lugre, KnowsThatItHasToFindOutHowTheBristleWasBentAtFirst) {

@@ -27,20 +27,81 @@ using test::StribeckJoint;
 const std::map<std::string, double> kTruth{
     {"viscous", 5}, {"coulomb", 15}, {"static", 20}, {"stribeck_velocity", 0.05}};
 
-TEST(Stribeck, HoldsTheTruthInItsIntervals) {
+/// What of a friction is estimated: its law but for the exponent, and its warming.
+std::map<std::string, double> TruthOf(const FrictionDescription& friction) {
+  std::map<std::string, double> truth = friction.parameters;
+  truth.erase("stribeck_exponent");
+  if (!friction.thermal) return truth;
+  truth["thermal_gain"] = friction.thermal->gain;
+  truth["thermal_time_constant"] = friction.thermal->time_constant;
+  return truth;
+}
+
+/// Of 40 realizations, how often each interval holds the truth. n: samples at 0.1 s; noise: N.m.
+std::map<std::string, int> CountHeld(const FrictionDescription& joint, Eigen::Index n,
+                                     double noise) {
+  const std::map<std::string, std::string> given{{"law", joint.law},
+                                                 {"warming", joint.thermal ? "estimated" : "none"}};
   std::map<std::string, int> held;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
-    const Measurements m =
-        test::RecordFriction(StribeckJoint(), 0.1, test::SlowAndFast(4000, seed), 0.5, seed);
-    const Estimate estimate = Answer(m);
-    ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
-    for (const auto& [name, truth] : kTruth) {
+    const Estimate estimate =
+        Answer(test::RecordFriction(joint, 0.1, test::SlowAndFast(n, seed), noise, seed), given);
+    EXPECT_EQ(estimate.status, Status::ok) << estimate.message;
+    if (estimate.status != Status::ok) continue;
+    for (const auto& [name, truth] : TruthOf(joint)) {
       const auto& [lower, upper] = *estimate.Find(name)->interval95;
       held[name] += lower <= truth && truth <= upper;
     }
   }
-  // 38 of 40 expected, binomial deviation 1.4; four of them
-  for (const auto& [name, count] : held) EXPECT_GE(count, 32) << name;
+  return held;
+}
+
+// 38 of 40 expected, binomial deviation 1.4; four of them
+constexpr int kHeld = 32;
+
+TEST(Stribeck, HoldsTheTruthInItsIntervals) {
+  const auto held = CountHeld(StribeckJoint(), 4000, 0.5);
+  EXPECT_EQ(held.size(), 4u);
+  for (const auto& [name, count] : held) EXPECT_GE(count, kHeld) << name;
+}
+
+TEST(Stribeck, HoldsTwoLevelsInItsIntervals) {
+  const auto held = CountHeld(test::TwoLevelStribeckJoint(), 4000, 0.5);
+  EXPECT_EQ(held.size(), 5u);
+  for (const auto& [name, count] : held) EXPECT_GE(count, kHeld) << name;
+}
+
+TEST(Stribeck, HoldsTwoLevelsAndTheirWarmingInItsIntervals) {
+  FrictionDescription warm = test::TwoLevelStribeckJoint();
+  warm.thermal = Thermal{-3, 60};
+  const auto held = CountHeld(warm, 4000, 0.5);
+  EXPECT_EQ(held.size(), 7u);
+  for (const auto& [name, count] : held) EXPECT_GE(count, kHeld) << name;
+}
+
+TEST(Stribeck, FindsTwoLevelsExactlyWhereThereIsNoNoise) {
+  FrictionDescription joint = test::TwoLevelStribeckJoint();
+  for (const bool warms : {false, true}) {
+    if (warms) joint.thermal = Thermal{-3, 60};
+    const Estimate estimate =
+        Answer(test::RecordFriction(joint, 0.1, test::SlowAndFast(2000, 5), 0, 5),
+               {{"law", joint.law}, {"warming", warms ? "estimated" : "none"}});
+    ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+    // iterative optimisers (golden/README)
+    for (const auto& [name, truth] : TruthOf(joint)) {
+      EXPECT_NEAR(estimate.Find(name)->value, truth, 1e-6 * std::abs(truth)) << name;
+    }
+  }
+}
+
+TEST(Stribeck, SaysThatOneDirectionCannotTellTwoLevels) {
+  const Eigen::VectorXd forwards = test::SlowAndFast(4000, 7).cwiseAbs();
+  const Estimate estimate =
+      Answer(test::RecordFriction(test::TwoLevelStribeckJoint(), 0.1, forwards, 0.5, 7),
+             {{"law", "asymmetric_stribeck"}});
+  EXPECT_EQ(estimate.status, Status::not_identifiable);
+  EXPECT_THAT(estimate.message,
+              AllOf(HasSubstr("coulomb_negative"), HasSubstr("in both directions")));
 }
 
 TEST(Stribeck, FindsTheWarmingToo) {
@@ -83,11 +144,16 @@ TEST(Stribeck, NamesWhatNeedsSlowSpeedsAndTheMotionThatHelps) {
   // nothing below 0.2 rad/s, four times vs: exp(-16) of the fall is left
   Eigen::VectorXd velocity = test::SlowAndFast(4000, 7);
   for (double& v : velocity) v = std::copysign(std::max(std::abs(v), 0.2), v);
-  const Estimate estimate = Answer(test::RecordFriction(StribeckJoint(), 0.1, velocity, 0.5, 7));
-  EXPECT_EQ(estimate.status, Status::not_identifiable);
-  EXPECT_TRUE(estimate.parameters.empty());
-  EXPECT_THAT(estimate.message, AllOf(HasSubstr("static and stribeck_velocity"),
-                                      HasSubstr("0.2 rad/s"), HasSubstr("down to about 0.02")));
+  const std::map<std::string, FrictionDescription> joints{
+      {"static", StribeckJoint()}, {"static_rise", test::TwoLevelStribeckJoint()}};
+  for (const auto& [rest, joint] : joints) {
+    const Estimate estimate =
+        Answer(test::RecordFriction(joint, 0.1, velocity, 0.5, 7), {{"law", joint.law}});
+    EXPECT_EQ(estimate.status, Status::not_identifiable);
+    EXPECT_TRUE(estimate.parameters.empty());
+    EXPECT_THAT(estimate.message, AllOf(HasSubstr(rest + " and stribeck_velocity"),
+                                        HasSubstr("0.2 rad/s"), HasSubstr("down to about 0.02")));
+  }
 }
 
 TEST(Stribeck, RefusesFrictionThatRisesFromRest) {
@@ -106,31 +172,36 @@ TEST(Stribeck, RefusesFrictionThatRisesFromRest) {
   EXPECT_FALSE(estimate.friction);
 }
 
-TEST(StribeckFit, HasTheJacobianOfFiniteDifferences) {
-  FrictionDescription warm = StribeckJoint();
+class StribeckFitOf : public testing::TestWithParam<FrictionDescription> {};
+
+TEST_P(StribeckFitOf, HasTheJacobianOfFiniteDifferences) {
+  FrictionDescription warm = GetParam();
   warm.thermal = Thermal{-3, 60};
   const Measurements m = test::RecordFriction(warm, 0.1, test::SlowAndFast(500, 3), 0.3, 3);
   const Selection selection = SelectMoving(m);
-  const StribeckProblem problem{m, selection, FindIntervals(m.time), 2, FittedWarming::estimated,
-                                10};
+  const FallingLaw& law = FindFallingLaw(warm.law);
+  const StribeckProblem problem{m,  selection, FindIntervals(m.time), 2, FittedWarming::estimated,
+                                10, law};
+  const Eigen::Index levels = law.levels();
   StribeckPoint start;
-  start.x.resize(6);
-  start.x << 5, 15, 20, std::log(0.05), -3, std::log(60);
+  start.x.resize(levels + 3);
+  const std::vector<double> values = LawValues(warm);
+  start.x << Eigen::Map<const Eigen::VectorXd>(values.data(), levels), std::log(0.05), -3,
+      std::log(60);
   const StribeckFit fit = RefineStribeck(problem, start);
 
   // the same forces by the model that predicts
   const auto force = [&](const Eigen::VectorXd& x) {
-    const FrictionDescription friction{"stribeck",
-                                       {{"viscous", x[0]},
-                                        {"coulomb", x[1]},
-                                        {"static", x[2]},
-                                        {"stribeck_velocity", std::exp(x[3])},
-                                        {"stribeck_exponent", 2}},
-                                       Thermal{x[4], std::exp(x[5])}};
+    FrictionDescription friction = warm;
+    for (Eigen::Index i = 0; i < levels; ++i) {
+      friction.parameters[std::string(law.law.parameters[static_cast<size_t>(i)].name)] = x[i];
+    }
+    friction.parameters["stribeck_velocity"] = std::exp(x[levels]);
+    friction.thermal = Thermal{x[levels + 1], std::exp(x[levels + 2])};
     return PredictFriction(friction, m).force;
   };
   EXPECT_LT((force(fit.solution.x) - fit.fitted).cwiseAbs().maxCoeff(), 1e-10);
-  for (Eigen::Index j = 0; j < 6; ++j) {
+  for (Eigen::Index j = 0; j < levels + 3; ++j) {
     Eigen::VectorXd above = fit.solution.x, below = fit.solution.x;
     above[j] += 1e-5;
     below[j] -= 1e-5;
@@ -139,6 +210,10 @@ TEST(StribeckFit, HasTheJacobianOfFiniteDifferences) {
     EXPECT_LT((slope - fit.jacobian.col(j)).cwiseAbs().maxCoeff(), 1e-7) << j;
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Laws, StribeckFitOf,
+                         testing::Values(StribeckJoint(), test::TwoLevelStribeckJoint()),
+                         [](const auto& member) { return member.param.law; });
 
 }  // namespace
 }  // namespace warmjoint

@@ -75,6 +75,19 @@ TEST(JudgeBounds, DoesNotLetFrictionRiseFromRest) {
   EXPECT_EQ(judged.Judge().status, Status::inadequate_model);
 }
 
+TEST(JudgeBounds, DoesNotLetFrictionRiseFromRestInBothDirections) {
+  // viscous, forwards, backwards, static_rise, stribeck_velocity, exponent; beyond doubt or by chance
+  for (const double rise : {-1.0, -0.05}) {
+    Judged judged("asymmetric_stribeck", {1, 2, 3, rise, 0.1, 2});
+    EXPECT_EQ(judged.Judge().status, Status::inadequate_model);
+    EXPECT_THAT(judged.inference.message, HasSubstr("static_rise is below 0: friction rises"));
+    EXPECT_THAT(judged.inference.message,
+                HasSubstr("try --identifier nominal-ls --set law=asymmetric"));
+  }
+  Judged judged("asymmetric_stribeck", {1, 2, 3, 0, 0.1, 2});
+  EXPECT_EQ(judged.Judge().status, Status::ok);
+}
+
 TEST(JudgeBounds, NeverNamesWhatTheFitHoldsAlready) {
   const auto message = [](const char* identifier, const char* law, std::vector<double> values,
                           bool warms) {
@@ -101,6 +114,14 @@ TEST(JudgeBounds, NeverNamesWhatTheFitHoldsAlready) {
               HasSubstr("try --identifier stribeck --set warming=estimated"));
   EXPECT_THAT(message("stribeck", "stribeck", curve, true),
               testing::AllOf(HasSubstr("record higher speeds"), testing::Not(HasSubstr("try"))));
+
+  // of a law with two levels, those
+  const std::vector<double> apart{-2, 2, 3};
+  EXPECT_THAT(message("nominal-ls", "asymmetric", apart, false),
+              HasSubstr("try --identifier energy-ml --set law=asymmetric, or --identifier stribeck "
+                        "--set law=asymmetric_stribeck"));
+  EXPECT_THAT(message("stribeck", "asymmetric_stribeck", {-2, 2, 3, 1, 0.1, 2}, false),
+              HasSubstr("--set law=asymmetric_stribeck --set warming=estimated"));
 
   // a negative level, with the gravity that may be meant, and without where that is fitted
   EXPECT_THAT(message("energy-ml", "viscous_coulomb", {0.5, -2}, true),

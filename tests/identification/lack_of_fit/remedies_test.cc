@@ -7,8 +7,8 @@
 
 #include "identification/holdout/hold_out.h"
 #include "models/foundation/low_pass.h"
+#include "tests/support/bristle_recording.h"
 #include "tests/support/judging.h"
-#include "tests/support/slow_recording.h"
 #include "tests/support/travelling.h"
 
 namespace warmjoint {
@@ -55,9 +55,9 @@ std::optional<std::pair<std::string, Options_>> CommandIn(const std::string& mes
   return std::pair{std::string(found[1]), given};
 }
 
-/// Follows the advice until an answer is ok.
-void ExpectLeadsSomewhere(const std::string& identifier, const Measurements& m,
-                          const Options_& given = {}) {
+/// Follows the advice until an answer is ok, and gives that.
+void FollowAdvice(const std::string& identifier, const Measurements& m, const Options_& given,
+                  Estimate& end) {
   Step step = Take(identifier, given, m);
   ASSERT_EQ(step.estimate.status, Status::inadequate_model) << step.estimate.message;
   std::set<std::string> seen{step.Name()};
@@ -71,6 +71,27 @@ void ExpectLeadsSomewhere(const std::string& identifier, const Measurements& m,
         << step.Name() << " says: " << step.estimate.FullMessage() << "\n and " << other.Name()
         << " says: " << other.estimate.FullMessage();
     step = std::move(other);
+  }
+  end = std::move(step.estimate);
+}
+
+void ExpectLeadsSomewhere(const std::string& identifier, const Measurements& m,
+                          const Options_& given = {}) {
+  Estimate end;
+  FollowAdvice(identifier, m, given, end);
+}
+
+/// The same to intervals that hold the truth, or within four deviations of it.
+void ExpectLeadsTo(const FrictionDescription& truth, const std::string& identifier,
+                   const Measurements& m, const Options_& given = {}) {
+  Estimate end;
+  FollowAdvice(identifier, m, given, end);
+  if (testing::Test::HasFatalFailure()) return;
+  for (const auto& [name, value] : truth.parameters) {
+    if (name == "stribeck_exponent") continue;
+    const EstimatedParameter* found = end.Find(name);
+    ASSERT_TRUE(found && found->std) << name << ": " << end.FullMessage();
+    EXPECT_NEAR(found->value, value, 4 * *found->std) << name;
   }
 }
 
@@ -106,6 +127,28 @@ TEST(Remedies, AgainstSpeedOfAJointThatWarms) {
   warm.thermal = Thermal{-3, 600};
   ExpectLeadsSomewhere("stribeck",
                        test::RecordFriction(warm, 1, test::SlowAndFast(3600, 1), 0.3, 1));
+}
+
+TEST(Remedies, AgainstDirectionOfACurve) {
+  const FrictionDescription joint = test::TwoLevelStribeckJoint();
+  const Measurements m = test::RecordFriction(joint, 1, test::SlowAndFast(3600, 1), 0.3, 1);
+  ExpectLeadsTo(joint, "stribeck", m);
+  ExpectLeadsTo(joint, "nominal-ls", m);
+}
+
+TEST(Remedies, AgainstDirectionOfACurveThatWarms) {
+  FrictionDescription warm = test::TwoLevelStribeckJoint();
+  warm.thermal = Thermal{-3, 600};
+  const Measurements m = test::RecordFriction(warm, 1, test::SlowAndFast(3600, 1), 0.3, 1);
+  ExpectLeadsTo(warm, "stribeck", m);
+  ExpectLeadsTo(warm, "energy-ml", m);
+}
+
+TEST(Remedies, AgainstDirectionOfABristle) {
+  const FrictionDescription joint = test::TwoLevelLuGreJoint();
+  const Measurements m =
+      test::RecordBristle(joint, test::TurningMotion(60, 1), 60, 100, 0.3, 0.3, 1);
+  ExpectLeadsTo(joint, "lugre", m);
 }
 
 TEST(Remedies, AgainstRippleAlongTheJoint) {

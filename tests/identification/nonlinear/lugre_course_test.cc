@@ -24,7 +24,7 @@ LugreProblem Problem(const LugrePoint& truth, const std::vector<double>& loads) 
 }
 
 LugrePoint Truth() {
-  LugrePoint truth;
+  LugrePoint truth{Eigen::VectorXd(7)};
   truth.x << 5, 15, 20, std::log(0.05), std::log(2000.0), 40, 0.3;
   return truth;
 }
@@ -32,7 +32,7 @@ LugrePoint Truth() {
 TEST(LugreCourse, FindsTheLoadsThatRecordingsBeginWith) {
   const LugrePoint truth = Truth();
   const LugreProblem problem = Problem(truth, {-7, 11});
-  const LugreCourse<double> course = FollowLugre(problem, truth.x.data());
+  const LugreCourse<double> course = FollowLugre<LuGre>(problem, truth.x.data());
   ASSERT_EQ(course.loads.size(), 2u);
   // 1e-3: the prior of the torque's rms, some 15 N.m, against hundreds of samples known to 0.5
   EXPECT_NEAR(course.loads[0], -7, 7e-3);
@@ -46,7 +46,7 @@ TEST(LugreCourse, KeepsALoadThatNoSampleTellsAtNothing) {
   const LugrePoint truth = Truth();
   LugreProblem problem = Problem(truth, {-7, 11});
   problem.used.keep.head(400).setConstant(false);
-  EXPECT_EQ(FollowLugre(problem, truth.x.data()).loads[0], 0);
+  EXPECT_EQ(FollowLugre<LuGre>(problem, truth.x.data()).loads[0], 0);
 }
 
 }  // namespace

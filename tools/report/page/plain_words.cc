@@ -14,11 +14,12 @@ struct TestWords {
 
 constexpr TestWords kTests[] = {
     {"direction", "Do forward and backward motion leave different residuals?",
-     "Friction differs by direction: try --set law=asymmetric. If gravity or a load acts, try "
+     "Friction differs by direction: try --set law=asymmetric, with stribeck or lugre --set "
+     "law=asymmetric_stribeck or asymmetric_lugre. If gravity or a load acts, try "
      "--gravity sincos or "
      "--gravity paired."},
     {"speed", "Does the residual depend on the speed?",
-     "The law over speed is too simple: try --set law=stribeck, and record five speeds or more, "
+     "The law over speed is too simple: try --identifier stribeck, and record five speeds or more, "
      "the slowest below "
      "a twentieth of the fastest."},
     {"energy", "Does it depend on how warm the joint is?",

@@ -1,0 +1,67 @@
+// Laws whose level falls with speed, as their fits see them.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <string_view>
+
+#include "models/friction/law.h"
+#include "models/friction/law_list.h"
+
+namespace warmjoint::inline identification {
+
+/// What the fit of a law with the Stribeck effect knows of it beside its table. x begins with the l
+/// parameters before stribeck_velocity, of which the force of steady sliding is linear; then comes
+/// ln vs.
+struct FallingLaw {
+  const Law& law;
+  const Law& without;           // the law that is left where nothing falls, its table a part of x
+  std::string_view steady;      // the law of the same friction in steady sliding, exponent 2
+  Eigen::VectorXd fall;         // [l] ks - kc = fall . x
+  std::string_view fall_words;  // the same in words
+  double (*coulomb)(const double* x);  // the smaller of its Coulomb levels, N.m or N
+  double (*at_rest)(const double* x);  // level at rest, of both directions the mean, N.m or N
+  /// Keeps the level at rest within so many times the smaller Coulomb level.
+  void (*keep)(double* x, double least, double most);
+
+  /// l, and where ln vs stands.
+  Eigen::Index levels() const { return fall.size(); }
+  /// The name of the parameter of x that tells the level at rest.
+  std::string_view rest() const { return law.parameters[static_cast<size_t>(levels() - 1)].name; }
+  /// ks - kc at x, N.m or N.
+  double FallAt(const Eigen::VectorXd& x) const { return fall.dot(x.head(levels())); }
+};
+
+/// Laws that slide steadily at once, and those with a bristle; the first one is an option's default.
+using SteadyFallingLaws = LawList<Stribeck, AsymmetricStribeck>;
+using BristleFallingLaws = LawList<LuGre, AsymmetricLuGre>;
+
+/// How many parameters stand before stribeck_velocity in the table of L.
+template <typename L>
+constexpr int LevelsOf() {
+  int levels = 0;
+  while (L::parameters[static_cast<size_t>(levels)].name != kStribeckVelocityRow.name) ++levels;
+  return levels;
+}
+
+/// f.operator()<L>() of the law of a list that has that name; it must have one.
+template <typename First, typename... Rest, typename F>
+auto ForLawNamed(LawList<First, Rest...>, std::string_view name, const F& f) {
+  if constexpr (sizeof...(Rest) > 0) {
+    if (name != First::name) return ForLawNamed(LawList<Rest...>{}, name, f);
+  }
+  return f.template operator()<First>();
+}
+
+/// The names of a list, separated by |, as an option's words.
+template <typename First, typename... Rest>
+std::string LawWords(LawList<First, Rest...>) {
+  std::string words(First::name);
+  ((words += "|", words += Rest::name), ...);
+  return words;
+}
+
+/// name: of one of the laws above.
+const FallingLaw& FindFallingLaw(std::string_view name);
+
+}  // namespace warmjoint::inline identification
