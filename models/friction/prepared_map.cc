@@ -14,6 +14,9 @@ namespace {
 /// exp(-x^2 / 2) is 3e-13 of its peak here.
 constexpr double kReach = 7.6;  // widths
 
+/// Axes of so many centres, and no more, have their kernels tabulated.
+constexpr int kFew = 8;
+
 using Numbers = Eigen::Map<const Eigen::VectorXd>;
 
 }  // namespace
@@ -39,6 +42,7 @@ PreparedAxis::PreparedAxis(const GaussianAxis& axis, KernelKind kind) : axis_(ax
 PreparedAxis::Segment PreparedAxis::MakeSegment(int begin, int end) const {
   Segment segment{begin, end};
   const int n = segment.size();
+  segment.table = TableOf(begin, end);
   const auto from = static_cast<size_t>(begin), to = static_cast<size_t>(end);
   if (!IsEvenGrid(axis_, from, to)) return segment;
   const double spacing = SpacingOf(axis_, from, to), ratio = spacing / axis_.width;
@@ -51,11 +55,26 @@ PreparedAxis::Segment PreparedAxis::MakeSegment(int begin, int end) const {
   const int most = axis_.period ? n : static_cast<int>(kMostMapCentres);
   if (2 * segment.reach() + 1 > most) segment.bell.clear();
   const int reach = segment.reach();
-  segment.pad = !axis_.period && n <= 2 * reach ? 0 : reach;
+  // as few as one centre reaches are all evaluated
+  segment.pad = !axis_.period && n <= reach + 1 ? 0 : reach;
   for (int place = -reach; place <= n + reach; ++place) {
     segment.present.push_back(IndexAt(segment, place) >= 0);
   }
   return segment;
+}
+
+/// Tables of the kernels by themselves; empty where they are many or cannot be tabulated.
+RowTable PreparedAxis::TableOf(int begin, int end) const {
+  const int n = end - begin;
+  if (n < 2 || n > kFew || axis_.period) return {};
+  GaussianAxis own = axis_;
+  own.centres.assign(axis_.centres.begin() + begin, axis_.centres.begin() + end);
+  own.sides = Sides::together;
+  std::vector<double> weights;
+  for (int row = 0; row < n; ++row) {
+    for (int i = 0; i < n; ++i) weights.push_back(row == i);
+  }
+  return RowTable(own, kind_, weights);
 }
 
 /// The centre at a place counted from the segment's first; -1 where there is none.
@@ -80,7 +99,24 @@ void PreparedAxis::Kernels(double x, ActiveKernels& active) const {
   if (axis_.sides == Sides::apart && x == 0) return;
   const Segment& segment = segments_.size() > 1 && x > 0 ? segments_[1] : segments_[0];
   if (segment.size() == 0) return;
+  if (TabledKernels(segment, x, active)) return;
   if (segment.bell.empty() || !EvenKernels(segment, x, active)) FreeKernels(segment, x, active);
+  active.value[static_cast<size_t>(active.begin + active.count)] = 0;
+}
+
+/// All kernels of a short segment, and a 0 where they are odd in number; false, and nothing done, where they are not tabulated.
+bool PreparedAxis::TabledKernels(const Segment& segment, double x, ActiveKernels& active) const {
+  RowTable::Spot spot;
+  if (!segment.table.Locate(x, spot)) return false;
+  active.first = segment.row;
+  active.count = segment.size();
+  active.begin = 0;
+  active.sum = 1;
+  active.value[static_cast<size_t>(active.count)] = 0;
+  for (size_t i = 0; i < static_cast<size_t>(active.count); i += 2) {
+    Eigen::Array2d::Map(active.value.data() + i) = segment.table.Pair(i / 2, spot);
+  }
+  return true;
 }
 
 /// Kernels of an even grid, as many at every x, so that no branch depends on it; false, and
@@ -199,19 +235,35 @@ void PreparedMap::ForEachRow(const FrictionMap& map, const std::vector<size_t>& 
   }
 }
 
-template <size_t axis, typename RowSum>
-double PreparedMap::Sum(const Active& active, size_t row, const RowSum& row_sum) const {
-  if (axis + 1 == axes_.size()) return row_sum(row);
+/// The sum over all axes but the last two, of what `sums` tells from the kernels of the one before
+/// the last and the first of its rows.
+template <size_t axis, typename Sums>
+double PreparedMap::Sum(const Active& active, size_t row, const Sums& sums) const {
+  const ActiveKernels& kernels = active[axis];
+  row += static_cast<size_t>(kernels.first) * strides_[axis];
+  if (axis + 2 == axes_.size()) return sums(kernels, row);
   double sum = 0;
-  if constexpr (axis + 1 < kMostMapAxes) {
-    const ActiveKernels& kernels = active[axis];
+  if constexpr (axis + 2 < kMostMapAxes) {
     const double* value = kernels.value.data() + kernels.begin;
-    row += static_cast<size_t>(kernels.first) * strides_[axis];
     for (int i = 0; i < kernels.count; ++i, row += strides_[axis]) {
-      sum += value[i] * Sum<axis + 1>(active, row, row_sum);
+      sum += value[i] * Sum<axis + 1>(active, row, sums);
     }
   }
   return sum;
+}
+
+/// The sum of neighbouring rows of the table, two at a time.
+double PreparedMap::FromTable(const ActiveKernels& kernels, size_t row,
+                              const RowTable::Spot& spot) const {
+  const double* const value = kernels.value.data() + kernels.begin;
+  double sum = 0;
+  int i = 0;
+  if (row % 2 == 1) sum = value[i++] * table_.Value(row++, spot);
+  Eigen::Array2d two{0, 0};
+  for (; i < kernels.count; i += 2, row += 2) {
+    two += Eigen::Array2d::Map(value + i) * table_.Pair(row / 2, spot);
+  }
+  return sum + (two[0] + two[1]);
 }
 
 double PreparedMap::Value(const MapPoint<double>& point) const {
@@ -230,17 +282,26 @@ double PreparedMap::Value(const MapPoint<double>& point) const {
   const double factor = EvaluateFactor(factor_, point[static_cast<size_t>(MapQuantity::velocity)]);
   RowTable::Spot spot;
   if (table_.Locate(point[static_cast<size_t>(quantities_[last])], spot)) {
-    const auto from_table = [&](size_t row) { return table_.Value(row, spot); };
-    return factor * Sum<0>(active, 0, from_table) / divisor;
+    const auto from_table = [&](const ActiveKernels& kernels, size_t row) {
+      return FromTable(kernels, row, spot);
+    };
+    const double sum = last == 0 ? table_.Value(0, spot) : Sum<0>(active, 0, from_table);
+    return factor * sum / divisor;
   }
   if (!prepare(last)) return 0;
-  const ActiveKernels& kernels = active[last];
-  const Numbers value(kernels.value.data() + kernels.begin, kernels.count);
-  const auto from_kernels = [&](size_t row) {
-    const double* weights = weights_.data() + row * length_ + kernels.first;
-    return value.dot(Numbers(weights, kernels.count));
+  const ActiveKernels& own = active[last];
+  const Numbers value(own.value.data() + own.begin, own.count);
+  const auto row_sum = [&](size_t row) {
+    return value.dot(Numbers(weights_.data() + row * length_ + own.first, own.count));
   };
-  return factor * Sum<0>(active, 0, from_kernels) / divisor;
+  const auto from_kernels = [&](const ActiveKernels& kernels, size_t row) {
+    double sum = 0;
+    for (int i = 0; i < kernels.count; ++i, ++row) {
+      sum += kernels.value[static_cast<size_t>(kernels.begin + i)] * row_sum(row);
+    }
+    return sum;
+  };
+  return factor * (last == 0 ? row_sum(0) : Sum<0>(active, 0, from_kernels)) / divisor;
 }
 
 }  // namespace warmjoint::inline models

@@ -13,15 +13,16 @@ namespace warmjoint::inline models {
 struct ActiveKernels {
   int first = 0;  // place of the first one in the row that PreparedAxis::Row describes
   int count = 0;
-  int begin = 0;                              // of them in `value`
-  double sum = 1;                             // that they are to be divided by
-  std::array<double, kMostMapCentres> value;  // [begin + count]
+  int begin = 0;                                  // of them in `value`
+  double sum = 1;                                 // that they are to be divided by
+  std::array<double, kMostMapCentres + 1> value;  // [begin + count], and a 0
 };
 
 /// One axis of Gaussian kernels, evaluated near x alone: kernels below 3e-13 of the peak are
 /// left out, and those of an even grid cost one exponential together, by
 ///   kappa_(j+i) / kappa_j = exp(d r)^i exp(-(i r)^2 / 2),
-/// r: spacing in widths, d: distance from the nearest centre j in widths.
+/// r: spacing in widths, d: distance from the nearest centre j in widths. The few of a short even
+/// grid are tabulated.
 class PreparedAxis {
  public:
   PreparedAxis(const GaussianAxis& axis, KernelKind kind);
@@ -44,11 +45,14 @@ class PreparedAxis {
     std::vector<double> bell{};     // exp(-(i r)^2 / 2), i = 0, 1, ...; empty unless even
     std::vector<double> present{};  // 1 or 0: whether there is a centre, from bell.size() - 1
                                     // places before the first on
+    RowTable table{};               // a row for each centre's kernel, where they are few
     int size() const { return end - begin; }
     int reach() const { return bell.empty() ? 0 : static_cast<int>(bell.size()) - 1; }
   };
   Segment MakeSegment(int begin, int end) const;
+  RowTable TableOf(int begin, int end) const;
   int IndexAt(const Segment& segment, int place) const;
+  bool TabledKernels(const Segment& segment, double x, ActiveKernels& active) const;
   bool EvenKernels(const Segment& segment, double x, ActiveKernels& active) const;
   void FreeKernels(const Segment& segment, double x, ActiveKernels& active) const;
 
@@ -73,8 +77,9 @@ class PreparedMap {
   /// function of the index of its centre.
   template <typename Visit>
   void ForEachRow(const FrictionMap& map, const std::vector<size_t>& order, const Visit& visit);
-  template <size_t axis, typename RowSum>
-  double Sum(const Active& active, size_t row, const RowSum& row_sum) const;
+  template <size_t axis, typename Sums>
+  double Sum(const Active& active, size_t row, const Sums& sums) const;
+  double FromTable(const ActiveKernels& kernels, size_t row, const RowTable::Spot& spot) const;
 
   // the axis with the most centres is the last; its sums are the longest, and tabulated
   std::vector<MapQuantity> quantities_;

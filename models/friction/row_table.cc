@@ -57,7 +57,8 @@ double RowTable::Fit(const GaussianAxis& axis, KernelKind kind, const std::vecto
   per_cell_ = 1 / size;
   begin_ = axis.centres.front() - (axis.period ? 0 : spacing / 2);
   cells_ = n * per_spacing;
-  coefficients_.assign(rows * cells_ * kCoefficients, 0);
+  end_ = static_cast<double>(cells_);
+  coefficients_.assign((rows + rows % 2) * cells_ * kCoefficients, 0);
 
   const std::vector<double> nodes = Nodes(kCoefficients, 0.5);
   const std::vector<double> between = Nodes(kCoefficients + 1, 0);
@@ -76,9 +77,11 @@ double RowTable::Fit(const GaussianAxis& axis, KernelKind kind, const std::vecto
     }
     const Eigen::MatrixXd solved = solver.solve(values);
     for (size_t row = 0; row < rows; ++row) {
-      std::copy_n(solved.col(static_cast<Eigen::Index>(row)).data(), kCoefficients,
-                  coefficients_.begin() +
-                      static_cast<std::ptrdiff_t>((row * cells_ + cell) * kCoefficients));
+      double* const own =
+          coefficients_.data() + (row / 2 * cells_ + cell) * 2 * kCoefficients + row % 2;
+      for (int k = 0; k < kCoefficients; ++k) {
+        own[2 * k] = solved(k, static_cast<Eigen::Index>(row));
+      }
     }
     for (const double local : between) {
       const Eigen::VectorXd exact = Functions(axis, kind, weights, middle + local * size / 2);
@@ -91,20 +94,10 @@ double RowTable::Fit(const GaussianAxis& axis, KernelKind kind, const std::vecto
   return error;
 }
 
-bool RowTable::Locate(double x, Spot& spot) const {
-  double offset = x - begin_;
-  if (period_ > 0 && (offset < 0 || offset >= period_)) {
-    offset -= period_ * std::floor(offset / period_);
-  }
-  const double place = offset * per_cell_;
-  if (!(place >= 0 && place < static_cast<double>(cells_))) {
-    // rounding may put the end of a circle beyond its last cell
-    if (period_ == 0 || std::isnan(place)) return false;
-    spot = {cells_ - 1, 1};
-    return true;
-  }
-  const auto cell = static_cast<int>(place);
-  spot = {static_cast<size_t>(cell), 2 * (place - cell) - 1};
+/// Rounding may put the end of a circle beyond its last cell.
+bool RowTable::LocateEnd(double place, Spot& spot) const {
+  if (period_ == 0 || std::isnan(place)) return false;
+  spot = {cells_ - 1, 1};
   return true;
 }
 

@@ -1,6 +1,8 @@
 // Weighted sums of one axis's kernels as piecewise polynomials, for maps that an engine evaluates.
 #pragma once
 
+#include <Eigen/Core>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -10,7 +12,8 @@ namespace warmjoint::inline models {
 
 /// The functions sum_j kappa_j(x) w_(row, j), one for each row of weights, where they are smooth
 /// and their centres even: polynomials of degree 9 in cells of a half, a quarter or an eighth of a
-/// spacing, to 3e-13 of the largest weight, which is checked against the kernels themselves.
+/// spacing, to 3e-13 of the largest weight, which is checked against the kernels themselves. Two rows
+/// lie side by side, and are evaluated at once.
 class RowTable {
  public:
   static constexpr int kCoefficients = 10;
@@ -30,15 +33,33 @@ class RowTable {
   bool empty() const { return cells_ == 0; }
 
   /// False where x is more than half a spacing outside of the grid, or the table is empty.
-  bool Locate(double x, Spot& spot) const;
+  bool Locate(double x, Spot& spot) const {
+    double offset = x - begin_;
+    if (period_ > 0 && (offset < 0 || offset >= period_)) {
+      offset -= period_ * std::floor(offset / period_);
+    }
+    const double place = offset * per_cell_;
+    if (!(place >= 0 && place < end_)) [[unlikely]]
+      return LocateEnd(place, spot);
+    const auto cell = static_cast<int>(place);
+    spot = {static_cast<size_t>(cell), 2 * (place - cell) - 1};
+    return true;
+  }
 
-  /// The function of a row there, in the unit of the weights.
-  double Value(size_t row, const Spot& spot) const {
-    const double* c = coefficients_.data() + (row * cells_ + spot.cell) * kCoefficients;
+  /// The functions of rows 2 pair and 2 pair + 1 there, in the unit of the weights; 0 of a row beyond
+  /// the last.
+  EIGEN_ALWAYS_INLINE Eigen::Array2d Pair(size_t pair, const Spot& spot) const {
+    const double* c = coefficients_.data() + (pair * cells_ + spot.cell) * 2 * kCoefficients;
+    const auto at = [c](int power) { return Eigen::Array2d::Map(c + 2 * power); };
     const double x = spot.local, y = x * x;
-    const double even = c[0] + y * (c[2] + y * (c[4] + y * (c[6] + y * c[8])));
-    const double odd = c[1] + y * (c[3] + y * (c[5] + y * (c[7] + y * c[9])));
+    const Eigen::Array2d even = at(0) + y * (at(2) + y * (at(4) + y * (at(6) + y * at(8))));
+    const Eigen::Array2d odd = at(1) + y * (at(3) + y * (at(5) + y * (at(7) + y * at(9))));
     return even + x * odd;
+  }
+
+  /// The function of one row there.
+  double Value(size_t row, const Spot& spot) const {
+    return Pair(row / 2, spot)[static_cast<Eigen::Index>(row % 2)];
   }
 
  private:
@@ -47,11 +68,14 @@ class RowTable {
   double Fit(const GaussianAxis& axis, KernelKind kind, const std::vector<double>& weights,
              size_t per_spacing);
 
+  bool LocateEnd(double place, Spot& spot) const;
+
   double begin_ = 0;     // of the first cell
   double per_cell_ = 0;  // 1 over a cell's size
   double period_ = 0;    // of a circle, else 0
   size_t cells_ = 0;
-  std::vector<double> coefficients_;  // [rows x cells x kCoefficients], the constant first
+  double end_ = 0;                    // the number of cells
+  std::vector<double> coefficients_;  // [row pairs x cells x kCoefficients x 2], the constant first
 };
 
 }  // namespace warmjoint::inline models

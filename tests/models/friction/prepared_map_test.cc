@@ -78,6 +78,22 @@ TEST(PreparedMap, IsTheSameOverProductsOfAxesWithAFactor) {
   }
 }
 
+TEST(PreparedMap, IsTheSameOverAnyNumberOfCentresOfTheShorterAxis) {
+  for (int centres = 1; centres <= 24; ++centres) {
+    for (const double factor : {0.6, 1.0, 1.7}) {
+      SCOPED_TRACE(testing::Message() << centres << " centres, width times " << factor);
+      FrictionMap map{{{MapQuantity::motor_position, CircleAxis(kTurn, 25)},
+                       {MapQuantity::energy, Wide(EvenAxis(-3, 3, centres), factor)}},
+                      KernelKind::normalised,
+                      {}};
+      for (size_t i = 0; i < map.size(); ++i) {
+        map.weights.push_back(std::sin(1.0 + 2.0 * static_cast<double>(i)));
+      }
+      Compare(map, MapQuantity::motor_position, MapQuantity::energy);
+    }
+  }
+}
+
 TEST(PreparedMap, PassesOnWhatIsNoNumber) {
   for (const GaussianAxis& axis : Axes()) {
     const FrictionMap map{{{MapQuantity::position, axis}},
