@@ -14,6 +14,7 @@
 #include "sim/plugin/check_actuator.h"
 #include "sim/plugin/friction_instance.h"
 #include "sim/plugin/plugin_instances.h"
+#include "sim/plugin/refused_data.h"
 
 namespace warmjoint::inline sim {
 namespace {
@@ -42,30 +43,13 @@ void MakeInstance(const mjModel* m, mjData* d, int instance, std::array<char, n>
   }
 }
 
-/// Frees data that cannot be used as the engine does after a -1, and first what the instances before have made for it,
-/// which the engine leaves.
-void FreeData(const mjModel* m, mjData* d, int instance) {
-  for (int before = 0; before < instance; ++before) {
-    const mjpPlugin* plugin = mjp_getPluginAtSlot(m->plugin[before]);
-    if (plugin->destroy) plugin->destroy(d, before);
-  }
-  mju_free(d->buffer);
-  mju_free(d->arena);
-  mju_free(d);
-}
-
-/// Binds an instance to the data. Where that is refused, the data is freed as the engine frees it
-/// after a -1, and the error told in our words: after a -1 the engine tells one of its own, to which
-/// its compiler appends twice what the plugin warned of. The error leaves by longjmp, so that nothing
-/// here may wait for its end.
+/// Binds an instance to the data; refuses data that it cannot serve, after which nothing here may wait
+/// for its end.
 int Init(const mjModel* m, mjData* d, int instance) {
   static thread_local std::array<char, kMostRefusal> refusal;
   refusal.fill(0);
   MakeInstance(m, d, instance, refusal);
-  if (refusal[0] == 0) return 0;
-  FreeData(m, d, instance);
-  mju_error("%s: %s", kFrictionPlugin, refusal.data());
-  return -1;
+  return refusal[0] == 0 ? 0 : RefuseData(m, d, instance, refusal.data());
 }
 
 /// Reads the attributes and counts the numbers of plugin_state; what they refuse goes to `refusal`.
