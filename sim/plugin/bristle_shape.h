@@ -26,9 +26,10 @@ inline BristleShape BristlesOf(int instances) {
 
 /// Damping of RK4, beside that of integrators which ask for the force once a step: its stages see
 /// speeds that the damper has slowed, so that a mode follows
-///   v' = -(A + B) v/h - A z/h^2,   z' = z + h v of the last stage
-/// by the method's polynomial, of spectral radius 0.65 with this at 1 and 0.43 here. Over poses of five
-/// arms without armature at 5 ms the largest is 0.81 with 1, 0.72 with 0.6 and 0.68 here.
-inline constexpr double kDampingOfStages = 0.45;
+///   v' = -(A + B + D) v/h - A z/h^2,   z' = z + h v of the last stage
+/// by the method's polynomial, D h/M being what other damping adds, which this integrator takes
+/// explicitly, too. Its spectral radius is below 0.6 for B + D from 0.05 to 0.69, and 0.56 at both
+/// B alone and B + 0.5, which is what the joints' own damping adds at 5 ms in poses of arms without armature.
+inline constexpr double kDampingOfStages = 0.1875;
 
 }  // namespace warmjoint::inline sim

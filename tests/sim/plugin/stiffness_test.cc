@@ -125,8 +125,8 @@ TEST_P(ArmsWithoutArmature, AreStableInEveryPose) {
         DrawPose(m.get(), d.get(), random);
         worst = std::max(worst, SpectralRadius(m.get(), d.get()));
       }
-      // each mode: z^2 - 0.4 z + 0.2, of size 0.447; of RK4 0.43, whose stages see the arm move
-      EXPECT_LT(worst, integrator == mjINT_RK4 ? 0.7 : 0.6) << "step " << step;
+      // each mode: z^2 - 0.4 z + 0.2, of size 0.447; of RK4 0.55, and less with some damping
+      EXPECT_LT(worst, 0.6) << "step " << step;
     }
   }
 }
