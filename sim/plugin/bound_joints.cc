@@ -177,7 +177,7 @@ void BoundJoints::BindNumbers(const mjModel* m) {
   }
 }
 
-bool BoundJoints::ReadNumbers(const mjModel* m) {
+bool BoundJoints::ReadArrays(const mjModel* m) {
   bool any = false;
   for (NumberArray& array : numbers_) {
     const mjtNum* now = m->numeric_data + array.address;

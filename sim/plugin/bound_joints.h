@@ -59,9 +59,10 @@ class BoundJoints {
 
   /// Sets the joints' numbers to those of the model's arrays; whether any is new. A number out of
   /// its bounds, or one that a joint's friction does not have, leaves that as it is.
-  bool ReadNumbers(const mjModel* m);
+  bool ReadNumbers(const mjModel* m) { return !numbers_.empty() && ReadArrays(m); }
 
  private:
+  bool ReadArrays(const mjModel* m);
   void BindActuators(const mjModel* m);
   void BindPassive(const mjModel* m, int states);
   void BindSensors(const mjModel* m);

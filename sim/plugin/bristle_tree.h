@@ -3,13 +3,13 @@
 
 #include <mujoco/mujoco.h>
 
-#include <Eigen/Core>
 #include <vector>
 
-#include "sim/plugin/box_projection.h"
+#include "sim/plugin/asked_levels.h"
 #include "sim/plugin/few_held.h"
 #include "sim/plugin/inertia_block.h"
 #include "sim/plugin/row_pairs.h"
+#include "sim/plugin/search_tree.h"
 
 namespace warmjoint::inline sim {
 
@@ -21,23 +21,15 @@ struct CoupledJoint {
   bool asks_level = false;  // for each side that a step needs, since it costs much
 };
 
-/// Tells the levels of rows that ask for theirs.
-class LevelSource {
- public:
-  virtual ~LevelSource() = default;
-  /// L+ for side 1 and L- for side -1, N.m or N; a level below 0 counts as 0.
-  virtual double LevelAt(size_t row, int side) const = 0;
-};
-
-/// One step as CoupledBristles says, of the rows of one tree, which are counted from its first. Three ways lead to the one
-/// solution: everything is held (one product with M tells), all but a few slide to the side of
-/// their stretch (the engine's own factors tell), or what slides is searched for.
+/// One step as CoupledBristles says, of the rows of one tree, which are counted from its first. Three
+/// ways lead to the one solution: everything is held (one product with M tells), all but a few slide
+/// to the side of their stretch (the engine's own factors tell), or what slides is searched for.
 class BristleTree {
  public:
   /// tree: its number in the model.
   BristleTree(const mjModel* m, int tree, const std::vector<CoupledJoint>& joints);
 
-  size_t size() const { return side_.size(); }
+  size_t size() const { return static_cast<size_t>(inertia_.size()); }
   int first_dof() const { return inertia_.first(); }
   const std::vector<CoupledJoint>& joints() const { return joints_; }
 
@@ -49,38 +41,34 @@ class BristleTree {
   void Step(const mjData* d, const LevelSource& levels, Rows rows, size_t first);
 
  private:
-  void Stretch(const mjData* d, Rows rows);
-  double Ask(Row row, int i, int side);
+  double Stretch(const mjData* d, Rows rows);
   void Multiply(const mjData* d, Rows rows);
   bool Hold(Rows rows);
+  int TakeSides(Rows rows);
   bool Slide(const mjData* d, Rows rows);
-  bool SlideButFew(Rows rows);
-  void Search(const mjData* d, Rows rows);
-
-  struct At {
-    int row;
-    size_t place;  // in the numbers of the tree's rows
-  };
+  bool SlideButFew(const mjData* d, Rows rows);
 
   std::vector<CoupledJoint> joints_;
-  std::vector<At> joint_at_,
-      asking_;     // where they are, and those of them that ask for their levels
+  std::vector<int> rows_of_joints_;
   bool complete_;  // friction in every row
   InertiaBlock inertia_;
   double impulse_ = 0, damping_ = 0;  // A/h and B/h
 
-  // of one step: of all rows
-  const LevelSource* levels_ = nullptr;
-  size_t first_ = 0;
-  std::vector<signed char> side_;     // of the stretch, 0 without friction
-  std::vector<unsigned char> known_;  // sides whose level is known: 1 below, 2 above
-  std::vector<Two> pair_;             // {A/h^2 (z + h v), the same + B/h v}
-  std::vector<Two> force_;            // M times that: {p, f} where everything is held, N.m or N
-  std::vector<double> level_;         // on the side of the stretch, N.m or N
-  std::vector<double> slip_;          // A/h^2 (z + h v) - M^-1 level
-  std::vector<double> left_;          // of it where some are held
-  FewHeld slow_;                      // joints that their bristles could stop
-  BoxProjection projection_;
+  // of one step, two rows at once
+  std::vector<Two> present_;  // 1 where there is friction, or 0
+  std::vector<Two>
+      mobility_;            // of a joint by itself, with those before it held, 1/(kg.m^2) or 1/kg
+  std::vector<Two> side_;   // of the stretch, 0 without friction
+  std::vector<Two> start_;  // A/h^2 (z + h v) - M^-1 level, then what the damper adds to it
+  std::vector<Two> slip_;   // what is left of it where some are held
+
+  // of each row
+  std::vector<Two> pair_;   // {A/h^2 (z + h v), the same + B/h v}
+  std::vector<Two> force_;  // M times that: {p, f} where everything is held, N.m or N
+
+  AskedLevels levels_;
+  FewHeld few_;
+  SearchTree search_;
 };
 
 }  // namespace warmjoint::inline sim

@@ -3,64 +3,195 @@
 #include <algorithm>
 
 namespace warmjoint::inline sim {
+namespace {
 
-void FewHeld::Solve(const InertiaBlock& inertia, const mjData* d, const double* level,
-                    double* bearing) {
-  const size_t size = solved_.size();
-  for (size_t i = 0; i < size; ++i) solved_[i] = {level[i], 0};
-  if (slow_count_ > 0) solved_[slow_[0]][1] = 1;
+/// Turns until a block of M is factorised instead; most end after two.
+constexpr int kMostTurns = 12;
+
+double At(const Two* pairs, int i) { return pairs[i / 2][i % 2]; }
+
+}  // namespace
+
+FewHeld::FewHeld(size_t size) : pairs_((size + 1) / 2) {
+  solved_.assign(2 * pairs_, Two::Zero());
+  columns_.assign(kMostColumns * pairs_, Two::Zero());
+}
+
+void FewHeld::Start(const InertiaBlock& inertia, const mjData* d, Rows rows, int likely) {
+  for (size_t k = 0; k < pairs_; ++k) {
+    const Two level = rows.pair(k)[kFriction];
+    solved_[2 * k] = {level[0], 0};
+    solved_[2 * k + 1] = {level[1], 0};
+  }
+  solved_[likely][1] = 1;
   inertia.Solve(d, solved_.data());
-  for (size_t i = 0; i < size; ++i) bearing[i] = solved_[i][0];
-  if (slow_count_ < 2) return;
-  std::fill(other_.begin(), other_.end(), Two::Zero());
-  for (int n = 1; n < std::min(slow_count_, kMost); ++n) other_[slow_[n]][n - 1] = 1;
-  inertia.Solve(d, other_.data());
+  apart_count_ = column_count_ = 0;
+  missing_ = false;
+  KeepColumn(likely, 1);
 }
 
-int FewHeld::Choose(const signed char* side, const double* slip) {
-  count_ = 0;
-  for (int n = 0; n < slow_count_; ++n) {
-    if (side[slow_[n]] * slip[slow_[n]] < 0) held_[count_++] = n;
+bool FewHeld::Find(const InertiaBlock& inertia, const mjData* d, AskedLevels& levels,
+                   const Two* side, const Two* start, Two* slip) {
+  if (apart_count_ == 0 && !AddWrong(levels, side, start)) return false;
+  for (int turn = 0; turn < kMostTurns; ++turn) {
+    if (missing_ && !FindColumns(inertia, d)) return false;
+    FindLack(start);
+    if (Slip(side, start, slip)) return true;
+    const bool right = Change(slip);
+    const int before = apart_count_;
+    if (!AddWrong(levels, side, slip)) return false;
+    if (right && apart_count_ == before) return true;
   }
-  return count_;
+  return false;
 }
 
-std::array<double, FewHeld::kMost> FewHeld::Lack(const double* slip) const {
-  // the matrix of the held rows of their columns is positive definite, so that no pivot is 0
-  double matrix[kMost][kMost];
-  std::array<double, kMost> lack{};
-  for (int r = 0; r < count_; ++r) {
-    for (int c = 0; c < count_; ++c) matrix[r][c] = Column(held_[c], held(r));
-    lack[r] = -slip[held(r)];
-  }
-  for (int p = 0; p < count_; ++p) {
-    for (int r = p + 1; r < count_; ++r) {
-      const double factor = matrix[r][p] / matrix[p][p];
-      for (int c = p + 1; c < count_; ++c) matrix[r][c] -= factor * matrix[p][c];
-      lack[r] -= factor * lack[p];
+/// Takes in what slips away from its side; false where those are too many.
+bool FewHeld::AddWrong(AskedLevels& levels, const Two* side, const Two* slip) {
+  for (size_t k = 0; k < pairs_; ++k) {
+    const Two along = side[k] * slip[k];
+    for (int lane = 0; lane < 2; ++lane) {
+      const int joint = static_cast<int>(2 * k) + lane;
+      if (!(along[lane] < 0) || IsApart(joint)) continue;
+      if (apart_count_ == kMost) return false;
+      Add(joint, side[k][lane], levels);
     }
   }
-  for (int p = count_ - 1; p >= 0; --p) {
-    for (int c = p + 1; c < count_; ++c) lack[p] -= matrix[p][c] * lack[c];
-    lack[p] /= matrix[p][p];
-  }
-  return lack;
+  return true;
 }
 
-bool FewHeld::Hold(Rows rows, const signed char* side, const double* level, double* slip) const {
-  const std::array<double, kMost> lack = Lack(slip);
-  const auto size = static_cast<int>(solved_.size());
-  for (int n = 0; n < count_; ++n) {
-    const int k = held(n);
-    const Row row = rows.at(PlaceOf(static_cast<size_t>(k)));
-    const double force = row[kFriction] = level[k] - lack[n];
-    if (!(force <= row[kUpper] && -force <= row[kLower])) return false;
-    for (int i = 0; i < size; ++i) slip[i] += Column(held_[n], i) * lack[n];
+bool FewHeld::IsApart(int joint) const {
+  for (int n = 0; n < apart_count_; ++n) {
+    if (apart_[n].joint == joint) return true;
   }
-  for (int n = 0; n < count_; ++n) slip[held(n)] = 0;
+  return false;
+}
+
+void FewHeld::Add(int joint, double side, AskedLevels& levels) {
+  const double upper = levels.Of(joint, 1), lower = levels.Of(joint, -1);
+  const double level = side > 0 ? upper : -lower, other = side > 0 ? -lower : upper;
+  int column = 0;
+  while (column < column_count_ && column_of_[column] != joint) ++column;
+  missing_ = missing_ || column == column_count_;
+  if (column == column_count_) column = -1;
+  apart_[apart_count_++] = {joint, column, true, side, level, other};
+}
+
+/// M^-1's columns of all that are apart; false where those do not fit in.
+bool FewHeld::FindColumns(const InertiaBlock& inertia, const mjData* d) {
+  missing_ = false;
+  std::array<Apart*, kMost> wait;
+  int count = 0;
+  for (int n = 0; n < apart_count_; ++n) {
+    if (apart_[n].column < 0) wait[count++] = &apart_[n];
+  }
+  if (column_count_ + count > kMostColumns) return false;
+  for (int n = 0; n < count; n += 2) {
+    std::fill(solved_.begin(), solved_.end(), Two::Zero());
+    const int lanes = std::min(2, count - n);
+    for (int lane = 0; lane < lanes; ++lane) solved_[wait[n + lane]->joint][lane] = 1;
+    inertia.Solve(d, solved_.data());
+    for (int lane = 0; lane < lanes; ++lane) {
+      wait[n + lane]->column = column_count_;
+      KeepColumn(wait[n + lane]->joint, lane);
+    }
+  }
+  return true;
+}
+
+void FewHeld::KeepColumn(int joint, int lane) {
+  Two* const column = columns_.data() + column_count_ * pairs_;
+  for (size_t k = 0; k < pairs_; ++k) {
+    column[k] = {solved_[2 * k][lane], solved_[2 * k + 1][lane]};
+  }
+  column_of_[column_count_++] = joint;
+}
+
+/// What the forces of those that are apart lack to their levels.
+void FewHeld::FindLack(const Two* start) {
+  if (apart_count_ == 1 && apart_[0].held) [[likely]] {
+    Apart& apart = apart_[0];
+    apart.lack = -At(start, apart.joint) / At(ColumnOf(apart), apart.joint);
+    return;
+  }
+  std::array<Apart*, kMost> held;
+  int count = 0;
+  for (int n = 0; n < apart_count_; ++n) {
+    Apart& apart = apart_[n];
+    apart.lack = apart.level - apart.other;
+    if (apart.held) held[count++] = &apart;
+  }
+  // the matrix of held rows of held columns is positive definite, so that no pivot is 0
+  double matrix[kMost][kMost];
+  for (int r = 0; r < count; ++r) {
+    const int row = held[r]->joint;
+    double lack = -At(start, row);
+    for (int c = 0; c < count; ++c) matrix[r][c] = At(ColumnOf(*held[c]), row);
+    for (int n = 0; n < apart_count_; ++n) {
+      if (!apart_[n].held) lack -= apart_[n].lack * At(ColumnOf(apart_[n]), row);
+    }
+    held[r]->lack = lack;
+  }
+  for (int p = 0; p < count; ++p) {
+    for (int r = p + 1; r < count; ++r) {
+      const double factor = matrix[r][p] / matrix[p][p];
+      for (int c = p + 1; c < count; ++c) matrix[r][c] -= factor * matrix[p][c];
+      held[r]->lack -= factor * held[p]->lack;
+    }
+  }
+  for (int p = count - 1; p >= 0; --p) {
+    for (int c = p + 1; c < count; ++c) held[p]->lack -= matrix[p][c] * held[c]->lack;
+    held[p]->lack /= matrix[p][p];
+  }
+}
+
+/// Finds how all slip; whether it is seen at a glance that everything is right: all but those that are
+/// held slide to their sides, and no held force is out of its bounds.
+bool FewHeld::Slip(const Two* side, const Two* start, Two* slip) const {
   bool right = true;
-  for (int i = 0; i < size; ++i) right = right && !(side[i] * slip[i] < 0);
+  const Two* from = start;
+  for (int n = 0; n < apart_count_; ++n, from = slip) {
+    const Apart& apart = apart_[n];
+    const Two* const column = ColumnOf(apart);
+    for (size_t k = 0; k < pairs_; ++k) slip[k] = from[k] + apart.lack * column[k];
+    right = right && apart.held && apart.within();
+  }
+  if (apart_count_ == 0) std::copy_n(start, pairs_, slip);
+  for (int n = 0; n < apart_count_; ++n) {
+    const int joint = apart_[n].joint;
+    if (apart_[n].held) slip[joint / 2][joint % 2] = 0;
+  }
+  Two least{0, 0};
+  for (size_t k = 0; k < pairs_; ++k) least = least.min(side[k] * slip[k]);
+  return right && NoneNegative(least);
+}
+
+/// Changes what is wrong with those that are apart; whether nothing is.
+bool FewHeld::Change(const Two* slip) {
+  bool right = true;
+  for (int n = apart_count_ - 1; n >= 0; --n) {
+    Apart& apart = apart_[n];
+    const bool was_held = apart.held;
+    if (was_held ? apart.within() : apart.side * At(slip, apart.joint) <= 0) continue;
+    right = false;
+    apart.held = !was_held;
+    if (was_held && apart.side * apart.lack < 0) apart = apart_[--apart_count_];
+  }
   return right;
+}
+
+void FewHeld::TellSliding(Rows rows) const {
+  for (int n = 0; n < apart_count_; ++n) {
+    const Apart& apart = apart_[n];
+    const Row row = rows.row(apart.joint);
+    row[kSliding] = !apart.held && apart.side * row[kSpeed] < 0;
+  }
+}
+
+void FewHeld::TellFriction(Rows rows) const {
+  for (int n = 0; n < apart_count_; ++n) {
+    const Apart& apart = apart_[n];
+    rows.row(apart.joint)[kFriction] = apart.held ? apart.level - apart.lack : apart.other;
+  }
 }
 
 }  // namespace warmjoint::inline sim

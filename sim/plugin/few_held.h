@@ -1,61 +1,87 @@
-// A few joints that are held while all the others of their tree slide.
+// All joints of a tree slide to their sides, but for a few.
 #pragma once
 
 #include <mujoco/mujoco.h>
 
 #include <array>
+#include <cmath>
 #include <vector>
 
+#include "sim/plugin/asked_levels.h"
 #include "sim/plugin/inertia_block.h"
 #include "sim/plugin/row_pairs.h"
 
 namespace warmjoint::inline sim {
 
-/// Forces that hold a few joints, by the engine's factors of the whole inertia matrix M. Where all
-/// slide by `slip` under their levels, and c_k is M^-1's column of the held joint k,
-///   slip + sum_k c_k e_k = 0 at each k
-/// tells what each held one's force lacks to its level, e_k.
+/// The projection onto the levels (BoxProjection) where most joints slide to a side that is known, by
+/// the engine's factors of the whole inertia matrix M. With all of them at their levels each would
+/// slip by `start`; what slips away from its side is held, or slides to the other side. With e_k for
+/// what the force of such a joint lacks to its level, and c_k for M^-1's column,
+///   slip = start + sum_k c_k e_k
+/// which is 0 at each one that is held: as many equations as there are such joints.
 class FewHeld {
  public:
-  /// So many may be held before a block of M is factorised instead.
-  static constexpr int kMost = 3;
+  /// So many may not slide to their side before a block of M is factorised instead.
+  static constexpr int kMost = 4;
 
   FewHeld() = default;
-  explicit FewHeld(size_t size) : solved_(size, Two::Zero()), other_(size, Two::Zero()) {}
+  /// size: of the tree.
+  explicit FewHeld(size_t size);
 
-  /// The joints that may have to be held; slow_count goes on counting beyond kMost.
-  void Clear() { slow_count_ = 0; }
-  void Add(int joint) {
-    if (slow_count_ < kMost) slow_[slow_count_] = joint;
-    ++slow_count_;
-  }
-  int slow_count() const { return slow_count_; }
+  /// Begins a step: finds what all would bear, and a column beforehand. rows: kFriction holds the
+  /// level on each one's side, N.m or N; likely: the joint that needs a column soonest.
+  void Start(const InertiaBlock& inertia, const mjData* d, Rows rows, int likely);
 
-  /// M^-1 level, and the columns of the slow ones. level: N.m or N, 0 without friction.
-  void Solve(const InertiaBlock& inertia, const mjData* d, const double* level, double* bearing);
+  /// M^-1 of those levels until Find, two rows at once.
+  Two bearing(size_t k) const { return {solved_[2 * k][0], solved_[2 * k + 1][0]}; }
 
-  /// Holds the slow ones that would slide against their side. side: 1, -1, or 0 without friction;
-  /// slip: of all. Returns how many those are.
-  int Choose(const signed char* side, const double* slip);
+  /// Finds what slips away from its side, beginning with what the last call has found. side: 1, -1, or
+  /// 0 without friction; start, slip: two rows at once. False where those are too many.
+  bool Find(const InertiaBlock& inertia, const mjData* d, AskedLevels& levels, const Two* side,
+            const Two* start, Two* slip);
 
-  /// Holds them: lets `slip` be what is left of it, and friction the held ones' forces. level: on
-  /// the sides, N.m or N. False where a joint would slide against its side, or a force be out of
-  /// its bounds.
-  bool Hold(Rows rows, const signed char* side, const double* level, double* slip) const;
+  /// Writes kSliding of the joints that do not slide to their side.
+  void TellSliding(Rows rows) const;
 
-  int count() const { return count_; }
-  int held(int n) const { return slow_[held_[n]]; }
+  /// Writes kFriction of the joints that do not slide to their side.
+  void TellFriction(Rows rows) const;
 
  private:
-  /// What the held forces lack to their levels.
-  std::array<double, kMost> Lack(const double* slip) const;
+  static constexpr int kMostColumns = kMost + 2;
 
-  /// M^-1's column of a slow joint.
-  double Column(int n, int row) const { return n == 0 ? solved_[row][1] : other_[row][n - 1]; }
+  /// A joint that does not slide to its side.
+  struct Apart {
+    int joint = 0;
+    int column = -1;   // in columns_
+    bool held = true;  // or sliding to the other side
+    double side = 0;   // that it would have
+    double level = 0;  // there, and on the other side, with the force's sign, N.m or N
+    double other = 0;
+    double lack = 0;  // of its force to the level, N.m or N
 
-  int slow_count_ = 0, count_ = 0;
-  std::array<int, kMost> slow_{}, held_{};
-  std::vector<Two> solved_, other_;  // {M^-1 level, column}, {column, column}
+    bool within() const {
+      const double force = level - lack;
+      return side * force <= side * level && side * force >= side * other;
+    }
+  };
+
+  bool IsApart(int joint) const;
+  bool AddWrong(AskedLevels& levels, const Two* side, const Two* slip);
+  void Add(int joint, double side, AskedLevels& levels);
+  bool FindColumns(const InertiaBlock& inertia, const mjData* d);
+  void KeepColumn(int joint, int lane);
+  const Two* ColumnOf(const Apart& apart) const { return columns_.data() + apart.column * pairs_; }
+  void FindLack(const Two* start);
+  bool Slip(const Two* side, const Two* start, Two* slip) const;
+  bool Change(const Two* slip);
+
+  size_t pairs_ = 0;
+  std::vector<Two> solved_;   // {M^-1 level, column} of each row, or two columns
+  std::vector<Two> columns_;  // [kMostColumns][pairs]
+  std::array<int, kMostColumns> column_of_{};
+  std::array<Apart, kMost> apart_{};
+  int column_count_ = 0, apart_count_ = 0;
+  bool missing_ = false;  // a column of one that is apart
 };
 
 }  // namespace warmjoint::inline sim

@@ -121,13 +121,10 @@ void FrictionInstance::StepPassive(const mjModel* m, mjData* d) {
     for (size_t i = 0; i < joints.size(); ++i) rows_.SetAmbientRise(i, rise);
   }
   Step(m, d, load_.data());
+  if (!(m->opt.enableflags & mjENBL_SLEEP)) [[likely]]
+    return rows_.TakeFrom(d->qfrc_passive, [](int) { return true; });
   // the engine clears the forces of trees that are awake alone
-  const bool sleeps = m->opt.enableflags & mjENBL_SLEEP;
-  for (size_t i = 0; i < joints.size(); ++i) {
-    const int dof = joints[i].dof;
-    if (sleeps && d->tree_asleep[m->dof_treeid[dof]] >= 0) continue;
-    d->qfrc_passive[dof] -= rows_.force(i);
-  }
+  rows_.TakeFrom(d->qfrc_passive, [&](int dof) { return d->tree_asleep[m->dof_treeid[dof]] < 0; });
 }
 
 void FrictionInstance::Reset(const mjModel* m, mjtNum* state) {

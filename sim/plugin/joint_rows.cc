@@ -21,24 +21,22 @@ JointRows::JointRows(const mjModel* m, const std::vector<BoundJoint>& joints) {
   }
   bristles_ = CoupledBristles(m, coupled);
   size_t rows = bristles_.size();
-  int states = 0;
   joint_at_.assign(rows, 0);
+  std::vector<size_t> places;
   for (size_t i = 0; i < joints.size(); ++i) {
-    const BoundJoint& joint = joints[i];
-    const size_t row = is_coupled[i] ? bristles_.RowOf(joint.dof) : rows++;
-    const size_t own_states = joint.friction.state().size();
-    at_.push_back({PlaceOf(row), joint.dof, joint.state, states, own_states == 2});
+    const size_t row = is_coupled[i] ? bristles_.RowOf(joints[i].dof) : rows++;
+    places.push_back(PlaceOf(row));
     if (is_coupled[i]) joint_at_[row] = i;
-    if (joint.friction.own_bristle()) alone_.push_back(i);
-    states += static_cast<int>(own_states);
+    if (joints[i].friction.own_bristle()) alone_.push_back(i);
   }
-  next_.assign(static_cast<size_t>(states), 0);
-  FindTwos();
+  states_ = JointStates(joints, places);
   numbers_.assign(NumbersOf(rows), 0);
+  for (size_t row = 0; row < rows + rows % 2; ++row) numbers_[PlaceOf(row) + 2 * kAbsent] = 1;
   for (const CoupledJoint& joint : coupled) {
     const size_t i = joint_at_[bristles_.RowOf(joint.dof)];
     Of(i, kInertia) = joint.inertia;
     Of(i, kPerInertia) = 1 / joint.inertia;
+    Of(i, kAbsent) = 0;
   }
   pushed_.reserve(joints.size());
 }
@@ -63,58 +61,15 @@ void JointRows::ReadNumbers(const mjModel* m, const std::vector<BoundJoint>& joi
   });
 }
 
-/// Joints that are neighbours, and have the same two states, are loaded and stored together.
-void JointRows::FindTwos() {
-  for (size_t i = 0; i < at_.size(); ++i) {
-    const bool first = at_[i].place % (2 * kColumns) == 0;
-    const bool two = first && i + 1 < at_.size() && at_[i + 1].place == at_[i].place + 1;
-    if (two && at_[i].plain && at_[i + 1].plain) {
-      twos_.push_back({at_[i], at_[i + 1]});
-      ++i;
-    } else {
-      ones_.push_back(i);
-    }
-  }
-}
-
-void JointRows::Load(const mjData* d, const std::vector<BoundJoint>& joints, const mjtNum* states) {
-  d_ = d;
-  joints_ = joints.data();
-  states_ = states;
-  Two finite = Two::Zero();
-  for (const auto& [a, b] : twos_) {
-    const RowPair row{numbers_.data() + a.place};
-    const mjtNum *one = states + a.state, *other = states + b.state;
-    const Two load{one[0], other[0]}, first{one[1], other[1]}, sum = load + first;
-    row[kSpeed] = Two{d->qvel[a.dof], d->qvel[b.dof]};
-    row[kLoad] = load;
-    row[kFirst] = first;
-    finite += sum - sum;
-  }
-  for (const size_t i : ones_) LoadOne(i);
-
-  // a sum is finite only where all of its terms are
-  if (finite[0] == 0 && finite[1] == 0) [[likely]]
-    return;
-  for (size_t i = 0; i < at_.size(); ++i) LoadOne(i);
-}
-
-void JointRows::LoadOne(size_t i) {
-  const FrictionState state = joints_[i].friction.Load(states_ + at_[i].state);
-  Of(i, kSpeed) = d_->qvel[at_[i].dof];
-  Of(i, kLoad) = state.bristle;
-  Of(i, kFirst) = state.energy;
-  Of(i, kSecond) = state.second_energy;
-}
-
 void JointRows::Step(const mjModel* m, const mjtNum* load) {
   load_ = load;
   pushed_.clear();
   SetLevels();
   bristles_.Step(d_, *this, {numbers_.data()});
-  Complete();
+  if (!Complete()) [[unlikely]]
+    TakeDeficits();
   if (!alone_.empty()) StepAlone(m);
-  Store();
+  states_.Store(numbers_.data());
 }
 
 /// The levels of joints for which heat alone changes them; of others about those, for a guess.
@@ -131,7 +86,7 @@ void JointRows::SetLevels() {
 double JointRows::LevelAt(size_t row, int side) const {
   const size_t i = joint_at_[row];
   FrictionState state;
-  if (at_[i].plain) {
+  if (states_.at()[i].plain) {
     state.energy = Of(i, kFirst);
   } else {
     state = StateOf(i);
@@ -141,7 +96,7 @@ double JointRows::LevelAt(size_t row, int side) const {
 
 /// The state with which the step began.
 FrictionState JointRows::StateOf(size_t i) const {
-  FrictionState state = joints_[i].friction.Load(states_ + joints_[i].state);
+  FrictionState state = states_.Before(i);
   state.energy = Of(i, kFirst);
   state.second_energy = Of(i, kSecond);
   return state;
@@ -157,8 +112,10 @@ JointMotion JointRows::MotionOf(size_t i) const {
   return motion;
 }
 
-/// The rest of each row's step, its bristle being known: JointFriction::Complete for all.
-void JointRows::Complete() {
+/// The rest of each row's step, its bristle being known: JointFriction::Complete for all. False where
+/// a joint moves without friction.
+bool JointRows::Complete() {
+  Two least = Two::Ones();
   double* const end = numbers_.data() + numbers_.size();
   for (RowPair row{numbers_.data()}; row.numbers != end; row.numbers += 2 * kColumns) {
     const Two first = row[kFirst], second = row[kSecond], v = row[kSpeed], f = row[kFriction];
@@ -168,7 +125,9 @@ void JointRows::Complete() {
     row[kForce] = viscous + f;
     row[kNextFirst] = row[kPole] * first + row[kGain] * loss + row[kAmbientGain] * row[kRise];
     row[kNextSecond] = row[kSecondPole] * second + row[kSecondGain] * loss;
+    least = least.min(WhereNegative(-v.abs(), f.abs() + row[kAbsent], Two::Ones()));
   }
+  return least[0] != 0 && least[1] != 0;
 }
 
 /// Joints whose bristle is their own law's.
@@ -191,47 +150,13 @@ void JointRows::Take(size_t i, const FrictionStep& step) {
 }
 
 /// Friction without a force may be one that would push.
-void JointRows::TakeDeficit(size_t i) {
-  if (joints_[i].friction.own_bristle()) return;
-  const BristleStep bristle{0, Of(i, kLoad), Of(i, kSliding) != 0};
-  Take(i, joints_[i].friction.Complete(StateOf(i), MotionOf(i), bristle));
-}
-
-/// Stores the states of all joints.
-void JointRows::Store() {
-  for (size_t i = 0; i < at_.size(); ++i) {
-    const Row row{numbers_.data() + at_[i].place};
-    if (row[kFriction] == 0 && row[kSpeed] != 0) [[unlikely]]
-      TakeDeficit(i);
+void JointRows::TakeDeficits() {
+  for (size_t i = 0; i < states_.at().size(); ++i) {
+    if (Of(i, kFriction) != 0 || Of(i, kSpeed) == 0) continue;
+    if (joints_[i].friction.own_bristle()) continue;
+    const BristleStep bristle{0, Of(i, kLoad), Of(i, kSliding) != 0};
+    Take(i, joints_[i].friction.Complete(StateOf(i), MotionOf(i), bristle));
   }
-  double* const next = next_.data();
-  Two finite = Two::Zero();
-  for (const auto& [a, b] : twos_) {
-    const RowPair row{numbers_.data() + a.place};
-    const Two load = row[kLoad], first = row[kNextFirst], sum = row[kForce] + load + first;
-    Two::Map(next + a.next) = Two{load[0], first[0]};
-    Two::Map(next + b.next) = Two{load[1], first[1]};
-    finite += sum - sum;
-  }
-  for (const size_t i : ones_) StoreOne(i);
-  if (finite[0] == 0 && finite[1] == 0) [[likely]]
-    return;
-  for (size_t i = 0; i < at_.size(); ++i) StoreOne(i);
-}
-
-void JointRows::StoreOne(size_t i) {
-  const double v = Of(i, kSpeed);
-  FrictionState state{Of(i, kLoad), Of(i, kNextFirst), Of(i, kNextSecond),
-                      Of(i, kSliding) != 0 ? static_cast<double>(Sign(v)) : 0.0};
-
-  // a speed without bound must not stay in the heat
-  double& force = Of(i, kForce);
-  const double sum = force + state.bristle + state.energy + state.second_energy;
-  if (sum - sum != 0) [[unlikely]] {
-    force = 0;
-    state = StateOf(i);
-  }
-  joints_[i].friction.Store(state, next_.data() + at_[i].next);
 }
 
 }  // namespace warmjoint::inline sim

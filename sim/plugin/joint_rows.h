@@ -9,6 +9,7 @@
 #include "models/friction/joint_friction.h"
 #include "sim/plugin/bound_joints.h"
 #include "sim/plugin/coupled_bristles.h"
+#include "sim/plugin/joint_states.h"
 
 namespace warmjoint::inline sim {
 
@@ -25,7 +26,11 @@ class JointRows : private LevelSource {
 
   /// Begins a step with the joints' speeds and states. joints: as before, and until the step has
   /// ended; states: d->act or d->plugin_state.
-  void Load(const mjData* d, const std::vector<BoundJoint>& joints, const mjtNum* states);
+  void Load(const mjData* d, const std::vector<BoundJoint>& joints, const mjtNum* states) {
+    d_ = d;
+    joints_ = joints.data();
+    states_.Load(d, joints, states, numbers_.data());
+  }
 
   /// The heat {E1, E2} with which a joint begins, N.m or N, and the rise of its ambient, K.
   std::array<double, 2> energies(size_t joint) const {
@@ -44,7 +49,15 @@ class JointRows : private LevelSource {
   /// What the step yields: F of a joint, N.m or N, and the next states of all joints, in the order
   /// of each joint's state(), one joint after the other.
   double force(size_t joint) const { return Of(joint, kForce); }
-  const std::vector<double>& next() const { return next_; }
+  const std::vector<double>& next() const { return states_.next(); }
+
+  /// Takes F from the forces of the degrees of freedom for which `acts`, N.m or N.
+  template <typename Acts>
+  void TakeFrom(mjtNum* forces, const Acts& acts) const {
+    for (const JointStates::At& at : states_.at()) {
+      if (acts(at.dof)) forces[at.dof] -= numbers_[at.place + 2 * kForce];
+    }
+  }
 
   /// What a sensor tells of a joint besides: loss, W, and whether it slides.
   double loss(size_t joint) const { return Of(joint, kLoss); }
@@ -54,44 +67,31 @@ class JointRows : private LevelSource {
   const std::vector<size_t>& pushed() const { return pushed_; }
 
  private:
-  double& Of(size_t joint, Column column) { return numbers_[at_[joint].place + 2 * column]; }
-  double Of(size_t joint, Column column) const { return numbers_[at_[joint].place + 2 * column]; }
+  size_t PlaceIn(size_t joint, Column column) const {
+    return states_.at()[joint].place + 2 * column;
+  }
+  double& Of(size_t joint, Column column) { return numbers_[PlaceIn(joint, column)]; }
+  double Of(size_t joint, Column column) const { return numbers_[PlaceIn(joint, column)]; }
   double LevelAt(size_t row, int side) const override;
   FrictionState StateOf(size_t joint) const;
   JointMotion MotionOf(size_t joint) const;
   void SetLevels();
-  void Complete();
+  bool Complete();
   void StepAlone(const mjModel* m);
   void Take(size_t joint, const FrictionStep& step);
-  void TakeDeficit(size_t joint);
-  void FindTwos();
-  void LoadOne(size_t joint);
-  void Store();
-  void StoreOne(size_t joint);
-
-  /// Where a joint's numbers are.
-  struct At {
-    size_t place;  // in numbers_
-    int dof;
-    int state;   // in act or plugin_state
-    int next;    // in next_
-    bool plain;  // whether it has two states
-  };
+  void TakeDeficits();
 
   CoupledBristles bristles_;
   RowNumbers numbers_;
-  std::vector<At> at_;                   // of each joint
-  std::vector<std::array<At, 2>> twos_;  // joints that are one pair of rows, with two states each
-  std::vector<size_t> ones_;             // the others
-  std::vector<size_t> alone_;            // joints with a bristle of their own
-  std::vector<size_t> joint_at_;         // of each row
+  JointStates states_;
+  std::vector<size_t> alone_;     // joints with a bristle of their own
+  std::vector<size_t> joint_at_;  // of each row
 
   // of one step
   const mjData* d_ = nullptr;
   const BoundJoint* joints_ = nullptr;
-  const mjtNum *states_ = nullptr, *load_ = nullptr;
+  const mjtNum* load_ = nullptr;
   std::vector<size_t> pushed_;
-  std::vector<double> next_;  // of each state
 };
 
 }  // namespace warmjoint::inline sim

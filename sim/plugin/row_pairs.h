@@ -3,12 +3,30 @@
 
 #include <Eigen/Core>
 #include <Eigen/StdVector>
+#include <cstring>
 #include <vector>
 
 namespace warmjoint::inline sim {
 
 /// Two neighbours, which a processor steps at once.
 using Two = Eigen::Array2d;
+
+/// Side by side, `negative` where x is below 0, and `other` elsewhere; without a branch.
+inline Two WhereNegative(const Two& x, const Two& negative, const Two& other) {
+  using Lanes = double __attribute__((vector_size(sizeof(Two))));
+  const auto lanes = [](const Two& two) {
+    Lanes copy;
+    std::memcpy(&copy, two.data(), sizeof copy);
+    return copy;
+  };
+  const Lanes chosen = lanes(x) < 0.0 ? lanes(negative) : lanes(other);
+  Two two;
+  std::memcpy(two.data(), &chosen, sizeof chosen);
+  return two;
+}
+
+/// Whether both are at least 0.
+inline bool NoneNegative(const Two& x) { return x[0] >= 0 && x[1] >= 0; }
 
 /// What a step takes and finds of a row: a degree of freedom of a kinematic tree on which joints with
 /// friction are, or a joint by itself. Rows without friction hold zeros.
@@ -25,6 +43,7 @@ enum Column : int {
   kSecondGain,
   kInertia,  // of the bristle at the reference pose, kg.m^2 or kg, and 1 over it
   kPerInertia,
+  kAbsent,  // 0 where a joint has coupled bristles, 1 elsewhere
 
   // with which a step begins
   kSpeed,  // rad/s or m/s
@@ -37,7 +56,6 @@ enum Column : int {
   kUpper,  // L+ and L-, not negative, N.m or N; where a row asks for them, roughly at first
   kLower,
   kStretch,    // A/h^2 (z + h v), rad/s^2 or m/s^2
-  kSlack,      // not below 0 where the bristle could stop the joint in a step
   kFriction,   // f, N.m or N
   kSliding,    // 1 where the bristle has yielded in the direction of motion, or 0
   kForce,      // F, N.m or N
@@ -70,7 +88,7 @@ inline size_t NumbersOf(size_t rows) { return (rows + 1) / 2 * 2 * kColumns; }
 /// Rows from one on, which is the first of a pair.
 struct Rows {
   double* numbers;
-  Row at(size_t place) const { return {numbers + place}; }
+  Row row(int i) const { return {numbers + PlaceOf(static_cast<size_t>(i))}; }
   RowPair pair(size_t k) const { return {numbers + k * 2 * kColumns}; }
 };
 
