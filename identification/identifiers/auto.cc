@@ -77,6 +77,17 @@ class Tournament {
     return best ? &best->structure : nullptr;
   }
 
+  /// Whether a level for each direction may help the Stribeck law with that warming: what it leaves
+  /// pushes in one direction. Where it does not fit, the linear law tells; with warming, which costs more,
+  /// that two levels fit without it.
+  bool MayHaveTwoLevels(const std::string& warming) const {
+    const Trial& one = *Find(StribeckStructure(warming));
+    if (one.told.status == Status::ok) return Pushes(one.fit);
+    if (warming == "none") return Pushes(First().fit);
+    const Trial* cold = Find(TwoLevelStribeckStructure("none"));
+    return cold && cold->told.status == Status::ok;
+  }
+
   /// Drops those that cannot be chosen whatever the blocks say: BIC prefers a simpler one, or another
   /// leaves half of the residual.
   void DropHopeless() {
@@ -127,6 +138,22 @@ class Tournament {
  private:
   double BicOf(const Trial& one) const { return Bic(one.MeanSquare(), one.Parameters(), rows_); }
 
+  /// The trial of a structure; null where it was not tried.
+  const Trial* Find(const Structure& structure) const {
+    const auto found = std::ranges::find_if(
+        trials_, [&](const Trial& trial) { return trial.structure.Name() == structure.Name(); });
+    return found == trials_.end() ? nullptr : &*found;
+  }
+
+  /// Whether the residual has a mean, which BIC would give a parameter.
+  bool Pushes(const Fit& fit) const {
+    const Eigen::VectorXd residual = fit.residual();
+    if (residual.size() == 0) return false;
+    const double mean = residual.mean();
+    const double square = residual.squaredNorm() / static_cast<double>(residual.size());
+    return Bic(square - mean * mean, 1, rows_) < Bic(square, 0, rows_);
+  }
+
   std::string WhyOutdone(const Trial& one, const Trial& other) const {
     if (other.Parameters() < one.Parameters() && BicOf(other) <= BicOf(one)) {
       return fmt::format("outdone by {}, which is simpler", other.structure.Name());
@@ -162,7 +189,11 @@ void TryLinear(const IdentifierInput& input, Tournament& tournament) {
 void TryCurved(const IdentifierInput& input, Tournament& tournament) {
   const Structure* best = tournament.Best();
   const std::string gravity = best ? best->Given("gravity", "none") : GravityKinds(input).front();
-  tournament.Add(CurvedStructures(input, gravity));
+  tournament.Add({StribeckStructure("none"), StribeckStructure("estimated")});
+  for (const char* warming : {"none", "estimated"}) {
+    if (tournament.MayHaveTwoLevels(warming)) tournament.Add({TwoLevelStribeckStructure(warming)});
+  }
+  tournament.Add(MapStructures(input, gravity));
 }
 
 /// Everything, on samples behind whose lag the torque has settled, if the best linear structure finds

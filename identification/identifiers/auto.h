@@ -5,8 +5,9 @@
 
 namespace warmjoint::inline identification {
 
-/// Tries the laws, cold and warm, with the Stribeck effect, and with maps over position, and over
-/// the motor's angle where a gear is given. Drops those that the recording cannot identify, and
+/// Tries the laws, cold and warm, with the Stribeck effect (with a level for each direction where what
+/// it leaves pushes in one), and with maps over position, and over the motor's angle where a gear is
+/// given. Drops those that the recording cannot identify, and
 /// those to which BIC prefers a simpler one; compares the rest by the error on contiguous blocks
 /// that each has not seen (blocked_hold_out.h) and takes the simplest that is not worse than the
 /// best beyond doubt (structure_choice.h). The fit is that structure's on all the data; the

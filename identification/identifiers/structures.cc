@@ -8,6 +8,7 @@
 #include "identification/identifiers/nominal_ls.h"
 #include "identification/identifiers/position_ridge.h"
 #include "identification/identifiers/stribeck.h"
+#include "models/friction/asymmetric_stribeck.h"
 #include "models/recording/motor_angle.h"
 
 namespace warmjoint::inline identification {
@@ -66,16 +67,20 @@ std::vector<Structure> LinearStructures(const std::string& gravity) {
   return structures;
 }
 
-std::vector<Structure> CurvedStructures(const IdentifierInput& input, const std::string& gravity) {
-  // the Stribeck law is fitted without gravity
-  std::vector<Structure> structures;
-  for (const char* warming : {"none", "estimated"}) {
-    structures.push_back({StribeckByCeres(), {{"warming", warming}}});
-  }
+Structure StribeckStructure(const std::string& warming) {
+  return {StribeckByCeres(), {{"warming", warming}}};
+}
 
+Structure TwoLevelStribeckStructure(const std::string& warming) {
+  return StribeckStructure(warming).With("law", std::string(AsymmetricStribeck::name));
+}
+
+std::vector<Structure> MapStructures(const IdentifierInput& input, const std::string& gravity) {
   // what looks like gravity beside a law that is too simple may be a map's
   std::vector<std::string> kinds{"none"};
   if (gravity != "none") kinds.push_back(gravity);
+
+  std::vector<Structure> structures;
   const bool knows_motor = KnowsMotorAngle(input.measurements);
   for (const std::string& kind : kinds) {
     std::map<std::string, std::string> given;

@@ -39,7 +39,13 @@ std::vector<std::string> GravityKinds(const IdentifierInput& input);
 /// Laws that are linear in their parameters, without warming and with it, beside gravity.
 std::vector<Structure> LinearStructures(const std::string& gravity);
 
-/// The Stribeck law and maps, without warming and with it; maps also beside gravity.
-std::vector<Structure> CurvedStructures(const IdentifierInput& input, const std::string& gravity);
+/// The Stribeck law, which is fitted without gravity. warming: none or estimated.
+Structure StribeckStructure(const std::string& warming);
+
+/// The same with a Coulomb level for each direction of motion.
+Structure TwoLevelStribeckStructure(const std::string& warming);
+
+/// Maps, without warming and with it, also beside gravity.
+std::vector<Structure> MapStructures(const IdentifierInput& input, const std::string& gravity);
 
 }  // namespace warmjoint::inline identification

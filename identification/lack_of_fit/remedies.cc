@@ -138,8 +138,14 @@ std::string AgainstWarmingSlope(const Advice& advice) {
 std::string AgainstDirectionOfACurve(const Advice& advice) {
   const FrictionDescription& friction = advice.fit.friction;
   if (TellsDirections(friction.law)) {
-    return "the law has a level for each direction already: they differ in slope, or in how much "
-           "more the joint bears at rest";
+    const std::string differ =
+        "the law has a level for each direction already: they differ in slope, or in how much more "
+        "the joint bears at rest";
+    // heat is common to both
+    if (HoldsWarming(advice)) return differ;
+    return differ +
+           "; identify the samples of each direction as a recording of its own, by "
+           "--identifier stribeck";
   }
   if (friction.law != LuGre::name) {
     return Try(advice, CurveCommand(AsymmetricStribeck::name, WarmingOf(advice)));

@@ -38,6 +38,7 @@ const std::map<std::string, std::pair<std::string, Given>> kRight{
     {"law", {"nominal-ls", {{"law", "viscous_coulomb"}}}},
     {"asymmetric", {"nominal-ls", {{"law", "asymmetric"}}}},
     {"stribeck", {"stribeck", {{"warming", "none"}}}},
+    {"asymmetric-stribeck", {"stribeck", {{"law", "asymmetric_stribeck"}, {"warming", "none"}}}},
     {"warming", {"energy-ml", {{"law", "viscous_coulomb"}}}},
     {"gravity", {"nominal-ls", {{"gravity", "sincos"}, {"law", "viscous_coulomb"}}}},
     {"ripple", {"position-ridge", {}}},

@@ -23,8 +23,9 @@ Estimate Answer(const Measurements& m) {
 int Chosen(const FrictionDescription& truth) {
   int chosen = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    const Eigen::VectorXd velocity = truth.law == "stribeck" ? test::SlowAndFast(3600, seed)
-                                                             : test::AlternatingSpeeds(3600, seed);
+    const bool curved = truth.parameters.contains("stribeck_velocity");
+    const Eigen::VectorXd velocity =
+        curved ? test::SlowAndFast(3600, seed) : test::AlternatingSpeeds(3600, seed);
     const Estimate estimate = Answer(test::RecordFriction(truth, 1, velocity, 0.5, seed));
     if (!estimate.friction) continue;
     chosen += estimate.friction->law == truth.law && estimate.friction->maps.empty() &&
@@ -56,6 +57,24 @@ TEST(Auto, ChoosesTheStribeckLawWhereSlowSpeedsShowIt) {
   EXPECT_GE(Chosen(test::StribeckJoint()), kAtLeast);
 }
 
+TEST(Auto, ChoosesALevelForEachDirectionBesideTheStribeckLaw) {
+  FrictionDescription joint = test::TwoLevelStribeckJoint();
+  EXPECT_GE(Chosen(joint), kAtLeast);
+  joint.thermal = Thermal{-3, 600};
+  EXPECT_GE(Chosen(joint), kAtLeast);
+}
+
+TEST(Auto, FindsTwoLevelsBesideASmallFall) {
+  // the difference of the levels hides the fall from the law with one
+  FrictionDescription joint = test::TwoLevelStribeckJoint();
+  joint.parameters["coulomb_negative"] = 5;
+  joint.parameters["static_rise"] = 1;
+  const Estimate estimate =
+      Answer(test::RecordFriction(joint, 1, test::SlowAndFast(3600, 4), 0.5, 4));
+  ASSERT_TRUE(estimate.friction) << estimate.message;
+  EXPECT_EQ(estimate.friction->law, "asymmetric_stribeck") << estimate.message;
+}
+
 TEST(Auto, SaysWhyAndListsWhatItTried) {
   const Estimate estimate =
       Answer(test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 1), 0.5, 1));
@@ -73,6 +92,7 @@ TEST(Auto, SaysWhyAndListsWhatItTried) {
   EXPECT_THAT(dropped("energy-ml law=asymmetric"),
               HasSubstr("outdone by energy-ml law=viscous_coulomb"));
   EXPECT_NE(dropped("stribeck warming=none"), "not tried");
+  EXPECT_EQ(dropped("stribeck law=asymmetric_stribeck warming=none"), "not tried");
   EXPECT_NE(dropped("energy-ml gravity=sincos law=asymmetric"), "not tried");
 }
 

@@ -144,6 +144,42 @@ TEST(Remedies, AgainstDirectionOfACurveThatWarms) {
   ExpectLeadsTo(warm, "energy-ml", m);
 }
 
+/// The samples of one direction as a recording of its own. side: 1 or -1.
+Measurements OneDirection(Measurements m, int side) {
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < m.size(); ++i) {
+    if (side * m.velocity[i] > 0) rows.push_back(i);
+  }
+  ForEachColumn(m, [&](Eigen::VectorXd& column) { column = Eigen::VectorXd(column(rows)); });
+  return m;
+}
+
+TEST(Remedies, AgainstASlopeOfEachDirectionOfACurve) {
+  const FrictionDescription joint = test::TwoLevelStribeckJoint();
+  Measurements m = test::RecordFriction(joint, 1, test::SlowAndFast(3600, 1), 0.3, 1);
+  m.torque += 4 * m.velocity.cwiseMax(0);
+  const Step together = Take("stribeck", {{"law", "asymmetric_stribeck"}}, m);
+  EXPECT_EQ(together.estimate.status, Status::inadequate_model);
+  EXPECT_THAT(
+      together.estimate.FullMessage(),
+      testing::HasSubstr("identify the samples of each direction as a recording of its own, "
+                         "by --identifier stribeck"));
+  for (const int side : {1, -1}) {
+    const Step apart = Take("stribeck", {}, OneDirection(m, side));
+    ASSERT_EQ(apart.estimate.status, Status::ok) << apart.estimate.FullMessage();
+    EXPECT_LT(apart.held_out, together.held_out);
+    const double level = side > 0 ? 15 : 12;
+    const std::map<std::string, double> truth{{"viscous", side > 0 ? 9 : 5},
+                                              {"coulomb", level},
+                                              {"static", level + 5},
+                                              {"stribeck_velocity", 0.05}};
+    for (const auto& [name, value] : truth) {
+      const EstimatedParameter& found = *apart.estimate.Find(name);
+      EXPECT_NEAR(found.value, value, 4 * *found.std) << name;
+    }
+  }
+}
+
 TEST(Remedies, AgainstDirectionOfABristle) {
   const FrictionDescription joint = test::TwoLevelLuGreJoint();
   const Measurements m =
