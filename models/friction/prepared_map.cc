@@ -19,6 +19,26 @@ constexpr int kFew = 8;
 
 using Numbers = Eigen::Map<const Eigen::VectorXd>;
 
+/// All kernels of a short even segment beyond its ends, seen from the nearer one: one exponential.
+/// place: from the first centre, in spacings.
+template <typename Segment>
+void KernelsFromEnd(const Segment& segment, double place, bool normalised, ActiveKernels& active) {
+  const int n = segment.size(), last = n - 1;
+  const bool above = place > 0;
+  const double distance = (above ? place - last : -place) * segment.ratio;
+  const double fall = std::exp(-distance * segment.ratio);
+  double kernel = normalised ? 1.0 : std::exp(-distance * distance / 2), sum = 0;
+  for (int i = 0; i < n; ++i, kernel *= fall) {
+    const double value = kernel * segment.bell[static_cast<size_t>(i)];
+    active.value[static_cast<size_t>(above ? last - i : i)] = value;
+    sum += value;
+  }
+  active.first = segment.row;
+  active.count = n;
+  active.begin = 0;
+  active.sum = normalised ? sum : 1;
+}
+
 }  // namespace
 
 PreparedAxis::PreparedAxis(const GaussianAxis& axis, KernelKind kind) : axis_(axis), kind_(kind) {
@@ -120,7 +140,7 @@ bool PreparedAxis::TabledKernels(const Segment& segment, double x, ActiveKernels
 }
 
 /// Kernels of an even grid, as many at every x, so that no branch depends on it; false, and
-/// nothing done, more than half a spacing outside of the grid.
+/// nothing done, more than half a spacing outside of a grid that is not short.
 bool PreparedAxis::EvenKernels(const Segment& segment, double x, ActiveKernels& active) const {
   double offset = x - axis_.centres[segment.begin];
   const bool circle = axis_.period.has_value();
@@ -128,19 +148,23 @@ bool PreparedAxis::EvenKernels(const Segment& segment, double x, ActiveKernels& 
     offset -= *axis_.period * std::floor(offset / *axis_.period);
   }
   const double place = offset * segment.per_spacing;
-  if (!(place >= -0.5 && place < segment.size() - 0.5 + circle)) return false;
+  const bool normalised = kind_ == KernelKind::normalised;
+  const bool all = segment.pad < segment.reach();
+  if (!(place >= -0.5 && place < segment.size() - 0.5 + circle)) {
+    if (circle || !all) return false;
+    KernelsFromEnd(segment, place, normalised, active);
+    return true;
+  }
 
   // the nearest centre, and the distance from it in widths
   const int centre = static_cast<int>(place + 0.5);
   const double distance = (place - centre) * segment.ratio;
   const int reach = segment.reach();
-  const bool all = segment.pad < reach;
   active.first = all ? segment.row : segment.row + centre - reach;
   active.count = all ? segment.size() : 2 * reach + 1;
   active.begin = all ? reach - centre : 0;
 
   // its neighbours up and down; places without a centre meet weights of 0
-  const bool normalised = kind_ == KernelKind::normalised;
   const double up = std::exp(distance * segment.ratio);
   const double down = 1 / up;
   const double* bell = segment.bell.data();

@@ -54,27 +54,32 @@ void BristleTree::Step(const mjData* d, const LevelSource& levels, Rows rows, si
 /// Moves the bristles, and counts the joints that are so slow that theirs could stop them. That guess
 /// decides which way is tried first, and nothing else.
 double BristleTree::Stretch(const mjData* d, Rows rows) {
-  const double* inverse = d->qLDiagInv + inertia_.first();
-  Two slow{0, 0};
-  for (size_t k = 0; 2 * k < size(); ++k) {
+  const double *inverse = d->qLDiagInv + inertia_.first(), per_speed = impulse_;
+  const size_t rows_count = size();
+  const Two* const present = present_.data();
+  Two *const mobilities = mobility_.data(), slow{0, 0};
+  for (size_t k = 0; 2 * k < rows_count; ++k) {
     const RowPair row = rows.pair(k);
-    const Two impulse = impulse_ * row[kSpeed];
+    const Two impulse = per_speed * row[kSpeed];
     row[kStretch] = row[kLoad] * row[kPerInertia] + impulse;
-    const Two mobility{inverse[2 * k], 2 * k + 1 < size() ? inverse[2 * k + 1] : 0};
+    const Two mobility{inverse[2 * k], 2 * k + 1 < rows_count ? inverse[2 * k + 1] : 0};
     const Two slack = mobility * row[kUpper].max(row[kLower]) - impulse.abs();
-    slow += WhereNegative(slack, Two::Zero(), present_[k]);
-    mobility_[k] = mobility;
+    slow += WhereNegative(slack, Two::Zero(), present[k]);
+    mobilities[k] = mobility;
   }
   return slow[0] + slow[1];
 }
 
 /// The forces of bristles that hold everything, without and with their dampers.
 void BristleTree::Multiply(const mjData* d, Rows rows) {
-  for (size_t k = 0; 2 * k < size(); ++k) {
+  const size_t pairs = present_.size();
+  const double damping = damping_;
+  Two* const pair = pair_.data();
+  for (size_t k = 0; k < pairs; ++k) {
     const RowPair row = rows.pair(k);
-    const Two stretch = row[kStretch], damped = stretch + damping_ * row[kSpeed];
-    pair_[2 * k] = {stretch[0], damped[0]};
-    pair_[2 * k + 1] = {stretch[1], damped[1]};
+    const Two stretch = row[kStretch], damped = stretch + damping * row[kSpeed];
+    pair[2 * k] = {stretch[0], damped[0]};
+    pair[2 * k + 1] = {stretch[1], damped[1]};
   }
   inertia_.Multiply(d, pair_.data(), force_.data());
 }
@@ -86,10 +91,12 @@ bool BristleTree::Hold(Rows rows) {
     levels_.Of(i, side);
     if (side * force_[i][1] < 0) levels_.Of(i, -side);
   }
+  const size_t pairs = present_.size();
+  const Two* const force = force_.data();
   Two within{0, 0};
-  for (size_t k = 0; 2 * k < size(); ++k) {
+  for (size_t k = 0; k < pairs; ++k) {
     const RowPair row = rows.pair(k);
-    const Two one = force_[2 * k], other = force_[2 * k + 1];
+    const Two one = force[2 * k], other = force[2 * k + 1];
     const Two elastic{one[0], other[0]}, friction{one[1], other[1]};
     const Two below = row[kUpper] - elastic.max(friction);
     within = within.min(below).min(row[kLower] + elastic.min(friction));
@@ -103,13 +110,17 @@ bool BristleTree::Hold(Rows rows) {
 /// Sets every joint's side and the level there; returns the row that is the likeliest to be held.
 int BristleTree::TakeSides(Rows rows) {
   for (const int i : levels_.asking()) levels_.Of(i, rows.row(i)[kStretch] < 0 ? -1 : 1);
-  Two least{0, 0}, likely{0, 1}, place{0, 1};
-  for (size_t k = 0; 2 * k < size(); ++k, place += 2) {
+  const size_t pairs = present_.size();
+  const double impulse = impulse_;
+  const Two *const presents = present_.data(), *const mobility = mobility_.data();
+  Two *const sides = side_.data(), least{0, 0}, likely{0, 1}, place{0, 1};
+  for (size_t k = 0; k < pairs; ++k, place += 2) {
     const RowPair row = rows.pair(k);
-    const Two stretch = row[kStretch], present = present_[k];
-    side_[k] = WhereNegative(stretch, -present, present);
-    const Two level = row[kFriction] = WhereNegative(stretch, -row[kLower], row[kUpper]);
-    const Two left = (impulse_ * row[kSpeed]).abs() - mobility_[k] * level.abs();
+    const Two stretch = row[kStretch], present = presents[k];
+    sides[k] = WhereNegative(stretch, -present, present);
+    const Two level = WhereNegative(stretch, -row[kLower], row[kUpper]);
+    row[kFriction] = level;
+    const Two left = (impulse * row[kSpeed]).abs() - mobility[k] * level.abs();
     likely = WhereNegative(left - least, place, likely);
     least = left.min(least);
   }
@@ -121,14 +132,17 @@ int BristleTree::TakeSides(Rows rows) {
 /// carry their levels, and the damper is on the side of the motion.
 bool BristleTree::Slide(const mjData* d, Rows rows) {
   few_.Start(inertia_, d, rows, TakeSides(rows));
-  Two least{0, 0};
-  for (size_t k = 0; 2 * k < size(); ++k) {
+  const size_t pairs = present_.size();
+  const Two *const present = present_.data(), *const sides = side_.data();
+  Two *const start = start_.data(), least{0, 0};
+  for (size_t k = 0; k < pairs; ++k) {
     const RowPair row = rows.pair(k);
     const Two bearing = few_.bearing(k), slip = row[kStretch] - bearing, v = row[kSpeed];
-    least = least.min(side_[k] * slip).min(side_[k] * v);
+    const Two side = sides[k];
+    least = least.min(side * slip).min(side * v);
     row[kLoad] = bearing * row[kInertia];
-    row[kSliding] = WhereNegative(-v.abs(), present_[k], Two::Zero());
-    start_[k] = slip;
+    row[kSliding] = WhereNegative(-v.abs(), present[k], Two::Zero());
+    start[k] = slip;
   }
   return NoneNegative(least) || SlideButFew(d, rows);
 }
@@ -137,12 +151,17 @@ bool BristleTree::SlideButFew(const mjData* d, Rows rows) {
   if (!few_.Find(inertia_, d, levels_, side_.data(), start_.data(), slip_.data())) return false;
 
   // then the damper, from where the bristles are now
-  for (size_t k = 0; 2 * k < size(); ++k) {
+  const size_t pairs = present_.size();
+  const double damping = damping_;
+  const Two *const present = present_.data(), *const sides = side_.data();
+  const Two* const slips = slip_.data();
+  Two* const start = start_.data();
+  for (size_t k = 0; k < pairs; ++k) {
     const RowPair row = rows.pair(k);
-    const Two slip = slip_[k], v = row[kSpeed];
+    const Two slip = slips[k], v = row[kSpeed];
     row[kLoad] = (row[kStretch] - slip) * row[kInertia];
-    row[kSliding] = WhereNegative(-side_[k] * v, present_[k], Two::Zero());
-    start_[k] += damping_ * v - slip;
+    row[kSliding] = WhereNegative(-sides[k] * v, present[k], Two::Zero());
+    start[k] += damping * v - slip;
   }
   few_.TellSliding(rows);
   if (!few_.Find(inertia_, d, levels_, side_.data(), start_.data(), slip_.data())) return false;

@@ -18,12 +18,14 @@ FewHeld::FewHeld(size_t size) : pairs_((size + 1) / 2) {
 }
 
 void FewHeld::Start(const InertiaBlock& inertia, const mjData* d, Rows rows, int likely) {
-  for (size_t k = 0; k < pairs_; ++k) {
+  const size_t pairs = pairs_;
+  Two* const solved = solved_.data();
+  for (size_t k = 0; k < pairs; ++k) {
     const Two level = rows.pair(k)[kFriction];
-    solved_[2 * k] = {level[0], 0};
-    solved_[2 * k + 1] = {level[1], 0};
+    solved[2 * k] = {level[0], 0};
+    solved[2 * k + 1] = {level[1], 0};
   }
-  solved_[likely][1] = 1;
+  solved[likely][1] = 1;
   inertia.Solve(d, solved_.data());
   apart_count_ = column_count_ = 0;
   missing_ = false;
@@ -99,9 +101,11 @@ bool FewHeld::FindColumns(const InertiaBlock& inertia, const mjData* d) {
 }
 
 void FewHeld::KeepColumn(int joint, int lane) {
-  Two* const column = columns_.data() + column_count_ * pairs_;
-  for (size_t k = 0; k < pairs_; ++k) {
-    column[k] = {solved_[2 * k][lane], solved_[2 * k + 1][lane]};
+  const size_t pairs = pairs_;
+  const Two* const solved = solved_.data();
+  Two* const column = columns_.data() + column_count_ * pairs;
+  for (size_t k = 0; k < pairs; ++k) {
+    column[k] = {solved[2 * k][lane], solved[2 * k + 1][lane]};
   }
   column_of_[column_count_++] = joint;
 }
@@ -148,20 +152,23 @@ void FewHeld::FindLack(const Two* start) {
 /// held slide to their sides, and no held force is out of its bounds.
 bool FewHeld::Slip(const Two* side, const Two* start, Two* slip) const {
   bool right = true;
+  const size_t pairs = pairs_;
+  const int count = apart_count_;
   const Two* from = start;
-  for (int n = 0; n < apart_count_; ++n, from = slip) {
+  for (int n = 0; n < count; ++n, from = slip) {
     const Apart& apart = apart_[n];
     const Two* const column = ColumnOf(apart);
-    for (size_t k = 0; k < pairs_; ++k) slip[k] = from[k] + apart.lack * column[k];
+    const double lack = apart.lack;
+    for (size_t k = 0; k < pairs; ++k) slip[k] = from[k] + lack * column[k];
     right = right && apart.held && apart.within();
   }
-  if (apart_count_ == 0) std::copy_n(start, pairs_, slip);
-  for (int n = 0; n < apart_count_; ++n) {
+  if (count == 0) std::copy_n(start, pairs, slip);
+  for (int n = 0; n < count; ++n) {
     const int joint = apart_[n].joint;
     if (apart_[n].held) slip[joint / 2][joint % 2] = 0;
   }
   Two least{0, 0};
-  for (size_t k = 0; k < pairs_; ++k) least = least.min(side[k] * slip[k]);
+  for (size_t k = 0; k < pairs; ++k) least = least.min(side[k] * slip[k]);
   return right && NoneNegative(least);
 }
 
