@@ -7,13 +7,18 @@
 namespace warmjoint::inline identification {
 namespace {
 
+constexpr double kNarrowest = 0.7;  // of the kernels, spacings
+
 GaussianAxis TwiceAsFine(const GaussianAxis& axis) {
   const std::vector<double>& centres = axis.centres;
   if (centres.size() < 2) return axis;
   const auto count = static_cast<int>(std::min(2 * centres.size(), kMostMapCentres));
   GaussianAxis finer = axis.period ? CircleAxis(*axis.period, count)
                                    : EvenAxis(centres.front(), centres.back(), count);
-  finer.width = axis.width * (finer.centres[1] - finer.centres[0]) / (centres[1] - centres[0]);
+  // where there are no more, half as wide, but not so narrow that holes are left between them
+  const double spacing = finer.width;
+  const double as_wide = axis.width * spacing / (centres[1] - centres[0]);
+  finer.width = std::min(as_wide, std::max(axis.width / 2, kNarrowest * spacing));
   return finer;
 }
 

@@ -14,22 +14,34 @@ namespace {
 
 using Eigen::Index;
 
-constexpr Index kEnough = 1000;  // samples that tell a mean over places
+constexpr Index kEnough = 1000;   // samples that tell a mean over places
+constexpr double kShare = 0.1;    // of the samples, those nearest to a speed
+constexpr double kAlike = 0.001;  // speeds that are one
 constexpr int kVelocity = static_cast<int>(MapQuantity::velocity);
 
-/// Every so manieth of the points that move.
-MapPoints Some(const MapPoints& kept) {
+/// Those of the points that move.
+MapPoints Moving(const MapPoints& kept) {
   std::vector<Index> moving;
   for (Index i = 0; i < kept.rows(); ++i) {
     if (kept(i, kVelocity) != 0) moving.push_back(i);
   }
-  const auto all = static_cast<Index>(moving.size());
-  const Index some = std::min(all, kEnough);
-  MapPoints points(some, 5);
-  for (Index i = 0; i < some; ++i) {
-    points.row(i) = kept.row(moving[static_cast<size_t>(i * all / some)]);
+  return kept(moving, Eigen::all);
+}
+
+/// The tenth of the points that move with the speed nearest to u and those as near, or every so manieth of them.
+MapPoints AtSpeed(double u, const MapPoints& points) {
+  const Eigen::VectorXd away = (points.col(kVelocity).cwiseAbs().array() - u).abs();
+  Eigen::VectorXd sorted = away;
+  const double reach = std::max(QuantileInPlace(sorted, kShare), kAlike * u);
+  std::vector<Index> near;
+  for (Index i = 0; i < away.size(); ++i) {
+    if (away[i] <= reach) near.push_back(i);
   }
-  return points;
+  const auto all = static_cast<Index>(near.size());
+  const Index some = std::min(all, kEnough);
+  std::vector<Index> chosen;
+  for (Index i = 0; i < some; ++i) chosen.push_back(near[static_cast<size_t>(i * all / some)]);
+  return points(chosen, Eigen::all);
 }
 
 /// a of the mean at one speed. [p + q]
@@ -49,7 +61,7 @@ Eigen::RowVectorXd MeanAt(double speed, const Law& law, const MapFit& fit, MapPo
 
 std::vector<FrictionAtSpeed> FrictionAtSpeeds(const Law& law, const MapFit& fit,
                                               const Uncertainty& known, const MapPoints& kept) {
-  const MapPoints points = Some(kept);
+  const MapPoints points = Moving(kept);
   if (points.rows() == 0) return {};
   Eigen::VectorXd speeds = points.col(kVelocity).cwiseAbs();
   const double lowest = speeds.minCoeff(), highest = speeds.maxCoeff();
@@ -59,8 +71,8 @@ std::vector<FrictionAtSpeed> FrictionAtSpeeds(const Law& law, const MapFit& fit,
   std::vector<FrictionAtSpeed> all;
   for (const double speed : {lowest, median, highest}) {
     // a joint that knows one speed has one figure
-    if (!all.empty() && !(speed > 1.001 * all.back().speed)) continue;
-    const Eigen::RowVectorXd row = MeanAt(speed, law, fit, points);
+    if (!all.empty() && !(speed > (1 + kAlike) * all.back().speed)) continue;
+    const Eigen::RowVectorXd row = MeanAt(speed, law, fit, AtSpeed(speed, points));
     const double value = row * fit.x;
     const double deviation = std::sqrt(std::max(0.0, double(row * covariance * row.transpose())));
     all.push_back(

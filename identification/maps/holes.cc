@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
+#include "identification/maps/nearest_kernel.h"
 #include "models/foundation/robust_noise.h"
 #include "models/friction/joint_kind.h"
 
@@ -43,27 +43,6 @@ std::optional<size_t> NextSeen(const Lines& lines, const std::vector<bool>& unse
   return std::nullopt;
 }
 
-/// The kernel whose centre is nearest to a sample.
-Index NearestKernel(const FrictionMap& map, const MapPoints& points, Index sample) {
-  size_t kernel = 0;
-  for (const MapAxis& axis : map.axes) {
-    const std::vector<double>& centres = axis.kernels.centres;
-    const double x = points(sample, static_cast<Index>(axis.quantity));
-    size_t nearest = 0;
-    double least = std::numeric_limits<double>::infinity();
-    for (size_t c = 0; c < centres.size(); ++c) {
-      double away = std::abs(x - centres[c]);
-      if (axis.kernels.period) away = std::abs(std::remainder(away, *axis.kernels.period));
-      const bool other_side = axis.kernels.sides == Sides::apart && x * centres[c] < 0;
-      if (other_side || away >= least) continue;
-      least = away;
-      nearest = c;
-    }
-    kernel = kernel * centres.size() + nearest;
-  }
-  return static_cast<Index>(kernel);
-}
-
 double MeanOfSeen(size_t first, size_t size, const std::vector<bool>& unseen,
                   const Eigen::VectorXd& weights) {
   double sum = 0, count = 0;
@@ -81,25 +60,32 @@ struct Hole {
   std::string words;
 };
 
-/// "backwards", "forwards", or nothing where the map does not tell the directions apart.
-std::string DirectionOf(const FrictionMap& map, size_t line) {
-  for (size_t a = map.axes.size(); a-- > 1;) {
-    const std::vector<double>& centres = map.axes[a].kernels.centres;
-    const double centre = centres[line % centres.size()];
-    line /= centres.size();
-    if (map.axes[a].quantity != MapQuantity::velocity) continue;
-    const char* way = centre < 0 ? "backwards" : "forwards";
-    return centres.size() > 2 ? fmt::format(" {} at {:.3g}", way, std::abs(centre))
-                              : fmt::format(" {}", way);
-  }
-  return "";
-}
-
 std::string_view UnitOf(MapQuantity quantity, JointKind joint) {
   if (quantity == MapQuantity::position) return kPositionUnit.For(joint);
   if (quantity == MapQuantity::motor_position) return "rad";
   if (quantity == MapQuantity::velocity) return kVelocityUnit.For(joint);
   return kTorqueUnit.For(joint);
+}
+
+/// Where a line of a map lies: " backwards", " forwards at 0.5", " at energy -2 N.m", ..., or nothing where the map has one line.
+std::string LineOf(const FrictionMap& map, size_t line, JointKind joint) {
+  std::string words;
+  for (size_t a = map.axes.size(); a-- > 1;) {
+    const MapQuantity over = map.axes[a].quantity;
+    const std::vector<double>& centres = map.axes[a].kernels.centres;
+    const double centre = centres[line % centres.size()];
+    line /= centres.size();
+    if (over == MapQuantity::velocity) {
+      const char* way = centre < 0 ? "backwards" : "forwards";
+      words = (centres.size() > 2 ? fmt::format(" {} at {:.3g}", way, std::abs(centre))
+                                  : fmt::format(" {}", way)) +
+              words;
+    } else {
+      words = fmt::format(" at {} {:.3g} {}", MapQuantityName(over), centre, UnitOf(over, joint)) +
+              words;
+    }
+  }
+  return words;
 }
 
 /// The runs of one line of a map.
@@ -113,15 +99,16 @@ void AddHoles(const FrictionMap& map, size_t first, size_t line, const std::vect
     if (!unseen[first + i * lines.stride + line]) continue;
     size_t end = i;
     while (end + 1 < lines.length && unseen[first + (end + 1) * lines.stride + line]) ++end;
-    const bool inside = lines.circular || (i > 0 && end + 1 < lines.length);
-    if (!inside) {
+    // data reach into the half cell at an end of the range
+    const bool at_end = !lines.circular && (i == 0 || end + 1 == lines.length);
+    if (at_end && i == end) {
       i = end;
       continue;
     }
     const double lower = centres[i] - half, upper = centres[end] + half;
     holes.push_back({upper - lower,
                      fmt::format("{} {:.3g} to {:.3g} {}{}", MapQuantityName(axis.quantity), lower,
-                                 upper, UnitOf(axis.quantity, joint), DirectionOf(map, line))});
+                                 upper, UnitOf(axis.quantity, joint), LineOf(map, line, joint))});
     i = end;
   }
 }

@@ -36,7 +36,7 @@ std::vector<double> DoubtOfHoles(const FrictionMap& map, size_t first,
                                  const std::vector<bool>& unseen, const Eigen::VectorXd& weights);
 
 /// "position 0.015 to 0.027 m backwards": the runs of unseen kernels of all maps along their first
-/// axis with seen ones on both sides, the widest three.
+/// axis, but for single ones at an end of the range, where data reach into the half cell; the widest three.
 std::vector<std::string> NameHoles(const std::vector<FrictionMap>& maps,
                                    const std::vector<bool>& unseen, JointKind joint);
 

@@ -13,6 +13,7 @@
 #include "identification/maps/finer_maps.h"
 #include "identification/maps/friction_at_speeds.h"
 #include "identification/maps/holes.h"
+#include "identification/maps/imitated_columns.h"
 #include "identification/maps/make_bands.h"
 #include "models/friction/sign.h"
 
@@ -59,7 +60,7 @@ std::string ShapeOf(const std::vector<FrictionMap>& maps) {
 void AddLaw(const Law& law, const MapFit& maps, const Measurements& measurements, Fit& fit) {
   fit.parameters = LawParameters(law, maps.x.head(maps.free), measurements);
   std::vector<std::string> imitated;
-  for (const Eigen::Index i : ImitatedColumns(maps)) {
+  for (const Eigen::Index i : ImitatedColumns(maps.gram, maps.free)) {
     if (i >= static_cast<Eigen::Index>(law.parameters.size())) continue;
     FitParameter& parameter = fit.parameters[static_cast<size_t>(i)];
     parameter.has_interval = false;

@@ -5,6 +5,7 @@
 
 #include "identification/linear/linear_laws.h"
 #include "identification/maps/holes.h"
+#include "identification/maps/nearest_kernel.h"
 #include "identification/ridge/local_rows.h"
 #include "identification/uncertainty/tails.h"
 #include "models/foundation/robust_noise.h"
@@ -25,17 +26,30 @@ bool IsAlikeBothWays(const FrictionMap& map) {
          });
 }
 
-/// The map's centres, the last axis the fastest, as places at `speed` where it has no velocity.
-MapPoints Places(const FrictionMap& map, double speed, MapBand& band) {
+/// Whether the map tells the directions of motion apart and nothing else of the velocity.
+bool IsByDirection(const FrictionMap& map) {
+  const MapAxis* axis = FindAxis(map, MapQuantity::velocity);
+  return axis && axis->kernels.sides == Sides::apart && axis->kernels.size() == 2;
+}
+
+/// The map's centres, the last axis the fastest, as places at `speed` where it has no velocity, and at
+/// the speed of the samples there where it has but a direction.
+MapPoints Places(const FrictionMap& map, double speed, const MapPoints& kept, MapBand& band) {
   const auto count = static_cast<Index>(map.size());
   MapPoints places = MapPoints::Zero(count, 5);
   places.col(kVelocity).setConstant(speed);
+  std::vector<std::optional<double>> speeds;
+  if (IsByDirection(map)) speeds = SpeedsAtKernels(map, kept);
   for (Index i = 0; i < count; ++i) {
     std::vector<double> centre(map.axes.size());
     auto rest = static_cast<size_t>(i);
     for (size_t a = map.axes.size(); a-- > 0;) {
       const std::vector<double>& centres = map.axes[a].kernels.centres;
       centre[a] = centres[rest % centres.size()];
+      const bool moved = !speeds.empty() && speeds[static_cast<size_t>(i)];
+      if (moved && map.axes[a].quantity == MapQuantity::velocity) {
+        centre[a] = std::copysign(*speeds[static_cast<size_t>(i)], centre[a]);
+      }
       places(i, static_cast<int>(map.axes[a].quantity)) = centre[a];
       rest /= centres.size();
     }
@@ -93,17 +107,19 @@ double ShareOfUnseen(const Eigen::RowVectorXd& row, const MapFit& fit) {
   return share;
 }
 
-/// Squares averaged with those of both neighbours along a map's first axis, 1 : 2 : 1.
+/// Squares averaged with those of the neighbours along a map's first axis, 1 : 2 : 3 : 2 : 1.
 Eigen::VectorXd AlongFirstAxis(const FrictionMap& map, const Eigen::VectorXd& squares) {
   const auto length = static_cast<Index>(map.axes[0].kernels.centres.size());
   const Index stride = squares.size() / length;
   Eigen::VectorXd mean(squares.size());
   for (Index i = 0; i < squares.size(); ++i) {
-    double sum = 2 * squares[i], count = 2;
-    for (const Index j : {i - stride, i + stride}) {
-      if (j < 0 || j >= squares.size()) continue;
-      sum += squares[j];
-      ++count;
+    double sum = 3 * squares[i], count = 3;
+    for (const Index away : {1, 2}) {
+      for (const Index j : {i - away * stride, i + away * stride}) {
+        if (j < 0 || j >= squares.size()) continue;
+        sum += static_cast<double>(3 - away) * squares[j];
+        count += static_cast<double>(3 - away);
+      }
     }
     mean[i] = sum / count;
   }
@@ -123,7 +139,7 @@ std::vector<MapBand> MakeBands(const Law& law, const MapFit& fit, const Uncertai
   for (size_t which = 0; which < fit.maps.size(); ++which) {
     const FrictionMap& map = fit.maps[which];
     MapBand& band = bands.emplace_back();
-    const MapPoints places = Places(map, speed, band);
+    const MapPoints places = Places(map, speed, kept, band);
     const Eigen::MatrixXd rows = RowsAt(law, fit, which, places, kept);
     const Eigen::VectorXd value = rows * fit.x;
     Eigen::VectorXd variance = (rows * covariance).cwiseProduct(rows).rowwise().sum().cwiseMax(0);

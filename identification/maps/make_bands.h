@@ -9,15 +9,16 @@ namespace warmjoint::inline identification {
 
 /// One band for each map: law and all maps together at the map's centres, with 95 % for each place
 /// by itself. Law and maps share constants that a prior alone splits, so that neither is known as
-/// well as their sum is. A place is at the speed of its centre or, where the map has no axis of
-/// velocity, at the median speed forwards; the other maps count with their mean over the samples of
+/// well as their sum is. A place is at the speed of its centre; where the map tells of the velocity but its direction, at
+/// the median speed of the samples there, for at another one the law alone speaks, which the samples of one place cannot
+/// tell from the map; where it has no axis of velocity, at the median speed forwards. The other maps count with their mean over the samples of
 /// that direction. A map that is alike in both directions stands alone: no law imitates it. The
 /// warming E is left out. Where a kernel has no data (MapFit::unseen), the spread of the seen ones joins
 /// its deviation.
 /// finer: the same fit with twice the kernels (finer_maps.h), or nothing. What kernels cannot follow
 /// is no noise and in no covariance; where twice as many follow more, the difference f - f2 shows it:
 ///     E (f - f2)^2 = bias^2 + var f2 - var f
-/// for nested fits, so that var f + (f - f2)^2, averaged over the neighbours along the first axis, is
+/// for nested fits, so that var f + (f - f2)^2, averaged over two neighbours on each side along the first axis, is
 /// about bias^2 + var f2: never less than the finer fit errs, which has a bias of its own.
 /// known: about law, weights and maybe more; kept: [n x 5] points of the fit.
 std::vector<MapBand> MakeBands(const Law& law, const MapFit& fit, const Uncertainty& known,

@@ -1,9 +1,11 @@
 #include "identification/maps/map_choice.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "identification/maps/imitated_columns.h"
 #include "identification/ridge/local_ridge.h"
 
 namespace warmjoint::inline identification {
@@ -74,12 +76,36 @@ std::vector<NormalEquations> Folds(const MapProblem& problem, int folds) {
   return parts;
 }
 
+/// What kernels can imitate of the law, at the law's own least squares: a prior alone would share it out anew in
+/// each part, and weak ones let it run far off.
+struct HeldLaw {
+  std::vector<Eigen::Index> columns;
+  Eigen::VectorXd values;
+  std::vector<double> lower;  // of the other parameters without a prior
+
+  HeldLaw(const NormalEquations& all, Eigen::Index free, const std::vector<double>& bounds)
+      : columns(ImitatedLaw(all.gram, free, bounds)), lower(bounds) {
+    const Eigen::VectorXd law =
+        all.gram.topLeftCorner(free, free).ldlt().solve(all.product.head(free));
+    values = law(columns);
+    for (size_t i = columns.size(); i-- > 0;) {
+      const auto j = static_cast<size_t>(columns[i]);
+      double& value = values[static_cast<Eigen::Index>(i)];
+      value = std::max(value, bounds[j]);
+      lower.erase(lower.begin() + columns[i]);
+    }
+  }
+};
+
 /// The trials of problem.maps by cross validation, the strongest prior last.
 void AddTrials(const MapProblem& problem, size_t candidate, int folds, std::vector<Trial>& trials) {
-  const Eigen::Index free = problem.free.cols();
-  const std::vector<NormalEquations> parts = Folds(problem, folds);
+  std::vector<NormalEquations> parts = Folds(problem, folds);
   NormalEquations all = parts[0];
   for (size_t i = 1; i < parts.size(); ++i) all = all.Plus(parts[i]);
+  const HeldLaw held(all, problem.free.cols(), problem.lower);
+  const Eigen::Index free = problem.free.cols() - held.values.size();
+  for (NormalEquations& part : parts) part = part.Holding(held.columns, held.values);
+  all = all.Holding(held.columns, held.values);
   const std::vector<double> strengths = Strengths(all, free);
   const Eigen::MatrixXd squares = HeldOutSquares(parts, free, strengths);
   LocalRidge whole(all, free);
@@ -87,9 +113,22 @@ void AddTrials(const MapProblem& problem, size_t candidate, int folds, std::vect
     const Eigen::ArrayXd row = squares.row(static_cast<Eigen::Index>(i));
     if (!row.allFinite()) continue;
     trials.push_back({candidate, strengths[i], KernelCount(problem.maps),
-                      IsPossible(whole, strengths[i], problem.lower), row});
+                      IsPossible(whole, strengths[i], held.lower), row});
   }
 }
+
+/// Kernels of the finest candidates, and of the next finest ones; 0 where there are none.
+struct Finest {
+  Eigen::Index kernels = 0, next = 0;
+
+  explicit Finest(const std::vector<std::vector<FrictionMap>>& candidates) {
+    for (const auto& maps : candidates) kernels = std::max(kernels, KernelCount(maps));
+    for (const auto& maps : candidates) {
+      const Eigen::Index count = KernelCount(maps);
+      if (count < kernels) next = std::max(next, count);
+    }
+  }
+};
 
 ChosenMaps Nothing() { return {0, 0, std::numeric_limits<double>::infinity()}; }
 
@@ -150,9 +189,12 @@ ChosenMaps ChooseMaps(MapProblem problem, const std::vector<std::vector<Friction
                       StrengthRule rule, int folds) {
   std::vector<Trial> trials;
   ChosenMaps best = Nothing();
+  const Finest finest(candidates);
   for (size_t i = 0; i < candidates.size(); ++i) {
     problem.maps = candidates[i];
     if (rule == StrengthRule::cross_validation) {
+      const bool dear = KernelCount(candidates[i]) == finest.kernels && !trials.empty();
+      if (dear && LeastError(trials).kernels < finest.next) continue;
       AddTrials(problem, i, folds, trials);
       continue;
     }

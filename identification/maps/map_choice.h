@@ -23,12 +23,14 @@ struct ChosenMaps {
 ///
 /// Cross validation takes the fewest kernels and then the strongest prior that are as good as the
 /// best within one standard error of the parts' differences (Breiman and others 1984, 3.4.3). And
-/// it takes only what leaves the parameters above problem.lower, where anything does: a motion that
+/// it takes only what leaves the parameters above problem.lower, where anything does. What the kernels
+/// can imitate of the law is held at the law's own least squares meanwhile: a motion that
 /// repeats itself, so that in both directions each position has its one speed, hides in every part
-/// what a weak prior does to columns that kernels can imitate. Large weights then cancel against a
-/// parameter of the wrong sign, and what is fitted is how the controller answers to small errors of
+/// what a weak prior does to such columns. Large weights would cancel against a
+/// parameter of the wrong sign, and what is fitted would be how the controller answers to small errors of
 /// the speed.
-/// problem.maps is not read. candidates: at least one; folds: contiguous parts of the kept samples
+/// The candidates with the most kernels, which cost the most, are tried only where the next finest are the best of the others.
+/// problem.maps is not read. candidates: at least one, by their number of kernels; folds: contiguous parts of the kept samples
 /// for cross validation; with maps over the energy eight shorter ones make a fold, since a joint
 /// warms up but once and one part alone has seen it cold. Neighbours resemble each other, so that
 /// leaving out one sample or the evidence of white noise take coloured noise for friction: cross

@@ -5,24 +5,14 @@
 #include <cmath>
 
 #include "identification/maps/holes.h"
+#include "identification/maps/imitated_columns.h"
 #include "identification/ridge/local_ridge.h"
 #include "identification/uncertainty/penalised_uncertainty.h"
 
 namespace warmjoint::inline identification {
 namespace {
 
-constexpr double kImitated = 1e-3;  // share of a column's squares
-constexpr double kChance = 6.63;    // chi-squared of one degree of freedom, 1 %
-
-/// x and inverse of gram x = product; false where it is singular.
-bool Solve(const Eigen::MatrixXd& gram, const Eigen::VectorXd& product, MapFit& fit) {
-  const Eigen::LLT<Eigen::MatrixXd> factors(gram);
-  if (factors.info() != Eigen::Success) return false;
-  const Eigen::Index d = product.size();
-  fit.inverse = factors.solve(Eigen::MatrixXd::Identity(d, d));
-  fit.x = factors.solve(product);
-  return fit.x.allFinite();
-}
+constexpr double kChance = 6.63;  // chi-squared of one degree of freedom, 1 %
 
 /// Mean square of the residual, (N.m)^2 or N^2.
 double MeanSquare(const NormalEquations& normal, const Eigen::VectorXd& x, Eigen::Index samples) {
@@ -30,37 +20,79 @@ double MeanSquare(const NormalEquations& normal, const Eigen::VectorXd& x, Eigen
   return std::max(sum, 0.0) / static_cast<double>(samples);
 }
 
-/// Whether one of the free parameters lies below its bound.
-bool LiesBelow(const std::vector<double>& lower, const Eigen::VectorXd& x) {
-  for (size_t j = 0; j < lower.size(); ++j) {
-    if (x[static_cast<Eigen::Index>(j)] < lower[j]) return true;
-  }
-  return false;
-}
+/// Linear conditions on the unknowns: rows x = values.
+struct Conditions {
+  Eigen::MatrixXd rows;    // [k x d], independent of each other
+  Eigen::VectorXd values;  // [k]
+};
 
-/// Puts a parameter of the law that lies below its bound onto it where that costs less than noise does and the
-/// kernels take up the difference: how a constant is shared out between law and maps is the prior's taste
-/// alone. All others stay where the data put them. gram: normal's with the prior.
-void HoldAtBounds(const MapProblem& problem, const NormalEquations& normal, Eigen::MatrixXd gram,
-                  MapFit& fit) {
-  if (!LiesBelow(problem.lower, fit.x)) return;
-  const double noise = MeanSquare(normal, fit.x, problem.torque.size());
-  Eigen::VectorXd product = normal.product;
-  for (const Eigen::Index j : ImitatedColumns(fit)) {
-    const double bound = problem.lower[static_cast<size_t>(j)], below = bound - fit.x[j];
-    const bool cheap = below * below <= kChance * noise * fit.inverse(j, j);
-    if (!(below > 0) || !cheap) continue;
-    product -= bound * gram.col(j);
-    product[j] = bound;
-    gram.row(j).setZero();
-    gram.col(j).setZero();
-    gram(j, j) = 1;
-    MapFit held = fit;
-    if (!Solve(gram, product, held)) return;
-    fit = held;
-    fit.inverse.row(j).setZero();
-    fit.inverse.col(j).setZero();
+/// gram x = product under conditions, by the projection onto what they leave.
+class Conditioned {
+ public:
+  Conditioned(const Eigen::MatrixXd& gram, Conditions conditions)
+      : conditions_(std::move(conditions)), firm_(gram.diagonal().mean()), held_(gram) {
+    const Eigen::MatrixXd& rows = conditions_.rows;
+    if (rows.rows() == 0) return;
+    // what the conditions fix gets a firm diagonal, which changes nothing where they hold
+    held_.compute(gram + firm_ * rows.transpose() * rows);
+    along_ = held_.solve(rows.transpose());
+    small_.compute(rows * along_);
   }
+  bool works() const { return held_.info() == Eigen::Success; }
+
+  Eigen::VectorXd Solve(const Eigen::VectorXd& product) const {
+    const auto& [rows, values] = conditions_;
+    if (rows.rows() == 0) return held_.solve(product);
+    const Eigen::VectorXd x = held_.solve(product + firm_ * rows.transpose() * values);
+    return x - along_ * small_.solve(rows * x - values);
+  }
+
+  /// [d x d] of rank d - k.
+  Eigen::MatrixXd Inverse() const {
+    const Eigen::Index d = held_.rows();
+    const Eigen::MatrixXd whole = held_.solve(Eigen::MatrixXd::Identity(d, d));
+    if (conditions_.rows.rows() == 0) return whole;
+    return whole - along_ * small_.solve(along_.transpose());
+  }
+
+ private:
+  Conditions conditions_;
+  double firm_;
+  Eigen::LLT<Eigen::MatrixXd> held_;
+  Eigen::MatrixXd along_;               // [d x k]
+  Eigen::LDLT<Eigen::MatrixXd> small_;  // [k x k]
+};
+
+/// Shares out what law and maps both can be: see FitMaps. gram: normal's with the prior; plain: solves it.
+Conditions Centre(const MapProblem& problem, const NormalEquations& normal,
+                  const Eigen::MatrixXd& gram, const Conditioned& plain) {
+  const Eigen::Index d = gram.rows(), free = problem.free.cols();
+  const std::vector<Eigen::Index> shared = ImitatedLaw(normal.gram, free, problem.lower);
+  const auto count = static_cast<Eigen::Index>(shared.size());
+  Conditions conditions{Eigen::MatrixXd::Zero(count, d), Eigen::VectorXd::Zero(count)};
+  for (Eigen::Index i = 0; i < count; ++i) {
+    conditions.rows.row(i).tail(d - free) =
+        normal.gram.row(shared[static_cast<size_t>(i)]).tail(d - free).normalized();
+  }
+  if (count == 0) return conditions;
+
+  // a bound costs nothing where the fit without conditions is on its other side, or as far off as noise puts it
+  const Eigen::VectorXd x = plain.Solve(normal.product);
+  const Conditioned centred(gram, conditions);
+  if (!centred.works()) return conditions;
+  const Eigen::VectorXd after = centred.Solve(normal.product);
+  const double noise = MeanSquare(normal, x, problem.torque.size());
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Eigen::Index j = shared[static_cast<size_t>(i)];
+    const double bound = problem.lower[static_cast<size_t>(j)];
+    if (after[j] >= bound) continue;
+    const double below = std::max(0.0, bound - x[j]);
+    const double variance = noise * plain.Solve(Eigen::VectorXd::Unit(d, j))[j];
+    if (below * below > kChance * variance) continue;
+    conditions.rows.row(i) = Eigen::RowVectorXd::Unit(d, j);
+    conditions.values[i] = bound;
+  }
+  return conditions;
 }
 
 }  // namespace
@@ -83,8 +115,13 @@ std::optional<MapFit> FitMaps(const MapProblem& problem, double strength) {
   const Eigen::Index q = d - fit.free;
   const double pull = PullOver(normal.gram.bottomRightCorner(q, q), fit.unseen, strength);
   gram.bottomRightCorner(q, q) += strength * PriorOf(problem.maps, fit.unseen, pull);
-  if (!std::isfinite(normal.squares) || !Solve(gram, normal.product, fit)) return std::nullopt;
-  HoldAtBounds(problem, normal, gram, fit);
+  const Conditioned plain(gram, {Eigen::MatrixXd(0, d), {}});
+  if (!std::isfinite(normal.squares) || !plain.works()) return std::nullopt;
+  const Conditioned centred(gram, Centre(problem, normal, gram, plain));
+  if (!centred.works()) return std::nullopt;
+  fit.x = centred.Solve(normal.product);
+  if (!fit.x.allFinite()) return std::nullopt;
+  fit.inverse = centred.Inverse();
   fit.effective = fit.inverse.cwiseProduct(fit.gram).sum();
 
   fit.maps = WithWeights(problem.maps, fit.x.tail(d - fit.free));
@@ -112,19 +149,6 @@ Uncertainty JudgeMaps(const MapProblem& problem, const MapFit& fit) {
   };
   return JudgePenalised({fit.gram, fit.inverse, fit.free, fit.x.tail(d - fit.free), fit.strength},
                         rows, problem.torque - fit.fitted, problem.selection);
-}
-
-std::vector<Eigen::Index> ImitatedColumns(const MapFit& fit) {
-  const Eigen::Index q = fit.x.size() - fit.free;
-  EnvelopeCholesky kernels(fit.gram.bottomRightCorner(q, q));
-  std::vector<Eigen::Index> imitated;
-  if (!kernels.Factor(1e-9 * fit.gram.diagonal().tail(q).mean())) return imitated;
-  const Eigen::MatrixXd border = fit.gram.bottomLeftCorner(q, fit.free);
-  const Eigen::VectorXd taken = border.cwiseProduct(kernels.Solve(border)).colwise().sum();
-  for (Eigen::Index j = 0; j < fit.free; ++j) {
-    if (fit.gram(j, j) - taken[j] < kImitated * fit.gram(j, j)) imitated.push_back(j);
-  }
-  return imitated;
 }
 
 Eigen::VectorXd EvaluateMaps(const std::vector<FrictionMap>& maps, const MapPoints& points) {

@@ -36,8 +36,11 @@ struct MapFit {
   std::vector<bool> unseen;       // [q] kernels without data (holes.h)
 };
 
-/// argmin |y - A x|^2 + s w^T P w, P: PriorOf (holes.h), with the law's parameters that kernels can imitate at
-/// or above their bounds. Nothing where the system is singular to rounding or overflows.
+/// argmin |y - A x|^2 + s w^T P w, P: PriorOf (holes.h). How much of a column x_j of the law that kernels can imitate
+/// (imitated_columns.h) stands in the law and how much in the maps is no matter of the data. The maps are what
+/// deviates from the law there, x_j^T (kernels w) = 0 over the samples, as smooth terms of additive models are
+/// centred (Wood 2017, 5.4.1); where that puts the parameter below its bound and the data know no better, it is held
+/// there. Nothing where the system is singular to rounding or overflows.
 std::optional<MapFit> FitMaps(const MapProblem& problem, double strength);
 
 /// The maps with their weights, one map's after the other's. weights: [q]
@@ -45,10 +48,6 @@ std::vector<FrictionMap> WithWeights(std::vector<FrictionMap> maps, const Eigen:
 
 /// How sure its parameters and weights are (penalised_uncertainty.h).
 Uncertainty JudgeMaps(const MapProblem& problem, const MapFit& fit);
-
-/// Free columns that the kernels can imitate, to a thousandth of their squares: the prior alone
-/// tells these apart from a map.
-std::vector<Eigen::Index> ImitatedColumns(const MapFit& fit);
 
 /// Sum of maps at some points, [n] N.m or N.
 Eigen::VectorXd EvaluateMaps(const std::vector<FrictionMap>& maps, const MapPoints& points);

@@ -8,7 +8,7 @@ std::vector<OptionInfo> PositionMapOptions() {
        "kernels over position alone (10), one part for each direction of motion, or over position "
        "x velocity (14)"},
       {"kernels", "0", "integer >= 0 <= 128",
-       "kernels over position; 0: chosen from 10, 20, 40 and 80"},
+       "kernels over position; 0: chosen from 10, 20, 40, 80 and 128"},
       {"velocity_kernels", "3", "integer >= 1 <= 64",
        "kernels over speed for each direction, with basis velocity"},
   };
@@ -37,7 +37,7 @@ std::vector<std::vector<FrictionMap>> PositionMaps(const Options& options,
                                                    const MapPoints& points) {
   const std::string& basis = options.Text("basis");
   const int given = options.Integer("kernels");
-  const std::vector<int> counts = given > 0 ? std::vector{given} : std::vector{10, 20, 40, 80};
+  const std::vector<int> counts = given > 0 ? std::vector{given} : std::vector{10, 20, 40, 80, 128};
   const int speeds = basis == "position"   ? 0
                      : basis == "velocity" ? options.Integer("velocity_kernels")
                                            : 1;

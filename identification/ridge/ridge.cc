@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -58,6 +59,20 @@ NormalEquations NormalEquations::Minus(const NormalEquations& part) const {
 
 double NormalEquations::Squares(const Eigen::VectorXd& x) const {
   return squares - 2 * x.dot(product) + x.dot(gram * x);
+}
+
+NormalEquations NormalEquations::Holding(const std::vector<Eigen::Index>& held,
+                                         const Eigen::VectorXd& values) const {
+  std::vector<Eigen::Index> rest;
+  for (Eigen::Index i = 0; i < product.size(); ++i) {
+    if (std::ranges::find(held, i) == held.end()) rest.push_back(i);
+  }
+  NormalEquations reduced(static_cast<Eigen::Index>(rest.size()));
+  reduced.gram = gram(rest, rest);
+  reduced.product = product(rest) - gram(rest, held) * values;
+  reduced.squares = squares - 2 * values.dot(product(held)) + values.dot(gram(held, held) * values);
+  reduced.rows = rows;
+  return reduced;
 }
 
 Ridge::Ridge(const NormalEquations& normal, Eigen::Index free) : free_(free) {

@@ -21,6 +21,9 @@ struct NormalEquations {
   NormalEquations Minus(const NormalEquations& part) const;
   /// |y - A x|^2.
   double Squares(const Eigen::VectorXd& x) const;
+  /// Those of y - A_held values = A_rest x: the unknowns of the columns `held`, ascending, are known.
+  NormalEquations Holding(const std::vector<Eigen::Index>& held,
+                          const Eigen::VectorXd& values) const;
 };
 
 /// x(strength) = argmin |A x - y|^2 + strength |w|^2, w the last d - free entries of x, for any

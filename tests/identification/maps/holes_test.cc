@@ -68,6 +68,33 @@ TEST(Holes, AreNamed) {
               ElementsAre("position 1.5 to 3.5 m"));
 }
 
+TEST(Holes, AreNamedAtAnEndWhereTheyAreMoreThanAHalfCell) {
+  EXPECT_THAT(NameHoles({FivePlaces()}, {true, false, false, false, false}, JointKind::linear),
+              ElementsAre());
+  EXPECT_THAT(NameHoles({FivePlaces()}, {false, false, false, true, true}, JointKind::linear),
+              ElementsAre("position 2.5 to 4.5 m"));
+}
+
+TEST(Holes, AreNamedByWhateverTheMapIsOver) {
+  const MapAxis turn{MapQuantity::motor_position, CircleAxis(4, 4)};
+  const MapAxis speed{MapQuantity::velocity, SpeedAxis(1, 3, 2)};
+  const MapAxis heat{MapQuantity::energy, EvenAxis(-1, 0, 2)};
+  EXPECT_THAT(NameHoles({{{turn}, KernelKind::normalised, {}}}, {false, true, false, false},
+                        JointKind::rotary),
+              ElementsAre("motor_position 0.5 to 1.5 rad"));
+
+  // speeds -3, -1, 1, 3: no sample at 3 forwards, whatever the angle
+  std::vector<bool> unseen(16);
+  for (size_t i = 3; i < 16; i += 4) unseen[i] = true;
+  EXPECT_THAT(NameHoles({{{turn, speed}, KernelKind::normalised, {}}}, unseen, JointKind::rotary),
+              ElementsAre("motor_position -0.5 to 3.5 rad forwards at 3"));
+
+  // never seen cold at two angles
+  EXPECT_THAT(NameHoles({{{turn, heat}, KernelKind::normalised, {}}},
+                        {false, false, false, true, false, true, false, false}, JointKind::rotary),
+              ElementsAre("motor_position 0.5 to 2.5 rad at energy 0 N.m"));
+}
+
 TEST(Holes, AHoleInALogHoldsTheTruthAndIsToldOf) {
   // a level that rises from 5 to 25 N.m over the travel; nothing is logged backwards from 0.5 to 1.5 rad
   FrictionDescription friction = test::TableOne();

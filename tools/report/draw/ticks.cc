@@ -130,7 +130,11 @@ std::string SignificantText(double value, int digits) {
 
 std::string UnitText(std::string_view unit) {
   std::string text;
-  for (char letter : unit) text += letter == '.' ? std::string("·") : std::string(1, letter);
+  for (size_t i = 0; i < unit.size(); ++i) {
+    const bool square = unit.substr(i).starts_with("^2");
+    text += square ? "²" : unit[i] == '.' ? "·" : std::string(1, unit[i]);
+    if (square) ++i;
+  }
   return text;
 }
 

@@ -24,7 +24,7 @@ std::string NumberText(double value, int decimals);
 /// The same with `digits` significant digits.
 std::string SignificantText(double value, int digits = 3);
 
-/// A unit as set in print: "N·m·s/rad" for "N.m.s/rad".
+/// A unit as set in print: "N·m·s²/rad" for "N.m.s^2/rad".
 std::string UnitText(std::string_view unit);
 
 }  // namespace warmjoint::report

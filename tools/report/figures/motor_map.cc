@@ -42,12 +42,31 @@ double RootMeanSquare(const FitView& view, const Eigen::VectorXd& force) {
   return std::sqrt(KeptOf(view, view.torque - force).array().square().mean());
 }
 
-/// The maps over one turn at a speed, E and position that the group had.
+/// Whether the group has samples within a kernel's spacing of each point of one turn.
+std::vector<bool> HasPassed(const FitView& view, const SpeedGroup& group, const FrictionMap& map) {
+  const auto kernels =
+      static_cast<double>(FindAxis(map, MapQuantity::motor_position)->kernels.size());
+  const int cells = kPoints - 1, reach = static_cast<int>(std::ceil(cells / kernels));
+  std::vector<bool> passed(kPoints);
+  for (const Eigen::Index sample : group.samples) {
+    const double turns = view.motor_angle[sample] / (2 * M_PI);
+    const int cell = static_cast<int>(std::lround((turns - std::floor(turns)) * cells));
+    for (int i = cell - reach; i <= cell + reach; ++i) {
+      passed[static_cast<size_t>(((i % cells) + cells) % cells)] = true;
+    }
+  }
+  passed.back() = passed.front();
+  return passed;
+}
+
+/// The maps over one turn at a speed, E and position that the group had; NaN where it has no samples near.
 Line MapLine(const FitView& view, const SpeedGroup& group, const std::vector<FrictionMap>& maps) {
   Line line{Eigen::VectorXd(kPoints), Eigen::VectorXd::Zero(kPoints), 2.2};
   const Eigen::Index typical = group.samples[group.samples.size() / 2];
+  const std::vector<bool> passed = HasPassed(view, group, maps.front());
   for (int i = 0; i < kPoints; ++i) {
     line.x[i] = 2 * M_PI * i / (kPoints - 1);
+    if (!passed[static_cast<size_t>(i)]) line.y[i] = std::nan("");
     const MapPoint<double> point{view.position[typical], line.x[i], view.velocity[typical],
                                  view.energy[typical], 0};
     for (const FrictionMap& map : maps) line.y[i] += EvaluateMap(map, point);
@@ -164,7 +183,8 @@ std::optional<Figure> MakeMotorMap(const FitView& view) {
   Figure figure;
   figure.name = "motor_map";
   figure.title = "The map over motor angle";
-  figure.subtitle = OriginOf(view) + BeyondText(forwards.beyond + backwards.beyond);
+  figure.subtitle = OriginOf(view) + "; no line where the joint never moved so" +
+                    BeyondText(forwards.beyond + backwards.beyond);
   figure.finding = Worth(view, without, with);
   return PairOf(figure, {"Forwards: torque less law and warming", forwards.plot},
                 {"Backwards", backwards.plot});

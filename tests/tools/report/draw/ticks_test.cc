@@ -58,5 +58,10 @@ TEST(SignificantText, RoundsAsPeopleDo) {
 
 TEST(UnitText, SetsDotsInTheMiddle) { EXPECT_EQ(UnitText("N.m.s/rad"), "N·m·s/rad"); }
 
+TEST(UnitText, RaisesSquares) {
+  EXPECT_EQ(UnitText("N.m.s^2/rad"), "N·m·s²/rad");
+  EXPECT_EQ(UnitText("m/s^2"), "m/s²");
+}
+
 }  // namespace
 }  // namespace warmjoint::report
