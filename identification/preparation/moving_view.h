@@ -1,6 +1,7 @@
 // A log whose joint moves in any way: its acceleration, and the samples that show friction.
 #pragma once
 
+#include "identification/preparation/local_motion.h"
 #include "identification/preparation/log_view.h"
 
 namespace warmjoint::inline identification {
@@ -9,14 +10,12 @@ namespace warmjoint::inline identification {
 /// noise five times and above one and a half of its resolution. rad/s or m/s
 double ClearSpeed(const Measurements& measurements);
 
-/// dv/dt, recording by recording and between gaps: slopes of straight lines through 2 w + 1 samples,
-/// central differences where w = 1. w is the smallest of 1, 2, 4, ... 32 with which the noise of the
-/// velocity leaves 5 % of the acceleration's root mean square or less. [N] rad/s^2 or m/s^2
-Eigen::VectorXd Acceleration(const Measurements& measurements);
-
-/// The log with its acceleration and its means between samples (between_samples.h). It keeps the samples above ClearSpeed whose neighbours move in the
-/// same direction, but for those at which the acceleration jumps, where its slope is that of neither
-/// side: by a tenth of its root mean square, and four times as far as in the median. No segments.
-LogView ViewMotion(const Measurements& measurements);
+/// The log with its acceleration and its means between samples (between_samples.h). A velocity whose
+/// samples are too noisy for central differences, and positions in the place of a velocity, are
+/// followed by polynomials (local_motion.h), whose velocity takes the place of the samples'. It keeps
+/// the samples above ClearSpeed whose neighbours move in the same direction, but for those at a corner
+/// of the velocity: where no polynomial fits, or, between central differences, where the acceleration
+/// jumps by a tenth of its root mean square, and four times as far as in the median. No segments.
+LogView ViewMotion(const Measurements& measurements, MotionSource source = MotionSource::velocity);
 
 }  // namespace warmjoint::inline identification

@@ -113,7 +113,8 @@ void KeepAlso(const Eigen::Array<bool, Eigen::Dynamic, 1>& keep, const Eigen::Ve
 }  // namespace
 
 const LogView& PreparedLog::moving() const {
-  std::call_once(moving_->once, [&] { moving_->view = ViewMotion(log_->taken.measurements); });
+  std::call_once(moving_->once,
+                 [&] { moving_->view = ViewMotion(log_->taken.measurements, log_->source); });
   return moving_->view;
 }
 
@@ -149,7 +150,7 @@ PreparedLog Prepare(Measurements measurements, const HoldOptions& holds) {
   // the positions tell the velocity
   measurements.notes.emplace_back(
       "velocity computed from the positions, one value for each segment");
-  PreparedLog::Log log{{std::move(measurements), {}}, {}, {}, 0, {}, {}};
+  PreparedLog::Log log{{std::move(measurements), {}}, MotionSource::positions, {}, {}, 0, {}, {}};
   Measurements& taken = log.taken.measurements;
   ConstantSpeed found = FindFromPositions(taken);
   PositionMotion motion = MotionFromPositions(taken, found.selection, found.rests);
@@ -163,7 +164,8 @@ PreparedLog Prepare(Measurements measurements, const HoldOptions& holds) {
 }
 
 PreparedLog Prepare(Measurements measurements, Selection known) {
-  PreparedLog::Log log{{std::move(measurements), std::move(known)}, {}, {}, 0, {}, {}};
+  PreparedLog::Log log{
+      {std::move(measurements), std::move(known)}, MotionSource::velocity, {}, {}, 0, {}, {}};
   log.faults = FindFaults(log.taken.measurements, log.taken.selection);
   Refined refined = Refine(log.taken);
   log.steady = std::move(refined.steady);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "identification/preparation/local_motion.h"
 #include "identification/preparation/log_view.h"
 #include "identification/preparation/segment_velocity.h"
 #include "identification/preparation/select.h"
@@ -56,7 +57,8 @@ class PreparedLog {
  private:
   struct Log {
     LogView taken;
-    std::optional<LogView> steady;  // where anything was done to the log
+    MotionSource source = MotionSource::velocity;  // of its velocity
+    std::optional<LogView> steady;                 // where anything was done to the log
     std::optional<VelocityNoise> velocity_noise;
     double unseen = 0;
     std::vector<std::string> faults;

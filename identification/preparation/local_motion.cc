@@ -1,0 +1,179 @@
+#include "identification/preparation/local_motion.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <cmath>
+#include <limits>
+
+#include "identification/preparation/position_noise.h"
+#include "models/foundation/robust_noise.h"
+
+namespace warmjoint::inline identification {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr Index kHalfWidths[] = {2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};  // samples to each side
+constexpr Index kWide = 6;  // half width from which on a window has a polynomial of fifth degree
+constexpr double kByChance = 1e-3;  // of good windows that are taken for bent
+constexpr double kEven = 1e-3;      // of the step by which evenly sampled times may differ
+
+/// What is fitted: a series, and which derivative of it is the acceleration.
+struct Series {
+  const VectorXd& values;
+  Index derivative;  // 1 of a velocity, 2 of a position
+  double noise;      // standard deviation of one value
+
+  /// Of the polynomials: that of the velocity is the third, and in wide windows the fifth.
+  Index Degree(Index half_width) const { return derivative + (half_width < kWide ? 2 : 4); }
+};
+
+/// The polynomial through the samples of one window.
+struct Window {
+  MatrixXd basis;  // [n x (degree + 1)] orthonormal
+  VectorXd value;  // [n] weights of the samples in the velocity at the middle
+  VectorXd slope;  // [n] the same of the acceleration
+  double gain() const { return slope.norm(); }  // noise of the acceleration by that of a sample
+};
+
+/// time: [n] s, of the window's samples; middle: s.
+Window WindowOf(const VectorXd& time, double middle, const Series& series) {
+  const Index degree = series.Degree(time.size() / 2);
+  const double reach = (time.array() - middle).abs().maxCoeff();
+  MatrixXd powers(time.size(), degree + 1);
+  powers.col(0).setOnes();
+  for (Index k = 1; k <= degree; ++k) {
+    powers.col(k) = powers.col(k - 1).cwiseProduct((time.array() - middle).matrix() / reach);
+  }
+  const Eigen::HouseholderQR<MatrixXd> qr(powers);
+  const MatrixXd basis = qr.householderQ() * MatrixXd::Identity(time.size(), powers.cols());
+  const MatrixXd coefficients =
+      qr.matrixQR().topRows(powers.cols()).triangularView<Eigen::Upper>().solve(basis.transpose());
+
+  // a velocity is value and slope, a position slope and twice the square's coefficient
+  if (series.derivative == 1) return {basis, coefficients.row(0), coefficients.row(1) / reach};
+  return {basis, coefficients.row(1) / reach, 2 * coefficients.row(2) / (reach * reach)};
+}
+
+bool IsEven(const VectorXd& time, const SampleRange& piece, double step) {
+  for (Index i = piece.first + 1; i < piece.first + piece.count; ++i) {
+    if (std::abs(time[i] - time[i - 1] - step) > kEven * step) return false;
+  }
+  return true;
+}
+
+/// All windows of one width.
+struct Scale {
+  Index half_width;
+  double gain;            // of an evenly sampled window
+  double freedom;         // samples less coefficients
+  VectorXd velocity;      // [N]
+  VectorXd acceleration;  // [N]
+  VectorXd squares;       // [N] that the polynomial leaves; infinite where a window does not fit in
+};
+
+Scale ScaleOf(const Measurements& m, const std::vector<SampleRange>& pieces, const Series& series,
+              Index half_width) {
+  const Index n = 2 * half_width + 1;
+  const double step = MedianStep(m.time);
+  const VectorXd steps = step * VectorXd::LinSpaced(n, 0, static_cast<double>(n - 1));
+  const Window even = WindowOf(steps, step * static_cast<double>(half_width), series);
+  Scale scale{half_width,
+              even.gain(),
+              static_cast<double>(n - series.Degree(half_width) - 1),
+              VectorXd::Zero(m.size()),
+              VectorXd::Zero(m.size()),
+              VectorXd::Constant(m.size(), std::numeric_limits<double>::infinity())};
+  for (const SampleRange& piece : pieces) {
+    const bool is_even = IsEven(m.time, piece, step);
+    for (Index i = piece.first + half_width; i + half_width < piece.first + piece.count; ++i) {
+      const Window own =
+          is_even ? Window() : WindowOf(m.time.segment(i - half_width, n), m.time[i], series);
+      const Window& window = is_even ? even : own;
+
+      // relative to the middle, so that a large position costs no digits
+      const VectorXd y = series.values.segment(i - half_width, n).array() - series.values[i];
+      const double middle = series.derivative == 1 ? series.values[i] : 0;
+      scale.velocity[i] = middle + window.value.dot(y);
+      scale.acceleration[i] = window.slope.dot(y);
+      scale.squares[i] = (y - window.basis * (window.basis.transpose() * y)).squaredNorm();
+    }
+  }
+  return scale;
+}
+
+/// Root mean square of the acceleration where it is known, less the noise's part.
+double RmsOf(const Scale& scale, double noise) {
+  const auto known = scale.squares.array().isFinite();
+  const auto count = static_cast<double>(std::max<Index>(known.count(), 1));
+  const double mean = known.select(scale.acceleration.array().square(), 0).sum() / count;
+  return std::sqrt(std::max(0.0, mean - noise * noise));
+}
+
+Series SeriesOf(const Measurements& m, const std::vector<SampleRange>& pieces,
+                MotionSource source) {
+  if (source == MotionSource::velocity) return {m.velocity, 1, NoiseOfVelocity(m.velocity)};
+  double deviation = 0;
+  for (const auto& [first, count] : pieces) {
+    deviation =
+        std::max(deviation, MeasurePositionNoise(m.position.segment(first, count)).deviation);
+  }
+  return {m.position, 2, deviation};
+}
+
+}  // namespace
+
+double StepOfVelocity(const VectorXd& velocity) {
+  const double step = Resolution(velocity);
+  if (step == 0) return 0;
+  Index changes = 0, again = 0;
+  for (Index i = 1; i + 1 < velocity.size(); ++i) {
+    const double change = velocity[i] - velocity[i - 1];
+    if (std::abs(change) < 0.5 * step) continue;
+    ++changes;
+    again += std::abs(velocity[i + 1] - velocity[i] - change) < 0.5 * step;
+  }
+  return 2 * again > changes ? 0 : step;
+}
+
+double NoiseOfVelocity(const VectorXd& velocity) {
+  return std::max(WhiteNoise(velocity), StepOfVelocity(velocity) / std::sqrt(12.0));
+}
+
+LocalMotion FollowLocally(const Measurements& m, const std::vector<SampleRange>& pieces,
+                          MotionSource source) {
+  const Series series = SeriesOf(m, pieces, source);
+
+  // wider windows until noise no longer matters
+  std::vector<Scale> scales;
+  double rms = 0;
+  for (const Index half_width : kHalfWidths) {
+    if (2 * half_width < series.Degree(half_width) + 1) continue;
+    scales.push_back(ScaleOf(m, pieces, series, half_width));
+    const double noise = series.noise * scales.back().gain;
+    rms = RmsOf(scales.back(), noise);
+    if (noise <= kAcceptedNoise * rms) break;
+  }
+
+  // each sample takes the widest that nothing contradicts
+  LocalMotion motion{m.velocity, VectorXd::Zero(m.size()), {}};
+  motion.known.setConstant(m.size(), false);
+  for (auto scale = scales.rbegin(); scale != scales.rend(); ++scale) {
+    const double noise = std::max(series.noise, kAcceptedNoise * rms / scale->gain);
+    const double most = noise * noise *
+                        boost::math::quantile(boost::math::complement(
+                            boost::math::chi_squared(scale->freedom), kByChance));
+    for (Index i = 0; i < m.size(); ++i) {
+      if (motion.known[i] || !(scale->squares[i] <= most)) continue;
+      motion.known[i] = true;
+      motion.velocity[i] = scale->velocity[i];
+      motion.acceleration[i] = scale->acceleration[i];
+    }
+  }
+  return motion;
+}
+
+}  // namespace warmjoint::inline identification

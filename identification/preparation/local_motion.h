@@ -1,0 +1,43 @@
+// Velocity and acceleration of a joint from noisy samples, unsmoothed where its motion bends.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "models/recording/measurements.h"
+#include "models/recording/recordings_of.h"
+
+namespace warmjoint::inline identification {
+
+/// What tells how a joint moves: a velocity that was logged, or its positions alone.
+enum class MotionSource { velocity, positions };
+
+/// Noise of an acceleration that is accepted, as a share of the acceleration's root mean square.
+inline constexpr double kAcceptedNoise = 0.05;
+
+struct LocalMotion {
+  Eigen::VectorXd velocity;      // [N] rad/s or m/s
+  Eigen::VectorXd acceleration;  // [N] rad/s^2 or m/s^2
+  /// [N] whether both are known: a polynomial passes through the samples around, but for their noise.
+  Eigen::Array<bool, Eigen::Dynamic, 1> known;
+};
+
+/// Step of a quantised velocity, rad/s or m/s; 0 where it is not quantised. Ramps of one slope between
+/// constant speeds change by one step, too, but sample after sample.
+double StepOfVelocity(const Eigen::VectorXd& velocity);
+
+/// Standard deviation of the velocity's samples, rounding included, rad/s or m/s.
+double NoiseOfVelocity(const Eigen::VectorXd& velocity);
+
+/// Polynomials by least squares (Savitzky and Golay 1964) through the 2 w + 1 samples around each: of
+/// fifth degree through velocities, of sixth degree through positions, so that both see the same
+/// bends; less by two where w is below 6. w is the smallest with which noise leaves kAcceptedNoise of the acceleration or less.
+/// Around a corner of the velocity each sample takes the largest smaller w whose polynomial passes
+/// within the noise, by chi^2 at one in a thousand (the rule of Lepski 1990: the widest window
+/// that no misfit contradicts); what lies nearer to a corner than the smallest window is not known.
+/// Misfits below what kAcceptedNoise allows the noise are accepted, too.
+/// pieces: of the log without gaps.
+LocalMotion FollowLocally(const Measurements& measurements, const std::vector<SampleRange>& pieces,
+                          MotionSource source);
+
+}  // namespace warmjoint::inline identification
