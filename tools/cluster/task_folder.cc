@@ -15,6 +15,9 @@ namespace warmjoint::inline tools {
 namespace fs = std::filesystem;
 namespace {
 
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::seconds kPatience{20};  // with other tasks
+
 /// A folder that belongs to this user and is open to nobody else; one that someone planted is refused.
 void MakePrivate(const fs::path& folder) {
   mkdir(folder.c_str(), 0700);
@@ -29,10 +32,22 @@ void MakePrivate(const fs::path& folder) {
   }
 }
 
+/// Makes a folder below one that other tasks of the plan may remove at the same moment, as long as it is
+/// empty: then both are made again.
+void MakeWhole(const fs::path& folder) {
+  std::error_code error;
+  for (const auto deadline = Clock::now() + kPatience; Clock::now() < deadline;) {
+    fs::create_directories(folder, error);
+    if (!error) return;
+    if (error != std::errc::no_such_file_or_directory && error != std::errc::file_exists) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  throw fs::filesystem_error("cannot be made", folder, error);
+}
+
 /// A killed task's child dies with it, but not at the same moment.
 void AwaitStore(const fs::path& store) {
-  using Clock = std::chrono::steady_clock;
-  const auto deadline = Clock::now() + std::chrono::seconds(20);
+  const auto deadline = Clock::now() + kPatience;
   while (fs::exists(store)) {
     try {
       const DirectoryLock lock(store);
@@ -50,7 +65,7 @@ TaskFolder::TaskFolder(const Plan& plan, int number) {
   const fs::path user = fs::temp_directory_path() / fmt::format("warmjoint-{}", geteuid());
   path_ = user / plan.id / std::to_string(number);
   MakePrivate(user);
-  fs::create_directories(path_);
+  MakeWhole(path_);
   AwaitStore(store());
 }
 
