@@ -8,29 +8,11 @@ namespace {
 /// Turns until a block of M is factorised instead; most end after two.
 constexpr int kMostTurns = 12;
 
-double At(const Two* pairs, int i) { return pairs[i / 2][i % 2]; }
+/// One number of those that lie in pairs.
+double& At(Two* pairs, int i) { return pairs->data()[i]; }
+double At(const Two* pairs, int i) { return pairs->data()[i]; }
 
 }  // namespace
-
-FewHeld::FewHeld(size_t size) : pairs_((size + 1) / 2) {
-  solved_.assign(2 * pairs_, Two::Zero());
-  columns_.assign(kMostColumns * pairs_, Two::Zero());
-}
-
-void FewHeld::Start(const InertiaBlock& inertia, const mjData* d, Rows rows, int likely) {
-  const size_t pairs = pairs_;
-  Two* const solved = solved_.data();
-  for (size_t k = 0; k < pairs; ++k) {
-    const Two level = rows.pair(k)[kFriction];
-    solved[2 * k] = {level[0], 0};
-    solved[2 * k + 1] = {level[1], 0};
-  }
-  solved[likely][1] = 1;
-  inertia.Solve(d, solved_.data());
-  apart_count_ = column_count_ = 0;
-  missing_ = false;
-  KeepColumn(likely, 1);
-}
 
 bool FewHeld::Find(const InertiaBlock& inertia, const mjData* d, AskedLevels& levels,
                    const Two* side, const Two* start, Two* slip) {
@@ -71,43 +53,24 @@ bool FewHeld::IsApart(int joint) const {
 void FewHeld::Add(int joint, double side, AskedLevels& levels) {
   const double upper = levels.Of(joint, 1), lower = levels.Of(joint, -1);
   const double level = side > 0 ? upper : -lower, other = side > 0 ? -lower : upper;
-  int column = 0;
-  while (column < column_count_ && column_of_[column] != joint) ++column;
-  missing_ = missing_ || column == column_count_;
-  if (column == column_count_) column = -1;
+  const int column = columns_.Find(joint);
+  missing_ = missing_ || column < 0;
   apart_[apart_count_++] = {joint, column, true, side, level, other};
 }
 
 /// M^-1's columns of all that are apart; false where those do not fit in.
 bool FewHeld::FindColumns(const InertiaBlock& inertia, const mjData* d) {
   missing_ = false;
-  std::array<Apart*, kMost> wait;
-  int count = 0;
+  std::array<int, kMost> joints;
+  size_t count = 0;
+  int place = columns_.count();
   for (int n = 0; n < apart_count_; ++n) {
-    if (apart_[n].column < 0) wait[count++] = &apart_[n];
+    Apart& apart = apart_[n];
+    if (apart.column >= 0) continue;
+    apart.column = place++;
+    joints[count++] = apart.joint;
   }
-  if (column_count_ + count > kMostColumns) return false;
-  for (int n = 0; n < count; n += 2) {
-    std::fill(solved_.begin(), solved_.end(), Two::Zero());
-    const int lanes = std::min(2, count - n);
-    for (int lane = 0; lane < lanes; ++lane) solved_[wait[n + lane]->joint][lane] = 1;
-    inertia.Solve(d, solved_.data());
-    for (int lane = 0; lane < lanes; ++lane) {
-      wait[n + lane]->column = column_count_;
-      KeepColumn(wait[n + lane]->joint, lane);
-    }
-  }
-  return true;
-}
-
-void FewHeld::KeepColumn(int joint, int lane) {
-  const size_t pairs = pairs_;
-  const Two* const solved = solved_.data();
-  Two* const column = columns_.data() + column_count_ * pairs;
-  for (size_t k = 0; k < pairs; ++k) {
-    column[k] = {solved[2 * k][lane], solved[2 * k + 1][lane]};
-  }
-  column_of_[column_count_++] = joint;
+  return columns_.Add(inertia, d, {joints.data(), count});
 }
 
 /// What the forces of those that are apart lack to their levels.
@@ -165,7 +128,7 @@ bool FewHeld::Slip(const Two* side, const Two* start, Two* slip) const {
   if (count == 0) std::copy_n(start, pairs, slip);
   for (int n = 0; n < count; ++n) {
     const int joint = apart_[n].joint;
-    if (apart_[n].held) slip[joint / 2][joint % 2] = 0;
+    if (apart_[n].held) At(slip, joint) = 0;
   }
   Two least{0, 0};
   for (size_t k = 0; k < pairs; ++k) least = least.min(side[k] * slip[k]);

@@ -5,10 +5,10 @@
 
 #include <array>
 #include <cmath>
-#include <vector>
 
 #include "sim/plugin/asked_levels.h"
 #include "sim/plugin/inertia_block.h"
+#include "sim/plugin/inverse_columns.h"
 #include "sim/plugin/row_pairs.h"
 
 namespace warmjoint::inline sim {
@@ -26,14 +26,18 @@ class FewHeld {
 
   FewHeld() = default;
   /// size: of the tree.
-  explicit FewHeld(size_t size);
+  explicit FewHeld(size_t size) : pairs_((size + 1) / 2), columns_(size) {}
 
   /// Begins a step: finds what all would bear, and a column beforehand. rows: kFriction holds the
   /// level on each one's side, N.m or N; likely: the joint that needs a column soonest.
-  void Start(const InertiaBlock& inertia, const mjData* d, Rows rows, int likely);
+  void Start(const InertiaBlock& inertia, const mjData* d, Rows rows, int likely) {
+    columns_.Start(inertia, d, rows, likely);
+    apart_count_ = 0;
+    missing_ = false;
+  }
 
   /// M^-1 of those levels until Find, two rows at once.
-  Two bearing(size_t k) const { return {solved_[2 * k][0], solved_[2 * k + 1][0]}; }
+  Two bearing(size_t k) const { return columns_.bearing(k); }
 
   /// Finds what slips away from its side, beginning with what the last call has found. side: 1, -1, or
   /// 0 without friction; start, slip: two rows at once. False where those are too many.
@@ -47,12 +51,10 @@ class FewHeld {
   void TellFriction(Rows rows) const;
 
  private:
-  static constexpr int kMostColumns = kMost + 2;
-
   /// A joint that does not slide to its side.
   struct Apart {
     int joint = 0;
-    int column = -1;   // in columns_
+    int column = -1;   // its place in columns_
     bool held = true;  // or sliding to the other side
     double side = 0;   // that it would have
     double level = 0;  // there, and on the other side, with the force's sign, N.m or N
@@ -69,18 +71,15 @@ class FewHeld {
   bool AddWrong(AskedLevels& levels, const Two* side, const Two* slip);
   void Add(int joint, double side, AskedLevels& levels);
   bool FindColumns(const InertiaBlock& inertia, const mjData* d);
-  void KeepColumn(int joint, int lane);
-  const Two* ColumnOf(const Apart& apart) const { return columns_.data() + apart.column * pairs_; }
+  const Two* ColumnOf(const Apart& apart) const { return columns_[apart.column]; }
   void FindLack(const Two* start);
   bool Slip(const Two* side, const Two* start, Two* slip) const;
   bool Change(const Two* slip);
 
   size_t pairs_ = 0;
-  std::vector<Two> solved_;   // {M^-1 level, column} of each row, or two columns
-  std::vector<Two> columns_;  // [kMostColumns][pairs]
-  std::array<int, kMostColumns> column_of_{};
+  InverseColumns columns_;
   std::array<Apart, kMost> apart_{};
-  int column_count_ = 0, apart_count_ = 0;
+  int apart_count_ = 0;
   bool missing_ = false;  // a column of one that is apart
 };
 
