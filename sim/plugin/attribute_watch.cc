@@ -1,6 +1,5 @@
 #include "sim/plugin/attribute_watch.h"
 
-#include <atomic>
 #include <cstring>
 
 namespace warmjoint::inline sim {
@@ -9,22 +8,14 @@ namespace {
 constexpr size_t kShort = 2048;  // bytes
 constexpr size_t kBlock = 64, kBlocks = 16;
 
-std::atomic<uint64_t>& Count() {
-  static std::atomic<uint64_t> count{1};
-  return count;
-}
-
 }  // namespace
 
 AttributeWatch::AttributeWatch(std::string_view text) : copy_(text), prepared_(0) {}
 
-void AttributeWatch::Prepared() { ++Count(); }
-
 bool AttributeWatch::Same(std::string_view text) {
   if (text.size() != copy_.size()) return false;
-  const bool is_short = text.size() <= kShort;
-  const uint64_t count = is_short ? 0 : Count().load(std::memory_order_relaxed);
-  if (!is_short && prepared_ == count) return SameBlocks(text);
+  const uint64_t count = count_.load(std::memory_order_relaxed);
+  if (text.size() > kShort && prepared_ == count) return SameBlocks(text);
   const bool same = std::memcmp(text.data(), copy_.data(), text.size()) == 0;
   if (same) prepared_ = count;
   return same;

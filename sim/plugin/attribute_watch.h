@@ -1,6 +1,7 @@
 // Whether a model still holds the attributes that an instance was bound to.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -18,11 +19,16 @@ class AttributeWatch {
   /// that no compilation or mjData announced, blocks that are spread over it.
   bool Same(std::string_view text);
 
+  /// Whether no compilation and no mjData was announced since all of it was compared.
+  bool Quiet() const { return prepared_ == count_.load(std::memory_order_relaxed); }
+
   /// Tells all watches that there may be another model. Any thread may call it.
-  static void Prepared();
+  static void Prepared() { ++count_; }
 
  private:
   bool SameBlocks(std::string_view text) const;
+
+  inline static std::atomic<uint64_t> count_{1};  // of calls of Prepared
 
   std::string copy_;
   uint64_t prepared_ = 0;  // count of calls when all of it was compared

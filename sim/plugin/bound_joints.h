@@ -46,9 +46,11 @@ class BoundJoints {
   /// names actuator or joint, attribute, value and bound.
   BoundJoints(const mjModel* m, int instance, int states);
 
-  /// Whether these joints are those of the instance in that model.
-  bool FitsModel(const mjModel* m) {
-    return m == model_ && m->signature == signature_ && text_.Same(AttributeText(m, instance_));
+  /// Whether these joints are those of the instance in that model. in_run: the states are those that
+  /// the last step has left, as with another model they would not be.
+  bool FitsModel(const mjModel* m, bool in_run) {
+    if (m != model_ || m->signature != signature_) return false;
+    return (in_run && text_.Quiet()) || text_.Same(AttributeText(m, instance_));
   }
 
   bool passive() const { return passive_; }

@@ -48,7 +48,7 @@ void BristleTree::Step(const mjData* d, const LevelSource& levels, Rows rows, si
   if (slow <= FewHeld::kMost && slow < joints && Slide(d, rows)) return;
   Multiply(d, rows);
   if (complete_ && Hold(rows)) return;
-  search_.Find(inertia_, d, rows, levels_, rows_of_joints_, force_.data(), impulse_);
+  search_.Find(inertia_, d, rows, levels_, rows_of_joints_, force_.data(), {impulse_, damping_});
 }
 
 /// Moves the bristles, and counts the joints that are so slow that theirs could stop them. That guess
@@ -70,26 +70,27 @@ double BristleTree::Stretch(const mjData* d, Rows rows) {
   return slow[0] + slow[1];
 }
 
-/// The forces of bristles that hold everything, without and with their dampers.
+/// What the forces of bristles that hold everything follow from: p and the momentum.
 void BristleTree::Multiply(const mjData* d, Rows rows) {
   const size_t pairs = present_.size();
-  const double damping = damping_;
   Two* const pair = pair_.data();
   for (size_t k = 0; k < pairs; ++k) {
     const RowPair row = rows.pair(k);
-    const Two stretch = row[kStretch], damped = stretch + damping * row[kSpeed];
-    pair[2 * k] = {stretch[0], damped[0]};
-    pair[2 * k + 1] = {stretch[1], damped[1]};
+    const Two stretch = row[kStretch], v = row[kSpeed];
+    pair[2 * k] = {stretch[0], v[0]};
+    pair[2 * k + 1] = {stretch[1], v[1]};
   }
   inertia_.Multiply(d, pair_.data(), force_.data());
 }
 
 /// Whether everything is held by forces within the levels.
 bool BristleTree::Hold(Rows rows) {
+  const double damping = damping_;
   for (const int i : levels_.asking()) {
-    const int side = force_[i][0] < 0 ? -1 : 1;
+    const double elastic = force_[i][0], friction = elastic + damping * force_[i][1];
+    const int side = elastic < 0 ? -1 : 1;
     levels_.Of(i, side);
-    if (side * force_[i][1] < 0) levels_.Of(i, -side);
+    if (side * friction < 0) levels_.Of(i, -side);
   }
   const size_t pairs = present_.size();
   const Two* const force = force_.data();
@@ -97,7 +98,8 @@ bool BristleTree::Hold(Rows rows) {
   for (size_t k = 0; k < pairs; ++k) {
     const RowPair row = rows.pair(k);
     const Two one = force[2 * k], other = force[2 * k + 1];
-    const Two elastic{one[0], other[0]}, friction{one[1], other[1]};
+    const Two elastic{one[0], other[0]}, momentum{one[1], other[1]};
+    const Two friction = elastic + damping * momentum;
     const Two below = row[kUpper] - elastic.max(friction);
     within = within.min(below).min(row[kLower] + elastic.min(friction));
     row[kFriction] = friction;

@@ -63,8 +63,8 @@ class BristleTree {
   std::vector<Two> slip_;   // what is left of it where some are held
 
   // of each row
-  std::vector<Two> pair_;   // {A/h^2 (z + h v), the same + B/h v}
-  std::vector<Two> force_;  // M times that: {p, f} where everything is held, N.m or N
+  std::vector<Two> pair_;   // {A/h^2 (z + h v), v}
+  std::vector<Two> force_;  // M times that
 
   AskedLevels levels_;
   FewHeld few_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace warmjoint::inline sim {
 namespace {
@@ -27,9 +28,10 @@ FrictionInstance::FrictionInstance(const mjModel* m, int instance)
   Rebind(m);
 }
 
-/// Finds the joints in the model that the instance is called with.
-void FrictionInstance::Bind(const mjModel* m) {
-  if (!bound_.FitsModel(m)) [[unlikely]] {
+/// Finds the joints in the model that the instance is called with. in_run: whether the states are those
+/// that the last step has left.
+void FrictionInstance::Bind(const mjModel* m, bool in_run) {
+  if (!bound_.FitsModel(m, in_run)) [[unlikely]] {
     bound_ = BoundJoints(m, instance_, kFrictionReports);
     Rebind(m);
   }
@@ -60,8 +62,17 @@ void FrictionInstance::ReadNumbers(const mjModel* m) {
   checked_ = false;
 }
 
+/// The engine rounds the states of the actuator form.
+bool FrictionInstance::InRun(const mjModel* m, const mjData* d) const {
+  const std::vector<double>& next = rows_.next();
+  const size_t numbers = kFrictionReports + next.size();
+  if (!passive() || m->plugin_statenum[instance_] != static_cast<int>(numbers)) return false;
+  const mjtNum* states = d->plugin_state + m->plugin_stateadr[instance_] + kFrictionReports;
+  return std::memcmp(states, next.data(), next.size() * sizeof(double)) == 0;
+}
+
 void FrictionInstance::Prepare(const mjModel* m, mjData* d) {
-  Bind(m);
+  Bind(m, InRun(m, d));
   if (!checked_) [[unlikely]] {
     WarnOfNumbers(m, d, instance_, bound_.joints());
     checked_ = true;
@@ -122,13 +133,13 @@ void FrictionInstance::StepPassive(const mjModel* m, mjData* d) {
   }
   Step(m, d, load_.data());
   if (!(m->opt.enableflags & mjENBL_SLEEP)) [[likely]]
-    return rows_.TakeFrom(d->qfrc_passive, [](int) { return true; });
+    return rows_.TakeFrom(d->qfrc_passive);
   // the engine clears the forces of trees that are awake alone
   rows_.TakeFrom(d->qfrc_passive, [&](int dof) { return d->tree_asleep[m->dof_treeid[dof]] < 0; });
 }
 
 void FrictionInstance::Reset(const mjModel* m, mjtNum* state) {
-  Bind(m);
+  Bind(m, false);
   std::fill_n(state, m->plugin_statenum[instance_], 0.0);
   stepped_ = false;
   mjtNum* next = state + kFrictionReports;

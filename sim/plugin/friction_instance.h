@@ -48,7 +48,8 @@ class FrictionInstance {
   void Advance(const mjModel* m, mjData* d);
 
  private:
-  void Bind(const mjModel* m);
+  void Bind(const mjModel* m, bool in_run);
+  bool InRun(const mjModel* m, const mjData* d) const;
   void Rebind(const mjModel* m);
   void ReadNumbers(const mjModel* m);
   void Prepare(const mjModel* m, mjData* d);

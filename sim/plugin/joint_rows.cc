@@ -6,6 +6,16 @@
 #include "sim/plugin/check_joint.h"
 
 namespace warmjoint::inline sim {
+namespace {
+
+bool HasSecondStage(const JointFriction& friction) {
+  const std::vector<StateMember>& state = friction.state();
+  return std::any_of(state.begin(), state.end(), [](const StateMember& member) {
+    return member.value == &FrictionState::second_energy;
+  });
+}
+
+}  // namespace
 
 JointRows::JointRows(const mjModel* m, const std::vector<BoundJoint>& joints) {
   std::vector<CoupledJoint> coupled;
@@ -47,7 +57,7 @@ void JointRows::ReadNumbers(const mjModel* m, const std::vector<BoundJoint>& joi
     const Heat& heat = friction.heat();
     Of(i, kUpperAtRest) = friction.OwnLevelAtRest(1);
     Of(i, kLowerAtRest) = friction.OwnLevelAtRest(-1);
-    Of(i, kSlope) = friction.viscous();
+    Of(i, kViscous) = friction.viscous();
     Of(i, kPerEnergy) = friction.viscous_per_energy();
     Of(i, kPole) = heat.first.pole;
     Of(i, kGain) = heat.first.gain;
@@ -55,6 +65,13 @@ void JointRows::ReadNumbers(const mjModel* m, const std::vector<BoundJoint>& joi
     Of(i, kSecondPole) = heat.second.pole;
     Of(i, kSecondGain) = heat.second.gain;
   }
+  slopes_change_ = has_ambient_ = has_second_stage_ = false;
+  for (size_t i = 0; i < joints.size(); ++i) {
+    slopes_change_ = slopes_change_ || Of(i, kPerEnergy) != 0;
+    has_ambient_ = has_ambient_ || Of(i, kAmbientGain) != 0;
+    has_second_stage_ = has_second_stage_ || HasSecondStage(joints[i].friction);
+  }
+  SetSlopes();
   const double damping = m->opt.integrator == mjINT_RK4 ? kDampingOfStages : 1;
   bristles_.SetTimestep(m->opt.timestep, damping, [&](int dof) {
     return joints[joint_at_[bristles_.RowOf(dof)]].friction.SteepestSlope();
@@ -65,6 +82,7 @@ void JointRows::Step(const mjModel* m, const mjtNum* load) {
   load_ = load;
   pushed_.clear();
   SetLevels();
+  if (slopes_change_) SetSlopes();
   bristles_.Step(d_, *this, {numbers_.data()});
   if (!Complete()) [[unlikely]]
     TakeDeficits();
@@ -79,6 +97,15 @@ void JointRows::SetLevels() {
     const Two energy = row[kFirst] + row[kSecond];
     row[kUpper] = (row[kUpperAtRest] + energy).max(0);
     row[kLower] = (row[kLowerAtRest] + energy).max(0);
+  }
+}
+
+/// The slopes over speed at the heat with which the step begins.
+void JointRows::SetSlopes() {
+  double* const end = numbers_.data() + numbers_.size();
+  for (RowPair row{numbers_.data()}; row.numbers != end; row.numbers += 2 * kColumns) {
+    const Two energy = row[kFirst] + row[kSecond];
+    row[kSlope] = (row[kViscous] + row[kPerEnergy] * energy).max(0);
   }
 }
 
@@ -118,16 +145,30 @@ bool JointRows::Complete() {
   Two least = Two::Ones();
   double* const end = numbers_.data() + numbers_.size();
   for (RowPair row{numbers_.data()}; row.numbers != end; row.numbers += 2 * kColumns) {
-    const Two first = row[kFirst], second = row[kSecond], v = row[kSpeed], f = row[kFriction];
-    const Two viscous = (row[kSlope] + row[kPerEnergy] * (first + second)).max(0) * v;
+    const Two v = row[kSpeed], f = row[kFriction], viscous = row[kSlope] * v;
     const Two loss = viscous * v + row[kSliding] * (f * v).abs();
     row[kLoss] = loss;
     row[kForce] = viscous + f;
-    row[kNextFirst] = row[kPole] * first + row[kGain] * loss + row[kAmbientGain] * row[kRise];
-    row[kNextSecond] = row[kSecondPole] * second + row[kSecondGain] * loss;
+    row[kNextFirst] = row[kPole] * row[kFirst] + row[kGain] * loss;
     least = least.min(WhereNegative(-v.abs(), f.abs() + row[kAbsent], Two::Ones()));
   }
+  if (has_ambient_) StepAmbient();
+  if (has_second_stage_) StepSecondStages();
   return least[0] != 0 && least[1] != 0;
+}
+
+void JointRows::StepAmbient() {
+  double* const end = numbers_.data() + numbers_.size();
+  for (RowPair row{numbers_.data()}; row.numbers != end; row.numbers += 2 * kColumns) {
+    row[kNextFirst] += row[kAmbientGain] * row[kRise];
+  }
+}
+
+void JointRows::StepSecondStages() {
+  double* const end = numbers_.data() + numbers_.size();
+  for (RowPair row{numbers_.data()}; row.numbers != end; row.numbers += 2 * kColumns) {
+    row[kNextSecond] = row[kSecondPole] * row[kSecond] + row[kSecondGain] * row[kLoss];
+  }
 }
 
 /// Joints whose bristle is their own law's.

@@ -51,7 +51,10 @@ class JointRows : private LevelSource {
   double force(size_t joint) const { return Of(joint, kForce); }
   const std::vector<double>& next() const { return states_.next(); }
 
-  /// Takes F from the forces of the degrees of freedom for which `acts`, N.m or N.
+  /// Takes F from the forces of all degrees of freedom, N.m or N.
+  void TakeFrom(mjtNum* forces) const { states_.TakeForces(numbers_.data(), forces); }
+
+  /// The same for those for which `acts`.
   template <typename Acts>
   void TakeFrom(mjtNum* forces, const Acts& acts) const {
     for (const JointStates::At& at : states_.at()) {
@@ -76,7 +79,10 @@ class JointRows : private LevelSource {
   FrictionState StateOf(size_t joint) const;
   JointMotion MotionOf(size_t joint) const;
   void SetLevels();
+  void SetSlopes();
   bool Complete();
+  void StepAmbient();
+  void StepSecondStages();
   void StepAlone(const mjModel* m);
   void Take(size_t joint, const FrictionStep& step);
   void TakeDeficits();
@@ -86,6 +92,9 @@ class JointRows : private LevelSource {
   JointStates states_;
   std::vector<size_t> alone_;     // joints with a bristle of their own
   std::vector<size_t> joint_at_;  // of each row
+
+  // whether any joint has a slope that heat changes, an ambient, or a second stage of heat
+  bool slopes_change_ = false, has_ambient_ = false, has_second_stage_ = false;
 
   // of one step
   const mjData* d_ = nullptr;

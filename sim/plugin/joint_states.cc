@@ -13,13 +13,17 @@ JointStates::JointStates(const std::vector<BoundJoint>& joints, const std::vecto
   FindTwos();
 }
 
-/// Joints that are neighbours, and have the same two states, are loaded and stored together.
+/// Joints that follow each other, and have the same two states, are loaded and stored together.
 void JointStates::FindTwos() {
   for (size_t i = 0; i < at_.size(); ++i) {
-    const bool first = at_[i].place % (2 * kColumns) == 0;
-    const bool two = first && i + 1 < at_.size() && at_[i + 1].place == at_[i].place + 1;
-    if (two && at_[i].plain && at_[i + 1].plain) {
-      twos_.push_back({at_[i], at_[i + 1]});
+    const At& at = at_[i];
+    const auto follows = [&](const At& next) {
+      return next.plain && next.place == at.place + 1 && next.dof == at.dof + 1 &&
+             next.state == at.state + 2;
+    };
+    const bool first = at.plain && at.place % (2 * kColumns) == 0;
+    if (first && i + 1 < at_.size() && follows(at_[i + 1])) {
+      twos_.push_back(at);
       ++i;
     } else {
       ones_.push_back(i);
@@ -33,11 +37,11 @@ void JointStates::Load(const mjData* d, const std::vector<BoundJoint>& joints, c
   joints_ = joints.data();
   states_ = states;
   Two finite = Two::Zero();
-  for (const auto& [a, b] : twos_) {
-    const RowPair row{rows + a.place};
-    const mjtNum *one = states + a.state, *other = states + b.state;
-    const Two load{one[0], other[0]}, first{one[1], other[1]}, sum = load + first;
-    row[kSpeed] = Two{d->qvel[a.dof], d->qvel[b.dof]};
+  for (const At& at : twos_) {
+    const RowPair row{rows + at.place};
+    const mjtNum* state = states + at.state;
+    const Two load{state[0], state[2]}, first{state[1], state[3]}, sum = load + first;
+    row[kSpeed] = Two::Map(d->qvel + at.dof);
     row[kLoad] = load;
     row[kFirst] = first;
     finite += sum - sum;
@@ -59,14 +63,21 @@ void JointStates::LoadOne(size_t i, double* rows) const {
   row[kSecond] = state.second_energy;
 }
 
+void JointStates::TakeForces(const double* rows, mjtNum* forces) const {
+  for (const At& at : twos_) {
+    Two::Map(forces + at.dof) -= Two::Map(rows + at.place + 2 * kForce);
+  }
+  for (const size_t i : ones_) forces[at_[i].dof] -= rows[at_[i].place + 2 * kForce];
+}
+
 void JointStates::Store(double* rows) {
   double* const next = next_.data();
   Two finite = Two::Zero();
-  for (const auto& [a, b] : twos_) {
-    const RowPair row{rows + a.place};
+  for (const At& at : twos_) {
+    const RowPair row{rows + at.place};
     const Two load = row[kLoad], first = row[kNextFirst], sum = row[kForce] + load + first;
-    Two::Map(next + a.next) = Two{load[0], first[0]};
-    Two::Map(next + b.next) = Two{load[1], first[1]};
+    Two::Map(next + at.next) = Two{load[0], first[0]};
+    Two::Map(next + at.next + 2) = Two{load[1], first[1]};
     finite += sum - sum;
   }
   for (const size_t i : ones_) StoreOne(i, rows);

@@ -3,7 +3,6 @@
 
 #include <mujoco/mujoco.h>
 
-#include <array>
 #include <vector>
 
 #include "models/friction/joint_friction.h"
@@ -40,6 +39,9 @@ class JointStates {
     return joints_[joint].friction.Load(states_ + at_[joint].state);
   }
 
+  /// Takes F of all joints from the forces of the degrees of freedom.
+  void TakeForces(const double* rows, mjtNum* forces) const;
+
   /// Ends a step. A joint whose next state would be no number keeps the one before, and has no force.
   void Store(double* rows);
 
@@ -50,9 +52,9 @@ class JointStates {
   void LoadOne(size_t joint, double* rows) const;
   void StoreOne(size_t joint, double* rows);
 
-  std::vector<At> at_;                   // of each joint
-  std::vector<std::array<At, 2>> twos_;  // joints that are one pair of rows, with two states each
-  std::vector<size_t> ones_;             // the others
+  std::vector<At> at_;        // of each joint
+  std::vector<At> twos_;      // the first of two that follow each other in all of this, both plain
+  std::vector<size_t> ones_;  // the others
 
   // of one step
   const mjData* d_ = nullptr;

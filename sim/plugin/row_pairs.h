@@ -34,7 +34,7 @@ enum Column : int {
   // numbers of the joint's friction (JointFriction)
   kUpperAtRest,  // the law's own levels, N.m or N
   kLowerAtRest,
-  kSlope,  // kv and b
+  kViscous,  // kv and b
   kPerEnergy,
   kPole,  // of the heat's first stage
   kGain,
@@ -55,6 +55,7 @@ enum Column : int {
   // what it finds
   kUpper,  // L+ and L-, not negative, N.m or N; where a row asks for them, roughly at first
   kLower,
+  kSlope,      // of the force over speed, not negative; found with the numbers where heat leaves it
   kStretch,    // A/h^2 (z + h v), rad/s^2 or m/s^2
   kFriction,   // f, N.m or N
   kSliding,    // 1 where the bristle has yielded in the direction of motion, or 0

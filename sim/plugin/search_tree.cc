@@ -28,12 +28,12 @@ void SearchTree::Guess(const InertiaBlock& inertia, const mjData* d, Rows rows, 
 }
 
 void SearchTree::Find(InertiaBlock& inertia, const mjData* d, Rows rows, AskedLevels& levels,
-                      const std::vector<int>& joints, const Two* force, double impulse) {
+                      const std::vector<int>& joints, const Two* force, const PerSpeed& per_speed) {
   for (const int i : levels.asking()) {
     levels.Of(i, 1);
     levels.Of(i, -1);
   }
-  Guess(inertia, d, rows, force, impulse);
+  Guess(inertia, d, rows, force, per_speed.impulse);
   box_.Start(inertia, d);
   box_.Find(inertia, d);
   for (const int i : joints) {
@@ -45,7 +45,7 @@ void SearchTree::Find(InertiaBlock& inertia, const mjData* d, Rows rows, AskedLe
 
   // then the damper, from where the bristles are now
   for (int i = 0; i < inertia.size(); ++i) {
-    box_.aim[i] = box_.force[i] + (force[i][1] - force[i][0]);
+    box_.aim[i] = box_.force[i] + per_speed.damping * force[i][1];
   }
   box_.Find(inertia, d);
   for (const int i : joints) rows.row(i)[kFriction] = box_.force[i];

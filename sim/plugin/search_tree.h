@@ -18,10 +18,15 @@ class SearchTree {
   SearchTree() = default;
   explicit SearchTree(int size) : box_(size) {}
 
-  /// Finds kFriction, kLoad and kSliding of the joints' rows. force: {p, f} of each row where everything is held,
-  /// N.m or N; impulse: A/h; joints: rows with friction.
+  /// What bristles add to an acceleration for each unit of speed: A/h and B/h.
+  struct PerSpeed {
+    double impulse, damping;
+  };
+
+  /// Finds kFriction, kLoad and kSliding of the joints' rows. force: {p where everything is held, M v} of
+  /// each row; joints: rows with friction.
   void Find(InertiaBlock& inertia, const mjData* d, Rows rows, AskedLevels& levels,
-            const std::vector<int>& joints, const Two* force, double impulse);
+            const std::vector<int>& joints, const Two* force, const PerSpeed& per_speed);
 
  private:
   void Guess(const InertiaBlock& inertia, const mjData* d, Rows rows, const Two* force,

@@ -47,5 +47,17 @@ TEST(AttributeWatch, TellsADifferentLongTextThatNothingAnnounced) {
   EXPECT_TRUE(watch.Same(text));
 }
 
+TEST(AttributeWatch, IsQuietFromAComparisonToTheNextAnnouncement) {
+  const std::string text(100, 'a');
+  AttributeWatch watch(text);
+  EXPECT_FALSE(watch.Quiet());
+  EXPECT_FALSE(watch.Same(std::string(100, 'b')));
+  EXPECT_FALSE(watch.Quiet());
+  EXPECT_TRUE(watch.Same(text));
+  EXPECT_TRUE(watch.Quiet());
+  AttributeWatch::Prepared();
+  EXPECT_FALSE(watch.Quiet());
+}
+
 }  // namespace
 }  // namespace warmjoint

@@ -73,6 +73,36 @@ TEST(PluginModels, AModelAtTheSamePlaceInMemoryIsAnotherOne) {
   EXPECT_EQ(SpeedIn(m, d.get()), SpeedIn(other, fresh.get()));
 }
 
+TEST(PluginModels, AModelThatIsOverwrittenInPlaceIsTheOneWhoseStatesGoOn) {
+  for (const Form form : {Form::actuator, Form::passive}) {
+    const Model models[] = {MustCompile(ArmXml(Coulomb(0.2), form, "implicitfast")),
+                            MustCompile(ArmXml(Coulomb(0.9), form, "implicitfast"))};
+    ASSERT_EQ(models[0]->npluginattr, models[1]->npluginattr);
+    const Model place = MustCompile(ArmXml(Coulomb(0.2), form, "implicitfast"));
+    const Data turns(mj_makeData(place.get()));
+    const Data own[] = {Data(mj_makeData(models[0].get())), Data(mj_makeData(models[1].get()))};
+    std::vector<mjtNum> states[2];
+    for (int k = 0; k < 2; ++k) {
+      own[k]->qvel[0] = 3;
+      states[k] = FullState(models[k].get(), own[k].get());
+    }
+
+    // as mjb_getModel writes one simulation's model after the other, which nothing announces
+    for (int i = 0; i < 200; ++i) {
+      for (int k = 0; k < 2; ++k) {
+        const mjModel* m = models[k].get();
+        std::copy_n(m->plugin_attr, m->npluginattr, place->plugin_attr);
+        mj_setState(m, turns.get(), states[k].data(), mjSTATE_FULLPHYSICS);
+        DriveArm(place.get(), turns.get(), 1);
+        states[k] = FullState(m, turns.get());
+        DriveArm(m, own[k].get(), 1);
+        ASSERT_EQ(states[k], FullState(m, own[k].get())) << i;
+      }
+    }
+    EXPECT_NE(states[0], states[1]);
+  }
+}
+
 /// With a map whose weights, all but one, are of this many N.m.
 FrictionDescription Mapped(double weight, double other) {
   FrictionDescription friction = FrictionsOfEveryLaw()[2];
