@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "identification/forward/thermal_filter.h"
+#include "identification/lack_of_fit/with_heat.h"
 #include "identification/linear/rigid_part.h"
 #include "models/foundation/robust_noise.h"
 
@@ -38,7 +39,12 @@ double MedianHold(const FittedModel& model, const Measurements& m) {
 Circumstances CircumstancesOf(const FittedModel& model, const Measurements& m, const Bins& bins) {
   const Eigen::MatrixXd none(bins.size(), 0);
   Circumstances known{bins.Means(Energies(model, m)), none, none, none, none};
-  if (model.knows_warming) known.slopes = bins.Means(m.velocity.cwiseProduct(model.energy));
+  if (model.thermal) {
+    const Eigen::VectorXd slope = m.velocity.cwiseProduct(model.energy);
+    const Eigen::VectorXd at_losses =
+        m.loss_velocity.value_or(m.velocity).cwiseProduct(model.energy);
+    known.slopes = bins.Means(WithHeat(model, m, slope, at_losses));
+  }
   if (model.by_initial_energy) known.initial = bins.Means(*model.by_initial_energy);
   if (m.load) known.loads = bins.Means(Beside(*m.load, m.load->cwiseAbs()));
   if (m.temperature) known.temperatures = bins.Means(*m.temperature);

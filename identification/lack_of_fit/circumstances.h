@@ -11,7 +11,7 @@ namespace warmjoint::inline identification {
 /// Means over each bin; [m x 0] where something is not known or not asked.
 struct Circumstances {
   Eigen::MatrixXd energies;      // [m x 3] measured losses, filtered; N.m or N per unit of gain
-  Eigen::MatrixXd slopes;        // [m x 1] v E, E of the fit, where it knows warming
+  Eigen::MatrixXd slopes;        // [m x 1] v E, E of the fit, with its heat, where it knows warming
   Eigen::MatrixXd initial;       // [m x 1] dF/dE(0), where E(0) is taken to be known
   Eigen::MatrixXd loads;         // [m x 2] L, |L|; N.m or N
   Eigen::MatrixXd temperatures;  // [m x 1] degC

@@ -9,6 +9,7 @@
 #include "identification/lack_of_fit/fading.h"
 #include "identification/lack_of_fit/fitted_model.h"
 #include "identification/lack_of_fit/lag.h"
+#include "identification/lack_of_fit/left_open.h"
 #include "identification/lack_of_fit/ripple.h"
 #include "identification/lack_of_fit/sensitivity.h"
 #include "identification/linear/rigid_part.h"
@@ -146,6 +147,7 @@ Examination ExamineResidual(const Fit& fit, const Inference& inference, const Me
   Measure(*model, bins, derivatives, p, examination);
   LearnHeat(*model, bins, p, derivatives, examination);
   LearnAssumptions(fit, *model, bins, p, derivatives, examination);
+  LearnLeftOpen(*model, m, bins, p, derivatives, examination);
 
   // what is known to act on friction, then what changes within segments, then what stays
   const Circumstances known = CircumstancesOf(*model, m, bins);

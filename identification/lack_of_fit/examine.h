@@ -22,12 +22,16 @@ struct Examination {
                              // as it ever gets; empty where its start is no matter
   Eigen::VectorXd by_drift;  // [p] largest change of each by a slow drift of a hundredth of the
                              // friction over the log, even or fading
-  Eigen::VectorXd by_gaps;   // [p] most that the gaps of the log may have moved each; empty where
-                             // there are none, or where the fit has taken care of them
-  Eigen::VectorXd by_heat;   // [p] change of each had the losses followed the heat within the steps
-                             // of the log; empty where that is no matter
-  double heat_share = 0;     // of that, as the residual tells: 1 where they did, 0 where they were
-                             // held (22)
+  double open_start = 0;     // the warmest E(0) that the log leaves open, N.m or N (left_open.h)
+  Eigen::VectorXd by_open_start;  // [p] change of each by that; empty as by_start
+  Eigen::VectorXd
+      by_open_drift;        // [p] most that a slow drift that the log leaves open changes each
+  Eigen::VectorXd by_gaps;  // [p] most that the gaps of the log may have moved each; empty where
+                            // there are none, or where the fit has taken care of them
+  Eigen::VectorXd by_heat;  // [p] change of each had the losses followed the heat within the steps
+                            // of the log; empty where that is no matter
+  double heat_share = 0;    // of that, as the residual tells: 1 where they did, 0 where they were
+                            // held (22)
   double heat_deviation = 0;  // standard deviation of the share
   double friction = 0;        // rms of the kept torque, N.m or N
   double samples = 0;

@@ -8,7 +8,7 @@ Finding TestFading(const FittedModel& model, Eigen::VectorXd& residual, ErrorLev
   Finding finding;
   finding.test = &FadingTest();
   finding.reason = finding.test->absent;
-  if (!model.maps || !model.knows_warming) return finding;
+  if (!model.maps || !model.thermal) return finding;
 
   // beside maps whose strength is free
   const Selection& selection = model.selection;

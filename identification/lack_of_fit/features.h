@@ -12,7 +12,7 @@ Features OfDirection(const Bins& bins, const Circumstances& known, const Growing
 Features OfSpeed(const Bins& bins, const Circumstances& known, const GrowingFit& fit);
 /// s E with three time constants: friction that changes with the losses.
 Features OfEnergy(const Bins& bins, const Circumstances& known, const GrowingFit& fit);
-/// v E of the fit: a slope that warms.
+/// v E of the fit, with what its losses change of E: a slope that warms.
 Features OfSpeedByEnergy(const Bins& bins, const Circumstances& known, const GrowingFit& fit);
 /// dF/dE(0): a start that was not as warm as taken.
 Features OfInitialEnergy(const Bins& bins, const Circumstances& known, const GrowingFit& fit);

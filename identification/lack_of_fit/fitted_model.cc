@@ -87,6 +87,7 @@ Eigen::MatrixXd AddWarming(const Fit& fit, const Inference& inference, const Mea
                            FittedModel& model) {
   const std::vector<double> values = LawValues(fit.friction);
   const Thermal& thermal = *fit.friction.thermal;
+  model.thermal = thermal;
   const std::vector<LogGap> gaps = FindGaps(m);
   const auto jumps = static_cast<Eigen::Index>(gaps.size());
   Eigen::MatrixXd of_loss;
@@ -137,9 +138,9 @@ std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& infere
   model.rows = RowsOf(fit, {Role::law, Role::heat, Role::start, Role::gravity});
   if (fit.inertia) model.rows.push_back(*fit.RowOf(Role::inertia));
   model.derivatives = NominalDerivatives(law, values, m.velocity);
-  model.knows_warming = fit.friction.thermal && !fit.Values(Role::heat).empty();
+  const bool knows_warming = fit.friction.thermal && !fit.Values(Role::heat).empty();
   Eigen::MatrixXd by_jumps(m.size(), 0);
-  if (model.knows_warming) by_jumps = AddWarming(fit, inference, m, model);
+  if (knows_warming) by_jumps = AddWarming(fit, inference, m, model);
   if (fit.gravity) AddGravity(*fit.gravity, m.position, model);
   if (fit.inertia) model.derivatives = Beside(model.derivatives, *m.acceleration);
   model.derivatives = Beside(model.derivatives, by_jumps);

@@ -25,8 +25,8 @@ struct FittedModel {
                                              // where that matters
   std::optional<Eigen::VectorXd> maps;       // [N] what they give, N.m or N, where there are any
 
-  bool knows_warming = false;  // whether it was estimated
-  bool has_bristle = false;    // whether the law sticks by a state of its own
+  std::optional<Thermal> thermal;  // where a warming was estimated
+  bool has_bristle = false;        // whether the law sticks by a state of its own
 };
 
 /// Nothing where the fit was refused. inference: of the fit; selection: samples at constant speed.

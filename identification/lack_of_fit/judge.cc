@@ -192,7 +192,10 @@ void WeighFindings(const Examination& examination, const Identifier& identifier,
       unknown ? ", and the parameters of warming have none, since they may have absorbed part of it"
               : "",
       remedy));
-  if (Drifts(examination)) DropWarming(fit, inference);
+  if (Drifts(examination)) {
+    DropWarming(fit, inference);
+    Widen(examination, examination.by_open_drift, inference);
+  }
   Widen(examination, examination.moves.cwiseAbs() + kNormal95 * examination.move_deviations,
         inference);
 }
@@ -212,7 +215,7 @@ void JudgeLackOfFit(const Identifier& identifier, const IdentifierInput& input, 
   // examine
   const Examination examination = ExamineResidual(fit, inference, m, input.selection);
   inference.diagnostics = DiagnosticsOf(examination, fit, m.torque_unit);
-  inference.assumptions = AssumptionsOf(examination, fit);
+  inference.assumptions = AssumptionsOf(examination, fit, m.torque_unit);
 
   // and weigh
   WeighStart(examination, identifier, input, fit, judging, inference);

@@ -1,5 +1,7 @@
 #include "identification/lack_of_fit/report_findings.h"
 
+#include <fmt/format.h>
+
 #include "identification/lack_of_fit/table.h"
 #include "identification/uncertainty/tails.h"
 
@@ -40,7 +42,8 @@ std::vector<Diagnostic> DiagnosticsOf(const Examination& examination, const Fit&
   return diagnostics;
 }
 
-std::vector<Assumption> AssumptionsOf(const Examination& examination, const Fit& fit) {
+std::vector<Assumption> AssumptionsOf(const Examination& examination, const Fit& fit,
+                                      const std::string& unit) {
   std::vector<Assumption> assumptions;
   if (examination.by_start.size() > 0) {
     assumptions.push_back(
@@ -48,10 +51,22 @@ std::vector<Assumption> AssumptionsOf(const Examination& examination, const Fit&
          "the joint was cold at the start, not at a tenth of the warmth that it reaches",
          Named(examination.by_start, examination, fit)});
   }
+  if (examination.by_open_start.size() > 0) {
+    assumptions.push_back(
+        {"open_start",
+         fmt::format("the joint was cold at the start, though for all that this log "
+                     "tells E(0) may be {:.2g} {}",
+                     examination.open_start, unit),
+         Named(examination.by_open_start, examination, fit)});
+  }
   if (examination.by_drift.size() > 0) {
     assumptions.push_back({"no_slow_drift",
                            "nothing outside of the model changed the friction by 1 % over the log",
                            Named(examination.by_drift, examination, fit)});
+    assumptions.push_back({"open_drift",
+                           "nothing outside of the model changed the friction slowly, though this "
+                           "log cannot rule it out",
+                           Named(examination.by_open_drift, examination, fit)});
   }
   return assumptions;
 }

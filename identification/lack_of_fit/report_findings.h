@@ -12,7 +12,9 @@ namespace warmjoint::inline identification {
 std::vector<Diagnostic> DiagnosticsOf(const Examination& examination, const Fit& fit,
                                       const std::string& unit);
 
-/// "cold_start" where a start was taken to be cold, "no_slow_drift" where anything was fitted.
-std::vector<Assumption> AssumptionsOf(const Examination& examination, const Fit& fit);
+/// "cold_start" and "open_start" where a start was taken to be cold, "no_slow_drift" and "open_drift" where
+/// anything was fitted. unit: of the torque
+std::vector<Assumption> AssumptionsOf(const Examination& examination, const Fit& fit,
+                                      const std::string& unit);
 
 }  // namespace warmjoint::inline identification

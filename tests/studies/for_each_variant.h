@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 #include <string>
 
@@ -11,12 +12,12 @@
 
 namespace warmjoint {
 
-/// NAME SUITE.yaml [REALIZATIONS [VARIANT]]: calls study(suite, variant, realizations) for each variant that is
-/// asked for. Returns the exit status.
+/// NAME SUITE.yaml [REALIZATIONS [VARIANT...]]: calls study(suite, variant, realizations) for each variant that is
+/// asked for, all where none is. Returns the exit status.
 inline int StudyVariants(const char* name, int count, char** arguments,
                          const std::function<void(const Suite&, int, int)>& study) {
   if (count < 2) {
-    fmt::print(stderr, "{} SUITE.yaml [REALIZATIONS [VARIANT]]\n", name);
+    fmt::print(stderr, "{} SUITE.yaml [REALIZATIONS [VARIANT...]]\n", name);
     return 2;
   }
   try {
@@ -25,8 +26,10 @@ inline int StudyVariants(const char* name, int count, char** arguments,
     const int realizations = given ? static_cast<int>(*given) : suite.realizations;
     for (int variant = 0; variant < suite.variants(); ++variant) {
       const bool wanted =
-          count < 4 || (suite.ladder &&
-                        suite.ladder->variants[static_cast<size_t>(variant)].name == arguments[3]);
+          count < 4 ||
+          (suite.ladder && std::find(arguments + 3, arguments + count,
+                                     suite.ladder->variants[static_cast<size_t>(variant)].name) !=
+                               arguments + count);
       if (wanted) study(suite, variant, realizations);
     }
   } catch (const BadInput& error) {

@@ -1,6 +1,6 @@
 // What verdicts say over many realizations of a suite, on the path that users take.
 //
-//   verdict_study SUITE.yaml [REALIZATIONS [VARIANT]]
+//   verdict_study SUITE.yaml [REALIZATIONS [VARIANT...]]
 //
 // For each variant and identifier: how often each status, how often 95 % intervals hold the truth,
 // how often each test for lack of fit is made and rejects, and how large what it finds is, as a
@@ -10,7 +10,9 @@
 // A log counts as confidently wrong where its status is ok and the truth of a parameter lies more
 // than three deviations (interval / 3.92) beyond an end of its 95 % interval. Beside coverage stand,
 // over the Cramer-Rao bound of the noise: mean error, its rms, the reported standard deviation (rms),
-// and the median of the interval's width over 3.92.
+// and the median of the interval's width over 3.92. An assumption reaches the truth of a log where
+// every interval, made as much longer at both ends as the assumption moves the parameter, holds it.
+// Ideal chi2: squares that the fit leaves of the torque without noise, over the noise's variance.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,6 +28,7 @@
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"
 #include "tests/studies/for_each_variant.h"
+#include "tests/studies/ideal_chi2.h"
 
 namespace warmjoint {
 namespace {
@@ -79,6 +82,17 @@ bool IsFarOutside(const ParameterScore& one, const std::array<double, 2>& interv
   return one.truth < interval[0] - 3 * deviation || one.truth > interval[1] + 3 * deviation;
 }
 
+/// Whether intervals hold the truth once they reach as far as something moves the parameters.
+bool Reaches(const ParameterMoves& moves, const Estimate& estimate, const Score& score) {
+  return std::ranges::all_of(score.continuous, [&](const ParameterScore& one) {
+    if (!one.covered) return true;
+    const auto [lower, upper] = *estimate.Find(one.name)->interval95;
+    const auto move = std::ranges::find(moves, one.name, &ParameterMoves::value_type::first);
+    const double reach = move == moves.end() ? 0 : std::abs(move->second);
+    return lower - reach <= one.truth && one.truth <= upper + reach;
+  });
+}
+
 /// Outcomes of one test.
 struct TestRates {
   Rate made, rejected;
@@ -90,10 +104,11 @@ struct Outcomes {
   std::map<std::string, int> statuses;
   std::map<std::string, ParameterRates> parameters;
   std::map<std::string, TestRates> tests;
-  Rate alarms;   // any test rejects
-  Rate refused;  // not ok
-  Rate warned;   // ok, with a test that rejects
-  Rate wrong;    // confidently
+  std::map<std::string, Rate> reaches;  // of assumptions
+  Rate alarms;                          // any test rejects
+  Rate refused;                         // not ok
+  Rate warned;                          // ok, with a test that rejects
+  Rate wrong;                           // confidently
 
   void Count(const Estimate& estimate, const Recording& recording, const LogView& view) {
     ++statuses[std::string(StatusName(estimate.status))];
@@ -122,6 +137,9 @@ struct Outcomes {
         parameters[one.name].Count(one, estimated);
         far = far || IsFarOutside(one, *estimated.interval95);
       }
+      for (const Assumption& one : estimate.assumptions) {
+        reaches[one.name].Count(Reaches(one.moves, estimate, score));
+      }
     }
     wrong.Count(far);
   }
@@ -131,6 +149,8 @@ struct Outcomes {
     fmt::print("    any test rejects {}, refused {}, ok with a finding {}\n", alarms.Text(),
                refused.Text(), warned.Text());
     fmt::print("    confidently wrong {}\n", wrong.Text());
+    for (const auto& [name, rate] : reaches)
+      fmt::print("    {:24} reaches the truth {}\n", name, rate.Text());
     for (auto& [name, rates] : parameters) fmt::print("    {:24} {}\n", name, rates.Text());
     for (const auto& [name, test] : tests) {
       if (test.made.times == 0) continue;
@@ -162,7 +182,8 @@ void Study(const Suite& suite, int variant, int realizations) {
     }
   }
   for (size_t i = 0; i < outcomes.size(); ++i) {
-    fmt::print("  {}\n", suite.identifiers[i].label);
+    fmt::print("  {}, ideal chi2 {}\n", suite.identifiers[i].label,
+               IdealChi2(scenario, suite.identifiers[i]));
     outcomes[i].Print();
   }
   std::fflush(stdout);

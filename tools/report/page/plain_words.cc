@@ -81,6 +81,9 @@ std::string AssumptionOf(const std::string& name) {
   if (name == "cold_start") return "The joint was as cold as its surroundings when the log began";
   if (name == "no_slow_drift")
     return "Nothing else drifted slowly, such as the temperature of the room";
+  if (name == "open_start")
+    return "The joint was cold when the log began; what the log itself says";
+  if (name == "open_drift") return "Nothing else drifted slowly; what the log itself says";
   return name;
 }
 

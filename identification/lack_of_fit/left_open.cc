@@ -1,0 +1,118 @@
+#include "identification/lack_of_fit/left_open.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "identification/lack_of_fit/error_level.h"
+#include "identification/lack_of_fit/sensitivity.h"
+#include "identification/lack_of_fit/table.h"
+#include "identification/lack_of_fit/with_heat.h"
+#include "identification/linear/least_squares.h"
+#include "identification/linear/rigid_part.h"
+#include "identification/uncertainty/tails.h"
+#include "identification/uncertainty/uncertainty.h"
+
+namespace warmjoint::inline identification {
+namespace {
+
+using Eigen::ArrayXd;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr std::array kFadings{1.0 / 2, 1.0 / 4, 1.0 / 8};  // of the log: time constants of drifts
+constexpr double kTold = 1e-6;  // of a column beside the fit, below which the log tells nothing
+
+/// Values between which a factor may lie at all.
+struct Possible {
+  double least, most;
+};
+
+/// Both ends of what the tests of the log leave open of a force's factor beside the fit: of its interval
+/// at their level. force, residual: [m] means over bins.
+Possible Interval(const VectorXd& force, const VectorXd& residual, const Bins& bins,
+                  const MatrixXd& derivatives, const Possible& possible) {
+  const VectorXd root = bins.weight.cwiseSqrt();
+  const MatrixXd rows = root.asDiagonal() * Beside(derivatives, force);
+  const VectorXd seen = root.cwiseProduct(residual);
+  const LeastSquares fit = SolveLeastSquares(rows, seen, kTold);
+  if (!fit.mixed.empty()) return possible;
+  const Selection all{Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(bins.size(), true), {}};
+  const Uncertainty known = JudgeUncertainty(rows, fit.cofactor, seen - rows * fit.solution, all);
+  const Index last = rows.cols() - 1;
+  const double level = 1 - kErrorLevel / static_cast<double>(LackOfFitTests().size());
+  const double reach = StudentQuantile(known.freedom, level) * known.Deviation(last);
+  const auto within = [&](double c) { return std::clamp(c, possible.least, possible.most); };
+  return {within(fit.solution[last] - reach), within(fit.solution[last] + reach)};
+}
+
+/// The end that is farther from 0.
+double FarEnd(const Possible& interval) {
+  return std::abs(interval.least) > std::abs(interval.most) ? interval.least : interval.most;
+}
+
+/// A drift, over bins: zero at the start, and zero at the end.
+struct Drift {
+  VectorXd from_first, until_last;  // [m]
+  double most;                      // of its factor
+};
+
+std::vector<Drift> Drifts(const FittedModel& model, const Measurements& m, const Bins& bins,
+                          double friction) {
+  // courses d(t) of friction, and 1
+  constexpr Index kCourses = 1 + static_cast<Index>(kFadings.size());
+  const ArrayXd t = (m.time.array() - m.time[0]) / (m.time[m.size() - 1] - m.time[0]);
+  MatrixXd levels(m.size(), kCourses + 1);
+  levels.col(0) = t;
+  for (size_t i = 0; i < kFadings.size(); ++i) {
+    levels.col(1 + static_cast<Index>(i)) =
+        (1 - (-t / kFadings[i]).exp()) / (1 - std::exp(-1 / kFadings[i]));
+  }
+  levels.col(kCourses).setOnes();
+  levels = m.velocity.array().sign().matrix().asDiagonal() * levels;
+  const MatrixXd forces = bins.Means(WithHeat(model, m, levels));
+  std::vector<Drift> drifts;
+  for (Index i = 0; i < kCourses; ++i) {
+    drifts.push_back({forces.col(i), forces.col(i) - forces.col(kCourses), friction});
+  }
+
+  // a sensor
+  const VectorXd force = bins.Means(model.torque - model.residual);
+  const VectorXd gain = force.cwiseProduct(bins.time);
+  drifts.push_back({gain, gain - force, 1});
+  return drifts;
+}
+
+}  // namespace
+
+void LearnLeftOpen(const FittedModel& model, const Measurements& m, const Bins& bins, Index p,
+                   const MatrixXd& derivatives, Examination& examination) {
+  const VectorXd residual = bins.Means(model.residual);
+  const auto moves = [&](const VectorXd& force, double factor) -> VectorXd {
+    return MovesBy(factor * force, bins, derivatives).topRows(p);
+  };
+
+  // a start that was not cold
+  if (model.by_initial_energy) {
+    const VectorXd force = bins.Means(*model.by_initial_energy);
+    const Possible warm{std::min(model.energy.minCoeff(), 0.0),
+                        std::max(model.energy.maxCoeff(), 0.0)};
+    examination.open_start = FarEnd(Interval(force, residual, bins, derivatives, warm));
+    examination.by_open_start = moves(force, examination.open_start);
+  }
+
+  // friction, or a sensor, that drifts for another reason than its losses
+  examination.by_open_drift.setZero(p);
+  for (const Drift& drift : Drifts(model, m, bins, examination.friction)) {
+    const double factor =
+        FarEnd(Interval(drift.from_first, residual, bins, derivatives, {-drift.most, drift.most}));
+    for (const VectorXd& force : {drift.from_first, drift.until_last}) {
+      examination.by_open_drift =
+          examination.by_open_drift.cwiseMax(moves(force, factor).cwiseAbs());
+    }
+  }
+}
+
+}  // namespace warmjoint::inline identification

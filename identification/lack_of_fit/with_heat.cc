@@ -1,0 +1,17 @@
+#include "identification/lack_of_fit/with_heat.h"
+
+#include "identification/forward/closed_loop.h"
+
+namespace warmjoint::inline identification {
+
+Eigen::MatrixXd WithHeat(const FittedModel& model, const Measurements& m,
+                         const Eigen::MatrixXd& forces, const Eigen::MatrixXd& at_losses) {
+  if (!model.thermal) return forces;
+  const ClosedLoop loop =
+      ClosedLoop::Along(m, forces, m.loss_velocity ? at_losses : Eigen::MatrixXd());
+  // by a force's own factor the loop is linear: its derivative is the same wherever the others are
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(forces.cols());
+  return loop.Jacobian(none, *model.thermal).leftCols(forces.cols());
+}
+
+}  // namespace warmjoint::inline identification

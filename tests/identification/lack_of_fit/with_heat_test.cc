@@ -1,0 +1,63 @@
+#include "identification/lack_of_fit/with_heat.h"
+
+#include <gtest/gtest.h>
+
+#include "models/friction/along_motion.h"
+#include "models/recording/course_of.h"
+#include "tests/support/warm_recording.h"
+
+namespace warmjoint {
+namespace {
+
+/// A fit of the truth, as far as WithHeat asks.
+FittedModel Warm(const FrictionDescription& friction) {
+  FittedModel model;
+  model.thermal = friction.thermal;
+  return model;
+}
+
+Prediction Along(const FrictionDescription& friction, const Measurements& m) {
+  return AlongMotion(friction).Predict(CourseOf(m, BristleStart::torque), {});
+}
+
+/// (F(+step) - F(-step)) / (2 step). [N]
+Eigen::VectorXd Slope(const FrictionDescription& above, const FrictionDescription& below,
+                      const Measurements& m, double step) {
+  return (Along(above, m).force - Along(below, m).force) / (2 * step);
+}
+
+TEST(WithHeat, IsTheDerivativeByALevel) {
+  const FrictionDescription friction = test::TableOne();
+  const Measurements m = test::RecordFriction(friction, 1, test::AlternatingSpeeds(1200, 1), 0, 1);
+  const double step = 0.01;
+  FrictionDescription above = friction, below = friction;
+  above.parameters["coulomb"] += step;
+  below.parameters["coulomb"] -= step;
+  const Eigen::VectorXd sign = m.velocity.array().sign().matrix();
+  // F is linear in coulomb: what differs is rounding, 1e-16 of 20 N.m over 0.02
+  const Eigen::VectorXd off = WithHeat(Warm(friction), m, sign) - Slope(above, below, m, step);
+  EXPECT_LT(off.lpNorm<Eigen::Infinity>(), 1e-11);
+}
+
+TEST(WithHeat, IsTheDerivativeByASlopeThatWarms) {
+  const FrictionDescription friction = test::TableOne();
+  const Measurements m = test::RecordFriction(friction, 1, test::AlternatingSpeeds(1200, 2), 0, 2);
+  const double step = 1e-4;
+  FrictionDescription above = friction, below = friction;
+  above.viscous_per_energy = step;
+  below.viscous_per_energy = -step;
+  const Eigen::VectorXd slope = m.velocity.cwiseProduct(Along(friction, m).energy);
+  // by the third derivative, of some 10 N.m: step^2 times that
+  const Eigen::VectorXd off = WithHeat(Warm(friction), m, slope) - Slope(above, below, m, step);
+  EXPECT_LT(off.lpNorm<Eigen::Infinity>(), 1e-6);
+}
+
+TEST(WithHeat, IsTheForceItselfWhereNothingWarms) {
+  const Measurements m =
+      test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(100, 1), 0, 1);
+  const Eigen::VectorXd force = m.velocity.cwiseAbs2();
+  EXPECT_EQ(WithHeat({}, m, force), force);
+}
+
+}  // namespace
+}  // namespace warmjoint
