@@ -49,6 +49,13 @@ Eigen::VectorXi PartOf(const VectorXd& weight, Index parts) {
   return part;
 }
 
+/// A scatter whose variance along every direction is `least` or more. [q x q]
+MatrixXd NoQuieter(const MatrixXd& scatter, double least) {
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> along(scatter);
+  return along.eigenvectors() * along.eigenvalues().cwiseMax(least).asDiagonal() *
+         along.eigenvectors().transpose();
+}
+
 /// How many parts carry features: all of them where each carries as much, one where that one
 /// carries all. part: [m]; own: [m x q] orthonormal
 double CarryingParts(const MatrixXd& own, const Eigen::VectorXi& part) {
@@ -93,12 +100,12 @@ GrowingFit::Evidence GrowingFit::ByColour(const VectorXd& coefficients, const Ma
   // and with it R by a share of (4 R - 2)/m
   const double seen = scatter.selfadjointView<Eigen::Lower>().operatorNorm() / noise_.variance;
   const double small = 1 + std::max(4 * seen * (1 + 4 * seen / rows) - 2, 0.0) / rows;
-  // a fit that takes up what is slow leaves a rest that looks too fast: never quieter than white
-  const double least = std::max(small, 1 / std::max(seen, 1e-9));
-  const double red = least * seen;
+  // a fit that takes up what is slow leaves a rest that looks too fast: along no direction of the
+  // features is noise quieter than white
+  const MatrixXd unbiased = NoQuieter(small * scatter, noise_.variance);
+  const double red = std::max(small * seen, 1.0);
   const double samples = rows / std::max(2 * red - 1, 1.0) - taken_;
   const double fewest = kFewestFree + static_cast<double>(own.cols());
-  const MatrixXd unbiased = least * scatter;
   return {unbiased, HotellingPValue(coefficients, unbiased, std::max(samples, fewest))};
 }
 
