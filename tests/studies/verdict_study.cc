@@ -27,13 +27,12 @@
 #include "identification/score/score.h"
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"
+#include "tests/studies/far_outside.h"
 #include "tests/studies/for_each_variant.h"
 #include "tests/studies/ideal_chi2.h"
 
 namespace warmjoint {
 namespace {
-
-constexpr double kWidth = 3.92;  // deviations of a 95 % interval of known variance
 
 /// How often something happened.
 struct Rate {
@@ -64,7 +63,7 @@ struct ParameterRates {
     squares += off * off;
     if (estimated.std) variance += std::pow(*estimated.std / one.bound, 2);
     const auto [lower, upper] = *estimated.interval95;
-    widths.push_back((upper - lower) / kWidth / one.bound);
+    widths.push_back((upper - lower) / kIntervalWidth / one.bound);
   }
   std::string Text() {
     const auto n = static_cast<double>(std::max(covered.of, 1));
@@ -75,12 +74,6 @@ struct ParameterRates {
         std::sqrt(variance / n), widths[widths.size() / 2]);
   }
 };
-
-/// Whether the truth lies more than three deviations beyond an end of the interval.
-bool IsFarOutside(const ParameterScore& one, const std::array<double, 2>& interval) {
-  const double deviation = (interval[1] - interval[0]) / kWidth;
-  return one.truth < interval[0] - 3 * deviation || one.truth > interval[1] + 3 * deviation;
-}
 
 /// Whether intervals hold the truth once they reach as far as something moves the parameters.
 bool Reaches(const ParameterMoves& moves, const Estimate& estimate, const Score& score) {

@@ -1,0 +1,18 @@
+// When an answer counts as confidently wrong.
+#pragma once
+
+#include <array>
+
+#include "identification/score/score.h"
+
+namespace warmjoint {
+
+inline constexpr double kIntervalWidth = 3.92;  // deviations of a 95 % interval of known variance
+
+/// Whether the truth lies more than three deviations (interval / 3.92) beyond an end of the interval.
+inline bool IsFarOutside(const ParameterScore& one, const std::array<double, 2>& interval) {
+  const double deviation = (interval[1] - interval[0]) / kIntervalWidth;
+  return one.truth < interval[0] - 3 * deviation || one.truth > interval[1] + 3 * deviation;
+}
+
+}  // namespace warmjoint
