@@ -2,7 +2,7 @@
 
 #include "identification/fit_data.h"
 #include "identification/holdout/predict_torque.h"
-#include "identification/inference/inference.h"
+#include "identification/inference/bounds.h"
 
 namespace warmjoint::inline identification {
 
@@ -14,7 +14,7 @@ TorqueModel ModelOf(const Fit& fit) {
 
 std::optional<Metrics> Evaluate(const Fit& fit, const Measurements& measurements, Selection test,
                                 const CourseStart& start) {
-  if (!Infer(fit).gives_friction) return std::nullopt;
+  if (!GivesFriction(fit)) return std::nullopt;
   const FrictionDescription& friction = fit.friction;
   const TorquePrediction predicted =
       PredictTorque(ModelOf(fit), measurements, std::move(test), start);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "identification/holdout/evaluate.h"
+#include "identification/inference/bounds.h"
 #include "identification/inference/inference.h"
 
 namespace warmjoint::inline identification {
@@ -77,7 +78,7 @@ std::string WhyNoHoldOut(const Identifier& identifier, const IdentifierInput& gi
 }
 
 std::string WhyNoHoldOut(const Identifier& identifier, const Fit& fit, const PreparedLog& other) {
-  if (!Infer(fit).gives_friction) return "the fit gives no friction that could predict them";
+  if (!GivesFriction(fit)) return "the fit gives no friction that could predict them";
   const LogView& seen = SeenBy(identifier, fit, other);
   return fmt::format("of {}, {}", seen.measurements.source, WhyNone(fit, seen.selection.count()));
 }

@@ -2,175 +2,20 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
 
 #include "identification/fit_data.h"
-#include "identification/holdout/blocked_hold_out.h"
 #include "identification/holdout/structure_choice.h"
 #include "identification/identifiers/lag_of_log.h"
-#include "identification/identifiers/structures.h"
-#include "identification/inference/inference.h"
+#include "identification/identifiers/tournament.h"
 #include "identification/linear/rigid_part.h"
-#include "identification/preparation/condense.h"
 
 namespace warmjoint::inline identification {
 namespace {
 
 constexpr const char* kName = "auto";
-constexpr Eigen::Index kRows = 3000;    // on which structures are compared
-constexpr double kHopeless = 4;         // of the mean squared error of another
-constexpr double kFewParameters = 0.1;  // of the rows
-
-/// What became of a structure on the rows that are compared.
-struct Trial {
-  Structure structure;
-  Fit fit;
-  Inference told;
-  std::string dropped;                    // why it is no contender; empty for one that is
-  std::optional<Eigen::VectorXd> errors;  // on blocks, of a contender
-
-  double Parameters() const { return fit.effective_parameters; }
-  double MeanSquare() const {
-    return fit.residual().squaredNorm() / static_cast<double>(fit.torque.size());
-  }
-};
-
-Trial Try(const Structure& structure, const IdentifierInput& input) {
-  Trial trial{structure, structure.Fitted(input), {}, {}, {}};
-  trial.told = Infer(trial.fit);
-  if (trial.told.status != Status::ok) {
-    trial.dropped = StatusName(trial.told.status);
-  } else if (!trial.told.gives_friction) {
-    trial.dropped = "gives no friction";
-  }
-  return trial;
-}
-
-/// Everything that is tried on one log.
-class Tournament {
- public:
-  /// On rows that hold the means of neighbouring samples. selection: of the samples that take part.
-  Tournament(const IdentifierInput& input, const Selection& selection)
-      : view_(Condense({input.measurements, selection}, kRows)),
-        quick_(input.On(view_)),
-        rows_(static_cast<double>(quick_.selection.count())) {}
-  Tournament(const Tournament&) = delete;
-  Tournament& operator=(const Tournament&) = delete;
-
-  void Add(const std::vector<Structure>& structures) {
-    for (const Structure& structure : structures) {
-      quick_.Tell("trying " + structure.Name());
-      trials_.push_back(Try(structure, quick_));
-    }
-  }
-
-  /// The structure that BIC prefers so far, of those that fit all rows; none where nothing does.
-  const Structure* Best() const {
-    const Trial* best = nullptr;
-    for (const Trial& trial : trials_) {
-      const bool fits = trial.told.status == Status::ok && trial.told.gives_friction;
-      if (fits && (!best || BicOf(trial) < BicOf(*best))) best = &trial;
-    }
-    return best ? &best->structure : nullptr;
-  }
-
-  /// Whether a level for each direction may help the Stribeck law with that warming: what it leaves
-  /// pushes in one direction. Where it does not fit, the linear law tells; with warming, which costs more,
-  /// that two levels fit without it.
-  bool MayHaveTwoLevels(const std::string& warming) const {
-    const Trial& one = *Find(StribeckStructure(warming));
-    if (one.told.status == Status::ok) return Pushes(one.fit);
-    if (warming == "none") return Pushes(First().fit);
-    const Trial* cold = Find(TwoLevelStribeckStructure("none"));
-    return cold && cold->told.status == Status::ok;
-  }
-
-  /// Drops those that cannot be chosen whatever the blocks say: BIC prefers a simpler one, or another
-  /// leaves half of the residual.
-  void DropHopeless() {
-    std::vector<bool> standing;
-    for (const Trial& trial : trials_) standing.push_back(trial.dropped.empty());
-    for (size_t i = 0; i < trials_.size(); ++i) {
-      for (size_t j = 0; j < trials_.size() && standing[i] && trials_[i].dropped.empty(); ++j) {
-        if (j != i && standing[j]) trials_[i].dropped = WhyOutdone(trials_[i], trials_[j]);
-      }
-    }
-  }
-
-  /// Errors of those that stand, on blocks that they have not seen.
-  std::vector<Contender> Compare(int blocks) {
-    const std::vector<Eigen::Index> bounds = CutIntoBlocks(quick_.selection, blocks);
-    std::vector<Contender> contenders;
-    standing_.clear();
-    for (Trial& trial : trials_) {
-      if (!trial.dropped.empty()) continue;
-      quick_.Tell(
-          fmt::format("comparing on {} held-out blocks: {}", blocks, trial.structure.Name()));
-      trial.errors = trial.structure.ErrorsOn(quick_, bounds);
-      if (!trial.errors) trial.dropped = "fails without one of the blocks";
-      if (!trial.errors || !trial.errors->allFinite()) continue;
-      standing_.push_back(&trial);
-      contenders.push_back(
-          {trial.structure.Name(), *trial.errors, trial.MeanSquare(), trial.Parameters()});
-    }
-    return contenders;
-  }
-
-  const Structure& Contending(size_t i) const { return standing_[i]->structure; }
-  const Trial& First() const { return trials_.front(); }
-  double rows() const { return rows_; }
-
-  std::vector<StructureTrial> Told() const {
-    std::vector<StructureTrial> told;
-    for (const Trial& trial : trials_) {
-      StructureTrial& one = told.emplace_back();
-      one.name = trial.structure.Name();
-      one.parameters = trial.Parameters();
-      one.dropped = trial.dropped;
-      if (trial.errors) one.rmse = std::sqrt(trial.errors->mean());
-    }
-    return told;
-  }
-
- private:
-  double BicOf(const Trial& one) const { return Bic(one.MeanSquare(), one.Parameters(), rows_); }
-
-  /// The trial of a structure; null where it was not tried.
-  const Trial* Find(const Structure& structure) const {
-    const auto found = std::ranges::find_if(
-        trials_, [&](const Trial& trial) { return trial.structure.Name() == structure.Name(); });
-    return found == trials_.end() ? nullptr : &*found;
-  }
-
-  /// Whether the residual has a mean, which BIC would give a parameter.
-  bool Pushes(const Fit& fit) const {
-    const Eigen::VectorXd residual = fit.residual();
-    if (residual.size() == 0) return false;
-    const double mean = residual.mean();
-    const double square = residual.squaredNorm() / static_cast<double>(residual.size());
-    return Bic(square - mean * mean, 1, rows_) < Bic(square, 0, rows_);
-  }
-
-  std::string WhyOutdone(const Trial& one, const Trial& other) const {
-    if (other.Parameters() < one.Parameters() && BicOf(other) <= BicOf(one)) {
-      return fmt::format("outdone by {}, which is simpler", other.structure.Name());
-    }
-    if (other.Parameters() < kFewParameters * rows_ &&
-        kHopeless * other.MeanSquare() < one.MeanSquare()) {
-      return fmt::format("{} leaves less than half of its residual", other.structure.Name());
-    }
-    return "";
-  }
-
-  const LogView view_;
-  const IdentifierInput quick_;
-  double rows_;
-  std::vector<Trial> trials_;
-  std::vector<const Trial*> standing_;
-};
 
 /// Laws with and without warming, then gravity beside the best of them.
 void TryLinear(const IdentifierInput& input, Tournament& tournament) {
@@ -193,7 +38,12 @@ void TryCurved(const IdentifierInput& input, Tournament& tournament) {
   for (const char* warming : {"none", "estimated"}) {
     if (tournament.MayHaveTwoLevels(warming)) tournament.Add({TwoLevelStribeckStructure(warming)});
   }
-  tournament.Add(MapStructures(input, gravity));
+  const std::vector<Structure> maps = MapStructures(input, gravity);
+  if (tournament.MayHaveMap()) {
+    tournament.Add(maps);
+  } else {
+    tournament.LeaveOut(maps, "nothing is left over place that a map could take");
+  }
 }
 
 /// Everything, on samples behind whose lag the torque has settled, if the best linear structure finds

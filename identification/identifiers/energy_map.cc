@@ -1,6 +1,6 @@
 #include "identification/identifiers/energy_map.h"
 
-#include "identification/inference/inference.h"
+#include "identification/inference/bounds.h"
 #include "identification/maps/over_energy.h"
 #include "identification/maps/position_maps.h"
 #include "identification/maps/warm_maps.h"
@@ -37,7 +37,7 @@ Fit FitEnergyMap(const IdentifierInput& input) {
   const std::optional<WarmMaps> warm = FitWarmMaps(input, task);
   if (!warm) return Refused(kName, Unsolvable());
   const Fit first = AsFit(input, *warm);
-  if (!Infer(first).gives_friction) return first;
+  if (!GivesFriction(first)) return first;
 
   // the map over that E too
   return IdentifyOverEnergy(input, task, first.friction, [&](const MapPoints& points) {

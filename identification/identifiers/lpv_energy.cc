@@ -1,7 +1,7 @@
 #include "identification/identifiers/lpv_energy.h"
 
 #include "identification/identifiers/energy_ml.h"
-#include "identification/inference/inference.h"
+#include "identification/inference/bounds.h"
 #include "identification/maps/over_energy.h"
 #include "identification/warming/slope_heat.h"
 
@@ -29,7 +29,7 @@ Fit FitSlopeAndLevel(const IdentifierInput& input) {
   const Options options(warm.options, {{"law", task.settings.law}}, {kName});
   Fit first = warm.fit(input.With(options));
   first.identifier = kName;
-  if (!Infer(first).gives_friction) return first;
+  if (!GivesFriction(first)) return first;
 
   // its slope did not follow the heat, for which the warming is corrected
   std::optional<Thermal>& thermal = first.friction.thermal;

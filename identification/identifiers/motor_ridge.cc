@@ -1,6 +1,6 @@
 #include "identification/identifiers/motor_ridge.h"
 
-#include "identification/inference/inference.h"
+#include "identification/inference/bounds.h"
 #include "identification/maps/identify_maps.h"
 #include "identification/maps/motor_maps.h"
 
@@ -23,7 +23,7 @@ Fit FitMotorMaps(const IdentifierInput& input) {
   const MapFit& maps = choice->fit;
   const Uncertainty known = JudgeMaps(choice->problem, maps);
   Fit fit = AsFit(input, task, maps, known);
-  if (!Infer(fit).gives_friction) return fit;
+  if (!GivesFriction(fit)) return fit;
 
   // what the motor's map shows
   const auto count = static_cast<Eigen::Index>(maps.maps[0].size());

@@ -6,7 +6,7 @@
 
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
-#include "identification/inference/inference.h"
+#include "identification/inference/bounds.h"
 #include "identification/linear/against_pushing.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
@@ -109,7 +109,7 @@ void SetModel(const StribeckProblem& problem, const Eigen::VectorXd& x, Fit& fit
 /// Voids a fit whose friction feeds itself on this motion. Where the data rule the law out, or
 /// chance alone may keep it within its bounds, there is no friction to run.
 void JudgeWarmth(const Measurements& m, std::string_view without, Fit& fit) {
-  if (!fit.friction.thermal || !Infer(fit).gives_friction) return;
+  if (!fit.friction.thermal || !GivesFriction(fit)) return;
   const Prediction predicted = PredictFriction(fit.friction, m);
   if (predicted.feeds_itself == m.size()) return;
   fit.voided = {Status::inadequate_model,

@@ -30,6 +30,16 @@ Structure Structure::With(const std::string& option, const std::string& value) c
   return other;
 }
 
+Structure Structure::WithShapeOf(const Fit& fit) const {
+  if (fit.friction.maps.empty()) return *this;
+  const MapAxis& axis = fit.friction.maps[0].axes[0];
+  const std::vector<double>& centres = axis.kernels.centres;
+  const double spacing = centres[1] - centres[0];
+  const Structure wide = With("width", fmt::format("{:.4g}", axis.kernels.width / spacing));
+  if (axis.quantity != MapQuantity::position) return wide;
+  return wide.With("kernels", std::to_string(centres.size()));
+}
+
 bool Structure::CanTellLag() const {
   return identifier.Has("torque_lag") && Given("position", "none") == "none";
 }

@@ -22,6 +22,10 @@ struct Structure {
   /// The same with another option.
   Structure With(const std::string& option, const std::string& value) const;
 
+  /// The same with the number and the width of the kernels that a fit of it chose; itself where the fit
+  /// has no maps.
+  Structure WithShapeOf(const Fit& fit) const;
+
   /// Whether it could estimate a lag of the torque, too.
   bool CanTellLag() const;
 

@@ -119,6 +119,11 @@ bool LeavesBounds(const std::vector<FitParameter>& parameters) {
   });
 }
 
+bool GivesFriction(const Fit& fit) {
+  const bool stands = !fit.refusal && !fit.voided;
+  return stands && !LeavesBounds(fit.parameters) && !RisesFromRest(fit.friction);
+}
+
 void JudgeBounds(const Fit& fit, Inference& inference) {
   const std::string& law = fit.friction.law;
   const std::vector<Excess> excesses = FindExcesses(fit, inference);

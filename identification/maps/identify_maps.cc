@@ -7,7 +7,7 @@
 
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
-#include "identification/inference/inference.h"
+#include "identification/inference/bounds.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/maps/finer_maps.h"
@@ -182,7 +182,7 @@ Fit AsFit(const IdentifierInput& input, const MapTask& task, const MapFit& maps,
                     "wide",
                     fmt::join(holes, ", ")));
   }
-  if (!Infer(fit).gives_friction) return fit;
+  if (!GivesFriction(fit)) return fit;
   const MapPoints kept = Kept(PointsOf(m, task.energy), fit.used);
   MapTask twice = Settled(task, maps);
   twice.candidates = {TwiceAsFine(maps.maps)};

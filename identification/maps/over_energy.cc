@@ -4,7 +4,7 @@
 
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
-#include "identification/inference/inference.h"
+#include "identification/inference/bounds.h"
 #include "models/recording/course_of.h"
 
 namespace warmjoint::inline identification {
@@ -28,7 +28,7 @@ Eigen::VectorXd EnergyOf(const MapTask& task, const MapFit& maps, const Thermal&
 /// Adds the warming, which has no column of its own, and checks the friction against its own heat.
 Fit Complete(const Thermal& thermal, int rounds, const Measurements& m, Fit fit) {
   fit.friction.thermal = thermal;
-  if (!Infer(fit).gives_friction) return fit;
+  if (!GivesFriction(fit)) return fit;
   std::vector<FitParameter> heat = HeatParameters(thermal, m);
   for (FitParameter& row : heat) row.estimated = row.has_interval = false;
   Append(heat, fit);

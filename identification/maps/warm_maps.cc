@@ -8,7 +8,7 @@
 
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
-#include "identification/inference/inference.h"
+#include "identification/inference/bounds.h"
 #include "identification/linear/against_pushing.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
@@ -209,7 +209,7 @@ Fit AsFit(const IdentifierInput& input, const WarmMaps& warm) {
     return Refused(name, Status::not_identifiable, *why);
   }
   AddHeat(warm, known, m, fit);
-  if (!Infer(fit).gives_friction) return fit;
+  if (!GivesFriction(fit)) return fit;
   AddRipple(warm.fit, known, m, fit);
   if (const auto at = PredictFriction(fit.friction, m).feeds_itself; at < m.size()) {
     return Refused(

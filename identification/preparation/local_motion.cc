@@ -18,8 +18,12 @@ using Eigen::VectorXd;
 
 constexpr Index kHalfWidths[] = {2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};  // samples to each side
 constexpr Index kWide = 6;  // half width from which on a window has a polynomial of fifth degree
-constexpr double kByChance = 1e-3;  // of good windows that are taken for bent
-constexpr double kEven = 1e-3;      // of the step by which evenly sampled times may differ
+constexpr double kByChance = 1e-3;   // of good windows that are taken for bent
+constexpr double kJump = 0.1;        // of the acceleration's root mean square
+constexpr double kBeyondMedian = 4;  // of the acceleration's change over two samples
+constexpr double kDeviations = 5;    // of the noise
+constexpr double kNearCorner = 2;  // noise of the acceleration there, by that of the widest windows
+constexpr double kEven = 1e-3;     // of the step by which evenly sampled times may differ
 
 /// What is fitted: a series, and which derivative of it is the acceleration.
 struct Series {
@@ -124,6 +128,30 @@ Series SeriesOf(const Measurements& m, const std::vector<SampleRange>& pieces,
   return {m.position, 2, deviation};
 }
 
+/// Takes back what lies at a corner of the velocity, where polynomials through few samples bend from one
+/// slope to the other within the noise: where the acceleration changes from one side of a sample to the
+/// other by more than kJump of its root mean square, four times the median, and five times its noise;
+/// and the neighbours of what is not known.
+/// noise: of the acceleration, rad/s^2 or m/s^2.
+void LeaveOutCorners(const std::vector<SampleRange>& pieces, double rms, double noise,
+                     LocalMotion& motion) {
+  const Index n = motion.acceleration.size();
+  VectorXd changes = VectorXd::Zero(n);
+  for (const auto& [first, count] : pieces) {
+    for (Index i = first + 1; i + 1 < first + count; ++i) {
+      if (!motion.known[i - 1] || !motion.known[i + 1]) continue;
+      changes[i] = std::abs(motion.acceleration[i + 1] - motion.acceleration[i - 1]);
+    }
+  }
+  VectorXd ordered = changes;
+  const double most =
+      std::max({kJump * rms, kBeyondMedian * MedianInPlace(ordered), kDeviations * noise});
+  const Eigen::Array<bool, Eigen::Dynamic, 1> straight = motion.known && changes.array() <= most;
+  motion.known = straight;
+  motion.known.head(n - 1) = motion.known.head(n - 1) && straight.tail(n - 1);
+  motion.known.tail(n - 1) = motion.known.tail(n - 1) && straight.head(n - 1);
+}
+
 }  // namespace
 
 double StepOfVelocity(const VectorXd& velocity) {
@@ -173,6 +201,7 @@ LocalMotion FollowLocally(const Measurements& m, const std::vector<SampleRange>&
       motion.acceleration[i] = scale->acceleration[i];
     }
   }
+  LeaveOutCorners(pieces, rms, series.noise * scales.back().gain, motion);
   return motion;
 }
 

@@ -35,7 +35,10 @@ double NoiseOfVelocity(const Eigen::VectorXd& velocity);
 /// Around a corner of the velocity each sample takes the largest smaller w whose polynomial passes
 /// within the noise, by chi^2 at one in a thousand (the rule of Lepski 1990: the widest window
 /// that no misfit contradicts); what lies nearer to a corner than the smallest window is not known.
-/// Misfits below what kAcceptedNoise allows the noise are accepted, too.
+/// Misfits below what kAcceptedNoise allows the noise are accepted, too. Through few samples a polynomial
+/// bends from one slope to the other within that: where the acceleration still changes from one side of a
+/// sample to the other by a tenth of its root mean square, four times as much as in the median, and five
+/// times its noise, it is not known either, nor are the neighbours of such samples.
 /// pieces: of the log without gaps.
 LocalMotion FollowLocally(const Measurements& measurements, const std::vector<SampleRange>& pieces,
                           MotionSource source);

@@ -20,6 +20,9 @@ constexpr double kClear = 0.05;      // of the velocity's root mean square
 constexpr double kJump = 0.1;        // of the acceleration's root mean square
 constexpr double kBeyondMedian = 4;  // of the change from one side of a sample to the other
 constexpr double kDeviations = 5;    // of the noise
+constexpr Index kReach = 2;          // samples to each side, of which a difference is taken
+constexpr double kGain =
+    0.9501;  // sqrt(2 (1 + 8^2)) / 12: noise of a difference times the step, of even samples
 
 double RootMeanSquare(const VectorXd& x) {
   return x.size() == 0 ? 0 : std::sqrt(x.squaredNorm() / static_cast<double>(x.size()));
@@ -40,14 +43,33 @@ std::vector<SampleRange> PiecesOf(const Measurements& m) {
   return pieces;
 }
 
-/// Central differences, one-sided at the ends of pieces. [N] rad/s^2 or m/s^2
-VectorXd CentralDifferences(const Measurements& m, const std::vector<SampleRange>& pieces) {
+/// Slope at `time[at]` of the polynomial through all values: the derivatives of Lagrange's polynomials there.
+double SlopeThrough(const Eigen::Ref<const VectorXd>& time,
+                    const Eigen::Ref<const VectorXd>& values, Index at) {
+  double slope = 0;
+  for (Index j = 0; j < time.size(); ++j) {
+    if (j == at) continue;
+    double share = 1 / (time[j] - time[at]);
+    for (Index k = 0; k < time.size(); ++k) {
+      if (k != j && k != at) share *= (time[at] - time[k]) / (time[j] - time[k]);
+    }
+    slope += share * (values[j] - values[at]);
+  }
+  return slope;
+}
+
+/// Differences of fourth order, through two samples on each side, less near the ends of pieces: of
+/// second order, the motion's third derivative would stand in the acceleration, which after a
+/// reversal pushes as friction does. [N] rad/s^2 or m/s^2
+VectorXd Differences(const Measurements& m, const std::vector<SampleRange>& pieces) {
   VectorXd slopes = VectorXd::Zero(m.size());
   for (const auto& [first, count] : pieces) {
     for (Index i = first; i < first + count; ++i) {
-      const Index before = std::max(first, i - 1), behind = std::min(first + count - 1, i + 1);
-      if (before == behind) continue;
-      slopes[i] = (m.velocity[behind] - m.velocity[before]) / (m.time[behind] - m.time[before]);
+      const Index reach = std::min({kReach, i - first, first + count - 1 - i});
+      const Index begin = std::max(first, i - std::max<Index>(reach, 1));
+      const Index end = std::min(first + count, i + std::max<Index>(reach, 1) + 1);
+      slopes[i] = SlopeThrough(m.time.segment(begin, end - begin),
+                               m.velocity.segment(begin, end - begin), i - begin);
     }
   }
   return slopes;
@@ -67,13 +89,13 @@ VectorXd Jumps(const Measurements& m, const std::vector<SampleRange>& pieces) {
   return jumps;
 }
 
-/// The motion by central differences, where noise leaves them kAcceptedNoise of their root mean square
+/// The motion by differences, where noise leaves them kAcceptedNoise of their root mean square
 /// or less; samples at which they jump are not known. Nothing where noise leaves more.
 std::optional<LocalMotion> ByDifferences(const Measurements& m,
                                          const std::vector<SampleRange>& pieces) {
-  LocalMotion motion{m.velocity, CentralDifferences(m, pieces), {}};
+  LocalMotion motion{m.velocity, Differences(m, pieces), {}};
   const double noise = NoiseOfVelocity(m.velocity), step = MedianStep(m.time);
-  const double left = noise / (step * std::sqrt(2.0)), rms = RootMeanSquare(motion.acceleration);
+  const double left = kGain * noise / step, rms = RootMeanSquare(motion.acceleration);
   if (left * left > kAcceptedNoise * kAcceptedNoise * (rms * rms - left * left)) {
     return std::nullopt;
   }
@@ -82,7 +104,7 @@ std::optional<LocalMotion> ByDifferences(const Measurements& m,
   const double most = std::max({kJump * rms, kBeyondMedian * MedianInPlace(ordered),
                                 kDeviations * noise * std::sqrt(6.0) / step});
 
-  // a difference spans both neighbours, so that a corner at one of them bends it, too
+  // a difference spans two samples on each side, so that a corner at a neighbour bends it, too
   const Eigen::Array<bool, Eigen::Dynamic, 1> straight = jumps.array() <= most;
   motion.known = straight;
   for (Index i = 0; i + 1 < m.size(); ++i) {

@@ -11,10 +11,10 @@ namespace warmjoint::inline identification {
 double ClearSpeed(const Measurements& measurements);
 
 /// The log with its acceleration and its means between samples (between_samples.h). A velocity whose
-/// samples are too noisy for central differences, and positions in the place of a velocity, are
+/// samples are too noisy for differences of fourth order, and positions in the place of a velocity, are
 /// followed by polynomials (local_motion.h), whose velocity takes the place of the samples'. It keeps
 /// the samples above ClearSpeed whose neighbours move in the same direction, but for those at a corner
-/// of the velocity: where no polynomial fits, or, between central differences, where the acceleration
+/// of the velocity: where no polynomial fits, or, between differences, where the acceleration
 /// jumps by a tenth of its root mean square, and four times as far as in the median. No segments.
 LogView ViewMotion(const Measurements& measurements, MotionSource source = MotionSource::velocity);
 

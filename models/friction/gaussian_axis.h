@@ -36,6 +36,9 @@ GaussianAxis CircleAxis(double period, int count);
 /// width of one spacing, kept apart. count: centres for each direction.
 GaussianAxis SpeedAxis(double lowest, double highest, int count);
 
+/// Below it exp(x) is 0 in double precision, and need not be computed.
+inline constexpr double kUnderflow = -746;
+
 /// All kernels of an axis at x, into phi [axis.size()]. Normalised ones by log-sum-exp, so that
 /// they do not become 0/0 far from every centre. With the sides apart, kernels on the other side
 /// are 0, and all of them are at x = 0.
@@ -63,7 +66,8 @@ void AxisKernels(const GaussianAxis& axis, KernelKind kind, const T& x, T* phi) 
   const bool normalised = kind == KernelKind::normalised;
   T sum(0);
   for (size_t i = 0; i < n; ++i) {
-    phi[i] = present(i) ? exp(normalised ? T(phi[i] - largest) : phi[i]) : T(0);
+    const T exponent = normalised && present(i) ? T(phi[i] - largest) : phi[i];
+    phi[i] = present(i) && exponent > T(kUnderflow) ? exp(exponent) : T(0);
     sum += phi[i];
   }
   if (!normalised || !any) return;

@@ -209,18 +209,25 @@ class MujocoPlant : public Plant {
     const Eigen::Index n = truth.velocity.size();
     Eigen::Index sample = 0;
     SpeedWatch speed;
+    double half_step_before = reference.Velocity(static_cast<double>(-run_up) * h - 0.5 * h);
     for (long step = -run_up; sample < n || !log.Full(); ++step) {
       if (step == 0) SetEnergy(state);
       const double time = static_cast<double>(step) * h;
       const double wanted = reference.Velocity(time);
       d->ctrl[joint_.friction_control] = scenario_.disturbances.ambient_temperature.RiseAt(time);
-      const double torque = drive.Torque(wanted, reference.acceleration(), d->qvel[0]);
+      const bool steady = reference.acceleration() == 0;
+
+      // about the step, since to one side of a corner the torque would lead the motion that is logged
+      const double half_step_after = reference.Velocity(time + 0.5 * h);
+      const double slope = (half_step_after - half_step_before) / h;
+      half_step_before = half_step_after;
+      const double torque = drive.Torque(wanted, slope, d->qvel[0]);
       d->qfrc_applied[0] = torque;
 
       const bool reads = step >= 0 && step % steps_per_reading_ == 0 && !log.Full();
       const bool stores = step >= 0 && step % steps_per_sample_ == 0 && sample < n;
       const double position = d->qpos[0], velocity = d->qvel[0];
-      if (step >= 0) speed.Look(wanted, velocity, reference.acceleration() == 0);
+      if (step >= 0) speed.Look(wanted, velocity, steady);
       if (stores) {
         truth.velocity[sample] = velocity;
         truth.energy[sample] = EnergyIn(state);

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -74,6 +75,17 @@ bool IsWorse(const Eigen::VectorXd& one, const Eigen::VectorXd& other) {
   return mean > 0 && PValueOfStudent(mean / deviation, kBlocks - 1) < 2 * kLevel;
 }
 
+/// A structure's name without the number and the width of its kernels, which are no part of what a joint is.
+std::string WithoutShape(const std::string& name) {
+  std::string kept;
+  std::istringstream words(name);
+  for (std::string word; words >> word;) {
+    if (word.starts_with("kernels=") || word.starts_with("width=")) continue;
+    kept += kept.empty() ? word : " " + word;
+  }
+  return kept;
+}
+
 /// The fit that auto's message names, made from the same samples.
 struct Compared {
   std::string chosen;
@@ -85,7 +97,7 @@ Compared Choose(const PreparedLog& log) {
   const Options options(identifier.options, {}, {});
   const IdentifierInput input{log, options, {}};
   Fit fit = identifier.fit(identifier.Seen(input));
-  return {fit.choice ? fit.choice->chosen : "nothing", std::move(fit)};
+  return {fit.choice ? WithoutShape(fit.choice->chosen) : "nothing", std::move(fit)};
 }
 
 Fit FitRight(const Structure& right, const PreparedLog& log) {

@@ -2,14 +2,13 @@
 
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "models/foundation/printable.h"
-#include "models/friction/law.h"
 #include "tools/board/table.h"
 #include "tools/report/estimate/remarks.h"
+#include "tools/report/estimate/shown_parameters.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -18,40 +17,14 @@ std::string Interval(const std::array<double, 2>& interval) {
   return fmt::format("{:.5g} .. {:.5g}", interval[0], interval[1]);
 }
 
-/// Whether only the prior of a map tells this parameter: friction at some speeds stands for it.
-bool IsShared(const Estimate& estimate, const EstimatedParameter& one) {
-  if (estimate.at_speeds.empty() || one.interval95) return false;
-  const Law* law = estimate.friction ? FindLaw(estimate.friction->law) : nullptr;
-  return law && std::ranges::any_of(law->parameters, [&](const ParameterInfo& info) {
-           return info.name == one.name;
-         });
-}
-
-/// "friction at 0.3 rad/s", in place of what law and maps share.
-void AddSpeeds(const Estimate& estimate, Table& table) {
-  const EstimatedParameter* slope = estimate.Find("viscous");
-  const bool linear = slope && slope->unit.ends_with("/m");
-  std::string unit;
-  for (const EstimatedParameter& one : estimate.parameters) {
-    if (one.name.starts_with("coulomb")) unit = one.unit;
-  }
-  for (const FrictionAtSpeed& one : estimate.at_speeds) {
-    table.rows.push_back({fmt::format("friction at {:.3g} {}", one.speed, linear ? "m/s" : "rad/s"),
-                          fmt::format("{:.6g}", one.value), unit, fmt::format("{:.2g}", one.std),
-                          Interval(one.interval95)});
-  }
-}
-
 Table ParameterTable(const Estimate& estimate) {
   const std::string heading = estimate.status == Status::ok ? "parameter" : "void parameter";
   Table table{{heading, "value", "unit", "std", "95 % interval"}, {}};
-  for (const EstimatedParameter& one : estimate.parameters) {
-    if (IsShared(estimate, one)) continue;
+  for (const EstimatedParameter& one : ShownParameters(estimate)) {
     table.rows.push_back({one.name, fmt::format("{:.6g}", one.value), one.unit,
                           one.std ? fmt::format("{:.2g}", *one.std) : "-",
                           one.interval95 ? Interval(*one.interval95) : "-"});
   }
-  AddSpeeds(estimate, table);
   return table;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tools/report/draw/ticks.h"
+#include "tools/report/estimate/shown_parameters.h"
 #include "tools/report/figures/fit_panels.h"
 #include "tools/report/figures/symbols.h"
 
@@ -121,7 +122,7 @@ Words VerdictOf(const FitView& view) {
 
 Table ParametersOf(const FitView& view) {
   Table table{{{"parameter", "value", "95 % interval", "unit"}}};
-  for (const EstimatedParameter& parameter : view.estimate.parameters) {
+  for (const EstimatedParameter& parameter : ShownParameters(view.estimate)) {
     table.rows.push_back({NameWithSymbol(parameter.name),
                           WithDigitsOf(parameter.value, parameter.std), IntervalText(parameter),
                           UnitText(parameter.unit)});

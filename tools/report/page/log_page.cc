@@ -4,6 +4,7 @@
 
 #include "tools/report/draw/ticks.h"
 #include "tools/report/estimate/remarks.h"
+#include "tools/report/estimate/shown_parameters.h"
 #include "tools/report/figures/fit_panels.h"
 #include "tools/report/figures/log_figure.h"
 #include "tools/report/figures/predicted.h"
@@ -74,9 +75,8 @@ std::string ParametersSection(const FitView& view) {
   const Table drawn = ParametersOf(view);
   BoardTable table{{"parameter", "value", "95 % interval", "unit"}, {}};
   for (std::size_t i = 1; i < drawn.rows.size(); ++i) table.rows.push_back(drawn.rows[i]);
-  for (std::size_t i = 0; i < view.estimate.parameters.size(); ++i) {
-    table.rows[i][0] = view.estimate.parameters[i].name;
-  }
+  const std::vector<EstimatedParameter> shown = ShownParameters(view.estimate);
+  for (std::size_t i = 0; i < shown.size(); ++i) table.rows[i][0] = shown[i].name;
   return HtmlTable(
       Passed(view) ? "Parameters of the friction" : "Void: parameters of a fit that failed", table);
 }

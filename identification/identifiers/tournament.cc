@@ -1,0 +1,148 @@
+#include "identification/identifiers/tournament.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "identification/fit_data.h"
+#include "identification/forward/map_points.h"
+#include "identification/holdout/blocked_hold_out.h"
+#include "identification/identifiers/left_over_place.h"
+#include "identification/inference/bounds.h"
+#include "identification/preparation/condense.h"
+
+namespace warmjoint::inline identification {
+namespace {
+
+constexpr Eigen::Index kRows = 3000;    // on which structures are compared
+constexpr double kHopeless = 4;         // of the mean squared error of another
+constexpr double kFewParameters = 0.1;  // of the rows
+
+Trial Try(const Structure& structure, const IdentifierInput& input) {
+  Trial trial{structure, structure.Fitted(input)};
+  trial.gives_friction = GivesFriction(trial.fit);
+  trial.structure = structure.WithShapeOf(trial.fit);
+  if (trial.gives_friction) return trial;
+
+  // beyond doubt or perhaps by chance
+  trial.told = Infer(trial.fit);
+  trial.dropped =
+      trial.told.status == Status::ok ? "gives no friction" : StatusName(trial.told.status);
+  return trial;
+}
+
+}  // namespace
+
+Tournament::Tournament(const IdentifierInput& input, const Selection& selection)
+    : view_(Condense({input.measurements, selection}, kRows)),
+      quick_(input.On(view_)),
+      rows_(static_cast<double>(quick_.selection.count())) {}
+
+void Tournament::Add(const std::vector<Structure>& structures) {
+  for (const Structure& structure : structures) {
+    quick_.Tell("trying " + structure.Name());
+    trials_.push_back(Try(structure, quick_));
+  }
+}
+
+void Tournament::LeaveOut(const std::vector<Structure>& structures, const std::string& why) {
+  for (const Structure& structure : structures) {
+    trials_.push_back({.structure = structure, .dropped = why});
+  }
+}
+
+const Structure* Tournament::Best() const {
+  const Trial* best = BestTrial();
+  return best ? &best->structure : nullptr;
+}
+
+bool Tournament::MayHaveMap() const {
+  const Trial* best = BestTrial();
+  if (!best) return true;
+  const MapPoints points = Kept(PointsOf(view_.measurements), best->fit.used);
+  return LeavesOverPlace(best->fit.residual(), points);
+}
+
+bool Tournament::MayHaveTwoLevels(const std::string& warming) const {
+  const Trial& one = *Find(StribeckStructure(warming));
+  if (one.told.status == Status::ok) return Pushes(one.fit);
+  if (warming == "none") return Pushes(First().fit);
+  const Trial* cold = Find(TwoLevelStribeckStructure("none"));
+  return cold && cold->told.status == Status::ok;
+}
+
+void Tournament::DropHopeless() {
+  std::vector<bool> standing;
+  for (const Trial& trial : trials_) standing.push_back(trial.dropped.empty());
+  for (size_t i = 0; i < trials_.size(); ++i) {
+    for (size_t j = 0; j < trials_.size() && standing[i] && trials_[i].dropped.empty(); ++j) {
+      if (j != i && standing[j]) trials_[i].dropped = WhyOutdone(trials_[i], trials_[j]);
+    }
+  }
+}
+
+std::vector<Contender> Tournament::Compare(int blocks) {
+  const std::vector<Eigen::Index> bounds = CutIntoBlocks(quick_.selection, blocks);
+  std::vector<Contender> contenders;
+  standing_.clear();
+  for (size_t i = 0; i < trials_.size(); ++i) {
+    Trial& trial = trials_[i];
+    if (!trial.dropped.empty()) continue;
+    quick_.Tell(fmt::format("comparing on {} held-out blocks: {}", blocks, trial.structure.Name()));
+    trial.errors = trial.structure.ErrorsOn(quick_, bounds);
+    if (!trial.errors) trial.dropped = "fails without one of the blocks";
+    if (!trial.errors || !trial.errors->allFinite()) continue;
+    standing_.push_back(i);
+    contenders.push_back(
+        {trial.structure.Name(), *trial.errors, trial.MeanSquare(), trial.Parameters()});
+  }
+  return contenders;
+}
+
+std::vector<StructureTrial> Tournament::Told() const {
+  std::vector<StructureTrial> told;
+  for (const Trial& trial : trials_) {
+    StructureTrial& one = told.emplace_back();
+    one.name = trial.structure.Name();
+    one.parameters = trial.Parameters();
+    one.dropped = trial.dropped;
+    if (trial.errors) one.rmse = std::sqrt(trial.errors->mean());
+  }
+  return told;
+}
+
+const Trial* Tournament::BestTrial() const {
+  const Trial* best = nullptr;
+  for (const Trial& trial : trials_) {
+    if (trial.gives_friction && (!best || BicOf(trial) < BicOf(*best))) best = &trial;
+  }
+  return best;
+}
+
+const Trial* Tournament::Find(const Structure& structure) const {
+  const auto found = std::ranges::find_if(
+      trials_, [&](const Trial& trial) { return trial.structure.Name() == structure.Name(); });
+  return found == trials_.end() ? nullptr : &*found;
+}
+
+bool Tournament::Pushes(const Fit& fit) const {
+  const Eigen::VectorXd residual = fit.residual();
+  if (residual.size() == 0) return false;
+  const double mean = residual.mean();
+  const double square = residual.squaredNorm() / static_cast<double>(residual.size());
+  return Bic(square - mean * mean, 1, rows_) < Bic(square, 0, rows_);
+}
+
+std::string Tournament::WhyOutdone(const Trial& one, const Trial& other) const {
+  if (other.Parameters() < one.Parameters() && BicOf(other) <= BicOf(one)) {
+    return fmt::format("outdone by {}, which is simpler", other.structure.Name());
+  }
+  if (other.Parameters() < kFewParameters * rows_ &&
+      kHopeless * other.MeanSquare() < one.MeanSquare()) {
+    return fmt::format("{} leaves less than half of its residual", other.structure.Name());
+  }
+  return "";
+}
+
+}  // namespace warmjoint::inline identification

@@ -1,0 +1,88 @@
+// Structures that are tried on one log and compared on parts of it that they have not seen.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "identification/holdout/structure_choice.h"
+#include "identification/identifiers/structures.h"
+#include "identification/inference/inference.h"
+#include "identification/preparation/log_view.h"
+
+namespace warmjoint::inline identification {
+
+/// What became of a structure on the rows that are compared.
+struct Trial {
+  Structure structure;
+  Fit fit{};
+  bool gives_friction = false;
+  Inference told{};                         // of one that gives no friction: why
+  std::string dropped{};                    // why it is no contender; empty for one that is
+  std::optional<Eigen::VectorXd> errors{};  // on blocks, of a contender
+
+  double Parameters() const { return fit.effective_parameters; }
+  /// (N.m)^2 or N^2
+  double MeanSquare() const {
+    return fit.residual().squaredNorm() / static_cast<double>(fit.torque.size());
+  }
+};
+
+/// Everything that is tried on one log.
+class Tournament {
+ public:
+  /// On rows that hold the means of neighbouring samples. selection: of the samples that take part.
+  /// Both must outlive it.
+  Tournament(const IdentifierInput& input, const Selection& selection);
+  Tournament(const Tournament&) = delete;
+  Tournament& operator=(const Tournament&) = delete;
+
+  /// Fits structures. Of maps, the shapes that they chose are kept from then on.
+  void Add(const std::vector<Structure>& structures);
+  /// Tells of structures that are not tried.
+  void LeaveOut(const std::vector<Structure>& structures, const std::string& why);
+
+  /// The structure that BIC prefers so far, of those that fit all rows; none where nothing does.
+  const Structure* Best() const;
+
+  /// Whether a map may help: the best so far leaves something over place, or nothing fits.
+  bool MayHaveMap() const;
+
+  /// Whether a level for each direction may help the Stribeck law with that warming: what it leaves
+  /// pushes in one direction. Where it does not fit, the linear law tells; with warming, which costs
+  /// more, that two levels fit without it.
+  bool MayHaveTwoLevels(const std::string& warming) const;
+
+  /// Drops those that cannot be chosen whatever the blocks say: BIC prefers a simpler one, or another
+  /// leaves half of the residual.
+  void DropHopeless();
+
+  /// Errors of those that stand, on blocks that they have not seen.
+  std::vector<Contender> Compare(int blocks);
+  /// The structure of the i-th contender of the last comparison.
+  const Structure& Contending(size_t i) const { return trials_[standing_[i]].structure; }
+
+  const Trial& First() const { return trials_.front(); }
+  /// Rows that are compared.
+  double rows() const { return rows_; }
+  /// All trials, for a reader.
+  std::vector<StructureTrial> Told() const;
+
+ private:
+  const Trial* BestTrial() const;
+  double BicOf(const Trial& one) const { return Bic(one.MeanSquare(), one.Parameters(), rows_); }
+  /// The trial of a structure; null where it was not tried.
+  const Trial* Find(const Structure& structure) const;
+  /// Whether the residual has a mean, which BIC would give a parameter.
+  bool Pushes(const Fit& fit) const;
+  /// Why one cannot be chosen beside another; empty where it can.
+  std::string WhyOutdone(const Trial& one, const Trial& other) const;
+
+  const LogView view_;
+  const IdentifierInput quick_;
+  double rows_;
+  std::vector<Trial> trials_;
+  std::vector<size_t> standing_;  // places of the contenders among the trials
+};
+
+}  // namespace warmjoint::inline identification

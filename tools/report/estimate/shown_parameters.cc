@@ -1,0 +1,49 @@
+#include "tools/report/estimate/shown_parameters.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "models/friction/law.h"
+
+namespace warmjoint::inline tools {
+namespace {
+
+/// Whether only the prior of a map tells this parameter.
+bool IsShared(const Estimate& estimate, const EstimatedParameter& one) {
+  if (estimate.at_speeds.empty() || one.interval95) return false;
+  const Law* law = estimate.friction ? FindLaw(estimate.friction->law) : nullptr;
+  return law && std::ranges::any_of(law->parameters, [&](const ParameterInfo& info) {
+           return info.name == one.name;
+         });
+}
+
+/// Friction at each of the speeds.
+std::vector<EstimatedParameter> AtSpeeds(const Estimate& estimate) {
+  const EstimatedParameter* slope = estimate.Find("viscous");
+  const char* speed = slope && slope->unit.ends_with("/m") ? "m/s" : "rad/s";
+  std::string unit;
+  for (const EstimatedParameter& one : estimate.parameters) {
+    if (one.name.starts_with("coulomb")) unit = one.unit;
+  }
+  std::vector<EstimatedParameter> rows;
+  for (const FrictionAtSpeed& one : estimate.at_speeds) {
+    rows.push_back({fmt::format("friction at {:.3g} {}", one.speed, speed), one.value, unit,
+                    one.std, one.interval95});
+  }
+  return rows;
+}
+
+}  // namespace
+
+std::vector<EstimatedParameter> ShownParameters(const Estimate& estimate) {
+  std::vector<EstimatedParameter> shown;
+  for (const EstimatedParameter& one : estimate.parameters) {
+    if (!IsShared(estimate, one)) shown.push_back(one);
+  }
+  const std::vector<EstimatedParameter> speeds = AtSpeeds(estimate);
+  shown.insert(shown.end(), speeds.begin(), speeds.end());
+  return shown;
+}
+
+}  // namespace warmjoint::inline tools
