@@ -8,7 +8,9 @@ namespace {
 /// A joint that turns, with a law of which only `viscous` has an interval.
 Estimate WithSharedLevel() {
   Estimate estimate;
-  estimate.friction = FrictionDescription{"viscous_coulomb", {{"viscous", 2}, {"coulomb", 3}}};
+  estimate.friction.emplace();
+  estimate.friction->law = "viscous_coulomb";
+  estimate.friction->parameters = {{"viscous", 2}, {"coulomb", 3}};
   estimate.parameters = {{"viscous", 2, "N.m.s/rad", 0.1, {{1.8, 2.2}}},
                          {"coulomb", 3, "N.m", {}, {}},
                          {"thermal_gain", -1, "N.m", {}, {}}};

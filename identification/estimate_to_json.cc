@@ -1,0 +1,138 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "identification/estimate.h"
+#include "models/foundation/matrix_json.h"
+
+namespace warmjoint::inline identification {
+namespace {
+
+using nlohmann::json;
+
+// what is absent or not a finite number becomes null
+
+json NumberToJson(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
+
+json ParameterToJson(const EstimatedParameter& parameter) {
+  json result{{"value", NumberToJson(parameter.value)},
+              {"unit", parameter.unit},
+              {"std", nullptr},
+              {"interval95", nullptr}};
+  if (parameter.std) result["std"] = NumberToJson(*parameter.std);
+  if (parameter.interval95) {
+    const auto& [lower, upper] = *parameter.interval95;
+    result["interval95"] = {NumberToJson(lower), NumberToJson(upper)};
+  }
+  return result;
+}
+
+json MetricsToJson(const std::optional<Metrics>& metrics) {
+  if (!metrics) return nullptr;
+  return {{"n", metrics->n},
+          {"parameters", metrics->parameters},
+          {"effective_parameters", NumberToJson(metrics->effective_parameters)},
+          {"rmse", NumberToJson(metrics->rmse)},
+          {"mae", NumberToJson(metrics->mae)},
+          {"fit", NumberToJson(metrics->fit)},
+          {"fpe", NumberToJson(metrics->fpe)}};
+}
+
+json TraceToJson(const std::vector<TraceEntry>& trace) {
+  json result = json::array();
+  for (const TraceEntry& entry : trace) {
+    json parameters = json::object();
+    for (const auto& [name, value] : entry.parameters) parameters[name] = NumberToJson(value);
+    result.push_back({{"iteration", entry.iteration},
+                      {"rmse", NumberToJson(entry.rmse)},
+                      {"parameters", parameters}});
+  }
+  return result;
+}
+
+json CovarianceToJson(const std::optional<ParameterCovariance>& covariance) {
+  if (!covariance) return nullptr;
+  return {{"parameters", covariance->parameters}, {"matrix", MatrixToJson(covariance->matrix)}};
+}
+
+json MovesToJson(const ParameterMoves& moves) {
+  json result = json::object();
+  for (const auto& [name, move] : moves) result[name] = NumberToJson(move);
+  return result;
+}
+
+/// Figures of a test that was not made are null.
+json DiagnosticToJson(const Diagnostic& one) {
+  json result{{"test", one.test}, {"made", one.made}, {"reason", nullptr}};
+  for (const char* key : {"statistic", "p", "p_adjusted", "rejected", "effect", "moves"}) {
+    result[key] = nullptr;
+  }
+  if (!one.reason.empty()) result["reason"] = one.reason;
+  if (!one.made) return result;
+  result["statistic"] = NumberToJson(one.statistic);
+  result["p"] = NumberToJson(one.p);
+  result["p_adjusted"] = NumberToJson(one.p_adjusted);
+  result["rejected"] = one.rejected;
+  result["effect"] = {{"value", NumberToJson(one.effect)}, {"unit", one.effect_unit}};
+  result["moves"] = MovesToJson(one.moves);
+  return result;
+}
+
+json ChoiceToJson(const StructureChoice& choice) {
+  json trials = json::array();
+  for (const StructureTrial& one : choice.trials) {
+    trials.push_back({{"name", one.name},
+                      {"rmse", one.rmse ? NumberToJson(*one.rmse) : json(nullptr)},
+                      {"parameters", NumberToJson(one.parameters)},
+                      {"dropped", one.dropped.empty() ? json(nullptr) : json(one.dropped)}});
+  }
+  return {{"chosen", choice.chosen},
+          {"reason", choice.reason},
+          {"blocks", choice.blocks},
+          {"trials", trials}};
+}
+
+}  // namespace
+
+json EstimateToJson(const Estimate& estimate) {
+  json parameters = json::object();
+  for (const EstimatedParameter& parameter : estimate.parameters) {
+    parameters[parameter.name] = ParameterToJson(parameter);
+  }
+  json result{{"identifier", estimate.identifier},
+              {"status", StatusName(estimate.status)},
+              {"message", estimate.FullMessage()},
+              {"parameters", parameters},
+              {"metrics", MetricsToJson(estimate.metrics)},
+              {"holdout", MetricsToJson(estimate.holdout)},
+              {"trace", TraceToJson(estimate.trace)},
+              {"friction", estimate.friction ? FrictionToJson(*estimate.friction) : json(nullptr)},
+              {"gravity", estimate.gravity ? GravityToJson(*estimate.gravity) : json(nullptr)},
+              {"covariance", CovarianceToJson(estimate.covariance)}};
+  if (!estimate.options.empty()) result["options"] = estimate.options;
+  if (!estimate.warnings.empty()) result["warnings"] = estimate.warnings;
+  for (const MapBand& band : estimate.bands) result["bands"].push_back(BandToJson(band));
+  for (const FrictionAtSpeed& one : estimate.at_speeds) {
+    result["friction_at_speeds"].push_back({{"speed", one.speed},
+                                            {"value", one.value},
+                                            {"std", one.std},
+                                            {"interval95", one.interval95}});
+  }
+  for (const Diagnostic& one : estimate.diagnostics) {
+    result["diagnostics"].push_back(DiagnosticToJson(one));
+  }
+  for (const Assumption& one : estimate.assumptions) {
+    result["assumptions"].push_back(
+        {{"name", one.name}, {"meaning", one.meaning}, {"moves", MovesToJson(one.moves)}});
+  }
+  for (const EstimatedParameter& one : estimate.state_end) {
+    result["state_end"][one.name] = ParameterToJson(one);
+  }
+  for (const EstimatedParameter& one : estimate.temperature) {
+    result["temperature"][one.name] = ParameterToJson(one);
+  }
+  if (!estimate.without_holdout.empty()) result["without_holdout"] = estimate.without_holdout;
+  if (estimate.choice) result["choice"] = ChoiceToJson(*estimate.choice);
+  return result;
+}
+
+}  // namespace warmjoint::inline identification
