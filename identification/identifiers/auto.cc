@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -30,10 +31,18 @@ void TryLinear(const IdentifierInput& input, Tournament& tournament) {
   }
 }
 
+/// Gravity to try beside maps: that of the best linear structure, but a sine where that is paired, over
+/// a joint that turns: what is no sine is the map's.
+std::string GravityBesideMaps(const IdentifierInput& input, const Structure* best) {
+  const std::vector<std::string> kinds = GravityKinds(input);
+  const std::string gravity = best ? best->Given("gravity", "none") : kinds.front();
+  const bool turns = std::ranges::find(kinds, "sincos") != kinds.end();
+  return gravity == "paired" && turns ? "sincos" : gravity;
+}
+
 /// What bends or ripples, with the gravity of the best linear one.
 void TryCurved(const IdentifierInput& input, Tournament& tournament) {
-  const Structure* best = tournament.Best();
-  const std::string gravity = best ? best->Given("gravity", "none") : GravityKinds(input).front();
+  const std::string gravity = GravityBesideMaps(input, tournament.Best());
   tournament.Add({StribeckStructure("none"), StribeckStructure("estimated")});
   for (const char* warming : {"none", "estimated"}) {
     if (tournament.MayHaveTwoLevels(warming)) tournament.Add({TwoLevelStribeckStructure(warming)});

@@ -18,6 +18,8 @@ namespace {
 constexpr Eigen::Index kRows = 3000;    // on which structures are compared
 constexpr double kHopeless = 4;         // of the mean squared error of another
 constexpr double kFewParameters = 0.1;  // of the rows
+constexpr double kBeyondDoubt =
+    3.5;  // standard errors: by chance once in a thousand logs, of two values
 
 Trial Try(const Structure& structure, const IdentifierInput& input) {
   Trial trial{structure, structure.Fitted(input)};
@@ -73,6 +75,14 @@ bool Tournament::MayHaveTwoLevels(const std::string& warming) const {
 }
 
 void Tournament::DropHopeless() {
+  for (Trial& one : trials_) {
+    for (const Trial& other : trials_) {
+      if (!one.dropped.empty() || !other.dropped.empty() || !HidesGravity(one, other)) continue;
+      one.dropped =
+          fmt::format("takes gravity into its map, which {} tells apart", other.structure.Name());
+    }
+  }
+
   std::vector<bool> standing;
   for (const Trial& trial : trials_) standing.push_back(trial.dropped.empty());
   for (size_t i = 0; i < trials_.size(); ++i) {
@@ -132,6 +142,24 @@ bool Tournament::Pushes(const Fit& fit) const {
   const double mean = residual.mean();
   const double square = residual.squaredNorm() / static_cast<double>(residual.size());
   return Bic(square - mean * mean, 1, rows_) < Bic(square, 0, rows_);
+}
+
+bool Tournament::HidesGravity(const Trial& one, const Trial& other) const {
+  const auto same = [&](const char* option) {
+    return one.structure.Given(option, "") == other.structure.Given(option, "");
+  };
+  const bool alike = one.structure.identifier.name == other.structure.identifier.name &&
+                     same("law") && same("position") && !one.fit.friction.maps.empty();
+  if (!alike || one.fit.gravity || !other.fit.gravity) return false;
+
+  // beyond the reach of its own interval
+  const Inference told = Infer(other.fit);
+  for (size_t i = 0; i < other.fit.parameters.size(); ++i) {
+    const KnownParameter& known = told.parameters[i];
+    const bool weight = other.fit.parameters[i].role == Role::gravity && known.std;
+    if (weight && std::abs(known.value) > kBeyondDoubt * *known.std) return true;
+  }
+  return false;
 }
 
 std::string Tournament::WhyOutdone(const Trial& one, const Trial& other) const {

@@ -53,8 +53,9 @@ class Tournament {
   /// more, that two levels fit without it.
   bool MayHaveTwoLevels(const std::string& warming) const;
 
-  /// Drops those that cannot be chosen whatever the blocks say: BIC prefers a simpler one, or another
-  /// leaves half of the residual.
+  /// Drops those that cannot be chosen whatever the blocks say: BIC prefers a simpler one, another leaves
+  /// half of the residual, or its map holds gravity that the same structure with gravity tells apart
+  /// beyond doubt. On this log both predict alike, but a simulator adds gravity of its own.
   void DropHopeless();
 
   /// Errors of those that stand, on blocks that they have not seen.
@@ -75,6 +76,8 @@ class Tournament {
   const Trial* Find(const Structure& structure) const;
   /// Whether the residual has a mean, which BIC would give a parameter.
   bool Pushes(const Fit& fit) const;
+  /// Whether gravity stands in the map of one that the other, the same with gravity, tells apart.
+  bool HidesGravity(const Trial& one, const Trial& other) const;
   /// Why one cannot be chosen beside another; empty where it can.
   std::string WhyOutdone(const Trial& one, const Trial& other) const;
 

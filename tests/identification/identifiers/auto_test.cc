@@ -7,6 +7,7 @@
 #include "models/foundation/low_pass.h"
 #include "models/foundation/random_stream.h"
 #include "tests/support/slow_recording.h"
+#include "tests/support/travelling.h"
 
 namespace warmjoint {
 namespace {
@@ -113,6 +114,46 @@ TEST(Auto, FindsGravity) {
   ASSERT_TRUE(estimate.choice);
   EXPECT_EQ(estimate.choice->chosen, "energy-ml gravity=sincos law=viscous_coulomb");
   EXPECT_TRUE(estimate.gravity.has_value());
+}
+
+/// A warming joint with ripple over its position, which carries a weight of so many N.m.
+Estimate OfRippleBesideWeight(double weight) {
+  FrictionDescription joint = test::TableOne();
+  joint.maps = {test::PositionLevel(3, 1.5)};
+  Measurements m = test::RecordFriction(joint, 1, test::Travel(6000, 1, 3, {0.15, 0.3, 0.6}), 0, 1);
+  m.position.array() -= 3;
+  m.torque = PredictFriction(joint, m).force;
+  m.torque.array() += weight * m.position.array().sin();
+  test::AddNoise(m, 0.5, 0, 7);
+  return Answer(m);
+}
+
+TEST(Auto, TellsGravityFromAMap) {
+  // a map could be both, but only friction belongs into a simulator that adds gravity of its own
+  const Estimate heavy = OfRippleBesideWeight(5);
+  ASSERT_TRUE(heavy.gravity) << heavy.message;
+  EXPECT_FALSE(heavy.friction->maps.empty());
+  const auto& interval = *heavy.Find("gravity_sine")->interval95;
+  EXPECT_LT(interval[0], 5);
+  EXPECT_GT(interval[1], 5);
+
+  const Estimate light = OfRippleBesideWeight(0);
+  EXPECT_FALSE(light.gravity) << light.message;
+  EXPECT_FALSE(light.friction->maps.empty());
+}
+
+TEST(Auto, LeavesMapsOutWhereNothingIsLeftOverPlace) {
+  const Estimate estimate =
+      Answer(test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 3), 0.5, 3));
+  ASSERT_TRUE(estimate.choice);
+  int maps = 0;
+  for (const StructureTrial& one : estimate.choice->trials) {
+    const bool is_map = one.name.find("position-ridge") != std::string::npos ||
+                        one.name.find("position=map") != std::string::npos;
+    maps += is_map;
+    EXPECT_TRUE(!is_map || (!one.rmse && one.parameters == 0)) << one.name;
+  }
+  EXPECT_GE(maps, 2);
 }
 
 TEST(Auto, FindsALagOfTheTorque) {
