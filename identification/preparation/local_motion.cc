@@ -128,31 +128,32 @@ Series SeriesOf(const Measurements& m, const std::vector<SampleRange>& pieces,
   return {m.position, 2, deviation};
 }
 
-/// Takes back what lies at a corner of the velocity, where polynomials through few samples bend from one
-/// slope to the other within the noise: where the acceleration changes from one side of a sample to the
-/// other by more than kJump of its root mean square, four times the median, and five times its noise;
-/// and the neighbours of what is not known.
-/// noise: of the acceleration, rad/s^2 or m/s^2.
-void LeaveOutCorners(const std::vector<SampleRange>& pieces, double rms, double noise,
-                     LocalMotion& motion) {
-  const Index n = motion.acceleration.size();
-  VectorXd changes = VectorXd::Zero(n);
+/// How much the acceleration differs from one side of each sample to the other; 0 where it is not known. [N]
+VectorXd ChangesOf(const LocalMotion& motion, const std::vector<SampleRange>& pieces) {
+  VectorXd changes = VectorXd::Zero(motion.acceleration.size());
   for (const auto& [first, count] : pieces) {
     for (Index i = first + 1; i + 1 < first + count; ++i) {
       if (!motion.known[i - 1] || !motion.known[i + 1]) continue;
       changes[i] = std::abs(motion.acceleration[i + 1] - motion.acceleration[i - 1]);
     }
   }
-  VectorXd ordered = changes;
-  const double most =
-      std::max({kJump * rms, kBeyondMedian * MedianInPlace(ordered), kDeviations * noise});
-  const Eigen::Array<bool, Eigen::Dynamic, 1> straight = motion.known && changes.array() <= most;
-  motion.known = straight;
-  motion.known.head(n - 1) = motion.known.head(n - 1) && straight.tail(n - 1);
-  motion.known.tail(n - 1) = motion.known.tail(n - 1) && straight.head(n - 1);
+  return changes;
 }
 
 }  // namespace
+
+KnownSamples AwayFromCorners(const KnownSamples& known, const VectorXd& changes, double rms,
+                             double noise) {
+  VectorXd ordered = changes;
+  const double most =
+      std::max({kJump * rms, kBeyondMedian * MedianInPlace(ordered), kDeviations * noise});
+  const KnownSamples straight = known && changes.array() <= most;
+  KnownSamples away = straight;
+  const Index pairs = std::max<Index>(away.size() - 1, 0);
+  away.head(pairs) = away.head(pairs) && straight.tail(pairs);
+  away.tail(pairs) = away.tail(pairs) && straight.head(pairs);
+  return away;
+}
 
 double StepOfVelocity(const VectorXd& velocity) {
   const double step = Resolution(velocity);
@@ -201,7 +202,9 @@ LocalMotion FollowLocally(const Measurements& m, const std::vector<SampleRange>&
       motion.acceleration[i] = scale->acceleration[i];
     }
   }
-  LeaveOutCorners(pieces, rms, series.noise * scales.back().gain, motion);
+  // through few samples a polynomial bends from one slope to the other within the noise
+  motion.known = AwayFromCorners(motion.known, ChangesOf(motion, pieces), rms,
+                                 series.noise * scales.back().gain);
   return motion;
 }
 

@@ -15,12 +15,22 @@ enum class MotionSource { velocity, positions };
 /// Noise of an acceleration that is accepted, as a share of the acceleration's root mean square.
 inline constexpr double kAcceptedNoise = 0.05;
 
+/// Which samples of a log are known. [N]
+using KnownSamples = Eigen::Array<bool, Eigen::Dynamic, 1>;
+
 struct LocalMotion {
   Eigen::VectorXd velocity;      // [N] rad/s or m/s
   Eigen::VectorXd acceleration;  // [N] rad/s^2 or m/s^2
   /// [N] whether both are known: a polynomial passes through the samples around, but for their noise.
-  Eigen::Array<bool, Eigen::Dynamic, 1> known;
+  KnownSamples known;
 };
+
+/// What of `known` lies at no corner of the velocity: where the acceleration changes from one side of a sample to the
+/// other by no more than a tenth of its root mean square, four times the median change, or five times the noise of a
+/// change; and so at the neighbours, whose acceleration spans it.
+/// changes: [N] rad/s^2 or m/s^2, as are rms, of the acceleration, and noise, of a change.
+KnownSamples AwayFromCorners(const KnownSamples& known, const Eigen::VectorXd& changes, double rms,
+                             double noise);
 
 /// Step of a quantised velocity, rad/s or m/s; 0 where it is not quantised. Ramps of one slope between
 /// constant speeds change by one step, too, but sample after sample.

@@ -16,11 +16,9 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double kClear = 0.05;      // of the velocity's root mean square
-constexpr double kJump = 0.1;        // of the acceleration's root mean square
-constexpr double kBeyondMedian = 4;  // of the change from one side of a sample to the other
-constexpr double kDeviations = 5;    // of the noise
-constexpr Index kReach = 2;          // samples to each side, of which a difference is taken
+constexpr double kClear = 0.05;    // of the velocity's root mean square
+constexpr double kDeviations = 5;  // of the noise
+constexpr Index kReach = 2;        // samples to each side, of which a difference is taken
 constexpr double kGain =
     0.9501;  // sqrt(2 (1 + 8^2)) / 12: noise of a difference times the step, of even samples
 
@@ -99,18 +97,8 @@ std::optional<LocalMotion> ByDifferences(const Measurements& m,
   if (left * left > kAcceptedNoise * kAcceptedNoise * (rms * rms - left * left)) {
     return std::nullopt;
   }
-  const VectorXd jumps = Jumps(m, pieces);
-  VectorXd ordered = jumps;
-  const double most = std::max({kJump * rms, kBeyondMedian * MedianInPlace(ordered),
-                                kDeviations * noise * std::sqrt(6.0) / step});
-
-  // a difference spans two samples on each side, so that a corner at a neighbour bends it, too
-  const Eigen::Array<bool, Eigen::Dynamic, 1> straight = jumps.array() <= most;
-  motion.known = straight;
-  for (Index i = 0; i + 1 < m.size(); ++i) {
-    motion.known[i] = motion.known[i] && straight[i + 1];
-    motion.known[i + 1] = motion.known[i + 1] && straight[i];
-  }
+  motion.known = AwayFromCorners(KnownSamples::Constant(m.size(), true), Jumps(m, pieces), rms,
+                                 noise * std::sqrt(6.0) / step);
   return motion;
 }
 
