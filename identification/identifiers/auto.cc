@@ -47,11 +47,11 @@ void TryCurved(const IdentifierInput& input, Tournament& tournament) {
   for (const char* warming : {"none", "estimated"}) {
     if (tournament.MayHaveTwoLevels(warming)) tournament.Add({TwoLevelStribeckStructure(warming)});
   }
-  const std::vector<Structure> maps = MapStructures(input, gravity);
   if (tournament.MayHaveMap()) {
-    tournament.Add(maps);
+    tournament.Add(MapStructures(input, gravity, tournament.MapBesideBest(gravity)));
   } else {
-    tournament.LeaveOut(maps, "nothing is left over place that a map could take");
+    tournament.LeaveOut(MapStructures(input, gravity),
+                        "nothing is left over place that a map could take");
   }
 }
 
@@ -66,10 +66,7 @@ Trials TryAll(const IdentifierInput& input) {
   Trials trials;
   trials.tournament = std::make_unique<Tournament>(input, input.selection);
   TryLinear(input, *trials.tournament);
-  if (const Structure* best = trials.tournament->Best()) {
-    input.Tell("looking for a lag of the torque");
-    trials.lag = LagOf(*best, input);
-  }
+  trials.lag = trials.tournament->LagOfBest(input);
   if (trials.lag) {
     trials.tournament = std::make_unique<Tournament>(
         input, Settled(input.measurements, input.selection, *trials.lag));
@@ -124,14 +121,19 @@ Fit FitChosen(const IdentifierInput& input) {
   const Trials trials = TryAll(input);
   Tournament& tournament = *trials.tournament;
   tournament.DropHopeless();
-  const std::vector<Contender> contenders = tournament.Compare(blocks);
+  const Structure* only = tournament.OnlyOne();
+  std::vector<Contender> contenders;
+  if (!only) contenders = tournament.Compare(blocks);
   StructureChoice told{"", "", blocks, tournament.Told()};
   const Structure* best = tournament.Best();
   if (!best) return NothingFits(tournament, std::move(told));
 
   // by the blocks, or by BIC where none can do without one of them, as one that holds the warm-up
   Structure chosen = *best;
-  if (contenders.empty()) {
+  if (only) {
+    chosen = *only;
+    told.reason = fmt::format("chose {}: it outdoes every other structure", chosen.Name());
+  } else if (contenders.empty()) {
     told.reason = fmt::format("chose {} by BIC: none can do without one of the {} blocks of time",
                               chosen.Name(), blocks);
   } else {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "identification/fit_data.h"
 #include "identification/lagged/kept_runs.h"
 #include "identification/lagged/seen_lag.h"
 
@@ -12,14 +13,15 @@ constexpr double kSettledAfter = 5;  // time constants: e^-5 = 1/150
 
 }  // namespace
 
-std::optional<double> LagOf(const Structure& structure, const IdentifierInput& input) {
-  if (input.measurements.acceleration || !structure.CanTellLag()) {
-    return std::nullopt;
-  }
-  const Fit without = structure.Fitted(input);
-  if (without.refusal) return std::nullopt;
-  const auto runs = std::make_shared<const KeptRuns>(FindRuns(input.measurements, without.used));
-  if (!ShowsLag(runs, without.fitted, without.residual())) return std::nullopt;
+std::optional<double> LagOf(const Structure& structure, const TorqueModel& without,
+                            const CourseStart& start, const IdentifierInput& input) {
+  const Measurements& m = input.measurements;
+  if (m.acceleration || !structure.CanTellLag()) return std::nullopt;
+  const TorquePrediction predicted = PredictTorque(without, m, input.selection, start);
+  const auto runs = std::make_shared<const KeptRuns>(FindRuns(m, predicted.known));
+  const Eigen::VectorXd torque = Kept(predicted.torque, predicted.known);
+  const Eigen::VectorXd residual = Kept(m.torque, predicted.known) - torque;
+  if (!ShowsLag(runs, torque, residual)) return std::nullopt;
   const Fit behind = structure.With("torque_lag", "estimated").Fitted(input);
   if (behind.refusal || !behind.torque_lag) return std::nullopt;
   return behind.torque_lag->time_constant;

@@ -30,9 +30,8 @@ Structure Structure::With(const std::string& option, const std::string& value) c
   return other;
 }
 
-Structure Structure::WithShapeOf(const Fit& fit) const {
-  if (fit.friction.maps.empty()) return *this;
-  const MapAxis& axis = fit.friction.maps[0].axes[0];
+Structure Structure::WithShapeOf(const FrictionMap& map) const {
+  const MapAxis& axis = map.axes[0];
   const std::vector<double>& centres = axis.kernels.centres;
   const double spacing = centres[1] - centres[0];
   const Structure wide = With("width", fmt::format("{:.4g}", axis.kernels.width / spacing));
@@ -85,7 +84,11 @@ Structure TwoLevelStribeckStructure(const std::string& warming) {
   return StribeckStructure(warming).With("law", std::string(AsymmetricStribeck::name));
 }
 
-std::vector<Structure> MapStructures(const IdentifierInput& input, const std::string& gravity) {
+std::vector<Structure> MapStructures(const IdentifierInput& input, const std::string& gravity,
+                                     const std::optional<FrictionMap>& kernels) {
+  const auto shaped = [&](const Structure& one) {
+    return kernels ? one.WithShapeOf(*kernels) : one;
+  };
   // what looks like gravity beside a law that is too simple may be a map's
   std::vector<std::string> kinds{"none"};
   if (gravity != "none") kinds.push_back(gravity);
@@ -96,8 +99,8 @@ std::vector<Structure> MapStructures(const IdentifierInput& input, const std::st
     std::map<std::string, std::string> given;
     if (kind != "none") given = {{"gravity", kind}};
     const Structure warm = Structure{EnergyMl(), given}.With("position", "map");
-    structures.push_back({PositionRidge(), given});
-    structures.push_back(warm);
+    structures.push_back(shaped({PositionRidge(), given}));
+    structures.push_back(shaped(warm));
     if (!knows_motor) continue;
     if (kind == "none") structures.push_back({MotorRidge(), {}});
     structures.push_back(warm.With("position", "motor"));

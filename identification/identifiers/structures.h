@@ -22,9 +22,9 @@ struct Structure {
   /// The same with another option.
   Structure With(const std::string& option, const std::string& value) const;
 
-  /// The same with the number and the width of the kernels that a fit of it chose; itself where the fit
-  /// has no maps.
-  Structure WithShapeOf(const Fit& fit) const;
+  /// The same with the number and the width of a map's kernels, of those over the motor's angle with the
+  /// width.
+  Structure WithShapeOf(const FrictionMap& map) const;
 
   /// Whether it could estimate a lag of the torque, too.
   bool CanTellLag() const;
@@ -49,7 +49,9 @@ Structure StribeckStructure(const std::string& warming);
 /// The same with a Coulomb level for each direction of motion.
 Structure TwoLevelStribeckStructure(const std::string& warming);
 
-/// Maps, without warming and with it, also beside gravity.
-std::vector<Structure> MapStructures(const IdentifierInput& input, const std::string& gravity);
+/// Maps, without warming and with it, also beside gravity. kernels: those over position, where they are
+/// chosen already.
+std::vector<Structure> MapStructures(const IdentifierInput& input, const std::string& gravity,
+                                     const std::optional<FrictionMap>& kernels = {});
 
 }  // namespace warmjoint::inline identification

@@ -8,9 +8,11 @@
 #include "identification/fit_data.h"
 #include "identification/forward/map_points.h"
 #include "identification/holdout/blocked_hold_out.h"
+#include "identification/identifiers/lag_of_log.h"
 #include "identification/identifiers/left_over_place.h"
+#include "identification/identifiers/position_ridge.h"
 #include "identification/inference/bounds.h"
-#include "identification/preparation/condense.h"
+#include "models/recording/course_of.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -24,7 +26,9 @@ constexpr double kBeyondDoubt =
 Trial Try(const Structure& structure, const IdentifierInput& input) {
   Trial trial{structure, structure.Fitted(input)};
   trial.gives_friction = GivesFriction(trial.fit);
-  trial.structure = structure.WithShapeOf(trial.fit);
+  if (!trial.fit.friction.maps.empty()) {
+    trial.structure = structure.WithShapeOf(trial.fit.friction.maps[0]);
+  }
   if (trial.gives_friction) return trial;
 
   // beyond doubt or perhaps by chance
@@ -37,8 +41,8 @@ Trial Try(const Structure& structure, const IdentifierInput& input) {
 }  // namespace
 
 Tournament::Tournament(const IdentifierInput& input, const Selection& selection)
-    : view_(Condense({input.measurements, selection}, kRows)),
-      quick_(input.On(view_)),
+    : log_(Condense({input.measurements, selection}, kRows)),
+      quick_(input.On(log_.view)),
       rows_(static_cast<double>(quick_.selection.count())) {}
 
 void Tournament::Add(const std::vector<Structure>& structures) {
@@ -59,11 +63,33 @@ const Structure* Tournament::Best() const {
   return best ? &best->structure : nullptr;
 }
 
+std::optional<double> Tournament::LagOfBest(const IdentifierInput& all) const {
+  const Trial* best = BestTrial();
+  if (!best) return std::nullopt;
+  all.Tell("looking for a lag of the torque");
+  const Fit& fit = best->fit;
+  CourseStart start = fit.Start();
+  for (EnergyJump& jump : start.jumps) jump.sample = log_.first[static_cast<size_t>(jump.sample)];
+  return LagOf(best->structure, {fit.friction, fit.gravity, fit.inertia}, start, all);
+}
+
 bool Tournament::MayHaveMap() const {
   const Trial* best = BestTrial();
   if (!best) return true;
-  const MapPoints points = Kept(PointsOf(view_.measurements), best->fit.used);
+  const MapPoints points = Kept(PointsOf(log_.view.measurements), best->fit.used);
   return LeavesOverPlace(best->fit.residual(), points);
+}
+
+std::optional<FrictionMap> Tournament::MapBesideBest(const std::string& gravity) const {
+  quick_.Tell("choosing kernels over position");
+  const Trial* best = BestTrial();
+  Eigen::VectorXd energy;
+  if (best) {
+    const Fit& fit = best->fit;
+    energy = PredictFriction(fit.friction, log_.view.measurements, fit.Start()).energy;
+  }
+  const Options options(PositionRidge().options, {{"gravity", gravity}}, {});
+  return MapBesideEnergy(quick_.With(options), energy);
 }
 
 bool Tournament::MayHaveTwoLevels(const std::string& warming) const {
@@ -90,6 +116,12 @@ void Tournament::DropHopeless() {
       if (j != i && standing[j]) trials_[i].dropped = WhyOutdone(trials_[i], trials_[j]);
     }
   }
+}
+
+const Structure* Tournament::OnlyOne() const {
+  const auto stands = [](const Trial& trial) { return trial.dropped.empty(); };
+  if (std::ranges::count_if(trials_, stands) != 1) return nullptr;
+  return &std::ranges::find_if(trials_, stands)->structure;
 }
 
 std::vector<Contender> Tournament::Compare(int blocks) {

@@ -8,7 +8,7 @@
 #include "identification/holdout/structure_choice.h"
 #include "identification/identifiers/structures.h"
 #include "identification/inference/inference.h"
-#include "identification/preparation/log_view.h"
+#include "identification/preparation/condense.h"
 
 namespace warmjoint::inline identification {
 
@@ -31,8 +31,8 @@ struct Trial {
 /// Everything that is tried on one log.
 class Tournament {
  public:
-  /// On rows that hold the means of neighbouring samples. selection: of the samples that take part.
-  /// Both must outlive it.
+  /// On rows that hold the means of neighbouring samples. selection: of the samples that take part. What
+  /// the input refers to must outlive it.
   Tournament(const IdentifierInput& input, const Selection& selection);
   Tournament(const Tournament&) = delete;
   Tournament& operator=(const Tournament&) = delete;
@@ -45,8 +45,16 @@ class Tournament {
   /// The structure that BIC prefers so far, of those that fit all rows; none where nothing does.
   const Structure* Best() const;
 
+  /// The lag, s, that the best so far finds where every sample shows one; nothing where none does. all: the
+  /// input with every sample.
+  std::optional<double> LagOfBest(const IdentifierInput& all) const;
+
   /// Whether a map may help: the best so far leaves something over place, or nothing fits.
   bool MayHaveMap() const;
+
+  /// A map with the kernels over position that suit the log, chosen once, beside the warming of the best so
+  /// far; nothing where none can be fitted. gravity: its kind, fitted beside the map.
+  std::optional<FrictionMap> MapBesideBest(const std::string& gravity) const;
 
   /// Whether a level for each direction may help the Stribeck law with that warming: what it leaves
   /// pushes in one direction. Where it does not fit, the linear law tells; with warming, which costs
@@ -57,6 +65,9 @@ class Tournament {
   /// half of the residual, or its map holds gravity that the same structure with gravity tells apart
   /// beyond doubt. On this log both predict alike, but a simulator adds gravity of its own.
   void DropHopeless();
+
+  /// The structure that stands where it is the only one: there is nothing to compare.
+  const Structure* OnlyOne() const;
 
   /// Errors of those that stand, on blocks that they have not seen.
   std::vector<Contender> Compare(int blocks);
@@ -81,7 +92,7 @@ class Tournament {
   /// Why one cannot be chosen beside another; empty where it can.
   std::string WhyOutdone(const Trial& one, const Trial& other) const;
 
-  const LogView view_;
+  const CondensedLog log_;
   const IdentifierInput quick_;
   double rows_;
   std::vector<Trial> trials_;

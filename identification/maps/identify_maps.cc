@@ -79,9 +79,13 @@ Eigen::Index MapTask::law_count() const {
   return static_cast<Eigen::Index>(FindLaw(settings.law)->parameters.size());
 }
 
+int MapTask::folds(Eigen::Index samples) const {
+  return std::min(settings.folds, std::max(2, static_cast<int>(samples) / 2));
+}
+
 MapBeginning BeginMaps(const IdentifierInput& input, const std::string& identifier,
                        std::initializer_list<MapQuantity> quantities, const RigidPart& rigid) {
-  MapBeginning begin{{identifier, ReadMapSettings(input.options), {}, {}, rigid}, {}, {}};
+  MapBeginning begin{{identifier, ReadMapSettings(input.options), {}, {}, rigid, {}}, {}, {}};
   // one that is not asked for has no columns, over all samples
   if (rigid.count() == 0) begin.task.rigid.columns.resize(input.measurements.size(), 0);
   begin.refusal = RefuseForMaps(input, *FindLaw(begin.task.settings.law), rigid);
@@ -120,6 +124,7 @@ std::optional<MapChoice> ChooseAndFit(const IdentifierInput& input, const MapTas
                      Kept(input.measurements.torque, input.selection),
                      input.selection};
   problem.torque -= TakenByEnergy(input, task.energy);
+  problem.rows = task.rows;
 
   for (const ParameterInfo& info : FindLaw(task.settings.law)->parameters) {
     problem.lower.push_back(info.lower);
@@ -129,8 +134,7 @@ std::optional<MapChoice> ChooseAndFit(const IdentifierInput& input, const MapTas
   // a choice costs fits, so one is made only where there is something to choose
   ChosenMaps best{0, task.settings.strength, 0};
   if (task.candidates.size() > 1 || task.settings.strength == 0) {
-    const int folds =
-        std::min(task.settings.folds, std::max(2, static_cast<int>(problem.torque.size()) / 2));
+    const int folds = task.folds(problem.torque.size());
     best = ChooseMaps(problem, task.candidates, task.settings.rule, folds);
     if (!std::isfinite(best.criterion)) return std::nullopt;
     if (task.settings.strength > 0) best.strength = task.settings.strength;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,8 +22,11 @@ struct MapTask {
   Eigen::VectorXd energy;
   /// Gravity and inertia beside law and maps, free of any prior; no columns: none.
   RigidPart rigid{};
+  /// Of the only candidate at the kept samples, where they are made already; null: made anew.
+  std::shared_ptr<const KernelRows> rows{};
 
-  Eigen::Index law_count() const;  // parameters of the law
+  Eigen::Index law_count() const;         // parameters of the law
+  int folds(Eigen::Index samples) const;  // of cross validation over so many kept samples
 };
 
 /// Where an identifier with maps begins: its settings, and the samples that it fits.

@@ -62,10 +62,13 @@ bool IsOverEnergy(const std::vector<FrictionMap>& maps) {
 std::vector<NormalEquations> Folds(const MapProblem& problem, int folds) {
   const Eigen::Index n = problem.torque.size();
   const Eigen::Index spans = folds * (IsOverEnergy(problem.maps) ? kSpans : 1);
+  const bool made = problem.rows && problem.rows->spans() == spans;
   std::vector<NormalEquations> parts;
   for (Eigen::Index i = 0; i < spans; ++i) {
-    const NormalEquations span = LocalNormal(problem.maps, problem.points, problem.free,
-                                             problem.torque, i * n / spans, (i + 1) * n / spans);
+    const NormalEquations span =
+        made ? problem.rows->Normal(i, problem.free, problem.torque)
+             : LocalNormal(problem.maps, problem.points, problem.free, problem.torque,
+                           i * n / spans, (i + 1) * n / spans);
     if (i < folds) {
       parts.push_back(span);
     } else {

@@ -8,6 +8,7 @@
 #include "identification/maps/imitated_columns.h"
 #include "identification/ridge/local_ridge.h"
 #include "identification/uncertainty/penalised_uncertainty.h"
+#include "models/friction/prepared_map.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -98,6 +99,7 @@ Conditions Centre(const MapProblem& problem, const NormalEquations& normal,
 }  // namespace
 
 NormalEquations NormalOf(const MapProblem& problem) {
+  if (problem.rows) return problem.rows->Normal(problem.free, problem.torque);
   return LocalNormal(problem.maps, problem.points, problem.free, problem.torque, 0,
                      problem.torque.size());
 }
@@ -125,7 +127,9 @@ std::optional<MapFit> FitMaps(const MapProblem& problem, double strength) {
   fit.effective = fit.inverse.cwiseProduct(fit.gram).sum();
 
   fit.maps = WithWeights(problem.maps, fit.x.tail(d - fit.free));
-  fit.fitted = problem.free * fit.x.head(fit.free) + EvaluateMaps(fit.maps, problem.points);
+  fit.fitted = problem.free * fit.x.head(fit.free);
+  fit.fitted += problem.rows ? problem.rows->Times(fit.x.tail(d - fit.free))
+                             : EvaluateMaps(fit.maps, problem.points);
   return fit;
 }
 
@@ -154,7 +158,8 @@ Uncertainty JudgeMaps(const MapProblem& problem, const MapFit& fit) {
 Eigen::VectorXd EvaluateMaps(const std::vector<FrictionMap>& maps, const MapPoints& points) {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(points.rows());
   for (const FrictionMap& map : maps) {
-    for (Eigen::Index i = 0; i < sum.size(); ++i) sum[i] += EvaluateMap(map, PointAt(points, i));
+    const PreparedMap ready(map);
+    for (Eigen::Index i = 0; i < sum.size(); ++i) sum[i] += ready.Value(PointAt(points, i));
   }
   return sum;
 }

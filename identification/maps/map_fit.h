@@ -1,10 +1,11 @@
 // Law and maps fitted together, and how sure the fit is.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
-#include "identification/ridge/local_rows.h"
+#include "identification/ridge/kernel_rows.h"
 #include "identification/uncertainty/uncertainty.h"
 
 namespace warmjoint::inline identification {
@@ -19,6 +20,8 @@ struct MapProblem {
   Eigen::VectorXd torque;         // [n] y, N.m or N
   Selection selection;            // n of its samples are kept
   std::vector<double> lower{};    // [p] bounds of the parameters; or empty: none
+  /// Of `maps` at `points`, where they are made already; null: made anew.
+  std::shared_ptr<const KernelRows> rows{};
 };
 
 /// The normal equations of all rows [free, kernels].

@@ -149,11 +149,21 @@ void AddRipple(const MapFit& maps, const Uncertainty& known, const Measurements&
                       measurements, fit);
 }
 
+/// The rows of the only candidate, for all rounds; null where there are several, or too many to keep.
+std::shared_ptr<const KernelRows> RowsOf(const IdentifierInput& input, const MapTask& task) {
+  const std::vector<FrictionMap>& maps = task.candidates.front();
+  const Eigen::Index samples = input.selection.count();
+  if (task.candidates.size() > 1 || !KernelRows::Fit(maps, samples)) return nullptr;
+  const MapPoints points = Kept(PointsOf(input.measurements), input.selection);
+  return std::make_shared<const KernelRows>(maps, points, task.folds(samples));
+}
+
 }  // namespace
 
 std::optional<WarmMaps> FitWarmMaps(const IdentifierInput& input, const MapTask& task) {
   MapTask current = task;
   current.energy = Eigen::VectorXd();
+  current.rows = RowsOf(input, current);
   std::optional<MapChoice> choice = ChooseAndFit(input, current);
   if (!choice) return std::nullopt;
   const double cold = Squares(*choice);
@@ -171,6 +181,7 @@ std::optional<WarmMaps> FitWarmMaps(const IdentifierInput& input, const MapTask&
     // shape and strength are chosen once more now that E is known, then kept
     current.energy = step.energy;
     if (warm.rounds > 2) current = Settled(current, choice->fit);
+    if (!current.rows) current.rows = RowsOf(input, current);
     choice = ChooseAndFit(input, current);
     if (!choice) return std::nullopt;
   }
@@ -178,6 +189,7 @@ std::optional<WarmMaps> FitWarmMaps(const IdentifierInput& input, const MapTask&
   const double variance = Squares(*choice) / std::max(n - choice->fit.effective - 2, 1.0);
   warm.visible = (cold - Squares(*choice)) / variance;
   warm.task = Settled(current, choice->fit);
+  warm.task.rows.reset();
   warm.fit = std::move(choice->fit);
   return warm;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 #include "models/recording/motor_angle.h"
@@ -60,10 +61,14 @@ std::vector<Index> RowsOf(const LogView& all, Index together) {
 
 }  // namespace
 
-LogView Condense(const LogView& all, Index rows) {
+CondensedLog Condense(const LogView& all, Index rows) {
   const Index together = (all.selection.count() + rows - 1) / rows;
-  if (together <= 1) return all;
-  const std::vector<Index> first = RowsOf(all, together);
+  if (together <= 1) {
+    std::vector<Index> each(static_cast<size_t>(all.measurements.size()) + 1);
+    std::iota(each.begin(), each.end(), 0);
+    return {all, std::move(each)};
+  }
+  std::vector<Index> first = RowsOf(all, together);
   const auto count = static_cast<Index>(first.size()) - 1;
 
   // the columns
@@ -88,7 +93,7 @@ LogView Condense(const LogView& all, Index rows) {
     one.begin = row(one.begin);
     one.end = row(one.end);
   }
-  return view;
+  return {std::move(view), std::move(first)};
 }
 
 }  // namespace warmjoint::inline identification

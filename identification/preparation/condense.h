@@ -1,9 +1,16 @@
 // A log in fewer rows, for comparing structures.
 #pragma once
 
+#include <vector>
+
 #include "identification/preparation/log_view.h"
 
 namespace warmjoint::inline identification {
+
+struct CondensedLog {
+  LogView view;
+  std::vector<Eigen::Index> first;  // [rows + 1] first sample of each row, and N
+};
 
 /// Means over neighbouring samples that are alike: kept or not, of one segment where segments are
 /// known, moving in one direction, of one recording, without a gap between them. As many of them make
@@ -11,6 +18,6 @@ namespace warmjoint::inline identification {
 /// its travel, and the motor by a 24th of its turn where the log knows its angle: ripple stays. A row
 /// stands at the mean time of its samples, so that heat, which is slow, comes out alike. The log
 /// itself where one sample makes a row.
-LogView Condense(const LogView& all, Eigen::Index rows);
+CondensedLog Condense(const LogView& all, Eigen::Index rows);
 
 }  // namespace warmjoint::inline identification

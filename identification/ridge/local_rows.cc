@@ -7,32 +7,44 @@
 #include <limits>
 #include <numeric>
 
+#include "models/friction/prepared_map.h"
+
 namespace warmjoint::inline identification {
 namespace {
 
 constexpr Eigen::Index kChunk = 16384;  // samples whose rows are held at once
 
-/// The kernels of one axis that are not negligible: neighbours, on a circle across its end.
+/// The kernels of one axis that count: neighbours, on a circle across its end.
 struct Window {
   std::uint16_t first = 0;
   std::uint16_t count = 0;
   auto operator<=>(const Window&) const = default;
 };
 
-Window FindWindow(const double* phi, int size, bool circle) {
-  const int peak = static_cast<int>(std::max_element(phi, phi + size) - phi);
-  const double least = kNegligibleKernel * phi[peak];
-  if (!(phi[peak] > 0)) return {};
-  const auto seen = [&](int i) {
-    if (circle) i = (i + size) % size;
-    return i >= 0 && i < size && phi[i] > least;
-  };
-  int before = 0, after = 0;
-  while (before + 1 < size && seen(peak - before - 1)) ++before;
-  while (before + after + 1 < size && seen(peak + after + 1)) ++after;
-  return {static_cast<std::uint16_t>((peak - before + size) % size),
-          static_cast<std::uint16_t>(before + after + 1)};
-}
+/// Kernels of one axis, each at the place of its centre.
+class AxisRow {
+ public:
+  AxisRow(const GaussianAxis& axis, KernelKind kind) : axis_(axis, kind), places_(axis_.Row()) {}
+
+  /// The kernels that count at x, into phi [axis.size()]; others are not written.
+  Window Fill(double x, double* phi) {
+    axis_.Kernels(x, active_);
+    const double* value = active_.value.data() + active_.begin;
+    const int* place = places_.data() + active_.first;
+    const auto counts = [&](int i) { return place[i] >= 0 && value[i] > 0; };
+    int first = 0, last = active_.count;
+    while (first < last && !counts(first)) ++first;
+    while (first < last && !counts(last - 1)) --last;
+    if (first == last) return {};
+    for (int i = first; i < last; ++i) phi[place[i]] = value[i] / active_.sum;
+    return {static_cast<std::uint16_t>(place[first]), static_cast<std::uint16_t>(last - first)};
+  }
+
+ private:
+  PreparedAxis axis_;
+  std::vector<int> places_;
+  ActiveKernels active_{};
+};
 
 /// Kernels of every axis of every map at some samples, each axis by itself.
 class AxisTable {
@@ -41,7 +53,10 @@ class AxisTable {
             Eigen::Index last)
       : maps_(maps), first_(first) {
     for (const FrictionMap& map : maps) {
-      for (const MapAxis& axis : map.axes) width_ += static_cast<Eigen::Index>(axis.kernels.size());
+      for (const MapAxis& axis : map.axes) {
+        rows_.emplace_back(axis.kernels, map.kernels);
+        width_ += static_cast<Eigen::Index>(axis.kernels.size());
+      }
       axes_ += static_cast<Eigen::Index>(map.axes.size());
     }
     phi_.resize(last - first, width_);
@@ -127,15 +142,13 @@ class AxisTable {
     const Eigen::Index row = sample - first_;
     double* phi = phi_.row(row).data();
     Window* window = windows_.data() + row * axes_;
+    auto axis_row = rows_.begin();
     const double v = points(sample, static_cast<int>(MapQuantity::velocity));
     for (size_t m = 0; m < maps_.size(); ++m) {
       factors_(row, static_cast<Eigen::Index>(m)) = EvaluateFactor(maps_[m].factor, v);
       for (const MapAxis& axis : maps_[m].axes) {
-        const auto size = static_cast<int>(axis.kernels.size());
-        const double x = points(sample, static_cast<int>(axis.quantity));
-        AxisKernels(axis.kernels, maps_[m].kernels, x, phi);
-        *window++ = FindWindow(phi, size, axis.kernels.period.has_value());
-        phi += size;
+        *window++ = (axis_row++)->Fill(points(sample, static_cast<int>(axis.quantity)), phi);
+        phi += axis.kernels.size();
       }
     }
   }
@@ -146,6 +159,7 @@ class AxisTable {
 
   const std::vector<FrictionMap>& maps_;
   Eigen::Index first_;
+  std::vector<AxisRow> rows_;    // of all axes
   Eigen::Index width_ = 0;       // kernels of all axes
   Eigen::Index axes_ = 0;        // of all maps
   RowGroup::Rows phi_;           // [samples x width]

@@ -9,11 +9,7 @@
 
 namespace warmjoint::inline identification {
 
-/// A kernel below this share of the largest one of its axis at a sample counts as 0 there: 8.8
-/// widths away. It is below the rounding of the sums that it would enter.
-inline constexpr double kNegligibleKernel = 1e-17;
-
-/// Samples at which the same kernels differ from 0.
+/// Samples at which the same kernels count (PreparedAxis): the rest is below 3e-13 of the largest.
 struct RowGroup {
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   std::vector<Eigen::Index> samples;  // rows of the points

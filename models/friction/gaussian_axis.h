@@ -66,8 +66,12 @@ void AxisKernels(const GaussianAxis& axis, KernelKind kind, const T& x, T* phi) 
   const bool normalised = kind == KernelKind::normalised;
   T sum(0);
   for (size_t i = 0; i < n; ++i) {
-    const T exponent = normalised && present(i) ? T(phi[i] - largest) : phi[i];
-    phi[i] = present(i) && exponent > T(kUnderflow) ? exp(exponent) : T(0);
+    if (!present(i)) {
+      phi[i] = T(0);
+      continue;
+    }
+    const T exponent = normalised ? T(phi[i] - largest) : phi[i];
+    phi[i] = exponent > T(kUnderflow) ? exp(exponent) : T(0);
     sum += phi[i];
   }
   if (!normalised || !any) return;

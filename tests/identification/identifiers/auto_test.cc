@@ -80,7 +80,8 @@ TEST(Auto, SaysWhyAndListsWhatItTried) {
   const Estimate estimate =
       Answer(test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 1), 0.5, 1));
   EXPECT_EQ(estimate.identifier, "auto");
-  EXPECT_THAT(estimate.message, HasSubstr("chose energy-ml law=viscous_coulomb: RMSE 0."));
+  EXPECT_THAT(estimate.message,
+              HasSubstr("chose energy-ml law=viscous_coulomb: it outdoes every other"));
   ASSERT_TRUE(estimate.choice);
   EXPECT_EQ(estimate.choice->chosen, "energy-ml law=viscous_coulomb");
   const auto dropped = [&](const std::string& name) {

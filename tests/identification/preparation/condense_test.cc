@@ -16,12 +16,12 @@ LogView Steady() {
 
 TEST(Condense, LeavesAShortLogAsItIs) {
   const LogView all = Steady();
-  EXPECT_EQ(Condense(all, 4000).measurements.size(), all.measurements.size());
+  EXPECT_EQ(Condense(all, 4000).view.measurements.size(), all.measurements.size());
 }
 
 TEST(Condense, MakesRowsOfOneSegment) {
   const LogView all = Steady();
-  const LogView some = Condense(all, 900);
+  const LogView some = Condense(all, 900).view;
   EXPECT_LT(some.selection.count(), all.selection.count() / 3);
   ASSERT_EQ(some.selection.segments.size(), all.selection.segments.size());
   for (const Segment& one : some.selection.segments) {
@@ -33,11 +33,19 @@ TEST(Condense, MakesRowsOfOneSegment) {
 
 TEST(Condense, KeepsTheWayAndTheTime) {
   const LogView all = Steady();
-  const LogView some = Condense(all, 900);
+  const auto [some, first] = Condense(all, 900);
   const auto& a = all.measurements;
   const auto& b = some.measurements;
   for (Eigen::Index i = 1; i < b.size(); ++i) EXPECT_GT(b.time[i], b.time[i - 1]);
   EXPECT_NEAR(b.time[b.size() - 1], a.time[a.size() - 1], 4);
+
+  // a row stands among its samples
+  ASSERT_EQ(first.size(), static_cast<size_t>(b.size()) + 1);
+  EXPECT_EQ(first.back(), a.size());
+  for (Eigen::Index i = 0; i < b.size(); ++i) {
+    EXPECT_GE(b.time[i], a.time[first[static_cast<size_t>(i)]]);
+    EXPECT_LE(b.time[i], a.time[first[static_cast<size_t>(i) + 1] - 1]);
+  }
 }
 
 }  // namespace

@@ -71,8 +71,9 @@ TEST_P(LocalRows, HoldEveryKernelOfEverySampleOnce) {
       }
     }
   }
-  // what is left out is below 1e-17 of the largest kernel, and none exceeds 1
-  EXPECT_LE((rows - kernels_).bottomRows(800).cwiseAbs().maxCoeff(), 1e-16);
+  // what a prepared axis leaves out is below 3e-13 of the largest kernel, so that sums change by no more than
+  // 1e-12 (prepared_map.h), and no kernel exceeds 1
+  EXPECT_LE((rows - kernels_).bottomRows(800).cwiseAbs().maxCoeff(), 1e-12);
   EXPECT_EQ(rows.topRows(100).norm(), 0);
 }
 

@@ -1,0 +1,46 @@
+#include "identification/ridge/kernel_rows.h"
+
+namespace warmjoint::inline identification {
+namespace {
+
+using Eigen::Index;
+
+constexpr Index kMostValues = 1 << 24;  // 128 MiB, if every kernel counted at every sample
+
+}  // namespace
+
+KernelRows::KernelRows(const std::vector<FrictionMap>& maps, const MapPoints& points, Index spans)
+    : samples_(points.rows()), kernels_(KernelCount(maps)) {
+  for (Index i = 0; i < spans; ++i) {
+    groups_.push_back(GroupRows(maps, points, i * samples_ / spans, (i + 1) * samples_ / spans));
+  }
+}
+
+bool KernelRows::Fit(const std::vector<FrictionMap>& maps, Index samples) {
+  return samples * KernelCount(maps) <= kMostValues;
+}
+
+NormalEquations KernelRows::Normal(Index span, const Eigen::MatrixXd& free,
+                                   const Eigen::VectorXd& y) const {
+  NormalEquations normal(free.cols() + kernels_);
+  AddGroups(groups_[static_cast<size_t>(span)], free, y, normal);
+  return normal;
+}
+
+NormalEquations KernelRows::Normal(const Eigen::MatrixXd& free, const Eigen::VectorXd& y) const {
+  NormalEquations normal(free.cols() + kernels_);
+  for (const std::vector<RowGroup>& span : groups_) AddGroups(span, free, y, normal);
+  return normal;
+}
+
+Eigen::VectorXd KernelRows::Times(const Eigen::VectorXd& weights) const {
+  Eigen::VectorXd values(samples_);
+  for (const std::vector<RowGroup>& span : groups_) {
+    for (const RowGroup& group : span) {
+      values(group.samples) = group.values * weights(group.kernels);
+    }
+  }
+  return values;
+}
+
+}  // namespace warmjoint::inline identification
