@@ -17,7 +17,36 @@ struct SampledPlan {
   Eigen::VectorXd velocity;      // [N] rad/s or m/s
   Eigen::VectorXd position;      // [N] rad or m
   Eigen::VectorXd acceleration;  // [N] rad/s^2 or m/s^2
+  /// [N] rad/s or m/s, as of JointCourse; empty where speeds change at samples alone
+  Eigen::VectorXd mean_speed{}, loss_velocity{};
 };
+
+/// Means over the steps within which segments end: losses follow the speed, not the samples. rate: Hz
+void FollowSwitches(const std::vector<MotionSegment>& plan, double rate, SampledPlan& samples) {
+  constexpr double kAtSample = 1e-6;  // of a step
+  Eigen::VectorXd speed = samples.velocity.cwiseAbs(), square = samples.velocity.cwiseAbs2();
+  bool within = false;
+  double end = 0;
+  for (size_t s = 0; s + 1 < plan.size(); ++s) {
+    end += plan[s].duration;
+    const double place = end * rate, whole = std::floor(place + kAtSample);
+    const auto i = static_cast<Eigen::Index>(whole);
+    if (i >= speed.size()) break;
+    if (place - whole < kAtSample) continue;
+    const double before = plan[s].velocity, behind = plan[s + 1].velocity;
+    const double share = 1 - (place - whole);
+    speed[i] += share * (std::abs(behind) - std::abs(before));
+    square[i] += share * (behind * behind - before * before);
+    within = true;
+  }
+  if (!within) return;
+  samples.loss_velocity = Eigen::VectorXd::Zero(speed.size());
+  for (Eigen::Index i = 0; i < speed.size(); ++i) {
+    if (speed[i] == 0) continue;
+    samples.loss_velocity[i] = std::copysign(square[i] / speed[i], samples.velocity[i]);
+  }
+  samples.mean_speed = std::move(speed);
+}
 
 SampledPlan SamplePlan(const std::vector<MotionSegment>& plan, double start, double rate,
                        double duration) {
@@ -40,6 +69,7 @@ SampledPlan SamplePlan(const std::vector<MotionSegment>& plan, double start, dou
     samples.velocity[i] = plan[segment].velocity;
     samples.position[i] = start + plan[segment].velocity * (time - begin);
   }
+  FollowSwitches(plan, rate, samples);
   return samples;
 }
 
@@ -185,6 +215,8 @@ class IdealPlant : public Plant {
     const Disturbances& disturbances = scenario_.disturbances;
     JointCourse course{samples.time, samples.velocity, samples.position};
     course.step = step;
+    course.mean_speed = samples.mean_speed;
+    course.loss_velocity = samples.loss_velocity;
     course.load = TransmittedLoad(samples);
     course.ambient_rise = samples.time.unaryExpr(
         [&](double t) { return disturbances.ambient_temperature.RiseAt(t); });
