@@ -19,7 +19,8 @@
 namespace warmjoint::inline identification {
 namespace {
 
-constexpr double kLargest = 1e30;  // of a velocity; beyond it squares and products overflow
+constexpr double kLargest = 1e30;    // of a velocity; beyond it squares and products overflow
+constexpr double kSameSpeed = 0.02;  // as of the ways that are compared (path_against_velocity.cc)
 
 /// What moves at constant speed in a log without a velocity, which is filled with the smoothed slope
 /// of its positions.
@@ -80,7 +81,7 @@ Refined Refine(const LogView& taken) {
   return refined;
 }
 
-/// In what the positions contradict the velocity column, one sentence. Nothing where they agree, or
+/// In what the positions contradict the velocity column, a clause. Nothing where they agree, or
 /// where the log has faults, by which the positions may be wrong as well.
 std::optional<std::string> PathContradiction(const Measurements& m, const ConstantSpeed& found) {
   const LogView taken{m, found.selection};
@@ -93,9 +94,26 @@ std::optional<std::string> PathContradiction(const Measurements& m, const Consta
   }
   return fmt::format(
       "integrated over the changes of speed, the velocity column gives a path that is {:.2g} % {} "
-      "than that of the positions ({} changes): it is filtered, late or scaled, and the positions "
-      "are used instead",
+      "than that of the positions ({} changes)",
       100 * std::abs(paths->excess), paths->excess < 0 ? "shorter" : "longer", paths->ways);
+}
+
+/// Whether the speeds of a log made from positions are those of a velocity column where both call them
+/// constant, over all of them: stamps that jitter spoil the former. velocity, keep: [N] samples at `time`.
+bool AgreesOnSpeeds(const LogView& log, const Eigen::VectorXd& velocity,
+                    const Eigen::Array<bool, Eigen::Dynamic, 1>& keep,
+                    const Eigen::VectorXd& time) {
+  double told = 0, way = 0;
+  Eigen::Index i = 0;
+  for (Eigen::Index n = 0; n < log.measurements.size(); ++n) {
+    if (i == time.size() || log.measurements.time[n] != time[i]) continue;
+    if (keep[i] && log.selection.keep[n]) {
+      told += std::abs(velocity[i]);
+      way += std::abs(log.measurements.velocity[n]);
+    }
+    ++i;
+  }
+  return std::abs(told - way) <= kSameSpeed * way;
 }
 
 /// Leaves out what a velocity column that is not believed did not call constant: it may not have
@@ -135,16 +153,30 @@ PreparedLog PreparedLog::Before(double time) const {
 PreparedLog Prepare(Measurements measurements, const HoldOptions& holds) {
   if (measurements.velocity.size() > 0) {
     ConstantSpeed found = FindConstantSpeed(measurements);
-    if (const auto contradiction = PathContradiction(measurements, found)) {
-      measurements.velocity.resize(0);
-      PreparedLog::Log log = *Prepare(std::move(measurements), holds).log_;
-      KeepAlso(found.selection.keep, log.taken.measurements.time, log.taken);
-      KeepAlso(found.selection.keep, log.taken.measurements.time, *log.steady);
-      log.warnings.push_back(*contradiction);
-      return PreparedLog(std::move(log));
+    const auto contradiction = PathContradiction(measurements, found);
+    if (contradiction) {
+      Measurements positions = measurements;
+      positions.velocity.resize(0);
+      PreparedLog::Log log = *Prepare(std::move(positions), holds).log_;
+      const Eigen::VectorXd& time = measurements.time;
+      if (AgreesOnSpeeds(*log.steady, measurements.velocity, found.selection.keep, time)) {
+        KeepAlso(found.selection.keep, time, log.taken);
+        KeepAlso(found.selection.keep, time, *log.steady);
+        log.warnings.push_back(
+            *contradiction +
+            ": it is filtered, late or scaled, and the positions are used instead");
+        return PreparedLog(std::move(log));
+      }
     }
     TakeOptions(holds, measurements.time, found.selection);
-    return Prepare(std::move(measurements), std::move(found.selection));
+    PreparedLog::Log log = *Prepare(std::move(measurements), std::move(found.selection)).log_;
+    if (contradiction) {
+      log.warnings.push_back(
+          *contradiction +
+          ", but by themselves these tell other speeds: the clock jitters, or the "
+          "positions are spoilt, and the column is used");
+    }
+    return PreparedLog(std::move(log));
   }
 
   // the positions tell the velocity
