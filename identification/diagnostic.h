@@ -26,7 +26,7 @@ struct Diagnostic {
 
 /// Something that no test can see, and what it would do.
 struct Assumption {
-  std::string name;      // "cold_start", "open_start", "no_slow_drift", "open_drift"
+  std::string name;      // "cold_start", "open_drift", ...
   std::string meaning;   // how far off it was taken to be: a clause
   ParameterMoves moves;  // of each parameter, were it off by that much
 };

@@ -7,12 +7,12 @@
 namespace warmjoint::inline identification {
 namespace {
 
-constexpr ParameterInfo kInertiaInfo{"inertia", "M", {"N.m.s^2/rad", "N.s^2/m"}, 0,
+constexpr ParameterInfo kInertiaInfo{"inertia", "M", {"N.m.s^2/rad", "N.s^2/m", -1, 2}, 0,
                                      kInfinity, 0,   "torque over acceleration"};
 
 constexpr ParameterInfo kTorqueLagInfo{"torque_lag",
                                        "T",
-                                       {"s", "s"},
+                                       {"s", "s", 0, 1},
                                        kSmallestPositive,
                                        kInfinity,
                                        0,
@@ -30,7 +30,9 @@ FitParameter TableParameter(const ParameterInfo& info, Role role, double value,
           info.lower,
           info.upper,
           true,
-          true};
+          true,
+          info.unit.way,
+          info.unit.time};
 }
 
 std::vector<FitParameter> LawParameters(const Law& law, const Eigen::VectorXd& values,

@@ -10,6 +10,8 @@ using Eigen::Index;
 
 constexpr Index kBins = 400;
 constexpr double kOneSpeed = 0.02;  // relative
+constexpr Index kInHold = 8;        // bins within a segment
+constexpr Index kInHolds = 8000;    // bins within all of them, but two in each at least
 
 /// The segment that each sample belongs to, -1 for none; empty where no segments are known. [N]
 Eigen::ArrayXi SegmentOf(Index samples, const Selection& selection) {
@@ -37,24 +39,29 @@ void Place(const Eigen::ArrayXi& segment, const Selection& selection, Bins& bins
   }
 }
 
-}  // namespace
-
-Bins MakeBins(const Measurements& measurements, const Selection& selection) {
-  const Index most = 1 + selection.count() / kBins;
+/// Neighbours that belong together, as many of them as `parts` of a segment leave, and no more than a 400th
+/// of all. parts: 1 or more.
+Bins Gather(const Measurements& measurements, const Selection& selection, Index parts) {
   const Eigen::VectorXd& v = measurements.velocity;
   const Eigen::ArrayXi segment = SegmentOf(v.size(), selection);
+  const Index share = 1 + selection.count() / kBins;
+  const auto most = [&](Index first) {
+    if (segment.size() == 0 || segment[first] < 0) return share;
+    const Segment& one = selection.segments[static_cast<size_t>(segment[first])];
+    return std::min(share, (one.end - one.begin + parts - 1) / parts);
+  };
   const auto together = [&](Index first, Index other) {
     if (segment.size() > 0) return segment[first] == segment[other];
     if (measurements.acceleration) return v[first] * v[other] > 0;
     return std::abs(v[other] - v[first]) <= kOneSpeed * std::abs(v[first]);
   };
 
-  // neighbours that belong together, up to the most
   Bins bins;
   for (Index i = 0; i < measurements.size(); ++i) {
     if (!selection.keep[i]) continue;
-    const bool joins = !bins.end.empty() && bins.end.back() == i && i - bins.begin.back() < most &&
-                       together(bins.begin.back(), i);
+    const Index first = bins.begin.empty() ? i : bins.begin.back();
+    const bool joins =
+        !bins.end.empty() && bins.end.back() == i && i - first < most(first) && together(first, i);
     if (!joins) {
       bins.begin.push_back(i);
       bins.end.push_back(i);
@@ -76,6 +83,18 @@ Bins MakeBins(const Measurements& measurements, const Selection& selection) {
   bins.velocity = bins.Means(v);
   if (segment.size() > 0) Place(segment, selection, bins);
   return bins;
+}
+
+}  // namespace
+
+Bins MakeBins(const Measurements& measurements, const Selection& selection) {
+  return Gather(measurements, selection, 1);
+}
+
+Bins BinsWithinHolds(const Measurements& measurements, const Selection& selection) {
+  const auto holds = static_cast<Index>(selection.segments.size());
+  const Index parts = std::clamp(kInHolds / std::max<Index>(holds, 1), Index{2}, kInHold);
+  return Gather(measurements, selection, parts);
 }
 
 Eigen::MatrixXd Bins::Means(const Eigen::MatrixXd& all) const {

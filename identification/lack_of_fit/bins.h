@@ -28,4 +28,8 @@ struct Bins {
 
 Bins MakeBins(const Measurements& measurements, const Selection& selection);
 
+/// The same, but eight of them a segment, fewer where there are more than a thousand segments: for what
+/// changes within each one.
+Bins BinsWithinHolds(const Measurements& measurements, const Selection& selection);
+
 }  // namespace warmjoint::inline identification

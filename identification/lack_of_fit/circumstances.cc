@@ -1,6 +1,7 @@
 #include "identification/lack_of_fit/circumstances.h"
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "identification/forward/thermal_filter.h"
@@ -10,6 +11,8 @@
 
 namespace warmjoint::inline identification {
 namespace {
+
+constexpr int kMemories = 6;  // time constants that are tried
 
 /// The measured losses filtered with three time constants that span those of a recording. [N x 3]
 Eigen::MatrixXd Energies(const FittedModel& model, const Measurements& m) {
@@ -34,11 +37,34 @@ double MedianHold(const FittedModel& model, const Measurements& m) {
   return durations.size() > 0 ? MedianInPlace(durations) : 0;
 }
 
+/// Time constants of a memory, from half a hold to an eighth of the log, the same ratio apart. s
+std::vector<double> MemoryTimes(double hold, double duration) {
+  const double shortest = 0.5 * hold, longest = duration / 8;
+  std::vector<double> times;
+  if (!(hold > 0) || !(longest > shortest)) return times;
+  const double ratio = std::pow(longest / shortest, 1.0 / (kMemories - 1));
+  for (int i = 0; i < kMemories; ++i) times.push_back(shortest * std::pow(ratio, i));
+  return times;
+}
+
+/// |v| behind filters of first order, which begin at the first speed. [N x times]
+Eigen::MatrixXd PastSpeeds(const Measurements& m, const std::vector<double>& times) {
+  const Eigen::VectorXd speed = m.velocity.cwiseAbs();
+  const ThermalFilter filter(m.time, m.starts);
+  Eigen::MatrixXd past(m.size(), static_cast<Eigen::Index>(times.size()));
+  for (Eigen::Index i = 0; i < past.cols(); ++i) {
+    past.col(i) = filter.Energy({1, times[static_cast<size_t>(i)]}, speed, speed[0]);
+  }
+  return past;
+}
+
 }  // namespace
 
 Circumstances CircumstancesOf(const FittedModel& model, const Measurements& m, const Bins& bins) {
   const Eigen::MatrixXd none(bins.size(), 0);
-  Circumstances known{bins.Means(Energies(model, m)), none, none, none, none};
+  Circumstances known;
+  known.energies = bins.Means(Energies(model, m));
+  known.slopes = known.initial = known.loads = known.temperatures = none;
   if (model.thermal) {
     const Eigen::VectorXd slope = m.velocity.cwiseProduct(model.energy);
     const Eigen::VectorXd at_losses =
@@ -50,6 +76,8 @@ Circumstances CircumstancesOf(const FittedModel& model, const Measurements& m, c
   if (m.temperature) known.temperatures = bins.Means(*m.temperature);
   known.duration = m.time[m.size() - 1] - m.time[0];
   known.hold = MedianHold(model, m);
+  known.past = MemoryTimes(known.hold, known.duration);
+  known.past_speeds = bins.Means(PastSpeeds(m, known.past));
   return known;
 }
 

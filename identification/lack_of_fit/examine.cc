@@ -10,6 +10,7 @@
 #include "identification/lack_of_fit/fitted_model.h"
 #include "identification/lack_of_fit/lag.h"
 #include "identification/lack_of_fit/left_open.h"
+#include "identification/lack_of_fit/other_units.h"
 #include "identification/lack_of_fit/ripple.h"
 #include "identification/lack_of_fit/sensitivity.h"
 #include "identification/linear/rigid_part.h"
@@ -20,6 +21,7 @@ namespace {
 using Eigen::Index;
 
 constexpr Index kFewestBins = 40;  // below, nothing can be said of structure
+constexpr double kRange = 3.5;  // sqrt(12): from least to most of what rises evenly, over its rms
 
 /// The rows of the table that look at bins in one turn.
 std::vector<const LackOfFitTest*> Rows(Turn turn) {
@@ -40,6 +42,12 @@ std::string Obstacle(const std::optional<FittedModel>& model, const Bins& bins) 
     return std::to_string(bins.size()) + " samples or segments are too few to examine";
   }
   return "";
+}
+
+/// Of the parameters, jumps and heat within the steps, over bins. [m x (p + ...)]
+Eigen::MatrixXd DerivativesOver(const Bins& bins, const FittedModel& model) {
+  const Eigen::MatrixXd derivatives = bins.Means(model.derivatives);
+  return model.held_loss ? Beside(derivatives, bins.Means(*model.held_loss)) : derivatives;
 }
 
 /// Puts findings where the table has their rows.
@@ -79,6 +87,8 @@ void TestWithin(const FittedModel& model, const Measurements& m, const Bins& bin
   Enter({TestFading(model, rest, level)}, table);
   Enter({TestLag(model, m, rest, level)}, table);
   Enter(TestRipple(model, m, rest, level), table);
+  const Bins within = BinsWithinHolds(m, model.selection);
+  TestInTurn(Turn::hold, within, DerivativesOver(within, model), known, rest, level, table);
   TestInTurn(Turn::last, bins, derivatives, known, rest, level, table);
 }
 
@@ -92,6 +102,23 @@ void SumMoves(Index p, Examination& examination) {
     variance += finding.move_deviations.head(p).cwiseAbs2();
   }
   examination.move_deviations = variance.cwiseSqrt();
+}
+
+/// What returns with every hold and vanishes somewhere in it has a mean over the hold that is no farther from 0
+/// than its values are from each other. The mean looks like friction, or like an offset.
+void HideMeans(const Bins& bins, const Eigen::MatrixXd& derivatives, Index p,
+               Examination& examination) {
+  double range = 0;
+  for (const Finding& finding : examination.findings) {
+    if (finding.rejected && finding.test->turn == Turn::hold) {
+      range += kRange * examination.Rms(finding);
+    }
+  }
+  if (range == 0) return;
+  Eigen::MatrixXd means(bins.size(), 2);
+  means << bins.velocity.array().sign().matrix(), Eigen::VectorXd::Ones(bins.size());
+  examination.by_hidden =
+      MovesBy(range * means, bins, derivatives).topRows(p).cwiseAbs().rowwise().sum();
 }
 
 /// What sizes are measured by.
@@ -147,16 +174,18 @@ Examination ExamineResidual(const Fit& fit, const Inference& inference, const Me
   Measure(*model, bins, derivatives, p, examination);
   LearnHeat(*model, bins, p, derivatives, examination);
   LearnAssumptions(fit, *model, bins, p, derivatives, examination);
-  LearnLeftOpen(*model, m, bins, p, derivatives, examination);
+  const Circumstances known = CircumstancesOf(*model, m, bins);
+  LearnLeftOpen(*model, m, bins, known, p, derivatives, examination);
+  LearnOtherUnits(fit, inference, m.joint, examination);
 
   // what is known to act on friction, then what changes within segments, then what stays
-  const Circumstances known = CircumstancesOf(*model, m, bins);
   ErrorLevel level(static_cast<int>(LackOfFitTests().size()));
   Eigen::VectorXd rest = model->residual;
   std::vector<Finding>& table = examination.findings;
   TestInTurn(Turn::first, bins, derivatives, known, rest, level, table);
   TestWithin(*model, m, bins, derivatives, known, rest, level, table);
   SumMoves(p, examination);
+  HideMeans(bins, derivatives, p, examination);
   return examination;
 }
 

@@ -17,7 +17,10 @@ struct Examination {
   std::vector<size_t> rows;         // [p] of the fit's table that `moves` are about
   Eigen::VectorXd moves;            // [p] change of each once what was found joins the fit
   Eigen::VectorXd move_deviations;  // [p]
-  Eigen::VectorXd reach;            // [p] force of each parameter's unit, rms over the kept samples
+  /// [p] most that those among them that return with every hold move each by their means over a hold, which
+  /// nobody sees; empty where there are none.
+  Eigen::VectorXd by_hidden;
+  Eigen::VectorXd reach;     // [p] force of each parameter's unit, rms over the kept samples
   Eigen::VectorXd by_start;  // [p] change of each had the joint been a tenth as warm at the start
                              // as it ever gets; empty where its start is no matter
   Eigen::VectorXd by_drift;  // [p] largest change of each by a slow drift of a hundredth of the
@@ -25,13 +28,22 @@ struct Examination {
   double open_start = 0;     // the warmest E(0) that the log leaves open, N.m or N (left_open.h)
   Eigen::VectorXd by_open_start;  // [p] change of each by that; empty as by_start
   Eigen::VectorXd
-      by_open_drift;        // [p] most that a slow drift that the log leaves open changes each
-  Eigen::VectorXd by_gaps;  // [p] most that the gaps of the log may have moved each; empty where
-                            // there are none, or where the fit has taken care of them
-  Eigen::VectorXd by_heat;  // [p] change of each had the losses followed the heat within the steps
-                            // of the log; empty where that is no matter
-  double heat_share = 0;    // of that, as the residual tells: 1 where they did, 0 where they were
-                            // held (22)
+      by_open_drift;  // [p] most that a slow drift that the log leaves open changes each
+  Eigen::VectorXd
+      by_open_curve;  // [p] most that a square of the speed that the log leaves open changes each
+  Eigen::VectorXd by_open_memory;  // [p] the same of friction that follows the speed late
+  double dead_band = 0;            // least torque of the log, N.m or N
+  Eigen::VectorXd
+      by_dead_band;  // [p] change of each had the torque's sensor a dead band as wide as that
+  Eigen::VectorXd
+      by_degrees;  // [p] most change of each had angles been in degrees; empty of sliding joints
+  Eigen::VectorXd by_clock;  // [p] most change of each by a clock that is off by a hundredth
+  Eigen::VectorXd by_gaps;   // [p] most that the gaps of the log may have moved each; empty where
+                             // there are none, or where the fit has taken care of them
+  Eigen::VectorXd by_heat;   // [p] change of each had the losses followed the heat within the steps
+                             // of the log; empty where that is no matter
+  double heat_share = 0;     // of that, as the residual tells: 1 where they did, 0 where they were
+                             // held (22)
   double heat_deviation = 0;  // standard deviation of the share
   double friction = 0;        // rms of the kept torque, N.m or N
   double samples = 0;

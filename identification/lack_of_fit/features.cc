@@ -18,6 +18,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr int kPlaces = 32;            // parts that steps lie between
 constexpr double kFewestCycles = 2.5;  // slower: drift
 constexpr double kBinsACycle = 4;
+constexpr double kCyclesApart = 0.5;  // over the log, of those that are tried
 
 ArrayXd SignOf(const Bins& bins) { return bins.velocity.array().sign(); }
 
@@ -41,14 +42,22 @@ MatrixXd Wave(const ArrayXd& angle) {
 double StrongestCycles(const Bins& bins, const GrowingFit& fit, double most) {
   const VectorXd left = bins.weight.cwiseProduct(fit.Left());
   const VectorXd friction = SignOf(bins).matrix().cwiseProduct(left);
+
+  // half a cycle turns each wave by an angle of its own, which costs no sine
+  const ArrayXd angle = 2 * kPi * bins.time.array();
+  MatrixXd wave = Wave(kFewestCycles * angle);
+  const MatrixXd turn = Wave(kCyclesApart * angle);
   double strongest = 0, explained = -1;
-  for (double cycles = kFewestCycles; cycles <= most; cycles += 0.5) {
-    const MatrixXd wave = Wave(2 * kPi * cycles * bins.time.array());
+  for (double cycles = kFewestCycles; cycles <= most; cycles += kCyclesApart) {
     const double both =
         (wave.transpose() * left).squaredNorm() + (wave.transpose() * friction).squaredNorm();
-    if (both <= explained) continue;
-    explained = both;
-    strongest = cycles;
+    if (both > explained) {
+      explained = both;
+      strongest = cycles;
+    }
+    const VectorXd cosine = wave.col(0);
+    wave.col(0) = cosine.cwiseProduct(turn.col(0)) - wave.col(1).cwiseProduct(turn.col(1));
+    wave.col(1) = cosine.cwiseProduct(turn.col(1)) + wave.col(1).cwiseProduct(turn.col(0));
   }
   return strongest;
 }
@@ -96,6 +105,15 @@ Features OfTime(const Bins& bins, const Circumstances&, const GrowingFit&) {
   for (int k = 1; k <= 4; ++k) drift.col(k - 1) = sign * (k * angle).cos();
   for (int k = 1; k <= 2; ++k) drift.col(3 + k) = (k * angle).cos();
   return {drift};
+}
+
+Features OfSpeedMemory(const Bins& bins, const Circumstances& known, const GrowingFit& fit) {
+  // without a warming in the fit its heat, which follows the speed late, too, would look like that
+  if (known.past.empty() || known.slopes.cols() == 0) return {MatrixXd(bins.size(), 0)};
+  const MatrixXd all = Signed(bins, known.past_speeds);
+  Index best = 0;
+  fit.ExplainedBy(all).maxCoeff(&best);
+  return {all.col(best), static_cast<int>(all.cols()), known.past[static_cast<size_t>(best)]};
 }
 
 Features OfStep(const Bins& bins, const Circumstances&, const GrowingFit& fit) {

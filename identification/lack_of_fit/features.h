@@ -22,6 +22,8 @@ Features OfLoad(const Bins& bins, const Circumstances& known, const GrowingFit& 
 Features OfTemperature(const Bins& bins, const Circumstances& known, const GrowingFit& fit);
 /// s cos(k pi t), k = 1..4; cos(k pi t), k = 1, 2: slow drift.
 Features OfTime(const Bins& bins, const Circumstances& known, const GrowingFit& fit);
+/// s |v| behind a filter of first order: the best of Circumstances::past.
+Features OfSpeedMemory(const Bins& bins, const Circumstances& known, const GrowingFit& fit);
 /// s or 1 from one of 31 places in the log on: friction or offset that jumps.
 Features OfStep(const Bins& bins, const Circumstances& known, const GrowingFit& fit);
 /// c, s c, and s or 1 times cos(pi x), sin(pi x); x: holds passed, c = 1 in even holds, -1 in odd

@@ -19,9 +19,10 @@ struct Finding {
   double explained = 0;  // squares of the residual's samples that it explains, less the noise's
   double gain = 0;       // the same less ln(m) times the noise's variance for each feature, as BIC
       // has it: of two that explain as much, the one with fewer features gains more
-  double period =
-      0;           // of a ripple, in the unit of the angle; of what is periodic in time, s; 0: none
-  double lag = 0;  // of the torque behind the velocity, s; 0: none
+  /// Of a ripple, in the unit of the angle; of what is periodic in time, or the time constant of a memory,
+  /// s; 0: none.
+  double period = 0;
+  double lag = 0;         // of the torque behind the velocity, s; 0: none
   double alike = 0;       // share of an angle's part that acts alike in both directions
   Eigen::VectorXd moves;  // [p] change of the fit's parameters when the features join it; or empty
   Eigen::VectorXd move_deviations;  // [p] standard deviations of `moves`

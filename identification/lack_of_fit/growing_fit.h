@@ -13,7 +13,7 @@ namespace warmjoint::inline identification {
 struct Features {
   Eigen::MatrixXd columns;  // [m x q]; q = 0: nothing to ask
   int candidates = 1;       // of which these explain most
-  double period = 0;        // of those, s; 0 where they are not periodic
+  double period = 0;        // of those, or time constant, s; 0 where they have none
 };
 
 /// An orthonormal basis of columns, and how it is made of them: basis = columns * mix.

@@ -196,8 +196,9 @@ void WeighFindings(const Examination& examination, const Identifier& identifier,
     DropWarming(fit, inference);
     Widen(examination, examination.by_open_drift, inference);
   }
-  Widen(examination, examination.moves.cwiseAbs() + kNormal95 * examination.move_deviations,
-        inference);
+  Eigen::VectorXd reach = examination.moves.cwiseAbs() + kNormal95 * examination.move_deviations;
+  if (examination.by_hidden.size() > 0) reach += examination.by_hidden;
+  Widen(examination, reach, inference);
 }
 
 }  // namespace

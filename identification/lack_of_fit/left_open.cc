@@ -85,10 +85,25 @@ std::vector<Drift> Drifts(const FittedModel& model, const Measurements& m, const
   return drifts;
 }
 
+/// s v^2, with its heat and without. [m x 2]
+MatrixXd Curves(const FittedModel& model, const Measurements& m, const Bins& bins) {
+  const VectorXd square = m.velocity.cwiseProduct(m.velocity.cwiseAbs());
+  const VectorXd fast = m.loss_velocity.value_or(m.velocity);
+  const MatrixXd heating = WithHeat(model, m, square, fast.cwiseProduct(fast.cwiseAbs()));
+  return bins.Means(Beside(heating, square));
+}
+
+/// s (|v| behind a filter - |v|), for each filter. [m x c]
+MatrixXd Memories(const Circumstances& known, const Bins& bins) {
+  const VectorXd sign = bins.velocity.array().sign();
+  return sign.asDiagonal() * (known.past_speeds.colwise() - bins.velocity.cwiseAbs());
+}
+
 }  // namespace
 
-void LearnLeftOpen(const FittedModel& model, const Measurements& m, const Bins& bins, Index p,
-                   const MatrixXd& derivatives, Examination& examination) {
+void LearnLeftOpen(const FittedModel& model, const Measurements& m, const Bins& bins,
+                   const Circumstances& known, Index p, const MatrixXd& derivatives,
+                   Examination& examination) {
   const VectorXd residual = bins.Means(model.residual);
   const auto moves = [&](const VectorXd& force, double factor) -> VectorXd {
     return MovesBy(factor * force, bins, derivatives).topRows(p);
@@ -102,6 +117,21 @@ void LearnLeftOpen(const FittedModel& model, const Measurements& m, const Bins& 
     examination.open_start = FarEnd(Interval(force, residual, bins, derivatives, warm));
     examination.by_open_start = moves(force, examination.open_start);
   }
+
+  // a law that bends over the speed, or follows it late
+  const double fastest = bins.velocity.cwiseAbs().maxCoeff();
+  const auto farthest = [&](const MatrixXd& forces, double most) {
+    VectorXd by = VectorXd::Zero(forces.cols() > 0 ? p : 0);
+    for (Index i = 0; i < forces.cols(); ++i) {
+      const VectorXd force = forces.col(i);
+      const double factor = FarEnd(Interval(force, residual, bins, derivatives, {-most, most}));
+      by = by.cwiseMax(moves(force, factor).cwiseAbs());
+    }
+    return by;
+  };
+  const double friction = examination.friction;
+  examination.by_open_curve = farthest(Curves(model, m, bins), friction / (fastest * fastest));
+  examination.by_open_memory = farthest(Memories(known, bins), friction / fastest);
 
   // friction, or a sensor, that drifts for another reason than its losses
   examination.by_open_drift.setZero(p);

@@ -15,6 +15,8 @@
 namespace warmjoint::inline identification {
 namespace {
 
+constexpr double kSettledAfter = 3;  // time constants: 5 % are left
+
 /// What a model holds already, whoever fitted it: `auto` is not told to try what it chose.
 bool HoldsMap(const Advice& advice, MapQuantity quantity) {
   const std::vector<FrictionMap>& maps = advice.fit.friction.maps;
@@ -189,6 +191,13 @@ std::string AgainstTemperature(const Advice&) { return "record it at a steady te
 std::string AgainstStep(const Advice&) {
   return "something changed at that moment (load, lubrication, sensor): identify the parts before "
          "and after it as recordings of their own";
+}
+
+std::string AgainstMemory(const Advice& advice) {
+  const double settled = kSettledAfter * advice.finding.period;
+  return fmt::format(
+      "hold each speed for {0:.2g} s or longer, and leave out what has not settled: --trim {1:.2g}",
+      3 * settled, settled);
 }
 
 std::string AgainstHolds(const Advice&) {

@@ -15,6 +15,7 @@ std::string AgainstDirection(const Advice& advice);
 std::string AgainstLoad(const Advice& advice);
 std::string AgainstTemperature(const Advice& advice);
 std::string AgainstStep(const Advice& advice);
+std::string AgainstMemory(const Advice& advice);
 std::string AgainstHolds(const Advice& advice);
 std::string AgainstPeriod(const Advice& advice);
 std::string AgainstLag(const Advice& advice);

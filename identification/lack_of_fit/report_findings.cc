@@ -45,29 +45,38 @@ std::vector<Diagnostic> DiagnosticsOf(const Examination& examination, const Fit&
 std::vector<Assumption> AssumptionsOf(const Examination& examination, const Fit& fit,
                                       const std::string& unit) {
   std::vector<Assumption> assumptions;
-  if (examination.by_start.size() > 0) {
-    assumptions.push_back(
-        {"cold_start",
-         "the joint was cold at the start, not at a tenth of the warmth that it reaches",
-         Named(examination.by_start, examination, fit)});
-  }
-  if (examination.by_open_start.size() > 0) {
-    assumptions.push_back(
-        {"open_start",
-         fmt::format("the joint was cold at the start, though for all that this log "
-                     "tells E(0) may be {:.2g} {}",
-                     examination.open_start, unit),
-         Named(examination.by_open_start, examination, fit)});
-  }
-  if (examination.by_drift.size() > 0) {
-    assumptions.push_back({"no_slow_drift",
-                           "nothing outside of the model changed the friction by 1 % over the log",
-                           Named(examination.by_drift, examination, fit)});
-    assumptions.push_back({"open_drift",
-                           "nothing outside of the model changed the friction slowly, though this "
-                           "log cannot rule it out",
-                           Named(examination.by_open_drift, examination, fit)});
-  }
+  const auto add = [&](const char* name, std::string meaning, const Eigen::VectorXd& by) {
+    if (by.size() == 0) return;
+    assumptions.push_back({name, std::move(meaning), Named(by, examination, fit)});
+  };
+  add("cold_start", "the joint was cold at the start, not at a tenth of the warmth that it reaches",
+      examination.by_start);
+  add("open_start",
+      fmt::format("the joint was cold at the start, though for all that this log tells E(0) may be "
+                  "{:.2g} {}",
+                  examination.open_start, unit),
+      examination.by_open_start);
+  add("no_slow_drift", "nothing outside of the model changed the friction by 1 % over the log",
+      examination.by_drift);
+  add("open_drift",
+      "nothing outside of the model changed the friction slowly, though this log cannot rule it "
+      "out",
+      examination.by_open_drift);
+  add("open_curve",
+      "friction depends on the speed as the law has it, though this log cannot rule out that it "
+      "bends",
+      examination.by_open_curve);
+  add("open_memory",
+      "friction follows the speed at once, though this log cannot rule out that a part of it is "
+      "late",
+      examination.by_open_memory);
+  add("no_dead_band",
+      fmt::format("the torque's sensor has no dead band, though one of {:.2g} {} would stay unseen",
+                  examination.dead_band, unit),
+      examination.by_dead_band);
+  add("angles_in_radians", "positions and speeds are in radians, not both in degrees",
+      examination.by_degrees);
+  add("true_clock", "the clock of the log is right, not off by 1 %", examination.by_clock);
   return assumptions;
 }
 

@@ -12,8 +12,9 @@ namespace warmjoint::inline identification {
 std::vector<Diagnostic> DiagnosticsOf(const Examination& examination, const Fit& fit,
                                       const std::string& unit);
 
-/// "cold_start" and "open_start" where a start was taken to be cold, "no_slow_drift" and "open_drift" where
-/// anything was fitted. unit: of the torque
+/// "cold_start" and "open_start" where a start was taken to be cold; "no_slow_drift", "open_drift", "open_curve", "open_memory",
+/// "no_dead_band" and "true_clock" where anything was fitted, "angles_in_radians" where a joint turns. unit: of the
+/// torque
 std::vector<Assumption> AssumptionsOf(const Examination& examination, const Fit& fit,
                                       const std::string& unit);
 

@@ -68,6 +68,12 @@ void LearnAssumptions(const Fit& fit, const FittedModel& model, const Bins& bins
       MovesBy(kDrift * examination.friction * Drifts(bins), bins, derivatives).topRows(p);
   examination.by_drift = by_drifts.cwiseAbs().rowwise().maxCoeff();
 
+  // a torque sensor that swallows what is small
+  const Eigen::VectorXd torque = bins.Means(model.torque);
+  examination.dead_band = torque.cwiseAbs().minCoeff();
+  const Eigen::VectorXd swallowed = -examination.dead_band * bins.velocity.array().sign();
+  examination.by_dead_band = MovesBy(swallowed, bins, derivatives).topRows(p);
+
   // heat that came or went in gaps of the log
   const Index jumps = model.jump_spread.size();
   if (jumps == 0 || !fit.jump_samples.empty()) return;

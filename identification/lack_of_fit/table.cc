@@ -40,6 +40,11 @@ std::string Lag(const Finding& finding, const Measurements&) {
                      finding.lag);
 }
 
+std::string Memory(const Finding& finding, const Measurements&) {
+  return fmt::format("the speed of the last {:.2g} s (friction follows the speed late)",
+                     finding.period);
+}
+
 /// "2.5 Hz", of what has that period at a speed.
 std::string InTime(double speed, double period) {
   return fmt::format("time, {:.3g} Hz", speed / period);
@@ -93,6 +98,8 @@ const std::vector<LackOfFitTest>& LackOfFitTests() {
       {"time", kHeldByTheFit, first, takes_part, OfTime, Say<kTime>, AgainstWarming},
       {"speed_by_energy", "the fit knows no warming", first, apart, OfSpeedByEnergy,
        Say<kSpeedByEnergy>, AgainstWarmingSlope},
+      {"speed_memory", "the fit knows no warming, or the segments are too long for the log", first,
+       apart, OfSpeedMemory, Memory, AgainstMemory},
       {"step", kHeldByTheFit, first, takes_part, OfStep, Say<kStep>, AgainstStep},
       {"lag", "too few samples follow a change of speed", sample, apart, nullptr, Lag, AgainstLag},
       {"position_by_energy", "the fit has no map beside a warming", sample, apart, nullptr,
@@ -101,8 +108,8 @@ const std::vector<LackOfFitTest>& LackOfFitTests() {
        AgainstPosition},
       {"motor_angle", "the log has neither a gear nor the column motor_position", sample, apart,
        nullptr, MotorAngle, AgainstMotorAngle},
-      {"hold_parity", kNoHolds, last, apart, OfHoldParity, Say<kParity>, AgainstHolds},
-      {"hold_phase", kNoHolds, last, apart, OfHoldPhase, Say<kPhase>, AgainstHolds},
+      {"hold_parity", kNoHolds, hold, apart, OfHoldParity, Say<kParity>, AgainstHolds},
+      {"hold_phase", kNoHolds, hold, apart, OfHoldPhase, Say<kPhase>, AgainstHolds},
       {"periodic", "the log is too short", last, apart, OfPeriod, Period, AgainstPeriod}};
   return tests;
 }

@@ -19,8 +19,9 @@ struct Advice {
   const Fit& fit;
 };
 
-/// When a test looks: at what is known to act on friction first, then at what stays.
-enum class Turn { first, sample, last };
+/// When a test looks: at what is known to act on friction first, then at what changes within each segment of
+/// constant speed, at samples and then at bins within them, then at what stays.
+enum class Turn { first, sample, hold, last };
 
 /// What a fitted warming may have taken up of that which a test looks for.
 enum class Warming { apart, takes_part };

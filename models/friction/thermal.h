@@ -20,7 +20,7 @@ struct Thermal {
                     "change of the level for each watt lost, once settled"},
       ParameterInfo{"thermal_time_constant",
                     "tau",
-                    {"s", "s"},
+                    {"s", "s", 0, 1},
                     0,
                     kInfinity,
                     600,

@@ -105,6 +105,44 @@ TEST(Remedies, AgainstWarming) {
   ExpectLeadsSomewhere("nominal-ls", test::RecordHour(test::TableOne(), 1));
 }
 
+/// Table I at 1 Hz, with a part of its slope that follows the speed with 60 s. hold: s of each speed.
+Measurements FollowingLate(Eigen::Index samples, Eigen::Index hold, std::uint64_t seed) {
+  RandomStream random({seed, 1}, Stream::motion);
+  Eigen::VectorXd velocity(samples);
+  double v = -1;
+  for (Eigen::Index i = 0; i < samples; ++i) {
+    if (i % hold == 0) v = std::copysign(random.Uniform(0.1, 1), -v);
+    velocity[i] = v;
+  }
+  Measurements m = test::RecordFriction(test::TableOne(), 1, velocity, 0.5, seed);
+  double followed = std::abs(velocity[0]);
+  for (Eigen::Index i = 0; i < samples; ++i) {
+    const double speed = std::abs(velocity[i]);
+    m.torque[i] += std::copysign(3, velocity[i]) * (followed - speed);
+    followed += -std::expm1(-1 / 60.0) * (speed - followed);
+  }
+  return m;
+}
+
+TEST(Remedies, AgainstFrictionThatFollowsLate) {
+  const Estimate hasty = test::Answer("energy-ml", FollowingLate(3600, 20, 1));
+  ASSERT_TRUE(test::Asked(hasty, "speed_memory").rejected) << hasty.message;
+  EXPECT_THAT(hasty.message, ::testing::HasSubstr("--trim"));
+
+  // eight time constants a hold, three of which are left out at each end
+  const Identifier& identifier = FindIdentifier("energy-ml");
+  const Options options(identifier.options, {}, {});
+  const PreparedLog log = Prepare(FollowingLate(10800, 480, 1), HoldOptions{.trim = 180});
+  const Estimate patient = IdentifyAndJudge(identifier, {log, options, {}});
+  ASSERT_EQ(patient.status, Status::ok) << patient.message;
+  for (const auto& [name, truth] : {std::pair{"viscous", 5.0}, {"coulomb", 15.0}}) {
+    const EstimatedParameter* found = patient.Find(name);
+    ASSERT_TRUE(found && found->interval95) << name;
+    EXPECT_LE(found->interval95->at(0), truth) << name;
+    EXPECT_GE(found->interval95->at(1), truth) << name;
+  }
+}
+
 TEST(Remedies, AgainstDirection) {
   Measurements m = test::RecordHour(test::Cold(), 1);
   m.torque.array() += 1.5;

@@ -18,6 +18,9 @@ constexpr TestWords kTests[] = {
      "law=asymmetric_stribeck or asymmetric_lugre. If gravity or a load acts, try "
      "--gravity sincos or "
      "--gravity paired."},
+    {"speed_memory", "Does friction follow the speed late?",
+     "Friction still depends on the speed of a while ago: hold each speed for longer, so that it "
+     "settles."},
     {"speed", "Does the residual depend on the speed?",
      "The law over speed is too simple: try --identifier stribeck, and record five speeds or more, "
      "the slowest below "
@@ -84,6 +87,12 @@ std::string AssumptionOf(const std::string& name) {
   if (name == "open_start")
     return "The joint was cold when the log began; what the log itself says";
   if (name == "open_drift") return "Nothing else drifted slowly; what the log itself says";
+  if (name == "open_curve") return "Friction bends over the speed no more than the log itself says";
+  if (name == "open_memory")
+    return "Friction follows the speed at once, as far as the log itself says";
+  if (name == "no_dead_band") return "The torque's sensor has no dead band";
+  if (name == "angles_in_radians") return "Positions and speeds are in radians, not in degrees";
+  if (name == "true_clock") return "The clock of the log is right to 1 %";
   return name;
 }
 

@@ -1,0 +1,37 @@
+#include "identification/lack_of_fit/other_units.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace warmjoint::inline identification {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;  // rad
+constexpr double kClock = 1.01;                     // as fast as it should be
+
+/// The most that an end of each interval moves. [p]
+Eigen::VectorXd FarthestMoves(double way, double time, const Fit& fit, const Inference& inference,
+                              const std::vector<size_t>& rows) {
+  Eigen::VectorXd moves(static_cast<Eigen::Index>(rows.size()));
+  for (size_t i = 0; i < rows.size(); ++i) {
+    const FitParameter& parameter = fit.parameters[rows[i]];
+    const KnownParameter& known = inference.parameters[rows[i]];
+    const double factor = std::pow(way, parameter.way_power) * std::pow(time, parameter.time_power);
+    const double farthest = std::abs(known.value) + known.HalfWidth();
+    moves[static_cast<Eigen::Index>(i)] = (factor - 1) * std::copysign(farthest, known.value);
+  }
+  return moves;
+}
+
+}  // namespace
+
+void LearnOtherUnits(const Fit& fit, const Inference& inference, JointKind joint,
+                     Examination& examination) {
+  if (joint == JointKind::rotary) {
+    examination.by_degrees = FarthestMoves(kDegree, 1, fit, inference, examination.rows);
+  }
+  examination.by_clock = FarthestMoves(1, kClock, fit, inference, examination.rows);
+}
+
+}  // namespace warmjoint::inline identification
