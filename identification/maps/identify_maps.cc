@@ -68,7 +68,8 @@ void AddLaw(const Law& law, const MapFit& maps, const Measurements& measurements
   }
   if (imitated.empty()) return;
   fit.warnings.push_back(fmt::format(
-      "the data cannot separate {} from the map; use total friction (at the speeds given, and bands), "
+      "the data cannot separate {} from the map; use total friction (at the speeds given, and "
+      "bands), "
       "not {}",
       fmt::join(imitated, ", "), imitated.size() == 1 ? "this number" : "these numbers"));
 }
