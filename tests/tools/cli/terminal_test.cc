@@ -136,7 +136,8 @@ TEST_F(Terminal, AnInterruptedIdentifySaysSoAndLeavesNothing) {
   if (RunCommandLine({"sh", "-c", "command -v timeout"}).status != 0) {
     GTEST_SKIP() << "timeout is absent";
   }
-  WriteLog(100000);
+  // a million samples take several seconds
+  WriteLog(1000000);
   const std::string program = test::BuildFolder() / "warmjoint";
   const Answer answer =
       RunCommandLine({"timeout", "--preserve-status", "--signal=INT", "1.5", program, "identify",
