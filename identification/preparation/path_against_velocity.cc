@@ -13,8 +13,7 @@ using Eigen::Index;
 
 constexpr double kHarmless = 1e-3;  // of the path
 constexpr double kCertain = 4;      // standard errors
-constexpr double kSameSpeed = 0.02;
-constexpr int kFewest = 8;  // ways
+constexpr int kFewest = 8;          // ways
 
 /// The path since the first sample, as a function of time.
 class Path {

@@ -8,6 +8,9 @@
 
 namespace warmjoint::inline identification {
 
+/// By how much two tellings of a speed may differ, relative, and count as the same.
+inline constexpr double kSameSpeed = 0.02;
+
 /// From the middle of each segment to the middle of the next, the path sum |v| h.
 struct PathComparison {
   double excess = 0;  // path of the velocities / path of the positions - 1

@@ -19,8 +19,7 @@
 namespace warmjoint::inline identification {
 namespace {
 
-constexpr double kLargest = 1e30;    // of a velocity; beyond it squares and products overflow
-constexpr double kSameSpeed = 0.02;  // as of the ways that are compared (path_against_velocity.cc)
+constexpr double kLargest = 1e30;  // of a velocity; beyond it squares and products overflow
 
 /// What moves at constant speed in a log without a velocity, which is filled with the smoothed slope
 /// of its positions.
@@ -98,21 +97,26 @@ std::optional<std::string> PathContradiction(const Measurements& m, const Consta
       100 * std::abs(paths->excess), paths->excess < 0 ? "shorter" : "longer", paths->ways);
 }
 
+/// Calls visit(i, n) for each sample i at `time` that the log has, too, as its sample n.
+template <typename Visit>
+void ForEachCommon(const Eigen::VectorXd& time, const LogView& log, const Visit& visit) {
+  Eigen::Index i = 0;
+  for (Eigen::Index n = 0; n < log.measurements.size() && i < time.size(); ++n) {
+    if (log.measurements.time[n] == time[i]) visit(i++, n);
+  }
+}
+
 /// Whether the speeds of a log made from positions are those of a velocity column where both call them
 /// constant, over all of them: stamps that jitter spoil the former. velocity, keep: [N] samples at `time`.
 bool AgreesOnSpeeds(const LogView& log, const Eigen::VectorXd& velocity,
                     const Eigen::Array<bool, Eigen::Dynamic, 1>& keep,
                     const Eigen::VectorXd& time) {
   double told = 0, way = 0;
-  Eigen::Index i = 0;
-  for (Eigen::Index n = 0; n < log.measurements.size(); ++n) {
-    if (i == time.size() || log.measurements.time[n] != time[i]) continue;
-    if (keep[i] && log.selection.keep[n]) {
-      told += std::abs(velocity[i]);
-      way += std::abs(log.measurements.velocity[n]);
-    }
-    ++i;
-  }
+  ForEachCommon(time, log, [&](Eigen::Index i, Eigen::Index n) {
+    if (!keep[i] || !log.selection.keep[n]) return;
+    told += std::abs(velocity[i]);
+    way += std::abs(log.measurements.velocity[n]);
+  });
   return std::abs(told - way) <= kSameSpeed * way;
 }
 
@@ -121,11 +125,9 @@ bool AgreesOnSpeeds(const LogView& log, const Eigen::VectorXd& velocity,
 /// at `time`; log: of these and others.
 void KeepAlso(const Eigen::Array<bool, Eigen::Dynamic, 1>& keep, const Eigen::VectorXd& time,
               LogView& log) {
-  Eigen::Index i = 0;
-  for (Eigen::Index n = 0; n < log.measurements.size(); ++n) {
-    if (i == time.size() || log.measurements.time[n] != time[i]) continue;
-    if (!keep[i++]) log.selection.keep[n] = false;
-  }
+  ForEachCommon(time, log, [&](Eigen::Index i, Eigen::Index n) {
+    if (!keep[i]) log.selection.keep[n] = false;
+  });
 }
 
 }  // namespace
@@ -169,13 +171,13 @@ PreparedLog Prepare(Measurements measurements, const HoldOptions& holds) {
       }
     }
     TakeOptions(holds, measurements.time, found.selection);
-    PreparedLog::Log log = *Prepare(std::move(measurements), std::move(found.selection)).log_;
-    if (contradiction) {
-      log.warnings.push_back(
-          *contradiction +
-          ", but by themselves these tell other speeds: the clock jitters, or the "
-          "positions are spoilt, and the column is used");
-    }
+    PreparedLog prepared = Prepare(std::move(measurements), std::move(found.selection));
+    if (!contradiction) return prepared;
+    PreparedLog::Log log = *prepared.log_;
+    log.warnings.push_back(
+        *contradiction +
+        ", but by themselves these tell other speeds: the clock jitters, or the positions are "
+        "spoilt, and the column is used");
     return PreparedLog(std::move(log));
   }
 
