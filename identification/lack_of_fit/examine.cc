@@ -44,12 +44,6 @@ std::string Obstacle(const std::optional<FittedModel>& model, const Bins& bins) 
   return "";
 }
 
-/// Of the parameters, jumps and heat within the steps, over bins. [m x (p + ...)]
-Eigen::MatrixXd DerivativesOver(const Bins& bins, const FittedModel& model) {
-  const Eigen::MatrixXd derivatives = bins.Means(model.derivatives);
-  return model.held_loss ? Beside(derivatives, bins.Means(*model.held_loss)) : derivatives;
-}
-
 /// Puts findings where the table has their rows.
 void Enter(std::vector<Finding> some, std::vector<Finding>& table) {
   for (Finding& one : some) {
@@ -169,8 +163,8 @@ Examination ExamineResidual(const Fit& fit, const Inference& inference, const Me
   if (!obstacle.empty()) return examination;
 
   // what parameters, assumptions and heat within the steps can do
-  Eigen::MatrixXd derivatives = bins.Means(model->derivatives);
-  const Index p = derivatives.cols() - model->jump_spread.size();
+  const Eigen::MatrixXd derivatives = DerivativesOver(bins, *model);
+  const Index p = model->derivatives.cols() - model->jump_spread.size();
   Measure(*model, bins, derivatives, p, examination);
   LearnHeat(*model, bins, p, derivatives, examination);
   LearnAssumptions(fit, *model, bins, p, derivatives, examination);

@@ -33,12 +33,16 @@ Eigen::MatrixXd MovesBy(const Eigen::MatrixXd& forces, const Bins& bins,
   return -weighted.colPivHouseholderQr().solve(root.asDiagonal() * forces);
 }
 
-void LearnHeat(const FittedModel& model, const Bins& bins, Index p, Eigen::MatrixXd& derivatives,
-               Examination& examination) {
+Eigen::MatrixXd DerivativesOver(const Bins& bins, const FittedModel& model) {
+  const Eigen::MatrixXd derivatives = bins.Means(model.derivatives);
+  return model.held_loss ? Beside(derivatives, bins.Means(*model.held_loss)) : derivatives;
+}
+
+void LearnHeat(const FittedModel& model, const Bins& bins, Index p,
+               const Eigen::MatrixXd& derivatives, Examination& examination) {
   if (!model.held_loss) return;
-  const Eigen::MatrixXd force = bins.Means(*model.held_loss);
-  examination.by_heat = MovesBy(force, bins, derivatives).topRows(p);
-  derivatives = Beside(derivatives, force);
+  const Index q = derivatives.cols() - 1;
+  examination.by_heat = MovesBy(derivatives.rightCols(1), bins, derivatives.leftCols(q)).topRows(p);
 
   // the share of that force in the residual
   const Eigen::VectorXd root = bins.weight.cwiseSqrt();
@@ -46,7 +50,7 @@ void LearnHeat(const FittedModel& model, const Bins& bins, Index p, Eigen::Matri
   const Eigen::VectorXd residual = root.asDiagonal() * bins.Means(model.residual);
   const LeastSquares fit = SolveLeastSquares(weighted, residual);
   examination.heat_deviation = kInfinity;
-  const Index q = derivatives.cols() - 1, free = bins.size() - q - 1;
+  const Index free = bins.size() - q - 1;
   if (!fit.mixed.empty() || free < 1) return;
   const double variance =
       (residual - weighted * fit.solution).squaredNorm() / static_cast<double>(free);

@@ -14,12 +14,16 @@ namespace warmjoint::inline identification {
 Eigen::MatrixXd MovesBy(const Eigen::MatrixXd& forces, const Bins& bins,
                         const Eigen::MatrixXd& derivatives);
 
-/// Fills what the examination knows of heat within the steps (held_loss.h): its moves, and whether
-/// the residual tells that it is there. Its force joins the derivatives, [m x (p + ...)].
-void LearnHeat(const FittedModel& model, const Bins& bins, Eigen::Index p,
-               Eigen::MatrixXd& derivatives, Examination& examination);
+/// Of the parameters, of the jumps at gaps, and of heat within the steps where that matters (held_loss.h), over
+/// bins. [m x (p + ...)]
+Eigen::MatrixXd DerivativesOver(const Bins& bins, const FittedModel& model);
 
-/// Fills the moves by start, slow drift and gaps. derivatives: as LearnHeat leaves them.
+/// Fills what the examination knows of heat within the steps: its moves, and whether the residual tells that it is
+/// there. derivatives: DerivativesOver.
+void LearnHeat(const FittedModel& model, const Bins& bins, Eigen::Index p,
+               const Eigen::MatrixXd& derivatives, Examination& examination);
+
+/// Fills the moves by start, slow drift and gaps. derivatives: DerivativesOver.
 void LearnAssumptions(const Fit& fit, const FittedModel& model, const Bins& bins, Eigen::Index p,
                       const Eigen::MatrixXd& derivatives, Examination& examination);
 
