@@ -28,6 +28,15 @@ struct ColouredNoise {
   bool operator==(const ColouredNoise&) const = default;
 };
 
+/// White noise of the torque beside Noise.torque whose deviation grows with the friction f and the speed v:
+/// of_torque |f| + of_speed |v|.
+struct UnevenNoise {
+  double of_torque = 0;
+  double of_speed = 0;  // N.m.s/rad or N.s/m
+
+  bool operator==(const UnevenNoise&) const = default;
+};
+
 /// A torque amplitude sin(2 pi t / period + phase) that has nothing to do with the joint's angle,
 /// the phase drawn for each realization.
 struct PeriodicTorque {
@@ -131,6 +140,7 @@ struct RunIn {
 struct Disturbances {
   Outliers outliers;
   ColouredNoise coloured_noise;
+  UnevenNoise uneven_noise;
   PeriodicTorque periodic_torque;
   Gravity gravity;
   AmbientDrift ambient_drift;

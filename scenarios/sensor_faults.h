@@ -58,6 +58,13 @@ struct DeadBand {
   bool operator==(const DeadBand&) const = default;
 };
 
+/// The logged torque comes in whole steps.
+struct TorqueResolution {
+  double resolution = 0;  // N.m or N
+
+  bool operator==(const TorqueResolution&) const = default;
+};
+
 /// The logged torque is that of some samples ago.
 struct LateTorque {
   double samples = 0;  // a whole number
@@ -80,6 +87,13 @@ struct Gap {
   bool operator==(const Gap&) const = default;
 };
 
+/// Single samples that the log lacks, at random; the first and the last are there.
+struct LostSamples {
+  double fraction = 0;  // of the samples, below 1
+
+  bool operator==(const LostSamples&) const = default;
+};
+
 struct SensorFaults {
   SensorDrift sensor_drift;
   GainStep gain_step;
@@ -88,9 +102,11 @@ struct SensorFaults {
   Stuck stuck_position, stuck_velocity, stuck_torque;
   Clipped clipped;
   DeadBand dead_band;
+  TorqueResolution torque_resolution;
   LateTorque late_torque;
   CutStart cut_start;
   Gap gap;
+  LostSamples lost_samples;
   bool restarted_clock = false;  // the first stamp is 0, wherever the log begins
   bool unsigned_torque = false;  // its size alone is logged
   bool reversed_torque = false;  // the column runs from the end of the log to its beginning

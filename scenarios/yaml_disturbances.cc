@@ -65,11 +65,13 @@ std::vector<Part> PartsOf(SensorFaults& s) {
         {"duration", &s.stuck_torque.duration, Bound::not_negative}}},
       {"clipped", {{"level", &s.clipped.level, Bound::not_negative}}},
       {"dead_band", {{"level", &s.dead_band.level, Bound::not_negative}}},
+      {"torque_resolution", {{"resolution", &s.torque_resolution.resolution, Bound::not_negative}}},
       {"late_torque", {{"samples", &s.late_torque.samples, Bound::not_negative}}},
       {"cut_start", {{"time", &s.cut_start.time, Bound::not_negative}}},
       {"gap",
        {{"time", &s.gap.time, Bound::not_negative},
         {"duration", &s.gap.duration, Bound::not_negative}}},
+      {"lost_samples", {{"fraction", &s.lost_samples.fraction, Bound::not_negative}}},
       {"restarted_clock", {}},
       {"unsigned_torque", {}},
       {"reversed_torque", {}},
@@ -88,6 +90,9 @@ std::vector<Part> PartsOf(Disturbances& d, Thermal& heat) {
       {"coloured_noise",
        {{"deviation", &d.coloured_noise.deviation, Bound::not_negative},
         {"correlation_time", &d.coloured_noise.correlation_time, Bound::positive}}},
+      {"uneven_noise",
+       {{"of_torque", &d.uneven_noise.of_torque, Bound::not_negative, true},
+        {"of_speed", &d.uneven_noise.of_speed, Bound::not_negative, true}}},
       {"periodic_torque",
        {{"amplitude", &d.periodic_torque.amplitude, Bound::any},
         {"period", &d.periodic_torque.period, Bound::positive}}},
@@ -150,6 +155,13 @@ void RequireWhole(const YamlValue& value, const char* part, const char* entry, d
          entry, number);
 }
 
+/// Refuses a fraction of the samples that is all of them or more.
+void RequireShare(const YamlValue& value, const char* part, double fraction) {
+  if (fraction < 1) return;
+  Refuse(value.Find(part)->place(), "{}.{}.fraction is {}; it must be below 1", value.key(), part,
+         fraction);
+}
+
 void ReadPart(const YamlValue& value, const Part& part) {
   std::vector<std::string> names;
   for (const Entry& entry : part.entries) names.push_back(entry.name);
@@ -183,10 +195,8 @@ Disturbances ReadDisturbances(const YamlValue& value) {
     Refuse(value.Find("outliers")->place(), "{}.outliers.one_sided is {}; it must be 0 or 1",
            value.key(), disturbances.outliers.one_sided);
   }
-  if (disturbances.outliers.fraction >= 1) {
-    Refuse(value.Find("outliers")->place(), "{}.outliers.fraction is {}; it must be below 1",
-           value.key(), disturbances.outliers.fraction);
-  }
+  RequireShare(value, "outliers", disturbances.outliers.fraction);
+  RequireShare(value, "lost_samples", disturbances.faults.lost_samples.fraction);
   return disturbances;
 }
 

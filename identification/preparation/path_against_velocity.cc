@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "models/recording/sampling.h"
@@ -13,6 +14,7 @@ using Eigen::Index;
 
 constexpr double kHarmless = 1e-3;  // of the path
 constexpr double kCertain = 4;      // standard errors
+constexpr double kNoMatter = 1e-4;  // of a way
 constexpr int kFewest = 8;          // ways
 
 /// The path since the first sample, as a function of time.
@@ -62,28 +64,39 @@ std::optional<PathComparison> ComparePaths(const Measurements& by_velocity,
   };
   const auto middle = [](const Segment& segment) { return (segment.begin + segment.end - 1) / 2; };
 
-  std::vector<double> differences;
+  std::vector<Way> ways;
   double path = 0, sum = 0;
   for (size_t i = 0; i + 1 < segments.size(); ++i) {
     const Index first = middle(segments[i]), last = middle(segments[i + 1]);
     if (!is_same_speed(segments[i]) || !is_same_speed(segments[i + 1])) continue;
     if (IsBroken(taken, first, last, longest)) continue;
     const double from = taken.time[first], to = taken.time[last];
-    const double way = position.Between(from, to);
-    differences.push_back(velocity.Between(from, to) - way);
-    sum += differences.back();
-    path += way;
+    const double length = position.Between(from, to);
+    ways.push_back({first, last, length, velocity.Between(from, to) - length});
+    sum += ways.back().difference;
+    path += length;
   }
-  const auto n = static_cast<double>(differences.size());
+  const auto n = static_cast<double>(ways.size());
   if (n < kFewest || path == 0) return std::nullopt;
 
   double squares = 0;
-  for (const double difference : differences) squares += std::pow(difference - sum / n, 2);
-  return PathComparison{sum / path, std::sqrt(squares / (n - 1) * n) / path, static_cast<int>(n)};
+  for (const Way& way : ways) squares += std::pow(way.difference - sum / n, 2);
+  return PathComparison{sum / path, std::sqrt(squares / (n - 1) * n) / path, std::move(ways)};
 }
 
 bool Contradicts(const PathComparison& paths) {
   return std::abs(paths.excess) > std::max(kHarmless, kCertain * paths.error);
+}
+
+bool PositionsTellMore(const PathComparison& paths, double deviation) {
+  double squares = 0, length = 0;
+  for (const Way& way : paths.ways) {
+    squares += way.difference * way.difference;
+    length += way.length;
+  }
+  const auto n = static_cast<double>(paths.ways.size());
+  const double least = std::max(8 * deviation * deviation, std::pow(kNoMatter * length / n, 2));
+  return squares / n > least;
 }
 
 }  // namespace warmjoint::inline identification

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "models/recording/measurements.h"
 #include "models/recording/selection.h"
@@ -11,11 +12,18 @@ namespace warmjoint::inline identification {
 /// By how much two tellings of a speed may differ, relative, and count as the same.
 inline constexpr double kSameSpeed = 0.02;
 
-/// From the middle of each segment to the middle of the next, the path sum |v| h.
+/// From the middle of a segment to the middle of the next.
+struct Way {
+  Eigen::Index first = 0, last = 0;  // samples
+  double length = 0;                 // path of the positions, rad or m
+  double difference = 0;             // path of the velocities less that, rad or m
+};
+
+/// The path sum |v| h, way by way.
 struct PathComparison {
   double excess = 0;  // path of the velocities / path of the positions - 1
   double error = 0;   // its standard error, from the scatter over the ways
-  int ways = 0;       // compared
+  std::vector<Way> ways;
 };
 
 /// Compares two versions of one log, each with the velocity held until the next sample:
@@ -32,5 +40,11 @@ std::optional<PathComparison> ComparePaths(const Measurements& by_velocity,
 /// Whether the positions contradict the velocity column: the paths differ by more than 0.1 %, which
 /// moves the thermal gain by as much, and by more than four standard errors.
 bool Contradicts(const PathComparison& paths);
+
+/// Whether the positions tell the ways better than the velocity column does, which knows nothing of what the speed does
+/// between two samples. Where a speed turns, the path is twice as uncertain as the position s of a sample, so that the
+/// mean square D of the differences has 4 s^2 from the positions and D - 4 s^2 from the column: D > 8 s^2. Where the
+/// two differ by less than 0.01 % of a way, no interval is narrow enough to tell. deviation: s, rad or m
+bool PositionsTellMore(const PathComparison& paths, double deviation);
 
 }  // namespace warmjoint::inline identification

@@ -13,6 +13,7 @@
 #include "identification/preparation/position_noise.h"
 #include "identification/preparation/select.h"
 #include "identification/preparation/split_at_switches.h"
+#include "identification/preparation/take_ways.h"
 #include "models/foundation/bad_input.h"
 #include "models/recording/recordings_of.h"
 
@@ -80,21 +81,29 @@ Refined Refine(const LogView& taken) {
   return refined;
 }
 
+/// A log with a velocity column as its positions tell it, and how far the two tell the same path.
+struct OtherTelling {
+  PositionMotion motion;
+  std::optional<PathComparison> paths;
+};
+
+OtherTelling TellByPositions(const Measurements& m, const ConstantSpeed& found) {
+  const Refined refined = Refine({m, found.selection});
+  OtherTelling other{MotionFromPositions(m, found.selection, found.rests), {}};
+  other.paths = ComparePaths(refined.steady ? refined.steady->measurements : m,
+                             other.motion.measurements, found.selection.segments, m);
+  return other;
+}
+
 /// In what the positions contradict the velocity column, a clause. Nothing where they agree, or
 /// where the log has faults, by which the positions may be wrong as well.
-std::optional<std::string> PathContradiction(const Measurements& m, const ConstantSpeed& found) {
-  const LogView taken{m, found.selection};
-  const Refined refined = Refine(taken);
-  const PositionMotion motion = MotionFromPositions(m, found.selection, found.rests);
-  const auto paths = ComparePaths(refined.steady ? refined.steady->measurements : m,
-                                  motion.measurements, found.selection.segments, m);
-  if (!paths || !Contradicts(*paths) || !FindFaults(m, found.selection).empty()) {
-    return std::nullopt;
-  }
+std::optional<std::string> PathContradiction(const Measurements& m, const Selection& selection,
+                                             const std::optional<PathComparison>& paths) {
+  if (!paths || !Contradicts(*paths) || !FindFaults(m, selection).empty()) return std::nullopt;
   return fmt::format(
       "integrated over the changes of speed, the velocity column gives a path that is {:.2g} % {} "
       "than that of the positions ({} changes)",
-      100 * std::abs(paths->excess), paths->excess < 0 ? "shorter" : "longer", paths->ways);
+      100 * std::abs(paths->excess), paths->excess < 0 ? "shorter" : "longer", paths->ways.size());
 }
 
 /// Calls visit(i, n) for each sample i at `time` that the log has, too, as its sample n.
@@ -152,60 +161,97 @@ PreparedLog PreparedLog::Before(double time) const {
   return PreparedLog(std::move(before));
 }
 
-PreparedLog Prepare(Measurements measurements, const HoldOptions& holds) {
-  if (measurements.velocity.size() > 0) {
-    ConstantSpeed found = FindConstantSpeed(measurements);
-    const auto contradiction = PathContradiction(measurements, found);
-    if (contradiction) {
-      Measurements positions = measurements;
-      positions.velocity.resize(0);
-      PreparedLog::Log log = *Prepare(std::move(positions), holds).log_;
-      const Eigen::VectorXd& time = measurements.time;
-      if (AgreesOnSpeeds(*log.steady, measurements.velocity, found.selection.keep, time)) {
-        KeepAlso(found.selection.keep, time, log.taken);
-        KeepAlso(found.selection.keep, time, *log.steady);
-        log.warnings.push_back(
-            *contradiction +
-            ": it is filtered, late or scaled, and the positions are used instead");
-        return PreparedLog(std::move(log));
-      }
-    }
-    TakeOptions(holds, measurements.time, found.selection);
-    PreparedLog prepared = Prepare(std::move(measurements), std::move(found.selection));
-    if (!contradiction) return prepared;
-    PreparedLog::Log log = *prepared.log_;
-    log.warnings.push_back(
-        *contradiction +
-        ", but by themselves these tell other speeds: the clock jitters, or the positions are "
-        "spoilt, and the column is used");
-    return PreparedLog(std::move(log));
+/// Makes the logs that Prepare promises.
+struct PreparedLog::Maker {
+  /// A log whose velocity column tells when the speed is constant.
+  static Log OfColumn(Measurements measurements, Selection known) {
+    Log log{{std::move(measurements), std::move(known)}, MotionSource::velocity, {}, {}, 0, {}, {}};
+    log.faults = FindFaults(log.taken.measurements, log.taken.selection);
+    Refined refined = Refine(log.taken);
+    log.steady = std::move(refined.steady);
+    log.velocity_noise = refined.noise;
+    log.unseen = refined.unseen;
+    return log;
   }
 
-  // the positions tell the velocity
-  measurements.notes.emplace_back(
-      "velocity computed from the positions, one value for each segment");
-  PreparedLog::Log log{{std::move(measurements), {}}, MotionSource::positions, {}, {}, 0, {}, {}};
-  Measurements& taken = log.taken.measurements;
-  ConstantSpeed found = FindFromPositions(taken);
-  PositionMotion motion = MotionFromPositions(taken, found.selection, found.rests);
-  TakeOptions(holds, motion.measurements.time, motion.selection);
-  TakeOptions(holds, taken.time, found.selection);
-  log.taken.selection = std::move(found.selection);
-  log.steady = {std::move(motion.measurements), std::move(motion.selection)};
-  log.unseen = motion.unseen;
-  log.faults = FindFaults(taken, log.taken.selection);
-  return PreparedLog(std::move(log));
+  /// A log whose positions tell the velocity.
+  static Log OfPositions(Measurements measurements, const HoldOptions& holds) {
+    measurements.notes.emplace_back(
+        "velocity computed from the positions, one value for each segment");
+    Log log{{std::move(measurements), {}}, MotionSource::positions, {}, {}, 0, {}, {}};
+    Measurements& taken = log.taken.measurements;
+    ConstantSpeed found = FindFromPositions(taken);
+    PositionMotion motion = MotionFromPositions(taken, found.selection, found.rests);
+    TakeOptions(holds, motion.measurements.time, motion.selection);
+    TakeOptions(holds, taken.time, found.selection);
+    log.taken.selection = std::move(found.selection);
+    log.steady = {std::move(motion.measurements), std::move(motion.selection)};
+    log.unseen = motion.unseen;
+    log.faults = FindFaults(taken, log.taken.selection);
+    return log;
+  }
+
+  /// A log whose positions contradict its velocity column, from the positions. Nothing where these by themselves tell
+  /// other speeds.
+  static std::optional<Log> WithoutColumn(const Measurements& measurements,
+                                          const Selection& selection, const HoldOptions& holds) {
+    Measurements positions = measurements;
+    positions.velocity.resize(0);
+    Log log = OfPositions(std::move(positions), holds);
+    const Eigen::VectorXd& time = measurements.time;
+    if (!AgreesOnSpeeds(*log.steady, measurements.velocity, selection.keep, time)) return {};
+    KeepAlso(selection.keep, time, log.taken);
+    KeepAlso(selection.keep, time, *log.steady);
+    return log;
+  }
+
+  /// A log whose velocity column is held against its positions: these replace it where they contradict it, and tell
+  /// the ways between its segments where they know more of these.
+  static Log OfColumnAndPositions(Measurements measurements, const HoldOptions& holds) {
+    ConstantSpeed found = FindConstantSpeed(measurements);
+    const OtherTelling other = TellByPositions(measurements, found);
+    const auto contradiction = PathContradiction(measurements, found.selection, other.paths);
+    if (contradiction) {
+      if (auto log = WithoutColumn(measurements, found.selection, holds)) {
+        log->warnings.push_back(*contradiction +
+                                ": it is filtered, late, scaled or sampled too seldom, and the "
+                                "positions are used instead");
+        return std::move(*log);
+      }
+    }
+
+    TakeOptions(holds, measurements.time, found.selection);
+    Log log = OfColumn(std::move(measurements), std::move(found.selection));
+    if (contradiction) {
+      log.warnings.push_back(
+          *contradiction +
+          ", but by themselves these tell other speeds: the clock jitters, or the positions are "
+          "spoilt, and the column is used");
+    } else if (other.paths && log.faults.empty()) {
+      TakeWaysOf(other, log);
+    }
+    return log;
+  }
+
+  static void TakeWaysOf(const OtherTelling& other, Log& log) {
+    const LogView& steady = log.steady ? *log.steady : log.taken;
+    const double noise = MeasurePositionNoise(log.taken.measurements.position).deviation;
+    if (!PositionsTellMore(*other.paths, noise)) return;
+    log.steady =
+        TakeWays(log.taken, steady.measurements, other.motion.measurements, other.paths->ways);
+    log.unseen = other.motion.unseen;
+  }
+};
+
+PreparedLog Prepare(Measurements measurements, const HoldOptions& holds) {
+  const bool has_velocity = measurements.velocity.size() > 0;
+  const auto make =
+      has_velocity ? &PreparedLog::Maker::OfColumnAndPositions : &PreparedLog::Maker::OfPositions;
+  return PreparedLog(make(std::move(measurements), holds));
 }
 
 PreparedLog Prepare(Measurements measurements, Selection known) {
-  PreparedLog::Log log{
-      {std::move(measurements), std::move(known)}, MotionSource::velocity, {}, {}, 0, {}, {}};
-  log.faults = FindFaults(log.taken.measurements, log.taken.selection);
-  Refined refined = Refine(log.taken);
-  log.steady = std::move(refined.steady);
-  log.velocity_noise = refined.noise;
-  log.unseen = refined.unseen;
-  return PreparedLog(std::move(log));
+  return PreparedLog(PreparedLog::Maker::OfColumn(std::move(measurements), std::move(known)));
 }
 
 }  // namespace warmjoint::inline identification

@@ -20,7 +20,9 @@ enum class Stream : std::uint32_t {
   position_noise = 6,
   coloured_noise = 7,
   periodic_torque = 8,
-  outliers = 9
+  outliers = 9,
+  uneven_noise = 10,
+  lost_samples = 11
 };
 
 /// Key of all the random numbers of one realization.

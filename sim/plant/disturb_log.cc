@@ -26,6 +26,16 @@ void AddColouredNoise(const ColouredNoise& noise, double rate, RandomStream rand
   recording.truth.correlation_time = noise.correlation_time;
 }
 
+void AddUnevenNoise(const UnevenNoise& noise, RandomStream random, Recording& recording) {
+  if (noise == UnevenNoise{}) return;
+  const Truth& truth = recording.truth;
+  const Eigen::VectorXd deviation =
+      noise.of_torque * truth.force.cwiseAbs() + noise.of_speed * truth.velocity.cwiseAbs();
+  for (Eigen::Index i = 0; i < deviation.size(); ++i) {
+    recording.measurements.torque[i] += deviation[i] * random.Normal();
+  }
+}
+
 void AddPeriodicTorque(const PeriodicTorque& periodic, RandomStream random, Measurements& log) {
   if (periodic.amplitude == 0) return;
   const double phase = 2 * std::numbers::pi * random.Uniform();
@@ -57,10 +67,12 @@ void DisturbLog(const Scenario& scenario, std::uint64_t realization, Recording& 
   DisturbMotion(disturbances, log);
   AddColouredNoise(disturbances.coloured_noise, scenario.sampling.rate,
                    {key, Stream::coloured_noise}, recording);
+  AddUnevenNoise(disturbances.uneven_noise, {key, Stream::uneven_noise}, recording);
   AddPeriodicTorque(disturbances.periodic_torque, {key, Stream::periodic_torque},
                     recording.measurements);
   AddOutliers(disturbances.outliers, {key, Stream::outliers}, recording.measurements);
   SpoilLog(disturbances.faults, recording);
+  LoseSamples(disturbances.faults.lost_samples, {key, Stream::lost_samples}, recording);
 }
 
 }  // namespace warmjoint::inline sim

@@ -6,10 +6,10 @@
 
 namespace warmjoint::inline sim {
 
-/// Adds to the logged torque what the scenario disturbs it by: a lag, forces that no model holds, outliers, coloured noise, a
+/// Adds to the logged torque what the scenario disturbs it by: a lag, forces that no model holds, outliers, coloured and uneven noise, a
 /// periodic torque; makes of the motion what poorer sensors log; and spoils what is left as faulty sensors, clocks and
 /// files do. Random numbers come from streams of their own, so that they leave all others as they are.
-/// Coloured noise joins Truth.torque_noise; outliers, being no noise of one size, do not.
+/// Coloured noise joins Truth.torque_noise; outliers and uneven noise, being no noise of one size, do not.
 /// acceleration: as of HiddenTorque.
 void DisturbLog(const Scenario& scenario, std::uint64_t realization, Recording& recording,
                 const Eigen::VectorXd& acceleration = {});

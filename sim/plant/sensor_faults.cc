@@ -48,8 +48,22 @@ void SpoilTorque(const SensorFaults& faults, const VectorXd& time, VectorXd& tor
     if (faults.dead_band.level > 0) torque[i] = BeyondBand(torque[i], faults.dead_band.level);
     const double limit = faults.clipped.level;
     if (limit > 0) torque[i] = std::clamp(torque[i], -limit, limit);
+    const double step = faults.torque_resolution.resolution;
+    if (step > 0) torque[i] = step * std::round(torque[i] / step);
   }
   if (faults.late_torque.samples > 0) torque = Delayed(torque, faults.late_torque.samples);
+}
+
+/// Leaves the samples `left` of a recording and its truth.
+void Leave(const std::vector<Index>& left, Recording& recording) {
+  const auto keep = [&](VectorXd& column) {
+    if (column.size() > 0) column = column(left).eval();
+  };
+  ForEachColumn(recording.measurements, keep);
+  Truth& truth = recording.truth;
+  for (VectorXd* column : {&truth.velocity, &truth.force, &truth.loss, &truth.energy}) {
+    keep(*column);
+  }
 }
 
 /// Leaves out the samples from `begin` to before `end`, s.
@@ -59,14 +73,7 @@ void LeaveOut(double begin, double end, Recording& recording) {
   for (Index i = 0; i < time.size(); ++i) {
     if (time[i] < begin || time[i] >= end) left.push_back(i);
   }
-  const auto keep = [&](VectorXd& column) {
-    if (column.size() > 0) column = column(left).eval();
-  };
-  ForEachColumn(recording.measurements, keep);
-  Truth& truth = recording.truth;
-  for (VectorXd* column : {&truth.velocity, &truth.force, &truth.loss, &truth.energy}) {
-    keep(*column);
-  }
+  Leave(left, recording);
 }
 
 /// Columns that hold something else than their names say.
@@ -99,6 +106,17 @@ void DisturbMotion(const Disturbances& disturbances, Measurements& log) {
     log.position = step * (log.position / step).array().round();
   }
   if (disturbances.without_velocity) log.velocity.resize(0);
+}
+
+void LoseSamples(const LostSamples& lost, RandomStream random, Recording& recording) {
+  if (lost.fraction == 0) return;
+  const Index last = recording.measurements.size() - 1;
+  std::vector<Index> left;
+  for (Index i = 0; i <= last; ++i) {
+    const bool is_lost = random.Uniform() < lost.fraction;
+    if (!is_lost || i == 0 || i == last) left.push_back(i);
+  }
+  Leave(left, recording);
 }
 
 void SpoilLog(const SensorFaults& faults, Recording& recording) {

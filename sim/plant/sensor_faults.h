@@ -1,6 +1,7 @@
 // What poor sensors, clocks and files make of a log.
 #pragma once
 
+#include "models/foundation/random_stream.h"
 #include "scenarios/disturbances.h"
 #include "sim/truth/simulated_recording.h"
 
@@ -13,5 +14,8 @@ void DisturbMotion(const Disturbances& disturbances, Measurements& log);
 /// Faults of SensorFaults, in the order of their way: drift and factors of the torque, columns that stick, limits, late
 /// samples; then scales; then what the file leaves out and how its clock runs. Truth loses the samples that the log loses.
 void SpoilLog(const SensorFaults& faults, Recording& recording);
+
+/// Leaves out single samples by chance, and their truth.
+void LoseSamples(const LostSamples& lost, RandomStream random, Recording& recording);
 
 }  // namespace warmjoint::inline sim

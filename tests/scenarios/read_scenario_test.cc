@@ -148,6 +148,7 @@ TEST(ReadScenario, RefusesDisturbancesThatCannotBe) {
               HasSubstr("disturbances.gravity is known to the ideal plant alone"));
   EXPECT_EQ(refusal("{outliers: {fraction: 0.1, size: 5}}", "mujoco"), "(accepted)");
   EXPECT_THAT(refusal("{outliers: {fraction: 1, size: 5}}"), HasSubstr("it must be below 1"));
+  EXPECT_THAT(refusal("{lost_samples: {fraction: 1.5}}"), HasSubstr("it must be below 1"));
   EXPECT_THAT(refusal("{outliers: {fraction: 0.1}}"),
               HasSubstr("'disturbances.outliers.size' is missing"));
   EXPECT_THAT(refusal("{coloured_noise: {deviation: -1, correlation_time: 1}}"),

@@ -45,6 +45,36 @@ TEST(Disturbances, ColouredNoiseJoinsTheKnownNoise) {
   EXPECT_DOUBLE_EQ(Simulate(scenario).truth.torque_noise, 5);
 }
 
+TEST(Disturbances, UnevenNoiseGrowsWithFrictionAndSpeed) {
+  Disturbances disturbances;
+  disturbances.uneven_noise = {0.03, 0.6};
+  const Eigen::ArrayXd noise = Added(disturbances);
+  const Truth truth = Simulate(test::Table1()).truth;
+  const Eigen::ArrayXd deviation =
+      0.03 * truth.force.array().abs() + 0.6 * truth.velocity.array().abs();
+  // standardised, the mean square of n normal numbers has a standard deviation of sqrt(2 / n); 5 sd
+  const double bound = 5 * std::sqrt(2.0 / static_cast<double>(noise.size()));
+  EXPECT_NEAR((noise / deviation).square().mean(), 1, bound);
+  EXPECT_EQ(Simulate(test::Table1()).truth.torque_noise, truth.torque_noise);
+}
+
+TEST(Disturbances, LostSamplesAreGoneByChanceButTheEnds) {
+  Scenario scenario = test::Table1();
+  const Recording whole = Simulate(scenario);
+  scenario.disturbances.faults.lost_samples.fraction = 0.1;
+  const Recording left = Simulate(scenario);
+  // of 3600 samples 360 with sd sqrt(3600 * 0.09) = 18
+  EXPECT_NEAR(static_cast<double>(left.measurements.size()), 3240, 5 * 18);
+  EXPECT_EQ(left.measurements.time[0], whole.measurements.time[0]);
+  EXPECT_EQ(left.measurements.time.tail(1), whole.measurements.time.tail(1));
+  EXPECT_EQ(left.truth.energy.size(), left.measurements.size());
+  for (Eigen::Index i = 0; i < left.measurements.size(); ++i) {
+    const auto n = static_cast<Eigen::Index>(std::lround(left.measurements.time[i]));
+    EXPECT_EQ(left.measurements.torque[i], whole.measurements.torque[n]);
+    EXPECT_EQ(left.truth.energy[i], whole.truth.energy[n]);
+  }
+}
+
 TEST(Disturbances, PeriodicTorqueIsASineOfTime) {
   Disturbances disturbances;
   disturbances.periodic_torque = {0.7, 40};

@@ -56,6 +56,15 @@ TEST(SensorFaults, LimitsOfTheTorque) {
   EXPECT_NEAR(torque[150], plain[150] - 4, 1e-12);
 }
 
+TEST(SensorFaults, TheTorqueComesInSteps) {
+  SensorFaults faults;
+  faults.torque_resolution.resolution = 0.5;
+  const Eigen::ArrayXd plain = Example().measurements.torque;
+  const Eigen::ArrayXd torque = Spoilt(faults).measurements.torque;
+  EXPECT_EQ((2 * torque - (2 * torque).round()).abs().maxCoeff(), 0);
+  EXPECT_LE((torque - plain).abs().maxCoeff(), 0.25);
+}
+
 TEST(SensorFaults, ColumnsStickForAWhile) {
   SensorFaults faults;
   faults.stuck_position = {100, 60};

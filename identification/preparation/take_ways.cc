@@ -1,0 +1,76 @@
+#include "identification/preparation/take_ways.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "identification/preparation/insert_samples.h"
+#include "models/recording/sampling.h"
+
+namespace warmjoint::inline identification {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// What one version of a log says of the motion.
+struct Telling {
+  VectorXd velocity;                     // [N] of the samples that were taken
+  std::vector<InsertedSample> inserted;  // ascending in time
+};
+
+Telling TellingOf(const Measurements& version, const VectorXd& time) {
+  Telling telling{VectorXd(time.size()), {}};
+  Index n = 0;
+  for (Index i = 0; i < version.size(); ++i) {
+    if (n < time.size() && version.time[i] == time[n]) {
+      telling.velocity[n++] = version.velocity[i];
+    } else {
+      telling.inserted.push_back(
+          {n - 1, version.time[i], version.position[i], version.velocity[i]});
+    }
+  }
+  return telling;
+}
+
+/// Which samples lie on a way whose two tellings differ by no more than sampling explains. [N]
+Eigen::Array<bool, Eigen::Dynamic, 1> OnWays(const std::vector<Way>& ways, const Telling& velocity,
+                                             const VectorXd& time) {
+  Eigen::Array<bool, Eigen::Dynamic, 1> on(time.size());
+  on.setConstant(false);
+  const double step = MedianStep(time);
+  for (const Way& way : ways) {
+    const double change = std::abs(velocity.velocity[way.last] - velocity.velocity[way.first]);
+    if (std::abs(way.difference) > step * change) continue;
+    on.segment(way.first, way.last - way.first).setConstant(true);
+  }
+  return on;
+}
+
+}  // namespace
+
+LogView TakeWays(const LogView& taken, const Measurements& by_velocity,
+                 const Measurements& by_position, const std::vector<Way>& ways) {
+  const VectorXd& time = taken.measurements.time;
+  const Telling velocity = TellingOf(by_velocity, time), position = TellingOf(by_position, time);
+  const auto on = OnWays(ways, velocity, time);
+
+  // the speeds of the samples, and what each version puts in where it is believed
+  LogView log = taken;
+  for (Index n = 0; n < time.size(); ++n) {
+    const bool is_changing = on[n] && !taken.selection.keep[n];
+    log.measurements.velocity[n] = (is_changing ? position : velocity).velocity[n];
+  }
+  std::vector<InsertedSample> inserted;
+  const auto add = [&](const Telling& telling, bool here) {
+    for (const InsertedSample& one : telling.inserted) {
+      if (on[one.after] == here) inserted.push_back(one);
+    }
+  };
+  add(velocity, false);
+  add(position, true);
+  std::ranges::sort(inserted, {}, &InsertedSample::time);
+  InsertSamples(inserted, log.measurements, log.selection);
+  return log;
+}
+
+}  // namespace warmjoint::inline identification

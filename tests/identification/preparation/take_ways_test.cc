@@ -1,0 +1,128 @@
+#include "identification/preparation/take_ways.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "identification/preparation/prepared_log.h"
+#include "models/foundation/random_stream.h"
+
+namespace warmjoint {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr double kStep = 0.1;        // s
+constexpr double kAcceleration = 5;  // rad/s^2
+constexpr int kHolds = 60;           // of about 5 s
+constexpr Index kSamples = 50 * kHolds;
+
+/// A log at 10 Hz of speeds U(0.1, 1) rad/s to both sides, with ramps of 5 rad/s^2 that begin at any time between two
+/// samples, and the path that was travelled until each sample.
+struct Driven {
+  Measurements log;
+  VectorXd path;  // [N] rad
+};
+
+Driven Drive() {
+  RandomStream random({1, 6}, Stream::test);
+  constexpr int parts = 2000;  // of a sampling interval: corners of the ramps are as exact
+  const double dt = kStep / parts;
+  Driven driven{{}, VectorXd(kSamples)};
+  Measurements& log = driven.log;
+  log.time = VectorXd::LinSpaced(kSamples, 0, kStep * (kSamples - 1));
+  log.position.resize(kSamples);
+  log.velocity.resize(kSamples);
+  double v = 0, position = 0, path = 0, target = 0, until = 0;
+  for (Index i = 0; i < kSamples; ++i) {
+    log.position[i] = position;
+    log.velocity[i] = v;
+    driven.path[i] = path;
+    for (int k = 0; k < parts; ++k) {
+      if (log.time[i] + k * dt >= until) {
+        target = (target > 0 ? -1 : 1) * random.Uniform(0.1, 1);
+        until += 5 + random.Uniform(-0.1, 0.1);
+      }
+      const double next = v + std::clamp(target - v, -kAcceleration * dt, kAcceleration * dt);
+      position += 0.5 * (v + next) * dt;
+      path += 0.5 * std::abs(v + next) * dt;
+      v = next;
+    }
+  }
+  log.torque = 5 * log.velocity + 15 * log.velocity.cwiseSign();
+  return driven;
+}
+
+/// The path until the sample at `time`, with every velocity held until the next sample.
+double HeldPath(const Measurements& m, double time) {
+  double path = 0;
+  for (Index i = 0; m.time[i] < time; ++i) {
+    path += std::abs(m.velocity[i]) * (m.time[i + 1] - m.time[i]);
+  }
+  return path;
+}
+
+TEST(TakeWays, LossesOfRampsAreThoseOfThePositions) {
+  const auto [log, path] = Drive();
+  const PreparedLog prepared = Prepare(log);
+  EXPECT_TRUE(prepared.warnings().empty());
+
+  // speeds that are held until the next sample lack what ramps and reversals lose between two
+  const Index last = kSamples - 1;
+  const double by_column = HeldPath(log, log.time[last]) / path[last] - 1;
+  EXPECT_GT(std::abs(by_column), 5e-4);
+
+  // a ramp in eight pieces of one speed each has its path, but for the piece in which the speed turns: 1e-4 of a way
+  const double by_ways = HeldPath(prepared.steady().measurements, log.time[last]) / path[last] - 1;
+  EXPECT_LT(std::abs(by_ways), 1e-4);
+}
+
+TEST(TakeWays, SegmentsKeepTheVelocityColumn) {
+  const Measurements log = Drive().log;
+  const PreparedLog prepared = Prepare(log);
+  const auto& [m, selection] = prepared.steady();
+  EXPECT_EQ(selection.count(), prepared.taken().selection.count());
+  Index n = 0;
+  for (Index i = 0; i < m.size(); ++i) {
+    if (m.time[i] != log.time[n]) {
+      EXPECT_FALSE(selection.keep[i]);
+      continue;
+    }
+    EXPECT_EQ(selection.keep[i], prepared.taken().selection.keep[n]);
+    if (selection.keep[i]) EXPECT_EQ(m.velocity[i], log.velocity[n]);
+    ++n;
+  }
+  EXPECT_EQ(n, log.size());
+  for (const Segment& segment : selection.segments) {
+    EXPECT_TRUE(selection.keep[segment.begin] && selection.keep[segment.end - 1]);
+  }
+}
+
+TEST(TakeWays, AWayThatSamplesCannotHideStaysAsItIs) {
+  Measurements log = Drive().log;
+  const PreparedLog prepared = Prepare(log);
+  const LogView& taken = prepared.taken();
+  const auto& segments = taken.selection.segments;
+  const auto middle = [&](size_t i) { return (segments[i].begin + segments[i].end) / 2; };
+  Measurements other = log;
+  other.velocity *= 0.5;
+
+  // one step at the change of speed is the most that a sample hides
+  const Way way{middle(3), middle(4), 4, 0};
+  const double most = kStep * std::abs(log.velocity[way.last] - log.velocity[way.first]);
+  for (const bool is_hidden : {true, false}) {
+    Way one = way;
+    one.difference = (is_hidden ? 0.9 : 1.1) * most;
+    const Measurements made = TakeWays(taken, log, other, {one}).measurements;
+    for (Index i = way.first; i < way.last; ++i) {
+      const bool changes = is_hidden && !taken.selection.keep[i];
+      EXPECT_EQ(made.velocity[i], changes ? other.velocity[i] : log.velocity[i]) << i;
+    }
+    EXPECT_EQ(made.velocity.head(way.first), log.velocity.head(way.first));
+  }
+}
+
+}  // namespace
+}  // namespace warmjoint
