@@ -12,6 +12,8 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
+constexpr double kBehind = 1e-6;  // of a step
+
 /// What one version of a log says of the motion.
 struct Telling {
   VectorXd velocity;                     // [N] of the samples that were taken
@@ -50,16 +52,12 @@ Eigen::Array<bool, Eigen::Dynamic, 1> OnWays(const std::vector<Way>& ways, const
 
 LogView TakeWays(const LogView& taken, const Measurements& by_velocity,
                  const Measurements& by_position, const std::vector<Way>& ways) {
-  const VectorXd& time = taken.measurements.time;
-  const Telling velocity = TellingOf(by_velocity, time), position = TellingOf(by_position, time);
-  const auto on = OnWays(ways, velocity, time);
+  const auto& [m, selection] = taken;
+  const Telling velocity = TellingOf(by_velocity, m.time),
+                position = TellingOf(by_position, m.time);
+  const auto on = OnWays(ways, velocity, m.time);
 
-  // the speeds of the samples, and what each version puts in where it is believed
-  LogView log = taken;
-  for (Index n = 0; n < time.size(); ++n) {
-    const bool is_changing = on[n] && !taken.selection.keep[n];
-    log.measurements.velocity[n] = (is_changing ? position : velocity).velocity[n];
-  }
+  // what each version puts in where it is believed
   std::vector<InsertedSample> inserted;
   const auto add = [&](const Telling& telling, bool here) {
     for (const InsertedSample& one : telling.inserted) {
@@ -68,6 +66,16 @@ LogView TakeWays(const LogView& taken, const Measurements& by_velocity,
   };
   add(velocity, false);
   add(position, true);
+
+  // the speeds of the samples; right behind the last of a segment the speed changes
+  LogView log = taken;
+  for (Index n = 0; n < m.size(); ++n) {
+    const bool changes = on[n] && !selection.keep[n];
+    log.measurements.velocity[n] = (changes ? position : velocity).velocity[n];
+    if (!on[n] || changes || n + 1 == m.size() || selection.keep[n + 1]) continue;
+    const double behind = m.time[n] + kBehind * (m.time[n + 1] - m.time[n]);
+    inserted.push_back({n, behind, m.position[n], position.velocity[n]});
+  }
   std::ranges::sort(inserted, {}, &InsertedSample::time);
   InsertSamples(inserted, log.measurements, log.selection);
   return log;

@@ -12,6 +12,8 @@
 #include "sim/model/load_model.h"
 #include "sim/model/save_model.h"
 #include "sim/model/spec_elements.h"
+#include "sim/plugin/friction_reports.h"
+#include "sim/plugin/plugin_instances.h"
 
 namespace warmjoint::inline sim {
 namespace {
@@ -80,6 +82,20 @@ std::vector<std::string> MakeRoom(mjSpec& spec, const std::vector<FrictionForJoi
   return notices;
 }
 
+/// Refuses joints on which friction acts before any is attached.
+void RefuseSecond(const mjModel* m, const std::vector<FrictionForJoint>& frictions,
+                  const Place& place) {
+  int plugin = -1;
+  mjp_getPlugin(kFrictionPlugin, &plugin);
+  for (const FrictionForJoint& friction : frictions) {
+    const int joint = mj_name2id(m, mjOBJ_JOINT, friction.joint.c_str());
+    const std::string other = FrictionOn(m, joint, plugin, static_cast<int>(m->nplugin));
+    if (other.empty()) continue;
+    Refuse(place, "joint '{}' has friction already, by {}; remove one of the two",
+           Excerpt(friction.joint), other);
+  }
+}
+
 /// The folder of a file, also of one that is named without a folder.
 fs::path FolderOf(const fs::path& file) {
   return fs::weakly_canonical(fs::absolute(file).parent_path());
@@ -115,7 +131,9 @@ Attached AttachFriction(const fs::path& model, const std::vector<FrictionForJoin
 
   // what cannot carry its friction is told with its remedy before the plugin sees it
   CheckJoints(spec, each, place);
-  RefuseLightJoints(CompileModel(spec, place).get(), each, place);
+  const ModelPtr before = CompileModel(spec, place);
+  RefuseSecond(before.get(), each, place);
+  RefuseLightJoints(before.get(), each, place);
   AddFriction(spec, each, place, options.form);
   CompileModel(spec, place);
 

@@ -16,28 +16,6 @@
 namespace warmjoint::inline sim {
 namespace {
 
-/// Whether an element is of our plugin, by its own word or by that of the instance it names.
-bool IsFriction(mjSpec& spec, const mjsPlugin& plugin) {
-  if (mjs_getString(plugin.plugin_name) == std::string_view(kFrictionPlugin)) return true;
-  const char* instance = mjs_getString(plugin.name);
-  for (mjsElement* element : SpecElements(spec, mjOBJ_PLUGIN)) {
-    const mjsPlugin* known = mjs_asPlugin(element);
-    if (mjs_getString(known->plugin_name) != std::string_view(kFrictionPlugin)) continue;
-    if (instance[0] && mjs_getString(known->name) == std::string_view(instance)) return true;
-  }
-  return false;
-}
-
-void RefuseSecond(mjSpec& spec, const std::string& joint, const Place& place) {
-  for (mjsElement* element : SpecElements(spec, mjOBJ_ACTUATOR)) {
-    const mjsActuator* actuator = mjs_asActuator(element);
-    if (mjs_getString(actuator->target) != joint || !actuator->plugin.active) continue;
-    if (!IsFriction(spec, actuator->plugin)) continue;
-    Refuse(place, "joint '{}' has friction already, by actuator '{}'; remove one of the two",
-           Excerpt(joint), mjs_getString(mjs_getName(element)));
-  }
-}
-
 /// A model of the section alone. MuJoCo's map of attributes belongs to the C++ library that it was
 /// built with; made here from text, it is only passed on.
 SpecPtr ParseSection(const std::string& section, const Place& place) {
@@ -140,7 +118,6 @@ void CheckJoints(mjSpec& spec, const std::vector<FrictionForJoint>& frictions, c
     if (!seen.insert(joint).second) {
       Refuse(place, "joint '{}' is given friction twice; give it one", Excerpt(joint));
     }
-    RefuseSecond(spec, joint, place);
   }
 }
 

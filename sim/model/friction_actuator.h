@@ -20,8 +20,7 @@ enum class FrictionForm {
 };
 
 /// Throws BadInput from `place` for an unknown joint, one that is neither hinge nor slide, one that
-/// is named twice, one that has friction by an actuator already, and a friction that makes no sense
-/// (CheckFriction).
+/// is named twice, and a friction that makes no sense (CheckFriction).
 void CheckJoints(mjSpec& spec, const std::vector<FrictionForJoint>& frictions, const Place& place);
 
 /// Adds friction to each joint. frictions: checked here (CheckJoints); all joints share one instance of the

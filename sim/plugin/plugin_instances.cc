@@ -76,23 +76,27 @@ int PassiveStates(const mjModel* m, int instance) {
   return static_cast<int>(states);
 }
 
-void RefuseSecond(const mjModel* m, int instance, int joint) {
-  const auto refuse = [&](const std::string& other) {
-    Refuse({InstanceName(m, instance)}, "{} has friction already, by {}; remove one of the two",
-           JointName(m, joint), other);
-  };
+std::string FrictionOn(const mjModel* m, int joint, int plugin, int end) {
   for (int i = 0; i < m->nactuator; ++i) {
-    const int plugin = m->actuator_plugin[i];
-    const bool ours = plugin >= 0 && m->plugin[plugin] == m->plugin[instance];
-    if (ours && m->actuator_trnid[2 * i] == joint) refuse(ActuatorName(m, i));
+    const int instance = m->actuator_plugin[i];
+    const bool ours = instance >= 0 && m->plugin[instance] == plugin;
+    if (ours && m->actuator_trnid[2 * i] == joint) return ActuatorName(m, i);
   }
-  for (int other = 0; other < instance; ++other) {
-    if (m->plugin[other] != m->plugin[instance] || DrivenByActuators(m, other)) continue;
+  for (int other = 0; other < end; ++other) {
+    if (m->plugin[other] != plugin || DrivenByActuators(m, other)) continue;
     const auto prepared = PrepareInstance(m, other, {InstanceName(m, other)});
     for (const PassiveJoint& taken : FindPassive(m, other, *prepared)) {
-      if (taken.joint == joint) refuse(InstanceName(m, other));
+      if (taken.joint == joint) return InstanceName(m, other);
     }
   }
+  return {};
+}
+
+void RefuseSecond(const mjModel* m, int instance, int joint) {
+  const std::string other = FrictionOn(m, joint, m->plugin[instance], instance);
+  if (other.empty()) return;
+  Refuse({InstanceName(m, instance)}, "{} has friction already, by {}; remove one of the two",
+         JointName(m, joint), other);
 }
 
 OtherInstances FindOthers(const mjModel* m, int instance) {

@@ -35,6 +35,10 @@ std::vector<PassiveJoint> FindPassive(const mjModel* m, int instance,
 /// Numbers of state that the joints of a passive instance need together. Throws BadInput.
 int PassiveStates(const mjModel* m, int instance);
 
+/// What has given a joint friction already, of the plugin in this slot: an actuator, or one of the passive instances
+/// before `end`; empty where nothing has. Throws BadInput for attributes that cannot be read.
+std::string FrictionOn(const mjModel* m, int joint, int plugin, int end);
+
 /// Throws BadInput where another friction acts on the joint: two would be one that is stiffer than
 /// the step can carry.
 void RefuseSecond(const mjModel* m, int instance, int joint);

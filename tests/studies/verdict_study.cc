@@ -10,7 +10,9 @@
 // A log counts as confidently wrong where its status is ok and the truth of a parameter lies more
 // than three deviations (interval / 3.92) beyond an end of its 95 % interval. Beside coverage stand,
 // over the Cramer-Rao bound of the noise: mean error, its rms, the reported standard deviation (rms),
-// and the median of the interval's width over 3.92. An assumption reaches the truth of a log where
+// and the median of the interval's width over 3.92. Ranks: of
+// the truth among what the estimate holds likely, which are even where intervals of all levels cover as they say; p of
+// Kolmogorov and Smirnov's test of that. An assumption reaches the truth of a log where
 // every interval, made as much longer at both ends as the assumption moves the parameter, holds it; behind that stands
 // how often none of them leaves the truth more than three deviations outside, as an answer that is not confidently wrong.
 // Ideal chi2: squares that the fit leaves of the torque without noise, over the noise's variance.
@@ -20,6 +22,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -28,6 +31,7 @@
 #include "identification/score/score.h"
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"
+#include "tests/studies/evenness.h"
 #include "tests/studies/far_outside.h"
 #include "tests/studies/for_each_variant.h"
 #include "tests/studies/ideal_chi2.h"
@@ -55,7 +59,7 @@ struct Rate {
 struct ParameterRates {
   Rate covered;
   double error = 0, squares = 0, variance = 0;  // sums, over the bound
-  std::vector<double> widths;
+  std::vector<double> widths, ranks;
 
   void Count(const ParameterScore& one, const EstimatedParameter& estimated) {
     covered.Count(*one.covered);
@@ -64,15 +68,18 @@ struct ParameterRates {
     squares += off * off;
     if (estimated.std) variance += std::pow(*estimated.std / one.bound, 2);
     const auto [lower, upper] = *estimated.interval95;
-    widths.push_back((upper - lower) / kIntervalWidth / one.bound);
+    const double deviation = (upper - lower) / kIntervalWidth;
+    widths.push_back(deviation / one.bound);
+    ranks.push_back(0.5 * std::erfc((one.estimate - one.truth) / deviation / std::numbers::sqrt2));
   }
   std::string Text() {
     const auto n = static_cast<double>(std::max(covered.of, 1));
     std::ranges::nth_element(widths, widths.begin() + static_cast<Eigen::Index>(widths.size() / 2));
     return fmt::format(
-        "{:16} mean error {:5.2f} +- {:.2f}, rms {:.2f}, std {:.2f}, width {:.2f} bounds",
+        "{:16} mean error {:5.2f} +- {:.2f}, rms {:.2f}, std {:.2f}, width {:.2f} bounds, "
+        "ranks p {:.2g}",
         covered.Text(), error / n, std::sqrt(squares / n / n), std::sqrt(squares / n),
-        std::sqrt(variance / n), widths[widths.size() / 2]);
+        std::sqrt(variance / n), widths[widths.size() / 2], ProbabilityOfEvenness(ranks));
   }
 };
 

@@ -202,7 +202,8 @@ TEST_F(Attach, RefusesAPassiveFrictionBesideAnotherOne) {
         [&] {
           AttachFriction(out_, {{"elbow", LightFriction()}}, folder_.path() / "again.xml", options);
         },
-        ThrowsMessage<BadInput>(HasSubstr("'elbow' has friction already")));
+        ThrowsMessage<BadInput>(
+            HasSubstr("'elbow' has friction already, by plugin instance 'friction'")));
   }
 }
 
