@@ -12,6 +12,7 @@
 #include "identification/lack_of_fit/left_open.h"
 #include "identification/lack_of_fit/other_units.h"
 #include "identification/lack_of_fit/ripple.h"
+#include "identification/lack_of_fit/rounding.h"
 #include "identification/lack_of_fit/sensitivity.h"
 #include "identification/linear/rigid_part.h"
 
@@ -115,6 +116,17 @@ void HideMeans(const Bins& bins, const Eigen::MatrixXd& derivatives, Index p,
       MovesBy(range * means, bins, derivatives).topRows(p).cwiseAbs().rowwise().sum();
 }
 
+/// Takes off what the steps of the torque leave in the residual, and learns how they move the parameters. rest: [N]
+void TakeOffRounding(const FittedModel& model, const Measurements& m, const Bins& bins,
+                     const Eigen::MatrixXd& derivatives, Index p, Eigen::VectorXd& rest,
+                     Examination& examination) {
+  const double variance = examination.squares / examination.samples;
+  const Eigen::VectorXd rounding = MeanRounding(m.torque, model.residual, variance);
+  if (rounding.size() == 0) return;
+  rest -= rounding;
+  examination.by_rounding = MovesBy(bins.Means(rounding), bins, derivatives).topRows(p);
+}
+
 /// What sizes are measured by.
 void Measure(const FittedModel& model, const Bins& bins, const Eigen::MatrixXd& derivatives,
              Index p, Examination& examination) {
@@ -175,6 +187,7 @@ Examination ExamineResidual(const Fit& fit, const Inference& inference, const Me
   // what is known to act on friction, then what changes within segments, then what stays
   ErrorLevel level(static_cast<int>(LackOfFitTests().size()));
   Eigen::VectorXd rest = model->residual;
+  TakeOffRounding(*model, m, bins, derivatives, p, rest, examination);
   std::vector<Finding>& table = examination.findings;
   TestInTurn(Turn::first, bins, derivatives, known, rest, level, table);
   TestWithin(*model, m, bins, derivatives, known, rest, level, table);

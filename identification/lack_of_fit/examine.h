@@ -40,10 +40,13 @@ struct Examination {
   Eigen::VectorXd by_clock;  // [p] most change of each by a clock that is off by a hundredth
   Eigen::VectorXd by_gaps;   // [p] most that the gaps of the log may have moved each; empty where
                              // there are none, or where the fit has taken care of them
-  Eigen::VectorXd by_heat;   // [p] change of each had the losses followed the heat within the steps
-                             // of the log; empty where that is no matter
-  double heat_share = 0;     // of that, as the residual tells: 1 where they did, 0 where they were
-                             // held (22)
+  Eigen::VectorXd
+      by_rounding;  // [p] change of each by the steps of the torque (rounding.h); empty where
+                    // noise evens them out
+  Eigen::VectorXd by_heat;  // [p] change of each had the losses followed the heat within the steps
+                            // of the log; empty where that is no matter
+  double heat_share = 0;    // of that, as the residual tells: 1 where they did, 0 where they were
+                            // held (22)
   double heat_deviation = 0;  // standard deviation of the share
   double friction = 0;        // rms of the kept torque, N.m or N
   double samples = 0;

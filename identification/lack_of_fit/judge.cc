@@ -125,6 +125,21 @@ Index FarthestBeyond(const Eigen::VectorXd& by, const Examination& examination,
   return worst;
 }
 
+/// Lets intervals reach as far as the steps of the torque move the parameters.
+void WidenByRounding(const Examination& examination, const Fit& fit, const Measurements& m,
+                     Inference& inference) {
+  const Index worst = FarthestBeyond(examination.by_rounding, examination, inference);
+  Widen(examination, examination.by_rounding, inference);
+  if (worst < 0) return;
+  const FitParameter& parameter = fit.parameters[examination.rows[static_cast<size_t>(worst)]];
+  inference.warnings.push_back(fmt::format(
+      "the torque comes in steps of {:.3g} {}, which its noise does not even out: they may move {} "
+      "by "
+      "{:.2g} {}, and intervals were widened to cover this; log the torque in finer steps",
+      Resolution(m.torque), m.torque_unit, parameter.name, std::abs(examination.by_rounding[worst]),
+      parameter.unit));
+}
+
 /// What the start does to the numbers: intervals that hold a warm one too, or a warning of how far
 /// it would move a parameter beyond its interval.
 void WeighStart(const Examination& examination, const Identifier& identifier,
@@ -222,6 +237,7 @@ void JudgeLackOfFit(const Identifier& identifier, const IdentifierInput& input, 
   WeighStart(examination, identifier, input, fit, judging, inference);
   FollowHeat(examination, fit, m, inference);
   WidenByGaps(examination, m, inference);
+  if (examination.by_rounding.size() > 0) WidenByRounding(examination, fit, m, inference);
   if (!examination.Found().empty()) {
     WeighFindings(examination, identifier, input, fit, judging, inference);
   }

@@ -1,0 +1,36 @@
+#include "identification/lack_of_fit/rounding.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "models/foundation/robust_noise.h"
+
+namespace warmjoint::inline identification {
+namespace {
+
+constexpr double kEven = 1e-6;  // of a step: an error that is no matter
+constexpr int kMostWaves = 50;  // then the next is below 1 % of a step
+
+}  // namespace
+
+Eigen::VectorXd MeanRounding(const Eigen::VectorXd& torque, const Eigen::VectorXd& residual,
+                             double variance) {
+  using std::numbers::pi;
+  const double step = Resolution(torque);
+  if (step == 0) return {};
+  const double noise = std::sqrt(std::max(variance - step * step / 12, 0.0)) / step;
+  const auto size = [&](int k) { return std::exp(-2 * std::pow(pi * k * noise, 2)) / (pi * k); };
+  if (size(1) < kEven) return {};
+
+  // where each torque lies between two steps, counted from one that was logged
+  const Eigen::ArrayXd place = (torque - residual).array() / step - torque[0] / step;
+  Eigen::ArrayXd error = Eigen::ArrayXd::Zero(torque.size());
+  double sign = -1;
+  for (int k = 1; k <= kMostWaves && size(k) >= kEven; ++k, sign = -sign) {
+    error += sign * step * size(k) * (2 * pi * k * place).sin();
+  }
+  return error;
+}
+
+}  // namespace warmjoint::inline identification

@@ -1,0 +1,20 @@
+// What the steps of a coarse torque sensor leave in a residual.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace warmjoint::inline identification {
+
+/// Mean error of a torque f with white noise of deviation s that is logged in whole steps q,
+///
+///     e(f) = sum_k (-1)^k q/(pi k) exp(-2 (pi k s/q)^2) sin(2 pi k f/q),
+///
+/// the Fourier series of the sawtooth round(x) - x, each wave as much smaller as noise evens it out (Widrow and Kollar,
+/// Quantization Noise, 2008). It depends on f alone, so that it does not vanish in a mean over many samples where
+/// f keeps its value. s^2 is the residual's variance less q^2/12. Empty where the log has no steps, or where noise evens
+/// them out to 1e-6 of q (q below 1.1 s). torque: as it was logged, [N] N.m or N; residual: [N] of it; variance: of the
+/// residual; returns [N].
+Eigen::VectorXd MeanRounding(const Eigen::VectorXd& torque, const Eigen::VectorXd& residual,
+                             double variance);
+
+}  // namespace warmjoint::inline identification
