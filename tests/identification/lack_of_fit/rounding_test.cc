@@ -68,7 +68,7 @@ TEST(Rounding, IntervalsCoverIt) {
     if (!viscous.interval95) continue;
     const auto [lower, upper] = *viscous.interval95;
     held += lower <= 5 && 5 <= upper;
-    warned += estimate.message.find("comes in steps of 2.5") != std::string::npos;
+    warned += estimate.FullMessage().find("comes in steps of 2.5") != std::string::npos;
   }
   // 95 % of 30: 24 or fewer with a probability of 0.3 %; a refusal does not hold
   EXPECT_GE(held, 25);
