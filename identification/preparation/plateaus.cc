@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "identification/preparation/constant_speed_numbers.h"
+
 namespace warmjoint::inline identification {
 namespace {
 
 using Eigen::Index;
+using namespace constant_speed;
 
 /// Whether v jumps between samples i - 1 and i while it is steady before and after.
 bool Jumps(const Eigen::VectorXd& v, Index i, const VelocityScale& scale) {
@@ -14,8 +17,8 @@ bool Jumps(const Eigen::VectorXd& v, Index i, const VelocityScale& scale) {
   const double before = i >= 2 ? std::abs(v[i - 1] - v[i - 2]) : 0;
   const double after = i + 1 < v.size() ? std::abs(v[i + 1] - v[i]) : 0;
   const double smallest =
-      std::max({8 * scale.noise, 1.5 * scale.resolution, 1e-9 * std::abs(v[i])});
-  return jump > smallest && jump > 10 * std::max(before, after);
+      std::max({kJumpDeviations * scale.noise, kLevels * scale.resolution, 1e-9 * std::abs(v[i])});
+  return jump > smallest && jump > kJumpOverBeside * std::max(before, after);
 }
 
 bool IsTimeGap(const Eigen::VectorXd& time, Index i, const VelocityScale& scale) {
@@ -50,7 +53,7 @@ std::vector<Segment> Grow(const Measurements& measurements, const VelocityScale&
 bool Interrupts(const Segment& run, const Segment& before, const Segment& after,
                 const Eigen::VectorXd& time, const VelocityScale& scale) {
   const Index around = std::min(before.end - before.begin, after.end - after.begin);
-  const bool is_brief = 10 * (run.end - run.begin) <= around;
+  const bool is_brief = kOutliers * (run.end - run.begin) <= around;
   const bool is_one_speed =
       std::abs(before.velocity - after.velocity) <= scale.Band(before.velocity) / 2;
   return is_brief && is_one_speed && !IsTimeGap(time, run.begin, scale) &&

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "identification/preparation/constant_speed_numbers.h"
 #include "identification/preparation/plateaus.h"
 #include "identification/preparation/select.h"
 #include "models/foundation/robust_noise.h"
@@ -11,20 +12,19 @@ namespace {
 
 using Eigen::Index;
 
-constexpr Index kShortest = 3;  // samples of a segment
-constexpr Index kHandful = 20;  // samples
+using namespace constant_speed;
 
 Index Length(const Segment& segment) { return segment.end - segment.begin; }
 
 /// How far the speed strays from `level` all along a run, for a drive lets ripple of the load
-/// through: as far as all but 2 % of the samples of its second or its third quarter, whichever is
+/// through: as far as most of the samples of its second or its third quarter, whichever is
 /// less, since a slow drive may still settle in the second.
 double Wobble(const Segment& run, double level, const Eigen::VectorXd& v) {
   const Index quarter = Length(run) / 4;
   if (quarter == 0) return 0;
   const auto stray = [&](Index begin) {
     Eigen::VectorXd strays = (v.segment(begin, quarter).array() - level).abs();
-    return QuantileInPlace(strays, 0.98);
+    return QuantileInPlace(strays, kMostStrays);
   };
   return std::min(stray(run.begin + quarter), stray(run.begin + 2 * quarter));
 }
@@ -33,7 +33,7 @@ double Wobble(const Segment& run, double level, const Eigen::VectorXd& v) {
 /// between them is left: there the load ripples. Empty where it never settles.
 template <typename IsInside>
 void CutInwards(Segment& run, const IsInside& is_inside) {
-  const Index calm = std::max(kShortest, 1 + Length(run) / 50);  // samples in a row
+  const Index calm = std::max(kShortest, 1 + Length(run) / kCalm);  // samples in a row
   Index begin = run.begin, end = run.end;
   for (Index inside = 0; begin + inside < run.end && inside < calm;) {
     if (is_inside(begin + inside)) {
@@ -65,14 +65,14 @@ void CutOutwards(Segment& run, const IsInside& is_inside) {
 }
 
 /// Sets the level of a run to its median and cuts its ends where the speed still settles: to within
-/// 4 robust standard deviations, or the wobble. A handful of samples shows no ripple.
+/// the noise, or the wobble. A handful of samples shows no ripple.
 void Settle(Segment& run, const Eigen::VectorXd& v, const VelocityScale& scale) {
   Eigen::VectorXd values = v.segment(run.begin, Length(run));
   run.velocity = MedianInPlace(values);
   values = (values.array() - run.velocity).abs();
   const double spread = MedianInPlace(values) / 0.6745;
-  const double allowed = std::max({4 * spread, Wobble(run, run.velocity, v), 3 * scale.noise,
-                                   0.005 * std::abs(run.velocity), 1.5 * scale.resolution});
+  const double allowed = std::max({kFar * spread, Wobble(run, run.velocity, v), kNear * scale.noise,
+                                   kSettled * std::abs(run.velocity), kLevels * scale.resolution});
   const auto is_inside = [&](Index i) { return std::abs(v[i] - run.velocity) <= allowed; };
   if (Length(run) < kHandful) {
     CutOutwards(run, is_inside);
@@ -97,31 +97,33 @@ double Drift(const Segment& run, const Eigen::VectorXd& v) {
   return highest - lowest;
 }
 
-/// Whether a drift is less than a hundredth of the steepest acceleration of the log.
+/// Whether a drift is small beside the steepest acceleration of the log.
 bool IsSlow(double drift, const Segment& run, const VelocityScale& scale) {
-  return drift <= 0.01 * scale.steepest * static_cast<double>(Length(run)) * scale.step;
+  return drift <= kSlowly * scale.steepest * static_cast<double>(Length(run)) * scale.step;
 }
 
-/// Whether the speed drifts by more than the noise of those means and 0.5 % of the level, and not
-/// slowly.
+/// Whether the speed drifts by more than the noise of those means and what a start may be off the
+/// level, and not slowly.
 bool Drifts(const Segment& run, const Eigen::VectorXd& v, const VelocityScale& scale) {
   const double drift = Drift(run, v);
   const auto independent = static_cast<double>(Length(run) / Parts(run)) / scale.memory;
-  const double noise = 4 * scale.noise / std::sqrt(std::max(independent, 1.0));
-  const double explained = 0.005 * std::abs(run.velocity) + std::max(noise, 0.5 * scale.resolution);
-  return drift > std::min(explained, 0.6 * scale.Band(run.velocity)) && !IsSlow(drift, run, scale);
+  const double noise = kFar * scale.noise / std::sqrt(std::max(independent, 1.0));
+  const double explained =
+      kSettled * std::abs(run.velocity) + std::max(noise, 0.5 * scale.resolution);
+  return drift > std::min(explained, kDriftOfBand * scale.Band(run.velocity)) &&
+         !IsSlow(drift, run, scale);
 }
 
 /// Whether a run differs from a piece of an acceleration: the speed drifts slowly, or at each end
-/// it jumps (by half of the step in level or more), the recording ends, or a run of less than a
-/// third of its length follows.
+/// it jumps (by much of the step in level), the recording ends, or a much
+/// shorter run follows.
 bool StandsOut(const std::vector<Segment>& runs, std::size_t i, const Eigen::VectorXd& v,
                const VelocityScale& scale) {
   const Segment& run = runs[i];
   const auto is_clear = [&](const Segment& other, Index boundary) {
     const double jump = std::abs(v[boundary] - v[boundary - 1]);
-    return 3 * Length(other) <= Length(run) ||
-           jump >= 0.5 * std::abs(other.velocity - run.velocity);
+    return kMuchShorter * Length(other) <= Length(run) ||
+           jump >= kClearJump * std::abs(other.velocity - run.velocity);
   };
   const bool is_clear_in_front = i == 0 || is_clear(runs[i - 1], run.begin);
   const bool is_clear_behind = i + 1 == runs.size() || is_clear(runs[i + 1], run.end);
@@ -135,23 +137,23 @@ std::pair<Index, Index> Gaps(const std::vector<Segment>& runs, std::size_t i, In
   return {runs[i].begin - before, after - runs[i].end};
 }
 
-/// Drops runs shorter than a fifth of the accelerations beside them: turning points of the speed.
+/// Drops runs much shorter than the accelerations beside them: turning points of the speed.
 std::vector<Segment> WithoutTurningPoints(const std::vector<Segment>& runs, Index samples) {
   std::vector<Segment> lasting;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const auto [front, back] = Gaps(runs, i, samples);
-    if (5 * Length(runs[i]) >= front + back) lasting.push_back(runs[i]);
+    if (kTurningPoint * Length(runs[i]) >= front + back) lasting.push_back(runs[i]);
   }
   return lasting;
 }
 
 /// Whether a run lies on the way from one direction of motion to the other: slower than both
-/// neighbours, which move apart, and shorter than a tenth of each. A joint that turns under a slow
+/// neighbours, which move apart, and much shorter than each. A joint that turns under a slow
 /// drive creeps there at a constant speed while its friction still builds up.
 bool TurnsRound(const Segment& before, const Segment& run, const Segment& after) {
   const double slower = std::min(std::abs(before.velocity), std::abs(after.velocity));
   return before.velocity * after.velocity < 0 && std::abs(run.velocity) < slower &&
-         10 * Length(run) <= std::min(Length(before), Length(after));
+         kReversal * Length(run) <= std::min(Length(before), Length(after));
 }
 
 std::vector<Segment> WithoutReversals(const std::vector<Segment>& runs) {
@@ -163,12 +165,12 @@ std::vector<Segment> WithoutReversals(const std::vector<Segment>& runs) {
   return lasting;
 }
 
-/// The run less a tenth of the acceleration at each end, whose start and end hide in the noise.
+/// The run less a share of the acceleration at each end, whose start and end hide in the noise.
 /// Neighbours without a sample between them lose nothing.
 Segment KeptAway(Segment run, std::pair<Index, Index> gaps) {
-  const Index most = Length(run) / 4;
-  const Index front = std::min(gaps.first / 10, most);
-  const Index back = std::min(gaps.second / 10, most);
+  const Index most = Length(run) / kMostCut;
+  const Index front = std::min(gaps.first / kOfTheRamp, most);
+  const Index back = std::min(gaps.second / kOfTheRamp, most);
   if (Length(run) - front - back < kShortest) return run;
   return {run.begin + front, run.end - back, run.velocity};
 }

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "identification/preparation/constant_speed_numbers.h"
 #include "models/foundation/robust_noise.h"
 
 namespace warmjoint::inline identification {
 namespace {
 
 using Eigen::Index;
+using namespace constant_speed;
 
 /// |v[i + lag] - v[i]|, [N - lag].
 Eigen::VectorXd Differences(const Eigen::VectorXd& v, Index lag) {
@@ -17,8 +19,8 @@ Eigen::VectorXd Differences(const Eigen::VectorXd& v, Index lag) {
 
 /// Standard deviation of v, were it white noise, from its differences over `lag` samples.
 double Spread(const Eigen::VectorXd& v, Index lag) {
-  constexpr double quantile = 0.35;
-  constexpr double normal_quantile = 0.4538;  // of |z| at 0.35
+  constexpr double quantile = 0.35;           // why below 0.5: half the samples may jump
+  constexpr double normal_quantile = 0.4538;  // why: of |z| at 0.35, z normal
   Eigen::VectorXd differences = Differences(v, lag);
   return QuantileInPlace(differences, quantile) / (normal_quantile * std::sqrt(2.0));
 }
@@ -77,10 +79,12 @@ double Steepest(const Eigen::VectorXd& v, double noise, double step) {
 }  // namespace
 
 double VelocityScale::Band(double level) const {
-  return std::max({4 * noise, 0.02 * std::abs(level), 1.5 * resolution});
+  return std::max({kFar * noise, kBand * std::abs(level), kLevels * resolution});
 }
 
-double VelocityScale::Rest() const { return std::max({3 * noise, 1.5 * resolution, 1e-3 * rms}); }
+double VelocityScale::Rest() const {
+  return std::max({kNear * noise, kLevels * resolution, kAtRest * rms});
+}
 
 VelocityScale MeasureVelocity(const Measurements& measurements) {
   const Eigen::VectorXd& v = measurements.velocity;
