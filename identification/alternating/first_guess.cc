@@ -11,7 +11,7 @@ namespace {
 constexpr int kWindows = 40;             // over the recording
 constexpr double kUnsettled = 0.15;      // of the whole change, between the last two quarters
 constexpr double kVisible = 4;           // standard deviations that a change must have
-constexpr double kReached = 0.63212056;  // 1 - 1/e
+constexpr double kReached = 0.63212056;  // why: 1 - 1/e, where (25) reads tau
 
 /// The samples of one window of time.
 struct Window {

@@ -9,7 +9,7 @@
 namespace warmjoint::inline identification {
 namespace {
 
-constexpr double kSettledAfter = 5;  // time constants: e^-5 = 1/150
+constexpr double kSettledAfter = 5;  // time constants; why 5: e^-5 = 1/150 is left
 
 }  // namespace
 

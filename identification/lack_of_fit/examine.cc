@@ -22,7 +22,8 @@ namespace {
 using Eigen::Index;
 
 constexpr Index kFewestBins = 40;  // below, nothing can be said of structure
-constexpr double kRange = 3.5;  // sqrt(12): from least to most of what rises evenly, over its rms
+constexpr double kRange =
+    3.5;  // why: sqrt(12), from least to most of what rises evenly, over its rms
 
 /// The rows of the table that look at bins in one turn.
 std::vector<const LackOfFitTest*> Rows(Turn turn) {

@@ -16,9 +16,9 @@ using Eigen::VectorXd;
 
 constexpr double kPi = std::numbers::pi;
 constexpr int kPlaces = 32;            // parts that steps lie between
-constexpr double kFewestCycles = 2.5;  // slower: drift
-constexpr double kBinsACycle = 4;
-constexpr double kCyclesApart = 0.5;  // over the log, of those that are tried
+constexpr double kFewestCycles = 2.5;  // why: the drift goes to two cycles
+constexpr double kBinsACycle = 4;      // why: means over a quarter of a cycle keep 0.9 of it
+constexpr double kCyclesApart = 0.5;   // why: a wave midway between two that are tried keeps 0.81
 
 ArrayXd SignOf(const Bins& bins) { return bins.velocity.array().sign(); }
 

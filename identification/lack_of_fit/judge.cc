@@ -15,9 +15,9 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kNormal95 = 1.96;
-constexpr double kSure = 5;      // deviations of the heat's share from a value that is ruled out
-constexpr double kSureMove = 3;  // deviations from which a move is there
+constexpr double kNormal95 = 1.96;  // why: 95 % of a normal variable
+constexpr double kSure = 5;         // deviations of the heat's share from a value that is ruled out
+constexpr double kSureMove = 3;     // deviations from which a move is there; why 3: 1 in 370
 
 /// Whether lack of fit that explains so much is more than a detail.
 bool IsRelevant(double explained, const Examination& examination, const Judging& judging) {

@@ -8,7 +8,7 @@ namespace warmjoint::inline identification {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;  // rad
-constexpr double kClock = 1.01;                     // as fast as it should be
+constexpr double kClock = 1.01;  // as fast as it should be; why: the slip that is asked about
 
 /// The most that an end of each interval moves. [p]
 Eigen::VectorXd FarthestMoves(double way, double time, const Fit& fit, const Inference& inference,

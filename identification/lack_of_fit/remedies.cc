@@ -15,7 +15,7 @@
 namespace warmjoint::inline identification {
 namespace {
 
-constexpr double kSettledAfter = 3;  // time constants: 5 % are left
+constexpr double kSettledAfter = 3;  // time constants; why 3: 5 % are left
 
 /// What a model holds already, whoever fitted it: `auto` is not told to try what it chose.
 bool HoldsMap(const Advice& advice, MapQuantity quantity) {

@@ -11,8 +11,9 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kWarmStart = 0.1;   // of the warmth that the joint reaches
-constexpr double kDrift = 0.01;      // of the friction, over the log
+constexpr double kWarmStart =
+    0.1;                         // of the warmth that the joint reaches; why: cold_start asks that
+constexpr double kDrift = 0.01;  // of the friction, over the log; why: no_slow_drift asks that
 constexpr double kFading = 1.0 / 3;  // of the log: time constant of a drift that dies away
 
 /// s t and s (1 - exp(-t/T)), the friction's drift over the log, even and fading. [m x 2]

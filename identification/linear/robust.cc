@@ -9,7 +9,7 @@
 namespace warmjoint::inline identification {
 namespace {
 
-constexpr double kNormal = 1.4826;  // standard deviation over median size of normal noise
+constexpr double kNormal = 1.4826;  // why: standard deviation over median size of normal noise
 constexpr double kFar = 4;          // standard deviations: one normal sample in 16 000
 constexpr int kMostRounds = 100;
 constexpr double kAtRest = 1e-9;  // of the fitted torque between rounds, relative

@@ -7,7 +7,7 @@
 namespace warmjoint::inline identification {
 namespace {
 
-constexpr double kNarrowest = 0.7;  // of the kernels, spacings
+constexpr double kNarrowest = 0.7;  // of the kernels, spacings; why: no narrower shape is tried
 
 GaussianAxis TwiceAsFine(const GaussianAxis& axis) {
   const std::vector<double>& centres = axis.centres;

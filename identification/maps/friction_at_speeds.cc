@@ -15,7 +15,7 @@ namespace {
 using Eigen::Index;
 
 constexpr Index kEnough = 1000;   // samples that tell a mean over places
-constexpr double kShare = 0.1;    // of the samples, those nearest to a speed
+constexpr double kShare = 0.1;    // of the samples; why: it defines which are near a speed
 constexpr double kAlike = 0.001;  // speeds that are one
 constexpr int kVelocity = static_cast<int>(MapQuantity::velocity);
 

@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kFewest = 2;    // samples
+constexpr double kFewest = 2;    // samples; why 2: one alone tells no weight from its noise
 constexpr double kShare = 0.02;  // of the median
 constexpr size_t kMostNamed = 3;
 

@@ -16,7 +16,8 @@ namespace {
 
 using Eigen::Index;
 
-constexpr Index kEnough = 1000;  // samples that tell the mean of a map
+constexpr Index kEnough = 1000;  // samples; why 1000: their mean is sure to 3 % of their spread
+// why: with 0.075 or 0.033 all bands of tests/studies/maps.yaml stay
 constexpr double kBlind = 0.05;  // share of kernels without data
 constexpr int kVelocity = static_cast<int>(MapQuantity::velocity);
 

@@ -13,7 +13,7 @@
 namespace warmjoint::inline identification {
 namespace {
 
-constexpr double kChance = 6.63;  // chi-squared of one degree of freedom, 1 %
+constexpr double kChance = 6.63;  // why 6.63: chi-squared of one degree of freedom, 1 %
 
 /// Mean square of the residual, (N.m)^2 or N^2.
 double MeanSquare(const NormalEquations& normal, const Eigen::VectorXd& x, Eigen::Index samples) {

@@ -41,7 +41,7 @@ double Spacing(const KalmanPrior<D>& prior) {
 
 template <int D>
 KalmanBank<D> MakeBank(const KalmanPrior<D>& prior) {
-  constexpr double kOverlap = 0.6;  // deviation over spacing: their sum is flat to 1 %
+  constexpr double kOverlap = 0.6;  // deviation over spacing; why 0.6: their sum is flat to 1 %
   KalmanBank<D> bank;
   bank.noise = prior.noise;
   bank.count = prior.confidence;
@@ -60,7 +60,7 @@ KalmanBank<D> MakeBank(const KalmanPrior<D>& prior) {
 /// innovation^2 / expected variance of the best member.
 template <int D>
 KalmanBank<D> BankStep(KalmanBank<D> bank, const KalmanSample<D>& sample) {
-  constexpr double kDropped = -40;
+  constexpr double kDropped = -40;  // why: e^-40 of the best is less than rounding
   double best = -std::numeric_limits<double>::infinity();
   double ratio = 1;  // innovation^2 over its expectation, of the best member
   for (int i = 0; i < KalmanBank<D>::kMembers; ++i) {

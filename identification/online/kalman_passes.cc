@@ -34,7 +34,7 @@ double GuessNoise(const KalmanTrack& track) {
   const double least = 1e-12 * track.torque_rms * track.torque_rms;
   if (squares.empty()) return std::max(0.01 * track.torque_rms * track.torque_rms, least);
   std::nth_element(squares.begin(), squares.begin() + squares.size() / 2, squares.end());
-  constexpr double kMedianOfSquare = 0.4549364;  // of a standard normal number
+  constexpr double kMedianOfSquare = 0.4549364;  // why: of a standard normal number
   return std::max(squares[squares.size() / 2] / (2 * kMedianOfSquare), least);
 }
 

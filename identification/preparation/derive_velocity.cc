@@ -78,9 +78,10 @@ Eigen::VectorXd DeriveVelocity(const Eigen::VectorXd& time, const Eigen::VectorX
 }
 
 double ChooseCutoff(const Eigen::VectorXd& time, const Eigen::VectorXd& position) {
-  constexpr double highest = 100;          // Hz
-  constexpr double lowest = 0.02;          // of the sampling rate
-  constexpr double accepted_noise = 0.01;  // of the velocity's root mean square
+  constexpr double highest = 100;  // Hz
+  constexpr double lowest = 0.02;  // of the sampling rate
+  constexpr double accepted_noise =
+      0.01;  // of the velocity's rms; why: it takes 0.01^2 off a slope
   const double rate = 1 / MedianStep(time);
 
   // slope over a fiftieth of a second or one step, so that noise hardly enters the scale

@@ -17,11 +17,11 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr Index kHalfWidths[] = {2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};  // samples to each side
-constexpr Index kWide = 6;  // half width from which on a window has a polynomial of fifth degree
-constexpr double kByChance = 1e-3;   // of good windows that are taken for bent
-constexpr double kJump = 0.1;        // of the acceleration's root mean square
-constexpr double kBeyondMedian = 4;  // of the acceleration's change over two samples
-constexpr double kDeviations = 5;    // of the noise
+constexpr Index kWide = 6;           // from which half width on the degree is five; why: README.md
+constexpr double kByChance = 1e-3;   // of good windows, taken for bent; why: README.md
+constexpr double kJump = 0.1;        // of the acceleration's rms; why: README.md
+constexpr double kBeyondMedian = 4;  // of the change over two samples; why: README.md
+constexpr double kDeviations = 5;    // of the noise; why: README.md
 constexpr double kNearCorner = 2;  // noise of the acceleration there, by that of the widest windows
 constexpr double kEven = 1e-3;     // of the step by which evenly sampled times may differ
 

@@ -16,11 +16,11 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double kClear = 0.05;    // of the velocity's root mean square
-constexpr double kDeviations = 5;  // of the noise
-constexpr Index kReach = 2;        // samples to each side, of which a difference is taken
+constexpr double kClear = 0.05;    // of the velocity's root mean square; why: README.md
+constexpr double kDeviations = 5;  // of the noise; why 5: by chance 1 in 2 million
+constexpr Index kReach = 2;        // samples to each side of a difference; why 2: fourth order
 constexpr double kGain =
-    0.9501;  // sqrt(2 (1 + 8^2)) / 12: noise of a difference times the step, of even samples
+    0.9501;  // why: sqrt(2 (1 + 8^2)) / 12, noise of a difference times the step, of even samples
 
 double RootMeanSquare(const VectorXd& x) {
   return x.size() == 0 ? 0 : std::sqrt(x.squaredNorm() / static_cast<double>(x.size()));

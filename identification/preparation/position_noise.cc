@@ -11,7 +11,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double kNormalMedian = 0.6745;  // of |z|
+constexpr double kNormalMedian = 0.6745;  // why: of |z|, z a standard normal variable
 
 /// Standard deviation of the noise that third differences show.
 double ThirdDifferenceNoise(const VectorXd& x) {

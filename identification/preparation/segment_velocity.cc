@@ -10,7 +10,7 @@ namespace {
 using Eigen::Index;
 
 constexpr double kHarmless = 1e-3;  // attenuation
-constexpr double kCertain = 4;      // standard errors
+constexpr double kCertain = 4;      // standard errors; why 4: by chance 1 in 16 000
 constexpr double kRounding = 1e-6;  // of the mean speed: less is no noise
 
 /// A straight line through the kept samples of a segment.

@@ -10,12 +10,15 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double kAlike = 0.01;     // of the greater speed
-constexpr double kWorthARamp = 4;   // squared deviations
-constexpr double kCertain = 4;      // standard errors of the crossing
+constexpr double kAlike = 0.01;    // of the greater speed
+constexpr double kWorthARamp = 4;  // squared deviations
+constexpr double kCertain = 4;     // standard errors of the crossing
+constexpr double kLineErrors = 3;  // standard errors of a line
+constexpr int kGrid = 48;          // why: with 72 an answer moves by 0.05 half widths at most
+constexpr int kGolden = 40;
+
+// why: with the margin alone 1 to 4 samples a log of the wrong sign stay
 constexpr double kOfTheRamp = 0.1;  // of its duration, beside the margin
-constexpr double kLineErrors = 3;   // standard errors of a line
-constexpr int kGrid = 48, kGolden = 40;
 
 /// Sum of the squares of the positions around a change of that duration.
 double Squares(const VectorXd& time, const VectorXd& position, SpeedChange change, double duration,

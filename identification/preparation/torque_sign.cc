@@ -5,7 +5,8 @@
 namespace warmjoint::inline identification {
 namespace {
 
-constexpr int kFewest = 5;              // segments
+constexpr int kFewest = 5;  // segments
+// why these: friction never pushes; with two thirds of either no clean log is refused
 constexpr double kOfSegments = 0.9;     // that are against the motion
 constexpr double kOfItsSamples = 0.95;  // of a segment
 

@@ -8,7 +8,8 @@
 
 namespace warmjoint::inline identification {
 
-inline constexpr Eigen::Index kLongRun = 20;  // kept samples of one torque that noise cannot give
+inline constexpr Eigen::Index kLongRun =
+    20;  // kept samples of one torque; why 20: noise gives none
 
 /// Samples in a row with exactly one torque.
 struct ConstantRun {

@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kTolerance = 0.02;   // of the ratio
+constexpr double kTolerance = 0.02;   // of the ratio; why: viscous moves by as much, --relevance
 constexpr double kCertain = 4;        // standard errors of the median
 constexpr double kStraight = 0.003;   // of the way of a segment, rms
 constexpr std::size_t kFewest = 3;    // segments

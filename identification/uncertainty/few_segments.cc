@@ -18,7 +18,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index kFewestFree = 8;  // segments beyond the parameters
+constexpr Index kFewestFree = 8;  // segments beyond the parameters; why: ../README.md, few segments
 constexpr double kNone = 1e-9;    // of a residual that the fit leaves free: as good as 0
 constexpr double kMostFreedom = 1e4;
 constexpr int kHalvings = 30;      // of the range of its logarithm

@@ -10,10 +10,12 @@ namespace warmjoint::inline identification {
 namespace {
 
 constexpr Eigen::Index kHighestOrder = 60;
+// why: with 4 or 9 the intervals of 64 clean logs hold the truth as often
 constexpr Eigen::Index kPatience = 6;  // orders without a better BIC
-constexpr Eigen::Index kBlock = 256;   // samples that are filtered at once
-constexpr double kDead = 1e-6;         // of the variance: covariances that are as good as 0
-constexpr double kBeyondDoubt = 5;     // deviations of a normal variable
+
+constexpr Eigen::Index kBlock = 256;  // samples that are filtered at once
+constexpr double kDead = 1e-6;        // of the variance: covariances that are as good as 0
+constexpr double kBeyondDoubt = 5;    // deviations of a normal variable
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Autocovariances of a sequence with gaps. values: [N], 0 where not kept; kept: [N] 1 or 0.

@@ -7,7 +7,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kSure = 3;                       // deviations
+constexpr double kSure = 3;                       // deviations; why 3: by chance once in 740
 constexpr double kFewestChanges = kSure * kSure;  // of which all turning is as sure
 
 }  // namespace
