@@ -7,6 +7,8 @@
 
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
+#include "models/friction/law_part.h"
+#include "models/friction/parameter_rows.h"
 #include "models/friction/survey_work.h"
 #include "models/friction/thermal_bounds.h"
 
@@ -27,12 +29,15 @@ void CheckValue(const ParameterInfo& info, double value, const Place& place) {
 
 /// A joint at rest cannot bear less than a sliding one.
 void CheckStaticLevel(const FrictionDescription& friction, const Place& place) {
-  const auto at_rest = friction.parameters.find("static");
-  if (at_rest == friction.parameters.end()) return;
-  const double coulomb = friction.parameters.at("coulomb");
-  if (at_rest->second >= coulomb) return;
-  Refuse(place, "static is {}; it must be at least coulomb, {}: a joint at rest bears no less",
-         at_rest->second, coulomb);
+  const Law& law = *FindLaw(friction.law);
+  const std::optional<size_t> at_rest = PlaceOf(LawPart::rest_level, law);
+  if (!at_rest) return;
+  const std::vector<double> values = LawValues(friction);
+  const size_t sliding = *PlaceOf(LawPart::level, law);
+  if (values[*at_rest] >= values[sliding]) return;
+  Refuse(place, "{} is {}; it must be at least {}, {}: a joint at rest bears no less",
+         law.parameters[*at_rest].name, values[*at_rest], law.parameters[sliding].name,
+         values[sliding]);
 }
 
 void CheckThermal(const Thermal& thermal, const Place& place) {
@@ -76,9 +81,9 @@ void CheckHeat(const FrictionDescription& friction, const Place& place) {
 void CheckSlopeOverEnergy(const FrictionDescription& friction, const Place& place) {
   const double slope = friction.viscous_per_energy;
   if (slope == 0) return;
-  if (!friction.parameters.contains("viscous")) {
-    Refuse(place, "viscous_per_energy is {}, but law {} has no viscous that it could change", slope,
-           friction.law);
+  if (!PlaceOf(LawPart::slope, *FindLaw(friction.law))) {
+    Refuse(place, "viscous_per_energy is {}, but law {} has no {} that it could change", slope,
+           friction.law, kViscousRow.name);
   }
   for (const auto& thermal : {friction.thermal, friction.second_thermal}) {
     if (!thermal || slope * thermal->gain <= 0) continue;

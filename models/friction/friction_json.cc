@@ -3,32 +3,36 @@
 #include "models/foundation/json_members.h"
 #include "models/foundation/read_json.h"
 #include "models/friction/friction_description.h"
+#include "models/friction/thermal_names.h"
 
 namespace warmjoint::inline models {
 namespace {
 
 using nlohmann::json;
 
+const std::string kGain(kGainName), kTimeConstant(kTimeConstantName);
+
 double NumberMember(const json& object, const std::string& key, const Place& place) {
   return NumberFrom(object.at(key), key, place);
 }
 
 Thermal ThermalFromJson(const json& object, const Place& place) {
-  for (const char* key : {"thermal_gain", "thermal_time_constant"}) {
+  for (const std::string& key : {kGain, kTimeConstant}) {
     if (!object.contains(key)) Refuse(place, "thermal lacks {}; give a number", key);
   }
-  return {NumberMember(object, "thermal_gain", place),
-          NumberMember(object, "thermal_time_constant", place)};
+  return {NumberMember(object, kGain, place), NumberMember(object, kTimeConstant, place)};
+}
+
+json ThermalToJson(const Thermal& thermal) {
+  return {{kGain, thermal.gain}, {kTimeConstant, thermal.time_constant}};
 }
 
 void ReadThermal(const json& object, FrictionDescription& friction, const Place& place) {
-  RefuseUnknownKeys(object, "thermal",
-                    {"thermal_gain", "thermal_time_constant", "ambient", "second"}, place);
+  RefuseUnknownKeys(object, "thermal", {kGain, kTimeConstant, "ambient", "second"}, place);
   friction.thermal = ThermalFromJson(object, place);
   if (object.contains("ambient")) friction.ambient = NumberMember(object, "ambient", place);
   if (!object.contains("second")) return;
-  RefuseUnknownKeys(object["second"], "thermal.second", {"thermal_gain", "thermal_time_constant"},
-                    place);
+  RefuseUnknownKeys(object["second"], "thermal.second", {kGain, kTimeConstant}, place);
   friction.second_thermal = ThermalFromJson(object["second"], place);
 }
 
@@ -37,14 +41,11 @@ void ReadThermal(const json& object, FrictionDescription& friction, const Place&
 json FrictionToJson(const FrictionDescription& friction) {
   json result{{"law", friction.law}, {"parameters", friction.parameters}, {"gear", friction.gear}};
   if (friction.thermal) {
-    result["thermal"] = {{"thermal_gain", friction.thermal->gain},
-                         {"thermal_time_constant", friction.thermal->time_constant},
-                         {"ambient", friction.ambient}};
+    result["thermal"] = ThermalToJson(*friction.thermal);
+    result["thermal"]["ambient"] = friction.ambient;
   }
   if (friction.second_thermal) {
-    result["thermal"]["second"] = {
-        {"thermal_gain", friction.second_thermal->gain},
-        {"thermal_time_constant", friction.second_thermal->time_constant}};
+    result["thermal"]["second"] = ThermalToJson(*friction.second_thermal);
   }
   for (const FrictionOption& option : FrictionOptions()) {
     if (friction.*option.value != 0) result[std::string(option.info.name)] = friction.*option.value;

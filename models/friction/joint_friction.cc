@@ -5,8 +5,10 @@
 #include <span>
 
 #include "models/friction/law_list.h"
+#include "models/friction/law_part.h"
 #include "models/friction/lugre_bristle.h"
 #include "models/friction/thermal_bounds.h"
+#include "models/friction/thermal_names.h"
 
 namespace warmjoint::inline models {
 namespace {
@@ -18,31 +20,50 @@ double BristleLoss(const Bristle& bristle, double load, const BristleStep& step,
   return std::max(0.0, step.force * v - stored);
 }
 
+/// The bristle that a law brings in its header; nothing where it has none.
+template <typename... L>
+std::optional<Bristle> BristleOfLaw(LawList<L...>, std::string_view name, const double* p) {
+  std::optional<Bristle> bristle;
+  const auto take = [&]<typename One>(const One*) {
+    if constexpr (One::pre_sliding == PreSliding::bristle) {
+      if (name != One::name) return;
+      const LawBristle<double> own = One::BristleOf(p);
+      bristle = Bristle{own.stiffness, own.damping};
+    }
+  };
+  (take(static_cast<const L*>(nullptr)), ...);
+  return bristle;
+}
+
 /// A number beside the law's own that may be set, and where it is; null where it is not given.
 struct OtherNumber {
-  std::string_view name;
+  std::string_view prefix;  // before the name of its table
   const ParameterInfo& info;
   double* (*find)(FrictionDescription& friction);
+
+  bool IsCalled(std::string_view name) const {
+    return name.starts_with(prefix) && name.substr(prefix.size()) == info.name;
+  }
 };
 
 std::span<const OtherNumber> OtherNumbers() {
   using Friction = FrictionDescription;
   static const std::array numbers{
-      OtherNumber{"thermal_gain", Thermal::parameters[0],
+      OtherNumber{"", Thermal::parameters[0],
                   [](Friction& f) { return f.thermal ? &f.thermal->gain : nullptr; }},
-      OtherNumber{"thermal_time_constant", Thermal::parameters[1],
+      OtherNumber{"", Thermal::parameters[1],
                   [](Friction& f) { return f.thermal ? &f.thermal->time_constant : nullptr; }},
-      OtherNumber{"second_thermal_gain", Thermal::parameters[0],
+      OtherNumber{kSecondStage, Thermal::parameters[0],
                   [](Friction& f) { return f.second_thermal ? &f.second_thermal->gain : nullptr; }},
-      OtherNumber{"second_thermal_time_constant", Thermal::parameters[1],
+      OtherNumber{kSecondStage, Thermal::parameters[1],
                   [](Friction& f) {
                     return f.second_thermal ? &f.second_thermal->time_constant : nullptr;
                   }},
-      OtherNumber{"level_per_temperature", FrictionOptions()[0].info,
+      OtherNumber{"", FrictionOptions()[0].info,
                   [](Friction& f) {
                     return f.level_per_temperature != 0 ? &f.level_per_temperature : nullptr;
                   }},
-      OtherNumber{"viscous_per_energy", FrictionOptions()[1].info,
+      OtherNumber{"", FrictionOptions()[1].info,
                   [](Friction& f) { return f.thermal ? &f.viscous_per_energy : nullptr; }},
   };
   return numbers;
@@ -78,11 +99,8 @@ JointFriction::JointFriction(const FrictionDescription& friction)
 
 /// What follows from the law's values and the other numbers, without the step.
 void JointFriction::Derive() {
-  const auto value = [&](std::string_view name) {
-    const auto place = FindNumber(name);
-    return place ? values_[*place] : 0;
-  };
-  viscous_ = value("viscous");
+  const std::optional<size_t> slope = PlaceOf(LawPart::slope, law_);
+  viscous_ = slope ? values_[*slope] : 0;
   per_energy_ = friction_.viscous_per_energy;
   if (same_at_any_speed_) {
     for (const int side : {-1, 1}) {
@@ -90,8 +108,7 @@ void JointFriction::Derive() {
       sliding_[side > 0] = level_(true, side, 0, values_.data());
     }
   }
-  if (law_.pre_sliding != PreSliding::bristle) return;
-  own_bristle_ = Bristle{value("bristle_stiffness"), value("bristle_damping")};
+  own_bristle_ = BristleOfLaw(AllLaws{}, law_.name, values_.data());
 }
 
 std::optional<size_t> JointFriction::FindNumber(std::string_view name) const {
@@ -100,7 +117,7 @@ std::optional<size_t> JointFriction::FindNumber(std::string_view name) const {
   }
   for (size_t i = 0; i < OtherNumbers().size(); ++i) {
     const OtherNumber& number = OtherNumbers()[i];
-    if (number.name != name) continue;
+    if (!number.IsCalled(name)) continue;
     FrictionDescription friction = friction_;
     if (number.find(friction)) return law_.parameters.size() + i;
   }

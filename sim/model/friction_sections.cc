@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "models/friction/joint_friction.h"
+#include "models/friction/thermal_names.h"
 #include "sim/model/escape_xml.h"
 #include "sim/plugin/friction_instance.h"
 
@@ -27,10 +28,10 @@ json EnergyToJson(const std::vector<double>& energy) {
   return energy.size() == 1 ? json(energy.front()) : json(energy);
 }
 
-std::string ThermalConfigs(const std::string& prefix, const std::optional<Thermal>& thermal) {
+std::string ThermalConfigs(std::string_view prefix, const std::optional<Thermal>& thermal) {
   if (!thermal) return "";
-  return Config(prefix + "thermal_gain", thermal->gain) +
-         Config(prefix + "thermal_time_constant", thermal->time_constant);
+  return Config(fmt::format("{}{}", prefix, kGainName), thermal->gain) +
+         Config(fmt::format("{}{}", prefix, kTimeConstantName), thermal->time_constant);
 }
 
 std::string InlineConfigs(const FrictionForJoint& of) {
@@ -38,7 +39,7 @@ std::string InlineConfigs(const FrictionForJoint& of) {
   std::string configs = Config("law", friction.law);
   for (const auto& [key, value] : friction.parameters) configs += Config(key, value);
   configs += ThermalConfigs("", friction.thermal);
-  configs += ThermalConfigs("second_", friction.second_thermal);
+  configs += ThermalConfigs(kSecondStage, friction.second_thermal);
   for (const FrictionOption& option : FrictionOptions()) {
     const double value = friction.*option.value;
     if (value != 0) configs += Config(std::string(option.info.name), value);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "models/friction/law_part.h"
 #include "sim/model/friction_sections.h"
 
 namespace warmjoint::inline sim {
@@ -12,8 +13,8 @@ std::string MinimalModel(const FrictionDescription& friction, JointKind kind) {
   CheckFriction(friction, {});
   // heavy enough for any slope at this step
   constexpr double kTimestep = 0.001;  // s
-  const auto slope = friction.parameters.find("viscous");
-  const double needed = slope == friction.parameters.end() ? 0 : 10 * kTimestep * slope->second;
+  const auto slope = PlaceOf(LawPart::slope, *FindLaw(friction.law));
+  const double needed = slope ? 10 * kTimestep * LawValues(friction)[*slope] : 0;
   const double inertia = std::max(1.0, needed);
   const bool slides = kind == JointKind::linear;
   return fmt::format(R"(<mujoco model="friction">

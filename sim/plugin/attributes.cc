@@ -11,6 +11,7 @@
 #include "models/foundation/parse_number.h"
 #include "models/friction/law.h"
 #include "models/friction/thermal_bounds.h"
+#include "models/friction/thermal_names.h"
 #include "sim/plugin/model_folder.h"
 
 namespace warmjoint::inline sim {
@@ -50,8 +51,9 @@ std::vector<PluginAttribute> MakeAttributes() {
   }
   for (const ParameterInfo& info : Thermal::parameters) AddParameter(info, attributes);
   for (const ParameterInfo& info : Thermal::parameters) {
-    attributes.push_back({"second_" + std::string(info.name), std::string(info.unit.rotary),
-                          BoundOf(info), "the same of a second stage"});
+    attributes.push_back({fmt::format("{}{}", kSecondStage, info.name),
+                          std::string(info.unit.rotary), BoundOf(info),
+                          "the same of a second stage"});
   }
   for (const FrictionOption& option : FrictionOptions()) AddParameter(option.info, attributes);
   attributes.push_back({"maps", "", "JSON", "list of maps as in a friction file"});
@@ -104,18 +106,17 @@ FrictionDescription ReadFile(const std::string& file, const AttributeReader& rea
 }
 
 /// A gain and a time constant; nothing where neither is given.
-std::optional<Thermal> ReadThermal(const std::string& prefix, const AttributeReader& read,
+std::optional<Thermal> ReadThermal(std::string_view prefix, const AttributeReader& read,
                                    const Place& place) {
-  const std::string gain = read(prefix + "thermal_gain");
-  const std::string time_constant = read(prefix + "thermal_time_constant");
+  const std::string gain_name = fmt::format("{}{}", prefix, kGainName);
+  const std::string time_name = fmt::format("{}{}", prefix, kTimeConstantName);
+  const std::string gain = read(gain_name), time_constant = read(time_name);
   if (gain.empty() && time_constant.empty()) return std::nullopt;
   if (gain.empty() || time_constant.empty()) {
-    Refuse(place,
-           "{0}thermal_gain is '{1}' and {0}thermal_time_constant '{2}'; give both or neither",
-           prefix, Excerpt(gain), Excerpt(time_constant));
+    Refuse(place, "{} is '{}' and {} '{}'; give both or neither", gain_name, Excerpt(gain),
+           time_name, Excerpt(time_constant));
   }
-  return Thermal{Number(prefix + "thermal_gain", gain, place),
-                 Number(prefix + "thermal_time_constant", time_constant, place)};
+  return Thermal{Number(gain_name, gain, place), Number(time_name, time_constant, place)};
 }
 
 std::vector<FrictionMap> ReadMaps(const std::string& text, const Place& place) {
@@ -172,7 +173,7 @@ FrictionDescription ReadInline(const AttributeReader& read, const Place& place) 
     }
   }
   friction.thermal = ReadThermal("", read, place);
-  friction.second_thermal = ReadThermal("second_", read, place);
+  friction.second_thermal = ReadThermal(kSecondStage, read, place);
   for (const FrictionOption& option : FrictionOptions()) {
     const std::string name(option.info.name);
     if (!read(name).empty()) friction.*option.value = Number(name, read(name), place);
