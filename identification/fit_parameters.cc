@@ -1,16 +1,15 @@
 #include "identification/fit_parameters.h"
 
-#include <fmt/format.h>
-
+#include "identification/find_parameter.h"
 #include "identification/fit_data.h"
 
 namespace warmjoint::inline identification {
 namespace {
 
-constexpr ParameterInfo kInertiaInfo{"inertia", "M", {"N.m.s^2/rad", "N.s^2/m", -1, 2}, 0,
-                                     kInfinity, 0,   "torque over acceleration"};
+constexpr ParameterInfo kInertiaInfo{kInertiaName, "M", {"N.m.s^2/rad", "N.s^2/m", -1, 2}, 0,
+                                     kInfinity,    0,   "torque over acceleration"};
 
-constexpr ParameterInfo kTorqueLagInfo{"torque_lag",
+constexpr ParameterInfo kTorqueLagInfo{kTorqueLagName,
                                        "T",
                                        {"s", "s", 0, 1},
                                        kSmallestPositive,
@@ -55,14 +54,14 @@ std::vector<FitParameter> HeatParameters(const Thermal& thermal, const Measureme
 }
 
 FitParameter StartParameter(double energy, const Measurements& measurements) {
-  return {"initial_energy", Role::start, energy, measurements.torque_unit};
+  return {NameOf(Role::start), Role::start, energy, measurements.torque_unit};
 }
 
 std::vector<FitParameter> JumpParameters(const Eigen::VectorXd& values,
                                          const Measurements& measurements) {
   std::vector<FitParameter> rows;
   for (const double value : values) {
-    rows.push_back({fmt::format("energy_jump_{}", rows.size() + 1), Role::jump, value,
+    rows.push_back({NameOf(Role::jump, static_cast<int>(rows.size())), Role::jump, value,
                     measurements.torque_unit});
   }
   return rows;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "identification/answer/own_misfit.h"
+#include "identification/find_parameter.h"
 #include "identification/fit_parameters.h"
 #include "identification/lack_of_fit/judge.h"
 
@@ -19,12 +20,12 @@ Fit FitOf(const Estimate& estimate, const Measurements& m) {
   const Eigen::Map<const Eigen::VectorXd> law(values.data(),
                                               static_cast<Eigen::Index>(values.size()));
   fit.parameters = LawParameters(*FindLaw(fit.friction.law), law, m);
-  if (fit.friction.thermal && estimate.Find("thermal_gain")) {
+  if (fit.friction.thermal && Find(Role::heat, estimate)) {
     for (FitParameter& row : HeatParameters(*fit.friction.thermal, m)) {
       fit.parameters.push_back(std::move(row));
     }
   }
-  if (const EstimatedParameter* start = estimate.Find("initial_energy")) {
+  if (const EstimatedParameter* start = Find(Role::start, estimate)) {
     fit.initial_energy = start->value;
     fit.parameters.push_back(StartParameter(start->value, m));
   }

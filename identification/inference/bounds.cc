@@ -5,12 +5,11 @@
 #include <algorithm>
 
 #include "identification/linear/against_curve.h"
+#include "models/friction/law_part.h"
 #include "models/friction/parameter_rows.h"
 
 namespace warmjoint::inline identification {
 namespace {
-
-constexpr std::string_view kViscousName = "viscous", kCoulombName = "coulomb";
 
 /// A parameter beside the bound that its value lies outside of.
 struct Excess {
@@ -52,7 +51,7 @@ std::string Words(const Excess& excess) {
                      excess.below ? "below" : "above", excess.bound, reach);
 }
 
-bool IsSlope(const FitParameter& parameter) { return parameter.name == kViscousName; }
+bool IsSlope(const FitParameter& parameter) { return PartOf(parameter.name) == LawPart::slope; }
 
 bool Warms(const Fit& fit) { return fit.RowOf(Role::heat).has_value(); }
 
@@ -84,7 +83,7 @@ std::string AgainstFallingSlope(const Fit& fit) {
 /// What makes a fit leave its bounds, and what to try.
 std::string Remedy(const Fit& fit, const FitParameter& parameter) {
   if (IsSlope(parameter)) return AgainstFallingSlope(fit);
-  if (!parameter.name.starts_with(kCoulombName)) {
+  if (PartOf(parameter.name) != LawPart::level) {
     return fmt::format("try --identifier {}", LinearCommand(Linear(fit), fit.friction.law));
   }
   const char* push = "a negative level would push the joint: ";
@@ -97,13 +96,13 @@ std::string Remedy(const Fit& fit, const FitParameter& parameter) {
       push, Linear(fit));
 }
 
-bool IsRise(const FitParameter& parameter) { return parameter.name == kStaticRiseRow.name; }
+bool IsRise(const FitParameter& parameter) { return PartOf(parameter.name) == LawPart::rest_rise; }
 
 /// In words that the level at rest is below that of sliding, of a law that has both; nothing where it is
 /// not.
 std::optional<std::string> RisesFromRest(const FrictionDescription& friction) {
   const auto at_rest = friction.parameters.find(std::string(kStaticRow.name));
-  const auto coulomb = friction.parameters.find(std::string(kCoulombName));
+  const auto coulomb = friction.parameters.find(std::string(kCoulombRow.name));
   const auto rise = friction.parameters.find(std::string(kStaticRiseRow.name));
   const auto none = friction.parameters.end();
   if (rise != none && rise->second < 0) return "static_rise is below 0";

@@ -4,6 +4,7 @@
 
 #include "identification/uncertainty/tails.h"
 #include "models/friction/thermal.h"
+#include "models/friction/thermal_names.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -41,8 +42,8 @@ std::vector<EstimatedParameter> DiscretePair(const Fit& fit, const Inference& in
   const KnownParameter& known_tau = inference.parameters[tau_row];
   const DiscreteThermal discrete = Discretise(fitted, h);
   EstimatedParameter gain{
-      "thermal_gain_discrete", discrete.gain, fit.parameters[gain_row].unit, {}, {}};
-  EstimatedParameter pole{"thermal_pole", discrete.pole, "1", {}, {}};
+      std::string(kDiscreteGainName), discrete.gain, fit.parameters[gain_row].unit, {}, {}};
+  EstimatedParameter pole{std::string(kPoleName), discrete.pole, "1", {}, {}};
 
   // to first order; dte/dln tau = te h/tau
   const double by_pole = discrete.pole * h / fitted.time_constant;

@@ -6,6 +6,7 @@
 #include "identification/report/end_state.h"
 #include "identification/report/heat_beside_temperature.h"
 #include "models/foundation/robust_noise.h"
+#include "models/friction/thermal_names.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -34,8 +35,8 @@ TraceEntry EntryOf(const Fit& fit, const Iterate& iterate, double h) {
     entry.parameters.emplace_back(fit.parameters[i].name, iterate.values[i]);
     if (tau != i || iterate.energy) continue;
     const DiscreteThermal discrete = Discretise({iterate.values[*gain], iterate.values[i]}, h);
-    entry.parameters.emplace_back("thermal_gain_discrete", discrete.gain);
-    entry.parameters.emplace_back("thermal_pole", discrete.pole);
+    entry.parameters.emplace_back(kDiscreteGainName, discrete.gain);
+    entry.parameters.emplace_back(kPoleName, discrete.pole);
   }
   if (iterate.energy) entry.parameters.emplace_back("energy", *iterate.energy);
   return entry;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "identification/find_parameter.h"
+
 namespace warmjoint::inline identification {
 namespace {
 
@@ -12,7 +14,7 @@ constexpr double kHarmless = 1e-3;    // attenuation
 constexpr double kUnseenPath = 5e-3;  // share of the path
 
 void TellReversals(double unseen, Estimate& estimate) {
-  if (unseen < kUnseenPath || !estimate.Find("thermal_gain")) return;
+  if (unseen < kUnseenPath || !Find(Role::heat, estimate)) return;
   estimate.warnings.push_back(
       fmt::format("reversals happen between two samples: if the drive reverses slowly, the joint "
                   "travelled up to {:.1f} % less than assumed, and thermal_gain is too small by as "
@@ -22,7 +24,7 @@ void TellReversals(double unseen, Estimate& estimate) {
 
 /// What of an estimate slopes over speed, for noise of the velocity to change; empty: nothing does.
 std::string_view SlopeOf(const Estimate& estimate) {
-  if (estimate.Find("viscous")) return "viscous";
+  if (const EstimatedParameter* slope = Find(LawPart::slope, estimate)) return slope->name;
   if (!estimate.friction) return "";
   for (const FrictionMap& map : estimate.friction->maps) {
     if (FindAxis(map, MapQuantity::velocity)) return "slopes over speed";
@@ -41,7 +43,7 @@ void TellVelocity(const VelocityNoise& taken, JointKind joint, Estimate& estimat
                     taken.noise, kVelocityUnit.For(joint));
     return;
   }
-  const EstimatedParameter* viscous = estimate.Find("viscous");
+  const EstimatedParameter* viscous = Find(LawPart::slope, estimate);
   estimate.message += fmt::format(
       "; velocity averaged over each segment, since its noise of {:.2g} {} would change {} by "
       "{:.2g} %",
@@ -54,8 +56,9 @@ void TellVelocity(const VelocityNoise& taken, JointKind joint, Estimate& estimat
   if (!viscous) return;
   const double move = std::abs(taken.left * viscous->value);
   for (EstimatedParameter& parameter : estimate.parameters) {
-    const bool is_level = parameter.name.starts_with("coulomb");
-    if (!parameter.interval95 || !(is_level || parameter.name == "viscous")) continue;
+    const LawPart part = PartOf(parameter.name);
+    const bool is_level = part == LawPart::level;
+    if (!parameter.interval95 || !(is_level || part == LawPart::slope)) continue;
     const double reach = is_level ? move * taken.mean_speed : move;
     (*parameter.interval95)[0] -= reach;
     (*parameter.interval95)[1] += reach;

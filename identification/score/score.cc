@@ -3,19 +3,21 @@
 #include <cmath>
 #include <limits>
 
+#include "identification/find_parameter.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/score/cramer_rao.h"
 #include "identification/score/npe.h"
 #include "models/foundation/robust_noise.h"
+#include "models/friction/thermal_names.h"
 
 namespace warmjoint::inline identification {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-ParameterScore ScoreOne(std::string name, double truth, const Estimate& estimate) {
+ParameterScore ScoreOne(std::string_view name, double truth, const Estimate& estimate) {
   ParameterScore score;
-  score.name = std::move(name);
+  score.name = name;
   score.truth = truth;
   score.bound = kNone;
   if (const EstimatedParameter* found = estimate.Find(score.name)) {
@@ -65,7 +67,7 @@ Eigen::MatrixXd Nuisance(const Estimate& estimate, const Measurements& m) {
 }  // namespace
 
 const LogView& ScoredView(const Estimate& estimate, const PreparedLog& log) {
-  const bool any = estimate.Find("inertia") && !estimate.Find("bristle_stiffness");
+  const bool any = Find(Role::inertia, estimate) && !Find(LawPart::bristle, estimate);
   return any ? log.moving() : log.taken();
 }
 
@@ -73,23 +75,22 @@ Score ScoreEstimate(const Estimate& estimate, const Measurements& measurements,
                     const Selection& selection, const Truth& truth) {
   Score score;
   for (const ParameterInfo& info : FindLaw(truth.friction.law)->parameters) {
-    const std::string name(info.name);
-    score.continuous.push_back(ScoreOne(name, truth.friction.parameters.at(name), estimate));
+    const double value = truth.friction.parameters.at(std::string(info.name));
+    score.continuous.push_back(ScoreOne(info.name, value, estimate));
   }
   score.discrete = score.continuous;
   const double step = MedianStep(measurements.time);
   if (truth.friction.thermal) {
     const Thermal& thermal = *truth.friction.thermal;
-    score.continuous.push_back(ScoreOne("thermal_gain", thermal.gain, estimate));
-    score.continuous.push_back(ScoreOne("thermal_time_constant", thermal.time_constant, estimate));
+    score.continuous.push_back(ScoreOne(kGainName, thermal.gain, estimate));
+    score.continuous.push_back(ScoreOne(kTimeConstantName, thermal.time_constant, estimate));
 
     const DiscreteThermal discrete = Discretise(thermal, step);
-    score.discrete.push_back(ScoreOne("thermal_gain_discrete", discrete.gain, estimate));
-    score.discrete.push_back(ScoreOne("thermal_pole", discrete.pole, estimate));
+    score.discrete.push_back(ScoreOne(kDiscreteGainName, discrete.gain, estimate));
+    score.discrete.push_back(ScoreOne(kPoleName, discrete.pole, estimate));
   }
 
-  const auto known =
-      estimate.Find("initial_energy") ? KnownInitialEnergy::no : KnownInitialEnergy::yes;
+  const auto known = Find(Role::start, estimate) ? KnownInitialEnergy::no : KnownInitialEnergy::yes;
   const CramerRao bound =
       CramerRaoBound(measurements, selection, truth, known, step, Nuisance(estimate, measurements));
   for (size_t i = 0; i < score.continuous.size(); ++i) {

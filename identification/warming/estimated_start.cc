@@ -1,20 +1,19 @@
 #include "identification/warming/estimated_start.h"
 
-#include <fmt/format.h>
-
+#include "identification/find_parameter.h"
 #include "identification/warming/gaps.h"
 
 namespace warmjoint::inline identification {
 
 CourseStart StartOf(const Estimate& estimate, const Measurements& measurements) {
   CourseStart start;
-  if (const EstimatedParameter* found = estimate.Find("initial_energy")) {
+  if (const EstimatedParameter* found = Find(Role::start, estimate)) {
     start.energy = found->value;
   }
-  if (!estimate.Find("energy_jump_1")) return start;
+  if (!Find(Role::jump, estimate)) return start;
   const std::vector<LogGap> gaps = FindGaps(measurements);
   for (size_t i = 0; i < gaps.size(); ++i) {
-    const EstimatedParameter* jump = estimate.Find(fmt::format("energy_jump_{}", i + 1));
+    const EstimatedParameter* jump = Find(Role::jump, estimate, static_cast<int>(i));
     start.jumps.push_back({gaps[i].behind, jump ? jump->value : 0});
   }
   return start;

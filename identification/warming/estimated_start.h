@@ -8,7 +8,7 @@
 namespace warmjoint::inline identification {
 
 /// E(0) and the jumps of E at the recording's gaps (gaps.h), as far as the estimate has them: its
-/// parameters initial_energy and energy_jump_1, energy_jump_2, ... What is not estimated is 0.
+/// parameters with Role::start and Role::jump. What is not estimated is 0.
 /// measurements: those that the estimate was fitted to.
 CourseStart StartOf(const Estimate& estimate, const Measurements& measurements);
 
