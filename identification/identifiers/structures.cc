@@ -8,6 +8,7 @@
 #include "identification/identifiers/nominal_ls.h"
 #include "identification/identifiers/position_ridge.h"
 #include "identification/identifiers/stribeck.h"
+#include "identification/lagged/lagged_fit.h"
 #include "models/friction/asymmetric_stribeck.h"
 #include "models/recording/motor_angle.h"
 
@@ -40,7 +41,7 @@ Structure Structure::WithShapeOf(const FrictionMap& map) const {
 }
 
 bool Structure::CanTellLag() const {
-  return identifier.Has("torque_lag") && Given("position", "none") == "none";
+  return TellsLag(identifier) && Given("position", "none") == "none";
 }
 
 Fit Structure::Fitted(const IdentifierInput& input) const {

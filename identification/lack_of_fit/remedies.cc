@@ -6,8 +6,11 @@
 #include <numbers>
 
 #include "identification/lack_of_fit/words.h"
+#include "identification/lagged/lagged_fit.h"
 #include "identification/linear/against_curve.h"
 #include "identification/linear/linear_laws.h"
+#include "identification/linear/rigid_part.h"
+#include "identification/warming/expected_start.h"
 #include "models/friction/law.h"
 #include "models/friction/law_list.h"
 #include "models/friction/parameter_rows.h"
@@ -73,7 +76,7 @@ std::string Finer(const Advice& advice, MapQuantity quantity, const char* option
 
 /// Whether E(0) can be estimated: the fits with maps cannot.
 bool TakesStart(const Identifier& identifier, const IdentifierInput& input) {
-  return identifier.Has("initial_energy") && input.options.Text("position") == "none";
+  return TellsStart(identifier) && input.options.Text("position") == "none";
 }
 
 /// Whether gravity may be what acts alike in both directions: it turns once with the joint, so that
@@ -101,8 +104,7 @@ std::string AgainstWarming(const Advice& advice) {
     if (HoldsCurve(advice)) return Try(advice, CurveCommand(advice.fit.friction.law, "estimated"));
     return Try(advice, "energy-ml");
   }
-  if (TakesStart(advice.identifier, advice.input) &&
-      advice.input.options.Text("initial_energy") == "zero") {
+  if (TakesStart(advice.identifier, advice.input) && TakesColdStart(advice.input.options)) {
     return "if the joint was warm at the start, try --start estimated; else one time constant is "
            "too few, or the surroundings change their temperature";
   }
@@ -212,8 +214,7 @@ std::string AgainstPeriod(const Advice&) {
 std::string AgainstLag(const Advice& advice) {
   const Law& law = *FindLaw(advice.fit.friction.law);
   const bool can = IsLinear(law) && advice.fit.friction.maps.empty() && !advice.fit.inertia;
-  const bool asked =
-      advice.identifier.Has("torque_lag") && advice.input.options.Text("torque_lag") == "estimated";
+  const bool asked = TellsLag(advice.identifier) && AsksForLag(advice.input);
   if (!can || asked || advice.fit.torque_lag) {
     return "is the torque filtered or late? shift it against the velocity, or log both alike";
   }
@@ -237,9 +238,9 @@ std::string AgainstPosition(const Advice& advice) {
   const std::string how = alike ? "it acts alike in both directions, as " : "";
   if (alike && MayBeGravity(advice)) {
     return how + fmt::format("gravity does: try --identifier {} --gravity sincos",
-                             advice.identifier.Has("gravity") ? advice.fit.identifier
-                             : warm                           ? "energy-ml"
-                                                              : "nominal-ls");
+                             TellsGravity(advice.identifier) ? advice.fit.identifier
+                             : warm                          ? "energy-ml"
+                                                             : "nominal-ls");
   }
   if (HoldsMap(advice, MapQuantity::position)) {
     return Finer(advice, MapQuantity::position, "kernels", 128);

@@ -20,6 +20,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr const char* kLagOption = "torque_lag";
+
 /// Rows of the kept samples. [n x q]
 MatrixXd AtKept(const MatrixXd& all, const KeptRuns& runs) { return all(runs.samples, Eigen::all); }
 
@@ -73,12 +75,14 @@ MatrixXd AtSamples(const MatrixXd& kept, const KeptRuns& runs, Index all) {
 }  // namespace
 
 OptionInfo TorqueLagOption() {
-  return {"torque_lag", "none", "none|estimated",
+  return {kLagOption, "none", "none|estimated",
           "the torque's first-order lag, estimated where the log shows one"};
 }
 
+bool TellsLag(const Identifier& identifier) { return identifier.Has(kLagOption); }
+
 bool AsksForLag(const IdentifierInput& input) {
-  return input.options.Text("torque_lag") == "estimated";
+  return input.options.Text(kLagOption) == "estimated";
 }
 
 std::optional<std::string> WhyNoLag(const IdentifierInput& input) {

@@ -15,6 +15,9 @@ namespace warmjoint::inline identification {
 /// The row of an identifier that can estimate a lag in its table of options.
 OptionInfo TorqueLagOption();
 
+/// Whether an identifier has that row.
+bool TellsLag(const Identifier& identifier);
+
 /// Whether the option asks for a lag.
 bool AsksForLag(const IdentifierInput& input);
 

@@ -23,7 +23,7 @@ WarmFit Again(const ClosedLoop& loop, const Eigen::VectorXd& level, const Eigen:
 
 std::vector<OptionInfo> InitialEnergyOptions() {
   return {
-      {"initial_energy", "zero", "zero|estimated|expected",
+      {kStartOption, "zero", "zero|estimated|expected",
        "E(0): 0 for a cold joint; estimated at a cost of accuracy; or expected at about a value, "
        "as --follows has it"},
       {"expected_energy", "0", "number", "N.m or N; E(0) where it is expected"},
@@ -31,10 +31,13 @@ std::vector<OptionInfo> InitialEnergyOptions() {
        "N.m or N; standard deviation of that; 0: known exactly"}};
 }
 
+bool TellsStart(const Identifier& identifier) { return identifier.Has(kStartOption); }
+
+bool TakesColdStart(const Options& options) { return options.Text(kStartOption) == "zero"; }
+
 InitialEnergy InitialEnergyOf(const Options& options) {
-  const std::string& word = options.Text("initial_energy");
-  if (word == "zero") return InitialEnergy::zero;
-  if (word == "estimated") return InitialEnergy::estimated;
+  if (TakesColdStart(options)) return InitialEnergy::zero;
+  if (options.Text(kStartOption) == "estimated") return InitialEnergy::estimated;
   const double spread = options.Number("expected_energy_std");
   return {options.Number("expected_energy"), std::max(spread, InitialEnergy::kExact)};
 }

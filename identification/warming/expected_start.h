@@ -5,13 +5,23 @@
 #include <string>
 #include <vector>
 
+#include "identification/identifier.h"
 #include "identification/options.h"
 #include "identification/warming/warm_fit.h"
 
 namespace warmjoint::inline identification {
 
+/// The option that says what is known of E(0).
+inline constexpr const char* kStartOption = "initial_energy";
+
 /// The rows of the table of options that say what is known of E(0).
 std::vector<OptionInfo> InitialEnergyOptions();
+
+/// Whether an identifier has them.
+bool TellsStart(const Identifier& identifier);
+
+/// Whether they take the joint for cold as the log begins.
+bool TakesColdStart(const Options& options);
 
 /// What they say.
 InitialEnergy InitialEnergyOf(const Options& options);
