@@ -39,15 +39,13 @@ LoopResponse ClosedLoop::Simulate(const Eigen::VectorXd& parameters, const Therm
         energy += jumps[static_cast<Eigen::Index>(next++)];
       const double level = nominal[n] + std::abs(direction_[n]) * energy;
       const IntervalHold& hold = hold_after[n];
-      double feedback = hold.gain * speed_[n];
-      if (level < 0) {  // W = -|v| a
-        if (!response.feeds_itself) response.feeds_itself = n;
-        feedback = -feedback;
-      }
+      const bool pushes = level < 0;  // then W = -|v| a
+      if (pushes && !response.feeds_itself) response.feeds_itself = n;
+      const auto [feedback, lambda] = FedBack(hold, pushes ? -speed_[n] : speed_[n]);
       response.energy[n] = energy;
       response.force[n] = direction_[n] * level;
       response.loss[n] = Loss(speed_[n], level + (nominal_of_loss[n] - nominal[n]));
-      energy = (hold.pole + feedback) * energy + feedback * nominal_of_loss[n];
+      energy = ThermalStep(feedback, lambda, energy, nominal_of_loss[n]);
     }
   });
   return response;

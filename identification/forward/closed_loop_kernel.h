@@ -8,6 +8,15 @@
 
 namespace warmjoint::inline identification {
 
+/// Eq. (22) over one interval where the loss follows E itself, W = |v| (g p + E): ThermalStep of the
+/// level g p alone, with the gain ke |v| and the pole te + ke |v|. One product and one sum lead from
+/// each E to its next, so that what waits for the state before is short.
+/// speed: |v|, rad/s or m/s.
+inline DiscreteThermal FedBack(const IntervalHold& hold, double speed) {
+  const double gain = hold.gain * speed;
+  return {gain, hold.pole + gain};
+}
+
 /// Number of law parameters known at compile time (D), or only at run time (Eigen::Dynamic).
 template <int D>
 struct LoopSize {
@@ -77,23 +86,21 @@ void RunWithSensitivities(const ClosedLoop& loop, const double* parameters, doub
     const double level = nominal + energy;
     visit(n, level, g, S.data());
 
-    // one product and one sum from each state to its next: what waits for the state before is short
     const IntervalHold& hold = hold_after[n];
-    const double feedback = hold.gain * speed[n];
-    const double lambda = hold.pole + feedback;
+    const auto [feedback, lambda] = FedBack(hold, speed[n]);
     if (apart) {
       nominal = of_loss[0] * parameters[0];
       for (Eigen::Index i = 1; i < d; ++i) nominal += of_loss[i] * parameters[i];
     }
     const double loss = speed[n] * (nominal + energy);
-    for (Eigen::Index i = 0; i < d; ++i) S[i] = lambda * S[i] + feedback * of_loss[i];
-    S[d] = lambda * S[d] + hold.cooling * loss;
-    S[d + 1] = lambda * S[d + 1] + hold.pole_slope * (energy - gain * loss);
+    for (Eigen::Index i = 0; i < d; ++i) S[i] = ThermalStep(feedback, lambda, S[i], of_loss[i]);
+    S[d] = ThermalStep(hold.cooling, lambda, S[d], loss);
+    S[d + 1] = ThermalStep(hold.pole_slope, lambda, S[d + 1], energy - gain * loss);
     S[d + 2] = lambda * S[d + 2];
     if constexpr (D == Eigen::Dynamic) {
       for (size_t i = 0; i < jumped; ++i) S[static_cast<size_t>(d) + 3 + i] *= lambda;
     }
-    energy = lambda * energy + feedback * nominal;
+    energy = ThermalStep(feedback, lambda, energy, nominal);
   }
 }
 

@@ -133,6 +133,42 @@ TEST(ClosedLoop, IsTheForwardModelWithJumpsAndColdStarts) {
   ExpectNear(response.energy, p.energy, 1e-14);
 }
 
+TEST(ClosedLoop, FollowsTheHeatThatThePluginsKernelSteps) {
+  constexpr Eigen::Index kSamples = 400;
+  const Eigen::VectorXd time = EvenTime(kSamples);
+  Eigen::VectorXd v(kSamples);  // of both signs, with rests
+  for (Eigen::Index i = 0; i < kSamples; ++i) {
+    v[i] = i % 7 == 3 ? 0 : 1.3 * std::sin(0.05 * static_cast<double>(i * i % 97));
+  }
+  for (const Law& law : Laws()) {
+    if (!IsLinear(law)) continue;
+    FrictionDescription friction{std::string(law.name), {}, Thermal{-0.8, 70}};
+    Eigen::VectorXd p(static_cast<Eigen::Index>(law.parameters.size()));
+    for (size_t i = 0; i < law.parameters.size(); ++i) {
+      p[static_cast<Eigen::Index>(i)] = 5 + 4 * static_cast<double>(i);
+      friction.parameters[std::string(law.parameters[i].name)] = p[static_cast<Eigen::Index>(i)];
+    }
+    const LoopResponse response =
+        ClosedLoop(time, v, LawColumns(law, v)).Simulate(p, *friction.thermal, -0.5);
+
+    // so heavy a joint that its bristle yields within one step
+    JointFriction joint(friction);
+    joint.SetTimestep(kStep);
+    FrictionState state{0, -0.5};
+    for (Eigen::Index i = 0; i < kSamples; ++i) {
+      // lambda E + feedback g against te E + ke W: some ten roundings of the largest level remain
+      EXPECT_NEAR(response.energy[i], state.energy, 1e-14 * 20) << law.name << " at " << i;
+      const FrictionStep step = joint.Step(state, {.velocity = v[i], .inertia = 1e9});
+      EXPECT_NEAR(response.loss[i], step.loss, 1e-14 * 20 * 1.3) << law.name << " at " << i;
+      if (v[i] != 0) {
+        EXPECT_NEAR(response.force[i], step.force, 1e-14 * 20) << law.name << " at " << i;
+      }
+      state = step.next;
+    }
+    EXPECT_FALSE(response.feeds_itself);
+  }
+}
+
 TEST(ClosedLoop, LosesByTheMeansBetweenSamplesAsTheForwardModel) {
   // an asymmetric law, so that levels and losses differ by side and speed
   Measurements m;
