@@ -18,7 +18,9 @@
 namespace warmjoint::inline identification {
 namespace {
 
-constexpr double kSettledAfter = 3;  // time constants; why 3: 5 % are left
+constexpr double kSettledAfter = 3;    // time constants; why 3: 5 % are left
+constexpr size_t kMostKernels = 128;   // of a map over position; why: most that the options take
+constexpr size_t kKernelsAPeriod = 3;  // why: a wave has two coefficients, and kernels overlap
 
 /// What a model holds already, whoever fitted it: `auto` is not told to try what it chose.
 bool HoldsMap(const Advice& advice, MapQuantity quantity) {
@@ -242,8 +244,19 @@ std::string AgainstPosition(const Advice& advice) {
                              : warm                          ? "energy-ml"
                                                              : "nominal-ls");
   }
+  const Eigen::VectorXd& position = advice.input.measurements.position;
+  const double periods = (position.maxCoeff() - position.minCoeff()) / advice.finding.period;
+  constexpr size_t most = kMostKernels / kKernelsAPeriod;
+  if (periods > most) {
+    return how + fmt::format(
+                     "it returns {:.0f} times over the travel, and a map follows {} periods at "
+                     "most: record it "
+                     "within {:.2g} {}",
+                     periods, most, most * advice.finding.period,
+                     kPositionUnit.For(advice.input.measurements.joint));
+  }
   if (HoldsMap(advice, MapQuantity::position)) {
-    return Finer(advice, MapQuantity::position, "kernels", 128);
+    return Finer(advice, MapQuantity::position, "kernels", kMostKernels);
   }
   const std::string map = warm ? "energy-ml --set position=map" : "position-ridge";
   if (!alike) return Try(advice, map);
@@ -253,7 +266,7 @@ std::string AgainstPosition(const Advice& advice) {
 
 std::string AgainstMotorAngle(const Advice& advice) {
   if (HoldsMap(advice, MapQuantity::motor_position)) {
-    return Finer(advice, MapQuantity::motor_position, "motor_kernels", 128);
+    return Finer(advice, MapQuantity::motor_position, "motor_kernels", kMostKernels);
   }
   return Try(advice, HoldsWarming(advice) ? "energy-ml --set position=motor" : "motor-ridge");
 }

@@ -2,9 +2,12 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <optional>
+#include <unsupported/Eigen/FFT>
 
 #include "identification/fit_data.h"
 #include "identification/lack_of_fit/significance.h"
@@ -21,15 +24,17 @@ using Eigen::VectorXd;
 
 constexpr int kMost = 6;  // frequencies that are reported together
 constexpr int kMotorHarmonics = 8;
-constexpr double kFinestPosition = 128;  // cycles over the travel
-constexpr double kBinsACycle = 8;
+constexpr double kFinestPosition = 512;  // cycles over the travel
+constexpr double kSamplesACycle = 16;    // two samples a bin
+constexpr double kBinsACycle = 8;        // a wave in steps has 95 % of its squares
 
 /// Sums of the residual and of samples over bins of the axis, apart for each direction and part.
 class BinnedResidual {
  public:
   BinnedResidual(const AngleAxis& axis, const VectorXd& residual, const VectorXd& velocity,
                  const Selection& selection)
-      : bins_(static_cast<Index>(std::ceil(kBinsACycle * axis.step * axis.frequencies))),
+      : bins_(static_cast<Index>(
+            std::bit_ceil(static_cast<unsigned>(kBinsACycle * axis.step * axis.frequencies)))),
         taken_(MatrixXd::Zero(bins_, 2)) {
     const auto n = static_cast<double>(selection.count());
     for (int d = 0; d < 2; ++d) {
@@ -104,26 +109,22 @@ MatrixXd Waves(double frequency, Index bins) {
 }
 
 Peak StrongestFrequency(const AngleAxis& axis, const BinnedResidual& binned) {
+  // both directions in one transform: forwards + i backwards, with zeros behind for steps below a cycle
   const VectorXd forwards = binned.Total(0), backwards = binned.Total(1);
-  const Index bins = binned.bins();
+  const auto length = static_cast<size_t>(static_cast<double>(binned.bins()) / axis.step);
+  std::vector<std::complex<double>> sums(length), waves;
+  for (Index b = 0; b < binned.bins(); ++b) {
+    sums[static_cast<size_t>(b)] = {forwards[b], backwards[b]};
+  }
+  Eigen::FFT<double>().fwd(waves, sums);
+
   Peak peak;
   for (int k = 1; k <= axis.frequencies; ++k) {
-    // e^(i phase) bin by bin, turned from one to the next
-    const double turn = 2 * std::numbers::pi * axis.step * k / static_cast<double>(bins);
-    const double turn_cos = std::cos(turn), turn_sin = std::sin(turn);
-    double c = std::cos(turn / 2), s = std::sin(turn / 2);
-    double fc = 0, fs = 0, bc = 0, bs = 0;
-    for (Index b = 0; b < bins; ++b) {
-      fc += c * forwards[b];
-      fs += s * forwards[b];
-      bc += c * backwards[b];
-      bs += s * backwards[b];
-      const double next = c * turn_cos - s * turn_sin;
-      s = s * turn_cos + c * turn_sin;
-      c = next;
-    }
-    const double explained = 2 * ((fc * fc + fs * fs) / std::max(binned.samples(0), 1.0) +
-                                  (bc * bc + bs * bs) / std::max(binned.samples(1), 1.0));
+    const std::complex<double> wave = waves[static_cast<size_t>(k)];
+    const std::complex<double> mirrored = std::conj(waves[length - static_cast<size_t>(k)]);
+    const double explained =
+        2 * (std::norm(0.5 * (wave + mirrored)) / std::max(binned.samples(0), 1.0) +
+             std::norm(0.5 * (wave - mirrored)) / std::max(binned.samples(1), 1.0));
     if (explained > peak.explained) peak = {k, explained};
   }
   return peak;
@@ -184,15 +185,16 @@ std::optional<AngleAxis> MotorAxis(const Measurements& m) {
   return axis;
 }
 
-/// The travel of the kept samples, down to periods that they show at half of the highest speed.
+/// The travel of the kept samples, down to periods of which half of the samples see two a period or more: at speeds that
+/// differ, faster ones tell them, too.
 std::optional<AngleAxis> PositionAxis(const Measurements& m, const Selection& selection) {
-  const Eigen::VectorXd kept = Kept(m.position, selection);
+  const VectorXd kept = Kept(m.position, selection);
+  VectorXd speeds = Kept(m.velocity, selection).cwiseAbs();
   const double lower = kept.minCoeff(), travel = kept.maxCoeff() - lower;
-  const double step = MedianStep(m.time);
-  const double finest = m.velocity.cwiseAbs().maxCoeff() * step;  // half a period
+  const double finest = 2 * MedianInPlace(speeds) * MedianStep(m.time);
   if (!(travel > 0) || !std::isfinite(travel) || !(finest > 0)) return std::nullopt;
   const double cycles = std::min(
-      {travel / finest, kFinestPosition, 0.5 * std::sqrt(static_cast<double>(kept.size()))});
+      {travel / finest, kFinestPosition, static_cast<double>(kept.size()) / kSamplesACycle});
   if (cycles < 1) return std::nullopt;
   AngleAxis axis{&PositionTest(), {}, travel, 0.5, static_cast<int>(2 * cycles)};
   axis.phase = (m.position.array() - lower) / travel;

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <numbers>
 #include <regex>
 #include <set>
 
@@ -236,6 +237,30 @@ TEST(Remedies, AgainstRippleOfAJointThatWarms) {
   rippled.maps = {test::PositionLevel(2.5, 1.5)};
   ExpectLeadsSomewhere("energy-ml", Travelling(rippled, 1));
   ExpectLeadsSomewhere("position-ridge", Travelling(rippled, 1));
+}
+
+/// Ripple of 1 N.m against the motion, every 1.3 rad.
+Measurements WithRipple(Measurements m) {
+  for (Eigen::Index i = 0; i < m.size(); ++i) {
+    m.torque[i] += Sign(m.velocity[i]) * std::sin(2 * std::numbers::pi / 1.3 * m.position[i]);
+  }
+  return m;
+}
+
+TEST(Remedies, AgainstMoreRippleThanAMapFollows) {
+  // steps of a random walk over a hundred periods and more
+  const FrictionDescription friction = test::Cold();
+  const Measurements wide = WithRipple(test::RecordHour(friction, 1));
+  ASSERT_GT(wide.position.maxCoeff() - wide.position.minCoeff(), 60 * 1.3);
+  const Estimate estimate = test::Answer("nominal-ls", wide);
+  EXPECT_EQ(estimate.status, Status::inadequate_model);
+  EXPECT_TRUE(test::Asked(estimate, "position").rejected);
+  EXPECT_THAT(estimate.message, ::testing::HasSubstr("record it within 55 rad"));
+
+  // within that a map follows
+  const Eigen::VectorXd velocity = test::Travel(12000, 0.1, 27, {0.2, 0.5, 0.9});
+  ExpectLeadsSomewhere("nominal-ls",
+                       WithRipple(test::RecordFriction(friction, 0.1, velocity, 0.3, 1)));
 }
 
 TEST(Remedies, AgainstRippleOfTheMotor) {
