@@ -8,9 +8,11 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "identification/find_parameter.h"
 #include "identification/uncertainty/tails.h"
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
+#include "models/friction/thermal_names.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -67,11 +69,11 @@ LeftHeat HeatLeftBy(const Estimate& estimate, const std::string& file) {
   if (const EstimatedParameter* time = FindIn(estimate.state_end, "time")) left.stamp = time->value;
 
   // its stages, each with its time constant
-  for (const auto& [name, thermal, tau_name] :
+  for (const auto& [name, thermal, prefix] :
        {std::tuple(kStages[0], estimate.friction ? estimate.friction->thermal : std::nullopt,
-                   "thermal_time_constant"),
+                   std::string_view()),
         std::tuple(kStages[1], estimate.friction ? estimate.friction->second_thermal : std::nullopt,
-                   "second_thermal_time_constant")}) {
+                   kSecondStage)}) {
     const EstimatedParameter* energy = FindIn(estimate.state_end, name);
     if (!energy) continue;
     const std::optional<double> deviation = DeviationOf(*energy);
@@ -79,7 +81,8 @@ LeftHeat HeatLeftBy(const Estimate& estimate, const std::string& file) {
       Refuse(place, "its state_end.{} has no {}, so nothing is known of what is left after a pause",
              name, thermal ? "interval" : "time constant");
     }
-    const EstimatedParameter* tau = estimate.Find(tau_name);
+    const EstimatedParameter* tau =
+        estimate.Find(fmt::format("{}{}", prefix, NameOf(Role::heat, 1)));
     const double tau_deviation = tau ? DeviationOf(*tau).value_or(0) : 0;
     left.stages.push_back({energy->value, *deviation, thermal->time_constant, tau_deviation});
   }

@@ -8,6 +8,7 @@
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/linear/rigid_part.h"
+#include "identification/warming/expected_start.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
 
@@ -34,15 +35,14 @@ void AddStart(const IdentifySettings& settings, const Identifier& identifier,
               std::map<std::string, std::string>& given) {
   if (settings.start != "estimated" && !settings.follows) return;
   const char* option = settings.follows ? "--follows" : "--start";
-  if (!identifier.Has("initial_energy")) {
-    Refuse({option}, "{} cannot estimate E(0); use one of: {}", identifier.name,
-           Able([](const Identifier& one) { return one.Has("initial_energy"); }));
+  if (!TellsStart(identifier)) {
+    Refuse({option}, "{} cannot estimate E(0); use one of: {}", identifier.name, Able(TellsStart));
   }
   if (!settings.follows) {
-    given["initial_energy"] = "estimated";
+    given[kStartOption] = "estimated";
     return;
   }
-  if (settings.start != "cold" || given.contains("initial_energy")) {
+  if (settings.start != "cold" || given.contains(kStartOption)) {
     Refuse({option}, "says how warm the joint is at the start, and so does {}; leave one of them",
            settings.start != "cold" ? "--start" : "--set initial_energy");
   }
@@ -50,7 +50,7 @@ void AddStart(const IdentifySettings& settings, const Identifier& identifier,
     Refuse({option}, "{} holds two stages of warming, and {} fits one", settings.follows->file,
            identifier.name);
   }
-  given["initial_energy"] = "expected";
+  given[kStartOption] = "expected";
   given["expected_energy"] = fmt::format("{}", settings.follows->energy[0]);
   given["expected_energy_std"] = fmt::format("{}", settings.follows->std[0]);
 }

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "identification/find_parameter.h"
 #include "identification/fit_data.h"
 #include "models/foundation/read_json.h"
 
@@ -25,10 +26,10 @@ StoredModel ReadStoredModel(const std::string& file) {
   stored.identifier = estimate.identifier;
   stored.status = estimate.status;
   stored.model = {*estimate.friction, estimate.gravity, {}};
-  if (const EstimatedParameter* inertia = estimate.Find("inertia")) {
+  if (const EstimatedParameter* inertia = Find(Role::inertia, estimate)) {
     stored.model.inertia = inertia->value;
   }
-  if (const EstimatedParameter* lag = estimate.Find("torque_lag")) stored.model.lag = lag->value;
+  if (const EstimatedParameter* lag = Find(Role::lag, estimate)) stored.model.lag = lag->value;
   return stored;
 }
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "identification/answer/judge_estimate.h"
+#include "identification/find_parameter.h"
 #include "identification/fit_data.h"
 #include "identification/options.h"
 #include "identification/warming/estimated_start.h"
@@ -13,6 +14,7 @@
 #include "models/foundation/excerpt.h"
 #include "models/foundation/read_json.h"
 #include "models/foundation/robust_noise.h"
+#include "models/friction/thermal_names.h"
 #include "models/recording/course_of.h"
 #include "models/recording/read_recording.h"
 #include "tools/suite/interpreter.h"
@@ -73,16 +75,16 @@ Estimate ReadAnswer(const fs::path& file, const std::string& label) {
 
 /// The discrete pair (22) of an estimate that brings only the continuous one, without intervals.
 void AddDiscretePair(Estimate& estimate, const Measurements& measurements) {
-  const EstimatedParameter* gain = estimate.Find("thermal_gain");
-  const EstimatedParameter* time_constant = estimate.Find("thermal_time_constant");
+  const EstimatedParameter* gain = Find(Role::heat, estimate, 0);
+  const EstimatedParameter* time_constant = Find(Role::heat, estimate, 1);
   if (!gain || !time_constant || time_constant->value <= 0) return;
-  if (estimate.Find("thermal_gain_discrete") || estimate.Find("thermal_pole")) return;
+  if (estimate.Find(kDiscreteGainName) || estimate.Find(kPoleName)) return;
 
   const double step = MedianStep(measurements.time);
   const std::string unit = gain->unit;
   const DiscreteThermal pair = Discretise({gain->value, time_constant->value}, step);
-  estimate.parameters.push_back({"thermal_gain_discrete", pair.gain, unit, {}, {}});
-  estimate.parameters.push_back({"thermal_pole", pair.pole, "1", {}, {}});
+  estimate.parameters.push_back({std::string(kDiscreteGainName), pair.gain, unit, {}, {}});
+  estimate.parameters.push_back({std::string(kPoleName), pair.pole, "1", {}, {}});
 }
 
 /// Figures of an estimate that brings a friction but none of its own.

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "identification/score/npe.h"
-#include "models/friction/thermal.h"
+#include "models/friction/thermal_names.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -16,19 +16,19 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 /// The entry's parameters, with both thermal pairs where it has one.
 Values AllParameters(const TraceEntry& entry, double step) {
   Values values(entry.parameters.begin(), entry.parameters.end());
-  const bool continuous = values.count("thermal_gain") && values.count("thermal_time_constant");
-  const bool discrete = values.count("thermal_gain_discrete") && values.count("thermal_pole");
+  const std::string gain(kGainName), tau(kTimeConstantName), discrete_gain(kDiscreteGainName),
+      pole(kPoleName);
+  const bool continuous = values.count(gain) && values.count(tau);
+  const bool discrete = values.count(discrete_gain) && values.count(pole);
   if (continuous && !discrete) {
-    const DiscreteThermal pair =
-        Discretise({values["thermal_gain"], values["thermal_time_constant"]}, step);
-    values["thermal_gain_discrete"] = pair.gain;
-    values["thermal_pole"] = pair.pole;
+    const DiscreteThermal pair = Discretise({values[gain], values[tau]}, step);
+    values[discrete_gain] = pair.gain;
+    values[pole] = pair.pole;
   }
   if (discrete && !continuous) {
-    const Thermal pair =
-        Continuous({values["thermal_gain_discrete"], values["thermal_pole"]}, step);
-    values["thermal_gain"] = pair.gain;
-    values["thermal_time_constant"] = pair.time_constant;
+    const Thermal pair = Continuous({values[discrete_gain], values[pole]}, step);
+    values[gain] = pair.gain;
+    values[tau] = pair.time_constant;
   }
   return values;
 }

@@ -1,5 +1,6 @@
 #include "tools/report/estimate/estimate_view.h"
 
+#include "identification/find_parameter.h"
 #include "tools/actions/fit_again.h"
 #include "tools/actions/identify_recording.h"
 
@@ -33,7 +34,7 @@ EstimateView ViewOwnRecording(Estimate estimate, const PreparedLog& own) {
   EstimateView view = MakeEstimateView(WithFitAgain(std::move(estimate), own), own);
   if (!view.estimate.holdout) return view;
   const auto& [measurements, selection] =
-      view.estimate.Find("inertia") ? own.moving() : own.taken();
+      Find(Role::inertia, view.estimate) ? own.moving() : own.taken();
   if (const auto first = FitFirstPartAgain(view.estimate, own, HoldOutSource{}.fraction)) {
     view.held_out =
         MakeFitView(measurements, From(first->split, measurements, selection), first->estimate);

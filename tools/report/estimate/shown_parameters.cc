@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "identification/find_parameter.h"
 #include "models/friction/law.h"
 
 namespace warmjoint::inline tools {
@@ -20,12 +21,10 @@ bool IsShared(const Estimate& estimate, const EstimatedParameter& one) {
 
 /// Friction at each of the speeds.
 std::vector<EstimatedParameter> AtSpeeds(const Estimate& estimate) {
-  const EstimatedParameter* slope = estimate.Find("viscous");
+  const EstimatedParameter* slope = Find(LawPart::slope, estimate);
   const char* speed = slope && slope->unit.ends_with("/m") ? "m/s" : "rad/s";
-  std::string unit;
-  for (const EstimatedParameter& one : estimate.parameters) {
-    if (one.name.starts_with("coulomb")) unit = one.unit;
-  }
+  const EstimatedParameter* level = Find(LawPart::level, estimate);
+  const std::string unit = level ? level->unit : "";
   std::vector<EstimatedParameter> rows;
   for (const FrictionAtSpeed& one : estimate.at_speeds) {
     rows.push_back({fmt::format("friction at {:.3g} {}", one.speed, speed), one.value, unit,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "identification/find_parameter.h"
 #include "tools/report/draw/ticks.h"
 #include "tools/report/estimate/estimate_figures.h"
 #include "tools/report/figures/axes.h"
@@ -64,12 +65,8 @@ std::vector<std::string> InOrderOfTheLaw(const TraceEntry& entry) {
 
 /// " (N·m)", the unit of its torques; nothing where no parameter tells.
 std::string TorqueUnitIn(const Estimate& estimate) {
-  for (const EstimatedParameter& parameter : estimate.parameters) {
-    if (parameter.name.starts_with("coulomb")) {
-      return fmt::format(" ({})", UnitText(parameter.unit));
-    }
-  }
-  return "";
+  const EstimatedParameter* level = Find(LawPart::level, estimate);
+  return level ? fmt::format(" ({})", UnitText(level->unit)) : "";
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "identification/find_parameter.h"
 #include "identification/warming/estimated_start.h"
 #include "models/foundation/low_pass.h"
 #include "models/recording/course_of.h"
@@ -31,11 +32,15 @@ TimeScale ScaleOf(const FitView& view) {
 /// Leaves friction in the torque, where gravity and inertia are known.
 void TakeRigidOff(const Estimate& estimate, const Measurements& measurements, FitView& view) {
   view.rigid = Eigen::VectorXd::Zero(measurements.size());
-  const EstimatedParameter* inertia = estimate.Find("inertia");
+
+  // the inertia's torque, and gravity's
+  const EstimatedParameter* inertia = Find(Role::inertia, estimate);
   if (inertia && measurements.acceleration)
     view.rigid += inertia->value * *measurements.acceleration;
   if (estimate.gravity) view.rigid += estimate.gravity->Torque(view.position);
   view.torque -= view.rigid;
+
+  // beyond the places that gravity is known at, nothing can be compared
   if (!estimate.gravity) return;
   const GravityModel& gravity = *estimate.gravity;
   for (Eigen::Index i = 0; i < view.position.size(); ++i) {
@@ -80,7 +85,8 @@ FitView WithoutFit(const Measurements& measurements, const Selection& selection,
 }  // namespace
 
 FitView MakeFitView(const PreparedLog& log, const Estimate& estimate) {
-  const auto& [measurements, selection] = estimate.Find("inertia") ? log.moving() : log.taken();
+  const auto& [measurements, selection] =
+      Find(Role::inertia, estimate) ? log.moving() : log.taken();
   return MakeFitView(measurements, selection, estimate);
 }
 
@@ -95,11 +101,15 @@ FitView MakeFitView(const Measurements& measurements, const Selection& selection
 FitView MakeFitView(const Measurements& measurements, const Selection& selection,
                     const Estimate& estimate, const Prediction& given) {
   FitView view = WithoutFit(measurements, selection, estimate);
+
+  // the fit as the log would have it, behind the torque's lag
   view.has_fit = true;
   view.fitted = given.force;
-  if (const EstimatedParameter* lag = estimate.Find("torque_lag")) {
+  if (const EstimatedParameter* lag = Find(Role::lag, estimate)) {
     view.fitted = LowPass(view.time, given.force + view.rigid, lag->value) - view.rigid;
   }
+
+  // how sure the heat is
   view.energy = given.energy;
   if (view.warms()) {
     const FrictionSpread spread = SpreadOf(estimate, view.course, view.start, selection);
@@ -111,7 +121,7 @@ FitView MakeFitView(const Measurements& measurements, const Selection& selection
   return view;
 }
 
-bool IsOfAnyMotion(const FitView& view) { return view.estimate.Find("inertia") != nullptr; }
+bool IsOfAnyMotion(const FitView& view) { return Find(Role::inertia, view.estimate) != nullptr; }
 
 Eigen::VectorXd KeptOf(const FitView& view, const Eigen::VectorXd& all) {
   Eigen::VectorXd kept(view.selection.count());

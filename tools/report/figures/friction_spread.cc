@@ -3,6 +3,8 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "identification/find_parameter.h"
+
 namespace warmjoint::report {
 namespace {
 
@@ -22,9 +24,10 @@ std::vector<std::string> NamesOf(const Estimate& estimate) {
   return names;
 }
 
-double ValueOf(const FrictionDescription& friction, const std::string& name) {
-  if (name == "thermal_gain") return friction.thermal->gain;
-  if (name == "thermal_time_constant") return friction.thermal->time_constant;
+/// The number of a friction that a parameter of an estimate stands for.
+double& NumberOf(FrictionDescription& friction, const std::string& name) {
+  if (name == NameOf(Role::heat, 0)) return friction.thermal->gain;
+  if (name == NameOf(Role::heat, 1)) return friction.thermal->time_constant;
   return friction.parameters.at(name);
 }
 
@@ -34,11 +37,12 @@ Eigen::MatrixXd Derivatives(const Estimate& estimate, const std::vector<std::str
                             const Selection& selection) {
   const Eigen::Index n = selection.count();
   Eigen::MatrixXd jacobian(n, static_cast<Eigen::Index>(names.size()));
+  FrictionDescription friction = *estimate.friction;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    const double value = ValueOf(*estimate.friction, names[i]);
+    const double value = NumberOf(friction, names[i]);
     const double step = kRelativeStep * std::max(std::abs(value), 1e-3);
     const auto force = [&](double change) -> Eigen::VectorXd {
-      const AlongMotion changed(Changed(*estimate.friction, names[i], change));
+      const AlongMotion changed(Changed(friction, names[i], change));
       return changed.Predict(course, start).force;
     };
     const Eigen::VectorXd up = force(step), down = force(-step);
@@ -57,13 +61,7 @@ Eigen::MatrixXd Derivatives(const Estimate& estimate, const std::vector<std::str
 FrictionDescription Changed(const FrictionDescription& friction, const std::string& name,
                             double step) {
   FrictionDescription changed = friction;
-  if (name == "thermal_gain") {
-    changed.thermal->gain += step;
-  } else if (name == "thermal_time_constant") {
-    changed.thermal->time_constant += step;
-  } else {
-    changed.parameters.at(name) += step;
-  }
+  NumberOf(changed, name) += step;
   return changed;
 }
 

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "models/friction/law.h"
-#include "models/friction/thermal.h"
+#include "models/friction/thermal_names.h"
 
 namespace warmjoint::report {
 
@@ -19,18 +19,19 @@ std::string SymbolOf(const std::string& parameter) {
       if (info.name == parameter) symbol = info.symbol;
     }
   }
-  static const std::map<std::string, std::string> kInPrint{{"tau", "τ"},
-                                                           {"kv", "k_{v}"},
-                                                           {"kc", "k_{c}"},
-                                                           {"kc+", "k_{c+}"},
-                                                           {"kc-", "k_{c−}"},
-                                                           {"ks", "k_{s}"},
-                                                           {"vs", "v_{s}"},
-                                                           {"sigma0", "σ_{0}"},
-                                                           {"sigma1", "σ_{1}"},
-                                                           {"sigma2", "σ_{2}"},
-                                                           {"thermal_gain_discrete", "k_{e}"},
-                                                           {"thermal_pole", "t_{e}"}};
+  static const std::map<std::string, std::string> kInPrint{
+      {"tau", "τ"},
+      {"kv", "k_{v}"},
+      {"kc", "k_{c}"},
+      {"kc+", "k_{c+}"},
+      {"kc-", "k_{c−}"},
+      {"ks", "k_{s}"},
+      {"vs", "v_{s}"},
+      {"sigma0", "σ_{0}"},
+      {"sigma1", "σ_{1}"},
+      {"sigma2", "σ_{2}"},
+      {std::string(kDiscreteGainName), "k_{e}"},
+      {std::string(kPoleName), "t_{e}"}};
   const auto found = kInPrint.find(symbol);
   return found == kInPrint.end() ? symbol : found->second;
 }
