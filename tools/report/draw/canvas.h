@@ -14,6 +14,9 @@
 
 namespace warmjoint::report {
 
+class CairoSheet;
+struct SvgWords;
+
 enum class FileFormat { png, svg, pdf };
 
 /// The sheet that a canvas makes. Drawing is in points of the figure, which `scale` makes points of
@@ -85,9 +88,9 @@ class Canvas {
   std::string Finish(const Description& description);
 
  private:
-  struct Cairo;
   Sheet sheet_;
-  std::unique_ptr<Cairo> cairo_;
+  std::unique_ptr<CairoSheet> cairo_;
+  std::vector<SvgWords> words_;  // that the finished file gets
 };
 
 }  // namespace warmjoint::report
