@@ -6,19 +6,17 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "identification/identifiers/identifier_list.h"
 #include "models/foundation/atomic_file.h"
-#include "models/foundation/excerpt.h"
 #include "models/foundation/parse_number.h"
 #include "sim/model/minimal_model.h"
-#include "tools/actions/compare_identifiers.h"
 #include "tools/actions/identify_by_command.h"
 #include "tools/actions/identify_recording.h"
 #include "tools/actions/outputs.h"
-#include "tools/board/table.h"
 #include "tools/cli/command.h"
 #include "tools/cli/estimate_table.h"
 #include "tools/cli/follow_options.h"
+#include "tools/cli/identify_arguments.h"
+#include "tools/cli/identify_several.h"
 #include "tools/cli/recording_options.h"
 #include "tools/cli/take_project.h"
 #include "tools/cli/tell_wall.h"
@@ -31,21 +29,6 @@
 namespace warmjoint::inline tools {
 namespace {
 
-struct IdentifyArguments {
-  RecordingArguments recording;
-  IdentifySettings settings;
-  FollowArguments follow;
-  std::vector<std::string> identifiers{IdentifySettings{}.identifier};
-  std::string holdout = "0.3";
-  std::vector<std::string> set;
-  std::string output;
-  std::string mjcf;
-  std::string plot;
-  std::string format = "text";
-  bool explain = false;
-  bool force = false;
-};
-
 /// What --holdout asks for.
 HoldOutSource ReadHoldOut(const IdentifyArguments& arguments) {
   const std::optional<double> fraction = ParseNumber(arguments.holdout);
@@ -55,15 +38,6 @@ HoldOutSource ReadHoldOut(const IdentifyArguments& arguments) {
     return {0, ReadAndPrepare(other)};
   }
   return HoldOutShare(*fraction);
-}
-
-/// The settings with --set and --force, of one identifier.
-IdentifySettings SettingsOf(const IdentifyArguments& arguments, const std::string& identifier) {
-  IdentifySettings settings = arguments.settings;
-  settings.identifier = identifier;
-  settings.options = ReadPairs(arguments.set, "--set");
-  if (arguments.force) settings.void_numbers = VoidNumbers::show;
-  return settings;
 }
 
 /// Refuses outputs that cannot be written before any time is spent.
@@ -156,75 +130,6 @@ ExitStatus AskCommand(const IdentifyArguments& arguments) {
   }
 }
 
-/// The settings of one of several identifiers: options that it does not have are for the others.
-IdentifySettings SettingsOfOne(const IdentifyArguments& arguments, const std::string& name) {
-  IdentifySettings settings = SettingsOf(arguments, name);
-  const Identifier& identifier = FindIdentifier(name);
-  std::erase_if(settings.options, [&](const auto& option) {
-    const bool known = std::ranges::any_of(arguments.identifiers, [&](const std::string& other) {
-      return FindIdentifier(other).Has(option.first);
-    });
-    return known && !identifier.Has(option.first);
-  });
-  if (!identifier.Has("gravity")) settings.gravity = "none";
-  return settings;
-}
-
-/// A table of several identifiers.
-std::string ComparedToText(const std::vector<ComparedIdentifier>& compared, const std::string& unit,
-                           int width) {
-  Table table{{"identifier", "verdict", fmt::format("held-out RMSE {}", unit), "Fit %",
-               fmt::format("above the best {}", unit)},
-              {}};
-  for (const ComparedIdentifier& one : compared) {
-    std::vector<std::string> row{one.name, std::string(StatusName(one.status)), "-", "-", "-"};
-    if (one.rmse) {
-      row[2] = fmt::format("{:.4g}", *one.rmse);
-      row[3] = fmt::format("{:.2f}", one.fit);
-      row[4] = fmt::format("{:.2g} +- {:.2g}", one.difference, one.doubt);
-    }
-    table.rows.push_back(std::move(row));
-  }
-  return fmt::format(
-      "{} blocks of time, each held out from a fit to the others; differences are "
-      "paired over the blocks, with their standard error\n\n{}",
-      kComparedBlocks, TableToText(table, 2, width));
-}
-
-/// Several identifiers on the same held-out blocks.
-ExitStatus Compare(const IdentifyArguments& arguments) {
-  for (const auto& [option, value] :
-       {std::pair{"--output", &arguments.output}, std::pair{"--mjcf", &arguments.mjcf},
-        std::pair{"--plot", &arguments.plot}, std::pair{"--follows", &arguments.follow.file}}) {
-    if (value->empty()) continue;
-    Refuse({option}, "is for one identifier, and {} are given", arguments.identifiers.size());
-  }
-  std::vector<IdentifyTask> tasks;
-  for (const std::string& identifier : arguments.identifiers) {
-    if (identifier.find('=') != std::string::npos) {
-      Refuse({"--identifier"}, "'{}' is a command, and commands are tried alone; leave the others",
-             Excerpt(identifier));
-    }
-    tasks.push_back(
-        CheckSettings(SettingsOfOne(arguments, identifier), JointOf(arguments.recording)));
-  }
-  Activity activity("reading the recording");
-  const PreparedLog log = ReadAndPrepare(arguments.recording);
-  const auto compared = CompareIdentifiers(
-      tasks, log, [&](const std::string& words) { activity.Is("comparing: " + words); });
-  activity.Aside([&] {
-    if (arguments.format == "json") {
-      fmt::print("{}\n", ComparedToJson(compared).dump(2));
-    } else {
-      SayText(stdout,
-              ComparedToText(compared, log.taken().measurements.torque_unit, PageOf(stdout).width));
-    }
-  });
-  const bool any_ok = std::ranges::any_of(
-      compared, [](const ComparedIdentifier& one) { return one.status == Status::ok; });
-  return any_ok ? ExitStatus::done : ExitStatus::nothing_trustworthy;
-}
-
 /// Adds the heat that an earlier recording left, and tells it.
 void TakeFollowed(const PreparedLog& log, Activity& activity, IdentifyArguments& arguments) {
   if (!arguments.follow.are_given()) return;
@@ -237,7 +142,7 @@ void TakeFollowed(const PreparedLog& log, Activity& activity, IdentifyArguments&
 
 ExitStatus Identify(IdentifyArguments arguments) {
   CheckFollow(arguments.follow, arguments.recording);
-  if (arguments.identifiers.size() > 1) return Compare(arguments);
+  if (arguments.identifiers.size() > 1) return IdentifySeveral(arguments);
   const std::string& identifier = arguments.identifiers.front();
   if (identifier.find('=') != std::string::npos) return AskCommand(arguments);
 
