@@ -1,8 +1,8 @@
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "identification/estimate.h"
 #include "models/foundation/matrix_json.h"
+#include "models/foundation/number_json.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -11,17 +11,15 @@ using nlohmann::json;
 
 // what is absent or not a finite number becomes null
 
-json NumberToJson(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
-
 json ParameterToJson(const EstimatedParameter& parameter) {
-  json result{{"value", NumberToJson(parameter.value)},
+  json result{{"value", NumberOrNull(parameter.value)},
               {"unit", parameter.unit},
               {"std", nullptr},
               {"interval95", nullptr}};
-  if (parameter.std) result["std"] = NumberToJson(*parameter.std);
+  if (parameter.std) result["std"] = NumberOrNull(*parameter.std);
   if (parameter.interval95) {
     const auto& [lower, upper] = *parameter.interval95;
-    result["interval95"] = {NumberToJson(lower), NumberToJson(upper)};
+    result["interval95"] = {NumberOrNull(lower), NumberOrNull(upper)};
   }
   return result;
 }
@@ -30,20 +28,20 @@ json MetricsToJson(const std::optional<Metrics>& metrics) {
   if (!metrics) return nullptr;
   return {{"n", metrics->n},
           {"parameters", metrics->parameters},
-          {"effective_parameters", NumberToJson(metrics->effective_parameters)},
-          {"rmse", NumberToJson(metrics->rmse)},
-          {"mae", NumberToJson(metrics->mae)},
-          {"fit", NumberToJson(metrics->fit)},
-          {"fpe", NumberToJson(metrics->fpe)}};
+          {"effective_parameters", NumberOrNull(metrics->effective_parameters)},
+          {"rmse", NumberOrNull(metrics->rmse)},
+          {"mae", NumberOrNull(metrics->mae)},
+          {"fit", NumberOrNull(metrics->fit)},
+          {"fpe", NumberOrNull(metrics->fpe)}};
 }
 
 json TraceToJson(const std::vector<TraceEntry>& trace) {
   json result = json::array();
   for (const TraceEntry& entry : trace) {
     json parameters = json::object();
-    for (const auto& [name, value] : entry.parameters) parameters[name] = NumberToJson(value);
+    for (const auto& [name, value] : entry.parameters) parameters[name] = NumberOrNull(value);
     result.push_back({{"iteration", entry.iteration},
-                      {"rmse", NumberToJson(entry.rmse)},
+                      {"rmse", NumberOrNull(entry.rmse)},
                       {"parameters", parameters}});
   }
   return result;
@@ -56,7 +54,7 @@ json CovarianceToJson(const std::optional<ParameterCovariance>& covariance) {
 
 json MovesToJson(const ParameterMoves& moves) {
   json result = json::object();
-  for (const auto& [name, move] : moves) result[name] = NumberToJson(move);
+  for (const auto& [name, move] : moves) result[name] = NumberOrNull(move);
   return result;
 }
 
@@ -68,11 +66,11 @@ json DiagnosticToJson(const Diagnostic& one) {
   }
   if (!one.reason.empty()) result["reason"] = one.reason;
   if (!one.made) return result;
-  result["statistic"] = NumberToJson(one.statistic);
-  result["p"] = NumberToJson(one.p);
-  result["p_adjusted"] = NumberToJson(one.p_adjusted);
+  result["statistic"] = NumberOrNull(one.statistic);
+  result["p"] = NumberOrNull(one.p);
+  result["p_adjusted"] = NumberOrNull(one.p_adjusted);
   result["rejected"] = one.rejected;
-  result["effect"] = {{"value", NumberToJson(one.effect)}, {"unit", one.effect_unit}};
+  result["effect"] = {{"value", NumberOrNull(one.effect)}, {"unit", one.effect_unit}};
   result["moves"] = MovesToJson(one.moves);
   return result;
 }
@@ -81,8 +79,8 @@ json ChoiceToJson(const StructureChoice& choice) {
   json trials = json::array();
   for (const StructureTrial& one : choice.trials) {
     trials.push_back({{"name", one.name},
-                      {"rmse", one.rmse ? NumberToJson(*one.rmse) : json(nullptr)},
-                      {"parameters", NumberToJson(one.parameters)},
+                      {"rmse", one.rmse ? NumberOrNull(*one.rmse) : json(nullptr)},
+                      {"parameters", NumberOrNull(one.parameters)},
                       {"dropped", one.dropped.empty() ? json(nullptr) : json(one.dropped)}});
   }
   return {{"chosen", choice.chosen},
@@ -94,6 +92,7 @@ json ChoiceToJson(const StructureChoice& choice) {
 }  // namespace
 
 json EstimateToJson(const Estimate& estimate) {
+  // what every estimate has, null where nothing is known
   json parameters = json::object();
   for (const EstimatedParameter& parameter : estimate.parameters) {
     parameters[parameter.name] = ParameterToJson(parameter);
@@ -108,6 +107,8 @@ json EstimateToJson(const Estimate& estimate) {
               {"friction", estimate.friction ? FrictionToJson(*estimate.friction) : json(nullptr)},
               {"gravity", estimate.gravity ? GravityToJson(*estimate.gravity) : json(nullptr)},
               {"covariance", CovarianceToJson(estimate.covariance)}};
+
+  // what only some have
   if (!estimate.options.empty()) result["options"] = estimate.options;
   if (!estimate.warnings.empty()) result["warnings"] = estimate.warnings;
   for (const MapBand& band : estimate.bands) result["bands"].push_back(BandToJson(band));

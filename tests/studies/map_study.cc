@@ -25,6 +25,7 @@
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"
 #include "tests/studies/for_each_variant.h"
+#include "tests/studies/moved_anew.h"
 
 namespace warmjoint {
 namespace {
@@ -66,14 +67,6 @@ Fit FitTo(const Identifier& identifier, const PreparedLog& log, const Given& giv
   const Options options(identifier.options, given, {});
   const IdentifierInput input{log, options, {}};
   return identifier.fit(identifier.Seen(input));
-}
-
-/// The joint of a recording, its speeds and noise drawn anew.
-Recording MovedAnew(Scenario scenario, const Truth& truth, int realization) {
-  scenario.friction = truth.friction;
-  scenario.initial_energy = truth.initial_energy;
-  scenario.draws = {};
-  return MakePlant(scenario)->Run(static_cast<std::uint64_t>(realization));
 }
 
 /// rms of the friction's error along a log; nothing where the fit predicts nothing.

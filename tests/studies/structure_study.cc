@@ -25,6 +25,7 @@
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"
 #include "tests/studies/for_each_variant.h"
+#include "tests/studies/moved_anew.h"
 
 namespace warmjoint {
 namespace {
@@ -104,14 +105,6 @@ Fit FitRight(const Structure& right, const PreparedLog& log) {
   const Options options(right.identifier.options, right.given, {});
   const IdentifierInput input{log, options, {}};
   return right.identifier.fit(right.identifier.Seen(input));
-}
-
-/// The joint of a recording, its speeds and noise drawn anew.
-Recording MovedAnew(Scenario scenario, const Truth& truth, int realization) {
-  scenario.friction = truth.friction;
-  scenario.initial_energy = truth.initial_energy;
-  scenario.draws = {};
-  return MakePlant(scenario)->Run(static_cast<std::uint64_t>(realization));
 }
 
 void Study(const Suite& suite, int variant, int realizations) {

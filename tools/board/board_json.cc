@@ -2,6 +2,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "models/foundation/number_json.h"
 #include "tools/board/format_board.h"
 
 namespace warmjoint::inline tools {
@@ -9,19 +10,15 @@ namespace {
 
 using nlohmann::ordered_json;
 
-ordered_json Number(double value) {
-  return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
-}
-
 ordered_json Quantiles(const Summary& summary) {
-  return {{"median", Number(summary.median)},
-          {"q25", Number(summary.q25)},
-          {"q75", Number(summary.q75)}};
+  return {{"median", NumberOrNull(summary.median)},
+          {"q25", NumberOrNull(summary.q25)},
+          {"q75", NumberOrNull(summary.q75)}};
 }
 
 ordered_json QuantilesAndRms(const Summary& summary) {
   ordered_json json = Quantiles(summary);
-  json["rms"] = Number(summary.rms);
+  json["rms"] = NumberOrNull(summary.rms);
   return json;
 }
 
@@ -44,7 +41,7 @@ ordered_json RowJson(const LeaderboardRow& row) {
                     {"mae", Quantiles(row.mae)},
                     {"coverage95", ordered_json::object()},
                     {"efficiency", ordered_json::object()},
-                    {"seconds", {{"median", Number(row.seconds.median)}}},
+                    {"seconds", {{"median", NumberOrNull(row.seconds.median)}}},
                     {"not_estimated", row.not_estimated}};
   for (const auto& [status, count] : row.failures) json["failures"][status] = count;
   for (const ParameterRow& parameter : row.parameters) {
@@ -54,10 +51,10 @@ ordered_json RowJson(const LeaderboardRow& row) {
     }
   }
   if (row.behind) {
-    json["behind_best"] = {
-        {"median", Number(row.behind->median)},
-        {"interval95", ordered_json::array({Number(row.behind->lower), Number(row.behind->upper)})},
-        {"tie", row.behind->tie()}};
+    json["behind_best"] = {{"median", NumberOrNull(row.behind->median)},
+                           {"interval95", ordered_json::array({NumberOrNull(row.behind->lower),
+                                                               NumberOrNull(row.behind->upper)})},
+                           {"tie", row.behind->tie()}};
   }
   if (row.claim) json["claim"] = ClaimJson(*row.claim);
   return json;
@@ -66,15 +63,15 @@ ordered_json RowJson(const LeaderboardRow& row) {
 /// Board or group without its head.
 void AddNumbers(ordered_json& json, const Leaderboard& board) {
   json["realizations"] = board.finished;
-  json["bound_npe"] = {{"continuous", {{"rms", Number(board.bound_npe_continuous)}}},
-                       {"discrete", {{"rms", Number(board.bound_npe_discrete)}}}};
+  json["bound_npe"] = {{"continuous", {{"rms", NumberOrNull(board.bound_npe_continuous)}}},
+                       {"discrete", {{"rms", NumberOrNull(board.bound_npe_discrete)}}}};
   json["rows"] = ordered_json::array();
   for (const LeaderboardRow& row : board.rows) json["rows"].push_back(RowJson(row));
 }
 
 ordered_json GroupJson(const Leaderboard& group) {
   ordered_json json{{"variant", group.variant}};
-  json["value"] = group.value ? Number(*group.value) : ordered_json(nullptr);
+  json["value"] = group.value ? NumberOrNull(*group.value) : nlohmann::json(nullptr);
   AddNumbers(json, group);
   return json;
 }

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "models/friction/law.h"
 #include "models/robots/robot_folder.h"
 #include "tools/cli/suite_names.h"
 

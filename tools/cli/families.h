@@ -18,7 +18,6 @@ struct Family {
 };
 
 nlohmann::ordered_json LawsJson();
-std::vector<std::string> LawNames();
 std::string LawText(const nlohmann::ordered_json& law, int width);
 
 nlohmann::ordered_json IdentifiersJson();

@@ -1,8 +1,8 @@
 #include <fmt/ranges.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "models/foundation/number_json.h"
 #include "models/friction/friction_description.h"
 #include "tools/board/table.h"
 #include "tools/cli/families.h"
@@ -13,16 +13,12 @@ namespace {
 
 using nlohmann::ordered_json;
 
-ordered_json Bound(double value) {
-  return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
-}
-
 ordered_json ParameterJson(const ParameterInfo& info) {
   return {{"name", info.name},
           {"symbol", info.symbol},
           {"unit", {{"rotary", info.unit.rotary}, {"linear", info.unit.linear}}},
-          {"lower", Bound(info.lower)},
-          {"upper", Bound(info.upper)},
+          {"lower", NumberOrNull(info.lower)},
+          {"upper", NumberOrNull(info.upper)},
           {"default", info.default_value},
           {"meaning", info.meaning}};
 }
@@ -89,12 +85,6 @@ nlohmann::ordered_json LawsJson() {
   for (const Law& law : Laws()) laws.push_back(LawJson(law.name, law.equation, law.parameters));
   for (ordered_json& part : PartsJson()) laws.push_back(std::move(part));
   return laws;
-}
-
-std::vector<std::string> LawNames() {
-  std::vector<std::string> names;
-  for (const Law& law : Laws()) names.emplace_back(law.name);
-  return names;
 }
 
 std::string LawText(const ordered_json& law, int width) {

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "models/foundation/number_json.h"
 #include "models/robots/robot_list.h"
 #include "tools/board/table.h"
 #include "tools/cli/families.h"
@@ -13,15 +13,11 @@ namespace {
 
 using nlohmann::ordered_json;
 
-ordered_json Limit(double value) {
-  return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
-}
-
 ordered_json JointJson(const RobotJoint& joint) {
   return {{"name", joint.name},
           {"kind", joint.kind == JointKind::linear ? "linear" : "rotary"},
-          {"lower", Limit(joint.limits.first)},
-          {"upper", Limit(joint.limits.second)},
+          {"lower", NumberOrNull(joint.limits.first)},
+          {"upper", NumberOrNull(joint.limits.second)},
           {"effort", joint.effort},
           {"speed", joint.speed}};
 }

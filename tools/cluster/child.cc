@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "tools/suite/run_command.h"
+#include "tools/terminal/exec_words.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -22,19 +23,12 @@ int StatusOf(int wait_status) {
   return WIFEXITED(wait_status) ? WEXITSTATUS(wait_status) : 128 + WTERMSIG(wait_status);
 }
 
-std::vector<char*> Pointers(std::vector<std::string>& texts) {
-  std::vector<char*> pointers;
-  for (std::string& text : texts) pointers.push_back(text.data());
-  pointers.push_back(nullptr);
-  return pointers;
-}
-
 /// Forks and becomes the program; out and err: descriptors, or -1 for this program's own.
 pid_t Start(const std::vector<std::string>& arguments, const std::string& directory, int out,
             int err) {
   std::vector<std::string> words = arguments;
   words.front() = FindProgram(words.front());
-  const std::vector<char*> argv = Pointers(words);
+  const std::vector<char*> argv = ExecWords(words);
   const pid_t parent = getpid();
   const pid_t pid = fork();
   if (pid < 0) throw std::system_error(errno, std::generic_category(), "no process");

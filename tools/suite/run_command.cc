@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "tools/suite/command_keeper.h"
+#include "tools/terminal/exec_words.h"
 
 namespace warmjoint::inline tools {
 namespace fs = std::filesystem;
@@ -73,13 +74,6 @@ std::vector<std::string> Environment(const fs::path& directory) {
     if (IsPassedOn(*variable)) environment.emplace_back(*variable);
   }
   return environment;
-}
-
-std::vector<char*> Pointers(std::vector<std::string>& texts) {
-  std::vector<char*> pointers;
-  for (std::string& text : texts) pointers.push_back(text.data());
-  pointers.push_back(nullptr);
-  return pointers;
 }
 
 /// Adds what can be read at once to a tail of bounded size; false at the end, and where there is
@@ -148,8 +142,8 @@ CommandEnd RunCommand(const std::vector<std::string>& arguments, const fs::path&
   words.front() = FindProgram(words.front());
   std::vector<std::string> environment = Environment(directory);
   std::vector<std::string> removal{"/bin/rm", "-rf", "--one-file-system", directory};
-  const std::vector<char*> argv = Pointers(words), envp = Pointers(environment),
-                           remove = Pointers(removal);
+  const std::vector<char*> argv = ExecWords(words), envp = ExecWords(environment),
+                           remove = ExecWords(removal);
   Pipe output, verdict;
   const std::string folder = directory;
   const KeeperTask task{argv.data(), envp.data(), folder.c_str(), remove.data(),
