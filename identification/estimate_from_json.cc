@@ -207,6 +207,8 @@ Estimate EstimateFromJson(const json& object, const Place& place) {
   const auto member = [&](const char* key) -> const json& {
     return Member(object, key, "the estimate", place);
   };
+
+  // who answers, and how sure
   Estimate estimate;
   estimate.identifier = ToText(member("identifier"), "identifier", place);
   for (const auto& [name, value] : member("options").items()) {
@@ -219,6 +221,7 @@ Estimate EstimateFromJson(const json& object, const Place& place) {
   }
   TakeOffWarnings(estimate);
 
+  // its numbers
   const json& parameters = member("parameters");
   if (!parameters.is_object()) Refuse(place, "parameters must be an object");
   for (const auto& [name, value] : parameters.items()) {
@@ -231,6 +234,8 @@ Estimate EstimateFromJson(const json& object, const Place& place) {
   for (const json& one : member("friction_at_speeds")) {
     estimate.at_speeds.push_back(ToFrictionAtSpeed(one, place));
   }
+
+  // the model
   if (!member("friction").is_null()) {
     estimate.friction = FrictionFromJson(member("friction"), place);
   }
@@ -238,12 +243,16 @@ Estimate EstimateFromJson(const json& object, const Place& place) {
     estimate.gravity = GravityFromJson(member("gravity"), place);
   }
   estimate.covariance = ToCovariance(member("covariance"), place);
+
+  // what the verdict said
   for (const json& one : member("diagnostics")) {
     estimate.diagnostics.push_back(ToDiagnostic(one, place));
   }
   for (const json& one : member("assumptions")) {
     estimate.assumptions.push_back(ToAssumption(one, place));
   }
+
+  // and what only some have
   for (const auto& [name, value] : member("state_end").items()) {
     estimate.state_end.push_back(ToParameter(name, value, place));
   }

@@ -39,6 +39,8 @@ SuiteIdentifier ReadIdentifier(const YamlValue& value) {
     }
   }
   if (const auto claim = value.Find("claim")) identifier.claim = ReadClaim(*claim);
+
+  // a command of the user's stands in the place of an identifier of the list
   if (const auto command = value.Find("command")) {
     if (identifier.options.contains("command")) {
       Refuse(command->place(), "{} stands in options too; keep one", command->key());
@@ -135,6 +137,8 @@ Suite ParseSuite(const std::string& text, const std::string& file) {
   const YamlValue document = YamlValue::Parse(text, file);
   document.RequireKeys(
       {"name", "question", "realizations", "seed", "scenario", "ladder", "identifiers"});
+
+  // what the suite is
   Suite suite;
   suite.name = std::filesystem::path(file).stem().string();
   if (const auto name = document.Find("name")) suite.name = name->Text();
@@ -154,6 +158,7 @@ Suite ParseSuite(const std::string& text, const std::string& file) {
     suite.scenario.seed = seed->Seed();
   }
 
+  // what varies, and who answers
   if (const auto ladder = document.Find("ladder")) {
     suite.ladder = ReadLadder(*ladder);
     CheckVariants(suite, ladder->place());

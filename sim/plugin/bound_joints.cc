@@ -38,6 +38,7 @@ class FrictionOfActuators {
  public:
   FrictionOfActuators(const mjModel* m, int instance, const PreparedInstance& prepared)
       : m_(m), instance_(instance), prepared_(prepared) {
+    // a model that was put into another has a prefix before its joints' names
     std::vector<std::string> driven;
     for (int i = 0; i < m->nactuator; ++i) {
       if (m->actuator_plugin[i] == instance) driven.push_back(JointOf(i));
@@ -107,12 +108,16 @@ void BoundJoints::BindActuators(const mjModel* m) {
   for (int i = 0; i < m->nactuator; ++i) {
     if (m->actuator_plugin[i] != instance_) continue;
     const PreparedJoint& friction = frictions.Of(i);
+
+    // refuse what the engine would accept and friction cannot
     CheckActuator(m, i, friction.friction);
     BoundJoint bound = BindJoint(m, m->actuator_trnid[2 * i], friction, others);
     CheckJoint(m, bound.joint, bound.friction, BristlesOf(bound.instances), {ActuatorName(m, i)});
     if (bound.needs_ambient && m->actuator_ctrlnum[i] == 0) {
       Refuse({ActuatorName(m, i)}, "has no control, which would be the ambient temperature's rise");
     }
+
+    // where the engine keeps what it needs and gives
     bound.actuator = i;
     bound.state = m->actuator_actadr[i];
     bound.control = m->actuator_ctrlnum[i] > 0 ? m->actuator_ctrladr[i] : -1;
@@ -157,6 +162,8 @@ void BoundJoints::BindNumbers(const mjModel* m) {
     const std::string name = NameIn(m, mjOBJ_NUMERIC, i);
     if (!name.starts_with(start)) continue;
     const Place place{fmt::format("numeric '{}'", name)};
+
+    // a place in each joint's friction that has the number
     NumberArray array;
     array.address = m->numeric_adr[i];
     const std::string number = name.substr(start.size());
@@ -171,6 +178,7 @@ void BoundJoints::BindNumbers(const mjModel* m) {
       Refuse(place, "has {} numbers; give {}, one for each joint of {}", m->numeric_size[i],
              joints_.size(), InstanceName(m, instance_));
     }
+
     // no number equals this one, so that the first look sets them all
     array.last.assign(joints_.size(), std::numeric_limits<double>::quiet_NaN());
     numbers_.push_back(std::move(array));

@@ -66,6 +66,8 @@ void IdentifierColumns::Add(const Result& result) {
     ++failures_[result.status];
     if (failure_example_.empty()) failure_example_ = result.message;
   }
+
+  // a run without a figure counts as unknown, and for the rank as worse than any
   const auto metric = [&](double Metrics::*member) {
     return result.metrics ? (*result.metrics).*member : kUnknown;
   };
@@ -106,6 +108,8 @@ LeaderboardRow IdentifierColumns::SumUp(const SuiteIdentifier& identifier) const
   row.runs = static_cast<int>(rmse_.size());
   row.failures = failures_;
   row.failure_example = failure_example_;
+
+  // figures over the runs
   row.npe_continuous = Summarise(npe_continuous_);
   row.npe_discrete = Summarise(npe_discrete_);
   row.rmse = Summarise(rmse_);
@@ -114,6 +118,8 @@ LeaderboardRow IdentifierColumns::SumUp(const SuiteIdentifier& identifier) const
   row.mae = Summarise(mae_);
   row.seconds = Summarise(seconds_);
   row.rank_npe = Summarise(ranked_npe_).median;
+
+  // coverage of the intervals, and rms errors over the Cramer-Rao bound
   for (const ParameterSums& sums : parameters_) {
     ParameterRow parameter;
     parameter.name = sums.name;

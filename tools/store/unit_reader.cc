@@ -82,6 +82,7 @@ std::optional<std::vector<Result>> UnitReader::Next() {
   const std::string digest = realizations_.row.getColumn(2).getString();
   realizations_.Step();
 
+  // the results of all identifiers, which the digest covers
   std::vector<Result> all;
   while (results_.open && results_.unit() == unit) {
     all.push_back(ReadResult());
@@ -100,6 +101,8 @@ Result UnitReader::ReadResult() {
   result.status = row.getColumn(3).getString();
   result.message = row.getColumn(4).getString();
   result.metrics = ReadMetrics(row);
+
+  // errors of parameters make a score; without any there is none
   ReadParameters(result);
   if (result.score) {
     result.score->npe_continuous = StoredNumber(row.getColumn(12));

@@ -72,6 +72,8 @@ std::string ParametersSection(const FitView& view) {
   if (view.estimate.parameters.empty()) {
     return Paragraph("There are no numbers that could be given.");
   }
+
+  // the same rows as in the picture, with the names that estimate.json has
   const Table drawn = ParametersOf(view);
   BoardTable table{{"parameter", "value", "95 % interval", "unit"}, {}};
   for (std::size_t i = 1; i < drawn.rows.size(); ++i) table.rows.push_back(drawn.rows[i]);
@@ -129,8 +131,11 @@ std::string MujocoSection(const FitView& view) {
 
 /// The pictures, the ones that decide first.
 std::vector<Figure> FiguresOf(const FitView& view) {
+  // the log, whatever became of it
   std::vector<Figure> figures{MakeLogFigure(view)};
   if (view.selection.count() == 0) return figures;
+
+  // what was measured, with the fit where there is one
   const std::string void_note = view.is_void() ? " (void)" : "";
   figures.push_back(SinglePlot({"level", "Level of friction over time" + void_note, "",
                                 "Torque in the direction of motion, measured and fitted."},
@@ -144,6 +149,8 @@ std::vector<Figure> FiguresOf(const FitView& view) {
         {"warm_up", "Warm-up" + void_note, "", "How the friction changes by its own heat, E."},
         WarmUpCurve(view)));
   }
+
+  // what the fit leaves, on samples that it has seen and on others
   Figure residuals;
   residuals.name = "residuals";
   residuals.title = "What the fit leaves";
@@ -203,6 +210,8 @@ std::string MakeLogPage(const LogPage& page) {
     const char* heading;
     std::string body;
   };
+
+  // what decides first comes first
   const Part parts[] = {
       {"verdict", Passed(view) ? "Why it passes" : "Why it was refused", VerdictSection(view)},
       {"next", "What to do next", NextSection(page)},
@@ -214,6 +223,8 @@ std::string MakeLogPage(const LogPage& page) {
       {"mujoco", "Into MuJoCo", MujocoSection(view)},
       {"terms", "Terms", HtmlTerms(Terms())},
       {"repeat", "How to repeat it", RepeatSection(page)}};
+
+  // a link to each part in front of them all
   std::string links, body;
   for (const Part& part : parts) {
     links += fmt::format("<li><a href=\"#{}\">{}</a></li>", part.id, part.heading);
