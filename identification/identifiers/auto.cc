@@ -43,12 +43,18 @@ std::string GravityBesideMaps(const IdentifierInput& input, const Structure* bes
 /// What bends or ripples, with the gravity of the best linear one.
 void TryCurved(const IdentifierInput& input, Tournament& tournament) {
   const std::string gravity = GravityBesideMaps(input, tournament.Best());
-  tournament.Add({StribeckStructure("none"), StribeckStructure("estimated")});
+  tournament.Add({StribeckStructure("none")});
+  if (tournament.MayBendAndWarm()) {
+    tournament.Add({StribeckStructure("estimated")});
+  } else {
+    tournament.LeaveOut({StribeckStructure("estimated")},
+                        "neither a bend over the speed nor a warming can be seen by itself");
+  }
   for (const char* warming : {"none", "estimated"}) {
     if (tournament.MayHaveTwoLevels(warming)) tournament.Add({TwoLevelStribeckStructure(warming)});
   }
   if (tournament.MayHaveMap()) {
-    tournament.Add(MapStructures(input, gravity, tournament.MapBesideBest(gravity)));
+    tournament.Add(MapStructures(input, gravity, tournament.KernelsBesideBest(gravity)));
   } else {
     tournament.LeaveOut(MapStructures(input, gravity),
                         "nothing is left over place that a map could take");
@@ -152,8 +158,8 @@ Fit FitChosen(const IdentifierInput& input) {
   fit.identifier = kName;
   fit.summary = fmt::format("{}; {}", told.reason, fit.summary);
   fit.choice = std::move(told);
-  fit.structure = [chosen, lag = trials.lag](const IdentifierInput& other) {
-    return FitOnAll(chosen, lag, other);
+  fit.structure = [sketch = chosen.Sketch(), lag = trials.lag](const IdentifierInput& other) {
+    return FitOnAll(sketch, lag, other);
   };
   return fit;
 }

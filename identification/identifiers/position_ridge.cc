@@ -8,38 +8,17 @@ namespace {
 
 constexpr const char* kName = "position-ridge";
 
-/// With all candidates, unless there is a refusal.
-MapBeginning Begin(const IdentifierInput& input, const RigidPart& rigid) {
-  MapBeginning begin = BeginMaps(input, kName, {MapQuantity::position}, rigid);
-  if (begin.refusal) return begin;
-  MapTask& task = begin.task;
-  task.candidates = PositionMaps(input.options, task.settings, begin.points);
-  return begin;
-}
-
 Fit FitMap(const IdentifierInput& given) {
   const RigidPart rigid = PrepareRigid(given);
   if (rigid.why) return Refused(kName, {rigid.status, *rigid.why});
   const IdentifierInput input = rigid.Of(given);
-  const MapBeginning begin = Begin(input, rigid);
+  MapBeginning begin = BeginMaps(input, kName, {MapQuantity::position}, rigid);
   if (begin.refusal) return Refused(kName, *begin.refusal);
+  begin.task.candidates = PositionMaps(input.options, begin.task.settings, begin.points);
   return IdentifyMaps(input, begin.task);
 }
 
 }  // namespace
-
-std::optional<FrictionMap> MapBesideEnergy(const IdentifierInput& given,
-                                           const Eigen::VectorXd& energy) {
-  const RigidPart rigid = PrepareRigid(given);
-  if (rigid.why) return std::nullopt;
-  const IdentifierInput input = rigid.Of(given);
-  MapBeginning begin = Begin(input, rigid);
-  if (begin.refusal) return std::nullopt;
-  begin.task.energy = energy;
-  const auto choice = ChooseAndFit(input, begin.task);
-  if (!choice) return std::nullopt;
-  return choice->fit.maps.front();
-}
 
 Identifier PositionRidge() {
   std::vector<OptionInfo> options = MapOptions();

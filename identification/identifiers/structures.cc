@@ -44,6 +44,11 @@ bool Structure::CanTellLag() const {
   return TellsLag(identifier) && Given("position", "none") == "none";
 }
 
+Structure Structure::Quick() const {
+  const Structure sketch = Sketch();
+  return strength ? sketch.With("strength", fmt::format("{}", *strength)) : sketch;
+}
+
 Fit Structure::Fitted(const IdentifierInput& input) const {
   const Options options(identifier.options, given, {});
   return identifier.fit(input.With(options));
@@ -51,7 +56,7 @@ Fit Structure::Fitted(const IdentifierInput& input) const {
 
 std::optional<Eigen::VectorXd> Structure::ErrorsOn(const IdentifierInput& input,
                                                    const std::vector<Eigen::Index>& bounds) const {
-  const Options options(identifier.options, given, {});
+  const Options options(identifier.options, Quick().given, {});
   return BlockedErrors(identifier, input.With(options), bounds);
 }
 
@@ -86,9 +91,11 @@ Structure TwoLevelStribeckStructure(const std::string& warming) {
 }
 
 std::vector<Structure> MapStructures(const IdentifierInput& input, const std::string& gravity,
-                                     const std::optional<FrictionMap>& kernels) {
-  const auto shaped = [&](const Structure& one) {
-    return kernels ? one.WithShapeOf(*kernels) : one;
+                                     const ChosenKernels& kernels) {
+  const auto shaped = [](Structure one, const std::optional<ChosenMap>& chosen) {
+    if (!chosen) return one;
+    one.strength = chosen->strength;
+    return one.WithShapeOf(chosen->map);
   };
   // what looks like gravity beside a law that is too simple may be a map's
   std::vector<std::string> kinds{"none"};
@@ -99,12 +106,12 @@ std::vector<Structure> MapStructures(const IdentifierInput& input, const std::st
   for (const std::string& kind : kinds) {
     std::map<std::string, std::string> given;
     if (kind != "none") given = {{"gravity", kind}};
-    const Structure warm = Structure{EnergyMl(), given}.With("position", "map");
-    structures.push_back(shaped({PositionRidge(), given}));
-    structures.push_back(shaped(warm));
+    const Structure warm{EnergyMl(), given};
+    structures.push_back(shaped({PositionRidge(), given}, kernels.position));
+    structures.push_back(shaped(warm.With("position", "map"), kernels.position));
     if (!knows_motor) continue;
-    if (kind == "none") structures.push_back({MotorRidge(), {}});
-    structures.push_back(warm.With("position", "motor"));
+    if (kind == "none") structures.push_back(shaped({MotorRidge(), {}}, kernels.motor));
+    structures.push_back(shaped(warm.With("position", "motor"), kernels.motor));
   }
   return structures;
 }

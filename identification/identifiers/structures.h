@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "identification/identifier.h"
+#include "identification/maps/energy_ml_maps.h"
 
 namespace warmjoint::inline identification {
 
@@ -14,6 +15,8 @@ namespace warmjoint::inline identification {
 struct Structure {
   Identifier identifier;
   std::map<std::string, std::string> given;
+  /// Of the prior on a map, where it is chosen for the rows that structures are compared on.
+  std::optional<double> strength{};
 
   /// "energy-ml law=coulomb gravity=sincos"
   std::string Name() const;
@@ -31,6 +34,10 @@ struct Structure {
 
   /// Fitted to the samples of the input.
   Fit Fitted(const IdentifierInput& input) const;
+  /// The same without what only a reader wants: bands along maps.
+  Structure Sketch() const { return identifier.Has("bands") ? With("bands", "none") : *this; }
+  /// A sketch for the rows that structures are compared on.
+  Structure Quick() const;
   /// Mean squared errors on blocks that it has not seen (BlockedErrors).
   std::optional<Eigen::VectorXd> ErrorsOn(const IdentifierInput& input,
                                           const std::vector<Eigen::Index>& bounds) const;
@@ -49,9 +56,14 @@ Structure StribeckStructure(const std::string& warming);
 /// The same with a Coulomb level for each direction of motion.
 Structure TwoLevelStribeckStructure(const std::string& warming);
 
-/// Maps, without warming and with it, also beside gravity. kernels: those over position, where they are
-/// chosen already.
+/// Maps whose kernels are chosen already, or nothing where they are not.
+struct ChosenKernels {
+  std::optional<ChosenMap> position;
+  std::optional<ChosenMap> motor;  // over the motor's angle
+};
+
+/// Maps, without warming and with it, also beside gravity.
 std::vector<Structure> MapStructures(const IdentifierInput& input, const std::string& gravity,
-                                     const std::optional<FrictionMap>& kernels = {});
+                                     const ChosenKernels& kernels = {});
 
 }  // namespace warmjoint::inline identification

@@ -8,11 +8,13 @@
 #include "identification/fit_data.h"
 #include "identification/forward/map_points.h"
 #include "identification/holdout/blocked_hold_out.h"
+#include "identification/identifiers/energy_ml.h"
 #include "identification/identifiers/lag_of_log.h"
 #include "identification/identifiers/left_over_place.h"
-#include "identification/identifiers/position_ridge.h"
+#include "identification/identifiers/stribeck.h"
 #include "identification/inference/bounds.h"
 #include "models/recording/course_of.h"
+#include "models/recording/motor_angle.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -24,7 +26,7 @@ constexpr double kBeyondDoubt =
     3.5;  // standard errors: by chance once in a thousand logs, of two values
 
 Trial Try(const Structure& structure, const IdentifierInput& input) {
-  Trial trial{structure, structure.Fitted(input)};
+  Trial trial{structure, structure.Quick().Fitted(input)};
   trial.gives_friction = GivesFriction(trial.fit);
   if (!trial.fit.friction.maps.empty()) {
     trial.structure = structure.WithShapeOf(trial.fit.friction.maps[0]);
@@ -55,6 +57,7 @@ void Tournament::Add(const std::vector<Structure>& structures) {
 void Tournament::LeaveOut(const std::vector<Structure>& structures, const std::string& why) {
   for (const Structure& structure : structures) {
     trials_.push_back({.structure = structure, .dropped = why});
+    trials_.back().told.status = Status::not_identifiable;
   }
 }
 
@@ -80,16 +83,29 @@ bool Tournament::MayHaveMap() const {
   return LeavesOverPlace(best->fit.residual(), points);
 }
 
-std::optional<FrictionMap> Tournament::MapBesideBest(const std::string& gravity) const {
-  quick_.Tell("choosing kernels over position");
+ChosenKernels Tournament::KernelsBesideBest(const std::string& gravity) const {
+  quick_.Tell("choosing the kernels of maps");
   const Trial* best = BestTrial();
   Eigen::VectorXd energy;
   if (best) {
     const Fit& fit = best->fit;
     energy = PredictFriction(fit.friction, log_.view.measurements, fit.Start()).energy;
   }
-  const Options options(PositionRidge().options, {{"gravity", gravity}}, {});
-  return MapBesideEnergy(quick_.With(options), energy);
+  const auto chosen = [&](const char* position) {
+    const Options options(EnergyMl().options, {{"gravity", gravity}, {"position", position}}, {});
+    return MapBesideEnergy(quick_.With(options), energy);
+  };
+  ChosenKernels kernels{chosen("map"), {}};
+  if (KnowsMotorAngle(log_.view.measurements)) kernels.motor = chosen("motor");
+  return kernels;
+}
+
+bool Tournament::MayBendAndWarm() const {
+  return std::ranges::any_of(trials_, [](const Trial& trial) {
+    const std::string& name = trial.structure.identifier.name;
+    const bool bends_or_warms = name == StribeckByCeres().name || name == EnergyMl().name;
+    return bends_or_warms && trial.told.status != Status::not_identifiable;
+  });
 }
 
 bool Tournament::MayHaveTwoLevels(const std::string& warming) const {

@@ -52,9 +52,13 @@ class Tournament {
   /// Whether a map may help: the best so far leaves something over place, or nothing fits.
   bool MayHaveMap() const;
 
-  /// A map with the kernels over position that suit the log, chosen once, beside the warming of the best so
-  /// far; nothing where none can be fitted. gravity: its kind, fitted beside the map.
-  std::optional<FrictionMap> MapBesideBest(const std::string& gravity) const;
+  /// The kernels of maps that suit the log, chosen once, beside the warming of the best so far. gravity: its
+  /// kind, fitted beside the maps.
+  ChosenKernels KernelsBesideBest(const std::string& gravity) const;
+
+  /// Whether the Stribeck law with warming may be told, which costs more than either by itself: so far it can
+  /// be told without warming, or a linear law with it.
+  bool MayBendAndWarm() const;
 
   /// Whether a level for each direction may help the Stribeck law with that warming: what it leaves
   /// pushes in one direction. Where it does not fit, the linear law tells; with warming, which costs

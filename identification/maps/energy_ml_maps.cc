@@ -70,4 +70,18 @@ Fit FitWithMaps(const std::string& identifier, const IdentifierInput& given) {
   return warm ? AsFit(input, *warm) : Refused(identifier, Unsolvable());
 }
 
+std::optional<ChosenMap> MapBesideEnergy(const IdentifierInput& given,
+                                         const Eigen::VectorXd& energy) {
+  const RigidPart rigid = PrepareRigid(given);
+  if (rigid.why) return std::nullopt;
+  const IdentifierInput input = rigid.Of(given);
+  MapBeginning begin = Begin("", input, rigid);
+  if (begin.refusal) return std::nullopt;
+  begin.task.candidates = Candidates(input.options, begin);
+  begin.task.energy = energy;
+  const auto chosen = Choose(input, begin.task);
+  if (!chosen) return std::nullopt;
+  return ChosenMap{chosen->problem.maps.front(), chosen->strength};
+}
+
 }  // namespace warmjoint::inline identification

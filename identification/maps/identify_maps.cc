@@ -74,6 +74,35 @@ void AddLaw(const Law& law, const MapFit& maps, const Measurements& measurements
       fmt::join(imitated, ", "), imitated.size() == 1 ? "this number" : "these numbers"));
 }
 
+/// The samples that law and maps are fitted to; without maps.
+MapProblem ProblemOf(const IdentifierInput& input, const MapTask& task) {
+  const Law& law = *FindLaw(task.settings.law);
+  Eigen::MatrixXd columns = LawColumns(law, input.measurements.velocity);
+  if (task.rigid.count() > 0) columns = Beside(columns, task.rigid.columns);
+  MapProblem problem{{},
+                     Kept(PointsOf(input.measurements, task.energy), input.selection),
+                     Kept(columns, input.selection),
+                     Kept(input.measurements.torque, input.selection),
+                     input.selection};
+  problem.torque -= TakenByEnergy(input, task.energy);
+  for (const ParameterInfo& info : law.parameters) problem.lower.push_back(info.lower);
+  problem.lower.resize(static_cast<size_t>(columns.cols()), -kInfinity);
+  return problem;
+}
+
+/// Bands of a fit of law and maps, and friction at speeds where they share a constant.
+void AddBands(const IdentifierInput& input, const MapTask& task, const MapFit& maps,
+              const Uncertainty& known, Fit& fit) {
+  const Law& law = *FindLaw(task.settings.law);
+  MapProblem finer = ProblemOf(input, task);
+  finer.maps = TwiceAsFine(maps.maps);
+  const std::optional<MapWeights> twice = FitWeights(finer, maps.strength);
+  fit.bands = MakeBands(law, maps, known, finer.points, twice ? &*twice : nullptr);
+  const bool shares = std::ranges::any_of(
+      fit.parameters, [](const FitParameter& one) { return !one.has_interval; });
+  if (shares) fit.at_speeds = FrictionAtSpeeds(law, maps, known, finer.points);
+}
+
 }  // namespace
 
 Eigen::Index MapTask::law_count() const {
@@ -115,25 +144,12 @@ Refusal Unsolvable() {
           "square; check their units"};
 }
 
-std::optional<MapChoice> ChooseAndFit(const IdentifierInput& input, const MapTask& task) {
-  Eigen::MatrixXd columns = LawColumns(*FindLaw(task.settings.law), input.measurements.velocity);
-  if (task.rigid.count() > 0) columns = Beside(columns, task.rigid.columns);
-  const MapPoints all = PointsOf(input.measurements, task.energy);
-  MapProblem problem{{},
-                     Kept(all, input.selection),
-                     Kept(columns, input.selection),
-                     Kept(input.measurements.torque, input.selection),
-                     input.selection};
-  problem.torque -= TakenByEnergy(input, task.energy);
+std::optional<ChosenProblem> Choose(const IdentifierInput& input, const MapTask& task) {
+  MapProblem problem = ProblemOf(input, task);
   problem.rows = task.rows;
 
-  for (const ParameterInfo& info : FindLaw(task.settings.law)->parameters) {
-    problem.lower.push_back(info.lower);
-  }
-  problem.lower.resize(static_cast<size_t>(columns.cols()), -kInfinity);
-
   // a choice costs fits, so one is made only where there is something to choose
-  ChosenMaps best{0, task.settings.strength, 0};
+  ChosenMaps best{0, task.settings.strength, 0, {}};
   if (task.candidates.size() > 1 || task.settings.strength == 0) {
     const int folds = task.folds(problem.torque.size());
     best = ChooseMaps(problem, task.candidates, task.settings.rule, folds);
@@ -141,12 +157,19 @@ std::optional<MapChoice> ChooseAndFit(const IdentifierInput& input, const MapTas
     if (task.settings.strength > 0) best.strength = task.settings.strength;
   }
   problem.maps = task.candidates[best.candidate];
-  std::optional<MapFit> fit = FitMaps(problem, best.strength);
-  if (!fit) return std::nullopt;
-  return MapChoice{std::move(problem), std::move(*fit)};
+  if (!best.normal) best.normal = NormalOf(problem);
+  return ChosenProblem{std::move(problem), std::move(*best.normal), best.strength};
 }
 
-MapTask Settled(MapTask task, const MapFit& fit) {
+std::optional<MapChoice> ChooseAndFit(const IdentifierInput& input, const MapTask& task) {
+  std::optional<ChosenProblem> chosen = Choose(input, task);
+  if (!chosen) return std::nullopt;
+  std::optional<MapFit> fit = FitMaps(chosen->problem, std::move(chosen->normal), chosen->strength);
+  if (!fit) return std::nullopt;
+  return MapChoice{std::move(chosen->problem), std::move(*fit)};
+}
+
+MapTask Settled(MapTask task, const MapWeights& fit) {
   task.candidates = {fit.maps};
   task.settings.strength = fit.strength;
   return task;
@@ -187,15 +210,7 @@ Fit AsFit(const IdentifierInput& input, const MapTask& task, const MapFit& maps,
                     "wide",
                     fmt::join(holes, ", ")));
   }
-  if (!GivesFriction(fit)) return fit;
-  const MapPoints kept = Kept(PointsOf(m, task.energy), fit.used);
-  MapTask twice = Settled(task, maps);
-  twice.candidates = {TwiceAsFine(maps.maps)};
-  const auto finer = ChooseAndFit(input, twice);
-  fit.bands = MakeBands(law, maps, known, kept, finer ? &finer->fit : nullptr);
-  const bool shares = std::ranges::any_of(
-      fit.parameters, [](const FitParameter& one) { return !one.has_interval; });
-  if (shares) fit.at_speeds = FrictionAtSpeeds(law, maps, known, kept);
+  if (task.settings.has_bands && GivesFriction(fit)) AddBands(input, task, maps, known, fit);
   return fit;
 }
 

@@ -42,18 +42,28 @@ struct MapBeginning {
 MapBeginning BeginMaps(const IdentifierInput& input, const std::string& identifier,
                        std::initializer_list<MapQuantity> quantities, const RigidPart& rigid = {});
 
+/// What is to be fitted, with the choice made.
+struct ChosenProblem {
+  MapProblem problem;
+  NormalEquations normal;  // NormalOf(problem)
+  double strength = 0;
+};
+
+/// The candidate and the strength with the smallest criterion, on the kept samples. Nothing where none can
+/// be solved.
+std::optional<ChosenProblem> Choose(const IdentifierInput& input, const MapTask& task);
+
 /// The fit that was chosen, and what it was made of.
 struct MapChoice {
   MapProblem problem;
   MapFit fit;
 };
 
-/// Law and maps on the kept samples: the candidate and the strength with the smallest criterion.
-/// Nothing where none can be solved.
+/// Choose, and fit.
 std::optional<MapChoice> ChooseAndFit(const IdentifierInput& input, const MapTask& task);
 
 /// The task with the choice made: one candidate, one strength.
-MapTask Settled(MapTask task, const MapFit& fit);
+MapTask Settled(MapTask task, const MapWeights& fit);
 
 /// sign(v) E at the kept samples, [n] N.m or N; 0 for an empty energy. energy: [N].
 Eigen::VectorXd TakenByEnergy(const IdentifierInput& input, const Eigen::VectorXd& energy);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "identification/linear/linear_laws.h"
 #include "identification/maps/holes.h"
@@ -77,19 +79,26 @@ Eigen::RowVectorXd MeanRow(const std::vector<FrictionMap>& maps, const MapPoints
   return DenseKernels(maps, points, 0, some).colwise().mean();
 }
 
+/// MeanRow of both directions.
+struct MeanRows {
+  Eigen::RowVectorXd backwards, forwards;
+
+  MeanRows(const std::vector<FrictionMap>& maps, const MapPoints& kept)
+      : backwards(MeanRow(maps, kept, -1)), forwards(MeanRow(maps, kept, 1)) {}
+};
+
 /// Rows whose products with a fit's x are law and maps at places of its which-th map.
-Eigen::MatrixXd RowsAt(const Law& law, const MapFit& fit, size_t which, const MapPoints& places,
-                       const MapPoints& kept) {
+Eigen::MatrixXd RowsAt(const Law& law, const MapWeights& fit, size_t which, const MapPoints& places,
+                       const MeanRows& means) {
   const Index size = places.rows(), q = fit.x.size() - fit.free;
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(size, fit.x.size());
   if (!IsAlikeBothWays(fit.maps[which])) {
     const Eigen::MatrixXd columns = LawColumns(law, places.col(kVelocity));
     rows.leftCols(columns.cols()) = columns;
-    for (const int direction : {-1, 1}) {
-      const Eigen::RowVectorXd others = MeanRow(fit.maps, kept, direction);
-      for (Index i = 0; others.size() > 0 && i < size; ++i) {
-        if (Sign(places(i, kVelocity)) == direction) rows.row(i).tail(q) = others;
-      }
+    for (Index i = 0; i < size; ++i) {
+      const int direction = Sign(places(i, kVelocity));
+      if (direction < 0 && means.backwards.size() > 0) rows.row(i).tail(q) = means.backwards;
+      if (direction > 0 && means.forwards.size() > 0) rows.row(i).tail(q) = means.forwards;
     }
   }
   Index first = fit.free;
@@ -100,7 +109,7 @@ Eigen::MatrixXd RowsAt(const Law& law, const MapFit& fit, size_t which, const Ma
 }
 
 /// How much of a place's kernels has no data.
-double ShareOfUnseen(const Eigen::RowVectorXd& row, const MapFit& fit) {
+double ShareOfUnseen(const Eigen::RowVectorXd& row, const MapWeights& fit) {
   double share = 0;
   for (size_t k = 0; k < fit.unseen.size(); ++k) {
     if (fit.unseen[k]) share += row[fit.free + static_cast<Index>(k)];
@@ -130,22 +139,25 @@ Eigen::VectorXd AlongFirstAxis(const FrictionMap& map, const Eigen::VectorXd& sq
 }  // namespace
 
 std::vector<MapBand> MakeBands(const Law& law, const MapFit& fit, const Uncertainty& known,
-                               const MapPoints& kept, const MapFit* finer) {
+                               const MapPoints& kept, const MapWeights* finer) {
   Eigen::VectorXd speeds = kept.col(kVelocity).cwiseAbs();
   const double speed = MedianInPlace(speeds);
   const Eigen::MatrixXd covariance = known.covariance.topLeftCorner(fit.x.size(), fit.x.size());
   const double reach = StudentQuantile(known.freedom, kIntervalLevel);
+  const MeanRows means(fit.maps, kept);
+  const std::optional<MeanRows> finer_means =
+      finer ? std::optional<MeanRows>(std::in_place, finer->maps, kept) : std::nullopt;
   std::vector<MapBand> bands;
   size_t first = 0;
   for (size_t which = 0; which < fit.maps.size(); ++which) {
     const FrictionMap& map = fit.maps[which];
     MapBand& band = bands.emplace_back();
     const MapPoints places = Places(map, speed, kept, band);
-    const Eigen::MatrixXd rows = RowsAt(law, fit, which, places, kept);
+    const Eigen::MatrixXd rows = RowsAt(law, fit, which, places, means);
     const Eigen::VectorXd value = rows * fit.x;
     Eigen::VectorXd variance = (rows * covariance).cwiseProduct(rows).rowwise().sum().cwiseMax(0);
     if (finer) {
-      const Eigen::MatrixXd more = RowsAt(law, *finer, which, places, kept);
+      const Eigen::MatrixXd more = RowsAt(law, *finer, which, places, *finer_means);
       Eigen::VectorXd missed = value - more * finer->x;
       // where one of them has no data it follows nothing
       for (Index i = 0; i < missed.size(); ++i) {

@@ -22,6 +22,6 @@ namespace warmjoint::inline identification {
 /// about bias^2 + var f2: never less than the finer fit errs, which has a bias of its own.
 /// known: about law, weights and maybe more; kept: [n x 5] points of the fit.
 std::vector<MapBand> MakeBands(const Law& law, const MapFit& fit, const Uncertainty& known,
-                               const MapPoints& kept, const MapFit* finer = nullptr);
+                               const MapPoints& kept, const MapWeights* finer = nullptr);
 
 }  // namespace warmjoint::inline identification

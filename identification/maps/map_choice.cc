@@ -6,51 +6,19 @@
 #include <limits>
 
 #include "identification/maps/imitated_columns.h"
-#include "identification/ridge/local_ridge.h"
+#include "identification/maps/strength_search.h"
 
 namespace warmjoint::inline identification {
 namespace {
 
-constexpr int kStrengths = 20;  // why: up to 300 times the mean diagonal, where nothing is left
-
 // why several: a joint warms up but once; with 12, one load map moves by a third of its half width
 constexpr Eigen::Index kSpans = 8;  // of each fold, of maps over the energy
 
-/// Half decades from 1e-7 of the mean diagonal of the kernels' Gram matrix.
-std::vector<double> Strengths(const NormalEquations& normal, Eigen::Index free) {
-  const double scale = normal.gram.diagonal().tail(normal.product.size() - free).mean();
-  std::vector<double> strengths;
-  for (int i = 0; i < kStrengths; ++i) strengths.push_back(scale * std::pow(10, -7 + 0.5 * i));
-  return strengths;
-}
-
 /// One candidate with one strength.
-struct Trial {
+struct Trial : StrengthTrial {
   size_t candidate = 0;
-  double strength = 0;
   Eigen::Index kernels = 0;
-  bool possible = true;    // whether all parameters are above their lower bounds
-  Eigen::ArrayXd squares;  // [parts] held out, (N.m)^2 or N^2
 };
-
-/// Whether the errors are those of the best within one standard error of the parts' differences.
-bool AsGood(const Eigen::ArrayXd& squares, const Eigen::ArrayXd& best) {
-  const Eigen::ArrayXd worse = squares - best;
-  const auto parts = static_cast<double>(worse.size());
-  const double deviation = std::sqrt((worse - worse.mean()).square().sum() / (parts - 1));
-  return worse.sum() <= std::sqrt(parts) * deviation;
-}
-
-/// Whether the fit to all rows leaves the parameters above their bounds.
-bool IsPossible(LocalRidge& ridge, double strength, const std::vector<double>& lower) {
-  if (lower.empty()) return true;
-  const std::optional<Eigen::VectorXd> x = ridge.Solve(strength);
-  if (!x) return false;
-  for (size_t i = 0; i < lower.size(); ++i) {
-    if (!((*x)[static_cast<Eigen::Index>(i)] >= lower[i])) return false;
-  }
-  return true;
-}
 
 bool IsOverEnergy(const std::vector<FrictionMap>& maps) {
   return std::any_of(maps.begin(), maps.end(), [](const FrictionMap& map) {
@@ -102,24 +70,23 @@ struct HeldLaw {
   }
 };
 
-/// The trials of problem.maps by cross validation, the strongest prior last.
-void AddTrials(const MapProblem& problem, size_t candidate, int folds, std::vector<Trial>& trials) {
+/// The trials of problem.maps by cross validation, the strongest prior last. Returns the normal equations
+/// of all folds.
+NormalEquations AddTrials(const MapProblem& problem, size_t candidate, int folds,
+                          std::vector<Trial>& trials) {
   std::vector<NormalEquations> parts = Folds(problem, folds);
   NormalEquations all = parts[0];
   for (size_t i = 1; i < parts.size(); ++i) all = all.Plus(parts[i]);
+
+  // what is left where the law is held
   const HeldLaw held(all, problem.free.cols(), problem.lower);
   const Eigen::Index free = problem.free.cols() - held.values.size();
   for (NormalEquations& part : parts) part = part.Holding(held.columns, held.values);
-  all = all.Holding(held.columns, held.values);
-  const std::vector<double> strengths = Strengths(all, free);
-  const Eigen::MatrixXd squares = HeldOutSquares(parts, free, strengths);
-  LocalRidge whole(all, free);
-  for (size_t i = 0; i < strengths.size(); ++i) {
-    const Eigen::ArrayXd row = squares.row(static_cast<Eigen::Index>(i));
-    if (!row.allFinite()) continue;
-    trials.push_back({candidate, strengths[i], KernelCount(problem.maps),
-                      IsPossible(whole, strengths[i], held.lower), row});
+  const NormalEquations rest = all.Holding(held.columns, held.values);
+  for (StrengthTrial& trial : SearchStrengths(parts, rest, free, held.lower)) {
+    trials.push_back({std::move(trial), candidate, KernelCount(problem.maps)});
   }
+  return all;
 }
 
 /// Kernels of the finest candidates, and of the next finest ones; 0 where there are none.
@@ -135,7 +102,7 @@ struct Finest {
   }
 };
 
-ChosenMaps Nothing() { return {0, 0, std::numeric_limits<double>::infinity()}; }
+ChosenMaps Nothing() { return {0, 0, std::numeric_limits<double>::infinity(), {}}; }
 
 const Trial& LeastError(const std::vector<Trial>& trials) {
   return *std::min_element(trials.begin(), trials.end(), [](const Trial& a, const Trial& b) {
@@ -159,7 +126,7 @@ ChosenMaps Simplest(std::vector<Trial> trials, Eigen::Index samples) {
   const size_t candidate = LeastError(trials).candidate;
   std::erase_if(trials, [&](const Trial& t) { return t.candidate != candidate; });
   const Trial& chosen = trials.back();
-  return {candidate, chosen.strength, chosen.squares.sum() / static_cast<double>(samples)};
+  return {candidate, chosen.strength, chosen.squares.sum() / static_cast<double>(samples), {}};
 }
 
 /// Strength and criterion of problem.maps by leaving out one sample at a time.
@@ -170,8 +137,9 @@ ChosenMaps ByLeavingOut(const MapProblem& problem) {
   ChosenMaps best = Nothing();
   for (const double strength : Strengths(normal, problem.free.cols())) {
     const double error = LeaveOneOut(groups, problem.free, problem.torque, normal, strength);
-    if (error < best.criterion) best = {0, strength, error};
+    if (error < best.criterion) best = {0, strength, error, {}};
   }
+  best.normal = normal;
   return best;
 }
 
@@ -183,9 +151,9 @@ ChosenMaps ByEvidence(const MapProblem& problem) {
   const double criterion = -2 * evidence.log_evidence / static_cast<double>(normal.rows);
   // without any sign of the kernels it grows without bounds
   if (!std::isfinite(criterion) || !(strength < highest)) {
-    return {0, highest, std::isfinite(criterion) ? criterion : 0};
+    return {0, highest, std::isfinite(criterion) ? criterion : 0, normal};
   }
-  return {0, strength, criterion};
+  return {0, strength, criterion, normal};
 }
 
 }  // namespace
@@ -193,6 +161,7 @@ ChosenMaps ByEvidence(const MapProblem& problem) {
 ChosenMaps ChooseMaps(MapProblem problem, const std::vector<std::vector<FrictionMap>>& candidates,
                       StrengthRule rule, int folds) {
   std::vector<Trial> trials;
+  std::vector<std::optional<NormalEquations>> normals(candidates.size());
   ChosenMaps best = Nothing();
   const Finest finest(candidates);
   for (size_t i = 0; i < candidates.size(); ++i) {
@@ -200,16 +169,18 @@ ChosenMaps ChooseMaps(MapProblem problem, const std::vector<std::vector<Friction
     if (rule == StrengthRule::cross_validation) {
       const bool dear = KernelCount(candidates[i]) == finest.kernels && !trials.empty();
       if (dear && LeastError(trials).kernels < finest.next) continue;
-      AddTrials(problem, i, folds, trials);
+      normals[i] = AddTrials(problem, i, folds, trials);
       continue;
     }
     ChosenMaps chosen =
         rule == StrengthRule::evidence ? ByEvidence(problem) : ByLeavingOut(problem);
     chosen.candidate = i;
-    if (chosen.criterion < best.criterion) best = chosen;
+    if (chosen.criterion < best.criterion) best = std::move(chosen);
   }
-  return rule == StrengthRule::cross_validation ? Simplest(std::move(trials), problem.torque.size())
-                                                : best;
+  if (rule != StrengthRule::cross_validation) return best;
+  best = Simplest(std::move(trials), problem.torque.size());
+  best.normal = std::move(normals[best.candidate]);
+  return best;
 }
 
 }  // namespace warmjoint::inline identification

@@ -1,6 +1,7 @@
 // Which maps, and how strong a prior on their weights.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "identification/maps/map_fit.h"
@@ -16,6 +17,7 @@ struct ChosenMaps {
   /// Mean squared error held out, or -2 log evidence / n: the smaller, the better. Infinite where
   /// nothing can be solved.
   double criterion = 0;
+  std::optional<NormalEquations> normal{};  // of these maps, where something can be solved
 };
 
 /// The best of the candidates with one of 20 strengths each, half a decade apart, from 1e-7 of the

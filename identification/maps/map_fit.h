@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "identification/maps/map_system.h"
 #include "identification/ridge/kernel_rows.h"
 #include "identification/uncertainty/uncertainty.h"
 
@@ -27,16 +28,20 @@ struct MapProblem {
 /// The normal equations of all rows [free, kernels].
 NormalEquations NormalOf(const MapProblem& problem);
 
-struct MapFit {
+struct MapWeights {
   Eigen::Index free = 0;          // p
   Eigen::VectorXd x;              // [p + q] parameters, weights
   double strength = 0;            // s
-  double effective = 0;           // trace of the hat matrix
   Eigen::VectorXd fitted;         // [n] N.m or N
-  Eigen::MatrixXd gram;           // [p + q]^2 A^T A
-  Eigen::MatrixXd inverse;        // [p + q]^2 (A^T A + s P)^-1
   std::vector<FrictionMap> maps;  // with their weights
   std::vector<bool> unseen;       // [q] kernels without data (holes.h)
+};
+
+/// And how sure they are.
+struct MapFit : MapWeights {
+  double effective = 0;     // trace of the hat matrix
+  Eigen::MatrixXd gram;     // [p + q]^2 A^T A
+  Eigen::MatrixXd inverse;  // [p + q]^2 (A^T A + s P)^-1
 };
 
 /// argmin |y - A x|^2 + s w^T P w, P: PriorOf (holes.h). How much of a column x_j of the law that kernels can imitate
@@ -45,6 +50,33 @@ struct MapFit {
 /// centred (Wood 2017, 5.4.1); where that puts the parameter below its bound and the data know no better, it is held
 /// there. Nothing where the system is singular to rounding or overflows.
 std::optional<MapFit> FitMaps(const MapProblem& problem, double strength);
+
+/// The same of normal equations that are made already: NormalOf(problem).
+std::optional<MapFit> FitMaps(const MapProblem& problem, NormalEquations normal, double strength);
+
+/// FitMaps without how sure it is, which costs several times as much.
+std::optional<MapWeights> FitWeights(const MapProblem& problem, double strength);
+
+/// FitMaps to one torque after the other on the same rows.
+class RepeatedFit {
+ public:
+  /// problem: must outlive this; normal: NormalOf(problem).
+  RepeatedFit(const MapProblem& problem, NormalEquations normal, double strength);
+
+  /// To problem.torque, or the latest torque.
+  std::optional<MapWeights> Fit();
+  /// To another torque, [n] N.m or N.
+  std::optional<MapWeights> To(const Eigen::VectorXd& torque);
+  /// The latest, and how sure it is.
+  MapFit Complete(MapWeights latest) const;
+
+ private:
+  const MapProblem& problem_;
+  NormalEquations normal_;
+  double strength_;
+  std::vector<bool> unseen_;
+  MapSystem system_;
+};
 
 /// The maps with their weights, one map's after the other's. weights: [q]
 std::vector<FrictionMap> WithWeights(std::vector<FrictionMap> maps, const Eigen::VectorXd& weights);

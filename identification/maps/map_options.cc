@@ -27,6 +27,9 @@ std::vector<OptionInfo> MapOptions() {
        "what chooses: cross validation over contiguous parts, leave-one-out, or the evidence; the "
        "last two take coloured noise for friction"},
       {"folds", "5", "integer >= 2 <= 100", "contiguous parts of the recording for cv"},
+      {"bands", "wide", "wide|none",
+       "along the maps: wide enough for what twice the kernels follow; none: left out, for twice "
+       "the speed"},
   };
 }
 
@@ -41,6 +44,7 @@ MapSettings ReadMapSettings(const Options& options) {
   if (rule == "loo") settings.rule = StrengthRule::leave_one_out;
   if (rule == "evidence") settings.rule = StrengthRule::evidence;
   settings.folds = options.Integer("folds");
+  settings.has_bands = options.Text("bands") != "none";
   return settings;
 }
 

@@ -9,7 +9,7 @@
 
 namespace warmjoint::inline identification {
 
-/// law, kernel, width, strength, selection, folds.
+/// law, kernel, width, strength, selection, folds, bands.
 std::vector<OptionInfo> MapOptions();
 
 /// What they say.
@@ -20,6 +20,7 @@ struct MapSettings {
   double strength = 0;         // 0: chosen
   StrengthRule rule = StrengthRule::cross_validation;
   int folds = 5;
+  bool has_bands = true;
 };
 MapSettings ReadMapSettings(const Options& options);
 

@@ -1,28 +1,40 @@
 #include "identification/maps/nearest_kernel.h"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
+#include <iterator>
 
 #include "models/foundation/robust_noise.h"
 
 namespace warmjoint::inline identification {
 
+namespace {
+
+/// Index of the centre nearest to x, of ascending ones; of two as near, the lower one.
+size_t NearestCentre(const GaussianAxis& axis, double x) {
+  const std::vector<double>& centres = axis.centres;
+  auto begin = centres.begin(), end = centres.end();
+  if (axis.sides == Sides::apart && x != 0) {
+    const auto positive = std::upper_bound(begin, end, 0.0);
+    (x > 0 ? begin : end) = positive;
+  }
+  if (begin == end) return 0;
+  if (axis.period) x -= *axis.period * std::floor((x - *begin) / *axis.period);
+  const auto above = std::lower_bound(begin, end, x);
+  if (above == begin) return static_cast<size_t>(begin - centres.begin());
+  const auto below = std::prev(above);
+  const bool around = above == end && axis.period && *begin + *axis.period - x < x - *below;
+  const bool next = above != end && *above - x < x - *below;
+  return static_cast<size_t>((around ? begin : next ? above : below) - centres.begin());
+}
+
+}  // namespace
+
 Eigen::Index NearestKernel(const FrictionMap& map, const MapPoints& points, Eigen::Index sample) {
   size_t kernel = 0;
   for (const MapAxis& axis : map.axes) {
-    const std::vector<double>& centres = axis.kernels.centres;
     const double x = points(sample, static_cast<Eigen::Index>(axis.quantity));
-    size_t nearest = 0;
-    double least = std::numeric_limits<double>::infinity();
-    for (size_t c = 0; c < centres.size(); ++c) {
-      double away = std::abs(x - centres[c]);
-      if (axis.kernels.period) away = std::abs(std::remainder(away, *axis.kernels.period));
-      const bool other_side = axis.kernels.sides == Sides::apart && x * centres[c] < 0;
-      if (other_side || away >= least) continue;
-      least = away;
-      nearest = c;
-    }
-    kernel = kernel * centres.size() + nearest;
+    kernel = kernel * axis.kernels.size() + NearestCentre(axis.kernels, x);
   }
   return static_cast<Eigen::Index>(kernel);
 }

@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
@@ -12,6 +13,7 @@
 #include "identification/linear/against_pushing.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
+#include "identification/maps/map_block.h"
 #include "identification/maps/motor_maps.h"
 #include "identification/uncertainty/penalised_uncertainty.h"
 #include "identification/warming/warming_verdict.h"
@@ -26,11 +28,11 @@ constexpr double kAtRest = 1e-6;  // of gain and time constant between rounds, r
 constexpr WarmingContext kContext{" beside the maps", "position-ridge"};
 
 /// The loop of law columns and, with maps that are not 0, the maps' values as one column more.
-ClosedLoop LoopOf(const IdentifierInput& input, const Law& law, const MapFit& fit) {
+ClosedLoop LoopOf(const IdentifierInput& input, const Law& law, const MapBlock& block) {
   const Measurements& m = input.measurements;
   const Eigen::MatrixXd columns = LawColumns(law, m.velocity), of_loss = LossColumns(law, m);
-  const Eigen::VectorXd values = EvaluateMaps(fit.maps, PointsOf(m));
-  if (!(values.norm() > 1e-9 * (columns * fit.x.head(columns.cols())).norm())) {
+  const Eigen::VectorXd values = block.Everywhere();
+  if (!(values.norm() > 1e-9 * (columns * block.fit().x.head(columns.cols())).norm())) {
     return ClosedLoop::Along(m, columns, of_loss);
   }
   return ClosedLoop::Along(m, Beside(columns, values),
@@ -43,15 +45,16 @@ struct WarmStep {
   Eigen::VectorXd energy;  // [N] N.m or N
 };
 
-WarmStep FitWarming(const IdentifierInput& input, const MapTask& task, const MapFit& maps,
+WarmStep FitWarming(const IdentifierInput& input, const MapTask& task, const MapBlock& block,
                     const std::optional<Thermal>& start) {
   const Law& law = *FindLaw(task.settings.law);
   const Measurements& m = input.measurements;
-  const ClosedLoop loop = LoopOf(input, law, maps);
+  const ClosedLoop loop = LoopOf(input, law, block);
   const Eigen::VectorXd level = loop.direction().cwiseProduct(m.torque);
   const Eigen::VectorXd kept = WithoutRest(input.selection, m).keep.cast<double>();
   // gravity and inertia make no heat: out of the scan, beside the loop in the fit
   const Eigen::MatrixXd offsets = loop.direction().asDiagonal() * task.rigid.columns;
+  const MapWeights& maps = block.fit();
   const Eigen::VectorXd weights = maps.x.segment(task.law_count(), task.rigid.count());
   WarmStart from = ScanTimeConstant(loop, level - offsets * weights, kept);
   if (start) from.thermal = *start;
@@ -71,9 +74,35 @@ bool AtRest(const Thermal& a, const Thermal& b) {
          std::abs(a.time_constant - b.time_constant) <= kAtRest * b.time_constant;
 }
 
-double Squares(const MapChoice& choice) {
-  return (choice.problem.torque - choice.fit.fitted).squaredNorm();
-}
+/// What warming takes of the residual, in variances of the noise, round after round.
+class Visibility {
+ public:
+  /// cold: squares without warming, of so many samples.
+  Visibility(double cold, Eigen::Index samples)
+      : cold_(cold), samples_(static_cast<double>(samples)) {}
+
+  /// squares: what is left; freedom: samples less parameters.
+  double Of(double squares, double freedom) const {
+    return (cold_ - squares) / squares * std::max(freedom, 1.0);
+  }
+  /// After a round that leaves so many squares.
+  void Follow(double squares) {
+    before_last_ = std::exchange(last_, std::exchange(latest_, Of(squares, samples_)));
+  }
+  double latest() const { return latest_; }
+
+  /// Whether further rounds leave it below half of what can be seen. Blocks in turn grow by a geometric series,
+  /// of which three terms tell the limit (Aitken).
+  bool StaysUnseen() const {
+    const double growth = latest_ - last_, before = last_ - before_last_;
+    const double ratio = std::abs(growth) < std::abs(before) ? growth / before : 1;
+    return latest_ + growth * ratio / (1 - ratio) < 0.5 * kVisibleWarming;
+  }
+
+ private:
+  double cold_, samples_;
+  double latest_ = 0, last_ = 0, before_last_ = 0;
+};
 
 /// d(F + G + M a)/d(law, rigid part, weights, k, log tau) at the kept samples.
 Eigen::MatrixXd JointJacobian(const IdentifierInput& input, const WarmMaps& warm) {
@@ -149,48 +178,35 @@ void AddRipple(const MapFit& maps, const Uncertainty& known, const Measurements&
                       measurements, fit);
 }
 
-/// The rows of the only candidate, for all rounds; null where there are several, or too many to keep.
-std::shared_ptr<const KernelRows> RowsOf(const IdentifierInput& input, const MapTask& task) {
-  const std::vector<FrictionMap>& maps = task.candidates.front();
-  const Eigen::Index samples = input.selection.count();
-  if (task.candidates.size() > 1 || !KernelRows::Fit(maps, samples)) return nullptr;
-  const MapPoints points = Kept(PointsOf(input.measurements), input.selection);
-  return std::make_shared<const KernelRows>(maps, points, task.folds(samples));
-}
-
 }  // namespace
 
 std::optional<WarmMaps> FitWarmMaps(const IdentifierInput& input, const MapTask& task) {
-  MapTask current = task;
-  current.energy = Eigen::VectorXd();
-  current.rows = RowsOf(input, current);
-  std::optional<MapChoice> choice = ChooseAndFit(input, current);
-  if (!choice) return std::nullopt;
-  const double cold = Squares(*choice);
+  MapBlock block(input, task);
+  if (!block.ChooseBeside({})) return std::nullopt;
+  Visibility visibility(block.Squares(), input.selection.count());
 
   WarmMaps warm;
   std::optional<Thermal> before;
   for (warm.rounds = 1; warm.rounds <= kMostRounds; ++warm.rounds) {
-    const WarmStep step = FitWarming(input, current, choice->fit, before);
+    const WarmStep step = FitWarming(input, task, block, before);
     if (!step.fit.converged || !step.energy.allFinite()) break;
     warm.thermal = step.fit.thermal();
     warm.converged = before && AtRest(*before, warm.thermal);
     if (warm.converged) break;
     before = warm.thermal;
 
-    // shape and strength are chosen once more now that E is known, then kept
-    current.energy = step.energy;
-    if (warm.rounds > 2) current = Settled(current, choice->fit);
-    if (!current.rows) current.rows = RowsOf(input, current);
-    choice = ChooseAndFit(input, current);
-    if (!choice) return std::nullopt;
+    // shape and strength are chosen once more where a warming is seen, now that E is known, then kept
+    if (!block.FitBeside(step.energy)) return std::nullopt;
+    visibility.Follow(block.Squares());
+    if (warm.rounds != 2) continue;
+    warm.visible = visibility.latest();
+    if (visibility.StaysUnseen()) return warm;
+    if (!block.ChooseBeside(step.energy)) return std::nullopt;
   }
-  const auto n = static_cast<double>(choice->problem.torque.size());
-  const double variance = Squares(*choice) / std::max(n - choice->fit.effective - 2, 1.0);
-  warm.visible = (cold - Squares(*choice)) / variance;
-  warm.task = Settled(current, choice->fit);
-  warm.task.rows.reset();
-  warm.fit = std::move(choice->fit);
+  warm.task = block.Settled();
+  warm.fit = block.Complete();
+  const auto n = static_cast<double>(warm.fit.fitted.size());
+  warm.visible = visibility.Of(block.Squares(), n - warm.fit.effective - 2);
   return warm;
 }
 

@@ -11,7 +11,9 @@ struct WarmMaps {
   MapTask task;  // with the choice made, and E
   MapFit fit;    // law and maps beside E
   Thermal thermal;
-  double visible = 0;  // drop of |e|^2 that warming brings, over the noise's variance
+  /// Drop of |e|^2 that warming brings, over the noise's variance. Where it stays far below what can be seen,
+  /// task and fit are not set.
+  double visible = 0;
   bool converged = false;
   int rounds = 0;
 };

@@ -33,6 +33,12 @@ NormalEquations KernelRows::Normal(const Eigen::MatrixXd& free, const Eigen::Vec
   return normal;
 }
 
+Eigen::VectorXd KernelRows::Products(const Eigen::VectorXd& y) const {
+  Eigen::VectorXd products = Eigen::VectorXd::Zero(kernels_);
+  for (const std::vector<RowGroup>& span : groups_) AddProducts(span, y, products);
+  return products;
+}
+
 Eigen::VectorXd KernelRows::Times(const Eigen::VectorXd& weights) const {
   Eigen::VectorXd values(samples_);
   for (const std::vector<RowGroup>& span : groups_) {

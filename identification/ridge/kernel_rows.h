@@ -24,6 +24,9 @@ class KernelRows {
   /// Of all of them.
   NormalEquations Normal(const Eigen::MatrixXd& free, const Eigen::VectorXd& y) const;
 
+  /// Products of the rows with a torque: [kernels]. y: [n]
+  Eigen::VectorXd Products(const Eigen::VectorXd& y) const;
+
   /// The rows times weights: the maps' values at each sample, [n]. weights: [kernels]
   Eigen::VectorXd Times(const Eigen::VectorXd& weights) const;
 

@@ -32,24 +32,13 @@ std::optional<Eigen::VectorXd> LocalRidge::Solve(double strength) {
   return x;
 }
 
-namespace {
-
-/// Squared errors on `part` of fits to all but it, for each strength.
-Eigen::VectorXd SquaresOf(const NormalEquations& part, const NormalEquations& all,
-                          Eigen::Index free, const std::vector<double>& strengths) {
-  LocalRidge ridge(all.Minus(part), free);
-  Eigen::VectorXd squares(strengths.size());
-  for (size_t i = 0; i < strengths.size(); ++i) {
-    const std::optional<Eigen::VectorXd> x = ridge.Solve(strengths[i]);
-    squares[i] = x ? part.Squares(*x) : std::numeric_limits<double>::infinity();
-  }
-  return squares;
+double HeldOutPart::Squares(double strength) {
+  const std::optional<Eigen::VectorXd> x = ridge_.Solve(strength);
+  return x ? part_.Squares(*x) : std::numeric_limits<double>::infinity();
 }
 
-}  // namespace
-
-Eigen::MatrixXd HeldOutSquares(const std::vector<NormalEquations>& parts, Eigen::Index free,
-                               const std::vector<double>& strengths, int threads) {
+Eigen::VectorXd CrossValidate(const std::vector<NormalEquations>& parts, Eigen::Index free,
+                              const std::vector<double>& strengths, int threads) {
   NormalEquations all = parts.front();
   for (size_t i = 1; i < parts.size(); ++i) all = all.Plus(parts[i]);
 
@@ -58,22 +47,15 @@ Eigen::MatrixXd HeldOutSquares(const std::vector<NormalEquations>& parts, Eigen:
   std::atomic<size_t> next = 0;
   const auto work = [&] {
     for (size_t i = next++; i < parts.size(); i = next++) {
-      squares.col(static_cast<Eigen::Index>(i)) = SquaresOf(parts[i], all, free, strengths);
+      HeldOutPart part(parts[i], all, free);
+      for (size_t k = 0; k < strengths.size(); ++k) squares(k, i) = part.Squares(strengths[k]);
     }
   };
   std::vector<std::jthread> helpers;
   for (int i = 1; i < threads; ++i) helpers.emplace_back(work);
   work();
   helpers.clear();
-  return squares;
-}
-
-Eigen::VectorXd CrossValidate(const std::vector<NormalEquations>& parts, Eigen::Index free,
-                              const std::vector<double>& strengths, int threads) {
-  Eigen::Index rows = 0;
-  for (const NormalEquations& part : parts) rows += part.rows;
-  return HeldOutSquares(parts, free, strengths, threads).rowwise().sum() /
-         static_cast<double>(rows);
+  return squares.rowwise().sum() / static_cast<double>(all.rows);
 }
 
 }  // namespace warmjoint::inline identification

@@ -30,8 +30,19 @@ class LocalRidge {
   EnvelopeCholesky kernels_;
 };
 
-/// Squared errors of held-out parts, [strengths x parts]: see CrossValidate.
-Eigen::MatrixXd HeldOutSquares(const std::vector<NormalEquations>& parts, Eigen::Index free,
-                               const std::vector<double>& strengths, int threads = 1);
+/// A part of the rows that a ridge on all the others predicts.
+class HeldOutPart {
+ public:
+  /// part: must outlive this; all: of all rows.
+  HeldOutPart(const NormalEquations& part, const NormalEquations& all, Eigen::Index free)
+      : part_(part), ridge_(all.Minus(part), free) {}
+
+  /// Squared error on the part; infinite where the strength is too small to solve.
+  double Squares(double strength);
+
+ private:
+  const NormalEquations& part_;
+  LocalRidge ridge_;
+};
 
 }  // namespace warmjoint::inline identification

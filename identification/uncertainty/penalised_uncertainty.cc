@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace warmjoint::inline identification {
 
@@ -15,16 +16,17 @@ Uncertainty JudgePenalised(
   Uncertainty result;
   result.noise = FitNoise(residual, selection);
   const NoiseModel& noise = result.noise;
-  const Eigen::MatrixXd scatter = noise.order() == 0
-                                      ? Eigen::MatrixXd(noise.variance * fit.gram)
-                                      : ScatterThrough(noise, rows, C.rows(), selection);
 
   // E|r|^2 = tr R - 2 tr(C S) + tr(C G C S), in samples of which at most half are taken up
-  const Eigen::MatrixXd spread = C * scatter;
   const Eigen::MatrixXd hat = C * fit.gram;
+  const Eigen::MatrixXd spread =
+      noise.order() == 0 ? Eigen::MatrixXd(noise.variance * hat)
+                         : Eigen::MatrixXd(C * ScatterThrough(noise, rows, C.rows(), selection));
   const double product = hat.cwiseProduct(spread.transpose()).sum();
   const double taken = std::clamp((2 * spread.trace() - product) / noise.variance, 0.0, 0.5 * n);
-  const Eigen::MatrixXd by_noise = n / (n - taken) * spread * C;
+  Eigen::MatrixXd by_noise(C.rows(), C.rows());
+  by_noise.triangularView<Eigen::Lower>() = n / (n - taken) * spread * C;
+  by_noise.triangularView<Eigen::StrictlyUpper>() = by_noise.transpose();
 
   // what the prior pulls away
   const Eigen::MatrixXd pull = fit.strength * C.middleCols(fit.first, q);
@@ -33,7 +35,9 @@ Uncertainty JudgePenalised(
   const double seen = fit.weights.squaredNorm() - weights.trace();
   const double unseen = std::sqrt(2.0) * weights.norm();
   const double prior = std::max(seen, unseen) / std::max(left.squaredNorm(), 1e-12);
-  result.covariance = by_noise + prior * pull * pull.transpose();
+  by_noise.selfadjointView<Eigen::Lower>().rankUpdate(pull, prior);
+  by_noise.triangularView<Eigen::StrictlyUpper>() = by_noise.transpose();
+  result.covariance = std::move(by_noise);
   result.freedom = std::max(n / noise.redundancy - hat.trace(), 1.0);
   return result;
 }

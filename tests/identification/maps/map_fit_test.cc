@@ -97,5 +97,42 @@ TEST(FitMaps, HoldsWhatMapsImitateAtItsBound) {
   EXPECT_NEAR(rms, 0.1, 0.01);
 }
 
+/// Largest difference of the solutions of a repeated fit and of one made anew.
+double Apart(RepeatedFit& repeated, MapProblem problem, const Eigen::VectorXd& torque) {
+  problem.torque = torque;
+  const Eigen::VectorXd anew = FitMaps(problem, 1e-2).value().x;
+  return (repeated.To(torque).value().x - anew).cwiseAbs().maxCoeff();
+}
+
+// sums in another order: rounding, times the condition of a weak prior
+constexpr double kRounding = 1e-8;
+
+TEST(RepeatedFit, IsAsOneMadeAnew) {
+  // to a level above its bound, below it, and above it again
+  MapProblem problem = RipplingProblem(15);
+  RepeatedFit repeated(problem, NormalOf(problem), 1e-2);
+  for (const double coulomb : {15.0, -0.5, 3.0}) {
+    EXPECT_LE(Apart(repeated, problem, RipplingProblem(coulomb).torque), kRounding) << coulomb;
+  }
+}
+
+TEST(RepeatedFit, IsTheSameFromRowsThatAreKept) {
+  MapProblem problem = RipplingProblem(15);
+  const MapProblem plain = problem;
+  problem.rows = std::make_shared<const KernelRows>(problem.maps, problem.points, 3);
+  RepeatedFit repeated(problem, NormalOf(problem), 1e-2);
+  EXPECT_LE(Apart(repeated, plain, 2 * problem.torque), kRounding);
+}
+
+TEST(RepeatedFit, CompletesTheLatestFit) {
+  const MapProblem problem = RipplingProblem(15);
+  RepeatedFit repeated(problem, NormalOf(problem), 1e-2);
+  const MapFit complete = repeated.Complete(repeated.Fit().value());
+  const MapFit fit = FitMaps(problem, 1e-2).value();
+  EXPECT_EQ(complete.x, fit.x);
+  EXPECT_EQ(complete.effective, fit.effective);
+  EXPECT_EQ(complete.inverse, fit.inverse);
+}
+
 }  // namespace
 }  // namespace warmjoint
