@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "identification/preparation/insert_samples.h"
 #include "models/recording/sampling.h"
@@ -57,11 +58,16 @@ LogView TakeWays(const LogView& taken, const Measurements& by_velocity,
                 position = TellingOf(by_position, m.time);
   const auto on = OnWays(ways, velocity, m.time);
 
-  // what each version puts in where it is believed
+  // what each version puts in where it is believed, but nothing within a segment
+  std::set<Index> begins;
+  for (const Segment& segment : selection.segments) begins.insert(segment.begin);
+  const auto is_within = [&](Index n) {
+    return selection.keep[n] && selection.keep[n + 1] && !begins.contains(n + 1);
+  };
   std::vector<InsertedSample> inserted;
   const auto add = [&](const Telling& telling, bool here) {
     for (const InsertedSample& one : telling.inserted) {
-      if (on[one.after] == here) inserted.push_back(one);
+      if (on[one.after] == here && !is_within(one.after)) inserted.push_back(one);
     }
   };
   add(velocity, false);

@@ -10,7 +10,7 @@ namespace warmjoint::inline identification {
 
 /// A log with samples put in, `by_velocity`, where the path of each of the ways becomes that of another one,
 /// `by_position`: on a way, the samples that are not kept have the velocity of the latter, and the samples put in are
-/// its samples, with one right behind the last sample of a segment. So the losses of a change of speed are those of its path, whatever the velocity does between two
+/// its samples, with one right behind the last sample of a segment; nothing is put in within one. So the losses of a change of speed are those of its path, whatever the velocity does between two
 /// samples. Ways whose difference is larger than samples can hide, one step at the change of speed, stay as they are:
 /// there one of the two is spoilt. taken: the N samples that both have; its selection is that of the result, with the
 /// samples put in not kept. by_velocity, by_position: of motion_from_positions.h and split_at_switches.h

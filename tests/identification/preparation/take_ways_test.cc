@@ -108,6 +108,9 @@ TEST(TakeWays, SegmentsKeepTheVelocityColumn) {
   ASSERT_EQ(selection.segments.size(), segments.size());
   for (size_t i = 0; i < segments.size(); ++i) {
     EXPECT_EQ(m.time[selection.segments[i].begin], log.time[segments[i].begin]);
+    // nothing is put in within a segment
+    const Index length = segments[i].end - segments[i].begin;
+    EXPECT_EQ(m.time[selection.segments[i].begin + length - 1], log.time[segments[i].end - 1]);
   }
 }
 
