@@ -134,8 +134,7 @@ void WidenByRounding(const Examination& examination, const Fit& fit, const Measu
   const FitParameter& parameter = fit.parameters[examination.rows[static_cast<size_t>(worst)]];
   inference.warnings.push_back(fmt::format(
       "the torque comes in steps of {:.3g} {}, which its noise does not even out: they may move {} "
-      "by "
-      "{:.2g} {}, and intervals were widened to cover this; log the torque in finer steps",
+      "by {:.2g} {}, and intervals were widened to cover this; log the torque in finer steps",
       Resolution(m.torque), m.torque_unit, parameter.name, std::abs(examination.by_rounding[worst]),
       parameter.unit));
 }

@@ -250,8 +250,7 @@ std::string AgainstPosition(const Advice& advice) {
   if (periods > most) {
     return how + fmt::format(
                      "it returns {:.0f} times over the travel, and a map follows {} periods at "
-                     "most: record it "
-                     "within {:.2g} {}",
+                     "most: record it within {:.2g} {}",
                      periods, most, most * advice.finding.period,
                      kPositionUnit.For(advice.input.measurements.joint));
   }

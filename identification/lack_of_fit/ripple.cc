@@ -24,10 +24,9 @@ using Eigen::VectorXd;
 
 constexpr int kMost = 6;  // frequencies that are reported together
 constexpr int kMotorHarmonics = 8;
-constexpr double kFinestPosition =
-    512;  // cycles over the travel; why: a transform of 8192 numbers takes 0.2 ms
-constexpr double kSamplesACycle = 16;  // why: two samples a bin
-constexpr double kBinsACycle = 8;      // why: a wave in eight steps has 95 % of its squares
+constexpr double kFinestPosition = 512;  // cycles over the travel; why: twelve times a map's
+constexpr double kSamplesACycle = 16;    // why: two samples a bin
+constexpr double kBinsACycle = 8;        // why: a wave in eight steps has 95 % of its squares
 
 /// Sums of the residual and of samples over bins of the axis, apart for each direction and part.
 class BinnedResidual {
