@@ -126,9 +126,10 @@ TEST_F(Terminal, ProgressOfARunStaysOnOneLine) {
 }
 
 TEST_F(Terminal, IdentifyTellsWhatItIsAtFromTheFirstSecondOn) {
-  WriteLog(100000);
+  // several seconds
+  WriteLog(400000);
   const Answer shown = On(60, {"identify", "log.csv", "--identifier", "auto"});
-  EXPECT_THAT(shown.out, HasSubstr("fitting auto to 100000 samples"));
+  EXPECT_THAT(shown.out, HasSubstr("fitting auto to 400000 samples"));
   EXPECT_LE(WidestRow(shown.out), 60);
 }
 
