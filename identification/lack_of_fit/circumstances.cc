@@ -47,15 +47,15 @@ std::vector<double> MemoryTimes(double hold, double duration) {
   return times;
 }
 
-/// |v| behind filters of first order, which begin at the first speed. [N x times]
-Eigen::MatrixXd PastSpeeds(const Measurements& m, const std::vector<double>& times) {
+/// |v| behind filters of first order, which begin at the first speed, less |v|. [N x times]
+Eigen::MatrixXd LateSpeeds(const Measurements& m, const std::vector<double>& times) {
   const Eigen::VectorXd speed = m.velocity.cwiseAbs();
   const ThermalFilter filter(m.time, m.starts);
-  Eigen::MatrixXd past(m.size(), static_cast<Eigen::Index>(times.size()));
-  for (Eigen::Index i = 0; i < past.cols(); ++i) {
-    past.col(i) = filter.Energy({1, times[static_cast<size_t>(i)]}, speed, speed[0]);
+  Eigen::MatrixXd late(m.size(), static_cast<Eigen::Index>(times.size()));
+  for (Eigen::Index i = 0; i < late.cols(); ++i) {
+    late.col(i) = filter.Energy({1, times[static_cast<size_t>(i)]}, speed, speed[0]) - speed;
   }
-  return past;
+  return late;
 }
 
 }  // namespace
@@ -77,7 +77,7 @@ Circumstances CircumstancesOf(const FittedModel& model, const Measurements& m, c
   known.duration = m.time[m.size() - 1] - m.time[0];
   known.hold = MedianHold(model, m);
   known.past = MemoryTimes(known.hold, known.duration);
-  known.past_speeds = bins.Means(PastSpeeds(m, known.past));
+  known.late_speeds = bins.Means(LateSpeeds(m, known.past));
   return known;
 }
 

@@ -6,6 +6,7 @@
 
 #include "identification/fit_data.h"
 #include "identification/lack_of_fit/bin_tests.h"
+#include "identification/lack_of_fit/error_level.h"
 #include "identification/lack_of_fit/fading.h"
 #include "identification/lack_of_fit/fitted_model.h"
 #include "identification/lack_of_fit/lag.h"
@@ -100,6 +101,16 @@ void SumMoves(Index p, Examination& examination) {
   examination.move_deviations = variance.cwiseSqrt();
 }
 
+/// What hints move parameters by, with 95 % of it. They may be one and the same thing seen twice: the largest of them
+/// counts.
+void LearnHints(Index p, Examination& examination) {
+  for (const Finding* hint : examination.Hints()) {
+    if (examination.by_hints.size() == 0) examination.by_hints.setZero(p);
+    examination.by_hints = examination.by_hints.cwiseMax(hint->moves.head(p).cwiseAbs() +
+                                                         kNormal95 * hint->move_deviations.head(p));
+  }
+}
+
 /// What returns with every hold and vanishes somewhere in it has a mean over the hold that is no farther from 0
 /// than its values are from each other. The mean looks like friction, or like an offset.
 void HideMeans(const Bins& bins, const Eigen::MatrixXd& derivatives, Index p,
@@ -156,6 +167,15 @@ std::vector<const Finding*> Examination::Found() const {
   return found;
 }
 
+std::vector<const Finding*> Examination::Hints() const {
+  std::vector<const Finding*> hints;
+  for (const Finding& finding : findings) {
+    const bool hint = finding.made && !finding.rejected && finding.p <= kErrorLevel;
+    if (hint && finding.moves.size() > 0) hints.push_back(&finding);
+  }
+  return hints;
+}
+
 std::vector<Finding> NotMade(const std::string& reason) {
   std::vector<Finding> table;
   for (const LackOfFitTest& test : LackOfFitTests()) {
@@ -193,6 +213,7 @@ Examination ExamineResidual(const Fit& fit, const Inference& inference, const Me
   TestInTurn(Turn::first, bins, derivatives, known, rest, level, table);
   TestWithin(*model, m, bins, derivatives, known, rest, level, table);
   SumMoves(p, examination);
+  LearnHints(p, examination);
   HideMeans(bins, derivatives, p, examination);
   return examination;
 }

@@ -20,6 +20,9 @@ struct Examination {
   /// [p] most that those among them that return with every hold move each by their means over a hold, which
   /// nobody sees; empty where there are none.
   Eigen::VectorXd by_hidden;
+  /// [p] most that a hint moves each: what a test by itself would reject at the error level, and the log, where
+  /// as many are made, does not. Empty where there is none.
+  Eigen::VectorXd by_hints;
   Eigen::VectorXd reach;     // [p] force of each parameter's unit, rms over the kept samples
   Eigen::VectorXd by_start;  // [p] change of each had the joint been a tenth as warm at the start
                              // as it ever gets; empty where its start is no matter
@@ -57,6 +60,9 @@ struct Examination {
 
   /// Those that were rejected, the largest first.
   std::vector<const Finding*> Found() const;
+
+  /// Those that were not, though each by itself would have been.
+  std::vector<const Finding*> Hints() const;
 };
 
 /// Makes all tests at one error level (error_level.h). Where they cannot be made each says why.

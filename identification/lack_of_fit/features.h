@@ -22,7 +22,8 @@ Features OfLoad(const Bins& bins, const Circumstances& known, const GrowingFit& 
 Features OfTemperature(const Bins& bins, const Circumstances& known, const GrowingFit& fit);
 /// s cos(k pi t), k = 1..4; cos(k pi t), k = 1, 2: slow drift.
 Features OfTime(const Bins& bins, const Circumstances& known, const GrowingFit& fit);
-/// s |v| behind a filter of first order: the best of Circumstances::past.
+/// s (u - |v|), u: |v| behind a filter of first order, the best of Circumstances::past: friction that follows the speed
+/// late, and at a steady speed is what the law says.
 Features OfSpeedMemory(const Bins& bins, const Circumstances& known, const GrowingFit& fit);
 /// s or 1 from one of 31 places in the log on: friction or offset that jumps.
 Features OfStep(const Bins& bins, const Circumstances& known, const GrowingFit& fit);

@@ -8,6 +8,8 @@ namespace warmjoint::inline identification {
 
 struct LackOfFitTest;
 
+inline constexpr double kNormal95 = 1.96;  // why: 95 % of a normal variable
+
 /// Outcome of a test. A test that was not made keeps p = 1 and says why.
 struct Finding {
   const LackOfFitTest* test = nullptr;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "identification/lack_of_fit/report_findings.h"
+#include "identification/lack_of_fit/table.h"
 #include "identification/lack_of_fit/words.h"
 #include "identification/warming/gaps.h"
 #include "models/foundation/robust_noise.h"
@@ -15,9 +16,8 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kNormal95 = 1.96;  // why: 95 % of a normal variable
-constexpr double kSure = 5;         // deviations of the heat's share from a value that is ruled out
-constexpr double kSureMove = 3;     // deviations from which a move is there; why 3: 1 in 370
+constexpr double kSure = 5;      // deviations of the heat's share from a value that is ruled out
+constexpr double kSureMove = 3;  // deviations from which a move is there; why 3: 1 in 370
 
 /// Whether lack of fit that explains so much is more than a detail.
 bool IsRelevant(double explained, const Examination& examination, const Judging& judging) {
@@ -174,6 +174,16 @@ std::string Depends(const Examination& examination, const Measurements& measurem
   return fmt::format("the residual depends on {}", fmt::join(words, "; and on "));
 }
 
+/// Lets intervals hold what one test by itself would call lack of fit, and the log, where many are made, does not: a
+/// parameter that a real one moved is not given as sure, and none is refused for chance.
+void CoverHints(const Examination& examination, const Measurements& m, Inference& inference) {
+  std::vector<std::string> words;
+  for (const Finding* hint : examination.Hints()) words.push_back(hint->test->quantity(*hint, m));
+  inference.message += fmt::format("; the intervals also cover that the friction may depend on {}",
+                                   fmt::join(words, "; or on "));
+  Widen(examination, examination.by_hints, inference);
+}
+
 /// Voids an inference that lack of fit makes wrong, or warns of it and widens the intervals.
 void WeighFindings(const Examination& examination, const Identifier& identifier,
                    const IdentifierInput& input, const Fit& fit, const Judging& judging,
@@ -239,6 +249,9 @@ void JudgeLackOfFit(const Identifier& identifier, const IdentifierInput& input, 
   if (examination.by_rounding.size() > 0) WidenByRounding(examination, fit, m, inference);
   if (!examination.Found().empty()) {
     WeighFindings(examination, identifier, input, fit, judging, inference);
+  }
+  if (inference.status == Status::ok && examination.by_hints.size() > 0) {
+    CoverHints(examination, m, inference);
   }
 }
 

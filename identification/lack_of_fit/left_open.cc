@@ -96,7 +96,7 @@ MatrixXd Curves(const FittedModel& model, const Measurements& m, const Bins& bin
 /// s (|v| behind a filter - |v|), for each filter. [m x c]
 MatrixXd Memories(const Circumstances& known, const Bins& bins) {
   const VectorXd sign = bins.velocity.array().sign();
-  return sign.asDiagonal() * (known.past_speeds.colwise() - bins.velocity.cwiseAbs());
+  return sign.asDiagonal() * known.late_speeds;
 }
 
 }  // namespace

@@ -1,12 +1,11 @@
 // What an ideal test of the torque could see of a model that is wrong.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <Eigen/QR>
+#include <cmath>
+#include <cstdint>
 #include <memory>
-#include <string>
-#include <vector>
+#include <optional>
 
 #include "identification/fit_data.h"
 #include "identification/identifiers/identifier_list.h"
@@ -44,30 +43,33 @@ inline double LeastSquaresOf(Fit fit, const Measurements& m, const Selection& se
   return least;
 }
 
-/// Squares that an identifier's model leaves of the torque of a log without torque noise, over the
-/// variance of the scenario's noise: "12, 14, 9" of three realizations, "-" where there is no fit.
-/// Noise of other sensors stays. Below about 30 no test can see that the model is wrong.
-inline std::string IdealChi2(const Scenario& scenario, const SuiteIdentifier& one) {
-  constexpr std::uint64_t kLogs = 3;
-  const double variance = scenario.noise.torque * scenario.noise.torque;
-  if (!(variance > 0)) return "-";
-  Scenario quiet = scenario;
-  quiet.noise.torque = 0;
-  const std::unique_ptr<Plant> plant = MakePlant(quiet);
-  const Identifier& identifier = FindIdentifier(one.name);
-  const Options options(identifier.options, one.options, {one.label});
+/// What an identifier's model leaves of the torque of logs without torque noise.
+class IdealChi2 {
+ public:
+  explicit IdealChi2(const Scenario& scenario) : variance_(std::pow(scenario.noise.torque, 2)) {
+    Scenario quiet = scenario;
+    quiet.noise.torque = 0;
+    if (variance_ > 0) plant_ = MakePlant(quiet);
+  }
 
-  std::string texts;
-  for (std::uint64_t r = 0; r < kLogs; ++r) {
-    const PreparedLog log = Prepare(plant->Run(r).measurements);
+  /// Squares over the variance of the scenario's noise, of one realization; nothing where there is no fit or no
+  /// noise. Noise of other sensors stays. Below about 30 no test can see that the model is wrong.
+  std::optional<double> Of(const SuiteIdentifier& one, std::uint64_t realization) const {
+    if (!plant_) return {};
+    const Identifier& identifier = FindIdentifier(one.name);
+    const Options options(identifier.options, one.options, {one.label});
+    const PreparedLog log = Prepare(plant_->Run(realization).measurements);
     const IdentifierInput given{log, options, {}};
     const IdentifierInput input = identifier.Seen(given);
     const double squares =
         LeastSquaresOf(identifier.fit(input), input.measurements, input.selection);
-    texts += fmt::format("{}{}", r == 0 ? "" : ", ",
-                         squares >= 0 ? fmt::format("{:.3g}", squares / variance) : "-");
+    if (squares < 0) return {};
+    return squares / variance_;
   }
-  return texts;
-}
+
+ private:
+  double variance_;
+  std::unique_ptr<Plant> plant_;
+};
 
 }  // namespace warmjoint

@@ -15,7 +15,8 @@
 // Kolmogorov and Smirnov's test of that. An assumption reaches the truth of a log where
 // every interval, made as much longer at both ends as the assumption moves the parameter, holds it; behind that stands
 // how often none of them leaves the truth more than three deviations outside, as an answer that is not confidently wrong.
-// Ideal chi2: squares that the fit leaves of the torque without noise, over the noise's variance.
+// Ideal chi2: squares that the fit leaves of the torque without noise, over the noise's variance; median and quartiles
+// over the logs. Behind it the share that is confidently wrong of the logs where it is above 30.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,6 +24,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,6 +40,8 @@
 
 namespace warmjoint {
 namespace {
+
+constexpr double kVisible = 30;  // ideal chi2 above which a test can see that the model is wrong
 
 /// How often something happened.
 struct Rate {
@@ -113,8 +117,11 @@ struct Outcomes {
   Rate refused;                         // not ok
   Rate warned;                          // ok, with a test that rejects
   Rate wrong;                           // confidently
+  std::vector<double> chi2;             // ideal
+  Rate visibly_wrong;  // confidently, of the logs whose ideal chi2 is above kVisible
 
-  void Count(const Estimate& estimate, const Recording& recording, const LogView& view) {
+  void Count(const Estimate& estimate, const Recording& recording, const LogView& view,
+             std::optional<double> ideal) {
     ++statuses[std::string(StatusName(estimate.status))];
     const double friction = std::sqrt(recording.truth.force.squaredNorm() /
                                       static_cast<double>(recording.truth.force.size()));
@@ -147,13 +154,29 @@ struct Outcomes {
       }
     }
     wrong.Count(far);
+    if (ideal) chi2.push_back(*ideal);
+    if (ideal && *ideal > kVisible) visibly_wrong.Count(far);
+  }
+
+  /// "33.8 (15.5 .. 45.7)": median and quartiles; "-" where there are none.
+  std::string Chi2Text() {
+    if (chi2.empty()) return "-";
+    std::ranges::sort(chi2);
+    const auto at = [&](double share) {
+      return chi2[static_cast<size_t>(share * static_cast<double>(chi2.size() - 1))];
+    };
+    return fmt::format("{:.3g} ({:.3g} .. {:.3g})", at(0.5), at(0.25), at(0.75));
   }
 
   void Print() {
     for (const auto& [status, count] : statuses) fmt::print("    {}: {}\n", status, count);
     fmt::print("    any test rejects {}, refused {}, ok with a finding {}\n", alarms.Text(),
                refused.Text(), warned.Text());
-    fmt::print("    confidently wrong {}\n", wrong.Text());
+    fmt::print("    confidently wrong {}", wrong.Text());
+    if (visibly_wrong.of > 0)
+      fmt::print(", of the {} logs with ideal chi2 > {:.0f} {}", visibly_wrong.of, kVisible,
+                 visibly_wrong.Text());
+    fmt::print("\n");
     for (const auto& [name, rate] : reaches)
       fmt::print("    {:24} reaches the truth {}, to three deviations {}\n", name, rate.Text(),
                  nears[name].Text());
@@ -175,6 +198,7 @@ void Study(const Suite& suite, int variant, int realizations) {
   fmt::print("{}\n",
              suite.ladder ? suite.ladder->variants[static_cast<size_t>(variant)].name : suite.name);
   const std::unique_ptr<Plant> plant = MakePlant(scenario);
+  const IdealChi2 ideal(scenario);
   std::vector<Outcomes> outcomes(suite.identifiers.size());
   for (int r = 0; r < realizations; ++r) {
     const Recording recording = plant->Run(static_cast<std::uint64_t>(r));
@@ -184,12 +208,12 @@ void Study(const Suite& suite, int variant, int realizations) {
       const Identifier& identifier = FindIdentifier(one.name);
       const Options options(identifier.options, one.options, {one.label});
       const Estimate estimate = IdentifyAndJudge(identifier, {log, options, {}});
-      outcomes[i].Count(estimate, recording, ScoredView(estimate, log));
+      outcomes[i].Count(estimate, recording, ScoredView(estimate, log),
+                        ideal.Of(one, static_cast<std::uint64_t>(r)));
     }
   }
   for (size_t i = 0; i < outcomes.size(); ++i) {
-    fmt::print("  {}, ideal chi2 {}\n", suite.identifiers[i].label,
-               IdealChi2(scenario, suite.identifiers[i]));
+    fmt::print("  {}, ideal chi2 {}\n", suite.identifiers[i].label, outcomes[i].Chi2Text());
     outcomes[i].Print();
   }
   std::fflush(stdout);

@@ -50,6 +50,34 @@ Measurements Travel(std::uint64_t seed) {
   return test::RecordFriction(Cold(), 0.2, velocity, 0.5, seed);
 }
 
+/// The level rises by 0.06 N.m at half time: of 0.4 % of the friction the tests hint more often than they reject.
+Measurements Step(std::uint64_t seed) {
+  Measurements m = RecordHour(test::TableOne(), seed);
+  const Eigen::Index half = m.size() / 2;
+  m.torque.tail(half) += 0.06 * m.velocity.tail(half).array().sign().matrix();
+  return m;
+}
+
+TEST(Judge, LetsIntervalsHoldWhatATestHintsAt) {
+  int hints = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Estimate estimate = Answer("energy-ml", Step(seed));
+    if (estimate.status != Status::ok) continue;
+    for (const Diagnostic& one : estimate.diagnostics) {
+      if (!one.made || one.rejected || one.p > 0.01) continue;
+      ++hints;
+      for (const auto& [name, move] : one.moves) {
+        const EstimatedParameter& parameter = *estimate.Find(name);
+        if (!parameter.interval95) continue;
+        const auto [lower, upper] = *parameter.interval95;
+        EXPECT_LE(lower, parameter.value - std::abs(move)) << one.test;
+        EXPECT_GE(upper, parameter.value + std::abs(move)) << one.test;
+      }
+    }
+  }
+  EXPECT_GE(hints, 5);
+}
+
 TEST(Judge, FindsThatAJointWarmsUp) {
   const auto warm = [](std::uint64_t seed) { return RecordHour(test::TableOne(), seed); };
   EXPECT_GE(CountRejected("nominal-ls", "energy", warm), kNearlyAll);
