@@ -17,7 +17,7 @@ Fit FitMotorMaps(const IdentifierInput& input) {
   const MotorMapSize size{input.options.Integer("kernels"),
                           input.options.Integer("velocity_kernels"),
                           input.options.Integer("arm_kernels")};
-  task.candidates = MotorMaps(size, task.settings, begin.points);
+  task.candidates = MotorMaps(size, task.settings, input.measurements.joint, begin.points);
   const auto choice = ChooseAndFit(input, task);
   if (!choice) return Refused(kName, Unsolvable());
   const MapFit& maps = choice->fit;

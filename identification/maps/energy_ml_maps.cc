@@ -29,14 +29,14 @@ MapBeginning Begin(const std::string& identifier, const IdentifierInput& input,
 }
 
 /// The shapes that the option `position` names.
-std::vector<std::vector<FrictionMap>> Candidates(const Options& options,
+std::vector<std::vector<FrictionMap>> Candidates(const Options& options, JointKind joint,
                                                  const MapBeginning& begin) {
   const MapSettings& settings = begin.task.settings;
   if (options.Text("position") == "map") return PositionMaps(options, settings, begin.points);
   const int arm = options.Integer("kernels");
   return MotorMaps({options.Integer("motor_kernels"), options.Integer("velocity_kernels"),
                     arm > 0 ? arm : kArmKernels},
-                   settings, begin.points);
+                   settings, joint, begin.points);
 }
 
 }  // namespace
@@ -65,7 +65,7 @@ Fit FitWithMaps(const std::string& identifier, const IdentifierInput& given) {
                                "out",
                                position, option, value));
   }
-  begin.task.candidates = Candidates(input.options, begin);
+  begin.task.candidates = Candidates(input.options, input.measurements.joint, begin);
   const std::optional<WarmMaps> warm = FitWarmMaps(input, begin.task);
   return warm ? AsFit(input, *warm) : Refused(identifier, Unsolvable());
 }
@@ -77,7 +77,7 @@ std::optional<ChosenMap> MapBesideEnergy(const IdentifierInput& given,
   const IdentifierInput input = rigid.Of(given);
   MapBeginning begin = Begin("", input, rigid);
   if (begin.refusal) return std::nullopt;
-  begin.task.candidates = Candidates(input.options, begin);
+  begin.task.candidates = Candidates(input.options, input.measurements.joint, begin);
   begin.task.energy = energy;
   const auto chosen = Choose(input, begin.task);
   if (!chosen) return std::nullopt;

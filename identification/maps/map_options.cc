@@ -66,8 +66,8 @@ MapAxis VelocityAxis(const MapPoints& points, int count, double width) {
   return axis;
 }
 
-MapAxis MotorAxis(int count, double width) {
-  MapAxis axis{MapQuantity::motor_position, CircleAxis(2 * std::numbers::pi, count)};
+MapAxis TurnAxis(MapQuantity angle, int count, double width) {
+  MapAxis axis{angle, CircleAxis(2 * std::numbers::pi, count)};
   axis.kernels.width *= width;
   return axis;
 }

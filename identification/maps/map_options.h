@@ -32,8 +32,8 @@ MapAxis RangeAxis(MapQuantity quantity, const MapPoints& points, int count, doub
 /// other. A count of 1 tells the directions apart and nothing else.
 MapAxis VelocityAxis(const MapPoints& points, int count, double width);
 
-/// Even centres over one turn of the motor, 2 pi rad, on a circle.
-MapAxis MotorAxis(int count, double width);
+/// Even centres over one turn of the motor or of the joint, 2 pi rad, on a circle.
+MapAxis TurnAxis(MapQuantity angle, int count, double width);
 
 /// Why a quantity cannot carry a map: not a number at some sample, or the same at all. Empty where
 /// it can.

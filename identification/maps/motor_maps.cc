@@ -2,22 +2,42 @@
 
 #include <fmt/format.h>
 
+#include <numbers>
+
 #include "identification/maps/motor_harmonics.h"
 #include "identification/maps/position_maps.h"
 #include "models/recording/motor_angle.h"
 
 namespace warmjoint::inline identification {
 
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;  // rad
+constexpr double kKernelsATurn = 3;             // why: mean, cosine and sine of one turn
+
+/// The joint's map: over its travel, or over one turn.
+FrictionMap ArmMap(const MotorMapSize& size, const MapSettings& settings, JointKind joint,
+                   double width, const MapPoints& points) {
+  FrictionMap map = PositionMap(points, settings.kernels, size.arm, width);
+  const double travel = map.axes[0].kernels.centres.back() - map.axes[0].kernels.centres.front();
+  if (joint == JointKind::rotary && size.arm * kTurn < kKernelsATurn * travel) {
+    map.axes[0] = TurnAxis(MapQuantity::position, size.arm, width);
+  }
+  return map;
+}
+
+}  // namespace
+
 std::vector<std::vector<FrictionMap>> MotorMaps(const MotorMapSize& size,
-                                                const MapSettings& settings,
+                                                const MapSettings& settings, JointKind joint,
                                                 const MapPoints& points) {
   std::vector<std::vector<FrictionMap>> candidates;
   for (const double width : settings.widths) {
-    std::vector<FrictionMap> maps{
-        {{MotorAxis(size.turn, width), VelocityAxis(points, size.speed, width)},
-         settings.kernels,
-         {}}};
-    if (size.arm > 0) maps.push_back(PositionMap(points, settings.kernels, size.arm, width));
+    std::vector<FrictionMap> maps{{{TurnAxis(MapQuantity::motor_position, size.turn, width),
+                                    VelocityAxis(points, size.speed, width)},
+                                   settings.kernels,
+                                   {}}};
+    if (size.arm > 0) maps.push_back(ArmMap(size, settings, joint, width, points));
     candidates.push_back(maps);
   }
   return candidates;

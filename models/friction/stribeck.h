@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cmath>
-#include <type_traits>
 
 #include "models/friction/parameter_rows.h"
 #include "models/friction/pre_sliding.h"
@@ -23,6 +22,16 @@ T StribeckLevel(double speed, const T& coulomb, const T& at_rest, const T& veloc
   return coulomb + (at_rest - coulomb) * exp(-square);
 }
 
+/// Whether an exponent is 2 and stays 2: of a number with derivatives these vanish.
+template <typename T>
+bool StaysTwo(const T& exponent) {
+  if constexpr (requires { exponent.a, exponent.v; }) {
+    return exponent.a == 2 && (exponent.v.array() == 0).all();
+  } else {
+    return exponent == 2;
+  }
+}
+
 /// g(|v|) = kc + (ks - kc) exp(-(|v| / vs)^delta); g(0) = ks. All N.m or N, |v| and vs rad/s or
 /// m/s. Source: Armstrong-Helouvry, Dupont, Canudas de Wit, Automatica 30 (1994), Eq. (2).
 template <typename T>
@@ -31,9 +40,7 @@ T StribeckLevel(double speed, const T& coulomb, const T& at_rest, const T& veloc
   using std::exp;
   using std::pow;
   if (speed == 0) return at_rest;
-  if constexpr (std::is_same_v<T, double>) {
-    if (exponent == 2) return StribeckLevel(speed, coulomb, at_rest, velocity);
-  }
+  if (StaysTwo(exponent)) return StribeckLevel(speed, coulomb, at_rest, velocity);
   return coulomb + (at_rest - coulomb) * exp(-pow(T(speed) / velocity, exponent));
 }
 

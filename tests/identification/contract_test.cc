@@ -279,6 +279,15 @@ TEST_P(Contract, GivesTheSameBitsTwice) {
   EXPECT_EQ(EstimateToJson(IdentifyRich()).dump(), EstimateToJson(IdentifyRich()).dump());
 }
 
+/// Whether a map goes over one turn of the joint, as a sliding joint's cannot.
+bool HasTurnOfTheJoint(const std::optional<FrictionDescription>& friction) {
+  if (!friction) return false;
+  return std::ranges::any_of(friction->maps, [](const FrictionMap& map) {
+    const MapAxis* axis = FindAxis(map, MapQuantity::position);
+    return axis && axis->kernels.period;
+  });
+}
+
 TEST_P(Contract, CarriesTheUnitsOfALinearJoint) {
   Measurements linear = Rich();
   linear.joint = JointKind::linear;
@@ -286,8 +295,11 @@ TEST_P(Contract, CarriesTheUnitsOfALinearJoint) {
   const Estimate estimate = Identify(linear);
   const Estimate rotary = IdentifyRich();
   ASSERT_EQ(estimate.parameters.size(), rotary.parameters.size());
+  const bool alike = !HasTurnOfTheJoint(rotary.friction);
   for (const EstimatedParameter& parameter : estimate.parameters) {
-    EXPECT_EQ(parameter.value, rotary.Find(parameter.name)->value) << parameter.name;
+    if (alike) {
+      EXPECT_EQ(parameter.value, rotary.Find(parameter.name)->value) << parameter.name;
+    }
     EXPECT_EQ(parameter.unit.find("rad"), std::string::npos) << parameter.name;
     EXPECT_EQ(parameter.unit.find("N.m"), std::string::npos) << parameter.name;
   }
