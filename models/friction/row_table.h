@@ -6,13 +6,14 @@
 #include <cstddef>
 #include <vector>
 
+#include "models/foundation/four.h"
 #include "models/friction/gaussian_axis.h"
 
 namespace warmjoint::inline models {
 
 /// The functions sum_j kappa_j(x) w_(row, j), one for each row of weights, where they are smooth
 /// and their centres even: polynomials of degree 9 in cells of a half, a quarter or an eighth of a
-/// spacing, to 3e-13 of the largest weight, which is checked against the kernels themselves. Two rows
+/// spacing, to 3e-13 of the largest weight, which is checked against the kernels themselves. Four rows
 /// lie side by side, and are evaluated at once.
 class RowTable {
  public:
@@ -46,20 +47,27 @@ class RowTable {
     return true;
   }
 
-  /// The functions of rows 2 pair and 2 pair + 1 there, in the unit of the weights; 0 of a row beyond
-  /// the last.
-  EIGEN_ALWAYS_INLINE Eigen::Array2d Pair(size_t pair, const Spot& spot) const {
-    const double* c = coefficients_.data() + (pair * cells_ + spot.cell) * 2 * kCoefficients;
-    const auto at = [c](int power) { return Eigen::Array2d::Map(c + 2 * power); };
+  /// The functions of rows 4 quad to 4 quad + 3 there, in the unit of the weights; 0 of rows beyond the last.
+  EIGEN_ALWAYS_INLINE void Quad(size_t quad, const Spot& spot, Four& value) const {
+    const double* c = coefficients_.data() + (quad * cells_ + spot.cell) * 4 * kCoefficients;
     const double x = spot.local, y = x * x;
-    const Eigen::Array2d even = at(0) + y * (at(2) + y * (at(4) + y * (at(6) + y * at(8))));
-    const Eigen::Array2d odd = at(1) + y * (at(3) + y * (at(5) + y * (at(7) + y * at(9))));
-    return even + x * odd;
+    Four even, odd, next;
+    Load(c + 4 * 8, even);
+    Load(c + 4 * 9, odd);
+    for (int power = 6; power >= 0; power -= 2) {
+      Load(c + 4 * power, next);
+      even = next + y * even;
+      Load(c + 4 * (power + 1), next);
+      odd = next + y * odd;
+    }
+    value = even + x * odd;
   }
 
   /// The function of one row there.
-  double Value(size_t row, const Spot& spot) const {
-    return Pair(row / 2, spot)[static_cast<Eigen::Index>(row % 2)];
+  EIGEN_ALWAYS_INLINE double Value(size_t row, const Spot& spot) const {
+    Four four;
+    Quad(row / 4, spot, four);
+    return four[row % 4];
   }
 
  private:
@@ -74,8 +82,9 @@ class RowTable {
   double per_cell_ = 0;  // 1 over a cell's size
   double period_ = 0;    // of a circle, else 0
   size_t cells_ = 0;
-  double end_ = 0;                    // the number of cells
-  std::vector<double> coefficients_;  // [row pairs x cells x kCoefficients x 2], the constant first
+  double end_ = 0;  // the number of cells
+  std::vector<double>
+      coefficients_;  // [quads of rows x cells x kCoefficients x 4], the constant first
 };
 
 }  // namespace warmjoint::inline models

@@ -198,7 +198,7 @@ Change WithDcMotors(double level) {
 }
 
 struct Variant {
-  const char* name;
+  std::string name;
   ModelPtr model;
   DataPtr data;
   std::vector<double> times{};   // s, of each round
@@ -230,9 +230,12 @@ double Median(std::vector<double> values) {
   return *middle;
 }
 
-std::vector<Variant> MakeVariants(Arm arm, mjtIntegrator integrator, int noslip) {
+/// only: part of the names of those that are made beside the arm without friction; empty: all.
+std::vector<Variant> MakeVariants(Arm arm, mjtIntegrator integrator, int noslip,
+                                  const std::string& only) {
   std::vector<Variant> variants;
-  const auto add = [&](const char* name, const Change& change) {
+  const auto add = [&](const std::string& name, const Change& change) {
+    if (!variants.empty() && name.find(only) == std::string::npos) return;
     ModelPtr model = MakeArm(arm, integrator, noslip, change);
     DataPtr data(mj_makeData(model.get()));
     variants.push_back({name, std::move(model), std::move(data)});
@@ -252,10 +255,12 @@ std::vector<Variant> MakeVariants(Arm arm, mjtIntegrator integrator, int noslip)
   return variants;
 }
 
-void Compare(const std::string& title, Arm arm, mjtIntegrator integrator, double drive,
-             int rounds) {
+void Compare(const std::string& title, Arm arm, mjtIntegrator integrator, double drive, int rounds,
+             const std::string& only) {
   std::vector<std::vector<Variant>> columns;
-  for (const int noslip : kNoslip) columns.push_back(MakeVariants(arm, integrator, noslip));
+  for (const int noslip : kNoslip) {
+    columns.push_back(MakeVariants(arm, integrator, noslip, only));
+  }
   for (int round = 0; round < rounds; ++round) {
     for (std::vector<Variant>& variants : columns) {
       for (Variant& variant : variants) {
@@ -281,17 +286,19 @@ void Compare(const std::string& title, Arm arm, mjtIntegrator integrator, double
 }  // namespace
 }  // namespace warmjoint
 
-/// Arguments: the number of rounds, 200 where not given.
+/// Arguments: the number of rounds, 200 where not given, and part of the names of the variants to compare, to profile
+/// one of them.
 int main(int argc, char** argv) {
   using namespace warmjoint;
   const int rounds = argc > 1 ? std::atoi(argv[1]) : 200;
+  const std::string only = argc > 2 ? argv[2] : "";
   for (const Arm arm : {Arm::serial, Arm::industrial}) {
     for (const mjtIntegrator integrator : {mjINT_IMPLICITFAST, mjINT_EULER}) {
       const std::string name =
           fmt::format("{} arm, {}", arm == Arm::serial ? "serial" : "industrial",
                       integrator == mjINT_EULER ? "Euler" : "implicitfast");
-      Compare(name + ", sliding", arm, integrator, 6 * LevelOf(arm), rounds);
-      Compare(name + ", held", arm, integrator, 0, rounds);
+      Compare(name + ", sliding", arm, integrator, 6 * LevelOf(arm), rounds, only);
+      Compare(name + ", held", arm, integrator, 0, rounds, only);
     }
   }
   return 0;
