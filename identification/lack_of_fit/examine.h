@@ -44,7 +44,7 @@ struct Examination {
   Eigen::VectorXd by_gaps;   // [p] most that the gaps of the log may have moved each; empty where
                              // there are none, or where the fit has taken care of them
   Eigen::VectorXd
-      by_rounding;  // [p] change of each by the steps of the torque (rounding.h); empty where
+      by_rounding;  // [p] change of each once what the torque's steps do is taken off (rounding.h); empty where
                     // noise evens them out
   Eigen::VectorXd by_heat;  // [p] change of each had the losses followed the heat within the steps
                             // of the log; empty where that is no matter

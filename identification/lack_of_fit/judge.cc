@@ -76,6 +76,16 @@ void Shift(const Examination& examination, const Eigen::VectorXd& by, Inference&
   }
 }
 
+/// Lets intervals reach as far as something may have moved the parameters, if in this direction. by: [p]
+void WidenTowards(const Examination& examination, const Eigen::VectorXd& by, Inference& inference) {
+  for (size_t i = 0; i < examination.rows.size(); ++i) {
+    KnownParameter& known = inference.parameters[examination.rows[i]];
+    const double move = by[static_cast<Index>(i)];
+    known.widened += std::abs(move);
+    if (known.interval95) (*known.interval95)[move > 0 ? 1 : 0] += move;
+  }
+}
+
 /// Where the log's step matters to the warming: the parameters of heat that is followed within the
 /// steps where the residual tells that it is; where it cannot tell, intervals that hold both.
 void FollowHeat(const Examination& examination, const Fit& fit, const Measurements& m,
@@ -95,7 +105,7 @@ void FollowHeat(const Examination& examination, const Fit& fit, const Measuremen
     Shift(examination, examination.by_heat, inference);
   } else {
     inference.warnings.push_back(fmt::format("{}: the intervals cover both; log faster", what));
-    Widen(examination, examination.by_heat, inference);
+    WidenTowards(examination, examination.by_heat, inference);
   }
 }
 
@@ -125,17 +135,18 @@ Index FarthestBeyond(const Eigen::VectorXd& by, const Examination& examination,
   return worst;
 }
 
-/// Lets intervals reach as far as the steps of the torque move the parameters.
-void WidenByRounding(const Examination& examination, const Fit& fit, const Measurements& m,
+/// Takes back what the steps of the torque do to the parameters.
+void CorrectRounding(const Examination& examination, const Fit& fit, const Measurements& m,
                      Inference& inference) {
   const Index worst = FarthestBeyond(examination.by_rounding, examination, inference);
-  Widen(examination, examination.by_rounding, inference);
+  Shift(examination, examination.by_rounding, inference);
   if (worst < 0) return;
   const FitParameter& parameter = fit.parameters[examination.rows[static_cast<size_t>(worst)]];
   inference.warnings.push_back(fmt::format(
-      "the torque comes in steps of {:.3g} {}, which its noise does not even out: they may move {} "
-      "by {:.2g} {}, and intervals were widened to cover this; log the torque in finer steps",
-      Resolution(m.torque), m.torque_unit, parameter.name, std::abs(examination.by_rounding[worst]),
+      "the torque comes in steps of {:.3g} {}, which its noise does not even out: the numbers "
+      "given "
+      "are free of what they do, {} changed by {:.2g} {}; log the torque in finer steps",
+      Resolution(m.torque), m.torque_unit, parameter.name, examination.by_rounding[worst],
       parameter.unit));
 }
 
@@ -246,7 +257,7 @@ void JudgeLackOfFit(const Identifier& identifier, const IdentifierInput& input, 
   WeighStart(examination, identifier, input, fit, judging, inference);
   FollowHeat(examination, fit, m, inference);
   WidenByGaps(examination, m, inference);
-  if (examination.by_rounding.size() > 0) WidenByRounding(examination, fit, m, inference);
+  if (examination.by_rounding.size() > 0) CorrectRounding(examination, fit, m, inference);
   if (!examination.Found().empty()) {
     WeighFindings(examination, identifier, input, fit, judging, inference);
   }
