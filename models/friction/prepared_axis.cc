@@ -15,13 +15,26 @@ constexpr double kReach = 7.6;  // widths
 /// Axes of so many centres, and no more, have their kernels tabulated.
 constexpr int kFew = 8;
 
-/// All kernels of a short even segment beyond its ends, seen from the nearer one: one exponential.
-/// place: from the first centre, in spacings.
+/// All kernels of a short even segment beyond its ends, seen from the nearer one: one exponential, and none where
+/// the nearest alone counts, or where none does. place: from the first centre, in spacings.
 template <typename Segment>
 void KernelsFromEnd(const Segment& segment, double place, bool normalised, ActiveKernels& active) {
   const int n = segment.size(), last = n - 1;
   const bool above = place > 0;
   const double distance = (above ? place - last : -place) * segment.ratio;
+  active.first = segment.row;
+  active.count = n;
+  active.begin = 0;
+  active.sum = 1;
+  if (!normalised && distance > kReach) {
+    active.count = 0;
+    return;
+  }
+  if (normalised && distance * segment.ratio > kReach * kReach / 2) {
+    std::fill_n(active.value.data(), n, 0.0);
+    active.value[static_cast<size_t>(above ? last : 0)] = 1;
+    return;
+  }
   const double fall = std::exp(-distance * segment.ratio);
   double kernel = normalised ? 1.0 : std::exp(-distance * distance / 2), sum = 0;
   for (int i = 0; i < n; ++i, kernel *= fall) {
@@ -29,10 +42,7 @@ void KernelsFromEnd(const Segment& segment, double place, bool normalised, Activ
     active.value[static_cast<size_t>(above ? last - i : i)] = value;
     sum += value;
   }
-  active.first = segment.row;
-  active.count = n;
-  active.begin = 0;
-  active.sum = normalised ? sum : 1;
+  if (normalised) active.sum = sum;
 }
 
 }  // namespace
