@@ -8,6 +8,7 @@
 #include "identification/lack_of_fit/report_findings.h"
 #include "identification/lack_of_fit/table.h"
 #include "identification/lack_of_fit/words.h"
+#include "identification/uncertainty/between_ends.h"
 #include "identification/warming/gaps.h"
 #include "models/foundation/robust_noise.h"
 
@@ -76,13 +77,18 @@ void Shift(const Examination& examination, const Eigen::VectorXd& by, Inference&
   }
 }
 
-/// Lets intervals reach as far as something may have moved the parameters, if in this direction. by: [p]
-void WidenTowards(const Examination& examination, const Eigen::VectorXd& by, Inference& inference) {
+/// Lets intervals hold parameters as they are, and as something would move them. by: [p]
+void HoldBoth(const Examination& examination, const Eigen::VectorXd& by, Inference& inference) {
   for (size_t i = 0; i < examination.rows.size(); ++i) {
     KnownParameter& known = inference.parameters[examination.rows[i]];
     const double move = by[static_cast<Index>(i)];
     known.widened += std::abs(move);
-    if (known.interval95) (*known.interval95)[move > 0 ? 1 : 0] += move;
+    if (!known.interval95 || !(known.HalfWidth() > 0)) continue;
+    auto& [lower, upper] = *known.interval95;
+    const double half = known.HalfWidth(), middle = 0.5 * (lower + upper);
+    const double reach = half * ReachBeyondEnds(kNormal95 * std::abs(move) / half) / kNormal95;
+    lower = middle + std::min(move, 0.0) - reach;
+    upper = middle + std::max(move, 0.0) + reach;
   }
 }
 
@@ -105,7 +111,7 @@ void FollowHeat(const Examination& examination, const Fit& fit, const Measuremen
     Shift(examination, examination.by_heat, inference);
   } else {
     inference.warnings.push_back(fmt::format("{}: the intervals cover both; log faster", what));
-    WidenTowards(examination, examination.by_heat, inference);
+    HoldBoth(examination, examination.by_heat, inference);
   }
 }
 
@@ -187,12 +193,19 @@ std::string Depends(const Examination& examination, const Measurements& measurem
 
 /// Lets intervals hold what one test by itself would call lack of fit, and the log, where many are made, does not: a
 /// parameter that a real one moved is not given as sure, and none is refused for chance.
-void CoverHints(const Examination& examination, const Measurements& m, Inference& inference) {
+void CoverHints(const Examination& examination, const Fit& fit, const Measurements& m,
+                Inference& inference) {
+  const Index worst = FarthestBeyond(examination.by_hints, examination, inference);
+  Widen(examination, examination.by_hints, inference);
+  if (worst < 0) return;
   std::vector<std::string> words;
   for (const Finding* hint : examination.Hints()) words.push_back(hint->test->quantity(*hint, m));
-  inference.message += fmt::format("; the intervals also cover that the friction may depend on {}",
-                                   fmt::join(words, "; or on "));
-  Widen(examination, examination.by_hints, inference);
+  const FitParameter& parameter = fit.parameters[examination.rows[static_cast<size_t>(worst)]];
+  inference.warnings.push_back(fmt::format(
+      "the residual may depend on {}: one test alone would call that found, among many it may be "
+      "chance; intervals were widened to cover it, that of {} by {:.2g} {}; a longer recording "
+      "tells",
+      fmt::join(words, ", or on "), parameter.name, examination.by_hints[worst], parameter.unit));
 }
 
 /// Voids an inference that lack of fit makes wrong, or warns of it and widens the intervals.
@@ -262,7 +275,7 @@ void JudgeLackOfFit(const Identifier& identifier, const IdentifierInput& input, 
     WeighFindings(examination, identifier, input, fit, judging, inference);
   }
   if (inference.status == Status::ok && examination.by_hints.size() > 0) {
-    CoverHints(examination, m, inference);
+    CoverHints(examination, fit, m, inference);
   }
 }
 
