@@ -3,10 +3,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "identification/uncertainty/tails.h"
+
 namespace warmjoint::inline identification {
 namespace {
 
-constexpr double kLevel = 0.95;
 // why: the normal quantiles of 95 and 97.5 %, rounded outwards
 constexpr double kLeast = 1.64, kMost = 1.96;
 constexpr int kHalvings = 40;  // why: to the last digit
@@ -21,7 +22,7 @@ double ReachBeyondEnds(double range) {
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = 0.5 * (low + high);
     const double held = NormalProbability(middle + range) - NormalProbability(-middle);
-    (held < kLevel ? low : high) = middle;
+    (held < kIntervalLevel ? low : high) = middle;
   }
   return high;
 }
