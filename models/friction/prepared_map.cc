@@ -107,7 +107,7 @@ EIGEN_ALWAYS_INLINE double PreparedMap::FromTable(const ActiveKernels& kernels, 
 }
 
 WARMJOINT_FOR_EACH_PROCESSOR
-double PreparedMap::Value(const MapPoint<double>& point) const {
+double PreparedMap::Evaluate(const MapPoint<double>& point) const {
   Active active;
   double divisor = 1;
   const size_t last = axes_.size() - 1;
@@ -144,5 +144,7 @@ double PreparedMap::Value(const MapPoint<double>& point) const {
   };
   return factor * (last == 0 ? row_sum(0) : Sum<0>(active, 0, from_kernels)) / divisor;
 }
+
+double PreparedMap::Value(const MapPoint<double>& point) const { return Evaluate(point); }
 
 }  // namespace warmjoint::inline models

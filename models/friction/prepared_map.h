@@ -22,6 +22,10 @@ class PreparedMap {
  private:
   using Active = std::array<ActiveKernels, kMostMapAxes>;
 
+  /// Value, compiled for each processor (four.h); apart from it, since to the linker such a function is not what its
+  /// callers in other files see.
+  double Evaluate(const MapPoint<double>& point) const;
+
   /// Sets the strides and visits, in the order of the rows, the weights of the last axis: a
   /// function of the index of its centre.
   template <typename Visit>
