@@ -77,7 +77,8 @@ Circumstances CircumstancesOf(const FittedModel& model, const Measurements& m, c
   known.duration = m.time[m.size() - 1] - m.time[0];
   known.hold = MedianHold(model, m);
   known.past = MemoryTimes(known.hold, known.duration);
-  known.late_speeds = bins.Means(LateSpeeds(m, known.past));
+  const Eigen::VectorXd sign = bins.velocity.array().sign();
+  known.late_speeds = sign.asDiagonal() * bins.Means(LateSpeeds(m, known.past));
   return known;
 }
 

@@ -16,10 +16,11 @@ struct Circumstances {
   Eigen::MatrixXd initial;       // [m x 1] dF/dE(0), where E(0) is taken to be known
   Eigen::MatrixXd loads;         // [m x 2] L, |L|; N.m or N
   Eigen::MatrixXd temperatures;  // [m x 1] degC
-  Eigen::MatrixXd late_speeds;  // [m x c] |v| behind filters of first order, less |v|; rad/s or m/s
-  std::vector<double> past;     // [c] their time constants, s
-  double duration = 0;          // of the log, s
-  double hold = 0;              // median duration of a segment, s; 0 where none are known
+  Eigen::MatrixXd
+      late_speeds;  // [m x c] s (|v| behind filters of first order - |v|), s: sign(v); rad/s or m/s
+  std::vector<double> past;  // [c] their time constants, s
+  double duration = 0;       // of the log, s
+  double hold = 0;           // median duration of a segment, s; 0 where none are known
 };
 
 Circumstances CircumstancesOf(const FittedModel& model, const Measurements& measurements,

@@ -110,7 +110,7 @@ Features OfTime(const Bins& bins, const Circumstances&, const GrowingFit&) {
 Features OfSpeedMemory(const Bins& bins, const Circumstances& known, const GrowingFit& fit) {
   // without a warming in the fit its heat, which follows the speed late, too, would look like that
   if (known.past.empty() || known.slopes.cols() == 0) return {MatrixXd(bins.size(), 0)};
-  const MatrixXd all = Signed(bins, known.late_speeds);
+  const MatrixXd& all = known.late_speeds;
   Index best = 0;
   fit.ExplainedBy(all).maxCoeff(&best);
   return {all.col(best), static_cast<int>(all.cols()), known.past[static_cast<size_t>(best)]};

@@ -150,8 +150,7 @@ void CorrectRounding(const Examination& examination, const Fit& fit, const Measu
   const FitParameter& parameter = fit.parameters[examination.rows[static_cast<size_t>(worst)]];
   inference.warnings.push_back(fmt::format(
       "the torque comes in steps of {:.3g} {}, which its noise does not even out: the numbers "
-      "given "
-      "are free of what they do, {} changed by {:.2g} {}; log the torque in finer steps",
+      "given are free of what they do, {} changed by {:.2g} {}; log the torque in finer steps",
       Resolution(m.torque), m.torque_unit, parameter.name, examination.by_rounding[worst],
       parameter.unit));
 }

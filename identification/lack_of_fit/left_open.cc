@@ -93,12 +93,6 @@ MatrixXd Curves(const FittedModel& model, const Measurements& m, const Bins& bin
   return bins.Means(Beside(heating, square));
 }
 
-/// s (|v| behind a filter - |v|), for each filter. [m x c]
-MatrixXd Memories(const Circumstances& known, const Bins& bins) {
-  const VectorXd sign = bins.velocity.array().sign();
-  return sign.asDiagonal() * known.late_speeds;
-}
-
 }  // namespace
 
 void LearnLeftOpen(const FittedModel& model, const Measurements& m, const Bins& bins,
@@ -131,7 +125,7 @@ void LearnLeftOpen(const FittedModel& model, const Measurements& m, const Bins& 
   };
   const double friction = examination.friction;
   examination.by_open_curve = farthest(Curves(model, m, bins), friction / (fastest * fastest));
-  examination.by_open_memory = farthest(Memories(known, bins), friction / fastest);
+  examination.by_open_memory = farthest(known.late_speeds, friction / fastest);
 
   // friction, or a sensor, that drifts for another reason than its losses
   examination.by_open_drift.setZero(p);

@@ -31,6 +31,7 @@
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/score/score.h"
+#include "models/foundation/robust_noise.h"
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"
 #include "tests/studies/evenness.h"
@@ -159,12 +160,11 @@ struct Outcomes {
   }
 
   /// "33.8 (15.5 .. 45.7)": median and quartiles; "-" where there are none.
-  std::string Chi2Text() {
+  std::string Chi2Text() const {
     if (chi2.empty()) return "-";
-    std::ranges::sort(chi2);
-    const auto at = [&](double share) {
-      return chi2[static_cast<size_t>(share * static_cast<double>(chi2.size() - 1))];
-    };
+    Eigen::VectorXd all =
+        Eigen::Map<const Eigen::VectorXd>(chi2.data(), static_cast<Eigen::Index>(chi2.size()));
+    const auto at = [&](double share) { return QuantileInPlace(all, share); };
     return fmt::format("{:.3g} ({:.3g} .. {:.3g})", at(0.5), at(0.25), at(0.75));
   }
 

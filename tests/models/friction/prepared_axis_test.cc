@@ -4,29 +4,17 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "models/foundation/random_stream.h"
+#include "tests/support/axes_of_every_kind.h"
 
 namespace warmjoint {
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
-
-GaussianAxis Wide(GaussianAxis axis, double factor) {
-  axis.width *= factor;
-  return axis;
-}
-
-std::vector<GaussianAxis> Axes() {
-  return {EvenAxis(-3, 3, 40),  Wide(EvenAxis(-3, 3, 12), 4), CircleAxis(kTurn, 36),
-          CircleAxis(kTurn, 7), SpeedAxis(0.2, 2, 3),         SpeedAxis(0.2, 2, 5)};
-}
-
 class PreparedAxes : public testing::TestWithParam<KernelKind> {};
 
 TEST_P(PreparedAxes, TellTheKernelsOfTheirRow) {
-  for (const GaussianAxis& axis : Axes()) {
+  for (const GaussianAxis& axis : test::AxesOfEveryKind()) {
     SCOPED_TRACE(testing::Message() << axis.size() << " centres");
     const PreparedAxis prepared(axis, GetParam());
     const std::vector<int> row = prepared.Row();
@@ -50,7 +38,7 @@ TEST_P(PreparedAxes, TellTheKernelsOfTheirRow) {
 }
 
 TEST_P(PreparedAxes, EndTheirKernelsInZerosForWhoTakesFourAtATime) {
-  for (const GaussianAxis& axis : Axes()) {
+  for (const GaussianAxis& axis : test::AxesOfEveryKind()) {
     const PreparedAxis prepared(axis, GetParam());
     ActiveKernels active;
     for (double x = -4; x < 4; x += 0.37) {

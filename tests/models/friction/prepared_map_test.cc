@@ -3,32 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "models/foundation/random_stream.h"
+#include "tests/support/axes_of_every_kind.h"
 
 namespace warmjoint {
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
-
-GaussianAxis Wide(GaussianAxis axis, double factor) {
-  axis.width *= factor;
-  return axis;
-}
-
-GaussianAxis Uneven() {
-  GaussianAxis axis;
-  axis.centres = {-2, -0.5, 0.1, 0.2, 3};
-  axis.width = 0.4;
-  return axis;
-}
-
-std::vector<GaussianAxis> Axes() {
-  return {EvenAxis(-3, 3, 40),   EvenAxis(-3, 3, 1),   Wide(EvenAxis(-3, 3, 12), 4),
-          CircleAxis(kTurn, 36), CircleAxis(kTurn, 7), Wide(CircleAxis(kTurn, 8), 3),
-          SpeedAxis(0.2, 2, 3),  SpeedAxis(0.2, 2, 1), Uneven()};
-}
+using test::AxesOfEveryKind;
+using test::kTurn;
+using test::Wide;
 
 /// Compares with EvaluateMap at points within and far beyond the centres.
 void Compare(const FrictionMap& map, MapQuantity first, MapQuantity second) {
@@ -48,7 +32,7 @@ void Compare(const FrictionMap& map, MapQuantity first, MapQuantity second) {
 }
 
 TEST(PreparedMap, IsTheSameOverOneAxisOfAnyKind) {
-  for (const GaussianAxis& axis : Axes()) {
+  for (const GaussianAxis& axis : AxesOfEveryKind()) {
     for (const KernelKind kind : {KernelKind::plain, KernelKind::normalised}) {
       SCOPED_TRACE(testing::Message()
                    << axis.size() << " centres, kind " << static_cast<int>(kind));
@@ -63,7 +47,7 @@ TEST(PreparedMap, IsTheSameOverOneAxisOfAnyKind) {
 
 TEST(PreparedMap, IsTheSameOverProductsOfAxesWithAFactor) {
   for (const MapFactor factor : {MapFactor::one, MapFactor::direction, MapFactor::velocity}) {
-    for (const GaussianAxis& axis : Axes()) {
+    for (const GaussianAxis& axis : AxesOfEveryKind()) {
       FrictionMap map{{{MapQuantity::motor_position, axis},
                        {MapQuantity::velocity, SpeedAxis(0.1, 3, 6)},
                        {MapQuantity::energy, EvenAxis(-1, 1, 3)}},
@@ -95,7 +79,7 @@ TEST(PreparedMap, IsTheSameOverAnyNumberOfCentresOfTheShorterAxis) {
 }
 
 TEST(PreparedMap, PassesOnWhatIsNoNumber) {
-  for (const GaussianAxis& axis : Axes()) {
+  for (const GaussianAxis& axis : AxesOfEveryKind()) {
     const FrictionMap map{{{MapQuantity::position, axis}},
                           KernelKind::normalised,
                           std::vector<double>(axis.size(), 1.0)};
