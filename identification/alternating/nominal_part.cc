@@ -10,7 +10,7 @@ namespace {
 
 /// Law and kernels over position.
 void AddMap(const IdentifierInput& input, const std::string& identifier, NominalPart& part) {
-  if (input.options.Text("gravity") != "none") {
+  if (input.options.Text(kGravityOption) != "none") {
     part.refusal = Refusal{Status::bad_data,
                            "position=map cannot be had together with gravity; leave one of them "
                            "out (basis=position takes gravity up into the map)"};

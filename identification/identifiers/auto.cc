@@ -4,14 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <optional>
+#include <string_view>
 
 #include "identification/fit_data.h"
 #include "identification/holdout/structure_choice.h"
 #include "identification/identifiers/lag_of_log.h"
 #include "identification/identifiers/tournament.h"
+#include "identification/lagged/lagged_fit.h"
 #include "identification/linear/rigid_part.h"
+#include "identification/warming/expected_start.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -26,7 +30,7 @@ void TryLinear(const IdentifierInput& input, Tournament& tournament) {
   }
   if (kinds.size() > 1 && kinds.back() == "paired") {
     if (const Structure* best = tournament.Best()) {
-      tournament.Add({best->With("gravity", "paired")});
+      tournament.Add({best->With(kGravityOption, "paired")});
     }
   }
 }
@@ -35,7 +39,7 @@ void TryLinear(const IdentifierInput& input, Tournament& tournament) {
 /// a joint that turns: what is no sine is the map's.
 std::string GravityBesideMaps(const IdentifierInput& input, const Structure* best) {
   const std::vector<std::string> kinds = GravityKinds(input);
-  const std::string gravity = best ? best->Given("gravity", "none") : kinds.front();
+  const std::string gravity = best ? best->Given(kGravityOption, "none") : kinds.front();
   const bool turns = std::ranges::find(kinds, "sincos") != kinds.end();
   return gravity == "paired" && turns ? "sincos" : gravity;
 }
@@ -43,14 +47,19 @@ std::string GravityBesideMaps(const IdentifierInput& input, const Structure* bes
 /// What bends or ripples, with the gravity of the best linear one.
 void TryCurved(const IdentifierInput& input, Tournament& tournament) {
   const std::string gravity = GravityBesideMaps(input, tournament.Best());
+  const bool cold = TakesColdStart(input.options);
   tournament.Add({StribeckStructure("none")});
-  if (tournament.MayBendAndWarm()) {
+  if (!cold) {
+    tournament.LeaveOut({StribeckStructure("estimated")},
+                        "it takes the joint for cold as the log begins");
+  } else if (tournament.MayBendAndWarm()) {
     tournament.Add({StribeckStructure("estimated")});
   } else {
     tournament.LeaveOut({StribeckStructure("estimated")},
                         "neither a bend over the speed nor a warming can be seen by itself");
   }
   for (const char* warming : {"none", "estimated"}) {
+    if (!cold && std::string_view(warming) != "none") continue;
     if (tournament.MayHaveTwoLevels(warming)) tournament.Add({TwoLevelStribeckStructure(warming)});
   }
   if (tournament.MayHaveMap()) {
@@ -150,7 +159,7 @@ Fit FitChosen(const IdentifierInput& input) {
 
   // on every sample, with the reason before what it says
   if (trials.lag && chosen.CanTellLag()) {
-    chosen = chosen.With("torque_lag", "estimated");
+    chosen = chosen.With(kLagOption, "estimated");
   }
   input.Tell("fitting " + chosen.Name() + " to every sample");
   Fit fit = FitOnAll(chosen, trials.lag, input);
@@ -170,13 +179,15 @@ Identifier Auto() {
   OptionInfo gravity = GravityOption();
   gravity.default_value = "chosen";
   gravity.allowed = "chosen|" + gravity.allowed;
+  std::vector<OptionInfo> options{
+      {"blocks", "6", "integer >= 3 <= 50", "contiguous parts of the recording to hold out"},
+      gravity,
+      MotionOption()};
+  std::ranges::copy(InitialEnergyOptions(), std::back_inserter(options));
   return {kName,
           "chooses law, gravity, warming and maps by hold-out, the simplest that is not worse, and "
           "says why",
-          {{"blocks", "6", "integer >= 3 <= 50", "contiguous parts of the recording to hold out"},
-           gravity,
-           MotionOption()},
-          &FitChosen};
+          options, &FitChosen};
 }
 
 }  // namespace warmjoint::inline identification

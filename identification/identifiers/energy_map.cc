@@ -40,7 +40,7 @@ Fit FitEnergyMap(const IdentifierInput& input) {
   if (!GivesFriction(first)) return first;
 
   // the map over that E too
-  return IdentifyOverEnergy(input, task, first.friction, [&](const MapPoints& points) {
+  return IdentifyOverEnergy(input, task, &first, [&](const MapPoints& points) {
     return Shapes(input.options, task.settings, points);
   });
 }

@@ -4,6 +4,7 @@
 
 #include "identification/fit_data.h"
 #include "identification/lagged/kept_runs.h"
+#include "identification/lagged/lagged_fit.h"
 #include "identification/lagged/seen_lag.h"
 
 namespace warmjoint::inline identification {
@@ -22,7 +23,7 @@ std::optional<double> LagOf(const Structure& structure, const TorqueModel& witho
   const Eigen::VectorXd torque = Kept(predicted.torque, predicted.known);
   const Eigen::VectorXd residual = Kept(m.torque, predicted.known) - torque;
   if (!ShowsLag(runs, torque, residual)) return std::nullopt;
-  const Fit behind = structure.With("torque_lag", "estimated").Fitted(input);
+  const Fit behind = structure.With(kLagOption, "estimated").Fitted(input);
   if (behind.refusal || !behind.torque_lag) return std::nullopt;
   return behind.torque_lag->time_constant;
 }

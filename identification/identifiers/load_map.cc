@@ -39,17 +39,17 @@ Fit FitLoadMap(const IdentifierInput& input) {
   if (!warm) return Refused(kName, Unsolvable());
   const Fit first = AsFit(input, *warm);
   const Inference told = Infer(first);
-  const auto friction = told.gives_friction ? std::optional(first.friction) : std::nullopt;
+  const Fit* warming = told.gives_friction ? &first : nullptr;
 
   // the level over all of them
   const auto maker = [&](const MapPoints& warm_points) {
     std::vector<MapQuantity> quantities{MapQuantity::position, MapQuantity::energy,
                                         MapQuantity::load};
-    if (!friction) std::erase(quantities, MapQuantity::energy);
+    if (!warming) std::erase(quantities, MapQuantity::energy);
     return Shapes(input.options, task.settings, warm_points, quantities);
   };
-  Fit fit = IdentifyOverEnergy(input, task, friction, maker);
-  if (!friction && Infer(fit).status == Status::ok) {
+  Fit fit = IdentifyOverEnergy(input, task, warming, maker);
+  if (!warming && Infer(fit).status == Status::ok) {
     fit.afterword += "; without warming: " + told.message;
   }
   return fit;

@@ -34,7 +34,7 @@ Fit FitSlopeAndLevel(const IdentifierInput& input) {
   // its slope did not follow the heat, for which the warming is corrected
   std::optional<Thermal>& thermal = first.friction.thermal;
   thermal = FitSlopeHeat(input, *FindLaw(task.settings.law), *thermal);
-  return IdentifyOverEnergy(input, task, first.friction, [&](const MapPoints& points) {
+  return IdentifyOverEnergy(input, task, &first, [&](const MapPoints& points) {
     return Shapes(input.options, task.settings, points);
   });
 }

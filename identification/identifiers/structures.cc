@@ -9,6 +9,8 @@
 #include "identification/identifiers/position_ridge.h"
 #include "identification/identifiers/stribeck.h"
 #include "identification/lagged/lagged_fit.h"
+#include "identification/linear/rigid_part.h"
+#include "identification/warming/expected_start.h"
 #include "models/friction/asymmetric_stribeck.h"
 #include "models/recording/motor_angle.h"
 
@@ -49,19 +51,25 @@ Structure Structure::Quick() const {
   return strength ? sketch.With("strength", fmt::format("{}", *strength)) : sketch;
 }
 
+Options Structure::OptionsBeside(const Options& input) const {
+  auto all = given;
+  if (TellsStart(identifier)) all.merge(StartAsGiven(input));
+  return {identifier.options, all, {}};
+}
+
 Fit Structure::Fitted(const IdentifierInput& input) const {
-  const Options options(identifier.options, given, {});
+  const Options options = OptionsBeside(input.options);
   return identifier.fit(input.With(options));
 }
 
 std::optional<Eigen::VectorXd> Structure::ErrorsOn(const IdentifierInput& input,
                                                    const std::vector<Eigen::Index>& bounds) const {
-  const Options options(identifier.options, Quick().given, {});
+  const Options options = Quick().OptionsBeside(input.options);
   return BlockedErrors(identifier, input.With(options), bounds);
 }
 
 std::vector<std::string> GravityKinds(const IdentifierInput& input) {
-  const std::string& asked = input.options.Text("gravity");
+  const std::string& asked = input.options.Text(kGravityOption);
   if (asked != "chosen") return {asked};
   const Eigen::VectorXd& position = input.measurements.position;
   if (!position.allFinite() || position.maxCoeff() == position.minCoeff()) return {"none"};
@@ -78,7 +86,7 @@ std::vector<Structure> LinearStructures(const std::string& gravity) {
     structures.push_back({EnergyMl(), {{"law", law}}});
   }
   if (gravity == "none") return structures;
-  for (Structure& one : structures) one = one.With("gravity", gravity);
+  for (Structure& one : structures) one = one.With(kGravityOption, gravity);
   return structures;
 }
 
@@ -105,7 +113,7 @@ std::vector<Structure> MapStructures(const IdentifierInput& input, const std::st
   const bool knows_motor = KnowsMotorAngle(input.measurements);
   for (const std::string& kind : kinds) {
     std::map<std::string, std::string> given;
-    if (kind != "none") given = {{"gravity", kind}};
+    if (kind != "none") given = {{kGravityOption, kind}};
     const Structure warm{EnergyMl(), given};
     structures.push_back(shaped({PositionRidge(), given}, kernels.position));
     structures.push_back(shaped(warm.With("position", "map"), kernels.position));

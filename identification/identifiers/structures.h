@@ -32,6 +32,8 @@ struct Structure {
   /// Whether it could estimate a lag of the torque, too.
   bool CanTellLag() const;
 
+  /// The identifier's options: what is given, and what those of the input say of E(0), where it asks.
+  Options OptionsBeside(const Options& input) const;
   /// Fitted to the samples of the input.
   Fit Fitted(const IdentifierInput& input) const;
   /// The same without what only a reader wants: bands along maps.

@@ -13,6 +13,7 @@
 #include "identification/identifiers/left_over_place.h"
 #include "identification/identifiers/stribeck.h"
 #include "identification/inference/bounds.h"
+#include "identification/linear/rigid_part.h"
 #include "models/recording/course_of.h"
 #include "models/recording/motor_angle.h"
 
@@ -92,7 +93,8 @@ ChosenKernels Tournament::KernelsBesideBest(const std::string& gravity) const {
     energy = PredictFriction(fit.friction, log_.view.measurements, fit.Start()).energy;
   }
   const auto chosen = [&](const char* position) {
-    const Options options(EnergyMl().options, {{"gravity", gravity}, {"position", position}}, {});
+    const Options options(EnergyMl().options, {{kGravityOption, gravity}, {"position", position}},
+                          {});
     return MapBesideEnergy(quick_.With(options), energy);
   };
   ChosenKernels kernels{chosen("map"), {}};

@@ -178,7 +178,7 @@ void WeighStart(const Examination& examination, const Identifier& identifier,
       "this assumes a cold start{}: had the joint been warmed up by a tenth, {} would change by "
       "{:.2g} {}; {}",
       clock, parameter.name, examination.by_start[worst], parameter.unit,
-      AgainstWarmStart(identifier, input)));
+      AgainstWarmStart(identifier)));
 }
 
 /// What the residual depends on, in the order of size: a clause.

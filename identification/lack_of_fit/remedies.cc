@@ -76,11 +76,6 @@ std::string Finer(const Advice& advice, MapQuantity quantity, const char* option
   return Try(advice, fmt::format("{} --set {}={}", name, option, kernels));
 }
 
-/// Whether E(0) can be estimated: the fits with maps cannot.
-bool TakesStart(const Identifier& identifier, const IdentifierInput& input) {
-  return TellsStart(identifier) && input.options.Text("position") == "none";
-}
-
 /// Whether gravity may be what acts alike in both directions: it turns once with the joint, so that
 /// along the travel it is one slow wave.
 bool MayBeGravity(const Advice& advice) {
@@ -92,8 +87,8 @@ bool MayBeGravity(const Advice& advice) {
 
 }  // namespace
 
-std::string AgainstWarmStart(const Identifier& identifier, const IdentifierInput& input) {
-  if (TakesStart(identifier, input)) return "try --start estimated";
+std::string AgainstWarmStart(const Identifier& identifier) {
+  if (TellsStart(identifier)) return "try --start estimated";
   return "record it from cold, or learn E(0) by energy-ml with --start estimated";
 }
 
@@ -106,7 +101,7 @@ std::string AgainstWarming(const Advice& advice) {
     if (HoldsCurve(advice)) return Try(advice, CurveCommand(advice.fit.friction.law, "estimated"));
     return Try(advice, "energy-ml");
   }
-  if (TakesStart(advice.identifier, advice.input) && TakesColdStart(advice.input.options)) {
+  if (TellsStart(advice.identifier) && TakesColdStart(advice.input.options)) {
     return "if the joint was warm at the start, try --start estimated; else one time constant is "
            "too few, or the surroundings change their temperature";
   }
@@ -115,7 +110,7 @@ std::string AgainstWarming(const Advice& advice) {
 }
 
 std::string AgainstStart(const Advice& advice) {
-  return "was the joint warm at the start? " + AgainstWarmStart(advice.identifier, advice.input);
+  return "was the joint warm at the start? " + AgainstWarmStart(advice.identifier);
 }
 
 std::string AgainstSpeed(const Advice& advice) {

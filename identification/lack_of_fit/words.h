@@ -13,6 +13,6 @@ std::string DescribeFinding(const Examination& examination, const Finding& findi
                             const Measurements& measurements);
 
 /// What to do where a start that was taken to be cold may have been warm.
-std::string AgainstWarmStart(const Identifier& identifier, const IdentifierInput& input);
+std::string AgainstWarmStart(const Identifier& identifier);
 
 }  // namespace warmjoint::inline identification

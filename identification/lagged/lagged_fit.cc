@@ -20,8 +20,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr const char* kLagOption = "torque_lag";
-
 /// Rows of the kept samples. [n x q]
 MatrixXd AtKept(const MatrixXd& all, const KeptRuns& runs) { return all(runs.samples, Eigen::all); }
 

@@ -14,6 +14,8 @@ namespace warmjoint::inline identification {
 
 /// The row of an identifier that can estimate a lag in its table of options.
 OptionInfo TorqueLagOption();
+/// Its name.
+inline constexpr const char* kLagOption = "torque_lag";
 
 /// Whether an identifier has that row.
 bool TellsLag(const Identifier& identifier);

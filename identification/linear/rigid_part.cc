@@ -78,7 +78,7 @@ Eigen::MatrixXd FilledDirections(const Eigen::MatrixXd& hats) {
 }  // namespace
 
 OptionInfo GravityOption() {
-  return {"gravity", "none", "none|sincos|paired",
+  return {kGravityOption, "none", "none|sincos|paired",
           "gravity beside friction: none, by sin and cos of the position, or whatever both "
           "directions have in common at one position"};
 }
@@ -89,7 +89,7 @@ OptionInfo MotionOption() {
           "chosen: any where the log holds no speeds"};
 }
 
-bool TellsGravity(const Identifier& identifier) { return identifier.Has("gravity"); }
+bool TellsGravity(const Identifier& identifier) { return identifier.Has(kGravityOption); }
 
 IdentifierInput RigidPart::Of(const IdentifierInput& given) const { return given.With(selection); }
 
@@ -130,7 +130,7 @@ RigidPart PrepareRigid(const IdentifierInput& input) {
   RigidPart fit;
   fit.selection = input.selection;
   fit.columns.resize(input.measurements.size(), 0);
-  const std::string& asked = input.options.Text("gravity");
+  const std::string& asked = input.options.Text(kGravityOption);
   if (asked != "none") PrepareGravity(input, asked, fit);
   const auto& acceleration = input.measurements.acceleration;
   fit.inertia = acceleration && !fit.why;

@@ -12,6 +12,8 @@ namespace warmjoint::inline identification {
 
 /// The row that an identifier which can tell gravity from friction has in its table of options.
 OptionInfo GravityOption();
+/// Its name.
+inline constexpr const char* kGravityOption = "gravity";
 
 /// The row of an identifier that can follow motion of any kind (Identifier::Seen).
 OptionInfo MotionOption();

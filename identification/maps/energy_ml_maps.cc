@@ -5,16 +5,17 @@
 #include <array>
 
 #include "identification/fit_data.h"
+#include "identification/inference/inference.h"
 #include "identification/maps/motor_maps.h"
 #include "identification/maps/position_maps.h"
 #include "identification/maps/warm_maps.h"
+#include "identification/warming/expected_start.h"
 
 namespace warmjoint::inline identification {
 namespace {
 
 /// Options that say something about fits without maps, and the value that says nothing.
-constexpr std::array<std::array<const char*, 2>, 2> kAlone{
-    {{"initial_energy", "zero"}, {"loss", "squares"}}};
+constexpr std::array<std::array<const char*, 2>, 1> kAlone{{{"loss", "squares"}}};
 
 /// Kernels over the joint's position beside the motor's map where none are asked for.
 constexpr int kArmKernels = 20;
@@ -37,6 +38,23 @@ std::vector<std::vector<FrictionMap>> Candidates(const Options& options, JointKi
   return MotorMaps({options.Integer("motor_kernels"), options.Integer("velocity_kernels"),
                     arm > 0 ? arm : kArmKernels},
                    settings, joint, begin.points);
+}
+
+/// What a log that knows nothing of its start says of one that was expected: the fit that takes E(0)
+/// from the log, where that contradicts; else nothing.
+std::optional<Fit> AgainstExpected(const IdentifierInput& input, const MapTask& task,
+                                   const InitialEnergy& expected) {
+  const auto alone = FitWarmMaps(input, task, InitialEnergy::estimated);
+  if (!alone || !alone->converged) return std::nullopt;
+  Fit fit = AsFit(input, *alone);
+  if (fit.refusal) return std::nullopt;
+  const size_t row = *fit.RowOf(Role::start);
+  const KnownParameter found = Infer(fit).parameters[row];
+  if (!found.std) return std::nullopt;
+  const std::string unlike = UnlikeBefore(expected, found.value, *found.std);
+  if (unlike.empty()) return std::nullopt;
+  fit.warnings.push_back(unlike);
+  return fit;
 }
 
 }  // namespace
@@ -66,7 +84,11 @@ Fit FitWithMaps(const std::string& identifier, const IdentifierInput& given) {
                                position, option, value));
   }
   begin.task.candidates = Candidates(input.options, input.measurements.joint, begin);
-  const std::optional<WarmMaps> warm = FitWarmMaps(input, begin.task);
+  const InitialEnergy initial = InitialEnergyOf(input.options);
+  if (initial.is_expected()) {
+    if (auto unlike = AgainstExpected(input, begin.task, initial)) return *unlike;
+  }
+  const std::optional<WarmMaps> warm = FitWarmMaps(input, begin.task, initial);
   return warm ? AsFit(input, *warm) : Refused(identifier, Unsolvable());
 }
 

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
 #include "identification/inference/bounds.h"
@@ -16,23 +19,34 @@ constexpr double kAtRest = 1e-4;  // of E between rounds, relative to its range
 double Range(const Eigen::VectorXd& x) { return x.maxCoeff() - x.minCoeff(); }
 
 /// E that law, maps and warming predict together, [N] N.m or N.
-Eigen::VectorXd EnergyOf(const MapTask& task, const MapFit& maps, const Thermal& thermal,
+Eigen::VectorXd EnergyOf(const MapTask& task, const MapFit& maps, const Fit& warm,
                          const Measurements& measurements) {
   FrictionDescription friction =
       FrictionOf(*FindLaw(task.settings.law), maps.x.head(maps.free), measurements);
-  friction.thermal = thermal;
+  friction.thermal = warm.friction.thermal;
   friction.maps = maps.maps;
-  return PredictFriction(friction, measurements).energy;
+  return PredictFriction(friction, measurements, warm.Start()).energy;
+}
+
+/// Rows of what the first fit tells of the heat, without intervals.
+std::vector<FitParameter> HeatOf(const Fit& warm, const Measurements& m) {
+  std::vector<FitParameter> rows = HeatParameters(*warm.friction.thermal, m);
+  std::ranges::copy_if(warm.parameters, std::back_inserter(rows), [](const FitParameter& row) {
+    return row.role == Role::start || row.role == Role::jump;
+  });
+  for (FitParameter& row : rows) row.estimated = row.has_interval = false;
+  return rows;
 }
 
 /// Adds the warming, which has no column of its own, and checks the friction against its own heat.
-Fit Complete(const Thermal& thermal, int rounds, const Measurements& m, Fit fit) {
-  fit.friction.thermal = thermal;
+Fit Complete(const Fit& warm, int rounds, const Measurements& m, Fit fit) {
+  fit.friction.thermal = warm.friction.thermal;
+  fit.initial_energy = warm.initial_energy;
+  fit.jump_samples = warm.jump_samples;
   if (!GivesFriction(fit)) return fit;
-  std::vector<FitParameter> heat = HeatParameters(thermal, m);
-  for (FitParameter& row : heat) row.estimated = row.has_interval = false;
+  const std::vector<FitParameter> heat = HeatOf(warm, m);
   Append(heat, fit);
-  const Prediction prediction = PredictFriction(fit.friction, m);
+  const Prediction prediction = PredictFriction(fit.friction, m, fit.Start());
   if (prediction.feeds_itself < m.size()) {
     return Refused(
         fit.identifier, Status::inadequate_model,
@@ -41,8 +55,8 @@ Fit Complete(const Thermal& thermal, int rounds, const Measurements& m, Fit fit)
 
   // what the torque is compared with follows from that heat
   fit.fitted = Kept(prediction.force, fit.used);
-  fit.count += 2;
-  fit.effective_parameters += 2;
+  fit.count += static_cast<int>(heat.size());
+  fit.effective_parameters += static_cast<double>(heat.size());
   fit.afterword += fmt::format(
       "; the energy state is consistent with the losses of the fit after {} rounds; thermal_gain "
       "and thermal_time_constant have no interval, since maps over the energy absorb part of their "
@@ -53,10 +67,10 @@ Fit Complete(const Thermal& thermal, int rounds, const Measurements& m, Fit fit)
 
 }  // namespace
 
-Fit IdentifyOverEnergy(const IdentifierInput& input, MapTask task,
-                       const std::optional<FrictionDescription>& warm, const MapMaker& maker) {
+Fit IdentifyOverEnergy(const IdentifierInput& input, MapTask task, const Fit* warm,
+                       const MapMaker& maker) {
   const Measurements& m = input.measurements;
-  if (warm) task.energy = PredictFriction(*warm, m).energy;
+  if (warm) task.energy = PredictFriction(warm->friction, m, warm->Start()).energy;
   task.candidates = maker(Kept(PointsOf(m, task.energy), input.selection));
 
   // until the fitted friction predicts the energy that it was fitted with
@@ -64,7 +78,7 @@ Fit IdentifyOverEnergy(const IdentifierInput& input, MapTask task,
   int rounds = 1;
   for (; choice && warm && rounds < kMostRounds; ++rounds) {
     task = Settled(task, choice->fit);
-    const Eigen::VectorXd energy = EnergyOf(task, choice->fit, *warm->thermal, m);
+    const Eigen::VectorXd energy = EnergyOf(task, choice->fit, *warm, m);
     if (!energy.allFinite()) return Refused(task.identifier, Unsolvable());
     const double change = (energy - task.energy).cwiseAbs().maxCoeff();
     if (change <= kAtRest * Range(energy)) break;
@@ -73,7 +87,7 @@ Fit IdentifyOverEnergy(const IdentifierInput& input, MapTask task,
   }
   if (!choice) return Refused(task.identifier, Unsolvable());
   Fit fit = AsFit(input, task, choice->fit, JudgeMaps(choice->problem, choice->fit));
-  return warm ? Complete(*warm->thermal, rounds, m, std::move(fit)) : fit;
+  return warm ? Complete(*warm, rounds, m, std::move(fit)) : fit;
 }
 
 }  // namespace warmjoint::inline identification

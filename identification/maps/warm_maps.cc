@@ -12,13 +12,14 @@
 #include "identification/inference/bounds.h"
 #include "identification/linear/against_pushing.h"
 #include "identification/linear/linear_laws.h"
-#include "identification/linear/rigid_part.h"
+#include "identification/maps/anderson_mixing.h"
 #include "identification/maps/map_block.h"
 #include "identification/maps/motor_maps.h"
+#include "identification/maps/warming_block.h"
 #include "identification/uncertainty/penalised_uncertainty.h"
+#include "identification/warming/warm_answer.h"
 #include "identification/warming/warming_verdict.h"
 #include "models/recording/course_of.h"
-#include "models/recording/without_rest.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -26,48 +27,6 @@ namespace {
 constexpr int kMostRounds = 50;
 constexpr double kAtRest = 1e-6;  // of gain and time constant between rounds, relative
 constexpr WarmingContext kContext{" beside the maps", "position-ridge"};
-
-/// The loop of law columns and, with maps that are not 0, the maps' values as one column more.
-ClosedLoop LoopOf(const IdentifierInput& input, const Law& law, const MapBlock& block) {
-  const Measurements& m = input.measurements;
-  const Eigen::MatrixXd columns = LawColumns(law, m.velocity), of_loss = LossColumns(law, m);
-  const Eigen::VectorXd values = block.Everywhere();
-  if (!(values.norm() > 1e-9 * (columns * block.fit().x.head(columns.cols())).norm())) {
-    return ClosedLoop::Along(m, columns, of_loss);
-  }
-  return ClosedLoop::Along(m, Beside(columns, values),
-                           of_loss.size() > 0 ? Beside(of_loss, values) : of_loss);
-}
-
-/// The warming beside a law and maps, refined from `start`, or from a scan where there is none.
-struct WarmStep {
-  WarmFit fit;
-  Eigen::VectorXd energy;  // [N] N.m or N
-};
-
-WarmStep FitWarming(const IdentifierInput& input, const MapTask& task, const MapBlock& block,
-                    const std::optional<Thermal>& start) {
-  const Law& law = *FindLaw(task.settings.law);
-  const Measurements& m = input.measurements;
-  const ClosedLoop loop = LoopOf(input, law, block);
-  const Eigen::VectorXd level = loop.direction().cwiseProduct(m.torque);
-  const Eigen::VectorXd kept = WithoutRest(input.selection, m).keep.cast<double>();
-  // gravity and inertia make no heat: out of the scan, beside the loop in the fit
-  const Eigen::MatrixXd offsets = loop.direction().asDiagonal() * task.rigid.columns;
-  const MapWeights& maps = block.fit();
-  const Eigen::VectorXd weights = maps.x.segment(task.law_count(), task.rigid.count());
-  WarmStart from = ScanTimeConstant(loop, level - offsets * weights, kept);
-  if (start) from.thermal = *start;
-  const Eigen::Index d = from.parameters.size();
-  from.parameters.conservativeResize(d + weights.size());
-  from.parameters.tail(weights.size()) = weights;
-  const double scale = (Kept(m.torque, input.selection).col(0) - maps.fitted).norm() /
-                       std::sqrt(static_cast<double>(input.selection.count()));
-  WarmStep step;
-  step.fit = FitWarmFriction(loop, level, offsets, kept, from, InitialEnergy::zero, scale);
-  step.energy = loop.Simulate(step.fit.parameters(), step.fit.thermal()).energy;
-  return step;
-}
 
 bool AtRest(const Thermal& a, const Thermal& b) {
   return std::abs(a.gain - b.gain) <= kAtRest * std::abs(b.gain) &&
@@ -104,27 +63,43 @@ class Visibility {
   double latest_ = 0, last_ = 0, before_last_ = 0;
 };
 
-/// d(F + G + M a)/d(law, rigid part, weights, k, log tau) at the kept samples.
+/// d(F + G + M a)/d(law, rigid part, weights, k, log tau, E(0) where it was estimated, jumps) at the
+/// kept samples.
 Eigen::MatrixXd JointJacobian(const IdentifierInput& input, const WarmMaps& warm) {
   const Measurements& m = input.measurements;
   const Law& nominal = *FindLaw(warm.task.settings.law);
   const Eigen::MatrixXd law = LawColumns(nominal, m.velocity);
   const Eigen::MatrixXd of_loss = LossColumns(nominal, m);
   const Eigen::MatrixXd kernels = DenseKernels(warm.fit.maps, PointsOf(m), 0, m.size());
-  const ClosedLoop loop = ClosedLoop::Along(
-      m, Beside(law, kernels), of_loss.size() > 0 ? Beside(of_loss, kernels) : of_loss);
+  const ClosedLoop loop = ClosedLoop::Along(m, Beside(law, kernels),
+                                            of_loss.size() > 0 ? Beside(of_loss, kernels) : of_loss)
+                              .WithJumps(Behind(warm.gaps));
   const Eigen::Index d = law.cols(), q = kernels.cols();
-  Eigen::VectorXd warming(d + q);
-  warming << warm.fit.x.head(d), warm.fit.x.tail(q);
-  const Eigen::MatrixXd all = loop.Jacobian(warming, warm.thermal);
+  Eigen::VectorXd level(d + q);
+  level << warm.fit.x.head(d), warm.fit.x.tail(q);
+  const WarmFit& warming = warm.warming;
+  const Thermal thermal = warming.thermal();
+  const Eigen::MatrixXd all =
+      loop.Jacobian(level, thermal, warming.initial_energy(), warming.jump_values());
+
+  // of E(0), only where it was estimated
+  const Eigen::Index heat = warming.estimates_initial_energy() ? 3 : 2;
+  const auto jumps = warming.jump_weights.size();
   const Eigen::MatrixXd& rigid = warm.task.rigid.columns;
-  Eigen::MatrixXd jacobian(m.size(), d + rigid.cols() + q + 2);
-  jacobian << all.leftCols(d), rigid, all.middleCols(d, q + 2);
-  jacobian.rightCols(1) *= warm.thermal.time_constant;
+  Eigen::MatrixXd jacobian(m.size(), d + rigid.cols() + q + heat + jumps);
+  jacobian << all.leftCols(d), rigid, all.middleCols(d, q + heat), all.rightCols(jumps);
+  jacobian.col(d + rigid.cols() + q + 1) *= thermal.time_constant;
   return Kept(jacobian, input.selection);
 }
 
-/// Of law, weights, k and log tau together.
+/// What was known beforehand of what is told of the heat: k, log tau, E(0), jumps. [2 or 3, + J]
+Eigen::VectorXd PriorOfHeat(const WarmFit& warming) {
+  const Eigen::VectorXd all = warming.prior();
+  const Eigen::Index d = warming.law_parameters;
+  return all.segment(d, all.size() - d - warming.offsets);
+}
+
+/// Of law, weights and heat together.
 Uncertainty JudgeAll(const IdentifierInput& input, const WarmMaps& warm,
                      const Eigen::VectorXd& residual) {
   const Eigen::MatrixXd jacobian = JointJacobian(input, warm);
@@ -137,6 +112,10 @@ Uncertainty JudgeAll(const IdentifierInput& input, const WarmMaps& warm,
   // columns of norm 1 for the inverse: the gain's are far from the others'
   Eigen::MatrixXd penalised = gram;
   penalised.diagonal().segment(warm.fit.free, q).array() += warm.fit.strength;
+  Eigen::VectorXd prior = Eigen::VectorXd::Zero(d);
+  const Eigen::VectorXd of_heat = PriorOfHeat(warm.warming);
+  prior.tail(of_heat.size()) = of_heat;
+  penalised.diagonal() += prior;
   const Eigen::VectorXd scale = penalised.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::LLT<Eigen::MatrixXd> factors(scale.asDiagonal() * penalised * scale.asDiagonal());
   const Eigen::MatrixXd inverse =
@@ -144,15 +123,16 @@ Uncertainty JudgeAll(const IdentifierInput& input, const WarmMaps& warm,
   const auto rows = [&](Eigen::Index first, Eigen::Index last) -> Eigen::MatrixXd {
     return jacobian.middleRows(first, last - first);
   };
-  return JudgePenalised({gram, inverse, warm.fit.free, warm.fit.x.tail(q), warm.fit.strength}, rows,
-                        residual, input.selection);
+  return JudgePenalised(
+      {gram, inverse, warm.fit.free, warm.fit.x.tail(q), warm.fit.strength, prior}, rows, residual,
+      input.selection);
 }
 
-/// Of law, k and log tau without the weights between them.
+/// Of law and heat without the weights between them.
 Uncertainty WithoutWeights(Uncertainty known, const MapFit& maps) {
-  std::vector<Eigen::Index> places(static_cast<size_t>(maps.free));
+  std::vector<Eigen::Index> places(static_cast<size_t>(known.covariance.cols()));
   std::iota(places.begin(), places.end(), 0);
-  for (const Eigen::Index i : {0, 1}) places.push_back(maps.x.size() + i);
+  places.erase(places.begin() + maps.free, places.begin() + maps.x.size());
   known.covariance = known.covariance(places, places).eval();
   return known;
 }
@@ -160,12 +140,17 @@ Uncertainty WithoutWeights(Uncertainty known, const MapFit& maps) {
 /// Adds the warming to a fit of law and maps. known: JudgeAll
 void AddHeat(const WarmMaps& warm, const Uncertainty& known, const Measurements& measurements,
              Fit& fit) {
-  fit.friction.thermal = warm.thermal;
-  Append(HeatParameters(warm.thermal, measurements), fit);
+  const WarmFit& warming = warm.warming;
+  fit.friction.thermal = warming.thermal();
+  fit.initial_energy = warming.initial_energy();
+  fit.jump_samples = Behind(warm.gaps);
+  const std::vector<FitParameter> rows = HeatTable(warming, measurements);
+  Append(rows, fit);
   fit.errors.known = WithoutWeights(known, warm.fit);
-  fit.count += 2;
-  fit.effective_parameters += 2;
+  fit.count += static_cast<int>(rows.size());
+  fit.effective_parameters += static_cast<double>(rows.size());
   fit.afterword = fmt::format("; warming beside them in {} rounds", warm.rounds);
+  if (!warm.gaps.empty()) fit.warnings.push_back(LossesInGaps(warm.gaps, measurements));
 }
 
 /// Adds what the motor's map shows, where there is one. known: JudgeAll
@@ -180,29 +165,35 @@ void AddRipple(const MapFit& maps, const Uncertainty& known, const Measurements&
 
 }  // namespace
 
-std::optional<WarmMaps> FitWarmMaps(const IdentifierInput& input, const MapTask& task) {
+std::optional<WarmMaps> FitWarmMaps(const IdentifierInput& input, const MapTask& task,
+                                    const InitialEnergy& initial) {
   MapBlock block(input, task);
   if (!block.ChooseBeside({})) return std::nullopt;
+  WarmingBlock warming(input, task, initial);
   Visibility visibility(block.Squares(), input.selection.count());
 
   WarmMaps warm;
   std::optional<Thermal> before;
+  Eigen::VectorXd energy;  // [N] beside which law and maps are fitted, N.m or N
+  AndersonMixing mixing;
   for (warm.rounds = 1; warm.rounds <= kMostRounds; ++warm.rounds) {
-    const WarmStep step = FitWarming(input, task, block, before);
-    if (!step.fit.converged || !step.energy.allFinite()) break;
-    warm.thermal = step.fit.thermal();
-    warm.converged = before && AtRest(*before, warm.thermal);
+    if (!warming.FitBeside(block)) break;
+    const Thermal thermal = warming.fit().thermal();
+    warm.converged = before && AtRest(*before, thermal);
     if (warm.converged) break;
-    before = warm.thermal;
+    before = thermal;
 
     // shape and strength are chosen once more where a warming is seen, now that E is known, then kept
-    if (!block.FitBeside(step.energy)) return std::nullopt;
+    energy = warm.rounds < 3 ? warming.energy() : mixing.Next(energy, warming.energy());
+    if (!block.FitBeside(energy)) return std::nullopt;
     visibility.Follow(block.Squares());
     if (warm.rounds != 2) continue;
     warm.visible = visibility.latest();
     if (visibility.StaysUnseen()) return warm;
-    if (!block.ChooseBeside(step.energy)) return std::nullopt;
+    if (!block.ChooseBeside(energy)) return std::nullopt;
   }
+  warm.warming = warming.fit();
+  warm.gaps = warming.gaps();
   warm.task = block.Settled();
   warm.fit = block.Complete();
   const auto n = static_cast<double>(warm.fit.fitted.size());
@@ -232,14 +223,14 @@ Fit AsFit(const IdentifierInput& input, const WarmMaps& warm) {
 
   // the warming; the friction predicts its own energy from here on
   const double log_deviation = known.Deviation(warm.fit.x.size() + 1);
-  if (auto why =
-          UnknownWarming({warm.visible, log_deviation, warm.thermal.time_constant}, kContext)) {
+  const double time_constant = warm.warming.thermal().time_constant;
+  if (auto why = UnknownWarming({warm.visible, log_deviation, time_constant}, kContext)) {
     return Refused(name, Status::not_identifiable, *why);
   }
   AddHeat(warm, known, m, fit);
   if (!GivesFriction(fit)) return fit;
   AddRipple(warm.fit, known, m, fit);
-  if (const auto at = PredictFriction(fit.friction, m).feeds_itself; at < m.size()) {
+  if (const auto at = PredictFriction(fit.friction, m, fit.Start()).feeds_itself; at < m.size()) {
     return Refused(
         name, Status::inadequate_model,
         WouldFeedItself(m.time[at],

@@ -89,6 +89,8 @@ CondensedLog Condense(const LogView& all, Index rows) {
   view.selection.keep.resize(count);
   for (Index r = 0; r < count; ++r) view.selection.keep[r] = all.selection.keep[first[r]];
   for (Index& start : view.measurements.starts) start = row(start);
+  view.measurements.gaps = GapsOf(all.measurements.time);
+  for (LogGap& gap : *view.measurements.gaps) gap.behind = row(gap.behind);
   for (Segment& one : view.selection.segments) {
     one.begin = row(one.begin);
     one.end = row(one.end);

@@ -37,6 +37,9 @@ Uncertainty JudgePenalised(
   const double prior = std::max(seen, unseen) / std::max(left.squaredNorm(), 1e-12);
   by_noise.selfadjointView<Eigen::Lower>().rankUpdate(pull, prior);
   by_noise.triangularView<Eigen::StrictlyUpper>() = by_noise.transpose();
+  if (fit.prior.size() > 0) {
+    by_noise += noise.variance * (C * fit.prior.asDiagonal() * C);
+  }
   result.covariance = std::move(by_noise);
   result.freedom = std::max(n / noise.redundancy - hat.trace(), 1.0);
   return result;

@@ -33,6 +33,15 @@ std::vector<OptionInfo> InitialEnergyOptions() {
 
 bool TellsStart(const Identifier& identifier) { return identifier.Has(kStartOption); }
 
+std::map<std::string, std::string> StartAsGiven(const Options& options) {
+  std::map<std::string, std::string> given;
+  for (const OptionInfo& option : InitialEnergyOptions()) {
+    const auto found = options.changed().find(option.name);
+    if (found != options.changed().end()) given.insert(*found);
+  }
+  return given;
+}
+
 bool TakesColdStart(const Options& options) { return options.Text(kStartOption) == "zero"; }
 
 InitialEnergy InitialEnergyOf(const Options& options) {
@@ -40,6 +49,16 @@ InitialEnergy InitialEnergyOf(const Options& options) {
   if (options.Text(kStartOption) == "estimated") return InitialEnergy::estimated;
   const double spread = options.Number("expected_energy_std");
   return {options.Number("expected_energy"), std::max(spread, InitialEnergy::kExact)};
+}
+
+std::string UnlikeBefore(const InitialEnergy& expected, double found, double deviation) {
+  const double off = found - expected.mean;
+  if (std::abs(off) <= kBeyondDoubt * std::hypot(deviation, expected.spread)) return "";
+  return fmt::format(
+      "the log begins at a heat of {:.3g}, not at the {:.3g} +- {:.2g} that the recording before "
+      "it left: E(0) is taken from this log alone; check the pause, and that the joint rested in "
+      "it",
+      found, expected.mean, expected.spread);
 }
 
 std::string WeighStart(const ClosedLoop& loop, const Eigen::VectorXd& level,
@@ -51,15 +70,10 @@ std::string WeighStart(const ClosedLoop& loop, const Eigen::VectorXd& level,
   // the log alone, which says what its noise is, too
   const WarmFit alone = Again(loop, level, offsets, kept, InitialEnergy::estimated, fit);
   if (alone.converged) {
-    const double off = alone.initial_energy() - initial.mean;
-    if (std::abs(off) > kBeyondDoubt * std::hypot(deviation(alone), initial.spread)) {
+    const std::string unlike = UnlikeBefore(initial, alone.initial_energy(), deviation(alone));
+    if (!unlike.empty()) {
       fit = alone;
-      return fmt::format(
-          "the log begins at a heat of {:.3g}, not at the {:.3g} +- {:.2g} that the recording "
-          "before "
-          "it left: E(0) is taken from this log alone; check the pause, and that the joint rested "
-          "in it",
-          alone.initial_energy(), initial.mean, initial.spread);
+      return unlike;
     }
   }
   const WarmFit& better = alone.converged ? alone : fit;

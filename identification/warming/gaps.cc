@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "models/friction/thermal.h"
-#include "models/recording/sampling.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -24,14 +23,10 @@ bool IsLonger(const LogGap& a, const LogGap& b) { return a.length > b.length; }
 
 std::vector<LogGap> FindGaps(const Measurements& measurements) {
   const Measurements& m = measurements;
-  if (m.size() < 2) return {};
-  const double longest = LongestStep(m.time);
-  std::vector<LogGap> gaps;
-  for (Eigen::Index n = 1; n < m.size(); ++n) {
-    const double length = m.time[n] - m.time[n - 1];
-    if (length <= longest || RestsOver(m, n)) continue;
-    if (!std::ranges::binary_search(m.starts, n)) gaps.push_back({n, length});
-  }
+  std::vector<LogGap> gaps = m.gaps ? *m.gaps : GapsOf(m.time);
+  std::erase_if(gaps, [&](const LogGap& gap) {
+    return RestsOver(m, gap.behind) || std::ranges::binary_search(m.starts, gap.behind);
+  });
   if (gaps.size() <= kMostGaps) return gaps;
   std::nth_element(gaps.begin(), gaps.begin() + kMostGaps, gaps.end(), IsLonger);
   gaps.resize(kMostGaps);
@@ -60,6 +55,11 @@ std::string DescribeGaps(const std::vector<LogGap>& gaps, const Measurements& me
   return gaps.size() == 1 ? fmt::format("a gap of {:.4g} s at {:.6g} s", longest, first)
                           : fmt::format("{} gaps of up to {:.4g} s, the first at {:.6g} s",
                                         gaps.size(), longest, first);
+}
+
+std::string LossesInGaps(const std::vector<LogGap>& gaps, const Measurements& measurements) {
+  return fmt::format("{}: the losses during that time are unknown and are estimated, too",
+                     DescribeGaps(gaps, measurements));
 }
 
 }  // namespace warmjoint::inline identification

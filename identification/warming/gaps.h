@@ -9,13 +9,7 @@
 
 namespace warmjoint::inline identification {
 
-/// A time without samples.
-struct LogGap {
-  Eigen::Index behind = 0;  // first sample after it
-  double length = 0;        // s
-};
-
-/// Gaps (models/recording/sampling.h) in order of time; of more than 50 the longest. A joint that
+/// Gaps (models/recording/log_gap.h) in order of time; of more than 50 the longest. A joint that
 /// is at rest at one place on both sides of a gap rested in it, and one that is cold after it
 /// (Measurements::starts) keeps nothing of it: neither counts.
 std::vector<LogGap> FindGaps(const Measurements& measurements);
@@ -29,5 +23,8 @@ std::vector<Eigen::Index> Behind(const std::vector<LogGap>& gaps);
 
 /// "a gap of 100 s at 300 s", "5 gaps of up to 60 s, the first at 300 s".
 std::string DescribeGaps(const std::vector<LogGap>& gaps, const Measurements& measurements);
+
+/// The warning that jumps of E are estimated at them.
+std::string LossesInGaps(const std::vector<LogGap>& gaps, const Measurements& measurements);
 
 }  // namespace warmjoint::inline identification

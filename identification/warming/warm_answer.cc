@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
@@ -41,9 +43,7 @@ std::optional<std::string> UntoldWarming(const WarmFit& fit, const WarmStart& sc
 void FillTable(const WarmFit& warm, const Law& law, const RigidPart& gravity, const Measurements& m,
                Fit& fit) {
   fit.parameters = LawParameters(law, warm.parameters(), m);
-  Append(HeatParameters(warm.thermal(), m), fit);
-  if (warm.estimates_initial_energy()) Append({StartParameter(warm.initial_energy(), m)}, fit);
-  Append(JumpParameters(warm.jump_values(), m), fit);
+  Append(HeatTable(warm, m), fit);
   AddRigid(gravity, warm.offset_values(), m, fit);
 }
 
@@ -99,15 +99,24 @@ std::optional<Refusal> WhyRefused(const char* name, const WarmTask& task, const 
                                warm.trace.size() - 1, WhyUnsettled(m, FrictionKind::warm_up))};
   }
   if (response.feeds_itself) {
-    return Refusal{
-        Status::inadequate_model,
-        WouldFeedItself(m.time[*response.feeds_itself],
-                        AgainstPushing(name, task.law.name, task.input.options.Text("gravity")))};
+    return Refusal{Status::inadequate_model,
+                   WouldFeedItself(m.time[*response.feeds_itself],
+                                   AgainstPushing(name, task.law.name,
+                                                  task.input.options.Text(kGravityOption)))};
   }
   return std::nullopt;
 }
 
 }  // namespace
+
+std::vector<FitParameter> HeatTable(const WarmFit& warm, const Measurements& measurements) {
+  std::vector<FitParameter> rows = HeatParameters(warm.thermal(), measurements);
+  if (warm.estimates_initial_energy()) {
+    rows.push_back(StartParameter(warm.initial_energy(), measurements));
+  }
+  std::ranges::copy(JumpParameters(warm.jump_values(), measurements), std::back_inserter(rows));
+  return rows;
+}
 
 Eigen::MatrixXd WarmJacobian(const ClosedLoop& loop, const RigidPart& gravity, const WarmFit& fit) {
   const Thermal thermal = fit.thermal();
@@ -156,11 +165,7 @@ Fit ConcludeWarm(const char* name, const WarmTask& task, const RobustWarmFit& ro
       fmt::format("maximum likelihood on {} samples{}{}{}, refined in {} iterations",
                   fit.torque.size(), m.acceleration ? kOfAnyMotion : "", task.lag ? kBehindLag : "",
                   task.whitening ? kWhitened : "", warm.trace.size() - 1);
-  if (!task.gaps.empty()) {
-    fit.warnings.push_back(
-        fmt::format("{}: the losses during that time are unknown and are estimated, too",
-                    DescribeGaps(task.gaps, m)));
-  }
+  if (!task.gaps.empty()) fit.warnings.push_back(LossesInGaps(task.gaps, m));
   if (task.lag) {
     AddLag(task.lag, response.force + task.gravity.columns * warm.offset_values(), m, fit);
   } else if (AsksForLag(input)) {

@@ -29,6 +29,9 @@ struct WarmTask {
   std::shared_ptr<const LaggedRows> lag;  // of a torque that lags; or none
 };
 
+/// Rows of what is told of the heat: gain, time constant, E(0) where it was estimated, jumps.
+std::vector<FitParameter> HeatTable(const WarmFit& warm, const Measurements& measurements);
+
 /// d(F + G)/dx over all samples, without lag. [N x p]
 Eigen::MatrixXd WarmJacobian(const ClosedLoop& loop, const RigidPart& gravity, const WarmFit& fit);
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "models/friction/joint_kind.h"
+#include "models/recording/log_gap.h"
 
 namespace warmjoint::inline models {
 
@@ -35,6 +36,10 @@ struct Measurements {
   /// Of several recordings joined (join_recordings.h): the first sample of each but the first. The
   /// joint is cold there again.
   std::vector<Eigen::Index> starts;
+
+  /// Of rows that are means of several samples, whose times no longer tell: the gaps between the
+  /// samples, where a row begins behind each. Otherwise nothing, and gaps are found by the time.
+  std::optional<std::vector<LogGap>> gaps;
 
   Eigen::Index size() const { return time.size(); }
 };

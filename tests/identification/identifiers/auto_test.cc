@@ -6,8 +6,10 @@
 #include "identification/preparation/select.h"
 #include "models/foundation/low_pass.h"
 #include "models/foundation/random_stream.h"
+#include "models/recording/course_of.h"
 #include "tests/support/slow_recording.h"
 #include "tests/support/travelling.h"
+#include "tests/support/without_times.h"
 
 namespace warmjoint {
 namespace {
@@ -172,6 +174,30 @@ TEST(Auto, FindsALagOfTheTorque) {
   const auto& interval = *estimate.Find("torque_lag")->interval95;
   EXPECT_LT(interval[0], 0.4);
   EXPECT_GT(interval[1], 0.4);
+}
+
+TEST(Auto, BeginsAsWarmAsItIsTold) {
+  // a joint that has moved for 10 min before the log begins
+  const FrictionDescription truth = test::TableOne();
+  const Measurements all = test::RecordFriction(truth, 1, test::AlternatingSpeeds(4200, 7), 0.5, 7);
+  const double energy = PredictFriction(truth, all).energy[600];
+  const Measurements log = test::Without(all, {{-1, 599.5}});
+  const Identifier identifier = Auto();
+  const Options options(identifier.options,
+                        {{"initial_energy", "expected"},
+                         {"expected_energy", std::to_string(energy)},
+                         {"expected_energy_std", "0.05"}},
+                        {});
+  const Estimate estimate = IdentifyUnjudged(identifier, {Prepare(log), options, {}});
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+  for (const auto& [name, value] :
+       {std::pair("initial_energy", energy), std::pair("thermal_gain", -3.0),
+        std::pair("thermal_time_constant", 600.0)}) {
+    const EstimatedParameter* found = estimate.Find(name);
+    ASSERT_TRUE(found && found->std) << name;
+    EXPECT_NEAR(found->value, value, 4 * *found->std) << name;
+    EXPECT_LT(*found->std, 0.1 * std::abs(value)) << name;
+  }
 }
 
 TEST(Auto, ComparesOnFewerRowsAndFitsEverySample) {

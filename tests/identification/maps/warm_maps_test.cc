@@ -2,14 +2,19 @@
 
 #include <gmock/gmock.h>
 
+#include <string>
+
 #include "identification/answer/identify.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
 #include "tests/support/travelling.h"
+#include "tests/support/without_times.h"
 
 namespace warmjoint {
 namespace {
+
+using ::testing::HasSubstr;
 
 /// 20 min at 5 Hz of a YuMi-like joint: levels of about 0.5 N.m that fade by 40 %, ripple over the
 /// position.
@@ -82,7 +87,7 @@ TEST(WarmMaps, SayWhereNothingWarms) {
   given["position"] = "map";
   const Estimate estimate = Identify(Recorded(cold, 0.01, 3), "energy-ml", given);
   EXPECT_EQ(estimate.status, Status::not_identifiable);
-  EXPECT_THAT(estimate.message, ::testing::HasSubstr("no warm-up can be seen"));
+  EXPECT_THAT(estimate.message, HasSubstr("no warm-up can be seen"));
 }
 
 TEST(WarmMaps, FindTheWarmingBesideAMotorMap) {
@@ -110,6 +115,79 @@ TEST(WarmMaps, FindTheWarmingBesideAMotorMap) {
     EXPECT_LT(*found.std, 0.05 * std::abs(value)) << name;
   }
   EXPECT_NEAR(estimate.metrics->rmse, 0.01, 0.01 * 0.05);
+}
+
+/// Within four of its own deviations, which must be small themselves.
+void ExpectNear(const Estimate& estimate, const char* name, double value) {
+  const EstimatedParameter* found = estimate.Find(name);
+  ASSERT_TRUE(found && found->std) << name << ": " << estimate.message;
+  EXPECT_NEAR(found->value, value, 4 * *found->std) << name;
+  EXPECT_LT(*found->std, 0.1 * std::abs(value)) << name;
+}
+
+/// Of a joint that has moved for 300 s as the log begins.
+struct WarmLog {
+  Measurements log;
+  double energy = 0;  // E at its first sample, N.m
+};
+
+WarmLog WithoutItsBeginning(std::uint64_t seed) {
+  const FrictionDescription truth = YumiLike();
+  const Measurements m = Recorded(truth, 0.001, seed);
+  return {test::Without(m, {{-1, 299.9}}), PredictFriction(truth, m).energy[1500]};
+}
+
+TEST(WarmMaps, EstimateHowWarmTheJointWas) {
+  const WarmLog warm = WithoutItsBeginning(4);
+  auto given = kFew;
+  given["position"] = "map";
+  given["initial_energy"] = "estimated";
+  const Estimate estimate = Identify(warm.log, "energy-ml", given);
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+  ExpectNear(estimate, "initial_energy", warm.energy);
+  ExpectNear(estimate, "thermal_gain", -0.194);
+  ExpectNear(estimate, "thermal_time_constant", 180);
+}
+
+TEST(WarmMaps, HoldAnExpectedStartAgainstTheLog) {
+  const WarmLog warm = WithoutItsBeginning(5);
+  auto given = kFew;
+  given["position"] = "map";
+  given["initial_energy"] = "expected";
+  given["expected_energy"] = std::to_string(warm.energy + 1e-3);
+  given["expected_energy_std"] = "0.001";
+  const Estimate agreed = Identify(warm.log, "energy-ml", given);
+  ASSERT_EQ(agreed.status, Status::ok) << agreed.message;
+  ExpectNear(agreed, "initial_energy", warm.energy);
+  EXPECT_LT(*agreed.Find("initial_energy")->std, 0.0011);
+  EXPECT_THAT(agreed.warnings, ::testing::Not(::testing::Contains(HasSubstr("log begins at"))));
+
+  // a joint that is twice as warm, for all that is known
+  given["expected_energy"] = std::to_string(2 * warm.energy);
+  const Estimate contradicted = Identify(warm.log, "energy-ml", given);
+  ASSERT_EQ(contradicted.status, Status::ok) << contradicted.message;
+  ExpectNear(contradicted, "initial_energy", warm.energy);
+  EXPECT_THAT(contradicted.warnings, ::testing::Contains(HasSubstr("log begins at")));
+}
+
+TEST(WarmMaps, EstimateWhatAGapHides) {
+  // a joint that turns three times as fast while nothing is recorded, and makes more heat
+  const FrictionDescription truth = YumiLike();
+  const Eigen::VectorXd slow = test::Travel(6000, 0.2, 1.5, {0.3, 0.6, 1});
+  Eigen::VectorXd velocity = slow;
+  velocity.segment(2000, 500) *= 3;
+  const Measurements all = test::RecordFriction(truth, 0.2, velocity, 0.01, 6);
+  const Measurements m = test::Without(all, {{400, 500}});
+  auto given = kFew;
+  given["position"] = "map";
+  const Estimate estimate = Identify(m, "energy-ml", given);
+  ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
+  ExpectNear(estimate, "thermal_gain", -0.194);
+  ExpectNear(estimate, "thermal_time_constant", 180);
+
+  // beside a filter that holds the last loss through the gap
+  const double held = PredictFriction(truth, m).energy[2001];
+  ExpectNear(estimate, "energy_jump_1", PredictFriction(truth, all).energy[2500] - held);
 }
 
 TEST(EnergyMap, FollowsRippleThatFadesAsTheJointWarms) {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <iterator>
+#include <vector>
+
 #include "identification/preparation/prepared_log.h"
 #include "tests/support/warm_recording.h"
 
@@ -46,6 +49,30 @@ TEST(Condense, KeepsTheWayAndTheTime) {
     EXPECT_GE(b.time[i], a.time[first[static_cast<size_t>(i)]]);
     EXPECT_LE(b.time[i], a.time[first[static_cast<size_t>(i) + 1] - 1]);
   }
+}
+
+/// Five holds of 10 s, then one of 100 s: the times between their rows look like gaps.
+TEST(Condense, KeepsTheGapsOfTheSamples) {
+  std::vector<double> speeds;
+  for (int hold = 0; hold < 120; ++hold) {
+    const double speed = (hold % 2 == 0 ? 1 : -1) * (0.2 + 0.1 * (hold % 7));
+    speeds.insert(speeds.end(), hold % 6 == 5 ? 100 : 10, speed);
+  }
+  const Eigen::VectorXd velocity = Eigen::VectorXd::Map(speeds.data(), std::ssize(speeds));
+  Measurements m = test::RecordFriction(test::TableOne(), 1, velocity, 0, 1);
+  LogView some = Condense(Prepare(m).steady(), 30).view;
+  EXPECT_FALSE(GapsOf(some.measurements.time).empty());
+  ASSERT_TRUE(some.measurements.gaps);
+  EXPECT_TRUE(some.measurements.gaps->empty());
+
+  // a clock that stood still for a minute
+  m.time.tail(1500).array() += 60;
+  some = Condense(Prepare(m).steady(), 30).view;
+  ASSERT_EQ(some.measurements.gaps->size(), 1u);
+  const LogGap& gap = some.measurements.gaps->front();
+  EXPECT_EQ(gap.length, 61);
+  EXPECT_GT(some.measurements.time[gap.behind], m.time[m.size() - 1500]);
+  EXPECT_LT(some.measurements.time[gap.behind - 1], m.time[m.size() - 1501]);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tests/support/judging.h"
+#include "tests/support/without_times.h"
 
 namespace warmjoint {
 namespace {
@@ -13,29 +14,10 @@ using Eigen::Index;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-struct Cut {
-  double from = 0, to = 0;  // s
-};
-
-/// The recording without the samples that lie inside of a cut.
-Measurements Without(const Measurements& m, const std::vector<Cut>& cuts) {
-  std::vector<Index> left;
-  for (Index i = 0; i < m.size(); ++i) {
-    const auto inside = [t = m.time[i]](const Cut& cut) { return cut.from < t && t < cut.to; };
-    if (std::none_of(cuts.begin(), cuts.end(), inside)) left.push_back(i);
-  }
-  Measurements some = m;
-  some.time = m.time(left);
-  some.position = m.position(left);
-  some.velocity = m.velocity(left);
-  some.torque = m.torque(left);
-  return some;
-}
-
 TEST(Gaps, AreLongerThanThreeStepsOfAJointThatMoves) {
   Measurements m = test::RecordHour(test::TableOne(), 1);
   EXPECT_THAT(FindGaps(m), testing::IsEmpty());
-  m = Without(m, {{300, 303}, {600, 604}});
+  m = test::Without(m, {{300, 303}, {600, 604}});
   const std::vector<LogGap> gaps = FindGaps(m);
   ASSERT_EQ(gaps.size(), 1u);
   EXPECT_EQ(m.time[gaps[0].behind], 604);
@@ -50,8 +32,8 @@ TEST(Gaps, AreLongerThanThreeStepsOfAJointThatMoves) {
 TEST(Gaps, OfAJointAtRestDoNotCount) {
   Measurements m =
       test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(400, 1, 100), 0.5, 1);
-  EXPECT_THAT(FindGaps(Without(m, {{120, 180}})), testing::IsEmpty());
-  EXPECT_EQ(FindGaps(Without(m, {{120, 280}})).size(), 1u);
+  EXPECT_THAT(FindGaps(test::Without(m, {{120, 180}})), testing::IsEmpty());
+  EXPECT_EQ(FindGaps(test::Without(m, {{120, 280}})).size(), 1u);
 }
 
 TEST(Gaps, MayMoveTheEnergyByWhatSettlesInThem) {
@@ -66,11 +48,11 @@ struct Tally {
 };
 
 /// Of 40 hours with cuts, what the intervals of `name` are worth.
-Tally Count(const std::vector<Cut>& cuts, const std::string& name, double truth,
+Tally Count(const std::vector<test::Cut>& cuts, const std::string& name, double truth,
             const std::string& identifier = "energy-ml") {
   Tally tally;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
-    const Measurements m = Without(test::RecordHour(test::TableOne(), seed), cuts);
+    const Measurements m = test::Without(test::RecordHour(test::TableOne(), seed), cuts);
     const Estimate estimate = test::Answer(identifier, m);
     const EstimatedParameter* found = estimate.Find(name);
     if (!found || !found->interval95) continue;
@@ -86,12 +68,12 @@ Tally Count(const std::vector<Cut>& cuts, const std::string& name, double truth,
 constexpr int kMostMissed = 5, kFewestAnswered = 37;
 
 TEST(Gaps, LeaveIntervalsThatHoldTheTruth) {
-  const std::vector<std::vector<Cut>> cases{
+  const std::vector<std::vector<test::Cut>> cases{
       {{300, 400}},
       {{300, 400}, {1300, 1400}, {2300, 2400}},
       {{300, 330}},
       {{300, 360}, {900, 960}, {1500, 1560}, {2100, 2160}, {2700, 2760}}};
-  for (const std::vector<Cut>& cuts : cases) {
+  for (const std::vector<test::Cut>& cuts : cases) {
     for (const auto& [name, truth] :
          {std::pair{"thermal_gain", -3.0}, std::pair{"thermal_time_constant", 600.0}}) {
       const Tally tally = Count(cuts, name, truth);
@@ -108,7 +90,7 @@ TEST(Gaps, WidenTheIntervalsOfFitsThatHoldTheLossOverThem) {
 }
 
 TEST(Gaps, AreToldOf) {
-  const Measurements m = Without(test::RecordHour(test::TableOne(), 1), {{300, 400}});
+  const Measurements m = test::Without(test::RecordHour(test::TableOne(), 1), {{300, 400}});
   const Estimate estimate = test::Answer("energy-ml", m);
   EXPECT_THAT(estimate.FullMessage(), HasSubstr("a gap of 100 s at 300 s"));
   EXPECT_TRUE(estimate.Find("energy_jump_1"));
@@ -117,7 +99,7 @@ TEST(Gaps, AreToldOf) {
 }
 
 TEST(Gaps, AreFittedUnderHubersLossAndBesideGravityToo) {
-  const Measurements m = Without(test::RecordHour(test::TableOne(), 2), {{300, 400}});
+  const Measurements m = test::Without(test::RecordHour(test::TableOne(), 2), {{300, 400}});
   const Estimate plain = test::Answer("energy-ml", m);
   for (const std::map<std::string, std::string>& given :
        {std::map<std::string, std::string>{{"loss", "huber"}},
