@@ -50,6 +50,8 @@ struct ErrorModel {
   std::shared_ptr<const Whitening> whitening;
   /// Covariance of the table's estimated rows, where the identifier had to know it already.
   std::optional<Uncertainty> known;
+  /// The same found where it is asked for: of a sketch, of which hardly anyone does; or not set.
+  std::function<Uncertainty()> judge;
 };
 
 /// Where a fit stood after an iteration.

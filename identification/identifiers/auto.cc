@@ -26,7 +26,14 @@ constexpr const char* kName = "auto";
 void TryLinear(const IdentifierInput& input, Tournament& tournament) {
   const std::vector<std::string> kinds = GravityKinds(input);
   for (const std::string& gravity : kinds) {
-    if (gravity != "paired" || kinds.size() == 1) tournament.Add(LinearStructures(gravity));
+    if (gravity == "paired" && kinds.size() > 1) continue;
+    tournament.Add(ColdStructures(gravity));
+    if (gravity == kinds.front() || tournament.MayWarmBeside(gravity)) {
+      tournament.Add(WarmStructures(gravity));
+    } else {
+      tournament.LeaveOut(WarmStructures(gravity),
+                          "neither gravity nor a warming can be seen by itself");
+    }
   }
   if (kinds.size() > 1 && kinds.back() == "paired") {
     if (const Structure* best = tournament.Best()) {

@@ -18,8 +18,9 @@ Fit FitMotorMaps(const IdentifierInput& input) {
                           input.options.Integer("velocity_kernels"),
                           input.options.Integer("arm_kernels")};
   task.candidates = MotorMaps(size, task.settings, input.measurements.joint, begin.points);
-  const auto choice = ChooseAndFit(input, task);
+  auto choice = ChooseAndFit(input, task);
   if (!choice) return Refused(kName, Unsolvable());
+  if (!task.settings.has_bands) return AsSketch(input, task, std::move(*choice));
   const MapFit& maps = choice->fit;
   const Uncertainty known = JudgeMaps(choice->problem, maps);
   Fit fit = AsFit(input, task, maps, known);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <initializer_list>
+
 #include "identification/holdout/blocked_hold_out.h"
 #include "identification/identifiers/energy_ml.h"
 #include "identification/identifiers/motor_ridge.h"
@@ -77,17 +79,27 @@ std::vector<std::string> GravityKinds(const IdentifierInput& input) {
   return {"none", "sincos", "paired"};
 }
 
-std::vector<Structure> LinearStructures(const std::string& gravity) {
+namespace {
+
+/// Linear laws by one identifier.
+std::vector<Structure> LinearStructures(const Identifier& identifier, const std::string& gravity,
+                                        std::initializer_list<const char*> laws) {
   std::vector<Structure> structures;
-  for (const char* law : {"viscous_coulomb", "coulomb", "asymmetric"}) {
-    structures.push_back({NominalLs(), {{"law", law}}});
+  for (const char* law : laws) {
+    const Structure one{identifier, {{"law", law}}};
+    structures.push_back(gravity == "none" ? one : one.With(kGravityOption, gravity));
   }
-  for (const char* law : {"coulomb", "viscous_coulomb", "asymmetric"}) {
-    structures.push_back({EnergyMl(), {{"law", law}}});
-  }
-  if (gravity == "none") return structures;
-  for (Structure& one : structures) one = one.With(kGravityOption, gravity);
   return structures;
+}
+
+}  // namespace
+
+std::vector<Structure> ColdStructures(const std::string& gravity) {
+  return LinearStructures(NominalLs(), gravity, {"viscous_coulomb", "coulomb", "asymmetric"});
+}
+
+std::vector<Structure> WarmStructures(const std::string& gravity) {
+  return LinearStructures(EnergyMl(), gravity, {"coulomb", "viscous_coulomb", "asymmetric"});
 }
 
 Structure StribeckStructure(const std::string& warming) {

@@ -49,8 +49,9 @@ struct Structure {
 /// sincos and paired for a joint that turns, none and paired for one that slides.
 std::vector<std::string> GravityKinds(const IdentifierInput& input);
 
-/// Laws that are linear in their parameters, without warming and with it, beside gravity.
-std::vector<Structure> LinearStructures(const std::string& gravity);
+/// Laws that are linear in their parameters beside gravity, without warming and with it.
+std::vector<Structure> ColdStructures(const std::string& gravity);
+std::vector<Structure> WarmStructures(const std::string& gravity);
 
 /// The Stribeck law, which is fitted without gravity. warming: none or estimated.
 Structure StribeckStructure(const std::string& warming);

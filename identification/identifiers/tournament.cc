@@ -14,6 +14,7 @@
 #include "identification/identifiers/stribeck.h"
 #include "identification/inference/bounds.h"
 #include "identification/linear/rigid_part.h"
+#include "models/friction/coulomb.h"
 #include "models/recording/course_of.h"
 #include "models/recording/motor_angle.h"
 
@@ -102,12 +103,22 @@ ChosenKernels Tournament::KernelsBesideBest(const std::string& gravity) const {
   return kernels;
 }
 
-bool Tournament::MayBendAndWarm() const {
+bool Tournament::MayWarm() const {
   return std::ranges::any_of(trials_, [](const Trial& trial) {
-    const std::string& name = trial.structure.identifier.name;
-    const bool bends_or_warms = name == StribeckByCeres().name || name == EnergyMl().name;
-    return bends_or_warms && trial.told.status != Status::not_identifiable;
+    if (trial.structure.identifier.name != EnergyMl().name) return false;
+    // one without slope, where the joint has one, need not settle for its warming
+    const bool too_poor = trial.structure.Given("law", "") == Coulomb::name;
+    return too_poor ? trial.gives_friction : trial.told.status != Status::not_identifiable;
   });
+}
+
+bool Tournament::MayWarmBeside(const std::string& gravity) const {
+  const Structure* best = Best();
+  return MayWarm() || !best || best->Given(kGravityOption, "none") == gravity;
+}
+
+bool Tournament::MayBendAndWarm() const {
+  return MayWarm() || Find(StribeckStructure("none"))->told.status != Status::not_identifiable;
 }
 
 bool Tournament::MayHaveTwoLevels(const std::string& warming) const {

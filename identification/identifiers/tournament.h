@@ -56,6 +56,10 @@ class Tournament {
   /// kind, fitted beside the maps.
   ChosenKernels KernelsBesideBest(const std::string& gravity) const;
 
+  /// Whether a warming may be told beside gravity, which has been tried without one: a linear law
+  /// can be told with it, or the best so far has that gravity.
+  bool MayWarmBeside(const std::string& gravity) const;
+
   /// Whether the Stribeck law with warming may be told, which costs more than either by itself: so far it can
   /// be told without warming, or a linear law with it.
   bool MayBendAndWarm() const;
@@ -86,6 +90,8 @@ class Tournament {
 
  private:
   const Trial* BestTrial() const;
+  /// Whether a linear law can be told with warming.
+  bool MayWarm() const;
   double BicOf(const Trial& one) const { return Bic(one.MeanSquare(), one.Parameters(), rows_); }
   /// The trial of a structure; null where it was not tried.
   const Trial* Find(const Structure& structure) const;

@@ -50,6 +50,7 @@ Uncertainty OfWhitened(const Fit& fit, const Whitening& whitening) {
 Uncertainty CovarianceOf(const Fit& fit) {
   const ErrorModel& errors = fit.errors;
   if (errors.known) return *errors.known;
+  if (errors.judge) return errors.judge();
   if (errors.whitening) return OfWhitened(fit, *errors.whitening);
   const Eigen::VectorXd residual = errors.scores.size() > 0 ? errors.scores : fit.residual();
   const auto jacobian = [&] { return Kept(fit.jacobian(), fit.used); };

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
@@ -175,9 +177,10 @@ MapTask Settled(MapTask task, const MapWeights& fit) {
   return task;
 }
 
-Fit AsFit(const IdentifierInput& input, const MapTask& task, const MapFit& maps,
-          const Uncertainty& known) {
-  if (!known.covariance.allFinite()) return Refused(task.identifier, Unsolvable());
+namespace {
+
+/// All but errors and bands.
+Fit ModelOf(const IdentifierInput& input, const MapTask& task, const MapFit& maps) {
   const Measurements& m = input.measurements;
   const Law& law = *FindLaw(task.settings.law);
 
@@ -199,10 +202,6 @@ Fit AsFit(const IdentifierInput& input, const MapTask& task, const MapFit& maps,
       "law {} and {} on {} samples; prior of strength {:.3g} on their weights leaves {:.1f} "
       "effective parameters",
       law.name, ShapeOf(maps.maps), fit.torque.size(), maps.strength, maps.effective);
-
-  // and how sure they are
-  fit.errors.known = known;
-  fit.errors.known->covariance = known.covariance.topLeftCorner(maps.free, maps.free);
   const std::vector<std::string> holes = NameHoles(maps.maps, maps.unseen, m.joint);
   if (!holes.empty()) {
     fit.warnings.push_back(
@@ -210,13 +209,39 @@ Fit AsFit(const IdentifierInput& input, const MapTask& task, const MapFit& maps,
                     "wide",
                     fmt::join(holes, ", ")));
   }
+  return fit;
+}
+
+/// Of the law and what stands beside it, without the weights.
+Uncertainty OfTable(Uncertainty known, const MapFit& maps) {
+  known.covariance = known.covariance.topLeftCorner(maps.free, maps.free).eval();
+  return known;
+}
+
+}  // namespace
+
+Fit AsFit(const IdentifierInput& input, const MapTask& task, const MapFit& maps,
+          const Uncertainty& known) {
+  if (!known.covariance.allFinite()) return Refused(task.identifier, Unsolvable());
+  Fit fit = ModelOf(input, task, maps);
+  fit.errors.known = OfTable(known, maps);
   if (task.settings.has_bands && GivesFriction(fit)) AddBands(input, task, maps, known, fit);
   return fit;
 }
 
+Fit AsSketch(const IdentifierInput& input, const MapTask& task, MapChoice choice) {
+  if (!choice.fit.inverse.allFinite()) return Refused(task.identifier, Unsolvable());
+  Fit fit = ModelOf(input, task, choice.fit);
+  fit.errors.judge = [kept = std::make_shared<const MapChoice>(std::move(choice))] {
+    return OfTable(JudgeMaps(kept->problem, kept->fit), kept->fit);
+  };
+  return fit;
+}
+
 Fit IdentifyMaps(const IdentifierInput& input, const MapTask& task) {
-  const auto choice = ChooseAndFit(input, task);
+  auto choice = ChooseAndFit(input, task);
   if (!choice) return Refused(task.identifier, Unsolvable());
+  if (!task.settings.has_bands) return AsSketch(input, task, std::move(*choice));
   return AsFit(input, task, choice->fit, JudgeMaps(choice->problem, choice->fit));
 }
 

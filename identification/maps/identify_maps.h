@@ -77,6 +77,9 @@ Refusal Unsolvable();
 Fit AsFit(const IdentifierInput& input, const MapTask& task, const MapFit& maps,
           const Uncertainty& known);
 
+/// The same without bands. How sure it is costs as much as the fit: that is found where it is asked for.
+Fit AsSketch(const IdentifierInput& input, const MapTask& task, MapChoice choice);
+
 /// All of the above.
 Fit IdentifyMaps(const IdentifierInput& input, const MapTask& task);
 

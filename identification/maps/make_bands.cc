@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -117,21 +118,22 @@ double ShareOfUnseen(const Eigen::RowVectorXd& row, const MapWeights& fit) {
   return share;
 }
 
-/// Squares averaged with those of the neighbours along a map's first axis, 1 : 2 : 3 : 2 : 1.
+/// Squares averaged with those of the neighbours along a map's first axis, 1 : 2 : 3 : 2 : 1; those that
+/// are not known, NaN, are left out. 0 where none is known.
 Eigen::VectorXd AlongFirstAxis(const FrictionMap& map, const Eigen::VectorXd& squares) {
   const auto length = static_cast<Index>(map.axes[0].kernels.centres.size());
   const Index stride = squares.size() / length;
   Eigen::VectorXd mean(squares.size());
   for (Index i = 0; i < squares.size(); ++i) {
-    double sum = 3 * squares[i], count = 3;
-    for (const Index away : {1, 2}) {
-      for (const Index j : {i - away * stride, i + away * stride}) {
-        if (j < 0 || j >= squares.size()) continue;
-        sum += static_cast<double>(3 - away) * squares[j];
-        count += static_cast<double>(3 - away);
-      }
+    double sum = 0, count = 0;
+    for (const Index away : {-2, -1, 0, 1, 2}) {
+      const Index j = i + away * stride;
+      if (j < 0 || j >= squares.size() || std::isnan(squares[j])) continue;
+      const auto share = static_cast<double>(3 - std::abs(away));
+      sum += share * squares[j];
+      count += share;
     }
-    mean[i] = sum / count;
+    mean[i] = count > 0 ? sum / count : 0;
   }
   return mean;
 }
@@ -159,10 +161,12 @@ std::vector<MapBand> MakeBands(const Law& law, const MapFit& fit, const Uncertai
     if (finer) {
       const Eigen::MatrixXd more = RowsAt(law, *finer, which, places, *finer_means);
       Eigen::VectorXd missed = value - more * finer->x;
-      // where one of them has no data it follows nothing
+      // where one of them has no data it follows nothing, and the neighbours tell
       for (Index i = 0; i < missed.size(); ++i) {
         const bool blind = fit.unseen[first + static_cast<size_t>(i)];
-        if (blind || ShareOfUnseen(more.row(i), *finer) > kBlind) missed[i] = 0;
+        if (blind || ShareOfUnseen(more.row(i), *finer) > kBlind) {
+          missed[i] = std::numeric_limits<double>::quiet_NaN();
+        }
       }
       variance += AlongFirstAxis(map, missed.cwiseAbs2());
     }

@@ -28,8 +28,8 @@ std::vector<OptionInfo> MapOptions() {
        "last two take coloured noise for friction"},
       {"folds", "5", "integer >= 2 <= 100", "contiguous parts of the recording for cv"},
       {"bands", "wide", "wide|none",
-       "along the maps: wide enough for what twice the kernels follow; none: left out, for twice "
-       "the speed"},
+       "along the maps: wide enough for what twice the kernels follow; none: left out, with the "
+       "harmonics of a motor's map, for twice the speed"},
   };
 }
 

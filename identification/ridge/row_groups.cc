@@ -126,13 +126,16 @@ class AxisTable {
   /// Multiplies `count` products in place by the kernels of one more axis; returns their number.
   static Eigen::Index Multiply(const double* phi, Window window, size_t size, double* row,
                                Eigen::Index count) {
+    const Eigen::Index kernels = window.count;
+    const auto to_end = std::min(kernels, static_cast<Eigen::Index>(size) - window.first);
     for (Eigen::Index before = count - 1; before >= 0; --before) {
       const double product = row[before];
-      for (int k = window.count - 1; k >= 0; --k) {
-        row[before * window.count + k] = product * phi[(window.first + k) % size];
-      }
+      double* const products = row + before * kernels;
+      // behind the circle's end first: those in front may take the place of the product
+      for (Eigen::Index k = kernels; k-- > to_end;) products[k] = product * phi[k - to_end];
+      for (Eigen::Index k = to_end; k-- > 0;) products[k] = product * phi[window.first + k];
     }
-    return count * window.count;
+    return count * kernels;
   }
 
   void Fill(const MapPoints& points, Eigen::Index sample) {

@@ -100,6 +100,22 @@ TEST(Auto, SaysWhyAndListsWhatItTried) {
   EXPECT_NE(dropped("energy-ml gravity=sincos law=asymmetric"), "not tried");
 }
 
+TEST(Auto, TriesNoWarmingBesideGravityWhereNeitherIsSeen) {
+  const auto tried = [](const FrictionDescription& joint) {
+    const Estimate estimate =
+        Answer(test::RecordFriction(joint, 1, test::AlternatingSpeeds(3600, 1), 0.5, 1));
+    for (const StructureTrial& one : estimate.choice->trials) {
+      if (one.name == "energy-ml gravity=sincos law=viscous_coulomb") return one.parameters > 0;
+    }
+    ADD_FAILURE() << "not told";
+    return false;
+  };
+  FrictionDescription cold = test::TableOne();
+  cold.thermal.reset();
+  EXPECT_FALSE(tried(cold));
+  EXPECT_TRUE(tried(test::TableOne()));
+}
+
 TEST(Auto, TakesALawWithoutSlopeWhereThereIsOneSpeed) {
   Eigen::VectorXd velocity(3600);
   for (Eigen::Index i = 0; i < 3600; ++i) velocity[i] = i / 20 % 2 ? -0.5 : 0.5;
