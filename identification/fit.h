@@ -96,7 +96,10 @@ struct Fit {
   /// estimated; else empty.
   std::vector<double> first_friction;
   std::vector<Eigen::Index> jump_samples;  // [J] where E jumps by a parameter with Role::jump
-  std::vector<FitParameter> parameters;    // [P]; those estimated come in the order of x
+  /// Standard error of E at the end of the log, N.m or N, of a fit whose table does not hold all that
+  /// E depends on, as the weights of maps; else not set: it follows from the table.
+  std::optional<double> end_energy_std;
+  std::vector<FitParameter> parameters;  // [P]; those estimated come in the order of x
 
   // what it was fitted to, and how well
   Selection used;

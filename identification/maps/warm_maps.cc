@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -11,12 +10,11 @@
 #include "identification/fit_parameters.h"
 #include "identification/inference/bounds.h"
 #include "identification/linear/against_pushing.h"
-#include "identification/linear/linear_laws.h"
 #include "identification/maps/anderson_mixing.h"
+#include "identification/maps/judge_warm_maps.h"
 #include "identification/maps/map_block.h"
 #include "identification/maps/motor_maps.h"
 #include "identification/maps/warming_block.h"
-#include "identification/uncertainty/penalised_uncertainty.h"
 #include "identification/warming/warm_answer.h"
 #include "identification/warming/warming_verdict.h"
 #include "models/recording/course_of.h"
@@ -63,71 +61,6 @@ class Visibility {
   double latest_ = 0, last_ = 0, before_last_ = 0;
 };
 
-/// d(F + G + M a)/d(law, rigid part, weights, k, log tau, E(0) where it was estimated, jumps) at the
-/// kept samples.
-Eigen::MatrixXd JointJacobian(const IdentifierInput& input, const WarmMaps& warm) {
-  const Measurements& m = input.measurements;
-  const Law& nominal = *FindLaw(warm.task.settings.law);
-  const Eigen::MatrixXd law = LawColumns(nominal, m.velocity);
-  const Eigen::MatrixXd of_loss = LossColumns(nominal, m);
-  const Eigen::MatrixXd kernels = DenseKernels(warm.fit.maps, PointsOf(m), 0, m.size());
-  const ClosedLoop loop = ClosedLoop::Along(m, Beside(law, kernels),
-                                            of_loss.size() > 0 ? Beside(of_loss, kernels) : of_loss)
-                              .WithJumps(Behind(warm.gaps));
-  const Eigen::Index d = law.cols(), q = kernels.cols();
-  Eigen::VectorXd level(d + q);
-  level << warm.fit.x.head(d), warm.fit.x.tail(q);
-  const WarmFit& warming = warm.warming;
-  const Thermal thermal = warming.thermal();
-  const Eigen::MatrixXd all =
-      loop.Jacobian(level, thermal, warming.initial_energy(), warming.jump_values());
-
-  // of E(0), only where it was estimated
-  const Eigen::Index heat = warming.estimates_initial_energy() ? 3 : 2;
-  const auto jumps = warming.jump_weights.size();
-  const Eigen::MatrixXd& rigid = warm.task.rigid.columns;
-  Eigen::MatrixXd jacobian(m.size(), d + rigid.cols() + q + heat + jumps);
-  jacobian << all.leftCols(d), rigid, all.middleCols(d, q + heat), all.rightCols(jumps);
-  jacobian.col(d + rigid.cols() + q + 1) *= thermal.time_constant;
-  return Kept(jacobian, input.selection);
-}
-
-/// What was known beforehand of what is told of the heat: k, log tau, E(0), jumps. [2 or 3, + J]
-Eigen::VectorXd PriorOfHeat(const WarmFit& warming) {
-  const Eigen::VectorXd all = warming.prior();
-  const Eigen::Index d = warming.law_parameters;
-  return all.segment(d, all.size() - d - warming.offsets);
-}
-
-/// Of law, weights and heat together.
-Uncertainty JudgeAll(const IdentifierInput& input, const WarmMaps& warm,
-                     const Eigen::VectorXd& residual) {
-  const Eigen::MatrixXd jacobian = JointJacobian(input, warm);
-  const Eigen::Index d = jacobian.cols();
-  const Eigen::Index q = warm.fit.x.size() - warm.fit.free;
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(d, d);
-  gram.selfadjointView<Eigen::Lower>().rankUpdate(jacobian.transpose());
-  gram.triangularView<Eigen::StrictlyUpper>() = gram.transpose();
-
-  // columns of norm 1 for the inverse: the gain's are far from the others'
-  Eigen::MatrixXd penalised = gram;
-  penalised.diagonal().segment(warm.fit.free, q).array() += warm.fit.strength;
-  Eigen::VectorXd prior = Eigen::VectorXd::Zero(d);
-  const Eigen::VectorXd of_heat = PriorOfHeat(warm.warming);
-  prior.tail(of_heat.size()) = of_heat;
-  penalised.diagonal() += prior;
-  const Eigen::VectorXd scale = penalised.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::LLT<Eigen::MatrixXd> factors(scale.asDiagonal() * penalised * scale.asDiagonal());
-  const Eigen::MatrixXd inverse =
-      scale.asDiagonal() * factors.solve(Eigen::MatrixXd::Identity(d, d)) * scale.asDiagonal();
-  const auto rows = [&](Eigen::Index first, Eigen::Index last) -> Eigen::MatrixXd {
-    return jacobian.middleRows(first, last - first);
-  };
-  return JudgePenalised(
-      {gram, inverse, warm.fit.free, warm.fit.x.tail(q), warm.fit.strength, prior}, rows, residual,
-      input.selection);
-}
-
 /// Of law and heat without the weights between them.
 Uncertainty WithoutWeights(Uncertainty known, const MapFit& maps) {
   std::vector<Eigen::Index> places(static_cast<size_t>(known.covariance.cols()));
@@ -137,7 +70,7 @@ Uncertainty WithoutWeights(Uncertainty known, const MapFit& maps) {
   return known;
 }
 
-/// Adds the warming to a fit of law and maps. known: JudgeAll
+/// Adds the warming to a fit of law and maps. known: JudgeWarmMaps
 void AddHeat(const WarmMaps& warm, const Uncertainty& known, const Measurements& measurements,
              Fit& fit) {
   const WarmFit& warming = warm.warming;
@@ -153,7 +86,7 @@ void AddHeat(const WarmMaps& warm, const Uncertainty& known, const Measurements&
   if (!warm.gaps.empty()) fit.warnings.push_back(LossesInGaps(warm.gaps, measurements));
 }
 
-/// Adds what the motor's map shows, where there is one. known: JudgeAll
+/// Adds what the motor's map shows, where there is one. known: JudgeWarmMaps
 void AddRipple(const MapFit& maps, const Uncertainty& known, const Measurements& measurements,
                Fit& fit) {
   const FrictionMap& first = maps.maps[0];
@@ -217,7 +150,8 @@ Fit AsFit(const IdentifierInput& input, const WarmMaps& warm) {
   // law and maps, as sure as the warming beside them leaves them
   const Eigen::VectorXd residual = Kept(m.torque, input.selection).col(0) - warm.fit.fitted -
                                    TakenByEnergy(input, warm.task.energy);
-  const Uncertainty known = JudgeAll(input, warm, residual);
+  const JointUncertainty joint = JudgeWarmMaps(input, warm, residual);
+  const Uncertainty& known = joint.known;
   Fit fit = AsFit(input, warm.task, warm.fit, known);
   if (fit.refusal) return fit;
 
@@ -228,6 +162,7 @@ Fit AsFit(const IdentifierInput& input, const WarmMaps& warm) {
     return Refused(name, Status::not_identifiable, *why);
   }
   AddHeat(warm, known, m, fit);
+  fit.end_energy_std = joint.end_energy_std;
   if (!GivesFriction(fit)) return fit;
   AddRipple(warm.fit, known, m, fit);
   if (const auto at = PredictFriction(fit.friction, m, fit.Start()).feeds_itself; at < m.size()) {

@@ -5,10 +5,12 @@
 namespace warmjoint::inline identification {
 namespace {
 
-/// Friction and start with one row of the table at another value.
-void Set(const FitParameter& row, double value, FrictionDescription& friction, CourseStart& start) {
+/// Friction and start with one row of the table at another value. jump: which one, of a row that is one
+void Set(const FitParameter& row, size_t jump, double value, FrictionDescription& friction,
+         CourseStart& start) {
   if (row.role == Role::law) friction.parameters[row.name] = value;
   if (row.role == Role::start) start.energy = value;
+  if (row.role == Role::jump) start.jumps[jump].change = value;
   if (row.role != Role::heat) return;
   const bool gain = row.coordinate != Coordinate::logarithm;
   (gain ? friction.thermal->gain : friction.thermal->time_constant) = value;
@@ -23,22 +25,27 @@ FigureErrors ErrorsByParameters(const Fit& fit, const Inference& inference,
   Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(q, known.covariance.rows());
   FigureErrors errors{{}, Eigen::VectorXd::Zero(q), fit.without_intervals.empty()};
   Eigen::Index column = 0;
+  size_t jumps = 0;
   for (size_t i = 0; i < fit.parameters.size(); ++i) {
     const FitParameter& row = fit.parameters[i];
     if (!row.estimated) continue;
     const Eigen::Index place = column++;
-    const bool matters = row.role == Role::law || row.role == Role::heat || row.role == Role::start;
+    const size_t jump = jumps;
+    if (row.role == Role::jump) ++jumps;
+    const bool matters = row.role == Role::law || row.role == Role::heat ||
+                         row.role == Role::start || row.role == Role::jump;
     if (!matters || row.name.empty()) continue;
     errors.told = errors.told && inference.parameters[i].interval95;
     const double deviation = known.Deviation(place);
     const bool by_logarithm = row.coordinate == Coordinate::logarithm;
     const double value = inference.parameters[i].value;
     const double step = by_logarithm ? value * deviation : deviation;
-    if (!(step > 0) || !(step < std::abs(value))) continue;
+    const bool keeps_its_sign = row.role == Role::law || row.role == Role::heat;
+    if (!(step > 0) || (keeps_its_sign && !(step < std::abs(value)))) continue;
     FrictionDescription above = friction, below = friction;
     CourseStart above_start = fit.Start(), below_start = fit.Start();
-    Set(row, value + step, above, above_start);
-    Set(row, value - step, below, below_start);
+    Set(row, jump, value + step, above, above_start);
+    Set(row, jump, value - step, below, below_start);
     slopes.col(place) =
         (figures(above, above_start) - figures(below, below_start)) / (2 * deviation);
     errors.widened +=

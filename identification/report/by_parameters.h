@@ -20,7 +20,7 @@ struct FigureErrors {
   bool told = true;         // whether every parameter that matters has an interval
 };
 
-/// From the covariance of the parameters of law, heat and start, by central differences of a standard
+/// From the covariance of the parameters of law, heat, start and jumps, by central differences of a standard
 /// deviation each.
 FigureErrors ErrorsByParameters(const Fit& fit, const Inference& inference,
                                 const FrictionDescription& friction, const FiguresOf& figures);

@@ -26,8 +26,10 @@ std::vector<EstimatedParameter> EndState(const Fit& fit, const Inference& infere
   for (int stage = 0; stage < (friction.second_thermal ? 2 : 1); ++stage) {
     EstimatedParameter one{
         stage == 0 ? "energy" : "second_energy", end[stage], m.torque_unit, {}, {}};
-    const double deviation = std::sqrt(std::max(0.0, errors.covariance(stage, stage)));
-    if (errors.told && std::isfinite(deviation)) {
+    const double deviation =
+        fit.end_energy_std.value_or(std::sqrt(std::max(0.0, errors.covariance(stage, stage))));
+    const bool told = fit.end_energy_std ? fit.without_intervals.empty() : errors.told;
+    if (told && std::isfinite(deviation)) {
       one.std = deviation;
       const double half = reach * deviation + errors.widened[stage];
       one.interval95 = {{end[stage] - half, end[stage] + half}};
