@@ -40,9 +40,11 @@ class Leash : public testing::Test {
 /// Whether a process of the system has `mark` among its arguments.
 bool Lives(const std::string& mark) {
   for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    // one that ends meanwhile is read as far as it was
     std::ifstream file(entry.path() / "cmdline");
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
-    if (text.find(mark) != std::string::npos) return true;
+    for (std::string argument; std::getline(file, argument, '\0');) {
+      if (argument.find(mark) != std::string::npos) return true;
+    }
   }
   return false;
 }
