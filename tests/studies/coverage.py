@@ -58,7 +58,7 @@ def read(run, wanted):
     groups = {}
     with (Path(run) / "results.csv").open() as file:
         for row in csv.DictReader(file):
-            key = (row["variant"], row["identifier"])
+            key = (row.get("variant", "-"), row["identifier"])
             if wanted and ":".join(key) not in wanted:
                 continue
             ok, count, cells = groups.get(key, (0, 0, {}))
