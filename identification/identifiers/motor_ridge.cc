@@ -1,5 +1,7 @@
 #include "identification/identifiers/motor_ridge.h"
 
+#include <utility>
+
 #include "identification/inference/bounds.h"
 #include "identification/maps/identify_maps.h"
 #include "identification/maps/motor_maps.h"

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
-
 #include "identification/fit_data.h"
 #include "identification/inference/inference.h"
 #include "identification/maps/motor_maps.h"
@@ -13,9 +11,6 @@
 
 namespace warmjoint::inline identification {
 namespace {
-
-/// Options that say something about fits without maps, and the value that says nothing.
-constexpr std::array<std::array<const char*, 2>, 1> kAlone{{{"loss", "squares"}}};
 
 /// Kernels over the joint's position beside the motor's map where none are asked for.
 constexpr int kArmKernels = 20;
@@ -74,14 +69,12 @@ Fit FitWithMaps(const std::string& identifier, const IdentifierInput& given) {
   const IdentifierInput input = rigid.Of(given);
   MapBeginning begin = Begin(identifier, input, rigid);
   if (begin.refusal) return Refused(identifier, *begin.refusal);
-  const std::string& position = input.options.Text("position");
-  for (const auto& [option, nothing] : kAlone) {
-    const std::string& value = input.options.Text(option);
-    if (value == nothing) continue;
-    return Refused(identifier, Status::bad_data,
-                   fmt::format("position={} cannot be had together with {}={}; leave one of them "
-                               "out",
-                               position, option, value));
+  const std::string& loss = input.options.Text("loss");
+  if (loss != "squares") {
+    return Refused(
+        identifier, Status::bad_data,
+        fmt::format("position={} cannot be had together with loss={}; leave one of them out",
+                    input.options.Text("position"), loss));
   }
   begin.task.candidates = Candidates(input.options, input.measurements.joint, begin);
   const InitialEnergy initial = InitialEnergyOf(input.options);
