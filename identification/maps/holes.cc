@@ -178,6 +178,11 @@ Eigen::MatrixXd PriorOf(const std::vector<FrictionMap>& maps, const std::vector<
   return prior;
 }
 
+Eigen::MatrixXd PenaltyOf(const std::vector<FrictionMap>& maps, const Eigen::MatrixXd& gram,
+                          const std::vector<bool>& unseen, double strength) {
+  return strength * PriorOf(maps, unseen, PullOver(gram, unseen, strength));
+}
+
 std::vector<double> DoubtOfHoles(const FrictionMap& map, size_t first,
                                  const std::vector<bool>& unseen, const Eigen::VectorXd& weights) {
   const double mean = MeanOfSeen(first, map.size(), unseen, weights);

@@ -28,6 +28,10 @@ Eigen::MatrixXd PriorOf(const std::vector<FrictionMap>& maps, const std::vector<
 /// kernels; strength: s.
 double PullOver(const Eigen::MatrixXd& gram, const std::vector<bool>& unseen, double strength);
 
+/// s P with the pull that the data ask for: what joins A^T A of the kernels. [q x q]
+Eigen::MatrixXd PenaltyOf(const std::vector<FrictionMap>& maps, const Eigen::MatrixXd& gram,
+                          const std::vector<bool>& unseen, double strength);
+
 /// What the weights may be off where a map has no data, as a standard deviation: 0 for seen kernels, the
 /// rms spread of the map's seen weights around their mean for unseen ones, half of it beside a seen one,
 /// and 0 there at an end of the range, where data reach into the half cell. first: the map's first

@@ -97,8 +97,7 @@ void AddBands(const IdentifierInput& input, const MapTask& task, const MapFit& m
               const Uncertainty& known, Fit& fit) {
   const Law& law = *FindLaw(task.settings.law);
   MapProblem finer = ProblemOf(input, task);
-  finer.maps = TwiceAsFine(maps.maps);
-  const std::optional<MapWeights> twice = FitWeights(finer, maps.strength);
+  const std::optional<FinerFit> twice = FitFiner(finer, maps, known.noise);
   fit.bands = MakeBands(law, maps, known, finer.points, twice ? &*twice : nullptr);
   const bool shares = std::ranges::any_of(
       fit.parameters, [](const FitParameter& one) { return !one.has_interval; });

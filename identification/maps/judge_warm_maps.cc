@@ -5,6 +5,7 @@
 
 #include "identification/fit_data.h"
 #include "identification/linear/linear_laws.h"
+#include "identification/maps/holes.h"
 #include "identification/uncertainty/penalised_uncertainty.h"
 
 namespace warmjoint::inline identification {
@@ -75,7 +76,8 @@ Uncertainty Judge(const IdentifierInput& input, const WarmMaps& warm,
 
   // columns of norm 1 for the inverse: the gain's are far from the others'
   Eigen::MatrixXd penalised = gram;
-  penalised.diagonal().segment(warm.fit.free, q).array() += warm.fit.strength;
+  auto of_weights = penalised.block(warm.fit.free, warm.fit.free, q, q);
+  of_weights += PenaltyOf(warm.fit.maps, of_weights, warm.fit.unseen, warm.fit.strength);
   Eigen::VectorXd prior = Eigen::VectorXd::Zero(d);
   const Eigen::VectorXd of_heat = PriorOfHeat(warm.warming);
   prior.tail(of_heat.size()) = of_heat;
@@ -88,8 +90,8 @@ Uncertainty Judge(const IdentifierInput& input, const WarmMaps& warm,
     return jacobian.middleRows(first, last - first);
   };
   return JudgePenalised(
-      {gram, inverse, warm.fit.free, warm.fit.x.tail(q), warm.fit.strength, prior}, rows, residual,
-      input.selection);
+      {gram, inverse, warm.fit.free, warm.fit.x.tail(q), warm.fit.strength, warm.fit.unseen, prior},
+      rows, residual, input.selection);
 }
 
 }  // namespace

@@ -118,6 +118,17 @@ double ShareOfUnseen(const Eigen::RowVectorXd& row, const MapWeights& fit) {
   return share;
 }
 
+/// Variance of the difference of two fits at a map's places by noise alone, [g] (N.m)^2.
+/// rows, more: [g x d] of the fit and of the finer one.
+Eigen::VectorXd MissedByNoise(const FinerFit& finer, const Eigen::MatrixXd& rows,
+                              const Eigen::MatrixXd& more) {
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(rows.rows());
+  for (size_t draw = 0; draw < finer.shaken.size(); ++draw) {
+    squares += (rows * finer.shaken[draw] - more * finer.twice_shaken[draw]).cwiseAbs2();
+  }
+  return squares / static_cast<double>(finer.shaken.size());
+}
+
 /// Squares averaged with those of the neighbours along a map's first axis, 1 : 2 : 3 : 2 : 1; those that
 /// are not known, NaN, are left out. 0 where none is known.
 Eigen::VectorXd AlongFirstAxis(const FrictionMap& map, const Eigen::VectorXd& squares) {
@@ -141,14 +152,14 @@ Eigen::VectorXd AlongFirstAxis(const FrictionMap& map, const Eigen::VectorXd& sq
 }  // namespace
 
 std::vector<MapBand> MakeBands(const Law& law, const MapFit& fit, const Uncertainty& known,
-                               const MapPoints& kept, const MapWeights* finer) {
+                               const MapPoints& kept, const FinerFit* finer) {
   Eigen::VectorXd speeds = kept.col(kVelocity).cwiseAbs();
   const double speed = MedianInPlace(speeds);
   const Eigen::MatrixXd covariance = known.covariance.topLeftCorner(fit.x.size(), fit.x.size());
   const double reach = StudentQuantile(known.freedom, kIntervalLevel);
   const MeanRows means(fit.maps, kept);
   const std::optional<MeanRows> finer_means =
-      finer ? std::optional<MeanRows>(std::in_place, finer->maps, kept) : std::nullopt;
+      finer ? std::optional<MeanRows>(std::in_place, finer->twice.maps, kept) : std::nullopt;
   std::vector<MapBand> bands;
   size_t first = 0;
   for (size_t which = 0; which < fit.maps.size(); ++which) {
@@ -159,16 +170,17 @@ std::vector<MapBand> MakeBands(const Law& law, const MapFit& fit, const Uncertai
     const Eigen::VectorXd value = rows * fit.x;
     Eigen::VectorXd variance = (rows * covariance).cwiseProduct(rows).rowwise().sum().cwiseMax(0);
     if (finer) {
-      const Eigen::MatrixXd more = RowsAt(law, *finer, which, places, *finer_means);
-      Eigen::VectorXd missed = value - more * finer->x;
+      const Eigen::MatrixXd more = RowsAt(law, finer->twice, which, places, *finer_means);
+      Eigen::VectorXd missed = value - more * finer->twice.x;
       // where one of them has no data it follows nothing, and the neighbours tell
       for (Index i = 0; i < missed.size(); ++i) {
         const bool blind = fit.unseen[first + static_cast<size_t>(i)];
-        if (blind || ShareOfUnseen(more.row(i), *finer) > kBlind) {
+        if (blind || ShareOfUnseen(more.row(i), finer->twice) > kBlind) {
           missed[i] = std::numeric_limits<double>::quiet_NaN();
         }
       }
-      variance += AlongFirstAxis(map, missed.cwiseAbs2());
+      const Eigen::VectorXd by_noise = MissedByNoise(*finer, rows, more);
+      variance += AlongFirstAxis(map, missed.cwiseAbs2() - by_noise).cwiseMax(0);
     }
     const std::vector<double> doubt =
         DoubtOfHoles(map, first, fit.unseen, fit.x.tail(fit.x.size() - fit.free));

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "identification/map_band.h"
-#include "identification/maps/map_fit.h"
+#include "identification/maps/finer_maps.h"
 #include "models/friction/law.h"
 
 namespace warmjoint::inline identification {
@@ -15,13 +15,13 @@ namespace warmjoint::inline identification {
 /// that direction. A map that is alike in both directions stands alone: no law imitates it. The
 /// warming E is left out. Where a kernel has no data (MapFit::unseen), the spread of the seen ones joins
 /// its deviation.
-/// finer: the same fit with twice the kernels (finer_maps.h), or nothing. What kernels cannot follow
-/// is no noise and in no covariance; where twice as many follow more, the difference f - f2 shows it:
-///     E (f - f2)^2 = bias^2 + var f2 - var f
-/// for nested fits, so that var f + (f - f2)^2, averaged over two neighbours on each side along the first axis, is
-/// about bias^2 + var f2: never less than the finer fit errs, which has a bias of its own.
+/// finer: the same fit with twice the kernels, or nothing. What kernels cannot follow is no noise and in no covariance;
+/// where twice as many follow more, the difference f - f2 shows it:
+///     E (f - f2)^2 = bias^2 + var (f - f2),
+/// of which the second part is known from draws of noise and taken off. What is left, averaged over two neighbours on
+/// each side along the first axis and at least 0, joins the variance.
 /// known: about law, weights and maybe more; kept: [n x 5] points of the fit.
 std::vector<MapBand> MakeBands(const Law& law, const MapFit& fit, const Uncertainty& known,
-                               const MapPoints& kept, const MapWeights* finer = nullptr);
+                               const MapPoints& kept, const FinerFit* finer = nullptr);
 
 }  // namespace warmjoint::inline identification

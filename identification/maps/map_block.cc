@@ -3,32 +3,23 @@
 #include "identification/fit_data.h"
 
 namespace warmjoint::inline identification {
-namespace {
-
-/// Rows of maps, for all rounds; null where they are too many to keep.
-std::shared_ptr<const KernelRows> RowsOf(const std::vector<FrictionMap>& maps,
-                                         const MapPoints& points, Eigen::Index spans) {
-  if (!KernelRows::Fit(maps, points.rows())) return nullptr;
-  return std::make_shared<const KernelRows>(maps, points, spans);
-}
-
-}  // namespace
 
 MapBlock::MapBlock(const IdentifierInput& input, MapTask task)
     : input_(input), task_(std::move(task)), everywhere_(PointsOf(input.measurements)) {
   task_.energy = Eigen::VectorXd();
   if (task_.candidates.size() > 1) return;
   const std::vector<FrictionMap>& only = task_.candidates.front();
-  task_.rows =
-      RowsOf(only, Kept(everywhere_, input.selection), task_.folds(input.selection.count()));
-  all_rows_ = RowsOf(only, everywhere_, 1);
+  task_.rows = KernelRows::Kept(only, Kept(everywhere_, input.selection),
+                                task_.folds(input.selection.count()));
+  all_rows_ = KernelRows::Kept(only, everywhere_, 1);
 }
 
 bool MapBlock::ChooseBeside(const Eigen::VectorXd& energy) {
   task_.energy = energy;
   chosen_ = Choose(input_, task_);
   if (!chosen_) return false;
-  if (task_.candidates.size() > 1) all_rows_ = RowsOf(chosen_->problem.maps, everywhere_, 1);
+  if (task_.candidates.size() > 1)
+    all_rows_ = KernelRows::Kept(chosen_->problem.maps, everywhere_, 1);
   torque_ = chosen_->problem.torque;
   repeated_ = std::make_unique<RepeatedFit>(chosen_->problem, chosen_->normal, chosen_->strength);
   fit_ = repeated_->Fit();
@@ -38,7 +29,7 @@ bool MapBlock::ChooseBeside(const Eigen::VectorXd& energy) {
 bool MapBlock::FitBeside(const Eigen::VectorXd& energy) {
   task_.energy = energy;
   MapProblem& problem = chosen_->problem;
-  if (!problem.rows) problem.rows = RowsOf(problem.maps, problem.points, 1);
+  if (!problem.rows) problem.rows = KernelRows::Kept(problem.maps, problem.points, 1);
   torque_ =
       Kept(input_.measurements.torque, input_.selection).col(0) - TakenByEnergy(input_, energy);
   fit_ = repeated_->To(torque_);

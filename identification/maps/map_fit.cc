@@ -32,12 +32,21 @@ std::optional<MapWeights> RepeatedFit::Fit() {
   return fit;
 }
 
-std::optional<MapWeights> RepeatedFit::To(const Eigen::VectorXd& torque) {
+void RepeatedFit::Take(const Eigen::VectorXd& torque) {
   normal_.product << problem_.free.transpose() * torque,
       problem_.rows ? problem_.rows->Products(torque)
                     : LocalProducts(problem_.maps, problem_.points, torque);
   normal_.squares = torque.squaredNorm();
+}
+
+std::optional<MapWeights> RepeatedFit::To(const Eigen::VectorXd& torque) {
+  Take(torque);
   return Fit();
+}
+
+std::optional<Eigen::VectorXd> RepeatedFit::Solve(const Eigen::VectorXd& torque) {
+  Take(torque);
+  return system_.Solve(normal_);
 }
 
 MapFit RepeatedFit::Complete(MapWeights latest) const {
@@ -78,8 +87,9 @@ Uncertainty JudgeMaps(const MapProblem& problem, const MapFit& fit) {
         DenseKernels(problem.maps, problem.points, first, last);
     return dense;
   };
-  return JudgePenalised({fit.gram, fit.inverse, fit.free, fit.x.tail(d - fit.free), fit.strength},
-                        rows, problem.torque - fit.fitted, problem.selection);
+  return JudgePenalised(
+      {fit.gram, fit.inverse, fit.free, fit.x.tail(d - fit.free), fit.strength, fit.unseen}, rows,
+      problem.torque - fit.fitted, problem.selection);
 }
 
 Eigen::VectorXd EvaluateMaps(const std::vector<FrictionMap>& maps, const MapPoints& points) {

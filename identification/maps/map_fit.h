@@ -67,10 +67,14 @@ class RepeatedFit {
   std::optional<MapWeights> Fit();
   /// To another torque, [n] N.m or N.
   std::optional<MapWeights> To(const Eigen::VectorXd& torque);
+  /// x of that alone, [p + q].
+  std::optional<Eigen::VectorXd> Solve(const Eigen::VectorXd& torque);
   /// The latest, and how sure it is.
   MapFit Complete(MapWeights latest) const;
 
  private:
+  void Take(const Eigen::VectorXd& torque);
+
   const MapProblem& problem_;
   NormalEquations normal_;
   double strength_;

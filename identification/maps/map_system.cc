@@ -58,8 +58,7 @@ MapSystem::MapSystem(const std::vector<FrictionMap>& maps, const Eigen::MatrixXd
     : gram_(gram), lower_(std::move(lower)), shared_(ImitatedLaw(gram, free, lower_)) {
   // where there are no data the neighbours tell more than the law alone
   const Eigen::Index q = gram.rows() - free;
-  const double pull = PullOver(gram.bottomRightCorner(q, q), unseen, strength);
-  gram_.bottomRightCorner(q, q) += strength * PriorOf(maps, unseen, pull);
+  gram_.bottomRightCorner(q, q) += PenaltyOf(maps, gram.bottomRightCorner(q, q), unseen, strength);
   plain_ = std::make_shared<const Conditioned>(
       gram_, Conditions{Eigen::MatrixXd(0, gram.rows()), Eigen::VectorXd(0)});
   deviating_ = shared_.empty()

@@ -20,6 +20,12 @@ bool KernelRows::Fit(const std::vector<FrictionMap>& maps, Index samples) {
   return samples * KernelCount(maps) <= kMostValues;
 }
 
+std::shared_ptr<const KernelRows> KernelRows::Kept(const std::vector<FrictionMap>& maps,
+                                                   const MapPoints& points, Index spans) {
+  if (!Fit(maps, points.rows())) return nullptr;
+  return std::make_shared<const KernelRows>(maps, points, spans);
+}
+
 NormalEquations KernelRows::Normal(Index span, const Eigen::MatrixXd& free,
                                    const Eigen::VectorXd& y) const {
   NormalEquations normal(free.cols() + kernels_);

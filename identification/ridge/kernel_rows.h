@@ -1,6 +1,7 @@
 // Rows on local kernels, made once for several fits to the same samples.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "identification/ridge/local_rows.h"
@@ -15,6 +16,10 @@ class KernelRows {
 
   /// Whether so many samples' rows are small enough to be kept.
   static bool Fit(const std::vector<FrictionMap>& maps, Eigen::Index samples);
+
+  /// Rows to keep for several fits; null where they are too many.
+  static std::shared_ptr<const KernelRows> Kept(const std::vector<FrictionMap>& maps,
+                                                const MapPoints& points, Eigen::Index spans);
 
   Eigen::Index spans() const { return static_cast<Eigen::Index>(groups_.size()); }
 

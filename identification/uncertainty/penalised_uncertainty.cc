@@ -3,8 +3,39 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace warmjoint::inline identification {
+namespace {
+
+using Eigen::Index;
+
+/// Places in x of the weights that are drawn from the prior.
+std::vector<Index> Drawn(const PenalisedFit& fit) {
+  std::vector<Index> drawn;
+  for (Index k = 0; k < fit.weights.size(); ++k) {
+    if (!fit.unseen[static_cast<size_t>(k)]) drawn.push_back(fit.first + k);
+  }
+  return drawn;
+}
+
+/// s_w^2, variance of a weight before any data, from the weights that were found (see the header).
+/// drawn: [q] places of weights in x; pull: [d x q] s C_w; by_noise: [d x d] covariance from the noise.
+double VarianceOfWeights(const PenalisedFit& fit, const std::vector<Index>& drawn,
+                         const Eigen::MatrixXd& pull, const Eigen::MatrixXd& by_noise) {
+  const Index q = pull.cols();
+  Eigen::VectorXd weights(q);
+  for (Index k = 0; k < q; ++k) weights[k] = fit.weights[drawn[static_cast<size_t>(k)] - fit.first];
+  const Eigen::MatrixXd left = Eigen::MatrixXd::Identity(q, q) - pull(drawn, Eigen::all);
+  const Eigen::MatrixXd bias = pull.transpose() * fit.gram * pull;
+  const Eigen::MatrixXd noise = bias * by_noise(drawn, drawn);
+  const double seen = weights.dot(bias * weights) - noise.trace();
+  const double scatter = std::sqrt(2 * noise.cwiseProduct(noise.transpose()).sum());
+  const double expected = left.cwiseProduct(bias * left).sum();
+  return expected > 0 ? std::hypot(std::max(seen, 0.0), scatter) / expected : 0;
+}
+
+}  // namespace
 
 Uncertainty JudgePenalised(
     const PenalisedFit& fit,
@@ -12,7 +43,6 @@ Uncertainty JudgePenalised(
     const Eigen::VectorXd& residual, const Selection& selection) {
   const Eigen::MatrixXd& C = fit.inverse;
   const auto n = static_cast<double>(residual.size());
-  const Eigen::Index q = fit.weights.size();
   Uncertainty result;
   result.noise = FitNoise(residual, selection);
   const NoiseModel& noise = result.noise;
@@ -29,12 +59,9 @@ Uncertainty JudgePenalised(
   by_noise.triangularView<Eigen::StrictlyUpper>() = by_noise.transpose();
 
   // what the prior pulls away
-  const Eigen::MatrixXd pull = fit.strength * C.middleCols(fit.first, q);
-  const Eigen::MatrixXd left = Eigen::MatrixXd::Identity(q, q) - pull.middleRows(fit.first, q);
-  const auto weights = by_noise.block(fit.first, fit.first, q, q);
-  const double seen = fit.weights.squaredNorm() - weights.trace();
-  const double unseen = std::sqrt(2.0) * weights.norm();
-  const double prior = std::max(seen, unseen) / std::max(left.squaredNorm(), 1e-12);
+  const std::vector<Index> drawn = Drawn(fit);
+  const Eigen::MatrixXd pull = fit.strength * C(Eigen::all, drawn);
+  const double prior = VarianceOfWeights(fit, drawn, pull, by_noise);
   by_noise.selfadjointView<Eigen::Lower>().rankUpdate(pull, prior);
   by_noise.triangularView<Eigen::StrictlyUpper>() = by_noise.transpose();
   if (fit.prior.size() > 0) {

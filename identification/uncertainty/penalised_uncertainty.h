@@ -2,29 +2,35 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "identification/uncertainty/uncertainty.h"
 
 namespace warmjoint::inline identification {
 
-/// A fit x = argmin |y - f(x)|^2 + s |w|^2 + x^T P x, w a run of entries of x, P = diag(prior).
+/// A fit x = argmin |y - f(x)|^2 + s |w|^2 + x^T P x, w those of a run of entries of x that data tell of, P = diag(prior).
 struct PenalisedFit {
   const Eigen::MatrixXd& gram;     // [d x d] G = J^T J, without the prior
   const Eigen::MatrixXd& inverse;  // [d x d] C, the inverse of G and what is added
   Eigen::Index first;              // place of w in x
   Eigen::VectorXd weights;         // [q] w
   double strength;                 // s
+  /// [q] weights that follow their neighbours and are not drawn from the prior
+  const std::vector<bool>& unseen;
   /// [d] the noise's variance over what each parameter was known by beforehand, or 0; or empty
   Eigen::VectorXd prior{};
 };
 
 /// Covariance of the errors of x, from the noise and from the prior's pull,
 ///   C J^T R J C + s^2 s_w^2 C_w C_w^T + s_e^2 C P C,
-/// C_w the columns of the weights, R the covariance of the noise by an autoregressive model of the residual, so that intervals are
-/// right for coloured noise too; for white noise and s = s_e^2 / s_w^2 this is the posterior
-/// s_e^2 C. s_w^2 comes from the weights themselves: E|w|^2 = s_w^2 tr (I - s C_ww)^2 +
-/// tr (C J^T R J C)_ww; where that leaves less than its own scatter, the scatter is taken, so that
-/// a map that cannot be seen is not reported as surely 0.
+/// C_w the columns of the weights, R the covariance of the noise by an autoregressive model of the residual, so that
+/// intervals are right for coloured noise too; for white noise and s = s_e^2 / s_w^2 this is the posterior s_e^2 C.
+/// s_w^2 comes from the weights themselves, each direction of which counts as much as its pull moves the fitted
+/// values, B = s^2 C_w^T G C_w, since the directions that the data know well say nothing of how large those are that
+/// the prior holds back:
+///     E w^T B w = s_w^2 tr (L^T B L) + tr (B V),  L = I - s C_ww,  V = (C J^T R J C)_ww.
+/// Its scatter by noise, the square root of 2 tr (B V B V), joins in squares, so that a map that cannot be seen is not
+/// reported as surely 0.
 /// rows(first, last): of J at the kept samples first <= i < last; residual: [n] y - f.
 Uncertainty JudgePenalised(
     const PenalisedFit& fit,

@@ -124,6 +124,14 @@ TEST(RepeatedFit, IsTheSameFromRowsThatAreKept) {
   EXPECT_LE(Apart(repeated, plain, 2 * problem.torque), kRounding);
 }
 
+TEST(RepeatedFit, SolvesForXAlone) {
+  const MapProblem problem = RipplingProblem(15);
+  RepeatedFit repeated(problem, NormalOf(problem), 1e-2);
+  const Eigen::VectorXd torque = 2 * problem.torque;
+  const Eigen::VectorXd alone = repeated.Solve(torque).value();
+  EXPECT_EQ(alone, repeated.To(torque).value().x);
+}
+
 TEST(RepeatedFit, CompletesTheLatestFit) {
   const MapProblem problem = RipplingProblem(15);
   RepeatedFit repeated(problem, NormalOf(problem), 1e-2);

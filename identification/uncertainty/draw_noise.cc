@@ -1,0 +1,38 @@
+#include "identification/uncertainty/draw_noise.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace warmjoint::inline identification {
+namespace {
+
+using Eigen::Index;
+
+constexpr double kDead = 1e-3;  // of the variance; why: far below what few draws can tell
+
+/// Samples after which nothing is left of a start from 0.
+Index Settling(const NoiseModel& noise, Index most) {
+  if (noise.order() == 0) return 0;
+  const Eigen::VectorXd covariances = CovariancesOf(noise, most);
+  Index last = most;
+  while (last > 0 && std::abs(covariances[last]) <= kDead * noise.variance) --last;
+  return std::max(last, noise.order());
+}
+
+}  // namespace
+
+Eigen::VectorXd DrawNoise(const NoiseModel& noise, Index n, StartStream& stream) {
+  const Index p = noise.order();
+  const Index before = Settling(noise, n);
+  const double half = std::sqrt(3 * (p == 0 ? noise.variance : noise.innovation));
+  Eigen::VectorXd drawn(before + n);
+  for (Index i = 0; i < drawn.size(); ++i) {
+    drawn[i] = stream.Uniform(-half, half);
+    for (Index k = 0; k < std::min(p, i); ++k) {
+      drawn[i] -= noise.coefficients[k] * drawn[i - 1 - k];
+    }
+  }
+  return drawn.tail(n);
+}
+
+}  // namespace warmjoint::inline identification

@@ -1,0 +1,13 @@
+// Noise as a model tells it.
+#pragma once
+
+#include "identification/uncertainty/noise_model.h"
+#include "models/foundation/start_stream.h"
+
+namespace warmjoint::inline identification {
+
+/// n samples of stationary noise of that colour, in N.m or N, [n]. What drives it is uniform: its covariances are the
+/// model's, its higher moments are not.
+Eigen::VectorXd DrawNoise(const NoiseModel& noise, Eigen::Index n, StartStream& stream);
+
+}  // namespace warmjoint::inline identification
