@@ -201,12 +201,61 @@ Assumption ToAssumption(const json& object, const Place& place) {
           ToMoves(member("moves"), place)};
 }
 
+/// The members of an estimate's object by name.
+class Members {
+ public:
+  Members(const json& object, const Place& place) : object_(object), place_(place) {}
+  const json& operator()(const char* key) const {
+    return Member(object_, key, "the estimate", place_);
+  }
+
+ private:
+  const json& object_;
+  const Place& place_;
+};
+
+void TakeNumbers(const Members& member, const Place& place, Estimate& estimate) {
+  const json& parameters = member("parameters");
+  if (!parameters.is_object()) Refuse(place, "parameters must be an object");
+  for (const auto& [name, value] : parameters.items()) {
+    estimate.parameters.push_back(ToParameter(name, value, place));
+  }
+  estimate.metrics = ToMetrics(member("metrics"), "metrics", place);
+  estimate.holdout = ToMetrics(member("holdout"), "holdout", place);
+  for (const json& entry : member("trace")) estimate.trace.push_back(ToTraceEntry(entry, place));
+  for (const json& band : member("bands")) estimate.bands.push_back(BandFromJson(band, place));
+  for (const json& one : member("friction_at_speeds")) {
+    estimate.at_speeds.push_back(ToFrictionAtSpeed(one, place));
+  }
+}
+
+void TakeModel(const Members& member, const Place& place, Estimate& estimate) {
+  if (!member("friction").is_null()) {
+    estimate.friction = FrictionFromJson(member("friction"), place);
+  }
+  if (!member("gravity").is_null()) {
+    estimate.gravity = GravityFromJson(member("gravity"), place);
+  }
+  estimate.covariance = ToCovariance(member("covariance"), place);
+}
+
+void TakeWhatOnlySomeHave(const Members& member, const Place& place, Estimate& estimate) {
+  for (const auto& [name, value] : member("state_end").items()) {
+    estimate.state_end.push_back(ToParameter(name, value, place));
+  }
+  for (const auto& [name, value] : member("temperature").items()) {
+    estimate.temperature.push_back(ToParameter(name, value, place));
+  }
+  if (!member("without_holdout").is_null()) {
+    estimate.without_holdout = ToText(member("without_holdout"), "without_holdout", place);
+  }
+  if (!member("choice").is_null()) estimate.choice = ToChoice(member("choice"), place);
+}
+
 }  // namespace
 
 Estimate EstimateFromJson(const json& object, const Place& place) {
-  const auto member = [&](const char* key) -> const json& {
-    return Member(object, key, "the estimate", place);
-  };
+  const Members member(object, place);
 
   // who answers, and how sure
   Estimate estimate;
@@ -221,28 +270,8 @@ Estimate EstimateFromJson(const json& object, const Place& place) {
   }
   TakeOffWarnings(estimate);
 
-  // its numbers
-  const json& parameters = member("parameters");
-  if (!parameters.is_object()) Refuse(place, "parameters must be an object");
-  for (const auto& [name, value] : parameters.items()) {
-    estimate.parameters.push_back(ToParameter(name, value, place));
-  }
-  estimate.metrics = ToMetrics(member("metrics"), "metrics", place);
-  estimate.holdout = ToMetrics(member("holdout"), "holdout", place);
-  for (const json& entry : member("trace")) estimate.trace.push_back(ToTraceEntry(entry, place));
-  for (const json& band : member("bands")) estimate.bands.push_back(BandFromJson(band, place));
-  for (const json& one : member("friction_at_speeds")) {
-    estimate.at_speeds.push_back(ToFrictionAtSpeed(one, place));
-  }
-
-  // the model
-  if (!member("friction").is_null()) {
-    estimate.friction = FrictionFromJson(member("friction"), place);
-  }
-  if (!member("gravity").is_null()) {
-    estimate.gravity = GravityFromJson(member("gravity"), place);
-  }
-  estimate.covariance = ToCovariance(member("covariance"), place);
+  TakeNumbers(member, place, estimate);
+  TakeModel(member, place, estimate);
 
   // what the verdict said
   for (const json& one : member("diagnostics")) {
@@ -251,18 +280,7 @@ Estimate EstimateFromJson(const json& object, const Place& place) {
   for (const json& one : member("assumptions")) {
     estimate.assumptions.push_back(ToAssumption(one, place));
   }
-
-  // and what only some have
-  for (const auto& [name, value] : member("state_end").items()) {
-    estimate.state_end.push_back(ToParameter(name, value, place));
-  }
-  for (const auto& [name, value] : member("temperature").items()) {
-    estimate.temperature.push_back(ToParameter(name, value, place));
-  }
-  if (!member("without_holdout").is_null()) {
-    estimate.without_holdout = ToText(member("without_holdout"), "without_holdout", place);
-  }
-  if (!member("choice").is_null()) estimate.choice = ToChoice(member("choice"), place);
+  TakeWhatOnlySomeHave(member, place, estimate);
   return estimate;
 }
 

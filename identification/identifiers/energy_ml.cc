@@ -1,6 +1,10 @@
 #include "identification/identifiers/energy_ml.h"
 
 #include <cmath>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
@@ -27,16 +31,49 @@ namespace {
 
 constexpr const char* kName = "energy-ml";
 
+/// What all passes of a fit share.
+struct Course {
+  const IdentifierInput& input;  // without gravity where it is known
+  const LinearTask& task;
+  Eigen::MatrixXd kept_columns;  // [n x d] law, then gravity
+  Eigen::VectorXd torque;        // [n] N.m or N
+  LeastSquares nominal;          // without warming
+  Selection moving;              // of the kept samples
+  Eigen::VectorXd kept;          // [N] 1 where moving
+  ClosedLoop loop;
+  Eigen::VectorXd level;    // [N] sign(v) torque
+  Eigen::MatrixXd offsets;  // [N x q] sign(v) dG/dg
+  std::vector<LogGap> gaps;
+  Eigen::VectorXd spread;  // [J] of the jumps at gaps
+  std::string
+      unlike_before;  // the clause that the log contradicts the start that was expected; or empty
+
+  Course(const IdentifierInput& from, const LinearTask& linear)
+      : input(from),
+        task(linear),
+        kept_columns(Kept(task.columns, input.selection)),
+        torque(Kept(input.measurements.torque, input.selection)),
+        nominal(SolveLeastSquares(kept_columns, torque)),
+        moving(WithoutRest(input.selection, input.measurements)),
+        kept(moving.keep.cast<double>()),
+        loop(ClosedLoop::Along(input.measurements, task.columns.leftCols(task.law_count()),
+                               LossColumns(task.law, input.measurements))),
+        level(loop.direction().cwiseProduct(input.measurements.torque)),
+        offsets(loop.direction().asDiagonal() * task.gravity.columns) {}
+
+  double NominalSquares() const { return (torque - kept_columns * nominal.solution).squaredNorm(); }
+};
+
 /// A start for all linear parameters, law before gravity, and the warming: the scan over tau once
-/// gravity is out of the loss. nominal: the fit without warming.
-WarmStart Scan(const Measurements& m, const RigidPart& gravity, const ClosedLoop& loop,
-               const Eigen::MatrixXd& columns, const LeastSquares& nominal,
-               const Eigen::VectorXd& level, const Eigen::VectorXd& kept) {
-  if (gravity.count() == 0) return ScanTimeConstant(loop, level, kept);
-  const ClosedLoop together = ClosedLoop::Along(m, columns);
-  const Eigen::VectorXd weight = nominal.solution.tail(gravity.count());
+/// gravity is out of the loss. level: [N] as Course::level
+WarmStart Scan(const Course& course, const Eigen::VectorXd& level) {
+  const RigidPart& gravity = course.task.gravity;
+  if (gravity.count() == 0) return ScanTimeConstant(course.loop, level, course.kept);
+  const ClosedLoop together = ClosedLoop::Along(course.input.measurements, course.task.columns);
+  const Eigen::VectorXd weight = course.nominal.solution.tail(gravity.count());
   const Eigen::VectorXd pull = gravity.columns * weight;
-  WarmStart start = ScanTimeConstant(together, level - loop.direction().cwiseProduct(pull), kept);
+  WarmStart start =
+      ScanTimeConstant(together, level - course.loop.direction().cwiseProduct(pull), course.kept);
   start.parameters.tail(gravity.count()) += weight;
   return start;
 }
@@ -48,22 +85,21 @@ double LeftOver(const Eigen::MatrixXd& A, const Eigen::VectorXd& y) {
 }
 
 /// How sure a fit to plain squares is of its x, whatever the colour of the noise.
-Uncertainty KnownOf(const IdentifierInput& input, const RigidPart& gravity, const ClosedLoop& loop,
-                    const WarmFit& plain) {
-  const LoopResponse response = loop.Simulate(plain.parameters(), plain.thermal(),
-                                              plain.initial_energy(), plain.jump_values());
+Uncertainty KnownOf(const Course& course, const WarmFit& plain) {
+  const auto& [input, gravity] = std::tie(course.input, course.task.gravity);
+  const LoopResponse response = course.loop.Simulate(plain.parameters(), plain.thermal(),
+                                                     plain.initial_energy(), plain.jump_values());
   const Eigen::VectorXd fitted = response.force + gravity.columns * plain.offset_values();
   const Eigen::VectorXd residual = Kept(input.measurements.torque - fitted, input.selection);
-  return JudgeUncertainty(Kept(WarmJacobian(loop, gravity, plain), input.selection),
+  return JudgeUncertainty(Kept(WarmJacobian(course.loop, gravity, plain), input.selection),
                           Cofactor(plain.normal), residual, input.selection, {}, plain.prior());
 }
 
 /// What whitening changes of a fit beyond doubt; nothing where the colour may be noise. plain: the
 /// fit before it.
-std::optional<Disagreement> FindStructure(const IdentifierInput& input, const RigidPart& gravity,
-                                          const ClosedLoop& loop, const WarmFit& plain,
+std::optional<Disagreement> FindStructure(const Course& course, const WarmFit& plain,
                                           const WarmFit& white, const Whitening& whitening) {
-  const Uncertainty known = KnownOf(input, gravity, loop, plain);
+  const Uncertainty known = KnownOf(course, plain);
   return FindDisagreement({plain.solution.x, known.covariance},
                           {white.solution.x, whitening.noise().innovation * Cofactor(white.normal)},
                           known.freedom);
@@ -75,29 +111,79 @@ struct Whitened {
   std::optional<Disagreement> refused;   // why not, though the noise is coloured
 };
 
-/// What FitWarmFriction takes beside the loop.
-struct WarmRows {
-  const Eigen::VectorXd& level;    // [N]
-  const Eigen::MatrixXd& offsets;  // [N x q]
-  const Eigen::VectorXd& spread;   // [J] of jumps
-};
-
 /// Fits once more on whitened rows, where the noise is coloured beyond doubt; the fit stays as it was
 /// where that changes more than noise may.
-Whitened FitAgainWhitened(const IdentifierInput& input, const RigidPart& gravity,
-                          const ClosedLoop& loop, const Law& law, const WarmRows& rows,
-                          WarmFit& fit) {
-  const Measurements& m = input.measurements;
+Whitened FitAgainWhitened(const Course& course, WarmFit& fit) {
+  const Measurements& m = course.input.measurements;
   const WarmFit plain = fit;
   Whitened white;
-  white.map = FitWhitened(m, input.selection, loop, rows.level, rows.offsets, rows.spread, fit);
+  white.map = FitWhitened(m, course.input.selection, course.loop, course.level, course.offsets,
+                          course.spread, fit);
   if (!white.map) return white;
-  white.refused = FindStructure(input, gravity, loop, plain, fit, *white.map);
-  if (white.refused || LeavesBounds(LawParameters(law, fit.parameters(), m))) {
+  white.refused = FindStructure(course, plain, fit, *white.map);
+  if (white.refused || LeavesBounds(LawParameters(course.task.law, fit.parameters(), m))) {
     fit = plain;
     white.map = nullptr;
   }
   return white;
+}
+
+/// By plain squares, with what is known of E(0) and a jump of E at each gap, both of which the course learns.
+RobustWarmFit FitBySquares(Course& course, const WarmStart& start) {
+  const double scale =
+      std::sqrt(course.NominalSquares() / static_cast<double>(course.torque.size()));
+  RobustWarmFit robust{FitWarmFriction(course.loop, course.level, course.offsets, course.kept,
+                                       start, InitialEnergyOf(course.input.options), scale),
+                       course.kept, kInfinity};
+  course.unlike_before = WeighStart(
+      course.loop, course.level, course.offsets, course.kept,
+      [&](const WarmFit& alone) {
+        return KnownOf(course, alone).Deviation(alone.law_parameters + 2);
+      },
+      robust.fit);
+  course.gaps = FindGaps(course.input.measurements);
+  if (!course.gaps.empty()) {
+    course.loop = course.loop.WithJumps(Behind(course.gaps));
+    course.spread =
+        FitJumps(course.loop, course.level, course.offsets, course.kept, course.gaps, robust.fit);
+  }
+  return robust;
+}
+
+/// The passes after the first: under Huber's loss, behind the lag of the torque, or on whitened rows where the
+/// noise is coloured beyond doubt.
+Fit FitFurther(const Course& course, const WarmStart& start, RobustWarmFit robust) {
+  const auto& [input, task] = std::tie(course.input, course.task);
+  double nominal_squares = course.NominalSquares();
+  if (input.options.Text("loss") == "huber") {
+    robust = RefineByHuber(course.loop, course.level, course.offsets, course.kept,
+                           std::move(robust.fit), course.spread);
+    const Eigen::VectorXd root = Kept(robust.weight, input.selection).col(0).cwiseSqrt();
+    nominal_squares =
+        LeftOver(root.asDiagonal() * course.kept_columns, root.cwiseProduct(course.torque));
+  }
+
+  // samples at rest, which tell nothing, would part the rows of the fit from those of its errors
+  const bool by_squares =
+      std::isinf(robust.threshold) && course.moving.count() == input.selection.count();
+  std::shared_ptr<const LaggedRows> lag;
+  if (by_squares && AsksForLag(input)) {
+    lag = FitBehindLag(
+        input.measurements, course.moving, course.loop, course.offsets, course.spread,
+        [&](const Eigen::VectorXd& level) { return Scan(course, level); }, robust.fit);
+  }
+  Whitened whitened;
+  if (by_squares && !lag) whitened = FitAgainWhitened(course, robust.fit);
+
+  // the fit without warming, on the same rows
+  if (lag)
+    nominal_squares = LeftOver(lag->Of(course.kept_columns), lag->Of(lag->Unlagged(course.torque)));
+  if (const auto& map = whitened.map)
+    nominal_squares = LeftOver(map->Of(course.kept_columns), map->Of(course.torque));
+  return ConcludeWarm(kName,
+                      {input, task.law, task.gravity, course.loop, start, course.gaps, whitened.map,
+                       whitened.refused, lag},
+                      robust, nominal_squares);
 }
 
 Fit FitWarming(const IdentifierInput& given) {
@@ -108,73 +194,22 @@ Fit FitWarming(const IdentifierInput& given) {
                    "torque_lag is estimated beside a law without maps; use position none, or "
                    "torque_lag none");
   }
-  const Measurements& m = given.measurements;
   const LinearTask task = BeginLinear(given, 3);
   if (task.refusal) return Refused(kName, *task.refusal);
-  const auto& [law, gravity, columns, refusal] = task;
-  const IdentifierInput input = gravity.Of(given);
+  const IdentifierInput input = task.gravity.Of(given);
 
   // the columns of law and gravity must be distinct before any warming is thought of
-  const Eigen::MatrixXd kept_columns = Kept(columns, input.selection);
-  const Eigen::VectorXd torque = Kept(m.torque, input.selection);
-  const LeastSquares nominal = SolveLeastSquares(kept_columns, torque);
-  if (!nominal.mixed.empty()) {
+  Course course(input, task);
+  if (!course.nominal.mixed.empty()) {
     return Refused(kName, Status::not_identifiable,
-                   IndistinctColumns(nominal.mixed, law, gravity, input));
+                   IndistinctColumns(course.nominal.mixed, task.law, task.gravity, input));
   }
-  double nominal_squares = (torque - kept_columns * nominal.solution).squaredNorm();
 
   // scan tau, then refine everything over the closed loop
-  ClosedLoop loop = ClosedLoop::Along(m, columns.leftCols(task.law_count()), LossColumns(law, m));
-  const Eigen::VectorXd level = loop.direction().cwiseProduct(m.torque);
-  const Selection moving = WithoutRest(input.selection, m);
-  const Eigen::VectorXd kept = moving.keep.cast<double>();
-  const WarmStart start = Scan(m, gravity, loop, columns, nominal, level, kept);
-  const double scale = std::sqrt(nominal_squares / static_cast<double>(torque.size()));
-  const Eigen::MatrixXd offsets = loop.direction().asDiagonal() * gravity.columns;
-  RobustWarmFit robust{
-      FitWarmFriction(loop, level, offsets, kept, start, InitialEnergyOf(input.options), scale),
-      kept, kInfinity};
-  const std::string unlike_before = WeighStart(
-      loop, level, offsets, kept,
-      [&](const WarmFit& alone) {
-        return KnownOf(input, gravity, loop, alone).Deviation(alone.law_parameters + 2);
-      },
-      robust.fit);
-  const std::vector<LogGap> gaps = FindGaps(m);
-  Eigen::VectorXd spread;
-  if (!gaps.empty()) {
-    loop = loop.WithJumps(Behind(gaps));
-    spread = FitJumps(loop, level, offsets, kept, gaps, robust.fit);
-  }
-  if (given.options.Text("loss") == "huber") {
-    robust = RefineByHuber(loop, level, offsets, kept, std::move(robust.fit), spread);
-    const Eigen::VectorXd root = Kept(robust.weight, input.selection).col(0).cwiseSqrt();
-    nominal_squares = LeftOver(root.asDiagonal() * kept_columns, root.cwiseProduct(torque));
-  }
-
-  // once more behind the lag of the torque, or where the noise is coloured beyond doubt; samples at rest, which
-  // tell nothing, would part the rows of the fit from those of its errors
-  const bool by_squares = std::isinf(robust.threshold) && moving.count() == input.selection.count();
-  std::shared_ptr<const LaggedRows> lag;
-  if (by_squares && AsksForLag(given)) {
-    const auto scan = [&](const Eigen::VectorXd& at) {
-      return Scan(m, gravity, loop, columns, nominal, at, kept);
-    };
-    lag = FitBehindLag(m, moving, loop, offsets, spread, scan, robust.fit);
-  }
-  Whitened whitened;
-  if (by_squares && !lag) {
-    whitened = FitAgainWhitened(input, gravity, loop, law, {level, offsets, spread}, robust.fit);
-  }
-  if (lag) nominal_squares = LeftOver(lag->Of(kept_columns), lag->Of(lag->Unlagged(torque)));
-  if (const auto& map = whitened.map)
-    nominal_squares = LeftOver(map->Of(kept_columns), map->Of(torque));
-
-  Fit fit = ConcludeWarm(
-      kName, {input, law, gravity, loop, start, gaps, whitened.map, whitened.refused, lag}, robust,
-      nominal_squares);
-  if (!unlike_before.empty()) fit.warnings.push_back(unlike_before);
+  const WarmStart start = Scan(course, course.level);
+  RobustWarmFit robust = FitBySquares(course, start);
+  Fit fit = FitFurther(course, start, std::move(robust));
+  if (!course.unlike_before.empty()) fit.warnings.push_back(course.unlike_before);
   return fit;
 }
 

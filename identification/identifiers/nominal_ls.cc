@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <tuple>
+#include <utility>
+
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
 #include "identification/inference/bounds.h"
@@ -31,80 +35,113 @@ std::optional<Disagreement> FindStructure(const Eigen::MatrixXd& A, const Eigen:
                           known.freedom);
 }
 
-Fit FitLaw(const IdentifierInput& given) {
-  if (auto why = WhyNoLag(given)) return Refused(kName, Status::bad_data, *why);
-  LinearTask task = BeginLinear(given, 0);
-  if (task.refusal) return Refused(kName, *task.refusal);
-  const auto& [law, gravity, columns, refusal] = task;
-  const IdentifierInput input = gravity.Of(given);
+/// The rows of (9) on the samples that satisfy (6), and what they come to.
+struct LawRows {
+  const IdentifierInput& input;
+  const LinearTask& task;
+  Eigen::MatrixXd A;       // [n x d]
+  Eigen::VectorXd torque;  // [n] N.m or N
+  RobustLeastSquares robust{};
+  std::shared_ptr<const LaggedRows> lag{};       // of a torque that lags; or none
+  std::shared_ptr<const Whitening> whitening{};  // of coloured noise; or none
+  std::optional<Disagreement> structure{};       // why the rows were not whitened
+};
+
+LawRows SolveRows(const IdentifierInput& input, const LinearTask& task) {
+  LawRows rows{input, task, Kept(task.columns, input.selection),
+               Kept(input.measurements.torque, input.selection)};
+  rows.robust = input.options.Text("loss") == "huber"
+                    ? SolveHuber(rows.A, rows.torque)
+                    : RobustLeastSquares{SolveLeastSquares(rows.A, rows.torque), kInfinity, true};
+  return rows;
+}
+
+/// Once more behind the lag of the torque, where the log shows one.
+void SolveBehindLag(LawRows& rows) {
+  LeastSquares& solved = rows.robust.fit;
+  const auto runs =
+      std::make_shared<const KeptRuns>(FindRuns(rows.input.measurements, rows.input.selection));
+  auto behind = FitLinearLag(runs, rows.A, rows.torque, rows.A * solved.solution);
+  if (!behind) return;
+  rows.lag = behind->rows;
+  solved = std::move(behind->fit);
+}
+
+/// Once more on whitened rows, where the noise is coloured beyond doubt.
+void SolveWhitened(LawRows& rows) {
+  const auto& [input, task] = std::tie(rows.input, rows.task);
+  LeastSquares& solved = rows.robust.fit;
+  const auto whitening =
+      WhiteningFor(rows.torque - rows.A * solved.solution, input.measurements, input.selection);
+  if (!whitening) return;
+  LeastSquares white = SolveLeastSquares(whitening->Of(rows.A), whitening->Of(rows.torque));
+  if (white.rank < task.count()) return;
+  rows.structure = FindStructure(rows.A, rows.torque, solved, white, *whitening, input.selection);
+  const bool is_friction = !LeavesBounds(
+      LawParameters(task.law, white.solution.head(task.law_count()), input.measurements));
+  if (rows.structure || !is_friction) return;
+  rows.whitening = whitening;
+  solved = std::move(white);
+}
+
+/// The law, gravity beside it, and how well they fit.
+Fit AsFit(const LawRows& rows) {
+  const auto& [input, task] = std::tie(rows.input, rows.task);
   const Measurements& m = input.measurements;
-
-  // rows of (9) on the samples that satisfy (6)
-  const Eigen::MatrixXd A = Kept(columns, input.selection);
-  const Eigen::VectorXd torque = Kept(m.torque, input.selection);
-  const bool huber = input.options.Text("loss") == "huber";
-  RobustLeastSquares robust =
-      huber ? SolveHuber(A, torque)
-            : RobustLeastSquares{SolveLeastSquares(A, torque), kInfinity, true};
-  LeastSquares& solved = robust.fit;
-  if (solved.rank < task.count()) {
-    return Refused(kName, Status::not_identifiable,
-                   IndistinctColumns(solved.mixed, law, gravity, input));
-  }
-  if (!robust.converged) {
-    return Refused(kName, Status::not_converged,
-                   "the weights of Huber's loss still move after 100 rounds; use loss squares");
-  }
-
-  // once more behind the lag of the torque, or where the noise is coloured beyond doubt
-  std::shared_ptr<const LaggedRows> lag;
-  if (AsksForLag(given)) {
-    const auto runs = std::make_shared<const KeptRuns>(FindRuns(m, input.selection));
-    if (auto behind = FitLinearLag(runs, A, torque, A * solved.solution)) {
-      lag = behind->rows;
-      solved = std::move(behind->fit);
-    }
-  }
-  std::shared_ptr<const Whitening> whitening;
-  std::optional<Disagreement> structure;
-  if (!huber && !lag) whitening = WhiteningFor(torque - A * solved.solution, m, input.selection);
-  if (whitening) {
-    LeastSquares white = SolveLeastSquares(whitening->Of(A), whitening->Of(torque));
-    if (white.rank == task.count())
-      structure = FindStructure(A, torque, solved, white, *whitening, input.selection);
-    const bool is_friction =
-        white.rank == task.count() &&
-        !LeavesBounds(LawParameters(law, white.solution.head(task.law_count()), m));
-    if (structure || !is_friction) whitening = nullptr;
-    if (whitening) solved = std::move(white);
-  }
-
-  // the law, gravity beside it
+  const LeastSquares& solved = rows.robust.fit;
   const Eigen::VectorXd values = solved.solution.head(task.law_count());
   Fit fit;
   fit.identifier = kName;
-  fit.friction = FrictionOf(law, values, m);
-  fit.parameters = LawParameters(law, values, m);
-  AddRigid(gravity, solved.solution.tail(gravity.count()), m, fit);
+  fit.friction = FrictionOf(task.law, values, m);
+  fit.parameters = LawParameters(task.law, values, m);
+  AddRigid(task.gravity, solved.solution.tail(task.gravity.count()), m, fit);
 
-  // and how well they fit
   fit.used = input.selection;
-  fit.torque = torque;
-  fit.fitted = A * solved.solution;
+  fit.torque = rows.torque;
+  fit.fitted = rows.A * solved.solution;
   fit.errors.cofactor = solved.cofactor;
-  fit.errors.whitening = whitening;
-  if (huber) fit.errors.scores = HuberScores(fit.residual(), robust.threshold);
-  if (huber) fit.loss_bend = robust.threshold;
+  fit.errors.whitening = rows.whitening;
   fit.count = task.count();
   fit.effective_parameters = task.count();
-  fit.summary = fmt::format("law {} by least squares on {} samples{}{}{}", law.name, torque.size(),
-                            m.acceleration ? kOfAnyMotion : "", lag ? kBehindLag : "",
-                            whitening ? kWhitened : "");
-  const Eigen::VectorXd friction = A.leftCols(task.law_count()) * values;
-  fit.jacobian = [all = std::move(task.columns)] { return all; };
-  if (structure) HoldStructure(*structure, friction, fit);
-  if (lag) AddLag(lag, fit.jacobian() * solved.solution, m, fit);
-  if (!lag && AsksForLag(given)) fit.afterword = kNoLagSeen;
+  fit.summary = fmt::format("law {} by least squares on {} samples{}{}{}", task.law.name,
+                            rows.torque.size(), m.acceleration ? kOfAnyMotion : "",
+                            rows.lag ? kBehindLag : "", rows.whitening ? kWhitened : "");
+  fit.jacobian = [all = task.columns] { return all; };
+  return fit;
+}
+
+Fit FitLaw(const IdentifierInput& given) {
+  if (auto why = WhyNoLag(given)) return Refused(kName, Status::bad_data, *why);
+  const LinearTask task = BeginLinear(given, 0);
+  if (task.refusal) return Refused(kName, *task.refusal);
+  const IdentifierInput input = task.gravity.Of(given);
+
+  LawRows rows = SolveRows(input, task);
+  const LeastSquares& solved = rows.robust.fit;
+  if (solved.rank < task.count()) {
+    return Refused(kName, Status::not_identifiable,
+                   IndistinctColumns(solved.mixed, task.law, task.gravity, input));
+  }
+  if (!rows.robust.converged) {
+    return Refused(kName, Status::not_converged,
+                   "the weights of Huber's loss still move after 100 rounds; use loss squares");
+  }
+  const bool by_squares = std::isinf(rows.robust.threshold);
+  if (AsksForLag(given)) SolveBehindLag(rows);
+  if (by_squares && !rows.lag) SolveWhitened(rows);
+
+  // what only some have
+  Fit fit = AsFit(rows);
+  if (!by_squares) {
+    fit.errors.scores = HuberScores(fit.residual(), rows.robust.threshold);
+    fit.loss_bend = rows.robust.threshold;
+  }
+  if (rows.structure) {
+    const Eigen::Index count = task.law_count();
+    HoldStructure(*rows.structure, rows.A.leftCols(count) * solved.solution.head(count), fit);
+  }
+  if (rows.lag) AddLag(rows.lag, task.columns * solved.solution, input.measurements, fit);
+  if (!rows.lag && AsksForLag(given)) fit.afterword = kNoLagSeen;
   return fit;
 }
 
