@@ -4,7 +4,8 @@
 //   serial arm: six hinges in a row, damping 2 N.m.s/rad, steps of 2 ms
 //   industrial arm: models/robots/irb140_like, the same damping, steps of 1 ms
 //
-// "sliding" is under a drive that keeps all joints in motion, "held" at rest under gravity.
+// "sliding" is under a drive that moves all joints one way, "turning" under one that swings so widely that now the one,
+// now the other joint comes to a stop, "held" at rest under gravity.
 // Each round runs all variants in turn; the ratio is the median over rounds of the thread's time to that
 // of the arm without friction in the same round, so that a busy machine disturbs both alike.
 // "idle plugin" is one that does nothing: what the engine itself charges for a plugin in that form.
@@ -211,14 +212,33 @@ double ThreadSeconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// One round: steps the arm under a swinging drive of so many N.m.
-void Run(Variant& variant, double drive) {
+enum class Drive { sliding, turning, held };
+
+const char* Name(Drive drive) {
+  constexpr const char* kNames[] = {"sliding", "turning", "held"};
+  return kNames[static_cast<int>(drive)];
+}
+
+/// Torque of a joint's motor, N.m. level: of its friction, N.m; time: s
+double TorqueOf(Drive drive, int joint, double level, double time) {
+  switch (drive) {
+    case Drive::sliding:
+      return 3 * level;
+    case Drive::turning:
+      return 6 * level / (1 + 0.3 * joint) * std::sin((2 + joint) * time);
+    case Drive::held:
+      break;
+  }
+  return 0;
+}
+
+/// One round.
+void Run(Variant& variant, Drive drive, double level) {
   const mjModel* m = variant.model.get();
   mjData* d = variant.data.get();
   const double begin = ThreadSeconds();
   for (int i = 0; i < kSteps; ++i) {
-    for (int j = 0; j < m->nv; ++j)
-      d->ctrl[j] = drive / (1 + 0.3 * j) * std::sin((2 + j) * d->time);
+    for (int j = 0; j < m->nv; ++j) d->ctrl[j] = TorqueOf(drive, j, level, d->time);
     mj_step(m, d);
   }
   variant.times.push_back(ThreadSeconds() - begin);
@@ -255,7 +275,7 @@ std::vector<Variant> MakeVariants(Arm arm, mjtIntegrator integrator, int noslip,
   return variants;
 }
 
-void Compare(const std::string& title, Arm arm, mjtIntegrator integrator, double drive, int rounds,
+void Compare(const std::string& title, Arm arm, mjtIntegrator integrator, Drive drive, int rounds,
              const std::string& only) {
   std::vector<std::vector<Variant>> columns;
   for (const int noslip : kNoslip) {
@@ -264,7 +284,7 @@ void Compare(const std::string& title, Arm arm, mjtIntegrator integrator, double
   for (int round = 0; round < rounds; ++round) {
     for (std::vector<Variant>& variants : columns) {
       for (Variant& variant : variants) {
-        Run(variant, drive);
+        Run(variant, drive, LevelOf(arm));
         variant.ratios.push_back(variant.times.back() / variants.front().times.back());
       }
     }
@@ -297,8 +317,9 @@ int main(int argc, char** argv) {
       const std::string name =
           fmt::format("{} arm, {}", arm == Arm::serial ? "serial" : "industrial",
                       integrator == mjINT_EULER ? "Euler" : "implicitfast");
-      Compare(name + ", sliding", arm, integrator, 6 * LevelOf(arm), rounds, only);
-      Compare(name + ", held", arm, integrator, 0, rounds, only);
+      for (const Drive drive : {Drive::sliding, Drive::turning, Drive::held}) {
+        Compare(fmt::format("{}, {}", name, Name(drive)), arm, integrator, drive, rounds, only);
+      }
     }
   }
   return 0;
