@@ -176,8 +176,9 @@ Prediction Run(const FrictionDescription& friction, const JointFriction& joint,
     // hold the loss until the next sample
     if (i + 1 == n) break;
     const Heat& hold = heat.After(i);
-    state.energy = hold.First(state.energy, sample.loss, At(course.ambient_rise, i));
-    state.second_energy = hold.Second(state.second_energy, sample.loss);
+    const Heating by{sample.loss, At(course.ambient_rise, i), course.velocity[i]};
+    state.energy = hold.First(state.energy, by);
+    state.second_energy = hold.Second(state.second_energy, by);
   }
   state.bristle = law.bristle();
   if (L::pre_sliding == PreSliding::breakaway && n > 0) state.slip = Sign(course.velocity[n - 1]);

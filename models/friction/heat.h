@@ -8,6 +8,13 @@
 
 namespace warmjoint::inline models {
 
+/// What heats and cools a joint over a step, constant meanwhile.
+struct Heating {
+  double loss = 0;          // W
+  double ambient_rise = 0;  // Ts - T0, K
+  double speed = 0;         // v, rad/s or m/s
+};
+
 /// Energy states of up to two stages, both fed by the same loss W:
 ///   E1' = te1 E1 + ke1 W + (1 - te1) kT (Ts - T0),   E2' = te2 E2 + ke2 W            (22)
 /// With kT (level_per_temperature) given, the first stage is the temperature form (17) of a joint
@@ -18,11 +25,11 @@ struct Heat {
   DiscreteThermal second{0, 1};
   double ambient_gain = 0;  // (1 - te1) kT, N.m/K or N/K
 
-  double First(double energy, double loss, double ambient_rise) const {
-    return ThermalStep(first.gain, first.pole, energy, loss) + ambient_gain * ambient_rise;
+  double First(double energy, const Heating& by) const {
+    return ThermalStep(first.gain, first.pole, energy, by.loss) + ambient_gain * by.ambient_rise;
   }
-  double Second(double energy, double loss) const {
-    return ThermalStep(second.gain, second.pole, energy, loss);
+  double Second(double energy, const Heating& by) const {
+    return ThermalStep(second.gain, second.pole, energy, by.loss);
   }
 };
 

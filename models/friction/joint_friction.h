@@ -206,8 +206,9 @@ inline FrictionStep JointFriction::Complete(const FrictionState& state, const Jo
   if (bristle.force == 0 && v != 0) [[unlikely]]
     TakeDeficit(state, motion, step);
   step.next.bristle = bristle.load;
-  step.next.energy = heat_.First(state.energy, step.loss, motion.ambient_rise);
-  step.next.second_energy = heat_.Second(state.second_energy, step.loss);
+  const Heating by{step.loss, motion.ambient_rise, v};
+  step.next.energy = heat_.First(state.energy, by);
+  step.next.second_energy = heat_.Second(state.second_energy, by);
   return step;
 }
 

@@ -182,8 +182,8 @@ TEST(AlongMotion, IsThePluginsKernelBitForBitWhereAJointSlides) {
       ASSERT_EQ(p.energy[i], first + second) << law.name << i;
       if (i + 1 == kSamples) break;
       const Heat heat = DiscretiseHeat(friction, course.time[i + 1] - course.time[i]);
-      first = heat.First(first, p.loss[i], course.ambient_rise[i]);
-      second = heat.Second(second, p.loss[i]);
+      first = heat.First(first, {p.loss[i], course.ambient_rise[i]});
+      second = heat.Second(second, {p.loss[i]});
     }
     EXPECT_EQ(p.end.energy, first);
     EXPECT_EQ(p.end.second_energy, second);

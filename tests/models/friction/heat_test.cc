@@ -22,7 +22,7 @@ TEST(Heat, FollowsTheTemperatureFormAtAnyStep) {
     const Heat heat = DiscretiseHeat(TwoStages(), h);
     double energy = 0;
     const int steps = static_cast<int>(500 / h);
-    for (int i = 0; i < steps; ++i) energy = heat.First(energy, loss, rise);
+    for (int i = 0; i < steps; ++i) energy = heat.First(energy, {loss, rise});
     const double temperature = energy / -0.2;
     const double expected = (rise + resistance * loss) * -std::expm1(-500.0 / 600);
     // the last bit of te over 5e5 steps of 1 - te = 2e-6: 1e-16 / 2e-6
@@ -34,8 +34,8 @@ TEST(Heat, FeedsBothStagesWithTheSameLoss) {
   const Heat heat = DiscretiseHeat(TwoStages(), 1);
   double first = 0, second = 0;
   for (int i = 0; i < 20000; ++i) {
-    first = heat.First(first, 2, 0);
-    second = heat.Second(second, 2);
+    first = heat.First(first, {2});
+    second = heat.Second(second, {2});
   }
   // each settles at its gain times the loss; 20000 s are 33 time constants
   EXPECT_NEAR(first, -6, 1e-12);
@@ -47,8 +47,8 @@ TEST(Heat, LeavesColdJointsAsTheyAre) {
   friction.thermal.reset();
   friction.second_thermal.reset();
   const Heat heat = DiscretiseHeat(friction, 1);
-  EXPECT_EQ(heat.First(-4, 100, 0), -4);
-  EXPECT_EQ(heat.Second(0, 100), 0);
+  EXPECT_EQ(heat.First(-4, {100}), -4);
+  EXPECT_EQ(heat.Second(0, {100}), 0);
 }
 
 }  // namespace
