@@ -143,9 +143,8 @@ RobustWarmFit FitBySquares(Course& course, const WarmStart& start) {
       robust.fit);
   course.gaps = FindGaps(course.input.measurements);
   if (!course.gaps.empty()) {
-    course.loop = course.loop.WithJumps(Behind(course.gaps));
-    course.spread =
-        FitJumps(course.loop, course.level, course.offsets, course.kept, course.gaps, robust.fit);
+    course.spread = FitJumps(course.loop, course.level, course.offsets, course.kept, course.gaps,
+                             start, robust.fit);
   }
   return robust;
 }

@@ -58,8 +58,7 @@ bool WarmingBlock::FitBeside(const MapBlock& maps) {
   }
   fit_ = FitWarmFriction(loop, level, offsets, kept_, from, initial_, scale, jump_weights);
   if (jumps && first) {
-    loop = loop.WithJumps(Behind(gaps_));
-    FitJumps(loop, level, offsets, kept_, gaps_, *fit_);
+    FitJumps(loop, level, offsets, kept_, gaps_, from, *fit_);
   }
   energy_ = loop.Simulate(fit_->parameters(), fit_->thermal(), fit_->initial_energy(),
                           fit_->jump_values())

@@ -1,12 +1,16 @@
 #include "identification/warming/further_passes.h"
 
 #include <cmath>
+#include <utility>
 
 #include "identification/fit_data.h"
 
 namespace warmjoint::inline identification {
 
-Eigen::VectorXd FitJumps(const ClosedLoop& loop, const Eigen::VectorXd& level,
+namespace {
+
+/// FitJumps beside the E(0) that the fit has or knows. loop: with the jumps
+Eigen::VectorXd AddJumps(const ClosedLoop& loop, const Eigen::VectorXd& level,
                          const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
                          const std::vector<LogGap>& gaps, WarmFit& fit) {
   const Thermal thermal = fit.thermal();
@@ -21,6 +25,31 @@ Eigen::VectorXd FitJumps(const ClosedLoop& loop, const Eigen::VectorXd& level,
   next.trace.insert(next.trace.begin(), fit.trace.begin(), fit.trace.end());
   fit = std::move(next);
   return spread;
+}
+
+}  // namespace
+
+Eigen::VectorXd FitJumps(ClosedLoop& loop, const Eigen::VectorXd& level,
+                         const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
+                         const std::vector<LogGap>& gaps, const WarmStart& scanned, WarmFit& fit) {
+  const ClosedLoop without = std::exchange(loop, loop.WithJumps(Behind(gaps)));
+  const Eigen::VectorXd spread = AddJumps(loop, level, offsets, kept, gaps, fit);
+  if (!fit.estimates_initial_energy()) return spread;
+
+  // the other way: a cold start, jumps, then E(0)
+  const double scale = std::sqrt(fit.solution.squares / kept.sum());
+  WarmFit other =
+      FitWarmFriction(without, level, offsets, kept, scanned, InitialEnergy::zero, scale);
+  if (!other.converged) return spread;
+  const Eigen::VectorXd other_spread = AddJumps(loop, level, offsets, kept, gaps, other);
+  WarmFit freed =
+      FitWarmFriction(loop, level, offsets, kept, StartFrom(other), fit.initial,
+                      std::sqrt(other.solution.squares / kept.sum()), other.jump_weights);
+  const bool leaves_less = !(fit.converged && fit.solution.squares <= freed.solution.squares);
+  if (!freed.converged || !leaves_less) return spread;
+  freed.trace.insert(freed.trace.begin(), other.trace.begin(), other.trace.end());
+  fit = std::move(freed);
+  return other_spread;
 }
 
 std::shared_ptr<const Whitening> FitWhitened(const Measurements& m, const Selection& moving,

@@ -11,12 +11,14 @@
 
 namespace warmjoint::inline identification {
 
-/// Fits once more, the jumps of E at the gaps too; from a fit without them, whose place it takes.
-/// loop: with those jumps; level, offsets, kept: as of FitWarmFriction. Returns how far the jumps may
-/// be. [J]
-Eigen::VectorXd FitJumps(const ClosedLoop& loop, const Eigen::VectorXd& level,
+/// Fits once more, the jumps of E at the gaps too; from a fit without them, whose place it takes. A gap that a fit does
+/// not know may pass for a warm start that cools: where E(0) is free, the jumps are found beside a cold start as well,
+/// E(0) after them, and of both ways the one is taken that leaves less.
+/// loop: takes those jumps; level, offsets, kept: as of FitWarmFriction; scanned: where the fit began. Returns how far
+/// the jumps may be. [J]
+Eigen::VectorXd FitJumps(ClosedLoop& loop, const Eigen::VectorXd& level,
                          const Eigen::MatrixXd& offsets, const Eigen::VectorXd& kept,
-                         const std::vector<LogGap>& gaps, WarmFit& fit);
+                         const std::vector<LogGap>& gaps, const WarmStart& scanned, WarmFit& fit);
 
 /// Fits once more, the rows whitened by the colour of the residual that the fit leaves; from that
 /// fit, whose place it takes. Returns that whitening. Nothing, and the fit as it was, where the noise

@@ -54,5 +54,45 @@ TEST(UnwrapTurns, BelievesTheVelocity) {
   EXPECT_EQ(position, before);
 }
 
+/// To and fro between -3 and 3 rad at 1 rad/s, ten samples a second, without those of a span.
+struct WithGap {
+  VectorXd time, position, velocity;
+
+  WithGap(double begin, double end) : time(600), position(600), velocity(600) {
+    Eigen::Index n = 0;
+    for (int i = 0; i < 600; ++i) {
+      const double t = 0.1 * i, phase = std::fmod(t, 12);
+      if (t > begin && t < end) continue;
+      time[n] = t;
+      position[n] = phase < 6 ? phase - 3 : 9 - phase;
+      velocity[n++] = phase < 6 ? 1 : -1;
+    }
+    for (VectorXd* column : {&time, &position, &velocity}) column->conservativeResize(n);
+  }
+};
+
+TEST(UnwrapTurns, TakesNoGapInWhichTheJointMovedForAJump) {
+  WithGap log(17.5, 25);  // from 2.5 rad to -2
+  const VectorXd before = log.position;
+  ASSERT_LT((before.tail(before.size() - 1) - before.head(before.size() - 1)).minCoeff(),
+            -kTurn / 2);
+  EXPECT_EQ(UnwrapTurns(log.time, log.velocity, log.position), 0);
+  EXPECT_EQ(UnwrapTurns(log.time, {}, log.position), 0);
+  EXPECT_EQ(log.position, before);
+}
+
+TEST(UnwrapTurns, GoesOnAtTheNearestPlaceBehindAGapOfASensorThatWraps) {
+  // 1 rad/s on and on; a gap of 4.5 s in which it turns by 4.5 rad: as well by 4.5 - 2 pi = -1.8 rad
+  VectorXd time(155), velocity = VectorXd::Ones(155);
+  for (Eigen::Index i = 0; i < 155; ++i) time[i] = 0.1 * static_cast<double>(i < 100 ? i : i + 44);
+  VectorXd log = Wrapped(time, 0);
+  EXPECT_GE(UnwrapTurns(time, velocity, log), 2);
+  EXPECT_NEAR(log[100] - log[99], 4.5 - kTurn, 1e-12);
+  for (Eigen::Index i = 1; i < 155; ++i) {
+    if (i == 100) continue;
+    EXPECT_NEAR(log[i] - log[i - 1], 0.1, 1e-12) << i;
+  }
+}
+
 }  // namespace
 }  // namespace warmjoint
