@@ -4,7 +4,7 @@
 //
 // For each variant and identifier of a suite (tests/studies/maps.yaml, or one of scenarios/suites with maps): the numbers of kernels that
 // were chosen; the rms error of the friction along a log that the fit has not seen, the same joint moved anew, over the noise of a sample;
-// the same of a map with half the kernels, over that; and the bands: how often they hold the truth, the rms error over the standard
+// the same of a map with half the kernels, over that; and the bands: how often they hold the truth, with its standard error over the logs, the rms error over the standard
 // deviation, and the median half width over the noise, apart for places with data and for holes. Maps count whose first axis is the
 // position; the friction at a place is that without warming.
 #include <fmt/format.h>
@@ -36,6 +36,24 @@ using Given = std::map<std::string, std::string>;
 struct Cover {
   int held = 0;
   std::vector<double> z, widths;  // errors over deviations; half widths over the noise
+  std::vector<double> shares;     // of the places of each log that are held
+
+  /// The places that were counted since the last log, as one log's.
+  void EndLog() {
+    const size_t count = widths.size() - before_;
+    if (count > 0) shares.push_back((held - held_before_) / static_cast<double>(count));
+    before_ = widths.size();
+    held_before_ = held;
+  }
+
+  /// Of the share that is held, since the errors at the places of one log go together.
+  double StandardError() const {
+    const auto n = static_cast<double>(shares.size());
+    double mean = 0, squares = 0;
+    for (const double one : shares) mean += one / n;
+    for (const double one : shares) squares += (one - mean) * (one - mean);
+    return n > 1 ? std::sqrt(squares / (n - 1) / n) : std::nan("");
+  }
 
   void Count(double truth, double value, double deviation, const std::array<double, 2>& interval,
              double noise) {
@@ -48,11 +66,15 @@ struct Cover {
     double squares = 0;
     for (const double one : z) squares += one * one;
     std::ranges::sort(widths);
-    return fmt::format("{:.1f} % of {}, rms z {:.2f}, half width {:.3f}, largest {:.3g}",
-                       100.0 * held / static_cast<double>(widths.size()), widths.size(),
-                       std::sqrt(squares / static_cast<double>(z.size())),
+    return fmt::format("{:.1f} +- {:.1f} % of {}, rms z {:.2f}, half width {:.3f}, largest {:.3g}",
+                       100.0 * held / static_cast<double>(widths.size()), 100 * StandardError(),
+                       widths.size(), std::sqrt(squares / static_cast<double>(z.size())),
                        widths[widths.size() / 2], widths.back());
   }
+
+ private:
+  size_t before_ = 0;
+  int held_before_ = 0;
 };
 
 /// One identifier over the realizations of one variant.
@@ -125,6 +147,8 @@ void CountBands(const Fit& fit, const Recording& recording, const LogView& view,
         .Count(truth[static_cast<Eigen::Index>(i)], band.value[i], band.std[i], band.interval95[i],
                recording.truth.torque_noise);
   }
+  outcomes.seen.EndLog();
+  outcomes.holes.EndLog();
 }
 
 void Count(const Identifier& identifier, Given given, const Recording& recording,
