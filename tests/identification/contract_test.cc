@@ -19,9 +19,10 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// The recording with a load that friction does not care for, N.m.
-Measurements WithLoad(Measurements recording) {
+/// The recording with a load (N.m) and a temperature (degC) that friction does not care for.
+Measurements WithMoreColumns(Measurements recording) {
   recording.load = (0.1 * recording.time.array()).sin();
+  recording.temperature = 30 + 5 * (0.007 * recording.time.array()).sin();
   return recording;
 }
 
@@ -58,7 +59,7 @@ class Contract : public ::testing::TestWithParam<Identifier> {
 
   /// Two hours at 1 s, from cold, with rests of 10 min that let the joint cool.
   static const Measurements& Warm() {
-    static const Measurements recording = WithLoad(
+    static const Measurements recording = WithMoreColumns(
         test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(7200, 1, 600), 0.1, 1));
     return recording;
   }
@@ -91,12 +92,12 @@ class Contract : public ::testing::TestWithParam<Identifier> {
     }
     FrictionDescription friction = falling(warm_or_cold);
     friction.parameters["coulomb"] = 30;
-    return WithLoad(
+    return WithMoreColumns(
         test::RecordFriction(friction, 1, test::AlternatingSpeeds(7200, 1, 600), 0.1, 1));
   }
   /// The motion of Warm, of a joint that does not warm.
   static const Measurements& Cold() {
-    static const Measurements recording = WithLoad(
+    static const Measurements recording = WithMoreColumns(
         test::RecordFriction(ColdTableOne(), 1, test::AlternatingSpeeds(7200, 1, 600), 0.1, 1));
     return recording;
   }
