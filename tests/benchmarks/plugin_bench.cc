@@ -4,8 +4,8 @@
 //   serial arm: six hinges in a row, damping 2 N.m.s/rad, steps of 2 ms
 //   industrial arm: models/robots/irb140_like, the same damping, steps of 1 ms
 //
-// "sliding" is under a drive that moves all joints one way, "turning" under one that swings so widely that now the one,
-// now the other joint comes to a stop, "held" at rest under gravity.
+// "sliding" is under drives that keep the speed of all joints, "turning" under torques that swing so widely that now the
+// one, now the other joint comes to a stop, "held" at rest under gravity.
 // Each round runs all variants in turn; the ratio is the median over rounds of the thread's time to that
 // of the arm without friction in the same round, so that a busy machine disturbs both alike.
 // "idle plugin" is one that does nothing: what the engine itself charges for a plugin in that form.
@@ -202,6 +202,7 @@ struct Variant {
   std::string name;
   ModelPtr model;
   DataPtr data;
+  bool has_friction;
   std::vector<double> times{};   // s, of each round
   std::vector<double> ratios{};  // of each round, to the variant without friction
 };
@@ -219,17 +220,19 @@ const char* Name(Drive drive) {
   return kNames[static_cast<int>(drive)];
 }
 
-/// Torque of a joint's motor, N.m. level: of its friction, N.m; time: s
-double TorqueOf(Drive drive, int joint, double level, double time) {
-  switch (drive) {
-    case Drive::sliding:
-      return 3 * level;
-    case Drive::turning:
-      return 6 * level / (1 + 0.3 * joint) * std::sin((2 + joint) * time);
-    case Drive::held:
-      break;
+constexpr double kSpeed = 2;        // rad/s, of joints that slide
+constexpr double kFirmness = 0.02;  // of drives: share of a lack of speed that one step makes up
+
+/// Torques of the motors, N.m. level: of friction, where there is one, N.m
+void Control(Variant& variant, Drive drive, double level) {
+  const mjModel* m = variant.model.get();
+  mjData* d = variant.data.get();
+  for (int j = 0; j < m->nv; ++j) {
+    const double firm = kFirmness * m->dof_M0[j] / m->opt.timestep;
+    const double swing = 6 * level / (1 + 0.3 * j) * std::sin((2 + j) * d->time);
+    const double keeps = firm * (kSpeed - d->qvel[j]) + (variant.has_friction ? level : 0);
+    d->ctrl[j] = drive == Drive::sliding ? keeps : drive == Drive::turning ? swing : 0;
   }
-  return 0;
 }
 
 /// One round.
@@ -238,7 +241,7 @@ void Run(Variant& variant, Drive drive, double level) {
   mjData* d = variant.data.get();
   const double begin = ThreadSeconds();
   for (int i = 0; i < kSteps; ++i) {
-    for (int j = 0; j < m->nv; ++j) d->ctrl[j] = TorqueOf(drive, j, level, d->time);
+    Control(variant, drive, level);
     mj_step(m, d);
   }
   variant.times.push_back(ThreadSeconds() - begin);
@@ -254,24 +257,24 @@ double Median(std::vector<double> values) {
 std::vector<Variant> MakeVariants(Arm arm, mjtIntegrator integrator, int noslip,
                                   const std::string& only) {
   std::vector<Variant> variants;
-  const auto add = [&](const std::string& name, const Change& change) {
+  const auto add = [&](const std::string& name, const Change& change, bool has_friction) {
     if (!variants.empty() && name.find(only) == std::string::npos) return;
     ModelPtr model = MakeArm(arm, integrator, noslip, change);
     DataPtr data(mj_makeData(model.get()));
-    variants.push_back({name, std::move(model), std::move(data)});
+    variants.push_back({name, std::move(model), std::move(data), has_friction});
   };
   const auto nothing = [](mjSpec&, const auto&) {};
-  add("no friction", nothing);
-  add("no friction, again", nothing);
-  add("six more motors", WithMotors);
-  add("frictionloss", WithFrictionLoss(LevelOf(arm)));
-  add("dcmotor LuGre", WithDcMotors(LevelOf(arm)));
-  add("idle plugin, passive", WithIdlePassive);
-  add("passive, simple", WithFriction(Simple(arm), FrictionForm::passive));
-  add("passive, full", WithFriction(Full(arm), FrictionForm::passive));
-  add("idle plugin, six actuators of two states", WithIdleActuators);
-  add("actuator, simple", WithFriction(Simple(arm), FrictionForm::actuator));
-  add("actuator, full", WithFriction(Full(arm), FrictionForm::actuator));
+  add("no friction", nothing, false);
+  add("no friction, again", nothing, false);
+  add("six more motors", WithMotors, false);
+  add("frictionloss", WithFrictionLoss(LevelOf(arm)), true);
+  add("dcmotor LuGre", WithDcMotors(LevelOf(arm)), true);
+  add("idle plugin, passive", WithIdlePassive, false);
+  add("passive, simple", WithFriction(Simple(arm), FrictionForm::passive), true);
+  add("passive, full", WithFriction(Full(arm), FrictionForm::passive), true);
+  add("idle plugin, six actuators of two states", WithIdleActuators, false);
+  add("actuator, simple", WithFriction(Simple(arm), FrictionForm::actuator), true);
+  add("actuator, full", WithFriction(Full(arm), FrictionForm::actuator), true);
   return variants;
 }
 
