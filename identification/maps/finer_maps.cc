@@ -52,17 +52,16 @@ std::optional<FinerFit> FitFiner(MapProblem problem, const MapFit& fit, const No
   if (!twice) return std::nullopt;
 
   // the same noise to both, on top of what was measured, where bounds hold as they do there
-  FinerFit result{std::move(*twice), {}, {}};
+  Eigen::MatrixXd torques(problem.torque.size(), kDraws);
   StartStream stream({});
-  for (int draw = 0; draw < kDraws; ++draw) {
-    const Eigen::VectorXd torque = problem.torque + DrawNoise(noise, problem.torque.size(), stream);
-    const std::optional<Eigen::VectorXd> one = own_fits.Solve(torque),
-                                         other = finer_fits.Solve(torque);
-    if (!one || !other) return std::nullopt;
-    result.shaken.push_back(*one - fit.x);
-    result.twice_shaken.push_back(*other - result.twice.x);
+  for (auto torque : torques.colwise()) {
+    torque = problem.torque + DrawNoise(noise, problem.torque.size(), stream);
   }
-  return result;
+  std::optional<Eigen::MatrixXd> one = own_fits.Solve(torques), other = finer_fits.Solve(torques);
+  if (!one || !other) return std::nullopt;
+  one->colwise() -= fit.x;
+  other->colwise() -= twice->x;
+  return FinerFit{std::move(*twice), std::move(*one), std::move(*other)};
 }
 
 }  // namespace warmjoint::inline identification

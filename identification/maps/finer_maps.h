@@ -15,8 +15,8 @@ std::vector<FrictionMap> TwiceAsFine(std::vector<FrictionMap> maps);
 /// A fit with twice the kernels, and how far noise alone takes it and the one with its own kernels.
 struct FinerFit {
   MapWeights twice;
-  std::vector<Eigen::VectorXd> shaken;        // [draws][p + q] change of x of the fit with its own
-  std::vector<Eigen::VectorXd> twice_shaken;  // [draws][p + q2] of twice.x by the same noise
+  Eigen::MatrixXd shaken;        // [p + q x draws] changes of x of the fit with its own
+  Eigen::MatrixXd twice_shaken;  // [p + q2 x draws] of twice.x by the same noise
 };
 
 /// `fit` again with twice the kernels, and both again with noise added to the torque, as often as kDraws says.

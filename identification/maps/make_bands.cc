@@ -122,11 +122,7 @@ double ShareOfUnseen(const Eigen::RowVectorXd& row, const MapWeights& fit) {
 /// rows, more: [g x d] of the fit and of the finer one.
 Eigen::VectorXd MissedByNoise(const FinerFit& finer, const Eigen::MatrixXd& rows,
                               const Eigen::MatrixXd& more) {
-  Eigen::VectorXd squares = Eigen::VectorXd::Zero(rows.rows());
-  for (size_t draw = 0; draw < finer.shaken.size(); ++draw) {
-    squares += (rows * finer.shaken[draw] - more * finer.twice_shaken[draw]).cwiseAbs2();
-  }
-  return squares / static_cast<double>(finer.shaken.size());
+  return (rows * finer.shaken - more * finer.twice_shaken).cwiseAbs2().rowwise().mean();
 }
 
 /// Squares averaged with those of the neighbours along a map's first axis, 1 : 2 : 3 : 2 : 1; those that

@@ -32,21 +32,30 @@ std::optional<MapWeights> RepeatedFit::Fit() {
   return fit;
 }
 
-void RepeatedFit::Take(const Eigen::VectorXd& torque) {
-  normal_.product << problem_.free.transpose() * torque,
-      problem_.rows ? problem_.rows->Products(torque)
-                    : LocalProducts(problem_.maps, problem_.points, torque);
-  normal_.squares = torque.squaredNorm();
+Eigen::MatrixXd RepeatedFit::Products(const Eigen::Ref<const Eigen::MatrixXd>& torques) const {
+  Eigen::MatrixXd products(normal_.product.size(), torques.cols());
+  products << problem_.free.transpose() * torques,
+      problem_.rows ? problem_.rows->Products(torques)
+                    : LocalProducts(problem_.maps, problem_.points, torques);
+  return products;
 }
 
 std::optional<MapWeights> RepeatedFit::To(const Eigen::VectorXd& torque) {
-  Take(torque);
+  normal_.product = Products(torque);
+  normal_.squares = torque.squaredNorm();
   return Fit();
 }
 
-std::optional<Eigen::VectorXd> RepeatedFit::Solve(const Eigen::VectorXd& torque) {
-  Take(torque);
-  return system_.Solve(normal_);
+std::optional<Eigen::MatrixXd> RepeatedFit::Solve(const Eigen::MatrixXd& torques) {
+  Eigen::MatrixXd all = Products(torques);
+  for (Eigen::Index k = 0; k < all.cols(); ++k) {
+    normal_.product = all.col(k);
+    normal_.squares = torques.col(k).squaredNorm();
+    const std::optional<Eigen::VectorXd> x = system_.Solve(normal_);
+    if (!x) return std::nullopt;
+    all.col(k) = *x;
+  }
+  return all;
 }
 
 MapFit RepeatedFit::Complete(MapWeights latest) const {

@@ -67,13 +67,14 @@ class RepeatedFit {
   std::optional<MapWeights> Fit();
   /// To another torque, [n] N.m or N.
   std::optional<MapWeights> To(const Eigen::VectorXd& torque);
-  /// x of that alone, [p + q].
-  std::optional<Eigen::VectorXd> Solve(const Eigen::VectorXd& torque);
+  /// x of each of k torques alone, [p + q x k]. torques: [n x k] N.m or N
+  std::optional<Eigen::MatrixXd> Solve(const Eigen::MatrixXd& torques);
   /// The latest, and how sure it is.
   MapFit Complete(MapWeights latest) const;
 
  private:
-  void Take(const Eigen::VectorXd& torque);
+  /// Products of all rows with each torque, [p + q x k].
+  Eigen::MatrixXd Products(const Eigen::Ref<const Eigen::MatrixXd>& torques) const;
 
   const MapProblem& problem_;
   NormalEquations normal_;

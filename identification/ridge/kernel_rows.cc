@@ -39,8 +39,8 @@ NormalEquations KernelRows::Normal(const Eigen::MatrixXd& free, const Eigen::Vec
   return normal;
 }
 
-Eigen::VectorXd KernelRows::Products(const Eigen::VectorXd& y) const {
-  Eigen::VectorXd products = Eigen::VectorXd::Zero(kernels_);
+Eigen::MatrixXd KernelRows::Products(const Eigen::Ref<const Eigen::MatrixXd>& y) const {
+  Eigen::MatrixXd products = Eigen::MatrixXd::Zero(kernels_, y.cols());
   for (const std::vector<RowGroup>& span : groups_) AddProducts(span, y, products);
   return products;
 }

@@ -29,8 +29,8 @@ class KernelRows {
   /// Of all of them.
   NormalEquations Normal(const Eigen::MatrixXd& free, const Eigen::VectorXd& y) const;
 
-  /// Products of the rows with a torque: [kernels]. y: [n]
-  Eigen::VectorXd Products(const Eigen::VectorXd& y) const;
+  /// Products of the rows with each of k torques: [kernels x k]. y: [n x k]
+  Eigen::MatrixXd Products(const Eigen::Ref<const Eigen::MatrixXd>& y) const;
 
   /// The rows times weights: the maps' values at each sample, [n]. weights: [kernels]
   Eigen::VectorXd Times(const Eigen::VectorXd& weights) const;

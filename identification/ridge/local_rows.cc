@@ -50,18 +50,24 @@ NormalEquations LocalNormal(const std::vector<FrictionMap>& maps, const MapPoint
   return normal;
 }
 
-void AddProducts(const std::vector<RowGroup>& groups, const Eigen::VectorXd& y,
-                 Eigen::VectorXd& products) {
+void AddProducts(const std::vector<RowGroup>& groups, const Eigen::Ref<const Eigen::MatrixXd>& y,
+                 Eigen::MatrixXd& products) {
+  const bool one = y.cols() == 1;
   for (const RowGroup& group : groups) {
-    products(group.kernels) += group.values.transpose() * y(group.samples);
+    if (one) {
+      products.col(0)(group.kernels) += group.values.transpose() * y.col(0)(group.samples);
+    } else {
+      products(group.kernels, Eigen::all) +=
+          group.values.transpose() * y(group.samples, Eigen::all);
+    }
   }
 }
 
-Eigen::VectorXd LocalProducts(const std::vector<FrictionMap>& maps, const MapPoints& points,
-                              const Eigen::VectorXd& y) {
-  Eigen::VectorXd products = Eigen::VectorXd::Zero(KernelCount(maps));
-  for (Eigen::Index begin = 0; begin < y.size(); begin += kChunk) {
-    AddProducts(GroupRows(maps, points, begin, std::min(y.size(), begin + kChunk)), y, products);
+Eigen::MatrixXd LocalProducts(const std::vector<FrictionMap>& maps, const MapPoints& points,
+                              const Eigen::Ref<const Eigen::MatrixXd>& y) {
+  Eigen::MatrixXd products = Eigen::MatrixXd::Zero(KernelCount(maps), y.cols());
+  for (Eigen::Index begin = 0; begin < y.rows(); begin += kChunk) {
+    AddProducts(GroupRows(maps, points, begin, std::min(y.rows(), begin + kChunk)), y, products);
   }
   return products;
 }

@@ -19,13 +19,13 @@ NormalEquations LocalNormal(const std::vector<FrictionMap>& maps, const MapPoint
                             const Eigen::MatrixXd& free, const Eigen::VectorXd& y,
                             Eigen::Index first, Eigen::Index last);
 
-/// Adds the products of the groups' rows with y. y: [N] over the points' rows; products: [kernels]
-void AddProducts(const std::vector<RowGroup>& groups, const Eigen::VectorXd& y,
-                 Eigen::VectorXd& products);
+/// Adds the products of the groups' rows with each y. y: [N x k] over the points' rows; products: [kernels x k]
+void AddProducts(const std::vector<RowGroup>& groups, const Eigen::Ref<const Eigen::MatrixXd>& y,
+                 Eigen::MatrixXd& products);
 
-/// Of the kernels of all samples with y, in chunks. y: [n]; returns [kernels].
-Eigen::VectorXd LocalProducts(const std::vector<FrictionMap>& maps, const MapPoints& points,
-                              const Eigen::VectorXd& y);
+/// Of the kernels of all samples with each y, in chunks. y: [n x k]; returns [kernels x k].
+Eigen::MatrixXd LocalProducts(const std::vector<FrictionMap>& maps, const MapPoints& points,
+                              const Eigen::Ref<const Eigen::MatrixXd>& y);
 
 /// Mean squared error of leaving out one row at a time, e_i / (1 - h_i), of the ridge on the rows
 /// [free columns, kernels]. normal: theirs; strength > 0. Infinite where it is singular.

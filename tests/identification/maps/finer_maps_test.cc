@@ -71,17 +71,17 @@ TEST(FinerMaps, AreShakenByNoiseAsTheirEquationsSay) {
   EXPECT_LE((finer.twice.x - same.x).cwiseAbs().maxCoeff(), 1e-9);
 
   // chi2 of the changes, in units of what the noise makes of each direction that it moves
-  const auto draws = static_cast<double>(finer.shaken.size());
+  const auto draws = static_cast<double>(finer.shaken.cols());
   ASSERT_GT(draws, 0);
   const auto expect_scatter = [&](const MapProblem& of, const MapFit& by,
-                                  const std::vector<Eigen::VectorXd>& shaken) {
+                                  const Eigen::MatrixXd& shaken) {
     const Eigen::MatrixXd L = Operator(of, by);
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> directions(0.01 * L * L.transpose());
     double sum = 0, count = 0;
     for (Eigen::Index k = 0; k < L.rows(); ++k) {
       const double variance = directions.eigenvalues()[k];
       if (variance < 1e-9 * directions.eigenvalues().maxCoeff()) continue;
-      for (const Eigen::VectorXd& x : shaken) {
+      for (const auto& x : shaken.colwise()) {
         sum += std::pow(directions.eigenvectors().col(k).dot(x), 2) / variance;
         ++count;
       }

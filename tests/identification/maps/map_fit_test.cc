@@ -127,9 +127,13 @@ TEST(RepeatedFit, IsTheSameFromRowsThatAreKept) {
 TEST(RepeatedFit, SolvesForXAlone) {
   const MapProblem problem = RipplingProblem(15);
   RepeatedFit repeated(problem, NormalOf(problem), 1e-2);
-  const Eigen::VectorXd torque = 2 * problem.torque;
-  const Eigen::VectorXd alone = repeated.Solve(torque).value();
-  EXPECT_EQ(alone, repeated.To(torque).value().x);
+  Eigen::MatrixXd torques(problem.torque.size(), 2);
+  torques << 2 * problem.torque, problem.torque.array().square().matrix();
+  const Eigen::MatrixXd alone = repeated.Solve(torques).value();
+  for (const Eigen::Index k : {0, 1}) {
+    const Eigen::VectorXd x = repeated.To(torques.col(k)).value().x;
+    EXPECT_LE((alone.col(k) - x).cwiseAbs().maxCoeff(), kRounding);
+  }
 }
 
 TEST(RepeatedFit, CompletesTheLatestFit) {

@@ -23,6 +23,10 @@ TEST_P(LocalRows, GiveTheProductsOfTheDenseRows) {
   const Eigen::VectorXd expected = kernels_.transpose() * y_;
   // what a prepared axis leaves out, of 900 samples of about 1
   EXPECT_LE((LocalProducts(maps_, points_, y_) - expected).cwiseAbs().maxCoeff(), 900 * 1e-12);
+  Eigen::MatrixXd both(y_.size(), 2);
+  both << y_, 2 * y_;
+  const Eigen::MatrixXd products = LocalProducts(maps_, points_, both);
+  EXPECT_LE((products.col(1) - 2 * expected).cwiseAbs().maxCoeff(), 2 * 900 * 1e-12);
 }
 
 TEST_P(LocalRows, GiveTheNormalEquationsOfTheDenseRows) {
