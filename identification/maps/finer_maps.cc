@@ -39,24 +39,24 @@ std::vector<FrictionMap> TwiceAsFine(std::vector<FrictionMap> maps) {
 }
 
 std::optional<FinerFit> FitFiner(MapProblem problem, const MapFit& fit, const NoiseModel& noise) {
-  const auto with = [&problem](std::vector<FrictionMap> maps) {
-    MapProblem same = problem;
-    same.rows = KernelRows::Kept(maps, problem.points, 1);
-    same.maps = std::move(maps);
-    return same;
-  };
-  const MapProblem own = with(fit.maps), finer = with(TwiceAsFine(fit.maps));
-  RepeatedFit own_fits(own, NormalOf(own), fit.strength);
+  MapProblem own = problem, finer = std::move(problem);
+  own.maps = fit.maps;
+  finer.maps = TwiceAsFine(fit.maps);
+  for (MapProblem* one : {&own, &finer}) one->rows = KernelRows::Kept(one->maps, one->points, 1);
   RepeatedFit finer_fits(finer, NormalOf(finer), fit.strength);
   std::optional<MapWeights> twice = finer_fits.Fit();
   if (!twice) return std::nullopt;
 
+  // of the fit's own equations the torques change the products alone
+  NormalEquations known(fit.x.size());
+  known.gram = fit.gram;
+  known.rows = own.torque.size();
+  RepeatedFit own_fits(own, std::move(known), fit.strength);
+
   // the same noise to both, on top of what was measured, where bounds hold as they do there
-  Eigen::MatrixXd torques(problem.torque.size(), kDraws);
   StartStream stream({});
-  for (auto torque : torques.colwise()) {
-    torque = problem.torque + DrawNoise(noise, problem.torque.size(), stream);
-  }
+  Eigen::MatrixXd torques = DrawNoise(noise, own.torque.size(), kDraws, stream);
+  torques.colwise() += own.torque;
   std::optional<Eigen::MatrixXd> one = own_fits.Solve(torques), other = finer_fits.Solve(torques);
   if (!one || !other) return std::nullopt;
   one->colwise() -= fit.x;

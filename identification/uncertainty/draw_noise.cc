@@ -21,18 +21,21 @@ Index Settling(const NoiseModel& noise, Index most) {
 
 }  // namespace
 
-Eigen::VectorXd DrawNoise(const NoiseModel& noise, Index n, StartStream& stream) {
+Eigen::MatrixXd DrawNoise(const NoiseModel& noise, Index n, Index courses, StartStream& stream) {
   const Index p = noise.order();
-  const Index before = Settling(noise, n);
   const double half = std::sqrt(3 * (p == 0 ? noise.variance : noise.innovation));
-  Eigen::VectorXd drawn(before + n);
-  for (Index i = 0; i < drawn.size(); ++i) {
-    drawn[i] = stream.Uniform(-half, half);
-    for (Index k = 0; k < std::min(p, i); ++k) {
-      drawn[i] -= noise.coefficients[k] * drawn[i - 1 - k];
+  Eigen::VectorXd drawn(Settling(noise, n) + n);
+  Eigen::MatrixXd all(n, courses);
+  for (auto course : all.colwise()) {
+    for (Index i = 0; i < drawn.size(); ++i) {
+      drawn[i] = stream.Uniform(-half, half);
+      for (Index k = 0; k < std::min(p, i); ++k) {
+        drawn[i] -= noise.coefficients[k] * drawn[i - 1 - k];
+      }
     }
+    course = drawn.tail(n);
   }
-  return drawn.tail(n);
+  return all;
 }
 
 }  // namespace warmjoint::inline identification

@@ -6,8 +6,9 @@
 
 namespace warmjoint::inline identification {
 
-/// n samples of stationary noise of that colour, in N.m or N, [n]. What drives it is uniform: its covariances are the
-/// model's, its higher moments are not.
-Eigen::VectorXd DrawNoise(const NoiseModel& noise, Eigen::Index n, StartStream& stream);
+/// Courses of n samples each of stationary noise of that colour, in N.m or N, [n x courses]. What drives it is uniform:
+/// its covariances are the model's, its higher moments are not.
+Eigen::MatrixXd DrawNoise(const NoiseModel& noise, Eigen::Index n, Eigen::Index courses,
+                          StartStream& stream);
 
 }  // namespace warmjoint::inline identification

@@ -22,7 +22,7 @@ TEST(DrawNoise, HasTheCovariancesOfItsModel) {
   noise.covariances = Eigen::Vector2d(2, 1.6);
   StartStream stream({});
   const Eigen::Index n = 200000;
-  const Eigen::VectorXd drawn = DrawNoise(noise, n, stream);
+  const Eigen::VectorXd drawn = DrawNoise(noise, n, 1, stream);
   ASSERT_EQ(drawn.size(), n);
   // four deviations of a mean product of n samples, of which (1 + 0.64) / (1 - 0.64) tell as much as one
   const double tolerance = 4 * 2 * std::sqrt(2 * 4.6 / static_cast<double>(n));
@@ -38,9 +38,8 @@ TEST(DrawNoise, IsStationaryFromItsFirstSampleOn) {
   noise.innovation = 1 - 0.95 * 0.95;
   noise.covariances = Eigen::Vector2d(1, 0.95);
   StartStream stream({});
-  double squares = 0;
-  const int draws = 4000;
-  for (int i = 0; i < draws; ++i) squares += std::pow(DrawNoise(noise, 200, stream)[0], 2);
+  const Eigen::Index draws = 4000;
+  const double squares = DrawNoise(noise, 200, draws, stream).row(0).squaredNorm();
   EXPECT_NEAR(squares / draws, 1, 4 * std::sqrt(2.0 / draws));
 }
 
@@ -50,7 +49,7 @@ TEST(DrawNoise, OfAWhiteModelIsWhite) {
   noise.covariances = Eigen::VectorXd::Constant(1, 0.25);
   StartStream stream({});
   const Eigen::Index n = 100000;
-  const Eigen::VectorXd drawn = DrawNoise(noise, n, stream);
+  const Eigen::VectorXd drawn = DrawNoise(noise, n, 1, stream);
   EXPECT_NEAR(Covariance(drawn, 0), 0.25, 4 * 0.25 * std::sqrt(2.0 / n));
   EXPECT_NEAR(Covariance(drawn, 1), 0, 4 * 0.25 / std::sqrt(n));
 }
