@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "identification/maps/kernel_lines.h"
 #include "identification/maps/nearest_kernel.h"
 #include "models/foundation/robust_noise.h"
 #include "models/friction/joint_kind.h"
@@ -19,20 +20,9 @@ constexpr double kFewest = 2;    // samples; why 2: one alone tells no weight fr
 constexpr double kShare = 0.02;  // of the median
 constexpr size_t kMostNamed = 3;
 
-/// Kernels along the first axis, and how far apart they lie among a map's weights.
-struct Lines {
-  size_t length = 0, stride = 1;
-  bool circular = false;
-
-  explicit Lines(const FrictionMap& map)
-      : length(map.axes[0].kernels.centres.size()),
-        stride(map.size() / map.axes[0].kernels.centres.size()),
-        circular(map.axes[0].kernels.period.has_value()) {}
-};
-
 /// The next seen kernel of a line from i on in steps of +-1; nothing where there is none.
-std::optional<size_t> NextSeen(const Lines& lines, const std::vector<bool>& unseen, size_t first,
-                               size_t i, int step) {
+std::optional<size_t> NextSeen(const KernelLines& lines, const std::vector<bool>& unseen,
+                               size_t first, size_t i, int step) {
   const auto n = static_cast<long>(lines.length);
   for (long away = 1; away < n; ++away) {
     long at = static_cast<long>(i) + step * away;
@@ -91,7 +81,7 @@ std::string LineOf(const FrictionMap& map, size_t line, JointKind joint) {
 /// The runs of one line of a map.
 void AddHoles(const FrictionMap& map, size_t first, size_t line, const std::vector<bool>& unseen,
               JointKind joint, std::vector<Hole>& holes) {
-  const Lines lines(map);
+  const KernelLines lines(map);
   const MapAxis& axis = map.axes[0];
   const std::vector<double>& centres = axis.kernels.centres;
   const double half = lines.length > 1 ? 0.5 * (centres[1] - centres[0]) : 0;
@@ -149,7 +139,7 @@ Eigen::MatrixXd PriorOf(const std::vector<FrictionMap>& maps, const std::vector<
   Eigen::MatrixXd prior = Eigen::MatrixXd::Identity(q, q);
   size_t first = 0;
   for (const FrictionMap& map : maps) {
-    const Lines lines(map);
+    const KernelLines lines(map);
     const auto n = static_cast<long>(lines.length);
     const double firm =
         FindAxis(map, MapQuantity::energy) || FindAxis(map, MapQuantity::load) ? 1 : pull;
@@ -195,7 +185,7 @@ std::vector<double> DoubtOfHoles(const FrictionMap& map, size_t first,
   const double spread = count > 1 ? std::sqrt(squares / (count - 1)) : 0;
 
   // less beside a kernel that is seen
-  const Lines lines(map);
+  const KernelLines lines(map);
   std::vector<double> doubt(map.size());
   for (size_t k = 0; k < map.size(); ++k) {
     if (!unseen[first + k]) continue;
@@ -214,7 +204,7 @@ std::vector<std::string> NameHoles(const std::vector<FrictionMap>& maps,
   std::vector<Hole> holes;
   size_t first = 0;
   for (const FrictionMap& map : maps) {
-    for (size_t line = 0; line < Lines(map).stride; ++line) {
+    for (size_t line = 0; line < KernelLines(map).stride; ++line) {
       AddHoles(map, first, line, unseen, joint, holes);
     }
     first += map.size();

@@ -8,6 +8,7 @@
 
 #include "identification/linear/linear_laws.h"
 #include "identification/maps/holes.h"
+#include "identification/maps/kernel_lines.h"
 #include "identification/maps/nearest_kernel.h"
 #include "identification/ridge/local_rows.h"
 #include "identification/uncertainty/tails.h"
@@ -125,24 +126,29 @@ Eigen::VectorXd MissedByNoise(const FinerFit& finer, const Eigen::MatrixXd& rows
   return (rows * finer.shaken - more * finer.twice_shaken).cwiseAbs2().rowwise().mean();
 }
 
-/// Squares averaged with those of the neighbours along a map's first axis, 1 : 2 : 3 : 2 : 1; those that
-/// are not known, NaN, are left out. 0 where none is known.
+/// Squares averaged with those of the neighbours along a map's first axis, 1 : 2 : 3 : 2 : 1, where they are above 0.
+/// Those that are not known, NaN, are left out; 0 where none is known. By chance some averages lie above 0, so that all
+/// are made smaller until those at known places sum up to what the squares sum up to, or to 0.
 Eigen::VectorXd AlongFirstAxis(const FrictionMap& map, const Eigen::VectorXd& squares) {
-  const auto length = static_cast<Index>(map.axes[0].kernels.centres.size());
-  const Index stride = squares.size() / length;
+  const KernelLines lines(map);
+  const auto length = static_cast<Index>(lines.length), stride = static_cast<Index>(lines.stride);
   Eigen::VectorXd mean(squares.size());
+  double whole = 0, parts = 0;
   for (Index i = 0; i < squares.size(); ++i) {
     double sum = 0, count = 0;
     for (const Index away : {-2, -1, 0, 1, 2}) {
-      const Index j = i + away * stride;
-      if (j < 0 || j >= squares.size() || std::isnan(squares[j])) continue;
+      const Index at = i / stride + away, j = i + away * stride;
+      if (at < 0 || at >= length || std::isnan(squares[j])) continue;
       const auto share = static_cast<double>(3 - std::abs(away));
       sum += share * squares[j];
       count += share;
     }
-    mean[i] = count > 0 ? sum / count : 0;
+    mean[i] = count > 0 ? std::max(sum / count, 0.0) : 0;
+    if (std::isnan(squares[i])) continue;
+    whole += squares[i];
+    parts += mean[i];
   }
-  return mean;
+  return parts > 0 ? std::clamp(whole / parts, 0.0, 1.0) * mean : mean;
 }
 
 }  // namespace
@@ -176,7 +182,7 @@ std::vector<MapBand> MakeBands(const Law& law, const MapFit& fit, const Uncertai
         }
       }
       const Eigen::VectorXd by_noise = MissedByNoise(*finer, rows, more);
-      variance += AlongFirstAxis(map, missed.cwiseAbs2() - by_noise).cwiseMax(0);
+      variance += AlongFirstAxis(map, missed.cwiseAbs2() - by_noise);
     }
     const std::vector<double> doubt =
         DoubtOfHoles(map, first, fit.unseen, fit.x.tail(fit.x.size() - fit.free));

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "identification/maps/holes.h"
+#include "identification/maps/weights_in_line.h"
 #include "identification/uncertainty/penalised_uncertainty.h"
 #include "models/friction/prepared_map.h"
 
@@ -96,9 +97,18 @@ Uncertainty JudgeMaps(const MapProblem& problem, const MapFit& fit) {
         DenseKernels(problem.maps, problem.points, first, last);
     return dense;
   };
-  return JudgePenalised(
-      {fit.gram, fit.inverse, fit.free, fit.x.tail(d - fit.free), fit.strength, fit.unseen}, rows,
-      problem.torque - fit.fitted, problem.selection);
+  const auto correlation = [&](double length) {
+    return CorrelationInLines(fit.maps, fit.unseen, length);
+  };
+  return JudgePenalised({fit.gram,
+                         fit.inverse,
+                         fit.free,
+                         fit.x.tail(d - fit.free),
+                         fit.strength,
+                         fit.unseen,
+                         {},
+                         correlation},
+                        rows, problem.torque - fit.fitted, problem.selection);
 }
 
 Eigen::VectorXd EvaluateMaps(const std::vector<FrictionMap>& maps, const MapPoints& points) {

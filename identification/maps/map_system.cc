@@ -5,11 +5,10 @@
 
 #include "identification/maps/holes.h"
 #include "identification/maps/imitated_columns.h"
+#include "identification/uncertainty/tails.h"
 
 namespace warmjoint::inline identification {
 namespace {
-
-constexpr double kChance = 6.63;  // why 6.63: chi-squared of one degree of freedom, 1 %
 
 /// Those under which the maps are what deviates from the columns `shared`.
 Conditions Deviating(const Eigen::MatrixXd& gram, Eigen::Index free,
@@ -81,7 +80,7 @@ std::optional<Conditions> MapSystem::Bounded(const NormalEquations& normal) cons
     const double noise = std::max(normal.Squares(x), 0.0) / static_cast<double>(normal.rows);
     const double below = std::max(0.0, bound - x[j]);
     const double variance = noise * plain_->Solve(Eigen::VectorXd::Unit(d, j))[j];
-    if (below * below > kChance * variance) continue;
+    if (below * below > kNoChance * variance) continue;
     conditions.rows.row(static_cast<Eigen::Index>(i)) = Eigen::RowVectorXd::Unit(d, j);
     conditions.values[static_cast<Eigen::Index>(i)] = bound;
     bounded = true;

@@ -1,7 +1,6 @@
 #include "identification/uncertainty/penalised_uncertainty.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -19,20 +18,18 @@ std::vector<Index> Drawn(const PenalisedFit& fit) {
   return drawn;
 }
 
-/// s_w^2, variance of a weight before any data, from the weights that were found (see the header).
-/// drawn: [q] places of weights in x; pull: [d x q] s C_w; by_noise: [d x d] covariance from the noise.
-double VarianceOfWeights(const PenalisedFit& fit, const std::vector<Index>& drawn,
-                         const Eigen::MatrixXd& pull, const Eigen::MatrixXd& by_noise) {
-  const Index q = pull.cols();
-  Eigen::VectorXd weights(q);
-  for (Index k = 0; k < q; ++k) weights[k] = fit.weights[drawn[static_cast<size_t>(k)] - fit.first];
-  const Eigen::MatrixXd left = Eigen::MatrixXd::Identity(q, q) - pull(drawn, Eigen::all);
+/// Covariance of those weights before any data, s_w^2 R. drawn: [q] their places in x; hat: [d x d] C G;
+/// pull: [d x q] s C_w; by_noise: [d x d] covariance from the noise.
+Eigen::MatrixXd BeforeData(const PenalisedFit& fit, const std::vector<Index>& drawn,
+                           const Eigen::MatrixXd& hat, const Eigen::MatrixXd& pull,
+                           const Eigen::MatrixXd& by_noise) {
+  Eigen::VectorXd found(pull.cols());
+  for (Index k = 0; k < found.size(); ++k) {
+    found[k] = fit.weights[drawn[static_cast<size_t>(k)] - fit.first];
+  }
   const Eigen::MatrixXd bias = pull.transpose() * fit.gram * pull;
-  const Eigen::MatrixXd noise = bias * by_noise(drawn, drawn);
-  const double seen = weights.dot(bias * weights) - noise.trace();
-  const double scatter = std::sqrt(2 * noise.cwiseProduct(noise.transpose()).sum());
-  const double expected = left.cwiseProduct(bias * left).sum();
-  return expected > 0 ? std::hypot(std::max(seen, 0.0), scatter) / expected : 0;
+  const Eigen::MatrixXd left = hat(drawn, drawn), noise = by_noise(drawn, drawn);
+  return PriorOfWeights({found, left, bias, noise}, fit.correlation);
 }
 
 }  // namespace
@@ -61,8 +58,8 @@ Uncertainty JudgePenalised(
   // what the prior pulls away
   const std::vector<Index> drawn = Drawn(fit);
   const Eigen::MatrixXd pull = fit.strength * C(Eigen::all, drawn);
-  const double prior = VarianceOfWeights(fit, drawn, pull, by_noise);
-  by_noise.selfadjointView<Eigen::Lower>().rankUpdate(pull, prior);
+  const Eigen::MatrixXd by_pull = pull * BeforeData(fit, drawn, hat, pull, by_noise);
+  by_noise.triangularView<Eigen::Lower>() += by_pull * pull.transpose();
   by_noise.triangularView<Eigen::StrictlyUpper>() = by_noise.transpose();
   if (fit.prior.size() > 0) {
     by_noise += noise.variance * (C * fit.prior.asDiagonal() * C);

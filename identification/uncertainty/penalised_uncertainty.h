@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "identification/uncertainty/prior_of_weights.h"
 #include "identification/uncertainty/uncertainty.h"
 
 namespace warmjoint::inline identification {
@@ -19,18 +20,15 @@ struct PenalisedFit {
   const std::vector<bool>& unseen;
   /// [d] the noise's variance over what each parameter was known by beforehand, or 0; or empty
   Eigen::VectorXd prior{};
+  CorrelationOver correlation{};  // of the weights that are not unseen
 };
 
 /// Covariance of the errors of x, from the noise and from the prior's pull,
-///   C J^T R J C + s^2 s_w^2 C_w C_w^T + s_e^2 C P C,
-/// C_w the columns of the weights, R the covariance of the noise by an autoregressive model of the residual, so that
-/// intervals are right for coloured noise too; for white noise and s = s_e^2 / s_w^2 this is the posterior s_e^2 C.
-/// s_w^2 comes from the weights themselves, each direction of which counts as much as its pull moves the fitted
-/// values, B = s^2 C_w^T G C_w, since the directions that the data know well say nothing of how large those are that
-/// the prior holds back:
-///     E w^T B w = s_w^2 tr (L^T B L) + tr (B V),  L = I - s C_ww,  V = (C J^T R J C)_ww.
-/// Its scatter by noise, the square root of 2 tr (B V B V), joins in squares, so that a map that cannot be seen is not
-/// reported as surely 0.
+///   C J^T R J C + s^2 C_w S C_w^T + s_e^2 C P C,
+/// C_w the columns of the weights, S their covariance before any data (prior_of_weights.h), R the covariance of the
+/// noise by an autoregressive model of the residual, so that intervals are right for coloured noise too; for white
+/// noise and S = s_e^2 / s this is the posterior s_e^2 C. Of the weights L = (C G)_ww is found, their pull takes
+/// B = s^2 C_w^T G C_w from the fitted values, and V = (C J^T R J C)_ww is their noise.
 /// rows(first, last): of J at the kept samples first <= i < last; residual: [n] y - f.
 Uncertainty JudgePenalised(
     const PenalisedFit& fit,

@@ -11,6 +11,9 @@ namespace warmjoint::inline identification {
 /// Share of the cases in which reported intervals hold the truth.
 inline constexpr double kIntervalLevel = 0.95;
 
+/// What chi-squared of one degree of freedom exceeds by chance in 1 % of the cases.
+inline constexpr double kNoChance = 6.63;  // why 6.63: by definition
+
 /// P(|N| >= |z|) of a standard normal N; 0 to 1.
 double PValueOfNormal(double z);
 

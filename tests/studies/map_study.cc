@@ -4,12 +4,13 @@
 //
 // For each variant and identifier of a suite (tests/studies/maps.yaml, or one of scenarios/suites with maps): the numbers of kernels that
 // were chosen; the rms error of the friction along a log that the fit has not seen, the same joint moved anew, over the noise of a sample;
-// the same of a map with half the kernels, over that; and the bands: how often they hold the truth, with its standard error over the logs, the rms error over the standard
-// deviation, and the median half width over the noise, apart for places with data and for holes. Maps count whose first axis is the
-// position; the friction at a place is that without warming.
+// the same of a map with half the kernels, over that; and the bands: how often they hold the truth, with its standard error over the logs and an exact
+// binomial test of one place of each log, the rms error over the standard deviation, and the median half width over the noise, apart for
+// places with data and for holes. Maps count whose first axis is the position; the friction at a place is that without warming.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -21,6 +22,7 @@
 #include "identification/holdout/evaluate.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/maps/holes.h"
+#include "identification/uncertainty/tails.h"
 #include "models/recording/course_of.h"
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"
@@ -37,13 +39,18 @@ struct Cover {
   int held = 0;
   std::vector<double> z, widths;  // errors over deviations; half widths over the noise
   std::vector<double> shares;     // of the places of each log that are held
+  int singles = 0;                // logs whose one place, each time the next one, is held
 
   /// The places that were counted since the last log, as one log's.
   void EndLog() {
     const size_t count = widths.size() - before_;
-    if (count > 0) shares.push_back((held - held_before_) / static_cast<double>(count));
+    if (count > 0) {
+      singles += log_[shares.size() % count];
+      shares.push_back((held - held_before_) / static_cast<double>(count));
+    }
     before_ = widths.size();
     held_before_ = held;
+    log_.clear();
   }
 
   /// Of the share that is held, since the errors at the places of one log go together.
@@ -55,9 +62,18 @@ struct Cover {
     return n > 1 ? std::sqrt(squares / (n - 1) / n) : std::nan("");
   }
 
+  /// Exact, of the single places under 95 %: logs are independent of each other, places of a log are not.
+  double PValue() const {
+    const boost::math::binomial counts(static_cast<double>(shares.size()), kIntervalLevel);
+    const double below = cdf(counts, singles);
+    const double above = singles > 0 ? cdf(complement(counts, singles - 1)) : 1;
+    return std::min(1.0, 2 * std::min(below, above));
+  }
+
   void Count(double truth, double value, double deviation, const std::array<double, 2>& interval,
              double noise) {
-    held += interval[0] <= truth && truth <= interval[1];
+    log_.push_back(interval[0] <= truth && truth <= interval[1]);
+    held += log_.back();
     if (deviation > 0) z.push_back((value - truth) / deviation);
     widths.push_back((interval[1] - interval[0]) / 2 / noise);
   }
@@ -66,13 +82,16 @@ struct Cover {
     double squares = 0;
     for (const double one : z) squares += one * one;
     std::ranges::sort(widths);
-    return fmt::format("{:.1f} +- {:.1f} % of {}, rms z {:.2f}, half width {:.3f}, largest {:.3g}",
-                       100.0 * held / static_cast<double>(widths.size()), 100 * StandardError(),
-                       widths.size(), std::sqrt(squares / static_cast<double>(z.size())),
-                       widths[widths.size() / 2], widths.back());
+    return fmt::format(
+        "{:.1f} +- {:.1f} % of {}; one of each log {} of {}, p {:.2g}; rms z {:.2f}, half width "
+        "{:.3f}, largest {:.3g}",
+        100.0 * held / static_cast<double>(widths.size()), 100 * StandardError(), widths.size(),
+        singles, shares.size(), PValue(), std::sqrt(squares / static_cast<double>(z.size())),
+        widths[widths.size() / 2], widths.back());
   }
 
  private:
+  std::vector<bool> log_;  // of the log that is being counted
   size_t before_ = 0;
   int held_before_ = 0;
 };
