@@ -17,11 +17,12 @@ constexpr std::array<double, 4> kLengths{0.5, 1, 2, 4};  // kernels
 // why 1e-9: of the largest variance; conditions on the weights leave a direction without any
 constexpr double kFloor = 1e-9;
 
-/// A covariance of weights before any data.
+/// A covariance s_w^2 R of the weights before any data.
 struct Candidate {
-  Eigen::MatrixXd covariance;  // [q x q] s_w^2 R
-  double deviance = 0;         // minus twice the logarithm of the likelihood of what was found
-  double pull = 0;             // what the prior's pull takes from the fitted values, squared
+  double variance = 0;          // s_w^2
+  Eigen::MatrixXd correlation;  // [q x q] R
+  double deviance = 0;          // minus twice the logarithm of the likelihood of what was found
+  double pull = 0;  // tr (B s_w^2 R), what the prior's pull takes from the fitted values
 };
 
 /// w_found^T B w_found without what noise makes of it, but no less than its scatter by noise.
@@ -32,11 +33,13 @@ double TakenByPull(const PulledWeights& weights) {
   return std::hypot(std::max(seen, 0.0), scatter);
 }
 
-/// -2 log of the likelihood of w_found under a covariance before any data, but for a constant.
-double Deviance(const PulledWeights& weights, const Eigen::MatrixXd& covariance) {
-  const Eigen::MatrixXd half = weights.left * covariance;
-  Eigen::MatrixXd of_found = weights.noise;
-  of_found.triangularView<Eigen::Lower>() += half * weights.left.transpose();
+/// The variance that takes as much from the fitted values as was seen. expected: tr (L^T B L R)
+double VarianceOf(double taken, double expected) { return expected > 0 ? taken / expected : 0; }
+
+/// -2 log of the likelihood of w_found, but for a constant. variance: s_w^2; spread: [q x q] L R L^T, whose lower half
+/// is read.
+double Deviance(const PulledWeights& weights, double variance, const Eigen::MatrixXd& spread) {
+  Eigen::MatrixXd of_found = weights.noise + variance * spread;
   of_found.diagonal().array() += kFloor * of_found.diagonal().maxCoeff();
   const Eigen::LLT<Eigen::MatrixXd> factors(of_found);
   if (factors.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
@@ -44,33 +47,47 @@ double Deviance(const PulledWeights& weights, const Eigen::MatrixXd& covariance)
   return factors.matrixL().solve(weights.found).squaredNorm() + 2 * root.array().log().sum();
 }
 
+/// Weights that go together over none of their neighbours.
+Candidate Independent(const PulledWeights& weights, double taken, const Eigen::MatrixXd& by_left) {
+  const Eigen::Index q = weights.found.size();
+  Candidate apart{0, Eigen::MatrixXd::Identity(q, q), 0, 0};
+  apart.variance = VarianceOf(taken, weights.left.cwiseProduct(by_left).sum());
+  apart.pull = apart.variance * weights.bias.trace();
+  return apart;
+}
+
+/// Weights that go together. by_left: [q x q] B L
+Candidate Together(const PulledWeights& weights, double taken, const Eigen::MatrixXd& by_left,
+                   Eigen::MatrixXd correlation) {
+  const Eigen::MatrixXd half = weights.left * correlation;
+  Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(half.rows(), half.cols());
+  spread.triangularView<Eigen::Lower>() = half * weights.left.transpose();
+  const double variance = VarianceOf(taken, half.cwiseProduct(by_left).sum());
+  const double pull = variance * weights.bias.cwiseProduct(correlation).sum();
+  return {variance, std::move(correlation), Deviance(weights, variance, spread), pull};
+}
+
 }  // namespace
 
 Eigen::MatrixXd PriorOfWeights(const PulledWeights& weights, const CorrelationOver& correlation) {
-  const Eigen::Index q = weights.found.size();
-  const Eigen::MatrixXd of_left = weights.left.transpose() * weights.bias * weights.left;
   const double taken = TakenByPull(weights);
-  const auto scaled = [&](const Eigen::MatrixXd& alike) -> Eigen::MatrixXd {
-    const double expected = of_left.cwiseProduct(alike).sum();
-    return (expected > 0 ? taken / expected : 0) * alike;
-  };
-  Eigen::MatrixXd independent = scaled(Eigen::MatrixXd::Identity(q, q));
-  if (!correlation || q == 0) return independent;
+  const Eigen::MatrixXd by_left = weights.bias * weights.left;
+  Candidate apart = Independent(weights, taken, by_left);
+  const Eigen::Index q = weights.found.size();
+  if (!correlation || q == 0) return apart.variance * apart.correlation;
+  Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(q, q);
+  spread.selfadjointView<Eigen::Lower>().rankUpdate(weights.left);
+  apart.deviance = Deviance(weights, apart.variance, spread);
 
   // longer ones, as long as the weights become more likely and the pull takes less
-  const auto judged = [&](Eigen::MatrixXd covariance) {
-    const double deviance = Deviance(weights, covariance);
-    const double pull = weights.bias.cwiseProduct(covariance).sum();
-    return Candidate{std::move(covariance), deviance, pull};
-  };
-  const Candidate apart = judged(std::move(independent));
   Candidate best = apart;
   for (const double length : kLengths) {
-    Candidate longer = judged(scaled(correlation(length)));
+    Candidate longer = Together(weights, taken, by_left, correlation(length));
     if (!(longer.deviance < best.deviance && longer.pull < best.pull)) break;
     best = std::move(longer);
   }
-  return best.deviance < apart.deviance - kNoChance ? best.covariance : apart.covariance;
+  const Candidate& chosen = best.deviance < apart.deviance - kNoChance ? best : apart;
+  return chosen.variance * chosen.correlation;
 }
 
 }  // namespace warmjoint::inline identification
