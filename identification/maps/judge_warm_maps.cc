@@ -89,7 +89,7 @@ Uncertainty Judge(const IdentifierInput& input, const WarmMaps& warm,
   const auto rows = [&](Eigen::Index first, Eigen::Index last) -> Eigen::MatrixXd {
     return jacobian.middleRows(first, last - first);
   };
-  // weights count as independent: with those that go together the gain's errors are 0.6 of what they say
+  // independent weights: with those that go together gain and time constant are off by half of what is said
   return JudgePenalised(
       {gram, inverse, warm.fit.free, warm.fit.x.tail(q), warm.fit.strength, warm.fit.unseen, prior},
       rows, residual, input.selection);

@@ -126,9 +126,9 @@ Eigen::VectorXd MissedByNoise(const FinerFit& finer, const Eigen::MatrixXd& rows
   return (rows * finer.shaken - more * finer.twice_shaken).cwiseAbs2().rowwise().mean();
 }
 
-/// Squares averaged with those of the neighbours along a map's first axis, 1 : 2 : 3 : 2 : 1, where they are above 0.
-/// Those that are not known, NaN, are left out; 0 where none is known. By chance some averages lie above 0, so that all
-/// are made smaller until those at known places sum up to what the squares sum up to, or to 0.
+/// Squares averaged with those of the neighbours along a map's first axis, 1 : 2 : 3 : 2 : 1; those that are not known,
+/// NaN, are left out. Averages below 0, and those of nothing, are 0. Since chance alone leaves some above 0, all are
+/// made smaller until those at known places sum up to no more than the squares do.
 Eigen::VectorXd AlongFirstAxis(const FrictionMap& map, const Eigen::VectorXd& squares) {
   const KernelLines lines(map);
   const auto length = static_cast<Index>(lines.length), stride = static_cast<Index>(lines.stride);
