@@ -11,20 +11,19 @@ namespace {
 
 constexpr int kMostIterations = 50;
 
-template <int D, int Q>
-WarmFit Solve(const CondensedProblem<D, Q>& problem, const Eigen::VectorXd& start) {
-  using Solver = ceres::TinySolver<CondensedProblem<D, Q>>;
+WarmFit Solve(const CondensedProblem& problem, const Eigen::VectorXd& start) {
+  using Solver = ceres::TinySolver<CondensedProblem>;
   Solver solver;
   solver.options.max_num_iterations = kMostIterations;
   solver.options.gradient_tolerance = 1e-10;
   solver.options.parameter_tolerance = 1e-11;
   solver.options.function_tolerance = 1e-10;  // of |r|^2, which is about the number of samples
   solver.options.initial_trust_region_radius = 1e8;
-  typename Solver::Parameters x = start;
+  Solver::Parameters x = start;
   solver.Solve(problem, &x);
 
   const Eigen::Index p = x.size();
-  const auto& products = problem.Evaluate(x);
+  const Eigen::MatrixXd& products = problem.Evaluate(x);
   WarmFit fit;
   fit.solution = {x, products(p, p)};
   fit.normal = products.topLeftCorner(p, p);
@@ -80,29 +79,9 @@ WarmFit FitWarmFriction(const ClosedLoop& loop, const Eigen::VectorXd& level,
   x.tail(q) = start.parameters.tail(q);
   if (warming == 3) x[d + 2] = initial.mean;
 
-  // sizes known at compile time for the common laws
-  const auto solve = [&]<int D, int Q>() {
-    return Solve(
-        CondensedProblem<D, Q>(loop, level, offsets, kept, jump_weights, pull, scale, transform),
-        x);
-  };
-  const auto solve_for = [&]<int D>() {
-    return warming == 2 ? solve.template operator()<D, 2>() : solve.template operator()<D, 3>();
-  };
-  WarmFit fit;
-  switch (q + jumps == 0 ? d : Eigen::Dynamic) {
-    case 1:
-      fit = solve_for.template operator()<1>();
-      break;
-    case 2:
-      fit = solve_for.template operator()<2>();
-      break;
-    case 3:
-      fit = solve_for.template operator()<3>();
-      break;
-    default:
-      fit = solve_for.template operator()<Eigen::Dynamic>();
-  }
+  WarmFit fit = Solve(
+      CondensedProblem(loop, level, offsets, kept, jump_weights, warming, pull, scale, transform),
+      x);
   fit.law_parameters = d;
   fit.jump_weights = jump_weights;
   fit.offsets = q;
