@@ -30,26 +30,26 @@ Eigen::Index IndexOf(const std::vector<int>& knots, int knot) {
   return found != knots.end() && *found == knot % kGravityKnots ? found - knots.begin() : -1;
 }
 
-double NumberOf(const nlohmann::json& json, const char* key, const Place& place) {
-  const auto found = json.find(key);
-  if (found == json.end() || !found->is_number()) {
+double NumberOf(const nlohmann::json& from, const char* key, const Place& place) {
+  const auto found = from.find(key);
+  if (found == from.end() || !found->is_number()) {
     Refuse(place, "gravity: {} must be a number", key);
   }
   return found->get<double>();
 }
 
-std::vector<double> NumbersOf(const nlohmann::json& json, const char* key, const Place& place) {
-  const auto found = json.find(key);
+std::vector<double> NumbersOf(const nlohmann::json& from, const char* key, const Place& place) {
+  const auto found = from.find(key);
   const bool numbers =
-      found != json.end() && found->is_array() &&
+      found != from.end() && found->is_array() &&
       std::all_of(found->begin(), found->end(), [](const auto& one) { return one.is_number(); });
   if (!numbers) Refuse(place, "gravity: {} must be a list of numbers", key);
   return found->get<std::vector<double>>();
 }
 
-GravityKind KindOf(const nlohmann::json& json, const Place& place) {
+GravityKind KindOf(const nlohmann::json& from, const Place& place) {
   const std::string name =
-      json.is_object() && json.contains("kind") && json["kind"].is_string() ? json["kind"] : "";
+      from.is_object() && from.contains("kind") && from["kind"].is_string() ? from["kind"] : "";
   std::vector<std::string> known;
   for (const GravityKind kind : kKinds) {
     if (name == GravityName(kind)) return kind;

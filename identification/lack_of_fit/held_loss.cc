@@ -11,23 +11,23 @@ namespace {
 
 using Eigen::Index;
 
-constexpr Index kParts = 8;        // of each step
+constexpr Index kOfEachStep = 8;   // of each step
 constexpr double kMatters = 0.25;  // of tau's deviation; why: it costs 0.7 % of the coverage
 
-/// Each value for each part of its sample; empty stays empty. column: [N]; returns [N kParts].
+/// Each value for each part of its sample; empty stays empty. column: [N]; returns [N kOfEachStep].
 Eigen::VectorXd Repeated(const Eigen::VectorXd& column) {
-  return column.transpose().replicate(column.size() > 0 ? kParts : 1, 1).reshaped();
+  return column.transpose().replicate(column.size() > 0 ? kOfEachStep : 1, 1).reshaped();
 }
 
-/// The same motion with kParts samples for each, at its speed throughout. [N kParts]
+/// The same motion with kOfEachStep samples for each, at its speed throughout. [N kOfEachStep]
 JointCourse Finer(const JointCourse& course, double gear) {
   const Index n = course.time.size();
-  Eigen::VectorXd since(n * kParts);  // s, since the sample
+  Eigen::VectorXd since(n * kOfEachStep);  // s, since the sample
   for (Index i = 0; i < n; ++i) {
     const Index step = std::min(i, n - 2);
     const double h = course.time[step + 1] - course.time[step];
-    for (Index k = 0; k < kParts; ++k) {
-      since[i * kParts + k] = h * static_cast<double>(k) / static_cast<double>(kParts);
+    for (Index k = 0; k < kOfEachStep; ++k) {
+      since[i * kOfEachStep + k] = h * static_cast<double>(k) / static_cast<double>(kOfEachStep);
     }
   }
   JointCourse finer;
@@ -41,7 +41,7 @@ JointCourse Finer(const JointCourse& course, double gear) {
   finer.time += since;
   if (finer.position.size() > 0) finer.position += way;
   if (finer.motor_position.size() > 0) finer.motor_position += gear * way;
-  for (const Index start : course.starts) finer.starts.push_back(start * kParts);
+  for (const Index start : course.starts) finer.starts.push_back(start * kOfEachStep);
   return finer;
 }
 
@@ -61,12 +61,12 @@ Eigen::VectorXd ForceOfHeldLoss(const FrictionDescription& friction,
   const AlongMotion model(friction);
   const JointCourse course = CourseOf(measurements);
   CourseStart finer_start = start;
-  for (EnergyJump& jump : finer_start.jumps) jump.sample *= kParts;
+  for (EnergyJump& jump : finer_start.jumps) jump.sample *= kOfEachStep;
   const Eigen::VectorXd fine = model.Predict(Finer(course, measurements.gear), finer_start).force;
   const Eigen::VectorXd held = model.Predict(course, start).force;
   Eigen::VectorXd difference(held.size());
-  for (Index n = 0; n < held.size(); ++n) difference[n] = fine[n * kParts] - held[n];
-  return difference * static_cast<double>(kParts) / static_cast<double>(kParts - 1);
+  for (Index n = 0; n < held.size(); ++n) difference[n] = fine[n * kOfEachStep] - held[n];
+  return difference * static_cast<double>(kOfEachStep) / static_cast<double>(kOfEachStep - 1);
 }
 
 }  // namespace warmjoint::inline identification

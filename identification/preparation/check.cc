@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "identification/preparation/prepare.h"
 #include "identification/preparation/velocity_scale.h"
 #include "models/recording/sampling.h"
 

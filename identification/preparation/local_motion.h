@@ -4,13 +4,11 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "identification/preparation/log_view.h"
 #include "models/recording/measurements.h"
 #include "models/recording/recordings_of.h"
 
 namespace warmjoint::inline identification {
-
-/// What tells how a joint moves: a velocity that was logged, or its positions alone.
-enum class MotionSource { velocity, positions };
 
 /// Noise of an acceleration that is accepted, as a share of the acceleration's root mean square.
 inline constexpr double kAcceptedNoise = 0.05;

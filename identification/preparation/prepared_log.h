@@ -7,21 +7,18 @@
 #include <string>
 #include <vector>
 
-#include "identification/preparation/local_motion.h"
 #include "identification/preparation/log_view.h"
-#include "identification/preparation/segment_velocity.h"
-#include "identification/preparation/select.h"
-#include "models/recording/measurements.h"
-#include "models/recording/selection.h"
 
 namespace warmjoint::inline identification {
+
+struct HoldOptions;
 
 /// A recording prepared for a fit: what moves at constant speed, one velocity for each segment where
 /// the noise of the samples' would bias a fit (segment_velocity.h), a sample at each switch of speed
 /// that happens between two samples (split_at_switches.h), the speed between segments from the
 /// positions where they tell more of it (take_ways.h), and the faults of the log. Where the log
 /// has no velocity, its positions tell it (motion_from_positions.h). Only Prepare
-/// makes one, and identifiers take nothing else, so that nobody can forget a step. Cheap to copy:
+/// (prepare.h) makes one, and identifiers take nothing else, so that nobody can forget a step. Cheap to copy:
 /// copies share the samples.
 class PreparedLog {
  public:
@@ -79,13 +76,5 @@ class PreparedLog {
   std::shared_ptr<const Log> log_;
   std::shared_ptr<Moving> moving_ = std::make_shared<Moving>();
 };
-
-/// Prepares a log: the samples at constant speed are found in it (select.h). The one path of command
-/// line, suites, tests of verdicts and benchmarks. Throws BadInput where there is no velocity and the
-/// slope of the positions is no number.
-PreparedLog Prepare(Measurements measurements, const HoldOptions& holds = {});
-
-/// The same where a plant says which samples move at constant speed.
-PreparedLog Prepare(Measurements measurements, Selection known);
 
 }  // namespace warmjoint::inline identification

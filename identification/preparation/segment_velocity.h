@@ -3,18 +3,9 @@
 
 #include <optional>
 
-#include "models/recording/measurements.h"
-#include "models/recording/selection.h"
+#include "identification/preparation/log_view.h"
 
 namespace warmjoint::inline identification {
-
-/// What noise of the velocity does to a slope over |v|.
-struct VelocityNoise {
-  double noise = 0;        // of the velocity within segments, rad/s or m/s
-  double attenuation = 0;  // share of a slope over |v| that this noise would hide
-  double left = 0;         // the share that the noise of one velocity for a segment still hides
-  double mean_speed = 0;   // mean |v| of the kept samples, rad/s or m/s
-};
 
 /// A log whose kept samples have the velocity of their segment.
 struct SegmentVelocity {

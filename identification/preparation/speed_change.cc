@@ -18,7 +18,7 @@ constexpr int kGrid = 48;          // why: with 72 an answer moves by 0.05 half 
 constexpr int kGolden = 40;
 
 // why: with the margin alone 1 to 4 samples a log of the wrong sign stay
-constexpr double kOfTheRamp = 0.1;  // of its duration, beside the margin
+constexpr double kOfTheChange = 0.1;  // of its duration, beside the margin
 
 /// Sum of the squares of the positions around a change of that duration.
 double Squares(const VectorXd& time, const VectorXd& position, SpeedChange change, double duration,
@@ -142,7 +142,7 @@ std::optional<SpeedChange> FindSpeedChange(const VectorXd& time, const VectorXd&
       std::hypot(before.ErrorAt(change.time), behind.ErrorAt(change.time)) / change_of_speed;
   change.margin = std::max({std::sqrt(2 * noise.reach * change.duration / change_of_speed) / 2,
                             noise.reach / change_of_speed, kCertain * error}) +
-                  kOfTheRamp * change.duration;
+                  kOfTheChange * change.duration;
   return change;
 }
 

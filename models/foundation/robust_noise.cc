@@ -6,7 +6,7 @@
 
 namespace warmjoint::inline models {
 namespace {
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnknown = std::numeric_limits<double>::infinity();
 }  // namespace
 
 double QuantileInPlace(Eigen::VectorXd& x, double quantile) {
@@ -37,7 +37,7 @@ double Resolution(const Eigen::VectorXd& x) {
   if (x.size() < 2) return 0;
   const Eigen::ArrayXd steps = (x.tail(x.size() - 1) - x.head(x.size() - 1)).cwiseAbs();
   const double rounding = 1e-12 * x.cwiseAbs().maxCoeff();
-  double smallest = kInfinity, largest = 0;
+  double smallest = kUnknown, largest = 0;
   for (const double step : steps) {
     if (step > rounding) smallest = std::min(smallest, step);
     largest = std::max(largest, step);

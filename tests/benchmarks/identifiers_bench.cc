@@ -4,6 +4,7 @@
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/lack_of_fit/judge.h"
+#include "identification/preparation/prepare.h"
 #include "models/foundation/keep_memory.h"
 #include "tests/support/warm_recording.h"
 

@@ -5,6 +5,7 @@
 #include "identification/forward/thermal_filter.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
+#include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
 #include "models/recording/join_recordings.h"
 #include "tests/support/warm_recording.h"

@@ -15,6 +15,7 @@
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
+#include "identification/preparation/prepare.h"
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"
 #include "tests/studies/for_each_variant.h"

@@ -16,6 +16,7 @@
 #include "identification/answer/identify.h"
 #include "identification/fit_data.h"
 #include "identification/identifiers/identifier_list.h"
+#include "identification/preparation/prepare.h"
 #include "identification/score/score.h"
 #include "models/foundation/robust_noise.h"
 #include "scenarios/suite.h"

@@ -11,6 +11,7 @@
 #include "identification/identifiers/identifier_list.h"
 #include "identification/inference/inference.h"
 #include "identification/lack_of_fit/fitted_model.h"
+#include "identification/preparation/prepare.h"
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"
 

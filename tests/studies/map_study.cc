@@ -22,6 +22,7 @@
 #include "identification/holdout/evaluate.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/maps/holes.h"
+#include "identification/preparation/prepare.h"
 #include "identification/uncertainty/tails.h"
 #include "models/recording/course_of.h"
 #include "scenarios/suite.h"

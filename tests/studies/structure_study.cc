@@ -21,6 +21,7 @@
 #include "identification/holdout/predict_torque.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/identifiers/structures.h"
+#include "identification/preparation/prepare.h"
 #include "identification/uncertainty/tails.h"
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"

@@ -31,6 +31,7 @@
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
+#include "identification/preparation/prepare.h"
 #include "identification/score/score.h"
 #include "models/foundation/robust_noise.h"
 #include "scenarios/suite.h"

@@ -7,6 +7,7 @@
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
+#include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
 #include "sim/model/load_model.h"
 #include "sim/plant/plant.h"

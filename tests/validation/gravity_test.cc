@@ -5,6 +5,7 @@
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
+#include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
 #include "models/foundation/atomic_file.h"
 #include "models/recording/read_recording.h"

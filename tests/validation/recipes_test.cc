@@ -37,7 +37,7 @@ TEST(Recipes, AStaubliTx40InAmperes) {
                                          "position=deg,torque=A"};
   std::vector<std::string> check{"check", log};
   check.insert(check.end(), reading.begin(), reading.end());
-  const Answer checked = RunWarmjoint(check);
+  const ProgramAnswer checked = RunWarmjoint(check);
   EXPECT_EQ(checked.status, 0) << checked.err;
   EXPECT_THAT(checked.out, HasSubstr("45000 samples in 9 s, 5000 Hz"));
   EXPECT_THAT(checked.out, HasSubstr("no  warm-up"));

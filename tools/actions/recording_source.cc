@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "identification/preparation/prepare.h"
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/excerpt.h"
 #include "models/recording/join_recordings.h"

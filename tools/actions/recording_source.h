@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "identification/preparation/prepared_log.h"
+#include "identification/preparation/select.h"
 #include "models/foundation/bad_input.h"
 #include "models/recording/csv.h"
 #include "tools/actions/project_file.h"

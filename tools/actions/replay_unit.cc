@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "identification/preparation/prepare.h"
 #include "sim/plant/plant.h"
 #include "tools/suite/prepared_identifier.h"
 #include "tools/suite/start_key.h"

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "identification/preparation/check_report.h"
+#include "identification/preparation/prepare.h"
 #include "models/foundation/atomic_file.h"
 #include "tools/actions/check_together.h"
 #include "tools/actions/outputs.h"

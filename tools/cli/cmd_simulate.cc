@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-#include "identification/preparation/prepared_log.h"
+#include "identification/preparation/prepare.h"
 #include "models/foundation/atomic_directory.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"

@@ -36,7 +36,7 @@ std::optional<QueuedShards> AskSlurm(const fs::path& run) {
   return InQueue(submissions, *queue);
 }
 
-ExitStatus Status(const StatusArguments& arguments) {
+ExitStatus ShowStatus(const StatusArguments& arguments) {
   const fs::path run = fs::absolute(arguments.run).lexically_normal();
   if (arguments.split && !arguments.resubmit) {
     Refuse({"warmjoint status"}, "--split goes with --resubmit");
@@ -65,7 +65,7 @@ Command AddStatusCommand(CLI::App& program) {
                    "submit the shards that are missing or failed and not in the queue");
   AddWholeNumber(*parser, "--split", arguments->split, 1, kMostPieces,
                  "with --resubmit: what is open of each shard in so many pieces");
-  return {parser, [arguments] { return Status(*arguments); }};
+  return {parser, [arguments] { return ShowStatus(*arguments); }};
 }
 
 }  // namespace warmjoint::inline tools

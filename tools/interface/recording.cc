@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "identification/preparation/check_report.h"
+#include "identification/preparation/prepare.h"
 #include "models/recording/assemble.h"
 #include "models/recording/read_recording.h"
 #include "models/recording/recording_columns.h"

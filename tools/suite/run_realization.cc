@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "identification/preparation/prepare.h"
 #include "models/foundation/output_failed.h"
 #include "models/foundation/robust_noise.h"
 #include "tools/suite/start_key.h"

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "identification/preparation/prepare.h"
 #include "tests/support/judging.h"
 
 namespace warmjoint {

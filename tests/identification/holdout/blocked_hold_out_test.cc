@@ -4,6 +4,7 @@
 
 #include "identification/identifiers/energy_ml.h"
 #include "identification/identifiers/nominal_ls.h"
+#include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
 #include "tests/support/warm_recording.h"
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "identification/fit_parameters.h"
+#include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
 #include "tests/support/warm_recording.h"
 

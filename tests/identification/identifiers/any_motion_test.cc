@@ -7,6 +7,7 @@
 #include "identification/answer/identify.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
+#include "identification/preparation/prepare.h"
 #include "tests/support/excited_recording.h"
 
 namespace warmjoint {
@@ -16,8 +17,8 @@ using ::testing::HasSubstr;
 
 using test::Excited, test::kInertia, test::kSine, test::kCosine;
 
-Estimate Answer(const std::string& name, const Measurements& m,
-                std::map<std::string, std::string> given = {{"gravity", "sincos"}}) {
+Estimate AnswerTo(const std::string& name, const Measurements& m,
+                  std::map<std::string, std::string> given = {{"gravity", "sincos"}}) {
   const Identifier& identifier = FindIdentifier(name);
   const Options options(identifier.options, given, {});
   return IdentifyAndJudge(identifier, {Prepare(m), options, {}});
@@ -34,7 +35,7 @@ void ExpectTold(const Estimate& estimate, const std::string& name, double truth,
 TEST(AnyMotion, NominalLawInertiaAndGravityAreToldTogether) {
   FrictionDescription cold = test::TableOne();
   cold.thermal.reset();
-  const Estimate estimate = Answer("nominal-ls", Excited(cold, 6000, 1));
+  const Estimate estimate = AnswerTo("nominal-ls", Excited(cold, 6000, 1));
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
   // white noise of 0.5 N.m on 5000 samples: some 0.5/sqrt(5000) = 0.007 over the columns' spread
   ExpectTold(estimate, "viscous", 5, 0.05);
@@ -47,7 +48,7 @@ TEST(AnyMotion, NominalLawInertiaAndGravityAreToldTogether) {
 TEST(AnyMotion, WarmingIsToldBesideInertiaAndGravity) {
   FrictionDescription warm = test::TableOne();
   warm.thermal->time_constant = 100;
-  const Estimate estimate = Answer("energy-ml", Excited(warm, 25000, 2));
+  const Estimate estimate = AnswerTo("energy-ml", Excited(warm, 25000, 2));
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
   ExpectTold(estimate, "viscous", 5, 0.05);
   ExpectTold(estimate, "coulomb", 15, 0.1);
@@ -62,7 +63,7 @@ TEST(AnyMotion, WarmingIsToldBesideInertiaAndGravity) {
 TEST(AnyMotion, AutoTakesItTogetherWithGravity) {
   FrictionDescription warm = test::TableOne();
   warm.thermal->time_constant = 100;
-  const Estimate estimate = Answer("auto", Excited(warm, 25000, 3), {});
+  const Estimate estimate = AnswerTo("auto", Excited(warm, 25000, 3), {});
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
   ASSERT_TRUE(estimate.choice);
   EXPECT_EQ(estimate.choice->chosen, "energy-ml gravity=sincos law=viscous_coulomb");
@@ -72,7 +73,7 @@ TEST(AnyMotion, AutoTakesItTogetherWithGravity) {
 TEST(AnyMotion, GravityThatIsLeftOutIsNamed) {
   FrictionDescription cold = test::TableOne();
   cold.thermal.reset();
-  const Estimate estimate = Answer("nominal-ls", Excited(cold, 6000, 4), {});
+  const Estimate estimate = AnswerTo("nominal-ls", Excited(cold, 6000, 4), {});
   EXPECT_EQ(estimate.status, Status::inadequate_model);
   EXPECT_THAT(estimate.message, HasSubstr("--gravity sincos"));
 }
@@ -90,7 +91,7 @@ TEST(AnyMotion, HeldOutFiguresAreOfTheSameModel) {
 
 TEST(AnyMotion, IsRefusedWhereConstantSpeedIsAskedFor) {
   const Estimate estimate =
-      Answer("nominal-ls", Excited(test::TableOne(), 3000, 6), {{"motion", "constant"}});
+      AnswerTo("nominal-ls", Excited(test::TableOne(), 3000, 6), {{"motion", "constant"}});
   EXPECT_NE(estimate.status, Status::ok);
 }
 

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "identification/answer/identify.h"
+#include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
 #include "models/foundation/low_pass.h"
 #include "models/foundation/random_stream.h"
@@ -16,7 +17,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-Estimate Answer(const Measurements& m) {
+Estimate AnswerTo(const Measurements& m) {
   const Identifier identifier = Auto();
   const Options options(identifier.options, {}, {});
   return IdentifyUnjudged(identifier, {Prepare(m), options, {}});
@@ -29,7 +30,7 @@ int Chosen(const FrictionDescription& truth) {
     const bool curved = truth.parameters.contains("stribeck_velocity");
     const Eigen::VectorXd velocity =
         curved ? test::SlowAndFast(3600, seed) : test::AlternatingSpeeds(3600, seed);
-    const Estimate estimate = Answer(test::RecordFriction(truth, 1, velocity, 0.5, seed));
+    const Estimate estimate = AnswerTo(test::RecordFriction(truth, 1, velocity, 0.5, seed));
     if (!estimate.friction) continue;
     chosen += estimate.friction->law == truth.law && estimate.friction->maps.empty() &&
               estimate.friction->thermal.has_value() == truth.thermal.has_value();
@@ -73,14 +74,14 @@ TEST(Auto, FindsTwoLevelsBesideASmallFall) {
   joint.parameters["coulomb_negative"] = 5;
   joint.parameters["static_rise"] = 1;
   const Estimate estimate =
-      Answer(test::RecordFriction(joint, 1, test::SlowAndFast(3600, 4), 0.5, 4));
+      AnswerTo(test::RecordFriction(joint, 1, test::SlowAndFast(3600, 4), 0.5, 4));
   ASSERT_TRUE(estimate.friction) << estimate.message;
   EXPECT_EQ(estimate.friction->law, "asymmetric_stribeck") << estimate.message;
 }
 
 TEST(Auto, SaysWhyAndListsWhatItTried) {
   const Estimate estimate =
-      Answer(test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 1), 0.5, 1));
+      AnswerTo(test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 1), 0.5, 1));
   EXPECT_EQ(estimate.identifier, "auto");
   EXPECT_THAT(estimate.message,
               HasSubstr("chose energy-ml law=viscous_coulomb: it outdoes every other"));
@@ -103,7 +104,7 @@ TEST(Auto, SaysWhyAndListsWhatItTried) {
 TEST(Auto, TriesNoWarmingBesideGravityWhereNeitherIsSeen) {
   const auto tried = [](const FrictionDescription& joint) {
     const Estimate estimate =
-        Answer(test::RecordFriction(joint, 1, test::AlternatingSpeeds(3600, 1), 0.5, 1));
+        AnswerTo(test::RecordFriction(joint, 1, test::AlternatingSpeeds(3600, 1), 0.5, 1));
     for (const StructureTrial& one : estimate.choice->trials) {
       if (one.name == "energy-ml gravity=sincos law=viscous_coulomb") return one.parameters > 0;
     }
@@ -119,7 +120,7 @@ TEST(Auto, TriesNoWarmingBesideGravityWhereNeitherIsSeen) {
 TEST(Auto, TakesALawWithoutSlopeWhereThereIsOneSpeed) {
   Eigen::VectorXd velocity(3600);
   for (Eigen::Index i = 0; i < 3600; ++i) velocity[i] = i / 20 % 2 ? -0.5 : 0.5;
-  const Estimate estimate = Answer(test::RecordFriction(test::TableOne(), 1, velocity, 0.5, 1));
+  const Estimate estimate = AnswerTo(test::RecordFriction(test::TableOne(), 1, velocity, 0.5, 1));
   ASSERT_TRUE(estimate.friction) << estimate.message;
   EXPECT_EQ(estimate.friction->law, "coulomb");
   EXPECT_TRUE(estimate.friction->thermal.has_value());
@@ -129,7 +130,7 @@ TEST(Auto, FindsGravity) {
   Measurements m =
       test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 1), 0.5, 1);
   m.torque.array() += 4 * m.position.array().sin() + 2 * m.position.array().cos();
-  const Estimate estimate = Answer(m);
+  const Estimate estimate = AnswerTo(m);
   ASSERT_TRUE(estimate.choice);
   EXPECT_EQ(estimate.choice->chosen, "energy-ml gravity=sincos law=viscous_coulomb");
   EXPECT_TRUE(estimate.gravity.has_value());
@@ -144,7 +145,7 @@ Estimate OfRippleBesideWeight(double weight) {
   m.torque = PredictFriction(joint, m).force;
   m.torque.array() += weight * m.position.array().sin();
   test::AddNoise(m, 0.5, 0, 7);
-  return Answer(m);
+  return AnswerTo(m);
 }
 
 TEST(Auto, TellsGravityFromAMap) {
@@ -163,7 +164,7 @@ TEST(Auto, TellsGravityFromAMap) {
 
 TEST(Auto, LeavesMapsOutWhereNothingIsLeftOverPlace) {
   const Estimate estimate =
-      Answer(test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 3), 0.5, 3));
+      AnswerTo(test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 3), 0.5, 3));
   ASSERT_TRUE(estimate.choice);
   int maps = 0;
   for (const StructureTrial& one : estimate.choice->trials) {
@@ -183,7 +184,7 @@ TEST(Auto, FindsALagOfTheTorque) {
   m.torque = LowPass(m.time, m.torque, 0.4);
   RandomStream random({5, 0}, Stream::test);
   for (double& torque : m.torque) torque += 0.5 * random.Normal();
-  const Estimate estimate = Answer(m);
+  const Estimate estimate = AnswerTo(m);
   ASSERT_TRUE(estimate.choice);
   EXPECT_EQ(estimate.choice->chosen, "energy-ml law=viscous_coulomb torque_lag=estimated");
   ASSERT_NE(estimate.Find("torque_lag"), nullptr);
@@ -221,7 +222,7 @@ TEST(Auto, ComparesOnFewerRowsAndFitsEverySample) {
   Eigen::VectorXd velocity(36000);
   const Eigen::VectorXd speeds = test::AlternatingSpeeds(3600, 2);
   for (Eigen::Index i = 0; i < 36000; ++i) velocity[i] = speeds[i / 10];
-  const Estimate estimate = Answer(test::RecordFriction(test::TableOne(), 0.1, velocity, 0.5, 2));
+  const Estimate estimate = AnswerTo(test::RecordFriction(test::TableOne(), 0.1, velocity, 0.5, 2));
   ASSERT_TRUE(estimate.metrics);
   EXPECT_GT(estimate.metrics->n, 34000);
   EXPECT_EQ(estimate.choice->chosen, "energy-ml law=viscous_coulomb");

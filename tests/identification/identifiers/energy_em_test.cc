@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "identification/answer/identify.h"
+#include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
 #include "tests/support/travelling.h"
 

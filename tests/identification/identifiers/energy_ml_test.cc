@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "identification/answer/identify.h"
+#include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
 #include "models/foundation/random_stream.h"
 #include "models/friction/thermal.h"
@@ -16,8 +17,8 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-Estimate Fit(const Measurements& measurements,
-             const std::map<std::string, std::string>& given = {}) {
+Estimate FitWarming(const Measurements& measurements,
+                    const std::map<std::string, std::string>& given = {}) {
   const Identifier identifier = EnergyMl();
   const Options options(identifier.options, given, {});
   return IdentifyUnjudged(identifier, {Prepare(measurements), options, {}});
@@ -68,7 +69,7 @@ void ExpectGolden(const Estimate& estimate, const nlohmann::json& golden) {
 TEST(EnergyMl, ReproducesTheGoldenMinimum) {
   const nlohmann::json& golden = test::Golden().at("dataset").at("joint_closed");
   const Measurements recording = test::GoldenRecording();
-  const Estimate estimate = Fit(recording);
+  const Estimate estimate = FitWarming(recording);
   ExpectGolden(estimate, golden);
 
   // the golden cost counts the samples at rest too, where friction is 0
@@ -80,14 +81,14 @@ TEST(EnergyMl, ReproducesTheGoldenMinimum) {
 
 TEST(EnergyMl, ReproducesTheGoldenMinimumWithInitialEnergy) {
   const nlohmann::json& golden = test::Golden().at("dataset").at("joint_closed_E0");
-  const Estimate estimate = Fit(test::GoldenRecording(), {{"initial_energy", "estimated"}});
+  const Estimate estimate = FitWarming(test::GoldenRecording(), {{"initial_energy", "estimated"}});
   ExpectGolden(estimate, golden);
   EXPECT_NEAR(estimate.Find("initial_energy")->value, golden.at("E0"), 1e-6);
 }
 
 TEST(EnergyMl, RecoversExactDataOfEveryTimeConstantWithoutAStart) {
   for (const double tau : {20.0, 150.0, 600.0, 1500.0}) {
-    const Estimate estimate = Fit(Warm(EvenTime(3600), Speeds(3600), {-3, tau}, 0));
+    const Estimate estimate = FitWarming(Warm(EvenTime(3600), Speeds(3600), {-3, tau}, 0));
     ASSERT_EQ(estimate.status, Status::ok) << tau << ": " << estimate.message;
     // 1e-6: the residual of an exact fit is rounding, whose cost changes below 1e-10 stop the steps
     EXPECT_NEAR(estimate.Find("thermal_time_constant")->value, tau, 1e-6 * tau);
@@ -96,7 +97,7 @@ TEST(EnergyMl, RecoversExactDataOfEveryTimeConstantWithoutAStart) {
 }
 
 TEST(EnergyMl, RecoversFrictionThatGrowsWithWarmth) {
-  const Estimate estimate = Fit(Warm(EvenTime(3600), Speeds(3600), {0.5, 300}, 0));
+  const Estimate estimate = FitWarming(Warm(EvenTime(3600), Speeds(3600), {0.5, 300}, 0));
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
   EXPECT_NEAR(estimate.Find("thermal_gain")->value, 0.5, 1e-6);
 }
@@ -107,22 +108,22 @@ TEST(EnergyMl, RecoversUnevenSamplesWithRests) {
   time.tail(1000).array() += 300;  // a gap, at rest
   v[999] = 0;
   v.segment(1200, 200).setZero();
-  const Estimate estimate = Fit(Warm(time, v, {-3, 600}, 0));
+  const Estimate estimate = FitWarming(Warm(time, v, {-3, 600}, 0));
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
   EXPECT_NEAR(estimate.Find("thermal_time_constant")->value, 600, 1e-6 * 600);
   EXPECT_NEAR(estimate.Find("thermal_gain")->value, -3, 1e-6 * 3);
 }
 
 TEST(EnergyMl, FindsTheInitialEnergyOfAWarmJoint) {
-  const Estimate estimate =
-      Fit(Warm(EvenTime(3600), Speeds(3600), {-3, 600}, 0, -6), {{"initial_energy", "estimated"}});
+  const Estimate estimate = FitWarming(Warm(EvenTime(3600), Speeds(3600), {-3, 600}, 0, -6),
+                                       {{"initial_energy", "estimated"}});
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
   EXPECT_NEAR(estimate.Find("initial_energy")->value, -6, 1e-5);
   EXPECT_NEAR(estimate.Find("coulomb")->value, 15, 1e-5);
 }
 
 TEST(EnergyMl, GivesFrictionWithWarming) {
-  const Estimate estimate = Fit(Warm(EvenTime(3600), Speeds(3600), {-3, 600}, 0.5));
+  const Estimate estimate = FitWarming(Warm(EvenTime(3600), Speeds(3600), {-3, 600}, 0.5));
   ASSERT_TRUE(estimate.friction && estimate.friction->thermal);
   EXPECT_EQ(estimate.friction->thermal->gain, estimate.Find("thermal_gain")->value);
   EXPECT_GT((*estimate.Find("thermal_time_constant")->interval95)[0], 0);
@@ -132,7 +133,7 @@ TEST(EnergyMl, GivesFrictionWithWarming) {
 
 TEST(EnergyMl, SaysThatOneSpeedAloneIsNotIdentifiable) {
   const Eigen::VectorXd v = Eigen::VectorXd::Constant(3600, 0.5);
-  const Estimate estimate = Fit(Warm(EvenTime(3600), v, {-3, 600}, 0.5));
+  const Estimate estimate = FitWarming(Warm(EvenTime(3600), v, {-3, 600}, 0.5));
   EXPECT_EQ(estimate.status, Status::not_identifiable);
   EXPECT_THAT(estimate.message, AllOf(HasSubstr("viscous, coulomb"), HasSubstr("two or more")));
   EXPECT_TRUE(estimate.parameters.empty());
@@ -140,7 +141,7 @@ TEST(EnergyMl, SaysThatOneSpeedAloneIsNotIdentifiable) {
 }
 
 TEST(EnergyMl, SaysThatNoWarmUpCanBeSeen) {
-  const Estimate cold = Fit(Warm(EvenTime(3600), Speeds(3600), {0, 600}, 0.5));
+  const Estimate cold = FitWarming(Warm(EvenTime(3600), Speeds(3600), {0, 600}, 0.5));
   EXPECT_EQ(cold.status, Status::not_identifiable);
   EXPECT_THAT(cold.message, HasSubstr("no warm-up can be seen"));
   EXPECT_TRUE(cold.parameters.empty());
@@ -148,7 +149,7 @@ TEST(EnergyMl, SaysThatNoWarmUpCanBeSeen) {
 
 TEST(EnergyMl, SaysThatARecordIsTooShort) {
   // half a minute of a time constant of ten, in some noise: a drift, but of what gain and time?
-  const Estimate estimate = Fit(Warm(EvenTime(60), Speeds(60), {-3, 600}, 0.1));
+  const Estimate estimate = FitWarming(Warm(EvenTime(60), Speeds(60), {-3, 600}, 0.1));
   EXPECT_EQ(estimate.status, Status::not_identifiable);
   EXPECT_THAT(estimate.message, HasSubstr("thermal_time_constant"));
   EXPECT_FALSE(estimate.friction);

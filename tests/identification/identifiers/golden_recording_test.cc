@@ -5,6 +5,7 @@
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
+#include "identification/preparation/prepare.h"
 #include "tests/support/vectors.h"
 
 namespace warmjoint {

@@ -7,6 +7,7 @@
 #include "identification/answer/identify.h"
 #include "identification/identifiers/stribeck.h"
 #include "identification/nonlinear/lugre_data.h"
+#include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
 #include "models/recording/join_recordings.h"
 #include "tests/support/bristle_recording.h"
@@ -28,9 +29,9 @@ Measurements Minute(std::uint64_t seed, double rate = 100, double noise = 0.5,
 
 /// The answer of an identifier, judged where `verdict` says so.
 enum class Verdict { judged, unjudged };
-Estimate Answer(const Measurements& m, const Selection& selection,
-                const std::map<std::string, std::string>& given = {},
-                Verdict verdict = Verdict::judged) {
+Estimate AnswerTo(const Measurements& m, const Selection& selection,
+                  const std::map<std::string, std::string>& given = {},
+                  Verdict verdict = Verdict::judged) {
   const Identifier identifier = LuGreByCeres();
   const Options options(identifier.options, given, {});
   const IdentifierInput input{Prepare(m, selection), options, {}};
@@ -53,7 +54,7 @@ std::map<std::string, int> CountHeld(const FrictionDescription& joint) {
   std::map<std::string, int> held;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     const Measurements m = Minute(seed, 100, 0.5, joint);
-    const Estimate estimate = Answer(m, SelectMoving(m), {{"law", joint.law}});
+    const Estimate estimate = AnswerTo(m, SelectMoving(m), {{"law", joint.law}});
     EXPECT_EQ(estimate.status, Status::ok) << seed << estimate.message;
     if (estimate.status != Status::ok) continue;
     for (const auto& [name, truth] : values) {
@@ -85,7 +86,7 @@ TEST(Lugre, FindsTheLawExactlyWhereTheTorqueIsItsOwn) {
     Measurements m = Minute(1);
     m.torque = PredictFriction(joint, m).force;
     const Estimate estimate =
-        Answer(m, SelectMoving(m), {{"law", joint.law}, {"inertia", "none"}}, Verdict::unjudged);
+        AnswerTo(m, SelectMoving(m), {{"law", joint.law}, {"inertia", "none"}}, Verdict::unjudged);
     ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
     // iterative optimisers (golden/README)
     for (const auto& [name, truth] : joint.parameters) {
@@ -99,7 +100,7 @@ TEST(Lugre, KnowsThatItHasToFindOutHowTheBristleWasBentAtFirst) {
   // samples; told by the noisy first one, static was off by 4 standard errors, and a test rejected
   for (const std::uint64_t seed : {1009, 1024, 1031, 1033}) {
     const Measurements m = Minute(seed, 500);
-    const Estimate estimate = Answer(m, SelectMoving(m));
+    const Estimate estimate = AnswerTo(m, SelectMoving(m));
     ASSERT_EQ(estimate.status, Status::ok) << seed << estimate.message;
     const EstimatedParameter& found = *estimate.Find("static");
     EXPECT_NEAR(found.value, 20, 3 * *found.std) << seed;
@@ -110,7 +111,7 @@ TEST(Lugre, TakesInertiaOffWhatItsVerdictLooksAt) {
   // samples of wobbles, whose acceleration is 1 N.m at places, look like a dependence on speed
   for (const std::uint64_t seed : {8, 14, 29, 30}) {
     const Measurements m = Minute(seed);
-    const Estimate estimate = Answer(m, SelectMoving(m));
+    const Estimate estimate = AnswerTo(m, SelectMoving(m));
     EXPECT_EQ(estimate.status, Status::ok) << seed << estimate.message;
     EXPECT_TRUE(estimate.warnings.empty()) << seed << estimate.FullMessage();
   }
@@ -120,7 +121,7 @@ TEST(Lugre, FindsTheFallWhereTheFirstScanMissesIt) {
   // of samples at constant speed alone the scan of vs begins at 0.5 rad/s, ten times too high
   for (const std::uint64_t seed : {8, 1002}) {
     const Measurements m = Minute(seed);
-    const Estimate estimate = Answer(m, SelectConstantSpeed(m));
+    const Estimate estimate = AnswerTo(m, SelectConstantSpeed(m));
     ASSERT_EQ(estimate.status, Status::ok) << seed << estimate.message;
     EXPECT_NEAR(estimate.Find("stribeck_velocity")->value, 0.05, 0.01) << seed;
   }
@@ -130,7 +131,7 @@ TEST(Lugre, LetsIntervalsGrowWithTheSamplingError) {
   // no noise: all that is left is motion between samples that is not linear, which repeats itself
   for (const double rate : {50.0, 100.0, 200.0}) {
     const Measurements m = Minute(1, rate, 0);
-    const Estimate estimate = Answer(m, SelectMoving(m), {}, Verdict::unjudged);
+    const Estimate estimate = AnswerTo(m, SelectMoving(m), {}, Verdict::unjudged);
     ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
     for (const auto& [name, truth] : kTruth) {
       const EstimatedParameter& found = *estimate.Find(name);
@@ -143,7 +144,7 @@ TEST(Lugre, LetsIntervalsGrowWithTheSamplingError) {
 TEST(Lugre, AgreesWithStribeckWhereTheJointSlidesSteadily) {
   const Measurements m = test::RecordBristle(test::LuGreJoint(), test::TurningMotion(200, 5), 200,
                                              100, kInertia, 0.5, 5);
-  const Estimate estimate = Answer(m, SelectMoving(m));
+  const Estimate estimate = AnswerTo(m, SelectMoving(m));
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
 
   const Identifier stribeck = StribeckByCeres();
@@ -167,7 +168,7 @@ TEST(Lugre, SaysWhatTurnsBetweenTwoSamplesCannotTell) {
     const Measurements m =
         test::RecordFriction(test::StribeckJoint(), step, test::SlowAndFast(3600, 1), 0.5, 1);
     for (const char* damping : {"estimated", "none"}) {
-      const Estimate estimate = Answer(m, SelectMoving(m), {{"damping", damping}});
+      const Estimate estimate = AnswerTo(m, SelectMoving(m), {{"damping", damping}});
       EXPECT_EQ(estimate.status, Status::not_identifiable) << estimate.message;
       EXPECT_TRUE(estimate.parameters.empty());
       EXPECT_FALSE(estimate.friction);
@@ -181,7 +182,7 @@ TEST(Lugre, GivesNoNumbersForTableOne) {
   const Measurements m =
       test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 1), 0.5, 1);
   for (const char* damping : {"estimated", "none"}) {
-    const Estimate estimate = Answer(m, SelectMoving(m), {{"damping", damping}});
+    const Estimate estimate = AnswerTo(m, SelectMoving(m), {{"damping", damping}});
     EXPECT_EQ(estimate.status, Status::not_identifiable) << estimate.message;
     EXPECT_TRUE(estimate.parameters.empty());
   }
@@ -194,7 +195,7 @@ TEST(Lugre, ShowsWarmingInItsResidual) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     const Measurements m =
         test::RecordBristle(warm, test::TurningMotion(480, seed), 480, 50, kInertia, 0.5, seed);
-    const Estimate estimate = Answer(m, SelectConstantSpeed(m));
+    const Estimate estimate = AnswerTo(m, SelectConstantSpeed(m));
     EXPECT_EQ(estimate.status, Status::inadequate_model) << estimate.message;
     EXPECT_THAT(estimate.message, AnyOf(HasSubstr("energy"), HasSubstr("time")));
     EXPECT_FALSE(estimate.friction);
@@ -203,7 +204,7 @@ TEST(Lugre, ShowsWarmingInItsResidual) {
 
 TEST(Lugre, JoinsRecordings) {
   const Measurements joined = JoinRecordings({Minute(1), Minute(2)});
-  const Estimate estimate = Answer(joined, SelectMoving(joined));
+  const Estimate estimate = AnswerTo(joined, SelectMoving(joined));
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
   for (const auto& [name, truth] : kTruth) {
     const EstimatedParameter& found = *estimate.Find(name);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "identification/answer/identify.h"
+#include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
 #include "tests/support/travelling.h"
 

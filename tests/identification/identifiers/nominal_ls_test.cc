@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "identification/answer/identify.h"
+#include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
 #include "models/foundation/random_stream.h"
 #include "tests/support/vectors.h"
@@ -18,7 +19,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-Estimate Fit(const Measurements& measurements, const std::string& law) {
+Estimate FitLaw(const Measurements& measurements, const std::string& law) {
   const Identifier identifier = NominalLs();
   const Options options(identifier.options, {{"law", law}}, {});
   return IdentifyUnjudged(identifier, {Prepare(measurements), options, {}});
@@ -37,12 +38,12 @@ TEST(NominalLs, ReproducesTheGoldenSolutions) {
 
   // 1e-9: linear solve of a well-conditioned problem in another order of operations
   const Eigen::VectorXd law2 = test::ToVector(golden.at("LS_nominal_(2)"));
-  const Estimate two = Fit(recording, "viscous_coulomb");
+  const Estimate two = FitLaw(recording, "viscous_coulomb");
   EXPECT_NEAR(two.Find("viscous")->value, law2[0], 1e-9 * law2[0]);
   EXPECT_NEAR(two.Find("coulomb")->value, law2[1], 1e-9 * law2[1]);
 
   const Eigen::VectorXd law3 = test::ToVector(golden.at("LS_nominal_(3)"));
-  const Estimate three = Fit(recording, "asymmetric");
+  const Estimate three = FitLaw(recording, "asymmetric");
   EXPECT_NEAR(three.Find("viscous")->value, law3[0], 1e-9 * law3[0]);
   EXPECT_NEAR(three.Find("coulomb_positive")->value, law3[1], 1e-9 * law3[1]);
   EXPECT_NEAR(three.Find("coulomb_negative")->value, law3[2], 1e-9 * law3[2]);
@@ -56,7 +57,7 @@ TEST(NominalLs, ReproducesTheGoldenSolutions) {
 }
 
 TEST(NominalLs, RecoversAnExactLawWithoutError) {
-  const Estimate estimate = Fit(Steps({0.2, -0.5, 1.0, -1.0}), "viscous_coulomb");
+  const Estimate estimate = FitLaw(Steps({0.2, -0.5, 1.0, -1.0}), "viscous_coulomb");
   EXPECT_EQ(estimate.status, Status::ok);
   EXPECT_NEAR(estimate.Find("viscous")->value, 2, 1e-12);  // rounding of a 2 x 2 problem
   EXPECT_NEAR(estimate.Find("coulomb")->value, 7, 1e-12);
@@ -65,7 +66,7 @@ TEST(NominalLs, RecoversAnExactLawWithoutError) {
 }
 
 TEST(NominalLs, SaysThatOneSpeedAloneIsNotIdentifiable) {
-  const Estimate estimate = Fit(Steps({0.5, -0.5}), "viscous_coulomb");
+  const Estimate estimate = FitLaw(Steps({0.5, -0.5}), "viscous_coulomb");
   EXPECT_EQ(estimate.status, Status::not_identifiable);
   EXPECT_TRUE(estimate.parameters.empty());
   EXPECT_FALSE(estimate.friction || estimate.metrics);
@@ -75,7 +76,7 @@ TEST(NominalLs, SaysThatOneSpeedAloneIsNotIdentifiable) {
 }
 
 TEST(NominalLs, SaysThatAnUnseenDirectionIsNotIdentifiable) {
-  const Estimate estimate = Fit(Steps({0.2, 1.0}), "asymmetric");
+  const Estimate estimate = FitLaw(Steps({0.2, 1.0}), "asymmetric");
   EXPECT_EQ(estimate.status, Status::not_identifiable);
   EXPECT_THAT(estimate.message, AllOf(HasSubstr("coulomb_negative"), HasSubstr("both directions"),
                                       Not(HasSubstr("viscous"))));
@@ -84,20 +85,20 @@ TEST(NominalLs, SaysThatAnUnseenDirectionIsNotIdentifiable) {
 TEST(NominalLs, CallsUnusableDataBad) {
   Measurements not_a_number = Steps({0.2, 1.0});
   not_a_number.torque[3] = std::numeric_limits<double>::quiet_NaN();
-  const Estimate nan = Fit(not_a_number, "coulomb");
+  const Estimate nan = FitLaw(not_a_number, "coulomb");
   EXPECT_EQ(nan.status, Status::bad_data);
   EXPECT_THAT(nan.message, HasSubstr("torque is nan at sample 3"));
 
   Measurements constant = Steps({0.2, 1.0});
   constant.torque.setConstant(4);
-  EXPECT_EQ(Fit(constant, "coulomb").status, Status::bad_data);
-  EXPECT_EQ(Fit(Steps({0.0}), "coulomb").status, Status::bad_data);
+  EXPECT_EQ(FitLaw(constant, "coulomb").status, Status::bad_data);
+  EXPECT_EQ(FitLaw(Steps({0.0}), "coulomb").status, Status::bad_data);
 }
 
 TEST(NominalLs, GivesNoFrictionWhereTheLawForbidsTheValue) {
   Measurements falling = Steps({0.2, -0.5, 1.0, -1.0});
   falling.torque -= 3 * falling.velocity;
-  const Estimate estimate = Fit(falling, "viscous_coulomb");
+  const Estimate estimate = FitLaw(falling, "viscous_coulomb");
   EXPECT_EQ(estimate.status, Status::inadequate_model);
   EXPECT_THAT(estimate.message,
               HasSubstr("viscous is -1 N.m.s/rad, below its bound 0, with its whole 95 %"));
@@ -107,7 +108,7 @@ TEST(NominalLs, GivesNoFrictionWhereTheLawForbidsTheValue) {
 TEST(NominalLs, CarriesTheUnitOfALoggedCurrent) {
   Measurements current = Steps({0.2, -0.5, 1.0});
   current.torque_unit = "A";
-  const Estimate estimate = Fit(current, "viscous_coulomb");
+  const Estimate estimate = FitLaw(current, "viscous_coulomb");
   EXPECT_EQ(estimate.Find("viscous")->unit, "A.s/rad");
   EXPECT_EQ(estimate.Find("coulomb")->unit, "A");
 }
@@ -136,7 +137,7 @@ TEST(NominalLs, WeighsColouredNoiseByItsColour) {
   int held = 0;
   for (std::uint64_t seed = 0; seed < kFits; ++seed) {
     const Measurements m = WithColouredNoise(0.9, seed);
-    const Estimate estimate = Fit(m, "viscous_coulomb");
+    const Estimate estimate = FitLaw(m, "viscous_coulomb");
     const EstimatedParameter& coulomb = *estimate.Find("coulomb");
     squares += std::pow(coulomb.value - 7, 2);
     held += (*coulomb.interval95)[0] <= 7 && 7 <= (*coulomb.interval95)[1];

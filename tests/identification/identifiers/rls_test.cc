@@ -4,14 +4,15 @@
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/nominal_ls.h"
+#include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint {
 namespace {
 
-Estimate Answer(const Identifier& identifier, const Measurements& m,
-                const std::map<std::string, std::string>& given) {
+Estimate AnswerTo(const Identifier& identifier, const Measurements& m,
+                  const std::map<std::string, std::string>& given) {
   const Options options(identifier.options, given, {});
   return IdentifyUnjudged(identifier, {Prepare(m), options, {}});
 }
@@ -21,8 +22,8 @@ TEST(Rls, IsNominalLsWhereItForgetsNothing) {
   friction.thermal.reset();
   const Measurements m =
       test::RecordFriction(friction, 1, test::AlternatingSpeeds(2000, 1, 300), 0.5, 1);
-  const Estimate online = Answer(Rls(), m, {{"forgetting", "1"}});
-  const Estimate batch = Answer(NominalLs(), m, {});
+  const Estimate online = AnswerTo(Rls(), m, {{"forgetting", "1"}});
+  const Estimate batch = AnswerTo(NominalLs(), m, {});
   for (const char* name : {"viscous", "coulomb"}) {
     // 1e-9: linear solve; the first doubt counts as 1e-8 of 1400 samples
     EXPECT_NEAR(online.Find(name)->value, batch.Find(name)->value, 1e-9 * 15) << name;
@@ -34,7 +35,7 @@ TEST(Rls, FollowsFrictionThatWarms) {
   // settled, E = k W makes F = F0 / (1 - k |v|): near 0.5 rad/s the level has fallen by half
   const Measurements m =
       test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 2), 0.1, 2);
-  const Estimate online = Answer(Rls(), m, {{"forgetting", "0.995"}});
+  const Estimate online = AnswerTo(Rls(), m, {{"forgetting", "0.995"}});
   ASSERT_EQ(online.trace.size(), 50u);
   const double first = online.trace[1].parameters[1].second;
   const double last = online.trace[49].parameters[1].second;
@@ -45,7 +46,7 @@ TEST(Rls, TakesOffTheWarmingThatIsKnown) {
   const Measurements m =
       test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 3), 0.1, 3);
   const Estimate online =
-      Answer(Rls(), m, {{"thermal_gain", "-3"}, {"thermal_time_constant", "600"}});
+      AnswerTo(Rls(), m, {{"thermal_gain", "-3"}, {"thermal_time_constant", "600"}});
   // noise of 0.1 N.m over the last 1000 samples; 5 standard deviations
   EXPECT_NEAR(online.Find("viscous")->value, 5, 5 * 0.1 / std::sqrt(1000) / 0.26);
   EXPECT_NEAR(online.Find("coulomb")->value, 15, 5 * 0.1 / std::sqrt(1000) / 0.4);
@@ -62,7 +63,7 @@ TEST(Rls, LetsIntervalsHoldWhereTheNoiseComesThroughTheHeat) {
         test::TableOne(), 1, test::AlternatingSpeeds(1800, static_cast<std::uint64_t>(seed)), 0.5,
         static_cast<std::uint64_t>(seed));
     const Estimate online =
-        Answer(Rls(), m, {{"thermal_gain", "-3"}, {"thermal_time_constant", "600"}});
+        AnswerTo(Rls(), m, {{"thermal_gain", "-3"}, {"thermal_time_constant", "600"}});
     const auto& [lower, upper] = *online.Find("coulomb")->interval95;
     held += lower <= 15 && 15 <= upper;
   }
@@ -74,11 +75,11 @@ TEST(Rls, TakesGravityOffTheHeat) {
   Measurements m =
       test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 4), 0, 4);
   m.torque += 6 * m.position.array().sin().matrix();
-  const Estimate online = Answer(Rls(), m,
-                                 {{"thermal_gain", "-3"},
-                                  {"thermal_time_constant", "600"},
-                                  {"gravity", "sincos"},
-                                  {"forgetting", "1"}});
+  const Estimate online = AnswerTo(Rls(), m,
+                                   {{"thermal_gain", "-3"},
+                                    {"thermal_time_constant", "600"},
+                                    {"gravity", "sincos"},
+                                    {"forgetting", "1"}});
   // without noise all of it is linear: what is left is the first doubt, 1e-8 of 3600 samples
   EXPECT_NEAR(online.Find("viscous")->value, 5, 1e-6);
   EXPECT_NEAR(online.Find("coulomb")->value, 15, 1e-6);

@@ -6,6 +6,7 @@
 
 #include "identification/answer/identify.h"
 #include "identification/nonlinear/stribeck_fit.h"
+#include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
 #include "models/recording/join_recordings.h"
 #include "tests/support/slow_recording.h"
@@ -16,7 +17,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-Estimate Answer(const Measurements& m, const std::map<std::string, std::string>& given = {}) {
+Estimate AnswerTo(const Measurements& m, const std::map<std::string, std::string>& given = {}) {
   const Identifier identifier = StribeckByCeres();
   const Options options(identifier.options, given, {});
   return IdentifyUnjudged(identifier, {Prepare(m), options, {}});
@@ -45,7 +46,7 @@ std::map<std::string, int> CountHeld(const FrictionDescription& joint, Eigen::In
   std::map<std::string, int> held;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     const Estimate estimate =
-        Answer(test::RecordFriction(joint, 0.1, test::SlowAndFast(n, seed), noise, seed), given);
+        AnswerTo(test::RecordFriction(joint, 0.1, test::SlowAndFast(n, seed), noise, seed), given);
     EXPECT_EQ(estimate.status, Status::ok) << estimate.message;
     if (estimate.status != Status::ok) continue;
     for (const auto& [name, truth] : TruthOf(joint)) {
@@ -84,8 +85,8 @@ TEST(Stribeck, FindsTwoLevelsExactlyWhereThereIsNoNoise) {
   for (const bool warms : {false, true}) {
     if (warms) joint.thermal = Thermal{-3, 60};
     const Estimate estimate =
-        Answer(test::RecordFriction(joint, 0.1, test::SlowAndFast(2000, 5), 0, 5),
-               {{"law", joint.law}, {"warming", warms ? "estimated" : "none"}});
+        AnswerTo(test::RecordFriction(joint, 0.1, test::SlowAndFast(2000, 5), 0, 5),
+                 {{"law", joint.law}, {"warming", warms ? "estimated" : "none"}});
     ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
     // iterative optimisers (golden/README)
     for (const auto& [name, truth] : TruthOf(joint)) {
@@ -97,8 +98,8 @@ TEST(Stribeck, FindsTwoLevelsExactlyWhereThereIsNoNoise) {
 TEST(Stribeck, SaysThatOneDirectionCannotTellTwoLevels) {
   const Eigen::VectorXd forwards = test::SlowAndFast(4000, 7).cwiseAbs();
   const Estimate estimate =
-      Answer(test::RecordFriction(test::TwoLevelStribeckJoint(), 0.1, forwards, 0.5, 7),
-             {{"law", "asymmetric_stribeck"}});
+      AnswerTo(test::RecordFriction(test::TwoLevelStribeckJoint(), 0.1, forwards, 0.5, 7),
+               {{"law", "asymmetric_stribeck"}});
   EXPECT_EQ(estimate.status, Status::not_identifiable);
   EXPECT_THAT(estimate.message,
               AllOf(HasSubstr("coulomb_negative"), HasSubstr("in both directions")));
@@ -108,7 +109,7 @@ TEST(Stribeck, FindsTheWarmingToo) {
   FrictionDescription warm = StribeckJoint();
   warm.thermal = Thermal{-3, 60};
   const Measurements m = test::RecordFriction(warm, 0.1, test::SlowAndFast(6000, 3), 0.3, 3);
-  const Estimate estimate = Answer(m, {{"warming", "estimated"}});
+  const Estimate estimate = AnswerTo(m, {{"warming", "estimated"}});
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
   ASSERT_TRUE(estimate.friction && estimate.friction->thermal);
   for (const auto& [name, truth] : kTruth) {
@@ -126,8 +127,8 @@ TEST(Stribeck, TakesEachOfSeveralRecordingsFromCold) {
   FrictionDescription warm = StribeckJoint();
   warm.thermal = Thermal{-3, 60};
   const Measurements once = test::RecordFriction(warm, 0.1, test::SlowAndFast(4000, 3), 0.3, 3);
-  const Estimate one = Answer(once, {{"warming", "estimated"}});
-  const Estimate two = Answer(JoinRecordings({once, once}), {{"warming", "estimated"}});
+  const Estimate one = AnswerTo(once, {{"warming", "estimated"}});
+  const Estimate two = AnswerTo(JoinRecordings({once, once}), {{"warming", "estimated"}});
   ASSERT_EQ(one.status, Status::ok) << one.message;
   ASSERT_EQ(two.status, Status::ok) << two.message;
   for (const EstimatedParameter& parameter : one.parameters) {
@@ -148,7 +149,7 @@ TEST(Stribeck, NamesWhatNeedsSlowSpeedsAndTheMotionThatHelps) {
       {"static", StribeckJoint()}, {"static_rise", test::TwoLevelStribeckJoint()}};
   for (const auto& [rest, joint] : joints) {
     const Estimate estimate =
-        Answer(test::RecordFriction(joint, 0.1, velocity, 0.5, 7), {{"law", joint.law}});
+        AnswerTo(test::RecordFriction(joint, 0.1, velocity, 0.5, 7), {{"law", joint.law}});
     EXPECT_EQ(estimate.status, Status::not_identifiable);
     EXPECT_TRUE(estimate.parameters.empty());
     EXPECT_THAT(estimate.message, AllOf(HasSubstr(rest + " and stribeck_velocity"),
@@ -166,7 +167,7 @@ TEST(Stribeck, RefusesFrictionThatRisesFromRest) {
     m.torque[i] =
         5 * v + Sign(v) * (20 - 5 * std::exp(-std::pow(v / 0.05, 2))) + 0.5 * random.Normal();
   }
-  const Estimate estimate = Answer(m);
+  const Estimate estimate = AnswerTo(m);
   EXPECT_EQ(estimate.status, Status::inadequate_model);
   EXPECT_THAT(estimate.message, HasSubstr("friction rises from rest"));
   EXPECT_FALSE(estimate.friction);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "identification/identifiers/identifier_list.h"
+#include "identification/preparation/prepare.h"
 #include "tests/support/judging.h"
 
 namespace warmjoint {

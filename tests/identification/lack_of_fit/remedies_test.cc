@@ -7,6 +7,7 @@
 #include <set>
 
 #include "identification/holdout/hold_out.h"
+#include "identification/preparation/prepare.h"
 #include "models/foundation/low_pass.h"
 #include "tests/support/bristle_recording.h"
 #include "tests/support/judging.h"

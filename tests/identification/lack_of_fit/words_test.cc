@@ -6,6 +6,7 @@
 #include <regex>
 
 #include "identification/fit_data.h"
+#include "identification/preparation/prepare.h"
 #include "tests/support/judging.h"
 #include "tests/support/travelling.h"
 

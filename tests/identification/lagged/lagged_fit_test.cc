@@ -8,6 +8,7 @@
 #include "identification/identifiers/identifier_list.h"
 #include "identification/lagged/lag_search.h"
 #include "identification/lagged/seen_lag.h"
+#include "identification/preparation/prepare.h"
 #include "models/foundation/low_pass.h"
 #include "models/foundation/random_stream.h"
 #include "tests/support/warm_recording.h"

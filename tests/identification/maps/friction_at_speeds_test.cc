@@ -6,6 +6,7 @@
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
+#include "identification/preparation/prepare.h"
 #include "tests/support/travelling.h"
 
 namespace warmjoint {

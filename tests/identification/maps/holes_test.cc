@@ -4,6 +4,7 @@
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
+#include "identification/preparation/prepare.h"
 #include "tests/support/travelling.h"
 #include "tests/support/warm_recording.h"
 

@@ -4,6 +4,7 @@
 
 #include "identification/identifiers/energy_ml.h"
 #include "identification/maps/position_maps.h"
+#include "identification/preparation/prepare.h"
 #include "tests/support/travelling.h"
 
 namespace warmjoint {

@@ -7,6 +7,7 @@
 #include "identification/answer/identify.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
+#include "identification/preparation/prepare.h"
 #include "tests/support/travelling.h"
 
 namespace warmjoint {

@@ -5,7 +5,7 @@
 #include <iterator>
 #include <vector>
 
-#include "identification/preparation/prepared_log.h"
+#include "identification/preparation/prepare.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint {

@@ -6,7 +6,7 @@
 
 #include "identification/preparation/check.h"
 #include "identification/preparation/check_report.h"
-#include "identification/preparation/prepared_log.h"
+#include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
 #include "models/friction/law.h"
 #include "models/recording/csv.h"

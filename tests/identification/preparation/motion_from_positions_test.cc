@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "identification/preparation/prepared_log.h"
+#include "identification/preparation/prepare.h"
 #include "models/foundation/random_stream.h"
 #include "models/recording/join_recordings.h"
 

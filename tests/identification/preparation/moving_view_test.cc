@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "identification/preparation/prepared_log.h"
+#include "identification/preparation/prepare.h"
 #include "models/foundation/random_stream.h"
 #include "tests/support/vectors.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "identification/preparation/prepared_log.h"
+#include "identification/preparation/prepare.h"
 #include "tests/support/judging.h"
 
 namespace warmjoint {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "identification/preparation/prepared_log.h"
+#include "identification/preparation/prepare.h"
 #include "models/foundation/random_stream.h"
 
 namespace warmjoint {

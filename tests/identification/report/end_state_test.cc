@@ -8,6 +8,7 @@
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
+#include "identification/preparation/prepare.h"
 #include "models/recording/course_of.h"
 #include "tests/support/travelling.h"
 #include "tests/support/without_times.h"

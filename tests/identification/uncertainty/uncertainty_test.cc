@@ -8,6 +8,7 @@
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/linear/least_squares.h"
+#include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
 #include "identification/uncertainty/tails.h"
 #include "tests/support/warm_recording.h"

@@ -71,19 +71,19 @@ TEST(FrictionMap, ReadsBackWhatItWrites) {
   friction.maps = {
       SmallMap(),
       {{{MapQuantity::motor_position, CircleAxis(turn, 2)}}, KernelKind::plain, {0.1, 0.2}}};
-  const nlohmann::json json = FrictionToJson(friction);
-  const FrictionDescription back = FrictionFromJson(json, {"friction.json"});
-  EXPECT_EQ(FrictionToJson(back), json);
+  const nlohmann::json written = FrictionToJson(friction);
+  const FrictionDescription back = FrictionFromJson(written, {"friction.json"});
+  EXPECT_EQ(FrictionToJson(back), written);
   EXPECT_EQ(back.maps[1].axes[0].kernels.period, turn);
   EXPECT_EQ(back.maps[0].axes[1].kernels.sides, Sides::apart);
 }
 
 TEST(FrictionMap, RefusesWhatDoesNotFit) {
   const auto refusal = [](const std::function<void(nlohmann::json&)>& spoil) -> std::string {
-    nlohmann::json json = MapToJson(SmallMap());
-    spoil(json);
+    nlohmann::json map = MapToJson(SmallMap());
+    spoil(map);
     try {
-      MapFromJson(json, {"friction.json"});
+      MapFromJson(map, {"friction.json"});
     } catch (const BadInput& bad) {
       return bad.what();
     }

@@ -11,7 +11,7 @@
 namespace warmjoint {
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
+constexpr double kFullTurn = 2 * std::numbers::pi;
 constexpr size_t kRows = 3;
 
 std::vector<double> Weights(const GaussianAxis& axis) {
@@ -44,10 +44,10 @@ double WorstError(const GaussianAxis& axis, KernelKind kind, const RowTable& tab
 
 TEST(RowTable, IsTheSumOfTheKernelsOnGridsAsMapsHaveThem) {
   // kernels so wide on a circle that the far side of each has a kink, between two cells
-  GaussianAxis wide = CircleAxis(kTurn, 8);
+  GaussianAxis wide = CircleAxis(kFullTurn, 8);
   wide.width *= 3;
   for (const KernelKind kind : {KernelKind::plain, KernelKind::normalised}) {
-    for (const GaussianAxis& axis : {CircleAxis(kTurn, 36), CircleAxis(kTurn, 7), wide,
+    for (const GaussianAxis& axis : {CircleAxis(kFullTurn, 36), CircleAxis(kFullTurn, 7), wide,
                                      EvenAxis(-3, 3, 40), EvenAxis(0.5, 2, 5)}) {
       const RowTable table(axis, kind, Weights(axis));
       ASSERT_FALSE(table.empty()) << axis.size() << " centres";
@@ -66,10 +66,11 @@ TEST(RowTable, EndsHalfASpacingOutsideOfTheGridAndNeverOnACircle) {
   EXPECT_TRUE(table.Locate(4.499, spot));
   EXPECT_FALSE(table.Locate(4.501, spot));
   EXPECT_FALSE(table.Locate(std::nan(""), spot));
-  const GaussianAxis circle = CircleAxis(kTurn, 12);
+  const GaussianAxis circle = CircleAxis(kFullTurn, 12);
   const RowTable around(circle, KernelKind::normalised, Weights(circle));
   EXPECT_FALSE(around.Locate(std::nan(""), spot));
-  for (const double x : {-1e-18, 0.0, kTurn, -100.0, 1e6}) EXPECT_TRUE(around.Locate(x, spot)) << x;
+  for (const double x : {-1e-18, 0.0, kFullTurn, -100.0, 1e6})
+    EXPECT_TRUE(around.Locate(x, spot)) << x;
 }
 
 TEST(RowTable, StaysEmptyWhereItCannotBeExact) {

@@ -41,7 +41,7 @@ TEST(Outputs, AFullStandardErrorChangesNoRefusal) {
 }
 
 TEST(Outputs, MessagesAreOneLineThatNoTerminalActsOn) {
-  const Answer answer = RunWarmjoint({"check", "no\npe\x1b[31m.csv"});
+  const ProgramAnswer answer = RunWarmjoint({"check", "no\npe\x1b[31m.csv"});
   EXPECT_EQ(answer.status, 2);
   EXPECT_THAT(answer.err, HasSubstr("no\\x0Ape\\x1B[31m.csv"));
   EXPECT_EQ(std::count(answer.err.begin(), answer.err.end(), '\n'), 1);
@@ -56,7 +56,7 @@ class IdentifyOutputs : public testing::Test {
 
   std::string at(const std::string& name) const { return scratch_.path() / name; }
 
-  Answer Identify(const std::vector<std::string>& more) const {
+  ProgramAnswer Identify(const std::vector<std::string>& more) const {
     std::vector<std::string> command{"identify", log_, "--identifier", "nominal-ls"};
     command.insert(command.end(), more.begin(), more.end());
     return RunWarmjoint(command);
@@ -70,7 +70,7 @@ TEST_F(IdentifyOutputs, NeverGoOntoAnInputOrOntoEachOther) {
   const std::string log = ReadWholeFile(log_);
   std::filesystem::create_symlink(log_, at("link.csv"));
   for (const std::string& target : {log_, at("link.csv"), at("./log.csv")}) {
-    const Answer answer = Identify({"-o", target});
+    const ProgramAnswer answer = Identify({"-o", target});
     EXPECT_EQ(answer.status, 2);
     EXPECT_THAT(answer.err, HasSubstr("is an input too"));
     EXPECT_EQ(ReadWholeFile(log_), log);
@@ -98,7 +98,7 @@ TEST_F(IdentifyOutputs, LeaveDevicesPipesAndModesAsTheyAre) {
 
 TEST_F(IdentifyOutputs, GoToStandardOutputAloneWhereAsked) {
   for (const char* name : {"-", "/dev/stdout"}) {
-    const Answer answer = Identify({"-o", name});
+    const ProgramAnswer answer = Identify({"-o", name});
     ASSERT_EQ(answer.status, 0) << answer.err;
     EXPECT_EQ(nlohmann::json::parse(answer.out).at("status"), "ok");
     EXPECT_THAT(answer.err, HasSubstr("nominal-ls: ok"));

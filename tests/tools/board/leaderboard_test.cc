@@ -16,7 +16,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 /// A result of one parameter "coulomb" with truth 10, bound 0.5 and interval estimate +- 1.
-Result Answer(int realization, int identifier, double estimate) {
+Result Answered(int realization, int identifier, double estimate) {
   Result result;
   result.realization = realization;
   result.identifier = identifier;
@@ -50,9 +50,14 @@ Suite TwoIdentifiers() {
 }
 
 std::vector<Result> AFailsTwiceAndBIsOftenWorse() {
-  return {
-      Answer(0, 0, 10.1), Answer(0, 1, 12),  Failure(1, 0, "not_converged"), Answer(1, 1, 11),
-      Answer(2, 0, 9.9),  Answer(2, 1, 9.5), Failure(3, 0, "not_converged"), Answer(3, 1, 10.5)};
+  return {Answered(0, 0, 10.1),
+          Answered(0, 1, 12),
+          Failure(1, 0, "not_converged"),
+          Answered(1, 1, 11),
+          Answered(2, 0, 9.9),
+          Answered(2, 1, 9.5),
+          Failure(3, 0, "not_converged"),
+          Answered(3, 1, 10.5)};
 }
 
 TEST(Leaderboard, SumsUpEachIdentifier) {
@@ -77,7 +82,7 @@ TEST(Leaderboard, VariantsWhoseTruthsHaveOtherParametersAreToldApartByName) {
   suite.ladder.emplace();
   suite.ladder->variants = {{"plain", {}, {}}, {"richer", {}, {}}};
   const auto answer = [](int variant, double estimate) {
-    Result result = Answer(0, 0, estimate);
+    Result result = Answered(0, 0, estimate);
     result.variant = variant;
     const ParameterScore more{"stribeck_velocity", 1, 3, true, false, 4};
     if (variant == 1) result.score->continuous.insert(result.score->continuous.begin(), more);
@@ -104,7 +109,7 @@ TEST(Leaderboard, FailuresAreCountedAndCannotWin) {
 }
 
 TEST(Leaderboard, NamesParametersThatCountAsZero) {
-  Result blind = Answer(0, 0, 0);
+  Result blind = Answered(0, 0, 0);
   blind.score->continuous[0].estimated = false;
   const Leaderboard board = MakeLeaderboard(TwoIdentifiers(), {blind});
   const auto row = std::find_if(board.rows.begin(), board.rows.end(),
@@ -178,8 +183,8 @@ TEST(Leaderboard, FlagsErrorsThatNoDataAllow) {
   // 8 realizations; the bound is 0.5, so that errors of 0.001 are 1/500 of it and 0.4 are ordinary
   std::vector<Result> results;
   for (int i = 0; i < 8; ++i) {
-    results.push_back(Answer(i, 0, 10.001));
-    results.push_back(Answer(i, 1, i % 2 ? 10.4 : 9.6));
+    results.push_back(Answered(i, 0, 10.001));
+    results.push_back(Answered(i, 1, i % 2 ? 10.4 : 9.6));
   }
   const std::vector<std::string> notes = Notes(MakeLeaderboard(TwoIdentifiers(), results));
   EXPECT_THAT(notes, testing::Contains(testing::AllOf(testing::StartsWith("a: "),

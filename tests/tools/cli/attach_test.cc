@@ -23,7 +23,7 @@ std::string FrictionFile(const std::string& robot) {
 TEST(AttachCommand, WritesAModelWithFrictionOnEachNamedJoint) {
   const ScratchDirectory scratch;
   const std::string out = scratch.path() / "out.xml";
-  const Answer answer =
+  const ProgramAnswer answer =
       RunWarmjoint({"attach", "yumi_like", "--joint", "joint_4=" + FrictionFile("yumi_like"),
                     "--joint", "joint_1=" + FrictionFile("yumi_like"), "-o", out});
   ASSERT_EQ(answer.status, 0) << answer.err;
@@ -36,7 +36,7 @@ TEST(AttachCommand, TellsWhatItChanged) {
   const ScratchDirectory scratch;
   const std::string out = scratch.path() / "out.xml";
   const std::string urdf = DataFolder() / "models" / "robots" / "pendulum" / "pendulum.urdf";
-  const Answer answer =
+  const ProgramAnswer answer =
       RunWarmjoint({"attach", urdf, "--joint", "hinge=" + FrictionFile("pendulum"), "-o", out});
   EXPECT_EQ(answer.status, 0) << answer.err;
   EXPECT_THAT(answer.err, AllOf(HasSubstr("notice: hinge"), HasSubstr("effort limit")));
@@ -51,7 +51,7 @@ TEST(AttachCommand, WarnsOfAFrictionThatItsVerdictVoids) {
   for (const auto& [status, warns] :
        {std::pair("inadequate_model", true), std::pair("ok", false)}) {
     WriteWholeFile(estimate, nlohmann::json{{"status", status}, {"friction", friction}}.dump());
-    const Answer answer =
+    const ProgramAnswer answer =
         RunWarmjoint({"attach", "pendulum", "--joint", "hinge=" + estimate, "-o", out});
     EXPECT_EQ(answer.status, 0) << answer.err;
     EXPECT_EQ(answer.err.find("void") != std::string::npos, warns) << answer.err;
@@ -61,7 +61,7 @@ TEST(AttachCommand, WarnsOfAFrictionThatItsVerdictVoids) {
 TEST(AttachCommand, TakesPatternsFormAndChangesOfTheModel) {
   const ScratchDirectory scratch;
   const std::string out = scratch.path() / "out.xml";
-  const Answer answer = RunWarmjoint(
+  const ProgramAnswer answer = RunWarmjoint(
       {"attach", "yumi_like", "--joint", "joint_.*=" + FrictionFile("yumi_like"), "--armature",
        "joint_.*=0.125", "--timestep", "0.00025", "--integrator", "implicitfast", "-o", out});
   ASSERT_EQ(answer.status, 0) << answer.err;
@@ -79,7 +79,7 @@ TEST(AttachCommand, RefusesOptionsThatMakeNoSense) {
   const auto refusal = [&](const std::vector<std::string>& options) {
     std::vector<std::string> words{"attach", "pendulum", "--joint", joint, "-o", out};
     words.insert(words.end(), options.begin(), options.end());
-    const Answer answer = RunWarmjoint(words);
+    const ProgramAnswer answer = RunWarmjoint(words);
     EXPECT_EQ(answer.status, 2) << answer.out;
     return answer.err;
   };
@@ -99,7 +99,7 @@ TEST(AttachCommand, SaysThatARefusedEstimateHoldsNoFriction) {
   const ScratchDirectory scratch;
   const std::string estimate = scratch.path() / "estimate.json", out = scratch.path() / "out.xml";
   WriteWholeFile(estimate, R"({"status": "inadequate_model", "friction": null})");
-  const Answer answer =
+  const ProgramAnswer answer =
       RunWarmjoint({"attach", "pendulum", "--joint", "hinge=" + estimate, "-o", out});
   EXPECT_EQ(answer.status, 2);
   EXPECT_THAT(answer.err, AllOf(HasSubstr("holds no friction"), HasSubstr("--force")));
@@ -108,7 +108,7 @@ TEST(AttachCommand, SaysThatARefusedEstimateHoldsNoFriction) {
 TEST(AttachCommand, RefusesAnUnknownJointAndLeavesNothing) {
   const ScratchDirectory scratch;
   const std::string out = scratch.path() / "out.xml";
-  const Answer answer = RunWarmjoint(
+  const ProgramAnswer answer = RunWarmjoint(
       {"attach", "pendulum", "--joint", "hing=" + FrictionFile("pendulum"), "-o", out});
   EXPECT_EQ(answer.status, 2);
   EXPECT_THAT(answer.err, HasSubstr("did you mean 'hinge'"));
@@ -117,14 +117,14 @@ TEST(AttachCommand, RefusesAnUnknownJointAndLeavesNothing) {
 
 TEST(AttachCommand, RefusesAJointWithoutAFile) {
   const ScratchDirectory scratch;
-  const Answer answer = RunWarmjoint(
+  const ProgramAnswer answer = RunWarmjoint(
       {"attach", "pendulum", "--joint", "hinge", "-o", (scratch.path() / "out.xml").string()});
   EXPECT_EQ(answer.status, 2);
   EXPECT_THAT(answer.err, AllOf(HasSubstr("--joint"), HasSubstr("NAME=FILE")));
 }
 
 TEST(ListRobots, GivesEachWithItsJointsAndGear) {
-  const Answer answer = RunWarmjoint({"list", "robots", "--format", "json"});
+  const ProgramAnswer answer = RunWarmjoint({"list", "robots", "--format", "json"});
   ASSERT_EQ(answer.status, 0) << answer.err;
   const auto robots = nlohmann::json::parse(answer.out);
   ASSERT_EQ(robots.size(), RobotNames().size());

@@ -26,12 +26,12 @@ TEST_P(BadRecordings, AreRefusedAndLeaveNothingBehind) {
   const std::string recording = scratch.path() / "log.csv";
   WriteWholeFile(recording, GetParam().text);
 
-  const Answer check = RunWarmjoint({"check", recording});
+  const ProgramAnswer check = RunWarmjoint({"check", recording});
   EXPECT_EQ(check.status, 2);
   EXPECT_THAT(check.err, HasSubstr("log.csv"));
   EXPECT_THAT(check.err, HasSubstr(GetParam().message));
 
-  const Answer identify =
+  const ProgramAnswer identify =
       RunWarmjoint({"identify", recording, "--identifier", "nominal-ls", "-o",
                     scratch.path() / "e.json", "--mjcf", scratch.path() / "f.xml"});
   EXPECT_EQ(identify.status, 2);

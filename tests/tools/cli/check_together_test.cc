@@ -36,7 +36,7 @@ class CheckTogether : public testing::Test {
     WriteWholeFile(scratch_.path() / "broken.csv", "time,position\n0,1\n");
   }
 
-  Answer Run(std::vector<std::string> arguments) const {
+  ProgramAnswer Run(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), "check");
     return RunWarmjoint(std::move(arguments), Surroundings{scratch_.path(), {}});
   }
@@ -50,7 +50,7 @@ class CheckTogether : public testing::Test {
 };
 
 TEST_F(CheckTogether, AlikeRecordingsDifferInNothing) {
-  const Answer text = Run({"a.csv", "b.csv"});
+  const ProgramAnswer text = Run({"a.csv", "b.csv"});
   EXPECT_EQ(text.status, 0);
   EXPECT_THAT(text.out, HasSubstr("speeds +/-"));
   EXPECT_THAT(text.out, HasSubstr("are the same in all of them"));
@@ -76,7 +76,7 @@ TEST_F(CheckTogether, TellsWhatDiffers) {
 }
 
 TEST_F(CheckTogether, OneThatCannotBeReadIsTheWorst) {
-  const Answer text = Run({"a.csv", "broken.csv"});
+  const ProgramAnswer text = Run({"a.csv", "broken.csv"});
   EXPECT_EQ(text.status, 2);
   EXPECT_THAT(text.out, HasSubstr("unreadable"));
   EXPECT_THAT(text.out, HasSubstr("has no column"));

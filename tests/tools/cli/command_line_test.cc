@@ -11,13 +11,13 @@ namespace {
 using testing::HasSubstr;
 
 TEST(CommandLine, HelpAndVersionEndWell) {
-  const Answer help = RunWarmjoint({"--help"});
+  const ProgramAnswer help = RunWarmjoint({"--help"});
   EXPECT_EQ(help.status, 0);
   for (const char* name : {"list", "simulate", "check", "identify", "run", "compare"}) {
     EXPECT_THAT(help.out, HasSubstr(name));
     EXPECT_EQ(RunWarmjoint({name, "--help"}).status, 0);
   }
-  const Answer version = RunWarmjoint({"--version"});
+  const ProgramAnswer version = RunWarmjoint({"--version"});
   EXPECT_EQ(version.status, 0);
   EXPECT_THAT(version.out, HasSubstr("warmjoint 0."));
 }
@@ -46,7 +46,7 @@ TEST(CommandLine, RefusesWhatItDoesNotKnowWithTheNearest) {
       {{"simulate", "no-such.yaml", "-o", "d"}, "no-such.yaml"},
   };
   for (const Case& one : cases) {
-    const Answer answer = RunWarmjoint(one.arguments);
+    const ProgramAnswer answer = RunWarmjoint(one.arguments);
     EXPECT_EQ(answer.status, 2) << one.message;
     EXPECT_THAT(answer.err, HasSubstr(one.message));
     EXPECT_EQ(answer.out, "") << one.message;
@@ -55,11 +55,11 @@ TEST(CommandLine, RefusesWhatItDoesNotKnowWithTheNearest) {
 
 TEST(CommandLine, ListsEveryFamilyAsTextAndJson) {
   for (const char* family : {"laws", "identifiers", "robots", "suites"}) {
-    const Answer json = RunWarmjoint({"list", family, "--format", "json"});
+    const ProgramAnswer json = RunWarmjoint({"list", family, "--format", "json"});
     EXPECT_EQ(json.status, 0) << json.err;
     const auto members = nlohmann::json::parse(json.out);
     EXPECT_FALSE(members.empty()) << family;
-    const Answer text = RunWarmjoint({"list", family});
+    const ProgramAnswer text = RunWarmjoint({"list", family});
     EXPECT_EQ(text.status, 0);
     for (const auto& member : members) {
       EXPECT_THAT(text.out, HasSubstr(member.at("name").get<std::string>()));

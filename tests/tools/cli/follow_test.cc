@@ -44,13 +44,13 @@ class FollowTest : public testing::Test {
     ASSERT_EQ(Run({"identify", "day1.csv", "-o", "day1.json"}).status, 0);
   }
 
-  Answer Run(std::vector<std::string> arguments) const {
+  ProgramAnswer Run(std::vector<std::string> arguments) const {
     return RunWarmjoint(std::move(arguments), Surroundings{scratch_.path(), {}});
   }
 
   nlohmann::json Json(std::vector<std::string> arguments) const {
     arguments.insert(arguments.end(), {"--format", "json"});
-    const Answer answer = Run(std::move(arguments));
+    const ProgramAnswer answer = Run(std::move(arguments));
     return nlohmann::json::parse(answer.out, nullptr, false);
   }
 
@@ -126,7 +126,7 @@ TEST_F(FollowTest, PredictsWithTheHeatThatWasLeft) {
 
 TEST_F(FollowTest, RefusesWhatCannotFollow) {
   const auto refusal = [&](std::vector<std::string> arguments) {
-    const Answer answer = Run(std::move(arguments));
+    const ProgramAnswer answer = Run(std::move(arguments));
     EXPECT_EQ(answer.status, 2) << answer.err;
     return answer.err;
   };

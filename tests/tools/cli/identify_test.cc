@@ -27,7 +27,7 @@ TEST(Identify, WritesTheContractsJsonAndAFrictionFile) {
   const std::string recording = scratch.path() / "log.csv";
   WriteRecordingFile(recording, 480, SeveralSpeeds);
   const std::string output = scratch.path() / "estimate.json";
-  const Answer answer =
+  const ProgramAnswer answer =
       RunWarmjoint({"identify", recording, "--identifier", "nominal-ls", "-o", output});
   ASSERT_EQ(answer.status, 0) << answer.err;
   EXPECT_THAT(answer.out, HasSubstr("nominal-ls: ok"));
@@ -53,24 +53,24 @@ TEST(Identify, ReadsStandardInput) {
     return RunCommandLine({"sh", "-c", command}, here);
   };
   const std::string rest = " identify - --identifier nominal-ls --format json";
-  const Answer file =
+  const ProgramAnswer file =
       RunWarmjoint({"identify", "log.csv", "--identifier", "nominal-ls", "--format", "json"}, here);
 
   // the same numbers through a pipe, also a slow one, and from a redirected file
   for (const std::string& command :
        {"cat log.csv | " + program + rest, program + rest + " < log.csv",
         "(sleep 4; cat log.csv) | " + program + rest}) {
-    const Answer answer = piped(command);
+    const ProgramAnswer answer = piped(command);
     ASSERT_EQ(answer.status, 0) << answer.err;
     EXPECT_EQ(nlohmann::json::parse(answer.out).at("parameters"),
               nlohmann::json::parse(file.out).at("parameters"));
   }
 
   // standard input is no output, and cannot be read again
-  const Answer both = piped("cat log.csv | " + program + " identify - -o - | head -c 1");
+  const ProgramAnswer both = piped("cat log.csv | " + program + " identify - -o - | head -c 1");
   EXPECT_EQ(both.out, "{") << both.err;
   ASSERT_EQ(piped("cat log.csv | " + program + rest + " -o estimate.json").status, 0);
-  const Answer plot = RunWarmjoint({"plot", "estimate.json", "-o", "plots"}, here);
+  const ProgramAnswer plot = RunWarmjoint({"plot", "estimate.json", "-o", "plots"}, here);
   EXPECT_EQ(plot.status, 2);
   EXPECT_THAT(plot.err, HasSubstr("--recording"));
   EXPECT_THAT(piped(program + " check - < /dev/null").err, HasSubstr("standard input"));
@@ -83,7 +83,7 @@ TEST(Identify, PrintsTheSameJsonAsItWrites) {
   const std::string output = scratch.path() / "estimate.json";
   const std::vector<std::string> command{"identify", recording, "--identifier", "nominal-ls",
                                          "--format", "json",    "-o",           output};
-  const Answer answer = RunWarmjoint(command);
+  const ProgramAnswer answer = RunWarmjoint(command);
   ASSERT_EQ(answer.status, 0) << answer.err;
   auto printed = nlohmann::json::parse(answer.out);
   EXPECT_EQ(printed, nlohmann::json::parse(ReadWholeFile(output)));
@@ -148,8 +148,8 @@ TEST(Identify, OneSpeedAloneGivesStatus3AndNoNumbers) {
     const std::string name = identifier.at("name");
     if (name == "auto") continue;  // takes a law without slope
     const std::string output = scratch.path() / (name + ".json");
-    const Answer answer = RunWarmjoint({"identify", recording, "--identifier", name, "-o", output,
-                                        "--mjcf", scratch.path() / (name + ".xml")});
+    const ProgramAnswer answer = RunWarmjoint({"identify", recording, "--identifier", name, "-o",
+                                               output, "--mjcf", scratch.path() / (name + ".xml")});
     EXPECT_EQ(answer.status, 3) << name;
     EXPECT_THAT(answer.out, HasSubstr("not_identifiable")) << name;
     const auto estimate = nlohmann::json::parse(ReadWholeFile(output));
@@ -167,12 +167,12 @@ TEST(Identify, TakesSeveralRecordingsAtOnce) {
   WriteRecordingFile(first, 480, SeveralSpeeds);
   WriteRecordingFile(second, 240, SeveralSpeeds);
   const std::string output = scratch.path() / "estimate.json";
-  const Answer answer =
+  const ProgramAnswer answer =
       RunWarmjoint({"identify", first, second, "--identifier", "nominal-ls", "-o", output});
   ASSERT_EQ(answer.status, 0) << answer.err;
   EXPECT_EQ(nlohmann::json::parse(ReadWholeFile(output)).at("metrics").at("n"), 720);
 
-  const Answer check = RunWarmjoint({"check", first, second, "--format", "json"});
+  const ProgramAnswer check = RunWarmjoint({"check", first, second, "--format", "json"});
   ASSERT_EQ(check.status, 0) << check.err;
   EXPECT_EQ(nlohmann::json::parse(check.out).at("recordings").size(), 2u);
   EXPECT_THAT(RunWarmjoint({"check", first, second}).out,
@@ -187,7 +187,7 @@ TEST(Identify, SaysWhyThereAreNoHeldOutFigures) {
   const auto reason = [&](const std::vector<std::string>& more) {
     std::vector<std::string> command{"identify", recording, "--identifier", "nominal-ls"};
     command.insert(command.end(), more.begin(), more.end());
-    const Answer text = RunWarmjoint(command);
+    const ProgramAnswer text = RunWarmjoint(command);
     command.insert(command.end(), {"--format", "json"});
     const auto estimate = nlohmann::json::parse(RunWarmjoint(command).out);
     const std::string why = estimate.value("without_holdout", "");
@@ -211,7 +211,7 @@ TEST(Identify, TellsGravityFromFrictionOrSaysWhyNot) {
     more.insert(more.begin(), {"identify", recording, "-o", output});
     return RunWarmjoint(more);
   };
-  const Answer answer = identify({"--identifier", "nominal-ls", "--gravity", "sincos"});
+  const ProgramAnswer answer = identify({"--identifier", "nominal-ls", "--gravity", "sincos"});
   EXPECT_EQ(answer.status, 0) << answer.err;
   EXPECT_THAT(answer.out, HasSubstr("gravity_cosine"));
   const auto estimate = nlohmann::json::parse(ReadWholeFile(output));
@@ -219,10 +219,10 @@ TEST(Identify, TellsGravityFromFrictionOrSaysWhyNot) {
   // nothing pulls: the ripple of 0.2 N.m over 480 samples, four times
   EXPECT_NEAR(estimate.at("gravity").at("sine").get<double>(), 0, 4 * 0.2 / std::sqrt(480));
 
-  const Answer linear = identify({"--joint", "linear", "--gravity", "sincos"});
+  const ProgramAnswer linear = identify({"--joint", "linear", "--gravity", "sincos"});
   EXPECT_EQ(linear.status, 2);
   EXPECT_THAT(linear.err, HasSubstr("use paired"));
-  const Answer unable = identify({"--identifier", "stribeck", "--gravity", "sincos"});
+  const ProgramAnswer unable = identify({"--identifier", "stribeck", "--gravity", "sincos"});
   EXPECT_EQ(unable.status, 2);
   EXPECT_THAT(unable.err, HasSubstr("stribeck cannot tell gravity from friction; use one of"));
 }
@@ -247,7 +247,7 @@ TEST(Identify, AnInadequateModelGivesStatus3AndVoidNumbersOnlyByForce) {
                      [](int i) { return -5.0 * (1 - std::exp(-i / 600.0)); });
   std::vector<std::string> command{"identify", recording, "--identifier", "nominal-ls",
                                    "-o",       output,    "--mjcf",       model};
-  const Answer answer = RunWarmjoint(command);
+  const ProgramAnswer answer = RunWarmjoint(command);
   EXPECT_EQ(answer.status, 3) << answer.out;
   EXPECT_THAT(answer.out, HasSubstr("inadequate_model"));
   EXPECT_THAT(answer.out, HasSubstr("held out"));
@@ -257,7 +257,7 @@ TEST(Identify, AnInadequateModelGivesStatus3AndVoidNumbersOnlyByForce) {
   EXPECT_FALSE(std::filesystem::exists(model));
 
   command.push_back("--force");
-  const Answer forced = RunWarmjoint(command);
+  const ProgramAnswer forced = RunWarmjoint(command);
   EXPECT_EQ(forced.status, 3);
   EXPECT_THAT(forced.out, HasSubstr("void parameter"));
   estimate = nlohmann::json::parse(ReadWholeFile(output));
@@ -292,12 +292,12 @@ TEST(Identify, TriesACommandOnOneRecordingAndJudgesIt) {
                                "mine=sh " + script + " {recording} {estimate}"});
     return RunWarmjoint(more);
   };
-  const Answer good = identify("good.sh", {"-o", "estimate.json", "--mjcf", "friction.xml"});
-  const Answer bad = identify("bad.sh"), crash = identify("none.sh");
-  const Answer slow = identify("good.sh", {"--set", "time_limit=0.0001"});
-  const Answer ours = identify("good.sh", {"--gravity", "sincos"});
-  const Answer word = identify("good.sh", {"--set", "time_limi=1"});
-  const Answer bare = RunWarmjoint({"identify", "log.csv", "--identifier", "mine=good.sh"});
+  const ProgramAnswer good = identify("good.sh", {"-o", "estimate.json", "--mjcf", "friction.xml"});
+  const ProgramAnswer bad = identify("bad.sh"), crash = identify("none.sh");
+  const ProgramAnswer slow = identify("good.sh", {"--set", "time_limit=0.0001"});
+  const ProgramAnswer ours = identify("good.sh", {"--gravity", "sincos"});
+  const ProgramAnswer word = identify("good.sh", {"--set", "time_limi=1"});
+  const ProgramAnswer bare = RunWarmjoint({"identify", "log.csv", "--identifier", "mine=good.sh"});
   std::filesystem::current_path(before);
 
   EXPECT_EQ(good.status, 0) << good.err;
@@ -327,7 +327,7 @@ TEST(Identify, ReadsAForeignLogOfALinearAxis) {
   WARMJOINT_NEED_SHARED("data/emps/DATA_EMPS.csv");
   const ScratchDirectory scratch;
   const std::string output = scratch.path() / "estimate.json";
-  const Answer answer =
+  const ProgramAnswer answer =
       RunWarmjoint({"identify", test::SharedFolder() / "data/emps/DATA_EMPS.csv", "--map",
                     "time=t_s,position=q_m,torque=force_N", "--joint", "linear", "--identifier",
                     "nominal-ls", "--set", "law=asymmetric", "--force", "-o", output});

@@ -33,7 +33,7 @@ TEST_P(LongInputs, AreRefusedInFewWords) {
     }
     if (argument == "OUT") argument = scratch.path() / "out";
   }
-  const Answer answer = RunWarmjoint(arguments);
+  const ProgramAnswer answer = RunWarmjoint(arguments);
   EXPECT_EQ(answer.status, 2);
   // the longest that is not the input's own: a list of 24 known names beside an excerpt of 60
   EXPECT_LT(answer.err.size(), 900u) << answer.err;

@@ -13,7 +13,7 @@ namespace {
 
 class New : public testing::Test {
  protected:
-  Answer Program(const std::vector<std::string>& arguments) const {
+  ProgramAnswer Program(const std::vector<std::string>& arguments) const {
     return RunWarmjoint(arguments, {scratch_.path(), {}});
   }
   nlohmann::json Json(const std::vector<std::string>& arguments) const {
@@ -25,7 +25,7 @@ class New : public testing::Test {
 
 TEST_F(New, ScenarioCanBeSimulatedAndIdentified) {
   ASSERT_EQ(Program({"new", "scenario", "mine"}).status, 0);
-  const Answer simulated = Program({"simulate", "mine.yaml", "-o", "mine"});
+  const ProgramAnswer simulated = Program({"simulate", "mine.yaml", "-o", "mine"});
   ASSERT_EQ(simulated.status, 0) << simulated.err;
   const auto estimate = Json({"identify", "mine/recording.csv", "--format", "json"});
   EXPECT_EQ(estimate.at("status"), "ok") << estimate.at("message");
@@ -37,7 +37,7 @@ TEST_F(New, ScenarioCanBeSimulatedAndIdentified) {
 
 TEST_F(New, SuiteCanBeRun) {
   ASSERT_EQ(Program({"new", "suite", "my_ladder"}).status, 0);
-  const Answer run =
+  const ProgramAnswer run =
       Program({"run", "my_ladder.yaml", "-o", "run", "--realizations", "2", "--jobs", "1"});
   ASSERT_EQ(run.status, 0) << run.err;
   const auto board = Json({"compare", "run", "--format", "json"});
@@ -49,9 +49,9 @@ TEST_F(New, IdentifierAnswersInPlainPython) {
   const std::string python = "/usr/bin/python3";  // what the wall around commands lets through
   if (!std::filesystem::exists(python)) GTEST_SKIP() << python << " is absent";
   ASSERT_EQ(Program({"new", "identifier", "mine"}).status, 0);
-  const Answer run = Program({"run", "table1", "-o", "run", "--realizations", "1", "--identifier",
-                              "mine=" + python + " ./mine.py {recording} {estimate}",
-                              "--identifier", "nominal-ls"});
+  const ProgramAnswer run = Program(
+      {"run", "table1", "-o", "run", "--realizations", "1", "--identifier",
+       "mine=" + python + " ./mine.py {recording} {estimate}", "--identifier", "nominal-ls"});
   ASSERT_EQ(run.status, 0) << run.err;
   // the same least squares as ours: the same figures
   const auto rows = Json({"compare", "run", "--format", "json"}).at("rows");

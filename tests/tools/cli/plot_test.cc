@@ -42,8 +42,8 @@ std::vector<std::string> NamesOf(const std::map<std::string, std::string>& files
 }
 
 /// Runs the program; what it says.
-Answer Call(const std::vector<std::string>& arguments) {
-  Answer answer = RunWarmjoint(arguments);
+ProgramAnswer Call(const std::vector<std::string>& arguments) {
+  ProgramAnswer answer = RunWarmjoint(arguments);
   EXPECT_EQ(answer.status, 0) << answer.err;
   return answer;
 }
@@ -84,7 +84,7 @@ TEST(Plot, DrawsARunToTheSameBytesBesideTheNumbersOfCompare) {
   const std::size_t board = page.find(open) + open.size();
   const auto held =
       nlohmann::json::parse(page.substr(board, page.find("</script>", board) - board));
-  const Answer compared = Call({"compare", at("run"), "--format", "json"});
+  const ProgramAnswer compared = Call({"compare", at("run"), "--format", "json"});
   EXPECT_EQ(held, nlohmann::json::parse(compared.out));
 }
 
@@ -94,7 +94,7 @@ TEST(Plot, DrawsWhatASimulationAndItsEstimateTell) {
   WriteWholeFile(at("warm.yaml"), TableOneYaml(1800));
   Call({"simulate", at("warm.yaml"), "-o", at("warm")});
   Call({"identify", at("warm/recording.csv"), "-o", at("estimate.json"), "--plot", at("fit.png")});
-  const Answer plotted = Call({"plot", at("warm"), at("estimate.json"), "-o", at("both")});
+  const ProgramAnswer plotted = Call({"plot", at("warm"), at("estimate.json"), "-o", at("both")});
   EXPECT_THAT(NamesOf(FilesOf(at("both/warm"))), UnorderedElementsAre("envelope.png"));
   const auto files = FilesOf(at("both/estimate"));
   EXPECT_THAT(
@@ -118,7 +118,7 @@ TEST(Plot, DrawsTheFigureThatThePaperNumbersInTheFormatAsked) {
   }
   EXPECT_THAT(FilesOf(at("svg")).at("kernels.csv"), HasSubstr("panel,series,kind,x,y"));
 
-  const Answer other = RunWarmjoint({"plot", "kernels", "--figure", "9", "-o", at("other")});
+  const ProgramAnswer other = RunWarmjoint({"plot", "kernels", "--figure", "9", "-o", at("other")});
   EXPECT_EQ(other.status, 2);
   EXPECT_THAT(other.err, HasSubstr("figure 9 of the paper (motor_fit) needs an estimate with a map "
                                    "over the motor's angle; this source gives: kernels"));
@@ -128,7 +128,8 @@ TEST(Plot, DrawsTheFigureThatThePaperNumbersInTheFormatAsked) {
             2)
       << "it has no room";
   // without a name it is left out, and told
-  const Answer small = RunWarmjoint({"plot", "kernels", "--size", "20x20", "-o", at("small")});
+  const ProgramAnswer small =
+      RunWarmjoint({"plot", "kernels", "--size", "20x20", "-o", at("small")});
   EXPECT_EQ(small.status, 0);
   EXPECT_THAT(small.err, HasSubstr("kernels: left out: 'kernels' is too small"));
   EXPECT_TRUE(fs::is_empty(at("small")));
@@ -138,7 +139,7 @@ TEST(Plot, DrawsTheFigureThatThePaperNumbersInTheFormatAsked) {
 TEST(Plot, RefusesWhatIsNoSourceAndLeavesNothingBehind) {
   const ScratchDirectory scratch;
   const auto at = [&](const std::string& name) { return std::string(scratch.path() / name); };
-  const Answer answer = RunWarmjoint({"plot", at("nothing"), "-o", at("pictures")});
+  const ProgramAnswer answer = RunWarmjoint({"plot", at("nothing"), "-o", at("pictures")});
   EXPECT_EQ(answer.status, 2);
   EXPECT_THAT(answer.err, HasSubstr(at("nothing")));
   EXPECT_FALSE(fs::exists(at("pictures")));

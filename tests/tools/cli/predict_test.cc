@@ -25,12 +25,12 @@ class PredictTest : public testing::Test {
   void SetUp() override {
     WriteRecordingFile(scratch_.path() / "log.csv", 480, SeveralSpeeds);
     WriteRecordingFile(scratch_.path() / "other.csv", 240, OtherSpeeds);
-    const Answer answer =
+    const ProgramAnswer answer =
         Run({"identify", "log.csv", "--identifier", "nominal-ls", "-o", "e.json"});
     ASSERT_EQ(answer.status, 0) << answer.err;
   }
 
-  Answer Run(std::vector<std::string> arguments) const {
+  ProgramAnswer Run(std::vector<std::string> arguments) const {
     return RunWarmjoint(std::move(arguments), Surroundings{scratch_.path(), {}});
   }
 
@@ -38,7 +38,7 @@ class PredictTest : public testing::Test {
 };
 
 TEST_F(PredictTest, TellsHowWellAStoredEstimateFitsAnotherRecording) {
-  const Answer answer = Run({"predict", "e.json", "other.csv", "--format", "json"});
+  const ProgramAnswer answer = Run({"predict", "e.json", "other.csv", "--format", "json"});
   ASSERT_EQ(answer.status, 0) << answer.err;
   const auto told = nlohmann::json::parse(answer.out);
   EXPECT_EQ(told.at("metrics").at("n"), 240);
@@ -48,7 +48,7 @@ TEST_F(PredictTest, TellsHowWellAStoredEstimateFitsAnotherRecording) {
 }
 
 TEST_F(PredictTest, WritesPredictionsAndResiduals) {
-  const Answer answer = Run({"predict", "e.json", "other.csv", "-o", "p.csv"});
+  const ProgramAnswer answer = Run({"predict", "e.json", "other.csv", "-o", "p.csv"});
   ASSERT_EQ(answer.status, 0) << answer.err;
   EXPECT_THAT(answer.out, HasSubstr("RMSE N.m"));
   const std::string csv = ReadWholeFile(scratch_.path() / "p.csv");
@@ -61,13 +61,13 @@ TEST_F(PredictTest, RefusesAnEstimateWithoutFriction) {
   json["friction"] = nullptr;
   json["status"] = "inadequate_model";
   WriteWholeFile(scratch_.path() / "void.json", json.dump());
-  const Answer answer = Run({"predict", "void.json", "other.csv"});
+  const ProgramAnswer answer = Run({"predict", "void.json", "other.csv"});
   EXPECT_EQ(answer.status, 2);
   EXPECT_THAT(answer.err, HasSubstr("is inadequate_model and holds no friction"));
 }
 
 TEST_F(PredictTest, RefusesAHeatThatTheEstimateDoesNotKnow) {
-  const Answer answer = Run({"predict", "e.json", "other.csv", "--initial", "warm"});
+  const ProgramAnswer answer = Run({"predict", "e.json", "other.csv", "--initial", "warm"});
   EXPECT_EQ(answer.status, 2);
   EXPECT_THAT(answer.err, HasSubstr("cold, end or settled:SPEED"));
 }
@@ -76,7 +76,7 @@ TEST_F(PredictTest, SeveralIdentifiersShareTheirHeldOutBlocks) {
   const std::vector<std::string> command{"identify",   "log.csv",      "--identifier",
                                          "nominal-ls", "--identifier", "energy-ml",
                                          "--set",      "law=coulomb"};
-  const Answer text = Run(command);
+  const ProgramAnswer text = Run(command);
   EXPECT_THAT(text.out, HasSubstr("held-out RMSE N.m"));
   auto as_json = command;
   as_json.insert(as_json.end(), {"--format", "json"});
@@ -95,7 +95,7 @@ TEST_F(PredictTest, TorqueConstantMakesTorqueOfACurrent) {
   const std::vector<std::string> amperes{"identify", "log.csv",  "--identifier",      "nominal-ls",
                                          "--unit",   "torque=A", "--torque-constant", "2",
                                          "--format", "json"};
-  const Answer answer = Run(amperes);
+  const ProgramAnswer answer = Run(amperes);
   ASSERT_EQ(answer.status, 0) << answer.err;
   const auto estimate = nlohmann::json::parse(answer.out);
   const auto before = nlohmann::json::parse(ReadWholeFile(scratch_.path() / "e.json"));
@@ -107,7 +107,7 @@ TEST_F(PredictTest, TorqueConstantMakesTorqueOfACurrent) {
   EXPECT_FALSE(estimate.at("friction").is_null());
 
   // a torque is no current
-  const Answer refused = Run({"identify", "log.csv", "--torque-constant", "2"});
+  const ProgramAnswer refused = Run({"identify", "log.csv", "--torque-constant", "2"});
   EXPECT_EQ(refused.status, 2);
   EXPECT_THAT(refused.err, HasSubstr("give --unit torque=A"));
 }

@@ -22,7 +22,7 @@ TEST(RepeatMotion, CarriesARecordingOutAgainAndComparesItsTorque) {
                  "friction: {law: viscous_coulomb, parameters: {viscous: 5, coulomb: 15}}\n"
                  "sampling: {rate: 10, sensor_rate: 100}\n");
   const std::string folder = scratch.path() / "again";
-  const Answer answer = RunWarmjoint({"simulate", scenario, "--motion", log, "-o", folder});
+  const ProgramAnswer answer = RunWarmjoint({"simulate", scenario, "--motion", log, "-o", folder});
   ASSERT_EQ(answer.status, 0) << answer.err;
   EXPECT_THAT(answer.out, HasSubstr("simulated against recorded torque at"));
   EXPECT_THAT(answer.out, HasSubstr("RMSE"));
@@ -34,7 +34,8 @@ TEST(RepeatMotion, CarriesARecordingOutAgainAndComparesItsTorque) {
 }
 
 TEST(RepeatMotion, RefusesARunBesideIt) {
-  const Answer answer = RunWarmjoint({"simulate", "--from", "R", "--motion", "L", "-o", "D"});
+  const ProgramAnswer answer =
+      RunWarmjoint({"simulate", "--from", "R", "--motion", "L", "-o", "D"});
   EXPECT_EQ(answer.status, 2);
 }
 

@@ -56,7 +56,7 @@ std::vector<std::string> WithProgram(const std::vector<std::string>& arguments) 
 
 }  // namespace
 
-Answer RunCommandLine(const std::vector<std::string>& words, const Surroundings& where) {
+ProgramAnswer RunCommandLine(const std::vector<std::string>& words, const Surroundings& where) {
   const ScratchDirectory scratch;
   const std::string out = scratch.path() / "out";
   const std::string err = scratch.path() / "err";
@@ -64,12 +64,12 @@ Answer RunCommandLine(const std::vector<std::string>& words, const Surroundings&
   return {status, ReadWholeFile(out), ReadWholeFile(err)};
 }
 
-Answer RunWarmjoint(const std::vector<std::string>& arguments, const Surroundings& where) {
+ProgramAnswer RunWarmjoint(const std::vector<std::string>& arguments, const Surroundings& where) {
   return RunCommandLine(WithProgram(arguments), where);
 }
 
-Answer RunOnTerminal(const std::vector<std::string>& arguments, int columns,
-                     const Surroundings& where) {
+ProgramAnswer RunOnTerminal(const std::vector<std::string>& arguments, int columns,
+                            const Surroundings& where) {
   const std::vector<std::string> words = WithProgram(arguments);
   const winsize size{24, static_cast<unsigned short>(columns), 0, 0};
   int terminal = -1;
@@ -77,7 +77,7 @@ Answer RunOnTerminal(const std::vector<std::string>& arguments, int columns,
   if (child == 0) Become(words, where);
 
   // all that is shown, until the child has closed its side
-  Answer answer;
+  ProgramAnswer answer;
   std::array<char, 4096> block;
   for (ssize_t n; (n = read(terminal, block.data(), block.size())) > 0;) {
     answer.out.append(block.data(), static_cast<std::size_t>(n));

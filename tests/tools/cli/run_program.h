@@ -9,7 +9,7 @@
 namespace warmjoint {
 
 /// What a run of the program answered.
-struct Answer {
+struct ProgramAnswer {
   int status = 0;   // exit status; 128 + signal for a killed one
   std::string out;  // stdout
   std::string err;  // stderr
@@ -23,15 +23,16 @@ struct Surroundings {
 };
 
 /// Runs build/warmjoint with the arguments to its end.
-Answer RunWarmjoint(const std::vector<std::string>& arguments, const Surroundings& where = {});
+ProgramAnswer RunWarmjoint(const std::vector<std::string>& arguments,
+                           const Surroundings& where = {});
 
 /// Runs any command, given by its words, the first of which is found in PATH.
-Answer RunCommandLine(const std::vector<std::string>& words, const Surroundings& where = {});
+ProgramAnswer RunCommandLine(const std::vector<std::string>& words, const Surroundings& where = {});
 
 /// Runs build/warmjoint on a terminal of so many columns; `out` holds all that it showed there, stdout and
 /// stderr in turn, and `err` nothing.
-Answer RunOnTerminal(const std::vector<std::string>& arguments, int columns,
-                     const Surroundings& where = {});
+ProgramAnswer RunOnTerminal(const std::vector<std::string>& arguments, int columns,
+                            const Surroundings& where = {});
 
 /// Starts it, sends the signal after `delay` seconds, and returns 128 + signal, or the exit status
 /// of a run that was quicker.

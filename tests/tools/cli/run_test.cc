@@ -80,7 +80,8 @@ TEST_F(Run, EveryFileHasTheSameBytesForAnyNumberOfThreads) {
 }
 
 TEST_F(Run, AShardWithoutRealizationsIsDone) {
-  const Answer answer = RunWarmjoint(Command("empty", {"--realizations", "3", "--shard", "4/4"}));
+  const ProgramAnswer answer =
+      RunWarmjoint(Command("empty", {"--realizations", "3", "--shard", "4/4"}));
   EXPECT_EQ(answer.status, 0) << answer.err;
   EXPECT_THAT(answer.out, HasSubstr("0 results"));
 }
@@ -90,7 +91,7 @@ TEST_F(Run, TakesSeedsOf64BitsAndNoNegativeOnes) {
   ASSERT_EQ(RunWarmjoint(Command("run", {"--realizations", "2", "--seed", largest})).status, 0);
   EXPECT_EQ(RunWarmjoint({"compare", Directory("run")}).status, 0) << "its own suite.yaml";
   for (const std::string seed : {"-1", "18446744073709551616", "1.5"}) {
-    const Answer answer = RunWarmjoint(Command("none", {"--seed", seed}));
+    const ProgramAnswer answer = RunWarmjoint(Command("none", {"--seed", seed}));
     EXPECT_EQ(answer.status, 2);
     EXPECT_THAT(answer.err, HasSubstr("--seed: is '" + seed + "'"));
   }
@@ -102,7 +103,7 @@ TEST_F(Run, AnEditedCopyOfTheSuiteIsNotBelieved) {
   std::string text = ReadWholeFile(copy);
   text.resize(text.find("  - name: \"energy-em\""));
   WriteWholeFile(copy, text);
-  const Answer answer = RunWarmjoint({"compare", Directory("run"), "--format", "json"});
+  const ProgramAnswer answer = RunWarmjoint({"compare", Directory("run"), "--format", "json"});
   EXPECT_EQ(nlohmann::json::parse(answer.out).at("rows").size(), 2u);
   EXPECT_THAT(answer.err, HasSubstr("suite.yaml was edited"));
 }
@@ -130,7 +131,7 @@ TEST_F(Run, AnotherRunInTheSameDirectoryIsRefusedWithWhatDiffers) {
   ASSERT_EQ(RunWarmjoint(Command("run", {"--realizations", "2"})).status, 0);
   const std::string results = Results("run");
   const auto refusal = [&](const std::vector<std::string>& more) {
-    const Answer answer = RunWarmjoint(Command("run", more));
+    const ProgramAnswer answer = RunWarmjoint(Command("run", more));
     EXPECT_EQ(answer.status, 2);
     return answer.err;
   };
@@ -147,7 +148,7 @@ TEST_F(Run, TakesTheIdentifiersThatAreNamed) {
   ASSERT_EQ(
       RunWarmjoint(Command("ls", {"--realizations", "2", "--identifier", "nominal-ls"})).status, 0);
   EXPECT_THAT(Results("ls"), Not(HasSubstr("em,")));
-  const Answer unknown = RunWarmjoint(Command("none", {"--identifier", "nominal"}));
+  const ProgramAnswer unknown = RunWarmjoint(Command("none", {"--identifier", "nominal"}));
   EXPECT_EQ(unknown.status, 2);
   EXPECT_THAT(unknown.err, HasSubstr("nominal-ls"));
   EXPECT_FALSE(std::filesystem::exists(Directory("none"))) << "left behind";
@@ -164,13 +165,13 @@ TEST_F(Run, ShardsMergeToTheBytesOfTheWhole) {
   EXPECT_THAT(Different(Directory("merged"), Directory("whole")), testing::IsEmpty());
   EXPECT_LT(Results("first").size(), Results("whole").size());
 
-  const Answer twice =
+  const ProgramAnswer twice =
       RunWarmjoint({"merge", Directory("first"), Directory("first"), "-o", Directory("twice")});
   EXPECT_EQ(twice.status, 2);
   EXPECT_THAT(twice.err, HasSubstr("holds realization 0"));
   EXPECT_FALSE(std::filesystem::exists(Directory("twice"))) << "left behind";
 
-  const Answer half = RunWarmjoint({"merge", Directory("second"), "-o", Directory("half")});
+  const ProgramAnswer half = RunWarmjoint({"merge", Directory("second"), "-o", Directory("half")});
   EXPECT_EQ(half.status, 0);
   EXPECT_THAT(half.out, HasSubstr("20 of 40 realizations"));
   EXPECT_THAT(half.err, HasSubstr("no shard holds 20 realizations (0, 2, 4"));
@@ -184,7 +185,7 @@ TEST_F(Run, ReplaysOneRealizationBitForBit) {
             0);
   EXPECT_EQ(ReadWholeFile(Directory("replay") + "/truth.json"),
             ReadWholeFile(Directory("run") + "/recordings/variant-0/realization-3.truth.json"));
-  const Answer beyond = RunWarmjoint(
+  const ProgramAnswer beyond = RunWarmjoint(
       {"simulate", "--from", Directory("run"), "--realization", "4", "-o", Directory("none")});
   EXPECT_EQ(beyond.status, 2);
   EXPECT_THAT(beyond.err, HasSubstr("has 0 to 3"));
@@ -217,11 +218,11 @@ TEST_F(Run, IdentifiersOfOthersStandBesideOurs) {
 }
 
 TEST_F(Run, IsDoneWhenAllResultsAreVerdictsButNotWithoutAnyAnswer) {
-  const Answer verdicts =
+  const ProgramAnswer verdicts =
       RunWarmjoint(Command("run", {"--realizations", "2", "--identifier", "nominal-ls"}));
   EXPECT_EQ(verdicts.status, 0) << verdicts.err;
   EXPECT_THAT(verdicts.out, HasSubstr("2 results, 2 refused by their own verdict;"));
-  const Answer silence = RunWarmjoint(Command(
+  const ProgramAnswer silence = RunWarmjoint(Command(
       "silent", {"--realizations", "2", "--identifier", "broken=false {recording} {estimate}"}));
   EXPECT_EQ(silence.status, 5);
   EXPECT_THAT(silence.out, HasSubstr("2 results, 2 without an answer;"));
@@ -241,13 +242,13 @@ TEST_F(Run, SaysOfTheWholeWhatItsShardsDoNot) {
     EXPECT_EQ(RunWarmjoint(command).status, 0);
   }
   EXPECT_EQ(RunWarmjoint({"merge", parts[0], "-o", Directory("half")}).status, 0);
-  const Answer whole = RunWarmjoint({"merge", parts[0], parts[1], "-o", Directory("whole")});
+  const ProgramAnswer whole = RunWarmjoint({"merge", parts[0], parts[1], "-o", Directory("whole")});
   EXPECT_EQ(whole.status, 5);
   EXPECT_THAT(whole.err, HasSubstr("broken answered in no realization"));
 
   std::vector<std::string> planned = Command("planned", more);
   planned.insert(planned.end(), {"--local-shards", "1", "--shards", "2"});
-  const Answer first = RunWarmjoint(planned);
+  const ProgramAnswer first = RunWarmjoint(planned);
   EXPECT_EQ(first.status, 5) << first.err;
   EXPECT_EQ(RunWarmjoint({"task", Directory("planned"), "1"}).status, 0);
   EXPECT_EQ(RunWarmjoint(planned).status, 5) << "also when all is there";
@@ -273,11 +274,11 @@ TEST_F(Run, ACommandJoinsTheSuitesIdentifiersWithItsFilesByBareName) {
   WriteWholeFile(scratch_.path() / "mine.sh", kMine);
   const auto before = std::filesystem::current_path();
   std::filesystem::current_path(scratch_.path());
-  const Answer added =
+  const ProgramAnswer added =
       RunWarmjoint({"run", "little.yaml", "-o", "added", "--realizations", "2", "--identifier",
                     "+mine=sh mine.sh {recording} {estimate}", "--identifier", "+energy-ml"});
-  const Answer twice = RunWarmjoint({"run", "little.yaml", "-o", "twice", "--identifier",
-                                     "+em=sh mine.sh {recording} {estimate}"});
+  const ProgramAnswer twice = RunWarmjoint({"run", "little.yaml", "-o", "twice", "--identifier",
+                                            "+em=sh mine.sh {recording} {estimate}"});
   std::filesystem::current_path(before);
   EXPECT_EQ(added.status, 0) << added.err;
   EXPECT_THAT(RowsOf(Directory("added")),
@@ -293,11 +294,11 @@ TEST_F(Run, ACommandOfASuiteFindsItsFilesBesideTheSuite) {
   WriteWholeFile(suite_, SuiteText() +
                              "  - {name: mine, command: \"sh mine.sh {recording} "
                              "{estimate}\"}\n");
-  const Answer asked = RunWarmjoint(Command("run", {"--realizations", "2"}));
+  const ProgramAnswer asked = RunWarmjoint(Command("run", {"--realizations", "2"}));
   EXPECT_EQ(asked.status, 2);
   EXPECT_THAT(asked.err, HasSubstr("--allow-commands"));
   const std::vector<std::string> more{"--realizations", "2", "--allow-commands"};
-  const Answer allowed = RunWarmjoint(Command("run", more));
+  const ProgramAnswer allowed = RunWarmjoint(Command("run", more));
   EXPECT_EQ(allowed.status, 0) << allowed.err;
   EXPECT_THAT(allowed.err, Not(HasSubstr("warning"))) << "the suite stays hidden from it";
   EXPECT_THAT(RowsOf(Directory("run")), testing::Contains("mine"));
@@ -316,7 +317,7 @@ TEST_F(Run, NoticesJointsThatDoNotFollow) {
                  "  motion: {speeds: [0.1, 0.2], hold: 10}\n  timestep: 0.002\n  duration: 100\n"
                  "ladder: {variable: controller.bandwidth, values: [5, 100]}\n"
                  "identifiers:\n  - {name: nominal-ls}\n");
-  const Answer answer = RunWarmjoint(Command("run"));
+  const ProgramAnswer answer = RunWarmjoint(Command("run"));
   EXPECT_THAT(answer.err, HasSubstr("in 2 of 4 simulated realizations the joint did not follow"));
   EXPECT_THAT(answer.err, HasSubstr("of 5 the joint reached its commanded speed in"));
   // (2 * 15 / 0.1) / 0.895 / 5.4 = 62.1 rad/s
@@ -345,7 +346,7 @@ TEST_F(Run, CommandsOfASuiteNeedConsent) {
       "{estimate}\"}}\n";
   WriteWholeFile(suite_, SuiteText() + entry);
   const std::vector<std::string> two{"--realizations", "2"};
-  const Answer asked = RunWarmjoint(Command("run", two));
+  const ProgramAnswer asked = RunWarmjoint(Command("run", two));
   EXPECT_EQ(asked.status, 2);
   EXPECT_THAT(asked.err, HasSubstr("runs the command 'touch P"));
   EXPECT_THAT(asked.err, HasSubstr("--allow-commands"));
@@ -354,7 +355,8 @@ TEST_F(Run, CommandsOfASuiteNeedConsent) {
       << "it is not run";
 
   // touch answers nothing: the run is complete and says so
-  const Answer allowed = RunWarmjoint(Command("run", {"--realizations", "2", "--allow-commands"}));
+  const ProgramAnswer allowed =
+      RunWarmjoint(Command("run", {"--realizations", "2", "--allow-commands"}));
   EXPECT_EQ(allowed.status, 5);
   EXPECT_THAT(allowed.err, HasSubstr("theirs answered in no realization"));
   EXPECT_THAT(allowed.err,
@@ -365,7 +367,7 @@ TEST_F(Run, BadSuitesLeaveNothingBehind) {
   std::string text = SuiteText();
   text.replace(text.find("name: nominal-ls"), 16, "name: nominal-sl");
   WriteWholeFile(suite_, text);
-  const Answer answer = RunWarmjoint(Command("run"));
+  const ProgramAnswer answer = RunWarmjoint(Command("run"));
   EXPECT_EQ(answer.status, 2);
   EXPECT_THAT(answer.err, HasSubstr("did you mean 'nominal-ls'?"));
   EXPECT_FALSE(std::filesystem::exists(Directory("run")));

@@ -21,7 +21,7 @@ class Simulate : public testing::Test {
  protected:
   void SetUp() override { WriteWholeFile(scenario_, kScenario); }
 
-  Answer Into(const std::string& name, const std::vector<std::string>& more = {}) const {
+  ProgramAnswer Into(const std::string& name, const std::vector<std::string>& more = {}) const {
     std::vector<std::string> command{"simulate", scenario_, "-o", scratch_.path() / name};
     command.insert(command.end(), more.begin(), more.end());
     return RunWarmjoint(command);
@@ -31,7 +31,7 @@ class Simulate : public testing::Test {
 
   /// A refusal with this message that leaves nothing but the scenario.
   void ExpectRefusal(const std::vector<std::string>& more, const std::string& message) const {
-    const Answer answer = Into("out", more);
+    const ProgramAnswer answer = Into("out", more);
     EXPECT_EQ(answer.status, 2) << message;
     EXPECT_THAT(answer.err, HasSubstr(message));
     for (const auto& entry : std::filesystem::directory_iterator(scratch_.path())) {
@@ -83,7 +83,7 @@ TEST_F(Simulate, ReplacesAnOlderRecordingButNothingElse) {
   EXPECT_FALSE(std::filesystem::exists(scratch_.path() / "out/recording.csv"));
 
   std::ofstream(scratch_.path() / "out/notes.txt") << "mine";
-  const Answer answer = Into("out");
+  const ProgramAnswer answer = Into("out");
   EXPECT_EQ(answer.status, 2);
   EXPECT_THAT(answer.err, HasSubstr("holds 'notes.txt', which would be lost"));
   EXPECT_TRUE(std::filesystem::exists(scratch_.path() / "out/recording.h5"));
@@ -98,7 +98,7 @@ TEST_F(Simulate, NoticesAJointThatDoesNotFollowItsMotion) {
     if (!bandwidth.empty()) {
       more.insert(more.end(), {"--set", "controller.bandwidth=" + bandwidth});
     }
-    const Answer answer = Into(name, more);
+    const ProgramAnswer answer = Into(name, more);
     EXPECT_EQ(answer.status, 0) << answer.err;
     return answer.err;
   };

@@ -44,7 +44,7 @@ class TakesProject : public testing::Test {
     WriteWholeFile(Path("logs/warmjoint.yaml"), kProject);
   }
   std::string Path(const std::string& name) const { return scratch_.path() / name; }
-  Answer Identify(std::vector<std::string> more = {}) const {
+  ProgramAnswer Identify(std::vector<std::string> more = {}) const {
     more.insert(more.begin(), {"identify", Path("logs/log.csv"), "--identifier", "nominal-ls", "-o",
                                Path("estimate.json")});
     return RunWarmjoint(more);
@@ -57,13 +57,13 @@ class TakesProject : public testing::Test {
 };
 
 TEST_F(TakesProject, DescribesTheLogForCheckIdentifyAndPlot) {
-  const Answer check = RunWarmjoint({"check", Path("logs/log.csv"), "--format", "json"});
+  const ProgramAnswer check = RunWarmjoint({"check", Path("logs/log.csv"), "--format", "json"});
   EXPECT_EQ(check.status, 0) << check.err;
   EXPECT_TRUE(nlohmann::json::parse(check.out).is_object()) << "its words go to stderr";
   EXPECT_THAT(check.err, HasSubstr("warmjoint.yaml: map time=t_s,position=q_deg"));
   EXPECT_THAT(check.err, HasSubstr("gear 100 (--no-project leaves it out)\n"));
 
-  const Answer identify = Identify();
+  const ProgramAnswer identify = Identify();
   EXPECT_EQ(identify.status, 0) << identify.err;
   const auto estimate = Written();
   // a ripple of 0.2 N.m in place of noise over 320 samples
@@ -73,7 +73,7 @@ TEST_F(TakesProject, DescribesTheLogForCheckIdentifyAndPlot) {
   EXPECT_EQ(estimate.at("project").at("values").at("scale"), nlohmann::json({"torque=-1"}));
   EXPECT_EQ(estimate.at("recording").at("gear"), 100);
 
-  const Answer plot = RunWarmjoint(
+  const ProgramAnswer plot = RunWarmjoint(
       {"plot", Path("estimate.json"), "--recording", Path("logs/log.csv"), "-o", Path("pictures")});
   EXPECT_EQ(plot.status, 0) << plot.err;
   EXPECT_THAT(plot.err, HasSubstr("warmjoint.yaml: map"));
@@ -88,13 +88,13 @@ TEST_F(TakesProject, YieldsToTheCommandLine) {
   EXPECT_FALSE(estimate.at("project").at("values").contains("scale"));
 
   // of a map it keeps the columns that are not named
-  const Answer other = Identify({"--map", "torque=dq"});
+  const ProgramAnswer other = Identify({"--map", "torque=dq"});
   EXPECT_EQ(Written().at("recording").at("map").size(), 4u) << other.err;
   EXPECT_THAT(Written().at("recording").at("map"), testing::Contains("torque=dq"));
 }
 
 TEST_F(TakesProject, IsLeftOutWhenAsked) {
-  const Answer answer = Identify({"--no-project"});
+  const ProgramAnswer answer = Identify({"--no-project"});
   EXPECT_EQ(answer.status, 2);
   EXPECT_THAT(answer.err, HasSubstr("has no column 'time'"));
   EXPECT_THAT(answer.err, Not(HasSubstr("warmjoint.yaml")));
@@ -102,11 +102,11 @@ TEST_F(TakesProject, IsLeftOutWhenAsked) {
 
 TEST_F(TakesProject, RefusesFilesThatDisagreeOrAreNone) {
   WriteWholeFile(Path("other.csv"), ForeignLog());
-  const Answer two = RunWarmjoint({"check", Path("logs/log.csv"), Path("other.csv")});
+  const ProgramAnswer two = RunWarmjoint({"check", Path("logs/log.csv"), Path("other.csv")});
   EXPECT_EQ(two.status, 2);
   EXPECT_THAT(two.err, HasSubstr("does not lie beside the project file of the other recordings"));
   WriteWholeFile(Path("logs/warmjoint.yaml"), "gear: 2\ncommand: touch P\n");
-  const Answer command = Identify();
+  const ProgramAnswer command = Identify();
   EXPECT_EQ(command.status, 2);
   EXPECT_THAT(command.err, HasSubstr("warmjoint.yaml:2: 'command' does not belong here"));
   fs::remove(Path("logs/warmjoint.yaml"));
@@ -118,7 +118,7 @@ TEST_F(TakesProject, LetsAnEstimateFindItsRecordingFromAnotherFolder) {
   fs::create_directory(Path("estimates"));
   const auto before = fs::current_path();
   fs::current_path(scratch_.path());
-  const Answer made = RunWarmjoint(
+  const ProgramAnswer made = RunWarmjoint(
       {"identify", "logs/log.csv", "--identifier", "nominal-ls", "-o", "estimates/one.json"});
   fs::current_path(before);
   ASSERT_EQ(made.status, 0) << made.err;

@@ -37,7 +37,7 @@ TEST(Temperature, IsSetBesideTheHeatAndDrawn) {
   WriteWithThermometer(scratch.path() / "found.csv", "case_degC");
   WriteWithThermometer(scratch.path() / "named.csv", "thermo");
 
-  const Answer text = run({"identify", "found.csv", "-o", "found.json"});
+  const ProgramAnswer text = run({"identify", "found.csv", "-o", "found.json"});
   ASSERT_EQ(text.status, 0) << text.err;
   EXPECT_THAT(text.out, HasSubstr("temperature beside E"));
   EXPECT_THAT(text.out, HasSubstr("has not used the temperature"));
@@ -56,7 +56,8 @@ TEST(Temperature, IsSetBesideTheHeatAndDrawn) {
   EXPECT_FALSE(of({}).contains("temperature"));
 
   // and its picture
-  const Answer drawn = run({"plot", "found.json", "-o", "pictures", "--figure", "temperature"});
+  const ProgramAnswer drawn =
+      run({"plot", "found.json", "-o", "pictures", "--figure", "temperature"});
   EXPECT_EQ(drawn.status, 0) << drawn.err;
   EXPECT_TRUE(std::filesystem::exists(scratch.path() / "pictures/temperature.png"));
 }

@@ -39,8 +39,9 @@ class Terminal : public testing::Test {
     });
   }
 
-  Answer On(int columns, const std::vector<std::string>& arguments,
-            const std::map<std::string, std::string>& environment = {{"TERM", "xterm"}}) const {
+  ProgramAnswer On(int columns, const std::vector<std::string>& arguments,
+                   const std::map<std::string, std::string>& environment = {
+                       {"TERM", "xterm"}}) const {
     return RunOnTerminal(arguments, columns, {scratch_.path(), environment});
   }
 
@@ -63,7 +64,7 @@ TEST_F(Terminal, HelpAndListsFitTheirWidth) {
 TEST_F(Terminal, VerdictHasItsColourWhereOneIsWanted) {
   WriteLog(600);
   const std::vector<std::string> command{"identify", "log.csv", "--identifier", "nominal-ls"};
-  const Answer shown = On(80, command);
+  const ProgramAnswer shown = On(80, command);
   EXPECT_THAT(shown.out, HasSubstr(kEscape));
   EXPECT_LE(WidestRow(shown.out), 80);
   EXPECT_THAT(On(80, command, {{"TERM", "xterm"}, {"NO_COLOR", "1"}}).out, Not(HasSubstr(kEscape)));
@@ -76,17 +77,17 @@ TEST_F(Terminal, QuietLeavesOutNoticesAndKeepsResultsAndErrors) {
   WriteWholeFile(scratch_.path() / "warmjoint.yaml", "gear: 2\n");
   const Surroundings here{scratch_.path(), {}};
   std::vector<std::string> command{"check", "log.csv"};
-  const Answer told = RunWarmjoint(command, here);
+  const ProgramAnswer told = RunWarmjoint(command, here);
   EXPECT_THAT(told.err, HasSubstr("gear"));  // what the project file sets
   for (const char* flag : {"-q", "--quiet"}) {
-    const Answer before = RunWarmjoint({flag, "check", "log.csv"}, here);
-    const Answer behind = RunWarmjoint({"check", "log.csv", flag}, here);
+    const ProgramAnswer before = RunWarmjoint({flag, "check", "log.csv"}, here);
+    const ProgramAnswer behind = RunWarmjoint({"check", "log.csv", flag}, here);
     EXPECT_EQ(before.err, "");
     EXPECT_EQ(behind.err, "");
     EXPECT_EQ(before.out, told.out);
     EXPECT_EQ(behind.out, told.out);
   }
-  const Answer failed = RunWarmjoint({"-q", "check", "missing.csv"}, here);
+  const ProgramAnswer failed = RunWarmjoint({"-q", "check", "missing.csv"}, here);
   EXPECT_EQ(failed.status, 2);
   EXPECT_THAT(failed.err, HasSubstr("missing.csv"));
 }
@@ -100,15 +101,15 @@ TEST_F(Terminal, MachinesReadWhatIsNeverWrappedOrColoured) {
 }
 
 TEST_F(Terminal, ColumnsOfTheEnvironmentCount) {
-  const Answer narrow = RunWarmjoint({"list", "suites"}, {{}, {{"COLUMNS", "50"}}});
+  const ProgramAnswer narrow = RunWarmjoint({"list", "suites"}, {{}, {{"COLUMNS", "50"}}});
   EXPECT_LE(WidestRow(narrow.out), 50);
-  const Answer wide = RunWarmjoint({"list", "suites"}, {{}, {{"COLUMNS", "120"}}});
+  const ProgramAnswer wide = RunWarmjoint({"list", "suites"}, {{}, {{"COLUMNS", "120"}}});
   EXPECT_GT(WidestRow(wide.out), 80);
 }
 
 TEST_F(Terminal, RefusalsAreWrappedThereAndOneLineInAPipe) {
   const std::vector<std::string> command{"list", "laws", "nothing-like-any-law-that-is-known-here"};
-  const Answer shown = On(50, command);
+  const ProgramAnswer shown = On(50, command);
   EXPECT_EQ(shown.status, 2);
   EXPECT_LE(WidestRow(shown.out), 50);
   EXPECT_EQ(Lines(RunWarmjoint(command).err).size(), 1u);
@@ -119,7 +120,7 @@ TEST_F(Terminal, ProgressOfARunStaysOnOneLine) {
                  TableOneSuite(30,
                                "  - {name: energy-em, options: {iterations: 60}}\n"
                                "  - {name: energy-ml}\n  - {name: nominal-ls}\n"));
-  const Answer shown = On(40, {"run", "little.yaml", "-o", "run", "--jobs", "1"});
+  const ProgramAnswer shown = On(40, {"run", "little.yaml", "-o", "run", "--jobs", "1"});
   EXPECT_EQ(shown.status, 0);
   EXPECT_THAT(shown.out, HasSubstr("/30 realizations"));
   EXPECT_LE(WidestRow(shown.out), 40);
@@ -128,7 +129,7 @@ TEST_F(Terminal, ProgressOfARunStaysOnOneLine) {
 TEST_F(Terminal, IdentifyTellsWhatItIsAtFromTheFirstSecondOn) {
   // several seconds
   WriteLog(400000);
-  const Answer shown = On(60, {"identify", "log.csv", "--identifier", "auto"});
+  const ProgramAnswer shown = On(60, {"identify", "log.csv", "--identifier", "auto"});
   EXPECT_THAT(shown.out, HasSubstr("fitting auto to 400000 samples"));
   EXPECT_LE(WidestRow(shown.out), 60);
 }
@@ -140,7 +141,7 @@ TEST_F(Terminal, AnInterruptedIdentifySaysSoAndLeavesNothing) {
   // a million samples take several seconds
   WriteLog(1000000);
   const std::string program = test::BuildFolder() / "warmjoint";
-  const Answer answer =
+  const ProgramAnswer answer =
       RunCommandLine({"timeout", "--preserve-status", "--signal=INT", "1.5", program, "identify",
                       "log.csv", "--identifier", "auto", "-o", "estimate.json"},
                      {scratch_.path(), {}});

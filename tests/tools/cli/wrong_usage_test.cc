@@ -122,7 +122,7 @@ TEST(WrongUsage, IsToldBrieflyWithTheNearestRightThing) {
   for (const WrongUsage& usage : WrongUsages()) {
     std::string typed = "warmjoint";
     for (const std::string& argument : usage.arguments) typed += " " + argument;
-    const Answer answer = RunWarmjoint(usage.arguments, {scratch.path(), {}});
+    const ProgramAnswer answer = RunWarmjoint(usage.arguments, {scratch.path(), {}});
     EXPECT_EQ(answer.status, 2) << typed;
     EXPECT_EQ(answer.out, "") << typed;
     EXPECT_THAT(answer.err, testing::HasSubstr(usage.right)) << typed;

@@ -64,7 +64,8 @@ class LocalShards : public testing::Test {
 };
 
 TEST_F(LocalShards, GiveTheBytesOfTheWholeWithEmptyOnesToo) {
-  const Answer answer = RunWarmjoint(Command("run", {"--local-shards", "2", "--shards", "45"}));
+  const ProgramAnswer answer =
+      RunWarmjoint(Command("run", {"--local-shards", "2", "--shards", "45"}));
   ASSERT_EQ(answer.status, 0) << answer.err;
   ExpectWhole("run");
   EXPECT_EQ(Status("run")["shards"]["done"].size(), 45u);
@@ -75,7 +76,7 @@ TEST_F(LocalShards, GiveTheBytesOfTheWholeWithEmptyOnesToo) {
 }
 
 TEST_F(LocalShards, ADryRunStopsAtThePlanWhichWorksByHand) {
-  const Answer plan =
+  const ProgramAnswer plan =
       RunWarmjoint(Command("run", {"--local-shards", "1", "--shards", "4", "--dry-run"}));
   ASSERT_EQ(plan.status, 0) << plan.err;
   EXPECT_THAT(plan.out, HasSubstr("parallel"));
@@ -90,7 +91,7 @@ TEST_F(LocalShards, ADryRunStopsAtThePlanWhichWorksByHand) {
   EXPECT_EQ(Status("run")["realizations"]["finished"], 20);
 
   // what is missing is said, and nothing half-made is left
-  const Answer merge = RunWarmjoint({"merge", Path("run")});
+  const ProgramAnswer merge = RunWarmjoint({"merge", Path("run")});
   EXPECT_EQ(merge.status, 2);
   EXPECT_THAT(merge.err, HasSubstr("20 of 40 realizations; shards 1, 3"));
   EXPECT_FALSE(std::filesystem::exists(Path("run") + "/results.sqlite"));
@@ -126,7 +127,7 @@ TEST_F(LocalShards, AShardThatNeverGetsOnHasFailedWithItsLastWords) {
       RunWarmjoint(Command("run", {"--local-shards", "1", "--shards", "2", "--dry-run"})).status,
       0);
   Edit("run", "law: viscous_coulomb", "law: viscous_coulumb");
-  const Answer task = RunWarmjoint({"task", Path("run"), "1"});
+  const ProgramAnswer task = RunWarmjoint({"task", Path("run"), "1"});
   EXPECT_NE(task.status, 0);
   EXPECT_THAT(task.err, HasSubstr("viscous_coulumb"));
 }
@@ -136,7 +137,7 @@ TEST_F(LocalShards, AMachineThatCalculatesOtherwiseRefuses) {
       RunWarmjoint(Command("run", {"--local-shards", "1", "--shards", "2", "--dry-run"})).status,
       0);
   Edit("run", "\"arithmetic\": \"", "\"arithmetic\": \"f");
-  const Answer task = RunWarmjoint({"task", Path("run"), "1"});
+  const ProgramAnswer task = RunWarmjoint({"task", Path("run"), "1"});
   EXPECT_EQ(task.status, 2);
   EXPECT_THAT(task.err, HasSubstr("made where arithmetic is f"));
   EXPECT_THAT(Status("run")["last_words"].dump(), HasSubstr("made where arithmetic is f"));
@@ -147,7 +148,7 @@ TEST_F(LocalShards, ASecondCommandForTheSameRunIsRefused) {
   ASSERT_EQ(
       RunWarmjoint(Command("run", {"--local-shards", "1", "--shards", "2", "--dry-run"})).status,
       0);
-  const Answer other = RunWarmjoint(Command("run", {"--local-shards", "1", "--seed", "4"}));
+  const ProgramAnswer other = RunWarmjoint(Command("run", {"--local-shards", "1", "--seed", "4"}));
   EXPECT_EQ(other.status, 2);
   EXPECT_THAT(other.err, HasSubstr("seed: 3 in the directory, 4 asked"));
 }

@@ -45,7 +45,7 @@ class Submissions : public testing::Test {
   void Queue(const std::string& lines) const { Script("squeue", "printf '" + lines + "'"); }
   void Refuse(int call) const { WriteWholeFile(Path("refused"), std::to_string(call) + "\n"); }
   std::string Said() const { return ReadWholeFile(Path("said")); }
-  Answer Run(const std::vector<std::string>& more = {}) const {
+  ProgramAnswer Run(const std::vector<std::string>& more = {}) const {
     std::vector<std::string> command{"run", suite_, "-o", Path("run"), "--slurm", "--shards", "25"};
     command.insert(command.end(), more.begin(), more.end());
     return RunWarmjoint(command);
@@ -57,7 +57,7 @@ class Submissions : public testing::Test {
 };
 
 TEST_F(Submissions, AreArraysOfTheClustersSizeAndAMergeAfterThem) {
-  const Answer answer = Run({"--array-parallelism", "6", "--sbatch", "partition=long"});
+  const ProgramAnswer answer = Run({"--array-parallelism", "6", "--sbatch", "partition=long"});
   ASSERT_EQ(answer.status, 0) << answer.err;
   EXPECT_THAT(answer.out, HasSubstr("jobs 104, 101, 102, 103"));
   const std::string script = Path("run") + "/slurm/array.sbatch";
@@ -67,7 +67,7 @@ TEST_F(Submissions, AreArraysOfTheClustersSizeAndAMergeAfterThem) {
                             HasSubstr("--dependency=afterany:101:102:103 ")));
 
   // nothing twice
-  const Answer again = Run();
+  const ProgramAnswer again = Run();
   EXPECT_EQ(again.status, 2);
   EXPECT_THAT(again.err, HasSubstr("submitted already"));
 
@@ -77,7 +77,7 @@ TEST_F(Submissions, AreArraysOfTheClustersSizeAndAMergeAfterThem) {
 
 TEST_F(Submissions, ARefusalNamesTheRangeAndWhatIsSubmitted) {
   Refuse(3);
-  const Answer refused = Run();
+  const ProgramAnswer refused = Run();
   EXPECT_EQ(refused.status, 2);
   EXPECT_THAT(refused.err, AllOf(HasSubstr("shards 21 to 25 could not be submitted"),
                                  HasSubstr("Invalid partition"),
@@ -90,7 +90,8 @@ TEST_F(Submissions, ARefusalNamesTheRangeAndWhatIsSubmitted) {
   }
   Queue(queue);
   WriteWholeFile(Path("said"), "x\nx\nx\nx\n");
-  const Answer rest = RunWarmjoint({"status", Path("run"), "--resubmit", "--format", "json"});
+  const ProgramAnswer rest =
+      RunWarmjoint({"status", Path("run"), "--resubmit", "--format", "json"});
   ASSERT_EQ(rest.status, 0) << rest.err;
   EXPECT_THAT(rest.err, HasSubstr("shards 21-25"));
   EXPECT_THAT(Said(), AllOf(HasSubstr("--array=0-4 "), Not(HasSubstr("--array=0-9"))));
@@ -100,7 +101,7 @@ TEST_F(Submissions, ARefusalNamesTheRangeAndWhatIsSubmitted) {
 TEST_F(Submissions, WithoutAnAnswerOfTheQueueNothingIsTakenForLost) {
   ASSERT_EQ(Run().status, 0);
   Script("squeue", "exit 1");
-  const Answer answer = RunWarmjoint({"status", Path("run"), "--resubmit"});
+  const ProgramAnswer answer = RunWarmjoint({"status", Path("run"), "--resubmit"});
   EXPECT_EQ(answer.status, 2);
   EXPECT_THAT(answer.err, HasSubstr("Slurm does not answer"));
   EXPECT_THAT(RunWarmjoint({"status", Path("run")}).out, HasSubstr("25 missing"));

@@ -23,7 +23,7 @@ TEST(Attach, WritesTheModelOfTheCommandInBothForms) {
   const ScratchDirectory scratch;
   const auto theirs = scratch.path() / "theirs.xml", ours = scratch.path() / "ours.xml";
   for (const std::string form : {"actuator", "passive"}) {
-    const Answer answer =
+    const ProgramAnswer answer =
         RunWarmjoint({"attach", "yumi_like", "--joint", "joint_.*=" + FrictionFile("yumi_like"),
                       "--as", form, "--initial", "settled:0.2", "--armature", "joint_.*=0.125",
                       "--integrator", "implicitfast", "--timestep", "0.0005", "-o", theirs});

@@ -46,7 +46,7 @@ TEST_P(IdentifyAsTheCommand, GivesTheSameFileToTheLastByte) {
   WriteRecordingFile(log, 480, GetParam().velocity);
   std::vector<std::string> arguments{"identify", log, "-o", file};
   arguments.insert(arguments.end(), GetParam().arguments.begin(), GetParam().arguments.end());
-  const Answer answer = RunWarmjoint(arguments);
+  const ProgramAnswer answer = RunWarmjoint(arguments);
   ASSERT_EQ(answer.status, GetParam().status == Status::ok ? 0 : 3) << answer.err;
 
   ReadSettings read;

@@ -27,8 +27,9 @@ TEST(Simulate, MakesTheFilesOfTheCommand) {
   const std::string yaml = scratch.path() / "little.yaml";
   WriteWholeFile(yaml, TableOneYaml(600));
   const auto theirs = scratch.path() / "theirs", ours = scratch.path() / "ours";
-  const Answer answer = RunWarmjoint({"simulate", yaml, "--seed", "7", "--set", "noise.torque=0.1",
-                                      "--realization", "2", "-o", theirs});
+  const ProgramAnswer answer =
+      RunWarmjoint({"simulate", yaml, "--seed", "7", "--set", "noise.torque=0.1", "--realization",
+                    "2", "-o", theirs});
   ASSERT_EQ(answer.status, 0) << answer.err;
 
   SimulateSettings settings;

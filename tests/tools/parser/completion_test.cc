@@ -39,7 +39,8 @@ class Completion : public testing::Test {
     for (const std::string& word : words) line += "'" + word + "' ";
     line += "); COMP_CWORD=" + std::to_string(words.size() - 1);
     line += "; _warmjoint; printf '%s\\n' \"${COMPREPLY[@]}\"";
-    const Answer answer = RunCommandLine({"bash", "--norc", "-c", line}, {scratch_.path(), {}});
+    const ProgramAnswer answer =
+        RunCommandLine({"bash", "--norc", "-c", line}, {scratch_.path(), {}});
     EXPECT_EQ(answer.err, "");
     std::vector<std::string> offers;
     for (const std::string& offer : Lines(answer.out)) {
@@ -96,21 +97,23 @@ TEST(ZshCompletion, IsReadByZsh) {
   const ScratchDirectory scratch;
   const std::string script = scratch.path() / "_warmjoint";
   ASSERT_EQ(RunWarmjoint({"completion", "zsh", "-o", script}).status, 0);
-  const Answer syntax = RunCommandLine({"zsh", "-f", "-n", script});
+  const ProgramAnswer syntax = RunCommandLine({"zsh", "-f", "-n", script});
   EXPECT_EQ(syntax.status, 0) << syntax.err;
 
   // its completion system takes the function for the program
-  const Answer loaded = RunCommandLine({"zsh", "-f", "-c",
-                                        "fpath=(" + scratch.path().string() +
-                                            " $fpath); autoload -Uz compinit; compinit -u -D; "
-                                            "print $_comps[warmjoint]"});
+  const ProgramAnswer loaded =
+      RunCommandLine({"zsh", "-f", "-c",
+                      "fpath=(" + scratch.path().string() +
+                          " $fpath); autoload -Uz compinit; compinit -u -D; "
+                          "print $_comps[warmjoint]"});
   EXPECT_EQ(loaded.out, "_warmjoint\n") << loaded.err;
 
   // names come from the program
-  const Answer names = RunCommandLine({"zsh", "-f", "-c",
-                                       "compdef() {}; compadd() { print -l -- ${(P)2} }; program=" +
-                                           (test::BuildFolder() / "warmjoint").string() +
-                                           "; source " + script + "; _warmjoint_names laws"});
+  const ProgramAnswer names =
+      RunCommandLine({"zsh", "-f", "-c",
+                      "compdef() {}; compadd() { print -l -- ${(P)2} }; program=" +
+                          (test::BuildFolder() / "warmjoint").string() + "; source " + script +
+                          "; _warmjoint_names laws"});
   EXPECT_THAT(Lines(names.out), IsSupersetOf({"coulomb", "asymmetric"})) << names.err;
 }
 

@@ -46,7 +46,7 @@ class ManPages : public testing::Test {
 TEST_F(ManPages, AreFormattedWithoutAWarning) {
   if (!IsThere("groff")) GTEST_SKIP() << "groff is absent";
   for (const std::string& page : pages_) {
-    const Answer answer = RunCommandLine({"groff", "-ww", "-z", "-man", "-Tutf8", page});
+    const ProgramAnswer answer = RunCommandLine({"groff", "-ww", "-z", "-man", "-Tutf8", page});
     EXPECT_EQ(answer.status, 0) << page;
     EXPECT_EQ(answer.err, "") << page;
   }
@@ -55,7 +55,7 @@ TEST_F(ManPages, AreFormattedWithoutAWarning) {
 TEST_F(ManPages, PassTheChecksOfMandoc) {
   if (!IsThere("mandoc")) GTEST_SKIP() << "mandoc is absent";
   for (const std::string& page : pages_) {
-    const Answer answer = RunCommandLine({"mandoc", "-Tlint", "-Wwarning", page});
+    const ProgramAnswer answer = RunCommandLine({"mandoc", "-Tlint", "-Wwarning", page});
     // pages bear no date, so that the same source makes the same bytes
     for (const std::string& complaint : Lines(answer.out + answer.err)) {
       EXPECT_THAT(complaint, HasSubstr("missing date"));
@@ -65,10 +65,11 @@ TEST_F(ManPages, PassTheChecksOfMandoc) {
 
 TEST_F(ManPages, ShowEveryOptionToMan) {
   if (!IsThere("man")) GTEST_SKIP() << "man is absent";
-  const Answer shown = RunCommandLine({"man", "-l", folder_ + "/warmjoint-identify.1"},
-                                      {{}, {{"MANWIDTH", "80"}, {"MAN_KEEP_FORMATTING", ""}}});
+  const ProgramAnswer shown =
+      RunCommandLine({"man", "-l", folder_ + "/warmjoint-identify.1"},
+                     {{}, {{"MANWIDTH", "80"}, {"MAN_KEEP_FORMATTING", ""}}});
   EXPECT_EQ(shown.status, 0) << shown.err;
-  const Answer help = RunWarmjoint({"help", "identify"});
+  const ProgramAnswer help = RunWarmjoint({"help", "identify"});
   for (const char* option : {"--map", "--identifier", "--explain", "--output"}) {
     EXPECT_THAT(shown.out, HasSubstr(option));
     EXPECT_THAT(help.out, HasSubstr(option));

@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+#include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
 #include "tests/tools/scratch_directory.h"
 #include "tools/suite/wall.h"

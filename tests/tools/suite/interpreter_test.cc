@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 
+#include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
 #include "models/foundation/atomic_file.h"
 #include "tests/tools/scratch_directory.h"

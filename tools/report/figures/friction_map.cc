@@ -43,8 +43,8 @@ struct Passage {
 
   /// Whether a speed is among them, or hardly another.
   bool Holds(double speed) const {
-    constexpr double kSpare = 0.1;  // of a speed: over so little no friction changes much
-    return speed >= (1 - kSpare) * slowest && speed <= (1 + kSpare) * fastest;
+    constexpr double spare = 0.1;  // of a speed: over so little no friction changes much
+    return speed >= (1 - spare) * slowest && speed <= (1 + spare) * fastest;
   }
 };
 

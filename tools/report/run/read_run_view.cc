@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "identification/preparation/prepared_log.h"
+#include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
 #include "models/foundation/bad_input.h"
 #include "models/recording/course_of.h"

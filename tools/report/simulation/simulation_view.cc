@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "identification/preparation/prepared_log.h"
+#include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
 #include "models/recording/read_recording.h"
 #include "scenarios/read_scenario.h"
@@ -14,11 +14,11 @@ namespace {
 /// Leaves out what only seems to move at a constant speed: the truth knows where a filter smears a
 /// reversal over its neighbours.
 void KeepTrulyConstant(const Truth& truth, Selection& selection) {
-  constexpr double kAlike = 0.1;  // of the segment's speed
+  constexpr double alike = 0.1;  // of the segment's speed
   for (const Segment& segment : selection.segments) {
     for (Eigen::Index i = segment.begin; i < segment.end; ++i) {
       const double off = std::abs(truth.velocity[i] - segment.velocity);
-      if (off > kAlike * std::abs(segment.velocity)) selection.keep[i] = false;
+      if (off > alike * std::abs(segment.velocity)) selection.keep[i] = false;
     }
   }
 }

@@ -12,6 +12,7 @@
 #include "identification/answer/identify.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
+#include "identification/preparation/prepare.h"
 #include "tests/tools/report/look.h"
 #include "tests/tools/report/mapped_recording.h"
 #include "tests/tools/report/warm_recording.h"

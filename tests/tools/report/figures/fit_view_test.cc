@@ -6,6 +6,7 @@
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
+#include "identification/preparation/prepare.h"
 #include "models/foundation/low_pass.h"
 #include "tests/support/excited_recording.h"
 #include "tests/tools/report/look.h"
