@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "identification/estimate.h"
+#include "identification/preparation/friction_kind.h"
 #include "identification/uncertainty/uncertainty.h"
 #include "identification/uncertainty/whitening.h"
 #include "models/friction/along_motion.h"
@@ -73,6 +74,8 @@ struct TorqueLag {
 struct Refusal {
   Status status = Status::not_identifiable;
   std::string message;
+  /// The friction about which a fit did not come to rest: the report adds what the log lacks to show it.
+  std::optional<FrictionKind> unsettled{};
 };
 
 /// A fit of the model F + G + M a to the samples that `used` keeps.

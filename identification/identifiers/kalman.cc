@@ -12,7 +12,6 @@
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/online/kalman_passes.h"
-#include "identification/warming/unsettled.h"
 #include "identification/warming/warming_verdict.h"
 
 namespace warmjoint::inline identification {
@@ -49,10 +48,7 @@ Ending EndingOf(const KalmanPass& last) {
   return {last.mean.head(d), {last.mean[d], std::exp(last.mean[d + 1])}};
 }
 
-Refusal RanAway(const Measurements& measurements) {
-  return {Status::not_converged,
-          "the filters ran away; " + WhyUnsettled(measurements, FrictionKind::warm_up)};
-}
+Refusal RanAway() { return {Status::not_converged, "the filters ran away", FrictionKind::warm_up}; }
 
 /// Why the recording does not tell these parameters; nothing where it does. joint: the Jacobian's.
 std::optional<Refusal> WhyRefused(const KalmanTrack& track, const Fit& fit, const Ending& ending,
@@ -91,7 +87,7 @@ Fit Conclude(const KalmanTrack& track, const std::vector<KalmanPass>& passes,
   Append(HeatParameters(thermal, m), fit);
   if (!last.mean.allFinite() || !(thermal.time_constant > 0) ||
       !std::isfinite(thermal.time_constant)) {
-    fit.refusal = RanAway(m);
+    fit.refusal = RanAway();
     return fit;
   }
 
@@ -109,7 +105,7 @@ Fit Conclude(const KalmanTrack& track, const std::vector<KalmanPass>& passes,
   Eigen::MatrixXd jacobian = Kept(track.loop.Jacobian(x, thermal), fit.used).leftCols(fit.count);
   jacobian.col(fit.count - 1) *= thermal.time_constant;  // by ln tau
   if (!fit.fitted.allFinite() || !jacobian.allFinite()) {
-    fit.refusal = RanAway(m);
+    fit.refusal = RanAway();
     return fit;
   }
   const LeastSquares joint = SolveLeastSquares(jacobian, fit.torque, kSingular);

@@ -11,7 +11,6 @@
 #include "identification/nonlinear/lugre_data.h"
 #include "identification/nonlinear/stribeck_fit.h"
 #include "identification/nonlinear/stribeck_verdict.h"
-#include "identification/warming/unsettled.h"
 #include "identification/warming/warming_verdict.h"
 
 namespace warmjoint::inline identification {
@@ -145,9 +144,8 @@ std::optional<Refusal> WhyRefused(const IdentifierInput& input, const LugreProbl
   if (!why) why = UnknownStribeck(input, problem, answer);
   if (why) return Refusal{Status::not_identifiable, *why};
   if (answer.fit.converged) return std::nullopt;
-  return Refusal{Status::not_converged,
-                 "the fit has not converged after 100 iterations; " +
-                     WhyUnsettled(input.measurements, FrictionKind::stribeck)};
+  return Refusal{Status::not_converged, "the fit has not converged after 100 iterations",
+                 FrictionKind::stribeck};
 }
 
 /// Voids a fit that misses what happens around turns.

@@ -14,7 +14,6 @@
 #include "identification/nonlinear/stribeck_verdict.h"
 #include "identification/uncertainty/uncertainty.h"
 #include "identification/warming/scan_time_constant.h"
-#include "identification/warming/unsettled.h"
 #include "identification/warming/warm_fit.h"
 #include "identification/warming/warming_verdict.h"
 #include "models/recording/course_of.h"
@@ -160,9 +159,8 @@ struct Rivals {
 void Conclude(const IdentifierInput& input, const StribeckProblem& problem, const StribeckFit& best,
               const Rivals& rivals, Fit& fit) {
   if (!best.converged) {
-    fit.refusal = {Status::not_converged,
-                   "the fit has not converged after 100 iterations; " +
-                       WhyUnsettled(input.measurements, FrictionKind::stribeck)};
+    fit.refusal = {Status::not_converged, "the fit has not converged after 100 iterations",
+                   FrictionKind::stribeck};
     return;
   }
   const double explained = Explained(input, rivals.without, best.solution);

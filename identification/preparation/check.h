@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "identification/preparation/friction_kind.h"
 #include "identification/preparation/prepared_log.h"
 #include "models/recording/measurements.h"
 #include "models/recording/selection.h"
@@ -37,17 +38,6 @@ struct MotionCheck {
   double lower = 0, upper = 0;     // rad or m, travel
   double speed_noise = 0;          // rad/s or m/s, around constant speeds
   double speed_resolution = 0;     // rad/s or m/s; 0: not quantised
-};
-
-/// A kind of friction that a motion may show or not.
-enum class FrictionKind {
-  coulomb,
-  viscous_coulomb,
-  asymmetric,
-  stribeck,
-  warm_up,
-  position_ripple,
-  motor_ripple,
 };
 
 /// Whether friction of one kind can be identified, and why (not).

@@ -5,6 +5,7 @@
 #include "identification/report/discrete_pair.h"
 #include "identification/report/end_state.h"
 #include "identification/report/heat_beside_temperature.h"
+#include "identification/report/unsettled.h"
 #include "models/foundation/robust_noise.h"
 #include "models/friction/thermal_names.h"
 
@@ -85,6 +86,10 @@ Estimate ReportFit(const Fit& fit, const Inference& inference, const Measurement
   estimate.identifier = fit.identifier;
   estimate.status = inference.status;
   estimate.message = inference.message;
+  if (const auto& refusal = fit.refusal;
+      refusal && refusal->unsettled && inference.status == refusal->status) {
+    estimate.message += "; " + WhyUnsettled(measurements, *refusal->unsettled);
+  }
   estimate.warnings = inference.warnings;
   estimate.diagnostics = inference.diagnostics;
   estimate.assumptions = inference.assumptions;

@@ -16,7 +16,6 @@
 #include "identification/linear/robust.h"
 #include "identification/uncertainty/few_segments.h"
 #include "identification/uncertainty/tails.h"
-#include "identification/warming/unsettled.h"
 #include "identification/warming/warming_verdict.h"
 
 namespace warmjoint::inline identification {
@@ -94,9 +93,10 @@ std::optional<Refusal> WhyRefused(const char* name, const WarmTask& task, const 
     return Refusal{Status::not_identifiable, *why};
   }
   if (!warm.converged) {
-    return Refusal{Status::not_converged,
-                   fmt::format("the fit has not converged after {} iterations; {}",
-                               warm.trace.size() - 1, WhyUnsettled(m, FrictionKind::warm_up))};
+    return Refusal{
+        Status::not_converged,
+        fmt::format("the fit has not converged after {} iterations", warm.trace.size() - 1),
+        FrictionKind::warm_up};
   }
   if (response.feeds_itself) {
     return Refusal{Status::inadequate_model,

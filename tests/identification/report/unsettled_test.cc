@@ -1,7 +1,9 @@
-#include "identification/warming/unsettled.h"
+#include "identification/report/unsettled.h"
 
 #include <gmock/gmock.h>
 
+#include "identification/inference/inference.h"
+#include "identification/report/report_fit.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint {
@@ -18,6 +20,15 @@ TEST(Unsettled, SaysWhatTheRecordingLacks) {
               HasSubstr("the slowest below 1/20 of the fastest"));
   EXPECT_THAT(WhyUnsettled(record(3600), FrictionKind::warm_up),
               HasSubstr("does the torque column"));
+}
+
+TEST(Unsettled, StandsInTheReportOfAFitThatDidNotComeToRest) {
+  const Measurements m =
+      test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(60, 1), 0.5, 1);
+  const Fit fit = Refused("kalman", {Status::not_converged, "it ran away", FrictionKind::warm_up});
+  const Estimate estimate = ReportFit(fit, Infer(fit), m);
+  EXPECT_EQ(estimate.status, Status::not_converged);
+  EXPECT_EQ(estimate.message, "it ran away; " + WhyUnsettled(m, FrictionKind::warm_up));
 }
 
 }  // namespace

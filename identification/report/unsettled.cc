@@ -1,4 +1,4 @@
-#include "identification/warming/unsettled.h"
+#include "identification/report/unsettled.h"
 
 namespace warmjoint::inline identification {
 
