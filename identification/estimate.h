@@ -115,7 +115,7 @@ struct Estimate {
 
 /// The estimate as JSON: {identifier, options{name: text}, status, message, parameters{name: {value, unit, std,
 /// interval95}}, metrics{}, holdout{}, without_holdout, trace[{iteration, rmse, parameters{}}], friction{},
-/// gravity{}, warnings[], friction_at_speeds[{speed, value, std, interval95}], bands[{quantities[], points[][], value[], std[], interval95[][]}],
+/// gravity{}, warnings[], friction_at_speeds[{speed, speed_unit, value, unit, std, interval95}], bands[{quantities[], points[][], value[], std[], interval95[][]}],
 /// state_end{time: {value, unit, std, interval95}, energy, second_energy}, temperature{name: as of parameters}, choice{chosen, reason, blocks,
 /// trials[{name, rmse, parameters, dropped}]}, covariance{parameters[], matrix[][]}, diagnostics[{test, made, reason, statistic, p, p_adjusted,
 /// rejected, effect{value, unit}, moves{}}], assumptions[{name, meaning, moves{}}]};

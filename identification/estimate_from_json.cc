@@ -93,10 +93,15 @@ FrictionAtSpeed ToFrictionAtSpeed(const json& object, const Place& place) {
     Refuse(place, "interval95 of friction_at_speeds is {}; it must be [lower, upper]",
            Excerpt(interval.dump()));
   }
-  return {number("speed"),
-          number("value"),
-          number("std"),
-          {ToNumber(interval[0], "interval95", place), ToNumber(interval[1], "interval95", place)}};
+  FrictionAtSpeed one{
+      number("speed"),
+      number("value"),
+      number("std"),
+      {ToNumber(interval[0], "interval95", place), ToNumber(interval[1], "interval95", place)}};
+  if (object.contains("speed_unit"))
+    one.speed_unit = ToText(object["speed_unit"], "speed_unit", place);
+  if (object.contains("unit")) one.unit = ToText(object["unit"], "unit", place);
+  return one;
 }
 
 std::optional<Metrics> ToMetrics(const json& object, const char* owner, const Place& place) {

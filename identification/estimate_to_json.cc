@@ -113,10 +113,13 @@ json EstimateToJson(const Estimate& estimate) {
   if (!estimate.warnings.empty()) result["warnings"] = estimate.warnings;
   for (const MapBand& band : estimate.bands) result["bands"].push_back(BandToJson(band));
   for (const FrictionAtSpeed& one : estimate.at_speeds) {
-    result["friction_at_speeds"].push_back({{"speed", one.speed},
-                                            {"value", one.value},
-                                            {"std", one.std},
-                                            {"interval95", one.interval95}});
+    json row{{"speed", one.speed},
+             {"value", one.value},
+             {"std", one.std},
+             {"interval95", one.interval95}};
+    if (!one.speed_unit.empty()) row["speed_unit"] = one.speed_unit;
+    if (!one.unit.empty()) row["unit"] = one.unit;
+    result["friction_at_speeds"].push_back(std::move(row));
   }
   for (const Diagnostic& one : estimate.diagnostics) {
     result["diagnostics"].push_back(DiagnosticToJson(one));

@@ -7,6 +7,7 @@
 #include "identification/report/heat_beside_temperature.h"
 #include "identification/report/unsettled.h"
 #include "models/foundation/robust_noise.h"
+#include "models/friction/joint_kind.h"
 #include "models/friction/thermal_names.h"
 
 namespace warmjoint::inline identification {
@@ -113,6 +114,10 @@ Estimate ReportFit(const Fit& fit, const Inference& inference, const Measurement
   if (inference.gives_bands) {
     estimate.bands = fit.bands;
     estimate.at_speeds = fit.at_speeds;
+    for (FrictionAtSpeed& one : estimate.at_speeds) {
+      one.speed_unit = kVelocityUnit.For(measurements.joint);
+      one.unit = measurements.torque_unit;
+    }
   }
   if (fit.without_intervals.empty()) estimate.covariance = CovarianceOfValues(fit, inference);
   return estimate;

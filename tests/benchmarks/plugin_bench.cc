@@ -309,19 +309,21 @@ void Compare(const std::string& title, Arm arm, mjtIntegrator integrator, Drive 
 }  // namespace
 }  // namespace warmjoint
 
-/// Arguments: the number of rounds, 200 where not given, and part of the names of the variants to compare, to profile
-/// one of them.
+/// Arguments: the number of rounds, 200 where not given, part of the names of the variants to compare, and part of the
+/// titles of the tables, to profile one of them.
 int main(int argc, char** argv) {
   using namespace warmjoint;
   const int rounds = argc > 1 ? std::atoi(argv[1]) : 200;
-  const std::string only = argc > 2 ? argv[2] : "";
+  const std::string only = argc > 2 ? argv[2] : "", titles = argc > 3 ? argv[3] : "";
   for (const Arm arm : {Arm::serial, Arm::industrial}) {
     for (const mjtIntegrator integrator : {mjINT_IMPLICITFAST, mjINT_EULER}) {
       const std::string name =
           fmt::format("{} arm, {}", arm == Arm::serial ? "serial" : "industrial",
                       integrator == mjINT_EULER ? "Euler" : "implicitfast");
       for (const Drive drive : {Drive::sliding, Drive::turning, Drive::held}) {
-        Compare(fmt::format("{}, {}", name, Name(drive)), arm, integrator, drive, rounds, only);
+        const std::string title = fmt::format("{}, {}", name, Name(drive));
+        if (title.find(titles) == std::string::npos) continue;
+        Compare(title, arm, integrator, drive, rounds, only);
       }
     }
   }

@@ -60,10 +60,15 @@ TEST(EstimateJson, ReadsBackBitForBit) {
 TEST(EstimateJson, KeepsFrictionAtSpeeds) {
   Estimate estimate = Example();
   EXPECT_FALSE(EstimateToJson(estimate).contains("friction_at_speeds"));
-  estimate.at_speeds = {{0.3, 2.15, 0.01, {2.13, 2.17}}, {0.8, 2.4, 0.02, {2.36, 2.44}}};
+  estimate.at_speeds = {{0.3, 2.15, 0.01, {2.13, 2.17}, "m/s", "N"},
+                        {0.8, 2.4, 0.02, {2.36, 2.44}}};
   const json object = EstimateToJson(estimate);
-  EXPECT_EQ(object["friction_at_speeds"][0],
-            json({{"speed", 0.3}, {"value", 2.15}, {"std", 0.01}, {"interval95", {2.13, 2.17}}}));
+  EXPECT_EQ(object["friction_at_speeds"][0], json({{"speed", 0.3},
+                                                   {"value", 2.15},
+                                                   {"std", 0.01},
+                                                   {"interval95", {2.13, 2.17}},
+                                                   {"speed_unit", "m/s"},
+                                                   {"unit", "N"}}));
   EXPECT_EQ(EstimateToJson(EstimateFromJson(object, {})), object);
 
   json wrong = object;

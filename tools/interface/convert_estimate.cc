@@ -116,7 +116,8 @@ identification::Estimate ToEstimate(const Estimate& estimate) {
     made.bands.push_back({band.quantities, band.points, band.value, band.std, band.interval95});
   }
   for (const FrictionAtSpeed& one : estimate.friction_at_speeds) {
-    made.at_speeds.push_back({one.speed, one.value, one.std, one.interval95});
+    made.at_speeds.push_back(
+        {one.speed, one.value, one.std, one.interval95, one.speed_unit, one.unit});
   }
 
   // the verdict
@@ -176,7 +177,8 @@ Estimate FromEstimate(const identification::Estimate& estimate) {
     made.bands.push_back({band.quantities, band.points, band.value, band.std, band.interval95});
   }
   for (const identification::FrictionAtSpeed& one : estimate.at_speeds) {
-    made.friction_at_speeds.push_back({one.speed, one.value, one.std, one.interval95});
+    made.friction_at_speeds.push_back(
+        {one.speed, one.value, one.std, one.interval95, one.speed_unit, one.unit});
   }
 
   // the verdict

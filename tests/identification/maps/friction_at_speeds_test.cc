@@ -57,6 +57,7 @@ TEST(FrictionAtSpeeds, HoldsWhatLawAndMapBrakeWith) {
     for (const FrictionAtSpeed& one : answer.estimate.at_speeds) {
       const double truth = answer.TruthAt(one.speed);
       EXPECT_NEAR(one.value, truth, 0.02) << one.speed;
+      EXPECT_EQ(one.speed_unit + ", " + one.unit, "rad/s, N.m");
       // every so manieth of 3000 places has a mean of their level that is its own to 0.001
       held += one.interval95[0] <= truth + 0.001 && truth - 0.001 <= one.interval95[1];
       ++all;

@@ -64,10 +64,11 @@ struct MapBand {
 
 /// What law and maps brake with at one speed, the mean over the places of the samples.
 struct FrictionAtSpeed {
-  double speed = 0;  // rad/s or m/s
-  double value = 0;  // N.m or N
+  double speed = 0;
+  double value = 0;
   double std = 0;
   std::array<double, 2> interval95{};
+  std::string speed_unit{}, unit{};  // "rad/s" or "m/s", and the unit of the torque
 };
 
 /// Covariance of the values with intervals, by noise alone.

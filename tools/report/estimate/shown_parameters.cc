@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "identification/find_parameter.h"
 #include "models/friction/law.h"
 
 namespace warmjoint::inline tools {
@@ -21,14 +20,11 @@ bool IsShared(const Estimate& estimate, const EstimatedParameter& one) {
 
 /// Friction at each of the speeds.
 std::vector<EstimatedParameter> AtSpeeds(const Estimate& estimate) {
-  const EstimatedParameter* slope = Find(LawPart::slope, estimate);
-  const char* speed = slope && slope->unit.ends_with("/m") ? "m/s" : "rad/s";
-  const EstimatedParameter* level = Find(LawPart::level, estimate);
-  const std::string unit = level ? level->unit : "";
   std::vector<EstimatedParameter> rows;
   for (const FrictionAtSpeed& one : estimate.at_speeds) {
-    rows.push_back({fmt::format("friction at {:.3g} {}", one.speed, speed), one.value, unit,
-                    one.std, one.interval95});
+    std::string name = fmt::format("friction at {:.3g}", one.speed);
+    if (!one.speed_unit.empty()) name += " " + one.speed_unit;
+    rows.push_back({std::move(name), one.value, one.unit, one.std, one.interval95});
   }
   return rows;
 }

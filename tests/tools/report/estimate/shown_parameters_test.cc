@@ -23,7 +23,7 @@ TEST(ShownParameters, AreAllWhereNoMapSharesTheLaw) {
 
 TEST(ShownParameters, HaveFrictionAtSpeedsInPlaceOfWhatAMapShares) {
   Estimate estimate = WithSharedLevel();
-  estimate.at_speeds = {{0.3, 3.6, 0.05, {3.5, 3.7}}};
+  estimate.at_speeds = {{0.3, 3.6, 0.05, {3.5, 3.7}, "rad/s", "N.m"}};
   const std::vector<EstimatedParameter> shown = ShownParameters(estimate);
   // what the data tell of the law, what is none of the law's, and the speed
   ASSERT_EQ(shown.size(), 3u);
@@ -36,13 +36,10 @@ TEST(ShownParameters, HaveFrictionAtSpeedsInPlaceOfWhatAMapShares) {
   EXPECT_EQ((*shown[2].interval95)[1], 3.7);
 }
 
-TEST(ShownParameters, NameTheSpeedOfAJointThatSlidesInMetres) {
+TEST(ShownParameters, NameTheSpeedWithoutAUnitThatTheFileDoesNotTell) {
   Estimate estimate = WithSharedLevel();
-  estimate.parameters[0].unit = "N.s/m";
-  estimate.parameters[1].unit = "N";
   estimate.at_speeds = {{0.25, 3.5, 0.05, {3.4, 3.6}}};
-  EXPECT_EQ(ShownParameters(estimate).back().name, "friction at 0.25 m/s");
-  EXPECT_EQ(ShownParameters(estimate).back().unit, "N");
+  EXPECT_EQ(ShownParameters(estimate).back().name, "friction at 0.25");
 }
 
 }  // namespace
