@@ -1,42 +1,15 @@
 // A suite: one scenario, many realizations, several identifiers, one question.
 #pragma once
 
-#include <array>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "scenarios/scenario.h"
 #include "scenarios/setting.h"
+#include "scenarios/suite_identifier.h"
 
 namespace warmjoint::inline scenarios {
-
-/// Figures that a claim can name: relative errors (0.05 is 5 %), N.m or N, N.m or N, %, (N.m)^2.
-inline constexpr std::array<const char*, 6> kClaimFigures{
-    "npe_continuous", "npe_discrete", "rmse", "mae", "fit", "fpe"};
-
-/// What another source claims for a row of the leaderboard, printed beside ours.
-struct Claim {
-  std::string source;                     // for example "paper, Fig. 6"
-  std::map<std::string, double> figures;  // by their names in kClaimFigures
-
-  bool operator==(const Claim&) const = default;
-};
-
-/// Name under which a suite holds an identifier that is a command of its own; the command is the
-/// option of that name. An entry {name: mine, command: ...} is the same with the label mine.
-inline constexpr const char* kExternal = "external";
-
-/// An identifier as a suite runs it.
-struct SuiteIdentifier {
-  std::string name;                            // in the list of identifiers
-  std::string label;                           // row of the leaderboard; the name where not given
-  std::map<std::string, std::string> options;  // as --set of `identify`
-  std::optional<Claim> claim;
-
-  bool operator==(const SuiteIdentifier&) const = default;
-};
 
 /// One rung of a suite's ladder: the scenario with some entries changed.
 struct Variant {

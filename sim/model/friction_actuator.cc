@@ -10,7 +10,7 @@
 #include "sim/model/joint_pattern.h"
 #include "sim/model/mujoco_handles.h"
 #include "sim/model/spec_elements.h"
-#include "sim/plugin/friction_instance.h"
+#include "sim/plugin/plugin_name.h"
 #include "sim/plugin/register.h"
 
 namespace warmjoint::inline sim {

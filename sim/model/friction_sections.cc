@@ -7,7 +7,7 @@
 #include "models/friction/joint_friction.h"
 #include "models/friction/thermal_names.h"
 #include "sim/model/escape_xml.h"
-#include "sim/plugin/friction_instance.h"
+#include "sim/plugin/plugin_name.h"
 
 namespace warmjoint::inline sim {
 namespace {

@@ -8,8 +8,8 @@
 #include "sim/model/check_repeats.h"
 #include "sim/model/plugin_libraries.h"
 #include "sim/model/spec_elements.h"
-#include "sim/plugin/friction_instance.h"
 #include "sim/plugin/model_folder.h"
+#include "sim/plugin/plugin_name.h"
 #include "sim/plugin/register.h"
 
 namespace warmjoint::inline sim {

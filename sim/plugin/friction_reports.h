@@ -6,11 +6,9 @@
 #include <vector>
 
 #include "sim/plugin/bound_joints.h"
+#include "sim/plugin/plugin_name.h"
 
 namespace warmjoint::inline sim {
-
-/// Name under which MuJoCo knows the plugin.
-inline constexpr char kFrictionPlugin[] = "warmjoint.friction";
 
 /// Entries of mjData.plugin_state of each instance, before the states of a passive one's joints.
 enum FrictionReport : int {

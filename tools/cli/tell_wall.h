@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "scenarios/suite.h"
+#include "scenarios/suite_identifier.h"
 
 namespace warmjoint::inline tools {
 

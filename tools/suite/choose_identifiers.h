@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "scenarios/suite.h"
+#include "scenarios/suite_identifier.h"
 #include "tools/suite/external_identifier.h"
 
 namespace warmjoint::inline tools {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "identification/options.h"
-#include "scenarios/suite.h"
+#include "scenarios/suite_identifier.h"
 
 namespace warmjoint::inline tools {
 

@@ -10,7 +10,7 @@
 #include "identification/preparation/prepared_log.h"
 #include "models/foundation/bad_input.h"
 #include "models/foundation/start_stream.h"
-#include "scenarios/suite.h"
+#include "scenarios/suite_identifier.h"
 
 namespace warmjoint::inline tools {
 
