@@ -30,7 +30,7 @@ class LawAlong {
   Sample operator()(Index i, const JointPlace& place) {
     const double v = course_.velocity[i];
     if (v == 0) return {};
-    const double force = joint_.SlidingForce(v, place) + Sign(v) * At(course_.level, i);
+    const double force = ForceAt(v, i, place);
     return {force, LossAt(i, place, force), FeedsItself(v, force)};
   }
 
@@ -38,12 +38,15 @@ class LawAlong {
   double bristle() const { return 0; }
 
  private:
+  double ForceAt(double v, Index i, const JointPlace& place) const {
+    return joint_.SlidingForceBy<L>(v, place) + Sign(v) * At(course_.level, i);
+  }
+
   /// Until the next sample, W. force: at the sample, N.m or N.
   double LossAt(Index i, const JointPlace& place, double force) const {
     if (course_.mean_speed.size() == 0) return Loss(course_.velocity[i], force);
     const double v = course_.loss_velocity[i];
-    return Loss(course_.mean_speed[i],
-                joint_.SlidingForce(v, place) + Sign(v) * At(course_.level, i));
+    return Loss(course_.mean_speed[i], v == course_.velocity[i] ? force : ForceAt(v, i, place));
   }
 
   const JointFriction& joint_;

@@ -167,9 +167,7 @@ double JointFriction::HoldingLevel() const {
 }
 
 double JointFriction::SlidingForce(double v, const JointPlace& place) const {
-  const int side = Sign(v);
-  const double level = AddedLevel(side, std::abs(v), place);
-  return law_.force(v, values_.data()) + SlopeChange(place.energy) * v + side * level;
+  return WithAdded(law_.force(v, values_.data()), v, place);
 }
 
 /// A level below zero takes from the viscous force, at most all of it.

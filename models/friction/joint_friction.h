@@ -131,6 +131,12 @@ class JointFriction {
   /// is below 0. v: rad/s or m/s.
   double SlidingForce(double v, const JointPlace& place) const;
 
+  /// The same of a joint whose law is known to be L, as the compiler sees it.
+  template <typename L>
+  double SlidingForceBy(double v, const JointPlace& place) const {
+    return WithAdded(L::Force(v, values_.data()), v, place);
+  }
+
   /// What heat, load and maps add to the law's level on one side of motion, N.m or N, and what heat
   /// adds to its slope, N.m.s/rad or N.s/m. side: 1 or -1; speed: |v|, rad/s or m/s.
   double AddedLevel(int side, double speed, const JointPlace& place) const {
@@ -151,6 +157,11 @@ class JointFriction {
   void ChooseLevel(LawList<L...>);
   void Derive();
   double Slope(double energy) const { return SlopeAt(viscous_, per_energy_, energy); }
+  /// law: the law's own force at v.
+  double WithAdded(double law, double v, const JointPlace& place) const {
+    const int side = Sign(v);
+    return law + SlopeChange(place.energy) * v + side * AddedLevel(side, std::abs(v), place);
+  }
 
   FrictionDescription friction_;  // without its maps
   Law law_;
