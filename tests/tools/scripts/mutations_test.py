@@ -1,5 +1,6 @@
 """tools/mutations on a project of two functions, of which one is tested: the places that it makes wrong there are killed, those of
-the other survive, each is put back, and a run that is repeated makes none again. Argument: the project's folder."""
+the other survive, each is put back, and a run that is repeated makes none again. Where a test fails anyway, nothing is made
+wrong. Argument: the project's folder."""
 import csv
 import shutil
 import subprocess
@@ -56,6 +57,11 @@ def main():
         again = subprocess.run(run, check=True, capture_output=True, text=True).stdout
         assert again == first.splitlines(keepends=True)[-1], again
         assert len(list(csv.reader((root / "out.csv").open()))) == 8
+
+        (root / "main.cc").write_text("int main() { return 1; }\n")
+        failing = subprocess.run([*run[:2], root / "none.csv", *run[3:]], capture_output=True, text=True)
+        assert failing.returncode != 0 and "does not pass" in failing.stderr, failing.stderr
+        assert not (root / "none.csv").exists()
 
 
 main()
