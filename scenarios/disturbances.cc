@@ -15,14 +15,14 @@ bool Disturbances::operator==(const Disturbances& other) const {
     return std::pair{thermal ? thermal->gain : 0, thermal ? thermal->time_constant : 0};
   };
   return outliers == other.outliers && coloured_noise == other.coloured_noise &&
-         periodic_torque == other.periodic_torque && gravity == other.gravity &&
-         ambient_drift == other.ambient_drift && load_change == other.load_change &&
-         ambient_temperature == other.ambient_temperature && torque_lag == other.torque_lag &&
-         velocity_filter == other.velocity_filter && stale_position == other.stale_position &&
-         encoder == other.encoder && hold_parity == other.hold_parity &&
-         step_in_time == other.step_in_time && run_in == other.run_in && hidden == other.hidden &&
-         faults == other.faults && without_velocity == other.without_velocity &&
-         heat(second_heat) == heat(other.second_heat);
+         uneven_noise == other.uneven_noise && periodic_torque == other.periodic_torque &&
+         gravity == other.gravity && ambient_drift == other.ambient_drift &&
+         load_change == other.load_change && ambient_temperature == other.ambient_temperature &&
+         torque_lag == other.torque_lag && velocity_filter == other.velocity_filter &&
+         stale_position == other.stale_position && encoder == other.encoder &&
+         hold_parity == other.hold_parity && step_in_time == other.step_in_time &&
+         run_in == other.run_in && hidden == other.hidden && faults == other.faults &&
+         without_velocity == other.without_velocity && heat(second_heat) == heat(other.second_heat);
 }
 
 std::string_view IdealOnly(const Disturbances& disturbances) {

@@ -41,7 +41,7 @@ const LogView& ScoredView(const Estimate& estimate, const PreparedLog& log);
 /// name: one of the truth that the estimate lacks (another law's, or the thermal ones of an
 /// identifier without warming) counts as estimated 0 in the NPE. Parameters whose truth is 0 are
 /// listed but left out of the NPE, which is relative. The discrete pair is that of the recording's
-/// mean sampling interval, for truth and estimate alike. The bounds count
+/// median sampling interval, for truth and estimate alike. The bounds count
 /// E(0) as known unless the estimate holds it; with an acceleration, inertia and the gravity that was
 /// fitted count as unknown.
 Score ScoreEstimate(const Estimate& estimate, const Measurements& measurements,

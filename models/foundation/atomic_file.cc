@@ -58,7 +58,9 @@ void CopyToStandardOutput(const fs::path& from) {
   if (file < 0) FailOutput("standard output", errno);
   std::array<char, 65536> block;
   try {
-    for (ssize_t n; (n = read(file, block.data(), block.size())) > 0;) {
+    for (ssize_t n; (n = read(file, block.data(), block.size())) != 0;) {
+      if (n < 0 && errno == EINTR) continue;
+      if (n < 0) FailOutput("standard output", errno);
       WriteAll(STDOUT_FILENO, {block.data(), static_cast<std::size_t>(n)}, "standard output");
     }
   } catch (...) {

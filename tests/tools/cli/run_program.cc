@@ -8,7 +8,9 @@
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <chrono>
+#include <system_error>
 #include <thread>
 
 #include "models/foundation/atomic_file.h"
@@ -68,6 +70,14 @@ ProgramAnswer RunWarmjoint(const std::vector<std::string>& arguments, const Surr
   return RunCommandLine(WithProgram(arguments), where);
 }
 
+bool TerminalsCanBeOpened() {
+  int ours = -1, theirs = -1;
+  if (openpty(&ours, &theirs, nullptr, nullptr, nullptr) != 0) return false;
+  close(ours);
+  close(theirs);
+  return true;
+}
+
 ProgramAnswer RunOnTerminal(const std::vector<std::string>& arguments, int columns,
                             const Surroundings& where) {
   const std::vector<std::string> words = WithProgram(arguments);
@@ -75,6 +85,7 @@ ProgramAnswer RunOnTerminal(const std::vector<std::string>& arguments, int colum
   int terminal = -1;
   const pid_t child = forkpty(&terminal, nullptr, nullptr, &size);
   if (child == 0) Become(words, where);
+  if (child < 0) throw std::system_error(errno, std::generic_category(), "no pseudo-terminal");
 
   // all that is shown, until the child has closed its side
   ProgramAnswer answer;

@@ -29,8 +29,11 @@ ProgramAnswer RunWarmjoint(const std::vector<std::string>& arguments,
 /// Runs any command, given by its words, the first of which is found in PATH.
 ProgramAnswer RunCommandLine(const std::vector<std::string>& words, const Surroundings& where = {});
 
+/// Whether this machine lets a process open a pseudo-terminal: a bare chroot without /dev/pts does not.
+bool TerminalsCanBeOpened();
+
 /// Runs build/warmjoint on a terminal of so many columns; `out` holds all that it showed there, stdout and
-/// stderr in turn, and `err` nothing.
+/// stderr in turn, and `err` nothing. Throws std::system_error where no terminal can be opened.
 ProgramAnswer RunOnTerminal(const std::vector<std::string>& arguments, int columns,
                             const Surroundings& where = {});
 
