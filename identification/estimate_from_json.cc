@@ -57,6 +57,7 @@ Status ToStatus(const json& value, const Place& place) {
 
 /// The message without the clauses that repeat the warnings at its end, the last first.
 void TakeOffWarnings(Estimate& estimate) {
+  // the last warning first, each with its separator
   for (auto warning = estimate.warnings.rbegin(); warning != estimate.warnings.rend(); ++warning) {
     std::string& message = estimate.message;
     if (!message.ends_with(*warning)) return;
@@ -71,6 +72,7 @@ EstimatedParameter ToParameter(const std::string& name, const json& object, cons
   parameter.value = ToNumber(Member(object, "value", name.c_str(), place), "value", place);
   parameter.unit = ToText(Member(object, "unit", name.c_str(), place), "unit", place);
 
+  // null where nothing is known
   const json& deviation = Member(object, "std", name.c_str(), place);
   if (!deviation.is_null()) parameter.std = ToNumber(deviation, "std", place);
   const json& interval = Member(object, "interval95", name.c_str(), place);
@@ -134,6 +136,7 @@ TraceEntry ToTraceEntry(const json& object, const Place& place) {
 std::optional<ParameterCovariance> ToCovariance(const json& object, const Place& place) {
   if (object.is_null()) return std::nullopt;
   ParameterCovariance covariance;
+  // the names tell how large the matrix must be
   for (const json& name : Member(object, "parameters", "covariance", place)) {
     covariance.parameters.push_back(ToText(name, "a parameter of covariance", place));
   }
@@ -165,6 +168,7 @@ Diagnostic ToDiagnostic(const json& object, const Place& place) {
   one.test = ToText(member("test"), "test", place);
   one.made = ToTruth(member("made"), "made", place);
   if (!member("reason").is_null()) one.reason = ToText(member("reason"), "reason", place);
+  // a test that was not made has no figures
   if (!one.made) return one;
   one.statistic = ToNumber(member("statistic"), "statistic", place);
   one.p = ToNumber(member("p"), "p", place);
@@ -185,6 +189,7 @@ StructureChoice ToChoice(const json& object, const Place& place) {
   choice.chosen = ToText(member("chosen"), "chosen", place);
   choice.reason = ToText(member("reason"), "reason", place);
   choice.blocks = ToInteger(member("blocks"), "blocks", place);
+  // the structures that were tried
   for (const json& one : member("trials")) {
     const auto of = [&](const char* key) -> const json& {
       return Member(one, key, "a trial", place);
@@ -220,6 +225,7 @@ class Members {
 };
 
 void TakeNumbers(const Members& member, const Place& place, Estimate& estimate) {
+  // parameters, and how well they fit
   const json& parameters = member("parameters");
   if (!parameters.is_object()) Refuse(place, "parameters must be an object");
   for (const auto& [name, value] : parameters.items()) {
@@ -228,6 +234,7 @@ void TakeNumbers(const Members& member, const Place& place, Estimate& estimate) 
   estimate.metrics = ToMetrics(member("metrics"), "metrics", place);
   estimate.holdout = ToMetrics(member("holdout"), "holdout", place);
   for (const json& entry : member("trace")) estimate.trace.push_back(ToTraceEntry(entry, place));
+  // bands of maps, and friction at some speeds
   for (const json& band : member("bands")) estimate.bands.push_back(BandFromJson(band, place));
   for (const json& one : member("friction_at_speeds")) {
     estimate.at_speeds.push_back(ToFrictionAtSpeed(one, place));

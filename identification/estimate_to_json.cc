@@ -16,6 +16,7 @@ json ParameterToJson(const EstimatedParameter& parameter) {
               {"unit", parameter.unit},
               {"std", nullptr},
               {"interval95", nullptr}};
+  // not every parameter has errors
   if (parameter.std) result["std"] = NumberOrNull(*parameter.std);
   if (parameter.interval95) {
     const auto& [lower, upper] = *parameter.interval95;
@@ -60,11 +61,13 @@ json MovesToJson(const ParameterMoves& moves) {
 
 /// Figures of a test that was not made are null.
 json DiagnosticToJson(const Diagnostic& one) {
+  // every member stands there, null until it is known
   json result{{"test", one.test}, {"made", one.made}, {"reason", nullptr}};
   for (const char* key : {"statistic", "p", "p_adjusted", "rejected", "effect", "moves"}) {
     result[key] = nullptr;
   }
   if (!one.reason.empty()) result["reason"] = one.reason;
+  // figures only of a test that was made
   if (!one.made) return result;
   result["statistic"] = NumberOrNull(one.statistic);
   result["p"] = NumberOrNull(one.p);
@@ -76,6 +79,7 @@ json DiagnosticToJson(const Diagnostic& one) {
 }
 
 json ChoiceToJson(const StructureChoice& choice) {
+  // the structures that were tried, whether they fitted or not
   json trials = json::array();
   for (const StructureTrial& one : choice.trials) {
     trials.push_back({{"name", one.name},

@@ -13,6 +13,7 @@ std::vector<double> Fit::Values(Role role) const {
 CourseStart Fit::Start() const {
   CourseStart start;
   start.energy = initial_energy;
+  // each jump at the sample where it happens
   const std::vector<double> jumps = Values(Role::jump);
   for (size_t i = 0; i < jump_samples.size(); ++i) {
     start.jumps.push_back({jump_samples[i], jumps[i]});

@@ -34,11 +34,13 @@ Eigen::MatrixXd Kept(const Eigen::MatrixXd& all, const Selection& selection) {
 }
 
 std::optional<std::string> Unusable(const IdentifierInput& input, int parameters) {
+  // what every fit uses must be finite
   const Measurements& m = input.measurements;
   if (auto why = NotFinite("time", m.time)) return why;
   if (auto why = NotFinite("velocity", m.velocity)) return why;
   if (auto why = NotFinite("torque", m.torque)) return why;
 
+  // more samples than parameters, of those that take part
   const auto count = input.selection.count();
   if (count <= parameters) {
     if (m.acceleration) {
@@ -51,6 +53,7 @@ std::optional<std::string> Unusable(const IdentifierInput& input, int parameters
         count, m.size(), parameters);
   }
 
+  // a torque that never changes tells nothing
   const Eigen::VectorXd torque = Kept(m.torque, input.selection);
   if (torque.maxCoeff() == torque.minCoeff()) {
     return fmt::format("torque is constant at {} {}; is it the right column?", torque[0],
@@ -68,12 +71,15 @@ std::string UnitFor(const ParameterInfo& info, const Measurements& measurements)
   if (table == kThermalGainUnit.For(measurements.joint)) {
     return measurements.joint == JointKind::rotary ? "s/rad" : "s/m";
   }
+
+  // the log's unit of torque takes the place of the table's
   if (table.substr(0, torque.size()) != torque) return std::string(table);
   return measurements.torque_unit + std::string(table.substr(torque.size()));
 }
 
 std::string Indistinct(const std::vector<std::string>& mixed, const Measurements& measurements,
                        const Selection& selection) {
+  // which speeds there are, and whether in both directions
   const Eigen::VectorXd velocity = Kept(measurements.velocity, selection);
   const std::string names = fmt::format("{}", fmt::join(mixed, ", "));
   const bool one_way = velocity.minCoeff() > 0 || velocity.maxCoeff() < 0;

@@ -49,6 +49,7 @@ std::vector<FitParameter> HeatParameters(const Thermal& thermal, const Measureme
   std::vector<FitParameter> rows{
       TableParameter(gain, Role::heat, thermal.gain, measurements),
       TableParameter(tau, Role::heat, thermal.time_constant, measurements)};
+  // a time constant is fitted by its logarithm
   rows[1].coordinate = Coordinate::logarithm;
   return rows;
 }
@@ -69,6 +70,7 @@ std::vector<FitParameter> JumpParameters(const Eigen::VectorXd& values,
 
 std::vector<FitParameter> GravityParameters(GravityKind kind, const Eigen::VectorXd& values,
                                             const Measurements& measurements) {
+  // coefficients of paired gravity have no names, so that no report lists them
   std::vector<std::string> names(static_cast<size_t>(values.size()));
   if (kind == GravityKind::sincos) names = {"gravity_sine", "gravity_cosine"};
   if (kind == GravityKind::constant) names = {"gravity_offset"};

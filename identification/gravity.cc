@@ -21,6 +21,7 @@ std::pair<int, double> Below(double position) {
   const double cells = position / kSpacing;
   const double whole = std::floor(cells);
   const int knot = static_cast<int>(std::fmod(whole, kGravityKnots));
+  // on one turn, also for positions below 0
   return {(knot + kGravityKnots) % kGravityKnots, cells - whole};
 }
 
@@ -97,6 +98,7 @@ Eigen::MatrixXd GravityColumns(GravityKind kind, const std::vector<int>& knots,
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto [knot, share] = Below(position[i]);
     const Eigen::Index below = IndexOf(knots, knot), above = IndexOf(knots, knot + 1);
+    // beside a knot that is missing nothing is known of the torque
     if (below < 0 || above < 0) continue;
     columns(i, below) += 1 - share;
     columns(i, above) += share;
@@ -124,6 +126,7 @@ nlohmann::json GravityToJson(const GravityModel& gravity) {
 GravityModel GravityFromJson(const nlohmann::json& json, const Place& place) {
   GravityModel gravity;
   gravity.kind = KindOf(json, place);
+  // the kinds with a fixed number of coefficients
   if (gravity.kind == GravityKind::sincos) {
     gravity.values =
         Eigen::Vector2d(NumberOf(json, "sine", place), NumberOf(json, "cosine", place));
@@ -142,6 +145,7 @@ GravityModel GravityFromJson(const nlohmann::json& json, const Place& place) {
            torque.size());
   }
   if (position.empty()) Refuse(place, "gravity has no positions; give its knots, or leave it out");
+  // multiples of the spacing within one turn, ascending
   for (const double p : position) {
     const auto knot = static_cast<int>(std::lround(p / kSpacing));
     const bool ascends = gravity.knots.empty() || knot > gravity.knots.back();

@@ -16,6 +16,7 @@ json BandToJson(const MapBand& band) {
 
 MapBand BandFromJson(const json& object, const Place& place) {
   MapBand band;
+  // the library refuses members that are absent or of another kind
   try {
     object.at("quantities").get_to(band.quantities);
     object.at("points").get_to(band.points);

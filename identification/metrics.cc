@@ -8,6 +8,7 @@ namespace warmjoint::inline identification {
 Metrics ComputeMetrics(const Eigen::VectorXd& measured, const Eigen::VectorXd& fitted,
                        int parameters, double effective_parameters) {
   const double n = static_cast<double>(measured.size());
+  // the residual, and what a constant torque would leave
   const Eigen::VectorXd error = measured - fitted;
   const double mean_square = error.squaredNorm() / n;
   const double spread = (measured.array() - measured.mean()).matrix().norm();

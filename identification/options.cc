@@ -32,6 +32,7 @@ bool IsInt(std::string_view text) {
 }
 
 std::optional<std::pair<double, double>> ParseRange(std::string_view text) {
+  // both ends must be numbers, the lower one first
   const size_t colon = text.find(':');
   if (colon == std::string_view::npos) return std::nullopt;
   const auto lower = FiniteNumber(text.substr(0, colon));
@@ -50,6 +51,7 @@ bool Satisfies(double value, const std::string& relation, double bound) {
 /// Whether `value` is a number of `kind` within `bounds`: relation, bound, relation, bound, ...
 bool IsNumberWithin(const std::string& value, const std::string& kind, std::istream& bounds) {
   const auto number = FiniteNumber(value);
+  // finite, whole where it must be, and within every bound
   if (!number || (kind == "integer" && !IsInt(value))) return false;
   std::string relation;
   for (double bound; bounds >> relation >> bound;) {
@@ -59,6 +61,7 @@ bool IsNumberWithin(const std::string& value, const std::string& kind, std::istr
 }
 
 bool IsAllowed(const OptionInfo& option, const std::string& value) {
+  // a kind of value with its bounds, or words to choose from
   std::istringstream stream(option.allowed);
   std::string kind;
   stream >> kind;
@@ -71,6 +74,7 @@ bool IsAllowed(const OptionInfo& option, const std::string& value) {
 
 void CheckValue(const OptionInfo& option, const std::string& value, const Place& place) {
   if (IsAllowed(option, value)) return;
+  // what would be allowed, in the words that suit the kind
   if (option.allowed == "range") {
     Refuse(place, "option {} is '{}'; give two numbers lower:upper, for example {} ({})",
            option.name, Excerpt(value), option.default_value, option.meaning);

@@ -38,6 +38,7 @@ class VelocitySequence {
   double Draw() { return std::abs(motion_.speed_draws->Draw(random_)); }
 
   double Alternating(size_t segment) const {
+    // an even list is shifted after each round, so that each speed gets both signs
     const size_t n = motion_.speed_list.size();
     const size_t shift = n % 2 == 0 ? segment / n : 0;
     return motion_.speed_list[(segment + shift) % n];
@@ -45,6 +46,7 @@ class VelocitySequence {
 
   double InOrder(size_t segment) {
     if (!motion_.speed_draws) return motion_.speed_list[segment / 2 % motion_.speed_list.size()];
+    // one draw for the way there and back
     if (segment % 2 == 0) pair_speed_ = Draw();
     return pair_speed_;
   }
@@ -54,6 +56,7 @@ class VelocitySequence {
       const double speed = Draw();
       return random_.Below(2) == 0 ? speed : -speed;
     }
+    // a round is used up before the next is drawn
     if (round_.empty()) FillRound();
     const double velocity = round_.back();
     round_.pop_back();
@@ -96,6 +99,7 @@ class PlanBuilder {
 
   void Add(double duration, double velocity) {
     while (duration > 0 && !full()) {
+      // up to the next rest, which does not shorten the motion
       const double moving = std::min(duration, until_rest_);
       Append(moving, velocity);
       duration -= moving;
@@ -114,6 +118,7 @@ class PlanBuilder {
     if (left <= 0) return;
     plan_.push_back({std::min(duration, left), velocity});
     CheckSegments(plan_.size(), duration_);
+    // the plan ends exactly at its duration
     time_ = duration < left ? time_ + duration : duration_;
   }
 
@@ -128,6 +133,7 @@ std::vector<MotionSegment> PlanPhases(const std::vector<MotionPhase>& phases, do
                                       RandomStream& random) {
   std::vector<MotionSegment> plan;
   double left = duration;
+  // phase after phase, again from the first; the last is cut
   for (size_t i = 0; left > 0; i = (i + 1) % phases.size()) {
     const double lasts = std::min(phases[i].duration, left);
     if (phases[i].motion) {
@@ -162,6 +168,7 @@ std::vector<MotionSegment> PlanMotion(const Motion& motion, double duration,
                                       RandomStream& random) {
   if (!motion.phases.empty()) return PlanPhases(motion.phases, duration, random);
 
+  // each segment lasts for the hold, or from one limit to the other
   const auto limits = TravelLimits(motion, joint_limits);
   VelocitySequence velocities(motion, limits.has_value(), random);
   PlanBuilder plan(motion.rests, duration);

@@ -67,6 +67,7 @@ std::vector<VelocityCorner> PlanMoves(const MovesBetween& moves, double duration
     const double ramp = speed / moves.acceleration;
     const double steady = speed > 0 ? way / speed - ramp : 0;
     if (ramp < 1e-6) continue;
+    // ramp, steady speed, ramp and pause
     const double velocity = std::copysign(speed, target - place);
     corners.push_back({time += ramp, velocity});
     if (steady > 1e-9) corners.push_back({time += steady, velocity});

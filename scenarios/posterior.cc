@@ -60,6 +60,8 @@ Posterior PosteriorFromJson(const json& object, const FrictionDescription& frict
       !object.contains("covariance") || !object["parameters"].is_array()) {
     Refuse(place, "a posterior has the keys parameters, a list of names, and covariance, a matrix");
   }
+
+  // names of the friction's own parameters
   Posterior posterior;
   FrictionDescription known = friction;
   for (const json& name : object["parameters"]) {
@@ -69,6 +71,7 @@ Posterior PosteriorFromJson(const json& object, const FrictionDescription& frict
       Refuse(place, "the friction has no parameter '{}'", Excerpt(posterior.parameters.back()));
     }
   }
+  // their covariance, which must be one
   posterior.covariance =
       SquareFromJson(object["covariance"], posterior.parameters.size(), "covariance", place);
   CheckCovariance(posterior.covariance, place);
@@ -88,6 +91,7 @@ Posterior PosteriorOfEstimate(const json& estimate, const FrictionDescription& f
            "the estimate has no covariance to draw from: it was refused, or its identifier "
            "gives no intervals. Leave `draw` out to take its numbers as they are");
   }
+  // the matrix of all that was estimated
   const json& names = covariance["parameters"];
   const MatrixXd whole =
       SquareFromJson(covariance.value("matrix", json()), names.size(), "covariance.matrix", place);
@@ -115,6 +119,7 @@ FrictionDescription Draw(const Posterior& posterior, const FrictionDescription& 
                          RandomStream& random, const Place& place) {
   const MatrixXd root = RootOf(posterior.covariance);
   for (int i = 0; i < kMostDraws; ++i) {
+    // one draw of the normal distribution around the estimate
     Eigen::VectorXd normal(root.cols());
     for (double& value : normal) value = random.Normal();
     const Eigen::VectorXd moves = root * normal;

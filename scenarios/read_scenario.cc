@@ -29,6 +29,7 @@ std::string ReadRobot(const YamlValue& value) {
 }
 
 void ReadInitialEnergy(const YamlValue& value, Scenario& scenario) {
+  // a number, or a distribution that each realization draws from
   const Distribution energy = ReadDistribution(value, Bound::any);
   scenario.initial_energy = energy.a;
   if (energy.kind != Distribution::Kind::fixed) scenario.draws.numbers["initial_energy"] = energy;
@@ -53,6 +54,7 @@ Noise ReadNoise(const YamlValue& value) {
 
 Sampling ReadSampling(const YamlValue& value) {
   value.RequireKeys({"rate", "sensor_rate", "cutoff"});
+  // sensors are read as often as is stored, or more, unless the file says otherwise
   Sampling sampling;
   ReadNumber(value, "rate", Bound::positive, sampling.rate);
   sampling.sensor_rate = std::max(sampling.sensor_rate, sampling.rate);
@@ -94,6 +96,7 @@ void CheckStepCount(const YamlValue& value, const Scenario& scenario) {
 }
 
 void ReadRobotJoint(const YamlValue& value, Scenario& scenario) {
+  // the ideal plant can do without both
   const bool needed = scenario.plant == PlantKind::mujoco;
   const auto robot = value.Find("robot");
   const auto joint = value.Find("joint");
@@ -129,11 +132,13 @@ Scenario ReadScenarioValue(const YamlValue& value, const std::string& name) {
   if (const auto part = value.Find("noise")) scenario.noise = ReadNoise(*part);
   if (const auto part = value.Find("disturbances")) {
     scenario.disturbances = ReadDisturbances(*part);
+    // some disturbances are known to the ideal plant alone
     const std::string_view ideal_only = IdealOnly(scenario.disturbances);
     if (scenario.plant != PlantKind::ideal && !ideal_only.empty()) {
       Refuse(part->place(), "{}.{} is known to the ideal plant alone; take it out, or use it",
              part->key(), ideal_only);
     }
+    // a temperature that swings must act on something
     if (scenario.disturbances.ambient_temperature.amplitude != 0 &&
         scenario.friction.level_per_temperature == 0) {
       Refuse(part->place(),
@@ -144,6 +149,7 @@ Scenario ReadScenarioValue(const YamlValue& value, const std::string& name) {
   if (const auto part = value.Find("sampling")) scenario.sampling = ReadSampling(*part);
   ReadNumber(value, "timestep", Bound::positive, scenario.timestep);
 
+  // how long, within what memory and patience allow
   const YamlValue duration = value.Require("duration", "give the seconds to simulate");
   scenario.duration = duration.Number(Bound::positive);
   CheckSampleCount(duration, scenario);

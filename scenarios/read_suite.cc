@@ -30,6 +30,7 @@ SuiteIdentifier ReadIdentifier(const YamlValue& value) {
   value.RequireKeys({"name", "label", "options", "claim", "command"});
   SuiteIdentifier identifier;
   identifier.name = value.Require("name", "name an identifier (`list identifiers`)").Text();
+  // the name serves as a label where there is none
   const auto label = value.Find("label");
   identifier.label = label ? label->Text() : identifier.name;
   if (const auto options = value.Find("options")) {
@@ -55,6 +56,7 @@ std::vector<SuiteIdentifier> ReadIdentifiers(const YamlValue& value) {
   std::vector<SuiteIdentifier> identifiers;
   for (const YamlValue& entry : value.List("a list of identifiers")) {
     const SuiteIdentifier identifier = ReadIdentifier(entry);
+    // labels tell identifiers apart
     for (const SuiteIdentifier& other : identifiers) {
       if (other.label != identifier.label) continue;
       Refuse(entry.place(), "two identifiers have the label '{}'; give each its own `label`",
@@ -81,8 +83,10 @@ std::vector<Variant> ReadVariants(const YamlValue& value) {
   std::vector<Variant> variants;
   for (const std::string& name : value.Keys()) {
     Variant variant{name, std::nullopt, {}};
+    // an empty variant is the scenario as it is
     if (const auto changes = value.Find(name)) {
       changes->RequireDistinctKeys();
+      // each changed entry, with its value as YAML
       for (const auto& entry : changes->node()) {
         variant.settings.push_back({entry.first.Scalar(), FlowYaml(entry.second)});
       }
@@ -94,6 +98,7 @@ std::vector<Variant> ReadVariants(const YamlValue& value) {
 
 Ladder ReadLadder(const YamlValue& value) {
   value.RequireKeys({"variable", "unit", "values", "variants"});
+  // numbers of one entry, or named changes of several
   const auto values = value.Find("values");
   const auto variants = value.Find("variants");
   if (bool(values) == bool(variants)) {

@@ -9,6 +9,7 @@ Scenario Realize(const Scenario& scenario, std::uint64_t realization) {
   realized.draws = {};
   if (scenario.draws.empty()) return realized;
 
+  // the same numbers for the same seed and realization
   RandomStream random({scenario.seed, realization}, Stream::truth);
   realized.friction = DrawFriction(scenario.friction, scenario.draws, random, {scenario.name});
   const auto energy = scenario.draws.numbers.find("initial_energy");

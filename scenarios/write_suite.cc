@@ -39,6 +39,7 @@ void AddIdentifier(const SuiteIdentifier& identifier, Lines& lines) {
 void AddLadder(const Ladder& ladder, Lines& lines) {
   lines.Begin("", "ladder");
   if (!ladder.unit.empty()) lines.Add("  ", "unit", QuotedYaml(ladder.unit));
+  // numbers of one entry, or named changes of several
   if (!ladder.variable.empty()) {
     std::string values;
     for (const Variant& variant : ladder.variants) {

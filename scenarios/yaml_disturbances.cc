@@ -176,12 +176,14 @@ void ReadPart(const YamlValue& value, const Part& part) {
 
 Disturbances ReadDisturbances(const YamlValue& value) {
   Disturbances disturbances;
+  // the parts that may stand here
   Thermal heat;
   const std::vector<Part> parts = Parts(disturbances, heat);
   std::vector<std::string> names;
   for (const Part& part : parts) names.push_back(part.name);
   value.RequireKeys(names);
 
+  // numbers of the parts that are named, then those that are there or not
   for (const Part& part : parts) {
     if (const auto given = value.Find(part.name)) ReadPart(*given, part);
   }
@@ -189,6 +191,7 @@ Disturbances ReadDisturbances(const YamlValue& value) {
   for (const Part& part : parts) {
     if (bool* flag = FlagOf(part.name, disturbances)) *flag = value.Find(part.name).has_value();
   }
+  // what no bound of a single number says
   RequireWhole(value, "stale_position", "samples", disturbances.stale_position.samples);
   RequireWhole(value, "late_torque", "samples", disturbances.faults.late_torque.samples);
   if (disturbances.outliers.one_sided > 1) {
@@ -201,6 +204,7 @@ Disturbances ReadDisturbances(const YamlValue& value) {
 }
 
 std::string DisturbancesToYaml(const Disturbances& disturbances, const std::string& indent) {
+  // the same table of what is written, and of no disturbance at all
   Disturbances written = disturbances;
   Disturbances nothing;
   Thermal heat = disturbances.second_heat.value_or(Thermal{});
@@ -208,6 +212,7 @@ std::string DisturbancesToYaml(const Disturbances& disturbances, const std::stri
   const std::vector<Part> parts = Parts(written, heat);
   const std::vector<Part> absent = Parts(nothing, no_heat);
 
+  // a part is written where any of its numbers differs from that of no disturbance
   std::string yaml;
   for (size_t i = 0; i < parts.size(); ++i) {
     const bool* const flag = FlagOf(parts[i].name, written);

@@ -31,6 +31,7 @@ double Middle(const Distribution& range) {
 
 json ScalarToJson(const YamlValue& value) {
   const std::string text = value.Text();
+  // a number within quotes is text
   const bool quoted = value.node().Tag() == "!";
   if (!quoted && ParseNumber(text)) return value.Number();
   return text;
@@ -39,6 +40,7 @@ json ScalarToJson(const YamlValue& value) {
 /// YAML as JSON, distributions replaced by their middles and added to `draws`. key: dotted, from
 /// friction on.
 json ToJson(const YamlValue& value, const std::string& key, TruthDraws& draws) {
+  // a range stands for its middle until it is drawn
   if (IsDistribution(value)) {
     const Distribution range = ReadDistribution(value, Bound::any);
     if (range.kind == Distribution::Kind::normal) {
@@ -75,6 +77,7 @@ json ToJson(const YamlValue& value, const std::string& key, TruthDraws& draws) {
 void CheckEnds(const json& middles, const TruthDraws& draws, const Place& place) {
   json lower = middles;
   json upper = middles;
+  // each range at its lower, and at its upper end
   for (const auto& [key, range] : draws.numbers) {
     if (!key.starts_with(kPrefix)) continue;
     lower[Pointer(key)] = range.a;
@@ -87,6 +90,7 @@ void CheckEnds(const json& middles, const TruthDraws& draws, const Place& place)
 std::string ScalarToYaml(const json& value) {
   if (value.is_number_float()) return fmt::format("{}", value.get<double>());
   if (!value.is_string()) return value.dump();
+  // a text that reads as a number keeps its quotes
   const std::string text = value.get<std::string>();
   return ParseNumber(text) ? value.dump() : text;
 }
@@ -130,9 +134,11 @@ FrictionDescription ReadEstimate(const YamlValue& value, TruthDraws& draws) {
 }  // namespace
 
 FrictionDescription ReadFriction(const YamlValue& value, TruthDraws& draws) {
+  // a file, an estimate, or the friction itself
   if (value.IsScalar()) return ReadFrictionFile(Beside(value));
   if (value.IsMap() && value.Find("estimate")) return ReadEstimate(value, draws);
   json middles = ToJson(value, "friction", draws);
+  // a posterior stands beside the friction, not in it
   const json posterior = middles.is_object() ? middles.value("posterior", json()) : json();
   if (middles.is_object()) middles.erase("posterior");
   CheckEnds(middles, draws, value.place());
@@ -149,6 +155,7 @@ FrictionDescription ReadFriction(const YamlValue& value, TruthDraws& draws) {
 std::string FrictionToYaml(const FrictionDescription& friction, const TruthDraws& draws,
                            const std::string& indent) {
   json object = FrictionToJson(friction);
+  // drawn numbers as their ranges
   for (const auto& [key, range] : draws.numbers) {
     if (key.starts_with(kPrefix)) object[Pointer(key)] = DistributionToJson(range);
   }

@@ -18,6 +18,7 @@ const Choices<SegmentOrder>& Orders() {
 }
 
 void ReadSpeeds(const YamlValue& value, Motion& motion) {
+  // drawn anew for each segment, or a list
   if (IsDistribution(value)) {
     motion.speed_draws = ReadDistribution(value, Bound::not_negative);
     return;
@@ -57,6 +58,7 @@ Motion ReadSteadyMotion(const YamlValue& value) {
   ReadSpeeds(value.Require("speeds", "give a list of speeds or a distribution"), motion);
   ReadEnds(value, motion);
   if (const auto order = value.Find("order")) motion.order = ReadChoice(*order, Orders());
+  // breaks that interrupt the motion
   if (const auto rests = value.Find("rests")) {
     rests->RequireKeys({"run", "rest"});
     motion.rests = Rests{
@@ -111,6 +113,7 @@ std::string CornersToYaml(const std::vector<VelocityCorner>& corners) {
 Motion ReadCorners(const YamlValue& value, const YamlValue& corners) {
   value.RequireKeys({"corners", "start"});
   Motion motion;
+  // corners in order of time
   for (const YamlValue& entry : corners.List("a list of [time, velocity]")) {
     const std::vector<YamlValue> pair = entry.List("[time, velocity]");
     if (pair.size() != 2) entry.RefuseValue("[time, velocity]");
@@ -135,6 +138,7 @@ Motion ReadFourier(const YamlValue& value, const YamlValue& fourier) {
   const FourierMotion made{number("period", "give the seconds after which it repeats itself"),
                            number("harmonics", "give the number of harmonics, as 5"),
                            number("speed", "give the largest speed, rad/s or m/s")};
+  // harmonics are counted
   if (made.harmonics != std::floor(made.harmonics) || made.harmonics > 1000) {
     fourier.Find("harmonics")->RefuseValue("a whole number up to 1000");
   }
@@ -164,6 +168,7 @@ Motion ReadMoves(const YamlValue& value, const YamlValue& moves) {
 }  // namespace
 
 Motion ReadMotion(const YamlValue& value) {
+  // each kind of motion is known by a key of its own
   const auto corners = value.IsMap() ? value.Find("corners") : std::nullopt;
   if (corners) return ReadCorners(value, *corners);
   if (const auto fourier = value.IsMap() ? value.Find("fourier") : std::nullopt) {
@@ -178,6 +183,8 @@ Motion ReadMotion(const YamlValue& value) {
         {"speeds", "hold", "travel", "order", "rests", "phases", "corners", "fourier", "moves"});
     return ReadSteadyMotion(value);
   }
+
+  // phases, each steady motion or rest
   value.RequireKeys({"phases"});
   Motion motion;
   for (const YamlValue& phase : phases->List("a list of motions with a duration, and of rests")) {
@@ -201,6 +208,8 @@ std::string MotionToYaml(const Motion& motion, const std::string& indent) {
     return fmt::format("{}moves: {{between: [{}, {}], speed: {}, acceleration: {}, pause: {}}}\n",
                        indent, between.first, between.second, speed, acceleration, pause);
   }
+
+  // phases, or a single motion
   if (motion.phases.empty()) return SteadyMotionToYaml(motion, indent);
   std::string yaml = indent + "phases:\n";
   for (const MotionPhase& phase : motion.phases) {

@@ -24,6 +24,7 @@ void CheckShape(const YAML::Node& node, int depth, int& count, const std::string
     Refuse(place, "holds more than {} values, those of aliases counted each time; write less",
            kMostValues);
   }
+  // values below count, too; keys must be words
   if (node.IsMap()) {
     for (const auto& entry : node) {
       if (!entry.first.IsScalar()) {
@@ -43,6 +44,7 @@ int SecondDocument(std::string_view text) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     const std::string_view line = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
+    // a marker begins a second document where anything stands before it
     const bool marker = line.starts_with("---") && line.find_first_not_of(" \t\r", 3) != 3;
     if (marker && content) return number;
     const std::size_t first = line.find_first_not_of(" \t\r", marker ? 3 : 0);
@@ -79,10 +81,12 @@ void Set(YAML::Node map, std::string_view path, const YAML::Node& value, const P
   if (!map.IsMap() && !map.IsNull()) {
     Refuse(place, "there is no entry '{}' below a value that is no map", Excerpt(path));
   }
+  // maps on the way are made where they are missing
   if (dot != std::string_view::npos) {
     if (!map[name] || map[name].IsNull()) map[name] = YAML::Node(YAML::NodeType::Map);
     return Set(map[name], path.substr(dot + 1), value, place);
   }
+  // null takes the entry out
   if (value.IsNull()) {
     map.remove(name);
   } else {
@@ -122,6 +126,7 @@ bool Satisfies(double value, Bound bound) {
 YamlValue YamlValue::Parse(const std::string& text, const std::string& file,
                            const Settings& settings) {
   YAML::Node root = ParseYaml(text, file);
+  // settings count in order, the last one of a key in the end
   for (const Setting& setting : settings) {
     const Place place = PlaceOf(setting);
     Set(root, setting.key, ParseYaml(setting.value, place.file), place);
@@ -161,6 +166,7 @@ void YamlValue::RequireKnownKeys(const std::vector<std::string>& known) const {
     RefuseValue("a map with entries among: " + fmt::format("{}", fmt::join(known, ", ")));
   for (const auto& entry : node_) {
     const std::string name = entry.first.Scalar();
+    // told by the line of the key itself
     const Place where = YamlValue(entry.first, KeyOf(name), document_).place();
     if (std::find(known.begin(), known.end(), name) == known.end()) {
       Refuse(where, "unknown key '{}'{}", Excerpt(KeyOf(name)), Suggestion(name, known));

@@ -34,6 +34,8 @@ Estimate ReportAnswer(const Identifier& identifier, const IdentifierInput& given
   const IdentifierInput input = identifier.Seen(given);
   Estimate estimate = ReportFit(answer.fit, answer.judged, input.measurements);
   estimate.options = input.options.changed();
+
+  // how the samples were prepared, of fits at constant speed
   const bool steady = identifier.regime == Regime::steady && !input.measurements.acceleration;
   if (steady && input.log.faults().empty()) TellPreparation(input.log, estimate);
   return estimate;
@@ -53,6 +55,8 @@ Estimate IdentifyUnjudged(const Identifier& identifier, const IdentifierInput& g
 Estimate WithVoidNumbers(const Identifier& identifier, const IdentifierInput& input,
                          const Answer& answer) {
   Estimate shown = ReportAnswer(identifier, input, answer);
+
+  // a verdict that voided nothing leaves nothing to force
   if (answer.judged.status == answer.inferred.status) return shown;
   Estimate before = ReportFit(answer.fit, answer.inferred, identifier.Seen(input).measurements);
   shown.parameters = std::move(before.parameters);

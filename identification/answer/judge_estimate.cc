@@ -16,10 +16,14 @@ Fit FitOf(const Estimate& estimate, const Measurements& m) {
   fit.identifier = estimate.identifier;
   fit.friction = *estimate.friction;
   fit.gravity = estimate.gravity;
+
+  // the rows that a fit of that law would have
   const std::vector<double> values = LawValues(fit.friction);
   const Eigen::Map<const Eigen::VectorXd> law(values.data(),
                                               static_cast<Eigen::Index>(values.size()));
   fit.parameters = LawParameters(*FindLaw(fit.friction.law), law, m);
+
+  // heat and start, where the estimate tells them
   if (fit.friction.thermal && Find(Role::heat, estimate)) {
     for (FitParameter& row : HeatParameters(*fit.friction.thermal, m)) {
       fit.parameters.push_back(std::move(row));
@@ -39,6 +43,8 @@ Inference InferenceOf(const Estimate& estimate, const Fit& fit) {
   inference.message = estimate.message;
   inference.warnings = estimate.warnings;
   inference.gives_friction = true;
+
+  // a row that the estimate does not tell keeps its value, without errors
   for (const FitParameter& row : fit.parameters) {
     const EstimatedParameter* one = estimate.Find(row.name);
     inference.parameters.push_back(one ? KnownParameter{one->value, one->std, one->interval95, 0}
@@ -68,6 +74,7 @@ void TakeOver(const Fit& fit, Inference inference, Estimate& estimate) {
 }  // namespace
 
 void JudgeEstimate(const PreparedLog& log, const Judging& judging, Estimate& estimate) {
+  // an identifier without options stands for whoever made the estimate
   const Identifier identifier{estimate.identifier, "", {}, nullptr};
   const Options options(identifier.options, {}, {});
   const IdentifierInput input{log, options, {}};
@@ -83,6 +90,7 @@ void JudgeEstimate(const PreparedLog& log, const Judging& judging, Estimate& est
   }
   const Fit fit = FitOf(estimate, input.measurements);
   Inference inference = InferenceOf(estimate, fit);
+  // whether its own law could follow the log better, then what the law lacks
   const std::optional<std::string> misfit =
       OwnMisfit(fit, inference, input.measurements, input.selection, judging);
   JudgeLackOfFit(identifier, input, fit, judging, inference);

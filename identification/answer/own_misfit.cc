@@ -36,6 +36,7 @@ std::optional<std::string> OwnMisfit(const Fit& fit, const Inference& inference,
   // and whether noise may do it
   const Uncertainty known =
       JudgeUncertainty(rows, step.cofactor, residual - taken, model->selection);
+  // the parameter that is farthest off, in its standard errors
   Eigen::Index most = 0;
   for (Eigen::Index j = 1; j < p; ++j) {
     const auto score = [&](Eigen::Index i) {

@@ -8,6 +8,8 @@ std::vector<Eigen::Index> CutIntoBlocks(const Selection& selection, int blocks) 
   std::vector<Eigen::Index> bounds{0};
   const Eigen::Index n = selection.keep.size();
   const Eigen::Index kept = selection.count();
+
+  // a block ends once it has its share of the kept samples
   Eigen::Index seen = 0;
   for (Eigen::Index i = 0; i < n && static_cast<int>(bounds.size()) < blocks; ++i) {
     if (seen * blocks >= kept * static_cast<Eigen::Index>(bounds.size())) bounds.push_back(i);

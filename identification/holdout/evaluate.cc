@@ -19,6 +19,8 @@ std::optional<Metrics> Evaluate(const Fit& fit, const Measurements& measurements
   const TorquePrediction predicted =
       PredictTorque(ModelOf(fit), measurements, std::move(test), start);
   if (predicted.known.count() == 0) return std::nullopt;
+
+  // all parameters that the model has, weights of kernels included
   auto parameters = friction.parameters.size() + (friction.thermal ? 2 : 0);
   for (const FrictionMap& map : friction.maps) parameters += map.weights.size();
   if (fit.gravity) parameters += fit.gravity->values.size();

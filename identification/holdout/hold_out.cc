@@ -34,8 +34,10 @@ std::optional<FirstPart> FitFirstPart(const Identifier& identifier, const Identi
                                       double fraction, const Fit& all_data) {
   const IdentifierInput input = identifier.Seen(given);
   const Eigen::VectorXd& time = input.measurements.time;
+  // a share of the time, however many samples lie in it
   const double split = time[0] + (1 - fraction) * (time[time.size() - 1] - time[0]);
   if ((time.array() < split).count() < 2) return std::nullopt;
+  // what lies before, seen as the identifier saw the whole log
   const IdentifierInput before{input.log.Before(split), input.options, input.start};
   const IdentifierInput seen = SeenAs(input, identifier, before);
   return FirstPart{split, all_data.structure ? all_data.structure(seen) : identifier.fit(seen)};
@@ -45,6 +47,8 @@ std::optional<Metrics> HoldOut(const Identifier& identifier, const IdentifierInp
                                double fraction, const Fit& all_data) {
   const auto first = FitFirstPart(identifier, given, fraction, all_data);
   if (!first) return std::nullopt;
+
+  // the test part alone is compared, the prediction runs from the start
   const IdentifierInput input = identifier.Seen(given);
   Selection test = input.selection;
   test.keep.head((input.measurements.time.array() < first->split).count()) = false;
@@ -63,6 +67,8 @@ std::string WhyNoHoldOut(const Identifier& identifier, const IdentifierInput& gi
   const std::string part = fmt::format("the first {:.3g} % of the log", 100 * (1 - fraction));
   const auto first = FitFirstPart(identifier, given, fraction, all_data);
   if (!first) return fmt::format("{} hold fewer than two samples", part);
+
+  // a fit without friction predicts nothing
   const Inference inferred = Infer(first->fit);
   if (!inferred.gives_friction) {
     const std::string& why = inferred.status == Status::ok && !inferred.warnings.empty()
@@ -70,6 +76,8 @@ std::string WhyNoHoldOut(const Identifier& identifier, const IdentifierInput& gi
                                  : inferred.message;
     return fmt::format("a fit to {} gives no friction ({})", part, why);
   }
+
+  // else the rest holds no sample to compare
   const IdentifierInput input = identifier.Seen(given);
   const auto before = (input.measurements.time.array() < first->split).count();
   const Eigen::Index left = input.measurements.size() - before;

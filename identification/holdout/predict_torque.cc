@@ -8,6 +8,7 @@ namespace warmjoint::inline identification {
 TorquePrediction PredictTorque(const TorqueModel& model, const Measurements& m, Selection asked,
                                const CourseStart& start) {
   TorquePrediction predicted{{}, std::move(asked), PredictFriction(model.friction, m, start)};
+  // friction, and inertia where the log has an acceleration
   predicted.torque = predicted.friction.force;
   if (model.inertia && m.acceleration) predicted.torque += *model.inertia * *m.acceleration;
 
@@ -19,6 +20,8 @@ TorquePrediction PredictTorque(const TorqueModel& model, const Measurements& m, 
       keep = keep && model.gravity->Covers(m.position[i]);
     }
   }
+
+  // the log holds the torque as it comes through its lag
   if (model.lag) predicted.torque = LowPass(m.time, predicted.torque, *model.lag);
   return predicted;
 }

@@ -20,10 +20,12 @@ double Bic(double mean_square, double parameters, double samples) {
 
 Choice ChooseStructure(const std::vector<Contender>& contenders, double samples) {
   Choice choice;
+  // the one of the least error on blocks that it has not seen
   for (size_t i = 1; i < contenders.size(); ++i) {
     if (contenders[i].errors.mean() < contenders[choice.best].errors.mean()) choice.best = i;
   }
 
+  // of all that are not worse beyond doubt, the simplest
   const Contender& best = contenders[choice.best];
   const auto bic = [&](const Contender& one) {
     return Bic(one.in_sample, one.parameters, samples);
@@ -33,8 +35,10 @@ Choice ChooseStructure(const std::vector<Contender>& contenders, double samples)
     const Contender& one = contenders[i];
     const Eigen::VectorXd difference = one.errors - best.errors;
     const double doubt = StandardError(difference);
+    // as good as the best within one standard error, or by BIC
     const bool equal = difference.mean() <= doubt || bic(one) <= bic(best);
     const Contender& so_far = contenders[choice.chosen];
+    // with fewer parameters, or with as many and a smaller error
     const bool simpler =
         one.parameters < so_far.parameters ||
         (one.parameters == so_far.parameters && one.errors.mean() < so_far.errors.mean());

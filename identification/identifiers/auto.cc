@@ -28,6 +28,7 @@ void TryLinear(const IdentifierInput& input, Tournament& tournament) {
   for (const std::string& gravity : kinds) {
     if (gravity == "paired" && kinds.size() > 1) continue;
     tournament.Add(ColdStructures(gravity));
+    // a warming beside a further gravity only where it may be told
     if (gravity == kinds.front() || tournament.MayWarmBeside(gravity)) {
       tournament.Add(WarmStructures(gravity));
     } else {
@@ -35,6 +36,8 @@ void TryLinear(const IdentifierInput& input, Tournament& tournament) {
                           "neither gravity nor a warming can be seen by itself");
     }
   }
+
+  // gravity that is free over place, beside the best of them alone
   if (kinds.size() > 1 && kinds.back() == "paired") {
     if (const Structure* best = tournament.Best()) {
       tournament.Add({best->With(kGravityOption, "paired")});
@@ -55,6 +58,8 @@ std::string GravityBesideMaps(const IdentifierInput& input, const Structure* bes
 void TryCurved(const IdentifierInput& input, Tournament& tournament) {
   const std::string gravity = GravityBesideMaps(input, tournament.Best());
   const bool cold = TakesColdStart(input.options);
+
+  // a bend over the speed, with and without warming
   tournament.Add({StribeckStructure("none")});
   if (!cold) {
     tournament.LeaveOut({StribeckStructure("estimated")},
@@ -65,10 +70,14 @@ void TryCurved(const IdentifierInput& input, Tournament& tournament) {
     tournament.LeaveOut({StribeckStructure("estimated")},
                         "neither a bend over the speed nor a warming can be seen by itself");
   }
+
+  // a level for each direction, where one may help
   for (const char* warming : {"none", "estimated"}) {
     if (!cold && std::string_view(warming) != "none") continue;
     if (tournament.MayHaveTwoLevels(warming)) tournament.Add({TwoLevelStribeckStructure(warming)});
   }
+
+  // maps, where something is left over place
   if (tournament.MayHaveMap()) {
     tournament.Add(MapStructures(input, gravity, tournament.KernelsBesideBest(gravity)));
   } else {
@@ -89,6 +98,8 @@ Trials TryAll(const IdentifierInput& input) {
   trials.tournament = std::make_unique<Tournament>(input, input.selection);
   TryLinear(input, *trials.tournament);
   trials.lag = trials.tournament->LagOfBest(input);
+
+  // a torque that lags: all again, on samples where it has settled
   if (trials.lag) {
     trials.tournament = std::make_unique<Tournament>(
         input, Settled(input.measurements, input.selection, *trials.lag));
@@ -142,6 +153,8 @@ Fit FitChosen(const IdentifierInput& input) {
   // compare on rows that hold the means of neighbours
   const Trials trials = TryAll(input);
   Tournament& tournament = *trials.tournament;
+
+  // what cannot be chosen goes first, the rest is held out block by block
   tournament.DropHopeless();
   const Structure* only = tournament.OnlyOne();
   std::vector<Contender> contenders;
@@ -170,6 +183,8 @@ Fit FitChosen(const IdentifierInput& input) {
   }
   input.Tell("fitting " + chosen.Name() + " to every sample");
   Fit fit = FitOnAll(chosen, trials.lag, input);
+
+  // what a reader is told, and the same structure for other samples
   told.chosen = chosen.Name();
   fit.identifier = kName;
   fit.summary = fmt::format("{}; {}", told.reason, fit.summary);

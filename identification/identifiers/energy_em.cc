@@ -28,6 +28,8 @@ FirstGuess Start(const IdentifierInput& input) {
         Thermal{input.options.Number("start_gain"), input.options.Number("start_time_constant")},
         ""};
   }
+
+  // drawn evenly within the ranges of the options
   StartStream random(input.start);
   const auto [least_gain, greatest_gain] = input.options.Range("gain_range");
   const auto [shortest, longest] = input.options.Range("time_range");
@@ -49,6 +51,7 @@ std::vector<DescentState> Descend(const BlockDescent& descent, const Thermal& st
   std::vector<DescentState> states{descent.Start(start)};
   for (int i = 0; i < iterations; ++i) {
     DescentState from = states.back();
+    // the first fit of H begins at the best time constant of a grid
     if (i == 0) from.thermal.time_constant = descent.ScanFrom(from);
     states.push_back(descent.Next(from));
   }
@@ -114,11 +117,14 @@ std::pair<bool, std::string> Arrival(const std::vector<DescentState>& states,
 std::optional<Eigen::MatrixXd> JointCofactor(const NominalPart& part,
                                              const Eigen::MatrixXd& jacobian,
                                              const Eigen::VectorXd& torque) {
+  // without maps the columns themselves tell whether they are distinct
   if (part.maps.empty()) {
     const LeastSquares joint = SolveLeastSquares(jacobian, torque, kSingular);
     if (joint.rank < jacobian.cols()) return std::nullopt;
     return joint.cofactor;
   }
+
+  // with kernels the strength of their prior joins the normal equations
   Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
   const Eigen::Index q = part.kernels();
   normal.diagonal().segment(jacobian.cols() - 2 - q, q).array() += part.strength;
@@ -131,6 +137,7 @@ std::optional<Eigen::MatrixXd> JointCofactor(const NominalPart& part,
 /// ln tau); d: parameters of the law.
 Uncertainty OfTable(const NominalPart& part, Eigen::Index d, Uncertainty known) {
   const Eigen::Index p = known.covariance.rows();
+  // the fit has gravity before the warming, the table behind it
   std::vector<Eigen::Index> order;
   for (Eigen::Index i = 0; i < d; ++i) order.push_back(i);
   order.insert(order.end(), {p - 2, p - 1});
@@ -161,6 +168,7 @@ Fit Conclude(const IdentifierInput& input, const NominalPart& part, const BlockD
              const std::vector<DescentState>& states) {
   const DescentState& last = states.back();
   Fit fit = ModelOf(input, part, last);
+  // gravity may push, friction itself must brake
   const Eigen::VectorXd fitted = descent.Fitted(last);
   const Eigen::VectorXd pull = part.moving.keep.cast<double>().matrix().cwiseProduct(
       part.gravity.columns * last.nominal.tail(part.gravity.count()));
@@ -216,6 +224,7 @@ Fit FitInTurn(const IdentifierInput& input) {
   FirstGuess start = Start(gravity.Of(input));
   if (!start.thermal) return Refused(kName, Status::not_identifiable, start.why);
 
+  // all iterations, on losses without gravity, which the fit without warming tells
   const BlockDescent descent(input.measurements, part.moving, part.columns, part.cofactor,
                              gravity.columns * part.solution.tail(gravity.count()));
   const double shortest = descent.output_error().shortest();
@@ -243,6 +252,8 @@ Identifier EnergyEm() {
        "largest distance from the fixed point that counts as converged, relative"},
       GravityOption(),
   };
+
+  // the row of the law comes first, those of the map last
   std::vector<OptionInfo> part =
       PositionPartOptions("none|map", "a map over position beside the law");
   options.insert(options.begin(), std::make_move_iterator(part.begin()),

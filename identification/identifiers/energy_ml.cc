@@ -69,6 +69,8 @@ struct Course {
 WarmStart Scan(const Course& course, const Eigen::VectorXd& level) {
   const RigidPart& gravity = course.task.gravity;
   if (gravity.count() == 0) return ScanTimeConstant(course.loop, level, course.kept);
+
+  // gravity of the fit without warming is taken off, and what that lacks scanned with the law
   const ClosedLoop together = ClosedLoop::Along(course.input.measurements, course.task.columns);
   const Eigen::VectorXd weight = course.nominal.solution.tail(gravity.count());
   const Eigen::VectorXd pull = gravity.columns * weight;
@@ -120,6 +122,8 @@ Whitened FitAgainWhitened(const Course& course, WarmFit& fit) {
   white.map = FitWhitened(m, course.input.selection, course.loop, course.level, course.offsets,
                           course.spread, fit);
   if (!white.map) return white;
+
+  // back to the plain fit where whitening changes too much, or leaves the bounds
   white.refused = FindStructure(course, plain, fit, *white.map);
   if (white.refused || LeavesBounds(LawParameters(course.task.law, fit.parameters(), m))) {
     fit = plain;
@@ -130,17 +134,22 @@ Whitened FitAgainWhitened(const Course& course, WarmFit& fit) {
 
 /// By plain squares, with what is known of E(0) and a jump of E at each gap, both of which the course learns.
 RobustWarmFit FitBySquares(Course& course, const WarmStart& start) {
+  // first without gaps, with E(0) as the options have it
   const double scale =
       std::sqrt(course.NominalSquares() / static_cast<double>(course.torque.size()));
   RobustWarmFit robust{FitWarmFriction(course.loop, course.level, course.offsets, course.kept,
                                        start, InitialEnergyOf(course.input.options), scale),
                        course.kept, kInfinity};
+
+  // what was known of E(0), weighed by the noise that this fit leaves
   course.unlike_before = WeighStart(
       course.loop, course.level, course.offsets, course.kept,
       [&](const WarmFit& alone) {
         return KnownOf(course, alone).Deviation(alone.law_parameters + 2);
       },
       robust.fit);
+
+  // nobody knows the losses within gaps: E may jump there
   course.gaps = FindGaps(course.input.measurements);
   if (!course.gaps.empty()) {
     course.spread = FitJumps(course.loop, course.level, course.offsets, course.kept, course.gaps,
@@ -154,6 +163,7 @@ RobustWarmFit FitBySquares(Course& course, const WarmStart& start) {
 Fit FitFurther(const Course& course, const WarmStart& start, RobustWarmFit robust) {
   const auto& [input, task] = std::tie(course.input, course.task);
   double nominal_squares = course.NominalSquares();
+  // outliers count less, in the fit without warming as well
   if (input.options.Text("loss") == "huber") {
     robust = RefineByHuber(course.loop, course.level, course.offsets, course.kept,
                            std::move(robust.fit), course.spread);

@@ -28,6 +28,8 @@ void JudgePasses(const std::vector<KalmanPass>& passes, Fit& fit) {
     fit.without_intervals = "intervals need more than one pass";
     return;
   }
+
+  // the last pass against the one before, by the standard errors
   const Eigen::Index p = known.covariance.rows();
   const Eigen::VectorXd moved = passes.back().mean - passes[passes.size() - 2].mean;
   const Eigen::ArrayXd deviation = known.covariance.diagonal().cwiseSqrt();
@@ -56,6 +58,8 @@ std::optional<Refusal> WhyRefused(const KalmanTrack& track, const Fit& fit, cons
                                   double nominal_squares) {
   const Measurements& m = track.measurements;
   const Eigen::Index p = ending.x.size() + 2;
+
+  // how clearly the warming is seen, and how well its time constant is known
   const double squares = fit.residual().squaredNorm();
   const double variance = squares / static_cast<double>(fit.torque.size() - p);
   const auto [shortest, longest] = TimeConstantRange(track);
@@ -142,6 +146,7 @@ Fit FitOnline(const IdentifierInput& input) {
                    Indistinct(nominal.mixed, law, m, input.selection));
   }
 
+  // pass after pass over the recording, scaled by the rms of columns and torque
   const double root = std::sqrt(static_cast<double>(torque.size()));
   const KalmanTrack track{law,
                           m,

@@ -18,11 +18,15 @@ std::optional<double> LagOf(const Structure& structure, const TorqueModel& witho
                             const CourseStart& start, const IdentifierInput& input) {
   const Measurements& m = input.measurements;
   if (m.acceleration || !structure.CanTellLag()) return std::nullopt;
+
+  // whether what the model leaves shows a lag at all
   const TorquePrediction predicted = PredictTorque(without, m, input.selection, start);
   const auto runs = std::make_shared<const KeptRuns>(FindRuns(m, predicted.known));
   const Eigen::VectorXd torque = Kept(predicted.torque, predicted.known);
   const Eigen::VectorXd residual = Kept(m.torque, predicted.known) - torque;
   if (!ShowsLag(runs, torque, residual)) return std::nullopt;
+
+  // then how long it is, by the structure that estimates it
   const Fit behind = structure.With(kLagOption, "estimated").Fitted(input);
   if (behind.refusal || !behind.torque_lag) return std::nullopt;
   return behind.torque_lag->time_constant;

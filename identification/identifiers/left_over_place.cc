@@ -49,11 +49,13 @@ bool TakesMoreThanChance(const VectorXd& residual, const VectorXd& share, const 
                          Index bins) {
   const Means means(residual, share, velocity, bins);
   const auto n = static_cast<double>(residual.size());
+  // squares about one mean, and about the means of all bins that hold samples
   const double about_mean = residual.squaredNorm() - n * std::pow(residual.mean(), 2);
   const double about_bins = residual.squaredNorm() - means.Taken();
   const double freedom = means.Filled() - 1;
   if (freedom < 1 || !(about_bins > 0) || freedom > 0.5 * n) return false;
 
+  // beyond what as many means take of noise alone
   const double taken = (about_mean - about_bins) / (about_bins / (n - freedom - 1));
   return taken > freedom + kDeviations * std::sqrt(2 * freedom);
 }

@@ -24,6 +24,7 @@ std::vector<std::vector<FrictionMap>> Shapes(const Options& options, const MapSe
 }
 
 Fit FitSlopeAndLevel(const IdentifierInput& input) {
+  // E, from a fit whose level alone warms
   MapTask task{kName, ReadMapSettings(input.options), {}, {}};
   const Identifier warm = EnergyMl();
   const Options options(warm.options, {{"law", task.settings.law}}, {kName});

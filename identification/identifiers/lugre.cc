@@ -31,12 +31,16 @@ std::optional<Eigen::VectorXd> SteadyStart(const IdentifierInput& input, const F
   const Measurements& m = input.measurements;
   const Selection steady = SteadySamples(input, distance);
   if (steady.count() < 8) return std::nullopt;
+
+  // the curve over the speed without warming, at the best vs of a scan
   const Intervals intervals{{1}, std::vector<int>(static_cast<size_t>(m.size()), 0), 1};
   const StribeckProblem problem{
       m, steady, intervals, 2, FittedWarming::none, 1, FindFallingLaw(law.steady)};
   const std::vector<StribeckPoint> scan = ScanStribeckVelocity(problem);
   if (scan.empty()) return std::nullopt;
   Eigen::VectorXd start = scan[0].x;
+
+  // a start needs a level that brakes, and a likely one at rest
   if (!(law.coulomb(start.data()) > 0)) return std::nullopt;
   law.keep(start.data(), 1, 3);
   return start;
@@ -47,6 +51,7 @@ void RefineBest(const LugreProblem& problem, const std::vector<LugrePoint>& poin
                 std::optional<LugreFit>& best) {
   for (size_t i = 0; i < std::min(kRefined, points.size()); ++i) {
     LugreFit fit = RefineLugre(problem, points[i]);
+    // one that has converged comes before one that has not
     const bool better =
         !best ||
         (fit.converged && (!best->converged || fit.solution.squares < best->solution.squares));
@@ -79,6 +84,8 @@ std::optional<std::string> VagueBristle(const Measurements& m, const LugreProble
                                                 std::exp(1.96 * stiffness))
                                   : "do not determine the stiffness");
   }
+
+  // the damping, where it is estimated
   if (problem.IsConstant(problem.damping())) return std::nullopt;
   const Eigen::VectorXd& x = answer.fit.solution.x;
   const double damping = x[problem.damping()], deviation = answer.Deviation(problem.damping());
@@ -100,6 +107,8 @@ std::optional<std::string> UnknownStribeck(const IdentifierInput& input,
   const StribeckEvidence evidence = EvidenceOf(
       *problem.law, answer.fit.solution.x, answer.known.covariance.topLeftCorner(levels, levels),
       answer.Deviation(problem.log_vs()));
+
+  // the fall must stand out of its own standard error
   const double explained = std::pow(evidence.fall / evidence.fall_deviation, 2);
   if (!(explained > kVisibleWarming)) {
     return fmt::format(
@@ -118,6 +127,8 @@ void SetModel(const Measurements& m, const LugreProblem& problem, const LugrePoi
   const Eigen::Map<const Eigen::VectorXd> values(p.data(), static_cast<Eigen::Index>(p.size()));
   fit.friction = FrictionOf(law, values, m);
   fit.parameters = LawParameters(law, values, m);
+
+  // vs and the stiffness are fitted by their logarithms, the damping by its value
   const auto vs = static_cast<size_t>(problem.log_vs());
   fit.parameters[vs].coordinate = Coordinate::logarithm;
   fit.parameters[vs + 1].coordinate = Coordinate::logarithm;
@@ -172,6 +183,7 @@ void Conclude(const IdentifierInput& input, const LugreProblem& problem, const L
   SetModel(m, problem, answer.fit.solution, fit);
   fit.used = problem.used;
   fit.inertia_torque = answer.fit.solution.x[problem.inertia()] * problem.acceleration;
+  // friction with which each recording begins: the load of the bristle and the viscous part
   const double viscous = answer.fit.solution.x[0];
   for (size_t r = 0; r < answer.fit.loads.size(); ++r) {
     const Eigen::Index first = r == 0 ? 0 : m.starts[r - 1];
@@ -210,6 +222,7 @@ Fit FitLugre(const IdentifierInput& given) {
   const Eigen::VectorXd torque = Kept(m.torque, input.selection);
   const double scale = torque.norm() / std::sqrt(static_cast<double>(torque.size()));
   LugreProblem problem = MakeLugreProblem(input, law, scale);
+  // what the options hold at 0 is not estimated
   if (input.options.Text("damping") == "none")
     problem.constant.push_back(static_cast<int>(problem.damping()));
   if (input.options.Text("inertia") == "none")

@@ -16,6 +16,8 @@ Fit FitMotorMaps(const IdentifierInput& input) {
       BeginMaps(input, kName, {MapQuantity::position, MapQuantity::motor_position});
   if (begin.refusal) return Refused(kName, *begin.refusal);
   MapTask& task = begin.task;
+
+  // kernels over the motor's turn, and over the joint's travel beside them
   const MotorMapSize size{input.options.Integer("kernels"),
                           input.options.Integer("velocity_kernels"),
                           input.options.Integer("arm_kernels")};
@@ -23,6 +25,8 @@ Fit FitMotorMaps(const IdentifierInput& input) {
   auto choice = ChooseAndFit(input, task);
   if (!choice) return Refused(kName, Unsolvable());
   if (!task.settings.has_bands) return AsSketch(input, task, std::move(*choice));
+
+  // how sure law and maps are, for intervals and bands
   const MapFit& maps = choice->fit;
   const Uncertainty known = JudgeMaps(choice->problem, maps);
   Fit fit = AsFit(input, task, maps, known);

@@ -76,6 +76,8 @@ void SolveWhitened(LawRows& rows) {
   if (!whitening) return;
   LeastSquares white = SolveLeastSquares(whitening->Of(rows.A), whitening->Of(rows.torque));
   if (white.rank < task.count()) return;
+
+  // whitening stays where it changes no more than noise may, and leaves a friction
   rows.structure = FindStructure(rows.A, rows.torque, solved, white, *whitening, input.selection);
   const bool is_friction = !LeavesBounds(
       LawParameters(task.law, white.solution.head(task.law_count()), input.measurements));
@@ -96,6 +98,7 @@ Fit AsFit(const LawRows& rows) {
   fit.parameters = LawParameters(task.law, values, m);
   AddRigid(task.gravity, solved.solution.tail(task.gravity.count()), m, fit);
 
+  // how well they fit, and what their errors follow from
   fit.used = input.selection;
   fit.torque = rows.torque;
   fit.fitted = rows.A * solved.solution;
@@ -116,6 +119,7 @@ Fit FitLaw(const IdentifierInput& given) {
   if (task.refusal) return Refused(kName, *task.refusal);
   const IdentifierInput input = task.gravity.Of(given);
 
+  // law and gravity on the rows as they are
   LawRows rows = SolveRows(input, task);
   const LeastSquares& solved = rows.robust.fit;
   if (solved.rank < task.count()) {
@@ -126,6 +130,8 @@ Fit FitLaw(const IdentifierInput& given) {
     return Refused(kName, Status::not_converged,
                    "the weights of Huber's loss still move after 100 rounds; use loss squares");
   }
+
+  // then behind a lag of the torque, or whitened where the noise is coloured
   const bool by_squares = std::isinf(rows.robust.threshold);
   if (AsksForLag(given)) SolveBehindLag(rows);
   if (by_squares && !rows.lag) SolveWhitened(rows);

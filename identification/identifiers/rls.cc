@@ -39,9 +39,12 @@ Eigen::VectorXd Run(const Eigen::MatrixXd& A, const Eigen::VectorXd& y, double f
   constexpr double kDoubt = 1e8;  // prior variance over noise variance of columns of mean square 1
   const Eigen::RowVectorXd scale = A.colwise().norm() / std::sqrt(static_cast<double>(A.rows()));
   auto state = KnowNothing<Eigen::Dynamic>(A.cols(), kDoubt);
+
+  // columns of mean square 1, so that one prior suits them all
   for (Eigen::Index i = 0; i < A.rows(); ++i) {
     const Eigen::VectorXd row = A.row(i).cwiseQuotient(scale);
     TakeIn<Eigen::Dynamic>(row, y[i], forgetting, state);
+    // the estimate at some moments, for the trace
     if ((i + 1) % std::max<Eigen::Index>(A.rows() / kMoments, 1) != 0) continue;
     const Eigen::VectorXd now = state.estimate.cwiseQuotient(scale.transpose());
     const double rmse =
@@ -72,12 +75,15 @@ ColdRows Cold(const std::optional<MeasuredHeat>& heat, Eigen::MatrixXd columns, 
 Uncertainty ThroughHeat(const MeasuredHeat& heat, const Eigen::MatrixXd& rows,
                         const Eigen::VectorXd& weights, const Eigen::VectorXd& residual,
                         const Eigen::MatrixXd& cofactor, const Selection& used) {
+  // weighted rows over all samples, 0 where not kept
   Eigen::MatrixXd weighted = Eigen::MatrixXd::Zero(rows.rows(), rows.cols());
   Eigen::Index row = 0;
   for (Eigen::Index i = 0; i < rows.rows(); ++i) {
     if (used.keep[i]) weighted.row(i) = weights[row++] * rows.row(i);
   }
   const Selection all{Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(rows.rows(), true), {}};
+
+  // the noise of all samples comes through the heat
   Uncertainty known;
   known.noise = FitNoise(residual, used);
   known.covariance =
@@ -93,6 +99,7 @@ Fit FitOnline(const IdentifierInput& given) {
   const auto& [law, gravity, columns, refusal] = task;
   const IdentifierInput input = gravity.Of(given);
 
+  // the heat of a given warming is taken off the torque, and off gravity
   const std::optional<Thermal> thermal = GivenThermal(input.options);
   std::optional<MeasuredHeat> heat;
   if (thermal) heat.emplace(m, *thermal);

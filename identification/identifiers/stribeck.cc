@@ -32,6 +32,7 @@ Eigen::Index Gain(const StribeckProblem& problem) { return LogVs(problem) + 1; }
 /// What the law without the Stribeck effect leaves, with the same warming. (N.m)^2 or N^2
 double SquaresWithout(const StribeckProblem& problem) {
   const Measurements& m = problem.measurements;
+  // cold, by linear least squares
   const Eigen::MatrixXd columns = LawColumns(problem.law.without, m.velocity);
   const Eigen::VectorXd torque = Kept(m.torque, problem.selection);
   const Eigen::MatrixXd kept = Kept(columns, problem.selection);
@@ -39,6 +40,7 @@ double SquaresWithout(const StribeckProblem& problem) {
   const double squares = (torque - kept * cold.solution).squaredNorm();
   if (problem.warming == FittedWarming::none) return squares;
 
+  // with warming, from the best time constant of a scan
   const ClosedLoop loop = ClosedLoop::Along(m, columns);
   const Eigen::VectorXd level = loop.direction().cwiseProduct(m.torque);
   const Eigen::VectorXd weight = problem.selection.keep.cast<double>();
@@ -70,6 +72,7 @@ std::optional<std::string> VagueWarming(const StribeckProblem& problem, const St
   if (problem.warming == FittedWarming::none) return std::nullopt;
   const Eigen::VectorXd& time = problem.measurements.time;
   const double total = time[time.size() - 1] - time[0];
+  // what the warming explains, in variances of the noise
   const Eigen::Index n = fit.fitted.size();
   const double variance = fit.solution.squares / static_cast<double>(n - fit.solution.x.size());
   return UnknownWarming(
@@ -100,6 +103,7 @@ void SetModel(const StribeckProblem& problem, const Eigen::VectorXd& x, Fit& fit
   fit.friction = FrictionOf(law, values, m);
   fit.friction.thermal = ThermalAt(problem, x);
   fit.parameters = LawParameters(law, values, m);
+  // vs is fitted by its logarithm; the exponent behind it was given
   fit.parameters[vs].coordinate = Coordinate::logarithm;
   fit.parameters[vs + 1].estimated = false;
   if (fit.friction.thermal) Append(HeatParameters(*fit.friction.thermal, m), fit);
@@ -133,6 +137,7 @@ StribeckFit FitFrom(const StribeckProblem& problem, const std::vector<StribeckPo
   StribeckFit best = RefineStribeck(problem, scan[0]);
   for (size_t i = 1; i < std::min(kRefined, scan.size()); ++i) {
     StribeckFit fit = RefineStribeck(problem, scan[i]);
+    // one that has converged comes before one that has not
     if (fit.converged && (!best.converged || fit.solution.squares < best.solution.squares)) {
       best = std::move(fit);
     }
@@ -163,6 +168,8 @@ void Conclude(const IdentifierInput& input, const StribeckProblem& problem, cons
                    FrictionKind::stribeck};
     return;
   }
+
+  // the level at rest and vs must explain more than chance does
   const double explained = Explained(input, rivals.without, best.solution);
   if (!(explained > kVisibleWarming)) {
     fit.refusal = {Status::not_identifiable, Unseen(input, problem.law, explained)};
@@ -203,6 +210,8 @@ Fit FitStribeck(const IdentifierInput& input) {
   if (auto why = Unusable(input, static_cast<int>(levels) + 4)) {
     return Refused(kName, Status::bad_data, *why);
   }
+
+  // the law must be told without its fall before the fall is thought of
   const auto unknown = law.law.parameters.first(levels + 1);
   if (auto why = UnknownSliding(input, law, unknown)) return Refused(kName, *why);
 

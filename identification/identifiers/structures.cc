@@ -40,6 +40,7 @@ Structure Structure::WithShapeOf(const FrictionMap& map) const {
   const std::vector<double>& centres = axis.kernels.centres;
   const double spacing = centres[1] - centres[0];
   const Structure wide = With("width", fmt::format("{:.4g}", axis.kernels.width / spacing));
+  // over the motor's angle only the width is chosen
   if (axis.quantity != MapQuantity::position) return wide;
   return wide.With("kernels", std::to_string(centres.size()));
 }
@@ -73,6 +74,7 @@ std::optional<Eigen::VectorXd> Structure::ErrorsOn(const IdentifierInput& input,
 std::vector<std::string> GravityKinds(const IdentifierInput& input) {
   const std::string& asked = input.options.Text(kGravityOption);
   if (asked != "chosen") return {asked};
+  // a place that never changes tells nothing of gravity
   const Eigen::VectorXd& position = input.measurements.position;
   if (!position.allFinite() || position.maxCoeff() == position.minCoeff()) return {"none"};
   if (input.measurements.joint == JointKind::linear) return {"none", "paired"};
@@ -112,6 +114,7 @@ Structure TwoLevelStribeckStructure(const std::string& warming) {
 
 std::vector<Structure> MapStructures(const IdentifierInput& input, const std::string& gravity,
                                      const ChosenKernels& kernels) {
+  // with the kernels and the strength that were chosen for the log, if any
   const auto shaped = [](Structure one, const std::optional<ChosenMap>& chosen) {
     if (!chosen) return one;
     one.strength = chosen->strength;
@@ -129,6 +132,7 @@ std::vector<Structure> MapStructures(const IdentifierInput& input, const std::st
     const Structure warm{EnergyMl(), given};
     structures.push_back(shaped({PositionRidge(), given}, kernels.position));
     structures.push_back(shaped(warm.With("position", "map"), kernels.position));
+    // ripple of the motor, where its angle is known
     if (!knows_motor) continue;
     if (kind == "none") structures.push_back(shaped({MotorRidge(), {}}, kernels.motor));
     structures.push_back(shaped(warm.With("position", "motor"), kernels.motor));

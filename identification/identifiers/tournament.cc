@@ -30,6 +30,7 @@ constexpr double kBeyondDoubt =
 Trial Try(const Structure& structure, const IdentifierInput& input) {
   Trial trial{structure, structure.Quick().Fitted(input)};
   trial.gives_friction = GivesFriction(trial.fit);
+  // the shape that was chosen for a map stays with the structure
   if (!trial.fit.friction.maps.empty()) {
     trial.structure = structure.WithShapeOf(trial.fit.friction.maps[0]);
   }
@@ -73,6 +74,8 @@ std::optional<double> Tournament::LagOfBest(const IdentifierInput& all) const {
   if (!best) return std::nullopt;
   all.Tell("looking for a lag of the torque");
   const Fit& fit = best->fit;
+
+  // jumps of E stand at rows: back to the samples with which those begin
   CourseStart start = fit.Start();
   for (EnergyJump& jump : start.jumps) jump.sample = log_.first[static_cast<size_t>(jump.sample)];
   return LagOf(best->structure, {fit.friction, fit.gravity, fit.inertia}, start, all);
@@ -87,12 +90,15 @@ bool Tournament::MayHaveMap() const {
 
 ChosenKernels Tournament::KernelsBesideBest(const std::string& gravity) const {
   quick_.Tell("choosing the kernels of maps");
+  // E as the best structure so far has it
   const Trial* best = BestTrial();
   Eigen::VectorXd energy;
   if (best) {
     const Fit& fit = best->fit;
     energy = PredictFriction(fit.friction, log_.view.measurements, fit.Start()).energy;
   }
+
+  // energy-ml has both maps, over position and over the motor's angle
   const auto chosen = [&](const char* position) {
     const Options options(EnergyMl().options, {{kGravityOption, gravity}, {"position", position}},
                           {});
@@ -124,12 +130,15 @@ bool Tournament::MayBendAndWarm() const {
 bool Tournament::MayHaveTwoLevels(const std::string& warming) const {
   const Trial& one = *Find(StribeckStructure(warming));
   if (one.told.status == Status::ok) return Pushes(one.fit);
+
+  // where the curve does not fit: by a linear law, or by two levels without warming
   if (warming == "none") return Pushes(First().fit);
   const Trial* cold = Find(TwoLevelStribeckStructure("none"));
   return cold && cold->told.status == Status::ok;
 }
 
 void Tournament::DropHopeless() {
+  // maps that hold gravity which another structure tells apart
   for (Trial& one : trials_) {
     for (const Trial& other : trials_) {
       if (!one.dropped.empty() || !other.dropped.empty() || !HidesGravity(one, other)) continue;
@@ -138,6 +147,7 @@ void Tournament::DropHopeless() {
     }
   }
 
+  // then what is outdone by any that stood until here, dropped meanwhile or not
   std::vector<bool> standing;
   for (const Trial& trial : trials_) standing.push_back(trial.dropped.empty());
   for (size_t i = 0; i < trials_.size(); ++i) {
@@ -206,6 +216,7 @@ bool Tournament::Pushes(const Fit& fit) const {
 }
 
 bool Tournament::HidesGravity(const Trial& one, const Trial& other) const {
+  // the same structure, one with a map and no gravity, the other with gravity
   const auto same = [&](const char* option) {
     return one.structure.Given(option, "") == other.structure.Given(option, "");
   };
@@ -227,6 +238,8 @@ std::string Tournament::WhyOutdone(const Trial& one, const Trial& other) const {
   if (other.Parameters() < one.Parameters() && BicOf(other) <= BicOf(one)) {
     return fmt::format("outdone by {}, which is simpler", other.structure.Name());
   }
+
+  // to leave little counts only with few parameters for so many rows
   if (other.Parameters() < kFewParameters * rows_ &&
       kHopeless * other.MeanSquare() < one.MeanSquare()) {
     return fmt::format("{} leaves less than half of its residual", other.structure.Name());

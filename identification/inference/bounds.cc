@@ -21,10 +21,12 @@ struct Excess {
 };
 
 std::optional<Excess> FindExcess(const FitParameter& parameter, const KnownParameter& known) {
+  // a value that is no number counts as below
   const bool below = !(parameter.value >= parameter.lower);
   if (!below && parameter.value <= parameter.upper) return std::nullopt;
   const double bound = below ? parameter.lower : parameter.upper;
   const auto& interval = known.interval95;
+  // beyond doubt where no part of the interval is within the bound
   const bool beyond = interval && (below ? (*interval)[1] < bound : (*interval)[0] > bound);
   return Excess{parameter, known, bound, below, beyond};
 }
@@ -62,6 +64,7 @@ std::string_view Linear(const Fit& fit) { return Warms(fit) ? "energy-ml" : "nom
 /// named again.
 std::string AgainstFallingSlope(const Fit& fit) {
   const std::string& law = fit.friction.law;
+  // whether the law has a Stribeck curve already
   const bool curved = fit.friction.parameters.contains(std::string(kStribeckVelocityRow.name));
   if (curved && Warms(fit)) {
     return "friction falls with speed beyond the law's curve and its warming: record higher speeds";
@@ -83,10 +86,12 @@ std::string AgainstFallingSlope(const Fit& fit) {
 /// What makes a fit leave its bounds, and what to try.
 std::string Remedy(const Fit& fit, const FitParameter& parameter) {
   if (IsSlope(parameter)) return AgainstFallingSlope(fit);
+  // neither slope nor level: a linear law may do without it
   if (PartOf(parameter.name) != LawPart::level) {
     return fmt::format("try --identifier {}", LinearCommand(Linear(fit), fit.friction.law));
   }
   const char* push = "a negative level would push the joint: ";
+  // gravity is fitted already, which leaves the sign as a cause
   if (fit.gravity)
     return fmt::format("{}is the sign of the torque reversed (--scale torque=-1)?", push);
   return fmt::format(
@@ -105,6 +110,7 @@ std::optional<std::string> RisesFromRest(const FrictionDescription& friction) {
   const auto coulomb = friction.parameters.find(std::string(kCoulombRow.name));
   const auto rise = friction.parameters.find(std::string(kStaticRiseRow.name));
   const auto none = friction.parameters.end();
+  // a law holds its rise as a parameter of its own, or as two levels
   if (rise != none && rise->second < 0) return "static_rise is below 0";
   const bool below = at_rest != none && coulomb != none && at_rest->second < coulomb->second;
   return below ? std::optional<std::string>("static is below coulomb") : std::nullopt;

@@ -49,9 +49,14 @@ Uncertainty OfWhitened(const Fit& fit, const Whitening& whitening) {
 
 Uncertainty CovarianceOf(const Fit& fit) {
   const ErrorModel& errors = fit.errors;
+  // what the identifier knew already, or finds only where it is asked
   if (errors.known) return *errors.known;
   if (errors.judge) return errors.judge();
+
+  // rows that were whitened are judged by the colour that is left
   if (errors.whitening) return OfWhitened(fit, *errors.whitening);
+
+  // a robust loss or a lag brings scores in place of the residual
   const Eigen::VectorXd residual = errors.scores.size() > 0 ? errors.scores : fit.residual();
   const auto jacobian = [&] { return Kept(fit.jacobian(), fit.used); };
   if (errors.weights.size() > 0) return OfWeighted(jacobian(), errors, residual, fit.used);

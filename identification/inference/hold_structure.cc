@@ -18,15 +18,19 @@ double Rms(const Eigen::VectorXd& values) {
 }  // namespace
 
 void HoldStructure(const Disagreement& structure, const Eigen::VectorXd& friction, Fit& fit) {
+  // columns of gravity may have no name of their own
   const auto row = static_cast<std::size_t>(structure.parameter);
   const bool named = row < fit.parameters.size() && !fit.parameters[row].name.empty();
   const std::string name = named ? fit.parameters[row].name : "gravity";
+
+  // how far the structure moves the fitted torque, beside the size of the friction
   const double moved = Rms(Kept(fit.jacobian(), fit.used) * structure.differences);
   if (!(moved < kDefaultRelevance * Rms(friction))) {
     fit.without_intervals = DescribeDisagreement(structure, name);
     return;
   }
 
+  // little beside the friction: it joins the errors as one more of them
   Uncertainty known = CovarianceOf(fit);
   known.covariance += structure.differences * structure.differences.transpose();
   fit.errors.known = std::move(known);

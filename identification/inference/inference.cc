@@ -15,6 +15,7 @@ namespace {
 /// std and interval of an estimated parameter. deviation: of its coordinate
 KnownParameter Known(const FitParameter& parameter, double deviation, double quantile) {
   const double value = parameter.value;
+  // errors of the value itself: an interval that is even to both sides
   if (parameter.coordinate == Coordinate::value) {
     const double reach = quantile * deviation;
     return {value, deviation, {{value - reach, value + reach}}, 0};
@@ -46,6 +47,7 @@ std::vector<KnownParameter> Intervals(const Fit& fit, const Uncertainty& known) 
 }
 
 std::string MessageOf(const Fit& fit, const Uncertainty& known) {
+  // without intervals, the reason stands in the place of the noise
   if (!fit.without_intervals.empty()) {
     return fmt::format("{}; {}{}", fit.summary, fit.without_intervals, fit.afterword);
   }
@@ -61,6 +63,7 @@ void Inference::Void(Status why, std::string sentence) {
   warnings.clear();
   gives_friction = false;
   gives_bands = false;
+  // the values stay, without what would make them look sure
   for (KnownParameter& one : parameters) {
     one.std.reset();
     one.interval95.reset();

@@ -45,17 +45,20 @@ Bins Gather(const Measurements& measurements, const Selection& selection, Index 
   const Eigen::VectorXd& v = measurements.velocity;
   const Eigen::ArrayXi segment = SegmentOf(v.size(), selection);
   const Index share = 1 + selection.count() / kBins;
+  // the most samples of a bin: its share of all, and of its segment where one is known
   const auto most = [&](Index first) {
     if (segment.size() == 0 || segment[first] < 0) return share;
     const Segment& one = selection.segments[static_cast<size_t>(segment[first])];
     return std::min(share, (one.end - one.begin + parts - 1) / parts);
   };
+  // samples of one segment are alike, else those of one direction or at about one speed
   const auto together = [&](Index first, Index other) {
     if (segment.size() > 0) return segment[first] == segment[other];
     if (measurements.acceleration) return v[first] * v[other] > 0;
     return std::abs(v[other] - v[first]) <= kOneSpeed * std::abs(v[first]);
   };
 
+  // each kept sample joins the bin before it or begins one of its own
   Bins bins;
   for (Index i = 0; i < measurements.size(); ++i) {
     if (!selection.keep[i]) continue;

@@ -65,15 +65,21 @@ Circumstances CircumstancesOf(const FittedModel& model, const Measurements& m, c
   Circumstances known;
   known.energies = bins.Means(Energies(model, m));
   known.slopes = known.initial = known.loads = known.temperatures = none;
+
+  // a slope that warms, with the heat that it makes itself
   if (model.thermal) {
     const Eigen::VectorXd slope = m.velocity.cwiseProduct(model.energy);
     const Eigen::VectorXd at_losses =
         m.loss_velocity.value_or(m.velocity).cwiseProduct(model.energy);
     known.slopes = bins.Means(WithHeat(model, m, slope, at_losses));
   }
+
+  // the start where it is taken to be known, load and temperature where they are logged
   if (model.by_initial_energy) known.initial = bins.Means(*model.by_initial_energy);
   if (m.load) known.loads = bins.Means(Beside(*m.load, m.load->cwiseAbs()));
   if (m.temperature) known.temperatures = bins.Means(*m.temperature);
+
+  // friction that follows the speed late, by half a hold to an eighth of the log
   known.duration = m.time[m.size() - 1] - m.time[0];
   known.hold = MedianHold(model, m);
   known.past = MemoryTimes(known.hold, known.duration);

@@ -60,6 +60,7 @@ void TestInTurn(Turn turn, const Bins& bins, const Eigen::MatrixXd& derivatives,
                 const Circumstances& known, Eigen::VectorXd& rest, ErrorLevel& level,
                 std::vector<Finding>& table) {
   BinFindings made = TestBins(Rows(turn), bins, bins.Means(rest), derivatives, known, level);
+  // what they found is taken off all samples of a bin alike
   for (Index c = 0; c < bins.size(); ++c) {
     const auto i = static_cast<size_t>(c);
     rest.segment(bins.begin[i], bins.end[i] - bins.begin[i]).array() -= made.explained[c];
@@ -81,9 +82,13 @@ void TestWithin(const FittedModel& model, const Measurements& m, const Bins& bin
     }
     return;
   }
+
+  // samples first: they show what is too fine for bins
   Enter({TestFading(model, rest, level)}, table);
   Enter({TestLag(model, m, rest, level)}, table);
   Enter(TestRipple(model, m, rest, level), table);
+
+  // then what returns with every hold, and last what is periodic in time
   const Bins within = BinsWithinHolds(m, model.selection);
   TestInTurn(Turn::hold, within, DerivativesOver(within, model), known, rest, level, table);
   TestInTurn(Turn::last, bins, derivatives, known, rest, level, table);
@@ -92,6 +97,7 @@ void TestWithin(const FittedModel& model, const Measurements& m, const Bins& bin
 /// Sums up how what was found moves the parameters.
 void SumMoves(Index p, Examination& examination) {
   examination.moves.setZero(p);
+  // findings count as independent of each other: their variances add up
   Eigen::VectorXd variance = Eigen::VectorXd::Zero(p);
   for (const Finding& finding : examination.findings) {
     if (!finding.rejected || finding.moves.size() == 0) continue;
@@ -115,6 +121,7 @@ void LearnHints(Index p, Examination& examination) {
 /// than its values are from each other. The mean looks like friction, or like an offset.
 void HideMeans(const Bins& bins, const Eigen::MatrixXd& derivatives, Index p,
                Examination& examination) {
+  // how far apart the values lie of all that returns with the holds
   double range = 0;
   for (const Finding& finding : examination.findings) {
     if (finding.rejected && finding.test->turn == Turn::hold) {
@@ -122,6 +129,8 @@ void HideMeans(const Bins& bins, const Eigen::MatrixXd& derivatives, Index p,
     }
   }
   if (range == 0) return;
+
+  // such a mean acts against the motion, as friction, or in one direction, as an offset
   Eigen::MatrixXd means(bins.size(), 2);
   means << bins.velocity.array().sign().matrix(), Eigen::VectorXd::Ones(bins.size());
   examination.by_hidden =
@@ -188,6 +197,7 @@ std::vector<Finding> NotMade(const std::string& reason) {
 
 Examination ExamineResidual(const Fit& fit, const Inference& inference, const Measurements& m,
                             const Selection& selection) {
+  // the fit along the log, and why it may not be examined
   Examination examination;
   const std::optional<FittedModel> model = EvaluateModel(fit, inference, m, selection);
   const Bins bins = model ? MakeBins(m, model->selection) : Bins{};
@@ -212,6 +222,8 @@ Examination ExamineResidual(const Fit& fit, const Inference& inference, const Me
   std::vector<Finding>& table = examination.findings;
   TestInTurn(Turn::first, bins, derivatives, known, rest, level, table);
   TestWithin(*model, m, bins, derivatives, known, rest, level, table);
+
+  // what all of that does to the parameters
   SumMoves(p, examination);
   LearnHints(p, examination);
   HideMeans(bins, derivatives, p, examination);

@@ -40,6 +40,7 @@ MatrixXd Wave(const ArrayXd& angle) {
 
 /// How many cycles over the log explain most of what is left if they cover it evenly.
 double StrongestCycles(const Bins& bins, const GrowingFit& fit, double most) {
+  // what is left, as a force in one direction and as one against the motion
   const VectorXd left = bins.weight.cwiseProduct(fit.Left());
   const VectorXd friction = SignOf(bins).matrix().cwiseProduct(left);
 
@@ -55,6 +56,7 @@ double StrongestCycles(const Bins& bins, const GrowingFit& fit, double most) {
       explained = both;
       strongest = cycles;
     }
+    // turned on to the next number of cycles
     const VectorXd cosine = wave.col(0);
     wave.col(0) = cosine.cwiseProduct(turn.col(0)) - wave.col(1).cwiseProduct(turn.col(1));
     wave.col(1) = cosine.cwiseProduct(turn.col(1)) + wave.col(1).cwiseProduct(turn.col(0));
@@ -111,6 +113,7 @@ Features OfSpeedMemory(const Bins& bins, const Circumstances& known, const Growi
   // without a warming in the fit its heat, which follows the speed late, too, would look like that
   if (known.past.empty() || known.slopes.cols() == 0) return {MatrixXd(bins.size(), 0)};
   const MatrixXd& all = known.late_speeds;
+  // the time constant that explains most beside the fit
   Index best = 0;
   fit.ExplainedBy(all).maxCoeff(&best);
   return {all.col(best), static_cast<int>(all.cols()), known.past[static_cast<size_t>(best)]};
@@ -119,6 +122,7 @@ Features OfSpeedMemory(const Bins& bins, const Circumstances& known, const Growi
 Features OfStep(const Bins& bins, const Circumstances&, const GrowingFit& fit) {
   // one column for each place, of friction and of offset
   MatrixXd after = MatrixXd::Zero(bins.size(), kPlaces - 1);
+  // the places that a row has passed, by the samples before it
   const double total = bins.weight.sum();
   double before = 0;
   for (Index c = 0; c < bins.size(); ++c) {
@@ -127,6 +131,7 @@ Features OfStep(const Bins& bins, const Circumstances&, const GrowingFit& fit) {
     before += bins.weight[c];
   }
   const MatrixXd all = BothWays(bins, after);
+  // the one step that explains most beside the fit
   Index best = 0;
   fit.ExplainedBy(all).maxCoeff(&best);
   return {all.col(best), static_cast<int>(all.cols())};
@@ -147,6 +152,7 @@ Features OfHoldPhase(const Bins& bins, const Circumstances&, const GrowingFit&) 
 }
 
 Features OfPeriod(const Bins& bins, const Circumstances& known, const GrowingFit& fit) {
+  // no more cycles than the bins resolve, or than one a hold
   const double most = std::min(static_cast<double>(bins.size()) / kBinsACycle,
                                known.hold > 0 ? known.duration / known.hold : kInfinity);
   if (most < kFewestCycles) return {MatrixXd(bins.size(), 0)};

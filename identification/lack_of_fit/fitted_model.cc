@@ -47,6 +47,7 @@ Eigen::VectorXd MapForce(const Law& law, const std::vector<double>& values, cons
 
 void TakeOff(const GravityModel& gravity, const Eigen::VectorXd& position, FittedModel& model) {
   model.torque -= gravity.Torque(position);
+  // samples at places where gravity is not known take no part
   for (Eigen::Index i = 0; i < position.size(); ++i) {
     model.selection.keep[i] = model.selection.keep[i] && gravity.Covers(position[i]);
   }
@@ -88,8 +89,11 @@ Eigen::MatrixXd AddWarming(const Fit& fit, const Inference& inference, const Mea
   const std::vector<double> values = LawValues(fit.friction);
   const Thermal& thermal = *fit.friction.thermal;
   model.thermal = thermal;
+
+  // a jump of E at each gap stands for the losses that nobody logged
   const std::vector<LogGap> gaps = FindGaps(m);
   const auto jumps = static_cast<Eigen::Index>(gaps.size());
+  // where the log tells mean speeds, these make the losses
   Eigen::MatrixXd of_loss;
   if (m.loss_velocity) {
     of_loss = NominalDerivatives(*FindLaw(fit.friction.law), values, *m.loss_velocity);
@@ -101,10 +105,14 @@ Eigen::MatrixXd AddWarming(const Fit& fit, const Inference& inference, const Mea
   const std::vector<double> fitted = fit.Values(Role::jump);
   Eigen::VectorXd jump_values = Eigen::VectorXd::Zero(jumps);
   std::copy(fitted.begin(), fitted.end(), jump_values.begin());
+
+  // law, heat and, where it was estimated, the start; else that is an assumption
   const Eigen::MatrixXd all = loop.Jacobian(parameters, thermal, fit.initial_energy, jump_values);
   const bool starts = !fit.Values(Role::start).empty();
   model.derivatives = all.leftCols(starts ? d + 3 : d + 2);
   if (!starts) model.by_initial_energy = all.col(d + 2);
+
+  // how far the jumps may be, and what losses held over each step leave out
   model.jump_spread = JumpSpread(gaps, model.energy.cwiseAbs().maxCoeff(), thermal.time_constant);
   if (StepMatters(fit, inference, m)) {
     model.held_loss = ForceOfHeldLoss(fit.friction, m, fit.Start());

@@ -23,10 +23,12 @@ constexpr double kFewestFree = 8;           // parts, or samples, beyond the col
 
 Basis Orthonormal(const MatrixXd& columns, double distinct) {
   const Eigen::ColPivHouseholderQR<MatrixXd> qr(columns);
+  // as many columns count as stand out beside those before them
   const Index most = std::min(columns.rows(), columns.cols());
   const Index rank = (qr.matrixQR().diagonal().head(most).array().abs() > distinct).count();
   // Eigen walks off a null pointer where there is nothing to multiply
   if (rank == 0) return {MatrixXd(columns.rows(), 0), MatrixXd(columns.cols(), 0)};
+  // Q, and the mix of columns that makes it: R^-1 with their order turned back
   Basis result;
   result.basis = qr.householderQ() * MatrixXd::Identity(columns.rows(), rank);
   MatrixXd inverse = MatrixXd::Zero(columns.cols(), rank);
@@ -44,6 +46,7 @@ Eigen::VectorXi PartOf(const VectorXd& weight, Index parts) {
   const double total = weight.sum();
   double before = 0;
   for (Index i = 0; i < weight.size(); ++i) {
+    // the middle of a row says where it belongs
     part[i] = static_cast<int>((before + 0.5 * weight[i]) / total * static_cast<double>(parts));
     before += weight[i];
   }
@@ -79,6 +82,7 @@ GrowingFit::GrowingFit(const VectorXd& weight, const VectorXd& residual,
 }
 
 void GrowingFit::LearnNoise(const std::vector<Features>& all) {
+  // what remains beside the fit and all features together is noise
   MatrixXd columns = columns_;
   for (const Features& features : all) columns = Beside(columns, Normed(features.columns));
   const MatrixXd basis = Orthonormal(columns, kDistinct).basis;
@@ -104,6 +108,7 @@ GrowingFit::Evidence GrowingFit::ByColour(const VectorXd& coefficients, const Ma
   // a fit that takes up what is slow leaves a rest that looks too fast: along no direction of the
   // features is noise quieter than white
   const MatrixXd unbiased = NoQuieter(small * scatter, noise_.variance);
+  // how many samples tell the noise, were it AR(1) noise as strong along the features
   const double red = std::max(small * seen, 1.0);
   const double samples = rows / std::max(2 * red - 1, 1.0) - taken_;
   const double fewest = kFewestFree + static_cast<double>(own.cols());
@@ -115,9 +120,12 @@ GrowingFit::Evidence GrowingFit::ByColour(const VectorXd& coefficients, const Ma
 GrowingFit::Evidence GrowingFit::ByParts(const VectorXd& coefficients, const MatrixXd& own,
                                          const VectorXd& rest) const {
   const Index q = own.cols();
+  // the parts that carry the features have to outnumber the columns clearly
   const double parts = CarryingParts(own, part_);
   const double freedom = parts - static_cast<double>(columns_.cols() + q);
   if (freedom < kFewestFree) return {MatrixXd::Zero(q, q), 1};
+
+  // the score of each part: they scatter as much as the noise makes them
   MatrixXd scores = MatrixXd::Zero(q, part_[part_.size() - 1] + 1);
   for (Index i = 0; i < rest.size(); ++i) {
     scores.col(part_[i]) += rest[i] * own.row(i).transpose();
@@ -132,6 +140,7 @@ GrowingFit::Evidence GrowingFit::ByParts(const VectorXd& coefficients, const Mat
 }
 
 double GrowingFit::AcrossParts(const MatrixXd& own) const {
+  // the scatter of each part by itself, against that of all together
   double within = 0;
   for (int k = 0; k <= part_[part_.size() - 1]; ++k) {
     const VectorXd inside = (part_.array() == k).cast<double>().matrix();
@@ -144,6 +153,8 @@ Finding GrowingFit::Test(const Features& features) const {
   Finding finding;
   finding.period = features.period;
   if (features.columns.cols() == 0) return finding;
+
+  // what of the features lies beside the fit
   MatrixXd beside = Normed(features.columns);
   const MatrixXd shared = fit_.basis.transpose() * beside;
   beside -= fit_.basis * shared;
@@ -157,8 +168,11 @@ Finding GrowingFit::Test(const Features& features) const {
   if (Evidence parts = ByParts(b, own.basis, rest); parts.p < evidence.p) {
     evidence = std::move(parts);
   }
+
+  // the smaller of two probabilities counts twice, and once for each candidate
   finding.made = true;
   finding.p = std::min(1.0, 2 * evidence.p * features.candidates);
+  // noise alone explains a part of it: that is taken off
   finding.explained = std::max(0.0, b.squaredNorm() - evidence.scatter.trace());
   finding.gain = b.squaredNorm() - static_cast<double>(b.size()) *
                                        std::log(static_cast<double>(rest.size())) * noise_.variance;
@@ -181,6 +195,7 @@ void GrowingFit::Take(const Features& features) {
 }
 
 VectorXd GrowingFit::ExplainedBy(const MatrixXd& columns) const {
+  // each column less what the fit holds of it
   MatrixXd beside = Normed(columns);
   beside -= fit_.basis * (fit_.basis.transpose() * beside);
   VectorXd explained(columns.cols());

@@ -22,6 +22,7 @@ Eigen::VectorXd Repeated(const Eigen::VectorXd& column) {
 /// The same motion with kOfEachStep samples for each, at its speed throughout. [N kOfEachStep]
 JointCourse Finer(const JointCourse& course, double gear) {
   const Index n = course.time.size();
+  // a sample lasts until the next one, the last as long as the one before it
   Eigen::VectorXd since(n * kOfEachStep);  // s, since the sample
   for (Index i = 0; i < n; ++i) {
     const Index step = std::min(i, n - 2);
@@ -30,6 +31,8 @@ JointCourse Finer(const JointCourse& course, double gear) {
       since[i * kOfEachStep + k] = h * static_cast<double>(k) / static_cast<double>(kOfEachStep);
     }
   }
+
+  // every column holds over the step, but for time and positions, which go on
   JointCourse finer;
   for (const auto column :
        {&JointCourse::time, &JointCourse::velocity, &JointCourse::position,
@@ -51,6 +54,7 @@ bool StepMatters(const Fit& fit, const Inference& inference, const Measurements&
   if (!fit.friction.thermal || measurements.size() < 2) return false;
   const auto tau = fit.RowOf(Role::heat, 1);
   if (!tau || !inference.parameters[*tau].std) return false;
+  // by how much tau comes out too large, h |k v|/2
   const double gain = fit.friction.thermal->gain;
   const double power = std::abs(gain) * measurements.velocity.cwiseAbs().mean();
   return 0.5 * MedianStep(measurements.time) * power > kMatters * *inference.parameters[*tau].std;
@@ -60,10 +64,13 @@ Eigen::VectorXd ForceOfHeldLoss(const FrictionDescription& friction,
                                 const Measurements& measurements, const CourseStart& start) {
   const AlongMotion model(friction);
   const JointCourse course = CourseOf(measurements);
+  // E jumps at the same moments of the finer course
   CourseStart finer_start = start;
   for (EnergyJump& jump : finer_start.jumps) jump.sample *= kOfEachStep;
   const Eigen::VectorXd fine = model.Predict(Finer(course, measurements.gear), finer_start).force;
   const Eigen::VectorXd held = model.Predict(course, start).force;
+
+  // an eighth of each step leaves an eighth of the error: 8/7 of the difference is all
   Eigen::VectorXd difference(held.size());
   for (Index n = 0; n < held.size(); ++n) difference[n] = fine[n * kOfEachStep] - held[n];
   return difference * static_cast<double>(kOfEachStep) / static_cast<double>(kOfEachStep - 1);

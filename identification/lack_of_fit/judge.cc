@@ -33,6 +33,7 @@ Index Misled(const Examination& examination, const Inference& inference, const J
   for (Index i = 0; i < examination.moves.size(); ++i) {
     const KnownParameter& known = inference.parameters[examination.rows[static_cast<size_t>(i)]];
     const double move = std::abs(examination.moves[i]);
+    // only a move beyond chance and beyond the interval misleads
     if (move < kSureMove * examination.move_deviations[i] || move < known.HalfWidth()) continue;
     if (move * examination.reach[i] < most) continue;
     most = move * examination.reach[i];
@@ -84,6 +85,7 @@ void HoldBoth(const Examination& examination, const Eigen::VectorXd& by, Inferen
     const double move = by[static_cast<Index>(i)];
     known.widened += std::abs(move);
     if (!known.interval95 || !(known.HalfWidth() > 0)) continue;
+    // noise around either end: an interval that holds the one that is true
     auto& [lower, upper] = *known.interval95;
     const double half = known.HalfWidth(), middle = 0.5 * (lower + upper);
     const double reach = half * ReachBeyondEnds(kNormal95 * std::abs(move) / half) / kNormal95;
@@ -99,12 +101,15 @@ void FollowHeat(const Examination& examination, const Fit& fit, const Measuremen
   if (examination.by_heat.size() == 0) return;
   const double share = examination.heat_share, sure = kSure * examination.heat_deviation;
   const double fits = kSureMove * examination.heat_deviation;
+  // the residual tells that losses are held over each step, as the fit has them
   if (1 - share > sure && std::abs(share) < fits) return;
   const auto tau = std::ranges::find(examination.rows, *fit.RowOf(Role::heat, 1));
   const std::string what = fmt::format(
       "Eq. (22) takes the losses as constant within each step of {:.3g} s; losses that change with "
       "the heat within a step change thermal_time_constant by {:.2g} s",
       MedianStep(m.time), examination.by_heat[tau - examination.rows.begin()]);
+
+  // it tells that they follow the heat: the numbers become theirs; else both are possible
   if (share > sure && std::abs(1 - share) < fits) {
     inference.warnings.push_back(
         fmt::format("{}, and describe the log better: the numbers given are theirs", what));
@@ -134,6 +139,7 @@ Index FarthestBeyond(const Eigen::VectorXd& by, const Examination& examination,
   for (Index i = 0; i < by.size(); ++i) {
     const size_t row = examination.rows[static_cast<size_t>(i)];
     const double beyond = std::abs(by[i]) / inference.parameters[row].HalfWidth();
+    // without an interval there is nothing to lie beyond
     if (!std::isfinite(beyond) || beyond <= most) continue;
     most = beyond;
     worst = i;
@@ -161,12 +167,16 @@ void WeighStart(const Examination& examination, const Identifier& identifier,
                 const IdentifierInput& input, const Fit& fit, const Judging& judging,
                 Inference& inference) {
   const Index worst = FarthestBeyond(examination.by_start, examination, inference);
+
+  // of a start that is not known, intervals cover a warm one
   if (judging.start == StartBelief::unknown && examination.by_start.size() > 0) {
     inference.message +=
         "; the intervals also cover a start at a tenth of the warmth that the joint reaches";
     Widen(examination, examination.by_start, inference);
     return;
   }
+
+  // of one that is taken to be cold, a warning where a warm one would leave an interval
   if (worst < 0) return;
   const FitParameter& parameter = fit.parameters[examination.rows[static_cast<size_t>(worst)]];
   const double begins = input.measurements.time[0];
@@ -194,6 +204,7 @@ std::string Depends(const Examination& examination, const Measurements& measurem
 /// parameter that a real one moved is not given as sure, and none is refused for chance.
 void CoverHints(const Examination& examination, const Fit& fit, const Measurements& m,
                 Inference& inference) {
+  // the farthest move is looked for before the intervals reach it
   const Index worst = FarthestBeyond(examination.by_hints, examination, inference);
   Widen(examination, examination.by_hints, inference);
   if (worst < 0) return;
@@ -211,6 +222,7 @@ void CoverHints(const Examination& examination, const Fit& fit, const Measuremen
 void WeighFindings(const Examination& examination, const Identifier& identifier,
                    const IdentifierInput& input, const Fit& fit, const Judging& judging,
                    Inference& inference) {
+  // what all findings explain together, and what helps against the largest
   const std::vector<const Finding*> found = examination.Found();
   double explained = 0;
   for (const Finding* finding : found) explained += finding->explained;
@@ -239,10 +251,12 @@ void WeighFindings(const Examination& examination, const Identifier& identifier,
       unknown ? ", and the parameters of warming have none, since they may have absorbed part of it"
               : "",
       remedy));
+  // nobody knows how much of a drift the warming took up
   if (Drifts(examination)) {
     DropWarming(fit, inference);
     Widen(examination, examination.by_open_drift, inference);
   }
+  // intervals reach as far as the findings move the parameters, with 95 % of that
   Eigen::VectorXd reach = examination.moves.cwiseAbs() + kNormal95 * examination.move_deviations;
   if (examination.by_hidden.size() > 0) reach += examination.by_hidden;
   Widen(examination, reach, inference);
@@ -253,6 +267,7 @@ void WeighFindings(const Examination& examination, const Identifier& identifier,
 void JudgeLackOfFit(const Identifier& identifier, const IdentifierInput& input, const Fit& fit,
                     const Judging& judging, Inference& inference) {
   const Measurements& m = input.measurements;
+  // a fit that is not ok has nothing to examine
   if (inference.status != Status::ok) {
     Examination none;
     none.findings = NotMade(fmt::format("the fit is {}", StatusName(inference.status)));

@@ -45,8 +45,10 @@ void AddSegment(const Segment& segment, double drop, const VectorXd& time,
                 const Selection& selection, Followers& followers) {
   Index begin = segment.begin;
   while (begin < segment.end) {
+    // the further from the change, the longer the runs: half of what has passed
     const Index passed = begin - segment.begin;
     const Index end = std::min(begin + std::max<Index>(1, (passed - kSingle) / 2), segment.end);
+    // kept samples alone count, at their mean time since the change
     double kept = 0, since = 0;
     for (Index i = begin; i < end; ++i) {
       if (!selection.keep[i]) continue;
@@ -133,6 +135,7 @@ Finding TestLag(const FittedModel& model, const Measurements& measurements, Vect
   finding.p_adjusted = level.Adjusted(finding.p);
   if (!level.Rejects(finding.p)) return finding;
   finding.rejected = true;
+  // the area under what is left, summed over the samples
   finding.lag = share * step / (1 - std::exp(-step / lags[best]));
 
   // taken off the residual

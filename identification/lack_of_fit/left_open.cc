@@ -34,14 +34,19 @@ struct Possible {
 /// at their level. force, residual: [m] means over bins.
 Possible Interval(const VectorXd& force, const VectorXd& residual, const Bins& bins,
                   const MatrixXd& derivatives, const Possible& possible) {
+  // the force joins the fit for one step of least squares
   const VectorXd root = bins.weight.cwiseSqrt();
   const MatrixXd rows = root.asDiagonal() * Beside(derivatives, force);
   const VectorXd seen = root.cwiseProduct(residual);
   const LeastSquares fit = SolveLeastSquares(rows, seen, kTold);
+
+  // what the log cannot tell from the fit is open as far as it is possible at all
   if (!fit.mixed.empty()) return possible;
   const Selection all{Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(bins.size(), true), {}};
   const Uncertainty known = JudgeUncertainty(rows, fit.cofactor, seen - rows * fit.solution, all);
   const Index last = rows.cols() - 1;
+
+  // the level of one test among all that the log faces
   const double level = 1 - kErrorLevel / static_cast<double>(LackOfFitTests().size());
   const double reach = StudentQuantile(known.freedom, level) * known.Deviation(last);
   const auto within = [&](double c) { return std::clamp(c, possible.least, possible.most); };
@@ -71,8 +76,11 @@ std::vector<Drift> Drifts(const FittedModel& model, const Measurements& m, const
         (1 - (-t / kFadings[i]).exp()) / (1 - std::exp(-1 / kFadings[i]));
   }
   levels.col(kCourses).setOnes();
+
+  // as friction, with the heat that it makes
   levels = m.velocity.array().sign().matrix().asDiagonal() * levels;
   const MatrixXd forces = bins.Means(WithHeat(model, m, levels));
+  // each as seen from the first moment, and from the last
   std::vector<Drift> drifts;
   for (Index i = 0; i < kCourses; ++i) {
     drifts.push_back({forces.col(i), forces.col(i) - forces.col(kCourses), friction});
@@ -114,6 +122,7 @@ void LearnLeftOpen(const FittedModel& model, const Measurements& m, const Bins& 
 
   // a law that bends over the speed, or follows it late
   const double fastest = bins.velocity.cwiseAbs().maxCoeff();
+  // the farthest that any of several forces moves each parameter
   const auto farthest = [&](const MatrixXd& forces, double most) {
     VectorXd by = VectorXd::Zero(forces.cols() > 0 ? p : 0);
     for (Index i = 0; i < forces.cols(); ++i) {

@@ -23,6 +23,8 @@ std::optional<double> OneSpeed(const Measurements& m) {
   const auto at = [&](double share) {
     return speeds[static_cast<std::size_t>(share * static_cast<double>(speeds.size() - 1))];
   };
+
+  // all but the slowest and the fastest tenth must be alike
   const double middle = at(0.5);
   if (at(0.9) - at(0.1) > kAlike * middle) return std::nullopt;
   return middle;

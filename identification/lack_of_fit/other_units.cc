@@ -18,6 +18,7 @@ Eigen::VectorXd FarthestMoves(double way, double time, const Fit& fit, const Inf
     const FitParameter& parameter = fit.parameters[rows[i]];
     const KnownParameter& known = inference.parameters[rows[i]];
     const double factor = std::pow(way, parameter.way_power) * std::pow(time, parameter.time_power);
+    // the end of the interval that is farther from 0 moves most
     const double farthest = std::abs(known.value) + known.HalfWidth();
     moves[static_cast<Eigen::Index>(i)] = (factor - 1) * std::copysign(farthest, known.value);
   }

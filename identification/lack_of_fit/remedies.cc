@@ -38,6 +38,8 @@ std::string Try(const Advice& advice, const std::string& command) {
   const char* gravity = !advice.fit.gravity ? ""
                         : sincos            ? " --gravity sincos"
                                             : " --gravity paired";
+
+  // gravity where that identifier can tell it, the lag beside a law without map over position
   const bool can = command.starts_with("energy-ml") || command.starts_with("nominal-ls") ||
                    command.starts_with("position-ridge");
   const bool lags = advice.fit.torque_lag && command.find("position") == std::string::npos &&
@@ -68,6 +70,8 @@ size_t KernelsOver(const Advice& advice, MapQuantity quantity) {
 std::string Finer(const Advice& advice, MapQuantity quantity, const char* option, size_t most) {
   const size_t kernels = 2 * KernelsOver(advice, quantity);
   if (kernels > most) return "no map of this program is finer: the joint ripples in another way";
+
+  // over position or the motor's angle, with the warming that the fit has
   const bool position = quantity == MapQuantity::position;
   const std::string name =
       HoldsWarming(advice) ? fmt::format("energy-ml --set position={}", position ? "map" : "motor")
@@ -93,6 +97,7 @@ std::string AgainstWarmStart(const Identifier& identifier) {
 }
 
 std::string AgainstWarming(const Advice& advice) {
+  // no warming yet: one beside whatever else the fit holds
   if (!HoldsWarming(advice)) {
     if (HoldsMap(advice, MapQuantity::motor_position)) {
       return Try(advice, "energy-ml --set position=motor");
@@ -101,6 +106,8 @@ std::string AgainstWarming(const Advice& advice) {
     if (HoldsCurve(advice)) return Try(advice, CurveCommand(advice.fit.friction.law, "estimated"));
     return Try(advice, "energy-ml");
   }
+
+  // a warming that is not enough: perhaps the start was warm
   if (TellsStart(advice.identifier) && TakesColdStart(advice.input.options)) {
     return "if the joint was warm at the start, try --start estimated; else one time constant is "
            "too few, or the surroundings change their temperature";
@@ -120,6 +127,8 @@ std::string AgainstSpeed(const Advice& advice) {
   if (HoldsMap(advice, MapQuantity::velocity) && KernelsOver(advice, MapQuantity::velocity) > 2) {
     return "the map has kernels over speed already, and friction depends on it in another way";
   }
+
+  // a map over position takes kernels over speed beside it, a law gets a curve
   if (HoldsMap(advice, MapQuantity::position)) {
     return Try(advice, HoldsWarming(advice) ? "energy-ml --set position=map --set basis=velocity"
                                             : "position-ridge --set basis=velocity");
@@ -151,6 +160,8 @@ std::string AgainstDirectionOfACurve(const Advice& advice) {
   if (friction.law != LuGre::name) {
     return Try(advice, CurveCommand(AsymmetricStribeck::name, WarmingOf(advice)));
   }
+
+  // a law with a bristle keeps it, with the damping that it has or none
   const bool damped = friction.parameters.at(std::string(kBristleDampingRow.name)) != 0;
   return Try(advice, fmt::format("lugre --set law={}{}", AsymmetricLuGre::name,
                                  damped ? "" : " --set damping=none"));
@@ -158,12 +169,16 @@ std::string AgainstDirectionOfACurve(const Advice& advice) {
 
 std::string AgainstDirection(const Advice& advice) {
   if (HoldsCurve(advice)) return AgainstDirectionOfACurve(advice);
+
+  // first a law with a level for each direction, where the identifier has one
   const bool can = advice.identifier.Has("law");
   const bool mapped = HoldsMap(advice, MapQuantity::position);
   const std::string map = mapped && HoldsWarming(advice) ? " --set position=map" : "";
   if (can && advice.fit.friction.law != "asymmetric" && !advice.fit.gravity) {
     return Try(advice, fmt::format("{} --set law=asymmetric{}", advice.identifier.name, map));
   }
+
+  // then whatever pushes in one direction, which paired gravity takes up
   if (!mapped && !advice.fit.gravity) {
     return fmt::format(
         "something pushes in one direction, as a load or an offset of the sensor "
@@ -173,6 +188,8 @@ std::string AgainstDirection(const Advice& advice) {
   if (HoldsMap(advice, MapQuantity::velocity)) {
     return "the map tells the directions apart already, and they differ in another way";
   }
+
+  // else the slopes differ, which kernels over speed can follow
   const char* warm = HoldsWarming(advice) ? "energy-ml --set position=map --set basis=velocity"
                                           : "position-ridge --set basis=velocity";
   return "friction differs in slope between the directions: " + Try(advice, warm);
@@ -210,6 +227,7 @@ std::string AgainstPeriod(const Advice&) {
 
 std::string AgainstLag(const Advice& advice) {
   const Law& law = *FindLaw(advice.fit.friction.law);
+  // a lag is estimated beside linear laws alone, without maps and inertia
   const bool can = IsLinear(law) && advice.fit.friction.maps.empty() && !advice.fit.inertia;
   const bool asked = TellsLag(advice.identifier) && AsksForLag(advice.input);
   if (!can || asked || advice.fit.torque_lag) {
@@ -242,6 +260,8 @@ std::string AgainstPosition(const Advice& advice) {
   const Eigen::VectorXd& position = advice.input.measurements.position;
   const double periods = (position.maxCoeff() - position.minCoeff()) / advice.finding.period;
   constexpr size_t most = kMostKernels / kKernelsAPeriod;
+
+  // ripple that returns more often than a map has kernels for
   if (periods > most) {
     return how + fmt::format(
                      "it returns {:.0f} times over the travel, and a map follows {} periods at "
@@ -249,6 +269,8 @@ std::string AgainstPosition(const Advice& advice) {
                      periods, most, most * advice.finding.period,
                      kPositionUnit.For(advice.input.measurements.joint));
   }
+
+  // a finer map, or the first one
   if (HoldsMap(advice, MapQuantity::position)) {
     return Finer(advice, MapQuantity::position, "kernels", kMostKernels);
   }

@@ -27,6 +27,7 @@ std::vector<Diagnostic> DiagnosticsOf(const Examination& examination, const Fit&
     Diagnostic& one = diagnostics.emplace_back();
     one.test = finding.test->name;
     one.made = finding.made;
+    // a test that was not made tells why, and nothing else
     if (!finding.made) {
       one.reason = finding.reason;
       continue;
@@ -49,6 +50,8 @@ std::vector<Assumption> AssumptionsOf(const Examination& examination, const Fit&
     if (by.size() == 0) return;
     assumptions.push_back({name, std::move(meaning), Named(by, examination, fit)});
   };
+
+  // what is taken for granted, with how far each parameter moves where it does not hold
   add("cold_start", "the joint was cold at the start, not at a tenth of the warmth that it reaches",
       examination.by_start);
   add("open_start",

@@ -41,6 +41,8 @@ class BinnedResidual {
       sums_[d].setZero(bins_, kParts);
       counts_[d].setZero(bins_, kParts);
     }
+
+    // each kept sample into its bin, by direction and by part of the recording
     Index row = 0;
     for (Index i = 0; i < residual.size(); ++i) {
       if (!selection.keep[i]) continue;
@@ -118,6 +120,7 @@ Peak StrongestFrequency(const AngleAxis& axis, const BinnedResidual& binned) {
   }
   Eigen::FFT<double>().fwd(waves, sums);
 
+  // the transform at k and at -k together tells the directions apart
   Peak peak;
   for (int k = 1; k <= axis.frequencies; ++k) {
     const std::complex<double> wave = waves[static_cast<size_t>(k)];
@@ -150,6 +153,7 @@ Ripple FitRipple(const AngleAxis& axis, int index, const BinnedResidual& binned)
     score.segment<2>(2 * d) = waves.transpose() * binned.Total(d);
     coefficients.segment<2>(2 * d) = own.inverse() * score.segment<2>(2 * d);
     normal.block<2, 2>(2 * d, 2 * d) = own;
+    // the scores of what is left, in each part of the recording
     const VectorXd wave = waves * coefficients.segment<2>(2 * d);
     const MatrixXd rest = binned.sums(d) - wave.asDiagonal() * binned.counts(d);
     scores.middleRows<2>(2 * d) = waves.transpose() * rest;
@@ -163,6 +167,7 @@ Ripple FitRipple(const AngleAxis& axis, int index, const BinnedResidual& binned)
   Finding& finding = ripple.finding;
   finding.test = axis.test;
   finding.made = true;
+  // the strongest of many frequencies: each of them counts
   finding.p =
       std::min(1.0, axis.frequencies * HotellingPValue(score.segment(first, q),
                                                        scatter.block(first, first, q, q), parts));
@@ -193,6 +198,8 @@ std::optional<AngleAxis> PositionAxis(const Measurements& m, const Selection& se
   const double lower = kept.minCoeff(), travel = kept.maxCoeff() - lower;
   const double finest = 2 * MedianInPlace(speeds) * MedianStep(m.time);
   if (!(travel > 0) || !std::isfinite(travel) || !(finest > 0)) return std::nullopt;
+
+  // no more cycles than the speed and the number of samples let one see
   const double cycles = std::min(
       {travel / finest, kFinestPosition, static_cast<double>(kept.size()) / kSamplesACycle});
   if (cycles < 1) return std::nullopt;
@@ -222,6 +229,8 @@ Finding TestAxis(const AngleAxis& axis, const VectorXd& velocity, const Selectio
     for (int d = 0; d < 2; ++d) binned.TakeOff(d, ripple.waves[d]);
   }
   if (!finding.rejected) return finding;
+
+  // one rejection for the whole axis, and all of its waves off the residual
   level.Rejects(finding.p);
   for (Index i = 0; i < residual.size(); ++i) {
     if (selection.keep[i]) residual[i] -= binned.Taken(axis.phase[i], velocity[i]);

@@ -19,12 +19,15 @@ Eigen::VectorXd MeanRounding(const Eigen::VectorXd& torque, const Eigen::VectorX
   using std::numbers::pi;
   const double step = Resolution(torque);
   if (step == 0) return {};
+  // the noise in steps, without the part that the steps themselves make
   const double noise = std::sqrt(std::max(variance - step * step / 12, 0.0)) / step;
   const auto size = [&](int k) { return std::exp(-2 * std::pow(pi * k * noise, 2)) / (pi * k); };
   if (size(1) < kEven) return {};
 
   // where each torque lies between two steps, counted from one that was logged
   const Eigen::ArrayXd place = (torque - residual).array() / step - torque[0] / step;
+
+  // the series, each wave as much smaller as noise evens it out
   Eigen::ArrayXd error = Eigen::ArrayXd::Zero(torque.size());
   double sign = -1;
   for (int k = 1; k <= kMostWaves && size(k) >= kEven; ++k, sign = -sign) {

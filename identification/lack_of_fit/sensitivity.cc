@@ -42,6 +42,7 @@ Eigen::MatrixXd DerivativesOver(const Bins& bins, const FittedModel& model) {
 void LearnHeat(const FittedModel& model, const Bins& bins, Index p,
                const Eigen::MatrixXd& derivatives, Examination& examination) {
   if (!model.held_loss) return;
+  // the force that held losses leave out is the last column
   const Index q = derivatives.cols() - 1;
   examination.by_heat = MovesBy(derivatives.rightCols(1), bins, derivatives.leftCols(q)).topRows(p);
 

@@ -31,17 +31,21 @@ double KeptRuns::Duration() const {
 }
 
 KeptRuns FindRuns(const Measurements& m, const Selection& selection) {
+  // where a run ends although no sample is left out
   std::set<Eigen::Index> breaks(m.starts.begin(), m.starts.end());
   for (const Segment& segment : selection.segments) breaks.insert(segment.begin);
 
   KeptRuns found;
   for (Eigen::Index i = 0; i < selection.keep.size(); ++i) {
     if (!selection.keep[i]) continue;
+    // a sample that is left out ends the run as well
     const bool goes_on = !found.samples.empty() && found.samples.back() == i - 1;
     if (!goes_on || breaks.contains(i)) found.runs.push_back({found.count(), found.count()});
     found.samples.push_back(i);
     found.runs.back().end = found.count();
   }
+
+  // when the kept samples were taken
   found.time.resize(found.count());
   for (Eigen::Index i = 0; i < found.count(); ++i) {
     found.time[i] = m.time[found.samples[static_cast<std::size_t>(i)]];

@@ -25,6 +25,7 @@ std::vector<double> LagRange::Tried() const {
 }
 
 std::optional<double> FindLag(const LagRange& range, const std::function<double(double)>& squares) {
+  // no run holds two samples
   if (!(range.shortest > 0)) return std::nullopt;
 
   // the best of those that are tried
@@ -41,6 +42,8 @@ std::optional<double> FindLag(const LagRange& range, const std::function<double(
   const auto [at, least] = boost::math::tools::brent_find_minima(
       [&](double logarithm) { return squares(std::exp(logarithm)); }, std::log(below),
       std::log(above), kBits, fits);
+
+  // a lag at an end of the range is none that the log tells
   const double lag = std::exp(at);
   if (!std::isfinite(least) || !range.Holds(lag)) return std::nullopt;
   return lag;

@@ -44,6 +44,7 @@ struct Found {
 /// The best lag with noise of one colour. colour: of the time constant; none where it is white.
 Found BestOf(const std::shared_ptr<const KeptRuns>& runs, const FitAtLag& fit_at,
              const std::function<std::shared_ptr<const Whitening>(double lag)>& colour) {
+  // the time constant that leaves least, and the fit there
   const auto lag = FindLag(LagsOf(*runs), [&](double trial) {
     return fit_at(LaggedRows(runs, trial, colour(trial))).squares;
   });

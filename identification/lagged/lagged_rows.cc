@@ -19,6 +19,7 @@ constexpr Index kApart = 1000;  // sampling intervals between runs, as far as a 
 LaggedRows::LaggedRows(std::shared_ptr<const KeptRuns> runs, double lag,
                        std::shared_ptr<const Whitening> whitening)
     : runs_(std::move(runs)), lag_(lag), whitening_(std::move(whitening)) {
+  // how far the lag follows in each step, and what is left of the value that a run began with
   share_.setZero(size());
   dying_.setOnes(size());
   for (const KeptRun& run : runs_->runs) {
@@ -27,6 +28,8 @@ LaggedRows::LaggedRows(std::shared_ptr<const KeptRuns> runs, double lag,
       dying_[i] = (1 - share_[i]) * dying_[i - 1];
     }
   }
+
+  // the course of d as the whitened rows hold it, of length 1 in each run
   across_ = whitening_ ? whitening_->Of(dying_).col(0) : dying_;
   length_.resize(runs_->run_count());
   for (Index r = 0; r < length_.size(); ++r) {
@@ -39,8 +42,10 @@ LaggedRows::LaggedRows(std::shared_ptr<const KeptRuns> runs, double lag,
 void LaggedRows::Lag(Rows& rows) const {
   Eigen::RowVectorXd before, held;
   for (const KeptRun& run : runs_->runs) {
+    // settled on the first sample of the run
     before = held = rows.row(run.begin);
     for (Index i = run.begin + 1; i < run.end; ++i) {
+      // towards the sample before, held until this one
       held += share_[i] * (before - held);
       before = rows.row(i);
       rows.row(i) = held;
@@ -51,6 +56,8 @@ void LaggedRows::Lag(Rows& rows) const {
 void LaggedRows::Apply(Rows& rows) const {
   Lag(rows);
   if (whitening_) whitening_->Apply(rows);
+
+  // take off what any d explains: the part along its course
   for (const KeptRun& run : runs_->runs) {
     const auto across = across_.segment(run.begin, run.size());
     auto part = rows.middleRows(run.begin, run.size());
@@ -62,6 +69,7 @@ void LaggedRows::Apply(Rows& rows) const {
 VectorXd LaggedRows::Unlagged(const VectorXd& torque) const {
   VectorXd before = torque;
   for (const KeptRun& run : runs_->runs) {
+    // the step of the lag, solved for the torque that it followed
     for (Index i = run.begin + 1; i < run.end; ++i) {
       before[i - 1] = torque[i - 1] + (torque[i] - torque[i - 1]) / share_[i];
     }
@@ -77,6 +85,8 @@ MatrixXd LaggedRows::Lagged(const MatrixXd& rows) const {
 
 MatrixXd LaggedRows::HeldBy(const MatrixXd& rows) const {
   const MatrixXd white = whitening_ ? whitening_->Of(rows) : rows;
+
+  // least squares of each run on the whitened course of d
   MatrixXd held(runs_->run_count(), rows.cols());
   for (Index r = 0; r < held.rows(); ++r) {
     const KeptRun& run = runs_->runs[static_cast<std::size_t>(r)];
@@ -106,11 +116,13 @@ std::shared_ptr<const Whitening> WhiteningOfRuns(const NoiseModel& noise, const 
   const double step = runs.Step();
   for (const KeptRun& run : runs.runs) {
     const Index first = next;
+    // its place on a grid of the typical step, behind the sample before in any case
     for (Index i = run.begin; i < run.end; ++i) {
       const auto on = first + std::llround((runs.time[i] - runs.time[run.begin]) / step);
       next = places[static_cast<std::size_t>(i)] =
           std::max<Index>(on, i > run.begin ? next + 1 : on);
     }
+    // so far on that the noise of one run does not reach the next
     next += kApart;
   }
   return std::make_shared<const Whitening>(noise, places);

@@ -25,6 +25,7 @@ SeenLag LookForLag(const LaggedRows& rows, const Eigen::VectorXd& torque,
     const KeptRun &before = all.runs[r - 1], &run = all.runs[r];
     const double pause = all.time[run.begin] - all.time[before.end - 1];
     const double lasted = all.time[before.end - 1] - all.time[before.begin];
+    // three samples at least, behind a pause no longer than the run before it
     if (run.size() < 3 || pause > lasted) continue;
     drops.push_back(torque[before.end - 1] - torque[run.begin]);
     begins.push_back(held[static_cast<Eigen::Index>(r)]);
@@ -48,6 +49,7 @@ bool ShowsLag(const std::shared_ptr<const KeptRuns>& runs, const Eigen::VectorXd
               const Eigen::VectorXd& residual) {
   const LagRange range = LagsOf(*runs);
   if (!(range.shortest > 0)) return false;
+  // at any of the time constants that a search would try
   return std::ranges::any_of(range.Tried(), [&](double lag) {
     return LookForLag(LaggedRows(runs, lag), torque, residual).IsSeen();
   });

@@ -6,6 +6,7 @@ namespace warmjoint::inline identification {
 
 std::string AgainstPushing(std::string_view identifier, std::string_view law,
                            std::string_view gravity) {
+  // levels of their own for both directions
   const std::string asymmetric =
       fmt::format("try --identifier {} --set law=asymmetric", identifier);
   if (law != "asymmetric") {
@@ -14,6 +15,8 @@ std::string AgainstPushing(std::string_view identifier, std::string_view law,
   if (gravity == "none") {
     return "does the torque hold gravity or another load? " + asymmetric + " --gravity paired";
   }
+
+  // both are fitted already: what is left is the sign
   return "is the sign of the torque reversed (--scale torque=-1)?";
 }
 

@@ -42,6 +42,7 @@ LeastSquares SolveLeastSquares(const Eigen::MatrixXd& A, const Eigen::VectorXd& 
     return result;
   }
 
+  // x = S R^-1 Q^T y and (A^T A)^-1 = (S R^-1) (S R^-1)^T
   const Eigen::VectorXd projected = (qr.householderQ().adjoint() * y).head(d);
   result.solution = scale.asDiagonal() * R.triangularView<Eigen::Upper>().solve(projected);
   const Eigen::MatrixXd inverse =
@@ -52,8 +53,11 @@ LeastSquares SolveLeastSquares(const Eigen::MatrixXd& A, const Eigen::VectorXd& 
 
 Eigen::MatrixXd Cofactor(const Eigen::MatrixXd& normal) {
   const Eigen::Index p = normal.rows();
+
+  // scaled to a diagonal of 1, so that units do not count
   const Eigen::VectorXd scale = normal.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::LDLT<Eigen::MatrixXd> factors(scale.asDiagonal() * normal * scale.asDiagonal());
+  // columns that are not told apart leave the errors without a bound
   if (!scale.allFinite() || !(factors.vectorD().minCoeff() > 1e-13)) {
     return Eigen::MatrixXd::Constant(p, p, std::numeric_limits<double>::infinity());
   }

@@ -15,6 +15,7 @@ bool IsLinear(const Law& law) {
     if (law.force(1, unit.data()) == 0 && law.force(-1, unit.data()) == 0) return false;
   }
 
+  // two sets of parameters, and one that is the first and twice the second
   for (size_t i = 0; i < d; ++i) {
     p[i] = 1.0 + 0.37 * static_cast<double>(i);
     q[i] = 0.6 + 0.23 * static_cast<double>(i * i);
@@ -46,6 +47,8 @@ Eigen::MatrixXd LawColumns(const Law& law, const Eigen::VectorXd& velocity) {
   const auto d = static_cast<Eigen::Index>(law.parameters.size());
   Eigen::MatrixXd columns(velocity.size(), d);
   Eigen::VectorXd unit = Eigen::VectorXd::Zero(d);
+
+  // the law with one parameter of 1 and all others of 0
   for (Eigen::Index i = 0; i < d; ++i) {
     unit[i] = 1;
     for (Eigen::Index n = 0; n < velocity.size(); ++n) {

@@ -28,12 +28,14 @@ int CellOf(double position) {
 /// Whether each cell of the turn is passed in both directions.
 std::array<bool, kGravityKnots> PairedCells(const IdentifierInput& input) {
   const Measurements& m = input.measurements;
+  // how often each cell is passed in each direction
   std::array<int, kGravityKnots> forwards{}, backwards{};
   for (Eigen::Index i = 0; i < m.size(); ++i) {
     if (!input.selection.keep[i]) continue;
     if (m.velocity[i] > 0) ++forwards[CellOf(m.position[i])];
     if (m.velocity[i] < 0) ++backwards[CellOf(m.position[i])];
   }
+  // a cell counts where both directions are there
   std::array<bool, kGravityKnots> paired{};
   for (int i = 0; i < kGravityKnots; ++i) {
     paired[i] = std::min(forwards[i], backwards[i]) >= kFewest;
@@ -45,13 +47,17 @@ std::array<bool, kGravityKnots> PairedCells(const IdentifierInput& input) {
 void SelectPairs(const IdentifierInput& input, RigidPart& fit) {
   const Measurements& m = input.measurements;
   const auto paired = PairedCells(input);
+  // in cells passed one way alone, friction and gravity are not told apart
   for (Eigen::Index i = 0; i < m.size(); ++i) {
     fit.selection.keep[i] = fit.selection.keep[i] && paired[CellOf(m.position[i])];
   }
+
+  // a knot at each end of every paired cell
   for (int i = 0; i < kGravityKnots; ++i) {
     if (paired[i] || paired[(i + kGravityKnots - 1) % kGravityKnots]) fit.knots.push_back(i);
   }
 
+  // what is left must be wide enough, and most of the log
   const auto cells = std::count(paired.begin(), paired.end(), true);
   const double share = static_cast<double>(fit.selection.count()) /
                        static_cast<double>(std::max<Eigen::Index>(input.selection.count(), 1));
@@ -68,6 +74,8 @@ void SelectPairs(const IdentifierInput& input, RigidPart& fit) {
 /// hats: [n x m]; returns [m x q].
 Eigen::MatrixXd FilledDirections(const Eigen::MatrixXd& hats) {
   const auto n = static_cast<double>(hats.rows());
+
+  // eigenvectors of the mean squares, those next to 0 left out
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(hats.transpose() * hats / n);
   const Eigen::VectorXd& values = solver.eigenvalues();
   const Eigen::Index q = (values.array() > 1e-6 * values.maxCoeff()).count();
@@ -115,6 +123,7 @@ void PrepareGravity(const IdentifierInput& input, const std::string& asked, Rigi
     return;
   }
 
+  // hats are replaced by the combinations that the kept samples fill
   if (fit.kind == GravityKind::paired) SelectPairs(input, fit);
   if (fit.why) return;
   const Eigen::MatrixXd columns = GravityColumns(fit.kind, fit.knots, m.position);
@@ -128,10 +137,13 @@ void PrepareGravity(const IdentifierInput& input, const std::string& asked, Rigi
 
 RigidPart PrepareRigid(const IdentifierInput& input) {
   RigidPart fit;
+  // what takes part so far, and no columns yet
   fit.selection = input.selection;
   fit.columns.resize(input.measurements.size(), 0);
   const std::string& asked = input.options.Text(kGravityOption);
   if (asked != "none") PrepareGravity(input, asked, fit);
+
+  // the inertia, behind gravity
   const auto& acceleration = input.measurements.acceleration;
   fit.inertia = acceleration && !fit.why;
   if (fit.inertia) fit.columns = Beside(fit.columns, *acceleration);
@@ -141,6 +153,7 @@ RigidPart PrepareRigid(const IdentifierInput& input) {
 std::string IndistinctColumns(const std::vector<Eigen::Index>& mixed, const Law& law,
                               const RigidPart& gravity, const IdentifierInput& input) {
   const auto d = static_cast<Eigen::Index>(law.parameters.size());
+  // columns of the law alone have a sentence of their own
   if (std::all_of(mixed.begin(), mixed.end(), [d](Eigen::Index i) { return i < d; })) {
     return Indistinct(mixed, law, input.measurements, input.selection);
   }
@@ -152,11 +165,14 @@ std::string IndistinctColumns(const std::vector<Eigen::Index>& mixed, const Law&
     if (i >= d + gravity.gravity_count()) moves_mass = true;
     if (i >= d && i < d + gravity.gravity_count()) lifts = true;
   }
+
+  // what is mixed, in words
   std::vector<std::string> parts;
   if (!names.empty()) parts.push_back(fmt::format("{}", fmt::join(names, ", ")));
   if (lifts) parts.push_back(fmt::format("gravity ({})", GravityName(gravity.kind)));
   if (moves_mass) parts.emplace_back("inertia");
 
+  // and what motion would tell them apart
   const bool turns = lifts && gravity.kind != GravityKind::constant;
   return fmt::format(
       "the motion cannot tell apart: {}; {}at two or more speeds in both directions{}, or use a "

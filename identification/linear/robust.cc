@@ -32,6 +32,7 @@ Eigen::VectorXd HuberWeights(const Eigen::VectorXd& residual, double threshold) 
 }
 
 Eigen::VectorXd HuberScores(const Eigen::VectorXd& residual, double threshold) {
+  // mean slope of psi: the share of the residual on its straight part
   const double straight = (residual.array().abs() <= threshold).cast<double>().mean();
   return residual.cwiseMax(-threshold).cwiseMin(threshold) / straight;
 }
@@ -49,16 +50,22 @@ RobustLeastSquares SolveHuber(const Eigen::MatrixXd& A, const Eigen::VectorXd& y
   RobustLeastSquares robust;
   robust.fit = SolveLeastSquares(A, y);
   for (int round = 0; round < kMostRounds && robust.fit.mixed.empty(); ++round) {
+    // the threshold follows the residual of the round before
     const Eigen::VectorXd fitted = A * robust.fit.solution;
     robust.threshold = HuberThreshold(y - fitted);
+
+    // squares again, with less weight on what lies far off
     const Eigen::VectorXd root = HuberWeights(y - fitted, robust.threshold).cwiseSqrt();
     const LeastSquares next = SolveLeastSquares(root.asDiagonal() * A, root.cwiseProduct(y));
     if (!next.mixed.empty()) break;
+
+    // until the fitted torque changes no more
     const double change = (A * next.solution - fitted).norm();
     robust.fit = next;
     robust.converged = change <= kAtRest * fitted.norm();
     if (robust.converged) break;
   }
+  // the errors follow from plain columns and the scores of the loss
   if (robust.fit.mixed.empty()) {
     robust.fit.cofactor = Cofactor(A.transpose() * A);
   }

@@ -46,10 +46,13 @@ KalmanPrior<D> Ignorance(const KalmanTrack& track) {
   KalmanPrior<D> prior;
   prior.state.mean.setZero(d + 3);
   prior.state.covariance.setZero(d + 3, d + 3);
+  // the law's parameters, then the gain
   for (Eigen::Index i = 0; i < d; ++i) {
     prior.state.covariance(i, i) = std::pow(10 * track.torque_rms / track.column_rms[i], 2);
   }
   prior.state.covariance(d, d) = std::pow(30 / track.loop.speed().maxCoeff(), 2);
+
+  // where the time constant may lie, and how large the noise is at first
   const auto [shortest, longest] = TimeConstantRange(track);
   prior.shortest = shortest;
   prior.longest = longest;
@@ -77,6 +80,7 @@ KalmanPass Pass(const KalmanTrack& track, const KalmanPrior<D>& prior,
   const Eigen::Index n = track.loop.size();
   for (Eigen::Index i = 0; i < n; ++i) {
     bank = BankStep(bank, At<D>(track, i));
+    // some moments on the way
     if ((i + 1) % std::max<Eigen::Index>(n / kMoments, 1) != 0) continue;
     const Eigen::VectorXd mean = Merge(bank).mean;
     if (mean.allFinite()) trace.push_back(Note(mean, i + 1, std::sqrt(bank.noise)));
@@ -119,6 +123,7 @@ std::vector<KalmanPass> Run(const KalmanTrack& track, int passes, std::vector<It
   for (int pass = 0; pass < passes; ++pass) {
     known.push_back(Pass(track, prior, trace));
     const KalmanPass& last = known.back();
+    // a pass that went astray counts for nothing and ends them
     if (!last.mean.allFinite() || !last.covariance.allFinite()) {
       if (pass > 0) known.pop_back();
       break;

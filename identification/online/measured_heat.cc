@@ -11,6 +11,7 @@ MeasuredHeat::MeasuredHeat(const Measurements& measurements, const Thermal& ther
 Eigen::MatrixXd MeasuredHeat::TakenOff(const Eigen::MatrixXd& columns) const {
   Eigen::MatrixXd result = columns;
   for (Eigen::Index j = 0; j < columns.cols(); ++j) {
+    // the loss that the column stands for, and the energy that it leaves
     const Eigen::VectorXd loss = velocity_.cwiseProduct(columns.col(j));
     result.col(j) -= direction_.cwiseProduct(filter_.Energy(thermal_, loss));
   }
@@ -20,6 +21,7 @@ Eigen::MatrixXd MeasuredHeat::TakenOff(const Eigen::MatrixXd& columns) const {
 Eigen::MatrixXd MeasuredHeat::Transposed(const Eigen::MatrixXd& columns) const {
   Eigen::MatrixXd result = columns;
   for (Eigen::Index j = 0; j < columns.cols(); ++j) {
+    // the same three steps, each transposed, in reverse order
     const Eigen::VectorXd weights = direction_.cwiseProduct(columns.col(j));
     result.col(j) -= velocity_.cwiseProduct(filter_.Transposed(thermal_, weights));
   }

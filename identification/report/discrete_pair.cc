@@ -36,6 +36,7 @@ void Move(double shift, double widened, EstimatedParameter& parameter) {
 }  // namespace
 
 std::vector<EstimatedParameter> DiscretePair(const Fit& fit, const Inference& inference, double h) {
+  // k and tau as they were fitted, and what they are over one sampling interval
   const size_t gain_row = *fit.RowOf(Role::heat, 0), tau_row = *fit.RowOf(Role::heat, 1);
   const Thermal fitted{fit.parameters[gain_row].value, fit.parameters[tau_row].value};
   const KnownParameter& known_gain = inference.parameters[gain_row];
@@ -51,10 +52,12 @@ std::vector<EstimatedParameter> DiscretePair(const Fit& fit, const Inference& in
   if (known_gain.interval95 && known_tau.interval95) {
     const Eigen::Matrix2d covariance = HeatCovariance(fit, inference, gain_row, tau_row);
     const double quantile = StudentQuantile(inference.known.freedom, kIntervalLevel);
+    // ke = k (1 - te) by k and by ln tau
     const Eigen::Vector2d by_gain(cooling, -fitted.gain * by_pole);
     gain.std = std::sqrt(by_gain.dot(covariance * by_gain));
     gain.interval95 = {{gain.value - quantile * *gain.std, gain.value + quantile * *gain.std}};
     pole.std = by_pole * std::sqrt(covariance(1, 1));
+    // the ends of ln tau, so that the interval of te stays between 0 and 1
     const double factor = std::exp(quantile * std::sqrt(covariance(1, 1)));
     pole.interval95 = {{std::exp(-h * factor / fitted.time_constant),
                         std::exp(-h / (fitted.time_constant * factor))}};
@@ -63,6 +66,7 @@ std::vector<EstimatedParameter> DiscretePair(const Fit& fit, const Inference& in
   // what the verdict moved
   const DiscreteThermal moved = Discretise({known_gain.value, known_tau.value}, h);
   const Thermal now{known_gain.value, known_tau.value};
+  // dte/dtau = te h/tau^2 carries what widened tau to te
   const double pole_reach = moved.pole * h / std::pow(now.time_constant, 2) * known_tau.widened;
   Move(moved.pole - discrete.pole, pole_reach, pole);
   Move(moved.gain - discrete.gain,

@@ -12,6 +12,8 @@ std::vector<EstimatedParameter> EndState(const Fit& fit, const Inference& infere
                                          const FrictionDescription& friction,
                                          const Measurements& m) {
   if (!friction.thermal) return {};
+
+  // E of both stages at the end of the log, as friction and start make it
   const auto end_of = [&](const FrictionDescription& one, const CourseStart& start) {
     const FrictionState end = PredictFriction(one, m, start).end;
     return Eigen::VectorXd(Eigen::Vector2d(end.energy, end.second_energy));
@@ -26,6 +28,7 @@ std::vector<EstimatedParameter> EndState(const Fit& fit, const Inference& infere
   for (int stage = 0; stage < (friction.second_thermal ? 2 : 1); ++stage) {
     EstimatedParameter one{
         stage == 0 ? "energy" : "second_energy", end[stage], m.torque_unit, {}, {}};
+    // from the fit where its table does not hold all that E depends on, else from the parameters
     const double deviation =
         fit.end_energy_std.value_or(std::sqrt(std::max(0.0, errors.covariance(stage, stage))));
     const bool told = fit.end_energy_std ? fit.without_intervals.empty() : errors.told;

@@ -42,10 +42,13 @@ struct Means {
 };
 
 Means MeansOf(const Measurements& m) {
+  // where recordings begin and end, and how many samples make one mean
   std::vector<Index> bounds(m.starts.begin(), m.starts.end());
   bounds.insert(bounds.begin(), 0);
   bounds.push_back(m.size());
   const Index together = (m.size() + kRows - 1) / kRows;
+
+  // no mean reaches from one recording into the next
   Means means;
   std::vector<Index> recording;
   for (size_t r = 0; r + 1 < bounds.size(); ++r) {
@@ -54,6 +57,8 @@ Means MeansOf(const Measurements& m) {
       recording.push_back(static_cast<Index>(r));
     }
   }
+
+  // a constant for each recording
   const auto n = static_cast<Index>(means.spans.size());
   means.levels = Eigen::MatrixXd::Zero(n, static_cast<Index>(bounds.size()) - 1);
   for (Index i = 0; i < n; ++i) means.levels(i, recording[static_cast<size_t>(i)]) = 1;
@@ -80,9 +85,11 @@ std::optional<LineFit> FitLine(const Means& means, const Eigen::VectorXd& energy
                                const Measurements& m) {
   LineFit line;
   line.lag = lag;
+  // E behind the lag, beside a constant for each recording
   line.columns.resize(means.temperature.size(), 1 + means.levels.cols());
   line.columns << Centred(means.Of(Lagged(energy, lag, m.time, m.starts)), means), means.levels;
   line.solved = SolveLeastSquares(line.columns, means.temperature);
+  // an E that does not vary tells no slope
   if (!line.solved.mixed.empty()) return std::nullopt;
   line.residual = means.temperature - line.columns * line.solved.solution;
   return line;
@@ -97,11 +104,14 @@ struct KnownLine {
 
 KnownLine Judge(LineFit fit) {
   const Index n = fit.residual.size(), p = fit.columns.cols();
+
+  // the covariance allows for the colour of the residual
   Selection all;
   all.keep.setConstant(n, true);
   const Uncertainty known = JudgeUncertainty(fit.columns, fit.solved.cofactor, fit.residual, all);
   const double white = fit.squares() / static_cast<double>(n - p) * fit.solved.cofactor(0, 0);
   KnownLine line{std::move(fit), known.Deviation(0), static_cast<double>(n)};
+  // coloured noise makes fewer rows count
   const double variance = known.covariance(0, 0);
   if (variance > white) line.independent *= white / variance;
   return line;
@@ -114,6 +124,8 @@ std::optional<KnownLine> BestLine(const Means& means, const Eigen::VectorXd& ene
   const std::optional<LineFit> without = FitLine(means, energy, 0, m);
   if (!without) return std::nullopt;
   KnownLine plain = Judge(*without);
+
+  // lags from two rows to half the log, the same ratio apart
   const double duration = m.time[m.size() - 1] - m.time[0];
   const double shortest = 2 * duration / static_cast<double>(means.spans.size());
   const double ratio = std::pow(0.5 * duration / shortest, 1.0 / (kLags - 1));
@@ -122,6 +134,8 @@ std::optional<KnownLine> BestLine(const Means& means, const Eigen::VectorXd& ene
     std::optional<LineFit> one = FitLine(means, energy, shortest * std::pow(ratio, i), m);
     if (one && one->squares() < best.squares()) best = std::move(*one);
   }
+
+  // the best must leave clearly less, and not by chance: an F test, by Bonferroni over all tried
   const double gained = plain.fit.squares() - best.squares();
   if (!(gained > kWorthwhile * plain.fit.squares())) return plain;
   KnownLine lagged = Judge(best);
@@ -144,10 +158,13 @@ EstimatedParameter Row(std::string name, double value, std::string unit, double 
 
 /// The correlation with an interval by Fisher's z.
 EstimatedParameter Correlation(const Means& means, const KnownLine& line) {
+  // the share of the squares that the line explains, with the sign of its slope
   const double all = Centred(means.temperature, means).squaredNorm();
   const double share = std::clamp(1 - line.fit.squares() / all, 0.0, 1.0);
   const double r = std::copysign(std::sqrt(share), line.fit.solved.solution[0]);
   EstimatedParameter row{"correlation", r, "1", {}, {}};
+
+  // atanh r is about normal; the line and each recording's constant take rows from it
   const double left = line.independent - 2 - static_cast<double>(means.levels.cols());
   if (left < 1 || std::abs(r) >= 1) return row;
   const double half = StudentQuantile(kInfinity, kIntervalLevel) / std::sqrt(left);
@@ -171,7 +188,9 @@ Eigen::VectorXd Lagged(const Eigen::VectorXd& course, double lag, const Eigen::V
   if (lag == 0) return course;
   Eigen::VectorXd lagged = course;
   for (Index i = 1; i < course.size(); ++i) {
+    // another recording begins settled on its first sample
     if (std::ranges::binary_search(starts, i)) continue;
+    // towards the sample before, held until this one
     const double kept = std::exp(-(time[i] - time[i - 1]) / lag);
     lagged[i] = kept * lagged[i - 1] + (1 - kept) * course[i - 1];
   }
@@ -182,6 +201,7 @@ std::vector<EstimatedParameter> HeatBesideTemperature(const Fit& fit, const Infe
                                                       const FrictionDescription& friction,
                                                       const Measurements& m) {
   if (!m.temperature || !friction.thermal || !Varies(*m.temperature)) return {};
+  // E along the log, and the line of the temperature over it
   const Eigen::VectorXd energy = PredictFriction(friction, m, fit.Start()).energy;
   const Means means = MeansOf(m);
   if (means.temperature.size() < kFewestRows || !Varies(energy)) return {};
@@ -196,6 +216,7 @@ std::vector<EstimatedParameter> HeatBesideTemperature(const Fit& fit, const Infe
   };
   const Eigen::VectorXd values = slopes(friction, fit.Start());
   const FigureErrors errors = ErrorsByParameters(fit, inference, friction, slopes);
+  // without intervals of the friction's parameters there are none here
   const double freedom =
       errors.told ? line->independent - static_cast<double>(line->fit.columns.cols()) : 0;
   const auto row = [&](std::string name, int i, double factor, std::string unit) {
@@ -203,6 +224,8 @@ std::vector<EstimatedParameter> HeatBesideTemperature(const Fit& fit, const Infe
         std::hypot(factor * line->deviation, std::sqrt(errors.covariance(i, i)));
     return Row(std::move(name), values[i], std::move(unit), deviation, freedom);
   };
+
+  // how well both go together, by how much, and what the line leaves
   std::vector<EstimatedParameter> rows{
       Correlation(means, *line), row("per_energy", 0, 1, fmt::format("K/({})", m.torque_unit))};
   if (TellsPerLoss(friction, m)) rows.push_back(row("per_loss", 1, friction.thermal->gain, "K/W"));

@@ -23,6 +23,7 @@ std::vector<EstimatedParameter> ParametersOf(const Fit& fit, const Inference& in
     if (!row.name.empty()) {
       all.push_back({row.name, known.value, row.unit, known.std, known.interval95});
     }
+    // the pair of the sampling interval follows the time constant
     if (tau != i) continue;
     for (EstimatedParameter& one : DiscretePair(fit, inference, h)) all.push_back(std::move(one));
   }
@@ -33,8 +34,10 @@ TraceEntry EntryOf(const Fit& fit, const Iterate& iterate, double h) {
   TraceEntry entry{iterate.iteration, {}, iterate.rmse};
   const std::optional<size_t> gain = fit.RowOf(Role::heat, 0), tau = fit.RowOf(Role::heat, 1);
   for (size_t i = 0; i < iterate.values.size(); ++i) {
+    // what is not known yet has no place in the entry
     if (std::isnan(iterate.values[i])) continue;
     entry.parameters.emplace_back(fit.parameters[i].name, iterate.values[i]);
+    // the discrete pair stands there for fits, not for the samples of a filter
     if (tau != i || iterate.energy) continue;
     const DiscreteThermal discrete = Discretise({iterate.values[*gain], iterate.values[i]}, h);
     entry.parameters.emplace_back(kDiscreteGainName, discrete.gain);
@@ -66,6 +69,7 @@ ParameterCovariance CovarianceOfValues(const Fit& fit, const Inference& inferenc
   for (size_t i = 0; i < fit.parameters.size(); ++i) {
     const FitParameter& row = fit.parameters[i];
     if (!row.estimated) continue;
+    // a value of which the logarithm was fitted moves by its own size
     if (!row.name.empty() && inference.parameters[i].interval95) {
       of.parameters.push_back(row.name);
       columns.push_back(column);
@@ -83,6 +87,7 @@ ParameterCovariance CovarianceOfValues(const Fit& fit, const Inference& inferenc
 }  // namespace
 
 Estimate ReportFit(const Fit& fit, const Inference& inference, const Measurements& measurements) {
+  // who answers, with which status, and why
   Estimate estimate;
   estimate.identifier = fit.identifier;
   estimate.status = inference.status;
@@ -95,6 +100,8 @@ Estimate ReportFit(const Fit& fit, const Inference& inference, const Measurement
   estimate.diagnostics = inference.diagnostics;
   estimate.assumptions = inference.assumptions;
   estimate.choice = fit.choice;
+
+  // how the fit came to rest
   const double h = MedianStep(measurements.time);
   for (const Iterate& iterate : fit.trace) {
     estimate.trace.push_back(EntryOf(fit, iterate, h));
@@ -119,6 +126,7 @@ Estimate ReportFit(const Fit& fit, const Inference& inference, const Measurement
       one.unit = measurements.torque_unit;
     }
   }
+  // without intervals there is no covariance either
   if (fit.without_intervals.empty()) estimate.covariance = CovarianceOfValues(fit, inference);
   return estimate;
 }

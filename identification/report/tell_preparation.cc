@@ -26,6 +26,7 @@ void TellReversals(double unseen, Estimate& estimate) {
 std::string_view SlopeOf(const Estimate& estimate) {
   if (const EstimatedParameter* slope = Find(LawPart::slope, estimate)) return slope->name;
   if (!estimate.friction) return "";
+  // maps over the velocity, and those that it multiplies, have slopes, too
   for (const FrictionMap& map : estimate.friction->maps) {
     if (FindAxis(map, MapQuantity::velocity)) return "slopes over speed";
     if (map.factor == MapFactor::velocity) return "slopes over speed";
@@ -37,23 +38,30 @@ std::string_view SlopeOf(const Estimate& estimate) {
 
 void TellVelocity(const VelocityNoise& taken, JointKind joint, Estimate& estimate) {
   const std::string_view slope = SlopeOf(estimate);
+  // nothing slopes over speed: the averaging is told, and no more
   if (slope.empty()) {
     estimate.message +=
         fmt::format("; velocity averaged over each segment, for its noise of {:.2g} {}",
                     taken.noise, kVelocityUnit.For(joint));
     return;
   }
+
+  // how far the noise would have moved the slope
   const EstimatedParameter* viscous = Find(LawPart::slope, estimate);
   estimate.message += fmt::format(
       "; velocity averaged over each segment, since its noise of {:.2g} {} would change {} by "
       "{:.2g} %",
       taken.noise, kVelocityUnit.For(joint), slope, -100 * taken.attenuation);
+
+  // what averaging left of that: a warning, and wider intervals
   if (taken.left <= kHarmless) return;
   estimate.warnings.push_back(
       fmt::format("the noise of the velocity may still change {} by {:.2g} %, and intervals were "
                   "widened to cover this; hold each speed for longer, or log a finer position",
                   slope, -100 * taken.left));
   if (!viscous) return;
+
+  // a slope that is off moves the levels by as much as it takes at the mean speed
   const double move = std::abs(taken.left * viscous->value);
   for (EstimatedParameter& parameter : estimate.parameters) {
     const LawPart part = PartOf(parameter.name);

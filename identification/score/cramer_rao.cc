@@ -26,14 +26,17 @@ Eigen::MatrixXd Whitened(const Eigen::MatrixXd& jacobian, const Measurements& me
   Eigen::RowVectorXd seen = Eigen::RowVectorXd::Zero(jacobian.cols());  // of each column, as noise
   double variance = coloured;                                           // of what is not seen
   for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+    // the coloured part decays from sample to sample and is renewed
     if (i > 0) {
       const double kept = std::exp(-(time[i] - time[i - 1]) / truth.correlation_time);
       seen *= kept;
       variance = kept * kept * variance + (1 - kept * kept) * coloured;
     }
+    // what is new in the sample, scaled to white noise of deviation sigma
     const double innovation = variance + white;
     const Eigen::RowVectorXd left = jacobian.row(i) - seen;
     rows.row(i) = sigma / std::sqrt(innovation) * left;
+    // the share of it that is taken for coloured noise
     seen += variance / innovation * left;
     variance *= white / innovation;
   }
@@ -59,17 +62,21 @@ CramerRao CramerRaoBound(const Measurements& measurements, const Selection& sele
   const auto d = static_cast<Eigen::Index>(law.parameters.size());
   const double sigma = truth.torque_noise;
   const Eigen::Index count = truth.friction.thermal ? d + 2 : d;
+  // columns, and with them a bound, are known of linear laws alone
   if (!IsLinear(law)) {
     const Eigen::VectorXd none =
         Eigen::VectorXd::Constant(count, std::numeric_limits<double>::quiet_NaN());
     return {none, none, {}};
   }
 
+  // rows of the kept samples, what else is fitted beside them, in white noise
   const auto rows_of = [&](const Eigen::MatrixXd& jacobian) {
     const Eigen::MatrixXd all =
         nuisance.size() > 0 ? Beside(jacobian, nuisance) : Eigen::MatrixXd(jacobian);
     return Whitened(Kept(all, selection), measurements, selection, truth);
   };
+
+  // without warming the Jacobian is the law's columns
   const Eigen::MatrixXd columns = LawColumns(law, truth.velocity);
   if (!truth.friction.thermal) {
     const Eigen::MatrixXd kept = rows_of(columns);
@@ -84,6 +91,7 @@ CramerRao CramerRaoBound(const Measurements& measurements, const Selection& sele
   const Eigen::MatrixXd continuous =
       loop.Jacobian(Eigen::Map<const Eigen::VectorXd>(values.data(), d), *truth.friction.thermal,
                     truth.initial_energy);
+  // the same derivatives by the discrete pair
   const Eigen::MatrixXd discrete = ByDiscretePair(continuous, *truth.friction.thermal, step);
   const Eigen::MatrixXd kept = rows_of(continuous.leftCols(used));
   return {Deviations(kept, sigma, count),

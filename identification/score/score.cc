@@ -20,6 +20,7 @@ ParameterScore ScoreOne(std::string_view name, double truth, const Estimate& est
   score.name = name;
   score.truth = truth;
   score.bound = kNone;
+  // what the estimate lacks counts as 0
   if (const EstimatedParameter* found = estimate.Find(score.name)) {
     score.estimated = true;
     score.estimate = found->value;
@@ -73,6 +74,7 @@ const LogView& ScoredView(const Estimate& estimate, const PreparedLog& log) {
 
 Score ScoreEstimate(const Estimate& estimate, const Measurements& measurements,
                     const Selection& selection, const Truth& truth) {
+  // the law, alike in both parametrisations
   Score score;
   for (const ParameterInfo& info : FindLaw(truth.friction.law)->parameters) {
     const double value = truth.friction.parameters.at(std::string(info.name));
@@ -80,6 +82,7 @@ Score ScoreEstimate(const Estimate& estimate, const Measurements& measurements,
   }
   score.discrete = score.continuous;
   const double step = MedianStep(measurements.time);
+  // the warming, as it is and over one sampling interval
   if (truth.friction.thermal) {
     const Thermal& thermal = *truth.friction.thermal;
     score.continuous.push_back(ScoreOne(kGainName, thermal.gain, estimate));
@@ -90,6 +93,7 @@ Score ScoreEstimate(const Estimate& estimate, const Measurements& measurements,
     score.discrete.push_back(ScoreOne(kPoleName, discrete.pole, estimate));
   }
 
+  // the best that any unbiased estimate could do; E(0) is unknown where it was estimated
   const auto known = Find(Role::start, estimate) ? KnownInitialEnergy::no : KnownInitialEnergy::yes;
   const CramerRao bound =
       CramerRaoBound(measurements, selection, truth, known, step, Nuisance(estimate, measurements));
@@ -97,6 +101,8 @@ Score ScoreEstimate(const Estimate& estimate, const Measurements& measurements,
     score.continuous[i].bound = bound.continuous[i];
     score.discrete[i].bound = bound.discrete[i];
   }
+
+  // all parameters together
   score.npe_continuous = Npe(score.continuous);
   score.npe_discrete = Npe(score.discrete);
   score.bound_npe_continuous = BoundNpe(score.continuous);

@@ -20,6 +20,7 @@ namespace {
 void RefuseForeignContents(const fs::path& target, const std::vector<std::string>& replaceable) {
   if (!fs::exists(target)) return;
   if (!fs::is_directory(target)) Refuse({target.string()}, "is a file; give a directory");
+  // nothing may be lost but what may be replaced
   for (const auto& entry : fs::directory_iterator(target)) {
     const std::string name = entry.path().filename();
     if (std::find(replaceable.begin(), replaceable.end(), name) != replaceable.end()) continue;

@@ -43,6 +43,7 @@ bool LacksRoom(int error) {
 }
 
 void WriteAll(int file, std::string_view bytes, const std::string& name) {
+  // the system may take a part at a time, and a signal may come between
   while (!bytes.empty()) {
     const ssize_t written = write(file, bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
@@ -57,6 +58,7 @@ void CopyToStandardOutput(const fs::path& from) {
   const int file = open(from.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) FailOutput("standard output", errno);
   std::array<char, 65536> block;
+  // the file is closed whatever becomes of standard output
   try {
     for (ssize_t n; (n = read(file, block.data(), block.size())) != 0;) {
       if (n < 0 && errno == EINTR) continue;
@@ -118,6 +120,7 @@ void AtomicFile::TakeOver(const fs::path& target) {
   }
   target_ = exists ? fs::canonical(target) : target;
 
+  // beside the target, so that it can take its name in one step
   MakeTemporary(exists ? target_.parent_path() : named);
   if (!exists) {
     fchmod(file_, NewFileMode());
@@ -129,6 +132,7 @@ void AtomicFile::TakeOver(const fs::path& target) {
 }
 
 void AtomicFile::MakeTemporary(const fs::path& folder) {
+  // a drawn name with the extension that the file is to have
   const std::string extension = target_.extension().string();
   std::string pattern = folder / (".warmjoint.part.XXXXXX" + extension);
   file_ = mkostemps(pattern.data(), static_cast<int>(extension.size()), O_CLOEXEC);
@@ -136,6 +140,7 @@ void AtomicFile::MakeTemporary(const fs::path& folder) {
     temporary_ = pattern;
     return;
   }
+  // a full disk says nothing against the name
   if (LacksRoom(errno)) FailOutput(name_, errno);
   Refuse({name_}, "its folder '{}' cannot be written to ({}); choose another", folder.string(),
          Words(errno));
@@ -151,11 +156,13 @@ void AtomicFile::Write(std::string_view bytes) { WriteAll(file_, bytes, name_); 
 
 void AtomicFile::Commit() {
   if (target_.empty()) return CopyToStandardOutput(temporary_);
+  // on the disk before it gets its name, so that no one finds half a file under it
   if (fsync(file_) != 0) FailOutput(name_, errno);
   const int closed = close(std::exchange(file_, -1));
   if (closed != 0) FailOutput(name_, errno);
   if (rename(temporary_.c_str(), target_.c_str()) != 0) FailOutput(name_, errno);
   temporary_.clear();
+  // the name, too, survives a loss of power
   SyncFolder(target_.has_parent_path() ? target_.parent_path() : fs::path("."));
 }
 

@@ -12,6 +12,7 @@ namespace {
 Eigen::Index SettlingLength(const std::vector<Biquad>& sections) {
   double slowest = 0;  // largest modulus of a pole
   for (const Biquad& section : sections) {
+    // poles of z^2 + a1 z + a2: a complex pair, or the larger of two real ones
     const double square = section.a1 * section.a1 / 4 - section.a2;
     const double modulus =
         square < 0 ? std::sqrt(section.a2) : std::abs(section.a1) / 2 + std::sqrt(square);
@@ -31,6 +32,7 @@ Eigen::VectorXd Continued(const Eigen::VectorXd& x, Eigen::Index pad) {
 
 Eigen::VectorXd FilterOnce(const std::vector<Biquad>& sections, const Eigen::VectorXd& x) {
   BiquadCascade filter(sections);
+  // as if the first value had been there always
   filter.Settle(x[0]);
   Eigen::VectorXd y(x.size());
   for (Eigen::Index i = 0; i < x.size(); ++i) y[i] = filter.Step(x[i]);
@@ -41,6 +43,7 @@ Eigen::VectorXd FilterOnce(const std::vector<Biquad>& sections, const Eigen::Vec
 
 std::vector<Biquad> ButterworthLowPass(int order, double cutoff, double rate) {
   assert(order > 0 && order % 2 == 0 && cutoff > 0 && cutoff < rate / 2);
+  // the corner, as the bilinear transform bends the frequency
   const double corner = std::tan(std::numbers::pi * cutoff / rate);
   std::vector<Biquad> sections;
   for (int k = 0; k < order / 2; ++k) {
@@ -73,6 +76,7 @@ double BiquadCascade::Step(double x) {
   for (std::size_t k = 0; k < sections_.size(); ++k) {
     const Biquad& s = sections_[k];
     Eigen::Vector2d& memory = memory_[k];
+    // transposed direct form II
     const double y = s.b0 * x + memory[0];
     memory[0] = s.b1 * x - s.a1 * y + memory[1];
     memory[1] = s.b2 * x - s.a2 * y;
@@ -88,6 +92,7 @@ Eigen::VectorXd FilterZeroPhase(const std::vector<Biquad>& sections, const Eigen
   // a straight line passes unchanged, so only what is left beside it is filtered
   const Eigen::VectorXd line = Eigen::VectorXd::LinSpaced(n, x[0], x[n - 1]);
   const Eigen::Index pad = std::min(SettlingLength(sections), n - 1);
+  // once in each direction, so that their delays cancel
   const Eigen::VectorXd forwards = FilterOnce(sections, Continued(x - line, pad));
   const Eigen::VectorXd backwards = FilterOnce(sections, forwards.reverse());
   return line + backwards.reverse().segment(pad, n);

@@ -30,6 +30,7 @@ std::string ExcerptOfList(const std::vector<std::string>& texts) {
     if (shown.size() == kMostListed) break;
     shown.push_back(Excerpt(text));
   }
+  // how many are not shown
   const std::size_t more = texts.size() - shown.size();
   const std::string list = fmt::format("{}", fmt::join(shown, ", "));
   return more == 0 ? list : fmt::format("{} and {} more", list, more);

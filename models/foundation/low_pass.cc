@@ -12,6 +12,7 @@ Eigen::VectorXd LowPass(const Eigen::VectorXd& time, const Eigen::VectorXd& x,
                         double time_constant) {
   Eigen::VectorXd filtered = x;
   for (Eigen::Index i = 1; i < x.size(); ++i) {
+    // towards the sample before, held until this one
     const double share = ShareFollowed(time[i] - time[i - 1], time_constant);
     filtered[i] = filtered[i - 1] + share * (x[i - 1] - filtered[i - 1]);
   }

@@ -28,6 +28,7 @@ Eigen::MatrixXd SquareFromJson(const json& rows, std::size_t size, const std::st
     if (!rows[i].is_array() || rows[i].size() != size) {
       Refuse(place, "row {} of {} must hold {} numbers", i + 1, name, size);
     }
+    // a number that is not known was written as null
     for (std::size_t j = 0; j < size; ++j) {
       const json& value = rows[i][j];
       if (!value.is_number() && !value.is_null()) {

@@ -41,6 +41,7 @@ int EditDistance(std::string_view a, std::string_view b) {
   for (size_t i = 0; i <= a.size(); ++i) table[i][0] = static_cast<int>(i);
   for (size_t j = 0; j <= b.size(); ++j) table[0][j] = static_cast<int>(j);
 
+  // the least of deletion, insertion and substitution, or two neighbours swapped
   for (size_t i = 1; i <= a.size(); ++i) {
     for (size_t j = 1; j <= b.size(); ++j) {
       const int substitution = table[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
@@ -54,6 +55,7 @@ int EditDistance(std::string_view a, std::string_view b) {
 
 std::string Suggestion(std::string_view given, const std::vector<std::string>& known) {
   if (known.empty()) return "";
+  // the nearest of those that are known
   const std::string name = Excerpt(given);
 
   const auto nearer = [&](const std::string& x, const std::string& y) {
@@ -68,6 +70,7 @@ std::string Suggestion(std::string_view given, const std::vector<std::string>& k
   const bool is_near = EditDistance(name, nearest) <= allowed;
   if (!is_near && half == known.end()) return fmt::format("; known: {}", ShortList(known));
   const std::string meant = Excerpt(is_near ? nearest : *half);
+  // the whole list beside it, where it is short
   const std::string all = ExcerptOfList(known);
   if (all.size() > kShortList) return fmt::format("; did you mean '{}'?", meant);
   return fmt::format("; did you mean '{}'? Known: {}", meant, all);

@@ -25,6 +25,7 @@ std::optional<T> Parse(std::string_view text) {
   const char* end = trimmed.data() + trimmed.size();
   T value{};
   const auto [rest, error] = std::from_chars(trimmed.data(), end, value);
+  // all of the text must be the number
   if (error != std::errc() || rest != end) return std::nullopt;
   return value;
 }
@@ -40,6 +41,7 @@ std::optional<double> ParseNumber(std::string_view text) {
   const char* end = trimmed.data() + trimmed.size();
   const auto [rest, error] = std::from_chars(trimmed.data(), end, ignored);
   if (error != std::errc::result_out_of_range || rest != end) return std::nullopt;
+  // too small for a double counts as what strtod makes of it, too large is refused
   const double value = std::strtod(std::string(trimmed).c_str(), nullptr);
   if (std::abs(value) > 1) return std::nullopt;
   return value;

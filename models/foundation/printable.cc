@@ -23,6 +23,7 @@ std::string Printable(std::string_view text) {
   while (!text.empty()) {
     const Character character = FirstCharacter(text);
     const std::size_t length = std::max<std::size_t>(1, character.length);
+    // bytes that are no character, and characters that act, are shown by their codes
     if (character.length == 0) {
       shown += fmt::format("\\x{:02X}", static_cast<unsigned char>(text[0]));
     } else if (IsActive(character.code)) {

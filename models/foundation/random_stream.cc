@@ -12,6 +12,7 @@ RandomStream::RandomStream(RandomKey key, Stream stream)
                 static_cast<std::uint32_t>(key.realization >> 32)}} {}
 
 std::uint64_t RandomStream::Bits() {
+  // four words are used up: the next block of the counter
   if (used_ == 4) {
     block_ = generator_(counter_, key_);
     ++counter_[0];
@@ -26,6 +27,7 @@ std::uint64_t RandomStream::Bits() {
 double RandomStream::Uniform() { return static_cast<double>(Bits() >> 11) * 0x1.0p-53; }
 
 double RandomStream::Normal() {
+  // each draw makes two, of which this is the second
   if (has_spare_) {
     has_spare_ = false;
     return spare_;

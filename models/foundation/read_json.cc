@@ -23,6 +23,7 @@ void CheckDepth(const std::string& text, const std::string& file) {
   bool quoted = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
+    // brackets within texts do not count; a backslash takes the next character with it
     if (quoted) {
       if (c == '\\') ++i;
       quoted = c != '"';
@@ -65,6 +66,7 @@ nlohmann::json ParseJson(const std::string& text, const std::string& file) {
     Refuse(PlaceOf(text, error.byte, file), "is not JSON: {}",
            Excerpt(error.what(), kLongestComplaint));
   } catch (const nlohmann::json::out_of_range& error) {
+    // the library tells no place, but the number, which is looked for
     const std::string_view number = Quoted(error.what());
     Refuse(PlaceOf(text, text.find(number), file),
            "{} is beyond the largest number, 1.8e308; write null for what is unknown",

@@ -25,6 +25,7 @@ double MedianStep(const Eigen::VectorXd& time) {
 double WhiteNoise(const Eigen::VectorXd& x) {
   const Eigen::Index n = x.size() - 4;
   if (n < 1) return 0;
+  // fourth differences, of which smooth motion leaves next to nothing
   Eigen::VectorXd differences =
       x.head(n) - 4 * x.segment(1, n) + 6 * x.segment(2, n) - 4 * x.segment(3, n) + x.tail(n);
   differences = differences.cwiseAbs();
@@ -37,6 +38,8 @@ double Resolution(const Eigen::VectorXd& x) {
   if (x.size() < 2) return 0;
   const Eigen::ArrayXd steps = (x.tail(x.size() - 1) - x.head(x.size() - 1)).cwiseAbs();
   const double rounding = 1e-12 * x.cwiseAbs().maxCoeff();
+
+  // the smallest step that is not rounding, and the largest
   double smallest = kUnknown, largest = 0;
   for (const double step : steps) {
     if (step > rounding) smallest = std::min(smallest, step);

@@ -36,10 +36,12 @@ std::uint64_t GroupLimit() {
   std::uint64_t least = kUnknown;
   std::ifstream file("/proc/self/cgroup");
   for (std::string line; std::getline(file, line);) {
+    // number:controllers:group; version 2 names no controllers
     const std::size_t first = line.find(':'), second = line.find(':', first + 1);
     if (second == std::string::npos) continue;
     const std::string controllers = line.substr(first + 1, second - first - 1);
     const std::string group = line.substr(second + 1);
+    // version 2 and version 1 keep the limit in different places
     if (controllers.empty()) {
       least = std::min(least, NumberIn("/sys/fs/cgroup" + group + "/memory.max"));
     } else if (controllers == "memory") {
@@ -52,6 +54,8 @@ std::uint64_t GroupLimit() {
 std::uint64_t SpareAddresses() {
   rlimit limit{};
   if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return kUnknown;
+
+  // addresses that are taken already count against the limit
   const std::uint64_t pages = NumberIn("/proc/self/statm");
   const std::uint64_t taken =
       pages == kUnknown ? 0 : pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));

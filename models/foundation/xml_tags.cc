@@ -30,6 +30,7 @@ std::size_t SizeOfTag(std::string_view text) {
 XmlTag Parsed(std::string_view tag, int line) {
   XmlTag parsed;
   parsed.line = line;
+  // without brackets, and by its slash, where it has one
   tag.remove_prefix(1);
   if (tag.ends_with('>')) tag.remove_suffix(1);
   if (tag.starts_with('/')) {
@@ -69,8 +70,10 @@ std::optional<std::string_view> XmlTag::Attribute(std::string_view wanted) const
 
 std::optional<XmlTag> XmlTagReader::Next() {
   for (;;) {
+    // text up to the next tag
     Take(std::min(rest_.find('<'), rest_.size()));
     if (rest_.empty()) return std::nullopt;
+    // comments, raw text, instructions and declarations are no tags
     if (rest_.starts_with("<!--")) {
       Take(Through(rest_, "-->"));
     } else if (rest_.starts_with("<![CDATA[")) {

@@ -67,6 +67,8 @@ class LawAlong<L> {
     const double v = course_.velocity[i], extra = At(course_.level, i);
     const int side = v < 0 ? -1 : 1;
     const double added = joint_.AddedLevel(side, std::abs(v), place) + extra;
+
+    // a recording begins with the bristle bent by its first torque, where it is given, or sliding
     if (pieces_.Begins(i) && course_.torque.size() > 0) {
       state_.BeginBent(v, added, course_.torque[i]);
     } else if (pieces_.Begins(i)) {
@@ -90,6 +92,7 @@ class LawAlong<L> {
   /// The way to sample i, on which all that joins the level goes linearly in time.
   void Follow(Index i, const JointPlace& place) {
     for (const MotionPiece& piece : pieces_.Before(i)) {
+      // what joins the level at either sample, and linearly in between
       const auto added = [&](Index k, const JointPlace& at) {
         return joint_.AddedLevel(piece.side, std::abs(course_.velocity[k]), at) +
                At(course_.level, k);
@@ -162,12 +165,14 @@ Prediction Run(const FrictionDescription& friction, const JointFriction& joint,
   auto cold = course.starts.begin();
   auto jump = start.jumps.begin();
   for (Index i = 0; i < n; ++i) {
+    // the joint may be cold again, or its heat be changed by a jump
     if (cold != course.starts.end() && *cold == i) {
       state.energy = state.second_energy = 0;
       ++cold;
     }
     for (; jump != start.jumps.end() && jump->sample == i; ++jump) state.energy += jump->change;
 
+    // friction at this sample, with the heat that it begins with
     const double energy = state.energy + state.second_energy;
     const Sample sample = law(i, PlaceAt(course, i, energy));
     result.force[i] = sample.force;
@@ -183,6 +188,8 @@ Prediction Run(const FrictionDescription& friction, const JointFriction& joint,
     state.energy = hold.First(state.energy, by);
     state.second_energy = hold.Second(state.second_energy, by);
   }
+
+  // what the joint remembers at the end
   state.bristle = law.bristle();
   if (L::pre_sliding == PreSliding::breakaway && n > 0) state.slip = Sign(course.velocity[n - 1]);
   return result;

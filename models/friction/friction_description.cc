@@ -53,6 +53,7 @@ void CheckThermal(const Thermal& thermal, const Place& place) {
 
 /// What depends on the heat makes sense only where there is heat.
 void CheckHeat(const FrictionDescription& friction, const Place& place) {
+  // warming must be physical, and the temperature act in its direction
   if (friction.thermal) {
     CheckThermal(*friction.thermal, place);
     if (friction.level_per_temperature * friction.thermal->gain < 0) {
@@ -64,6 +65,8 @@ void CheckHeat(const FrictionDescription& friction, const Place& place) {
     if (friction.second_thermal) CheckThermal(*friction.second_thermal, place);
     return;
   }
+
+  // without warming, nothing may depend on it
   const auto needs = [&](const char* what) {
     Refuse(place, "{} needs thermal, which is not given; give it a gain and a time constant", what);
   };
@@ -85,6 +88,7 @@ void CheckSlopeOverEnergy(const FrictionDescription& friction, const Place& plac
     Refuse(place, "viscous_per_energy is {}, but law {} has no {} that it could change", slope,
            friction.law, kViscousRow.name);
   }
+  // either stage of warming could run away
   for (const auto& thermal : {friction.thermal, friction.second_thermal}) {
     if (!thermal || slope * thermal->gain <= 0) continue;
     Refuse(place,
@@ -98,6 +102,7 @@ void CheckMaps(const FrictionDescription& friction, const Place& place) {
   double work = 0;
   for (const FrictionMap& map : friction.maps) {
     CheckMap(map, place);
+    // all maps are sampled before the first step, which must end soon
     work += SurveyWork(map);
     if (work > kMostSurveyWork) {
       Refuse(place,
@@ -143,6 +148,7 @@ void CheckFriction(const FrictionDescription& friction, const Place& place) {
            Suggestion(name, known));
   }
 
+  // what stands beside the law
   CheckStaticLevel(friction, place);
   for (const FrictionOption& option : FrictionOptions()) {
     CheckValue(option.info, friction.*option.value, place);
@@ -179,6 +185,7 @@ void FillDefaults(FrictionDescription& friction) {
   const Law* law = FindLaw(friction.law);
   if (!law) return;
   for (const ParameterInfo& info : law->parameters) {
+    // a number that must always be given has no default
     if (info.given == Given::always) continue;
     friction.parameters.try_emplace(std::string(info.name), info.default_value);
   }

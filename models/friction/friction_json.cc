@@ -40,6 +40,7 @@ void ReadThermal(const json& object, FrictionDescription& friction, const Place&
 
 json FrictionToJson(const FrictionDescription& friction) {
   json result{{"law", friction.law}, {"parameters", friction.parameters}, {"gear", friction.gear}};
+  // warming, where there is any
   if (friction.thermal) {
     result["thermal"] = ThermalToJson(*friction.thermal);
     result["thermal"]["ambient"] = friction.ambient;
@@ -47,6 +48,7 @@ json FrictionToJson(const FrictionDescription& friction) {
   if (friction.second_thermal) {
     result["thermal"]["second"] = ThermalToJson(*friction.second_thermal);
   }
+  // options at 0 change nothing and are left out
   for (const FrictionOption& option : FrictionOptions()) {
     if (friction.*option.value != 0) result[std::string(option.info.name)] = friction.*option.value;
   }
@@ -55,6 +57,7 @@ json FrictionToJson(const FrictionDescription& friction) {
 }
 
 FrictionDescription FrictionFromJson(const json& object, const Place& place) {
+  // no key but these, and the law in any case
   std::vector<std::string> known{"law", "parameters", "thermal", "gear", "maps"};
   for (const FrictionOption& option : FrictionOptions()) known.emplace_back(option.info.name);
   RefuseUnknownKeys(object, "friction", known, place);
@@ -63,6 +66,8 @@ FrictionDescription FrictionFromJson(const json& object, const Place& place) {
   }
 
   FrictionDescription friction;
+
+  // the law and its numbers
   friction.law = object["law"].get<std::string>();
   if (object.contains("parameters")) {
     const json& parameters = object["parameters"];
@@ -72,6 +77,7 @@ FrictionDescription FrictionFromJson(const json& object, const Place& place) {
     }
   }
   if (object.contains("thermal")) ReadThermal(object["thermal"], friction, place);
+  // what stands beside the law
   if (object.contains("gear")) friction.gear = NumberMember(object, "gear", place);
   for (const FrictionOption& option : FrictionOptions()) {
     const std::string name(option.info.name);
@@ -81,6 +87,7 @@ FrictionDescription FrictionFromJson(const json& object, const Place& place) {
     if (!object["maps"].is_array()) Refuse(place, "friction's maps must be a list");
     for (const json& map : object["maps"]) friction.maps.push_back(MapFromJson(map, place));
   }
+  // what was left out, then all of it together
   FillDefaults(friction);
   CheckFriction(friction, place);
   return friction;
@@ -88,6 +95,7 @@ FrictionDescription FrictionFromJson(const json& object, const Place& place) {
 
 FrictionDescription ReadFrictionFile(const std::string& path) {
   const json object = ReadJsonFile(path);
+  // an estimate holds its friction under that name; else the file is one
   return FrictionFromJson(object.contains("friction") ? object["friction"] : object, {path});
 }
 

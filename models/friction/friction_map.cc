@@ -14,12 +14,14 @@ void CheckPositive(double value, std::string_view axis, const char* what, const 
 void CheckAxis(const MapAxis& axis, const Place& place) {
   const std::string_view name = MapQuantityName(axis.quantity);
   const GaussianAxis& kernels = axis.kernels;
+  // few enough kernels, of a positive width
   if (kernels.size() < 1 || kernels.size() > kMostMapCentres) {
     Refuse(place, "map axis {} has {} centres; give 1 to {}", name, kernels.size(),
            kMostMapCentres);
   }
   CheckPositive(kernels.width, name, "width", place);
   if (kernels.period) CheckPositive(*kernels.period, name, "period", place);
+  // ascending centres; with the sides apart, each on one of them
   for (size_t i = 0; i < kernels.size(); ++i) {
     const double centre = kernels.centres[i];
     if (!std::isfinite(centre) || (i > 0 && centre <= kernels.centres[i - 1])) {

@@ -34,6 +34,7 @@ std::vector<double> Numbers(const json& list, const char* what, const Place& pla
 /// Index of a word among `words`.
 size_t Word(const json& value, const char* what, const std::vector<std::string>& words,
             const Place& place) {
+  // a word, or whatever stands there instead
   const std::string given = value.is_string() ? value.get<std::string>() : value.dump();
   for (size_t i = 0; value.is_string() && i < words.size(); ++i) {
     if (given == words[i]) return i;
@@ -50,6 +51,7 @@ MapAxis AxisFromJson(const json& object, const Place& place) {
   axis.quantity = kQuantities[Word(object["quantity"], "a map axis's quantity", names, place)];
   axis.kernels.centres = Numbers(object["centres"], "centres of a map's axis", place);
   axis.kernels.width = NumberFrom(object["width"], "width of a map's axis", place);
+  // what may be left out
   if (object.contains("period")) {
     axis.kernels.period = NumberFrom(object["period"], "period of a map's axis", place);
   }
@@ -85,6 +87,7 @@ FrictionMap MapFromJson(const json& object, const Place& place) {
   FrictionMap map;
   for (const json& axis : object["axes"]) map.axes.push_back(AxisFromJson(axis, place));
   map.weights = Numbers(object["weights"], "a map's weights", place);
+  // what may be left out
   if (object.contains("kernels")) {
     const size_t kind = Word(object["kernels"], "a map's kernels", {"normalised", "plain"}, place);
     map.kernels = kind == 1 ? KernelKind::plain : KernelKind::normalised;

@@ -30,6 +30,7 @@ GaussianAxis SpeedAxis(double lowest, double highest, int count) {
   GaussianAxis axis;
   axis.sides = Sides::apart;
   axis.width = Spacing(lowest, highest, count);
+  // the same speeds in both directions, ascending
   for (int i = count - 1; i >= 0; --i) axis.centres.push_back(-(lowest + i * axis.width));
   for (int i = 0; i < count; ++i) axis.centres.push_back(lowest + i * axis.width);
   return axis;

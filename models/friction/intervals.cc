@@ -16,6 +16,7 @@ Intervals FindSteps(const Eigen::VectorXd& time) {
   const Eigen::Index n = time.size() - 1;
   const Eigen::ArrayXd steps = time.tail(n) - time.head(n);
   const double mean = (time[n] - time[0]) / static_cast<double>(n);
+  // a clock that ticks evenly has one length
   if ((steps - mean).abs().maxCoeff() <= kSame * mean) {
     return {{mean}, std::vector<int>(n + 1, 0), mean};
   }
@@ -51,6 +52,7 @@ Intervals FindSteps(const Eigen::VectorXd& time) {
 }  // namespace
 
 Intervals FindIntervals(const Eigen::VectorXd& time, const std::vector<Eigen::Index>& starts) {
+  // the interval before a cold start is infinite, so that no heat is left
   Intervals intervals = FindSteps(time);
   if (starts.empty()) return intervals;
   const auto cold = static_cast<int>(intervals.length.size());
@@ -63,10 +65,12 @@ std::vector<IntervalHold> Holds(const Intervals& intervals, const Thermal& therm
   std::vector<IntervalHold> holds;
   holds.reserve(intervals.length.size());
   for (const double h : intervals.length) {
+    // nothing is left of the heat
     if (std::isinf(h)) {
       holds.push_back({0, 0, 0, 0});
       continue;
     }
+    // the zero-order hold over the interval
     const ThermalHold<> hold = HoldOver(h, thermal.time_constant);
     holds.push_back({hold.pole, hold.cooling, thermal.gain * hold.cooling, hold.Slope()});
   }

@@ -102,6 +102,7 @@ void JointFriction::Derive() {
   const std::optional<size_t> slope = PlaceOf(LawPart::slope, law_);
   viscous_ = slope ? values_[*slope] : 0;
   per_energy_ = friction_.viscous_per_energy;
+  // levels that are the same at any speed are found once
   if (same_at_any_speed_) {
     for (const int side : {-1, 1}) {
       holding_[side > 0] = level_(false, side, 0, values_.data());
@@ -115,6 +116,7 @@ std::optional<size_t> JointFriction::FindNumber(std::string_view name) const {
   for (size_t i = 0; i < law_.parameters.size(); ++i) {
     if (law_.parameters[i].name == name) return i;
   }
+  // numbers beside the law's own count only where this friction has them
   for (size_t i = 0; i < OtherNumbers().size(); ++i) {
     const OtherNumber& number = OtherNumbers()[i];
     if (!number.IsCalled(name)) continue;
@@ -125,18 +127,24 @@ std::optional<size_t> JointFriction::FindNumber(std::string_view name) const {
 }
 
 bool JointFriction::SetNumber(size_t place, double value) {
+  // a number of the law's table, or one beside it
   const bool own = place < values_.size();
   const OtherNumber* other = own ? nullptr : &OtherNumbers()[place - values_.size()];
   const ParameterInfo& info = own ? law_.parameters[place] : other->info;
+  // within its bounds, a time constant above 0, a gain no larger than any joint's
   const bool time = info.name == Thermal::parameters[1].name;
   if (!(value >= info.lower && value <= info.upper) || (time && value == 0)) return false;
   const bool gain = info.name == Thermal::parameters[0].name;
   if (gain && std::abs(value) > kLargestThermalGain) return false;
+
+  // what follows from the number changes with it
   if (own) {
     values_[place] = value;
     Derive();
     return true;
   }
+
+  // of warming or options: the step of the heat may follow from it
   *other->find(friction_) = value;
   per_energy_ = friction_.viscous_per_energy;
   if (h_ > 0) heat_ = DiscretiseHeat(friction_, h_);
@@ -146,6 +154,7 @@ bool JointFriction::SetNumber(size_t place, double value) {
 template <typename... L>
 void JointFriction::ChooseLevel(LawList<L...>) {
   const auto choose = [&]<typename One>(const One*) {
+    // the levels of the law by this name, compiled for it
     if (law_.name != One::name) return;
     same_at_any_speed_ = LawAtAnySpeed<One>;
     level_ = [](bool sliding, int side, double speed, const double* p) {
@@ -176,6 +185,7 @@ void JointFriction::TakeDeficit(const FrictionState& state, const JointMotion& m
   const double v = motion.velocity;
   const double deficit = std::min(0.0, Level(Sign(v), state, motion));
   if (deficit == 0) return;
+  // it may take the viscous force to 0, but not turn it
   const double left = std::abs(step.force) + deficit;
   step.feeds_itself = left < 0;
   step.force = Sign(v) * std::max(0.0, left);
@@ -185,6 +195,7 @@ void JointFriction::TakeDeficit(const FrictionState& state, const JointMotion& m
 FrictionStep JointFriction::Step(const FrictionState& state, const JointMotion& motion) const {
   const double v = motion.velocity;
   const auto level = [&](int side) { return Level(side, state, motion); };
+  // the law's own bristle loses what it took less what it stores
   if (own_bristle_) {
     const Bristle own = LimitBristle(*own_bristle_, motion.inertia, h_);
     const BristleStep bristle = StepLugreBristle(own, state.bristle, v, h_, level);

@@ -53,6 +53,7 @@ void LevelTerms::Survey(const FrictionDescription& friction) {
     const FrictionMap& map = friction.maps[i];
     const auto samples = [&](MapQuantity quantity) { return SurveySamples(map, quantity); };
     const std::vector<double> speeds = samples(MapQuantity::velocity);
+    // along the speed at one place: the largest value at rest and the steepest rise
     double slope = 0, at_rest = 0;
     const auto along_speed = [&](MapPoint<double> point, int side) {
       double before = 0;
@@ -64,6 +65,8 @@ void LevelTerms::Survey(const FrictionDescription& friction) {
         before = value;
       }
     };
+
+    // at all centres of the other axes, in both directions
     for (const double position : samples(MapQuantity::position)) {
       for (const double motor : samples(MapQuantity::motor_position)) {
         for (const double energy : samples(MapQuantity::energy)) {
@@ -74,6 +77,7 @@ void LevelTerms::Survey(const FrictionDescription& friction) {
         }
       }
     }
+    // maps that act together are bounded by the sum of their bounds
     steepest_slope_ += slope;
     largest_at_rest_ += at_rest;
   }

@@ -16,8 +16,12 @@ MotionPieces::MotionPieces(const Eigen::VectorXd& time, const Eigen::VectorXd& v
                            const std::vector<Eigen::Index>& starts)
     : velocity_(velocity), begins_(static_cast<size_t>(velocity.size()), false) {
   if (velocity.size() == 0) return;
+
+  // where the way begins anew
   begins_[0] = true;
   for (const Eigen::Index start : starts) begins_[static_cast<size_t>(start)] = true;
+
+  // the way from each sample to the next, cut where it turns
   end_.reserve(begins_.size());
   end_.push_back(0);
   for (Eigen::Index i = 1; i < velocity.size(); ++i) {
@@ -42,6 +46,7 @@ void MotionPieces::Cut(double step, double begin, double end, double from, doubl
   const double time = step * (end - begin);
   if (!(most > 0) || !(time > 0)) return;
   const int side = Sign(from + to);
+  // a speed that hardly changes makes one piece
   const int count = change > kConstant * most ? kPieces : 1;
   const auto between = [count](double first, double last, int k) {
     return k == count ? last : first + (last - first) * k / count;

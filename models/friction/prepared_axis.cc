@@ -21,11 +21,13 @@ template <typename Segment>
 void KernelsFromEnd(const Segment& segment, double place, bool normalised, ActiveKernels& active) {
   const int n = segment.size(), last = n - 1;
   const bool above = place > 0;
+  // distance from the nearer end, in widths
   const double distance = (above ? place - last : -place) * segment.ratio;
   active.first = segment.row;
   active.count = n;
   active.begin = 0;
   active.sum = 1;
+  // so far off that no kernel counts, or the nearest alone
   if (!normalised && distance > kReach) {
     active.count = 0;
     return;
@@ -35,6 +37,8 @@ void KernelsFromEnd(const Segment& segment, double place, bool normalised, Activ
     active.value[static_cast<size_t>(above ? last : 0)] = 1;
     return;
   }
+
+  // each kernel by the one before it, from the nearer end on
   const double fall = std::exp(-distance * segment.ratio);
   double kernel = normalised ? 1.0 : std::exp(-distance * distance / 2), sum = 0;
   for (int i = 0; i < n; ++i, kernel *= fall) {
@@ -58,6 +62,8 @@ PreparedAxis::PreparedAxis(const GaussianAxis& axis, KernelKind kind) : axis_(ax
   } else {
     segments_ = {MakeSegment(0, n)};
   }
+
+  // places of the segments in the row; those of a table begin at a multiple of four
   int row = 0;
   for (Segment& segment : segments_) {
     segment.row = row + segment.pad;
@@ -72,6 +78,7 @@ PreparedAxis::Segment PreparedAxis::MakeSegment(int begin, int end) const {
   segment.table = TableOf(begin, end);
   const auto from = static_cast<size_t>(begin), to = static_cast<size_t>(end);
   if (!IsEvenGrid(axis_, from, to)) return segment;
+  // the bell that all kernels of an even grid share, as far as it counts
   const double spacing = SpacingOf(axis_, from, to), ratio = spacing / axis_.width;
   segment.ratio = ratio;
   segment.per_spacing = 1 / spacing;
@@ -94,6 +101,7 @@ PreparedAxis::Segment PreparedAxis::MakeSegment(int begin, int end) const {
 RowTable PreparedAxis::TableOf(int begin, int end) const {
   const int n = end - begin;
   if (n < 2 || n > kFew || axis_.period) return {};
+  // the segment as an axis of its own, with a weight of 1 for one kernel in each row
   GaussianAxis own = axis_;
   own.centres.assign(axis_.centres.begin() + begin, axis_.centres.begin() + end);
   own.sides = Sides::together;
@@ -124,12 +132,14 @@ std::vector<int> PreparedAxis::Row() const {
 
 void PreparedAxis::UntabledKernels(const Segment& segment, double x, ActiveKernels& active) const {
   if (segment.bell.empty() || !EvenKernels(segment, x, active)) FreeKernels(segment, x, active);
+  // they are read four at a time
   std::fill_n(active.value.data() + active.begin + active.count, 3, 0.0);
 }
 
 /// Kernels of an even grid, as many at every x, so that no branch depends on it; false, and
 /// nothing done, more than half a spacing outside of a grid that is not short.
 bool PreparedAxis::EvenKernels(const Segment& segment, double x, ActiveKernels& active) const {
+  // how far along the grid, in spacings; a circle is gone around first
   double offset = x - axis_.centres[segment.begin];
   const bool circle = axis_.period.has_value();
   if (circle && (offset < 0 || offset >= *axis_.period)) {
@@ -138,6 +148,7 @@ bool PreparedAxis::EvenKernels(const Segment& segment, double x, ActiveKernels& 
   const double place = offset * segment.per_spacing;
   const bool normalised = kind_ == KernelKind::normalised;
   const bool all = segment.pad < segment.reach();
+  // outside of the grid, only a short one has kernels told from its end
   if (!(place >= -0.5 && place < segment.size() - 0.5 + circle)) {
     if (circle || !all) return false;
     KernelsFromEnd(segment, place, normalised, active);
@@ -186,6 +197,7 @@ void PreparedAxis::FreeKernels(const Segment& segment, double x, ActiveKernels& 
   }
   const bool normalised = kind_ == KernelKind::normalised;
   if (!normalised) nearest = 0;
+  // kernels, seen from the nearest where they are normalised; none beyond reach
   double sum = 0;
   for (int i = 0; i < active.count; ++i) {
     const double square = kernel[i] - nearest;

@@ -13,6 +13,7 @@ using Numbers = Eigen::Map<const Eigen::VectorXd>;
 }  // namespace
 
 PreparedMap::PreparedMap(const FrictionMap& map) : factor_(map.factor) {
+  // the axis with the most centres comes last
   const size_t dimensions = map.axes.size();
   std::vector<size_t> order(dimensions);
   std::iota(order.begin(), order.end(), 0);
@@ -40,11 +41,14 @@ template <typename Visit>
 void PreparedMap::ForEachRow(const FrictionMap& map, const std::vector<size_t>& order,
                              const Visit& visit) {
   const size_t dimensions = order.size();
+  // strides of the map as it was given, whatever the order here
   const auto own_stride = [&](size_t a) {
     size_t stride = 1;
     for (size_t b = order[a] + 1; b < dimensions; ++b) stride *= map.axes[b].kernels.size();
     return stride;
   };
+
+  // strides of the rows, over all axes but the last
   std::vector<std::vector<int>> outer;
   for (size_t a = 0; a + 1 < dimensions; ++a) outer.push_back(axes_[a].Row());
   strides_.assign(outer.size(), 1);
@@ -96,6 +100,7 @@ EIGEN_ALWAYS_INLINE double PreparedMap::FromTable(const ActiveKernels& kernels, 
     value = shifted.data();
     count += before;
   }
+  // four rows at a time
   Four sum{};
   for (size_t i = 0; i < count; i += 4) {
     Four weights, rows;
@@ -111,6 +116,7 @@ double PreparedMap::Evaluate(const MapPoint<double>& point) const {
   Active active;
   double divisor = 1;
   const size_t last = axes_.size() - 1;
+  // the kernels of one axis; false where none counts
   const auto prepare = [&](size_t a) {
     axes_[a].Kernels(point[static_cast<size_t>(quantities_[a])], active[a]);
     divisor *= active[a].sum;
@@ -121,6 +127,8 @@ double PreparedMap::Evaluate(const MapPoint<double>& point) const {
   }
 
   const double factor = EvaluateFactor(factor_, point[static_cast<size_t>(MapQuantity::velocity)]);
+
+  // the last axis by its table, where it has one here
   RowTable::Spot spot;
   if (table_.Locate(point[static_cast<size_t>(quantities_[last])], spot)) {
     const auto from_table = [&](const ActiveKernels& kernels, size_t row) {
@@ -129,6 +137,7 @@ double PreparedMap::Evaluate(const MapPoint<double>& point) const {
     const double sum = last == 0 ? table_.Value(0, spot) : Sum<0>(active, 0, from_table);
     return factor * sum / divisor;
   }
+  // else by its kernels
   if (!prepare(last)) return 0;
   const ActiveKernels& own = active[last];
   const Numbers value(own.value.data() + own.begin, own.count);

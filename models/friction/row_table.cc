@@ -39,6 +39,7 @@ std::vector<double> Nodes(int count, double shift) {
 
 RowTable::RowTable(const GaussianAxis& axis, KernelKind kind, const std::vector<double>& weights) {
   if (axis.sides == Sides::apart || !IsEvenGrid(axis, 0, axis.size())) return;
+  // the largest cells that keep to the bound, if any do
   double largest = 0;
   for (const double weight : weights) largest = std::max(largest, std::abs(weight));
   for (const size_t per_spacing : {2, 4, 8}) {
@@ -54,6 +55,7 @@ double RowTable::Fit(const GaussianAxis& axis, KernelKind kind, const std::vecto
   const double spacing = SpacingOf(axis, 0, n);
   const double size = spacing / static_cast<double>(per_spacing);
   period_ = axis.period.value_or(0);
+  // cells over the grid and half a spacing beyond; those of a circle begin at its first centre
   per_cell_ = 1 / size;
   begin_ = axis.centres.front() - (axis.period ? 0 : spacing / 2);
   cells_ = n * per_spacing;
@@ -62,12 +64,14 @@ double RowTable::Fit(const GaussianAxis& axis, KernelKind kind, const std::vecto
 
   const std::vector<double> nodes = Nodes(kCoefficients, 0.5);
   const std::vector<double> between = Nodes(kCoefficients + 1, 0);
+  // polynomials through the nodes, whose powers are factored once
   Eigen::Matrix<double, kCoefficients, kCoefficients> powers;
   for (int i = 0; i < kCoefficients; ++i) {
     for (int k = 0; k < kCoefficients; ++k) powers(i, k) = std::pow(nodes[i], k);
   }
   const auto solver = powers.partialPivLu();
 
+  // the coefficients of each cell, and how far off they are between the nodes
   double error = 0;
   for (size_t cell = 0; cell < cells_; ++cell) {
     const double middle = begin_ + (static_cast<double>(cell) + 0.5) * size;
@@ -83,6 +87,7 @@ double RowTable::Fit(const GaussianAxis& axis, KernelKind kind, const std::vecto
         own[4 * k] = solved(k, static_cast<Eigen::Index>(row));
       }
     }
+    // against the kernels themselves
     for (const double local : between) {
       const Eigen::VectorXd exact = Functions(axis, kind, weights, middle + local * size / 2);
       for (size_t row = 0; row < rows; ++row) {

@@ -37,6 +37,7 @@ double MeanLoss(const JointFriction& joint, double v, double energy,
                 const std::pair<double, double>& travel) {
   const int places = travel.first == travel.second ? 1 : kPlaces;
   double sum = 0;
+  // places along the way, each in the middle of its share
   for (int i = 0; i < places; ++i) {
     const double share = (i + 0.5) / places;
     const double position = travel.first + share * (travel.second - travel.first);
@@ -79,6 +80,7 @@ std::optional<std::vector<double>> SettledEnergy(const FrictionDescription& fric
   }
   const double energy = gain == 0 ? 0 : Bisect(below, above, excess);
 
+  // both stages settle on the same loss
   const double loss = MeanLoss(joint, velocity, energy, travel);
   std::vector<double> stages{first * loss};
   if (friction.second_thermal) stages.push_back(second * loss);

@@ -25,6 +25,7 @@ std::vector<double> SurveySamples(const FrictionMap& map, MapQuantity quantity) 
     if (axis.quantity != quantity) continue;
     const GaussianAxis& kernels = axis.kernels;
     if (quantity != MapQuantity::velocity) return kernels.centres;
+    // speeds from 0 to some widths beyond the outermost centre
     const double reach = 3 * kernels.width + std::max(std::abs(kernels.centres.front()),
                                                       std::abs(kernels.centres.back()));
     const int count = static_cast<int>(std::min(500.0, std::ceil(4 * reach / kernels.width)));
@@ -38,11 +39,14 @@ std::vector<double> SurveySamples(const FrictionMap& map, MapQuantity quantity) 
 
 double SurveyWork(const FrictionMap& map) {
   double samples = 2, kernels = 1, longest = 1;
+  // samples of all quantities, in both directions
   for (const MapQuantity quantity :
        {MapQuantity::position, MapQuantity::motor_position, MapQuantity::velocity,
         MapQuantity::energy, MapQuantity::load}) {
     samples *= static_cast<double>(SurveySamples(map, quantity).size());
   }
+
+  // kernels that count at one of them
   for (const MapAxis& axis : map.axes) {
     const auto within = static_cast<double>(WithinReach(axis.kernels));
     kernels *= within;

@@ -38,6 +38,7 @@ void CheckTime(const RawColumns& raw, const Eigen::VectorXd& time) {
            "it by time",
            i + 1, time[i], time[i - 1]);
   }
+  // steps that are far too short tell of another unit
   const Eigen::Index n = time.size();
   const double step = (time[n - 1] - time[0]) / static_cast<double>(n - 1);
   if (step < kShortestStep) {
@@ -107,6 +108,7 @@ Measurements AssembleMeasurements(RawColumns raw, const std::vector<ColumnSource
     if (unit.factor != 1 || unit.offset != 0 || scale != 1) {
       values = unit.factor * scale * values.array() + unit.offset;
     }
+    // the range of the sensor, in the unit of the position
     if (column->name == "position") range = std::abs(unit.factor * scale) * layout.wrap;
     if (column->name == "torque") measurements.torque_unit = unit.base;
     column->set(measurements, std::move(values));

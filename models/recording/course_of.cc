@@ -5,6 +5,7 @@ namespace warmjoint::inline models {
 JointCourse CourseOf(const Measurements& measurements, BristleStart bristle) {
   const Measurements& m = measurements;
   JointCourse course{m.time, m.velocity, m.position};
+  // the motor's own sensor, or the gear
   course.motor_position = m.motor_position.value_or(m.gear * m.position);
   if (m.load) course.load = *m.load;
   if (m.mean_speed && m.loss_velocity) {

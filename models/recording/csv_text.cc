@@ -27,6 +27,7 @@ bool IsEmpty(std::string_view line) {
 
 std::string_view Stripped(std::string_view field) {
   const std::size_t first = field.find_first_not_of(kBlanks);
+  // without blanks, and without a pair of quotes
   if (first == std::string_view::npos) return {};
   field = field.substr(first, field.find_last_not_of(kBlanks) - first + 1);
   const bool quoted = field.size() >= 2 && field.front() == '"' && field.back() == '"';
@@ -41,6 +42,7 @@ std::size_t Split(std::string_view line, char separator, std::vector<std::string
     if (count++ < kMostColumns) fields.push_back(line.substr(begin, end - begin));
     begin = end + 1;
   };
+  // only a separator outside of quotes parts two fields
   const bool has_quotes = line.find('"') != std::string_view::npos;
   if (!has_quotes) {
     for (std::size_t end; (end = line.find(separator, begin)) != std::string_view::npos;) take(end);
@@ -75,6 +77,7 @@ CsvText::CsvText(std::string_view text, std::string file) : file_(std::move(file
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   if (rows_.substr(0, 3) == byte_order_mark) rows_.remove_prefix(3);
 
+  // the header is the first line that is neither empty nor a comment
   std::string_view header;
   while (!rows_.empty() && IsEmpty(header)) {
     header = TakeLine(rows_);
@@ -84,6 +87,7 @@ CsvText::CsvText(std::string_view text, std::string file) : file_(std::move(file
     Refuse({file_}, "is empty; it must hold a header row and one row for each sample");
   }
 
+  // its names, which are not all numbers
   separator_ = SeparatorOf(header);
   std::vector<std::string_view> fields;
   const std::size_t columns = Split(header, separator_, fields);
@@ -106,6 +110,7 @@ RawColumns CsvText::ReadColumns(const std::vector<std::size_t>& indices) const {
   RawColumns raw{file_, {}, {indices.size(), Eigen::VectorXd(rows)}};
   raw.line.reserve(rows);
 
+  // one sample for each row
   std::string_view rest = rows_;
   std::vector<std::string_view> fields;
   for (int line = header_line_ + 1; !rest.empty(); ++line) {
@@ -117,6 +122,7 @@ RawColumns CsvText::ReadColumns(const std::vector<std::size_t>& indices) const {
              count, names_.size());
     }
 
+    // the columns that are asked for
     const auto sample = static_cast<Eigen::Index>(raw.line.size());
     for (std::size_t k = 0; k < indices.size(); ++k) {
       const std::string_view text = Stripped(fields[indices[k]]);
@@ -127,6 +133,7 @@ RawColumns CsvText::ReadColumns(const std::vector<std::size_t>& indices) const {
     raw.line.push_back(line);
   }
 
+  // no longer than the rows that were there
   for (Eigen::VectorXd& values : raw.values) {
     values.conservativeResize(static_cast<Eigen::Index>(raw.line.size()));
   }

@@ -14,6 +14,7 @@ std::vector<std::string> NamesOf(const FileContent& content) {
 }
 
 CsvLayout WithAttributes(CsvLayout layout, const FileContent& content) {
+  // what the file says of itself, where nobody says otherwise
   if (content.joint == "linear") layout.joint = JointKind::linear;
   if (layout.gear == 1 && content.gear) layout.gear = *content.gear;
   for (const RecordingColumn& column : RecordingColumns()) {
@@ -32,6 +33,7 @@ Measurements AssembleContent(const FileContent& content, const std::string& path
                              const CsvLayout& given) {
   const CsvLayout layout = WithAttributes(given, content);
   const std::vector<ColumnSource> sources = FindColumns(NamesOf(content), layout, {path});
+  // the columns that are asked for, all of one length
   RawColumns raw{path, {}, {}};
   for (const ColumnSource& source : sources) {
     raw.values.push_back(content.columns[source.index].values);

@@ -31,6 +31,7 @@ PropList WithoutTimes() {
 }
 
 void WriteObjects(const Measurements& measurements, H5::H5File& file) {
+  // the joint, and each column with its unit
   H5::Group root = file.openGroup("/");
   WriteAttribute(root, "joint", measurements.joint == JointKind::linear ? "linear" : "rotary");
   root.createAttribute("gear", H5::PredType::NATIVE_DOUBLE, H5::DataSpace())
@@ -57,6 +58,7 @@ std::string Image(const Measurements& measurements) {
   WriteObjects(measurements, file);
   file.flush(H5F_SCOPE_GLOBAL);
 
+  // first how many bytes there are, then the bytes
   const ssize_t size = H5Fget_file_image(file.getId(), nullptr, 0);
   std::string image(static_cast<std::size_t>(std::max<ssize_t>(size, 0)), '\0');
   if (size <= 0 || H5Fget_file_image(file.getId(), image.data(), image.size()) != size) {

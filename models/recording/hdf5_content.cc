@@ -38,6 +38,7 @@ Eigen::VectorXd ReadValues(const H5::DataSet& data, const std::string& name, con
 FileContent Read(const std::string& path, const CsvLayout& layout) {
   const H5::H5File file(path, H5F_ACC_RDONLY);
   const H5::Group root = file.openGroup("/");
+  // what the file says of itself, without any values yet
   FileContent content;
   content.joint = ReadTextAttribute(root, "joint");
   if (root.attrExists("gear")) {
@@ -50,6 +51,7 @@ FileContent Read(const std::string& path, const CsvLayout& layout) {
     content.columns.push_back({name, ReadTextAttribute(root.openDataSet(name), "unit"), {}});
   }
 
+  // values of the columns that are asked for alone
   const CsvLayout completed = WithAttributes(layout, content);
   for (const ColumnSource& source : FindColumns(NamesOf(content), completed, {path})) {
     FileColumn& column = content.columns[source.index];

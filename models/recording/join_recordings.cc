@@ -55,9 +55,11 @@ Measurements JoinRecordings(std::vector<Measurements> recordings) {
   for (size_t i = 1; i < recordings.size(); ++i) {
     const Measurements& next = recordings[i];
     CheckAlike(joined, next);
+    // its time begins one step behind the last sample, where the joint is cold again
     const Eigen::Index n = joined.size();
     const double begin = joined.time[n - 1] + MedianStep(joined.time);
     joined.starts.push_back(n);
+    // column by column; one that may be absent is gone where either lacks it
     Append(next.time.array() - next.time[0] + begin, joined.time);
     Append(next.position, joined.position);
     AppendVelocity(next, joined);
@@ -65,6 +67,7 @@ Measurements JoinRecordings(std::vector<Measurements> recordings) {
     Append(next.motor_position, "motor_position", next.source, joined, joined.motor_position);
     Append(next.load, "load", next.source, joined, joined.load);
     Append(next.temperature, "temperature", next.source, joined, joined.temperature);
+    // notes say which file they are about
     for (const std::string& note : next.notes) {
       joined.notes.push_back(fmt::format("{}: {}", next.source, note));
     }

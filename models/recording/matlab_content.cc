@@ -103,6 +103,7 @@ std::string TextOf(const matvar_t& variable) {
   if (variable.class_type != MAT_C_CHAR || !variable.data) return "";
   const std::size_t count = std::min<std::size_t>(CountOf(variable), 100);
   std::string text;
+  // one or two bytes a character
   for (std::size_t i = 0; i < count; ++i) {
     const bool wide = variable.data_size == 2;
     const unsigned c = wide ? static_cast<const std::uint16_t*>(variable.data)[i]
@@ -129,6 +130,7 @@ Contents FindVectors(mat_t* file) {
     if (!variable->name) continue;
     const std::string name = variable->name;
     if (IsVector(*variable)) contents.found.push_back({name, ""});
+    // one level down, in structs other than that of the units
     if (!IsStruct(*variable) || name == kUnits) continue;
     const std::size_t before = contents.found.size();
     ForEachField(*variable, [&](const std::string& field, const matvar_t& value) {
@@ -153,6 +155,7 @@ void ReadAttributes(mat_t* file, FileContent& content) {
     const Eigen::VectorXd values = ValuesOf(*gear);
     if (values.size() == 1) content.gear = values[0];
   }
+  // units by the names of their columns
   const Variable units{Mat_VarRead(file, kUnits)};
   if (!units || !IsStruct(*units)) return;
   ForEachField(*units, [&](const std::string& name, const matvar_t& value) {
@@ -166,6 +169,7 @@ void ReadAttributes(mat_t* file, FileContent& content) {
 Eigen::VectorXd ReadVector(mat_t* file, const Found& found) {
   const Variable variable{Mat_VarRead(file, found.variable.c_str())};
   Eigen::VectorXd values;
+  // a vector at the top, or a field of a struct
   if (variable && found.field.empty()) return ValuesOf(*variable);
   if (!variable) return values;
   ForEachField(*variable, [&](const std::string& name, const matvar_t& value) {
@@ -181,6 +185,7 @@ FileContent ReadMatlabContent(const std::string& path, const CsvLayout& layout) 
   if (!file) {
     Refuse({path}, "cannot be read as a MATLAB file: it is damaged, or of another format");
   }
+  // the names that vectors are known by
   const Contents contents = FindVectors(file.get());
   FileContent content;
   const bool one_struct = IsOneStruct(contents);

@@ -90,6 +90,7 @@ std::string Packed(const FileContent& content) {
   Answer answer;
   answer.Put(&kContent, 1);
   answer.Put(content.joint);
+  // the gear, whether there is one or not
   answer.Put(std::uint64_t{content.gear.has_value()});
   const double gear = content.gear.value_or(0);
   answer.Put(&gear, sizeof gear);
@@ -138,6 +139,7 @@ void Limit(int resource, rlim_t value) {
 /// The child's whole life: reads within its limits, answers, and ends without its parent's farewells.
 [[noreturn]] void ReadInChild(const FileFormat& format, const std::string& path,
                               const CsvLayout& layout, double seconds, int out) {
+  // limits on memory and time, and no core file
   Limit(RLIMIT_AS, OwnMemory() + kMemory);
   Limit(RLIMIT_CPU, static_cast<rlim_t>(std::ceil(seconds)));
   Limit(RLIMIT_CORE, 0);
@@ -145,6 +147,7 @@ void Limit(int resource, rlim_t value) {
   dup2(open("/dev/null", O_WRONLY | O_CLOEXEC), STDERR_FILENO);
   for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL}) ::signal(signal, SIG_DFL);
 
+  // what was read, or why nothing was
   std::string answer;
   try {
     answer = Packed(format.read(path, layout));
@@ -154,6 +157,7 @@ void Limit(int resource, rlim_t value) {
     answer =
         kRefusal + fmt::format("{}: cannot be read as {}: {}", path, format.name, error.what());
   }
+  // the pipe takes a part at a time
   for (std::string_view rest = answer; !rest.empty();) {
     const ssize_t written = write(out, rest.data(), rest.size());
     if (written < 0 && errno != EINTR) break;
@@ -182,9 +186,11 @@ bool ReadAll(int in, double seconds, std::string& bytes) {
 
 FileContent ReadApart(const FileFormat& format, const std::string& path, const CsvLayout& layout,
                       double patience) {
+  // larger files may take longer
   std::error_code absent;
   const auto size = std::filesystem::file_size(path, absent);
   const double seconds = patience + (absent ? 0 : 1e-7 * static_cast<double>(size));
+  // the child reads, and answers through a pipe
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
   const pid_t child = fork();
@@ -194,10 +200,12 @@ FileContent ReadApart(const FileFormat& format, const std::string& path, const C
   const bool whole = child > 0 && ReadAll(ends[0], std::min(2 * seconds, seconds + 5), bytes);
   close(ends[0]);
   if (child < 0) throw std::system_error(errno, std::generic_category(), "fork");
+  // a child that is not at its end by then is killed, and none is left behind
   if (!whole) kill(child, SIGKILL);
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
 
+  // why there may be no answer
   const Place place{path};
   const bool late = !whole || (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU);
   if (late) {
@@ -208,6 +216,7 @@ FileContent ReadApart(const FileFormat& format, const std::string& path, const C
     Refuse(place, "cannot be read as {}: the library crashed on it (signal {}); it is damaged",
            format.name, WTERMSIG(status));
   }
+  // the answer, which may be a refusal
   AnswerReader reader(bytes, format.name, place);
   const char kind = reader.Take(1)[0];
   if (kind == kRefusal) throw BadInput(bytes.substr(1, kLongestText));

@@ -67,11 +67,13 @@ std::string LikelyName(const RecordingColumn& column, const std::vector<std::str
 
 [[noreturn]] void RefuseMissing(const std::vector<const RecordingColumn*>& missing,
                                 const std::vector<std::string>& names, const Place& place) {
+  // what is lacking, and which names may be meant
   std::vector<std::string> lacking, remedy;
   for (const RecordingColumn* column : missing) {
     lacking.push_back(fmt::format("'{}'", column->name));
     remedy.push_back(column->name + "=" + LikelyName(*column, names));
   }
+  // a first row of numbers is no header
   if (std::any_of(names.begin(), names.end(), [](auto& name) { return ParseNumber(name); })) {
     Refuse(place,
            "has no column {}; its first row is '{}'. Where that is no header row, add one, for "
@@ -163,6 +165,7 @@ std::vector<ColumnSource> FindColumns(const std::vector<std::string>& names,
     }
     const auto unit = layout.unit.find(column.name);
 
+    // there: in the unit that is given, that its name tells, or that is usual
     if (index < names.size()) {
       const std::vector<std::string>& bases = column.Units(layout.joint);
       const std::string usual =

@@ -14,6 +14,8 @@ std::optional<std::string> TemperatureUnitIn(const std::string& name) {
   while (!text.empty() && std::string_view("]) ").find(text.back()) != std::string_view::npos) {
     text.remove_suffix(1);
   }
+
+  // the unit must stand by itself, behind a separator
   for (const Unit& unit : Units()) {
     if (unit.base != "degC" || !text.ends_with(unit.name)) continue;
     const std::string_view before = text.substr(0, text.size() - unit.name.size());
@@ -32,6 +34,7 @@ std::optional<std::size_t> FindTemperature(const std::vector<std::string>& names
   std::optional<std::size_t> found;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (!TemperatureUnitIn(names[i])) continue;
+    // of two candidates neither is taken
     if (found) return std::nullopt;
     found = i;
   }

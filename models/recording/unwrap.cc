@@ -28,6 +28,7 @@ Undone Undo(const Eigen::VectorXd& time, const Eigen::VectorXd& velocity, double
       const bool gap = h > longest;
       const double expected =
           velocity.size() == 0 || gap ? 0 : (velocity[i] + velocity[i - 1]) / 2 * h;
+      // a jump is one where the way back fits the speed better than the step itself
       const double back = std::copysign(range, step);
       if (std::abs(step - back - expected) < std::abs(step - expected)) {
         turns -= back;
@@ -49,6 +50,8 @@ int UnwrapTurns(const Eigen::VectorXd& time, const Eigen::VectorXd& velocity,
   if (position.maxCoeff() - position.minCoeff() > turn + slack) return 0;
   Eigen::VectorXd unwrapped = position;
   const Undone undone = Undo(time, velocity, turn, unwrapped);
+
+  // jumps at gaps alone may be motion that was not logged
   if (undone.jumps == undone.at_gaps) return 0;
   position = std::move(unwrapped);
   return undone.jumps;

@@ -13,6 +13,7 @@ namespace warmjoint::inline models {
 namespace fs = std::filesystem;
 
 fs::path DataFolder() {
+  // the folder that is named, or else beside the program, or the build's default
   std::vector<fs::path> candidates;
   if (const char* named = std::getenv("WARMJOINT_DATA")) {
     candidates.emplace_back(named);
@@ -24,6 +25,7 @@ fs::path DataFolder() {
     }
     candidates.emplace_back(WARMJOINT_DATA_DEFAULT);
   }
+  // the first that holds robots
   for (const fs::path& candidate : candidates) {
     if (fs::is_directory(candidate / "models" / "robots")) return candidate;
   }
@@ -46,6 +48,7 @@ std::vector<std::string> RobotNames() {
 fs::path FindRobot(const std::string& name_or_path, const std::string& asked_by) {
   const bool is_path =
       name_or_path.find('/') != std::string::npos || fs::path(name_or_path).has_extension();
+  // a file of the user's
   if (is_path) {
     if (fs::is_regular_file(name_or_path)) return name_or_path;
     Refuse({asked_by},
@@ -53,6 +56,7 @@ fs::path FindRobot(const std::string& name_or_path, const std::string& asked_by)
            "`warmjoint list robots`",
            name_or_path);
   }
+  // a robot of the project, by its name
   const std::vector<std::string> names = RobotNames();
   if (std::find(names.begin(), names.end(), name_or_path) == names.end()) {
     Refuse({asked_by}, "there is no robot '{}'{}", Excerpt(name_or_path),

@@ -29,6 +29,7 @@ RobotJoint Describe(const urdf::Joint& joint) {
   RobotJoint result;
   result.name = joint.name;
   if (joint.type == urdf::Joint::PRISMATIC) result.kind = JointKind::linear;
+  // what the URDF says of limits; a continuous joint turns without end
   result.limits = {-kInfinity, kInfinity};
   if (!joint.limits) return result;
   if (joint.type != urdf::Joint::CONTINUOUS) {
