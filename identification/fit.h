@@ -102,6 +102,9 @@ struct Fit {
   /// Standard error of E at the end of the log, N.m or N, of a fit whose table does not hold all that
   /// E depends on, as the weights of maps; else not set: it follows from the table.
   std::optional<double> end_energy_std;
+  /// dE/dx at the end of the log by the first m estimated rows, all that it depends on, [m <= p], exact;
+  /// or not set: the report finds them by differences.
+  std::function<Eigen::VectorXd()> end_energy_slopes;
   std::vector<FitParameter> parameters;  // [P]; those estimated come in the order of x
 
   // what it was fitted to, and how well

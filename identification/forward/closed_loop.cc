@@ -69,6 +69,25 @@ Eigen::MatrixXd ClosedLoop::Jacobian(const Eigen::VectorXd& parameters, const Th
   return jacobian;
 }
 
+Eigen::VectorXd ClosedLoop::EndSlopes(const Eigen::VectorXd& parameters, const Thermal& thermal,
+                                      double initial_energy, const Eigen::VectorXd& jumps) const {
+  const Eigen::Index all = levels_.cols() + 3 + static_cast<Eigen::Index>(jumps_.size());
+  Eigen::VectorXd slopes = Eigen::VectorXd::Zero(all);
+  const auto take_last = [&](Eigen::Index n, double, const double*, const double* S) {
+    if (n + 1 == size()) slopes = Eigen::Map<const Eigen::VectorXd>(S, all);
+  };
+  const auto run = [&]<int D>(const auto& hold) {
+    RunWithSensitivities<D>(*this, parameters.data(), thermal.gain, initial_energy, jumps.data(),
+                            hold, take_last);
+  };
+  // most laws have two levels, which then stay in registers
+  const bool two = levels_.cols() == 2 && jumps_.empty();
+  WithHolds(intervals_, thermal, [&](const auto& hold) {
+    two ? run.template operator()<2>(hold) : run.template operator()<Eigen::Dynamic>(hold);
+  });
+  return slopes;
+}
+
 ClosedLoop ClosedLoop::WithJumps(std::vector<Eigen::Index> samples) const {
   ClosedLoop loop = *this;
   loop.jumps_ = std::move(samples);

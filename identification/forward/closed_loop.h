@@ -48,6 +48,10 @@ class ClosedLoop {
   Eigen::MatrixXd Jacobian(const Eigen::VectorXd& parameters, const Thermal& thermal,
                            double initial_energy = 0, const Eigen::VectorXd& jumps = {}) const;
 
+  /// dE/d(p, k, log tau, E0, jumps) at the last sample: [d + 3 + J], exact.
+  Eigen::VectorXd EndSlopes(const Eigen::VectorXd& parameters, const Thermal& thermal,
+                            double initial_energy = 0, const Eigen::VectorXd& jumps = {}) const;
+
   /// Along a recording. Where it tells mean speeds, these make the losses, with loss_columns, which are
   /// `columns` at its loss velocity; empty: the same. Both [N x d].
   static ClosedLoop Along(const Measurements& measurements, const Eigen::MatrixXd& columns,

@@ -18,6 +18,14 @@ LogView Head(const LogView& all, double time) {
   return head;
 }
 
+/// Whether a tenth or more of what moves clearly moves at a constant speed.
+bool ShowsSpeeds(const LogView& taken) {
+  constexpr double fewest = 0.1;  // of the samples that move clearly
+  const Measurements& m = taken.measurements;
+  const auto moving = static_cast<double>((m.velocity.array().abs() > ClearSpeed(m)).count());
+  return static_cast<double>(taken.selection.count()) >= fewest * moving;
+}
+
 }  // namespace
 
 const LogView& PreparedLog::moving() const {
@@ -27,10 +35,8 @@ const LogView& PreparedLog::moving() const {
 }
 
 bool PreparedLog::HoldsSpeeds() const {
-  constexpr double fewest = 0.1;  // of the samples that move clearly
-  const Measurements& m = log_->taken.measurements;
-  const auto moving = static_cast<double>((m.velocity.array().abs() > ClearSpeed(m)).count());
-  return static_cast<double>(log_->taken.selection.count()) >= fewest * moving;
+  std::call_once(moving_->speeds_once, [&] { moving_->holds_speeds = ShowsSpeeds(log_->taken); });
+  return moving_->holds_speeds;
 }
 
 PreparedLog PreparedLog::Before(double time) const {

@@ -67,6 +67,8 @@ class PreparedLog {
   struct Moving {
     std::once_flag once;
     LogView view;
+    std::once_flag speeds_once;
+    bool holds_speeds = false;
   };
   struct Maker;
   explicit PreparedLog(Log log) : log_(std::make_shared<const Log>(std::move(log))) {}

@@ -5,7 +5,30 @@
 namespace warmjoint::inline identification {
 namespace {
 
-/// Friction and start with one row of the table at another value. jump: which one, of a row that is one
+/// An estimated row of the table: its place there, among the estimated ones, and among those of its role.
+struct EstimatedRow {
+  size_t row = 0;
+  Eigen::Index column = 0;
+  size_t jump = 0;  // of a row that is one
+};
+
+/// Those that friction and start depend on: gravity, inertia and a lag of the torque leave them as they are.
+std::vector<EstimatedRow> RowsThatMatter(const Fit& fit) {
+  std::vector<EstimatedRow> rows;
+  EstimatedRow at;
+  for (; at.row < fit.parameters.size(); ++at.row) {
+    const FitParameter& row = fit.parameters[at.row];
+    if (!row.estimated) continue;
+    const bool matters = row.role == Role::law || row.role == Role::heat ||
+                         row.role == Role::start || row.role == Role::jump;
+    if (matters && !row.name.empty()) rows.push_back(at);
+    if (row.role == Role::jump) ++at.jump;
+    ++at.column;
+  }
+  return rows;
+}
+
+/// Friction and start with one row of the table at another value.
 void Set(const FitParameter& row, size_t jump, double value, FrictionDescription& friction,
          CourseStart& start) {
   if (row.role == Role::law) friction.parameters[row.name] = value;
@@ -18,52 +41,50 @@ void Set(const FitParameter& row, size_t jump, double value, FrictionDescription
   (gain ? friction.thermal->gain : friction.thermal->time_constant) = value;
 }
 
+/// What a change of the coordinate by 1 changes of the value, to first order.
+double ValueByCoordinate(const FitParameter& row, double value) {
+  return row.coordinate == Coordinate::logarithm ? value : 1;
+}
+
 }  // namespace
 
-FigureErrors ErrorsByParameters(const Fit& fit, const Inference& inference,
-                                const FrictionDescription& friction, const FiguresOf& figures) {
+Eigen::MatrixXd SlopesByDifferences(const Fit& fit, const Inference& inference,
+                                    const FrictionDescription& friction, const FiguresOf& figures) {
   const Uncertainty& known = inference.known;
   const Eigen::Index q = figures(friction, fit.Start()).size();
   Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(q, known.covariance.rows());
-  FigureErrors errors{{}, Eigen::VectorXd::Zero(q), fit.without_intervals.empty()};
-
-  // only what is estimated has a column of the covariance; each jump has a number of its own
-  Eigen::Index column = 0;
-  size_t jumps = 0;
-  for (size_t i = 0; i < fit.parameters.size(); ++i) {
-    const FitParameter& row = fit.parameters[i];
-    if (!row.estimated) continue;
-    const Eigen::Index place = column++;
-    const size_t jump = jumps;
-    if (row.role == Role::jump) ++jumps;
-    // gravity, inertia and a lag of the torque leave friction and start as they are
-    const bool matters = row.role == Role::law || row.role == Role::heat ||
-                         row.role == Role::start || row.role == Role::jump;
-    if (!matters || row.name.empty()) continue;
-    errors.told = errors.told && inference.parameters[i].interval95;
-    const double deviation = known.Deviation(place);
+  for (const EstimatedRow& at : RowsThatMatter(fit)) {
+    const FitParameter& row = fit.parameters[at.row];
+    const double value = inference.parameters[at.row].value;
+    const double deviation = known.Deviation(at.column);
 
     // a step of one standard deviation of the value; one that could turn a sign gives no slope
-    const bool by_logarithm = row.coordinate == Coordinate::logarithm;
-    const double value = inference.parameters[i].value;
-    const double step = by_logarithm ? value * deviation : deviation;
+    const double step = ValueByCoordinate(row, value) * deviation;
     const bool keeps_its_sign = row.role == Role::law || row.role == Role::heat;
     if (!(step > 0) || (keeps_its_sign && !(step < std::abs(value)))) continue;
 
-    // slopes over the coordinate, by the figures on both sides
+    // the figures on both sides
     FrictionDescription above = friction, below = friction;
     CourseStart above_start = fit.Start(), below_start = fit.Start();
-    Set(row, jump, value + step, above, above_start);
-    Set(row, jump, value - step, below, below_start);
-    slopes.col(place) =
+    Set(row, at.jump, value + step, above, above_start);
+    Set(row, at.jump, value - step, below, below_start);
+    slopes.col(at.column) =
         (figures(above, above_start) - figures(below, below_start)) / (2 * deviation);
-    // what the verdict widened is a move of the value, not of its coordinate
-    errors.widened +=
-        slopes.col(place).cwiseAbs() * (deviation / step) * inference.parameters[i].widened;
   }
+  return slopes;
+}
 
-  // noise moves all of them together, to first order
-  errors.covariance = slopes * known.covariance * slopes.transpose();
+FigureErrors ErrorsBySlopes(const Fit& fit, const Inference& inference,
+                            const Eigen::MatrixXd& slopes) {
+  FigureErrors errors{slopes * inference.known.covariance * slopes.transpose(),
+                      Eigen::VectorXd::Zero(slopes.rows()), fit.without_intervals.empty()};
+  for (const EstimatedRow& at : RowsThatMatter(fit)) {
+    const KnownParameter& known = inference.parameters[at.row];
+    errors.told = errors.told && known.interval95;
+    // what the verdict widened is a move of the value, not of its coordinate
+    const double by_value = 1 / ValueByCoordinate(fit.parameters[at.row], known.value);
+    errors.widened += slopes.col(at.column).cwiseAbs() * std::abs(by_value) * known.widened;
+  }
   return errors;
 }
 

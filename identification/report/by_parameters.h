@@ -20,9 +20,13 @@ struct FigureErrors {
   bool told = true;         // whether every parameter that matters has an interval
 };
 
-/// From the covariance of the parameters of law, heat, start and jumps, by central differences of a standard
-/// deviation each.
-FigureErrors ErrorsByParameters(const Fit& fit, const Inference& inference,
-                                const FrictionDescription& friction, const FiguresOf& figures);
+/// Slopes of the figures over the parameters of law, heat, start and jumps, each in its coordinate, by central
+/// differences of a standard deviation; 0 over all others. [q x p]
+Eigen::MatrixXd SlopesByDifferences(const Fit& fit, const Inference& inference,
+                                    const FrictionDescription& friction, const FiguresOf& figures);
+
+/// From the covariance of the parameters, to first order. slopes: [q x p], over the coordinates.
+FigureErrors ErrorsBySlopes(const Fit& fit, const Inference& inference,
+                            const Eigen::MatrixXd& slopes);
 
 }  // namespace warmjoint::inline identification

@@ -8,18 +8,34 @@
 
 namespace warmjoint::inline identification {
 
+namespace {
+
+/// Slopes of E of both stages over the estimated coordinates, [2 x p]: the fit's own, or by differences.
+Eigen::MatrixXd EndSlopes(const Fit& fit, const Inference& inference,
+                          const FrictionDescription& friction, const FiguresOf& end_of) {
+  if (!fit.end_energy_slopes) return SlopesByDifferences(fit, inference, friction, end_of);
+  const Eigen::VectorXd first = fit.end_energy_slopes();
+  Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(2, inference.known.covariance.rows());
+  slopes.row(0).head(first.size()) = first;
+  return slopes;
+}
+
+}  // namespace
+
 std::vector<EstimatedParameter> EndState(const Fit& fit, const Inference& inference,
                                          const FrictionDescription& friction,
                                          const Measurements& m) {
   if (!friction.thermal) return {};
 
   // E of both stages at the end of the log, as friction and start make it
+  const JointCourse course = CourseOf(m);
   const auto end_of = [&](const FrictionDescription& one, const CourseStart& start) {
-    const FrictionState end = PredictFriction(one, m, start).end;
+    const FrictionState end = AlongMotion(one).Predict(course, start).end;
     return Eigen::VectorXd(Eigen::Vector2d(end.energy, end.second_energy));
   };
   const Eigen::VectorXd end = end_of(friction, fit.Start());
-  const FigureErrors errors = ErrorsByParameters(fit, inference, friction, end_of);
+  const FigureErrors errors =
+      ErrorsBySlopes(fit, inference, EndSlopes(fit, inference, friction, end_of));
 
   // when, and a row for each stage
   std::vector<EstimatedParameter> state;

@@ -12,8 +12,8 @@ namespace warmjoint::inline identification {
 /// E at the log's last sample, N.m or N: `energy`, and `second_energy` of a second stage; before
 /// them the stamp of that sample, `time`, s, where the log is one recording. Along the
 /// motion with the friction that is reported; the interval follows from the parameters' covariance
-/// by central differences, and reaches farther by what the verdict widened them. Empty where
-/// nothing warms.
+/// by the fit's own slopes, or central differences where it has none, and reaches farther by what
+/// the verdict widened them. Empty where nothing warms.
 std::vector<EstimatedParameter> EndState(const Fit& fit, const Inference& inference,
                                          const FrictionDescription& friction,
                                          const Measurements& measurements);

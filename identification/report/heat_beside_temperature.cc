@@ -215,7 +215,8 @@ std::vector<EstimatedParameter> HeatBesideTemperature(const Fit& fit, const Infe
     return Eigen::VectorXd(Eigen::Vector2d(slope, slope * one.thermal->gain));
   };
   const Eigen::VectorXd values = slopes(friction, fit.Start());
-  const FigureErrors errors = ErrorsByParameters(fit, inference, friction, slopes);
+  const FigureErrors errors =
+      ErrorsBySlopes(fit, inference, SlopesByDifferences(fit, inference, friction, slopes));
   // without intervals of the friction's parameters there are none here
   const double freedom =
       errors.told ? line->independent - static_cast<double>(line->fit.columns.cols()) : 0;

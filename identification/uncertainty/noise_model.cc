@@ -18,59 +18,131 @@ constexpr double kDead = 1e-6;        // of the variance: covariances that are a
 constexpr double kBeyondDoubt = 5;    // deviations of a normal variable
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Autocovariances of a sequence with gaps. values: [N], 0 where not kept; kept: [N] 1 or 0.
+/// Autocovariances of a sequence with gaps.
 class Autocovariance {
  public:
-  Autocovariance(const Eigen::VectorXd& values, const Selection& selection)
-      : values_(values), kept_(selection.keep.cast<double>()), gaps_(!selection.keep.all()) {}
+  /// residual: [n] over the kept samples
+  Autocovariance(const Eigen::VectorXd& residual, const Selection& selection)
+      : size_(selection.keep.size()), values_(Spread(residual, selection)) {
+    if (!selection.keep.all()) {
+      kept_ = Spread(Eigen::VectorXd::Ones(residual.size()), selection);
+    }
+  }
 
   /// Mean product of samples that are `lag` apart; 0 where too few pairs are.
-  double At(Eigen::Index lag) const {
-    const Eigen::Index n = values_.size() - lag;
-    const double pairs =
-        gaps_ ? kept_.head(n).dot(kept_.tail(n)) : static_cast<double>(values_.size());
-    const double products = values_.head(n).dot(values_.tail(n));
-    return pairs > 10 ? products / pairs : 0;
+  double At(Eigen::Index lag) {
+    while (static_cast<Eigen::Index>(means_.size()) <= lag) AddMeans();
+    return means_[static_cast<size_t>(lag)];
   }
 
  private:
-  const Eigen::VectorXd& values_;
-  Eigen::VectorXd kept_;
-  bool gaps_;
-};
+  // why: as many columns as one product takes in registers; no result depends on it
+  static constexpr Eigen::Index kAtOnce = 8;  // lags
 
-/// [N] from [n]: 0 where not kept.
-Eigen::VectorXd Spread(const Eigen::VectorXd& kept, const Selection& selection) {
-  Eigen::VectorXd all = Eigen::VectorXd::Zero(selection.keep.size());
-  Eigen::Index row = 0;
-  for (Eigen::Index i = 0; i < all.size(); ++i) {
-    if (selection.keep[i]) all[i] = kept[row++];
+  /// [N + kAtOnce] from [n]: 0 where not kept and beyond the end.
+  static Eigen::VectorXd Spread(const Eigen::VectorXd& kept, const Selection& selection) {
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(selection.keep.size() + kAtOnce);
+    Eigen::Index row = 0;
+    for (Eigen::Index i = 0; i < selection.keep.size(); ++i) {
+      if (selection.keep[i]) all[i] = kept[row++];
+    }
+    return all;
   }
-  return all;
-}
+
+  /// Products of samples that are `first` and up to kAtOnce - 1 more apart. values: padded; [kAtOnce]
+  Eigen::VectorXd Products(const Eigen::VectorXd& values, Eigen::Index first) const {
+    // each column begins a sample later than the one before it
+    const Eigen::Index n = std::max<Eigen::Index>(size_ - first, 0);
+    const Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>> later(
+        values.data() + std::min(first, size_), n, kAtOnce, Eigen::OuterStride<>(1));
+    return later.transpose() * values.head(n);
+  }
+
+  void AddMeans() {
+    const auto first = static_cast<Eigen::Index>(means_.size());
+    const Eigen::VectorXd products = Products(values_, first);
+    const Eigen::VectorXd pairs =
+        kept_.size() > 0 ? Products(kept_, first)
+                         : Eigen::VectorXd::Constant(kAtOnce, static_cast<double>(size_));
+    for (Eigen::Index i = 0; i < kAtOnce; ++i) {
+      means_.push_back(pairs[i] > 10 ? products[i] / pairs[i] : 0);
+    }
+  }
+
+  Eigen::Index size_;            // N
+  Eigen::VectorXd values_;       // padded
+  Eigen::VectorXd kept_;         // 1 or 0, padded; empty where there is no gap
+  std::vector<double> means_{};  // of the lags from 0 on
+};
 
 /// sum over all lags of the squared autocorrelation, from the model's own recursion.
 double Redundancy(const NoiseModel& noise, const Eigen::VectorXd& covariances) {
   const Eigen::Index p = noise.order();
+  const Eigen::VectorXd backwards = noise.coefficients.reverse();
   std::vector<double> r(covariances.begin(), covariances.begin() + p + 1);
   double sum = 1;
   for (Eigen::Index lag = 1; lag < 100000; ++lag) {
     if (lag > p) {
-      double next = 0;
-      for (Eigen::Index k = 0; k < p; ++k) next -= noise.coefficients[k] * r[lag - 1 - k];
-      r.push_back(next);
+      const Eigen::Map<const Eigen::VectorXd> before(r.data() + lag - p, p);
+      r.push_back(-backwards.dot(before));
     }
-    sum += 2 * std::pow(r[lag] / noise.variance, 2);
+    const double correlation = r[lag] / noise.variance;
+    sum += 2 * correlation * correlation;
     if (lag > p && std::abs(r[lag]) < 1e-4 * noise.variance) break;
   }
   return sum;
 }
 
+/// Row p + k of Z, k = 0 .. kBlock - 1: less the p rows before it, each times its coefficient. add(k, row) brings what
+/// enters there. D: columns, where few are known, so that a row stays in registers; or Dynamic.
+template <int D, typename Add>
+void FilterBlock(const Eigen::RowVectorXd& coefficients, RowMajor& Z, Add&& add) {
+  using Row = Eigen::Matrix<double, 1, D>;
+  const Eigen::Index p = coefficients.size();
+  for (Eigen::Index k = 0; k < kBlock; ++k) {
+    if constexpr (D == Eigen::Dynamic) {
+      Z.row(p + k).noalias() = -coefficients * Z.middleRows(k, p);
+    } else {
+      // two sums, so that neither waits for all p products
+      Row even = Row::Zero(), odd = Row::Zero();
+      const double* before = Z.data() + k * D;
+      Eigen::Index j = 0;
+      for (; j + 1 < p; j += 2, before += 2 * D) {
+        even -= coefficients[j] * Eigen::Map<const Row>(before);
+        odd -= coefficients[j + 1] * Eigen::Map<const Row>(before + D);
+      }
+      if (j < p) even -= coefficients[j] * Eigen::Map<const Row>(before);
+      Z.row(p + k) = even + odd;
+    }
+    add(k, Z.row(p + k));
+  }
+}
+
+/// The same for the columns that Z has.
+template <typename Add>
+void FilterBlockOfSize(const Eigen::RowVectorXd& coefficients, RowMajor& Z, Add&& add) {
+  switch (Z.cols()) {
+    case 1:
+      return FilterBlock<1>(coefficients, Z, add);
+    case 2:
+      return FilterBlock<2>(coefficients, Z, add);
+    case 3:
+      return FilterBlock<3>(coefficients, Z, add);
+    case 4:
+      return FilterBlock<4>(coefficients, Z, add);
+    case 5:
+      return FilterBlock<5>(coefficients, Z, add);
+    case 6:
+      return FilterBlock<6>(coefficients, Z, add);
+    default:
+      return FilterBlock<Eigen::Dynamic>(coefficients, Z, add);
+  }
+}
+
 }  // namespace
 
 NoiseModel FitNoise(const Eigen::VectorXd& residual, const Selection& selection) {
-  const Eigen::VectorXd values = Spread(residual, selection);
-  const Autocovariance autocovariance(values, selection);
+  Autocovariance autocovariance(residual, selection);
   const auto n = static_cast<double>(residual.size());
   const Eigen::Index highest = std::min(kHighestOrder, residual.size() / 10);
 
@@ -154,11 +226,10 @@ Eigen::MatrixXd ScatterThrough(
     const Eigen::Index kept = end > 0 ? selection.keep.segment(begin, end - begin).count() : 0;
     const Eigen::MatrixXd input = kept > 0 ? rows(row - kept, row) : Eigen::MatrixXd(0, d);
     Eigen::Index next = kept;
-    for (Eigen::Index k = 0; k < kBlock; ++k) {
+    FilterBlockOfSize(coefficients, Z, [&](Eigen::Index k, auto out) {
       const Eigen::Index i = end - 1 - k;
-      Z.row(p + k).noalias() = -coefficients * Z.middleRows(k, p);
-      if (i >= 0 && selection.keep[i]) Z.row(p + k) += input.row(--next);
-    }
+      if (i >= 0 && selection.keep[i]) out += input.row(--next);
+    });
     row -= kept;
     scatter.selfadjointView<Eigen::Lower>().rankUpdate(Z.bottomRows(kBlock).transpose());
 

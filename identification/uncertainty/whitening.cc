@@ -39,23 +39,34 @@ Eigen::VectorXd VelocityOf(const std::vector<Index>& kept, const Measurements& m
   return velocity;
 }
 
-}  // namespace
-
-std::vector<Index> PlacesInTime(const Measurements& m, const Selection& selection) {
-  const std::vector<Index> kept = KeptSamples(selection);
+/// Where kept samples stand on an even grid of their median step, from 0 on. [n]
+std::vector<Index> PlacesOf(const std::vector<Index>& kept, const Measurements& m) {
   std::vector<Index> places(kept.size(), 0);
   if (kept.size() < 2) return places;
   const double step = StepOfKept(kept, m.time);
   size_t next = 0;
   for (size_t i = 1; i < kept.size(); ++i) {
-    Index further = kLongestGap;
+    // in steps: most samples are one apart
     const double apart = (m.time[kept[i]] - m.time[kept[i - 1]]) / step;
-    if (apart < static_cast<double>(kLongestGap)) further = std::llround(apart);
+    Index further = 1;
+    if (!(apart < static_cast<double>(kLongestGap))) {
+      further = kLongestGap;
+    } else if (apart >= 1.5) {
+      further = std::llround(apart);
+    }
+
+    // nothing reaches from one recording into the next
     while (next < m.starts.size() && m.starts[next] <= kept[i - 1]) ++next;
     if (next < m.starts.size() && m.starts[next] <= kept[i]) further = kLongestGap;
-    places[i] = places[i - 1] + std::max<Index>(further, 1);
+    places[i] = places[i - 1] + further;
   }
   return places;
+}
+
+}  // namespace
+
+std::vector<Index> PlacesInTime(const Measurements& m, const Selection& selection) {
+  return PlacesOf(KeptSamples(selection), m);
 }
 
 Selection OnEvenGrid(const std::vector<Index>& places) {
@@ -120,10 +131,11 @@ void Whitening::Apply(Rows& rows) const {
 std::shared_ptr<const Whitening> WhiteningFor(const Eigen::VectorXd& residual,
                                               const Measurements& measurements,
                                               const Selection& selection) {
-  const std::vector<Index> places = PlacesInTime(measurements, selection);
+  const std::vector<Index> kept = KeptSamples(selection);
+  const std::vector<Index> places = PlacesOf(kept, measurements);
   const NoiseModel noise = FitNoise(residual, OnEvenGrid(places));
   if (!IsSurelyColoured(noise, residual.size())) return nullptr;
-  const Eigen::VectorXd velocity = VelocityOf(KeptSamples(selection), measurements);
+  const Eigen::VectorXd velocity = VelocityOf(kept, measurements);
   const auto turns = TurnsWithDirection(residual, velocity);
   if (!turns || *turns) return nullptr;
   return std::make_shared<const Whitening>(noise, places);

@@ -129,6 +129,16 @@ Eigen::MatrixXd WarmJacobian(const ClosedLoop& loop, const RigidPart& gravity, c
   return Beside(jacobian, gravity.columns);
 }
 
+Eigen::VectorXd WarmEndSlopes(const ClosedLoop& loop, const WarmFit& fit) {
+  const Eigen::VectorXd all =
+      loop.EndSlopes(fit.parameters(), fit.thermal(), fit.initial_energy(), fit.jump_values());
+  const Eigen::Index first = fit.law_parameters + (fit.estimates_initial_energy() ? 3 : 2);
+  const Eigen::Index jumps = fit.jump_weights.size();
+  Eigen::VectorXd slopes(first + jumps);
+  slopes << all.head(first), all.tail(jumps);
+  return slopes;
+}
+
 Fit ConcludeWarm(const char* name, const WarmTask& task, const RobustWarmFit& robust,
                  double nominal_squares) {
   const IdentifierInput& input = task.input;
@@ -154,9 +164,11 @@ Fit ConcludeWarm(const char* name, const WarmTask& task, const RobustWarmFit& ro
   fit.torque = Kept(m.torque, fit.used);
   fit.fitted = Kept(response.force + task.gravity.columns * warm.offset_values(), fit.used);
   fit.errors = ErrorsOf(task, robust, fit.residual());
-  fit.jacobian = [loop = task.loop, gravity = task.gravity, warm] {
-    return WarmJacobian(loop, gravity, warm);
+  const auto loop = std::make_shared<const ClosedLoop>(task.loop);
+  fit.jacobian = [loop, gravity = task.gravity, warm] {
+    return WarmJacobian(*loop, gravity, warm);
   };
+  fit.end_energy_slopes = [loop, warm] { return WarmEndSlopes(*loop, warm); };
   if (task.structure) HoldStructure(*task.structure, Kept(response.force, fit.used), fit);
   fit.count = static_cast<int>(warm.solution.x.size());
   fit.effective_parameters = fit.count;

@@ -35,6 +35,9 @@ std::vector<FitParameter> HeatTable(const WarmFit& warm, const Measurements& mea
 /// d(F + G)/dx over all samples, without lag. [N x p]
 Eigen::MatrixXd WarmJacobian(const ClosedLoop& loop, const RigidPart& gravity, const WarmFit& fit);
 
+/// dE/dx at the end of the log, by law, heat, E(0) where it was estimated, and jumps. [p without gravity]
+Eigen::VectorXd WarmEndSlopes(const ClosedLoop& loop, const WarmFit& fit);
+
 /// The fit as a value, or why there is none to trust. name: of the identifier; nominal_squares: of the
 /// fit without warming, its rows mapped as those of `robust`.
 Fit ConcludeWarm(const char* name, const WarmTask& task, const RobustWarmFit& robust,

@@ -95,6 +95,33 @@ TEST(ClosedLoop, AgreesWithDualNumbersOnUnevenSamples) {
   }
 }
 
+TEST(ClosedLoop, TellsTheSlopesOfItsLastHeat) {
+  Eigen::VectorXd v(50);
+  for (int i = 0; i < 50; ++i) v[i] = (i / 10 % 2 ? -0.1 : 0.1) * (1 + i / 10);
+  const ClosedLoop loop = Loop(EvenTime(50), v).WithJumps({7, 30});
+  const Eigen::VectorXd x = (Eigen::VectorXd(7) << 5, 15, -0.6, 40, -0.3, 0.2, -0.1).finished();
+  const Thermal thermal{x[2], x[3]};
+
+  // central differences over tau's logarithm: the error is of order step^2 = 1e-10
+  Eigen::VectorXd differences(7);
+  for (int i = 0; i < 7; ++i) {
+    const double step = 1e-5 * std::abs(x[i]);
+    const auto end = [&](double value) {
+      Eigen::VectorXd at = x;
+      at[i] = value;
+      return loop.Simulate(at.head(2), {at[2], at[3]}, at[4], at.tail(2)).energy[49];
+    };
+    differences[i] = (end(x[i] + step) - end(x[i] - step)) / (2 * step);
+  }
+  differences[3] *= x[3];
+  ExpectNear(loop.EndSlopes(x.head(2), thermal, x[4], x.tail(2)), differences, 1e-8);
+
+  // without jumps it is compiled for its size: the same but for rounding
+  const Eigen::Vector2d none(0, 0);
+  ExpectNear(Loop(EvenTime(50), v).EndSlopes(x.head(2), thermal, x[4]),
+             loop.EndSlopes(x.head(2), thermal, x[4], none).head(5), 1e-13);
+}
+
 TEST(ClosedLoop, AgreesWithFiniteDifferences) {
   Eigen::VectorXd v(200);  // 0.1 to 1 rad/s, held 20 s, alternating
   for (int i = 0; i < 200; ++i) v[i] = (i / 20 % 2 ? -0.1 : 0.1) * (1 + i / 20);

@@ -148,8 +148,8 @@ Plot InTime(const FitView& view, const Window& window, const Eigen::VectorXd& wi
 }
 
 bool HasMotorMap(const FitView& view) {
-  return view.has_fit && view.motor_angle.size() > 0 && !view.selection.segments.empty() &&
-         !MapsOverMotor(*view.estimate.friction, true).empty();
+  return view.has_fit && view.motor_angle.size() > 0 && view.selection.count() > 0 &&
+         !view.selection.segments.empty() && !MapsOverMotor(*view.estimate.friction, true).empty();
 }
 
 /// What both figures say of a map's worth.
