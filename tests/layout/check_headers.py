@@ -23,8 +23,8 @@ def command_of(root, build):
     for entry in json.loads((build / "compile_commands.json").read_text()):
         file = pathlib.Path(entry["file"])
         words = shlex.split(entry["command"])
-        # the plugin alone takes fmt as headers
-        if not any(file.is_relative_to(root / room) for room in ROOMS) or "-DFMT_HEADER_ONLY=1" in words:
+        # groups of files lie in the build's folder of their room; the plugin alone takes fmt as headers
+        if not any(file.is_relative_to(top / room) for top in (root, build) for room in ROOMS) or "-DFMT_HEADER_ONLY=1" in words:
             continue
         compiler = next(word for word in words if os.path.basename(word) in ("c++", "g++", "clang++"))
         for i, word in enumerate(words):
