@@ -313,7 +313,7 @@ void Compare(const std::string& title, Arm arm, mjtIntegrator integrator, Drive 
 /// titles of the tables, to profile one of them.
 int main(int argc, char** argv) {
   using namespace warmjoint;
-  const int rounds = argc > 1 ? std::atoi(argv[1]) : 200;
+  const int rounds = argc > 1 ? std::max(1, std::atoi(argv[1])) : 200;
   const std::string only = argc > 2 ? argv[2] : "", titles = argc > 3 ? argv[3] : "";
   for (const Arm arm : {Arm::serial, Arm::industrial}) {
     for (const mjtIntegrator integrator : {mjINT_IMPLICITFAST, mjINT_EULER}) {
