@@ -10,6 +10,9 @@ namespace {
 
 using Numbers = Eigen::Map<const Eigen::VectorXd>;
 
+/// sum / divisor, without the wait for a division where it changes nothing.
+double Divided(double sum, double divisor) { return divisor == 1 ? sum : sum / divisor; }
+
 }  // namespace
 
 PreparedMap::PreparedMap(const FrictionMap& map) : factor_(map.factor) {
@@ -135,7 +138,7 @@ double PreparedMap::Evaluate(const MapPoint<double>& point) const {
       return FromTable(kernels, row, spot);
     };
     const double sum = last == 0 ? table_.Value(0, spot) : Sum<0>(active, 0, from_table);
-    return factor * sum / divisor;
+    return Divided(factor * sum, divisor);
   }
   // else by its kernels
   if (!prepare(last)) return 0;
@@ -151,7 +154,8 @@ double PreparedMap::Evaluate(const MapPoint<double>& point) const {
     }
     return sum;
   };
-  return factor * (last == 0 ? row_sum(0) : Sum<0>(active, 0, from_kernels)) / divisor;
+  const double sum = last == 0 ? row_sum(0) : Sum<0>(active, 0, from_kernels);
+  return Divided(factor * sum, divisor);
 }
 
 double PreparedMap::Value(const MapPoint<double>& point) const { return Evaluate(point); }

@@ -7,9 +7,8 @@
 namespace warmjoint::inline sim {
 namespace {
 
-/// Whether the actuator's group is switched off.
-bool Disabled(const mjModel* m, int actuator) {
-  const int group = m->actuator_group[actuator];
+/// Whether a group of actuators is switched off.
+bool Disabled(const mjModel* m, int group) {
   return group >= 0 && group < 31 && (m->opt.disableactuator >> group & 1);
 }
 
@@ -47,6 +46,12 @@ void FrictionInstance::Rebind(const mjModel* m) {
                                       [](const BoundJoint& joint) { return joint.needs_load; });
   needs_ambient_ = std::any_of(joints.begin(), joints.end(),
                                [](const BoundJoint& joint) { return joint.needs_ambient; });
+  driven_.clear();
+  for (const BoundJoint& joint : joints) {
+    if (bound_.passive()) break;
+    driven_.push_back({m->actuator_group[joint.actuator], joint.state,
+                       static_cast<int>(joint.friction.state().size()), joint.output});
+  }
   load_.assign(needs_load && bound_.passive() ? static_cast<size_t>(m->nv) : 0, 0);
   rows_ = JointRows(m, joints);
   ReadNumbers(m);
@@ -91,33 +96,35 @@ void FrictionInstance::Step(const mjModel* m, mjData* d, const mjtNum* load) {
 
 void FrictionInstance::StepActuators(const mjModel* m, mjData* d) {
   Prepare(m, d);
-  const std::vector<BoundJoint>& joints = bound_.joints();
-  rows_.Load(d, joints, d->act);
-  const bool starts = d->plugin_state[m->plugin_stateadr[instance_] + kStartsWarm] != 0;
-  for (size_t i = 0; i < joints.size(); ++i) {
-    const BoundJoint& joint = joints[i];
-    if (joint.needs_ambient) rows_.SetAmbientRise(i, Finite(d->ctrl[joint.control]));
-    if (starts && rows_.energies(i) == std::array{0.0, 0.0})
-      rows_.SetEnergies(i, joint.initial_energy);
-  }
+  rows_.Load(d, bound_.joints(), d->act);
+  const bool warm = d->plugin_state[m->plugin_stateadr[instance_] + kStartsWarm] != 0;
+  if (warm || needs_ambient_) BeginJoints(d, warm);
   Step(m, d, d->qfrc_bias);
 
   const double rate = m->opt.integrator == mjINT_RK4 ? 0 : 1 / timestep_;
   const double* next = rows_.next().data();
-  for (const BoundJoint& joint : joints) {
+  for (const Driven& joint : driven_) {
     const mjtNum* act = d->act + joint.state;
     mjtNum* act_dot = d->act_dot + joint.state;
-    for (size_t k = joint.friction.state().size(); k > 0; --k) {
-      *act_dot++ = (*next++ - *act++) * rate;
-    }
+    for (int k = 0; k < joint.states; ++k) act_dot[k] = (*next++ - act[k]) * rate;
+  }
+}
+
+/// Takes over the controls that tell an ambient. warm: whether the joints are to have their first heat.
+void FrictionInstance::BeginJoints(const mjData* d, bool warm) {
+  const std::vector<BoundJoint>& joints = bound_.joints();
+  for (size_t i = 0; i < joints.size(); ++i) {
+    const BoundJoint& joint = joints[i];
+    if (joint.needs_ambient) rows_.SetAmbientRise(i, Finite(d->ctrl[joint.control]));
+    if (warm && rows_.energies(i) == std::array{0.0, 0.0})
+      rows_.SetEnergies(i, joint.initial_energy);
   }
 }
 
 void FrictionInstance::ApplyActuators(const mjModel* m, mjData* d) const {
-  const std::vector<BoundJoint>& joints = bound_.joints();
-  for (size_t i = 0; i < joints.size(); ++i) {
-    const BoundJoint& joint = joints[i];
-    d->actuator_force[joint.output] = Disabled(m, joint.actuator) ? 0 : -rows_.force(i);
+  for (size_t i = 0; i < driven_.size(); ++i) {
+    const Driven& joint = driven_[i];
+    d->actuator_force[joint.output] = Disabled(m, joint.group) ? 0 : -rows_.force(i);
   }
 }
 
@@ -180,13 +187,13 @@ void FrictionInstance::AdvanceActuators(const mjModel* m, mjData* d) const {
   d->plugin_state[m->plugin_stateadr[instance_] + kStartsWarm] = 0;
   const bool all = m->opt.integrator == mjINT_RK4;
   const double* next = rows_.next().data();
-  for (const BoundJoint& joint : bound_.joints()) {
-    const size_t states = joint.friction.state().size();
+  for (const Driven& joint : driven_) {
     mjtNum* act = d->act + joint.state;
-    const bool finite = std::all_of(act, act + states, [](double x) { return std::isfinite(x); });
-    const bool writes = (all && !Disabled(m, joint.actuator)) || !finite;
-    if (writes) std::copy_n(next, states, act);
-    next += states;
+    const bool finite =
+        std::all_of(act, act + joint.states, [](double x) { return std::isfinite(x); });
+    const bool writes = (all && !Disabled(m, joint.group)) || !finite;
+    if (writes) std::copy_n(next, joint.states, act);
+    next += joint.states;
   }
 }
 

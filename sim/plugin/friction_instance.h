@@ -48,12 +48,21 @@ class FrictionInstance {
   void Advance(const mjModel* m, mjData* d);
 
  private:
+  /// Where the engine keeps a joint of the actuator form.
+  struct Driven {
+    int group;   // of its actuator
+    int state;   // in act
+    int states;  // so many from there
+    int output;  // in actuator_force
+  };
+
   void Bind(const mjModel* m, bool in_run);
   bool InRun(const mjModel* m, const mjData* d) const;
   void Rebind(const mjModel* m);
   void ReadNumbers(const mjModel* m);
   void Prepare(const mjModel* m, mjData* d);
   void Step(const mjModel* m, mjData* d, const mjtNum* load);
+  void BeginJoints(const mjData* d, bool warm);
   void AdvancePassive(const mjModel* m, mjData* d) const;
   void AdvanceActuators(const mjModel* m, mjData* d) const;
 
@@ -61,6 +70,7 @@ class FrictionInstance {
   BoundJoints bound_;
   JointRows rows_;
   FrictionSensors sensors_;
+  std::vector<Driven> driven_;  // of each joint; empty in the passive form
   double timestep_ = 0;
   int integrator_ = 0;
   bool checked_ = true;         // the numbers, against the inertia
