@@ -18,6 +18,12 @@ TEST(BlockedHoldOut, CutsIntoBlocksWithEqualNumbersOfKeptSamples) {
   EXPECT_THAT(CutIntoBlocks(selection, 4), testing::ElementsAre(0, 2, 8, 10, 12));
 }
 
+TEST(BlockedHoldOut, LeavesNoBlockToSamplesBehindTheLastKeptOne) {
+  Selection selection{Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(9, true), {}};
+  selection.keep.tail(3) = false;
+  EXPECT_THAT(CutIntoBlocks(selection, 3), testing::ElementsAre(0, 2, 4, 9));
+}
+
 TEST(BlockedHoldOut, HasTheErrorOfTheNoiseWhereTheModelIsRight) {
   const Measurements m =
       test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 4), 0.5, 4);

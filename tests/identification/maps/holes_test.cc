@@ -57,6 +57,15 @@ TEST(Holes, BetweenSeenKernelsAreHeldAsDataHoldThose) {
   EXPECT_EQ(prior(0, 0), 1);
 }
 
+TEST(Holes, AreInDoubtByTheSpreadOfSeenWeights) {
+  const FrictionMap map{{{MapQuantity::position, EvenAxis(0, 6, 7)}}, KernelKind::normalised, {}};
+  // seen are 1, 3 and 5, whose standard deviation is 2
+  const Eigen::VectorXd weights = Eigen::VectorXd({{0, 1, 3, 0, 0, 0, 5}});
+  const std::vector<bool> unseen{true, false, false, true, true, true, false};
+  // none for half a cell at the end, half beside a seen kernel
+  EXPECT_THAT(DoubtOfHoles(map, 0, unseen, weights), ElementsAre(0, 0, 0, 1, 2, 1, 0));
+}
+
 TEST(Holes, OnACircleHaveNeighboursOnBothSides) {
   const FrictionMap turn{
       {{MapQuantity::motor_position, CircleAxis(4, 4)}}, KernelKind::normalised, {}};
