@@ -34,10 +34,11 @@ struct FitParameter {
   std::string unit;
   Coordinate coordinate = Coordinate::value;
   double lower = -kInfinity, upper = kInfinity;  // physical bounds of the value
-  bool estimated = true;     // has a column of the Jacobian; else its value was given
-  bool has_interval = true;  // false where only a prior or an option tells it
-  int way_power = 0;         // of rad or m in the unit, beside the torque's
-  int time_power = 0;        // of s
+  bool estimated = true;          // has a column of the Jacobian; else its value was given
+  bool has_interval = true;       // false where only a prior or an option tells it
+  int way_power = 0;              // of rad or m in the unit, beside the torque's
+  int time_power = 0;             // of s
+  LawPart part = LawPart::other;  // of a row of the law
 };
 
 /// How the errors of x follow from the noise: C J^T R J C (uncertainty.h), with what a method

@@ -31,7 +31,8 @@ FitParameter TableParameter(const ParameterInfo& info, Role role, double value,
           true,
           true,
           info.unit.way,
-          info.unit.time};
+          info.unit.time,
+          info.part};
 }
 
 std::vector<FitParameter> LawParameters(const Law& law, const Eigen::VectorXd& values,

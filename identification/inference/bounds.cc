@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "identification/linear/against_curve.h"
-#include "models/friction/law_part.h"
 #include "models/friction/parameter_rows.h"
 
 namespace warmjoint::inline identification {
@@ -53,8 +52,6 @@ std::string Words(const Excess& excess) {
                      excess.below ? "below" : "above", excess.bound, reach);
 }
 
-bool IsSlope(const FitParameter& parameter) { return PartOf(parameter.name) == LawPart::slope; }
-
 bool Warms(const Fit& fit) { return fit.RowOf(Role::heat).has_value(); }
 
 /// The identifier of the linear laws that knows as much of warming as a fit does.
@@ -85,9 +82,9 @@ std::string AgainstFallingSlope(const Fit& fit) {
 
 /// What makes a fit leave its bounds, and what to try.
 std::string Remedy(const Fit& fit, const FitParameter& parameter) {
-  if (IsSlope(parameter)) return AgainstFallingSlope(fit);
+  if (parameter.part == LawPart::slope) return AgainstFallingSlope(fit);
   // neither slope nor level: a linear law may do without it
-  if (PartOf(parameter.name) != LawPart::level) {
+  if (parameter.part != LawPart::level) {
     return fmt::format("try --identifier {}", LinearCommand(Linear(fit), fit.friction.law));
   }
   const char* push = "a negative level would push the joint: ";
@@ -101,7 +98,7 @@ std::string Remedy(const Fit& fit, const FitParameter& parameter) {
       push, Linear(fit));
 }
 
-bool IsRise(const FitParameter& parameter) { return PartOf(parameter.name) == LawPart::rest_rise; }
+bool IsRise(const FitParameter& parameter) { return parameter.part == LawPart::rest_rise; }
 
 /// In words that the level at rest is below that of sliding, of a law that has both; nothing where it is
 /// not.
@@ -156,7 +153,7 @@ void JudgeBounds(const Fit& fit, Inference& inference) {
   for (const Excess& excess : excesses) {
     inference.warnings.push_back(
         fmt::format("{}: no friction is given; record longer{}", Words(excess),
-                    IsSlope(excess.parameter)
+                    excess.parameter.part == LawPart::slope
                         ? fmt::format(", or try --identifier {} --set law=coulomb", Linear(fit))
                         : ""));
   }

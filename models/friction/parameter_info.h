@@ -11,6 +11,17 @@ namespace warmjoint::inline models {
 /// Whether files must give a parameter or may leave it at its default.
 enum class Given { always, or_default };
 
+/// What of its law's force a parameter is, for code that must tell one parameter from another, whatever the law. A law
+/// has at most one of each, but for a level to each direction.
+enum class LawPart {
+  other,
+  slope,       // over speed
+  level,       // while it slides
+  rest_level,  // at rest
+  rest_rise,   // of the level at rest over that while it slides
+  bristle,     // stiffness of the law's own
+};
+
 /// What is known of a parameter before any data: every law and the thermal state carry a table of
 /// these, from which checks, regressors, documentation and plots are made.
 struct ParameterInfo {
@@ -22,6 +33,7 @@ struct ParameterInfo {
   double default_value;
   std::string_view meaning;  // one short phrase
   Given given = Given::always;
+  LawPart part = LawPart::other;
 };
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();

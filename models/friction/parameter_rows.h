@@ -13,6 +13,7 @@ inline constexpr ParameterInfo kViscousRow{
     .upper = kInfinity,
     .default_value = 0,
     .meaning = "slope over speed",
+    .part = LawPart::slope,
 };
 
 inline constexpr ParameterInfo kCoulombRow{
@@ -23,6 +24,7 @@ inline constexpr ParameterInfo kCoulombRow{
     .upper = kInfinity,
     .default_value = 0,
     .meaning = "level at any speed",
+    .part = LawPart::level,
 };
 
 inline constexpr ParameterInfo kCoulombPositiveRow{
@@ -33,6 +35,7 @@ inline constexpr ParameterInfo kCoulombPositiveRow{
     .upper = kInfinity,
     .default_value = 0,
     .meaning = "level for v > 0",
+    .part = LawPart::level,
 };
 
 inline constexpr ParameterInfo kCoulombNegativeRow{
@@ -43,6 +46,7 @@ inline constexpr ParameterInfo kCoulombNegativeRow{
     .upper = kInfinity,
     .default_value = 0,
     .meaning = "level for v < 0",
+    .part = LawPart::level,
 };
 
 inline constexpr ParameterInfo kStaticRow{
@@ -53,6 +57,7 @@ inline constexpr ParameterInfo kStaticRow{
     .upper = kInfinity,
     .default_value = 0,
     .meaning = "level at rest, >= coulomb",
+    .part = LawPart::rest_level,
 };
 
 inline constexpr ParameterInfo kStaticRiseRow{
@@ -63,6 +68,7 @@ inline constexpr ParameterInfo kStaticRiseRow{
     .upper = kInfinity,
     .default_value = 0,
     .meaning = "level at rest less that at any speed, in both directions",
+    .part = LawPart::rest_rise,
 };
 
 inline constexpr ParameterInfo kStribeckVelocityRow{
@@ -94,6 +100,7 @@ inline constexpr ParameterInfo kBristleStiffnessRow{
     .upper = kInfinity,
     .default_value = 1,
     .meaning = "slope of the force over travel before sliding",
+    .part = LawPart::bristle,
 };
 
 inline constexpr ParameterInfo kBristleDampingRow{

@@ -14,9 +14,15 @@ TEST(LawPart, IsALevelInEveryLawAndAnythingElseAtMostOnce) {
     EXPECT_TRUE(PlaceOf(LawPart::level, law)) << law.name;
     for (const LawPart part :
          {LawPart::slope, LawPart::rest_level, LawPart::rest_rise, LawPart::bristle}) {
-      const auto is_part = [&](const ParameterInfo& info) { return PartOf(info.name) == part; };
+      const auto is_part = [&](const ParameterInfo& info) { return info.part == part; };
       EXPECT_LE(std::ranges::count_if(law.parameters, is_part), 1) << law.name;
     }
+  }
+}
+
+TEST(LawPart, IsTheSameForANameInEveryLaw) {
+  for (const Law& law : Laws()) {
+    for (const ParameterInfo& info : law.parameters) EXPECT_EQ(PartOf(info.name), info.part);
   }
 }
 
