@@ -125,6 +125,7 @@ json EstimateToJson(const Estimate& estimate) {
     if (!one.unit.empty()) row["unit"] = one.unit;
     result["friction_at_speeds"].push_back(std::move(row));
   }
+  // tests, and what was taken for granted
   for (const Diagnostic& one : estimate.diagnostics) {
     result["diagnostics"].push_back(DiagnosticToJson(one));
   }
@@ -132,6 +133,7 @@ json EstimateToJson(const Estimate& estimate) {
     result["assumptions"].push_back(
         {{"name", one.name}, {"meaning", one.meaning}, {"moves", MovesToJson(one.moves)}});
   }
+  // where the log leaves the joint
   for (const EstimatedParameter& one : estimate.state_end) {
     result["state_end"][one.name] = ParameterToJson(one);
   }

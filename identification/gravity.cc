@@ -155,6 +155,7 @@ GravityModel GravityFromJson(const nlohmann::json& json, const Place& place) {
     }
     gravity.knots.push_back(knot);
   }
+  // torque at the knots
   gravity.values = Eigen::Map<const Eigen::VectorXd>(torque.data(), torque.size());
   return gravity;
 }

@@ -40,6 +40,7 @@ void CheckCovariance(const MatrixXd& covariance, const Place& place) {
     Refuse(place, "covariance {}; take it from estimate.json as it is", what);
   };
   constexpr double rounding = 1e-9;
+  // finite, symmetric, and without a negative variance in any direction
   if (!covariance.allFinite()) wrong("holds numbers that are not finite");
   if (!(covariance.diagonal().array() >= 0).all()) wrong("has a negative variance");
   const Eigen::VectorXd scale =

@@ -61,6 +61,7 @@ Sampling ReadSampling(const YamlValue& value) {
   ReadNumber(value, "sensor_rate", Bound::positive, sampling.sensor_rate);
   ReadNumber(value, "cutoff", Bound::not_negative, sampling.cutoff);
 
+  // a log holds no more samples than sensors give, and a filter works below half their rate
   if (sampling.rate > sampling.sensor_rate) {
     Refuse(value.place(),
            "{}.rate is {} Hz; it must be at most the {} Hz of sensor_rate: sensors cannot be "

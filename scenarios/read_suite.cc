@@ -113,6 +113,7 @@ Ladder ReadLadder(const YamlValue& value) {
   } else {
     ladder.variants = ReadVariants(*variants);
   }
+  // each variant costs all its realizations
   if (ladder.variants.size() > kMostVariants) {
     Refuse(value.place(), "{} has {} variants; {} at most: make suites of its parts", value.key(),
            ladder.variants.size(), kMostVariants);

@@ -51,6 +51,7 @@ void AddLadder(const Ladder& ladder, Lines& lines) {
   }
   lines.Begin("  ", "variants");
   for (const Variant& variant : ladder.variants) {
+    // a variant without changes is an empty map
     if (variant.settings.empty()) lines.Add("    ", QuotedYaml(variant.name), "{}");
     if (!variant.settings.empty()) lines.Begin("    ", QuotedYaml(variant.name));
     for (const Setting& setting : variant.settings) {

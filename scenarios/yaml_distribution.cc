@@ -30,6 +30,7 @@ Distribution ReadDistribution(const YamlValue& value, Bound bound) {
   value.RequireKeys(Kinds());
   if (!IsDistribution(value)) value.RefuseValue("a number or one of uniform, log_uniform, normal");
 
+  // of two numbers, by what they mean
   if (const auto normal = value.Find("normal")) return ReadNormal(*normal, bound);
   if (const auto range = value.Find("log_uniform")) {
     const auto [a, b] = range->Interval(Bound::positive);

@@ -63,6 +63,7 @@ json ToJson(const YamlValue& value, const std::string& key, TruthDraws& draws) {
     }
     return object;
   }
+  // entries of a list are known by their place in it
   if (value.IsList()) {
     json list = json::array();
     for (const YamlValue& entry : value.List("a list that is not empty")) {

@@ -33,6 +33,7 @@ void ReadSpeeds(const YamlValue& value, Motion& motion) {
 void ReadEnds(const YamlValue& value, Motion& motion) {
   const auto hold = value.Find("hold");
   const auto travel = value.Find("travel");
+  // how long a speed lasts: one of both
   if (hold && travel) {
     Refuse(travel->place(), "{} stands beside {}; keep one: hold speeds for a time, or travel",
            travel->key(), hold->key());
@@ -75,6 +76,7 @@ std::string SteadyMotionToYaml(const Motion& motion, const std::string& indent) 
   };
   add("speeds", motion.speed_draws ? DistributionToYaml(*motion.speed_draws)
                                    : fmt::format("{}", motion.speed_list));
+  // what ends a segment
   if (motion.travel_between_joint_limits) {
     add("travel", "joint_limits");
   } else if (motion.travel) {
@@ -194,6 +196,7 @@ Motion ReadMotion(const YamlValue& value) {
 }
 
 std::string MotionToYaml(const Motion& motion, const std::string& indent) {
+  // kinds of motion with a key of their own
   if (!motion.corners.empty()) {
     return fmt::format("{0}corners: {1}\n{0}start: {2}\n", indent, CornersToYaml(motion.corners),
                        motion.start);

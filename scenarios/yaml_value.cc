@@ -55,6 +55,7 @@ int SecondDocument(std::string_view text) {
 }
 
 YAML::Node ParseYaml(const std::string& text, const std::string& file) {
+  // text that is no UTF-8 and a second document are refused by their line
   if (const auto broken = FirstBrokenByte(text)) {
     const auto end = text.begin() + static_cast<std::ptrdiff_t>(*broken);
     const auto line = static_cast<int>(1 + std::count(text.begin(), end, '\n'));
@@ -63,6 +64,7 @@ YAML::Node ParseYaml(const std::string& text, const std::string& file) {
   if (const int line = SecondDocument(text)) {
     Refuse({file, line}, "begins another document; keep one");
   }
+  // the tree itself must be of a size that can be walked
   try {
     const YAML::Node root = YAML::Load(text);
     int count = 0;

@@ -44,6 +44,7 @@ Eigen::MatrixXd BlockDescent::Jacobian(const DescentState& state) const {
   const Eigen::Index d = columns_.cols();
   Eigen::MatrixXd jacobian(columns_.rows(), d + 2);
   jacobian.leftCols(d) = columns_;
+  // the heat is linear in the gain; the time constant stands by its logarithm
   const auto& [gain, time_constant] = state.thermal;
   output_error_.filter().ForEach(time_constant, output_error_.loss(),
                                  [&](Eigen::Index i, const UnitEnergy& energy) {

@@ -71,10 +71,12 @@ Envelope::Envelope(const Measurements& m, const Selection& selection)
   const double viscous = varied ? spread.viscous() : 0;
   for (Window& window : windows_) window.level = window.torque - viscous * window.speed;
 
+  // noise of a window's level, from the spread within windows and the samples of one
   const double variance = varied ? spread.variance() : spread.torque_torque / spread.count;
   const double per_window = spread.count / static_cast<double>(windows_.size());
   noise_ = std::sqrt(std::max(variance, 0.0) / per_window);
 
+  // windows up to the first without a kept sample
   size_t used = 0;
   while (used < windows_.size() && windows_[used].count > 0) ++used;
   windows_.resize(used);
@@ -82,6 +84,7 @@ Envelope::Envelope(const Measurements& m, const Selection& selection)
 
 void Envelope::Average(const Measurements& m, const Selection& selection) {
   for (Eigen::Index i = 0; i < m.size(); ++i) {
+    // losses and motion of all samples, friction of those that a fit uses
     Window& window = windows_[IndexOf(m, i)];
     const double speed = std::abs(m.velocity[i]);
     window.samples += 1;
@@ -92,6 +95,7 @@ void Envelope::Average(const Measurements& m, const Selection& selection) {
     window.speed += speed;
     window.torque += Sign(m.velocity[i]) * m.torque[i];
   }
+  // sums become means
   for (Window& window : windows_) {
     window.loss /= std::max(window.samples, 1.0);
     window.motion /= std::max(window.samples, 1.0);
@@ -104,6 +108,7 @@ Spread Envelope::SpreadWithin(const Measurements& m, const Selection& selection)
   Spread spread;
   for (Eigen::Index i = 0; i < m.size(); ++i) {
     if (!selection.keep[i]) continue;
+    // what is left of the window's own means
     const Window& window = windows_[IndexOf(m, i)];
     const double speed = std::abs(m.velocity[i]) - window.speed;
     const double torque = Sign(m.velocity[i]) * m.torque[i] - window.torque;
@@ -162,6 +167,7 @@ FirstGuess GuessThermal(const Measurements& measurements, const Selection& selec
   const double settled = Mean(windows, &Window::level, count - count / 4, count);
   const double before = Mean(windows, &Window::level, count / 2, count - count / 4);
   const double change = settled - cold;
+  // it must stand out of the noise and end within the log
   if (std::abs(change) < kVisible * envelope.noise()) {
     return {{},
             fmt::format("the friction level changes by {:.3g}, within its noise of {:.3g}: no "

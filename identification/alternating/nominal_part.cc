@@ -10,12 +10,14 @@ namespace {
 
 /// Law and kernels over position.
 void AddMap(const IdentifierInput& input, const std::string& identifier, NominalPart& part) {
+  // a map over position would take gravity up
   if (input.options.Text(kGravityOption) != "none") {
     part.refusal = Refusal{Status::bad_data,
                            "position=map cannot be had together with gravity; leave one of them "
                            "out (basis=position takes gravity up into the map)"};
     return;
   }
+  // law and map over moving samples, without any warming
   const IdentifierInput moving = input.With(part.moving);
   MapBeginning begin = BeginMaps(moving, identifier, {MapQuantity::position});
   part.refusal = begin.refusal;
@@ -27,6 +29,7 @@ void AddMap(const IdentifierInput& input, const std::string& identifier, Nominal
     part.refusal = Unsolvable();
     return;
   }
+  // kernels join the law as further columns
   part.maps = choice->fit.maps;
   const MapPoints all = PointsOf(input.measurements);
   part.columns = Beside(part.columns, DenseKernels(part.maps, all, 0, all.rows()));
@@ -52,6 +55,7 @@ NominalPart PrepareNominalPart(const IdentifierInput& given, const std::string& 
   const Measurements& m = given.measurements;
   const Law& law = *FindLaw(given.options.Text("law"));
   NominalPart part;
+  // gravity, where it is asked for
   part.gravity = PrepareRigid(given);
   if (part.gravity.why) {
     part.refusal = Refusal{part.gravity.status, *part.gravity.why};
@@ -59,10 +63,12 @@ NominalPart PrepareNominalPart(const IdentifierInput& given, const std::string& 
   }
   const IdentifierInput input = part.gravity.Of(given);
   const auto d = static_cast<int>(law.parameters.size() + part.gravity.count());
+  // enough samples for law, gravity, gain and time constant
   if (auto why = Unusable(input, d + 2)) {
     part.refusal = Refusal{Status::bad_data, *why};
     return part;
   }
+  // samples that move
   part.moving = WithoutRest(input.selection, m);
   part.columns = LawColumns(law, m.velocity);
   if (given.options.Text("position") == "map") {
@@ -78,6 +84,7 @@ NominalPart PrepareNominalPart(const IdentifierInput& given, const std::string& 
     part.refusal =
         Refusal{Status::not_identifiable, IndistinctColumns(fit.mixed, law, part.gravity, input)};
   }
+  // the nominal fit, without warming
   part.cofactor = fit.cofactor;
   part.solution = fit.solution;
   part.effective = d;

@@ -61,10 +61,12 @@ OutputError::Slice OutputError::Evaluate(const Eigen::VectorXd& energy, double t
 }
 
 double OutputError::Scan(const Eigen::VectorXd& energy) const {
+  // a factor of ten within the bounds, evenly in the logarithm
   const double first = std::log(10 * shortest_);
   const double last = std::log(0.1 * longest_);
   const int count = 2 + static_cast<int>((last - first) / std::log(10.0) * kGridPerDecade);
 
+  // the least cost on the grid
   double best = first;
   double best_cost = std::numeric_limits<double>::infinity();
   for (int i = 0; i < count; ++i) {
@@ -98,6 +100,7 @@ OutputError::Fit OutputError::Refine(const Eigen::VectorXd& energy, double start
       next = theta + 0.5 * (next - theta);
       there = Evaluate(energy, next);
     }
+    // on to the new point, until steps are tiny
     theta = next;
     here = there;
     if (last) break;

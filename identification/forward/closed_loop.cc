@@ -24,9 +24,11 @@ ClosedLoop ClosedLoop::Along(const Measurements& m, const Eigen::MatrixXd& colum
 
 LoopResponse ClosedLoop::Simulate(const Eigen::VectorXd& parameters, const Thermal& thermal,
                                   double initial_energy, const Eigen::VectorXd& jumps) const {
+  // level without heat, and that of the losses where it differs
   const Eigen::VectorXd nominal = levels_ * parameters;
   const Eigen::VectorXd nominal_of_loss =
       loss_levels_.size() > 0 ? Eigen::VectorXd(loss_levels_ * parameters) : nominal;
+  // force, losses and energy of each sample
   LoopResponse response;
   response.force.resize(size());
   response.loss.resize(size());
@@ -35,12 +37,14 @@ LoopResponse ClosedLoop::Simulate(const Eigen::VectorXd& parameters, const Therm
     double energy = initial_energy;
     size_t next = 0;
     for (Eigen::Index n = 0; n < size(); ++n) {
+      // a jump stands for the losses in a gap, which nobody logged
       if (next < jumps_.size() && jumps_[next] == n)
         energy += jumps[static_cast<Eigen::Index>(next++)];
       const double level = nominal[n] + std::abs(direction_[n]) * energy;
       const IntervalHold& hold = hold_after[n];
       const bool pushes = level < 0;  // then W = -|v| a
       if (pushes && !response.feeds_itself) response.feeds_itself = n;
+      // during the interval E feeds back on its own losses
       const auto [feedback, lambda] = FedBack(hold, pushes ? -speed_[n] : speed_[n]);
       response.energy[n] = energy;
       response.force[n] = direction_[n] * level;
@@ -55,6 +59,7 @@ Eigen::MatrixXd ClosedLoop::Jacobian(const Eigen::VectorXd& parameters, const Th
                                      double initial_energy, const Eigen::VectorXd& jumps) const {
   const Eigen::Index d = levels_.cols(), all = d + 3 + static_cast<Eigen::Index>(jumps_.size());
   Eigen::MatrixXd jacobian(size(), all);
+  // levels become torques by the direction of motion
   const auto write = [&](Eigen::Index n, double, const double* g, const double* S) {
     for (Eigen::Index i = 0; i < d; ++i) jacobian(n, i) = direction_[n] * (g[i] + S[i]);
     for (Eigen::Index i = d; i < all; ++i) jacobian(n, i) = direction_[n] * S[i];

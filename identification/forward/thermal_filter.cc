@@ -17,10 +17,12 @@ Eigen::VectorXd ThermalFilter::Energy(const Thermal& thermal, const Eigen::Vecto
   Eigen::VectorXd energy(size());
   energy[0] = initial;
   size_t next = 0;
+  // the hold of an even log is the same for all steps
   const ThermalHold<> mean = HoldOver(mean_step_, thermal.time_constant);
   for (Eigen::Index i = 0; i < steps_.size(); ++i) {
     const ThermalHold<> hold = even_ ? mean : HoldOver(steps_[i], thermal.time_constant);
     energy[i + 1] = ThermalStep(thermal.gain * hold.cooling, hold.pole, energy[i], loss[i]);
+    // another recording starts cold
     if (Starts(i + 1, next)) energy[i + 1] = 0;
   }
   return energy;
@@ -29,6 +31,7 @@ Eigen::VectorXd ThermalFilter::Energy(const Thermal& thermal, const Eigen::Vecto
 Eigen::VectorXd ThermalFilter::Transposed(const Thermal& thermal,
                                           const Eigen::VectorXd& weights) const {
   Eigen::VectorXd result = Eigen::VectorXd::Zero(size());
+  // backwards in time: what a loss adds to E lasts through all later samples
   const ThermalHold<> mean = HoldOver(mean_step_, thermal.time_constant);
   double later = 0;  // what E at sample i + 1 weighs, with all that follows from it
   for (Eigen::Index i = steps_.size() - 1; i >= 0; --i) {

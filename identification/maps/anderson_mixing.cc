@@ -25,6 +25,7 @@ Eigen::VectorXd AndersonMixing::Next(const Eigen::VectorXd& x, const Eigen::Vect
     of_residual.col(i) = after.residual - before.residual;
     of_image.col(i) = after.image - before.image;
   }
+  // the combination of the differences that comes nearest to the latest residual
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> solver(of_residual);
   Eigen::VectorXd next = g - of_image * solver.solve(rounds_.back().residual);
   return next.allFinite() ? next : g;

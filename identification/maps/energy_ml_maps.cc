@@ -39,6 +39,7 @@ std::vector<std::vector<FrictionMap>> Candidates(const Options& options, JointKi
 /// from the log, where that contradicts; else nothing.
 std::optional<Fit> AgainstExpected(const IdentifierInput& input, const MapTask& task,
                                    const InitialEnergy& expected) {
+  // law, maps and warming with an E(0) that the log alone tells
   const auto alone = FitWarmMaps(input, task, InitialEnergy::estimated);
   if (!alone || !alone->converged) return std::nullopt;
   Fit fit = AsFit(input, *alone);
@@ -46,6 +47,7 @@ std::optional<Fit> AgainstExpected(const IdentifierInput& input, const MapTask& 
   const size_t row = *fit.RowOf(Role::start);
   const KnownParameter found = Infer(fit).parameters[row];
   if (!found.std) return std::nullopt;
+  // whether both E(0) contradict each other
   const std::string unlike = UnlikeBefore(expected, found.value, *found.std);
   if (unlike.empty()) return std::nullopt;
   fit.warnings.push_back(unlike);
@@ -64,11 +66,13 @@ std::vector<OptionInfo> WarmMapOptions() {
 }
 
 Fit FitWithMaps(const std::string& identifier, const IdentifierInput& given) {
+  // gravity and inertia, where they are asked for, and what a map needs
   const RigidPart rigid = PrepareRigid(given);
   if (rigid.why) return Refused(identifier, {rigid.status, *rigid.why});
   const IdentifierInput input = rigid.Of(given);
   MapBeginning begin = Begin(identifier, input, rigid);
   if (begin.refusal) return Refused(identifier, *begin.refusal);
+  // maps know squares alone
   const std::string& loss = input.options.Text("loss");
   if (loss != "squares") {
     return Refused(
@@ -76,6 +80,7 @@ Fit FitWithMaps(const std::string& identifier, const IdentifierInput& given) {
         fmt::format("position={} cannot be had together with loss={}; leave one of them out",
                     input.options.Text("position"), loss));
   }
+  // an expected start first, unless the log contradicts it
   begin.task.candidates = Candidates(input.options, input.measurements.joint, begin);
   const InitialEnergy initial = InitialEnergyOf(input.options);
   if (initial.is_expected()) {
@@ -92,6 +97,7 @@ std::optional<ChosenMap> MapBesideEnergy(const IdentifierInput& given,
   const IdentifierInput input = rigid.Of(given);
   MapBeginning begin = Begin("", input, rigid);
   if (begin.refusal) return std::nullopt;
+  // shape and strength of the map beside a course of the energy that is known
   begin.task.candidates = Candidates(input.options, input.measurements.joint, begin);
   begin.task.energy = energy;
   const auto chosen = Choose(input, begin.task);

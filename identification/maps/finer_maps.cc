@@ -16,6 +16,7 @@ constexpr int kDraws = 8;
 GaussianAxis TwiceAsFine(const GaussianAxis& axis) {
   const std::vector<double>& centres = axis.centres;
   if (centres.size() < 2) return axis;
+  // twice the centres over the same range, as far as there may be as many
   const auto count = static_cast<int>(std::min(2 * centres.size(), kMostMapCentres));
   GaussianAxis finer = axis.period ? CircleAxis(*axis.period, count)
                                    : EvenAxis(centres.front(), centres.back(), count);
@@ -43,6 +44,7 @@ std::optional<FinerFit> FitFiner(MapProblem problem, const MapFit& fit, const No
   own.maps = fit.maps;
   finer.maps = TwiceAsFine(fit.maps);
   for (MapProblem* one : {&own, &finer}) one->rows = KernelRows::Kept(one->maps, one->points, 1);
+  // the finer map at the strength of the prior that suits the map itself
   RepeatedFit finer_fits(finer, NormalOf(finer), fit.strength);
   std::optional<MapWeights> twice = finer_fits.Fit();
   if (!twice) return std::nullopt;

@@ -33,11 +33,13 @@ MapPoints AtSpeed(double u, const MapPoints& points) {
   const Eigen::VectorXd away = (points.col(kVelocity).cwiseAbs().array() - u).abs();
   Eigen::VectorXd sorted = away;
   const double reach = std::max(QuantileInPlace(sorted, kShare), kAlike * u);
+  // points as near to the speed as the nearest tenth
   std::vector<Index> near;
   for (Index i = 0; i < away.size(); ++i) {
     if (away[i] <= reach) near.push_back(i);
   }
   const auto all = static_cast<Index>(near.size());
+  // every so manieth where there are more than it takes
   const Index some = std::min(all, kEnough);
   std::vector<Index> chosen;
   for (Index i = 0; i < some; ++i) chosen.push_back(near[static_cast<size_t>(i * all / some)]);
@@ -46,11 +48,13 @@ MapPoints AtSpeed(double u, const MapPoints& points) {
 
 /// a of the mean at one speed. [p + q]
 Eigen::RowVectorXd MeanAt(double speed, const Law& law, const MapFit& fit, MapPoints points) {
+  // the places stay, each in its own direction, but all at the one speed
   const Eigen::VectorXd side = points.col(kVelocity).array().sign();
   points.col(kVelocity) = speed * side;
   const Eigen::MatrixXd columns = LawColumns(law, points.col(kVelocity));
   const Eigen::MatrixXd kernels = DenseKernels(fit.maps, points, 0, points.rows());
   const auto n = static_cast<double>(points.rows());
+  // resistance is the force times the direction
   Eigen::RowVectorXd mean = Eigen::RowVectorXd::Zero(fit.x.size());
   mean.head(columns.cols()) = side.transpose() * columns / n;
   mean.tail(kernels.cols()) = side.transpose() * kernels / n;
@@ -63,6 +67,7 @@ std::vector<FrictionAtSpeed> FrictionAtSpeeds(const Law& law, const MapFit& fit,
                                               const Uncertainty& known, const MapPoints& kept) {
   const MapPoints points = Moving(kept);
   if (points.rows() == 0) return {};
+  // the lowest, the median and the highest speed of the log
   Eigen::VectorXd speeds = points.col(kVelocity).cwiseAbs();
   const double lowest = speeds.minCoeff(), highest = speeds.maxCoeff();
   const double median = MedianInPlace(speeds);
@@ -73,6 +78,7 @@ std::vector<FrictionAtSpeed> FrictionAtSpeeds(const Law& law, const MapFit& fit,
     // a joint that knows one speed has one figure
     if (!all.empty() && !(speed > (1 + kAlike) * all.back().speed)) continue;
     const Eigen::RowVectorXd row = MeanAt(speed, law, fit, AtSpeed(speed, points));
+    // linear in law and weights, so that its variance follows from their covariance
     const double value = row * fit.x;
     const double deviation = std::sqrt(std::max(0.0, double(row * covariance * row.transpose())));
     all.push_back(

@@ -60,11 +60,13 @@ std::string_view UnitOf(MapQuantity quantity, JointKind joint) {
 /// Where a line of a map lies: " backwards", " forwards at 0.5", " at energy -2 N.m", ..., or nothing where the map has one line.
 std::string LineOf(const FrictionMap& map, size_t line, JointKind joint) {
   std::string words;
+  // axes from the last, which runs fastest, to the second
   for (size_t a = map.axes.size(); a-- > 1;) {
     const MapQuantity over = map.axes[a].quantity;
     const std::vector<double>& centres = map.axes[a].kernels.centres;
     const double centre = centres[line % centres.size()];
     line /= centres.size();
+    // a velocity is told as a direction, other quantities with their unit
     if (over == MapQuantity::velocity) {
       const char* way = centre < 0 ? "backwards" : "forwards";
       words = (centres.size() > 2 ? fmt::format(" {} at {:.3g}", way, std::abs(centre))
@@ -87,6 +89,7 @@ void AddHoles(const FrictionMap& map, size_t first, size_t line, const std::vect
   const double half = lines.length > 1 ? 0.5 * (centres[1] - centres[0]) : 0;
   for (size_t i = 0; i < lines.length; ++i) {
     if (!unseen[first + i * lines.stride + line]) continue;
+    // a hole reaches as far as its neighbours are unseen
     size_t end = i;
     while (end + 1 < lines.length && unseen[first + (end + 1) * lines.stride + line]) ++end;
     // data reach into the half cell at an end of the range
@@ -95,6 +98,7 @@ void AddHoles(const FrictionMap& map, size_t first, size_t line, const std::vect
       i = end;
       continue;
     }
+    // from half a cell below its first kernel to half a cell above its last
     const double lower = centres[i] - half, upper = centres[end] + half;
     holes.push_back({upper - lower,
                      fmt::format("{} {:.3g} to {:.3g} {}{}", MapQuantityName(axis.quantity), lower,
@@ -109,14 +113,17 @@ std::vector<bool> UnseenKernels(const std::vector<FrictionMap>& maps, const MapP
   std::vector<bool> unseen;
   for (const FrictionMap& map : maps) {
     const auto size = static_cast<Index>(map.size());
+    // how many samples are nearest to each kernel
     Eigen::VectorXd counts = Eigen::VectorXd::Zero(size);
     for (Index i = 0; i < points.rows(); ++i) ++counts[NearestKernel(map, points, i)];
+    // a kernel is seen where it has a share of what those with samples usually have
     Eigen::VectorXd seen(size);
     Index count = 0;
     for (const double one : counts) {
       if (one >= kFewest) seen[count++] = one;
     }
     seen.conservativeResize(count);
+    // two samples at least, and a share of the median
     const double least = std::max(kFewest, count > 0 ? kShare * MedianInPlace(seen) : 0.0);
     for (const double one : counts) unseen.push_back(one < least);
   }
@@ -138,6 +145,7 @@ Eigen::MatrixXd PriorOf(const std::vector<FrictionMap>& maps, const std::vector<
   const auto q = static_cast<Index>(unseen.size());
   Eigen::MatrixXd prior = Eigen::MatrixXd::Identity(q, q);
   size_t first = 0;
+  // along energy or load a hole is drawn as the others are, elsewhere harder
   for (const FrictionMap& map : maps) {
     const KernelLines lines(map);
     const auto n = static_cast<long>(lines.length);
@@ -147,6 +155,7 @@ Eigen::MatrixXd PriorOf(const std::vector<FrictionMap>& maps, const std::vector<
       if (!unseen[first + k]) continue;
       const size_t line = first + k % lines.stride;
       const auto i = static_cast<long>(k / lines.stride);
+      // the nearest kernels with samples on both sides
       const auto below = NextSeen(lines, unseen, line, static_cast<size_t>(i), -1);
       const auto above = NextSeen(lines, unseen, line, static_cast<size_t>(i), 1);
       if (!below && !above) continue;
@@ -160,6 +169,7 @@ Eigen::MatrixXd PriorOf(const std::vector<FrictionMap>& maps, const std::vector<
       Eigen::VectorXd row = Eigen::VectorXd::Unit(q, static_cast<Index>(first + k));
       if (below) row[place(i - static_cast<long>(*below))] -= above ? up / (up + down) : 1;
       if (above) row[place(i + static_cast<long>(*above))] -= below ? down / (up + down) : 1;
+      // the prior draws it to its neighbours instead of to 0
       prior(static_cast<Index>(first + k), static_cast<Index>(first + k)) -= 1;
       prior += (below && above ? firm : 1) * row * row.transpose();
     }
@@ -175,6 +185,7 @@ Eigen::MatrixXd PenaltyOf(const std::vector<FrictionMap>& maps, const Eigen::Mat
 
 std::vector<double> DoubtOfHoles(const FrictionMap& map, size_t first,
                                  const std::vector<bool>& unseen, const Eigen::VectorXd& weights) {
+  // how much the weights with samples differ among each other
   const double mean = MeanOfSeen(first, map.size(), unseen, weights);
   double squares = 0, count = 0;
   for (size_t i = first; i < first + map.size(); ++i) {
@@ -192,6 +203,7 @@ std::vector<double> DoubtOfHoles(const FrictionMap& map, size_t first,
     const size_t line = first + k % lines.stride, i = k / lines.stride;
     const auto below = NextSeen(lines, unseen, line, i, -1);
     const auto above = NextSeen(lines, unseen, line, i, 1);
+    // a kernel beside data is in doubt by half
     const bool beside = below == 1u || above == 1u;
     if (beside && !(below && above)) continue;  // half a cell at the end of the travel
     doubt[k] = beside ? 0.5 * spread : spread;
@@ -201,6 +213,7 @@ std::vector<double> DoubtOfHoles(const FrictionMap& map, size_t first,
 
 std::vector<std::string> NameHoles(const std::vector<FrictionMap>& maps,
                                    const std::vector<bool>& unseen, JointKind joint) {
+  // holes along all lines of all maps; the widest are named, the others counted
   std::vector<Hole> holes;
   size_t first = 0;
   for (const FrictionMap& map : maps) {
@@ -209,6 +222,7 @@ std::vector<std::string> NameHoles(const std::vector<FrictionMap>& maps,
     }
     first += map.size();
   }
+  // the widest first
   std::ranges::stable_sort(holes, std::ranges::greater{}, &Hole::width);
   std::vector<std::string> names;
   for (size_t i = 0; i < std::min(kMostNamed, holes.size()); ++i) names.push_back(holes[i].words);

@@ -62,6 +62,7 @@ std::string ShapeOf(const std::vector<FrictionMap>& maps) {
 void AddLaw(const Law& law, const MapFit& maps, const Measurements& measurements, Fit& fit) {
   fit.parameters = LawParameters(law, maps.x.head(maps.free), measurements);
   std::vector<std::string> imitated;
+  // what kernels can imitate has no figure of its own
   for (const Eigen::Index i : ImitatedColumns(maps.gram, maps.free)) {
     if (i >= static_cast<Eigen::Index>(law.parameters.size())) continue;
     FitParameter& parameter = fit.parameters[static_cast<size_t>(i)];
@@ -78,6 +79,7 @@ void AddLaw(const Law& law, const MapFit& maps, const Measurements& measurements
 
 /// The samples that law and maps are fitted to; without maps.
 MapProblem ProblemOf(const IdentifierInput& input, const MapTask& task) {
+  // columns of the law, and beside them those of gravity and inertia
   const Law& law = *FindLaw(task.settings.law);
   Eigen::MatrixXd columns = LawColumns(law, input.measurements.velocity);
   if (task.rigid.count() > 0) columns = Beside(columns, task.rigid.columns);
@@ -87,6 +89,7 @@ MapProblem ProblemOf(const IdentifierInput& input, const MapTask& task) {
                      Kept(input.measurements.torque, input.selection),
                      input.selection};
   problem.torque -= TakenByEnergy(input, task.energy);
+  // bounds of the law's parameters; gravity and inertia have none
   for (const ParameterInfo& info : law.parameters) problem.lower.push_back(info.lower);
   problem.lower.resize(static_cast<size_t>(columns.cols()), -kInfinity);
   return problem;
@@ -121,6 +124,7 @@ MapBeginning BeginMaps(const IdentifierInput& input, const std::string& identifi
   if (rigid.count() == 0) begin.task.rigid.columns.resize(input.measurements.size(), 0);
   begin.refusal = RefuseForMaps(input, *FindLaw(begin.task.settings.law), rigid);
   if (begin.refusal) return begin;
+  // each quantity of the maps must be known and must vary
   begin.points = Kept(PointsOf(input.measurements), input.selection);
   for (const MapQuantity quantity : quantities) {
     const auto why = Unseen(quantity, input.measurements, begin.points);
@@ -157,6 +161,7 @@ std::optional<ChosenProblem> Choose(const IdentifierInput& input, const MapTask&
     if (!std::isfinite(best.criterion)) return std::nullopt;
     if (task.settings.strength > 0) best.strength = task.settings.strength;
   }
+  // shape and strength that predict best, with the products of their fit
   problem.maps = task.candidates[best.candidate];
   if (!best.normal) best.normal = NormalOf(problem);
   return ChosenProblem{std::move(problem), std::move(*best.normal), best.strength};
@@ -201,6 +206,7 @@ Fit ModelOf(const IdentifierInput& input, const MapTask& task, const MapFit& map
       "law {} and {} on {} samples; prior of strength {:.3g} on their weights leaves {:.1f} "
       "effective parameters",
       law.name, ShapeOf(maps.maps), fit.torque.size(), maps.strength, maps.effective);
+  // places without data
   const std::vector<std::string> holes = NameHoles(maps.maps, maps.unseen, m.joint);
   if (!holes.empty()) {
     fit.warnings.push_back(

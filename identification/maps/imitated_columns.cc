@@ -16,8 +16,10 @@ std::vector<Eigen::Index> ImitatedColumns(const Eigen::MatrixXd& gram, Eigen::In
   EnvelopeCholesky kernels(gram.bottomRightCorner(q, q));
   std::vector<Eigen::Index> imitated;
   if (!kernels.Factor(1e-9 * gram.diagonal().tail(q).mean())) return imitated;
+  // squares of each column that the kernels can imitate
   const Eigen::MatrixXd border = gram.bottomLeftCorner(q, free);
   const Eigen::VectorXd taken = border.cwiseProduct(kernels.Solve(border)).colwise().sum();
+  // a column is imitated where hardly anything of it is left
   for (Eigen::Index j = 0; j < free; ++j) {
     if (gram(j, j) - taken[j] < kImitated * gram(j, j)) imitated.push_back(j);
   }

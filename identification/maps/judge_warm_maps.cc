@@ -30,6 +30,7 @@ Eigen::RowVectorXd OfEndEnergy(const ClosedLoop& loop, const Eigen::MatrixXd& al
 JointDerivatives DerivativesOf(const IdentifierInput& input, const WarmMaps& warm) {
   const Measurements& m = input.measurements;
   const Law& nominal = *FindLaw(warm.task.settings.law);
+  // columns of law and kernels, and those of the losses where they differ
   const Eigen::MatrixXd law = LawColumns(nominal, m.velocity);
   const Eigen::MatrixXd of_loss = LossColumns(nominal, m);
   const Eigen::MatrixXd kernels = DenseKernels(warm.fit.maps, PointsOf(m), 0, m.size());
@@ -39,6 +40,7 @@ JointDerivatives DerivativesOf(const IdentifierInput& input, const WarmMaps& war
   const Eigen::Index d = law.cols(), q = kernels.cols();
   Eigen::VectorXd level(d + q);
   level << warm.fit.x.head(d), warm.fit.x.tail(q);
+  // derivatives at the fitted warming, with its start and its jumps
   const WarmFit& warming = warm.warming;
   const Thermal thermal = warming.thermal();
   Eigen::MatrixXd all =
@@ -70,6 +72,7 @@ Uncertainty Judge(const IdentifierInput& input, const WarmMaps& warm,
                   const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residual) {
   const Eigen::Index d = jacobian.cols();
   const Eigen::Index q = warm.fit.x.size() - warm.fit.free;
+  // normal matrix of law, maps and warming together
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(d, d);
   gram.selfadjointView<Eigen::Lower>().rankUpdate(jacobian.transpose());
   gram.triangularView<Eigen::StrictlyUpper>() = gram.transpose();
@@ -78,6 +81,7 @@ Uncertainty Judge(const IdentifierInput& input, const WarmMaps& warm,
   Eigen::MatrixXd penalised = gram;
   auto of_weights = penalised.block(warm.fit.free, warm.fit.free, q, q);
   of_weights += PenaltyOf(warm.fit.maps, of_weights, warm.fit.unseen, warm.fit.strength);
+  // what is known of the heat beforehand
   Eigen::VectorXd prior = Eigen::VectorXd::Zero(d);
   const Eigen::VectorXd of_heat = PriorOfHeat(warm.warming);
   prior.tail(of_heat.size()) = of_heat;
@@ -86,6 +90,7 @@ Uncertainty Judge(const IdentifierInput& input, const WarmMaps& warm,
   const Eigen::LLT<Eigen::MatrixXd> factors(scale.asDiagonal() * penalised * scale.asDiagonal());
   const Eigen::MatrixXd inverse =
       scale.asDiagonal() * factors.solve(Eigen::MatrixXd::Identity(d, d)) * scale.asDiagonal();
+  // rows of samples, from the first to before the last
   const auto rows = [&](Eigen::Index first, Eigen::Index last) -> Eigen::MatrixXd {
     return jacobian.middleRows(first, last - first);
   };

@@ -46,11 +46,13 @@ MapPoints Places(const FrictionMap& map, double speed, const MapPoints& kept, Ma
   std::vector<std::optional<double>> speeds;
   if (IsByDirection(map)) speeds = SpeedsAtKernels(map, kept);
   for (Index i = 0; i < count; ++i) {
+    // centre of the place along each axis
     std::vector<double> centre(map.axes.size());
     auto rest = static_cast<size_t>(i);
     for (size_t a = map.axes.size(); a-- > 0;) {
       const std::vector<double>& centres = map.axes[a].kernels.centres;
       centre[a] = centres[rest % centres.size()];
+      // where the map knows directions alone, the place moves as fast as the samples there
       const bool moved = !speeds.empty() && speeds[static_cast<size_t>(i)];
       if (moved && map.axes[a].quantity == MapQuantity::velocity) {
         centre[a] = std::copysign(*speeds[static_cast<size_t>(i)], centre[a]);
@@ -60,6 +62,7 @@ MapPoints Places(const FrictionMap& map, double speed, const MapPoints& kept, Ma
     }
     band.points.push_back(std::move(centre));
   }
+  // quantities along the axes, for the reader of the band
   for (const MapAxis& axis : map.axes) band.quantities.emplace_back(MapQuantityName(axis.quantity));
   return places;
 }
@@ -67,10 +70,12 @@ MapPoints Places(const FrictionMap& map, double speed, const MapPoints& kept, Ma
 /// Mean row of all kernels over the samples of one direction, from some of them. [q]
 Eigen::RowVectorXd MeanRow(const std::vector<FrictionMap>& maps, const MapPoints& kept,
                            int direction) {
+  // samples of the direction, every so manieth of them where there are many
   std::vector<Index> of_direction;
   for (Index i = 0; i < kept.rows(); ++i) {
     if (Sign(kept(i, kVelocity)) == direction) of_direction.push_back(i);
   }
+  // so many that more would hardly change the mean
   const Index all = static_cast<Index>(of_direction.size());
   const Index some = std::min(all, kEnough);
   MapPoints points(some, 5);
@@ -94,6 +99,7 @@ Eigen::MatrixXd RowsAt(const Law& law, const MapWeights& fit, size_t which, cons
                        const MeanRows& means) {
   const Index size = places.rows(), q = fit.x.size() - fit.free;
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(size, fit.x.size());
+  // a map that knows directions stands with the law and the mean of the others in its direction
   if (!IsAlikeBothWays(fit.maps[which])) {
     const Eigen::MatrixXd columns = LawColumns(law, places.col(kVelocity));
     rows.leftCols(columns.cols()) = columns;
@@ -103,6 +109,7 @@ Eigen::MatrixXd RowsAt(const Law& law, const MapWeights& fit, size_t which, cons
       if (direction > 0 && means.forwards.size() > 0) rows.row(i).tail(q) = means.forwards;
     }
   }
+  // its own kernels stand at their own places instead of their mean
   Index first = fit.free;
   for (size_t i = 0; i < which; ++i) first += static_cast<Index>(fit.maps[i].size());
   const auto own = static_cast<Index>(fit.maps[which].size());
@@ -135,6 +142,7 @@ Eigen::VectorXd AlongFirstAxis(const FrictionMap& map, const Eigen::VectorXd& sq
   Eigen::VectorXd mean(squares.size());
   double whole = 0, parts = 0;
   for (Index i = 0; i < squares.size(); ++i) {
+    // neighbours on the same line, nearer ones with more weight
     double sum = 0, count = 0;
     for (const Index away : {-2, -1, 0, 1, 2}) {
       const Index at = i / stride + away, j = i + away * stride;
@@ -155,6 +163,7 @@ Eigen::VectorXd AlongFirstAxis(const FrictionMap& map, const Eigen::VectorXd& sq
 
 std::vector<MapBand> MakeBands(const Law& law, const MapFit& fit, const Uncertainty& known,
                                const MapPoints& kept, const FinerFit* finer) {
+  // typical speed, covariance of law and weights, and reach of the interval
   Eigen::VectorXd speeds = kept.col(kVelocity).cwiseAbs();
   const double speed = MedianInPlace(speeds);
   const Eigen::MatrixXd covariance = known.covariance.topLeftCorner(fit.x.size(), fit.x.size());
@@ -169,6 +178,7 @@ std::vector<MapBand> MakeBands(const Law& law, const MapFit& fit, const Uncertai
     MapBand& band = bands.emplace_back();
     const MapPoints places = Places(map, speed, kept, band);
     const Eigen::MatrixXd rows = RowsAt(law, fit, which, places, means);
+    // friction at each place, and its variance by the errors of law and weights
     const Eigen::VectorXd value = rows * fit.x;
     Eigen::VectorXd variance = (rows * covariance).cwiseProduct(rows).rowwise().sum().cwiseMax(0);
     if (finer) {

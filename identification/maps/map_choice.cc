@@ -34,6 +34,7 @@ std::vector<NormalEquations> Folds(const MapProblem& problem, int folds) {
   const Eigen::Index spans = folds * (IsOverEnergy(problem.maps) ? kSpans : 1);
   const bool made = problem.rows && problem.rows->spans() == spans;
   std::vector<NormalEquations> parts;
+  // products of each span, those of one fold added up
   for (Eigen::Index i = 0; i < spans; ++i) {
     const NormalEquations span =
         made ? problem.rows->Normal(i, problem.free, problem.torque)
@@ -58,9 +59,11 @@ struct HeldLaw {
 
   HeldLaw(const NormalEquations& all, Eigen::Index free, const std::vector<double>& bounds)
       : columns(ImitatedLaw(all.gram, free, bounds)), lower(bounds) {
+    // the law that would fit alone, within its bounds
     const Eigen::VectorXd law =
         all.gram.topLeftCorner(free, free).ldlt().solve(all.product.head(free));
     values = law(columns);
+    // held values stay within their bounds; the others keep their own
     for (size_t i = columns.size(); i-- > 0;) {
       const auto j = static_cast<size_t>(columns[i]);
       double& value = values[static_cast<Eigen::Index>(i)];
@@ -112,10 +115,12 @@ const Trial& LeastError(const std::vector<Trial>& trials) {
 
 /// The simplest of the trials that are as good as the best.
 ChosenMaps Simplest(std::vector<Trial> trials, Eigen::Index samples) {
+  // trials without a bound that the fit would break, where there are any
   if (std::any_of(trials.begin(), trials.end(), [](const Trial& t) { return t.possible; })) {
     std::erase_if(trials, [](const Trial& t) { return !t.possible; });
   }
   if (trials.empty()) return Nothing();
+  // as good as the best
   const Eigen::ArrayXd least = LeastError(trials).squares;
   std::erase_if(trials, [&](const Trial& t) { return !AsGood(t.squares, least); });
 
@@ -134,6 +139,7 @@ ChosenMaps ByLeavingOut(const MapProblem& problem) {
   const NormalEquations normal = NormalOf(problem);
   const std::vector<RowGroup> groups =
       GroupRows(problem.maps, problem.points, 0, problem.torque.size());
+  // the strength that predicts samples best which the fit has not seen
   ChosenMaps best = Nothing();
   for (const double strength : Strengths(normal, problem.free.cols())) {
     const double error = LeaveOneOut(groups, problem.free, problem.torque, normal, strength);
@@ -160,6 +166,7 @@ ChosenMaps ByEvidence(const MapProblem& problem) {
 
 ChosenMaps ChooseMaps(MapProblem problem, const std::vector<std::vector<FrictionMap>>& candidates,
                       StrengthRule rule, int folds) {
+  // trials of all candidates, or the best candidate by a single number
   std::vector<Trial> trials;
   std::vector<std::optional<NormalEquations>> normals(candidates.size());
   ChosenMaps best = Nothing();
@@ -167,17 +174,20 @@ ChosenMaps ChooseMaps(MapProblem problem, const std::vector<std::vector<Friction
   for (size_t i = 0; i < candidates.size(); ++i) {
     problem.maps = candidates[i];
     if (rule == StrengthRule::cross_validation) {
+      // the finest shape costs most: it is tried where the next finest has been the best so far
       const bool dear = KernelCount(candidates[i]) == finest.kernels && !trials.empty();
       if (dear && LeastError(trials).kernels < finest.next) continue;
       normals[i] = AddTrials(problem, i, folds, trials);
       continue;
     }
+    // one number for the candidate at its own best strength
     ChosenMaps chosen =
         rule == StrengthRule::evidence ? ByEvidence(problem) : ByLeavingOut(problem);
     chosen.candidate = i;
     if (chosen.criterion < best.criterion) best = std::move(chosen);
   }
   if (rule != StrengthRule::cross_validation) return best;
+  // cross validation takes the simplest of those that are as good as the best
   best = Simplest(std::move(trials), problem.torque.size());
   best.normal = std::move(normals[best.candidate]);
   return best;

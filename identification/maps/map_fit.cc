@@ -25,6 +25,7 @@ std::optional<MapWeights> RepeatedFit::Fit() {
   std::optional<Eigen::VectorXd> x = system_.Solve(normal_);
   if (!x) return std::nullopt;
   MapWeights fit{problem_.free.cols(), std::move(*x), strength_, {}, {}, unseen_};
+  // fitted torque: law by its columns, maps by their weights
   const Eigen::VectorXd weights = fit.x.tail(fit.x.size() - fit.free);
   fit.maps = WithWeights(problem_.maps, weights);
   fit.fitted = problem_.free * fit.x.head(fit.free);
@@ -49,6 +50,7 @@ std::optional<MapWeights> RepeatedFit::To(const Eigen::VectorXd& torque) {
 
 std::optional<Eigen::MatrixXd> RepeatedFit::Solve(const Eigen::MatrixXd& torques) {
   Eigen::MatrixXd all = Products(torques);
+  // the normal matrix stays; each torque has its own products
   for (Eigen::Index k = 0; k < all.cols(); ++k) {
     normal_.product = all.col(k);
     normal_.squares = torques.col(k).squaredNorm();
@@ -91,6 +93,7 @@ std::vector<FrictionMap> WithWeights(std::vector<FrictionMap> maps,
 
 Uncertainty JudgeMaps(const MapProblem& problem, const MapFit& fit) {
   const Eigen::Index d = fit.x.size();
+  // rows of law and kernels for a range of samples
   const auto rows = [&](Eigen::Index first, Eigen::Index last) {
     Eigen::MatrixXd dense(last - first, d);
     dense << problem.free.middleRows(first, last - first),

@@ -37,9 +37,11 @@ MapSettings ReadMapSettings(const Options& options) {
   MapSettings settings;
   settings.law = options.Text("law");
   if (options.Text("kernel") == "plain") settings.kernels = KernelKind::plain;
+  // a width that is given, or those from which one is chosen
   const double width = options.Number("width");
   settings.widths = width > 0 ? std::vector{width} : std::vector{0.7, 1.0, 1.5};
   settings.strength = options.Number("strength");
+  // what chooses width, shape and strength
   const std::string& rule = options.Text("selection");
   if (rule == "loo") settings.rule = StrengthRule::leave_one_out;
   if (rule == "evidence") settings.rule = StrengthRule::evidence;

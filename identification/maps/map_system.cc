@@ -70,6 +70,7 @@ std::optional<Conditions> MapSystem::Bounded(const NormalEquations& normal) cons
   const Eigen::VectorXd after = deviating_->Solve(normal.product);
   Eigen::VectorXd x;
   bool bounded = false;
+  // every bound of a shared column that the fit would cross
   for (size_t i = 0; i < shared_.size(); ++i) {
     const Eigen::Index j = shared_[i], d = after.size();
     const double bound = lower_[static_cast<size_t>(j)];
@@ -93,6 +94,7 @@ std::optional<Eigen::VectorXd> MapSystem::Solve(const NormalEquations& normal) {
     return std::nullopt;
   }
   const std::optional<Conditions> bounded = Bounded(normal);
+  // the factors of the latest bounds serve again as long as the same ones hold
   if (!bounded) {
     latest_ = deviating_;
   } else if (!latest_ || latest_->conditions() != *bounded) {

@@ -15,6 +15,7 @@ constexpr double kChance = 23;
 
 /// Angles times speeds at which the map is averaged, of one direction of motion.
 MapPoints Grid(const FrictionMap& map, int direction) {
+  // speeds of the map in this direction; one where it has none
   std::vector<double> speeds;
   for (const MapAxis& axis : map.axes) {
     if (axis.quantity != MapQuantity::velocity) continue;
@@ -24,6 +25,7 @@ MapPoints Grid(const FrictionMap& map, int direction) {
   }
   if (speeds.empty()) speeds.push_back(direction == 1 ? 1 : -1);
   const auto count = static_cast<Eigen::Index>(speeds.size());
+  // a whole turn at each of them
   MapPoints points = MapPoints::Zero(kAngles * count, 5);
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     const double turn = static_cast<double>(i / count) / kAngles;
@@ -37,6 +39,7 @@ MapPoints Grid(const FrictionMap& map, int direction) {
 
 std::vector<MotorHarmonic> MotorHarmonics(const FrictionMap& map, const Eigen::MatrixXd& covariance,
                                           int direction) {
+  // kernels on the grid, over which sums are Fourier coefficients
   const MapPoints points = Grid(map, direction);
   const Eigen::MatrixXd kernels = DenseKernels({map}, points, 0, points.rows());
   const Eigen::Map<const Eigen::VectorXd> weights(map.weights.data(), kernels.cols());

@@ -32,6 +32,7 @@ std::vector<std::vector<FrictionMap>> MotorMaps(const MotorMapSize& size,
                                                 const MapSettings& settings, JointKind joint,
                                                 const MapPoints& points) {
   std::vector<std::vector<FrictionMap>> candidates;
+  // a map over the motor's turn and speed for each width, and one over the arm where asked for
   for (const double width : settings.widths) {
     std::vector<FrictionMap> maps{{{TurnAxis(MapQuantity::motor_position, size.turn, width),
                                     VelocityAxis(points, size.speed, width)},
@@ -46,6 +47,7 @@ std::vector<std::vector<FrictionMap>> MotorMaps(const MotorMapSize& size,
 void DescribeMotorRipple(const FrictionMap& motor, const Eigen::MatrixXd& covariance,
                          const Measurements& measurements, Fit& fit) {
   for (const int direction : {1, 0}) {
+    // harmonics of one direction that stand out of the noise
     std::vector<std::string> found;
     for (const MotorHarmonic& harmonic :
          DominantHarmonics(MotorHarmonics(motor, covariance, direction))) {

@@ -40,12 +40,14 @@ std::vector<FitParameter> HeatOf(const Fit& warm, const Measurements& m) {
 
 /// Adds the warming, which has no column of its own, and checks the friction against its own heat.
 Fit Complete(const Fit& warm, int rounds, const Measurements& m, Fit fit) {
+  // gain, time constant and start of the warming stay as the fit without these maps has them
   fit.friction.thermal = warm.friction.thermal;
   fit.initial_energy = warm.initial_energy;
   fit.jump_samples = warm.jump_samples;
   if (!GivesFriction(fit)) return fit;
   const std::vector<FitParameter> heat = HeatOf(warm, m);
   Append(heat, fit);
+  // friction that drives itself by its own heat is no model
   const Prediction prediction = PredictFriction(fit.friction, m, fit.Start());
   if (prediction.feeds_itself < m.size()) {
     return Refused(
@@ -70,6 +72,7 @@ Fit Complete(const Fit& warm, int rounds, const Measurements& m, Fit fit) {
 Fit IdentifyOverEnergy(const IdentifierInput& input, MapTask task, const Fit* warm,
                        const MapMaker& maker) {
   const Measurements& m = input.measurements;
+  // the energy that the fit without these maps predicts
   if (warm) task.energy = PredictFriction(warm->friction, m, warm->Start()).energy;
   task.candidates = maker(Kept(PointsOf(m, task.energy), input.selection));
 
@@ -78,14 +81,17 @@ Fit IdentifyOverEnergy(const IdentifierInput& input, MapTask task, const Fit* wa
   int rounds = 1;
   for (; choice && warm && rounds < kMostRounds; ++rounds) {
     task = Settled(task, choice->fit);
+    // the energy by the losses of law and maps together
     const Eigen::VectorXd energy = EnergyOf(task, choice->fit, *warm, m);
     if (!energy.allFinite()) return Refused(task.identifier, Unsolvable());
+    // settled where the energy hardly changes, by its range
     const double change = (energy - task.energy).cwiseAbs().maxCoeff();
     if (change <= kAtRest * Range(energy)) break;
     task.energy = energy;
     choice = ChooseAndFit(input, task);
   }
   if (!choice) return Refused(task.identifier, Unsolvable());
+  // the fit with its errors, given that course of the energy
   Fit fit = AsFit(input, task, choice->fit, JudgeMaps(choice->problem, choice->fit));
   return warm ? Complete(*warm, rounds, m, std::move(fit)) : fit;
 }

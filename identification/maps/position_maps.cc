@@ -38,6 +38,7 @@ std::vector<std::vector<FrictionMap>> PositionMaps(const Options& options,
   const std::string& basis = options.Text("basis");
   const int given = options.Integer("kernels");
   const std::vector<int> counts = given > 0 ? std::vector{given} : std::vector{10, 20, 40, 80, 128};
+  // centres over speed in each direction; none where both directions share the map
   const int speeds = basis == "position"   ? 0
                      : basis == "velocity" ? options.Integer("velocity_kernels")
                                            : 1;

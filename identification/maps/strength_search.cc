@@ -51,6 +51,7 @@ class Curve {
   const StrengthTrial& At(int i) {
     const auto known = trials_.find(i);
     if (known != trials_.end()) return known->second;
+    // squares of each part under the fit to all others
     StrengthTrial trial{strengths_[static_cast<size_t>(i)], true, {}};
     trial.squares.resize(static_cast<Eigen::Index>(parts_.size()));
     for (size_t k = 0; k < parts_.size(); ++k) {

@@ -77,6 +77,7 @@ void AddHeat(const WarmMaps& warm, const Uncertainty& known, const Measurements&
   fit.friction.thermal = warming.thermal();
   fit.initial_energy = warming.initial_energy();
   fit.jump_samples = Behind(warm.gaps);
+  // rows of the heat, with errors that law, maps and warming share
   const std::vector<FitParameter> rows = HeatTable(warming, measurements);
   Append(rows, fit);
   fit.errors.known = WithoutWeights(known, warm.fit);
@@ -100,17 +101,20 @@ void AddRipple(const MapFit& maps, const Uncertainty& known, const Measurements&
 
 std::optional<WarmMaps> FitWarmMaps(const IdentifierInput& input, const MapTask& task,
                                     const InitialEnergy& initial) {
+  // maps as if nothing warmed, then warming and maps in turns, each beside the other
   MapBlock block(input, task);
   if (!block.ChooseBeside({})) return std::nullopt;
   WarmingBlock warming(input, task, initial);
   Visibility visibility(block.Squares(), input.selection.count());
 
+  // what the rounds carry on
   WarmMaps warm;
   std::optional<Thermal> before;
   Eigen::VectorXd energy;  // [N] beside which law and maps are fitted, N.m or N
   AndersonMixing mixing;
   for (warm.rounds = 1; warm.rounds <= kMostRounds; ++warm.rounds) {
     if (!warming.FitBeside(block)) break;
+    // at rest: the warming of this round is that of the last
     const Thermal thermal = warming.fit().thermal();
     warm.converged = before && AtRest(*before, thermal);
     if (warm.converged) break;
@@ -125,6 +129,7 @@ std::optional<WarmMaps> FitWarmMaps(const IdentifierInput& input, const MapTask&
     if (visibility.StaysUnseen()) return warm;
     if (!block.ChooseBeside(energy)) return std::nullopt;
   }
+  // the last round, and how much less it leaves than maps alone
   warm.warming = warming.fit();
   warm.gaps = warming.gaps();
   warm.task = block.Settled();
@@ -165,6 +170,7 @@ Fit AsFit(const IdentifierInput& input, const WarmMaps& warm) {
   fit.end_energy_std = joint.end_energy_std;
   if (!GivesFriction(fit)) return fit;
   AddRipple(warm.fit, known, m, fit);
+  // a friction that drives itself by its own heat is no model
   if (const auto at = PredictFriction(fit.friction, m, fit.Start()).feeds_itself; at < m.size()) {
     return Refused(
         name, Status::inadequate_model,

@@ -56,10 +56,12 @@ bool WarmingBlock::FitBeside(const MapBlock& maps) {
         scale, JumpSpread(gaps_, energy_.cwiseAbs().maxCoeff(), fit_->thermal().time_constant));
     loop = loop.WithJumps(Behind(gaps_));
   }
+  // the fit of warming and rigid part; where it is the first, jumps follow it
   fit_ = FitWarmFriction(loop, level, offsets, kept_, from, initial_, scale, jump_weights);
   if (jumps && first) {
     FitJumps(loop, level, offsets, kept_, gaps_, from, *fit_);
   }
+  // the energy by this warming, beside which the maps are fitted next
   energy_ = loop.Simulate(fit_->parameters(), fit_->thermal(), fit_->initial_energy(),
                           fit_->jump_values())
                 .energy;

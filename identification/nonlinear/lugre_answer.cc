@@ -15,10 +15,12 @@ constexpr double kOutlier = 4;  // standard deviations
 /// Rms of residuals, those beyond kOutlier robust standard deviations left out. [n]
 double RobustRms(std::vector<double> residuals) {
   if (residuals.empty()) return 0;
+  // robust standard deviation, by the median size
   Eigen::VectorXd sizes = Eigen::Map<const Eigen::ArrayXd>(
                               residuals.data(), static_cast<Eigen::Index>(residuals.size()))
                               .abs();
   const double most = kOutlier * MedianInPlace(sizes) / 0.6745;
+  // root mean square of the others
   double squares = 0, count = 0;
   for (const double residual : residuals) {
     if (std::abs(residual) > most) continue;
@@ -47,6 +49,7 @@ Eigen::VectorXd SamplingShift(const IdentifierInput& input, const LugreProblem& 
   const HalvedProblem halved = Halve(input, problem);
   const Eigen::VectorXd full = LugreTorque(problem, fit.solution, fit.loads);
   const Eigen::VectorXd half = LugreTorque(halved.problem, fit.solution, fit.loads);
+  // rows of the samples in the Jacobian
   std::vector<Eigen::Index> row(static_cast<size_t>(full.size()), -1);
   Eigen::Index rows = 0;
   for (Eigen::Index i = 0; i < full.size(); ++i) {
@@ -55,6 +58,7 @@ Eigen::VectorXd SamplingShift(const IdentifierInput& input, const LugreProblem& 
 
   const Eigen::Index n = halved.problem.used.count();
   Eigen::MatrixXd J(n, jacobian.cols());
+  // shift of the torque in deviations, where both grids use the sample
   Eigen::VectorXd error(n);
   Eigen::Index k = 0;
   for (size_t j = 0; j < halved.samples.size(); ++j) {
@@ -63,12 +67,14 @@ Eigen::VectorXd SamplingShift(const IdentifierInput& input, const LugreProblem& 
     J.row(k) = jacobian.row(r);
     error[k++] = (half[static_cast<Eigen::Index>(j)] - full[i]) / (3 * problem.deviation[r]);
   }
+  // the shift of the parameters, by least squares
   return Cofactor(J.transpose() * J) * (J.transpose() * error);
 }
 
 }  // namespace
 
 NoiseOfGroups WeighLugre(const Selection& selection, const LugreFit& fit, LugreProblem& problem) {
+  // residuals at constant speed, and others
   const Eigen::VectorXd residual = fit.residual.cwiseProduct(problem.deviation);
   std::vector<double> kept, others;
   Eigen::Index row = 0;
@@ -80,6 +86,7 @@ NoiseOfGroups WeighLugre(const Selection& selection, const LugreFit& fit, LugreP
   // a handful of samples tells no noise
   const bool few = static_cast<Eigen::Index>(others.size()) < 3 * problem.size();
   noise.others = few ? noise.kept : RobustRms(others);
+  // each sample has the noise of its group, an outlier a larger one
   const double least = 1e-12 * problem.torque.cwiseAbs().maxCoeff();
   row = 0;
   for (Eigen::Index i = 0; i < problem.used.keep.size(); ++i) {
@@ -94,12 +101,14 @@ NoiseOfGroups WeighLugre(const Selection& selection, const LugreFit& fit, LugreP
 
 LugreAnswer JudgeLugre(const IdentifierInput& input, const LugreProblem& problem, LugreFit fit) {
   LugreAnswer answer;
+  // a parameter that is held has no row among the errors
   for (Eigen::Index i = 0, row = 0; i < problem.size(); ++i) {
     answer.rows.push_back(problem.IsConstant(i) ? -1 : row++);
   }
   const Eigen::MatrixXd jacobian = FreeColumns(problem, fit.jacobian);
   answer.known = JudgeUncertainty(jacobian, Cofactor(jacobian.transpose() * jacobian), fit.residual,
                                   problem.used);
+  // the sampling's error beside that of the noise
   const Eigen::VectorXd shift = SamplingShift(input, problem, fit, jacobian);
 
   answer.known.covariance += shift * shift.transpose();

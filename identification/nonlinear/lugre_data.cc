@@ -19,6 +19,7 @@ Mask Rests(const Measurements& m) {
   const double most = MeasureVelocity(m).Rest();
   Mask rests = Mask::Constant(m.size(), false);
   for (Index i = 0; i < m.size();) {
+    // a rest is long enough a run that hardly moves
     Index end = i;
     while (end < m.size() && std::abs(m.velocity[end]) <= most) ++end;
     if (end - i >= kRest) rests.segment(i, end - i) = true;
@@ -58,6 +59,7 @@ Eigen::VectorXd Acceleration(const Eigen::VectorXd& time, const Eigen::VectorXd&
   const Index n = time.size();
   Eigen::VectorXd acceleration = Eigen::VectorXd::Zero(n);
   for (Index i = 0; i < n; ++i) {
+    // at the ends of a recording the difference is one-sided
     const bool first = i == 0 || std::binary_search(starts.begin(), starts.end(), i);
     const bool last = i + 1 == n || std::binary_search(starts.begin(), starts.end(), i + 1);
     const Index before = first ? i : i - 1, after = last ? i : i + 1;
@@ -71,6 +73,7 @@ Eigen::VectorXd Acceleration(const Eigen::VectorXd& time, const Eigen::VectorXd&
 LugreProblem ProblemOn(const Grid& grid, const IdentifierInput& input, const FallingLaw& law,
                        const Mask& used, double scale) {
   const Measurements& m = input.measurements;
+  // rests stand still, and constant speed has no acceleration
   const Eigen::VectorXd still = Rests(m).select(0.0, m.velocity.array());
   const Eigen::VectorXd time = m.time(grid.samples);
   Eigen::VectorXd acceleration = Acceleration(time, m.velocity(grid.samples), grid.starts);
@@ -105,6 +108,7 @@ LugreProblem MakeLugreProblem(const IdentifierInput& input, const FallingLaw& la
     while (last > first && !keep[last]) --last;
     if (first > last) continue;
     const Index n = last - first + 1;
+    // samples of rests are left out unless they are kept
     used.segment(first, n) = keep.segment(first, n) || !rests.segment(first, n);
   }
   return ProblemOn(EverySample(m, 1), input, law, used, scale);
@@ -121,6 +125,7 @@ Selection SteadySamples(const IdentifierInput& input, double distance) {
   const Eigen::VectorXd& v = m.velocity;
   Selection steady{Mask::Constant(m.size(), false), {}};
   double way = 0;  // since the last turn
+  // bristles are steady some presliding distances behind a turn, where the speed hardly changes
   for (Index i = 1; i + 1 < m.size(); ++i) {
     way = v[i] * v[i - 1] > 0 ? way + 0.5 * std::abs(v[i] + v[i - 1]) * (m.time[i] - m.time[i - 1])
                               : 0;

@@ -30,6 +30,7 @@ class Residuals {
   template <typename T>
   bool operator()(const T* x, T* residuals) const {
     using std::isfinite;
+    // the bristles move along the whole log, residuals are of the samples that are used
     const std::vector<T> torque = FollowLugre<L>(problem_, x).torque;
     Eigen::Index row = 0;
     for (size_t k = 0; k < torque.size(); ++k) {
@@ -103,11 +104,13 @@ void Complete(const LugreProblem& problem, LugrePoint& point) {
   const Eigen::Index n = problem.used.count();
   double& inertia = point.x[problem.inertia()];
   inertia = 0;
+  // what is left without inertia
   Eigen::VectorXd r(n);
   point.squares = kInfinity;
   if (!ResidualsAt(problem, point.x, r.data())) return;
   point.squares = r.squaredNorm();
   if (problem.IsConstant(problem.inertia())) return;
+  // the torque is linear in the inertia: its best value, but not below 0
   const Eigen::VectorXd a =
       Kept(problem.acceleration, problem.used).cwiseQuotient(problem.deviation);
   const double best = -a.dot(r) / a.squaredNorm();
@@ -120,12 +123,14 @@ void Complete(const LugreProblem& problem, LugrePoint& point) {
 /// best: steps of Gauss and Newton, with ks within 1 and 3 kc as starts are.
 void CompleteLevels(const LugreProblem& problem, LugrePoint& point) {
   constexpr int kSteps = 2;
+  // levels of the law, and the inertia where it is free
   std::vector<Eigen::Index> linear;
   for (Eigen::Index i = 0; i < problem.law->levels(); ++i) linear.push_back(i);
   if (!problem.IsConstant(problem.inertia())) linear.push_back(problem.inertia());
   Eigen::VectorXd r(problem.used.count());
   RowMajor jacobian(r.size(), problem.size());
   for (int step = 0; step < kSteps; ++step) {
+    // one step of least squares at fixed stiffness, damping and vs
     if (!DerivativesAt(problem, point.x, r, jacobian)) break;
     const Eigen::MatrixXd J = jacobian(Eigen::all, linear);
     const Eigen::VectorXd change = SolveLeastSquares(J, -r).solution;
@@ -134,6 +139,7 @@ void CompleteLevels(const LugreProblem& problem, LugrePoint& point) {
     for (size_t i = 0; i < linear.size(); ++i) {
       next.x[linear[i]] += change[static_cast<Eigen::Index>(i)];
     }
+    // outside of the law's bounds no step goes on
     if (!next.x.allFinite() || !(problem.law->coulomb(next.x.data()) > 0)) break;
     problem.law->keep(next.x.data(), 1, 3);
     next.x[problem.inertia()] = std::max(0.0, next.x[problem.inertia()]);
@@ -166,10 +172,13 @@ std::vector<LugrePoint> ScanBristle(
   if (!(shortest > 0) || !(longest > shortest)) return points;
   const double step = MedianStep(m.time);
   for (int i = 0; i < kDistances; ++i) {
+    // presliding distances, evenly in the logarithm, each with the steady curve beyond it
     const double distance = shortest * std::pow(longest / shortest, i / (kDistances - 1.0));
     const std::optional<Eigen::VectorXd> curve = steady(distance);
     if (!curve) continue;
+    // static torque bends the bristles by the distance
     const double stiffness = problem.law->at_rest(curve->data()) / distance;
+    // without damping, and with some by which bristles relax within one step or ten
     for (const double times : {0.0, 1.0, 10.0}) {
       if (times > 0 && problem.IsConstant(problem.damping())) continue;
       LugrePoint point{Eigen::VectorXd(problem.size())};
@@ -186,6 +195,7 @@ std::vector<LugrePoint> ScanFall(const LugreProblem& problem, const LugrePoint& 
   std::vector<LugrePoint> points;
   for (int i = 0; i < kVelocities; ++i) {
     LugrePoint other = point;
+    // vs from the fastest speed to a thousandth of it
     other.x[problem.log_vs()] = std::log(fastest) - std::log(1000) * i / (kVelocities - 1.0);
     problem.law->keep(other.x.data(), kFall, kFall);
     CompleteLevels(problem, other);
@@ -200,6 +210,7 @@ LugreFit RefineLugre(const LugreProblem& problem, const LugrePoint& start) {
     Eigen::VectorXd x = start.x;
     const auto solution = SolveByCeres<kSize<L>>(
         std::make_unique<Cost<L>>(new Residuals<L>(problem), n), problem.constant, x.data());
+    // residuals as measured less fitted, and the load of the bristles from which each recording starts
     LugreFit fit;
     fit.converged = solution.converged;
     fit.residual = -solution.residuals;
@@ -217,6 +228,7 @@ Eigen::VectorXd LugreTorque(const LugreProblem& problem, const LugrePoint& point
     const auto p = LugreValues<L>(point.x.data());
     Eigen::VectorXd torque = point.x[problem.inertia()] * problem.acceleration;
     size_t recording = 0;
+    // each recording from its own load
     for (Eigen::Index first = 0, end = 0; first < n; first = end) {
       end = problem.EndOfRecording(first);
       const LugreRun<L, double> run(problem.motion, first, end, p, loads[recording++]);

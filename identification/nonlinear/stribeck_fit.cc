@@ -38,12 +38,14 @@ class Residuals {
     using std::exp;
     using std::isfinite;
     const Measurements& m = problem_.measurements;
+    // the law's parameters, vs by its logarithm
     std::array<T, L::parameters.size()> law;
     std::copy_n(x, kLogVs, law.begin());
     law[kLogVs] = exp(x[kLogVs]);
     law[kLogVs + 1] = T(problem_.exponent);
     const std::vector<ThermalHold<T>> holds = HoldsOf(x);
     T energy(0);
+    // friction with the heat that all samples before have left
     for (Eigen::Index i = 0; i < m.size(); ++i) {
       const double v = m.velocity[i];
       T force = L::Force(v, law.data());
@@ -88,6 +90,7 @@ StribeckFit Refine(const StribeckProblem& problem, const StribeckPoint& start) {
   Eigen::VectorXd x = start.x;
   const auto solution =
       SolveByCeres<P>(std::make_unique<Cost>(new Residuals<L, W>(problem), n), {}, x.data());
+  // back from shares of the scale to torque
   StribeckFit fit;
   fit.converged = solution.converged;
   fit.jacobian = problem.scale * solution.jacobian;
@@ -102,6 +105,7 @@ Eigen::MatrixXd LinearColumns(const StribeckProblem& problem, double velocity) {
   const Eigen::VectorXd& v = problem.measurements.velocity;
   const Eigen::Index levels = problem.law.levels();
   Eigen::MatrixXd columns(v.size(), levels);
+  // the force with one of them at 1 and the others at 0
   for (Eigen::Index j = 0; j < levels; ++j) {
     Eigen::VectorXd p(levels + 2);
     p << Eigen::VectorXd::Unit(levels, j), velocity, problem.exponent;
@@ -117,6 +121,7 @@ std::optional<StribeckPoint> StartAt(const StribeckProblem& problem, double velo
   const Eigen::MatrixXd columns = LinearColumns(problem, velocity);
   const Eigen::MatrixXd kept = Kept(columns, problem.selection);
   const Eigen::VectorXd torque = Kept(m.torque, problem.selection);
+  // law at this vs, without warming; its columns must differ
   const LeastSquares cold = SolveLeastSquares(kept, torque, 1e-3);
   if (cold.rank < columns.cols()) return std::nullopt;
 
@@ -127,6 +132,7 @@ std::optional<StribeckPoint> StartAt(const StribeckProblem& problem, double velo
     point.squares = (torque - kept * cold.solution).squaredNorm();
   } else {
     const ClosedLoop loop = ClosedLoop::Along(m, columns);
+    // with warming: the time constant that explains most beside these columns
     const Eigen::VectorXd level = loop.direction().cwiseProduct(m.torque);
     const Eigen::VectorXd weight = problem.selection.keep.cast<double>();
     const WarmStart start = ScanTimeConstant(loop, level, weight);
@@ -135,6 +141,7 @@ std::optional<StribeckPoint> StartAt(const StribeckProblem& problem, double velo
     const Eigen::VectorXd force = loop.Simulate(start.parameters, start.thermal).force;
     point.squares = (torque - Kept(force, problem.selection)).squaredNorm();
   }
+  // vs stands by its logarithm
   point.x[columns.cols()] = std::log(velocity);
   if (!point.x.allFinite() || !std::isfinite(point.squares)) return std::nullopt;
   return point;
@@ -147,6 +154,7 @@ std::vector<StribeckPoint> ScanStribeckVelocity(const StribeckProblem& problem) 
       Kept(problem.measurements.velocity, problem.selection).col(0).array().abs();
   const double fastest = speed.maxCoeff();
   const double slowest = (speed > 0).select(speed, fastest).minCoeff();
+  // vs from a third of the slowest speed up to the fastest
   const double from = std::max(slowest / 3, 1e-4 * fastest);
   std::vector<StribeckPoint> points;
   for (int i = 0; i < kVelocities; ++i) {

@@ -47,6 +47,7 @@ void FollowPositions(const Measurements& m, const SampleRange& piece, double cle
   const Index end = piece.first + piece.count;
   for (Index i = piece.first; i < end; ++i) {
     if (!(std::abs(m.velocity[i]) > clear)) continue;
+    // the longest stretch that keeps its direction and stays clearly away from rest
     const Index first = i;
     while (i + 1 < end && std::abs(m.velocity[i + 1]) > clear &&
            m.velocity[i + 1] * m.velocity[first] > 0) {
@@ -72,6 +73,7 @@ BetweenSamples MeansBetween(const Measurements& m, const std::vector<SampleRange
                             double clear) {
   BetweenSamples between{m.velocity.cwiseAbs(), m.velocity};
   const bool has_positions = m.position.size() == m.size() && m.position.allFinite();
+  // straight lines between the velocities, scaled to the way that the positions tell; what rest hides last
   for (const SampleRange& piece : pieces) {
     for (Index i = piece.first; i + 1 < piece.first + piece.count; ++i) {
       TakeLine(m.velocity, i, between);

@@ -21,6 +21,7 @@ SamplingCheck CheckSampling(const VectorXd& time, double step) {
   check.step = step;
   check.rate = 1 / step;
 
+  // steps within the recording tell the jitter; longer ones are gaps
   double squares = 0;
   for (Index i = 1; i < n; ++i) {
     const double taken = time[i] - time[i - 1];
@@ -31,6 +32,7 @@ SamplingCheck CheckSampling(const VectorXd& time, double step) {
       squares += (taken - step) * (taken - step);
     }
   }
+  // jitter in steps: root mean square of what a step differs from the median one
   const auto steps = static_cast<double>(std::max<Index>(n - 1 - check.gaps, 1));
   check.jitter = std::sqrt(squares / steps) / step;
   return check;
@@ -45,10 +47,12 @@ std::vector<SpeedLevel> Levels(std::vector<Segment> segments) {
   for (const Segment& segment : segments) {
     const Index samples = segment.end - segment.begin;
     const bool is_new = levels.empty() || segment.velocity - first > 0.05 * std::abs(first);
+    // a new level begins where the speed has grown by 5 %
     if (is_new) {
       levels.push_back({0, 0, 0});
       first = segment.velocity;
     }
+    // the mean speed of the level, weighted by samples
     SpeedLevel& level = levels.back();
     const auto before = static_cast<double>(level.samples), added = static_cast<double>(samples);
     level.velocity = (before * level.velocity + added * segment.velocity) / (before + added);
@@ -62,11 +66,13 @@ MotionCheck CheckMotion(const Measurements& measurements, const VelocityScale& s
                         const Selection& selection) {
   const auto n = static_cast<double>(measurements.size());
   MotionCheck check;
+  // shares of the samples that identification uses, and at rest
   check.constant_share = static_cast<double>(selection.count()) / n;
   const auto resting = (measurements.velocity.array().abs() <= scale.Rest()).count();
   check.rest_share = static_cast<double>(resting) / n;
   check.segments = static_cast<int>(selection.segments.size());
   check.levels = Levels(selection.segments);
+  // travel, and what the velocity itself leaves unknown
   check.lower = measurements.position.minCoeff();
   check.upper = measurements.position.maxCoeff();
   check.speed_noise = scale.noise;
@@ -80,10 +86,12 @@ RecordingCheck CheckRecording(const PreparedLog& log) {
   const auto& [measurements, selection] = log.taken();
   const VelocityScale scale = MeasureVelocity(measurements);
   RecordingCheck check;
+  // what was read
   check.source = measurements.source;
   check.joint = measurements.joint;
   check.torque_unit = measurements.torque_unit;
   check.notes = measurements.notes;
+  // what was measured, and what that lets the user identify
   check.sampling = CheckSampling(measurements.time, scale.step);
   check.motion = CheckMotion(measurements, scale, selection);
   check.faults = log.faults();

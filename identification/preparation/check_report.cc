@@ -45,6 +45,7 @@ std::string MotionLine(const MotionCheck& motion, std::string_view length_unit) 
 /// "positive    16 segments: 8 at 0.0421, 4 at 0.0826, 4 at 0.125 m/s", "negative    1 segment, at 0.5 rad/s"
 std::string DirectionLine(const MotionCheck& motion, int sign, std::string_view unit) {
   constexpr std::size_t most = 12;  // speeds listed
+  // levels of this direction, those of negative speed turned so that the slowest comes first
   int segments = 0;
   std::vector<std::string> speeds, parts;
   for (const SpeedLevel& level : motion.levels) {
@@ -53,11 +54,13 @@ std::string DirectionLine(const MotionCheck& motion, int sign, std::string_view 
     speeds.push_back(fmt::format("{:.3g}", std::abs(level.velocity)));
     parts.push_back(fmt::format("{} at {}", level.segments, speeds.back()));
   }
+  // the slowest first
   if (sign < 0) {
     std::reverse(speeds.begin(), speeds.end());
     std::reverse(parts.begin(), parts.end());
   }
 
+  // as many words as there are speeds
   const std::string name = sign > 0 ? "positive" : "negative";
   if (segments == 0) return fmt::format("{}    none\n", name);
   const std::string counted =
@@ -73,6 +76,7 @@ std::string DirectionLine(const MotionCheck& motion, int sign, std::string_view 
 
 std::string CheckToText(const RecordingCheck& check) {
   const std::string_view speed_unit = kVelocityUnit.For(check.joint);
+  // what was recorded, and what the motion shows
   std::string text =
       fmt::format("recording   {}: {} joint, torque in {}\n", check.source,
                   check.joint == JointKind::rotary ? "rotary" : "linear", check.torque_unit);
@@ -82,12 +86,14 @@ std::string CheckToText(const RecordingCheck& check) {
   text += TurnsLine(check);
   text += DirectionLine(check.motion, 1, speed_unit);
   text += DirectionLine(check.motion, -1, speed_unit);
+  // how well the velocity is known
   text += fmt::format("noise       {:.2g} {} around constant speeds", check.motion.speed_noise,
                       speed_unit);
   if (check.motion.speed_resolution > 0) {
     text += fmt::format("; velocity comes in steps of {:.3g}", check.motion.speed_resolution);
   }
   text += "\n";
+  // faults, then each kind of friction with the reason for the verdict
   for (const std::string& fault : check.faults) text += fmt::format("fault       {}\n", fault);
   text += check.faults.empty() ? "can be identified\n" : "could be identified without the faults\n";
   for (const Excitation& excitation : check.excitation) {
@@ -100,6 +106,7 @@ std::string CheckToText(const RecordingCheck& check) {
 json CheckToJson(const RecordingCheck& check) {
   const SamplingCheck& sampling = check.sampling;
   const MotionCheck& motion = check.motion;
+  // lists of the speed levels and of the verdicts
   json levels = json::array();
   for (const SpeedLevel& level : motion.levels) {
     levels.push_back(

@@ -45,6 +45,7 @@ std::vector<Index> RowsOf(const LogView& all, Index together) {
   const double longest = LongestStep(m.time), way = LongestWay(m);
   std::vector<Index> first{0};
   size_t next = 0;  // recording
+  // a row ends where the motion, the segment or the recording does
   for (Index i = 1; i < m.size(); ++i) {
     const bool starts = next < m.starts.size() && m.starts[next] == i;
     if (starts) ++next;
@@ -52,6 +53,7 @@ std::vector<Index> RowsOf(const LogView& all, Index together) {
     const bool alike = keep[i] == keep[begin] && segment[i] == segment[begin] &&
                        Direction(m.velocity[i]) == Direction(m.velocity[begin]) &&
                        m.time[i] - m.time[i - 1] <= longest;
+    // kept samples of one row stay close to each other; what lies between segments may spread
     const bool near = std::abs(m.position[i] - m.position[begin]) <= way || !keep[i];
     if (starts || !alike || !near || i - begin >= together) first.push_back(i);
   }
@@ -64,6 +66,7 @@ std::vector<Index> RowsOf(const LogView& all, Index together) {
 CondensedLog Condense(const LogView& all, Index rows) {
   const Index together = (all.selection.count() + rows - 1) / rows;
   if (together <= 1) {
+    // few enough samples: each is its own row
     std::vector<Index> each(static_cast<size_t>(all.measurements.size()) + 1);
     std::iota(each.begin(), each.end(), 0);
     return {all, std::move(each)};
@@ -86,9 +89,11 @@ CondensedLog Condense(const LogView& all, Index rows) {
   const auto row = [&](Index sample) {
     return std::lower_bound(first.begin(), first.end(), sample) - first.begin();
   };
+  // the samples of a row are kept or left out together
   view.selection.keep.resize(count);
   for (Index r = 0; r < count; ++r) view.selection.keep[r] = all.selection.keep[first[r]];
   for (Index& start : view.measurements.starts) start = row(start);
+  // gaps are those of the samples themselves
   view.measurements.gaps = GapsOf(all.measurements.time);
   for (LogGap& gap : *view.measurements.gaps) gap.behind = row(gap.behind);
   for (Segment& one : view.selection.segments) {

@@ -45,13 +45,16 @@ Eigen::VectorXd Interpolate(const Eigen::VectorXd& time, const Eigen::VectorXd& 
 Eigen::VectorXd DerivePiece(const Eigen::VectorXd& time, const Eigen::VectorXd& position,
                             double cutoff) {
   const Eigen::Index n = time.size();
+  // too few samples for a filter: one slope
   if (n < 3) {
     const double moved = position[n - 1] - position[0];
     return Eigen::VectorXd::Constant(n, n == 1 ? 0 : moved / (time[1] - time[0]));
   }
   const double rate = SamplingRate(time);
+  // a cutoff near half the rate filters nothing
   if (cutoff > 0.4 * rate) return Differences(time, position);
 
+  // evenly sampled positions are filtered as they are, others on an even grid and back
   const std::vector<Biquad> filter = ButterworthLowPass(4, cutoff, rate);
   const Eigen::VectorXd steps = time.tail(n - 1) - time.head(n - 1);
   if ((steps.array() * rate - 1).abs().maxCoeff() <= 0.01) {
@@ -67,9 +70,11 @@ Eigen::VectorXd DerivePiece(const Eigen::VectorXd& time, const Eigen::VectorXd& 
 Eigen::VectorXd DeriveVelocity(const Eigen::VectorXd& time, const Eigen::VectorXd& position,
                                double cutoff) {
   const Eigen::Index n = time.size();
+  // piece by piece: nothing is known of the motion in a gap
   const double longest = LongestStep(time);  // s
   Eigen::VectorXd velocity(n);
   for (Eigen::Index begin = 0, end = 1; begin < n; begin = end++) {
+    // up to the next step that is a gap
     while (end < n && time[end] - time[end - 1] <= longest) ++end;
     velocity.segment(begin, end - begin) =
         DerivePiece(time.segment(begin, end - begin), position.segment(begin, end - begin), cutoff);
@@ -91,8 +96,10 @@ double ChooseCutoff(const Eigen::VectorXd& time, const Eigen::VectorXd& position
       (position.tail(n - lag) - position.head(n - lag)) * (rate / static_cast<double>(lag));
   const double speed = std::sqrt(slope.squaredNorm() / static_cast<double>(slope.size()));
 
+  // white noise, or the rounding to steps of the encoder
   const double noise = std::max(WhiteNoise(position), Resolution(position) / std::sqrt(12.0));
   if (noise == 0) return highest;
+  // below a cutoff f white noise leaves the velocity a variance of (2 pi noise)^2 2 f^3 / (3 rate)
   const double ratio = accepted_noise * speed / (2 * std::numbers::pi * noise);
   const double cutoff = std::cbrt(1.5 * ratio * ratio * rate);
   return std::clamp(cutoff, std::min(lowest * rate, highest), highest);

@@ -62,6 +62,7 @@ Judged Coulomb(const ShownMotion& e) {
 
 Judged ViscousCoulomb(const ShownMotion& e) {
   if (e.motion.segments == 0) return {false, Coulomb(e).reason};
+  // slope and level need two speeds
   const double ratio = e.fastest() / e.slowest();
   if (ratio > 1.1) {
     return {true,
@@ -75,10 +76,12 @@ Judged ViscousCoulomb(const ShownMotion& e) {
 
 Judged Asymmetric(const ShownMotion& e) {
   if (e.motion.segments == 0) return {false, Coulomb(e).reason};
+  // both directions, since the difference between them is what is asked for
   if (!e.both_directions()) {
     return {false, fmt::format("all segments move in the {} direction; record both",
                                e.positive.levels > 0 ? "positive" : "negative")};
   }
+  // three unknowns: a second speed in one direction at least
   if (e.positive.levels < 2 && e.negative.levels < 2) {
     return {false,
             "each direction has one speed, so that the slope and the two levels cannot be told "
@@ -89,6 +92,7 @@ Judged Asymmetric(const ShownMotion& e) {
 
 Judged Stribeck(const ShownMotion& e) {
   if (e.motion.segments == 0) return {false, Coulomb(e).reason};
+  // the drop near rest shows only in speeds that lie far below the others
   const int levels = std::max(e.positive.levels, e.negative.levels);
   if (levels >= 5 && e.slowest() <= 0.05 * e.fastest()) {
     return {true, fmt::format("{} speeds, the slowest {:.2g} of the fastest", levels,
@@ -103,12 +107,14 @@ Judged Stribeck(const ShownMotion& e) {
 Judged WarmUp(const ShownMotion& e) {
   constexpr double shortest = 180;  // s; joints warm with time constants of minutes
   if (e.motion.segments == 0) return {false, Coulomb(e).reason};
+  // a log as long as a time constant
   if (e.sampling.duration < shortest) {
     return {false,
             fmt::format("the log lasts {:.3g} s and joints warm with time constants of minutes; "
                         "record at least {:.0f} s, better 20 min, from a cold start",
                         e.sampling.duration, shortest)};
   }
+  // two speeds: the loss, and with it the heat, must vary
   if (e.fastest() < 1.1 * e.slowest()) {
     return {false, "one speed alone warms the joint at one rate; record a second speed"};
   }
@@ -120,6 +126,7 @@ Judged WarmUp(const ShownMotion& e) {
 
 Judged Ripple(const ShownMotion& e) {
   if (e.motion.segments == 0) return {false, Coulomb(e).reason};
+  // shortest period seen at the fastest speed: four samples on each
   const double finest = 4 * e.fastest() * e.sampling.step;
   const double travel = e.motion.upper - e.motion.lower;
   if (travel < 4 * finest) {
@@ -139,6 +146,7 @@ Judged MotorRipple(const ShownMotion& e) {
   }
   const double turns =
       (e.motion.upper - e.motion.lower) * gear / (2 * std::numbers::pi);  // of the motor
+  // the log must show a whole turn, and each turn four samples
   const double per_turn = 2 * std::numbers::pi / (gear * e.fastest() * e.sampling.step);
   if (e.motion.segments == 0) return {false, Coulomb(e).reason};
   if (turns < 1 || per_turn < 4) {
@@ -177,6 +185,7 @@ std::vector<Excitation> JudgeExcitation(const Measurements& measurements,
                              kPositionUnit.For(measurements.joint),
                              SpeedsWithSign(motion, 1),
                              SpeedsWithSign(motion, -1)};
+  // each kind of friction by a rule of its own
   std::vector<Excitation> all;
   for (const Kind& one : kKinds) {
     Judged judged = one.judge(evidence);

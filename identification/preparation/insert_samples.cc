@@ -12,6 +12,7 @@ template <typename Column>
 Column Filled(const Column& column, const std::vector<InsertedSample>& inserted) {
   Column filled(column.size() + static_cast<Index>(inserted.size()));
   Index from = 0, to = 0;
+  // all up to the sample in front, then a copy of the one behind it
   for (const InsertedSample& one : inserted) {
     const Index count = one.after + 1 - from;
     filled.segment(to, count) = column.segment(from, count);

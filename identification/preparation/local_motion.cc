@@ -45,6 +45,7 @@ struct Window {
 
 /// time: [n] s, of the window's samples; middle: s.
 Window WindowOf(const VectorXd& time, double middle, const Series& series) {
+  // powers of the time from the middle, scaled to 1 at the ends of the window
   const Index degree = series.Degree(time.size() / 2);
   const double reach = (time.array() - middle).abs().maxCoeff();
   MatrixXd powers(time.size(), degree + 1);
@@ -52,6 +53,7 @@ Window WindowOf(const VectorXd& time, double middle, const Series& series) {
   for (Index k = 1; k <= degree; ++k) {
     powers.col(k) = powers.col(k - 1).cwiseProduct((time.array() - middle).matrix() / reach);
   }
+  // an orthonormal basis of them, and what turns values into coefficients
   const Eigen::HouseholderQR<MatrixXd> qr(powers);
   const MatrixXd basis = qr.householderQ() * MatrixXd::Identity(time.size(), powers.cols());
   const MatrixXd coefficients =
@@ -81,6 +83,7 @@ struct Scale {
 
 Scale ScaleOf(const Measurements& m, const std::vector<SampleRange>& pieces, const Series& series,
               Index half_width) {
+  // windows over even time stamps share one basis
   const Index n = 2 * half_width + 1;
   const double step = MedianStep(m.time);
   const VectorXd steps = step * VectorXd::LinSpaced(n, 0, static_cast<double>(n - 1));
@@ -91,6 +94,7 @@ Scale ScaleOf(const Measurements& m, const std::vector<SampleRange>& pieces, con
               VectorXd::Zero(m.size()),
               VectorXd::Zero(m.size()),
               VectorXd::Constant(m.size(), std::numeric_limits<double>::infinity())};
+  // each sample with a whole window around it
   for (const SampleRange& piece : pieces) {
     const bool is_even = IsEven(m.time, piece, step);
     for (Index i = piece.first + half_width; i + half_width < piece.first + piece.count; ++i) {
@@ -145,10 +149,12 @@ VectorXd ChangesOf(const LocalMotion& motion, const std::vector<SampleRange>& pi
 KnownSamples AwayFromCorners(const KnownSamples& known, const VectorXd& changes, double rms,
                              double noise) {
   VectorXd ordered = changes;
+  // a change beyond what smooth motion and noise make is a corner
   const double most =
       std::max({kJump * rms, kBeyondMedian * MedianInPlace(ordered), kDeviations * noise});
   const KnownSamples straight = known && changes.array() <= most;
   KnownSamples away = straight;
+  // neighbours of a corner are left out as well
   const Index pairs = std::max<Index>(away.size() - 1, 0);
   away.head(pairs) = away.head(pairs) && straight.tail(pairs);
   away.tail(pairs) = away.tail(pairs) && straight.head(pairs);
@@ -158,6 +164,7 @@ KnownSamples AwayFromCorners(const KnownSamples& known, const VectorXd& changes,
 double StepOfVelocity(const VectorXd& velocity) {
   const double step = Resolution(velocity);
   if (step == 0) return 0;
+  // changes that the next one repeats belong to a ramp, not to a resolution
   Index changes = 0, again = 0;
   for (Index i = 1; i + 1 < velocity.size(); ++i) {
     const double change = velocity[i] - velocity[i - 1];
@@ -192,9 +199,11 @@ LocalMotion FollowLocally(const Measurements& m, const std::vector<SampleRange>&
   motion.known.setConstant(m.size(), false);
   for (auto scale = scales.rbegin(); scale != scales.rend(); ++scale) {
     const double noise = std::max(series.noise, kAcceptedNoise * rms / scale->gain);
+    // squares of a polynomial that follows the motion, beyond which chance rarely goes
     const double most = noise * noise *
                         boost::math::quantile(boost::math::complement(
                             boost::math::chi_squared(scale->freedom), kByChance));
+    // the first window to pass is the widest, and it stays
     for (Index i = 0; i < m.size(); ++i) {
       if (motion.known[i] || !(scale->squares[i] <= most)) continue;
       motion.known[i] = true;

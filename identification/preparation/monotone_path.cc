@@ -15,8 +15,10 @@ std::vector<Index> TurningPoints(const VectorXd& p, double hysteresis) {
   Index high = 0, low = 0;
   int direction = 0;
   for (Index i = 1; i < p.size(); ++i) {
+    // the extremes since the last turning point
     if (p[i] > p[high]) high = i;
     if (p[i] < p[low]) low = i;
+    // a way back beyond the hysteresis shows that the extreme before it was a turn
     if (direction >= 0 && p[high] - p[i] > hysteresis) {
       if (direction > 0 || high > 0) turns.push_back(high);
       direction = -1;
@@ -27,6 +29,7 @@ std::vector<Index> TurningPoints(const VectorXd& p, double hysteresis) {
       low = high = i;
     }
   }
+  // the last sample ends the last stretch
   if (turns.back() != p.size() - 1) turns.push_back(p.size() - 1);
   return turns;
 }
@@ -51,17 +54,20 @@ void MakeMonotone(const VectorXd& time, VectorXd& p, Index first, Index last, do
   std::vector<Pool> pools;
   for (Index i = first; i <= last; ++i) {
     pools.push_back({time[i], sign * p[i], 1});
+    // neighbours in the wrong order become one run of their mean
     while (pools.size() > 1 && pools[pools.size() - 2].Mean() >= pools.back().Mean()) {
       const Pool behind = pools.back();
       pools.pop_back();
       pools.back().Add(behind);
     }
   }
+  // straight lines between the middles of the runs, level before the first and behind the last
   size_t k = 0;
   for (Index i = first; i <= last; ++i) {
     while (k + 1 < pools.size() && pools[k + 1].Middle() <= time[i]) ++k;
     const double from = pools[k].Middle();
     double value = pools[k].Mean();
+    // between two runs by the share of the time that has passed
     if (k + 1 < pools.size() && time[i] > from) {
       const double share = (time[i] - from) / (pools[k + 1].Middle() - from);
       value += share * (pools[k + 1].Mean() - value);

@@ -83,9 +83,11 @@ class RecordingMotion {
   /// The speed from sample to sample, from `first` to `last`.
   void FollowSamples(Index first, Index last) {
     for (Index begin = first; begin < last;) {
+      // one piece without gaps
       Index end = begin;
       while (end < last && found_.time[end + 1] - found_.time[end] <= found_.longest) ++end;
       if (end > begin) {
+        // noise moves the path back and forth, the joint does not
         const double hysteresis = kHysteresis * found_.noise.reach;
         const VectorXd path =
             MonotonePath(found_.time.segment(begin, end - begin + 1),
@@ -101,6 +103,7 @@ class RecordingMotion {
 
   /// The speed along a change of speed, with samples put in where it is not even between two.
   void FollowChange(const SpeedChange& change, Index first, Index last) {
+    // corners of the ramp, and where it reverses
     std::vector<double> corners;
     const int pieces = change.duration > 0 ? kPiecesOfRamp : 1;
     for (int k = 0; k <= pieces; ++k) {
@@ -111,6 +114,7 @@ class RecordingMotion {
     std::ranges::sort(corners);
 
     size_t next = 0;
+    // one speed for each step, or for each of its parts where corners lie within it
     for (Index i = first; i < last; ++i) {
       const double h = found_.time[i + 1] - found_.time[i];
       double from = found_.time[i];
@@ -136,6 +140,7 @@ class RecordingMotion {
   void CountUnseen(const SpeedChange& change, Index first, Index last) {
     const double v0 = change.before.velocity, v1 = change.behind.velocity;
     if (change.duration > 0 || v0 * v1 >= 0) return;
+    // a ramp without samples reaches to the nearer sample at most
     Index behind = first;
     while (behind < last && found_.time[behind] < change.time) ++behind;
     const double nearest = std::min(found_.time[behind] - change.time,
@@ -158,6 +163,7 @@ PositionMotion MotionFromPositions(const Measurements& measurements, const Selec
   PositionMotion motion{measurements, {selection.keep, {}}, 0};
   std::vector<InsertedSample> inserted;
   double unseen = 0;
+  // each recording on its own: its plateaus, the ways between them, and the samples put in
   for (const auto& [first, count] : RecordingsOf(measurements)) {
     const SampleRange range{first, count};
     const RecordingMotion one(measurements, FindPlateaus(measurements, selection, rests, range),
@@ -172,6 +178,7 @@ PositionMotion MotionFromPositions(const Measurements& measurements, const Selec
 
   const Measurements& m = motion.measurements;
   const Index steps = m.size() - 1;
+  // the part that a drive may not have travelled, as a share of the whole path
   const double path =
       m.velocity.head(steps).cwiseAbs().dot(m.time.tail(steps) - m.time.head(steps));
   motion.unseen = path > 0 ? unseen / path : 0;

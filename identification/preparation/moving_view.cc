@@ -33,6 +33,7 @@ std::vector<SampleRange> PiecesOf(const Measurements& m) {
     const double longest = count < 2 ? 0 : LongestStep(m.time.segment(first, count));  // s
     Index begin = first;
     for (Index i = first + 1; i <= first + count; ++i) {
+      // a piece goes on until a gap or the end of the recording
       if (i < first + count && m.time[i] - m.time[i - 1] <= longest) continue;
       pieces.push_back({begin, i - begin});
       begin = i;
@@ -47,6 +48,7 @@ double SlopeThrough(const Eigen::Ref<const VectorXd>& time,
   double slope = 0;
   for (Index j = 0; j < time.size(); ++j) {
     if (j == at) continue;
+    // slope of the polynomial that is 1 at sample j and 0 at the others
     double share = 1 / (time[j] - time[at]);
     for (Index k = 0; k < time.size(); ++k) {
       if (k != j && k != at) share *= (time[at] - time[k]) / (time[j] - time[k]);
@@ -63,6 +65,7 @@ VectorXd Differences(const Measurements& m, const std::vector<SampleRange>& piec
   VectorXd slopes = VectorXd::Zero(m.size());
   for (const auto& [first, count] : pieces) {
     for (Index i = first; i < first + count; ++i) {
+      // as many samples on each side as the piece has, up to kReach
       const Index reach = std::min({kReach, i - first, first + count - 1 - i});
       const Index begin = std::max(first, i - std::max<Index>(reach, 1));
       const Index end = std::min(first + count, i + std::max<Index>(reach, 1) + 1);
@@ -77,6 +80,7 @@ VectorXd Differences(const Measurements& m, const std::vector<SampleRange>& piec
 /// pieces. [N]
 VectorXd Jumps(const Measurements& m, const std::vector<SampleRange>& pieces) {
   VectorXd jumps = VectorXd::Zero(m.size());
+  // slopes on both sides of each sample
   for (const auto& [first, count] : pieces) {
     for (Index i = first + 1; i + 1 < first + count; ++i) {
       const double before = (m.velocity[i] - m.velocity[i - 1]) / (m.time[i] - m.time[i - 1]);
@@ -92,11 +96,13 @@ VectorXd Jumps(const Measurements& m, const std::vector<SampleRange>& pieces) {
 std::optional<LocalMotion> ByDifferences(const Measurements& m,
                                          const std::vector<SampleRange>& pieces) {
   LocalMotion motion{m.velocity, Differences(m, pieces), {}};
+  // noise of the acceleration, against what of its rms is motion
   const double noise = NoiseOfVelocity(m.velocity), step = MedianStep(m.time);
   const double left = kGain * noise / step, rms = RootMeanSquare(motion.acceleration);
   if (left * left > kAcceptedNoise * kAcceptedNoise * (rms * rms - left * left)) {
     return std::nullopt;
   }
+  // samples beside a jump of the acceleration are not known
   motion.known = AwayFromCorners(KnownSamples::Constant(m.size(), true), Jumps(m, pieces), rms,
                                  noise * std::sqrt(6.0) / step);
   return motion;
@@ -114,11 +120,13 @@ LogView ViewMotion(const Measurements& measurements, MotionSource source) {
   Measurements& m = view.measurements;
   const std::vector<SampleRange> pieces = PiecesOf(m);
   const double clear = ClearSpeed(m);
+  // by differences where noise allows them, else by polynomials over as many samples as it takes
   std::optional<LocalMotion> motion;
   if (source == MotionSource::velocity) motion = ByDifferences(m, pieces);
   if (!motion) motion = FollowLocally(m, pieces, source);
   m.velocity = std::move(motion->velocity);
   m.acceleration = std::move(motion->acceleration);
+  // mean speeds and losses between the samples
   const BetweenSamples between = MeansBetween(m, pieces, clear);
   m.mean_speed = between.mean_speed;
   m.loss_velocity = between.loss_velocity;

@@ -22,6 +22,7 @@ class Path {
  public:
   explicit Path(const Measurements& m) : m_(m), until_(m.size()) {
     until_[0] = 0;
+    // path until each sample, its velocity held until the next
     for (Index i = 0; i + 1 < m.size(); ++i) {
       until_[i + 1] = until_[i] + std::abs(m.velocity[i]) * (m.time[i + 1] - m.time[i]);
     }
@@ -30,6 +31,7 @@ class Path {
   double At(double time) const {
     const double* begin = m_.time.data();
     const auto behind = std::upper_bound(begin, begin + m_.size(), time) - begin;
+    // the path until the sample in front, and its velocity from there on
     const Index i = std::max<Index>(behind - 1, 0);
     return until_[i] + std::abs(m_.velocity[i]) * (time - m_.time[i]);
   }
@@ -57,6 +59,7 @@ std::optional<PathComparison> ComparePaths(const Measurements& by_velocity,
                                            const Measurements& taken) {
   const Path velocity(by_velocity), position(by_position);
   const double longest = LongestStep(taken.time);
+  // a segment along which both columns tell the same way
   const auto is_same_speed = [&](const Segment& segment) {
     const double from = taken.time[segment.begin], to = taken.time[segment.end - 1];
     const double told = velocity.Between(from, to), way = position.Between(from, to);
@@ -64,6 +67,7 @@ std::optional<PathComparison> ComparePaths(const Measurements& by_velocity,
   };
   const auto middle = [](const Segment& segment) { return (segment.begin + segment.end - 1) / 2; };
 
+  // ways from the middle of a segment to that of the next, without gaps between
   std::vector<Way> ways;
   double path = 0, sum = 0;
   for (size_t i = 0; i + 1 < segments.size(); ++i) {
@@ -79,6 +83,7 @@ std::optional<PathComparison> ComparePaths(const Measurements& by_velocity,
   const auto n = static_cast<double>(ways.size());
   if (n < kFewest || path == 0) return std::nullopt;
 
+  // standard error of the mean difference, from its spread over the ways
   double squares = 0;
   for (const Way& way : ways) squares += std::pow(way.difference - sum / n, 2);
   return PathComparison{sum / path, std::sqrt(squares / (n - 1) * n) / path, std::move(ways)};

@@ -30,6 +30,7 @@ std::vector<Segment> Grow(const Measurements& measurements, const VelocityScale&
   std::vector<Segment> runs;
   Index begin = 0;
   double sum = v[0];
+  // a run goes on while the speed stays within a band around its mean
   for (Index i = 1; i <= v.size(); ++i) {
     const auto length = static_cast<double>(i - begin);
     const double mean = sum / length;
@@ -38,6 +39,7 @@ std::vector<Segment> Grow(const Measurements& measurements, const VelocityScale&
     const bool goes_on = i < v.size() &&
                          std::abs(v[i] - mean) <= scale.Band(mean) * std::sqrt(1 + 1 / length) &&
                          !IsTimeGap(measurements.time, i, scale) && !Jumps(v, i, scale);
+    // the run grows, or ends in front of this sample
     if (goes_on) {
       sum += v[i];
     } else {
@@ -66,6 +68,7 @@ std::vector<Segment> CutIntoRuns(const Measurements& measurements, const Velocit
   const std::vector<Segment> runs = Grow(measurements, scale);
   std::vector<Segment> joined;
   for (std::size_t i = 0; i < runs.size(); ++i) {
+    // a few outliers between two runs of one speed do not end it
     const bool joins = !joined.empty() && i + 1 < runs.size() &&
                        Interrupts(runs[i], joined.back(), runs[i + 1], measurements.time, scale);
     if (joins) {

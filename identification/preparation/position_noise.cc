@@ -31,6 +31,7 @@ PositionNoise MeasurePositionNoise(const VectorXd& position) {
   const double floor = 1e-9 * (position.maxCoeff() - position.minCoeff());
   const double spread = ThirdDifferenceNoise(position);
   noise.resolution = Resolution(position);
+  // rounding to steps leaves a deviation of step / sqrt(12); little more is taken for rounding alone
   const double rounding = noise.resolution / std::sqrt(12.0);
   const bool is_rounding = spread <= 1.7 * rounding;
   noise.deviation = std::max(is_rounding ? rounding : spread, floor);

@@ -35,6 +35,7 @@ ConstantSpeed FindFromPositions(Measurements& m) {
     Append(FindConstantSpeed(one), first, step, found);
     m.velocity.segment(first, count) = step * one.velocity;
   }
+  // squares and products of absurd velocities would overflow
   const double fastest = m.velocity.cwiseAbs().maxCoeff();
   if (!(fastest <= kLargest)) {
     Refuse({m.source},
@@ -55,8 +56,10 @@ struct Refined {
 Refined Refine(const LogView& taken) {
   const auto& [measurements, selection] = taken;
   Refined refined;
+  // one velocity for each segment, where noise would take something off the slopes
   std::optional<SegmentVelocity> level = TakeSegmentVelocity(measurements, selection);
   if (level) refined.noise = level->noise;
+  // samples put in where the speed changes between two
   std::optional<SplitLog> split =
       SplitAtSwitches(level ? level->measurements : measurements, selection);
   if (split) {
@@ -147,6 +150,7 @@ struct PreparedLog::Maker {
         "velocity computed from the positions, one value for each segment");
     Log log{{std::move(measurements), {}}, MotionSource::positions, {}, {}, 0, {}, {}};
     Measurements& taken = log.taken.measurements;
+    // selection by the smoothed slopes, steady motion by the positions themselves
     ConstantSpeed found = FindFromPositions(taken);
     PositionMotion motion = MotionFromPositions(taken, found.selection, found.rests);
     TakeOptions(holds, motion.measurements.time, motion.selection);
@@ -166,6 +170,7 @@ struct PreparedLog::Maker {
     positions.velocity.resize(0);
     Log log = OfPositions(std::move(positions), holds);
     const Eigen::VectorXd& time = measurements.time;
+    // the positions must tell the same speeds as the column that is left out
     if (!AgreesOnSpeeds(*log.steady, measurements.velocity, selection.keep, time)) return {};
     KeepAlso(selection.keep, time, log.taken);
     KeepAlso(selection.keep, time, *log.steady);

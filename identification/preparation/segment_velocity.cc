@@ -35,6 +35,7 @@ void ForKept(const Selection& selection, const Segment& segment, Use&& use) {
 Times TimesOf(const Measurements& m, const Selection& selection, const Segment& segment) {
   Times times;
   double first = 0, last = 0;
+  // mean time of the kept samples, and the sum of squares around it
   ForKept(selection, segment, [&](Index i) {
     if (times.count == 0) first = m.time[i];
     last = m.time[i];
@@ -43,6 +44,7 @@ Times TimesOf(const Measurements& m, const Selection& selection, const Segment& 
   });
   times.mean /= std::max(times.count, 1.0);
   times.duration = last - first;
+  // squares around the mean time
   ForKept(selection, segment,
           [&](Index i) { times.spread += std::pow(m.time[i] - times.mean, 2); });
   return times;
@@ -51,12 +53,14 @@ Times TimesOf(const Measurements& m, const Selection& selection, const Segment& 
 Line FitLine(const Measurements& m, const Eigen::VectorXd& values, const Selection& selection,
              const Segment& segment, const Times& times) {
   Line line;
+  // mean and slope by least squares
   ForKept(selection, segment, [&](Index i) {
     line.mean += values[i];
     line.slope += (m.time[i] - times.mean) * values[i];
   });
   line.mean /= times.count;
   line.slope /= times.spread;
+  // squares that the line leaves
   ForKept(selection, segment, [&](Index i) {
     line.strays += std::pow(values[i] - line.mean - line.slope * (m.time[i] - times.mean), 2);
   });
@@ -94,6 +98,7 @@ std::vector<Steady> SteadySegments(const Measurements& m, const Selection& selec
 
 Pooled Pool(const std::vector<Steady>& all) {
   Pooled pooled;
+  // one noise for all segments: what their lines leave, over the samples less two for each line
   for (const Steady& one : all) {
     pooled.count += one.times.count;
     pooled.freedom += one.times.count - 2;
@@ -101,9 +106,11 @@ Pooled Pool(const std::vector<Steady>& all) {
     pooled.position_noise += one.position.strays;
     pooled.mean_speed += one.times.count * std::abs(one.velocity.mean);
   }
+  // sums become deviations and means
   pooled.velocity_noise = std::sqrt(pooled.velocity_noise / pooled.freedom);
   pooled.position_noise = std::sqrt(pooled.position_noise / pooled.freedom);
   pooled.mean_speed /= pooled.count;
+  // spread of the speeds among the segments, weighted by samples
   for (const Steady& one : all) {
     const double beyond = std::abs(one.velocity.mean) - pooled.mean_speed;
     pooled.spread += one.times.count * beyond * beyond / pooled.count;
@@ -132,6 +139,7 @@ std::optional<SegmentVelocity> TakeSegmentVelocity(const Measurements& measureme
   const std::vector<Steady> all = SteadySegments(measurements, selection);
   if (all.empty()) return std::nullopt;
   const Pooled pooled = Pool(all);
+  // nothing to gain where noise is rounding alone, or takes hardly anything off a slope
   const double variance = pooled.velocity_noise * pooled.velocity_noise;
   if (!(pooled.velocity_noise > kRounding * pooled.mean_speed) ||
       pooled.Attenuation(variance) <= kHarmless) {
@@ -141,6 +149,7 @@ std::optional<SegmentVelocity> TakeSegmentVelocity(const Measurements& measureme
   SegmentVelocity taken{
       measurements, {pooled.velocity_noise, pooled.Attenuation(variance), 0, pooled.mean_speed}};
   double errors = 0;  // of a velocity, mean square over the samples
+  // each segment moves at its own best velocity, and drifts where its slope is beyond doubt
   for (const Steady& one : all) {
     const Velocity velocity = BestVelocity(one, pooled);
     const bool drifts =
@@ -152,6 +161,7 @@ std::optional<SegmentVelocity> TakeSegmentVelocity(const Measurements& measureme
           velocity.value + slope * (measurements.time[i] - one.times.mean);
     });
   }
+  // what the errors that remain take off a slope
   taken.noise.left = pooled.Attenuation(errors);
   return taken;
 }

@@ -35,6 +35,7 @@ template <typename IsInside>
 void CutInwards(Segment& run, const IsInside& is_inside) {
   const Index calm = std::max(kShortest, 1 + Length(run) / kCalm);  // samples in a row
   Index begin = run.begin, end = run.end;
+  // from the front to the first samples in a row that have settled
   for (Index inside = 0; begin + inside < run.end && inside < calm;) {
     if (is_inside(begin + inside)) {
       ++inside;
@@ -43,6 +44,7 @@ void CutInwards(Segment& run, const IsInside& is_inside) {
       inside = 0;
     }
   }
+  // the same from the end
   for (Index inside = 0; end - inside > begin && inside < calm;) {
     if (is_inside(end - 1 - inside)) {
       ++inside;
@@ -69,8 +71,10 @@ void CutOutwards(Segment& run, const IsInside& is_inside) {
 void Settle(Segment& run, const Eigen::VectorXd& v, const VelocityScale& scale) {
   Eigen::VectorXd values = v.segment(run.begin, Length(run));
   run.velocity = MedianInPlace(values);
+  // robust deviation, as that of a normal distribution: median distance from the median over 0.6745
   values = (values.array() - run.velocity).abs();
   const double spread = MedianInPlace(values) / 0.6745;
+  // how far a settled speed may stray: by its ripple, noise, level or resolution
   const double allowed = std::max({kFar * spread, Wobble(run, run.velocity, v), kNear * scale.noise,
                                    kSettled * std::abs(run.velocity), kLevels * scale.resolution});
   const auto is_inside = [&](Index i) { return std::abs(v[i] - run.velocity) <= allowed; };
@@ -86,6 +90,7 @@ Index Parts(const Segment& run) { return Length(run) < 8 ? 2 : 4; }
 
 /// Largest difference between the mean speeds of the run's parts.
 double Drift(const Segment& run, const Eigen::VectorXd& v) {
+  // parts of one length, of which the last ends with the run
   const Index part = Length(run) / Parts(run);
   double lowest = v.segment(run.begin, part).mean(), highest = lowest;
   for (Index k = 1; k < Parts(run); ++k) {
@@ -181,6 +186,7 @@ std::vector<Segment> SteadyRuns(const Measurements& measurements, const Velocity
   std::vector<Segment> steady;
   const std::vector<Segment> runs = CutIntoRuns(measurements, scale);
   for (std::size_t i = 0; i < runs.size(); ++i) {
+    // pieces of accelerations are left out
     if (Length(runs[i]) < kShortest || !StandsOut(runs, i, v, scale)) continue;
     Segment run = runs[i];
     Settle(run, v, scale);
@@ -199,6 +205,7 @@ ConstantSpeed FindInRecording(const Measurements& measurements) {
   ConstantSpeed found;
   Selection& selection = found.selection;
   selection.keep.setConstant(v.size(), false);
+  // rests are no segments; segments keep a distance from their neighbours
   for (std::size_t i = 0; i < steady.size(); ++i) {
     if (std::abs(steady[i].velocity) <= scale.Rest()) {
       found.rests.push_back(steady[i]);
@@ -226,6 +233,7 @@ void TakeOptions(const HoldOptions& holds, const Eigen::VectorXd& time, Selectio
     const Index behind = std::min(segment.end, time.size() - 1);
     const double lasts = time[behind] - time[segment.begin];
     Segment kept = segment;
+    // a short segment is left out whole, others lose `trim` seconds at each end
     if (lasts < holds.shortest - rounding) {
       kept.end = kept.begin;
     } else if (holds.trim > 0) {
@@ -238,6 +246,7 @@ void TakeOptions(const HoldOptions& holds, const Eigen::VectorXd& time, Selectio
         --kept.end;
       }
     }
+    // no fit uses what was cut off
     selection.keep.segment(segment.begin, kept.begin - segment.begin).setConstant(false);
     selection.keep.segment(kept.end, segment.end - kept.end).setConstant(false);
     if (kept.begin < kept.end) left.push_back(kept);
@@ -260,6 +269,7 @@ ConstantSpeed FindConstantSpeed(const Measurements& measurements) {
   if (measurements.starts.empty()) return FindInRecording(measurements);
   ConstantSpeed all;
   all.selection.keep.setConstant(measurements.size(), false);
+  // each recording by its own scale
   for (const auto& [first, count] : RecordingsOf(measurements)) {
     Measurements one;
     one.time = measurements.time.segment(first, count);

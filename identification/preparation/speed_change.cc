@@ -35,6 +35,7 @@ double GoldenSection(double low, double high, const Function& squares) {
   constexpr double share = 2 - std::numbers::phi;
   double left = low + share * (high - low), right = high - share * (high - low);
   double at_left = squares(left), at_right = squares(right);
+  // the interval loses the end beside the larger of two values within it
   for (int i = 0; i < kGolden; ++i) {
     if (at_left < at_right) {
       high = right, right = left, at_right = at_left;
@@ -50,6 +51,7 @@ double GoldenSection(double low, double high, const Function& squares) {
 /// The duration of least squares, 0 where a jump explains the positions as well.
 double FindDuration(const VectorXd& time, const VectorXd& position, const SpeedChange& jump,
                     Index first, Index last, double deviation) {
+  // the best duration of an even grid, then the minimum around it
   const double longest = 2 * std::min(jump.time - time[first], time[last] - jump.time);
   const auto squares = [&](double duration) {
     return Squares(time, position, jump, duration, first, last);
@@ -63,6 +65,7 @@ double FindDuration(const VectorXd& time, const VectorXd& position, const SpeedC
   const double step = longest / kGrid;
   const double refined =
       GoldenSection(std::max(best - step, 0.0), std::min(best + step, longest), squares);
+  // a ramp must explain more than noise does
   const double gained = at_jump - squares(refined);
   return gained > kWorthARamp * deviation * deviation ? refined : 0;
 }
@@ -89,6 +92,7 @@ double PositionLine::ErrorAt(double t) const {
 std::optional<PositionLine> FitPositionLine(const VectorXd& time, const VectorXd& position,
                                             Index first, Index last,
                                             const Eigen::Array<bool, Eigen::Dynamic, 1>& use) {
+  // middle of the samples, through which the line goes
   PositionLine line;
   for (Index i = first; i <= last; ++i) {
     if (!use[i]) continue;
@@ -100,6 +104,7 @@ std::optional<PositionLine> FitPositionLine(const VectorXd& time, const VectorXd
   line.time /= line.samples;
   line.position /= line.samples;
 
+  // slope by least squares
   double product = 0, squares = 0;
   for (Index i = first; i <= last; ++i) {
     if (!use[i]) continue;
@@ -108,6 +113,7 @@ std::optional<PositionLine> FitPositionLine(const VectorXd& time, const VectorXd
     product += t * (position[i] - line.position);
   }
   line.velocity = product / line.spread;
+  // deviation of the positions, two degrees of freedom taken by the line
   for (Index i = first; i <= last; ++i) {
     if (use[i]) squares += std::pow(position[i] - line.At(time[i]), 2);
   }
@@ -125,6 +131,7 @@ double SpeedChange::At(double t) const {
 std::optional<SpeedChange> FindSpeedChange(const VectorXd& time, const VectorXd& position,
                                            const PositionLine& before, const PositionLine& behind,
                                            Index first, Index last, const PositionNoise& noise) {
+  // lines of almost one speed do not tell where they cross
   const double change_of_speed = std::abs(behind.velocity - before.velocity);
   const double fastest = std::max(std::abs(before.velocity), std::abs(behind.velocity));
   if (!(change_of_speed > kAlike * fastest)) return std::nullopt;
@@ -138,6 +145,7 @@ std::optional<SpeedChange> FindSpeedChange(const VectorXd& time, const VectorXd&
   change.duration = FindDuration(time, position, change, first, last, noise.deviation);
   if (!Follows(time, position, change, first, last, noise)) return std::nullopt;
 
+  // how far from the change a sample may still belong to it
   const double error =
       std::hypot(before.ErrorAt(change.time), behind.ErrorAt(change.time)) / change_of_speed;
   change.margin = std::max({std::sqrt(2 * noise.reach * change.duration / change_of_speed) / 2,

@@ -38,7 +38,9 @@ std::vector<Switch> FindSwitches(const Measurements& m) {
     const double v0 = m.velocity[n], v1 = m.velocity[n + 1];
     const double h = m.time[n + 1] - m.time[n];
     if (std::abs(v1 - v0) <= kLeastChange * rms || h > longest) continue;
+    // one step changes the speed, those around it do not
     if (!StandsAlone(m.velocity, n)) continue;
+    // v0 until the switch and v1 behind it must make the way between the samples
     const double s = (m.position[n + 1] - m.position[n] - v1 * h) / (v0 - v1);
     const bool is_inside = s > kInside * h && s < (1 - kInside) * h;
     if (is_inside && !std::ranges::binary_search(m.starts, n + 1)) switches.push_back({n, s});
@@ -49,10 +51,12 @@ std::vector<Switch> FindSwitches(const Measurements& m) {
 /// SplitLog::unseen.
 double Unseen(const Measurements& m, const std::vector<Switch>& switches) {
   double lost = 0, path = 0;
+  // path by the velocities
   for (Index n = 0; n + 1 < m.size(); ++n) {
     path += std::abs(m.velocity[n]) * (m.time[n + 1] - m.time[n]);
   }
   for (const auto& [after, delay] : switches) {
+    // a reversal within a step: the longest ramp that no sample would show
     const double v0 = m.velocity[after], v1 = m.velocity[after + 1];
     if (v0 * v1 >= 0) continue;
     const double h = m.time[after + 1] - m.time[after];
@@ -68,6 +72,7 @@ std::optional<SplitLog> SplitAtSwitches(const Measurements& measurements,
   const std::vector<Switch> switches = FindSwitches(measurements);
   if (switches.empty()) return std::nullopt;
   SplitLog split{measurements, selection, Unseen(measurements, switches)};
+  // a sample at each switch, from which on the later velocity holds
   std::vector<InsertedSample> inserted;
   for (const auto& [after, delay] : switches) {
     inserted.push_back({after, measurements.time[after] + delay,

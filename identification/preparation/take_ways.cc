@@ -24,6 +24,7 @@ struct Telling {
 Telling TellingOf(const Measurements& version, const VectorXd& time) {
   Telling telling{VectorXd(time.size()), {}};
   Index n = 0;
+  // samples of the log take their velocity from the version, the others were put in by it
   for (Index i = 0; i < version.size(); ++i) {
     if (n < time.size() && version.time[i] == time[n]) {
       telling.velocity[n++] = version.velocity[i];
@@ -42,6 +43,7 @@ Eigen::Array<bool, Eigen::Dynamic, 1> OnWays(const std::vector<Way>& ways, const
   on.setConstant(false);
   const double step = MedianStep(time);
   for (const Way& way : ways) {
+    // sampling misplaces a change of speed by a step at most
     const double change = std::abs(velocity.velocity[way.last] - velocity.velocity[way.first]);
     if (std::abs(way.difference) > step * change) continue;
     on.segment(way.first, way.last - way.first).setConstant(true);
@@ -78,6 +80,7 @@ LogView TakeWays(const LogView& taken, const Measurements& by_velocity,
   for (Index n = 0; n < m.size(); ++n) {
     const bool changes = on[n] && !selection.keep[n];
     log.measurements.velocity[n] = (changes ? position : velocity).velocity[n];
+    // where the positions tell, a segment is left right behind its last sample
     if (!on[n] || changes || n + 1 == m.size() || selection.keep[n + 1]) continue;
     const double behind = m.time[n] + kBehind * (m.time[n + 1] - m.time[n]);
     inserted.push_back({n, behind, m.position[n], position.velocity[n]});

@@ -47,6 +47,7 @@ Pile FindPile(const Measurements& m, const Selection& selection, double sign) {
   for (Index i = 0; i < m.size(); ++i) {
     const double value = sign * m.torque[i];
     if (value < pile.next || !selection.keep[i]) continue;
+    // samples at the largest value, and at the one next to it
     if (value > pile.value) {
       pile = {value, pile.value, 1, pile.samples, i};
     } else if (value == pile.value) {
@@ -81,6 +82,7 @@ bool SpansSpeeds(const Measurements& m, const ConstantRun& run) {
 
 std::optional<std::string> ClippedTorque(const Measurements& measurements,
                                          const Selection& selection) {
+  // clipping piles samples up at the end of the range
   const auto least = std::max(
       kPile, static_cast<Index>(std::ceil(kPileShare * static_cast<double>(selection.count()))));
   for (const double sign : {1.0, -1.0}) {
@@ -88,6 +90,7 @@ std::optional<std::string> ClippedTorque(const Measurements& measurements,
     if (pile.value <= 0 || pile.samples < least || pile.samples <= kAboveNext * pile.at_next) {
       continue;
     }
+    // a torque of few values, or without noise, piles up by itself
     if (!TakesManyValues(measurements, selection) ||
         !MeasureTexture(measurements, selection).IsNoisy()) {
       return std::nullopt;
@@ -104,6 +107,7 @@ std::optional<std::string> ClippedTorque(const Measurements& measurements,
 
 std::optional<std::string> StuckTorque(const Measurements& measurements,
                                        const Selection& selection) {
+  // a torque of coarse steps often repeats its last value
   const TorqueTexture texture = MeasureTexture(measurements, selection);
   if (texture.equal > kFewEqual) return std::nullopt;
   const double highest = measurements.torque.maxCoeff(), lowest = measurements.torque.minCoeff();
@@ -112,6 +116,7 @@ std::optional<std::string> StuckTorque(const Measurements& measurements,
   for (const ConstantRun& run : texture.long_runs) {
     const double value = measurements.torque[run.begin];
     if (value != 0 && (value == highest || value == lowest)) continue;  // clipped
+    // without noise only a change of speed shows that the value should have changed
     if (!texture.IsNoisy() && !SpansSpeeds(measurements, run)) continue;
     ++runs;
     if (run.kept > longest.kept) longest = run;
@@ -136,6 +141,7 @@ std::optional<std::string> DroppedTorque(const Measurements& measurements,
     if (torque[begin] != 0) continue;
     while (end < torque.size() && torque[end] == 0) ++end;
     const Index kept = selection.keep.segment(begin, end - begin).count();
+    // a run as long as those of a stuck torque is no loss of single samples
     if (kept == 0 || kept >= kLongRun) continue;
     if (drops == 0) first = begin;
     drops += kept;
@@ -149,6 +155,7 @@ std::optional<std::string> DroppedTorque(const Measurements& measurements,
     sum += std::abs(torque[i]);
     smallest = std::min(smallest, std::abs(torque[i]));
   }
+  // a torque that is often near 0 may as well be 0
   const double near = kNear0 * sum / static_cast<double>(selection.count());
   Index others = 0;
   for (Index i = 0; i < torque.size(); ++i) {
@@ -165,6 +172,7 @@ std::optional<std::string> DroppedTorque(const Measurements& measurements,
 std::optional<std::string> AbsurdTorque(const Measurements& measurements,
                                         const Selection& selection) {
   const Eigen::VectorXd& torque = measurements.torque;
+  // mean and largest size of what is kept
   double sum = 0, largest = 0;
   for (Index i = 0; i < torque.size(); ++i) {
     const double size = selection.keep[i] ? std::abs(torque[i]) : 0;
@@ -175,12 +183,14 @@ std::optional<std::string> AbsurdTorque(const Measurements& measurements,
   // mean <= quantile + 0.01 largest: below that many means nothing exceeds kAbsurd quantiles
   const auto count = static_cast<double>(selection.count());
   if (largest * (1 / kAbsurd + 1 - kMost) * count <= sum) return std::nullopt;
+  // the quantile that almost all samples stay below, and those far beyond it
   Eigen::VectorXd sizes(selection.count());
   for (Index i = 0, k = 0; i < torque.size(); ++i) {
     if (selection.keep[i]) sizes[k++] = std::abs(torque[i]);
   }
   const double quantile = QuantileInPlace(sizes, kMost);
   if (quantile == 0 || largest <= kAbsurd * quantile) return std::nullopt;
+  // how many are far beyond it, and the worst
   Index absurd = 0, worst = -1;
   for (Index i = 0; i < torque.size(); ++i) {
     if (!selection.keep[i] || std::abs(torque[i]) <= kAbsurd * quantile) continue;

@@ -20,6 +20,7 @@ std::optional<std::string> TorqueSign(const Measurements& measurements,
     // by the way: a velocity of the wrong sign is another fault
     const double way =
         measurements.position[segment.end - 1] - measurements.position[segment.begin];
+    // samples of the segment whose torque points against its way
     double kept = 0, below = 0;
     for (Eigen::Index i = segment.begin; i < segment.end; ++i) {
       if (!selection.keep[i]) continue;
@@ -27,6 +28,7 @@ std::optional<std::string> TorqueSign(const Measurements& measurements,
       below += measurements.torque[i] * way < 0;
     }
     if (kept == 0) continue;
+    // a segment counts as a whole, by the most of its samples
     ++segments;
     against += below > kOfItsSamples * kept;
     samples += kept;

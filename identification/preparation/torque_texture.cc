@@ -14,6 +14,7 @@ std::vector<ConstantRun> LongRuns(const Eigen::VectorXd& torque, const Selection
     end = begin + 1;
     while (end < torque.size() && torque[end] == torque[begin]) ++end;
     if (end - begin < kLongRun) continue;
+    // only samples that a fit uses count
     const Index kept = selection.keep.segment(begin, end - begin).count();
     if (kept >= kLongRun) runs.push_back({begin, end, kept});
   }
@@ -31,10 +32,12 @@ TorqueTexture MeasureTexture(const Measurements& measurements, const Selection& 
   TorqueTexture texture;
   texture.long_runs = LongRuns(torque, selection);
 
+  // shares of equal steps and of turning points among kept neighbours
   const double rounding = 1e-6 * torque.cwiseAbs().maxCoeff();
   auto run = texture.long_runs.begin();
   Index pairs = 0, equal = 0, triples = 0, turning = 0;
   for (Index i = 1; i + 1 < torque.size(); ++i) {
+    // long runs are judged by themselves
     if (run != texture.long_runs.end() && i >= run->begin) {
       i = run->end;
       ++run;
@@ -44,6 +47,7 @@ TorqueTexture MeasureTexture(const Measurements& measurements, const Selection& 
     const double step = torque[i + 1] - torque[i];
     ++pairs;
     equal += std::abs(step) <= rounding;
+    // a turning point takes three samples in a row
     if (!selection.keep[i - 1]) continue;
     const double before = torque[i] - torque[i - 1];
     ++triples;

@@ -31,6 +31,7 @@ std::optional<double> RatioOf(const Measurements& m, const Segment& segment) {
   const Index first = segment.begin, last = segment.end - 1;
   const double duration = m.time[last] - m.time[first];
   const double way = m.position[last] - m.position[first];
+  // the way by the velocities, and how far the positions stray from a straight line
   double integral = 0, strays = 0;
   for (Index i = first + 1; i <= last; ++i) {
     integral += 0.5 * (m.velocity[i] + m.velocity[i - 1]) * (m.time[i] - m.time[i - 1]);
@@ -55,6 +56,7 @@ Eigen::VectorXd Ratios(const Measurements& m, const Selection& selection) {
   if (selection.segments.size() < kFewest) return {};
   const double travel = m.position.maxCoeff() - m.position.minCoeff();
   for (const Segment& segment : selection.segments) {
+    // a start of another recording, or turns between two samples, make no fair comparison
     if (segment.end - segment.begin < 2 || HoldsAStart(m, segment)) continue;
     const double step = (m.time[segment.end - 1] - m.time[segment.begin]) /
                         static_cast<double>(segment.end - 1 - segment.begin);
@@ -75,6 +77,7 @@ std::string Suspect(const Measurements& m, double times) {
   };
   if (is_near(1)) return "has it the wrong sign";
   const bool rotary = m.joint == JointKind::rotary;
+  // velocity, position or time may be in another unit of the table
   for (const Unit& unit : Units()) {
     if (unit.factor == 1) continue;
     const std::string_view name = unit.name;

@@ -29,6 +29,7 @@ double Spread(const Eigen::VectorXd& v, Index lag) {
 void MeasureNoise(const Eigen::VectorXd& v, VelocityScale& scale) {
   constexpr double saturated = 1.25;  // growth below which the spread has stopped growing
   constexpr double largest = 0.05;    // of rms, for noise with a memory
+  // noise from one sample to the next; over longer lags that of a memory appears and stops growing
   scale.noise = Spread(v, 1);
   double before = scale.noise;
   for (Index lag = 2; lag <= v.size() / 8; lag *= 2) {
@@ -37,6 +38,7 @@ void MeasureNoise(const Eigen::VectorXd& v, VelocityScale& scale) {
       before = spread;
       continue;
     }
+    // a memory is believed only of noise that is small beside the speed
     if (lag > 2 && before <= largest * scale.rms) {
       scale.noise = before;
       scale.memory = static_cast<double>(lag) / 2;
@@ -50,12 +52,14 @@ void MeasureNoise(const Eigen::VectorXd& v, VelocityScale& scale) {
 double ToggleStep(const Eigen::VectorXd& v, double rms) {
   const double resolution = Resolution(v);
   if (resolution == 0 || resolution > 0.2 * rms) return 0;
+  // single steps that take the one before back
   int steps = 0, toggles = 0;
   double before = 0;  // last step other than 0
   for (Index i = 1; i < v.size(); ++i) {
     const double step = v[i] - v[i - 1];
     if (std::abs(step) < 0.5 * resolution) continue;
     ++steps;
+    // back by one level, after one level forth
     const bool is_single = std::abs(step) < 1.5 * resolution;
     toggles += is_single && std::abs(step + before) < 0.5 * resolution;
     before = step;

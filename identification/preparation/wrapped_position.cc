@@ -26,6 +26,7 @@ std::optional<std::string> WrappedPosition(const Measurements& measurements, con
   const double range = m.position.maxCoeff() - m.position.minCoeff();
   const double longest = LongestStep(m.time);
   std::vector<double> jumps;
+  // steps within a recording that cover a large part of the range at once
   for (Index i = 1; i + 1 < m.size(); ++i) {
     const double h = m.time[i] - m.time[i - 1];
     const double jump = m.position[i] - m.position[i - 1];
@@ -38,6 +39,7 @@ std::optional<std::string> WrappedPosition(const Measurements& measurements, con
     jumps.push_back(std::abs(jump) + beside);
   }
   if (jumps.size() < kFewest) return std::nullopt;
+  // a range that starts again jumps by the same way each time
   const auto [least, most] = std::ranges::minmax(jumps);
   if (most - least > kAlike * most) return std::nullopt;
 

@@ -17,11 +17,13 @@ Graph Neighbours(const Eigen::MatrixXd& matrix) {
   const Eigen::Index n = matrix.rows();
   const Eigen::VectorXd scale = matrix.diagonal().cwiseAbs().cwiseSqrt();
   Graph graph(static_cast<size_t>(n));
+  // entries that are not 0 beside their diagonals
   for (Eigen::Index j = 0; j < n; ++j) {
     for (Eigen::Index i = 0; i < n; ++i) {
       if (i != j && std::abs(matrix(i, j)) > kUnseen * scale[i] * scale[j]) graph[j].push_back(i);
     }
   }
+  // neighbours with few neighbours of their own come first
   for (std::vector<Eigen::Index>& neighbours : graph) {
     std::stable_sort(neighbours.begin(), neighbours.end(), [&](Eigen::Index a, Eigen::Index b) {
       return graph[a].size() < graph[b].size();
@@ -63,6 +65,7 @@ std::vector<Eigen::Index> ReverseCuthillMcKee(const Graph& graph) {
 }  // namespace
 
 EnvelopeCholesky::EnvelopeCholesky(const Eigen::MatrixXd& matrix) {
+  // an order that keeps neighbours close keeps the envelope narrow
   const Graph graph = Neighbours(matrix);
   order_ = ReverseCuthillMcKee(graph);
   matrix_ = matrix(order_, order_);
@@ -79,6 +82,7 @@ EnvelopeCholesky::EnvelopeCholesky(const Eigen::MatrixXd& matrix) {
     for (const Eigen::Index neighbour : graph[order_[i]]) first = std::min(first, place[neighbour]);
     end_[first] = std::max(end_[first], i + 1);
   }
+  // columns of a block share the reach of the last, so that the reach may only grow
   for (Eigen::Index i = 1; i < n; ++i) end_[i] = std::max(end_[i], end_[i - 1]);
 }
 
@@ -94,6 +98,7 @@ Eigen::Index EnvelopeCholesky::BlockSize(Eigen::Index begin) const {
 
 bool EnvelopeCholesky::Factor(double shift) {
   const auto n = static_cast<Eigen::Index>(order_.size());
+  // the lower half within the envelope
   for (Eigen::Index k = 0; k < n; k += kBlock) {
     const Eigen::Index width = BlockSize(k);
     const Eigen::Index height = end_[k + width - 1] - k;
@@ -101,6 +106,7 @@ bool EnvelopeCholesky::Factor(double shift) {
   }
   factor_.diagonal().array() += shift;
 
+  // block by block: factors of the corner, the panel below by them, and its products off the rest
   for (Eigen::Index k = 0; k < n; k += kBlock) {
     const Eigen::Index width = BlockSize(k);
     const Eigen::Index below = end_[k + width - 1] - k - width;
@@ -120,6 +126,7 @@ bool EnvelopeCholesky::Factor(double shift) {
 Eigen::MatrixXd EnvelopeCholesky::Solve(const Eigen::MatrixXd& right) const {
   const auto n = static_cast<Eigen::Index>(order_.size());
   Eigen::MatrixXd x = right(order_, Eigen::all);
+  // down through L
   for (Eigen::Index k = 0; k < n; k += kBlock) {
     const Eigen::Index width = BlockSize(k);
     const Eigen::Index below = end_[k + width - 1] - k - width;
@@ -127,6 +134,7 @@ Eigen::MatrixXd EnvelopeCholesky::Solve(const Eigen::MatrixXd& right) const {
     factor_.block(k, k, width, width).triangularView<Eigen::Lower>().solveInPlace(part);
     x.middleRows(k + width, below) -= factor_.block(k + width, k, below, width) * part;
   }
+  // up through its transpose
   for (Eigen::Index k = (n - 1) / kBlock * kBlock; k >= 0; k -= kBlock) {
     const Eigen::Index width = BlockSize(k);
     const Eigen::Index below = end_[k + width - 1] - k - width;
@@ -134,6 +142,7 @@ Eigen::MatrixXd EnvelopeCholesky::Solve(const Eigen::MatrixXd& right) const {
     part -= factor_.block(k + width, k, below, width).transpose() * x.middleRows(k + width, below);
     factor_.block(k, k, width, width).triangularView<Eigen::Lower>().transpose().solveInPlace(part);
   }
+  // in the order of the caller
   Eigen::MatrixXd result(n, right.cols());
   result(order_, Eigen::all) = x;
   return result;

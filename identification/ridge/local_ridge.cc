@@ -21,6 +21,7 @@ LocalRidge::LocalRidge(const NormalEquations& normal, Eigen::Index free)
 
 std::optional<Eigen::VectorXd> LocalRidge::Solve(double strength) {
   if (!kernels_.Factor(strength)) return std::nullopt;
+  // kernels are eliminated first; the few free columns solve what is left beside them
   const Eigen::MatrixXd solved = kernels_.Solve(border_);
   const auto columns = border_.leftCols(free_);
   const Eigen::MatrixXd left = corner_ - columns.transpose() * solved.leftCols(free_);
@@ -28,6 +29,7 @@ std::optional<Eigen::VectorXd> LocalRidge::Solve(double strength) {
   if (factors.info() != Eigen::Success) return std::nullopt;
   Eigen::VectorXd x(free_ + border_.rows());
   x.head(free_) = factors.solve(product_ - columns.transpose() * solved.col(free_));
+  // weights that suit the free columns
   x.tail(border_.rows()) = solved.col(free_) - solved.leftCols(free_) * x.head(free_);
   return x;
 }
@@ -51,6 +53,7 @@ Eigen::VectorXd CrossValidate(const std::vector<NormalEquations>& parts, Eigen::
       for (size_t k = 0; k < strengths.size(); ++k) squares(k, i) = part.Squares(strengths[k]);
     }
   };
+  // the calling thread works, too
   std::vector<std::jthread> helpers;
   for (int i = 1; i < threads; ++i) helpers.emplace_back(work);
   work();

@@ -19,6 +19,7 @@ void AddGroups(const std::vector<RowGroup>& groups, const Eigen::MatrixXd& free,
     const auto m = static_cast<Eigen::Index>(group.kernels.size());
     const Eigen::MatrixXd columns = free(group.samples, Eigen::all);
     const Eigen::VectorXd torque = y(group.samples);
+    // samples of a group share their kernels, so that their products are one small dense block
     Eigen::MatrixXd own = Eigen::MatrixXd::Zero(m, m);
     if (m > 0) own.selfadjointView<Eigen::Lower>().rankUpdate(group.values.transpose());
     const Eigen::MatrixXd across = group.values.transpose() * columns;
@@ -32,6 +33,7 @@ void AddGroups(const std::vector<RowGroup>& groups, const Eigen::MatrixXd& free,
       normal.gram.row(column).head(p) += across.row(j);
       normal.product[column] += product[j];
     }
+    // products of the free columns, and squares of the torque
     normal.gram.topLeftCorner(p, p) += columns.transpose() * columns;
     normal.product.head(p) += columns.transpose() * torque;
     normal.squares += torque.squaredNorm();
@@ -76,6 +78,7 @@ double LeaveOneOut(const std::vector<RowGroup>& groups, const Eigen::MatrixXd& f
                    const Eigen::VectorXd& y, const NormalEquations& normal, double strength) {
   const Eigen::Index p = free.cols();
   const Eigen::Index d = normal.product.size();
+  // fit to all samples
   Eigen::MatrixXd gram = normal.gram;
   gram.diagonal().tail(d - p).array() += strength;
   const Eigen::LLT<Eigen::MatrixXd> factors(gram);
@@ -91,6 +94,7 @@ double LeaveOneOut(const std::vector<RowGroup>& groups, const Eigen::MatrixXd& f
     for (const Eigen::Index kernel : group.kernels) columns.push_back(p + kernel);
     Eigen::MatrixXd rows(group.values.rows(), static_cast<Eigen::Index>(columns.size()));
     rows << free(group.samples, Eigen::all), group.values;
+    // without its own sample a residual is r / (1 - h)
     const Eigen::ArrayXd residual = y(group.samples) - rows * x(columns);
     const Eigen::ArrayXd leverage =
         (rows * inverse(columns, columns)).cwiseProduct(rows).rowwise().sum();

@@ -15,6 +15,7 @@ constexpr int kMostRounds = 100000;
 Eigen::VectorXd SolveTridiagonal(const Eigen::VectorXd& diagonal, const Eigen::VectorXd& off,
                                  double shift, Eigen::VectorXd b) {
   const Eigen::Index q = diagonal.size();
+  // elimination from the top
   Eigen::VectorXd pivot(q);
   pivot[0] = diagonal[0] + shift;
   for (Eigen::Index i = 1; i < q; ++i) {
@@ -22,6 +23,7 @@ Eigen::VectorXd SolveTridiagonal(const Eigen::VectorXd& diagonal, const Eigen::V
     pivot[i] = diagonal[i] + shift - factor * off[i - 1];
     b[i] -= factor * b[i - 1];
   }
+  // and back from the bottom
   b[q - 1] /= pivot[q - 1];
   for (Eigen::Index i = q - 2; i >= 0; --i) b[i] = (b[i] - off[i] * b[i + 1]) / pivot[i];
   return b;
@@ -68,6 +70,7 @@ NormalEquations NormalEquations::Holding(const std::vector<Eigen::Index>& held,
     if (std::ranges::find(held, i) == held.end()) rest.push_back(i);
   }
   NormalEquations reduced(static_cast<Eigen::Index>(rest.size()));
+  // what the held values explain goes off the products and the squares
   reduced.gram = gram(rest, rest);
   reduced.product = product(rest) - gram(rest, held) * values;
   reduced.squares = squares - 2 * values.dot(product(held)) + values.dot(gram(held, held) * values);
@@ -76,6 +79,7 @@ NormalEquations NormalEquations::Holding(const std::vector<Eigen::Index>& held,
 }
 
 Ridge::Ridge(const NormalEquations& normal, Eigen::Index free) : free_(free) {
+  // free columns that suit each kernel, and those that suit the torque
   const Eigen::Index q = normal.product.size() - free;
   const Eigen::LLT<Eigen::MatrixXd> factors(normal.gram.topLeftCorner(free, free));
   slopes_ = factors.solve(normal.gram.topRightCorner(free, q));
@@ -91,6 +95,7 @@ Ridge::Ridge(const NormalEquations& normal, Eigen::Index free) : free_(free) {
   off_diagonal_ = tridiagonal.subDiagonal();
   right_ = basis_.transpose() *
            (normal.product.tail(q) - slopes_.transpose() * normal.product.head(free));
+  // eigenvalues tell determinants and effective parameters at any strength
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen;
   eigen.computeFromTridiagonal(diagonal_, off_diagonal_, Eigen::EigenvaluesOnly);
   eigenvalues_ = eigen.eigenvalues().cwiseMax(0);
@@ -115,6 +120,7 @@ double LogEvidence(const NormalEquations& normal, const Ridge& ridge, Eigen::Ind
   const Eigen::Index q = x.size() - free;
   const auto n = static_cast<double>(normal.rows);
   const auto p = static_cast<double>(free);
+  // logarithm of the determinant of all parameters' precision
   const double log_determinant = p * std::log(beta) + ridge.log_free_determinant() +
                                  (beta * ridge.eigenvalues().array() + alpha).log().sum();
   return 0.5 * (static_cast<double>(q) * std::log(alpha) + n * std::log(beta) -
@@ -129,10 +135,12 @@ Evidence MaximiseEvidence(const NormalEquations& normal, Eigen::Index free) {
   Evidence evidence;
   double strength = 1e-3 * ridge.eigenvalues().maxCoeff();
   for (int round = 0; round < kMostRounds; ++round) {
+    // gamma weights are told by the data; alpha and beta follow from it
     const Eigen::VectorXd x = ridge.Solve(strength);
     evidence.gamma = ridge.EffectiveParameters(strength) - p;
     evidence.alpha = evidence.gamma / x.tail(x.size() - free).squaredNorm();
     evidence.beta = (n - p - evidence.gamma) / normal.Squares(x);
+    // until the strength of the prior stays
     const double next = evidence.strength();
     const bool settled = std::abs(next - strength) <= 1e-12 * strength;
     strength = next;

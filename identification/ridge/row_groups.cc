@@ -28,6 +28,7 @@ class AxisRow {
     const double* value = active_.value.data() + active_.begin;
     const int* place = places_.data() + active_.first;
     const auto counts = [&](int i) { return place[i] >= 0 && value[i] > 0; };
+    // the window leaves out kernels at its ends that are 0 or absent
     int first = 0, last = active_.count;
     while (first < last && !counts(first)) ++first;
     while (first < last && !counts(last - 1)) --last;
@@ -84,9 +85,11 @@ class AxisTable {
       const size_t begin = kernels.size();
       kernels.push_back(0);
       for (const MapAxis& axis : map.axes) {
+        // each product so far times each kernel in the window of one more axis
         const size_t before = kernels.size() - begin, size = axis.kernels.size();
         const size_t count = window->count;
         kernels.resize(begin + before * count);
+        // from the back, so that none is overwritten before its turn
         for (size_t i = before; i-- > 0;) {
           const Eigen::Index base = kernels[begin + i] * static_cast<Eigen::Index>(size);
           for (size_t k = count; k-- > 0;) {
@@ -220,12 +223,14 @@ class GroupMaker {
   }
 
   void Finish() {
+    // kernels of the group in ascending order, and the column of each
     RowGroup& group = groups_.emplace_back();
     group.kernels = std::move(kernels_);
     std::ranges::sort(group.kernels);
     const auto count = static_cast<Eigen::Index>(group.kernels.size());
     for (Eigen::Index i = 0; i < count; ++i) column_[group.kernels[i]] = i;
 
+    // values of all samples of its runs
     group.values.setZero(samples_, count);
     std::vector<double> values(group.kernels.size());
     double* row = group.values.data();
@@ -236,6 +241,7 @@ class GroupMaker {
         for (size_t i = 0; i < run.kernels.size(); ++i) row[column_[run.kernels[i]]] = values[i];
       }
     }
+    // nothing of it stays for the next group
     for (const Eigen::Index kernel : group.kernels) column_[kernel] = kNone;
     runs_.clear();
     kernels_.clear();
@@ -265,6 +271,7 @@ std::vector<RowGroup> GroupRows(const std::vector<FrictionMap>& maps, const MapP
   const AxisTable table(maps, points, first, last);
   const std::vector<Eigen::Index> order = table.Sorted();
   GroupMaker maker(table, KernelCount(maps));
+  // runs of samples in the same windows of all axes
   for (auto begin = order.begin(); begin != order.end();) {
     const auto end = std::find_if_not(begin, order.end(),
                                       [&](Eigen::Index i) { return table.SameWindows(*begin, i); });

@@ -19,6 +19,7 @@ std::optional<Disagreement> FindDisagreement(const FitOfRows& plain, const FitOf
                                              double freedom) {
   Disagreement most;
   for (Eigen::Index j = 0; j < plain.x.size(); ++j) {
+    // the difference from an efficient fit has the difference of both variances (Hausman)
     const double before = plain.covariance(j, j);
     const double variance = std::max(before - whitened.covariance(j, j), kLeastShare * before);
     const double difference = whitened.x[j] - plain.x[j];
@@ -26,6 +27,7 @@ std::optional<Disagreement> FindDisagreement(const FitOfRows& plain, const FitOf
     if (deviations > most.deviations) most = {j, difference, deviations, {}};
   }
   if (!(most.deviations > 0)) return std::nullopt;
+  // of the largest of p differences (Bonferroni)
   const double p = static_cast<double>(plain.x.size()) * PValueOfStudent(most.deviations, freedom);
   if (p >= PValueOfNormal(kBeyondDoubt)) return std::nullopt;
   most.differences = whitened.x - plain.x;

@@ -23,10 +23,12 @@ Index Settling(const NoiseModel& noise, Index most) {
 
 Eigen::MatrixXd DrawNoise(const NoiseModel& noise, Index n, Index courses, StartStream& stream) {
   const Index p = noise.order();
+  // half the width of a uniform distribution with the variance of the innovations
   const double half = std::sqrt(3 * (p == 0 ? noise.variance : noise.innovation));
   Eigen::VectorXd drawn(Settling(noise, n) + n);
   Eigen::MatrixXd all(n, courses);
   for (auto course : all.colwise()) {
+    // the model's recursion, begun early enough to have settled
     for (Index i = 0; i < drawn.size(); ++i) {
       drawn[i] = stream.Uniform(-half, half);
       for (Index k = 0; k < std::min(p, i); ++k) {

@@ -34,6 +34,7 @@ std::vector<Rows> RowsOfSegments(const Selection& selection) {
   std::vector<Rows> all;
   Index sample = 0, row = 0;
   for (const Segment& segment : selection.segments) {
+    // rows of the samples in front of the segment, then its own
     row += selection.keep.segment(sample, segment.begin - sample).count();
     const Index count = selection.keep.segment(segment.begin, segment.end - segment.begin).count();
     if (count > 0) all.push_back({row, count});
@@ -91,6 +92,7 @@ double Coverage(double q, const VectorXd& weights) {
 double FreedomOf(const MatrixXd& P, double variance) {
   const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(P, Eigen::EigenvaluesOnly);
   const VectorXd weights = solver.eigenvalues().cwiseMax(0) / variance;
+  // bisection, evenly in the logarithm
   double least = 0, most = std::log(kMostFreedom);
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = 0.5 * (least + most);
@@ -115,6 +117,7 @@ double FewestFreedom(const Selection& selection, Index p) {
 
 void CountSegments(const MatrixXd& X, const MatrixXd& cofactor, const VectorXd& residual,
                    const Selection& selection, Uncertainty& known) {
+  // the scatter of what each segment says takes the place of an assumed noise
   const Index p = cofactor.rows();
   MatrixXd scatter = MatrixXd::Zero(p, p);
   std::vector<Share> shares;
@@ -128,9 +131,11 @@ void CountSegments(const MatrixXd& X, const MatrixXd& cofactor, const VectorXd& 
   // P_gh = [g = h] b_g^T b_g - u_g^T C u_h, b_g column j of B and u_g that of X_g^T B.
   known.freedoms.setOnes(p);
   known.freedom = 1;
+  // as few segments as parameters tell no scatter
   if (static_cast<Index>(shares.size()) <= p) return;
   const VectorXd before = known.covariance.diagonal();
   MatrixXd covariance = cofactor * scatter * cofactor;
+  // variance and degrees of freedom of each parameter
   for (Index j = 0; j < p; ++j) {
     const auto count = static_cast<Index>(shares.size());
     MatrixXd P(count, count);
@@ -145,6 +150,7 @@ void CountSegments(const MatrixXd& X, const MatrixXd& cofactor, const VectorXd& 
       known.freedoms[j] = FreedomOf(P, cofactor(j, j));
       continue;
     }
+    // the segments say nothing of this one: its error stays
     const double scale = covariance(j, j) > 0 ? std::sqrt(before[j] / covariance(j, j)) : 0;
     covariance.row(j) *= scale;
     covariance.col(j) *= scale;

@@ -82,6 +82,7 @@ double Redundancy(const NoiseModel& noise, const Eigen::VectorXd& covariances) {
   std::vector<double> r(covariances.begin(), covariances.begin() + p + 1);
   double sum = 1;
   for (Eigen::Index lag = 1; lag < 100000; ++lag) {
+    // beyond its order the model continues its autocovariances
     if (lag > p) {
       const Eigen::Map<const Eigen::VectorXd> before(r.data() + lag - p, p);
       r.push_back(-backwards.dot(before));
@@ -158,6 +159,7 @@ NoiseModel FitNoise(const Eigen::VectorXd& residual, const Selection& selection)
   double best_bic = n * std::log(innovation);
   for (Eigen::Index p = 1; p <= highest && p <= best.order() + kPatience; ++p) {
     covariances[p] = autocovariance.At(p);
+    // what the model so far leaves of this lag is the next reflection coefficient
     const double past = a.dot(covariances.segment(1, p - 1).reverse());
     const double reflection = -(covariances[p] + past) / innovation;
     if (!(std::abs(reflection) < 1)) break;
@@ -166,6 +168,7 @@ NoiseModel FitNoise(const Eigen::VectorXd& residual, const Selection& selection)
     a = next;
     innovation *= 1 - reflection * reflection;
 
+    // the order that the Bayesian criterion prefers
     const double bic = n * std::log(innovation) + static_cast<double>(p) * std::log(n);
     if (bic >= best_bic) continue;
     best_bic = bic;
@@ -173,6 +176,7 @@ NoiseModel FitNoise(const Eigen::VectorXd& residual, const Selection& selection)
     best.covariances = covariances.head(p + 1);
     best.innovation = innovation;
   }
+  // what users of the model need
   best.correlation = covariances[1] / best.variance;
   best.redundancy = best.order() > 0 ? Redundancy(best, covariances) : 1;
   return best;
@@ -185,6 +189,7 @@ Eigen::VectorXd CovariancesOf(const NoiseModel& noise, Eigen::Index last) {
   r[0] = noise.variance;
   if (p > 0) r.head(p + 1) = noise.covariances;
   Eigen::Index small = 0;  // in a row
+  // on by the recursion, until p lags in a row are dead
   for (Eigen::Index lag = p + 1; p > 0 && lag <= last && small < p; ++lag) {
     r[lag] = -backwards.dot(r.segment(lag - p, p));
     small = std::abs(r[lag]) < kDead * noise.variance ? small + 1 : 0;
@@ -222,10 +227,12 @@ Eigen::MatrixXd ScatterThrough(
   Eigen::RowVectorXd largest = Eigen::RowVectorXd::Zero(d);
   Eigen::Index row = selection.count();
   for (Eigen::Index end = selection.keep.size(); end > -100000; end -= kBlock) {
+    // rows of a block of samples; those between kept ones are 0
     const Eigen::Index begin = std::max<Eigen::Index>(end - kBlock, 0);
     const Eigen::Index kept = end > 0 ? selection.keep.segment(begin, end - begin).count() : 0;
     const Eigen::MatrixXd input = kept > 0 ? rows(row - kept, row) : Eigen::MatrixXd(0, d);
     Eigen::Index next = kept;
+    // recursion of the transposed filter, one sample back at a time
     FilterBlockOfSize(coefficients, Z, [&](Eigen::Index k, auto out) {
       const Eigen::Index i = end - 1 - k;
       if (i >= 0 && selection.keep[i]) out += input.row(--next);

@@ -61,10 +61,12 @@ Uncertainty JudgePenalised(
   const Eigen::MatrixXd by_pull = pull * BeforeData(fit, drawn, hat, pull, by_noise);
   by_noise.triangularView<Eigen::Lower>() += by_pull * pull.transpose();
   by_noise.triangularView<Eigen::StrictlyUpper>() = by_noise.transpose();
+  // what was known beforehand errs as a measurement of that weight does
   if (fit.prior.size() > 0) {
     by_noise += noise.variance * (C * fit.prior.asDiagonal() * C);
   }
   result.covariance = std::move(by_noise);
+  // independent samples less effective parameters
   result.freedom = std::max(n / noise.redundancy - hat.trace(), 1.0);
   return result;
 }

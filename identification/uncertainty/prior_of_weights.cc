@@ -70,6 +70,7 @@ Candidate Together(const PulledWeights& weights, double taken, const Eigen::Matr
 }  // namespace
 
 Eigen::MatrixXd PriorOfWeights(const PulledWeights& weights, const CorrelationOver& correlation) {
+  // weights that go together with none
   const double taken = TakenByPull(weights);
   const Eigen::MatrixXd by_left = weights.bias * weights.left;
   Candidate apart = Independent(weights, taken, by_left);
@@ -86,6 +87,7 @@ Eigen::MatrixXd PriorOfWeights(const PulledWeights& weights, const CorrelationOv
     if (!(longer.deviance < best.deviance && longer.pull < best.pull)) break;
     best = std::move(longer);
   }
+  // a correlation must be more likely by more than chance
   const Candidate& chosen = best.deviance < apart.deviance - kNoChance ? best : apart;
   return chosen.variance * chosen.correlation;
 }

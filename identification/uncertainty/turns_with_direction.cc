@@ -19,12 +19,14 @@ std::optional<bool> TurnsWithDirection(const Eigen::VectorXd& residual,
     const bool forwards = velocity[first] > 0;
     last = first;
     while (last < residual.size() && (velocity[last] > 0) == forwards) ++last;
+    // mean residual of a stretch in one direction, and whether it turned
     const double mean = residual.segment(first, last - first).mean();
     turns += before * mean < 0 ? 1 : 0;
     changes += 1;
     before = mean;
   }
   if (changes < kFewestChanges) return std::nullopt;
+  // by chance half of the changes turn it, give or take sqrt(changes) / 2
   return turns - changes / 2 > kSure * std::sqrt(changes) / 2;
 }
 

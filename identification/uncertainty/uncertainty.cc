@@ -62,6 +62,7 @@ Uncertainty JudgeUncertainty(const std::function<Eigen::MatrixXd()>& jacobian,
   result.noise = FitNoise(residual, selection);
   const auto n = static_cast<double>(residual.size());
   const auto d = static_cast<double>(cofactor.rows());
+  // whether the residual grows with time or with friction
   const Eigen::MatrixXd known = Circumstances(residual.size(), fitted);
   const double uneven = Unevenness(residual, known, result.noise);
   if (uneven > kUneven) result.uneven = uneven;
@@ -74,10 +75,12 @@ Uncertainty JudgeUncertainty(const std::function<Eigen::MatrixXd()>& jacobian,
   }
 
   Eigen::MatrixXd rows = jacobian();
+  // errors by the scatter of the rows, and by that of what was known beforehand
   const auto spread = [&](Eigen::MatrixXd scatter) -> Eigen::MatrixXd {
     if (prior.size() > 0) scatter.diagonal() += result.noise.variance * prior;
     return cofactor * scatter * cofactor;
   };
+  // white but uneven: each row by its own residual
   if (result.noise.order() == 0) {
     rows = residual.asDiagonal() * rows;
     result.freedom = n - d;

@@ -46,7 +46,7 @@ std::vector<Index> PlacesOf(const std::vector<Index>& kept, const Measurements& 
   const double step = StepOfKept(kept, m.time);
   size_t next = 0;
   for (size_t i = 1; i < kept.size(); ++i) {
-    // in steps: most samples are one apart
+    // in steps: most samples are one apart; gaps count as the longest distance
     const double apart = (m.time[kept[i]] - m.time[kept[i - 1]]) / step;
     Index further = 1;
     if (!(apart < static_cast<double>(kLongestGap))) {
@@ -86,6 +86,7 @@ Whitening::Whitening(NoiseModel noise, const std::vector<Index>& places)
   Index farthest = 0;
   std::vector<Index> lags;
   for (size_t i = 0; i < places.size(); ++i) {
+    // distances to the samples that predict this one, each pattern of them solved once
     lags.clear();
     for (size_t j = i - std::min(i, p); j < i; ++j) lags.push_back(places[i] - places[j]);
     if (!lags.empty()) farthest = std::max(farthest, lags.front());
@@ -102,6 +103,7 @@ Whitening::Whitening(NoiseModel noise, const std::vector<Index>& places)
 Whitening::Predictor Whitening::Solve(const std::vector<Index>& lags,
                                       const Eigen::VectorXd& covariances) const {
   const auto m = static_cast<Index>(lags.size());
+  // autocovariances among the lags, and with the sample that they predict
   Eigen::MatrixXd among(m, m);
   Eigen::VectorXd with(m);
   for (Index i = 0; i < m; ++i) {
@@ -111,6 +113,7 @@ Whitening::Predictor Whitening::Solve(const std::vector<Index>& lags,
       among(i, j) = covariances[std::abs(lag - lags[static_cast<size_t>(j)])];
     }
   }
+  // the linear prediction of least error, scaled to the error of the innovations
   Predictor predictor;
   predictor.weights = among.ldlt().solve(with).transpose();
   const double left = noise_.variance - predictor.weights.dot(with);

@@ -43,6 +43,7 @@ bool CondensedProblem::operator()(const double* x, double* residuals, double* ja
   Eigen::MatrixXd root = factors.transpositionsP() * Eigen::MatrixXd::Identity(p + 1, p + 1);
   root = factors.matrixU() * root;
   root = factors.vectorD().cwiseMax(0).cwiseSqrt().asDiagonal() * root;
+  // residual and Jacobian of p + 1 rows, with the same squares as those of all samples
   Eigen::Map<Eigen::VectorXd>(residuals, p + 1) = root.col(p);
   if (jacobian) {
     Eigen::Map<Eigen::MatrixXd>(jacobian, p + 1, p) = root.leftCols(p);
@@ -70,6 +71,7 @@ const Eigen::MatrixXd& CondensedProblem::Evaluate(const Eigen::VectorXd& x) cons
 
 void CondensedProblem::SumProductsOfSize() const {
   const auto sum = [&]<int D>() { warming_ == 2 ? SumProducts<D, 2>() : SumProducts<D, 3>(); };
+  // sizes that the compiler knows, without jumps and offsets; else of any size
   switch (jump_weights_.size() + offsets_.cols() == 0 ? d_ : Eigen::Dynamic) {
     case 1:
       return sum.template operator()<1>();
@@ -87,6 +89,7 @@ void CondensedProblem::SumProducts() const {
   const Thermal thermal{x_[d_], std::exp(x_[d_ + 1])};
   const double initial = Q == 3 ? x_[d_ + 2] : 0;
   const double* jumps = x_.data() + d_ + Q;
+  // rows of the kept samples along one simulation
   const auto fill = [&](auto&& next) {
     WithHolds(loop_.intervals(), thermal, [&](const auto& hold) {
       RunWithSensitivities<D>(loop_, x_.data(), thermal.gain, initial, jumps, hold,
@@ -96,6 +99,7 @@ void CondensedProblem::SumProducts() const {
                               });
     });
   };
+  // a transform takes all rows at once; else they are summed as they come
   if (transform_) {
     products_ = TransformedProducts(fill);
     return;
@@ -114,6 +118,7 @@ Eigen::MatrixXd CondensedProblem::TransformedProducts(const FillRows& fill) cons
     sign[count] = loop_.direction()[n];
     return rows.row(count++);
   });
+  // levels back to torques, whose noise the transform knows
   rows.array().colwise() *= sign.array();
   transform_->Apply(rows);
   Eigen::MatrixXd products = Eigen::MatrixXd::Zero(rows.cols(), rows.cols());
@@ -129,6 +134,7 @@ void CondensedProblem::Fill(Eigen::Index n, double residual, const double* g, co
   const Eigen::Index q = D == Eigen::Dynamic ? offsets_.cols() : 0;
   const Eigen::Index j = D == Eigen::Dynamic ? jump_weights_.size() : 0;
   const double w = weight_[n];
+  // derivatives by law, warming, jumps and offsets, then the residual itself
   for (Eigen::Index i = 0; i < d; ++i) row[i] = -w * (g[i] + S[i]);
   for (Eigen::Index i = d; i < d + Q; ++i) row[i] = -w * S[i];
   for (Eigen::Index i = 0; i < j; ++i) row[d + Q + i] = -w * S[d + 3 + i];

@@ -11,6 +11,7 @@ CourseStart StartOf(const Estimate& estimate, const Measurements& measurements) 
     start.energy = found->value;
   }
   if (!Find(Role::jump, estimate)) return start;
+  // each gap has its jump, 0 where none was estimated
   const std::vector<LogGap> gaps = FindGaps(measurements);
   for (size_t i = 0; i < gaps.size(); ++i) {
     const EstimatedParameter* jump = Find(Role::jump, estimate, static_cast<int>(i));

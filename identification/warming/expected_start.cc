@@ -76,6 +76,7 @@ std::string WeighStart(const ClosedLoop& loop, const Eigen::VectorXd& level,
       return unlike;
     }
   }
+  // no contradiction: both together, from where the better fit ended
   const WarmFit& better = alone.converged ? alone : fit;
   fit = Again(loop, level, offsets, kept, initial, better);
   return "";

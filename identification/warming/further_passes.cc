@@ -15,10 +15,12 @@ Eigen::VectorXd AddJumps(const ClosedLoop& loop, const Eigen::VectorXd& level,
                          const std::vector<LogGap>& gaps, WarmFit& fit) {
   const Thermal thermal = fit.thermal();
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(gaps.size()));
+  // how large jumps may be, by the energy without them
   const LoopResponse response =
       loop.Simulate(fit.parameters(), thermal, fit.initial_energy(), none);
   const Eigen::VectorXd spread =
       JumpSpread(gaps, response.energy.cwiseAbs().maxCoeff(), thermal.time_constant);
+  // how much noise there is, by the squares so far
   const double scale = std::sqrt(fit.solution.squares / kept.sum());
   WarmFit next = FitWarmFriction(loop, level, offsets, kept, StartFrom(fit), fit.initial, scale,
                                  JumpWeights(scale, spread));
@@ -41,10 +43,12 @@ Eigen::VectorXd FitJumps(ClosedLoop& loop, const Eigen::VectorXd& level,
   WarmFit other =
       FitWarmFriction(without, level, offsets, kept, scanned, InitialEnergy::zero, scale);
   if (!other.converged) return spread;
+  // the start E(0) beside those jumps
   const Eigen::VectorXd other_spread = AddJumps(loop, level, offsets, kept, gaps, other);
   WarmFit freed =
       FitWarmFriction(loop, level, offsets, kept, StartFrom(other), fit.initial,
                       std::sqrt(other.solution.squares / kept.sum()), other.jump_weights);
+  // taken where it converges and leaves smaller squares
   const bool leaves_less = !(fit.converged && fit.solution.squares <= freed.solution.squares);
   if (!freed.converged || !leaves_less) return spread;
   freed.trace.insert(freed.trace.begin(), other.trace.begin(), other.trace.end());
@@ -57,6 +61,7 @@ std::shared_ptr<const Whitening> FitWhitened(const Measurements& m, const Select
                                              const Eigen::MatrixXd& offsets,
                                              const Eigen::VectorXd& spread, WarmFit& fit) {
   if (!fit.converged) return nullptr;
+  // what the fit leaves, and the noise in it
   const LoopResponse response =
       loop.Simulate(fit.parameters(), fit.thermal(), fit.initial_energy(), fit.jump_values());
   if (response.feeds_itself) return nullptr;
@@ -65,6 +70,7 @@ std::shared_ptr<const Whitening> FitWhitened(const Measurements& m, const Select
   auto whitening = WhiteningFor(Kept(left, moving), m, moving);
   if (!whitening) return nullptr;
 
+  // the same fit by whitened rows
   const double scale = std::sqrt(whitening->noise().innovation);
   WarmFit next = FitWarmFriction(loop, level, offsets, moving.keep.cast<double>(), StartFrom(fit),
                                  fit.initial, scale, JumpWeights(scale, spread), whitening.get());

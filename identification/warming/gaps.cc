@@ -24,10 +24,12 @@ bool IsLonger(const LogGap& a, const LogGap& b) { return a.length > b.length; }
 std::vector<LogGap> FindGaps(const Measurements& measurements) {
   const Measurements& m = measurements;
   std::vector<LogGap> gaps = m.gaps ? *m.gaps : GapsOf(m.time);
+  // a joint at rest loses nothing, and a new recording is no gap
   std::erase_if(gaps, [&](const LogGap& gap) {
     return RestsOver(m, gap.behind) || std::ranges::binary_search(m.starts, gap.behind);
   });
   if (gaps.size() <= kMostGaps) return gaps;
+  // the longest of them, in order of time
   std::nth_element(gaps.begin(), gaps.begin() + kMostGaps, gaps.end(), IsLonger);
   gaps.resize(kMostGaps);
   std::ranges::sort(gaps, {}, &LogGap::behind);

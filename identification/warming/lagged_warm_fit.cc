@@ -22,6 +22,7 @@ std::optional<WarmStart> StartBehindLag(const Measurements& m,
   const Eigen::VectorXd measured = m.torque(runs->samples);
   const auto found = FitLinearLag(runs, A, measured, {});
   if (!found) return std::nullopt;
+  // without what the lag adds to the model the scan sees friction alone
   const Eigen::VectorXd model = A * found->fit.solution;
   Eigen::VectorXd torque = m.torque;
   torque(runs->samples) -= found->rows->FittedTo(measured, model) - model;
@@ -56,6 +57,7 @@ std::shared_ptr<const LaggedRows> FitBehindLag(const Measurements& m, const Sele
     if (!behind) return nullptr;
     start = *behind;
   }
+  // law and warming at one lag, from the torque without it
   const auto fit_at = [&](const LaggedRows& rows) -> ModelBehindLag {
     Eigen::VectorXd level = Eigen::VectorXd::Zero(m.size());
     level(runs->samples) = rows.Unlagged(measured);
@@ -69,10 +71,12 @@ std::shared_ptr<const LaggedRows> FitBehindLag(const Measurements& m, const Sele
     start = StartFrom(latest);
     return {latest.solution.squares, torque(runs->samples)};
   };
+  // what the search compares with: no lag at all
   Eigen::VectorXd without;
   if (const Eigen::VectorXd all = torque_of(fit); fit.converged && all.size() > 0) {
     without = all(runs->samples);
   }
+  // the lag that leaves least, and the fit at it
   auto rows = SearchLag(runs, measured, without, fit_at);
   if (!rows || fit_at(*rows).torque.size() == 0) return nullptr;
   latest.trace.insert(latest.trace.begin(), fit.trace.begin(), fit.trace.end());

@@ -45,6 +45,7 @@ RobustWarmFit RefineByHuber(const ClosedLoop& loop, const Eigen::VectorXd& level
   RobustWarmFit robust{std::move(fit), kept, 0};
   bool rests = false;
   for (int round = 0; round < kMostRounds && robust.fit.converged && !rests; ++round) {
+    // weights by how far the residual stands out of its robust spread
     const Eigen::VectorXd residual = Residual(loop, level, offsets, kept, robust.fit);
     if (!residual.allFinite()) break;
     robust.threshold = HuberThreshold(OfKept(residual, kept));

@@ -24,6 +24,7 @@ struct Blocks {
 
 Blocks MakeBlocks(const ClosedLoop& loop, const Eigen::VectorXd& level,
                   const Eigen::VectorXd& kept) {
+  // blocks of as many samples each
   const Eigen::Index size = 1 + (loop.size() - 1) / kBlocks;
   const Eigen::Index m = (loop.size() + size - 1) / size;
   const Eigen::Index d = loop.levels().cols();
@@ -34,9 +35,11 @@ Blocks MakeBlocks(const ClosedLoop& loop, const Eigen::VectorXd& level,
 
   for (Eigen::Index b = 0; b < m; ++b) {
     const Eigen::Index begin = b * size, end = std::min(loop.size(), begin + size);
+    // length and losses of all samples, level of those that a fit uses
     double length = 0, loss = 0, weight = 0, mean = 0;
     for (Eigen::Index n = begin; n < end; ++n) {
       double h = intervals.length[intervals.which[n]];
+      // an infinite interval ends a recording
       if (std::isinf(h)) {
         h = intervals.typical;
         blocks.last[static_cast<size_t>(b)] = true;
@@ -46,11 +49,13 @@ Blocks MakeBlocks(const ClosedLoop& loop, const Eigen::VectorXd& level,
       weight += kept[n];
       mean += kept[n] * level[n];
     }
+    // means over the block
     blocks.length[b] = length;
     blocks.loss[b] = loss / length;
     if (weight == 0) continue;
     blocks.weight[b] = weight;
     blocks.level[b] = mean / weight;
+    // means of the law's columns over the same samples
     for (Eigen::Index i = 0; i < d; ++i) {
       double sum = 0;
       for (Eigen::Index n = begin; n < end; ++n) sum += kept[n] * loop.levels()(n, i);
@@ -75,17 +80,20 @@ Products Filter(const Blocks& blocks, const Taus& tau) {
   Taus x = Taus::Zero();
   ThermalHold<Taus> half = ThermalHold<Taus>::Over(Taus::Zero());
   double length = -1;
+  // blocks of one length share their hold
   for (Eigen::Index b = 0; b < blocks.length.size(); ++b) {
     if (std::abs(blocks.length[b] - length) > 1e-6 * length) {
       length = blocks.length[b];
       half = ThermalHold<Taus>::Over(0.5 * length / tau);
     }
     const double loss = blocks.loss[b], weight = blocks.weight[b];
+    // to the middle of the block, where it counts in the products
     x = half.After(x, loss);
     const Taus weighted = weight * x;
     products.level += weighted * blocks.level[b];
     products.self += weighted * x;
     for (Eigen::Index i = 0; i < d; ++i) products.columns.col(i) += weighted * blocks.levels(b, i);
+    // to its end; the next recording starts cold
     x = half.After(x, loss);
     if (blocks.last[static_cast<size_t>(b)]) x = Taus::Zero();
   }
@@ -115,6 +123,7 @@ WarmStart ScanTimeConstant(const ClosedLoop& loop, const Eigen::VectorXd& level,
   const Blocks blocks = MakeBlocks(loop, level, kept);
   const double total = blocks.length.sum();
   WarmStart start;
+  // time constants between those that the sampling and the duration can show, evenly in their logarithm
   start.shortest = std::max(2 * loop.intervals().typical, total / 500);
   start.longest = kScannedBeyond * total;
   const double step = std::log(start.longest / start.shortest) / (kTaus - 1);
@@ -136,6 +145,7 @@ WarmStart ScanTimeConstant(const ClosedLoop& loop, const Eigen::VectorXd& level,
   explained.maxCoeff(&best);
   start.thermal = {gain[best], tau[best]};
   Eigen::VectorXd slope = slopes.col(best);
+  // between grid points: the vertex of a parabola through the best and its neighbours
   if (best > 0 && best + 1 < kTaus) {
     const auto through = [best](const auto& values) {
       return Parabola{values[best - 1], values[best], values[best + 1]};

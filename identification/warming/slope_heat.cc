@@ -23,6 +23,7 @@ double Lowest(const F& f, double a, double b) {
   constexpr double ratio = std::numbers::phi - 1;
   double left = b - ratio * (b - a), right = a + ratio * (b - a);
   double at_left = f(left), at_right = f(right);
+  // golden section: the end beside the larger value is cut off
   for (int i = 0; i < kSteps; ++i) {
     if (at_left < at_right) {
       b = std::exchange(right, left), at_right = at_left;
@@ -39,6 +40,7 @@ double Lowest(const F& f, double a, double b) {
 
 Thermal FitSlopeHeat(const IdentifierInput& input, const Law& law, const Thermal& start) {
   const Measurements& m = input.measurements;
+  // torque and law over samples that a fit uses, losses over all
   const Eigen::VectorXd torque = Kept(m.torque, input.selection);
   const Eigen::VectorXd velocity = Kept(m.velocity, input.selection);
   const Eigen::MatrixXd columns = Kept(LawColumns(law, m.velocity), input.selection);
@@ -48,6 +50,7 @@ Thermal FitSlopeHeat(const IdentifierInput& input, const Law& law, const Thermal
   // law, k and c at a given tau: k and the squares that are left
   const auto fit = [&](double time_constant) {
     const Eigen::VectorXd x = Kept(filter.Energy({1, time_constant}, loss), input.selection);
+    // heat adds to the level and to the slope over speed
     Eigen::MatrixXd heat(x.size(), 2);
     heat << velocity.array().sign() * x.array(), velocity.array() * x.array();
     const Eigen::MatrixXd all = Beside(columns, heat);
@@ -58,6 +61,7 @@ Thermal FitSlopeHeat(const IdentifierInput& input, const Law& law, const Thermal
   };
   const double around = std::log(start.time_constant), reach = std::log(kWidest);
   const auto squares = [&](double log_tau) { return fit(std::exp(log_tau)).second; };
+  // the time constant that leaves least
   const double best = std::exp(Lowest(squares, around - reach, around + reach));
   const auto [gain, left] = fit(best);
   return std::isfinite(left) && std::isfinite(gain) ? Thermal{gain, best} : start;

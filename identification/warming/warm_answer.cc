@@ -27,6 +27,7 @@ namespace {
 std::optional<std::string> UntoldWarming(const WarmFit& fit, const WarmStart& scanned,
                                          double variance, double nominal_squares,
                                          const Eigen::MatrixXd& cofactor, double reach) {
+  // squares that the warming explains, in variances of the noise
   const double explained = (nominal_squares - fit.solution.squares) / variance;
   if (!fit.converged) {
     if (auto why = UnseenWarming(explained)) return why;
@@ -52,6 +53,7 @@ std::vector<Iterate> Trace(const WarmFit& warm, Eigen::Index n) {
     Iterate& entry = trace.emplace_back();
     entry.iteration = static_cast<int>(trace.size()) - 1;
     entry.rmse = std::sqrt(iterate.squares / static_cast<double>(n));
+    // law, gain and time constant, which the fit knew by its logarithm
     const Eigen::Index d = warm.law_parameters;
     entry.values.assign(iterate.x.begin(), iterate.x.begin() + d + 2);
     entry.values.back() = std::exp(entry.values.back());
@@ -64,6 +66,7 @@ ErrorModel ErrorsOf(const WarmTask& task, const RobustWarmFit& robust,
                     const Eigen::VectorXd& residual) {
   ErrorModel errors;
   errors.prior = robust.fit.prior();
+  // least squares: the normal matrix of the fit serves
   if (std::isinf(robust.threshold)) {
     errors.cofactor = Cofactor(robust.fit.normal);
     errors.whitening = task.whitening;
@@ -84,10 +87,12 @@ std::optional<Refusal> WhyRefused(const char* name, const WarmTask& task, const 
                                   double nominal_squares, const LoopResponse& response) {
   const Measurements& m = task.input.measurements;
   const auto n = task.input.selection.count();
+  // variance of the noise, and how much wider few segments make an interval
   const double variance = warm.solution.squares / static_cast<double>(n - warm.solution.x.size());
   const auto p = warm.solution.x.size();
   const double reach = StudentQuantile(FewestFreedom(task.input.selection, p), kIntervalLevel) /
                        StudentQuantile(kInfinity, kIntervalLevel);
+  // no warming to see, no end of the iterations, or a friction that feeds itself
   if (auto why = UntoldWarming(warm, task.scanned, variance, nominal_squares, Cofactor(warm.normal),
                                reach)) {
     return Refusal{Status::not_identifiable, *why};
@@ -144,6 +149,7 @@ Fit ConcludeWarm(const char* name, const WarmTask& task, const RobustWarmFit& ro
   const IdentifierInput& input = task.input;
   const Measurements& m = input.measurements;
   const WarmFit& warm = robust.fit;
+  // the course of force and energy along the log
   const LoopResponse response = task.loop.Simulate(warm.parameters(), warm.thermal(),
                                                    warm.initial_energy(), warm.jump_values());
   Fit fit;
@@ -170,6 +176,7 @@ Fit ConcludeWarm(const char* name, const WarmTask& task, const RobustWarmFit& ro
   };
   fit.end_energy_slopes = [loop, warm] { return WarmEndSlopes(*loop, warm); };
   if (task.structure) HoldStructure(*task.structure, Kept(response.force, fit.used), fit);
+  // parameters and loss, as reports tell them
   fit.count = static_cast<int>(warm.solution.x.size());
   fit.effective_parameters = fit.count;
   if (!std::isinf(robust.threshold)) fit.loss_bend = robust.threshold;
@@ -177,6 +184,7 @@ Fit ConcludeWarm(const char* name, const WarmTask& task, const RobustWarmFit& ro
       fmt::format("maximum likelihood on {} samples{}{}{}, refined in {} iterations",
                   fit.torque.size(), m.acceleration ? kOfAnyMotion : "", task.lag ? kBehindLag : "",
                   task.whitening ? kWhitened : "", warm.trace.size() - 1);
+  // what to know about gaps and lag
   if (!task.gaps.empty()) fit.warnings.push_back(LossesInGaps(task.gaps, m));
   if (task.lag) {
     AddLag(task.lag, response.force + task.gravity.columns * warm.offset_values(), m, fit);

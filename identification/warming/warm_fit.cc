@@ -22,11 +22,13 @@ WarmFit Solve(const CondensedProblem& problem, const Eigen::VectorXd& start) {
   Solver::Parameters x = start;
   solver.Solve(problem, &x);
 
+  // the products at the solution tell squares and normal matrix
   const Eigen::Index p = x.size();
   const Eigen::MatrixXd& products = problem.Evaluate(x);
   WarmFit fit;
   fit.solution = {x, products(p, p)};
   fit.normal = products.topLeftCorner(p, p);
+  // every iterate, the solution last
   fit.trace = std::move(problem.trace());
   fit.trace.push_back(fit.solution);
   fit.converged = solver.summary.status != Solver::HIT_MAX_ITERATIONS &&
@@ -71,9 +73,11 @@ WarmFit FitWarmFriction(const ClosedLoop& loop, const Eigen::VectorXd& level,
                         const WarmStart& start, const InitialEnergy& initial, double scale,
                         const Eigen::VectorXd& jump_weights, const RowTransform* transform) {
   const Eigen::Index d = loop.levels().cols(), q = offsets.cols(), jumps = jump_weights.size();
+  // heat has gain and log(tau), and E(0) where that is not known for sure
   const int warming = initial.spread > 0 ? 3 : 2;
   const StartPull pull{initial.mean, StartWeight(scale, initial)};
   Eigen::VectorXd x = Eigen::VectorXd::Zero(d + warming + jumps + q);
+  // from the scanned law and heat, without jumps, with the E(0) that is expected
   x.head(d + 2) << start.parameters.head(d), start.thermal.gain,
       std::log(start.thermal.time_constant);
   x.tail(q) = start.parameters.tail(q);
@@ -82,6 +86,7 @@ WarmFit FitWarmFriction(const ClosedLoop& loop, const Eigen::VectorXd& level,
   WarmFit fit = Solve(
       CondensedProblem(loop, level, offsets, kept, jump_weights, warming, pull, scale, transform),
       x);
+  // which entries of x are what
   fit.law_parameters = d;
   fit.jump_weights = jump_weights;
   fit.offsets = q;

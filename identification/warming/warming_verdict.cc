@@ -38,6 +38,7 @@ std::optional<std::string> UnseenWarming(double explained, const WarmingContext&
 std::optional<std::string> UnknownWarming(const WarmingEvidence& evidence,
                                           const WarmingContext& context) {
   if (auto why = UnseenWarming(evidence.explained, context)) return why;
+  // a time constant that may be longer than the log must be known better
   const double tau = evidence.time_constant;
   const bool beyond = tau * std::exp(1.96 * evidence.log_deviation) > evidence.duration;
   if (evidence.log_deviation < (beyond ? kVagueLongLogTau : kVagueLogTau) &&

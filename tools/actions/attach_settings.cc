@@ -26,6 +26,7 @@ std::string WarningOf(const std::string& path) {
   if (!object.is_object() || !object.contains("status") || object["status"] == "ok") return "";
   const std::string status =
       object["status"].is_string() ? Excerpt(object["status"].get<std::string>()) : "of no status";
+  // an estimate without numbers cannot become a model
   if (object.contains("friction") && object["friction"].is_null()) {
     Refuse({path}, "is {} and holds no friction; identify again with --force to use it anyway",
            status);
@@ -43,11 +44,13 @@ std::vector<std::string> IntegratorNames() {
 
 AttachOptions CheckedOptions(const AttachSettings& settings) {
   AttachOptions options;
+  // how friction enters the model
   if (settings.form != "actuator" && settings.form != "passive") {
     Refuse({"--as"}, "is '{}'{}", Excerpt(settings.form),
            Suggestion(settings.form, {"actuator", "passive"}));
   }
   if (settings.form == "passive") options.form = FrictionForm::passive;
+  // inertia of motors, by joint
   for (const auto& [joints, value] : settings.armatures) {
     if (!std::isfinite(value) || value < 0) {
       Refuse({"--armature"}, "of '{}' is {}; it must be a number of 0 or more, kg.m^2 or kg",

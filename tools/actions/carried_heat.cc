@@ -39,6 +39,7 @@ double PauseByStamps(const LeftHeat& left, const Measurements& next) {
   if (!left.stamp) {
     Refuse({"--follows"}, "{} does not tell when it ended: {}", left.file, remedy);
   }
+  // stamps of one clock tell how long the joint rested
   const double pause = next.time[0] - *left.stamp;
   if (pause > 0) return pause;
   Refuse({"--follows"},
@@ -58,6 +59,7 @@ bool IsJsonFile(const std::string& file) {
 
 LeftHeat HeatLeftBy(const Estimate& estimate, const std::string& file) {
   const Place place{file};
+  // without warming there is no heat to follow
   if (!FindIn(estimate.state_end, kStages[0])) {
     const bool ok = estimate.status == Status::ok;
     Refuse(place, "tells of no heat at its end, so nothing can follow it: {}",
@@ -76,11 +78,13 @@ LeftHeat HeatLeftBy(const Estimate& estimate, const std::string& file) {
                    kSecondStage)}) {
     const EstimatedParameter* energy = FindIn(estimate.state_end, name);
     if (!energy) continue;
+    // what is left after a pause needs the heat, its doubt and a time constant
     const std::optional<double> deviation = DeviationOf(*energy);
     if (!thermal || !deviation) {
       Refuse(place, "its state_end.{} has no {}, so nothing is known of what is left after a pause",
              name, thermal ? "interval" : "time constant");
     }
+    // how sure the time constant is
     const EstimatedParameter* tau =
         estimate.Find(fmt::format("{}{}", prefix, NameOf(Role::heat, 1)));
     const double tau_deviation = tau ? DeviationOf(*tau).value_or(0) : 0;
@@ -90,6 +94,7 @@ LeftHeat HeatLeftBy(const Estimate& estimate, const std::string& file) {
 }
 
 CarriedHeat CarryOver(const LeftHeat& left, std::optional<double> pause, const Measurements& next) {
+  // heat and torque have to be in one unit, and time runs forwards
   if (left.unit != next.torque_unit) {
     Refuse({"--follows"}, "{} holds its heat in {} and the torque of {} is in {}", left.file,
            left.unit, next.source, next.torque_unit);
@@ -97,15 +102,18 @@ CarriedHeat CarryOver(const LeftHeat& left, std::optional<double> pause, const M
   if (pause && !(*pause >= 0 && std::isfinite(*pause))) {
     Refuse({"--pause"}, "is {}; it must be a number of seconds, 0 or more", *pause);
   }
+  // a pause that is given goes before one that stamps tell
   CarriedHeat carried{left.file,
                       pause ? *pause : PauseByStamps(left, next),
                       pause ? "given" : "stamps",
                       left.unit,
                       {},
                       {}};
+  // each stage cools by exp(-pause / time constant)
   for (const LeftStage& stage : left.stages) {
     const double times = carried.pause / stage.time_constant, kept = std::exp(-times);
     carried.energy.push_back(stage.energy * kept);
+    // doubts of the heat and of its time constant are added, as if they went together
     const double by_time_constant =
         std::abs(stage.energy) * kept * times * stage.time_constant_std / stage.time_constant;
     carried.std.push_back(stage.std * kept + by_time_constant);

@@ -33,6 +33,7 @@ RecordingDifference By(const std::string& what, const Files& files,
                        const std::function<std::string(const CheckedFile&)>& value_of) {
   RecordingDifference difference{what, {}};
   for (const CheckedFile* file : files) {
+    // files of the same value stand together
     const std::string value = value_of(*file);
     auto found = std::ranges::find(difference.values, value, &RecordingDifference::Value::value);
     if (found == difference.values.end()) {
@@ -116,6 +117,7 @@ std::string VerdictOf(const CheckedFile& file) {
 
 std::vector<RecordingDifference> DifferencesOf(const std::vector<CheckedFile>& files) {
   const Files readable = Readable(files);
+  // what has to be the same to the letter
   std::vector<RecordingDifference> differences{
       By("joint", readable,
          [](const CheckedFile& one) {
@@ -128,6 +130,7 @@ std::vector<RecordingDifference> DifferencesOf(const std::vector<CheckedFile>& f
                                       : fmt::format("{}", fmt::join(one.columns, ", "));
          }),
       By("position", readable, WrapOf)};
+  // what may differ a little from one recording to the next
   const auto rate = [](const CheckedFile& one) { return one.check->sampling.rate; };
   if (Spreads(readable, kSameRate, rate)) {
     differences.push_back(By("rate", readable, [&](const CheckedFile& one) {
@@ -139,12 +142,14 @@ std::vector<RecordingDifference> DifferencesOf(const std::vector<CheckedFile>& f
       return fmt::format("{:.3g} {}", FastestOf(one), kVelocityUnit.For(one.check->joint));
     }));
   }
+  // recordings of different places cannot be compared over position
   if (PartInTravel(readable)) {
     differences.push_back(By("travel", readable, [](const CheckedFile& one) {
       return fmt::format("{:.4g} to {:.4g} {}", one.check->motion.lower, one.check->motion.upper,
                          kPositionUnit.For(one.check->joint));
     }));
   }
+  // what all share is no difference
   std::erase_if(differences, [](const RecordingDifference& one) { return one.values.size() < 2; });
   return differences;
 }
@@ -154,6 +159,7 @@ std::string CheckedTogetherToText(const std::vector<CheckedFile>& files, int wid
       {"file", "samples", "rate Hz", "duration s", "segments", "speeds +/-", "faults", "verdict"},
       {}};
   for (const CheckedFile& file : files) {
+    // a row for each file, with dashes where it cannot be read
     std::vector<std::string>& row = table.rows.emplace_back();
     row = {file.file, "-", "-", "-", "-", "-", "-", VerdictOf(file)};
     if (!file.check) continue;
@@ -162,6 +168,7 @@ std::string CheckedTogetherToText(const std::vector<CheckedFile>& files, int wid
     row[2] = fmt::format("{:.4g}", sampling.rate);
     row[3] = fmt::format("{:.4g}", sampling.duration);
     row[4] = std::to_string(file.check->motion.segments);
+    // speeds forwards and backwards
     const auto& levels = file.check->motion.levels;
     const auto ahead =
         std::ranges::count_if(levels, [](const SpeedLevel& one) { return one.velocity > 0; });
@@ -170,6 +177,7 @@ std::string CheckedTogetherToText(const std::vector<CheckedFile>& files, int wid
   }
   std::string text = TableToText(table, 1, width) + "\n";
 
+  // below the table what the recordings do not share
   const std::vector<RecordingDifference> differences = DifferencesOf(files);
   if (differences.empty()) text += "units, columns, wraps and rates are the same in all of them\n";
   for (const RecordingDifference& one : differences) {

@@ -34,12 +34,14 @@ std::vector<double> BlockTimes(const PreparedLog& log) {
 void Figure(const IdentifierInput& input, const std::vector<Metrics>& blocks,
             ComparedIdentifier& one) {
   double squares = 0, samples = 0;
+  // errors of all blocks, each by the number of its samples
   for (const Metrics& block : blocks) {
     one.blocks.push_back(block.rmse);
     squares += block.n * block.rmse * block.rmse;
     samples += block.n;
   }
   one.rmse = std::sqrt(squares / samples);
+  // the fit is 100 % less the error as a share of the torque's deviation
   const Eigen::ArrayXd torque = Kept(input.measurements.torque, input.selection).array();
   const double spread = std::sqrt((torque - torque.mean()).square().mean());
   one.fit = 100 * (1 - *one.rmse / spread);
@@ -47,6 +49,7 @@ void Figure(const IdentifierInput& input, const std::vector<Metrics>& blocks,
 
 /// Paired differences to the best.
 void TakeDifferences(std::vector<ComparedIdentifier>& compared) {
+  // the identifier of the smallest error
   const ComparedIdentifier* best = nullptr;
   for (const ComparedIdentifier& one : compared) {
     if (one.rmse && (!best || *one.rmse < *best->rmse)) best = &one;
@@ -54,6 +57,7 @@ void TakeDifferences(std::vector<ComparedIdentifier>& compared) {
   if (!best) return;
   const Eigen::Map<const Eigen::ArrayXd> least(best->blocks.data(),
                                                static_cast<Eigen::Index>(best->blocks.size()));
+  // how much larger each other's is over the same blocks, with the standard error of that
   for (ComparedIdentifier& one : compared) {
     if (!one.rmse) continue;
     const Eigen::Map<const Eigen::ArrayXd> its(one.blocks.data(), least.size());
@@ -73,12 +77,14 @@ std::vector<ComparedIdentifier> CompareIdentifiers(const std::vector<IdentifyTas
   std::vector<ComparedIdentifier> compared;
   for (const IdentifyTask& task : tasks) {
     if (narrator) narrator(task.identifier.name);
+    // fitted and judged as identify does it
     const IdentifierInput given{log, task.options, {}};
     const Estimate estimate = IdentifyAndJudge(task.identifier, given, task.judging);
     ComparedIdentifier& one = compared.emplace_back();
     one.name = task.identifier.name;
     one.status = estimate.status;
     one.message = estimate.FullMessage();
+    // errors over blocks that are the same times for all
     const IdentifierInput input = task.identifier.Seen(given);
     const std::vector<Eigen::Index> bounds = BoundsAt(times, input.measurements.time);
     if (const auto blocks = BlockedFigures(task.identifier, input, bounds)) {
@@ -96,6 +102,7 @@ nlohmann::json ComparedToJson(const std::vector<ComparedIdentifier>& compared) {
                        {"status", StatusName(one.status)},
                        {"message", one.message},
                        {"blocks", one.blocks}};
+    // an identifier without figures has none of these
     for (const char* key : {"rmse", "fit", "difference", "difference_std"}) row[key] = nullptr;
     if (one.rmse) {
       row["rmse"] = *one.rmse;

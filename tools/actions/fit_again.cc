@@ -49,6 +49,7 @@ std::optional<HeldOutFit> FitFirstPartAgain(const Estimate& estimate, const Prep
   const Fit all_data = estimate.choice ? identifier.fit(identifier.Seen(input)) : Fit{};
   const auto first = FitFirstPart(identifier, input, fraction, all_data);
   if (!first) return std::nullopt;
+  // the fit to the first part as an estimate of its own
   const PreparedLog seen = log.Before(first->split);
   const LogView& fitted = first->fit.inertia ? seen.moving() : seen.steady();
   HeldOutFit made{first->split, ReportFit(first->fit, Infer(first->fit), fitted.measurements)};

@@ -27,11 +27,13 @@ std::optional<Metrics> Figures(const Estimate& estimate, const LogView& log, con
 std::optional<Metrics> HoldOut(const CommandTask& task, const PreparedLog& log, double fraction) {
   const LogView& view = log.taken();
   const Eigen::VectorXd& time = view.measurements.time;
+  // the last part of the log's time is held out
   const double begin = time[0], end = time[time.size() - 1];
   const double split = begin + (1 - fraction) * (end - begin);
   const Eigen::Index n = (time.array() < split).count();
   if (fraction == 0 || n < 2) return std::nullopt;
 
+  // later samples test what the command makes of the earlier ones
   Selection test = view.selection;
   test.keep.head(n) = false;
   try {
@@ -46,6 +48,7 @@ std::optional<Metrics> HoldOut(const CommandTask& task, const PreparedLog& log, 
 }  // namespace
 
 CommandTask CheckCommand(const IdentifySettings& settings) {
+  // options that mean nothing to a command
   const std::pair<const char*, bool> ours[]{
       {"--gravity", settings.gravity != "none"},
       {"--start", settings.start == "estimated"},
@@ -53,6 +56,7 @@ CommandTask CheckCommand(const IdentifySettings& settings) {
   for (const auto& [option, is_given] : ours) {
     if (is_given) Refuse({option}, "is for identifiers of the list; leave it out with a command");
   }
+  // what --set gives goes over the command's own options
   SuiteIdentifier command = ReadExternal(settings.identifier, CommandForm::words);
   for (const auto& [name, value] : settings.options) {
     command.options.insert_or_assign(name, value);
@@ -64,11 +68,13 @@ CommandTask CheckCommand(const IdentifySettings& settings) {
 Estimate IdentifyByCommand(const CommandTask& task, const PreparedLog& log,
                            const HoldOutSource& holdout) {
   Estimate estimate = task.ask(log, {});
+  // held-out figures need samples to test on and an answer to be tested
   if (!holdout.other && holdout.fraction == 0) return estimate;
   if (estimate.status != Status::ok) {
     estimate.without_holdout = fmt::format("the answer is {}", StatusName(estimate.status));
     return estimate;
   }
+  // on another recording, or on the last part of this one
   estimate.holdout = holdout.other ? Figures(estimate, holdout.other->taken(),
                                              holdout.other->taken().selection, {})
                                    : HoldOut(task, log, holdout.fraction);

@@ -42,6 +42,7 @@ void AddStart(const IdentifySettings& settings, const Identifier& identifier,
     given[kStartOption] = "estimated";
     return;
   }
+  // only one option may say how warm the joint is at the start
   if (settings.start != "cold" || given.contains(kStartOption)) {
     Refuse({option}, "says how warm the joint is at the start, and so does {}; leave one of them",
            settings.start != "cold" ? "--start" : "--set initial_energy");
@@ -50,6 +51,7 @@ void AddStart(const IdentifySettings& settings, const Identifier& identifier,
     Refuse({option}, "{} holds two stages of warming, and {} fits one", settings.follows->file,
            identifier.name);
   }
+  // heat of the recording before is expected with the doubt that it has
   given[kStartOption] = "expected";
   given["expected_energy"] = fmt::format("{}", settings.follows->energy[0]);
   given["expected_energy_std"] = fmt::format("{}", settings.follows->std[0]);
@@ -70,6 +72,7 @@ void AddMotion(const std::string& motion, const Identifier& identifier,
 /// --set, and --start, --motion and --gravity as three of them.
 std::map<std::string, std::string> GivenOptions(const IdentifySettings& settings,
                                                 const Identifier& identifier, JointKind joint) {
+  // the start and the motion first, then gravity
   auto given = settings.options;
   AddStart(settings, identifier, given);
   AddMotion(settings.motion, identifier, given);
@@ -78,6 +81,7 @@ std::map<std::string, std::string> GivenOptions(const IdentifySettings& settings
     Refuse({"--gravity"}, "{} cannot tell gravity from friction; use one of: {}", identifier.name,
            Able(TellsGravity));
   }
+  // gravity over an angle needs one
   if (settings.gravity == "sincos" && joint == JointKind::linear) {
     Refuse({"--gravity"},
            "sincos needs an angle and the joint is linear, where gravity does not "
@@ -91,15 +95,18 @@ std::map<std::string, std::string> GivenOptions(const IdentifySettings& settings
 void AddHoldOut(const Identifier& identifier, const IdentifierInput& input, const Answer& answer,
                 const HoldOutSource& source, Estimate& estimate) {
   if (!source.other && source.fraction == 0) return;
+  // a failed fit to all data has no figures on others
   if (answer.inferred.status != Status::ok) {
     estimate.without_holdout =
         fmt::format("the fit to all data is {}", StatusName(answer.inferred.status));
   } else if (source.other) {
+    // the fit as it is, on another recording
     estimate.holdout = HoldOut(identifier, answer.fit, *source.other);
     if (!estimate.holdout) {
       estimate.without_holdout = WhyNoHoldOut(identifier, answer.fit, *source.other);
     }
   } else {
+    // a second fit to the first part, on the rest
     estimate.holdout = HoldOut(identifier, input, source.fraction, answer.fit);
     if (!estimate.holdout) {
       estimate.without_holdout = WhyNoHoldOut(identifier, input, source.fraction, answer.fit);
@@ -140,12 +147,14 @@ Identified IdentifyLog(const IdentifyTask& task, const PreparedLog& log,
   const Answer answer = FitAndJudge(task.identifier, input, task.judging);
   Identified identified{ReportAnswer(task.identifier, input, answer),
                         WithVoidNumbers(task.identifier, input, answer)};
+  // numbers of a refused fit are shown where that was asked for
   auto& [estimate, shown] = identified;
   if (task.void_numbers == VoidNumbers::show) {
     estimate = shown;
   } else {
     shown.message = estimate.message;
   }
+  // figures on held-out samples belong to both
   AddHoldOut(task.identifier, input, answer, holdout, estimate);
   shown.holdout = estimate.holdout;
   shown.without_holdout = estimate.without_holdout;

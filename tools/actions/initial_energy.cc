@@ -20,6 +20,7 @@ std::vector<double> EndEnergy(const FrictionDescription& friction, const std::st
   if (!friction.thermal) return {};
   const nlohmann::json object = ReadJsonFile(file);
   const Place place{file};
+  // only estimates of a warming joint tell the heat at the end
   if (!object.is_object() || !object.contains("state_end") || !object["state_end"].is_object()) {
     Refuse(place,
            "has no state_end, the heat at the end of its recording; identify again, or give "
@@ -27,6 +28,7 @@ std::vector<double> EndEnergy(const FrictionDescription& friction, const std::st
   }
   const nlohmann::json& end = object["state_end"];
   std::vector<double> energies;
+  // heat of each stage
   const auto add = [&](const char* key) {
     if (!end.contains(key)) Refuse(place, "state_end has no {}; identify again", key);
     // a number, or an object of its value, standard error and interval
@@ -42,11 +44,13 @@ std::vector<double> EndEnergy(const FrictionDescription& friction, const std::st
 
 std::vector<double> Settled(const std::string& text, const FrictionDescription& friction,
                             const std::string& file) {
+  // the heat that the joint settles at when it moves at this speed for ever
   const auto speed = ParseNumber(text);
   if (!speed || !std::isfinite(*speed)) {
     Refuse({"--initial"}, "is settled:{}; the speed must be a number, rad/s or m/s, as settled:0.5",
            Excerpt(text));
   }
+  // too fast, and the heat grows without end
   const auto energies = SettledEnergy(friction, *speed);
   if (energies) return *energies;
   Refuse({file},

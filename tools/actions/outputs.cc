@@ -27,10 +27,12 @@ std::FILE* WordsBeside(const std::vector<fs::path>& outputs) {
 
 void KeepApart(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs) {
   for (auto output = outputs.begin(); output != outputs.end(); ++output) {
+    // an output that is an input would destroy it
     for (const fs::path& input : inputs) {
       if (IsStandardInput(input) || !AreOne(*output, input)) continue;
       Refuse({output->string()}, "is an input too, which would be lost; choose another output");
     }
+    // two outputs in one file would destroy each other
     for (auto other = outputs.begin(); other != output; ++other) {
       if (!AreOne(*output, *other)) continue;
       Refuse({output->string()}, "is given for two outputs; choose another name for one of them");

@@ -13,12 +13,14 @@ namespace warmjoint::inline tools {
 StoredModel ReadStoredModel(const std::string& file) {
   const nlohmann::json object = ReadJsonFile(file);
   StoredModel stored;
+  // a file of friction alone has no verdict
   if (!object.is_object() || !object.contains("identifier")) {
     stored.identifier = "friction file";
     stored.model.friction = ReadFrictionFile(file);
     return stored;
   }
   const Estimate estimate = EstimateFromJson(object, {file});
+  // an estimate without friction predicts nothing
   if (!estimate.friction) {
     Refuse({file}, "is {} and holds no friction; identify again with --force to use it anyway",
            StatusName(estimate.status));
@@ -26,6 +28,7 @@ StoredModel ReadStoredModel(const std::string& file) {
   stored.identifier = estimate.identifier;
   stored.status = estimate.status;
   stored.model = {*estimate.friction, estimate.gravity, {}};
+  // inertia and lag of the torque, where the estimate has them
   if (const EstimatedParameter* inertia = Find(Role::inertia, estimate)) {
     stored.model.inertia = inertia->value;
   }
@@ -34,6 +37,7 @@ StoredModel ReadStoredModel(const std::string& file) {
 }
 
 Predicted PredictLog(const StoredModel& stored, const PreparedLog& log, const CourseStart& start) {
+  // with an inertia any motion can be compared, else constant speeds only
   const LogView& view = stored.model.inertia ? log.moving() : log.steady();
   const Measurements& m = view.measurements;
   const std::string_view unit = kTorqueUnit.For(m.joint);
@@ -42,12 +46,14 @@ Predicted PredictLog(const StoredModel& stored, const PreparedLog& log, const Co
            m.torque_unit, unit);
   }
   Predicted predicted{m, PredictTorque(stored.model, m, view.selection, start), {}};
+  // samples that all parts of the model know
   const Selection& known = predicted.torque.known;
   if (known.count() == 0) {
     Refuse({m.source}, "no sample can be compared: {} of {} samples {}{}", view.selection.count(),
            m.size(), stored.model.inertia ? "move clearly" : "move at a constant speed",
            view.selection.count() > 0 ? ", all where the estimate knows no gravity" : "");
   }
+  // nothing was fitted to these samples
   predicted.metrics =
       ComputeMetrics(Kept(m.torque, known), Kept(predicted.torque.torque, known), 0, 0);
   return predicted;
@@ -60,6 +66,7 @@ nlohmann::json PredictedToJson(const StoredModel& stored, const Predicted& predi
       {"status", StatusName(stored.status)},
       {"metrics",
        {{"n", metrics.n}, {"rmse", metrics.rmse}, {"mae", metrics.mae}, {"fit", metrics.fit}}}};
+  // the heat that the recording leaves behind
   const FrictionState& end = predicted.torque.friction.end;
   if (stored.model.friction.thermal) json["state_end"]["energy"] = end.energy;
   if (stored.model.friction.second_thermal) json["state_end"]["second_energy"] = end.second_energy;

@@ -77,16 +77,19 @@ double ReadGear(const YamlValue& value) {
 
 Project ParseProject(const std::string& text, const std::string& file) {
   const YamlValue document = YamlValue::Parse(text, file);
+  // a project says how recordings are read, and nothing else
   if (!document.IsMap()) document.RefuseValue("a map with entries as map, unit, joint, gear");
   RefuseCommands(document);
   document.RequireKeys({"map", "unit", "scale", "wrap", "joint", "gear", "trim", "shortest_hold"});
 
+  // names of columns, their units and factors
   Project project;
   const auto any = [](const YamlValue&, const std::string&) {};
   const auto number = [](const YamlValue& value, const std::string&) { value.Number(); };
   if (const auto map = document.Find("map")) project.map = ReadColumns(*map, any);
   if (const auto unit = document.Find("unit")) project.unit = ReadColumns(*unit, CheckUnit);
   if (const auto scale = document.Find("scale")) project.scale = ReadColumns(*scale, number);
+  // the joint and how its logs are cut
   if (const auto joint = document.Find("joint")) project.joint = ReadJoint(*joint);
   if (const auto gear = document.Find("gear")) project.gear = ReadGear(*gear);
   if (const auto wrap = document.Find("wrap")) project.wrap = wrap->Number(Bound::positive);
@@ -99,12 +102,14 @@ Project ParseProject(const std::string& text, const std::string& file) {
 
 nlohmann::json ProjectToJson(const Project& project) {
   nlohmann::json json = nlohmann::json::object();
+  // what the project does not say is left out
   const auto list = [&](const char* name, const std::vector<std::string>& pairs) {
     if (!pairs.empty()) json[name] = pairs;
   };
   const auto value = [&](const char* name, const auto& one) {
     if (one) json[name] = *one;
   };
+  // members by the names that they have in the file
   list("map", project.map);
   list("unit", project.unit);
   list("scale", project.scale);

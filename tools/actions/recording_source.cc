@@ -44,6 +44,7 @@ std::string Found(const fs::path& name, const fs::path& other) {
 /// Makes torque of a current, by the motor's constant seen at the joint.
 void TakeTorqueConstant(double constant, Measurements& log) {
   const std::string_view unit = kTorqueUnit.For(log.joint);
+  // what is a torque already needs no constant
   if (log.torque_unit != "A") {
     Refuse(
         {"--torque-constant"},
@@ -51,6 +52,7 @@ void TakeTorqueConstant(double constant, Measurements& log) {
         "is in amperes",
         log.source, log.torque_unit);
   }
+  // the motor's current becomes torque at the joint
   log.torque *= constant;
   log.torque_unit = unit;
   log.notes.push_back(fmt::format("torque: current times {:.6g} {}/A", constant, unit));
@@ -62,6 +64,7 @@ std::map<std::string, std::string> ReadPairs(const std::vector<std::string>& pai
                                              const std::string& option) {
   std::map<std::string, std::string> map;
   for (const std::string& pair : pairs) {
+    // a key before the sign, whatever follows is the value
     const size_t equals = pair.find('=');
     if (equals == std::string::npos || equals == 0) {
       Refuse({option}, "'{}' is not of the form key=value", Excerpt(pair));
@@ -86,6 +89,7 @@ std::vector<std::string> WordsOf(const RecordingArguments& arguments) {
   for (const std::string& pair : arguments.map) add("--map", pair);
   for (const std::string& pair : arguments.unit) add("--unit", pair);
   for (const std::string& pair : arguments.scale) add("--scale", pair);
+  // what is as usual needs no words
   const RecordingArguments usual;
   if (arguments.wrap != usual.wrap) add("--wrap", fmt::format("{}", arguments.wrap));
   if (arguments.joint != usual.joint) add("--joint", arguments.joint);
@@ -126,6 +130,7 @@ RecordingArguments RecordingFromJson(const nlohmann::json& json, const Place& pl
     json.at("unit").get_to(arguments.unit);
     json.at("joint").get_to(arguments.joint);
     json.at("gear").get_to(arguments.gear);
+    // what is rarely asked for may be absent
     arguments.scale = json.value("scale", arguments.scale);
     arguments.wrap = json.value("wrap", 0.0);
     arguments.torque_constant = json.value("torque_constant", 0.0);
@@ -133,6 +138,7 @@ RecordingArguments RecordingFromJson(const nlohmann::json& json, const Place& pl
   } catch (const nlohmann::json::exception& error) {
     Refuse(place, "its member `recording` cannot be read ({}): give --recording", error.what());
   }
+  // files are named as they are seen from the estimate
   for (std::string& file : arguments.recordings) {
     if (IsStandardInput(file)) {
       Refuse(place, "its recording was read from standard input; give it with --recording");
@@ -151,6 +157,7 @@ PreparedLog ReadAndPrepare(const RecordingArguments& arguments) {
 }
 
 CsvLayout LayoutOf(const RecordingArguments& arguments) {
+  // numbers that cannot be meant are refused before anything is read
   if (!std::isfinite(arguments.gear) || arguments.gear == 0) {
     Refuse({"--gear"}, "is {}; it must be a finite number other than 0", arguments.gear);
   }
@@ -161,6 +168,7 @@ CsvLayout LayoutOf(const RecordingArguments& arguments) {
     Refuse({"--torque-constant"}, "is {}; it must be a finite number, N.m/A or N/A at the joint",
            arguments.torque_constant);
   }
+  // columns, units and factors, and what joint they are of
   CsvLayout layout;
   layout.scale = ReadPairs(arguments.scale, "--scale");
   layout.wrap = arguments.wrap;

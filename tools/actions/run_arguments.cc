@@ -15,6 +15,7 @@ namespace {
 void RefuseCommand(const SuiteIdentifier& identifier, const RunArguments& arguments) {
   const auto command = identifier.options.find("command");
   if (identifier.name != kExternal || command == identifier.options.end()) return;
+  // commands of a suite run only where the user trusts them
   if (!arguments.allow_commands) {
     Refuse({arguments.suite},
            "identifier {} runs the command '{}'; where you trust it, give --allow-commands",
@@ -31,8 +32,10 @@ void RefuseCommand(const SuiteIdentifier& identifier, const RunArguments& argume
 
 Suite ResolveSuite(const RunArguments& arguments) {
   Suite suite = ReadSuite(arguments.suite);
+  // what the command line says goes over the suite
   if (arguments.realizations) suite.realizations = static_cast<int>(*arguments.realizations);
   if (arguments.seed) suite.scenario.seed = *arguments.seed;
+  // commands find their files wherever the run is started from
   for (SuiteIdentifier& identifier : suite.identifiers) {
     identifier = WithFilesOfSuite(std::move(identifier), arguments.suite);
   }

@@ -17,11 +17,13 @@ RunEnding EndingOf(const RunStore& store) {
   store.ForEachUnit([&](const std::vector<Result>& unit) {
     for (const Result& result : unit) {
       ++ending.results;
+      // no answer, no log to answer on, or an answer that the tests refuse
       const bool silent = unanswered.contains(result.status);
       const bool absent = result.status == "not_simulated";
       ending.unanswered += silent;
       ending.not_simulated += absent;
       ending.refused += !silent && !absent && result.status != "ok";
+      // a refusal is an answer, silence is none
       if (silent || absent) {
         first.emplace(result.identifier, result.status + ": " + result.message);
       } else {
@@ -31,6 +33,7 @@ RunEnding EndingOf(const RunStore& store) {
   });
 
   const std::vector<std::string> labels = store.ReadDescription().identifiers;
+  // identifiers that never answered, each with its first reason
   for (const auto& [identifier, reason] : first) {
     if (answered.contains(identifier)) continue;
     ending.silent.emplace_back(labels[static_cast<std::size_t>(identifier)], reason);

@@ -30,11 +30,14 @@ RunTask PrepareRun(const RunArguments& arguments) {
   task.suite = ResolveSuite(arguments);
   task.identifiers = PrepareIdentifiers(task.suite.identifiers, {arguments.suite});
   task.shard = ReadShard(arguments.shard);
+  // a thread for each core where nothing else is said
   const std::uint64_t cores = std::max(1u, std::thread::hardware_concurrency());
   task.jobs = static_cast<int>(arguments.jobs.value_or(cores));
   RequireMemoryFor(task.suite, task.shard, task.jobs, arguments.suite);
+  // a variant that cannot be simulated is found before the run begins
   for (int i = 0; i < task.suite.variants(); ++i) MakePlant(VariantScenario(task.suite, i));
 
+  // what a stored run has to agree with before it goes on
   task.description = Describe(task.suite);
   RefuseEditedCopy(arguments, task.description);
   return task;

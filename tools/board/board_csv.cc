@@ -50,6 +50,7 @@ std::string SummaryToCsv(const Leaderboard& board) {
     row.seconds.median = std::nan("");
     return Row(row);
   };
+  // all variants together, then each for itself
   std::string csv = "variant," + Header();
   for (const LeaderboardRow& row : board.rows) csv += "all," + timeless(row);
   for (const Leaderboard& group : board.groups) {

@@ -29,6 +29,7 @@ ordered_json ClaimJson(const Claim& claim) {
 }
 
 ordered_json RowJson(const LeaderboardRow& row) {
+  // figures as quantiles over the runs, times as a median alone
   ordered_json json{{"identifier", row.identifier},
                     {"runs", row.runs},
                     {"failures", ordered_json::object()},
@@ -44,12 +45,14 @@ ordered_json RowJson(const LeaderboardRow& row) {
                     {"seconds", {{"median", NumberOrNull(row.seconds.median)}}},
                     {"not_estimated", row.not_estimated}};
   for (const auto& [status, count] : row.failures) json["failures"][status] = count;
+  // intervals and errors of each parameter
   for (const ParameterRow& parameter : row.parameters) {
     if (parameter.coverage95) json["coverage95"][parameter.name] = *parameter.coverage95;
     if (std::isfinite(parameter.efficiency)) {
       json["efficiency"][parameter.name] = parameter.efficiency;
     }
   }
+  // how far behind the best one, and whether that is a tie
   if (row.behind) {
     json["behind_best"] = {{"median", NumberOrNull(row.behind->median)},
                            {"interval95", ordered_json::array({NumberOrNull(row.behind->lower),

@@ -17,6 +17,7 @@ struct FigureText {
 };
 
 const std::map<std::string, FigureText>& FigureTexts() {
+  // how each figure is written with its unit
   const auto share = [](double value, std::string_view) { return PercentText(value); };
   const auto percent = [](double value, std::string_view) {
     return fmt::format("{:.3f} %", value);
@@ -27,6 +28,7 @@ const std::map<std::string, FigureText>& FigureTexts() {
   const auto squared = [](double value, std::string_view unit) {
     return fmt::format("{} ({})^2", NumberText(value), unit);
   };
+  // figures that a claim may be about
   static const std::map<std::string, FigureText> texts{
       {"npe_continuous", {"NPE", &LeaderboardRow::npe_continuous, share}},
       {"npe_discrete", {"discrete NPE", &LeaderboardRow::npe_discrete, share}},
@@ -84,6 +86,7 @@ std::vector<std::string> TooGood(const LeaderboardRow& row) {
 std::vector<std::string> Notes(const Leaderboard& board) {
   std::vector<std::string> notes;
   for (const LeaderboardRow& row : board.rows) {
+    // what its author claims, where it failed, where it is too good to be true
     if (row.claim) notes.push_back(ClaimNote(row, kTorqueUnit.For(board.joint)));
     if (row.failed() > 0) notes.push_back(FailureNote(row));
     if (const auto names = TooGood(row); !names.empty()) {
@@ -92,11 +95,13 @@ std::vector<std::string> Notes(const Leaderboard& board) {
                       "happens once in a million: does it know the truth?",
                       row.identifier, fmt::join(names, ", ")));
     }
+    // parameters that are left out count as wrong by their whole size
     if (!row.not_estimated.empty()) {
       notes.push_back(fmt::format("{} does not estimate {}, which count as 0", row.identifier,
                                   fmt::join(row.not_estimated, ", ")));
     }
   }
+  // the board of a run that goes on
   if (board.finished < board.realizations) {
     notes.push_back(fmt::format("unfinished: {} of {} realizations; run the suite again to go on",
                                 board.finished, board.realizations));

@@ -65,6 +65,7 @@ Table RankingTable(const Leaderboard& board) {
   Table table{{"#", "identifier", "failed", "NPE median", "quartiles", "NPE rms", "rms / bound",
                "NPE above best", "discrete NPE", "rms"},
               {}};
+  // a row for each identifier, the best one first
   for (size_t i = 0; i < board.rows.size(); ++i) {
     const LeaderboardRow& row = board.rows[i];
     table.rows.push_back({std::to_string(i + 1), row.identifier, FailedCell(row),
@@ -74,6 +75,7 @@ Table RankingTable(const Leaderboard& board) {
                           BehindCell(row), PercentText(row.npe_discrete.median),
                           PercentText(row.npe_discrete.rms)});
   }
+  // the bound as the last row
   if (!std::isnan(board.bound_npe_continuous)) {
     table.rows.push_back({"", "Cramer-Rao bound", "", "", "",
                           PercentText(board.bound_npe_continuous), "1", "", "",
@@ -111,6 +113,7 @@ Table ParameterTable(const Leaderboard& board) {
   Table table{{"identifier", "parameter", "rms error / bound", "95 % coverage"}, {}};
   for (const LeaderboardRow& row : board.rows) {
     std::string label = row.identifier;
+    // the identifier is named once for all of its parameters
     for (const ParameterRow& parameter : row.parameters) {
       const std::string coverage =
           parameter.coverage95 ? PercentText(*parameter.coverage95) : std::string(kUnknown);
@@ -125,6 +128,7 @@ std::string Verdict(const Leaderboard& board) {
   if (board.rows.empty() || std::isnan(board.rows.front().npe_continuous.median)) {
     return "No identifier gave numbers.";
   }
+  // the best one with its median error
   const LeaderboardRow& best = board.rows.front();
   std::string verdict = fmt::format("{} is best: its median NPE{} is {}", best.identifier,
                                     board.groups.empty() ? "" : " over all groups",
@@ -134,6 +138,7 @@ std::string Verdict(const Leaderboard& board) {
     verdict += fmt::format(", its rms {:.2f} times the Cramer-Rao bound",
                            best.npe_continuous.rms / board.bound_npe_continuous);
   }
+  // others that cannot be told from it
   std::vector<std::string> ties;
   for (const LeaderboardRow& row : board.rows) {
     if (row.behind && row.behind->tie()) ties.push_back(row.identifier);

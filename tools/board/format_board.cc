@@ -19,6 +19,7 @@ Table SideBySide(const std::vector<NamedBoard>& boards) {
   Table table{{"run", "identifier", "failed", "NPE median", "NPE rms", "bound"}, {}};
   for (const NamedBoard& named : boards) {
     std::string run = named.run;
+    // the run is named once for all of its identifiers
     for (const LeaderboardRow& row : named.board.rows) {
       table.rows.push_back({run, row.identifier, std::to_string(row.failed()),
                             PercentText(row.npe_continuous.median),
@@ -58,6 +59,7 @@ std::string BoardToText(const Leaderboard& board, int width) {
   std::string text =
       fmt::format("{}: {}\n{}\n{}\n\n", board.suite, board.question, Verdict(board), Head(board));
   text += TableToText(RankingTable(board), 2, width) + "\n";
+  // variants beside each other, where there are some
   const Table groups = GroupTable(board);
   if (!groups.rows.empty()) {
     text += fmt::format("Median NPE by group:\n{}\n", TableToText(groups, 1, width));
@@ -73,6 +75,7 @@ std::string BoardToMarkdown(const Leaderboard& board) {
   std::string text = fmt::format("### {}\n\n{}\n\n**{}** {}\n\n", board.suite, board.question,
                                  Verdict(board), Head(board));
   text += TableToMarkdown(RankingTable(board), 2) + "\n";
+  // variants beside each other, where there are some
   const Table groups = GroupTable(board);
   if (!groups.rows.empty()) {
     text += fmt::format("Median NPE by group:\n\n{}\n", TableToMarkdown(groups, 1));

@@ -33,9 +33,11 @@ std::vector<LeaderboardRow> Rank(const Suite& suite,
     rows.push_back(columns[i].SumUp(suite.identifiers[i]));
     order[i] = i;
   }
+  // ranks by error, and suite order where two are equal
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return Better(rows[a], rows[b]); });
 
+  // all others are compared with the best one, realization by realization
   std::vector<LeaderboardRow> ranked;
   for (const std::size_t i : order) {
     // columns are in the order of units
@@ -94,6 +96,7 @@ Leaderboard BoardBuilder::Finish() const {
   board.realizations = suite_.realizations * suite_.variants();
   if (!suite_.ladder) return board;
 
+  // a board for each rung of the ladder
   board.variable = suite_.ladder->variable;
   if (!suite_.ladder->unit.empty()) board.variable += " " + suite_.ladder->unit;
   for (std::size_t i = 0; i < groups_.size(); ++i) {

@@ -27,6 +27,7 @@ std::size_t BootstrapRank(std::size_t n, double level) {
 }  // namespace
 
 Difference PairedDifference(const NumberColumn& a, const NumberColumn& b) {
+  // differences on the same realization; two that fail alike do not differ
   NumberColumn differences;
   ForEachPair(a, b, [&](double x, double y) { differences.Add(x == y ? 0 : x - y); });
   const Ascending ascending(differences);
@@ -34,6 +35,7 @@ Difference PairedDifference(const NumberColumn& a, const NumberColumn& b) {
     const double unknown = std::numeric_limits<double>::quiet_NaN();
     return {unknown, unknown, unknown};
   }
+  // ends of the interval as a bootstrap of the median has them
   const auto end = [&](double level) {
     return ascending[BootstrapRank(ascending.size(), level) - 1];
   };

@@ -79,18 +79,22 @@ void IdentifierColumns::Add(const Result& result) {
   npe_continuous_.Add(result.score ? result.score->npe_continuous : kUnknown);
   npe_discrete_.Add(result.score ? result.score->npe_discrete : kUnknown);
   ranked_npe_.Add(result.score ? result.score->npe_continuous : kInfinite);
+  // errors of each parameter beside its bound
   if (result.score) AddParameters(parameters_, *result.score);
 }
 
 void IdentifierColumns::Add(const IdentifierColumns& other) {
+  // all figures of the runs
   for (auto column :
        {&IdentifierColumns::npe_continuous_, &IdentifierColumns::npe_discrete_,
         &IdentifierColumns::rmse_, &IdentifierColumns::fit_, &IdentifierColumns::fpe_,
         &IdentifierColumns::mae_, &IdentifierColumns::seconds_, &IdentifierColumns::ranked_npe_}) {
     (this->*column).Add(other.*column);
   }
+  // failures, with the first message of them
   for (const auto& [status, count] : other.failures_) failures_[status] += count;
   if (failure_example_.empty()) failure_example_ = other.failure_example_;
+  // sums of each parameter, by its name
   for (const ParameterSums& more : other.parameters_) {
     ParameterSums& sums = SumsOf(parameters_, more.name);
     sums.intervals += more.intervals;

@@ -52,10 +52,12 @@ std::string Aligned(const Table& table, size_t left) {
 
 /// The table with its last column in lines that end at `room`.
 Table WithBrokenWords(const Table& table, const std::vector<size_t>& widths, size_t room) {
+  // the last column takes the width that the others leave
   const size_t before = Total(widths) - widths.back();
   const size_t rest = std::max(kNarrowest, room - std::min(room, before));
   Table broken{table.header, {}};
   for (std::vector<std::string> row : table.rows) {
+    // further lines of a cell stand alone in their rows
     for (std::string& line : WrapLine(row.back(), static_cast<int>(rest))) {
       row.back() = std::move(line);
       broken.rows.push_back(row);
@@ -110,6 +112,7 @@ std::string TableToText(const Table& given, size_t left, int width) {
   std::string text;
   const size_t named = Total({widths.begin(), widths.begin() + static_cast<std::ptrdiff_t>(left)});
   for (size_t begin = left, end = left; begin < widths.size(); begin = end) {
+    // at least one column goes in, however wide it is
     size_t used = named;
     while (end < widths.size() && (end == begin || used + kBetween + widths[end] <= room)) {
       used += kBetween + widths[end++];

@@ -54,6 +54,7 @@ void CheckRows(const SQLite::Database& results, const RunDescription& descriptio
   CheckPositions(results, "variant", place);
 
   const std::size_t variants = std::max<std::size_t>(1, description.variants.size());
+  // rows that name units or identifiers that the run does not have, or units that are not finished
   const std::string unit = fmt::format(
       "SELECT variant, realization FROM {{}} WHERE NOT (variant >= 0 AND variant < {} AND"
       " realization >= 0 AND realization < {})",
@@ -65,6 +66,7 @@ void CheckRows(const SQLite::Database& results, const RunDescription& descriptio
       "SELECT variant, realization FROM {0} WHERE NOT EXISTS (SELECT 1 FROM realization AS r WHERE"
       " r.variant = {0}.variant AND r.realization = {0}.realization)";
 
+  // every table that has such rows
   RefuseFound(results, fmt::format(fmt::runtime(unit), "realization"), "the run has none", place);
   for (const char* table : {"result", "parameter", "trace"}) {
     RefuseFound(results, fmt::format(fmt::runtime(unit), table), "the run has none", place);

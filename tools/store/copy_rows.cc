@@ -54,12 +54,14 @@ class Cursor {
   /// Goes to the next row, or to the first; false, and closed, after the last.
   bool Step() {
     if (!is_open()) Open();
+    // the database is open only while there are rows to read
     const int state = sqlite3_step(rows_.get());
     if (state == SQLITE_DONE) {
       Close();
       return false;
     }
     if (state != SQLITE_ROW) database_->check(state);
+    // the key says where the row goes among those of all sources
     for (std::size_t i = 0; i < table_->key; ++i) {
       key_[i] = sqlite3_column_int(rows_.get(), static_cast<int>(i));
     }
@@ -69,6 +71,7 @@ class Cursor {
  private:
   void Open() {
     database_ = std::make_unique<SQLite::Database>(ReopenFrozen(source_->file));
+    // rows in the order of their keys
     std::string order = "1";
     for (std::size_t i = 2; i <= table_->key; ++i) order += fmt::format(", {}", i);
     rows_ = Prepare(*database_, fmt::format("SELECT * FROM {} WHERE variant = {} ORDER BY {}",
@@ -123,10 +126,12 @@ void CheckOverlap(const Cursor& cursor, const Table& table, bool equal, Overlap 
 /// One table of all sources: the cursor with the lowest key always goes first.
 void CopyTable(SQLite::Database& fresh, const std::vector<RowSource>& sources, const Table& table,
                Overlap overlap) {
+  // one cursor for each variant of each source
   std::vector<Cursor> cursors;
   for (const RowSource& source : sources) {
     for (const Unit& first : source.first) cursors.emplace_back(source, first, table);
   }
+  // rows are merged in order, so that the file is the same whatever the shards were
   const auto later = [](const Cursor* a, const Cursor* b) { return a->key() > b->key(); };
   std::priority_queue<Cursor*, std::vector<Cursor*>, decltype(later)> queue(later);
   for (Cursor& cursor : cursors) queue.push(&cursor);
@@ -137,9 +142,11 @@ void CopyTable(SQLite::Database& fresh, const std::vector<RowSource>& sources, c
   while (!queue.empty()) {
     Cursor& cursor = *queue.top();
     queue.pop();
+    // a new cursor has its place in the queue, but no row yet
     if (cursor.is_open()) {
       if (!insert) insert = InsertLike(fresh, table, cursor.rows());
       const std::string here = table.digest < 0 ? "" : TextOf(cursor.rows(), table.digest);
+      // a row that two sources have is written once, where that is allowed
       if (cursor.key() != last) {
         Insert(fresh, insert.get(), cursor.rows());
       } else {
@@ -165,6 +172,7 @@ void CopyTables(SQLite::Database& fresh, const std::vector<RowSource>& sources,
 RowSource SourceOf(const std::filesystem::path& file) {
   RowSource source{file, {}};
   const SQLite::Database database = ReopenFrozen(file);
+  // the first unit of each variant, where reading begins
   Guarded(file, [&] {
     SQLite::Statement first(database,
                             "SELECT variant, min(realization) FROM realization GROUP BY variant"

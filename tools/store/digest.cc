@@ -66,6 +66,7 @@ std::string DigestOfPlan(const RunDescription& description) {
 std::string DigestOfResults(const std::string& plan, Unit unit, std::span<const Result> results) {
   Canonical text;
   text.Add(plan).Add(unit.variant).Add(unit.realization);
+  // what was answered, without the times that it took
   for (const Result& result : results) {
     text.Add(result.identifier).Add(result.status).Add(result.message);
     if (result.metrics) AddMetrics(text, *result.metrics);

@@ -66,6 +66,7 @@ std::string CsvCell(const std::string& text) {
   const bool formula = text.find_first_of("=+-@\t\r") == 0 && !ParseNumber(text);
   const std::string shown = formula ? "'" + text : text;
   if (shown.find_first_of(",\"\n\r") == std::string::npos) return shown;
+  // quotes within a cell are doubled
   std::string quoted = "\"";
   for (const char c : shown) {
     if (c == '"') quoted += '"';
@@ -102,6 +103,7 @@ std::string CsvRow(const Result& result, const std::vector<std::string>& names,
                    const RunDescription& description) {
   const std::string& label = description.identifiers[static_cast<size_t>(result.identifier)];
   std::string csv;
+  // which run it was: variant, realization, identifier
   if (!description.variants.empty()) {
     csv += CsvCell(description.variants[static_cast<size_t>(result.variant)]) + ",";
   }
@@ -113,11 +115,13 @@ std::string CsvRow(const Result& result, const std::vector<std::string>& names,
 
 std::size_t ExportResults(const RunStore& store) {
   const RunDescription description = store.ReadDescription();
+  // a first pass tells which columns there are
   CsvColumns columns;
   store.ForEachUnit([&](const std::vector<Result>& unit) {
     for (const Result& result : unit) columns.Add(result);
   });
 
+  // a second one writes them block by block, so that large runs need little memory
   AtomicFile file(store.directory() / "results.csv");
   const std::vector<std::string> names = columns.Names();
   constexpr std::size_t block = 1 << 20;  // bytes

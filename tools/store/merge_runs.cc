@@ -12,6 +12,7 @@ std::set<Unit> MissingUnits(const Suite& suite, const RunStore& merged) {
   std::set<Unit> missing;
   const int last = suite.realizations;
   Unit next;  // the first that is not looked at yet
+  // units between two finished ones are missing
   const auto skip_to = [&](Unit end) {
     while (next < end) {
       if (next.realization < last) missing.insert(missing.end(), next);
@@ -19,6 +20,7 @@ std::set<Unit> MissingUnits(const Suite& suite, const RunStore& merged) {
                                      : Unit{next.variant + 1, 0};
     }
   };
+  // finished units come in order
   merged.ForEachFinished([&](Unit unit) {
     skip_to(unit);
     ++next.realization;
@@ -41,9 +43,11 @@ MergedRun MergeRuns(const std::vector<std::filesystem::path>& shards,
     shard.Verify();
   }
 
+  // the merged run is not seen before it is whole
   AtomicDirectory whole(directory, {});
   MergedRun outcome;
   {
+    // rows of all shards, their tables, and what is still missing
     RunStore merged = RunStore::CreateOrResume(whole.temporary(), description);
     merged.Gather(shards, options.overlap);
     outcome.results = options.write_tables(merged);

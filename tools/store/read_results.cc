@@ -16,6 +16,7 @@ namespace {
 TraceTable ReadTraceRow(SQLite::Statement& row, const std::string& plan, const Place& place) {
   const Unit unit{row.getColumn(0).getInt(), row.getColumn(1).getInt()};
   TraceTable trace;
+  // names of the columns, then all numbers in one piece
   std::istringstream columns(row.getColumn(3).getString());
   for (std::string name; std::getline(columns, name, ',');) trace.columns.push_back(name);
   const SQLite::Column blob = row.getColumn(4);
@@ -23,6 +24,7 @@ TraceTable ReadTraceRow(SQLite::Statement& row, const std::string& plan, const P
   if (!trace.values.empty()) {
     std::memcpy(trace.values.data(), blob.getBlob(), trace.values.size() * sizeof(float));
   }
+  // a trace that was changed after the run is not read
   const std::string digest = DigestOfTrace(plan, unit, row.getColumn(2).getInt(), trace);
   if (digest != row.getColumn(5).getString()) RefuseChangedUnit(unit, place);
   return trace;

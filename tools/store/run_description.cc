@@ -36,14 +36,17 @@ std::string ValueOrNothing(const std::map<std::string, std::string>& scalars,
 }  // namespace
 
 std::vector<std::string> SuiteDifferences(const std::string& stored, const std::string& asked) {
+  // both suites as lists of paths with their values
   std::map<std::string, std::string> before, after;
   Flatten(YamlValue::Parse(stored, "the stored suite").node(), "", before);
   Flatten(YamlValue::Parse(asked, "the suite").node(), "", after);
 
+  // paths of either suite, since both may lack some
   std::map<std::string, std::string> paths = before;
   paths.insert(after.begin(), after.end());
   std::vector<std::string> differences;
   for (const auto& [path, value] : paths) {
+    // what only one of them has counts as nothing in the other
     const std::string old_value = ValueOrNothing(before, path);
     const std::string new_value = ValueOrNothing(after, path);
     if (old_value == new_value) continue;
@@ -77,6 +80,7 @@ void RefuseDifferentSuite(const std::string& stored, const std::string& asked, c
 
 void RefuseDifferentRun(const RunDescription& stored, const RunDescription& asked,
                         const Place& place) {
+  // results of other versions do not mix
   RefuseDifferentVersions(stored, asked, place);
   std::vector<std::string> differences;
   try {
@@ -86,6 +90,7 @@ void RefuseDifferentRun(const RunDescription& stored, const RunDescription& aske
   }
   if (differences.empty()) return;
   RefuseDifferentSuite(stored.suite_yaml, asked.suite_yaml, place);
+  // two differences say enough
   const size_t shown = std::min<size_t>(differences.size(), 2);
   const std::string more =
       differences.size() > shown ? fmt::format("; and {} more", differences.size() - shown) : "";

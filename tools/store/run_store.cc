@@ -38,6 +38,7 @@ void MakeRunDirectory(const fs::path& directory) {
   fs::create_directories(directory, error);
   if (error) Refuse({directory.string()}, "cannot be made: {}", error.message());
 
+  // a run goes on where there is one; any other folder has to be empty
   if (fs::exists(directory / kResultsFile)) return;
   for (const auto& entry : fs::directory_iterator(directory)) {
     if (entry.path().filename() == ".lock") continue;
@@ -63,6 +64,7 @@ RunStore RunStore::CreateOrResume(const fs::path& directory, const RunDescriptio
   RunStore store(directory, Access::write);
   RemoveLeftovers(directory);
   Guarded(directory, [&] {
+    // a new run begins; an old one goes on where it is the same
     if (IsEmpty(store.results_)) {
       CreateResultTables(store.results_, description);
     } else {
@@ -70,6 +72,7 @@ RunStore RunStore::CreateOrResume(const fs::path& directory, const RunDescriptio
       RefuseDifferentRun(store.ReadDescription(), description, {directory.string()});
       CheckRows(store.results_, description, {store.results_file().string()});
     }
+    // timings may be lost without harm to the run
     if (IsEmpty(*store.timings_)) CreateTimingTables(*store.timings_);
     CheckTimingSchema(*store.timings_, {store.timings_file().string()});
   });
@@ -84,6 +87,7 @@ RunStore RunStore::CreateOrResume(const fs::path& directory, const RunDescriptio
 
 RunStore RunStore::OpenToRead(const fs::path& directory, Access access) {
   const Place place{directory.string()};
+  // tasks of an array leave shards, which are read as one run
   if (!fs::exists(directory / kResultsFile)) {
     const std::vector<fs::path> shards = ShardsOf(directory);
     if (!shards.empty()) return OpenShards(shards);
@@ -91,6 +95,7 @@ RunStore RunStore::OpenToRead(const fs::path& directory, Access access) {
            kResultsFile);
   }
   RunStore store(directory, access);
+  // tables that were changed after the run are refused
   Guarded(directory, [&] {
     if (IsEmpty(store.results_)) Refuse(place, "holds no results yet; run the suite again");
     CheckSchema(store.results_, {store.results_file().string()});
@@ -111,10 +116,12 @@ RunStore RunStore::OpenShards(const std::vector<fs::path>& shards) {
       if (fs::exists(shard / name)) fs::copy_file(shard / name, copies.back() / name);
     }
   }
+  // all shards have to be of one run
   const RunDescription description = OpenToRead(copies.front()).ReadDescription();
   for (std::size_t i = 0; i < copies.size(); ++i) {
     RefuseDifferentRun(description, OpenToRead(copies[i]).ReadDescription(), {shards[i].string()});
   }
+  // their rows in one store, which owns the folder that it lies in
   RunStore whole = CreateOrResume(folder->path() / "run", description);
   whole.Gather(copies, Overlap::equal);
   whole.folder_ = std::move(folder);
@@ -128,6 +135,7 @@ void RunStore::Settle() { WriteAnew({SourceOf(results_file())}, Overlap::refused
 void RunStore::Gather(const std::vector<fs::path>& shards, Overlap overlap) {
   std::vector<RowSource> results, timings;
   for (const fs::path& shard : shards) {
+    // results are all that a shard must have
     results.push_back(SourceOf(shard / kResultsFile));
     if (!fs::exists(shard / kTimingsFile)) continue;
     timings.push_back({shard / kTimingsFile, results.back().first});
@@ -146,6 +154,7 @@ void RunStore::WriteAnew(const std::vector<RowSource>& sources, Overlap overlap)
     CreateResultTables(fresh, description);
     CopyResults(fresh, sources, overlap);
   });
+  // closed while the file is replaced
   results_ = SQLite::Database(":memory:");
   file.Commit();
   results_ = OpenDatabase(results_file(), Access::write);

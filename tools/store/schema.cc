@@ -54,6 +54,7 @@ std::vector<std::string> ObjectsOf(const SQLite::Database& database) {
 /// Refuses tables that are not those that `create` makes: other columns, views, triggers.
 void RefuseForeignObjects(const SQLite::Database& database, const char* create,
                           const Place& place) {
+  // the tables as this version makes them
   SQLite::Database ours(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
   ours.exec(create);
   const std::vector<std::string> expected = ObjectsOf(ours);
@@ -62,6 +63,7 @@ void RefuseForeignObjects(const SQLite::Database& database, const char* create,
     Refuse(place, "holds a foreign '{}' in its schema; it was changed after the run",
            Excerpt(object));
   }
+  // all there are belong to a run, but some may be gone
   if (ObjectsOf(database) == expected) return;
   Refuse(place, "lacks some of its tables; it was changed after the run, or is no run's");
 }
@@ -97,6 +99,7 @@ void CreateResultTables(SQLite::Database& results, const RunDescription& descrip
   results.exec(kResultTables);
   results.exec(fmt::format("PRAGMA user_version = {}", kSchemaVersion));
 
+  // what the run is: its suite, its versions, and the names that numbers stand for
   SQLite::Statement suite(results, "INSERT INTO suite VALUES (?)");
   suite.bind(1, description.suite_yaml);
   suite.exec();
@@ -106,6 +109,7 @@ void CreateResultTables(SQLite::Database& results, const RunDescription& descrip
     version.bind(2, value);
     version.exec();
   }
+  // numbers in all other tables stand for these names
   InsertNames(results, "INSERT INTO identifier VALUES (?, ?)", description.identifiers);
   InsertNames(results, "INSERT INTO variant VALUES (?, ?)", description.variants);
   transaction.commit();

@@ -21,6 +21,7 @@ Suite StoredSuite(const RunStore& store) {
   const RunDescription description = store.ReadDescription();
   const std::string file = store.results_file();
   const Suite suite = ParseSuite(description.suite_yaml, file);
+  // names beside the results have to be those of the suite
   const bool same =
       NamesOf(suite.identifiers, &SuiteIdentifier::label) == description.identifiers &&
       description.variants == (suite.ladder ? NamesOf(suite.ladder->variants, &Variant::name)

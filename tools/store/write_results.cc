@@ -42,6 +42,7 @@ void InsertParameters(SQLite::Statement& insert, const Result& result, int discr
     const ParameterScore& score = scores[i];
     insert.reset();
     insert.clearBindings();
+    // numbers that are absent stay empty
     if (score.covered) insert.bind(10, *score.covered ? 1 : 0);
     insert.bind(11, score.bound);
     Insert(insert, result.variant, result.realization, result.identifier, discrete,
@@ -58,6 +59,7 @@ void InsertTrace(SQLite::Statement& insert, const Result& result, const std::str
   insert.bind(4, fmt::format("{}", fmt::join(result.trace.columns, ",")));
   insert.bind(5, result.trace.values.data(),
               static_cast<int>(result.trace.values.size() * sizeof(float)));
+  // a digest tells later whether the trace was changed
   const Unit unit{result.variant, result.realization};
   insert.bind(6, DigestOfTrace(plan, unit, result.identifier, result.trace));
   insert.exec();
@@ -66,6 +68,7 @@ void InsertTrace(SQLite::Statement& insert, const Result& result, const std::str
 void InsertResult(Inserts& inserts, const Result& result, const std::string& plan) {
   Insert(inserts.failure, result.variant, result.realization, result.identifier, result.status,
          result.message);
+  // an answer without figures or score stays without
   if (const auto& m = result.metrics) {
     Insert(inserts.metrics, result.variant, result.realization, result.identifier, m->n,
            m->parameters, m->effective_parameters, m->rmse, m->mae, m->fit, m->fpe);
@@ -76,11 +79,13 @@ void InsertResult(Inserts& inserts, const Result& result, const std::string& pla
     InsertParameters(inserts.parameter, result, 0, s->continuous);
     InsertParameters(inserts.parameter, result, 1, s->discrete);
   }
+  // how the identifier came to its answer
   InsertTrace(inserts.trace, result, plan);
 }
 
 void WriteTimings(SQLite::Database& timings, std::span<const Realization> realizations) {
   SQLite::Transaction transaction(timings);
+  // an earlier run may have left timings of the same units
   SQLite::Statement simulation(timings, "INSERT OR REPLACE INTO simulation VALUES (?, ?, ?)");
   SQLite::Statement identification(timings,
                                    "INSERT OR REPLACE INTO identification VALUES (?, ?, ?, ?)");
@@ -101,6 +106,7 @@ void RunStore::Write(std::span<const Realization> realizations) {
   Guarded(timings_file(), [&] { WriteTimings(*timings_, realizations); });
 
   Guarded(results_file(), [&] {
+    // a batch is stored as a whole or not at all
     SQLite::Transaction transaction(results_);
     Inserts inserts(results_);
     for (const Realization& realization : realizations) {

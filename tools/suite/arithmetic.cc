@@ -57,6 +57,7 @@ std::string DigestOfRealizations() {
   const std::vector<PreparedIdentifier> identifiers =
       PrepareIdentifiers(suite.identifiers, {suite.name});
   std::string digests;
+  // the first realization of each variant, by all identifiers
   for (int variant = 0; variant < suite.variants(); ++variant) {
     const Unit unit{variant, 0};
     const Carried carried = RunRealization(MakeBench(VariantScenario(suite, variant)), identifiers,
@@ -71,6 +72,7 @@ std::string DigestOfRealizations() {
 std::string DigestOfFunctions() {
   RandomStream random({20, 0}, Stream::test);
   Bits bits;
+  // functions whose last bits depend on the library and the machine
   for (int i = 0; i < kArguments; ++i) {
     const double x = random.Uniform(-20, 20), positive = random.Uniform(0, 20);
     for (const double value :

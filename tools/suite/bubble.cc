@@ -33,6 +33,7 @@ const fs::path& Bubblewrap() {
 std::vector<std::string> InBubble(const std::vector<std::string>& command,
                                   const std::vector<fs::path>& system,
                                   const std::vector<fs::path>& readable, const fs::path& own) {
+  // nothing of the machine is shared: processes, network and temporary files are its own
   std::vector<std::string> words{Bubblewrap().string(),
                                  "--unshare-all",
                                  "--die-with-parent",
@@ -45,6 +46,7 @@ std::vector<std::string> InBubble(const std::vector<std::string>& command,
   const auto bind = [&words](const char* how, const fs::path& path) {
     words.insert(words.end(), {how, path.string(), path.string()});
   };
+  // the system and what the command needs to be read, its own directory to be written
   for (const fs::path& path : system) bind("--ro-bind-try", path);
   for (const fs::path& path : readable) bind("--ro-bind-try", path);
   bind("--bind", own);

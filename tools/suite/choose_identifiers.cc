@@ -16,6 +16,7 @@ bool Contains(const std::vector<SuiteIdentifier>& identifiers, const std::string
 /// Adds what one name stands for.
 void Add(const std::string& name, const std::vector<SuiteIdentifier>& suite, CommandForm form,
          std::vector<SuiteIdentifier>& chosen) {
+  // a command from outside brings its own name
   if (name.find('=') != std::string::npos) {
     const SuiteIdentifier external = ReadExternal(name, form);
     if (Contains(chosen, external.label)) {
@@ -25,12 +26,14 @@ void Add(const std::string& name, const std::vector<SuiteIdentifier>& suite, Com
     chosen.push_back(external);
     return;
   }
+  // a name may stand for several identifiers of the suite
   bool in_suite = false;
   for (const SuiteIdentifier& one : suite) {
     if (one.label != name && one.name != name) continue;
     in_suite = true;
     if (!Contains(chosen, one.label)) chosen.push_back(one);
   }
+  // any other is one of the list, with its usual options
   if (!in_suite && !Contains(chosen, name)) {
     chosen.push_back({FindIdentifier(name).name, name, {}, {}});
   }

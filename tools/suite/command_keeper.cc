@@ -35,6 +35,7 @@ void Limit(int resource, rlim_t value) {
 
 /// Closes all descriptors but the standard three and those named.
 void CloseOthers(int a, int b, int c) {
+  // all files but the kept ones are closed, gap by gap
   int kept[]{a, b, c};
   std::sort(kept, kept + 3);
   unsigned next = 3;
@@ -50,8 +51,10 @@ void CloseOthers(int a, int b, int c) {
 
 /// The command itself, from fork to exec.
 [[noreturn]] void BecomeCommand(const KeeperTask& task) noexcept {
+  // a session of its own, which dies with its keeper
   setsid();
   prctl(PR_SET_PDEATHSIG, SIGKILL, 0, 0, 0);
+  // it has nothing to read, and all that it writes goes to the keeper's pipe
   const int nothing = open("/dev/null", O_RDONLY);
   dup2(nothing, STDIN_FILENO);
   dup2(task.output, STDOUT_FILENO);
@@ -63,11 +66,13 @@ void CloseOthers(int a, int b, int c) {
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
 
+  // limits that the kernel watches
   Limit(RLIMIT_CPU, static_cast<rlim_t>(std::ceil(task.limits.seconds)) + 1);
   Limit(RLIMIT_AS, task.limits.memory);
   Limit(RLIMIT_FSIZE, task.limits.file);
   Limit(RLIMIT_NOFILE, 256);
   Limit(RLIMIT_CORE, 0);
+  // the wall is raised last, then the command takes over this process
   if (chdir(task.directory) != 0 || !task.wall->Raise()) _exit(kNoStart);
   CloseOthers(0, 1, 2);
   execve(task.arguments[0], task.arguments, task.environment);
@@ -79,6 +84,7 @@ void CloseOthers(int a, int b, int c) {
 /// "/proc/PID/task/PID/children", made without a library that may hold locks.
 struct ChildrenPath {
   explicit ChildrenPath(pid_t pid) {
+    // written without the heap, which a fork may leave locked
     char digits[12] = {};
     char* first = digits + 11;
     for (pid_t rest = pid; rest > 0; rest /= 10) *--first = static_cast<char>('0' + rest % 10);
@@ -99,6 +105,7 @@ void ForEachChild(pid_t parent, Work work) {
   if (file < 0) return;
   char block[512];
   pid_t pid = 0;
+  // the kernel lists children as numbers with blanks between
   for (ssize_t n; (n = read(file, block, sizeof block)) > 0;) {
     for (ssize_t i = 0; i < n; ++i) {
       if ('0' <= block[i] && block[i] <= '9') {
@@ -125,6 +132,7 @@ int CountBelow(pid_t parent, int levels, int most) {
 /// Kills what is left of the command. Killing a process hands its children to this one, which
 /// has adopted all of them once nothing is left to wait for.
 void KillAll(pid_t command) {
+  // its group at once, then whoever left the group, until nobody is left
   kill(-command, SIGKILL);
   for (;;) {
     ForEachChild(getpid(), [](pid_t pid) { kill(pid, SIGKILL); });
@@ -140,6 +148,7 @@ void KillAll(pid_t command) {
 }  // namespace
 
 void KeepCommand(const KeeperTask& task, pid_t parent) noexcept {
+  // processes that lose their parent become children of this one
   setsid();
   prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0);
   CloseOthers(task.output, task.verdict, task.wall->descriptor());
@@ -147,6 +156,7 @@ void KeepCommand(const KeeperTask& task, pid_t parent) noexcept {
 
   KeeperVerdict verdict;
   const pid_t command = fork();
+  // this side only watches; the pipe is the command's
   if (command == 0) BecomeCommand(task);
   close(task.output);
   bool abandoned = false;
@@ -160,15 +170,19 @@ void KeepCommand(const KeeperTask& task, pid_t parent) noexcept {
       if (ended == command) verdict.status = status;
     }
     if (ended == command || ended < 0) break;
+    // what ends it: nobody waits any more, its time is over, its processes are too many
     abandoned = getppid() != parent;
     verdict.timed_out = Now() > deadline;
     verdict.crowded = CountBelow(getpid(), kLevels, task.limits.processes) > task.limits.processes;
     if (abandoned || verdict.timed_out || verdict.crowded) break;
+    // quick commands are noticed at once, long ones cost little to watch
     nanosleep(&pause, nullptr);
     pause.tv_nsec = std::min(2 * pause.tv_nsec, kLongestPause);
   }
 
+  // nothing that the command started survives it
   if (command > 0) KillAll(command);
+  // where nobody waits, nobody else removes its directory
   if (abandoned) execve(task.removal[0], task.removal, task.environment);
   if (command < 0) verdict.status = kNoStart << 8;
   [[maybe_unused]] const ssize_t told = write(task.verdict, &verdict, sizeof verdict);

@@ -34,11 +34,13 @@ std::vector<std::string> WithAbsoluteFiles(std::vector<std::string> words, const
 std::string WithAbsoluteFiles(const std::string& line, const fs::path& folder) {
   std::string result;
   bool first = true;
+  // words and the blanks between them in turn
   for (size_t begin = 0; begin < line.size();) {
     const bool blank = IsBlank(line[begin]);
     size_t end = begin;
     while (end < line.size() && IsBlank(line[end]) == blank) ++end;
     const std::string part = line.substr(begin, end - begin);
+    // files are meant from the folder of the suite, wherever the command runs
     result += !blank && NamesFile(part, first, folder) ? ShellQuoted(Absolute(part, folder)) : part;
     first = first && blank;
     begin = end;

@@ -21,6 +21,7 @@ RunDescription Describe(const Suite& suite) {
       description.variants.push_back(variant.name);
     }
   }
+  // all that the numbers may depend on
   description.versions = {
       {"arithmetic", ArithmeticDigest()},
       {"ceres", CERES_VERSION_STRING},

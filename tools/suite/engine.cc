@@ -54,19 +54,23 @@ struct Work {
 void Labour(Work& work) {
   std::exception_ptr error;
   try {
+    // plants are made once for each variant and thread
     std::vector<Bench> benches(static_cast<size_t>(work.suite.variants()));
     const RecordingKeeper keeper(work.recordings);
+    // the next unit that no thread has taken
     while (work.Open()) {
       const size_t i = work.next++;
       if (i >= work.units.size()) break;
       const Unit unit = work.units[i];
       Bench& bench = benches[static_cast<size_t>(unit.variant)];
       if (!bench.plant) bench = MakeBench(VariantScenario(work.suite, unit.variant));
+      // simulated and identified; the results wait for the thread that stores
       Carried carried = RunRealization(bench, work.identifiers, unit, keeper);
       work.Count(unit, carried.following);
       work.queue.Put(std::move(carried.realization));
     }
   } catch (...) {
+    // an error in one thread ends the work of all
     error = std::current_exception();
     work.stop = true;
   }
@@ -87,6 +91,7 @@ int Store(Work& work, RunStore& store,
           const std::function<void(const std::vector<Realization>&)>& tell) {
   int stored = 0;
   try {
+    // results are stored in batches as they come
     while (!work.queue.Done()) {
       const std::vector<Realization> batch = work.queue.Take(kBatchTime);
       if (!batch.empty()) store.Write(batch);
@@ -94,6 +99,7 @@ int Store(Work& work, RunStore& store,
       tell(batch);
     }
   } catch (...) {
+    // without a store there is no use in working on
     work.stop = true;
     throw;
   }
@@ -104,17 +110,20 @@ int Store(Work& work, RunStore& store,
 
 RunOutcome RunSuite(const Suite& suite, const std::vector<PreparedIdentifier>& identifiers,
                     const RunOptions& options, RunStore& store) {
+  // units of this shard that are not stored yet
   std::vector<Unit> units = UnitsOf(suite, options.shard);
   const auto total = static_cast<int>(units.size());
   const std::set<Unit> stored = store.Finished();
   std::erase_if(units, [&](const Unit& unit) { return stored.count(unit) > 0; });
   const int already = total - static_cast<int>(units.size());
 
+  // no more threads than units
   const int workers = std::clamp(options.jobs, 1, std::max(1, static_cast<int>(units.size())));
   const std::filesystem::path recordings =
       options.keep_recordings ? store.directory() / "recordings" : "";
   Work work{suite, identifiers, units, recordings, 0, false, FinishedQueue(workers)};
   Progress progress(total, already, store.CountStatuses());
+  // who watches is told numbers, everybody else reads lines
   int told = already;
   const auto tell = [&](const std::vector<Realization>& batch) {
     if (!options.watch) return Report(progress, batch);

@@ -59,11 +59,13 @@ std::vector<fs::path> FilesOf(const std::vector<std::string>& words) {
 /// libraries.
 std::vector<fs::path> Readable(const std::vector<std::string>& words, const Options& options) {
   std::vector<fs::path> readable = FilesOf(words);
+  // what lies beside a script, unless that is around the folder of the run
   std::error_code ignored;
   if (!readable.empty() && options.Text("beside") == "yes") {
     const fs::path beside = readable.front().parent_path();
     if (!IsAround(beside, fs::current_path())) readable.push_back(beside);
   }
+  // the program, with the libraries of its environment
   const fs::path program = FindInterpreter(words.front());
   for (const fs::path& path : {program, fs::weakly_canonical(program, ignored)}) {
     if (!path.is_absolute()) continue;
@@ -72,6 +74,7 @@ std::vector<fs::path> Readable(const std::vector<std::string>& words, const Opti
       readable.push_back(libraries);
     }
   }
+  // what the suite allows besides
   std::istringstream paths(options.Text("reads"));
   for (std::string path; std::getline(paths, path, ':');) {
     if (!path.empty()) readable.push_back(fs::absolute(path));
@@ -118,6 +121,7 @@ SuiteIdentifier ReadExternal(const std::string& argument, CommandForm form) {
   const Place place{"--identifier " + Excerpt(label)};
   if (label.empty()) Refuse({"--identifier"}, "'{}' lacks its name before '='", Excerpt(argument));
   const std::string command = argument.substr(equals + 1);
+  // without both files the command has nothing to read or nothing to write
   if (!Mentions(command, "{estimate}")) {
     Refuse(place, "the command lacks {{estimate}}, the file that it has to write");
   }
@@ -133,8 +137,10 @@ SuiteIdentifier WithFilesOfSuite(SuiteIdentifier identifier, const fs::path& sui
   if (identifier.name != kExternal || !identifier.options.contains("command")) return identifier;
   const Place place{suite.string()};
   const std::string given = identifier.options.at("command");
+  // files of the command are meant from the folder of the suite
   identifier = WithFilesFrom(suite.parent_path(), std::move(identifier), place);
   const std::string& command = identifier.options.at("command");
+  // the folder of the suite is not shown: it may hold the truth
   const std::vector<fs::path> files = FilesOf(SplitCommand(command, place));
   if (command == given || files.empty()) return identifier;
   const fs::path beside = files.front().lexically_normal().parent_path();

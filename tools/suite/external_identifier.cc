@@ -42,6 +42,7 @@ void WriteMeasurements(const Measurements& measurements, const std::string& comm
 std::string AnswerText(const fs::path& file) {
   constexpr std::size_t most = std::size_t{16} << 20;  // bytes
   const fs::file_status status = fs::symlink_status(file);
+  // only a plain file of bounded size is an answer
   if (!fs::exists(status)) throw NoAnswer("bad_answer", "wrote no estimate");
   if (!fs::is_regular_file(status)) {
     throw NoAnswer("bad_answer", "the estimate is not a regular file");
@@ -58,6 +59,7 @@ Estimate ReadAnswer(const fs::path& file, const std::string& label) {
   try {
     nlohmann::json json = ParseJson(text, "estimate.json");
     if (!json.is_object()) throw NoAnswer("bad_answer", "the estimate is not a JSON object");
+    // members that an answer may leave out
     const nlohmann::json absent{{"identifier", label},
                                 {"message", ""},
                                 {"metrics", nullptr},
@@ -76,10 +78,12 @@ Estimate ReadAnswer(const fs::path& file, const std::string& label) {
 /// The discrete pair (22) of an estimate that brings only the continuous one, without intervals.
 void AddDiscretePair(Estimate& estimate, const Measurements& measurements) {
   const EstimatedParameter* gain = Find(Role::heat, estimate, 0);
+  // only where the answer has the continuous pair alone
   const EstimatedParameter* time_constant = Find(Role::heat, estimate, 1);
   if (!gain || !time_constant || time_constant->value <= 0) return;
   if (estimate.Find(kDiscreteGainName) || estimate.Find(kPoleName)) return;
 
+  // what the pair is at the step of the samples
   const double step = MedianStep(measurements.time);
   const std::string unit = gain->unit;
   const DiscreteThermal pair = Discretise({gain->value, time_constant->value}, step);
@@ -129,10 +133,12 @@ std::string RemedyFor(const CommandEnd& end) {
 
 /// What the command answers of the log. Its directory lives no longer than it does.
 Estimate Answer(const Command& command, const Measurements& measurements) {
+  // the command works in a directory of its own, behind a wall
   const WorkingDirectory directory;
   WriteMeasurements(measurements, command.text, directory.path());
   const Wall wall(command.readable, directory.path());
   const CommandEnd end = RunCommand(Filled(command.words), directory.path(), wall, command.limits);
+  // ends without an answer, each with its reason
   if (end.timed_out) {
     throw NoAnswer("timeout", fmt::format("took longer than {} s", command.limits.seconds));
   }
@@ -163,15 +169,18 @@ PreparedIdentifier PrepareExternal(const SuiteIdentifier& identifier, const Plac
                                    const Judging& judging) {
   const Options options(ExternalOptions(), identifier.options, place);
   Command command{identifier.label, options.Text("command"), {}, {}, {}, judging};
+  // a command that is not told where to write cannot answer
   if (!Mentions(command.text, "{estimate}")) {
     Refuse(place, "the command of {} lacks {{estimate}}, the file that it has to write",
            Excerpt(identifier.label));
   }
+  // its words, or a line for a shell where the suite asks for one
   const std::vector<std::string> words = SplitCommand(command.text, place);
   command.readable = ReadableBy(identifier);
   command.words = words;
   command.words.front() = FindInterpreter(words.front());
   if (options.Text("shell") == "yes") command.words = {"/bin/sh", "-c", command.text};
+  // how long it may take, and with how much memory
   command.limits.seconds = options.Number("time_limit");
   command.limits.memory =
       static_cast<std::size_t>(options.Number("memory") * static_cast<double>(1 << 20));

@@ -39,6 +39,7 @@ void RequireMemoryFor(const Suite& suite, const Shard& shard, int jobs, const st
     const Scenario variant = VariantScenario(suite, i);
     if (Samples(variant) > Samples(largest)) largest = variant;
   }
+  // as many units at once as there are threads, or fewer where there is less to do
   const int realizations = std::max(0, std::min(shard.end, suite.realizations) - shard.first);
   const double units = static_cast<double>(realizations) * suite.variants() / shard.count;
   const double at_once = std::clamp(static_cast<double>(jobs), 1.0, std::max(1.0, units));
@@ -47,6 +48,7 @@ void RequireMemoryFor(const Suite& suite, const Shard& shard, int jobs, const st
       fmt::format("{:g} recordings at once (--jobs), each of {}", at_once, SamplesInWords(largest)),
       "give fewer --jobs, shorten duration or lower sampling.rate", {file});
 
+  // what the run keeps of each result of the shard while it goes on
   const auto identifiers = static_cast<double>(suite.identifiers.size());
   RequireMemory(units * identifiers * kResult,
                 fmt::format("{:g} results ({} realizations of {} variants by {} identifiers, in {} "

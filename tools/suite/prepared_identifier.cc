@@ -10,10 +10,12 @@ std::vector<PreparedIdentifier> PrepareIdentifiers(const std::vector<SuiteIdenti
                                                    const Place& place) {
   std::vector<PreparedIdentifier> prepared;
   for (const SuiteIdentifier& one : identifiers) {
+    // a command from outside has its own way to answer
     if (one.name == kExternal) {
       prepared.push_back(PrepareExternal(one, place));
       continue;
     }
+    // options are checked before anything runs
     const Identifier& identifier = FindIdentifier(one.name);
     const Options options(identifier.options, one.options, place);
     prepared.emplace_back([identifier, options](const PreparedLog& log, StartKey start) {

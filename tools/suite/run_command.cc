@@ -93,6 +93,7 @@ KeeperVerdict Await(const Pipe& output, const Pipe& verdict, std::string& tail) 
   end.status = SIGKILL;  // as waitpid has it: of a keeper that was killed itself
   bool writing = true;
   for (;;) {
+    // whatever comes first, words of the command or the verdict on it
     std::array<pollfd, 2> files{pollfd{verdict.out(), POLLIN, 0},
                                 pollfd{writing ? output.out() : -1, POLLIN, 0}};
     if (poll(files.data(), files.size(), -1) < 0) {
@@ -101,6 +102,7 @@ KeeperVerdict Await(const Pipe& output, const Pipe& verdict, std::string& tail) 
     }
     if (files[1].revents != 0) writing = ReadSome(output.out(), tail);
     if (files[0].revents == 0) continue;
+    // the verdict comes last
     KeeperVerdict told;
     if (read(verdict.out(), &told, sizeof told) == sizeof told) end = told;
     break;
@@ -126,6 +128,7 @@ std::string FindProgram(const std::string& name) {
   if (name.find('/') != std::string::npos) return name;
   const char* path = std::getenv("PATH");
   std::string_view rest = path ? path : "/usr/bin:/bin";
+  // the first folder of the path that has it
   while (!rest.empty()) {
     const std::size_t colon = rest.find(':');
     const fs::path file = fs::path(rest.substr(0, colon)) / name;
@@ -148,17 +151,20 @@ CommandEnd RunCommand(const std::vector<std::string>& arguments, const fs::path&
   const std::string folder = directory;
   const KeeperTask task{argv.data(), envp.data(), folder.c_str(), remove.data(),
                         &wall,       limits,      output.in(),    verdict.in()};
+  // a keeper in between starts the command, watches and ends it
   const pid_t parent = getpid();
   const pid_t keeper = fork();
   if (keeper == 0) KeepCommand(task, parent);
   if (keeper < 0)
     throw std::system_error(errno, std::generic_category(), "no process for a command");
+  // nothing here can write any more, so that reading ends when all others have ended
   output.CloseIn();
   verdict.CloseIn();
 
   std::string tail;
   const KeeperVerdict end = Await(output, verdict, tail);
   waitpid(keeper, nullptr, 0);
+  // an end by a signal as a shell counts it
   const int status = WIFEXITED(end.status) ? WEXITSTATUS(end.status) : 128 + WTERMSIG(end.status);
   return {end.timed_out, end.crowded, status, LastLine(tail)};
 }

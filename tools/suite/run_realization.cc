@@ -35,6 +35,7 @@ void Fill(Result& result, const Estimate& estimate, const Recording& recording,
           const LogView& view) {
   result.status = StatusName(estimate.status);
   result.message = estimate.FullMessage();
+  // infinite or unknown numbers are no answer
   if (const std::string* name = NotFinite(estimate)) {
     throw NoAnswer("bad_answer", *name + " is not a finite number");
   }
@@ -51,6 +52,7 @@ Result RunIdentifier(const PreparedIdentifier& identify, const Recording& record
                      const PreparedLog& log, StartKey start) {
   Result result;
   const Stopwatch watch;
+  // whatever an identifier does wrong is its result
   try {
     const Estimate estimate = identify(log, start);
     result.seconds = watch.Seconds();
@@ -89,6 +91,7 @@ Carried RunRealization(const Bench& bench, const std::vector<PreparedIdentifier>
   realization.unit = unit;
   const Stopwatch watch;
   std::optional<Recording> recording;
+  // a log that cannot be simulated is nobody's to identify
   try {
     recording = bench.plant->Run(realized);
   } catch (const std::exception& error) {
@@ -98,6 +101,7 @@ Carried RunRealization(const Bench& bench, const std::vector<PreparedIdentifier>
 
   if (recording) {
     carried.following = recording->following;
+    // all identifiers see the same log, and draw starts from the same key
     const PreparedLog log = Prepare(recording->measurements);
     const StartKey start = StartKeyOf(bench.scenario.seed, realized);
     for (const PreparedIdentifier& identify : identifiers) {
@@ -107,6 +111,7 @@ Carried RunRealization(const Bench& bench, const std::vector<PreparedIdentifier>
     keeper.Keep(*recording, unit);
   }
 
+  // where each result belongs in the run
   for (size_t i = 0; i < realization.results.size(); ++i) {
     realization.results[i].variant = unit.variant;
     realization.results[i].realization = unit.realization;

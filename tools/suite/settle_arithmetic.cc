@@ -41,6 +41,7 @@ void SettleArithmetic() {
   } catch (const std::exception&) {
     return;
   }
+  // the program takes its own place, now with the settled arithmetic
   std::vector<char*> argv;
   for (std::size_t at = 0; at < words.size(); at = words.find('\0', at) + 1) {
     argv.push_back(&words[at]);

@@ -25,12 +25,14 @@ std::optional<std::pair<std::int64_t, std::int64_t>> ReadPair(const std::string&
 
 Shard ReadShard(const std::string& text) {
   constexpr std::int64_t most_shards = 1'000'000, most_realizations = 1'000'000'000;
+  // one of several parts
   if (const auto part = ReadPair(text, '/')) {
     const auto [index, count] = *part;
     if (1 <= index && index <= count && count <= most_shards) {
       return {static_cast<int>(index), static_cast<int>(count)};
     }
   }
+  // or a range of realizations
   if (const auto range = ReadPair(text, ':')) {
     const auto [first, end] = *range;
     if (0 <= first && first <= end && end <= most_realizations) {

@@ -18,6 +18,7 @@ Values AllParameters(const TraceEntry& entry, double step) {
   Values values(entry.parameters.begin(), entry.parameters.end());
   const std::string gain(kGainName), tau(kTimeConstantName), discrete_gain(kDiscreteGainName),
       pole(kPoleName);
+  // each pair of the warming follows from the other and the step
   const bool continuous = values.count(gain) && values.count(tau);
   const bool discrete = values.count(discrete_gain) && values.count(pole);
   if (continuous && !discrete) {
@@ -37,7 +38,9 @@ Values AllParameters(const TraceEntry& entry, double step) {
 double Npe(const std::vector<ParameterScore>& truth, const Values& values) {
   std::vector<double> estimated, true_values;
   for (const ParameterScore& score : truth) {
+    // an error relative to a truth of 0 has no size
     if (score.truth == 0) continue;
+    // what is not estimated counts as 0
     const auto found = values.find(score.name);
     estimated.push_back(found == values.end() ? 0.0 : found->second);
     true_values.push_back(score.truth);
@@ -53,12 +56,15 @@ TraceTable MakeTraceTable(const std::vector<TraceEntry>& trace, const Score& sco
   TraceTable table;
   if (trace.empty()) return table;
 
+  // the parameters of the first iteration are those of all
   table.columns = {"iteration", "rmse", "npe_continuous", "npe_discrete"};
   for (const auto& [name, value] : trace.front().parameters) table.columns.push_back(name);
+  // a row for each iteration, with its errors against the truth
   for (const TraceEntry& entry : trace) {
     const Values values = AllParameters(entry, step);
     std::vector<double> row{static_cast<double>(entry.iteration), entry.rmse,
                             Npe(score.continuous, values), Npe(score.discrete, values)};
+    // the parameters that this iteration has
     for (size_t i = row.size(); i < table.columns.size(); ++i) {
       const auto found = values.find(table.columns[i]);
       row.push_back(found == values.end() ? kUnknown : found->second);

@@ -60,6 +60,7 @@ void Allow(int ruleset, const fs::path& path, std::uint64_t access) {
   struct stat status {};
   const bool folder = fstat(file, &status) == 0 && S_ISDIR(status.st_mode);
   landlock_path_beneath_attr rule{};
+  // files know fewer rights than folders
   rule.allowed_access = folder ? access : access & kFilesOnly;
   rule.parent_fd = file;
   const long failed = syscall(SYS_landlock_add_rule, ruleset, LANDLOCK_RULE_PATH_BENEATH, &rule, 0);
@@ -118,6 +119,7 @@ bool WallHides(const fs::path& path, const std::vector<fs::path>& readable) {
 }
 
 Wall::Wall(const std::vector<fs::path>& readable, const fs::path& own, WallKind kind) {
+  // this kind of wall is built around the command when it starts
   if (kind == WallKind::bubblewrap) {
     bubble_ = true;
     readable_ = readable;
@@ -125,6 +127,7 @@ Wall::Wall(const std::vector<fs::path>& readable, const fs::path& own, WallKind 
   }
   const int version = WallVersion();
   if (kind != WallKind::landlock || version == 0) return;
+  // what this kernel can forbid: files, from 4 on the network, from 6 on signals too
   const Ruleset attributes{Handled(version), version >= 4 ? std::uint64_t{3} : 0,
                            version >= 6 ? std::uint64_t{3} : 0};
   const size_t size = version >= 6 ? sizeof(Ruleset) : version >= 4 ? 16 : 8;
@@ -132,6 +135,7 @@ Wall::Wall(const std::vector<fs::path>& readable, const fs::path& own, WallKind 
   if (made < 0) throw std::system_error(errno, std::generic_category(), "landlock_create_ruleset");
   ruleset_ = static_cast<int>(made);
 
+  // the system to be read and run, a few devices, and what tells of the machine
   for (const char* folder : kSystem) {
     Allow(ruleset_, folder, kRead | kExecute);
   }
@@ -143,6 +147,7 @@ Wall::Wall(const std::vector<fs::path>& readable, const fs::path& own, WallKind 
         "/proc/sys/kernel/osrelease", "/proc/sys/vm/overcommit_memory", "/proc/filesystems"}) {
     Allow(ruleset_, file, kRead);
   }
+  // what the command needs, and the directory that it works in
   for (const fs::path& path : readable) Allow(ruleset_, path, kRead | kExecute);
   Allow(ruleset_, own, OwnAccess(version));
 }

@@ -41,6 +41,7 @@ fs::path DrawnPath() {
 class Room {
  public:
   Room() : owner_(getpid()), path_(DrawnPath()) {
+    // another process tidies up where this one is killed
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) == 0) {
       janitor_ = fork();
@@ -51,6 +52,7 @@ class Room {
     if (mkdir(path_.c_str(), 0700) != 0) FailOutput(path_.string(), errno);
   }
   ~Room() {
+    // a forked child must not remove what is its parent's
     if (!mine()) return;
     std::error_code ignored;
     fs::remove_all(path_, ignored);
@@ -66,9 +68,11 @@ class Room {
  private:
   /// From fork to exec: system calls alone.
   [[noreturn]] void BecomeJanitor(int end) const noexcept {
+    // it stays where the session ends or is interrupted
     setsid();
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, SIG_IGN);
     const int nothing = open("/dev/null", O_WRONLY);
+    // its input ends when this process does
     dup2(end, STDIN_FILENO);
     dup2(nothing, STDOUT_FILENO);
     dup2(nothing, STDERR_FILENO);

@@ -31,6 +31,7 @@ cairo_surface_t* SurfaceOf(const Sheet& sheet, std::string* bytes) {
   cairo_surface_t* surface = nullptr;
   switch (sheet.format) {
     case FileFormat::png:
+      // pixels are held in memory: a picture beyond the limit is refused
       if (width > kMostPixels || height > kMostPixels) {
         Refuse({},
                "a picture of {:.0f} x {:.0f} pixels is too large; take fewer than {:.0f} a side",
@@ -68,6 +69,7 @@ CairoSheet::CairoSheet(const Sheet& sheet)
       finest_(sheet.format == FileFormat::png ? 0 : kFinest),
       surface_(SurfaceOf(sheet, &bytes_)),
       context_(cairo_create(surface_)) {
+  // a sheet that cairo cannot make is refused in cairo's own words
   if (cairo_status(context_) != CAIRO_STATUS_SUCCESS) {
     Refuse({}, "a picture of {:.0f} x {:.0f} points cannot be made: {}", sheet.width, sheet.height,
            cairo_status_to_string(cairo_status(context_)));
@@ -137,6 +139,7 @@ void CairoSheet::Fill(Rgb colour, double opacity) {
 
 void CairoSheet::Paint(std::vector<std::uint32_t>& pixels, int width, int height,
                        const Rectangle& area, cairo_filter_t filter) {
+  // the cells become an image that is stretched over the area
   cairo_surface_t* image =
       cairo_image_surface_create_for_data(reinterpret_cast<unsigned char*>(pixels.data()),
                                           CAIRO_FORMAT_ARGB32, width, height, 4 * width);
@@ -144,6 +147,7 @@ void CairoSheet::Paint(std::vector<std::uint32_t>& pixels, int width, int height
   cairo_translate(context_, Place(area.left), Place(area.top));
   cairo_scale(context_, factor_ * area.width() / width, factor_ * area.height() / height);
   cairo_set_source_surface(context_, image, 0, 0);
+  // cells at the edge reach as far as the area does, so that its border does not fade
   cairo_pattern_set_filter(cairo_get_source(context_), filter);
   cairo_pattern_set_extend(cairo_get_source(context_), CAIRO_EXTEND_PAD);
   cairo_rectangle(context_, 0, 0, width, height);
@@ -156,12 +160,15 @@ void CairoSheet::Paint(std::vector<std::uint32_t>& pixels, int width, int height
 void CairoSheet::Show(const TextLine& line) {
   cairo_save(context_);
   cairo_translate(context_, Place(line.begin.x), Place(line.begin.y));
+  // words that run upwards are turned about their begin
   if (line.upwards) cairo_rotate(context_, -M_PI / 2);
   Colour(line.colour, 1);
+  // indices stand smaller and lower than the words around them
   for (const Run& run : RunsOf(line.text, line.type)) {
     cairo_set_font_face(context_, FaceOf(run.type));
     cairo_set_font_size(context_, factor_ * EmOf(run.type));
     cairo_move_to(context_, factor_ * run.left, factor_ * run.drop);
+    // a PDF keeps its letters as text
     if (format_ == FileFormat::pdf) {
       cairo_show_text(context_, run.text.c_str());
       continue;
@@ -175,12 +182,14 @@ void CairoSheet::Show(const TextLine& line) {
 
 Image CairoSheet::Pixels() const {
   assert(format_ == FileFormat::png);
+  // every stroke has to reach the pixels before they are read
   cairo_surface_flush(surface_);
   Image image{
       cairo_image_surface_get_width(surface_), cairo_image_surface_get_height(surface_), {}};
   const int stride = cairo_image_surface_get_stride(surface_);
   const unsigned char* data = cairo_image_surface_get_data(surface_);
   image.pixels.reserve(std::size_t{3} * image.width * image.height);
+  // cairo holds four bytes for each pixel, the image takes red, green and blue
   for (int y = 0; y < image.height; ++y) {
     const auto* row = reinterpret_cast<const std::uint32_t*>(data + std::ptrdiff_t{y} * stride);
     for (int x = 0; x < image.width; ++x) {

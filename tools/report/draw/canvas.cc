@@ -67,6 +67,7 @@ void Canvas::Fill(const std::vector<Point>& polygon, Rgb colour, double opacity)
 void Canvas::Stamp(const std::vector<Point>& centres, Marker marker, double r, Rgb colour,
                    double opacity) {
   const double s = 0.88 * r;  // squares and triangles of the same weight as circles
+  // circles are dots of a round pen, all other markers are paths
   std::vector<std::pair<Point, Point>> dots;
   for (const Point& c : centres) {
     switch (marker) {
@@ -96,6 +97,7 @@ void Canvas::Stamp(const std::vector<Point>& centres, Marker marker, double r, R
         break;
     }
   }
+  // all markers are painted in one go, so that overlaps are no darker than the rest
   if (marker == Marker::circle) {
     Brush(dots, r, colour, opacity);
   } else if (marker == Marker::cross) {
@@ -127,10 +129,12 @@ void Canvas::Paint(const Image& image, const Rectangle& area) {
 }
 
 void Canvas::Paint(const Rectangle& area, const std::function<std::optional<Rgb>(Point)>& colour) {
+  // as many cells as the sheet has pixels, or as a vector file is worth
   const double fineness = sheet_.format == FileFormat::png ? cairo_->factor() : kFineCells;
   const int width = std::max(1, static_cast<int>(std::lround(fineness * area.width())));
   const int height = std::max(1, static_cast<int>(std::lround(fineness * area.height())));
   std::vector<std::uint32_t> pixels(static_cast<std::size_t>(width) * height, 0);
+  // each cell has the colour of its middle, or none
   for (int row = 0; row < height; ++row) {
     for (int column = 0; column < width; ++column) {
       const auto own = colour({area.left + area.width() * (column + 0.5) / width,

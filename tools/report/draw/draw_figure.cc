@@ -50,15 +50,18 @@ void DrawPanel(Pen& pen, const Panel& panel, const PanelPlace& place) {
       plot && LegendHeight(*plot, right - left) > LegendHeight(*plot, place.cell.width());
   if (long_legend || Measure(panel.title, type).width > right - left) left = place.cell.left;
   double y = place.cell.top;
+  // the title, wrapped to the width of the panel
   if (!panel.title.empty()) {
     y += pen.Write(panel.title, type, {left, y}, pen.theme().text, place.cell.width()).height + 4;
   }
+  // a frame that points the panel out
   if (panel.frame) {
     constexpr double kBeside = 6, kWidth = 2;  // points
     const Rectangle& c = place.cell;
     pen.canvas().Outline({c.left - kBeside, c.top - kBeside, c.right + kBeside, c.bottom + kBeside},
                          pen.theme().Colour(*panel.frame), kWidth);
   }
+  // below the title what the panel is there to show
   if (plot) {
     DrawLegend(pen, *plot, {left, y}, right - left);
     DrawPlot(pen, panel.title, *plot, place.area, place.cell.left + size::kText / 2 + 2);
@@ -99,10 +102,12 @@ std::string ThinningOf(const Drawn& drawn) {
 
 /// The figure on the page that the setting asks for.
 Figure OnPage(Figure figure, const PageSetting& setting) {
+  // without titles the words stay to the page around the picture
   if (!setting.titled) {
     figure.title.clear();
     figure.subtitle.clear();
   }
+  // from millimetres of the page to points of the drawing
   const double points = kPointsPerMillimetre / setting.style.scale;
   const double width = setting.width > 0 ? setting.width : setting.style.width;
   if (width > 0) figure.width = points * width;
@@ -111,6 +116,7 @@ Figure OnPage(Figure figure, const PageSetting& setting) {
     figure.height = points * setting.height;
     return figure;
   }
+  // panels that would become too narrow stand one below the other
   const double head = BelowHead(figure);
   return Stacked(std::move(figure), head);
 }
@@ -118,6 +124,7 @@ Figure OnPage(Figure figure, const PageSetting& setting) {
 }  // namespace
 
 Drawn DrawFigure(const Figure& figure, const Theme& theme) {
+  // the sheet is as high as the rows of the figure need
   const Figure whole = Measured(figure);
   Sheet sheet;
   sheet.width = whole.width;
@@ -131,9 +138,11 @@ Drawn DrawFigure(const Figure& figure, const Theme& theme) {
 }
 
 PictureFile EncodeFigure(const Figure& figure, const PageSetting& setting) {
+  // the figure as the page has it, with its size in points
   const Figure page = Measured(OnPage(figure, setting));
   const Theme& theme = setting.style.theme();
   const double scale = setting.style.scale;
+  // the sheet as the setting and its style ask for
   Sheet sheet{setting.format,
               page.width,
               page.height,
@@ -144,6 +153,7 @@ PictureFile EncodeFigure(const Figure& figure, const PageSetting& setting) {
     Canvas canvas(sheet);
     Drawn drawn;
     Compose(canvas, page, theme, drawn);
+    // the caption says where the drawing was thinned
     const std::string caption = figure.finding + ThinningOf(drawn);
     std::string bytes = canvas.Finish({figure.title, caption});
     // vector files of long recordings tell fewer places apart until they are small enough to be sent

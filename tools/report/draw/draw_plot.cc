@@ -77,18 +77,21 @@ void CheckAxis(const Axis& axis) {
 /// Grid behind the data.
 void DrawGrid(Pen& pen, const Plot& plot, const Frame& frame) {
   const Rectangle& area = frame.area();
+  // a line of the grid at a value of either axis
   const auto across = [&](double y, Rgb colour) {
     pen.canvas().Stroke({area.left, frame.Y(y)}, {area.right, frame.Y(y)}, colour, 1);
   };
   const auto upright = [&](double x, Rgb colour) {
     pen.canvas().Stroke({frame.X(x), area.top}, {frame.X(x), area.bottom}, colour, 1);
   };
+  // minor lines first, so that the others lie over them
   for (double x : MinorTicks(plot.x)) upright(x, pen.theme().minor_grid);
   for (double y : MinorTicks(plot.y)) across(y, pen.theme().minor_grid);
   // categories have labels of their own and need no lines
   if (plot.x.ticks.empty()) {
     for (const Tick& tick : TicksX(plot.x, area.width())) upright(tick.value, pen.theme().grid);
   }
+  // ticks without a label have no line
   for (const Tick& tick : TicksY(plot.y, area.height())) {
     if (!tick.label.empty()) across(tick.value, pen.theme().grid);
   }
@@ -101,11 +104,13 @@ double DrawTicksX(Pen& pen, const Plot& plot, const Frame& frame) {
   const double wrap = LabelWrap(plot.x, area.width());
   for (const Tick& tick : TicksX(plot.x, area.width())) {
     if (tick.label.empty()) continue;
+    // a mark, with its label centred below
     const double x = frame.X(tick.value);
     pen.canvas().Stroke({x, area.bottom}, {x, area.bottom + size::kTickMark}, pen.theme().axis, 1);
     const double top = area.bottom + size::kTickMark + 2;
     const Extent extent =
         pen.WriteCentred(tick.label, kTickType, {x, top}, pen.theme().faint_text, wrap);
+    // the tallest label says where the name of the axis may stand
     lowest = std::max(lowest, top + extent.height);
   }
   return lowest;
@@ -116,6 +121,7 @@ void DrawTicksY(Pen& pen, const Plot& plot, const Frame& frame) {
   const Rectangle& area = frame.area();
   for (const Tick& tick : TicksY(plot.y, area.height())) {
     if (tick.label.empty()) continue;
+    // a mark, with its label beside it at the same height
     const double y = frame.Y(tick.value);
     pen.canvas().Stroke({area.left - size::kTickMark, y}, {area.left, y}, pen.theme().axis, 1);
     const Extent extent = Measure(tick.label, kTickType);
@@ -128,8 +134,10 @@ void DrawTicksY(Pen& pen, const Plot& plot, const Frame& frame) {
 /// Axis lines, ticks, their labels and the names of the axes.
 void DrawAxes(Pen& pen, const Plot& plot, const Frame& frame, double label_x) {
   const Rectangle& area = frame.area();
+  // the two axes meet at the lower left
   pen.canvas().Stroke({area.left, area.top}, {area.left, area.bottom}, pen.theme().axis, 1);
   pen.canvas().Stroke({area.left, area.bottom}, {area.right, area.bottom}, pen.theme().axis, 1);
+  // ticks first: their labels say where the name of x stands
   const double lowest = DrawTicksX(pen, plot, frame);
   DrawTicksY(pen, plot, frame);
   if (!plot.x.label.empty()) {
@@ -137,6 +145,7 @@ void DrawAxes(Pen& pen, const Plot& plot, const Frame& frame, double label_x) {
     pen.Write(plot.x.label, kLabelType, {(area.left + area.right - width) / 2, lowest + 3},
               pen.theme().text);
   }
+  // the name of y runs upwards beside its axis
   if (!plot.y.label.empty()) {
     pen.WriteUpwards(plot.y.label, kLabelType, {label_x, (area.top + area.bottom) / 2},
                      pen.theme().text);
@@ -144,10 +153,12 @@ void DrawAxes(Pen& pen, const Plot& plot, const Frame& frame, double label_x) {
 }
 
 void DrawColourBar(Pen& pen, const HeatMap& map, const Rectangle& area) {
+  // the bar stands beside the plot, its lowest colour at the foot
   const Rectangle bar{area.right + 10, area.top, area.right + 10 + size::kColourBar, area.bottom};
   pen.canvas().Paint(bar, [&](Point p) -> std::optional<Rgb> {
     return HeatColour((bar.bottom - p.y) / bar.height());
   });
+  // ticks at the right of the bar
   const Axis axis = ColourAxis(map);
   const std::vector<Tick> ticks = TicksY(axis, area.height());
   for (const Tick& tick : ticks) {
@@ -156,6 +167,7 @@ void DrawColourBar(Pen& pen, const HeatMap& map, const Rectangle& area) {
     pen.Write(tick.label, kTickType, {bar.right + 6, y - Measure(tick.label, kTickType).height / 2},
               pen.theme().faint_text);
   }
+  // the name of the colours runs upwards behind the widest label
   const double beside = bar.right + 6 + WidestLabel(ticks) + size::kPad + kLabelType.size / 2;
   pen.WriteUpwards(map.label, kLabelType, {beside, (area.top + area.bottom) / 2}, pen.theme().text);
 }
@@ -179,10 +191,12 @@ Margins PlotMargins(const Plot& plot, Extent extent) {
   if (!across.empty() && plot.x.ticks.empty()) {
     margins.right = std::max(4.0, Measure(across.back().label, kTickType).width / 2);
   }
+  // a colour bar needs room for its ticks and its name
   if (const HeatMap* map = FindHeatMap(plot)) {
     const double labels = WidestLabel(TicksY(ColourAxis(*map), extent.height));
     margins.right = 10 + size::kColourBar + 6 + labels + size::kPad + kLabelType.size + 4;
   }
+  // labels of categories may take several lines
   double tallest = 0;
   for (const Tick& tick : across) {
     const double wrap = LabelWrap(plot.x, extent.width);
@@ -196,12 +210,14 @@ void DrawPlot(Pen& pen, const std::string& title, const Plot& plot, const Rectan
               double label_x) {
   const Frame frame(plot, area);
   DrawnPlot drawn{title, area, {plot.x.lower, plot.x.upper}, {plot.y.lower, plot.y.upper}, {}};
+  // the data over the grid, cut at the edge of the plot
   DrawGrid(pen, plot, frame);
   pen.canvas().Clip(area);
   for (const Series& series : plot.series) {
     drawn.series.push_back(DrawSeries(pen, plot, series, frame));
   }
   pen.canvas().Unclip();
+  // axes last, so that no marker covers them
   DrawAxes(pen, plot, frame, label_x);
   if (const HeatMap* map = FindHeatMap(plot)) DrawColourBar(pen, *map, area);
   pen.drawn().plots.push_back(std::move(drawn));

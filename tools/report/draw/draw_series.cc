@@ -56,6 +56,7 @@ class Draughtsman {
   void operator()(const Scatter& scatter) {
     drawn_.samples = scatter.x.size();
     if (scatter.x.size() > kCrowd && scatter.marker == Marker::circle) return DrawCrowd(scatter);
+    // a logarithmic axis has no place for samples at or below zero
     std::vector<Point> centres;
     for (Index i = 0; i < scatter.x.size(); ++i) {
       if (Shown(scatter.x[i], scatter.y[i])) centres.push_back(Put(scatter.x[i], scatter.y[i]));
@@ -72,6 +73,7 @@ class Draughtsman {
     std::set_union(below.begin(), below.end(), above.begin(), above.end(),
                    std::back_inserter(both));
     std::vector<Point> lower, upper;
+    // closes the area between both edges
     const auto fill = [&] {
       lower.insert(lower.end(), upper.rbegin(), upper.rend());
       canvas_.Fill(lower, drawn_.colour, band.opacity);
@@ -92,6 +94,7 @@ class Draughtsman {
 
   void operator()(const Bars& bars) {
     drawn_.samples = bars.x.size();
+    // bars stand on zero, or on the axis where that does not reach zero
     const double base =
         plot_.y.scale == Scale::linear ? std::max(0.0, plot_.y.lower) : plot_.y.lower;
     for (Index i = 0; i < bars.x.size(); ++i) {
@@ -106,33 +109,40 @@ class Draughtsman {
 
   void operator()(const Box& box) {
     constexpr double kThin = 1.3, kThick = 2.5, kDot = 1.8;  // points
+    // corners of the box, which reaches from quartile to quartile
     const double half = box.width / 2;
     const Point low = Put(box.x, box.lower), high = Put(box.x, box.upper);
     const Point corner = Put(box.x - half, box.q75), foot = Put(box.x + half, box.q25);
     const Point middle = Put(box.x, box.median);
+    // whiskers, each with a cap at its end
     const double cap = 0.25 * (foot.x - corner.x);
     for (const auto& [from, to] : {std::pair(low, foot), std::pair(high, corner)}) {
       canvas_.Stroke(from, {from.x, to.y}, drawn_.colour, kThin);
       canvas_.Stroke({from.x - cap, from.y}, {from.x + cap, from.y}, drawn_.colour, kThin);
     }
+    // the box, and a thick line at its median
     const Rectangle outline{corner.x, corner.y, foot.x, foot.y};
     canvas_.Fill(outline, drawn_.colour, 0.25);
     canvas_.Outline(outline, drawn_.colour, kThin);
     canvas_.Stroke({corner.x, middle.y}, {foot.x, middle.y}, drawn_.colour, kThick);
+    // values beyond the whiskers as small dots
     std::vector<Point> outliers;
     for (double value : box.outliers) outliers.push_back(Put(box.x, value));
     canvas_.Stamp(outliers, Marker::circle, kDot, drawn_.colour);
   }
 
   void operator()(const HeatMap& map) {
+    // the range that the picture shows is that of the whole map
     Put(map.x.first, map.y.first);
     Put(map.x.second, map.y.second);
+    // where on the map a value falls; -1 outside
     const auto cell = [](double value, const std::pair<double, double>& range, Index count) {
       const double share = (value - range.first) / (range.second - range.first);
       return share >= 0 && share <= 1
                  ? std::min(count - 1, static_cast<Index>(share * static_cast<double>(count)))
                  : Index{-1};
     };
+    // each place takes the colour of its cell; unknown cells stay empty
     canvas_.Paint(frame_.area(), [&](Point p) -> std::optional<Rgb> {
       const Index column = cell(frame_.ValueX(p), map.x, map.values.cols());
       const Index row = cell(frame_.ValueY(p), map.y, map.values.rows());
@@ -143,6 +153,7 @@ class Draughtsman {
   }
 
   void operator()(const LevelLine& level) {
+    // from edge to edge of the plot
     std::vector<Point> path;
     if (level.vertical) {
       path = {Put(level.value, plot_.y.lower), Put(level.value, plot_.y.upper)};
@@ -156,6 +167,7 @@ class Draughtsman {
     const Type type{size::kTick};
     const Extent extent = Measure(note.text, type);
     const Point at = Put(note.x, note.y);
+    // which part of the words stands at the place: begin, middle or end
     const double shift = note.side == Side::left ? 0 : note.side == Side::centre ? 0.5 : 1;
     pen_.Write(note.text, type, {at.x - shift * extent.width, at.y - extent.height / 2},
                drawn_.colour);
@@ -172,6 +184,7 @@ class Draughtsman {
     const CellSpan rows = SpanOf(plot_.y, area.height(), cell);
     const double width = area.width() / columns.count;
     const VectorXd x = OnAxis(scatter.x, plot_.x), y = OnAxis(scatter.y, plot_.y);
+    // in each column samples that lie close together become one stroke
     std::vector<std::pair<Point, Point>> strokes;
     for (const auto& [from, to] : ReduceCloud(x, y, columns, rows, reach)) {
       Point begin = Put(scatter.x[from], scatter.y[from]);
@@ -227,6 +240,7 @@ Rgb HeatColour(double fraction) {
                                     {42, 120, 142}, {33, 145, 140}, {34, 168, 132}, {68, 191, 112},
                                     {122, 209, 81}, {189, 223, 38}, {253, 231, 37}};
   constexpr int kSteps = static_cast<int>(std::size(kTenths)) - 1;
+  // between two tenths their colours are mixed
   const double place = kSteps * std::clamp(fraction, 0.0, 1.0);
   const int lower = std::min(kSteps - 1, static_cast<int>(place));
   const auto mix = [&](std::uint8_t Rgb::*channel) {

@@ -57,6 +57,7 @@ void DrawTable(Pen& pen, const Table& table, const Rectangle& area) {
   const double gap =
       std::clamp((area.width() - shrink * total) / gaps, shrink * kLeastGap, kWidestGap);
 
+  // rows from above, the first one bold as their heading
   double y = area.top;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     const Type type{shrink * size::kTick, row == 0};
@@ -64,10 +65,12 @@ void DrawTable(Pen& pen, const Table& table, const Rectangle& area) {
     for (std::size_t column = 0; column < table.rows[row].size(); ++column) {
       const std::string& text = table.rows[row][column];
       const double width = shrink * widths[column];
+      // the first column stands at the left, numbers at the right
       const double slack = column == 0 ? 0 : width - Measure(text, type).width;
       pen.Write(text, type, {x + slack, y}, pen.theme().text);
       x += width + gap;
     }
+    // a stronger line below the heading than below other rows
     y += kRowStep;
     const Rgb rule = row == 0 ? pen.theme().axis : pen.theme().grid;
     pen.canvas().Stroke({area.left, y - 2.5}, {x - gap, y - 2.5}, rule, 1);

@@ -50,6 +50,7 @@ class Writer {
       return range.first + (range.second - range.first) * (static_cast<double>(i) + 0.5) /
                                static_cast<double>(count);
     };
+    // each cell by its middle and its value
     for (Index row = 0; row < rows; ++row) {
       for (Index column = 0; column < columns; ++column) {
         Add("cell", {middle(map.x, column, columns), middle(map.y, row, rows), NAN, NAN,
@@ -69,6 +70,7 @@ class Writer {
   void Add(const char* kind, const Row& row) {
     auto out = std::back_inserter(csv_);
     fmt::format_to(out, "{}{}", head_, kind);
+    // columns that a shape has no number for stay empty
     for (double number : {row.x, row.y, row.lower, row.upper, row.value}) {
       if (std::isnan(number)) {
         csv_ += ',';
@@ -91,8 +93,10 @@ std::string FigureCsv(const Figure& figure) {
     const Panel& panel = figure.panels[i];
     const auto* plot = std::get_if<Plot>(&panel.content);
     if (!plot) continue;
+    // panels and series without a name are numbered
     const std::string name = panel.title.empty() ? fmt::format("panel {}", i + 1) : panel.title;
     axes += fmt::format("# {}: x is {}; y is {}\n", name, plot->x.label, plot->y.label);
+    // every series goes to the same table, with the names of its panel and its own
     for (std::size_t k = 0; k < plot->series.size(); ++k) {
       const Series& series = plot->series[k];
       const std::string label =

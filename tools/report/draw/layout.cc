@@ -60,6 +60,7 @@ std::map<int, double> HeightsOfWords(const Figure& figure) {
   const std::vector<Track> columns = Columns(figure);
   std::map<int, double> heights;
   for (const Panel& panel : figure.panels) {
+    // only rows without a height of their own ask what their words need
     if (figure.rows[panel.row] != 0) continue;
     const double width =
         columns[panel.column + panel.column_span - 1].second - columns[panel.column].first;
@@ -104,6 +105,7 @@ std::vector<PanelPlace> LayOut(const Figure& figure, double top) {
     place.cell = {columns[panel.column].first, rows[panel.row].first,
                   columns[panel.column + panel.column_span - 1].second,
                   rows[panel.row + panel.row_span - 1].second};
+    // a plot needs room for labels and legend, and the widest of a line decides for all in it
     double head = TitleHeight(panel, place.cell.width());
     if (const auto* plot = std::get_if<Plot>(&panel.content)) {
       const Margins margins =
@@ -115,6 +117,7 @@ std::vector<PanelPlace> LayOut(const Figure& figure, double top) {
       Widen(bottom, panel.row + panel.row_span - 1, margins.bottom);
       Widen(upper, panel.row, head);
     }
+    // words, tables and pictures have the whole cell below the title
     place.area = {place.cell.left, place.cell.top + head, place.cell.right, place.cell.bottom};
     places.push_back(place);
   }
@@ -128,6 +131,7 @@ std::vector<PanelPlace> LayOut(const Figure& figure, double top) {
             std::round(places[i].cell.top + upper[panel.row]),
             std::round(area.right - right[panel.column + panel.column_span - 1]),
             std::round(area.bottom - bottom[panel.row + panel.row_span - 1])};
+    // axes too small to be read are refused with what they lack
     if (area.width() < kLeastWidth || area.height() < kLeastHeight) {
       throw TooSmall(fmt::format(
           "'{}' is too small for '{}': {:.0f} x {:.0f} points are left between its axes, {:.0f} x "

@@ -46,9 +46,11 @@ double Arrange(const Plot& plot, double width, const Put& put) {
   double x = 0, y = 0, line = 0;
   for (const Series& series : plot.series) {
     if (series.label.empty()) continue;
+    // each entry is a key with its words
     const Extent words = Measure(series.label, kType);
     const double entry = size::kLegendKey + size::kPad + words.width;
     line = words.height + 3;
+    // entries that do not fit begin a new line
     if (x > 0 && x + entry > width) {
       x = 0;
       y += line;

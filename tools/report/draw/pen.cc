@@ -25,6 +25,7 @@ Extent Pen::WriteCentred(const std::string& text, const Type& type, Point top, R
     canvas_.Write({line, type, {top.x - Measure(line, type).width / 2, baseline}, colour});
     baseline += type.size;
   }
+  // where the words stand, and whether the typeface has them all, is kept
   const Extent extent = Measure(text, type, wrap);
   Remember(text, type,
            {top.x - extent.width / 2, top.y, top.x + extent.width / 2, top.y + extent.height});

@@ -19,6 +19,7 @@ int CellOf(double value, const CellSpan& span) {
 
 /// Adds first, lowest, highest, last and a gap of [begin, end).
 void AddColumn(const Eigen::VectorXd& y, Index begin, Index end, std::vector<Index>& chosen) {
+  // ends, extremes and a gap are all that a column of the page shows
   std::vector<Index> marks{begin, end - 1};
   Index low = -1, high = -1, gap = -1;
   for (Index i = begin; i < end; ++i) {
@@ -29,6 +30,7 @@ void AddColumn(const Eigen::VectorXd& y, Index begin, Index end, std::vector<Ind
     if (low < 0 || y[i] < y[low]) low = i;
     if (high < 0 || y[i] > y[high]) high = i;
   }
+  // in their order, and each once
   for (Index mark : {low, high, gap}) {
     if (mark >= 0) marks.push_back(mark);
   }
@@ -44,6 +46,7 @@ class Cells {
         const CellSpan& rows)
       : rows_(rows.count),
         extremes_(static_cast<std::size_t>(columns.count) * rows.count, {-1, -1}) {
+    // each cell keeps its lowest and its highest sample
     for (Index i = 0; i < x.size(); ++i) {
       const int column = CellOf(x[i], columns), row = CellOf(y[i], rows);
       if (column < 0 || row < 0 || column >= columns.count || row >= rows.count) continue;
@@ -71,11 +74,13 @@ std::vector<Index> ReduceCurve(const Eigen::VectorXd& x, const Eigen::VectorXd& 
                                const CellSpan& columns) {
   const Index n = x.size();
   std::vector<Index> chosen;
+  // few samples stay as they are, and so do curves that turn back
   if (n < 4 * Index{columns.count} || !std::is_sorted(x.begin(), x.end())) {
     chosen.resize(static_cast<std::size_t>(n));
     std::iota(chosen.begin(), chosen.end(), Index{0});
     return chosen;
   }
+  // the samples of one column of the page stand for each other
   for (Index begin = 0; begin < n;) {
     const int cell = CellOf(x[begin], columns);
     Index end = begin + 1;
@@ -92,11 +97,13 @@ std::vector<std::pair<Index, Index>> ReduceCloud(const Eigen::VectorXd& x, const
   const Cells cells(x, y, columns, rows);
   std::vector<std::pair<Index, Index>> strokes;
   const double apart = reach * (rows.upper - rows.lower) / rows.count;  // in units of y
+  // up each column: cells near enough to each other join into one stroke
   for (int column = 0; column < columns.count; ++column) {
     Index last = -1;
     for (int row = 0; row < rows.count; ++row) {
       const auto [low, high] = cells.At(column, row);
       if (low < 0) continue;
+      // a gap wider than the reach begins a new stroke
       const bool goes_on = last >= 0 && y[low] - y[last] <= apart;
       if (!goes_on) strokes.emplace_back(low, high);
       strokes.back().second = high;

@@ -38,9 +38,11 @@ double HeightOf(const Panel& panel, const Figure& figure, double head) {
 
 Figure Stacked(Figure figure, double head) {
   if (!IsNarrow(figure)) return figure;
+  // panels in the order in which they are read
   std::stable_sort(figure.panels.begin(), figure.panels.end(), [](const Panel& a, const Panel& b) {
     return std::pair(a.row, a.column) < std::pair(b.row, b.column);
   });
+  // each has a row of its own over the whole width
   std::vector<double> rows;
   for (const Panel& panel : figure.panels) rows.push_back(HeightOf(panel, figure, head));
   for (std::size_t i = 0; i < figure.panels.size(); ++i) {
@@ -49,6 +51,7 @@ Figure Stacked(Figure figure, double head) {
     panel.column = 0;
     panel.row_span = panel.column_span = 1;
   }
+  // the figure is as high as its rows add up to
   figure.rows = rows;
   figure.columns = {1};
   figure.height = 0;

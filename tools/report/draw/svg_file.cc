@@ -24,10 +24,12 @@ std::string Renumber(const std::string& svg, const std::string& name) {
   std::map<std::string, std::size_t> numbers;
   std::string result;
   std::size_t copied = 0;
+  // numbers behind the name are counted anew in the order of their coming
   for (std::size_t at = 0; (at = svg.find(name, at)) != svg.npos;) {
     const std::size_t begin = at + name.size();
     std::size_t end = begin;
     while (end < svg.size() && std::isdigit(static_cast<unsigned char>(svg[end]))) ++end;
+    // only names in quotes and references to them have such a number
     const bool is_name = at > 0 && (svg[at - 1] == '"' || svg[at - 1] == '#') && end > begin;
     at = end;
     if (!is_name) continue;
@@ -77,6 +79,7 @@ std::string CompleteSvg(const std::string& drawn, const std::vector<SvgWords>& w
   if (!description.text.empty()) {
     about += fmt::format("<desc>{}</desc>", Escape(Printable(description.text)));
   }
+  // words as text behind all shapes, so that they can be found and copied
   const std::size_t end = svg.rfind("</svg>");
   std::string text = fmt::format(
       "<g font-family=\"{}, Verdana, sans-serif\" xml:space=\"preserve\">\n", kTypefaceName);

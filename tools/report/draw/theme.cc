@@ -61,6 +61,7 @@ const Theme& PaperTheme() {
 }
 
 Hue IdentifierHue(std::string_view identifier) {
+  // identifiers of this project have colours of their own
   static constexpr std::pair<std::string_view, Hue> kKnown[] = {
       {"nominal-ls", Hue::grey},      {"energy-em", Hue::vermilion},
       {"energy-ml", Hue::blue},       {"rls", Hue::green},
@@ -69,6 +70,7 @@ Hue IdentifierHue(std::string_view identifier) {
   for (const auto& [name, hue] : kKnown) {
     if (name == identifier) return hue;
   }
+  // any other has one by its letters, the same in every picture
   static constexpr Hue kOthers[] = {Hue::green, Hue::purple, Hue::orange, Hue::sky};
   std::size_t sum = 0;
   for (char letter : identifier) sum += static_cast<unsigned char>(letter);

@@ -54,6 +54,7 @@ double RoundStep(double span, int wanted) {
 }
 
 std::vector<Tick> LinearTicks(const Axis& axis, int wanted) {
+  // a round step, with no more decimals than it needs
   const double step = std::max(axis.finest, RoundStep(axis.upper - axis.lower, wanted));
   const double largest = std::max(std::abs(axis.lower), std::abs(axis.upper));
   const bool power = NeedsPower(largest);
@@ -62,6 +63,7 @@ std::vector<Tick> LinearTicks(const Axis& axis, int wanted) {
   const int exponent = static_cast<int>(std::floor(std::log10(largest) + 1e-9));
   const int digits = std::max(0, exponent - static_cast<int>(std::floor(std::log10(step) + 1e-9)));
   std::vector<Tick> ticks;
+  // rounding does not lose the ticks at the ends of the axis
   const double margin = 1e-6 * step;
   for (double i = std::ceil((axis.lower - margin) / step); i * step <= axis.upper + margin; ++i) {
     const double value = i * step;
@@ -75,6 +77,7 @@ std::vector<Tick> LinearTicks(const Axis& axis, int wanted) {
 }
 
 std::vector<Tick> LogarithmicTicks(const Axis& axis, int wanted) {
+  // few decades have room for ticks at 2 and 5, many for some of their powers only
   const double lower = std::log10(axis.lower);
   const double upper = std::log10(axis.upper);
   const double decades = upper - lower;
@@ -83,6 +86,7 @@ std::vector<Tick> LogarithmicTicks(const Axis& axis, int wanted) {
   const int every = std::max(1, static_cast<int>(std::ceil(decades / std::max(wanted, 1))));
 
   std::vector<Tick> ticks;
+  // ticks within the axis, with the decimals that small numbers need
   for (int exponent = static_cast<int>(std::floor(lower)); exponent <= upper; ++exponent) {
     if (exponent % every != 0) continue;
     for (double factor : factors) {
@@ -104,6 +108,7 @@ std::vector<Tick> AxisTicks(const Axis& axis, int wanted) {
 std::vector<double> MinorTicks(const Axis& axis) {
   std::vector<double> places;
   if (axis.scale == Scale::linear) return places;
+  // at 2 to 9 times each power of ten
   const int first = static_cast<int>(std::floor(std::log10(axis.lower)));
   for (int exponent = first; std::pow(10, exponent) < axis.upper; ++exponent) {
     for (int factor = 2; factor <= 9; ++factor) {

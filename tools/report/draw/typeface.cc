@@ -25,11 +25,13 @@ class Weight {
   static constexpr double kSize = 1000;
 
   explicit Weight(std::span<const unsigned char> file) {
+    // the typeface comes from memory, so that pictures look the same on every machine
     [[maybe_unused]] FT_Error error = FT_Init_FreeType(&library_);
     assert(!error);
     error = FT_New_Memory_Face(library_, file.data(), static_cast<FT_Long>(file.size()), 0, &face_);
     assert(!error);
     cairo_ = cairo_ft_font_face_create_for_ft_face(face_, FT_LOAD_NO_HINTING);
+    // widths are measured at a large size and without rounding to pixels
     cairo_matrix_t size, level;
     cairo_matrix_init_scale(&size, kSize, kSize);
     cairo_matrix_init_identity(&level);
@@ -82,6 +84,7 @@ std::size_t FittingBytes(const std::string& text, const Type& type, double width
 void BreakLine(const std::string& line, const Type& type, double wrap,
                std::vector<std::string>& lines) {
   std::string filled;
+  // words fill a line as long as they fit
   for (std::size_t at = 0; at <= line.size();) {
     const std::size_t end = std::min(line.find(' ', at), line.size());
     std::string word = line.substr(at, end - at);
@@ -91,6 +94,7 @@ void BreakLine(const std::string& line, const Type& type, double wrap,
       filled = longer;
       continue;
     }
+    // what does not fit begins a new line, cut where it is longer than one
     if (!filled.empty()) lines.push_back(filled);
     while (WidthOf(word, type) > wrap) {
       const std::size_t fits = FittingBytes(word, type, wrap);
@@ -112,6 +116,7 @@ double BaselineOf(const Type& type) { return kAscent * EmOf(type); }
 std::vector<Run> RunsOf(const std::string& line, const Type& type) {
   std::vector<Run> runs;
   double left = 0;
+  // each run begins where the one before ends
   const auto add = [&](const std::string& part, const Type& own, double drop) {
     if (part.empty()) return;
     const std::string text = Printable(part);
@@ -120,6 +125,7 @@ std::vector<Run> RunsOf(const std::string& line, const Type& type) {
     left += width;
   };
   const Type lowered{kLowered * type.size, type.bold};
+  // what stands in _{} is set lower and smaller
   for (std::size_t at = 0; at < line.size();) {
     const std::size_t open = line.find("_{", at);
     const std::size_t close = open == line.npos ? line.npos : line.find('}', open);
@@ -127,6 +133,7 @@ std::vector<Run> RunsOf(const std::string& line, const Type& type) {
       add(line.substr(at), type, 0);
       break;
     }
+    // what stands before the index as usual, the index itself lowered
     add(line.substr(at, open - at), type, 0);
     add(line.substr(open + 2, close - open - 2), lowered, kDrop * type.size);
     at = close + 1;
@@ -136,6 +143,7 @@ std::vector<Run> RunsOf(const std::string& line, const Type& type) {
 
 std::vector<std::string> LinesOf(const std::string& text, const Type& type, double wrap) {
   std::vector<std::string> lines;
+  // lines as the text has them, broken further where there is a width
   for (std::size_t at = 0; at <= text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
     const std::string line = text.substr(at, end - at);

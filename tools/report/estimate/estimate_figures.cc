@@ -45,6 +45,7 @@ std::optional<Figure> FitPageOf(const EstimateView& view) {
 std::optional<Figure> CurveOf(const EstimateView& view) {
   if (!view.fit || !view.fit->has_fit || view.fit->selection.count() == 0) return std::nullopt;
   const Plot plot = FrictionCurve(*view.fit);
+  // bands are spoken of only where some are drawn
   const bool has_band = std::any_of(plot.series.begin(), plot.series.end(), [](const auto& series) {
     return std::holds_alternative<Band>(series.shape);
   });

@@ -34,10 +34,12 @@ Dash DashAt(std::size_t place) { return kDashes[place / std::size(kHues) % std::
 /// The cold curves of all over the samples of the first; each curve without warming is cold all along.
 Plot Curves(const Fits& fits) {
   Plot plot = FrictionCurve(*fits.front().second);
+  // of the first plot only its measured samples stay
   std::vector<Series> series = plot.series;
   std::erase_if(series, [](const Series& one) {
     return !std::holds_alternative<Scatter>(one.shape) || one.label.empty();
   });
+  // each estimate adds its cold curve
   for (std::size_t i = 0; i < fits.size(); ++i) {
     std::string label = fits[i].first;
     for (const Series& own : FrictionCurve(*fits[i].second).series) {
@@ -58,6 +60,7 @@ Plot WarmUps(const Fits& fits) {
   const FitView& first = *fits.front().second;
   for (std::size_t i = 0; i < fits.size(); ++i) {
     const FitView& fit = *fits[i].second;
+    // an estimate without warming has no course
     if (!fit.warms()) continue;
     times.push_back(fit.time / TimeUnit(first));
     energies.push_back(fit.energy);
@@ -74,15 +77,18 @@ Plot WarmUps(const Fits& fits) {
 std::optional<Figure> MakeOverlay(const std::vector<NamedEstimate>& estimates) {
   const Fits fits = FitsOf(estimates);
   if (fits.size() < 2) return std::nullopt;
+  // who is compared, and on whose samples
   std::vector<std::string> names;
   for (const auto& [name, fit] : fits) names.push_back(name);
   Figure figure;
   figure.name = "estimates";
   figure.title = "Friction by several estimates";
   figure.subtitle = fmt::format("samples are of {}", fits.front().second->source);
+  // friction over velocity, all while cold
   figure.finding = fmt::format("Cold friction over velocity by {}.", fmt::join(names, ", "));
   figure.height = 430;
   figure.panels.push_back({"Friction over velocity, cold", Curves(fits), 0, 0});
+  // their warm-ups beside it, where some warm
   const Plot warm_ups = WarmUps(fits);
   if (!warm_ups.series.empty()) {
     figure.columns = {1, 1};

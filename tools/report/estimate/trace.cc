@@ -31,10 +31,12 @@ Plot CourseOf(const Eigen::VectorXd& iteration, const Eigen::VectorXd& values, H
 void AddInterval(Plot& plot, const EstimatedParameter& parameter, Hue hue) {
   if (!parameter.interval95) return;
   const auto [lower, upper] = *parameter.interval95;
+  // the interval as a band behind the course, over all iterations
   const Eigen::Vector2d across(plot.x.lower, plot.x.upper);
   plot.series.insert(plot.series.begin(), Series{"final 95 % interval", hue,
                                                  Band{across, Eigen::Vector2d::Constant(lower),
                                                       Eigen::Vector2d::Constant(upper)}});
+  // the axis widens until the whole interval is seen
   const Axis with = LinearAxis("", {Eigen::Vector4d(lower, upper, plot.y.lower, plot.y.upper)});
   if (lower < plot.y.lower || upper > plot.y.upper) {
     plot.y.lower = with.lower;
@@ -74,6 +76,7 @@ std::string TorqueUnitIn(const Estimate& estimate) {
 std::optional<Figure> MakeTrace(const Estimate& estimate, const std::string& what) {
   const auto steps = static_cast<Eigen::Index>(estimate.trace.size());
   if (steps < 2) return std::nullopt;
+  // iterations, with the error of the fit after each
   Eigen::VectorXd iteration(steps), rmse(steps);
   for (Eigen::Index k = 0; k < steps; ++k) {
     iteration[k] = estimate.trace[static_cast<std::size_t>(k)].iteration;
@@ -84,6 +87,7 @@ std::optional<Figure> MakeTrace(const Estimate& estimate, const std::string& wha
   figure.name = "trace";
   figure.title = fmt::format("Parameters by iteration: {}", estimate.identifier);
   figure.subtitle = what;
+  // three panels to a row
   constexpr int kAcross = 3;
   figure.columns.assign(kAcross, 1);
   figure.rows.clear();
@@ -93,6 +97,7 @@ std::optional<Figure> MakeTrace(const Estimate& estimate, const std::string& wha
     figure.panels.push_back({title, plot, place / kAcross, place % kAcross});
   };
 
+  // a panel for each parameter, with the interval that it ended with
   const Hue hue = IdentifierHue(estimate.identifier);
   figure.finding = "From the first iteration to the last:";
   for (const std::string& name : InOrderOfTheLaw(estimate.trace.back())) {
@@ -107,6 +112,7 @@ std::optional<Figure> MakeTrace(const Estimate& estimate, const std::string& wha
     figure.finding += fmt::format(" {} {} to {},", name, SignificantText(values[0]),
                                   SignificantText(values[steps - 1]));
   }
+  // last how the error of the fit falls
   Plot course = CourseOf(iteration, rmse, hue, "RMSE" + TorqueUnitIn(estimate));
   course.y = MagnitudeAxis(course.y.label, {rmse});
   add("Root mean square error of the fit", course);

@@ -31,6 +31,7 @@ Axis Padded(std::string label, double lower, double upper) {
 std::pair<double, double> RangeOf(const std::vector<Eigen::VectorXd>& values) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   std::pair<double, double> range{kNone, kNone};
+  // what is not finite has no place on an axis
   for (const Eigen::VectorXd& part : values) {
     for (double value : part) {
       if (!std::isfinite(value)) continue;
@@ -53,11 +54,13 @@ Axis ZeroAxis(std::string label, const std::vector<Eigen::VectorXd>& values) {
 }
 
 Axis LogarithmicAxis(std::string label, const std::vector<Eigen::VectorXd>& values) {
+  // values at or below zero have no logarithm and are left out
   std::vector<Eigen::VectorXd> logarithms;
   for (const Eigen::VectorXd& part : values) {
     logarithms.push_back(
         part.unaryExpr([](double v) { return v > 0 ? std::log10(v) : std::nan(""); }));
   }
+  // room beyond the values is even in decades
   const auto [lower, upper] = RangeOf(logarithms);
   Axis axis = Padded(std::move(label), lower, upper);
   axis.lower = std::pow(10, axis.lower);
@@ -67,6 +70,7 @@ Axis LogarithmicAxis(std::string label, const std::vector<Eigen::VectorXd>& valu
 }
 
 Axis BulkAxis(std::string label, const std::vector<Eigen::VectorXd>& values) {
+  // all finite values in their order
   std::vector<double> sorted;
   for (const Eigen::VectorXd& part : values) {
     std::copy_if(part.begin(), part.end(), std::back_inserter(sorted),
@@ -74,6 +78,7 @@ Axis BulkAxis(std::string label, const std::vector<Eigen::VectorXd>& values) {
   }
   if (sorted.empty()) return LinearAxis(std::move(label), values);
   std::sort(sorted.begin(), sorted.end());
+  // the axis follows the bulk of the values; a few outliers may leave it
   const double lower = Quantile(sorted, kOutermost), upper = Quantile(sorted, 1 - kOutermost);
   const double spare = kBulkSpare * (upper - lower);
   return LinearAxis(std::move(label), {Eigen::Vector2d(std::max(sorted.front(), lower - spare),

@@ -60,13 +60,16 @@ Plot CloseUp(const FitView& view, const Window& window, const std::pair<double, 
   const Eigen::VectorXd time = Part(view.time, window) / TimeUnit(view);
   Plot plot;
   plot.series.push_back({"measured", Hue::grey, Line{time, Part(view.torque, window), 2.0}});
+  // the kept samples over all of them
   const Eigen::VectorXd kept = Part(KeptOrGap(view, view.torque), window);
   plot.series.push_back({IsOfAnyMotion(view) ? "kept: moves clearly" : "kept: at constant speed",
                          Hue::sky, Line{time, kept, 2.0}});
+  // the fit only where it was asked of the samples
   if (view.has_fit) {
     const Eigen::VectorXd fitted = Part(KeptOrGap(view, view.fitted), window);
     plot.series.push_back({FitLabel(view), Hue::vermilion, Line{time, fitted, 1.2, FitDash(view)}});
   }
+  // torque limits are shared with the other close-ups
   plot.x = {TimeLabel(view), time[0], time.tail(1)[0], Scale::linear, {}};
   plot.y = {TorqueLabel(view, "torque"), limits.first, limits.second, Scale::linear, {}};
   return plot;

@@ -50,9 +50,11 @@ Plot Draw(const ErrorByIteration& data, Curve curve, double factor, const std::s
       wide.q75 = Eigen::Vector2d::Constant(c.q75[0]);
     }
     const Hue hue = IdentifierHue(course.identifier);
+    // quartiles as bands, medians as lines over all of them
     plot.series.push_back({"", hue, Band{wide.x, factor * wide.q25, factor * wide.q75}});
     lines.push_back(
         {course.label, hue, Line{wide.x, factor * wide.median, 1.8, DashOf(data.identifiers, i)}});
+    // the axis has to reach every quartile
     for (const Eigen::VectorXd& values : {wide.q25, wide.median, wide.q75}) {
       shown.push_back(Shown(plot.x, wide.x, factor * values));
     }
@@ -72,11 +74,13 @@ void AddLevel(Plot& plot, const std::string& label, double value) {
 
 std::string Finding(const ErrorByIteration& data) {
   std::string text = "Median NPE after the last iteration: ";
+  // where each identifier ends
   for (const IdentifierCourse& course : data.identifiers) {
     if (course.npe.median.size() == 0) continue;
     const double last = course.npe.median[course.npe.median.size() - 1];
     text += fmt::format("{} {} %, ", course.label, SignificantText(100 * last));
   }
+  // beside what no unbiased identifier can undercut
   if (data.cramer_rao) {
     return text + fmt::format("median at the Cramér-Rao bound {} %.",
                               SignificantText(100 * *data.cramer_rao));
@@ -96,8 +100,10 @@ Figure MakeErrorByIteration(const ErrorByIteration& data) {
   figure.height = 430;
   figure.columns = {1, 1};
 
+  // errors of the parameters beside their bound
   Plot npe = Draw(data, &IdentifierCourse::npe, 100, "NPE, continuous (%)");
   if (data.cramer_rao) AddLevel(npe, "median at the Cramér-Rao bound", 100 * *data.cramer_rao);
+  // errors of the fit beside the noise of the torque
   Plot rmse =
       Draw(data, &IdentifierCourse::rmse, 1, fmt::format("RMSE ({})", UnitText(data.torque_unit)));
   if (data.noise) AddLevel(rmse, "noise", *data.noise);

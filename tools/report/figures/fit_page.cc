@@ -98,11 +98,14 @@ void AddResiduals(Page& page, const FitView& view, Against against, const char* 
                   int span) {
   const auto deciding = Deciding(view);
   const auto found = deciding.find(against);
+  // no test found anything in these residuals
   if (found == deciding.end()) {
     return page.Add(title, ResidualsOver(view, against), column, span);
   }
+  // the title names the tests that found something here
   std::string tests = fmt::format("{}", fmt::join(found->second, ", "));
   std::replace(tests.begin(), tests.end(), '_', ' ');
+  // a frame where the strongest finding decided the verdict
   const bool decided = Strongest(view) == against && view.estimate.status != Status::ok;
   page.Add(fmt::format("{}: {} {}", title, decided ? "decided by" : "shows", tests),
            ResidualsOver(view, against), column, span);
@@ -110,15 +113,18 @@ void AddResiduals(Page& page, const FitView& view, Against against, const char* 
 }
 
 void AddEvidence(Page& page, const FitView& view) {
+  // in time: whether residuals drift, and how long they stay alike
   page.Row(kPlotRow);
   AddResiduals(page, view, Against::time, "Residuals over time, with their mean", 0, 3);
   page.Add("Correlation of residuals over lag; within the dashed lines if white",
            ResidualMemory(view), 3, 3);
+  // over what the joint does: its place, its speed, its warmth
   page.Row(kPlotRow);
   const int span = view.warms() ? 2 : 3;
   AddResiduals(page, view, Against::position, "Residuals over position", 0, span);
   AddResiduals(page, view, Against::velocity, "Residuals over velocity", span, span);
   if (view.warms()) AddResiduals(page, view, Against::energy, "Residuals over warmth", 4, 2);
+  // over the motor's angle only where a test found something there
   if (Deciding(view).contains(Against::motor_angle) && view.motor_angle.size() > 0) {
     page.Row(kPlotRow);
     AddResiduals(page, view, Against::motor_angle, "Residuals over motor angle", 0, kColumns);
@@ -135,16 +141,19 @@ Figure MakeFitPage(const FitView& view) {
   figure.finding = Finding(view);
 
   Page page(figure);
+  // first what came out: verdict and numbers
   const bool has_numbers = !view.estimate.parameters.empty();
   page.Row(kWordsRow);
   page.Add("Verdict", VerdictOf(view), 0, has_numbers ? 3 : kColumns);
   if (has_numbers)
     page.Add(view.is_void() ? "Parameters (void)" : "Parameters", ParametersOf(view), 3, 3);
 
+  // the level of friction over the whole recording
   page.Row(kTallRow);
   page.Add(view.has_fit ? "Level of friction over time" : "Torque in the direction of motion",
            LevelOverTime(view), 0, kColumns);
 
+  // begin and end of the recording close up, over the same torques
   const Window cold = ColdWindow(view), warm = WarmWindow(view);
   const auto limits = TorqueLimits(view, cold, warm);
   page.Row(kPlotRow);
@@ -153,6 +162,7 @@ Figure MakeFitPage(const FitView& view) {
   page.Add(view.selection.segments.empty() ? "The end" : "The last segments",
            CloseUp(view, warm, limits), 3, 3);
 
+  // the law over velocity, and the warming beside it
   page.Row(kTallRow);
   page.Add("Friction over velocity", FrictionCurve(view), 0, view.warms() ? 3 : kColumns);
   if (view.warms()) page.Add("Warm-up", WarmUpCurve(view), 3, 3);

@@ -64,6 +64,7 @@ std::string NameInFolder(const std::filesystem::path& path) {
 FitView WithoutFit(const Measurements& measurements, const Selection& selection,
                    const Estimate& estimate) {
   FitView view;
+  // the recording, its time counted from the first sample
   view.source = NameInFolder(measurements.source);
   view.joint = measurements.joint;
   view.torque_unit = UnitText(measurements.torque_unit);
@@ -74,9 +75,11 @@ FitView WithoutFit(const Measurements& measurements, const Selection& selection,
   view.velocity = measurements.velocity;
   view.torque = measurements.torque;
   if (measurements.temperature) view.temperature = *measurements.temperature;
+  // less the torque of inertia and gravity, what is left is friction
   TakeRigidOff(estimate, measurements, view);
   view.motor_angle = MotorAngle(measurements);
 
+  // the motion as the prediction needs it, with the heat that it starts from
   view.course = CourseOf(measurements);
   view.start = StartOf(estimate, measurements);
   return view;

@@ -65,6 +65,7 @@ std::string Sentence(std::string text) {
 std::vector<std::string> WarningsOf(const FitView& view) {
   if (view.estimate.status != Status::ok) return {};
   std::vector<std::string> warnings = view.estimate.warnings;
+  // a residual that goes on from sample to sample has a cause
   const double memory = view.has_fit ? ResidualCorrelation(view, 1) : 0;
   if (memory > kMemory) {
     warnings.push_back(
@@ -90,14 +91,18 @@ Words VerdictOf(const FitView& view) {
   const Estimate& estimate = view.estimate;
   const bool passed = estimate.status == Status::ok;
   const std::vector<std::string> warnings = WarningsOf(view);
+  // green where the numbers can be used, red where they are void
   const Hue hue = !passed ? Hue::vermilion : warnings.empty() ? Hue::green : Hue::caution;
   Words words;
+  // the verdict first, then what to beware of
   words.paragraphs.push_back({VerdictSentence(view) + ".", true, hue});
   for (const std::string& warning : warnings) {
     words.paragraphs.push_back({"Warning: " + Sentence(warning), false, Hue::caution});
   }
+  // the reason in the words of the estimate
   const std::string message = passed ? estimate.message : estimate.FullMessage();
   if (!message.empty()) words.paragraphs.push_back({Sentence(message)});
+  // how well it fits the samples that it saw, and others
   if (estimate.metrics) {
     words.paragraphs.push_back({MetricsSentence(*estimate.metrics, view.torque_unit) + "."});
   }
@@ -108,11 +113,13 @@ Words VerdictOf(const FitView& view) {
   if (!estimate.without_holdout.empty()) {
     words.paragraphs.push_back({"No held-out figures: " + Sentence(estimate.without_holdout)});
   }
+  // how much of the recording was used
   const double share =
       static_cast<double>(view.selection.count()) / static_cast<double>(view.time.size());
   words.paragraphs.push_back(
       {fmt::format("{:.0f} % of the {} samples {} and are kept.", 100 * share, view.time.size(),
                    IsOfAnyMotion(view) ? "move clearly" : "move at a constant speed")});
+  // what was taken off the torque before it is shown
   if (const std::string taken = TakenOff(view); !taken.empty()) {
     words.paragraphs.push_back(
         {Sentence(fmt::format("the torque that is shown is less {}", taken))});

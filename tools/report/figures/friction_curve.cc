@@ -19,9 +19,11 @@ Eigen::Vector2d MeanOfMaps(const FitView& view, const std::vector<Eigen::Index>&
                            double energy) {
   const JointFriction joint(*view.estimate.friction);
   const double speed = view.velocity(samples).mean();
+  // a few hundred places are enough for a mean
   const std::size_t step = std::max<std::size_t>(1, samples.size() / kPlaces);
   double sum = 0, count = 0;
   for (std::size_t i = 0; i < samples.size(); i += step, ++count) {
+    // the place is one that the joint was at, the warmth is given
     JointPlace place = PlaceAt(view, samples[i]);
     place.energy = energy;
     sum += joint.SlidingForce(speed, place);
@@ -34,6 +36,7 @@ Eigen::Vector2d MeanOfMaps(const FitView& view, const std::vector<Eigen::Index>&
 void AddMeansOfMaps(Plot& plot, const FitView& view, double energy, Hue hue, std::string label,
                     std::vector<Eigen::VectorXd>& shown) {
   for (int direction : {1, -1}) {
+    // one mean for each group of samples that are about as fast
     std::vector<double> speeds, forces;
     for (const SpeedGroup& group : GroupBySpeed(view, direction)) {
       if (group.samples.empty()) continue;
@@ -43,6 +46,7 @@ void AddMeansOfMaps(Plot& plot, const FitView& view, double energy, Hue hue, std
     }
     const auto count = static_cast<Eigen::Index>(speeds.size());
     if (count == 0) continue;
+    // a line through the means; the legend names it once for both directions
     const Eigen::VectorXd x = Eigen::Map<Eigen::VectorXd>(speeds.data(), count);
     const Eigen::VectorXd y = Eigen::Map<Eigen::VectorXd>(forces.data(), count);
     plot.series.push_back({label, hue, Line{x, y, 2.0, FitDash(view)}});
@@ -79,15 +83,18 @@ void AddCurves(Plot& plot, const FitView& view, const FrictionSpread& spread, do
   for (int direction : {1, -1}) {
     const Eigen::VectorXd speeds = SpeedsOf(KeptOf(view, view.velocity), direction);
     if (speeds.size() == 0) continue;
+    // friction over velocity at this warmth, and how sure it is
     const Eigen::VectorXd force = CurveOf(friction, speeds, energy);
     const Eigen::VectorXd deviation = SpreadOfPrediction(
         spread, friction,
         [&](const FrictionDescription& other) { return CurveOf(other, speeds, energy); });
+    // a band as thin as a line cannot be seen
     if (deviation.size() > 0 && 2 * kNormal95 * deviation.maxCoeff() > kThinnestBand * range) {
       plot.series.push_back(
           {"", hue,
            Band{speeds, force - kNormal95 * deviation, force + kNormal95 * deviation, 0.35}});
     }
+    // the legend names the curve once for both directions
     plot.series.push_back({label, hue, Line{speeds, force, 2.0, FitDash(view)}});
     label.clear();
     shown.push_back(force);
@@ -98,10 +105,12 @@ void AddCurves(Plot& plot, const FitView& view, const FrictionSpread& spread, do
 void AddMeasured(Plot& plot, const FitView& view, const Eigen::VectorXd& velocity,
                  const Eigen::VectorXd& torque) {
   constexpr double kDot = 1.1;  // points
+  // without warming all samples are of one kind
   if (!view.warms()) {
     plot.series.push_back({"measured", Hue::grey, Scatter{velocity, torque, kDot}});
     return;
   }
+  // colours part the samples at half of the largest warmth
   const Eigen::VectorXd energy = KeptOf(view, view.energy).cwiseAbs();
   const double half = std::abs(WarmestEnergy(view)) / 2;
   std::vector<Eigen::Index> cold, warm;
@@ -119,13 +128,16 @@ void AddFit(Plot& plot, const FitView& view, const Eigen::VectorXd& torque,
     Hue hue;
     const char* name;
   };
+  // the cold curve, and the warmest where the joint warms
   std::vector<Level> levels{{0, Hue::blue, view.warms() ? ", cold" : ""}};
   if (view.warms()) levels.push_back({WarmestEnergy(view), Hue::vermilion, ", warmest"});
+  // a friction with maps has no curve and so no band of it
   const bool has_maps = !view.estimate.friction->maps.empty();
   const auto [lowest, highest] = RangeOf({torque});
   const FrictionSpread spread =
       has_maps ? FrictionSpread{}
                : SpreadOf(view.estimate, view.course, view.start, view.selection);
+  // the fitted friction at each warmth
   for (const auto& [energy, hue, name] : levels) {
     if (has_maps) {
       AddMeansOfMaps(plot, view, energy, hue, FitLabel(view) + ", mean at each speed" + name,

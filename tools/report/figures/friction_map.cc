@@ -23,11 +23,13 @@ struct Across {
 };
 
 std::optional<Across> AcrossOf(const FitView& view) {
+  // a map over the motor's angle goes first
   for (const FrictionMap& map : view.estimate.friction->maps) {
     if (FindAxis(map, MapQuantity::motor_position)) {
       return Across{MapQuantity::motor_position, AngleAxis("motor angle (rad)")};
     }
   }
+  // otherwise one over the joint's position
   for (const FrictionMap& map : view.estimate.friction->maps) {
     if (!FindAxis(map, MapQuantity::position)) continue;
     const auto [lower, upper] = RangeOf({view.position});
@@ -58,6 +60,7 @@ std::vector<Passage> Passages(const FitView& view, const Across& across, int dir
     const auto column = static_cast<Eigen::Index>(kColumns * ShareOf(across.axis, angle[i]));
     return std::clamp<Eigen::Index>(column, 0, kColumns - 1);
   };
+  // each kept sample widens the speeds that the joint passed here with
   for (Eigen::Index i = 0; i < view.time.size(); ++i) {
     const double speed = view.velocity[i] * direction;
     if (!view.selection.keep[i] || speed <= 0) continue;
@@ -66,6 +69,7 @@ std::vector<Passage> Passages(const FitView& view, const Across& across, int dir
     Eigen::Index before = follows ? column_of(i - 1) : here;
     // a motor's angle begins anew after each turn
     if (std::abs(here - before) > kColumns / 2) before = here;
+    // columns that were crossed between two samples count too
     for (Eigen::Index c = std::min(here, before); c <= std::max(here, before); ++c) {
       Passage& passage = passages[static_cast<std::size_t>(c)];
       passage.slowest = std::min(passage.slowest, speed);
@@ -84,10 +88,12 @@ HeatMap LevelMap(const FitView& view, const Across& across, double energy) {
               {-fastest, fastest},
               {0, 1},
               TorqueLabel(view, "sign(v) · friction")};
+  // a map over the motor's angle is shown at the mean position of the joint
   const double middle = KeptOf(view, view.position).mean();
   const std::vector<Passage> forwards = Passages(view, across, 1),
                              backwards = Passages(view, across, -1);
   const JointFriction sliding(*view.estimate.friction);
+  // the level of steady friction at the middle of each cell
   for (Eigen::Index row = 0; row < kRows; ++row) {
     const double v = fastest * (2 * (static_cast<double>(row) + 0.5) / kRows - 1);
     for (Eigen::Index column = 0; column < kColumns; ++column) {
@@ -95,6 +101,7 @@ HeatMap LevelMap(const FitView& view, const Across& across, double energy) {
       const double angle = across.axis.lower + share * (across.axis.upper - across.axis.lower);
       const bool over_motor = across.quantity == MapQuantity::motor_position;
       const JointPlace place{over_motor ? middle : angle, energy, 0, over_motor ? angle : 0};
+      // empty where the joint never moved so
       const Passage& passage = (v > 0 ? forwards : backwards)[static_cast<std::size_t>(column)];
       map.values(row, column) =
           passage.Holds(std::abs(v)) ? Sign(v) * sliding.SlidingForce(v, place) : std::nan("");
@@ -110,12 +117,14 @@ Plot PanelOf(const FitView& view, const Across& across, HeatMap map, int directi
   const Eigen::VectorXd& angle =
       across.quantity == MapQuantity::motor_position ? view.motor_angle : view.position;
   Plot plot;
+  // one direction fills the panel
   plot.x = across.axis;
   plot.y = {SpeedLabel(view),
             direction > 0 ? 0 : map.y.first,
             direction > 0 ? map.y.second : 0,
             Scale::linear,
             {}};
+  // dots show what the map rests on
   plot.series.push_back({"", Hue::text, map});
   plot.series.push_back(
       {"samples", Hue::grey,
@@ -142,6 +151,7 @@ std::optional<Figure> MakeFrictionMap(const FitView& view) {
   const std::optional<Across> across = AcrossOf(view);
   if (!across) return std::nullopt;
 
+  // cold, and at its warmest where the joint warms
   std::vector<std::pair<std::string, HeatMap>> maps{{"cold", LevelMap(view, *across, 0)}};
   if (view.warms()) {
     const double warmest = WarmestEnergy(view);
@@ -149,11 +159,13 @@ std::optional<Figure> MakeFrictionMap(const FitView& view) {
                       LevelMap(view, *across, warmest));
   }
 
+  // title and origin, with what the empty places mean
   Figure figure;
   figure.name = "friction_map";
   const bool motor = across->quantity == MapQuantity::motor_position;
   figure.title = fmt::format("Friction over {} and velocity", motor ? "motor angle" : "position");
   figure.subtitle = OriginOf(view) + "; empty where the joint never moved so";
+  // in words: how far friction reaches over the map
   const auto range = [](const HeatMap& map) { return RangeOf({map.values.reshaped()}); };
   figure.finding = "Friction";
   for (const auto& [title, map] : maps) {
@@ -165,10 +177,12 @@ std::optional<Figure> MakeFrictionMap(const FitView& view) {
   figure.height = 0;
   figure.rows.clear();
   figure.columns.assign(maps.size(), 1);
+  // a row for each direction, with colours that cold and warm share
   for (int direction : {1, -1}) {
     const auto [lowest, highest] = ColoursOf(maps, direction);
     if (!std::isfinite(lowest)) continue;  // it never moved so
     const std::pair<double, double> colours{lowest, highest > lowest ? highest : lowest + 1};
+    // cold beside warm
     const auto row = static_cast<int>(figure.rows.size());
     figure.rows.push_back(260);
     for (std::size_t i = 0; i < maps.size(); ++i) {

@@ -13,6 +13,7 @@ constexpr double kRelativeStep = 1e-5;
 /// Names of the parameters that the friction has and the estimate knows with a deviation.
 std::vector<std::string> NamesOf(const Estimate& estimate) {
   std::vector<std::string> names;
+  // only numbers that have a standard deviation can spread
   const auto add = [&](const std::string& name) {
     const EstimatedParameter* found = estimate.Find(name);
     if (found && found->std) names.push_back(name);
@@ -39,6 +40,7 @@ Eigen::MatrixXd Derivatives(const Estimate& estimate, const std::vector<std::str
   Eigen::MatrixXd jacobian(n, static_cast<Eigen::Index>(names.size()));
   FrictionDescription friction = *estimate.friction;
   for (std::size_t i = 0; i < names.size(); ++i) {
+    // central differences of the predicted force over each number
     const double value = NumberOf(friction, names[i]);
     const double step = kRelativeStep * std::max(std::abs(value), 1e-3);
     const auto force = [&](double change) -> Eigen::VectorXd {
@@ -46,6 +48,7 @@ Eigen::MatrixXd Derivatives(const Estimate& estimate, const std::vector<std::str
       return changed.Predict(course, start).force;
     };
     const Eigen::VectorXd up = force(step), down = force(-step);
+    // only kept samples say anything
     Eigen::Index row = 0;
     for (Eigen::Index k = 0; k < course.time.size(); ++k) {
       if (selection.keep[k]) {

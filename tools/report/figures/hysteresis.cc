@@ -22,6 +22,7 @@ Plot Loop(const FitView& view, const Window& window, const std::pair<double, dou
   const Eigen::VectorXd position = Part(view.position, window);
   Plot plot;
   plot.series = {{"measured", Hue::grey, Line{position, Part(view.torque, window), 1.4}}};
+  // the fit has gaps where samples were left out
   if (view.has_fit) {
     const Eigen::VectorXd fitted = Part(KeptOrGap(view, view.fitted), window);
     plot.series.push_back(
@@ -36,6 +37,7 @@ Plot Loop(const FitView& view, const Window& window, const std::pair<double, dou
 
 std::optional<Figure> MakeHysteresis(const FitView& view) {
   if (!GoesBothWays(view)) return std::nullopt;
+  // the first and the last segments back and forth, over the same torques
   const Window first = ColdWindow(view, kSegments), last = WarmWindow(view, kSegments);
   const auto limits = TorqueLimits(view, first, last);
   Figure figure;
@@ -46,8 +48,10 @@ std::optional<Figure> MakeHysteresis(const FitView& view) {
   figure.finding =
       "The height of the loop is twice the friction; from the first to the last it changes by what "
       "the joint has warmed.";
+  // both loops beside each other
   figure.height = 400;
   figure.columns = {1, 1};
+  // a log without segments has its begin and its end
   const bool any = view.selection.segments.empty();
   figure.panels = {{any ? "The begin" : "First segments", Loop(view, first, limits), 0, 0},
                    {any ? "The end" : "Last segments", Loop(view, last, limits), 0, 1}};

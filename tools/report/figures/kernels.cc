@@ -60,15 +60,18 @@ Plot KernelPanel(const GaussianAxis& axis, KernelKind kind, Hue hue, const Vecto
 }  // namespace
 
 Figure MakeKernels() {
+  // noisy values of a known function, the same in every run
   RandomStream random({3, 0}, Stream::torque_noise);
   const VectorXd seen = VectorXd::LinSpaced(kSamples, -kReach, kReach);
   VectorXd values = seen.unaryExpr(&TheFunction);
   for (double& value : values) value += kNoise * random.Normal();
+  // both kinds of kernels are fitted to them and looked at beyond the data
   const GaussianAxis axis = EvenAxis(-kReach, kReach, kCentres);
   const VectorXd t = VectorXd::LinSpaced(kPoints, -kView, kView);
   const VectorXd plain = FitAt(axis, KernelKind::plain, seen, values, t);
   const VectorXd normalised = FitAt(axis, KernelKind::normalised, seen, values, t);
 
+  // the function, the data and both fits
   Plot fits;
   fits.series = {{"0.3 t² − 0.5", Hue::text, Line{t, t.unaryExpr(&TheFunction), 1.2, Dash::dashed}},
                  {"data", Hue::grey, Scatter{seen, values, 2}},
@@ -77,17 +80,20 @@ Figure MakeKernels() {
   fits.x = {"t", -kView, kView, Scale::linear, {}};
   fits.y = {"value", -0.7, 1.8, Scale::linear, {}};
 
+  // what the picture is to teach
   Figure figure;
   figure.name = "kernels";
   figure.title = "Normalised kernels keep their value beyond the data";
   figure.subtitle = fmt::format(
       "{} Gaussian kernels fitted to {} noisy values of 0.3 t² − 0.5 between −{} and {}", kCentres,
       kSamples, kReach, kReach);
+  // what each of them says where there are no data
   figure.finding = fmt::format(
       "At t = {0}, beyond the data, the plain kernels say {1} and the normalised ones {2}; at the "
       "edge of the data the function is {3}.",
       kView, SignificantText(plain[kPoints - 1], 2), SignificantText(normalised[kPoints - 1], 2),
       SignificantText(TheFunction(kReach), 2));
+  // below the fits the kernels of both kinds
   figure.height = 620;
   figure.rows = {1.6, 1};
   figure.columns = {1, 1};

@@ -11,12 +11,14 @@ namespace {
 Line SegmentLine(const FitView& view, const Eigen::VectorXd& values) {
   std::vector<double> x, y;
   for (const Segment& segment : view.selection.segments) {
+    // the kept samples of each segment
     for (Eigen::Index i = segment.begin; i < segment.end; ++i) {
       if (!view.selection.keep[i]) continue;
       x.push_back(view.time[i] / TimeUnit(view));
       y.push_back(values[i]);
     }
     if (x.empty()) continue;
+    // lines do not cross from one segment to the next
     x.push_back(x.back());
     y.push_back(std::nan(""));
   }
@@ -28,6 +30,7 @@ Line SegmentLine(const FitView& view, const Eigen::VectorXd& values) {
 }  // namespace
 
 Plot LevelOverTime(const FitView& view) {
+  // torque in the direction of motion is the level of friction
   const Eigen::VectorXd direction = view.velocity.array().sign();
   const Eigen::VectorXd time = KeptOf(view, view.time) / TimeUnit(view);
   const Eigen::VectorXd measured = KeptOf(view, view.torque.cwiseProduct(direction));

@@ -21,6 +21,7 @@ Plot ColumnPlot(const FitView& view, const Eigen::VectorXd& values, const std::s
 }  // namespace
 
 Figure MakeLogFigure(const FitView& view) {
+  // how much of the log is kept, and from what motion
   const auto samples = view.time.size();
   const auto kept = view.selection.count();
   const double share = 100 * static_cast<double>(kept) / static_cast<double>(samples);
@@ -30,12 +31,14 @@ Figure MakeLogFigure(const FitView& view) {
   const std::string segments = IsOfAnyMotion(view) ? "from motion of any kind"
                                                    : fmt::format("in {} segments of constant speed",
                                                                  view.selection.segments.size());
+  // the same in words, below the title and for readers who cannot see it
   figure.subtitle =
       fmt::format("{} samples; {:.0f} % of them are kept, {}", samples, share, segments);
   figure.finding =
       fmt::format("Of {} samples {:.0f} % are kept for the fit, {}.", samples, share, segments);
   figure.height = 0;
   figure.rows = {170, 170, 170};
+  // the torque as it was logged, with inertia and gravity
   const Eigen::VectorXd torque = view.torque + view.rigid;
   const Eigen::VectorXd* columns[] = {&view.position, &view.velocity, &torque};
   const std::string labels[] = {PositionLabel(view), SpeedLabel(view), TorqueLabel(view, "torque")};

@@ -35,9 +35,11 @@ DirectionPanel PanelOf(const FitView& view, int direction, const std::string& la
   std::vector<Series> means;
   for (const SpeedGroup& group : GroupBySpeed(view, direction)) {
     if (group.samples.empty()) continue;
+    // without the warming only the angle is left to explain the torque
     Eigen::VectorXd torque = view.torque(group.samples);
     if (view.warms()) torque -= direction * view.energy(group.samples);
     const Eigen::VectorXd angle = view.motor_angle(group.samples);
+    // as many bins as the samples bear
     const Eigen::Index bins = std::clamp(angle.size() / kSamplesPerBin, kFewestBins, kMostBins);
     const Line mean = BinnedMean(angle, torque, static_cast<int>(bins));
     panel.plot.series.push_back(
@@ -46,9 +48,11 @@ DirectionPanel PanelOf(const FitView& view, int direction, const std::string& la
     shown.push_back(torque);
     panel.largest_swing = std::max(panel.largest_swing, Swing(mean));
   }
+  // means over all dots
   panel.plot.series.insert(panel.plot.series.end(), means.begin(), means.end());
   panel.plot.x = AngleAxis("motor angle (rad)");
   panel.plot.y = BulkAxis(label, shown);
+  // torques that the axis leaves out are counted
   panel.beyond = CountBeyond(panel.plot.y, shown);
   return panel;
 }
@@ -65,12 +69,14 @@ std::optional<Figure> MakeMotorAngle(const FitView& view) {
   figure.title = "Torque over motor angle";
   figure.subtitle = fmt::format("{}: samples at constant speed, with their means", view.source) +
                     BeyondText(forwards.beyond + backwards.beyond);
+  // how much the angle of the motor matters at one speed
   figure.finding =
       fmt::format("Over one turn of the motor the mean torque at a speed varies by up to {} {}.",
                   SignificantText(std::max(forwards.largest_swing, backwards.largest_swing), 2),
                   view.torque_unit);
   figure.height = 430;
   figure.columns = {1, 1};
+  // a direction that the joint never took has no panel
   int column = 0;
   for (const auto& [panel, title] : {std::pair(&forwards, "Forwards"), {&backwards, "Backwards"}}) {
     if (panel->plot.series.empty()) continue;

@@ -46,11 +46,13 @@ double RootMeanSquare(const FitView& view, const Eigen::VectorXd& force) {
 std::vector<bool> HasPassed(const FitView& view, const SpeedGroup& group, const FrictionMap& map) {
   const auto kernels =
       static_cast<double>(FindAxis(map, MapQuantity::motor_position)->kernels.size());
+  // a sample speaks for the angles around it as far as the kernels are apart
   const int cells = kPoints - 1, reach = static_cast<int>(std::ceil(cells / kernels));
   std::vector<bool> passed(kPoints);
   for (const Eigen::Index sample : group.samples) {
     const double turns = view.motor_angle[sample] / (2 * M_PI);
     const int cell = static_cast<int>(std::lround((turns - std::floor(turns)) * cells));
+    // the angle begins anew after each turn
     for (int i = cell - reach; i <= cell + reach; ++i) {
       passed[static_cast<size_t>(((i % cells) + cells) % cells)] = true;
     }
@@ -62,10 +64,12 @@ std::vector<bool> HasPassed(const FitView& view, const SpeedGroup& group, const 
 /// The maps over one turn at a speed, E and position that the group had; NaN where it has no samples near.
 Line MapLine(const FitView& view, const SpeedGroup& group, const std::vector<FrictionMap>& maps) {
   Line line{Eigen::VectorXd(kPoints), Eigen::VectorXd::Zero(kPoints), 2.2};
+  // one sample stands for position, speed and warmth of its group
   const Eigen::Index typical = group.samples[group.samples.size() / 2];
   const std::vector<bool> passed = HasPassed(view, group, maps.front());
   for (int i = 0; i < kPoints; ++i) {
     line.x[i] = 2 * M_PI * i / (kPoints - 1);
+    // no line at angles that the motor never passed
     if (!passed[static_cast<size_t>(i)]) line.y[i] = std::nan("");
     const MapPoint<double> point{view.position[typical], line.x[i], view.velocity[typical],
                                  view.energy[typical], 0};
@@ -87,6 +91,7 @@ AnglePanel OverAngle(const FitView& view, int direction, const Eigen::VectorXd& 
   std::vector<Series> lines;
   for (const SpeedGroup& group : GroupBySpeed(view, direction)) {
     if (group.samples.empty()) continue;
+    // what the law and the other maps leave over is this map's to explain
     const Eigen::VectorXd left = (view.torque - without)(group.samples);
     plot.series.push_back(
         {"", group.hue,
@@ -95,6 +100,7 @@ AnglePanel OverAngle(const FitView& view, int direction, const Eigen::VectorXd& 
     lines.push_back({"map at " + group.label, group.hue, line});
     shown.insert(shown.end(), {left, line.y});
   }
+  // lines over all dots
   plot.series.insert(plot.series.end(), lines.begin(), lines.end());
   plot.x = AngleAxis("motor angle (rad)");
   plot.y = BulkAxis(TorqueLabel(view, "torque − law"), shown);
@@ -137,6 +143,7 @@ Plot InTime(const FitView& view, const Window& window, const Eigen::VectorXd& wi
   const auto part = [&](const Eigen::VectorXd& all) {
     return Eigen::VectorXd(all.segment(window.begin, window.end - window.begin));
   };
+  // a few turns of the motor: measured, and fitted without and with the map
   const Eigen::VectorXd time = part(view.time);
   Plot plot;
   plot.series.push_back({"measured", Hue::grey, Scatter{time, part(view.torque), 1.6}});
@@ -177,6 +184,7 @@ Figure PairOf(Figure figure, const std::pair<std::string, Plot>& left,
 
 std::optional<Figure> MakeMotorMap(const FitView& view) {
   if (!HasMotorMap(view)) return std::nullopt;
+  // the fit with all of its maps, and without those over the motor's angle
   const Eigen::VectorXd with = ForceWith(view, view.estimate.friction->maps);
   const Eigen::VectorXd without = ForceWith(view, MapsOverMotor(*view.estimate.friction, false));
   const AnglePanel forwards = OverAngle(view, 1, without), backwards = OverAngle(view, -1, without);
@@ -192,6 +200,7 @@ std::optional<Figure> MakeMotorMap(const FitView& view) {
 
 std::optional<Figure> MakeMotorFit(const FitView& view) {
   if (!HasMotorMap(view)) return std::nullopt;
+  // the fit with all of its maps, and without those over the motor's angle
   const Eigen::VectorXd with = ForceWith(view, view.estimate.friction->maps);
   const Eigen::VectorXd without = ForceWith(view, MapsOverMotor(*view.estimate.friction, false));
   const std::vector<Segment> slow = SlowSegments(view);
@@ -200,6 +209,7 @@ std::optional<Figure> MakeMotorFit(const FitView& view) {
   figure.title = "Fit with and without the map over motor angle";
   figure.subtitle = OriginOf(view);
   figure.finding = Worth(view, without, with);
+  // first and last slow segment, where samples follow the motor's turns
   const bool warms = view.warms();
   return PairOf(figure,
                 {warms ? "Cold: in the first slow segment" : "In the first slow segment",

@@ -41,9 +41,11 @@ struct Words {
 
 std::optional<Figure> Make(const FitView& view, const Words& words) {
   if (!view.has_fit || view.selection.count() == 0) return std::nullopt;
+  // torques with their rigid part, as the sensor has them
   const Eigen::VectorXd measured = KeptOf(view, view.torque + view.rigid);
   const Eigen::VectorXd predicted = KeptOf(view, view.fitted + view.rigid);
   const Eigen::VectorXd residuals = measured - predicted;
+  // one number for how far the prediction is off
   const std::string rmse =
       SignificantText(std::sqrt(residuals.array().square().mean())) + " " + view.torque_unit;
   Figure figure;
@@ -52,6 +54,7 @@ std::optional<Figure> Make(const FitView& view, const Words& words) {
   figure.subtitle = fmt::format("{}: RMSE {} over {} {}", OriginOf(view), rmse,
                                 view.selection.count(), words.samples);
   figure.finding = fmt::format("Measured and predicted torque differ by {} rms.", rmse);
+  // predicted over measured torque, and the residual beside it
   figure.height = 430;
   figure.columns = {1, 1};
   figure.panels = {{"", PredictedOverMeasured(view, measured, predicted), 0, 0},

@@ -68,10 +68,12 @@ Plot ResidualsOver(const FitView& view, Against what) {
   Plot plot;
   plot.series.push_back({"", Hue::grey, Scatter{across.values, residuals, 0.9}});
   plot.series.push_back({"", Hue::text, LevelLine{0, Dash::dashed}});
+  // means off zero show what the model lacks
   const Line mean = BinnedMean(across.values, residuals, kBins);
   plot.series.push_back({"", Hue::vermilion, mean});
   plot.series.push_back({"", Hue::vermilion, Scatter{mean.x, mean.y, 1.8}});
   plot.x = LinearAxis(across.label, {across.values});
+  // as far up as down, with zero in the middle
   const double reach = ReachOf(residuals);
   plot.y = {TorqueLabel(view, "residual"), -reach, reach, Scale::linear, {}};
   return plot;
@@ -79,11 +81,13 @@ Plot ResidualsOver(const FitView& view, Against what) {
 
 double ResidualCorrelation(const FitView& view, Eigen::Index lag) {
   const Eigen::VectorXd residuals = Residuals(view);
+  // mean and variance of the kept residuals
   const double mean = residuals.mean();
   const double variance = (residuals.array() - mean).square().mean();
   const Eigen::VectorXd centred = (view.torque - view.fitted).array() - mean;
   double sum = 0;
   Eigen::Index pairs = 0;
+  // pairs of kept samples that lie this lag apart
   for (Eigen::Index i = 0; i + lag < centred.size(); ++i) {
     if (!view.selection.keep[i] || !view.selection.keep[i + lag]) continue;
     sum += centred[i] * centred[i + lag];
@@ -95,12 +99,14 @@ double ResidualCorrelation(const FitView& view, Eigen::Index lag) {
 Plot ResidualMemory(const FitView& view) {
   const Eigen::Index n = view.time.size();
   const double step = MedianStep(view.time);  // s
+  // lags reach as far as a typical segment
   const std::vector<Eigen::Index> lags = LagsTo(std::min(TypicalSegment(view), n / 4));
   Eigen::VectorXd lag(static_cast<Eigen::Index>(lags.size())), correlation(lag.size());
   for (Eigen::Index k = 0; k < lag.size(); ++k) {
     lag[k] = static_cast<double>(lags[static_cast<std::size_t>(k)]) * step;
     correlation[k] = ResidualCorrelation(view, lags[static_cast<std::size_t>(k)]);
   }
+  // 95 % of the correlations of white residuals stay within
   const double bound = kNormal95 / std::sqrt(static_cast<double>(view.selection.count()));
 
   Plot plot;

@@ -38,10 +38,12 @@ double Distance(const Speeds& slower, const Speeds& faster) {
 /// Adds what strays into the nearer neighbour.
 void JoinStrays(std::size_t all, std::vector<Speeds>& clusters) {
   for (std::size_t i = 0; i < clusters.size() && clusters.size() > 1;) {
+    // a group with enough samples stays
     if (static_cast<double>(clusters[i].size()) >= kStray * static_cast<double>(all)) {
       ++i;
       continue;
     }
+    // a stray joins the neighbour that is nearer, by the ratio of speeds
     const bool upwards =
         i == 0 || (i + 1 < clusters.size() &&
                    Distance(clusters[i], clusters[i + 1]) < Distance(clusters[i - 1], clusters[i]));
@@ -57,14 +59,17 @@ void JoinStrays(std::size_t all, std::vector<Speeds>& clusters) {
 /// that never part a speed.
 std::vector<Speeds> ClustersOf(const Speeds& speeds) {
   std::vector<Speeds> single;
+  // speeds that differ by little are one
   for (double speed : speeds) {
     if (single.empty() || speed > (1 + kAlike) * single.back().front()) single.emplace_back();
     single.back().push_back(speed);
   }
   std::vector<Speeds> clusters = single;
   JoinStrays(speeds.size(), clusters);
+  // few speeds have a colour each
   if (clusters.size() <= std::size(kHues)) return clusters;
 
+  // more of them share bins of about as many samples each
   clusters.clear();
   std::size_t before = 0;  // samples in the bins so far
   for (const Speeds& speed : single) {
@@ -100,10 +105,12 @@ std::string LabelOf(const Speeds& speeds, const std::string& unit) {
 std::vector<SpeedGroup> GroupBySpeed(const FitView& view, int direction) {
   const std::string unit = UnitText(kVelocityUnit.For(view.joint));
   std::vector<SpeedGroup> groups;
+  // groups have the same colours in both directions
   for (const Speeds& speeds : ClustersOf(SpeedsOfSamples(view))) {
     groups.push_back(
         {speeds.front(), speeds.back(), kHues[groups.size()], LabelOf(speeds, unit), {}});
   }
+  // samples of this direction, in the group of their speed
   for (const Segment& segment : view.selection.segments) {
     if (segment.velocity * direction <= 0) continue;
     const double speed = std::abs(segment.velocity);

@@ -11,6 +11,7 @@ namespace warmjoint::report {
 
 std::string SymbolOf(const std::string& parameter) {
   std::string symbol = parameter;
+  // the symbol as the formulas have it
   for (const ParameterInfo& info : Thermal::parameters) {
     if (info.name == parameter) symbol = info.symbol;
   }
@@ -19,6 +20,7 @@ std::string SymbolOf(const std::string& parameter) {
       if (info.name == parameter) symbol = info.symbol;
     }
   }
+  // in print with Greek letters and indices
   static const std::map<std::string, std::string> kInPrint{
       {"tau", "τ"},
       {"kv", "k_{v}"},

@@ -27,11 +27,13 @@ struct HeatLine {
 HeatLine LineOf(const FitView& view, double slope, double lag) {
   HeatLine line{Lagged(view.energy, lag, view.course.time, view.course.starts), {}};
   line.temperature = slope * line.energy;
+  // each part of the recording has a base temperature of its own
   std::vector<Eigen::Index> bounds = view.course.starts;
   bounds.insert(bounds.begin(), 0);
   bounds.push_back(view.time.size());
   for (size_t i = 0; i + 1 < bounds.size(); ++i) {
     const Eigen::Index begin = bounds[i], count = bounds[i + 1] - begin;
+    // line and temperature have the same mean over the part
     const double base = view.temperature.segment(begin, count).mean() -
                         line.temperature.segment(begin, count).mean();
     line.temperature.segment(begin, count).array() += base;
@@ -68,6 +70,7 @@ std::string WithInterval(const EstimatedParameter& row) {
 }  // namespace
 
 std::optional<Figure> MakeTemperature(const FitView& view) {
+  // the estimate has to say how the temperature follows the heat
   const EstimatedParameter* correlation = Find(view.estimate, "correlation");
   const EstimatedParameter* slope = Find(view.estimate, "per_energy");
   const EstimatedParameter* lag = Find(view.estimate, "lag");
@@ -78,6 +81,7 @@ std::optional<Figure> MakeTemperature(const FitView& view) {
   const std::string energy =
       lag->value > 0 ? fmt::format("E, {} s behind", SignificantText(lag->value)) : "E";
 
+  // what the two have in common, said with care
   Figure figure;
   figure.name = "temperature";
   figure.title = "The heat of the fit beside the temperature";
@@ -86,9 +90,11 @@ std::optional<Figure> MakeTemperature(const FitView& view) {
       "Temperature and E have a correlation of {} and go with {} {}. Both may follow something "
       "else.",
       WithInterval(*correlation), SignificantText(slope->value), UnitText(slope->unit));
+  // heat and temperature over time at the left, one over the other at the right
   figure.height = 520;
   figure.rows = {1, 1};
   figure.columns = {1.25, 1};
+  // the first two over the time of the recording, so that they can be read together
   figure.panels = {
       {"",
        OverTime(view, TorqueLabel(view, "change of the level, E"),

@@ -13,6 +13,7 @@ std::unique_ptr<GlContext> MakeGlContext() {
   const std::string forced = variable ? variable : "";
   const Place place{"environment variable WARMJOINT_GL"};
 
+  // a way that was asked for is the only one tried
   if (forced == "osmesa") {
     if (auto context = MakeOsMesaContext()) return context;
     Refuse(place, "no OSMesa here: install the Debian package libosmesa6, or unset the variable");
@@ -23,10 +24,12 @@ std::unique_ptr<GlContext> MakeGlContext() {
            "no EGL here that draws without a display: install the Debian packages libegl1 and "
            "libegl-mesa0, or unset the variable");
   }
+  // any other word is a mistake
   if (!forced.empty()) {
     Refuse(place, "unknown value '{}'{}", Excerpt(forced), Suggestion(forced, {"osmesa", "egl"}));
   }
 
+  // drawing in software goes first
   if (auto context = MakeOsMesaContext()) return context;
   if (auto context = MakeEglContext()) return context;
   Refuse({},

@@ -25,6 +25,7 @@ struct Egl {
 
   bool Load() {
     if (!library.is_open()) return false;
+    // functions that every EGL has
     find = library.Find<decltype(find)>("eglGetProcAddress");
     initialize = library.Find<decltype(initialize)>("eglInitialize");
     bind_api = library.Find<decltype(bind_api)>("eglBindAPI");
@@ -61,6 +62,7 @@ class EglContext : public GlContext {
   bool Open() {
     if (!egl_.initialize(display_, nullptr, nullptr) || !egl_.bind_api(EGL_OPENGL_API))
       return false;
+    // any configuration that draws with OpenGL, without a window
     const std::array<EGLint, 5> wanted{EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,
                                        EGL_NONE};
     EGLConfig config{};
@@ -98,6 +100,7 @@ std::unique_ptr<GlContext> MakeEglContext() {
   Egl egl;
   if (!egl.Load()) return nullptr;
 
+  // a display that needs no device goes first
   const EGLDisplay surfaceless =
       egl.platform_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
   if (auto context = Try(egl, surfaceless, "egl surfaceless")) return context;

@@ -64,6 +64,7 @@ std::string EncodeFilm(const std::vector<Image>& frames, double seconds,
   // the still that other viewers show is no frame of the film
   const std::string still = EncodePng(frames.back(), description);
   film = still.substr(0, kSignature);
+  // chunks of the still, with the number of frames behind its header
   ForEachChunk(still, [&](const std::string& type, const std::string& data) {
     if (type == "IEND") return;
     film += Chunk(type, data);
@@ -73,6 +74,7 @@ std::string EncodeFilm(const std::vector<Image>& frames, double seconds,
     }
   });
   std::uint32_t number = 0;  // of fcTL and fdAT chunks together
+  // each frame is its duration and then its picture
   for (const Image& frame : frames) {
     film += FrameControl(number++, frame, seconds);
     ForEachChunk(EncodePng(frame, ""), [&](const std::string& type, const std::string& data) {

@@ -14,9 +14,11 @@ Image Shrink(const Image& image, int factor) {
   small.pixels.resize(std::size_t{3} * small.width * small.height);
   const unsigned area = static_cast<unsigned>(factor * factor);
   std::size_t target = 0;
+  // each pixel is the mean of those that it covers
   for (int y = 0; y < small.height; ++y) {
     for (int x = 0; x < small.width; ++x) {
       for (int channel = 0; channel < 3; ++channel) {
+        // the mean of each colour over the square
         unsigned sum = area / 2;  // rounds to the nearest
         for (int row = y * factor; row < (y + 1) * factor; ++row) {
           for (int column = x * factor; column < (x + 1) * factor; ++column) {
@@ -33,6 +35,7 @@ Image Shrink(const Image& image, int factor) {
 
 std::string EncodePng(const Image& image, const std::string& description, double dpi) {
   std::string bytes;
+  // errors of the library are thrown, its bytes are gathered in a text
   png_structp png = png_create_write_struct(
       PNG_LIBPNG_VER_STRING, nullptr,
       [](png_structp, png_const_charp message) { throw std::runtime_error(message); }, nullptr);
@@ -44,10 +47,12 @@ std::string EncodePng(const Image& image, const std::string& description, double
             ->append(reinterpret_cast<const char*>(data), size);
       },
       nullptr);
+  // red, green and blue, eight bits each
   png_set_IHDR(png, info, static_cast<png_uint_32>(image.width),
                static_cast<png_uint_32>(image.height), 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
 
+  // how large the picture is meant to be on paper
   constexpr double kInchesPerMetre = 1 / 0.0254;
   const auto per_metre = static_cast<png_uint_32>(std::lround(kInchesPerMetre * dpi));
   png_set_pHYs(png, info, per_metre, per_metre, PNG_RESOLUTION_METER);
@@ -61,6 +66,7 @@ std::string EncodePng(const Image& image, const std::string& description, double
   entry.text = text.data();
   if (!description.empty()) png_set_text(png, info, &entry, 1);
 
+  // rows from above
   png_write_info(png, info);
   for (int y = 0; y < image.height; ++y) {
     png_write_row(png, &image.pixels[std::size_t{3} * image.width * y]);

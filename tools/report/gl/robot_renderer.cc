@@ -40,6 +40,7 @@ RobotRenderer::RobotRenderer(GlContext& context, const mjModel& model, int width
   context_.Publish();
   scene_ = std::make_unique<Scene>(model);
   mjrContext& renderer = scene_->renderer;
+  // drawn larger than asked for, since shrinking smooths the edges
   mjr_makeContext(&model, &renderer, mjFONTSCALE_100);
   mjr_resizeOffscreen(kOversampling * width, kOversampling * height, &renderer);
   mjr_setBuffer(mjFB_OFFSCREEN, &renderer);
@@ -54,6 +55,7 @@ RobotRenderer::~RobotRenderer() { context_.MakeCurrent(); }
 void RobotRenderer::SetUp(const mjData& data, const ViewFrom& from) {
   context_.MakeCurrent();
   mjr_setBuffer(mjFB_OFFSCREEN, &scene_->renderer);
+  // the camera looks at the middle of the robot from as far as its size needs
   mjvCamera camera;
   mjv_defaultCamera(&camera);
   std::memcpy(camera.lookat, model_.stat.center, sizeof camera.lookat);
@@ -82,6 +84,7 @@ double RobotRenderer::Reach(const mjData& data, const ViewFrom& from) {
   const std::vector<unsigned char> mask = Render(Paint::geoms);
   const int width = kOversampling * width_, height = kOversampling * height_;
   double reach = 0;
+  // how far from the middle of the picture the robot reaches; 1 is the edge
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       if (IsEmpty(&mask[3 * (static_cast<std::size_t>(y) * width + x)])) continue;
@@ -94,6 +97,7 @@ double RobotRenderer::Reach(const mjData& data, const ViewFrom& from) {
 
 Image RobotRenderer::Draw(const mjData& data, const ViewFrom& from, Rgb background) {
   SetUp(data, from);
+  // colours of the robot, and a mask that tells it from the background
   const std::vector<unsigned char> colours = Render(Paint::colours), mask = Render(Paint::geoms);
   Image image{kOversampling * width_, kOversampling * height_,
               std::vector<std::uint8_t>(colours.size())};

@@ -30,6 +30,7 @@ Figure MakeContactSheet(const std::vector<Figure>& figures) {
   sheet.columns.assign(kAcross, 1);
   sheet.finding = "Contact sheet:";
   for (const Figure& figure : figures) {
+    // the leading panel of each figure, a few to a row
     const auto place = static_cast<int>(sheet.panels.size());
     if (place % kAcross == 0) sheet.rows.push_back(kRow);
     const std::string title = figure.title.empty() ? figure.name : figure.title;

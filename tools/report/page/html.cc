@@ -42,6 +42,7 @@ std::string ClassOf(const warmjoint::Table& table, std::size_t column) {
 std::string Hashes(const std::vector<std::string_view>& texts) {
   std::string hashes;
   for (const std::string_view text : texts) {
+    // the bytes that the hexadecimal digits stand for
     const std::string digits = Sha256(text);
     std::string bytes;
     for (std::size_t i = 0; i < digits.size(); i += 2) {
@@ -82,9 +83,11 @@ std::string Base64(std::string_view bytes) {
     const auto byte = [&](std::size_t k) {
       return k < left ? static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[i + k])) : 0u;
     };
+    // three bytes make four letters
     const std::uint32_t group = byte(0) << 16 | byte(1) << 8 | byte(2);
     text += kLetters[group >> 18 & 63];
     text += kLetters[group >> 12 & 63];
+    // bytes that the last group lacks are written as =
     text += left > 1 ? kLetters[group >> 6 & 63] : '=';
     text += left > 2 ? kLetters[group & 63] : '=';
   }
@@ -113,14 +116,17 @@ std::string HtmlTable(const std::string& caption, const warmjoint::Table& table)
       "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{0}\">\n<table>\n"
       "<caption>{0}</caption>\n<thead><tr>",
       Escape(caption));
+  // headings of the columns
   for (std::size_t i = 0; i < table.header.size(); ++i) {
     html += fmt::format("<th scope=\"col\"{}>{}</th>", ClassOf(table, i),
                         Escape(InPrint(table.header[i])));
   }
   html += "</tr></thead>\n<tbody>\n";
+  // each row has one cell that names it
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     html += "<tr>";
     for (std::size_t i = 0; i < table.rows[row].size(); ++i) {
+      // numbers stand at the right, words at the left
       const std::string kind = ClassOf(table, i);
       html += i == HeadColumn(table)
                   ? fmt::format("<th scope=\"row\"{}>{}</th>", kind,
@@ -142,6 +148,7 @@ std::string HtmlTerms(const std::vector<std::pair<std::string, std::string>>& te
 
 std::string HtmlPicture(const Figure& figure) {
   PageSetting setting;
+  // drawn twice: the reader's screen takes the light or the dark one
   const PictureFile light = EncodeFigure(figure, setting);
   setting.style = StyleNamed("dark");
   const PictureFile dark = EncodeFigure(figure, setting);

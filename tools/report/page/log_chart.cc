@@ -38,9 +38,11 @@ std::string Number(double value) {
 }  // namespace
 
 std::string MakeLogChart(const FitView& view) {
+  // no more samples than a page can carry
   const std::vector<Index> chosen = Thinned(view);
   const bool thinned = static_cast<Index>(chosen.size()) < view.time.size();
   std::string rows;
+  // a row for each sample: time, position, velocity, torque, fit, kept
   for (Index i : chosen) {
     const bool kept = view.selection.keep[i];
     const double fit = view.has_fit && kept ? view.fitted[i] : std::nan("");
@@ -48,6 +50,7 @@ std::string MakeLogChart(const FitView& view) {
                         Number(view.position[i]), Number(view.velocity[i]), Number(view.torque[i]),
                         Number(fit), kept ? 1 : 0);
   }
+  // the charts with their buttons; the numbers follow as data
   return fmt::format(
       "<noscript><p>The charts need JavaScript; the pictures below show the same.</p></noscript>\n"
       "<div id=\"charts\" hidden>\n{}<p>Drag across to zoom, double-click to see all, hold Shift "

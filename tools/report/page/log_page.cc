@@ -33,6 +33,7 @@ std::string VerdictSection(const FitView& view) {
       Passed(view) ? "The numbers below passed every test that this log allows."
                    : "The numbers below are void: they are shown so that you can see why.");
   html += List(Remarks(view.estimate));
+  // how well the fit explains the samples that it saw
   if (view.estimate.metrics) {
     const Metrics& metrics = *view.estimate.metrics;
     html += Paragraph(
@@ -41,6 +42,7 @@ std::string VerdictSection(const FitView& view) {
                     "over {} samples.",
                     metrics.fit, SignificantText(metrics.rmse), view.torque_unit, metrics.n));
   }
+  // and how well it does on others
   if (view.estimate.holdout) {
     html += Paragraph(
         fmt::format("On samples that were held out of a second fit, the typical error is {} {}.",
@@ -52,7 +54,9 @@ std::string VerdictSection(const FitView& view) {
 /// What a reader does now: how to use numbers that passed, or what to record and try.
 std::string NextSection(const LogPage& page) {
   std::vector<std::string> steps;
+  // first what is wrong with the log itself
   for (const std::string& fault : page.check.faults) steps.push_back("The log: " + fault + ".");
+  // then how to use the numbers, or a remedy for each test that failed
   if (Passed(page.view)) {
     steps.push_back("Use the numbers with their intervals; keep the assumptions below in mind.");
   } else {
@@ -60,6 +64,7 @@ std::string NextSection(const LogPage& page) {
       if (diagnostic.rejected) steps.push_back(RemedyOf(diagnostic.test));
     }
   }
+  // last what the motion was too poor to tell
   for (const Excitation& excitation : page.check.excitation) {
     if (!excitation.sufficient) {
       steps.push_back(fmt::format("To identify {}: {}", excitation.what, excitation.reason));
@@ -85,6 +90,7 @@ std::string ParametersSection(const FitView& view) {
 
 std::string TestsSection(const FitView& view) {
   BoardTable table{{"question", "answer", "size", "p"}, {}};
+  // a line for each question: its answer, how much it explains, how often chance does as much
   for (const Diagnostic& diagnostic : view.estimate.diagnostics) {
     const bool made = diagnostic.made;
     table.rows.push_back({QuestionOf(diagnostic.test),
@@ -107,8 +113,10 @@ std::string TestsSection(const FitView& view) {
 std::string AssumptionsSection(const FitView& view) {
   std::vector<std::string> items;
   for (const Assumption& assumption : view.estimate.assumptions) {
+    // the assumption in plain words, with what it means here
     std::string text = AssumptionOf(assumption.name);
     if (!assumption.meaning.empty()) text += " (" + assumption.meaning + ")";
+    // how much the numbers rest on it
     for (const auto& [parameter, move] : assumption.moves) {
       text += fmt::format("; {} would change by {}", parameter, SignificantText(move, 2));
     }
@@ -157,6 +165,7 @@ std::vector<Figure> FiguresOf(const FitView& view) {
   residuals.finding =
       "Residuals over time, position and velocity, and their correlation over lag: a "
       "complete model leaves none of them a pattern.";
+  // four panels, two to a row
   residuals.height = 0;
   residuals.rows = {200, 200};
   residuals.columns = {1, 1};

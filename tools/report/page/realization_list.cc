@@ -17,6 +17,7 @@ BoardTable TableOf(const RunView& view, const Suite& suite, const std::string& r
                    {}};
   if (suite.ladder) table.header.insert(table.header.begin() + 1, "variant");
   for (const ListedAnswer& answer : view.listing.answers) {
+    // who answered what on which log, how well, and how to make that log again
     std::vector<std::string> row{
         fmt::format("{}", answer.unit.realization),
         suite.identifiers.at(static_cast<std::size_t>(answer.identifier)).label,
@@ -25,6 +26,7 @@ BoardTable TableOf(const RunView& view, const Suite& suite, const std::string& r
         warmjoint::NumberText(answer.rmse),
         warmjoint::NumberText(answer.fit),
         ReplayCommand(suite, answer.unit, run)};
+    // the variant stands behind the realization where there are variants
     if (suite.ladder) {
       const auto variant = static_cast<std::size_t>(answer.unit.variant);
       row.insert(row.begin() + 1, suite.ladder->variants.at(variant).name);
@@ -38,6 +40,7 @@ BoardTable TableOf(const RunView& view, const Suite& suite, const std::string& r
 
 std::string RealizationList(const RunView& view, const Suite& suite, const std::string& run) {
   std::string html;
+  // long runs list a part of their realizations
   if (view.listing.every > 1) {
     html += Paragraph(fmt::format(
         "One realization in {} is listed, and the first failures besides.", view.listing.every));

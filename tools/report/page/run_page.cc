@@ -16,6 +16,7 @@ namespace {
 constexpr const char* kRun = "RUN";
 
 std::string About(const Suite& suite) {
+  // what the suite simulates, in sentences
   std::string simulated;
   for (const std::string& sentence : WhatWasSimulated(suite)) {
     simulated += (simulated.empty() ? "" : " ") + sentence;
@@ -28,6 +29,7 @@ std::string About(const Suite& suite) {
           "identifiers, did that on simulated logs whose true friction is known, so that their "
           "errors can be measured.") +
       Paragraph(simulated) + "<h3>The identifiers</h3>\n";
+  // each identifier with what it is
   std::vector<std::pair<std::string, std::string>> identifiers;
   for (const SuiteIdentifier& one : suite.identifiers) {
     identifiers.emplace_back(one.label, WhatItIs(one));
@@ -50,6 +52,7 @@ std::string Pictures(const std::vector<Figure>& figures) {
 std::string Leaderboards(const Leaderboard& board) {
   std::string html = HtmlTable("Who wins: normalised parameter error, NPE", RankingTable(board)) +
                      HtmlTable("Agreement with the data, medians", AgreementTable(board));
+  // variants beside each other, where there are some
   if (board.groups.size() > 1) {
     html += HtmlTable("Median NPE in each variant, beside its bound", GroupTable(board));
   }
@@ -70,17 +73,20 @@ std::string NotesOf(const Leaderboard& board) {
 std::string HowToRepeat(const Leaderboard& board, const RunDescription& description) {
   std::string html = Paragraph("Save the suite below as suite.yaml, then:");
   html += fmt::format("<pre>warmjoint run suite.yaml -o {0}\nwarmjoint report {0}</pre>\n", kRun);
+  // how to make the log of one row again
   html += Paragraph(
       "One realization alone, as its row above says, leaves its recording in `replay`; an "
       "identifier "
       "takes that:");
   html += "<pre>warmjoint identify replay/recording.csv --identifier NAME</pre>\n";
+  // how far the run came, and with which versions
   html += Paragraph(fmt::format("{} of {} realizations are finished. Made with:", board.finished,
                                 board.realizations));
   html += "<ul>\n";
   for (const auto& [name, version] : description.versions) {
     html += fmt::format("<li>{} {}</li>\n", Escape(name), Escape(version));
   }
+  // the suite itself, to be saved
   html += "</ul>\n<details><summary>suite.yaml</summary>\n<pre>" + Escape(description.suite_yaml) +
           "</pre>\n</details>\n";
   return html;
@@ -104,6 +110,7 @@ std::string MakeRunPage(const RunPage& page) {
     const char* heading;
     std::string body;
   };
+  // parts in the order of a reader's questions
   const Part parts[] = {{"about", "What this is", About(page.suite)},
                         {"leaderboard", "Leaderboard", Leaderboards(board)},
                         {"realizations", "Realizations", Realizations(page)},
@@ -111,12 +118,14 @@ std::string MakeRunPage(const RunPage& page) {
                         {"failures", "Failures and notes", NotesOf(board)},
                         {"terms", "Terms", HtmlTerms(RunTerms())},
                         {"repeat", "How to repeat it", HowToRepeat(board, page.description)}};
+  // a link to each part in front of them all
   std::string links, body;
   for (const Part& part : parts) {
     links += fmt::format("<li><a href=\"#{}\">{}</a></li>", part.id, part.heading);
     body += Section(part.id, part.heading, part.body);
   }
   const std::string own_style(RealizationStyle());
+  // head with verdict and links, then the parts, then the numbers for machines
   return fmt::format(
              "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n{}"
              "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"

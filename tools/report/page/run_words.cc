@@ -36,11 +36,13 @@ std::string FrictionOf(const Scenario& scenario) {
 std::string MotionOf(const Scenario& scenario) {
   const bool turns = scenario.joint_kind == JointKind::rotary;
   const Motion& motion = scenario.motion;
+  // what kind of motion the scenario asks for
   std::string words = "It moves forwards and backwards at constant speeds";
   if (!motion.corners.empty()) words = "It repeats a recorded motion";
   if (motion.fourier) words = "It moves by Fourier excitation, which never holds a speed";
   if (motion.moves) words = "It moves from place to place, as in pick and place";
   if (!motion.phases.empty()) words = "It works in phases of motion and rest";
+  // its speeds, and how long it holds each
   if (!motion.speed_list.empty()) {
     std::vector<std::string> speeds;
     for (const double speed : motion.speed_list) speeds.push_back(fmt::format("{:g}", speed));
@@ -91,11 +93,13 @@ std::vector<std::string> WhatWasSimulated(const Suite& suite) {
 }
 
 std::string WhatItIs(const SuiteIdentifier& identifier) {
+  // a command from outside is its own description
   if (identifier.name == kExternal) {
     const auto command = identifier.options.find("command");
     return "a command from outside" +
            (command == identifier.options.end() ? "" : ": " + command->second);
   }
+  // an identifier of the list has a summary, and options that the suite gives
   std::string words = FindIdentifier(identifier.name).summary;
   std::vector<std::string> options;
   for (const auto& [key, value] : identifier.options) options.push_back(key + "=" + value);

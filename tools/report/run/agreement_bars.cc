@@ -28,6 +28,7 @@ std::string SquareOf(const std::string& unit) { return unit == "N·m" ? "N²·m�
 void AddNumbers(Plot& plot, const std::vector<Eigen::VectorXd>& shown) {
   constexpr double kRoom = 0.1;  // of the axis, above the highest
   plot.y.upper *= 1 + kRoom;
+  // above both the bar and the line that rises from it
   for (std::size_t i = 0; i + 1 < shown.size(); i += 2) {
     const double top = std::max(shown[i][0], shown[i + 1][0]) + 0.05 * plot.y.upper;
     plot.series.push_back(
@@ -43,6 +44,7 @@ Plot BarsOf(const std::vector<const RunRow*>& rows, Eigen::VectorXd RunRow::*val
   std::vector<std::string> names;
   std::vector<Eigen::VectorXd> shown;
   for (const RunRow* row : rows) {
+    // the median as a bar, the quartiles as a line through its end
     const QuartileCurve middle = QuartilesOf(Eigen::VectorXd::Zero(1), row->*values);
     const Eigen::VectorXd x = Eigen::VectorXd::Constant(1, static_cast<double>(names.size()));
     const double opacity = OpacityOf(rows, names.size());
@@ -54,6 +56,7 @@ Plot BarsOf(const std::vector<const RunRow*>& rows, Eigen::VectorXd RunRow::*val
     names.push_back(row->label);
     shown.insert(shown.end(), {middle.median, middle.q75});
   }
+  // bars stand on zero, with numbers above them
   plot.x = CategoryAxis("", names);
   plot.y = ZeroAxis(label, shown);
   AddNumbers(plot, shown);
@@ -75,6 +78,7 @@ std::string Finding(const std::vector<const RunRow*>& rows, const std::string& u
 }  // namespace
 
 std::optional<Figure> AgreementBars(const RunView& run) {
+  // only identifiers that gave figures of fit
   std::vector<const RunRow*> rows;
   for (const RunRow& row : run.rows) {
     if (row.rmse.array().isFinite().any()) rows.push_back(&row);
@@ -93,6 +97,7 @@ std::optional<Figure> AgreementBars(const RunView& run) {
   figure.columns.assign(static_cast<std::size_t>(across), 1);
   figure.rows.assign(static_cast<std::size_t>(4 / across), 240);
   figure.height = 0;
+  // four measures of the same fit
   figure.panels = {
       {"Fit", BarsOf(rows, &RunRow::fit, "Fit (%)"), 0, 0},
       {"Final prediction error",
@@ -100,6 +105,7 @@ std::optional<Figure> AgreementBars(const RunView& run) {
       {"Root mean square error", BarsOf(rows, &RunRow::rmse, fmt::format("RMSE ({})", unit)), 1, 0},
       {"Mean absolute error", BarsOf(rows, &RunRow::mae, fmt::format("MAE ({})", unit)), 1, 1},
   };
+  // panels beside each other, or all below each other
   for (int i = 0; i < 4; ++i) {
     figure.panels[static_cast<std::size_t>(i)].row = i / across;
     figure.panels[static_cast<std::size_t>(i)].column = i % across;

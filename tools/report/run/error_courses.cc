@@ -32,6 +32,7 @@ std::optional<Figure> ErrorCourses(const RunView& run) {
   data.realizations = run.realizations;
   data.torque_unit = run.torque_unit;
   bool any = false;
+  // courses of all identifiers, of which one at least has to iterate
   for (const RunRow& row : run.rows) {
     data.identifiers.push_back(CourseOf(row));
     any = any || row.course.iteration.size() > 1;

@@ -16,6 +16,7 @@ constexpr double kRow = 200;  // points
 }  // namespace
 
 std::vector<Extreme> ExtremesOf(const RunRow& row) {
+  // realizations that have numbers
   std::vector<Extreme> answered;
   for (Eigen::Index i = 0; i < row.npe.size(); ++i) {
     if (std::isnan(row.npe[i])) continue;
@@ -26,6 +27,7 @@ std::vector<Extreme> ExtremesOf(const RunRow& row) {
                    [](const Extreme& a, const Extreme& b) { return a.npe < b.npe; });
 
   std::vector<Extreme> extremes;
+  // no realization is shown twice
   const auto take = [&](const char* rank, std::size_t at) {
     if (at >= answered.size()) return;
     const bool taken = std::any_of(extremes.begin(), extremes.end(), [&](const Extreme& one) {
@@ -52,6 +54,7 @@ Figure ExtremesFigure(const std::string& label, const std::vector<ReplayedExtrem
   figure.height = 0;
   figure.rows.clear();
   figure.columns = {1, 1};
+  // a row for each: its whole recording, and its end close up
   for (const ReplayedExtreme& one : replayed) {
     const auto row = static_cast<int>(figure.rows.size());
     figure.rows.push_back(kRow);

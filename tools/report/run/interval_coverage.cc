@@ -33,6 +33,7 @@ struct Drawer {
     scatter.size = 4;
     scatter.marker = marker;
     std::vector<double> x, y;
+    // a dot at the share of intervals that hold the truth, with the 95 % interval of that share
     for (std::size_t i = 0; i < columns.size(); ++i) {
       const ParameterColumn& column = row.parameters[columns[i]];
       if (column.intervals == 0) continue;
@@ -44,6 +45,7 @@ struct Drawer {
       y.push_back(100.0 * column.covered / column.intervals);
       lowest = std::min(lowest, lower);
     }
+    // the dots of an identifier are one series, which the legend names
     const auto size = static_cast<Eigen::Index>(x.size());
     scatter.x = Eigen::Map<const Eigen::VectorXd>(x.data(), size);
     scatter.y = Eigen::Map<const Eigen::VectorXd>(y.data(), size);
@@ -69,6 +71,7 @@ std::vector<std::size_t> ColumnsOf(const std::vector<RunRow>& rows) {
 std::string Finding(const std::vector<RunRow>& rows) {
   std::string text = "95 % intervals:";
   for (const RunRow& row : rows) {
+    // the worst and the best parameter of each identifier
     double least = 100, most = 0;
     for (const ParameterColumn& column : row.parameters) {
       if (column.intervals == 0) continue;
@@ -87,6 +90,7 @@ std::string Finding(const std::vector<RunRow>& rows) {
 }  // namespace
 
 std::optional<Figure> IntervalCoverage(const RunView& run) {
+  // only identifiers that give intervals
   std::vector<RunRow> rows;
   for (const RunRow& row : run.rows) {
     if (GivesIntervals(row)) rows.push_back(row);
@@ -95,14 +99,17 @@ std::optional<Figure> IntervalCoverage(const RunView& run) {
 
   Plot plot;
   Drawer drawer{plot};
+  // identifiers stand side by side at each parameter
   const std::vector<std::size_t> columns = ColumnsOf(rows);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const double middle = (static_cast<double>(rows.size()) - 1) / 2;
     drawer.Add(rows[i], columns, 0.16 * (static_cast<double>(i) - middle), MarkerOf(rows, i));
   }
+  // the line that good intervals lie on
   plot.series.push_back({"95 %", Hue::text, LevelLine{95}});
   std::vector<std::string> names;
   for (std::size_t i : columns) names.push_back(SymbolOf(rows.front().parameters[i].name));
+  // the axis begins below the lowest interval
   plot.x = CategoryAxis("parameter", names);
   plot.y = {"intervals that hold the truth (%)",
             std::max(-2.0, drawer.lowest - 4),  // marks at 0 and 100 stand whole
@@ -110,6 +117,7 @@ std::optional<Figure> IntervalCoverage(const RunView& run) {
             Scale::linear,
             {}};
 
+  // the question that the picture answers is its title
   return SinglePlot(
       {"coverage", "Do 95 % intervals hold the truth?",
        RunSubtitle(

@@ -36,10 +36,12 @@ QuartileCurve RungsOf(const RunRow& row, const Rungs& rungs) {
 /// The rms NPE at the Cramer-Rao bound of each rung, per cent, over the realizations where it is
 /// known; NaN where it never is.
 Eigen::VectorXd BoundOf(const RunRow& row, const Rungs& rungs) {
+  // squared relative bounds of each realization, summed over its parameters, per cent
   Eigen::VectorXd squares = Eigen::VectorXd::Zero(row.variant.size());
   for (const ParameterColumn& column : row.parameters) {
     squares += (100 * column.bound.cwiseQuotient(column.truth)).cwiseAbs2();
   }
+  // their root mean square over the realizations of each rung
   Eigen::VectorXd bound(rungs.values.size());
   for (Eigen::Index rung = 0; rung < bound.size(); ++rung) {
     const auto here = row.variant.array() == static_cast<int>(rung) && squares.array().isFinite();
@@ -68,10 +70,12 @@ Scatter MeansOf(const RunView& run) {
 /// where variants have names alone.
 std::string RangeText(const std::string& label, const Eigen::VectorXd& median,
                       const std::vector<std::string>& names) {
+  // rungs in order have a first and a last
   if (names.empty()) {
     return fmt::format(" {} {} to {} %,", label, SignificantText(median[0]),
                        SignificantText(median.tail(1)[0]));
   }
+  // variants have a best and a worst
   if (!median.array().isFinite().any()) return fmt::format(" {} none,", label);
   Eigen::Index best = 0, worst = 0;
   median.minCoeff<Eigen::PropagateNumbers>(&best);
@@ -101,6 +105,7 @@ std::string Finding(const RunView& run, const std::vector<std::string>& silent) 
     text += RangeText(row.label, RungsOf(row, rungs).median, rungs.names);
   }
   text.back() = '.';
+  // rungs that nobody gave numbers for
   for (const std::string& name : silent) {
     text += fmt::format(" No identifier gives numbers in {}.", name);
   }
@@ -110,8 +115,10 @@ std::string Finding(const RunView& run, const std::vector<std::string>& silent) 
 /// Writes "no numbers" over the rungs where no line has a value; returns their names.
 std::vector<std::string> MarkSilent(const Rungs& rungs, Plot& plot) {
   std::vector<std::string> silent;
+  // the middle of the axis as the eye sees it
   const double middle = plot.y.scale == Scale::logarithmic ? std::sqrt(plot.y.lower * plot.y.upper)
                                                            : (plot.y.lower + plot.y.upper) / 2;
+  // a rung without a dot gets words in its place
   for (Eigen::Index rung = 0; rung < rungs.values.size(); ++rung) {
     const bool any = std::any_of(plot.series.begin(), plot.series.end(), [&](const Series& series) {
       const auto* dots = std::get_if<Scatter>(&series.shape);
@@ -135,6 +142,7 @@ std::optional<Figure> LadderFigure(const RunView& run) {
   Plot plot;
   std::vector<Eigen::VectorXd> shown;
   std::vector<Series> lines;
+  // each identifier: quartiles as a band, medians as a line over the rungs
   for (std::size_t i = 0; i < run.rows.size(); ++i) {
     const RunRow& row = run.rows[i];
     const Hue hue = IdentifierHue(row.identifier);
@@ -144,8 +152,10 @@ std::optional<Figure> LadderFigure(const RunView& run) {
     lines.push_back({"", hue, Scatter{curve.x, curve.median, 3, MarkerOf(run.rows, i)}});
     shown.insert(shown.end(), {curve.q25, curve.median, curve.q75});
   }
+  // without any numbers there is nothing to show
   if (!std::isfinite(RangeOf(shown).first)) return std::nullopt;
   plot.series.insert(plot.series.end(), lines.begin(), lines.end());
+  // root mean squares beside the bound, which is one itself
   const Scatter means = MeansOf(run);
   shown.push_back(means.y);
   const Eigen::VectorXd bound = BoundOf(run.rows.front(), rungs);
@@ -155,6 +165,7 @@ std::optional<Figure> LadderFigure(const RunView& run) {
     shown.push_back(bound);
   }
 
+  // rungs over more than a decade stand on a logarithmic axis
   const std::string unit = rungs.unit.empty() ? "" : fmt::format(" ({})", UnitText(rungs.unit));
   const bool wide =
       rungs.values.minCoeff() > 0 && rungs.values.maxCoeff() > 10 * rungs.values.minCoeff();
@@ -164,6 +175,7 @@ std::optional<Figure> LadderFigure(const RunView& run) {
                : CategoryAxis("", rungs.names);
   plot.y = MagnitudeAxis("NPE, continuous (%)", shown);
 
+  // rungs without numbers are marked, and named in the finding
   const std::vector<std::string> silent = MarkSilent(rungs, plot);
   plot.series.push_back({"root mean square", Hue::text, means});
   const std::string title =

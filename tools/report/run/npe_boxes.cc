@@ -16,11 +16,13 @@ namespace {
 
 /// Whiskers from the 5 % to the 95 % quantile.
 Box BoxOf(double x, const Eigen::VectorXd& values) {
+  // finite errors in their order
   std::vector<double> sorted;
   for (double value : values) {
     if (std::isfinite(value)) sorted.push_back(value);
   }
   std::sort(sorted.begin(), sorted.end());
+  // quartiles as the box, the middle 90 % between the whiskers
   Box box{x,
           Quantile(sorted, 0.05),
           Quantile(sorted, 0.25),
@@ -28,6 +30,7 @@ Box BoxOf(double x, const Eigen::VectorXd& values) {
           Quantile(sorted, 0.75),
           Quantile(sorted, 0.95),
           {}};
+  // errors beyond the whiskers are shown one by one
   std::vector<double> outliers;
   for (double value : sorted) {
     if (value < box.lower || value > box.upper) outliers.push_back(value);
@@ -65,6 +68,7 @@ std::string Finding(const RunView& run) {
         HasNumbers(row) ? SignificantText(100 * BoxOf(0, row.npe).median) + " %" : "none");
     if (row.failed() > 0) text += fmt::format(" with {} of {} failed,", row.failed(), row.runs);
   }
+  // the bound where it is the same for all
   text.back() = '.';
   if (HasOneBound(run)) {
     text += fmt::format(" The Cramér-Rao bound is {} % rms.", SignificantText(100 * run.bound_npe));
@@ -79,6 +83,7 @@ std::optional<Figure> NpeBoxes(const RunView& run) {
   std::vector<std::string> labels;
   std::vector<Eigen::VectorXd> shown;
   Scatter means{Eigen::VectorXd(0), Eigen::VectorXd(0), 4, Marker::diamond};
+  // a box and a root mean square for each; who gave no numbers keeps the place
   for (const RunRow& row : run.rows) {
     if (HasNumbers(row)) {
       const auto place = static_cast<double>(labels.size());
@@ -97,6 +102,7 @@ std::optional<Figure> NpeBoxes(const RunView& run) {
     plot.series.push_back({"Cramér-Rao bound (rms)", Hue::text, LevelLine{bound}});
     shown.push_back(Eigen::Vector2d(0.9 * bound, 1.1 * bound));
   }
+  // identifiers side by side, on a logarithmic axis where their errors differ much
   plot.x = CategoryAxis("", labels);
   plot.y = MagnitudeAxis("NPE, continuous (%)", shown);
 

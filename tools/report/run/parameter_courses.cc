@@ -76,10 +76,12 @@ std::pair<double, double> LimitsOf(const Axis& axis, const Eigen::VectorXd& iter
 Plot PanelOf(const RunRow& row, const ParameterColumn& column, const Eigen::MatrixXd& values) {
   const Eigen::VectorXd& iteration = row.course.iteration;
   const Hue hue = IdentifierHue(row.identifier);
+  // the middle of the courses, and of the truths where they differ
   const QuartileCurve middle = QuartilesOf(iteration, values);
   const double truth = QuartilesOf(Eigen::VectorXd::Zero(1), column.truth).median[0];
 
   Plot plot;
+  // many courses become bands, few are drawn one by one
   if (values.rows() > kMostLines) {
     AddBands(plot, iteration, values);
   } else {
@@ -88,6 +90,7 @@ Plot PanelOf(const RunRow& row, const ParameterColumn& column, const Eigen::Matr
   plot.series.push_back({"median", hue, Line{iteration, middle.median, 2.2}});
   plot.series.push_back({"truth", Hue::text, LevelLine{truth}});
   plot.x = IterationAxis(iteration[0], iteration.tail(1)[0]);
+  // the axis reaches over most of the courses and the truth
   const auto [lower, upper] = LimitsOf(plot.x, iteration, values, column.truth);
   const std::string unit = column.unit.empty() ? "" : fmt::format(" ({})", column.unit);
   plot.y = LinearAxis(SymbolOf(column.name) + unit, {Eigen::Vector2d(lower, upper)});
@@ -109,6 +112,7 @@ std::optional<Figure> ParameterCourses(const RunView& run) {
   figure.columns = {1, 1};
   figure.rows.clear();
   std::string last;
+  // a panel for each parameter that the identifier iterates on
   for (const ParameterColumn& column : row->parameters) {
     const auto& names = row->course.names;
     const auto found = std::find(names.begin(), names.end(), column.name);
@@ -116,6 +120,7 @@ std::optional<Figure> ParameterCourses(const RunView& run) {
     const Eigen::MatrixXd& values =
         row->course.parameters[static_cast<std::size_t>(found - names.begin())];
     if (!values.array().isFinite().any()) continue;
+    // two panels to a row
     Panel panel{NameWithSymbol(column.name), PanelOf(*row, column, values)};
     const auto place = static_cast<int>(figure.panels.size());
     panel.row = place / 2;
@@ -123,6 +128,7 @@ std::optional<Figure> ParameterCourses(const RunView& run) {
     if (panel.column == 0) figure.rows.push_back(1);
     figure.panels.push_back(panel);
 
+    // where its median ended, beside the truth
     const Eigen::VectorXd end = values.col(values.cols() - 1);
     const double middle = QuartilesOf(Eigen::VectorXd::Zero(1), end).median[0];
     const double truth = QuartilesOf(Eigen::VectorXd::Zero(1), column.truth).median[0];

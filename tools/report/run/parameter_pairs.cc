@@ -41,6 +41,7 @@ Eigen::MatrixXd CovarianceOf(const Eigen::MatrixXd& errors) {
 /// Outline of the 95 % ellipse.
 Line Ellipse(const Eigen::Vector2d& centre, const Eigen::Matrix2d& covariance, Dash dash) {
   constexpr int kPoints = 121;
+  // a circle that the root of the covariance stretches
   const Eigen::Matrix2d root = covariance.llt().matrixL();
   Line line{Eigen::VectorXd(kPoints), Eigen::VectorXd(kPoints), 1.6, dash};
   for (int i = 0; i < kPoints; ++i) {
@@ -58,6 +59,7 @@ const RunRow* BestComplete(const RunView& run) {
   const RunRow* best = nullptr;
   double lowest = INFINITY;
   for (const RunRow& row : run.rows) {
+    // correlations need several realizations with all parameters
     if (row.parameters.size() < 2 || Complete(row).rows() < 5) continue;
     const double median = QuartilesOf(Eigen::VectorXd::Zero(1), row.npe).median[0];
     if (median < lowest) {
@@ -71,8 +73,10 @@ const RunRow* BestComplete(const RunView& run) {
 /// The panel of parameters a and b; the first of all names its series.
 Plot PairOf(const RunView& run, const RunRow& row, const Eigen::MatrixXd& errors, Eigen::Index a,
             Eigen::Index b) {
+  // the first panel has the legend of all
   const auto named = [&](const char* label) { return std::string(a == 0 && b == 1 ? label : ""); };
   const Hue hue = IdentifierHue(row.identifier);
+  // errors of the pair with their ellipse
   const std::vector<Eigen::Index> pair{a, b};
   const Eigen::MatrixXd both = errors(Eigen::all, pair);
   const Line spread = Ellipse(both.colwise().mean(), CovarianceOf(both), Dash::solid);
@@ -80,12 +84,14 @@ Plot PairOf(const RunView& run, const RunRow& row, const Eigen::MatrixXd& errors
   plot.series.push_back({named("realizations"), hue, Scatter{both.col(0), both.col(1), 2.2}});
   plot.series.push_back({named("their 95 % ellipse"), hue, spread});
   std::vector<Eigen::VectorXd> x{both.col(0), spread.x}, y{both.col(1), spread.y};
+  // the ellipse of the bound lies about no error at all
   if (run.bound_covariance.rows() == errors.cols()) {
     const Line bound = Ellipse({0, 0}, run.bound_covariance(pair, pair), Dash::dashed);
     plot.series.push_back({named("Cramér-Rao bound"), Hue::text, bound});
     x.push_back(bound.x);
     y.push_back(bound.y);
   }
+  // axes by the symbols of both parameters
   const auto label = [&](Eigen::Index i) {
     return fmt::format("error of {} (%)",
                        SymbolOf(row.parameters[static_cast<std::size_t>(i)].name));
@@ -97,6 +103,7 @@ Plot PairOf(const RunView& run, const RunRow& row, const Eigen::MatrixXd& errors
 
 /// Gives all panels one scale: errors of all parameters are per cent.
 void ShareScale(std::vector<Panel>& panels) {
+  // the farthest end of any axis
   double reach = 0;
   for (const Panel& panel : panels) {
     const Plot& plot = std::get<Plot>(panel.content);
@@ -104,6 +111,7 @@ void ShareScale(std::vector<Panel>& panels) {
       reach = std::max({reach, std::abs(axis.lower), std::abs(axis.upper)});
     }
   }
+  // all axes reach as far, with zero in the middle
   for (Panel& panel : panels) {
     auto& [x, y, series] = std::get<Plot>(panel.content);
     x.lower = y.lower = -reach;
@@ -115,6 +123,7 @@ std::string Finding(const RunRow& row, const Eigen::MatrixXd& errors) {
   const Eigen::MatrixXd covariance = CovarianceOf(errors);
   Eigen::Index a = 0, b = 1;
   double strongest = 0;
+  // the pair whose errors are correlated most
   for (Eigen::Index i = 0; i < errors.cols(); ++i) {
     for (Eigen::Index j = i + 1; j < errors.cols(); ++j) {
       const double r = covariance(i, j) / std::sqrt(covariance(i, i) * covariance(j, j));
@@ -137,6 +146,7 @@ std::optional<Figure> ParameterPairs(const RunView& run) {
   if (!row) return std::nullopt;
   const Eigen::MatrixXd errors = Complete(*row);
 
+  // every realization is a dot in each panel
   Figure figure;
   figure.name = "parameter_pairs";
   figure.title = fmt::format("Errors of pairs of parameters: {}", row->label);
@@ -145,6 +155,7 @@ std::optional<Figure> ParameterPairs(const RunView& run) {
   figure.rows.clear();
   int place = 0;
   const int across = errors.cols() > 2 ? 3 : 1;
+  // a panel for each pair of parameters
   for (Eigen::Index a = 0; a < errors.cols(); ++a) {
     for (Eigen::Index b = a + 1; b < errors.cols(); ++b, ++place) {
       Panel panel{"", PairOf(run, *row, errors, a, b)};
@@ -154,6 +165,7 @@ std::optional<Figure> ParameterPairs(const RunView& run) {
       figure.panels.push_back(panel);
     }
   }
+  // one scale for all, so that their ellipses compare
   ShareScale(figure.panels);
   figure.columns.assign(static_cast<std::size_t>(across), 1);
   figure.height = 80 + 320 * static_cast<int>(figure.rows.size());

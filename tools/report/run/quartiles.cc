@@ -27,6 +27,7 @@ QuartileCurve QuartilesOf(const Eigen::VectorXd& x, const Eigen::MatrixXd& value
   QuartileCurve curve{x, Eigen::VectorXd(columns), Eigen::VectorXd(columns),
                       Eigen::VectorXd(columns)};
   for (Eigen::Index k = 0; k < columns; ++k) {
+    // of each column only what is known
     std::vector<double> known;
     for (const double value : values.col(k)) {
       if (!std::isnan(value)) known.push_back(value);

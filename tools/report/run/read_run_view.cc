@@ -30,6 +30,7 @@ Eigen::MatrixXd BoundCovariance(const Suite& suite, const RunRow& row) {
   const auto d = static_cast<Index>(row.parameters.size());
   Estimate bound;
   VectorXd relative(d);  // per cent a unit
+  // the bound of each parameter over the realizations, and its share of the truth
   for (Index i = 0; i < d; ++i) {
     const ParameterColumn& column = row.parameters[static_cast<std::size_t>(i)];
     const double size = std::sqrt(column.bound.array().square().mean());
@@ -37,6 +38,7 @@ Eigen::MatrixXd BoundCovariance(const Suite& suite, const RunRow& row) {
     bound.parameters.push_back({column.name, column.truth[0], column.unit, size, {}});
     relative[i] = 100 / std::sqrt(column.truth.array().square().mean());
   }
+  // one simulation tells how the errors of parameters go together
   FrictionSpread spread;
   try {
     const Recording recording = MakePlant(suite.scenario)->Run(0);
@@ -48,6 +50,7 @@ Eigen::MatrixXd BoundCovariance(const Suite& suite, const RunRow& row) {
   } catch (const BadInput&) {
     return {};
   }
+  // some parameters may not be told apart
   if (spread.names.size() != row.parameters.size()) return {};
 
   // from the spread's order to the truth's
@@ -71,6 +74,7 @@ Rungs ReadRungs(const Suite& suite) {
   rungs.variable = suite.ladder->variable;
   rungs.unit = suite.ladder->unit;
   rungs.values.resize(static_cast<Index>(variants.size()));
+  // a variant without a value counts by its place and goes by its name
   for (std::size_t i = 0; i < variants.size(); ++i) {
     rungs.values[static_cast<Index>(i)] = variants[i].value.value_or(static_cast<double>(i));
     if (!variants[i].value) rungs.names.push_back(variants[i].name);
@@ -101,9 +105,11 @@ RunView ReadRunView(const RunStore& store, std::int64_t most_drawn) {
   BoardBuilder board(suite);
   RunView view;
   const std::int64_t units = std::int64_t{suite.realizations} * suite.variants();
+  // pictures of large runs draw a part of the realizations
   view.drawn_every = PrimeDistance(units, most_drawn);
   ListingBuilder listing(units * static_cast<std::int64_t>(suite.identifiers.size()));
   std::vector<RowBuilder> rows(suite.identifiers.size());
+  // one pass over all that is stored
   store.ForEachUnit([&](const std::vector<Result>& unit) {
     board.Add(unit);
     for (const Result& result : unit) {
@@ -113,6 +119,7 @@ RunView ReadRunView(const RunStore& store, std::int64_t most_drawn) {
       if (result.realization % view.drawn_every == 0) row.Draw(result);
     }
   });
+  // a run without a finished realization has nothing to show
   view.board = board.Finish();
   view.listing = std::move(listing).Finish();
   if (view.board.finished == 0) {
@@ -120,6 +127,7 @@ RunView ReadRunView(const RunStore& store, std::int64_t most_drawn) {
            "no realization is finished yet; run the suite again to go on");
   }
 
+  // what all figures say of the run
   view.suite = suite.name;
   view.question = suite.question;
   view.realizations = view.board.finished;
@@ -127,9 +135,11 @@ RunView ReadRunView(const RunStore& store, std::int64_t most_drawn) {
   view.torque_unit = UnitText(kTorqueUnit.For(suite.scenario.joint_kind));
   view.bound_npe = view.board.bound_npe_continuous;
   view.noise = NoiseOf(suite);
+  // a row for each identifier
   for (std::size_t i = 0; i < suite.identifiers.size(); ++i) {
     view.rows.push_back(rows[i].Row(store, suite, suite.identifiers[i]));
   }
+  // the first row that knows all bounds says how errors at the bound go together
   for (const RunRow& row : view.rows) {
     if (view.bound_covariance.size() == 0 && !row.parameters.empty()) {
       view.bound_covariance = BoundCovariance(suite, row);

@@ -49,6 +49,7 @@ void Fill(Course& course, Index row, const TraceTable& trace) {
     const auto column = static_cast<std::size_t>(found - trace.columns.begin());
     return static_cast<double>(trace.values[at * columns + column]);
   };
+  // errors and parameters after each iteration
   for (Index k = 0; k < course.iteration.size(); ++k) {
     course.npe(row, k) = value(k, "npe_continuous");
     course.rmse(row, k) = value(k, "rmse");
@@ -61,6 +62,7 @@ void Fill(Course& course, Index row, const TraceTable& trace) {
 Course ReadCourse(const RunStore& store, const std::vector<Unit>& units, int identifier) {
   std::vector<TraceTable> traces;
   const TraceTable* longest = nullptr;
+  // the longest trace says how many iterations there are
   for (const Unit& unit : units) traces.push_back(store.ReadTrace(unit, identifier));
   for (const TraceTable& trace : traces) {
     if (trace.rows() > (longest ? longest->rows() : 0)) longest = &trace;
@@ -71,9 +73,11 @@ Course ReadCourse(const RunStore& store, const std::vector<Unit>& units, int ide
   const auto rows = static_cast<Index>(traces.size());
   const auto iterations = static_cast<Index>(longest->rows());
   course.iteration.resize(iterations);
+  // the first column holds the number of the iteration
   for (Index k = 0; k < iterations; ++k) {
     course.iteration[k] = longest->values[static_cast<std::size_t>(k) * longest->columns.size()];
   }
+  // columns that are neither the iteration nor an error are parameters
   for (const std::string& name : longest->columns) {
     const bool parameter = name != "iteration" && name != "rmse" && !name.starts_with("npe_");
     if (parameter) course.names.push_back(name);
@@ -81,6 +85,7 @@ Course ReadCourse(const RunStore& store, const std::vector<Unit>& units, int ide
   const Eigen::MatrixXd unknown = Eigen::MatrixXd::Constant(rows, iterations, kUnknown);
   course.npe = course.rmse = unknown;
   course.parameters.assign(course.names.size(), unknown);
+  // a realization without a trace stays unknown
   for (Index row = 0; row < rows; ++row) {
     const TraceTable& trace = traces[static_cast<std::size_t>(row)];
     if (trace.rows() > 0) Fill(course, row, trace);
@@ -95,6 +100,7 @@ void RowBuilder::Count(const Result& result) {
   identifier_ = result.identifier;
   if (result.status != "ok") ++failures_[result.status];
   if (!result.score) return;
+  // how many intervals of each parameter there are, and how many hold the truth
   parameters_.resize(result.score->continuous.size());
   for (std::size_t i = 0; i < parameters_.size(); ++i) {
     const ParameterScore& from = result.score->continuous[i];
@@ -109,6 +115,7 @@ void RowBuilder::Draw(const Result& result) {
   variant_.push_back(result.variant);
   realization_.push_back(result.realization);
   npe_.push_back(result.score ? result.score->npe_continuous : kUnknown);
+  // an answer without figures of fit counts as unknown
   const auto metric = [&](double Metrics::*member) {
     return result.metrics ? (*result.metrics).*member : kUnknown;
   };
@@ -137,6 +144,7 @@ RunRow RowBuilder::Row(const RunStore& store, const Suite& suite,
   row.identifier = identifier.name;
   row.runs = runs_;
   row.failures = failures_;
+  // numbers of the realizations that are drawn, in one order
   row.variant = Places(variant_);
   row.realization = Places(realization_);
   row.npe = Column(npe_);
@@ -144,10 +152,12 @@ RunRow RowBuilder::Row(const RunStore& store, const Suite& suite,
   row.fit = Column(fit_);
   row.fpe = Column(fpe_);
   row.mae = Column(mae_);
+  // estimates, truths and bounds of each parameter
   for (const ParameterNumbers& one : parameters_) {
     row.parameters.push_back({one.name, UnitOf(one.name, suite.scenario), Column(one.estimate),
                               Column(one.truth), Column(one.bound), one.intervals, one.covered});
   }
+  // courses of as many realizations as a picture bears
   row.course = ReadCourse(store, units_, identifier_);
   return row;
 }

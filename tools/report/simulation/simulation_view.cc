@@ -28,6 +28,7 @@ void KeepTrulyConstant(const Truth& truth, Selection& selection) {
 SimulationView MakeSimulationView(const Scenario& scenario, const Recording& recording) {
   Estimate truth;
   truth.friction = recording.truth.friction;
+  // samples as an identifier takes them, less those that only seem to be at constant speed
   const Measurements m = Prepare(recording.measurements).taken().measurements;
   Selection selection =
       scenario.plant == PlantKind::ideal ? SelectMoving(m) : SelectConstantSpeed(m);
@@ -46,6 +47,7 @@ bool IsSimulation(const std::filesystem::path& directory) {
 
 SimulationView ReadSimulationView(const std::filesystem::path& directory) {
   const Scenario scenario = ReadScenario(directory / "scenario.yaml", {});
+  // the files are in the units that the scenario says
   CsvLayout layout;
   layout.joint = scenario.joint_kind;
   layout.gear = scenario.friction.gear;
@@ -54,6 +56,7 @@ SimulationView ReadSimulationView(const std::filesystem::path& directory) {
   recording.measurements =
       ReadForeignRecording(directory / (hdf5 ? "recording.h5" : "recording.csv"), layout);
   recording.truth = ReadTruth(directory / "truth.json");
+  // the truth of another simulation does not fit the recording
   if (recording.truth.velocity.size() != recording.measurements.size()) {
     Refuse({directory / "truth.json"},
            "holds {} samples where the recording beside it has {}; both must be of one simulation",

@@ -43,6 +43,7 @@ class Model {
   /// Puts the joint somewhere (rad or m) and paints its link.
   void Set(double position, Rgb colour) {
     data_->qpos[position_] = position;
+    // every shape of the link takes the colour, and no material covers it
     for (int i = 0; i < model_->body_geomnum[body_]; ++i) {
       const int geom = model_->body_geomadr[body_] + i;
       const std::uint8_t parts[3] = {colour.red, colour.green, colour.blue};
@@ -74,9 +75,11 @@ Index WarmestSample(const SimulationView& view) {
 Line SegmentMeans(const FitView& fit, const VectorXd& values, Index end) {
   std::vector<double> x, y;
   for (const Segment& segment : fit.selection.segments) {
+    // segments before the end that kept some samples
     const auto keep = fit.selection.keep.segment(segment.begin, segment.end - segment.begin);
     if (segment.begin >= end || !keep.any()) continue;
     const auto own = values.segment(segment.begin, segment.end - segment.begin).array();
+    // their mean as a line from the first sample to the last
     const double mean = keep.select(own, 0).sum() / static_cast<double>(keep.count());
     const double last = fit.time[std::min(segment.end, end) - 1];
     for (double time : {fit.time[segment.begin], last, std::nan("")}) {
@@ -94,9 +97,11 @@ Line SegmentMeans(const FitView& fit, const VectorXd& values, Index end) {
 Plot TorquePanel(const SimulationView& view, Index end) {
   const FitView& fit = view.fit;
   const VectorXd direction = fit.velocity.array().sign();
+  // the kept torque in the direction of motion
   const auto kept = [&](const VectorXd& all) { return KeptOf(fit, all); };
   const VectorXd time = kept(fit.time) / TimeUnit(fit);
   const VectorXd torque = fit.torque.cwiseProduct(direction), measured = kept(torque);
+  // less E it is what a joint that stays cold would need
   const VectorXd cold = fit.fitted.cwiseProduct(direction) - fit.energy;
   const Index shown = fit.selection.keep.head(end).count();
 
@@ -119,6 +124,7 @@ Plot HeatStrip(const SimulationView& view) {
               {0, 1},
               {0, LargestEnergy(view)},
               TorqueLabel(fit, WarmestEnergy(fit) < 0 ? "−E" : "E")};
+  // the size of E at places spread over the recording
   for (Index i = 0; i < kCells; ++i) {
     map.values(0, i) = std::abs(fit.energy[i * (fit.energy.size() - 1) / (kCells - 1)]);
   }
@@ -162,6 +168,7 @@ std::optional<std::vector<Image>> RenderWarmRobot(const SimulationView& view, Gl
     reach = std::max(reach, renderer.Reach(robot.data(), from));
   }
   from.distance *= reach / kFilled;
+  // the link has the colour of its heat at each moment
   std::vector<Image> images;
   for (Index sample : samples) {
     const double heat = std::abs(view.fit.energy[sample]) / LargestEnergy(view);
@@ -173,6 +180,7 @@ std::optional<std::vector<Image>> RenderWarmRobot(const SimulationView& view, Gl
 
 std::optional<Figure> MakeWarmRobot(const SimulationView& view, GlContext& context) {
   if (!HasWarmRobot(view)) return std::nullopt;
+  // the robot at the begin and at its warmest
   const Index warmest = WarmestSample(view);
   const auto images = RenderWarmRobot(view, context, {0, warmest}, 860, 600, LightTheme());
 
@@ -181,6 +189,7 @@ std::optional<Figure> MakeWarmRobot(const SimulationView& view, GlContext& conte
   figure.title = RobotTitle(view);
   figure.subtitle = fmt::format("{}; the joint's link has the colour of {}", view.scenario.name,
                                 WarmestEnergy(view.fit) < 0 ? "−E" : "E");
+  // how much its own heat changes the friction, and when
   figure.finding = fmt::format(
       "The joint's own heat changes its friction by {} {} at most, after {} {}.",
       SignificantText(view.fit.energy[warmest]), view.fit.torque_unit,
@@ -188,6 +197,7 @@ std::optional<Figure> MakeWarmRobot(const SimulationView& view, GlContext& conte
   figure.height = 800;
   figure.rows = {2.3, 1.9, 0.8};
   figure.columns = {1, 1};
+  // robots above, torque and heat over the same time below
   figure.panels = {{TitleAt(view, 0), Picture{(*images)[0]}, 0, 0},
                    {TitleAt(view, warmest), Picture{(*images)[1]}, 0, 1},
                    {"", TorquePanel(view, view.fit.time.size()), 1, 0, 1, 2},
@@ -197,16 +207,19 @@ std::optional<Figure> MakeWarmRobot(const SimulationView& view, GlContext& conte
 
 std::vector<Figure> MakeWarmRobotFilm(const SimulationView& view, GlContext& context, int frames) {
   if (!HasWarmRobot(view)) return {};
+  // moments spread evenly over the recording
   std::vector<Index> samples;
   for (int i = 0; i < frames; ++i) samples.push_back(i * (view.fit.time.size() - 1) / (frames - 1));
   const auto images = RenderWarmRobot(view, context, samples, 560, 560, LightTheme());
   std::vector<Figure> film;
+  // each frame has the robot and the torque up to its moment
   for (std::size_t i = 0; i < samples.size(); ++i) {
     Figure figure;
     figure.name = "warm_robot_film";
     figure.title = RobotTitle(view);
     figure.subtitle = TitleAt(view, samples[i]);
     figure.finding = figure.subtitle + ".";
+    // small enough for a page, with more room for the torque
     figure.width = 720;
     figure.height = 340;
     figure.columns = {1, 1.4};
