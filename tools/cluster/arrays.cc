@@ -9,6 +9,7 @@ namespace warmjoint::inline tools {
 std::string Ranges(const std::vector<int>& ascending, const char* comma) {
   std::vector<std::string> ranges;
   for (std::size_t i = 0; i < ascending.size();) {
+    // from one number to the last that follows it without a hole
     std::size_t last = i;
     while (last + 1 < ascending.size() && ascending[last + 1] == ascending[last] + 1) ++last;
     ranges.push_back(last == i ? std::to_string(ascending[i])
@@ -20,11 +21,14 @@ std::string Ranges(const std::vector<int>& ascending, const char* comma) {
 
 std::vector<JobArray> ArraysOf(const std::vector<int>& shards, int most_indices, int parallelism) {
   std::vector<JobArray> arrays;
+  // one array for each block of `most_indices` numbers
   for (const int number : shards) {
     const int offset = (number - 1) / most_indices * most_indices;
     if (arrays.empty() || arrays.back().offset != offset) arrays.push_back({offset, "", {}});
     arrays.back().shards.push_back(number);
   }
+
+  // the tasks at a time are parted evenly, at least one for each array
   const int each = arrays.empty() ? 0 : parallelism / static_cast<int>(arrays.size());
   for (JobArray& array : arrays) {
     std::vector<int> indices;

@@ -72,6 +72,7 @@ exit $status
 
 void CheckSbatch(const std::vector<std::string>& entries) {
   for (const std::string& entry : entries) {
+    // a key of lower-case letters and hyphens, and nothing that breaks out of a quoted line
     const std::size_t equals = entry.find('=');
     const std::string key = entry.substr(0, equals);
     const bool fits = equals != std::string::npos && !key.empty() &&
@@ -81,6 +82,8 @@ void CheckSbatch(const std::vector<std::string>& entries) {
     if (!fits) {
       Refuse({"--sbatch"}, "is '{}'; give key=value, for example partition=long", Excerpt(entry));
     }
+
+    // what the plan sets by itself must not be set twice
     if (std::find(kOwnKeys.begin(), kOwnKeys.end(), key) == kOwnKeys.end()) continue;
     Refuse({"--sbatch"}, "is '{}'; a plan sets {} itself: edit array.sbatch after --dry-run",
            Excerpt(entry), key);
@@ -88,10 +91,12 @@ void CheckSbatch(const std::vector<std::string>& entries) {
 }
 
 std::string ArrayScript(const Plan& plan, const fs::path& run, int most_indices) {
+  // all shards of the plan, as arrays that the cluster takes
   std::vector<int> all(plan.shards.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i) + 1;
   const std::vector<JobArray> arrays = ArraysOf(all, most_indices, plan.array_parallelism);
 
+  // how the same is submitted by hand
   std::string script = "#!/bin/bash\n";
   script += fmt::format("# Shards 1 to {} of {}. To submit them by hand:\n", plan.shards.size(),
                         run.string());
@@ -101,12 +106,16 @@ std::string ArrayScript(const Plan& plan, const fs::path& run, int most_indices)
   }
   script += "#   sbatch --dependency=afterany:JOB[:JOB]... " +
             JoinCommand({PlanFolder(run) / "merge.sbatch"}) + "\n";
+
+  // directives: what the plan sets, and what the user hands on to sbatch
   script += Directive("job-name", "warmjoint");
   script += Directive("cpus-per-task", std::to_string(plan.jobs));
   script += Forwarded(plan);
   script += Directive("array", arrays.front().indices);
   script += "#SBATCH --requeue\n" + Directive("open-mode", "append");
   script += Directive("signal", "B:TERM@60") + Directive("output", LogPath(run, "%A_%a.log"));
+
+  // the body, with program and run as words of a shell
   return script + fmt::format(kBody, fmt::arg("program", JoinCommand({plan.program.path})),
                               fmt::arg("run", JoinCommand({run})));
 }

@@ -26,6 +26,7 @@ int StatusOf(int wait_status) {
 /// Forks and becomes the program; out and err: descriptors, or -1 for this program's own.
 pid_t Start(const std::vector<std::string>& arguments, const std::string& directory, int out,
             int err) {
+  // all that needs memory comes before the fork
   std::vector<std::string> words = arguments;
   words.front() = FindProgram(words.front());
   const std::vector<char*> argv = ExecWords(words);
@@ -37,6 +38,7 @@ pid_t Start(const std::vector<std::string>& arguments, const std::string& direct
   // nothing that this program started outlives it: another of its kind goes on
   prctl(PR_SET_PDEATHSIG, SIGKILL, 0, 0, 0);
   if (getppid() != parent) _exit(kNoStart);
+  // signals that this program ignores or catches are the child's own again
   for (int signal = 1; signal < NSIG; ++signal) ::signal(signal, SIG_DFL);
   if (out >= 0) dup2(out, STDOUT_FILENO);
   if (err >= 0) dup2(err, STDERR_FILENO);
@@ -66,6 +68,7 @@ std::string WholeOf(int file) {
 }  // namespace
 
 Child::Child(const std::vector<std::string>& arguments, const ChildPlace& place) {
+  // its words go into a file that starts empty, or where this program's own go
   const int words = place.words.empty()
                         ? -1
                         : open(place.words.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
@@ -77,6 +80,7 @@ Child::Child(Child&& other) noexcept
     : pid_(std::exchange(other.pid_, -1)), status_(other.status_) {}
 
 Child::~Child() {
+  // a child that still runs is not left behind
   if (pid_ < 0 || status_) return;
   Signal(SIGKILL);
   Wait(pid_);
@@ -93,6 +97,7 @@ void Child::Signal(int signal) const {
 }
 
 Captured Capture(const std::vector<std::string>& arguments) {
+  // into memory: no pipe that fills while nobody reads
   const int out = memfd_create("out", MFD_CLOEXEC);
   const int err = memfd_create("err", MFD_CLOEXEC);
   const int status = Wait(Start(arguments, "", out, err));

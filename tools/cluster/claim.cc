@@ -41,12 +41,15 @@ std::string HostName() {
 }
 
 Claim LookAt(const fs::path& folder, double patience) {
+  // while its state says that someone else is at work, wait for a sign of life
   const auto first = ReadShardState(folder);
   for (auto state = first; state; state = ReadShardState(folder)) {
     if (state->phase == Phase::done) return Claim::done;
     if (state->phase == Phase::failed) return Claim::failed;
+    // an earlier life of this task, or an owner that has ended, does not hold the shard
     const bool ours = state->owner == Owner() || IsGone(state->owner);
     if (state->phase != Phase::running || ours) return Claim::free;
+    // a later time stamp is a sign of life; whoever was silent for too long was killed
     if (state->updated > first->updated) return Claim::taken;
     if (Now() - state->updated > patience || Interrupted()) return Claim::free;
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
@@ -55,10 +58,13 @@ Claim LookAt(const fs::path& folder, double patience) {
 }
 
 ShardState TakeOver(const fs::path& folder) {
+  // what a killed task was writing
   for (const auto& entry : fs::directory_iterator(folder)) {
     std::error_code ignored;
     if (IsUnderConstruction(entry.path())) fs::remove(entry.path(), ignored);
   }
+
+  // the counts of earlier tasks go on
   ShardState state = ReadShardState(folder).value_or(ShardState());
   state.owner = Owner();
   state.host = HostName();

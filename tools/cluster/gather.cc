@@ -17,6 +17,7 @@ namespace fs = std::filesystem;
 namespace {
 
 void RefuseMissing(const fs::path& run, const RunStatus& status) {
+  // every shard that is not done is named, at work or not
   if (status.finished == status.total) return;
   std::vector<int> open = status.missing;
   for (const auto* more : {&status.running, &status.waiting, &status.failed}) {
@@ -32,8 +33,11 @@ void RefuseMissing(const fs::path& run, const RunStatus& status) {
 }  // namespace
 
 MergedRun MergePlanned(const fs::path& run, const Plan& plan) {
+  // all shards are there, and nobody else merges
   RefuseMissing(run, StatusOf(run, plan, std::nullopt));
   const DirectoryLock lock(run);
+
+  // made on this machine's own disk, by the rules of a merge of equal overlaps
   const TemporaryFolder folder("merge");
   const fs::path whole = folder.path() / "run";
   const MergedRun merged =

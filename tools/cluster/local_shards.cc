@@ -28,6 +28,7 @@ class Watch {
       : run_(std::move(run)), plan_(plan), counted_(Count()), progress_(total_, counted_) {}
 
   void Look() {
+    // states are files: once a second is often enough
     const auto now = std::chrono::steady_clock::now();
     if (now < next_) return;
     next_ = now + kNews;
@@ -59,11 +60,15 @@ bool RunLocally(const fs::path& run, const Plan& plan, const std::vector<int>& s
   std::map<int, Child> running;
   Watch watch(run, plan);
   bool asked = false;
+  // until nothing runs, and nothing is to be started any more
   while (!running.empty() || (!open.empty() && !Interrupted())) {
+    // an interrupt is handed on once; the tasks end by themselves
     if (Interrupted() && !asked) {
       for (const auto& entry : running) entry.second.Signal(SIGTERM);
       asked = true;
     }
+
+    // as many tasks at once as were asked for
     while (!asked && !open.empty() && running.size() < static_cast<std::size_t>(at_once)) {
       const int number = open.front();
       open.pop_front();
@@ -74,6 +79,8 @@ bool RunLocally(const fs::path& run, const Plan& plan, const std::vector<int>& s
 
     std::this_thread::sleep_for(kGlance);
     watch.Look();
+
+    // what has ended makes room; a task that was killed is started again
     for (auto entry = running.begin(); entry != running.end();) {
       const auto status = entry->second.Poll();
       // the shard's own count of starts bounds this

@@ -22,11 +22,13 @@ double Seconds(std::chrono::steady_clock::time_point since) {
 
 Probe ProbeSuite(const Suite& suite, const std::vector<PreparedIdentifier>& identifiers) {
   Probe probe;
+  // the plants of all variants are built once, as a shard builds them
   std::vector<Bench> benches;
   for (int variant = 0; variant < suite.variants(); ++variant) {
     benches.push_back(MakeBench(VariantScenario(suite, variant)));
   }
   const RecordingKeeper keeper("");
+  // wall time of one realization in all variants
   const auto once = [&](int realization) {
     const auto start = std::chrono::steady_clock::now();
     for (int variant = 0; variant < suite.variants(); ++variant) {
@@ -40,6 +42,8 @@ Probe ProbeSuite(const Suite& suite, const std::vector<PreparedIdentifier>& iden
   // the first one warms caches
   probe.seconds = once(0);
   if (probe.seconds > kLongEnough) return probe;
+
+  // a short one again and again, for at least half a second
   double sum = 0;
   int count = 0;
   while (sum < kLongEnough) sum += once(count++ % suite.realizations);
@@ -54,6 +58,7 @@ int ShardCount(int realizations, double probe_seconds, int jobs) {
 
 std::vector<PlannedShard> PartEvenly(int first, int end, int count) {
   std::vector<PlannedShard> shards;
+  // edges in 64 bits: i (end - first) may not fit into 32
   const auto edge = [&](std::int64_t i) {
     return first + static_cast<int>(i * (end - first) / count);
   };

@@ -28,7 +28,7 @@ Probe ProbeSuite(const Suite& suite, const std::vector<PreparedIdentifier>& iden
 /// realization.
 int ShardCount(int realizations, double probe_seconds, int jobs);
 
-/// Realizations 0 .. realizations - 1 in `count` blocks whose sizes differ by 1 at most, one after the
+/// Realizations first .. end - 1 in `count` blocks whose sizes differ by 1 at most, one after the
 /// other; with more blocks than realizations some are empty.
 std::vector<PlannedShard> PartEvenly(int first, int end, int count);
 

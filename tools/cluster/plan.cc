@@ -65,6 +65,7 @@ std::vector<PlannedShard> ReadShards(const json& list, const Place& place) {
   }
   std::vector<PlannedShard> shards;
   for (const json& pair : list) {
+    // two whole numbers in order, within what an int holds
     const bool fits = pair.is_array() && pair.size() == 2 && pair[0].is_number_unsigned() &&
                       pair[1].is_number_unsigned() && pair[0] <= pair[1] &&
                       pair[1] <= 1'000'000'000;
@@ -77,6 +78,7 @@ std::vector<PlannedShard> ReadShards(const json& list, const Place& place) {
 }  // namespace
 
 void WritePlan(const fs::path& run, const Plan& plan) {
+  // all but the lists, which follow
   json file{{"id", plan.id},
             {"suite", plan.suite_yaml},
             {"directory", plan.directory},
@@ -97,11 +99,14 @@ void WritePlan(const fs::path& run, const Plan& plan) {
 bool HasPlan(const fs::path& run) { return fs::exists(PlanFile(run)); }
 
 Plan ReadPlan(const fs::path& run) {
+  // a directory without a plan is told what makes one
   if (!HasPlan(run)) {
     Refuse({run.string()},
            "holds no plan (slurm/plan.json is missing); give the -o of `warmjoint run --slurm` or "
            "`--local-shards`");
   }
+
+  // entries that nobody knows are mistakes of whoever edited the file
   const Place place{PlanFile(run).string()};
   const json file = ReadJsonFile(place.file);
   RefuseUnknownKeys(
@@ -111,17 +116,22 @@ Plan ReadPlan(const fs::path& run) {
       place);
   const Members members(file, place);
   Plan plan;
+  // what is run, and by which program
   plan.id = members.Text("id");
   plan.suite_yaml = members.Text("suite");
   plan.directory = members.Text("directory");
   plan.program = members.File("program");
   plan.plugin = members.File("plugin");
   plan.consent = members.Get("consent").get<Consent>();
+
+  // numbers within bounds that make sense
   plan.jobs = members.Whole("jobs", 1, 1024);
   plan.probe_seconds = members.Number("probe_seconds", 0, 1e9);
   plan.checkpoint_seconds = members.Number("checkpoint_seconds", 0.1, kLongestCheckpoint);
   plan.restarts = members.Whole("restarts", 0, 1000);
   plan.array_parallelism = members.Whole("array_parallelism", 0, kMostShards);
+
+  // words for sbatch, versions and shards
   plan.sbatch = members.Get("sbatch").get<std::vector<std::string>>();
   for (const auto& [name, value] : members.Get("versions").items()) {
     plan.versions.emplace_back(name, value.get<std::string>());

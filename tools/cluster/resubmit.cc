@@ -20,6 +20,7 @@ namespace {
 
 /// The first realization that a shard's results lack in any variant.
 int FirstOpen(const fs::path& folder, const PlannedShard& shard, int variants) {
+  // a shard without results is open from its first realization on
   if (!fs::exists(folder / "results.sqlite")) return shard.first;
   const std::set<Unit> finished = RunStore::OpenToRead(folder, Access::frozen).Finished();
   for (int realization = shard.first; realization < shard.end; ++realization) {
@@ -32,17 +33,21 @@ int FirstOpen(const fs::path& folder, const PlannedShard& shard, int variants) {
 
 /// Ends shard `number` at what it has finished and adds shards for the rest; their numbers.
 std::vector<int> Split(const fs::path& run, Plan& plan, int number, int pieces, int variants) {
+  // what is open is parted, and the shard ends where it begins
   PlannedShard& shard = plan.shards[static_cast<std::size_t>(number - 1)];
   const fs::path folder = ShardFolder(run, number);
   const int open = FirstOpen(folder, shard, variants);
   const auto rest = PartEvenly(open, shard.end, std::min(pieces, shard.end - open));
   shard.end = open;
+
+  // the finished part is a shard that is done
   fs::create_directories(folder);
   ShardState state = ReadShardState(folder).value_or(ShardState());
   state.phase = Phase::done;
   state.finished = state.total = shard.size() * variants;
   WriteShardState(folder, state);
 
+  // the rest goes to the end of the plan, so that no other shard changes its number
   std::vector<int> numbers;
   for (const PlannedShard& piece : rest) {
     plan.shards.push_back(piece);
@@ -55,6 +60,7 @@ std::vector<int> Split(const fs::path& run, Plan& plan, int number, int pieces, 
 
 std::vector<int> Resubmit(const fs::path& run, int pieces) {
   Plan plan = ReadPlan(run);
+  // nobody else may plan or submit meanwhile
   const DirectoryLock lock(PlanFolder(run));
   const auto queue = AskQueue();
   if (!queue) {
@@ -62,11 +68,14 @@ std::vector<int> Resubmit(const fs::path& run, int pieces) {
            "Slurm does not answer, so that nobody knows what is at work; without Slurm go on with "
            "the same `run --local-shards N`");
   }
+
+  // what is neither done nor at work nor in the queue is lost
   const RunStatus status = StatusOf(run, plan, InQueue(ReadSubmissions(run), *queue));
   std::vector<int> lost = status.missing;
   lost.insert(lost.end(), status.failed.begin(), status.failed.end());
   std::sort(lost.begin(), lost.end());
 
+  // each with all its starts again, whole or in pieces
   std::vector<int> again;
   const int variants = status.total / std::max(1, status.realizations);
   for (const int number : lost) {
@@ -78,6 +87,7 @@ std::vector<int> Resubmit(const fs::path& run, int pieces) {
       again.insert(again.end(), numbers.begin(), numbers.end());
     }
   }
+  // the tasks read the plan: it is written before they are submitted
   if (pieces > 1) WritePlan(run, plan);
   if (!again.empty()) Submit(run, plan, again);
   return again;

@@ -33,10 +33,13 @@ bool IsRunning(const ShardState& state, int number, const Plan& plan,
 
 void Add(RunStatus& status, int number, const Plan& plan, const std::optional<ShardState>& state,
          const std::optional<QueuedShards>& queue) {
+  // what is finished counts, whoever finished it
   if (state) {
     status.finished += state->finished;
     for (const auto& [name, count] : state->failures) status.failures[name] += count;
   }
+
+  // done and at work by the shard's own word, then what the queue says, then what is left
   if (state && state->phase == Phase::done) {
     status.done.push_back(number);
   } else if (state && IsRunning(*state, number, plan, queue)) {
@@ -60,35 +63,42 @@ void Add(RunStatus& status, int number, const Plan& plan, const std::optional<Sh
 
 RunStatus StatusOf(const fs::path& run, const Plan& plan,
                    const std::optional<QueuedShards>& queue) {
+  // of the suite as a whole
   const Suite suite = ParseSuite(plan.suite_yaml, PlanFile(run).string());
   RunStatus status;
   status.suite = suite.name;
   status.realizations = suite.realizations;
   status.total = suite.realizations * suite.variants();
   status.merged = fs::exists(run / "results.sqlite");
+  // each shard by its state file and the queue
   for (std::size_t i = 0; i < plan.shards.size(); ++i) {
     const int number = static_cast<int>(i) + 1;
     Add(status, number, plan, ReadShardState(ShardFolder(run, number)), queue);
   }
+  // at the present rate of all tasks together
   if (status.rate > 0) status.seconds_left = (status.total - status.finished) / status.rate;
   return status;
 }
 
 std::string StatusText(const fs::path& run, const RunStatus& status) {
+  // how far the run is, and how long it takes
   std::string text =
       fmt::format("{}: {} of {} realizations", status.suite, status.finished, status.total);
   if (status.rate > 0) text += fmt::format(", {:.3g}/s", status.rate);
   if (status.seconds_left) text += fmt::format(", {} left", DurationInWords(*status.seconds_left));
   text += status.merged ? ", merged\n" : "\n";
+  // the shards by what they do
   text += fmt::format("shards: {} done, {} running, {} waiting, {} missing, {} failed\n",
                       status.done.size(), status.running.size(), status.waiting.size(),
                       status.missing.size(), status.failed.size());
   if (!status.missing.empty()) text += "missing: " + Ranges(status.missing) + "\n";
   if (!status.failed.empty()) text += "failed: " + Ranges(status.failed) + "\n";
+  // why some did not end well, the first few
   for (std::size_t i = 0; i < std::min(kMostWords, status.last_words.size()); ++i) {
     const ShardWords& one = status.last_words[i];
     text += fmt::format("shard {}: {}\n", one.shard, one.words);
   }
+  // failed identifiers are results and do not stop a merge
   if (!status.failures.empty()) {
     std::vector<std::string> counts;
     for (const auto& [name, count] : status.failures) {
@@ -96,6 +106,7 @@ std::string StatusText(const fs::path& run, const RunStatus& status) {
     }
     text += fmt::format("failures of identifiers: {}\n", fmt::join(counts, ", "));
   }
+  // nothing is left but to merge
   if (!status.merged && status.done.size() > 0 && status.finished == status.total) {
     text += fmt::format("all is there: warmjoint merge {}\n", run.string());
   }
@@ -103,6 +114,7 @@ std::string StatusText(const fs::path& run, const RunStatus& status) {
 }
 
 nlohmann::json StatusJson(const RunStatus& status) {
+  // the same as the text, without its bound on last words
   nlohmann::json words = nlohmann::json::array();
   for (const ShardWords& one : status.last_words) {
     words.push_back({{"shard", one.shard}, {"last_words", one.words}});

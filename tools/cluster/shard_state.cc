@@ -28,6 +28,7 @@ std::optional<ShardState> ReadShardState(const fs::path& folder) {
   const fs::path file = folder / kFile;
   if (!fs::exists(file)) return std::nullopt;
   try {
+    // every member must be there
     const json object = ReadJsonFile(file);
     ShardState state;
     object.at("phase").get_to(state.phase);
@@ -63,6 +64,7 @@ void WriteShardState(const fs::path& folder, const ShardState& state) {
 }
 
 void Forgive(const fs::path& folder) {
+  // a shard that never started needs nothing
   auto state = ReadShardState(folder);
   if (!state) return;
   state->phase = Phase::interrupted;

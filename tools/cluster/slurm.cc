@@ -23,6 +23,7 @@ std::string Complaint(const Captured& answer) {
 bool HasSlurm() { return Capture({"sinfo", "-h", "-o", "%P"}).status == 0; }
 
 int MostIndices() {
+  // the line "MaxArraySize = 1001"
   const Captured answer = Capture({"scontrol", "show", "config"});
   std::istringstream lines(answer.out);
   for (std::string line; std::getline(lines, line);) {
@@ -36,6 +37,7 @@ int MostIndices() {
 }
 
 std::string Sbatch(const std::vector<std::string>& arguments) {
+  // --parsable: the answer is the job number alone
   std::vector<std::string> command{"sbatch", "--parsable"};
   command.insert(command.end(), arguments.begin(), arguments.end());
   const Captured answer = Capture(command);
@@ -49,6 +51,7 @@ std::string Sbatch(const std::vector<std::string>& arguments) {
 }
 
 std::optional<std::vector<QueuedTask>> AskQueue() {
+  // one line for each task: its array job, its index and its state
   const Captured answer = Capture({"squeue", "-h", "-r", "--me", "-o", "%F %K %T"});
   if (answer.status != 0) return std::nullopt;
   std::vector<QueuedTask> tasks;
@@ -57,7 +60,7 @@ std::optional<std::vector<QueuedTask>> AskQueue() {
     std::istringstream words(line);
     std::string job, index, state;
     words >> job >> index >> state;
-    // a job without an array has N/A for its index; a task that is cleaned up after is no more
+    // N/A is the index of a job without an array; what is COMPLETING counts as running
     const auto number = ParseInteger(index);
     tasks.push_back({job, number ? static_cast<int>(*number) : -1, state != "PENDING"});
   }

@@ -32,6 +32,7 @@ void WriteSubmissions(const fs::path& run, const Submissions& submissions) {
 
 /// What a refusal says of the arrays before it.
 std::string SubmittedBefore(const std::vector<SubmittedArray>& arrays) {
+  // nothing of this call, whatever was submitted before
   if (arrays.empty()) return "nothing of it is submitted";
   std::vector<std::string> parts;
   for (const SubmittedArray& one : arrays) {
@@ -50,6 +51,7 @@ std::vector<std::string> Submissions::Jobs() const {
 
 Submissions ReadSubmissions(const fs::path& run) {
   Submissions submissions;
+  // no file: nothing was ever submitted
   const fs::path file = FileOf(run);
   if (!fs::exists(file)) return submissions;
   try {
@@ -67,6 +69,7 @@ Submissions ReadSubmissions(const fs::path& run) {
 }
 
 QueuedShards InQueue(const Submissions& submissions, const std::vector<QueuedTask>& queue) {
+  // tasks of the run's own arrays; jobs that merge have no index
   QueuedShards shards;
   for (const QueuedTask& task : queue) {
     for (const SubmittedArray& one : submissions.arrays) {
@@ -74,6 +77,7 @@ QueuedShards InQueue(const Submissions& submissions, const std::vector<QueuedTas
       (task.running ? shards.running : shards.waiting).push_back(one.array.offset + task.index + 1);
     }
   }
+  // both are searched by halving
   std::sort(shards.waiting.begin(), shards.waiting.end());
   std::sort(shards.running.begin(), shards.running.end());
   return shards;
@@ -81,10 +85,12 @@ QueuedShards InQueue(const Submissions& submissions, const std::vector<QueuedTas
 
 void Submit(const fs::path& run, const Plan& plan, const std::vector<int>& shards) {
   fs::create_directories(PlanFolder(run) / "log");
+  // what was submitted before stays in the list
   Submissions all = ReadSubmissions(run);
   std::vector<SubmittedArray> taken;
   for (const JobArray& array : ArraysOf(shards, MostIndices(), plan.array_parallelism)) {
     try {
+      // one array after the other, each written down as soon as it has a number
       const std::string job =
           Sbatch({"--array=" + array.indices, (PlanFolder(run) / "array.sbatch").string(),
                   std::to_string(array.offset)});
@@ -100,6 +106,7 @@ void Submit(const fs::path& run, const Plan& plan, const std::vector<int>& shard
     WriteSubmissions(run, all);
   }
 
+  // a job that merges once all of these have ended, however they ended
   std::string after = "--dependency=afterany";
   for (const SubmittedArray& one : taken) after += ":" + one.job;
   all.merges.push_back(Sbatch({after, (PlanFolder(run) / "merge.sbatch").string()}));

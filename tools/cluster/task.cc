@@ -41,10 +41,13 @@ double Seconds(Clock::time_point since) {
 
 /// The last line of what a child said before it ended.
 std::string LastWords(const fs::path& file, int status) {
+  // the last line that is not blank
   std::string words = fs::exists(file) ? ReadWholeFile(file) : "";
   while (!words.empty() && (words.back() == '\n' || words.back() == ' ')) words.pop_back();
   words.erase(0, words.find_last_of('\n') + 1);
   if (!words.empty()) return words;
+
+  // a silent child is told of by its status
   return status > 128 ? fmt::format("it was ended by signal {}", status - 128)
                       : fmt::format("it ended with status {} and said nothing", status);
 }
@@ -68,6 +71,7 @@ class Task {
     // what was left here may be older than what another machine went on with
     if (!folder_.HasStore() || Snapshot().finished < state_.finished)
       folder_.FetchStore(published_);
+    // start after start, until too many in a row finish nothing
     while (state_.idle_starts <= plan_.restarts) {
       const int status = RunOnce();
       if (status == 0) return Finish();
@@ -83,6 +87,8 @@ class Task {
       }
       Checkpoint(Phase::running, words);
     }
+
+    // the words of the last start, which leaving writes down again
     const std::string words = state_.last_words;
     return Leave(Phase::failed, words);
   }
@@ -98,6 +104,7 @@ class Task {
                                      fmt::format("{}:{}", shard_.first, shard_.end),
                                      "--jobs",
                                      std::to_string(plan_.jobs)};
+    // what the person agreed to goes along
     if (plan_.consent != Consent::none) command.emplace_back("--allow-commands");
     if (plan_.consent == Consent::shell) command.emplace_back("--shell");
     return command;
@@ -105,23 +112,28 @@ class Task {
 
   /// One life of the child, with checkpoints; its exit status.
   int RunOnce() {
+    // an idle start until a realization is finished
     ++state_.starts;
     ++state_.idle_starts;
     start_ = Clock::now();
     finished_before_ = state_.finished;
     WriteState(Phase::running);
+    // the child runs the shard, with relative names as where the plan was made
     Child child(Command(), {plan_.directory, folder_.path() / "words"});
     const std::chrono::duration<double> longest{plan_.checkpoint_seconds};
+    // checkpoints soon at first, then ever less often
     auto pause = std::min(kFirstCheckpoint, longest);
     auto next = Clock::now() + std::chrono::duration_cast<Clock::duration>(pause);
     std::optional<Clock::time_point> asked;
     for (;;) {
+      // its end, an interrupt that is handed on, a kill where that does not help
       if (const auto status = child.Poll()) return *status;
       if (Interrupted() && !asked) {
         child.Signal(SIGTERM);
         asked = Clock::now();
       }
       if (asked && Clock::now() - *asked > kFarewell) child.Signal(SIGKILL);
+      // what is finished goes into the run
       if (Clock::now() > next) {
         Checkpoint(Phase::running, state_.last_words);
         pause = std::min(2 * pause, longest);

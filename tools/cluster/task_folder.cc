@@ -20,6 +20,7 @@ constexpr std::chrono::seconds kPatience{20};  // with other tasks
 
 /// A folder that belongs to this user and is open to nobody else; one that someone planted is refused.
 void MakePrivate(const fs::path& folder) {
+  // made or there already: it must be a folder of this user's that is closed to others
   mkdir(folder.c_str(), 0700);
   struct stat status {};
   const bool found = lstat(folder.c_str(), &status) == 0;
@@ -36,9 +37,11 @@ void MakePrivate(const fs::path& folder) {
 /// empty: then both are made again.
 void MakeWhole(const fs::path& folder) {
   std::error_code error;
+  // until both exist, or something else is wrong
   for (const auto deadline = Clock::now() + kPatience; Clock::now() < deadline;) {
     fs::create_directories(folder, error);
     if (!error) return;
+    // only what another task removed meanwhile is worth another try
     if (error != std::errc::no_such_file_or_directory && error != std::errc::file_exists) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
@@ -48,6 +51,7 @@ void MakeWhole(const fs::path& folder) {
 /// A killed task's child dies with it, but not at the same moment.
 void AwaitStore(const fs::path& store) {
   const auto deadline = Clock::now() + kPatience;
+  // a lock that can be had: nobody writes to the store any more
   while (fs::exists(store)) {
     try {
       const DirectoryLock lock(store);
@@ -62,6 +66,7 @@ void AwaitStore(const fs::path& store) {
 }  // namespace
 
 TaskFolder::TaskFolder(const Plan& plan, int number) {
+  // the same name each time, so that a task that is started again finds it
   const fs::path user = fs::temp_directory_path() / fmt::format("warmjoint-{}", geteuid());
   path_ = user / plan.id / std::to_string(number);
   MakePrivate(user);
@@ -73,8 +78,11 @@ bool TaskFolder::HasStore() const { return fs::exists(store() / "suite.yaml"); }
 
 void TaskFolder::FetchStore(const fs::path& shard_folder) const {
   fs::remove_all(store());
+  // a shard without results begins anew
   if (!fs::exists(shard_folder / "results.sqlite")) return;
   fs::create_directories(store());
+
+  // the results and the times, without the suite, which the child writes
   for (const char* name : {"results.sqlite", "timings.sqlite"}) {
     if (fs::exists(shard_folder / name)) fs::copy_file(shard_folder / name, store() / name);
   }

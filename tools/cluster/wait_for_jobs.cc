@@ -24,13 +24,16 @@ bool AreOver(const std::vector<std::string>& jobs, const std::vector<QueuedTask>
 }  // namespace
 
 bool WaitForJobs(const std::filesystem::path& run, const Plan& plan) {
+  // how far the run is already
   const std::vector<std::string> jobs = ReadSubmissions(run).Jobs();
   int counted = StatusOf(run, plan, std::nullopt).finished;
   Progress progress(StatusOf(run, plan, std::nullopt).total, counted);
   while (!Interrupted()) {
+    // a controller that does not answer is asked again
     const auto queue = AskQueue();
     if (queue && AreOver(jobs, *queue)) return true;
     std::this_thread::sleep_for(kBetweenQuestions);
+    // what the tasks' states count as finished since
     const int finished = StatusOf(run, plan, std::nullopt).finished;
     progress.Add(finished - counted);
     counted = finished;

@@ -23,6 +23,7 @@ void WriteMinimalModel(const Friction& friction, JointKind joint,
 JointFriction ReadJointFriction(const std::string& joint, const std::filesystem::path& file,
                                 const std::string& initial) {
   return Guarded([&] {
+    // the first warning is what the estimate's own verdict says
     std::vector<std::string> warnings;
     const sim::FrictionForJoint read = tools::ReadFrictionForJoint(joint, file, initial, warnings);
     return JointFriction{read.joint, FromDescription(read.friction), read.initial_energy,
@@ -33,11 +34,14 @@ JointFriction ReadJointFriction(const std::string& joint, const std::filesystem:
 Attached Attach(const std::filesystem::path& model, const std::vector<JointFriction>& frictions,
                 const std::filesystem::path& out, const AttachSettings& settings) {
   return Guarded([&] {
+    // settings and paths are checked as those of the command line are
     const sim::AttachOptions options =
         tools::CheckedOptions({settings.form, settings.armatures, settings.integrator,
                                settings.timestep, settings.packages});
     const std::filesystem::path file = models::FindRobot(model, "model");
     tools::KeepApart({out}, {file});
+
+    // each friction is checked as it is converted
     std::vector<sim::FrictionForJoint> given;
     for (const JointFriction& one : frictions) {
       given.push_back({one.joint, ToDescription(one.friction), one.initial_energy});

@@ -10,7 +10,7 @@
 namespace warmjoint::api {
 namespace {
 
-/// Both have the same members in the same order.
+/// Each status of the interface beside the same of the rooms.
 constexpr std::array kStatuses{
     std::pair{Status::ok, identification::Status::ok},
     std::pair{Status::not_converged, identification::Status::not_converged},
@@ -33,6 +33,7 @@ identification::Status ToStatus(Status status) {
 }
 
 identification::GravityKind GravityKindOf(const std::string& name) {
+  // a name that is none is refused with the nearest one
   using identification::GravityKind;
   std::vector<std::string> known;
   for (const GravityKind kind : {GravityKind::sincos, GravityKind::paired, GravityKind::constant}) {
@@ -53,6 +54,7 @@ std::optional<identification::Metrics> ToMetrics(const std::optional<Metrics>& m
 std::optional<identification::ParameterCovariance> ToCovariance(
     const std::optional<Covariance>& covariance) {
   if (!covariance) return std::nullopt;
+  // a square matrix with a row and a column for each parameter
   const std::size_t p = covariance->parameters.size();
   const auto size = static_cast<Eigen::Index>(p);
   identification::ParameterCovariance made{covariance->parameters, Eigen::MatrixXd(size, size)};
@@ -88,6 +90,7 @@ Metrics FromMetrics(const identification::Metrics& metrics) {
 }
 
 identification::Estimate ToEstimate(const Estimate& estimate) {
+  // what was asked, and how it went
   identification::Estimate made;
   made.identifier = estimate.identifier;
   made.options = estimate.options;
@@ -95,7 +98,7 @@ identification::Estimate ToEstimate(const Estimate& estimate) {
   made.message = estimate.message;
   made.warnings = estimate.warnings;
 
-  // numbers
+  // numbers, and how well they fit
   for (const Parameter& one : estimate.parameters) {
     made.parameters.push_back({one.name, one.value, one.unit, one.std, one.interval95});
   }
@@ -106,7 +109,7 @@ identification::Estimate ToEstimate(const Estimate& estimate) {
   }
   made.covariance = ToCovariance(estimate.covariance);
 
-  // the model
+  // the model: friction, gravity, and what law and maps are together
   if (estimate.friction) made.friction = ToDescription(*estimate.friction);
   if (estimate.gravity) {
     made.gravity = {GravityKindOf(estimate.gravity->kind), estimate.gravity->knots,
@@ -120,7 +123,7 @@ identification::Estimate ToEstimate(const Estimate& estimate) {
         {one.speed, one.value, one.std, one.interval95, one.speed_unit, one.unit});
   }
 
-  // the verdict
+  // the verdict: tests for lack of fit, and what none of them can see
   for (const Diagnostic& one : estimate.diagnostics) {
     made.diagnostics.push_back({one.test, one.made, one.reason, one.statistic, one.p,
                                 one.p_adjusted, one.rejected, one.effect, one.effect_unit,
@@ -130,7 +133,7 @@ identification::Estimate ToEstimate(const Estimate& estimate) {
     made.assumptions.push_back({one.name, one.meaning, one.moves});
   }
 
-  // the end, and the choice
+  // the state at the end, what a temperature says, and the choice of a structure
   for (const Parameter& one : estimate.state_end) {
     made.state_end.push_back({one.name, one.value, one.unit, one.std, one.interval95});
   }
@@ -149,6 +152,7 @@ identification::Estimate ToEstimate(const Estimate& estimate) {
 }
 
 Estimate FromEstimate(const identification::Estimate& estimate) {
+  // what was asked, and how it went
   Estimate made;
   made.identifier = estimate.identifier;
   made.options = estimate.options;
@@ -156,7 +160,7 @@ Estimate FromEstimate(const identification::Estimate& estimate) {
   made.message = estimate.message;
   made.warnings = estimate.warnings;
 
-  // numbers
+  // numbers, and how well they fit
   for (const identification::EstimatedParameter& one : estimate.parameters) {
     made.parameters.push_back({one.name, one.value, one.unit, one.std, one.interval95});
   }
@@ -167,7 +171,7 @@ Estimate FromEstimate(const identification::Estimate& estimate) {
   }
   made.covariance = FromCovariance(estimate.covariance);
 
-  // the model
+  // the model: friction, gravity, and what law and maps are together
   if (estimate.friction) made.friction = FromDescription(*estimate.friction);
   if (estimate.gravity) {
     made.gravity = {std::string(identification::GravityName(estimate.gravity->kind)),
@@ -181,7 +185,7 @@ Estimate FromEstimate(const identification::Estimate& estimate) {
         {one.speed, one.value, one.std, one.interval95, one.speed_unit, one.unit});
   }
 
-  // the verdict
+  // the verdict: tests for lack of fit, and what none of them can see
   for (const identification::Diagnostic& one : estimate.diagnostics) {
     made.diagnostics.push_back({one.test, one.made, one.reason, one.statistic, one.p,
                                 one.p_adjusted, one.rejected, one.effect, one.effect_unit,
@@ -191,7 +195,7 @@ Estimate FromEstimate(const identification::Estimate& estimate) {
     made.assumptions.push_back({one.name, one.meaning, one.moves});
   }
 
-  // the end, and the choice
+  // the state at the end, what a temperature says, and the choice of a structure
   for (const identification::EstimatedParameter& one : estimate.state_end) {
     made.state_end.push_back({one.name, one.value, one.unit, one.std, one.interval95});
   }

@@ -18,6 +18,7 @@ constexpr std::array kFactors{models::MapFactor::one, models::MapFactor::directi
 template <typename Choice, std::size_t n>
 Choice Named(const std::string& given, const std::array<Choice, n>& all,
              std::string_view (*name_of)(Choice), const char* what) {
+  // the names that were no match are what the refusal suggests from
   std::vector<std::string> known;
   for (const Choice one : all) {
     if (name_of(one) == given) return one;
@@ -39,11 +40,14 @@ std::optional<Thermal> FromThermal(const std::optional<models::Thermal>& thermal
 
 models::FrictionMap ToMap(const FrictionMap& map) {
   models::FrictionMap made;
+  // each axis with its kernels
   for (const MapAxis& axis : map.axes) {
     const auto sides = axis.sides_apart ? models::Sides::apart : models::Sides::together;
     made.axes.push_back({Named(axis.quantity, kQuantities, &models::MapQuantityName, "quantity"),
                          {axis.centres, axis.width, axis.period, sides}});
   }
+
+  // what the kernels are multiplied by
   made.kernels = map.normalised ? models::KernelKind::normalised : models::KernelKind::plain;
   made.factor = Named(map.factor, kFactors, &models::MapFactorName, "factor");
   made.weights = map.weights;
@@ -52,11 +56,14 @@ models::FrictionMap ToMap(const FrictionMap& map) {
 
 FrictionMap FromMap(const models::FrictionMap& map) {
   FrictionMap made;
+  // each axis with its kernels
   for (const models::MapAxis& axis : map.axes) {
     const models::GaussianAxis& kernels = axis.kernels;
     made.axes.push_back({std::string(models::MapQuantityName(axis.quantity)), kernels.centres,
                          kernels.width, kernels.period, kernels.sides == models::Sides::apart});
   }
+
+  // what the kernels are multiplied by
   made.normalised = map.kernels == models::KernelKind::normalised;
   made.factor = models::MapFactorName(map.factor);
   made.weights = map.weights;
@@ -67,16 +74,21 @@ FrictionMap FromMap(const models::FrictionMap& map) {
 
 models::FrictionDescription ToDescription(const Friction& friction) {
   models::FrictionDescription made;
+  // the law and its warming
   made.law = friction.law;
   made.parameters = friction.parameters;
   made.thermal = ToThermal(friction.thermal);
   made.second_thermal = ToThermal(friction.second_thermal);
+
+  // what joins any law
   made.ambient = friction.ambient;
   made.gear = friction.gear;
   made.level_per_temperature = friction.level_per_temperature;
   made.viscous_per_energy = friction.viscous_per_energy;
   made.load_gain = friction.load_gain;
   for (const FrictionMap& map : friction.maps) made.maps.push_back(ToMap(map));
+
+  // what is left out has a default; what remains must make sense together
   models::FillDefaults(made);
   models::CheckFriction(made, {"friction"});
   return made;
@@ -84,10 +96,13 @@ models::FrictionDescription ToDescription(const Friction& friction) {
 
 Friction FromDescription(const models::FrictionDescription& friction) {
   Friction made;
+  // the law and its warming
   made.law = friction.law;
   made.parameters = friction.parameters;
   made.thermal = FromThermal(friction.thermal);
   made.second_thermal = FromThermal(friction.second_thermal);
+
+  // what joins any law
   made.ambient = friction.ambient;
   made.gear = friction.gear;
   made.level_per_temperature = friction.level_per_temperature;

@@ -38,6 +38,7 @@ std::optional<std::vector<double>> FromColumn(const std::optional<Eigen::VectorX
 
 /// The samples at which recordings that were joined begin.
 std::vector<Eigen::Index> Starts(const Recording& recording) {
+  // they ascend, and the first recording begins at sample 0, which is not listed
   std::vector<Eigen::Index> starts;
   std::size_t last = 0;
   for (const std::size_t start : recording.starts) {
@@ -64,11 +65,14 @@ JointKind FromKind(models::JointKind joint) {
 
 models::Measurements ToMeasurements(const Recording& recording) {
   models::Measurements log;
+  // what is known of the joint and of the recording
   log.joint = ToKind(recording.joint);
   log.torque_unit = recording.torque_unit;
   log.gear = recording.gear;
   log.source = recording.source;
   log.notes = recording.notes;
+
+  // columns, of which only some must be there
   log.time = ToEigen(recording.time);
   log.position = Column(recording.position, "position", recording);
   if (!recording.velocity.empty()) log.velocity = Column(recording.velocity, "velocity", recording);
@@ -78,7 +82,7 @@ models::Measurements ToMeasurements(const Recording& recording) {
   log.temperature = Column(recording.temperature, "temperature", recording);
   log.starts = Starts(recording);
 
-  // what a file is checked for
+  // samples and gear are checked as those of a file are
   models::CheckSamples(log);
   tools::RecordingArguments arguments;
   arguments.gear = recording.gear;
@@ -88,11 +92,14 @@ models::Measurements ToMeasurements(const Recording& recording) {
 
 Recording FromMeasurements(const models::Measurements& log) {
   Recording recording;
+  // what is known of the joint and of the recording
   recording.joint = FromKind(log.joint);
   recording.torque_unit = log.torque_unit;
   recording.gear = log.gear;
   recording.source = log.source;
   recording.notes = log.notes;
+
+  // columns, of which only some must be there
   recording.time = FromEigen(log.time);
   recording.position = FromEigen(log.position);
   recording.velocity = FromEigen(log.velocity);
@@ -106,12 +113,15 @@ Recording FromMeasurements(const models::Measurements& log) {
 
 tools::RecordingArguments ToArguments(const Origin& origin) {
   tools::RecordingArguments arguments;
+  // pairs as the command line takes them
   arguments.recordings = origin.files;
   arguments.map = Pairs(origin.read.map);
   arguments.unit = Pairs(origin.read.unit);
   for (const auto& [column, factor] : origin.read.scale) {
     arguments.scale.push_back(fmt::format("{}={}", column, factor));
   }
+
+  // the joint, its sensors, and what is asked of constant speeds
   arguments.joint = origin.read.joint == JointKind::linear ? "linear" : "rotary";
   arguments.gear = origin.read.gear;
   arguments.wrap = origin.read.wrap;
@@ -122,14 +132,18 @@ tools::RecordingArguments ToArguments(const Origin& origin) {
 
 Origin FromArguments(const tools::RecordingArguments& arguments, const models::Place& place) {
   Origin origin;
+  // which files, and which of their columns
   origin.files = arguments.recordings;
   origin.read.map = tools::ReadPairs(arguments.map, "--map");
   origin.read.unit = tools::ReadPairs(arguments.unit, "--unit");
+  // factors stand there as texts
   for (const auto& [column, text] : tools::ReadPairs(arguments.scale, "--scale")) {
     const std::optional<double> factor = models::ParseNumber(text);
     if (!factor) models::Refuse(place, "recording.scale of {} is not a number", column);
     origin.read.scale[column] = *factor;
   }
+
+  // the joint, its sensors, and what is asked of constant speeds
   origin.read.joint = FromKind(tools::JointOf(arguments));
   origin.read.gear = arguments.gear;
   origin.read.wrap = arguments.wrap;

@@ -15,6 +15,7 @@ namespace {
 
 Estimate FromJson(const nlohmann::json& json, const models::Place& place) {
   Estimate estimate = FromEstimate(identification::EstimateFromJson(json, place));
+  // the files that it tells of, where it tells of files
   if (json.contains("recording") && !json["recording"].is_null()) {
     estimate.recording = FromArguments(tools::RecordingFromJson(json["recording"], place), place);
   }
@@ -31,6 +32,7 @@ std::string TextOf(const Estimate& estimate, const std::filesystem::path& target
 }  // namespace
 
 std::string StatusName(Status status) {
+  // by way of the rooms, which alone have the names
   Estimate estimate;
   estimate.status = status;
   return std::string(identification::StatusName(ToEstimate(estimate).status));

@@ -29,10 +29,13 @@ ParameterInfo FromInfo(const models::ParameterInfo& info) {
 
 /// A column of n samples, or none.
 Eigen::VectorXd Column(const std::vector<double>& values, const char* name, std::size_t n) {
+  // a column is there as a whole or not at all
   if (!values.empty() && values.size() != n) {
     models::Refuse({"motion"}, "{} has {} values and time has {}; give one for each sample or none",
                    name, values.size(), n);
   }
+
+  // and holds numbers
   for (const double value : values) {
     if (!std::isfinite(value)) models::Refuse({"motion"}, "{} holds {}, no number", name, value);
   }
@@ -41,10 +44,13 @@ Eigen::VectorXd Column(const std::vector<double>& values, const char* name, std:
 
 models::JointCourse ToCourse(const Motion& motion) {
   const std::size_t n = motion.time.size();
+  // time and velocity are the least that a motion needs
   if (n == 0 || motion.velocity.empty()) {
     models::Refuse({"motion"}, "has {} times and {} velocities; give one of both for each sample",
                    n, motion.velocity.size());
   }
+
+  // time increases from sample to sample
   for (std::size_t i = 1; i < n; ++i) {
     if (motion.time[i] > motion.time[i - 1]) continue;
     models::Refuse({"motion"}, "time of sample {} is {} s, after {} s; it must increase", i + 1,
@@ -54,6 +60,8 @@ models::JointCourse ToCourse(const Motion& motion) {
       Column(motion.time, "time", n),         Column(motion.velocity, "velocity", n),
       Column(motion.position, "position", n), Column(motion.motor_position, "motor_position", n),
       Column(motion.load, "load", n),         Column(motion.ambient_rise, "ambient_rise", n)};
+
+  // recordings that were joined begin cold, in order
   std::size_t last = 0;
   for (const std::size_t start : motion.starts) {
     if (start <= last || start >= n) {
@@ -78,6 +86,7 @@ FrictionState FromState(const models::FrictionState& state) {
 
 std::vector<LawInfo> Laws() {
   std::vector<LawInfo> laws;
+  // each law with the table of its parameters
   for (const models::Law& law : models::Laws()) {
     LawInfo info{std::string(law.name), std::string(law.equation), {}};
     for (const models::ParameterInfo& row : law.parameters) {
@@ -115,6 +124,7 @@ std::optional<std::vector<double>> SettledEnergy(const Friction& friction, doubl
 
 Motion MotionOf(const Recording& recording) {
   return Guarded([&] {
+    // a motion is its velocity, which the friction does not find by itself
     if (recording.velocity.empty()) {
       models::Refuse({recording.source}, "has no velocity, without which there is no motion");
     }
@@ -137,6 +147,7 @@ struct FrictionModel::State {
 
 FrictionModel::FrictionModel(const Friction& friction, double timestep)
     : state_(Guarded([&] {
+        // checked once, so that steps need no checks
         if (!(std::isfinite(timestep) && timestep > 0)) {
           models::Refuse({"timestep"}, "is {}; it must be a finite number above 0, s", timestep);
         }

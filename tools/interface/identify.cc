@@ -14,6 +14,7 @@ namespace {
 /// next: the recording that is to be identified.
 tools::IdentifySettings ToSettings(const IdentifySettings& settings,
                                    const models::Measurements& next) {
+  // the heat that an earlier recording left, less what cooled since
   std::optional<tools::CarriedHeat> follows;
   if (settings.follows) {
     const tools::LeftHeat left =
@@ -23,6 +24,8 @@ tools::IdentifySettings ToSettings(const IdentifySettings& settings,
     models::Refuse({"pause"},
                    "is the time since an earlier recording; give that one's estimate as follows");
   }
+
+  // all else under the same names
   return {settings.identifier,
           settings.gravity,
           settings.start,
@@ -35,6 +38,7 @@ tools::IdentifySettings ToSettings(const IdentifySettings& settings,
 }
 
 tools::HoldOutSource ToHoldOut(const IdentifySettings& settings) {
+  // another recording, or a share of this one
   if (settings.holdout_log) return {0, settings.holdout_log->state().log};
   return tools::HoldOutShare(settings.holdout);
 }
@@ -44,6 +48,7 @@ tools::HoldOutSource ToHoldOut(const IdentifySettings& settings) {
 std::vector<IdentifierInfo> Identifiers() {
   std::vector<IdentifierInfo> all;
   for (const identification::Identifier& identifier : identification::Identifiers()) {
+    // each with its options, as the list of the command line has them
     IdentifierInfo info{identifier.name, identifier.summary, {}};
     for (const identification::OptionInfo& option : identifier.options) {
       info.options.push_back({option.name, option.default_value, option.allowed, option.meaning});
@@ -55,7 +60,7 @@ std::vector<IdentifierInfo> Identifiers() {
 
 Estimate Identify(const PreparedLog& log, const IdentifySettings& settings) {
   return Guarded([&] {
-    // the walk of the command
+    // checked, identified and given back its unit, as the command does
     const identification::PreparedLog& prepared = log.state().log;
     const models::Measurements& measurements = prepared.taken().measurements;
     const tools::IdentifyTask task =
@@ -64,7 +69,7 @@ Estimate Identify(const PreparedLog& log, const IdentifySettings& settings) {
         tools::IdentifyLog(task, prepared, ToHoldOut(settings)).estimate;
     tools::TakeBackAmperes(measurements, found);
 
-    // as a value
+    // as a value that remembers its files
     Estimate estimate = FromEstimate(found);
     estimate.recording = log.state().origin;
     return estimate;

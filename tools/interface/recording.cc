@@ -18,6 +18,7 @@ namespace {
 
 void RefuseLengths(const std::map<std::string, std::vector<double>>& columns,
                    const std::string& name) {
+  // all as long as the first by name
   for (const auto& [column, values] : columns) {
     const auto& [first, others] = *columns.begin();
     if (values.size() == others.size()) continue;
@@ -27,6 +28,7 @@ void RefuseLengths(const std::map<std::string, std::vector<double>>& columns,
 }
 
 identification::HoldOptions ToHolds(const PrepareSettings& settings) {
+  // seconds that are finite and not below 0
   const auto require = [](double seconds, const char* option) {
     if (std::isfinite(seconds) && seconds >= 0) return;
     models::Refuse({option}, "is {}; it must be a finite number of at least 0, s", seconds);
@@ -39,18 +41,25 @@ identification::HoldOptions ToHolds(const PrepareSettings& settings) {
 /// The joined recordings as the rooms have them, prepared.
 std::shared_ptr<const PreparedLog::State> Prepared(const Recording& recording,
                                                    const PrepareSettings& settings) {
+  // settings are refused before any time is spent
   const identification::HoldOptions holds = ToHolds(settings);
   identification::PreparedLog log = identification::Prepare(ToMeasurements(recording), holds);
+
+  // what is asked for often is computed once
   const std::vector<std::string> faults = log.faults(), warnings = log.warnings();
   PreparedLog::State state{std::move(log), faults, warnings, recording.origin};
+  // a fit to the same file would be prepared in the same way
   if (state.origin) state.origin->prepare = settings;
   return std::make_shared<const PreparedLog::State>(std::move(state));
 }
 
 RecordingCheck FromCheck(const identification::RecordingCheck& made) {
   RecordingCheck check;
+  // how the samples lie in time
   const auto& [samples, duration, step, rate, jitter, gaps, longest] = made.sampling;
   check.sampling = {static_cast<std::size_t>(samples), duration, step, rate, jitter, gaps, longest};
+
+  // how the joint moves
   const identification::MotionCheck& motion = made.motion;
   check.motion.constant_share = motion.constant_share;
   check.motion.rest_share = motion.rest_share;
@@ -63,10 +72,14 @@ RecordingCheck FromCheck(const identification::RecordingCheck& made) {
   check.motion.upper = motion.upper;
   check.motion.speed_noise = motion.speed_noise;
   check.motion.speed_resolution = motion.speed_resolution;
+
+  // what contradicts itself, and what can be identified
   check.faults = made.faults;
   for (const identification::Excitation& one : made.excitation) {
     check.excitation.push_back({one.what, one.sufficient, one.reason});
   }
+
+  // the same as the command line prints it
   check.text = identification::CheckToText(made);
   check.json = identification::CheckToJson(made).dump(2) + "\n";
   return check;
@@ -83,6 +96,7 @@ Recording ReadRecording(const std::filesystem::path& file, const ReadSettings& s
 Recording ReadRecordings(const std::vector<std::filesystem::path>& files,
                          const ReadSettings& settings) {
   return Guarded([&] {
+    // read as files of that name and settings on the command line
     Origin origin;
     for (const std::filesystem::path& file : files) origin.files.push_back(file.string());
     origin.read = settings;
@@ -95,11 +109,14 @@ Recording ReadRecordings(const std::vector<std::filesystem::path>& files,
 Recording MakeRecording(const std::map<std::string, std::vector<double>>& columns,
                         const ReadSettings& settings, const std::string& name) {
   return Guarded([&] {
+    // named columns go through the layout of a file
     RefuseLengths(columns, name);
     std::vector<std::string> names;
     for (const auto& [column, values] : columns) names.push_back(column);
     const models::CsvLayout layout = tools::LayoutOf(ToArguments({{}, settings, {}}));
     const auto sources = models::FindColumns(names, layout, {name});
+
+    // and become SI as those of a file do
     models::RawColumns raw{name, {}, {}};
     for (const models::ColumnSource& source : sources) {
       raw.values.push_back(ToEigen(columns.at(names[source.index])));
@@ -117,6 +134,7 @@ PreparedLog::PreparedLog(const Recording& recording, const PrepareSettings& sett
 
 std::vector<Segment> PreparedLog::segments() const {
   const auto& [log, selection] = state_->log.steady();
+  // segments with the recording that they lie in, from 1
   std::vector<Segment> segments;
   for (const models::Segment& one : selection.segments) {
     const auto later = std::ranges::upper_bound(log.starts, one.begin);

@@ -30,12 +30,15 @@ void RequireLike(const std::vector<double>& a, const std::vector<double>& b, con
 
 Score ScoreEstimate(const Estimate& estimate, const PreparedLog& log, const Truth& truth) {
   return Guarded([&] {
+    // the truth is of these samples
     const auto& [measurements, selection] = log.state().log.taken();
     if (static_cast<std::size_t>(measurements.size()) != truth.force.size()) {
       models::Refuse({measurements.source},
                      "has {} samples and its truth {}; give the truth of this recording",
                      measurements.size(), truth.force.size());
     }
+
+    // the suites' own score
     const identification::Score made = identification::ScoreEstimate(
         ToEstimate(estimate), measurements, selection, ToTruth(truth));
     return Score{FromScores(made.continuous),
@@ -51,6 +54,7 @@ Score ScoreEstimate(const Estimate& estimate, const PreparedLog& log, const Trut
 double NormalisedParameterError(const std::vector<double>& estimate,
                                 const std::vector<double>& truth) {
   return Guarded([&] {
+    // relative errors, of which there are none of 0
     RequireLike(estimate, truth, "estimate and truth");
     for (const double value : truth) {
       if (value == 0) models::Refuse({"truth"}, "holds 0, of which there is no relative error");
@@ -63,6 +67,7 @@ Metrics ComputeMetrics(const std::vector<double>& measured, const std::vector<do
                        int parameters, std::optional<double> effective) {
   return Guarded([&] {
     RequireLike(measured, fitted, "measured and fitted");
+    // a fit leaves freedom
     if (parameters < 0 || static_cast<std::size_t>(parameters) >= measured.size()) {
       models::Refuse({"parameters"}, "is {}; it must be at least 0 and below the {} samples",
                      parameters, measured.size());

@@ -27,6 +27,7 @@ scenarios::Settings ToSettings(const SimulateSettings& settings) {
 /// file: that the scenario came from.
 Simulation CarryOut(scenarios::Scenario scenario, const SimulateSettings& settings,
                     const std::string& file) {
+  // what needs more memory than there is is refused before it is simulated
   if (settings.seed) scenario.seed = *settings.seed;
   tools::RequireMemoryFor(scenario, file);
   const sim::Recording made = sim::MakePlant(scenario)->Run(settings.realization, settings.watch);
@@ -73,6 +74,7 @@ Simulation SimulateText(const std::string& scenario, const SimulateSettings& set
 void WriteSimulation(const Simulation& simulation, const std::filesystem::path& directory,
                      const std::string& format) {
   Guarded([&] {
+    // a format, then a directory that appears as a whole
     if (format != "csv" && format != "h5") {
       models::Refuse({"--format"}, "is '{}'{}", models::Excerpt(format),
                      models::Suggestion(format, {"csv", "h5"}));

@@ -13,6 +13,7 @@ namespace warmjoint::api {
 namespace {
 
 void RequireWithin(const std::optional<int>& given, int most, const char* option) {
+  // what is not given is within any bounds
   if (!given || (*given >= 1 && *given <= most)) return;
   models::Refuse({option}, "is {}; it must be from 1 to {}", *given, most);
 }
@@ -20,6 +21,7 @@ void RequireWithin(const std::optional<int>& given, int most, const char* option
 tools::RunArguments ToArguments(const std::filesystem::path& suite,
                                 const std::filesystem::path& directory,
                                 const RunSettings& settings) {
+  // numbers have the bounds of the command line
   RequireWithin(settings.jobs, tools::kMostJobs, "--jobs");
   RequireWithin(settings.realizations, scenarios::kMostRealizations, "--realizations");
   tools::RunArguments arguments;
@@ -39,10 +41,13 @@ Summary FromSummary(const tools::Summary& summary) {
 }
 
 LeaderboardRow FromRow(const tools::LeaderboardRow& row) {
+  // how often it ran and failed
   LeaderboardRow made;
   made.identifier = row.identifier;
   made.runs = row.runs;
   made.failures = row.failures;
+
+  // how well it does over all realizations
   made.npe_continuous = FromSummary(row.npe_continuous);
   made.npe_discrete = FromSummary(row.npe_discrete);
   made.rmse = FromSummary(row.rmse);
@@ -50,6 +55,8 @@ LeaderboardRow FromRow(const tools::LeaderboardRow& row) {
   made.fpe = FromSummary(row.fpe);
   made.mae = FromSummary(row.mae);
   made.seconds = FromSummary(row.seconds);
+
+  // by parameter
   for (const tools::ParameterRow& one : row.parameters) {
     made.parameters.push_back({one.name, one.coverage95, one.efficiency});
   }
@@ -58,12 +65,15 @@ LeaderboardRow FromRow(const tools::LeaderboardRow& row) {
 }
 
 Leaderboard FromBoard(const tools::Leaderboard& board) {
+  // of the suite as a whole
   Leaderboard made;
   made.suite = board.suite;
   made.question = board.question;
   made.realizations = board.finished;
   made.bound_npe_continuous = board.bound_npe_continuous;
   made.bound_npe_discrete = board.bound_npe_discrete;
+
+  // one row an identifier, one group a step of the ladder
   for (const tools::LeaderboardRow& row : board.rows) made.rows.push_back(FromRow(row));
   made.variant = board.variant;
   made.value = board.value;
@@ -76,9 +86,12 @@ Leaderboard FromBoard(const tools::Leaderboard& board) {
 RunSummary RunSuite(const std::filesystem::path& suite, const std::filesystem::path& directory,
                     const RunSettings& settings) {
   return Guarded([&] {
+    // prepared and stored as by the command, without its words
     const tools::RunTask task = tools::PrepareRun(ToArguments(suite, directory, settings));
     auto store = tools::RunStore::CreateOrResume(directory, task.description);
     const auto quiet = [](int, int) {};
+
+    // progress is told to the caller alone
     tools::RunOptions options{task.jobs, task.shard, settings.keep_recordings, quiet};
     if (settings.watch) options.watch = settings.watch;
     const tools::RunOutcome outcome = tools::RunSuite(task.suite, task.identifiers, options, store);
@@ -94,6 +107,7 @@ Leaderboard ReadLeaderboard(const std::filesystem::path& directory) {
 
 std::string FormatLeaderboard(const std::filesystem::path& directory, const std::string& format) {
   return Guarded([&]() -> std::string {
+    // the formats are those of `compare`
     std::vector<std::string> known;
     for (const tools::BoardFormat& one : tools::BoardFormats()) {
       known.push_back(one.name);

@@ -81,6 +81,7 @@ std::string Quoted(const std::string& text) { return "'" + text + "'"; }
 
 /// "  run) options=...; case $2 in -o|--output) kind=DIR ;; esac ;;"
 std::string OptionCase(const CommandNode& command, const std::string& pattern) {
+  // all names of its options, and of those that take a value which kind
   std::string names, kinds;
   for (const OptionNode& option : command.options) {
     for (const std::string& name : option.names) names += (names.empty() ? "" : "\\n") + name;
@@ -88,6 +89,8 @@ std::string OptionCase(const CommandNode& command, const std::string& pattern) {
     kinds +=
         fmt::format("      {}) kind={} ;;\n", fmt::join(option.names, "|"), Quoted(option.value));
   }
+
+  // names of options are what a dash may become
   std::string text = fmt::format("    {})\n      options=$'{}'\n", pattern, names);
   if (!kinds.empty()) text += fmt::format("      case $2 in\n{}      esac\n", kinds);
   return text + "      ;;\n";
@@ -95,9 +98,11 @@ std::string OptionCase(const CommandNode& command, const std::string& pattern) {
 
 /// The kinds of a command's arguments by their number, from 0.
 std::string ArgumentCase(const CommandNode& command) {
+  // a command without arguments needs no case
   if (command.arguments.empty()) return "";
   std::string text = fmt::format("    {})\n      case $2 in\n", command.name);
   for (std::size_t i = 0; i < command.arguments.size(); ++i) {
+    // by their numbers; a repeatable one stands for all that follow
     const OptionNode& argument = command.arguments[i];
     text += fmt::format("      {}) kind={} ;;\n", argument.repeatable ? "*" : std::to_string(i),
                         Quoted(argument.value));
@@ -108,12 +113,15 @@ std::string ArgumentCase(const CommandNode& command) {
 }  // namespace
 
 std::string BashCompletion(const CommandNode& program) {
+  // a case of the options and of the arguments for each subcommand
   std::string commands, options = OptionCase(program, "''"), arguments;
   for (const CommandNode& command : program.commands) {
     commands += (commands.empty() ? "" : "\\n") + command.name;
     options += OptionCase(command, command.name);
     arguments += ArgumentCase(command);
   }
+
+  // the words of this parser between functions that are the same for any
   std::string text = "# completion of warmjoint for bash, made by: warmjoint completion bash\n";
   text += fmt::format("_warmjoint_commands=$'{}'\n", commands);
   text += kFunctions;

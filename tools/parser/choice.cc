@@ -24,6 +24,7 @@ std::string LongName(const std::string& names) {
 void CheckChoice(const std::string& what, const std::string& value,
                  const std::vector<std::string>& choices, const Synonyms& synonyms) {
   if (std::find(choices.begin(), choices.end(), value) != choices.end()) return;
+  // what other fields call it leads to the word that is meant here
   const auto synonym = synonyms.find(value);
   if (synonym != synonyms.end()) {
     Refuse({what}, "is '{}'; warmjoint says '{}'", value, synonym->second);
@@ -34,11 +35,14 @@ void CheckChoice(const std::string& what, const std::string& value,
 CLI::Option* AddChoice(CLI::App& parser, const std::string& name, std::string& value,
                        const std::vector<std::string>& choices, const std::string& description,
                        const Synonyms& synonyms) {
+  // the parser hands each text over, so that refusals are ours
   const auto read = [&value, what = LongName(name), choices, synonyms](const std::string& given) {
     CheckChoice(what, given, choices, synonyms);
     value = given;
   };
   CLI::Option* option = parser.add_option_function<std::string>(name, read, description);
+
+  // help shows the choices as the form of the value
   option->type_name(fmt::format("{}", fmt::join(choices, "|")));
   return value.empty() ? option : option->default_str(value);
 }
@@ -46,6 +50,7 @@ CLI::Option* AddChoice(CLI::App& parser, const std::string& name, std::string& v
 CLI::Option* AddNumber(CLI::App& parser, const std::string& name, double& number,
                        const Bounds& bounds, const std::string& description) {
   const auto read = [&number, what = LongName(name), bounds](const std::string& text) {
+    // NaN fails every comparison, and infinity is no finite number
     const auto given = ParseNumber(text);
     const bool above = given && (bounds.open ? *given > bounds.lowest : *given >= bounds.lowest);
     if (!given || !std::isfinite(*given) || !above || *given > bounds.highest) {

@@ -29,7 +29,7 @@ struct Bounds {
   bool open = false;  // `lowest` itself is too low
 };
 
-/// Adds an option for a finite number within bounds, which others are refused with.
+/// Adds an option for a finite number within bounds; other texts are refused with these bounds.
 CLI::Option* AddNumber(CLI::App& parser, const std::string& name, double& number,
                        const Bounds& bounds, const std::string& description);
 

@@ -18,10 +18,15 @@ std::string OnOneLine(const std::string& text) {
 
 OptionNode ReadOption(const CLI::Option& option) {
   OptionNode node;
+  // short names first, then long ones, as they are typed
   for (const std::string& name : option.get_snames()) node.names.push_back("-" + name);
   for (const std::string& name : option.get_lnames()) node.names.push_back("--" + name);
+
+  // what stands behind the name, of options that take a value
   if (option.get_items_expected_max() > 0) node.value = option.get_type_name();
   if (option.get_positional()) node.argument = option.get_name(true, false);
+
+  // what help says of it
   node.description = OnOneLine(option.get_description());
   node.initial = option.get_default_str();
   node.group = option.get_group() == "Options" ? "" : option.get_group();
@@ -35,6 +40,7 @@ OptionNode ReadOption(const CLI::Option& option) {
 
 std::vector<std::string> OptionNode::Choices() const {
   std::vector<std::string> choices;
+  // other values have no list of words
   if (value.find('|') == std::string::npos) return choices;
   std::istringstream stream(value);
   for (std::string choice; std::getline(stream, choice, '|');) choices.push_back(choice);
@@ -44,10 +50,13 @@ std::vector<std::string> OptionNode::Choices() const {
 CommandNode ReadTree(const CLI::App& parser) {
   CommandNode node{
       parser.get_name(), OnOneLine(parser.get_description()), parser.get_footer(), {}, {}, {}};
+  // options with names apart from arguments without
   for (const CLI::Option* option : parser.get_options()) {
     const bool is_argument = option->get_positional();
     (is_argument ? node.arguments : node.options).push_back(ReadOption(*option));
   }
+
+  // subcommands, each a tree of its own
   for (const CLI::App* command : parser.get_subcommands([](const CLI::App*) { return true; })) {
     node.commands.push_back(ReadTree(*command));
   }
@@ -55,8 +64,11 @@ CommandNode ReadTree(const CLI::App& parser) {
 }
 
 std::string UsageOf(const CommandNode& command, const std::string& program) {
+  // a program with subcommands says no more than that
   std::string usage = program.empty() ? command.name : program + " " + command.name;
   if (!command.commands.empty()) return usage + " COMMAND [OPTIONS]";
+
+  // arguments in their order; brackets where one may be left out
   for (const OptionNode& argument : command.arguments) {
     const std::string name = argument.argument + (argument.repeatable ? "..." : "");
     usage += argument.required ? " " + name : fmt::format(" [{}]", name);

@@ -36,7 +36,7 @@ struct CommandNode {
 /// Walks over the parser and its subcommands, in the order in which they were added.
 CommandNode ReadTree(const CLI::App& parser);
 
-/// "warmjoint run [OPTIONS] SUITE", "warmjoint COMMAND ...". program: name of the program, which stands
+/// "warmjoint run SUITE -o DIR [OPTIONS]", "warmjoint COMMAND [OPTIONS]". program: name of the program, which stands
 /// before the name of a subcommand; empty for the program itself.
 std::string UsageOf(const CommandNode& command, const std::string& program);
 

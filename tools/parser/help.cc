@@ -14,10 +14,13 @@ constexpr int kColumn = 26;  // where descriptions begin
 /// A head, and its words beside it, or below it where it is long.
 std::string Entry(const std::string& head, const std::string& words, int width) {
   std::string text = "  " + head;
+  // beside its head where that leaves room, else on lines of its own
   const bool beside = ShownWidth(text) <= kColumn - 2;
   const std::string margin(kColumn, ' ');
   if (!beside) text += "\n";
   bool first = beside;
+
+  // every line begins in the same column
   for (const std::string& line : WrapLine(words, std::max(20, width - kColumn))) {
     if (first) text.append(kColumn - text.size(), ' ');
     text += (first ? "" : margin) + line + "\n";
@@ -29,6 +32,7 @@ std::string Entry(const std::string& head, const std::string& words, int width) 
 std::string OptionsUnder(const std::string& heading, const std::vector<OptionNode>& options,
                          const std::string& group, int width) {
   std::string text;
+  // the heading stands only where an option follows
   for (const OptionNode& option : options) {
     if (option.group != group) continue;
     if (text.empty()) text = fmt::format("\n{}:\n", heading);
@@ -69,8 +73,11 @@ std::string OptionWords(const OptionNode& option) {
 }
 
 std::string HelpText(const CommandNode& command, const std::string& program, int width) {
+  // what it does, and how it is called
   std::string text = Wrap(command.description, width, 0) + "\n";
   text += Wrap("\nUsage: " + UsageOf(command, program) + "\n", width, 7);
+
+  // what it takes, then the options without a group and those of each group
   text += OptionsUnder("Arguments", command.arguments, "", width);
   if (!command.commands.empty()) text += "\nCommands:\n";
   for (const CommandNode& one : command.commands) text += Entry(one.name, one.description, width);
@@ -78,6 +85,8 @@ std::string HelpText(const CommandNode& command, const std::string& program, int
   for (const std::string& group : Groups(command)) {
     text += OptionsUnder(group, command.options, group, width);
   }
+
+  // the last word is the command's own
   if (!command.footer.empty()) text += "\n" + Wrap(command.footer, width, 0) + "\n";
   return text;
 }

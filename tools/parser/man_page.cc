@@ -15,6 +15,7 @@ namespace {
 /// Words that roff shows as they are.
 std::string Escaped(const std::string& words) {
   std::string text;
+  // backslashes and dashes mean something to roff
   for (const char c : words) {
     if (c == '\\') {
       text += "\\e";
@@ -24,6 +25,8 @@ std::string Escaped(const std::string& words) {
       text += c;
     }
   }
+
+  // so does a dot or a quote at the beginning of a line
   const bool looks_like_request = !text.empty() && (text[0] == '.' || text[0] == '\'');
   return looks_like_request ? "\\&" + text : text;
 }
@@ -59,6 +62,7 @@ std::string ExitStatusSection() {
 
 std::string SeeAlso(const CommandNode& command, const std::string& program) {
   std::vector<std::string> pages;
+  // the program's page from a subcommand, all subcommands' pages from the program
   if (!program.empty()) pages.push_back(Bold(program) + "(1)");
   for (const CommandNode& one : command.commands) {
     pages.push_back(Bold(ManName(one, command.name)) + "(1)");
@@ -74,20 +78,26 @@ std::string ManName(const CommandNode& command, const std::string& program) {
 
 std::string ManPage(const CommandNode& command, const std::string& program,
                     const std::string& version) {
+  // the title in capitals
   const std::string name = ManName(command, program);
   std::string upper = name;
   std::transform(upper.begin(), upper.end(), upper.begin(),
                  [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   std::string page =
       fmt::format(".TH {} 1 \"\" \"{}\" \"User Commands\"\n", Escaped(upper), version);
+
+  // name, synopsis and what the footer says
   page += fmt::format(".SH NAME\n{} \\- {}\n", Escaped(name), Escaped(command.description));
   page += fmt::format(".SH SYNOPSIS\n{}\n", Escaped(UsageOf(command, program)));
   if (!command.footer.empty()) {
     page += ".SH DESCRIPTION\n";
+    // an empty line parts paragraphs
     for (const std::string& line : Lines(command.footer)) {
       page += line.empty() ? std::string(".PP\n") : Escaped(line) + "\n";
     }
   }
+
+  // what the command takes
   page += Section("ARGUMENTS", command.arguments);
   if (!command.commands.empty()) page += ".SH COMMANDS\n";
   for (const CommandNode& one : command.commands) {

@@ -32,11 +32,13 @@ _warmjoint_value() {
 /// Words inside single quotes, in a place where colons and brackets have a meaning.
 std::string Escaped(const std::string& words) {
   std::string text;
+  // a quote ends the quoted text, stands escaped, and begins it again
   for (const char c : words) {
     if (c == '\'') {
       text += "'\\''";
       continue;
     }
+    // what parts a specification of _arguments is no part of the words
     if (c == ':' || c == '[' || c == ']' || c == '\\') text += '\\';
     text += c;
   }
@@ -45,6 +47,7 @@ std::string Escaped(const std::string& words) {
 
 /// ":DIR:_warmjoint_value DIR", or ":text|json:(text json)".
 std::string ValueSpec(const OptionNode& option) {
+  // words are offered as they stand, other kinds by the function that knows them
   const std::vector<std::string> choices = option.Choices();
   if (!choices.empty()) return fmt::format(":value:({})", fmt::join(choices, " "));
   return fmt::format(":{0}:_warmjoint_value {0}", option.value);
@@ -52,6 +55,7 @@ std::string ValueSpec(const OptionNode& option) {
 
 std::string OptionSpec(const OptionNode& option) {
   std::string text;
+  // every name of the option, with its words and its value
   for (const std::string& name : option.names) {
     text += fmt::format(" \\\n        '{}{}[{}]{}'", option.repeatable ? "*" : "", name,
                         Escaped(option.description), option.takes_value() ? ValueSpec(option) : "");
@@ -60,6 +64,7 @@ std::string OptionSpec(const OptionNode& option) {
 }
 
 std::string Arguments(const CommandNode& command) {
+  // options by name, arguments by their place
   std::string text = "      _arguments";
   for (const OptionNode& option : command.options) text += OptionSpec(option);
   for (std::size_t i = 0; i < command.arguments.size(); ++i) {
@@ -73,6 +78,7 @@ std::string Arguments(const CommandNode& command) {
 }  // namespace
 
 std::string ZshCompletion(const CommandNode& program) {
+  // what does not depend on the command line, then the list of subcommands
   std::string text = "#compdef warmjoint\n# made by: warmjoint completion zsh\n";
   text += kFunctions;
   text += "\n_warmjoint_commands() {\n  local -a commands\n  commands=(\n";
@@ -80,6 +86,8 @@ std::string ZshCompletion(const CommandNode& program) {
     text += fmt::format("    '{}:{}'\n", command.name, Escaped(command.description));
   }
   text += "  )\n  _describe command commands\n}\n";
+
+  // what stands behind the subcommand is completed by a case of its own
   text +=
       "\n_warmjoint() {\n  local state program=$words[1]\n  local -a line\n  typeset -A opt_args\n"
       "  _arguments -C '1:command:_warmjoint_commands' '*::argument:->rest'\n"

@@ -21,6 +21,7 @@ std::string_view Variable(const char* name) {
 }
 
 int WidthOf(int file, bool terminal) {
+  // what the user says, then what the terminal says, then the default
   const auto columns = ParseInteger(Variable("COLUMNS"));
   if (columns && IsWidth(static_cast<long>(*columns))) return static_cast<int>(*columns);
   winsize size{};
@@ -31,6 +32,7 @@ int WidthOf(int file, bool terminal) {
 }  // namespace
 
 Page PageOf(std::FILE* stream) {
+  // colour only for a terminal that has it and a user who wants it
   const int file = fileno(stream);
   const bool terminal = isatty(file) == 1;
   const std::string_view kind = Variable("TERM");
@@ -39,6 +41,7 @@ Page PageOf(std::FILE* stream) {
 }
 
 std::string Paint(std::string_view word, Colour colour, const Page& page) {
+  // green is good, yellow a warning, red a failure; all bold
   if (!page.colour) return std::string(word);
   const int code = colour == Colour::green ? 32 : colour == Colour::yellow ? 33 : 31;
   return fmt::format("\033[1;{}m{}\033[0m", code, word);

@@ -47,6 +47,7 @@ double ProgressLine::seconds() const {
 }
 
 std::string DurationInWords(double seconds) {
+  // in the two largest units; a bound keeps the rounding within a long
   const auto whole = static_cast<long>(std::lround(std::min(seconds, 1e15)));
   if (whole < 60) return fmt::format("{} s", whole);
   if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);

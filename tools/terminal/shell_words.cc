@@ -12,6 +12,7 @@ constexpr std::string_view kBlanks = " \t\r\n";
 
 /// Whether the word means itself to a shell.
 bool IsPlain(const std::string& word) {
+  // without blanks, quotes, wildcards and what else a shell may expand
   constexpr std::string_view plain = "_-./:=,+@%{}";
   return !word.empty() && std::all_of(word.begin(), word.end(), [&](char c) {
     const bool letter = ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z') || ('0' <= c && c <= '9');
@@ -28,6 +29,7 @@ std::string ShellQuoted(const std::string& word) {
 }
 
 std::string Replaced(std::string text, const std::string& from, const std::string& to) {
+  // the search goes on behind what was put in
   for (size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
     text.replace(at, from.size(), to);
   }
@@ -40,12 +42,17 @@ std::vector<std::string> SplitCommand(const std::string& command, const Place& p
   char quote = 0;
   for (size_t i = 0; i < command.size(); ++i) {
     const char c = command[i];
+    // a blank outside of quotes ends a word
     if (!quote && IsBlank(c)) {
       within = false;
       continue;
     }
+
+    // what else comes belongs to a word
     if (!within) words.emplace_back();
     within = true;
+
+    // quotes are taken off; a backslash keeps the next character as it is
     if (c == quote) {
       quote = 0;
     } else if (!quote && (c == '\'' || c == '"')) {

@@ -32,6 +32,7 @@ std::string_view TakeWord(std::string_view& text) {
 }  // namespace
 
 int ShownWidth(std::string_view text) {
+  // colours take no columns, other characters one each
   int width = 0;
   while (!text.empty()) {
     const std::size_t colour = ColourBytes(text);
@@ -42,12 +43,15 @@ int ShownWidth(std::string_view text) {
 }
 
 std::vector<std::string> WrapLine(std::string_view text, int width) {
+  // the text keeps its own indentation
   const std::size_t begin = std::min(text.find_first_not_of(' '), text.size());
   std::vector<std::string> lines;
   std::string line(text.substr(0, begin));
   text.remove_prefix(begin);
   int used = static_cast<int>(begin);
   bool fresh = true;
+
+  // word by word; one that does not fit begins a line, however long it is
   while (!text.empty()) {
     const std::string_view word = TakeWord(text);
     const int wide = ShownWidth(word);
@@ -57,6 +61,7 @@ std::vector<std::string> WrapLine(std::string_view text, int width) {
       used = 0;
       fresh = true;
     }
+    // a blank parts it from the word before
     if (!fresh) line += ' ';
     used += wide + (fresh ? 0 : 1);
     line += word;
@@ -68,6 +73,7 @@ std::vector<std::string> WrapLine(std::string_view text, int width) {
 
 std::string Wrap(std::string_view text, int width, int hanging) {
   std::string wrapped;
+  // each line of the text by itself, with its line break
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     const std::string_view line = text.substr(0, end);
@@ -81,6 +87,7 @@ std::string Wrap(std::string_view text, int width, int hanging) {
     // the first line has its own beginning, the others stand further in
     const int own = static_cast<int>(std::min(line.find_first_not_of(' '), line.size()));
     const int room = std::max(1, width - own - hanging);
+    // the rest stands further in, and has so much less room
     std::vector<std::string> first = WrapLine(line, width);
     wrapped += first.front();
     const std::size_t taken = std::min(first.front().size() + 1, line.size());
@@ -97,6 +104,7 @@ std::string Wrap(std::string_view text, int width, int hanging) {
 std::vector<std::string> Lines(std::string_view text) {
   std::vector<std::string> lines;
   while (!text.empty()) {
+    // a line break at the end begins no further line
     const std::size_t end = std::min(text.find('\n'), text.size());
     lines.emplace_back(text.substr(0, end));
     text.remove_prefix(std::min(end + 1, text.size()));
@@ -106,6 +114,7 @@ std::vector<std::string> Lines(std::string_view text) {
 
 std::string CutToWidth(std::string_view text, int width) {
   if (ShownWidth(text) <= width) return std::string(text);
+  // three dots stand for what is cut off, where there is room for them
   const int kept = std::max(0, width - 3);
   std::string_view rest = text;
   for (int i = 0; i < kept; ++i) rest.remove_prefix(CharacterBytes(rest));
