@@ -30,6 +30,7 @@ struct AttachArguments {
 /// KEY=VALUE of an option that may be given several times.
 std::pair<std::string, std::string> ReadPair(const std::string& text, const char* option,
                                              const char* form) {
+  // both sides must be there; the value may hold further equals signs
   const size_t equals = text.find('=');
   if (equals == 0 || equals == std::string::npos || equals + 1 == text.size()) {
     Refuse({option}, "is '{}'; it must be {}", Excerpt(text), form);
@@ -57,6 +58,7 @@ std::pair<std::string, double> ReadArmature(const std::string& text) {
 }
 
 AttachOptions ReadOptions(const AttachArguments& arguments) {
+  // texts of the command line become settings, which are then checked
   AttachSettings settings = arguments.settings;
   for (const std::string& text : arguments.armatures) {
     settings.armatures.push_back(ReadArmature(text));
@@ -69,6 +71,7 @@ AttachOptions ReadOptions(const AttachArguments& arguments) {
 
 ExitStatus Attach(const AttachArguments& arguments) {
   const AttachOptions options = ReadOptions(arguments);
+  // each --joint is read at once, and its file is an input that must stay
   std::vector<FrictionForJoint> frictions;
   std::vector<std::string> warnings;
   const std::filesystem::path model = FindRobot(arguments.model, "MODEL");
@@ -77,6 +80,8 @@ ExitStatus Attach(const AttachArguments& arguments) {
     frictions.push_back(ReadJoint(text, arguments.initial, warnings));
     inputs.emplace_back(text.substr(text.find('=') + 1));
   }
+
+  // nothing is written over, and every doubt of the estimates is told before the model is made
   KeepApart({arguments.output}, inputs);
   for (const std::string& warning : warnings) Say(stderr, "warning: {}\n", warning);
   const Attached attached = AttachFriction(model, frictions, arguments.output, options);
@@ -88,6 +93,7 @@ ExitStatus Attach(const AttachArguments& arguments) {
 }
 
 void AddModelOptions(CLI::App& parser, AttachArguments& arguments) {
+  // what changes of the model besides friction
   parser
       .add_option("--armature", arguments.armatures,
                   "NAME=VALUE or PATTERN=VALUE: armature of these joints, kg.m^2 or kg")
@@ -107,6 +113,7 @@ void AddModelOptions(CLI::App& parser, AttachArguments& arguments) {
 }  // namespace
 
 Command AddAttachCommand(CLI::App& program) {
+  // the model, and whose friction goes where
   auto arguments = std::make_shared<AttachArguments>();
   CLI::App* parser = program.add_subcommand("attach", "Friction onto the joints of any robot");
   parser
@@ -120,6 +127,8 @@ Command AddAttachCommand(CLI::App& program) {
       ->type_name("JOINT=FILE")
       ->required()
       ->take_all();
+
+  // how it acts, and how warm it begins
   AddChoice(*parser, "--as", arguments->settings.form, {"actuator", "passive"},
             "how friction acts");
   parser
@@ -127,6 +136,8 @@ Command AddAttachCommand(CLI::App& program) {
                    "heat at the start: cold, end (of the estimate's recording) or settled:SPEED")
       ->type_name("TEXT")
       ->capture_default_str();
+
+  // the rest of the model, and where it goes
   AddModelOptions(*parser, *arguments);
   parser->add_option("-o,--output", arguments->output, "the model with friction, MJCF")
       ->type_name("FILE")

@@ -12,6 +12,7 @@ namespace warmjoint::inline tools {
 namespace {
 
 ExitStatus Cancel(const std::filesystem::path& given) {
+  // the plan is read for its refusal alone: it tells a run from any other directory
   const std::filesystem::path run = std::filesystem::absolute(given).lexically_normal();
   ReadPlan(run);
   const std::vector<std::string> jobs = ReadSubmissions(run).Jobs();
@@ -19,6 +20,8 @@ ExitStatus Cancel(const std::filesystem::path& given) {
     Say(stdout, "{}: nothing was submitted\n", run.string());
     return ExitStatus::done;
   }
+
+  // jobs that are over already are no failure
   Scancel(jobs);
   Say(stdout,
       "{}: jobs {} are cancelled; what is finished is kept, `warmjoint status {} --resubmit` goes "

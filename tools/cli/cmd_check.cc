@@ -32,6 +32,7 @@ struct CheckArguments {
 
 /// The kept segments of a recording, a line for each. number: of the recording, from 1.
 void AppendSegments(const PreparedLog& log, int number, std::string& csv) {
+  // a line for each stretch of constant speed, with the samples that take part
   const auto& [m, selection] = log.steady();
   for (const Segment& segment : selection.segments) {
     const auto kept = selection.keep.segment(segment.begin, segment.end - segment.begin).count();
@@ -50,6 +51,7 @@ void Draw(const PreparedLog& log, const std::string& file, const report::PageSet
 CheckedFile CheckOne(const RecordingArguments& arguments, const std::string& path,
                      std::optional<PreparedLog>& log) {
   RecordingArguments one = arguments;
+  // read alone, so that a refusal is its own
   one.recordings = {path};
   try {
     Measurements recording = std::move(ReadRecordings(one).front());
@@ -78,6 +80,7 @@ nlohmann::json Json(const std::vector<CheckedFile>& files) {
 }
 
 ExitStatus Check(const CheckArguments& arguments) {
+  // outputs are refused before any time is spent
   const std::vector<std::filesystem::path> outputs{arguments.segments, arguments.plot};
   report::PageSetting setting;
   if (!arguments.plot.empty()) {
@@ -87,7 +90,10 @@ ExitStatus Check(const CheckArguments& arguments) {
   KeepApart(outputs,
             {arguments.recording.recordings.begin(), arguments.recording.recordings.end()});
 
+  // options that make no layout are refused for all of them at once
   LayoutOf(arguments.recording);
+
+  // each recording by itself, so that one cannot spoil the others
   std::vector<CheckedFile> files;
   std::string segments = "recording,begin,end,velocity,samples\n";
   Activity activity("reading the recording");
@@ -96,10 +102,13 @@ ExitStatus Check(const CheckArguments& arguments) {
     std::optional<PreparedLog> log;
     files.push_back(CheckOne(arguments.recording, path, log));
     if (!log) continue;
+    // numbers and picture of what could be read
     AppendSegments(*log, static_cast<int>(files.size()), segments);
     if (files.size() == 1 && !arguments.plot.empty()) Draw(*log, arguments.plot, setting);
   }
   if (!arguments.segments.empty()) WriteWholeFile(arguments.segments, segments);
+
+  // words and numbers keep apart where an output is standard output
   std::FILE* const words = WordsBeside(outputs);
   activity.Aside([&] {
     if (arguments.format == "json") {
@@ -108,6 +117,8 @@ ExitStatus Check(const CheckArguments& arguments) {
       SayText(words, Text(files, PageOf(words).width));
     }
   });
+
+  // a recording that could not be read makes the whole fail
   const bool all_read =
       std::ranges::all_of(files, [](const CheckedFile& file) { return file.check.has_value(); });
   return all_read ? ExitStatus::done : ExitStatus::bad_input;
@@ -119,6 +130,7 @@ Command AddCheckCommand(CLI::App& program) {
   auto arguments = std::make_shared<CheckArguments>();
   CLI::App* parser =
       program.add_subcommand("check", "What a log holds, and what can be identified from it");
+  // how recordings are read, then what is made of them
   AddRecordingOptions(*parser, arguments->recording);
   AddHoldOptions(*parser, arguments->recording.holds);
   parser
@@ -130,6 +142,7 @@ Command AddCheckCommand(CLI::App& program) {
                    "picture of the (first) recording with its kept segments: .png, .svg or .pdf")
       ->type_name("FILE");
   AddChoice(*parser, "--format", arguments->format, {"text", "json"}, "of what is printed");
+  // the project file counts before anything is read
   return {parser, [arguments, parser] {
             TakeProject(*parser, arguments->recording);
             return Check(*arguments);

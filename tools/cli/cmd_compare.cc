@@ -20,6 +20,7 @@ struct CompareArguments {
 
 std::vector<NamedBoard> ReadBoards(const std::vector<std::string>& runs) {
   std::vector<NamedBoard> boards;
+  // an edited copy of a suite is told of, and the stored one counts
   for (const std::string& run : runs) {
     const RunStore store = RunStore::OpenToRead(run);
     TellOfEditedSuite(store);
@@ -30,10 +31,12 @@ std::vector<NamedBoard> ReadBoards(const std::vector<std::string>& runs) {
 
 ExitStatus Compare(const CompareArguments& arguments) {
   const std::vector<NamedBoard> boards = ReadBoards(arguments.runs);
+  // the format that was asked for; several runs stand in one table
   for (const BoardFormat& format : BoardFormats()) {
     if (format.name != arguments.format) continue;
     const std::string text =
         boards.size() == 1 ? format.write(boards[0].board) : format.join(boards);
+    // for people, wrapped where they read it; for programs, as it is
     if (format.name == "text") {
       SayText(stdout, text);
     } else {

@@ -21,6 +21,7 @@ const std::string kVersion = "warmjoint " WARMJOINT_VERSION;
 
 /// The command of that name in the tree, which may be the program itself.
 const CommandNode& FindCommand(const CommandNode& program, const std::string& name) {
+  // an empty name stands for the program
   std::vector<std::string> names;
   for (const CommandNode& command : program.commands) {
     if (command.name == name) return command;
@@ -45,6 +46,7 @@ ExitStatus Complete(const CommandNode& program, const std::string& shell,
 /// Every page into a folder, which is made where it is absent.
 void WritePages(const CommandNode& program, const fs::path& folder) {
   fs::create_directories(folder);
+  // the program's own page, then one for each subcommand
   WriteWholeFile(folder / (program.name + ".1"), ManPage(program, "", kVersion));
   for (const CommandNode& command : program.commands) {
     const std::string name = ManName(command, program.name);
@@ -54,6 +56,7 @@ void WritePages(const CommandNode& program, const fs::path& folder) {
 
 ExitStatus Man(const CommandNode& program, const std::string& name, const std::string& folder) {
   const CommandNode& command = FindCommand(program, name);
+  // one page to read, or all pages to install
   if (folder.empty()) {
     fmt::print("{}", ManPage(command, Before(program, command), kVersion));
     return ExitStatus::done;
@@ -76,6 +79,7 @@ ExitStatus Help(const CommandNode& program, const std::string& name) {
 Command AddCompletionCommand(CLI::App& program) {
   auto shell = std::make_shared<std::string>();
   auto output = std::make_shared<std::string>("-");
+  // - writes to standard output
   CLI::App* parser =
       program.add_subcommand("completion", "Completion of this command line for a shell");
   parser->footer(
@@ -91,6 +95,7 @@ Command AddCompletionCommand(CLI::App& program) {
 }
 
 Command AddManCommand(CLI::App& program) {
+  // without a name the program's own page
   auto name = std::make_shared<std::string>();
   auto folder = std::make_shared<std::string>();
   CLI::App* parser = program.add_subcommand("man", "Manual page of a command, for man(1)");

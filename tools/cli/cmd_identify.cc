@@ -31,6 +31,7 @@ namespace {
 
 /// What --holdout asks for.
 HoldOutSource ReadHoldOut(const IdentifyArguments& arguments) {
+  // a number is a share; what is none names another recording
   const std::optional<double> fraction = ParseNumber(arguments.holdout);
   if (!fraction) {
     RecordingArguments other = arguments.recording;
@@ -48,10 +49,13 @@ void CheckOutput(const std::string& path) {
 /// measurements: of the log that the estimate tells of.
 void WriteOutputs(const IdentifyArguments& arguments, const Estimate& estimate,
                   const Measurements& measurements, Activity& activity) {
+  // the estimate, where it is asked for
   if (!arguments.output.empty()) {
     WriteWholeFile(arguments.output, EstimateFile(estimate, arguments.recording, arguments.output,
                                                   arguments.settings.follows));
   }
+
+  // a model for MuJoCo needs a friction that can be trusted
   if (arguments.mjcf.empty()) return;
   if (!estimate.friction) {
     activity.Aside(
@@ -67,11 +71,14 @@ std::vector<std::filesystem::path> OutputsOf(const IdentifyArguments& arguments)
 
 /// Refuses outputs that are inputs too, or cannot be written, before any time is spent.
 void CheckOutputs(const IdentifyArguments& arguments) {
+  // the recording, and what else is read, must not be written over
   std::vector<std::filesystem::path> inputs(arguments.recording.recordings.begin(),
                                             arguments.recording.recordings.end());
   inputs.emplace_back(arguments.holdout);
   inputs.emplace_back(arguments.follow.file);
   KeepApart(OutputsOf(arguments), inputs);
+
+  // every output can be opened, and its name tells a format that there is
   CheckOutput(arguments.output);
   CheckOutput(arguments.mjcf);
   CheckOutput(arguments.plot);
@@ -82,15 +89,20 @@ void CheckOutputs(const IdentifyArguments& arguments) {
 ExitStatus Deliver(const IdentifyArguments& arguments, const Identified& identified,
                    const PreparedLog& log, Activity& activity) {
   const Measurements& measurements = log.taken().measurements;
+  // friction in amperes is no use to MuJoCo and is left out of what is written
   const auto& [estimate, shown] = identified;
   Estimate written = estimate;
   const std::string notice = TakeBackAmperes(measurements, written);
   if (!notice.empty()) activity.Aside([&] { SayNotice("{}\n", notice); });
+
+  // files and picture first, so that words follow what is there
   WriteOutputs(arguments, written, measurements, activity);
   if (!arguments.plot.empty()) {
     activity.Is("drawing " + arguments.plot);
     report::WriteFitPage(log, shown, arguments.plot);
   }
+
+  // then the words, in the format that was asked for
   std::FILE* const words = WordsBeside(OutputsOf(arguments));
   activity.Aside([&] {
     if (arguments.format == "json") {
@@ -108,12 +120,15 @@ ExitStatus Deliver(const IdentifyArguments& arguments, const Identified& identif
 
 /// A command of the user's in the place of an identifier.
 ExitStatus AskCommand(const IdentifyArguments& arguments) {
+  // all that can be refused is, before the command is started
   if (arguments.follow.are_given()) {
     Refuse({"--follows"}, "is for identifiers of the list: a command learns nothing of it");
   }
   const CommandTask task = CheckCommand(SettingsOf(arguments, arguments.identifiers.front()));
   CheckOutputs(arguments);
   TellWall({task.command}, {});
+
+  // the same log and the same judgement as for an identifier of the list
   Activity activity("reading the recording");
   const HoldOutSource holdout = ReadHoldOut(arguments);
   const PreparedLog log = ReadAndPrepare(arguments.recording);
@@ -122,6 +137,7 @@ ExitStatus AskCommand(const IdentifyArguments& arguments) {
     const Estimate estimate = IdentifyByCommand(task, log, holdout);
     return Deliver(arguments, {estimate, estimate}, log, activity);
   } catch (const NoAnswer& failure) {
+    // without an answer there is nothing that can be trusted
     activity.Aside([&] {
       Say(stderr, "{} gave no answer ({}): {}\n", task.command.label, failure.status,
           failure.what());
@@ -132,6 +148,7 @@ ExitStatus AskCommand(const IdentifyArguments& arguments) {
 
 /// Adds the heat that an earlier recording left, and tells it.
 void TakeFollowed(const PreparedLog& log, Activity& activity, IdentifyArguments& arguments) {
+  // read and, where it has no estimate yet, identified by the same settings
   if (!arguments.follow.are_given()) return;
   activity.Is("following " + arguments.follow.file);
   arguments.settings.follows =
@@ -148,13 +165,18 @@ ExitStatus Identify(IdentifyArguments arguments) {
 
   // everything that can be refused is, before any time is spent
   IdentifySettings asked = SettingsOf(arguments, identifier);
+  // a stand-in for the heat, which reading will tell
   if (arguments.follow.are_given()) asked.follows = CarriedHeat{{}, 0, {}, {}, {0}, {0}};
   CheckSettings(asked, JointOf(arguments.recording));
   CheckOutputs(arguments);
+
+  // what is held out, the log, and the heat that an earlier recording left
   Activity activity("reading the recording");
   const HoldOutSource holdout = ReadHoldOut(arguments);
   const PreparedLog log = ReadAndPrepare(arguments.recording);
   TakeFollowed(log, activity, arguments);
+
+  // now with the heat that was carried over
   const IdentifyTask task =
       CheckSettings(SettingsOf(arguments, identifier), JointOf(arguments.recording));
   const std::string fitting = fmt::format("fitting {} to {} samples", task.identifier.name,
@@ -169,8 +191,11 @@ ExitStatus Identify(IdentifyArguments arguments) {
 Command AddIdentifyCommand(CLI::App& program) {
   auto arguments = std::make_shared<IdentifyArguments>();
   CLI::App* parser = program.add_subcommand("identify", "Friction from a log of one joint");
+  // how the recording is read
   AddRecordingOptions(*parser, arguments->recording);
   AddHoldOptions(*parser, arguments->recording.holds);
+
+  // which identifier, and what it is told
   parser
       ->add_option("--identifier", arguments->identifiers,
                    "see: warmjoint list identifiers; or a command of your own, as "
@@ -185,6 +210,8 @@ Command AddIdentifyCommand(CLI::App& program) {
   AddChoice(*parser, "--motion", arguments->settings.motion, {"chosen", "constant", "any"},
             "constant: samples at constant speed; any: all that move, with the inertia beside the "
             "friction; chosen: any where the log holds no speeds");
+
+  // what else the verdict and its figures go by
   parser
       ->add_option(
           "--holdout", arguments->holdout,
@@ -204,6 +231,8 @@ Command AddIdentifyCommand(CLI::App& program) {
   parser->add_option("--set", arguments->set, "option of the identifier, as law=asymmetric")
       ->type_name("KEY=VALUE")
       ->take_all();
+
+  // what is written, and how much is said
   parser->add_option("-o,--output", arguments->output, "estimate.json; -: standard output")
       ->type_name("FILE");
   parser
@@ -219,6 +248,7 @@ Command AddIdentifyCommand(CLI::App& program) {
   parser->add_flag("--force", arguments->force,
                    "show the numbers of an inadequate model with their intervals and write its\n"
                    "friction, all void; status and exit status 3 stay");
+  // the project file counts before anything is read
   return {parser, [arguments, parser] {
             TakeProject(*parser, arguments->recording);
             return Identify(*arguments);

@@ -24,6 +24,7 @@ struct ListArguments {
 /// The member of that name; all of them where it is empty.
 nlohmann::ordered_json Members(const Family& family, const std::string& name) {
   if (name.empty()) return family.members();
+  // one by its name; what is none is refused with the nearest
   std::vector<std::string> names;
   for (nlohmann::ordered_json& member : family.members()) {
     if (member["name"] == name) return nlohmann::ordered_json::array({std::move(member)});
@@ -34,6 +35,7 @@ nlohmann::ordered_json Members(const Family& family, const std::string& name) {
 }
 
 std::string Text(const Family& family, const ListArguments& arguments) {
+  // all in short, or one in full
   const int width = PageOf(stdout).width;
   std::string text;
   for (const nlohmann::ordered_json& member : Members(family, arguments.member)) {
@@ -44,6 +46,7 @@ std::string Text(const Family& family, const ListArguments& arguments) {
 }
 
 ExitStatus List(const ListArguments& arguments) {
+  // the chosen family in the chosen form
   for (const Family& family : Families()) {
     if (family.name != arguments.family) continue;
     if (arguments.format == "names") {

@@ -21,6 +21,7 @@ struct MergeArguments {
 
 /// Says which realizations no shard holds.
 void TellMissing(const std::set<Unit>& missing) {
+  // a few of them show where the hole is
   constexpr std::size_t most = 10;
   std::vector<std::string> shown;
   for (const Unit& unit : missing) {
@@ -43,14 +44,18 @@ ExitStatus MergeInPlace(const std::filesystem::path& given) {
 }
 
 ExitStatus Merge(const MergeArguments& arguments) {
+  // without -o only a planned run can be merged, into itself
   if (arguments.output.empty()) {
     if (arguments.shards.size() == 1) return MergeInPlace(arguments.shards.front());
     Refuse({"warmjoint merge"}, "several shards need -o, the run directory to make");
   }
+
+  // shards that overlap are refused here: each realization has one place
   const MergedRun merged =
       MergeRuns(arguments.shards, arguments.output, {Overlap::refused, Access::read, &WriteTables});
   Say(stdout, "{}: {} shards, {} of {} realizations\n", arguments.output, arguments.shards.size(),
       merged.units - merged.missing.size(), merged.units);
+  // what is missing is no failure, but then the whole says nothing yet
   if (!merged.missing.empty()) TellMissing(merged.missing);
   return TellEnding(arguments.output, EndingOf(RunStore::OpenToRead(arguments.output)),
                     merged.missing.empty() ? RunPart::whole : RunPart::shard);

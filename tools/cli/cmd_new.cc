@@ -41,6 +41,7 @@ struct NewArguments {
 /// The text with every "NAME" replaced.
 std::string Named(std::string text, const std::string& name) {
   constexpr std::string_view mark = "NAME";
+  // the search goes on behind what was put in
   for (size_t at = text.find(mark); at != std::string::npos;
        at = text.find(mark, at + name.size())) {
     text.replace(at, mark.size(), name);
@@ -50,6 +51,7 @@ std::string Named(std::string text, const std::string& name) {
 
 /// Names become files, labels of rows and words of a shell: letters, digits, - and _ do for all.
 void CheckName(const std::string& name) {
+  // ASCII alone: the locale must not decide
   const bool plain = std::all_of(name.begin(), name.end(), [](unsigned char c) {
     return c < 0x80 && (std::isalnum(c) || c == '-' || c == '_');
   });
@@ -59,6 +61,7 @@ void CheckName(const std::string& name) {
 }
 
 ExitStatus MakeNew(const NewArguments& arguments) {
+  // a name that is safe everywhere, and a file that is not there yet
   CheckName(arguments.name);
   const auto chosen = std::find_if(std::begin(kTemplates), std::end(kTemplates),
                                    [&](const Template& one) { return one.kind == arguments.kind; });
@@ -67,6 +70,8 @@ ExitStatus MakeNew(const NewArguments& arguments) {
   if (fs::exists(fs::symlink_status(target))) {
     Refuse({target.string()}, "exists already; choose another name");
   }
+
+  // the template with the name in it, and the command to try it
   WriteWholeFile(target, Named(ReadWholeFile(source), arguments.name));
   Say(stdout, "{}: try it as it stands:\n  {}\n", target.string(),
       Named(chosen->next, arguments.name));
@@ -79,6 +84,7 @@ Command AddNewCommand(CLI::App& program) {
   auto arguments = std::make_shared<NewArguments>();
   CLI::App* parser =
       program.add_subcommand("new", "A commented scenario, suite or identifier to begin with");
+  // kinds are those of the templates
   std::vector<std::string> kinds;
   for (const Template& one : kTemplates) kinds.emplace_back(one.kind);
   AddChoice(*parser, "KIND", arguments->kind, kinds, "what to begin")->required();

@@ -44,11 +44,14 @@ class Album {
       : setting_(setting), activity_(activity) {}
 
   void Draw(const report::Figure& figure, const fs::path& folder) {
+    // the file is called as the figure
     const fs::path path = PathOf(figure.name, setting_.format, folder);
     activity_.Is("drawing " + path.string());
     const report::PictureFile file = report::EncodeFigure(figure, setting_);
     WriteWholeFile(path, file.bytes);
     Tell(path, file.caption);
+
+    // the contact sheet shows the first of each kind
     const bool is_new = std::none_of(pages_.begin(), pages_.end(),
                                      [&](const auto& page) { return page.name == figure.name; });
     if (is_new) pages_.push_back(figure);
@@ -62,12 +65,15 @@ class Album {
   }
 
   void DrawFilm(const std::vector<report::Figure>& film, const fs::path& folder) {
+    // only PNG knows frames, and not every source moves
     if (film.empty() || setting_.format != report::FileFormat::png) return;
     std::vector<report::Image> frames;
     for (const report::Figure& frame : film) {
       activity_.Is(fmt::format("drawing frame {} of {}", frames.size() + 1, film.size()));
       frames.push_back(report::Shrink(report::DrawFigure(frame).image, report::kPixelsPerPoint));
     }
+
+    // all frames in one file
     const fs::path path = PathOf(film.front().name, report::FileFormat::png, folder);
     WriteWholeFile(path, report::EncodeFilm(frames, kFrameSeconds, film.front().title));
     Tell(path, fmt::format("{}, {} frames", film.front().title, frames.size()));
@@ -75,6 +81,7 @@ class Album {
 
   void WriteSheet(const fs::path& path) {
     if (pages_.empty()) return;
+    // a picture like the others, but as high as it needs to be
     const report::Figure sheet = report::MakeContactSheet(pages_);
     report::PageSetting setting = setting_;
     setting.format = report::FormatOf(path.string());
@@ -100,12 +107,14 @@ class Album {
 
 /// The folder of each source: DIR for one, DIR/NAME for several.
 std::vector<fs::path> FoldersOf(const PlotArguments& arguments) {
+  // each by its own name, without what stands before and behind it
   if (arguments.sources.size() == 1) return {arguments.output};
   std::vector<fs::path> folders;
   std::set<fs::path> taken;
   for (const std::string& source : arguments.sources) {
     const fs::path name = fs::path(source).lexically_normal();
     folders.push_back(arguments.output / (name.has_filename() ? name : name.parent_path()).stem());
+    // two of one name would draw over each other
     if (!taken.insert(folders.back()).second) {
       Refuse({source}, "two sources would fill {}: draw them one at a time",
              folders.back().string());
@@ -116,6 +125,7 @@ std::vector<fs::path> FoldersOf(const PlotArguments& arguments) {
 
 /// Says which figures of its family a source does not give, and why.
 void TellLeftOut(const std::string& source, const SourcePictures& pictures) {
+  // figures that need the same are told together
   std::map<std::string, std::vector<std::string>> by_need;
   for (const auto& [name, need] : pictures.left_out) by_need[need].push_back(name);
   std::vector<std::string> clauses;
@@ -128,7 +138,7 @@ void TellLeftOut(const std::string& source, const SourcePictures& pictures) {
 
 ExitStatus PlotSources(const PlotArguments& arguments) {
   const std::vector<fs::path> folders = FoldersOf(arguments);
-  // refused before the pictures are drawn; it is made anew when they are
+  // refused before the pictures are drawn; the sheet is written once all of them are
   const report::PageSetting setting = SettingOf(arguments.pictures);
   if (!arguments.sheet.empty()) {
     report::FormatOf(arguments.sheet);
@@ -140,11 +150,14 @@ ExitStatus PlotSources(const PlotArguments& arguments) {
   for (std::size_t i = 0; i < folders.size(); ++i) {
     activity.Is("reading " + arguments.sources[i]);
     SourcePictures pictures = PicturesOf(arguments.sources[i], arguments.recording);
+    // without --figure the whole family with its film, and word of what it lacks
     const bool all = arguments.pictures.figures.empty();
     if (!all) pictures.film.clear();
     if (all) activity.Aside([&] { TellLeftOut(arguments.sources[i], pictures); });
     const std::vector<report::Figure> figures =
         Chosen(arguments.pictures, arguments.sources[i], pictures);
+
+    // their folder, made where it is absent
     std::error_code error;
     fs::create_directories(folders[i], error);
     if (error || !fs::is_directory(folders[i])) {
@@ -169,6 +182,8 @@ ExitStatus PlotSources(const PlotArguments& arguments) {
       estimates.emplace_back(name, *std::move(pictures.estimate));
     }
   }
+
+  // several estimates in one figure
   const bool all_figures = arguments.pictures.figures.empty();
   if (const auto overlay = report::MakeOverlay(estimates); overlay && all_figures) {
     album.Draw(*overlay, arguments.output);
@@ -183,6 +198,7 @@ ExitStatus PlotSources(const PlotArguments& arguments) {
 Command AddPlotCommand(CLI::App& program) {
   auto arguments = std::make_shared<PlotArguments>();
   CLI::App* parser = program.add_subcommand("plot", "Pictures as PNG, SVG or PDF files");
+  // what is drawn, and where to
   parser
       ->add_option("SOURCE", arguments->sources,
                    "directory of `run` or `simulate`, estimate file, or `kernels` (normalised and "
@@ -192,11 +208,15 @@ Command AddPlotCommand(CLI::App& program) {
   parser->add_option("-o,--output", arguments->output, "directory for the pictures; made if absent")
       ->type_name("DIR")
       ->required();
+
+  // whose data is shown
   parser
       ->add_option("--recording", arguments->recording.recordings,
                    "data of an estimate, instead of the files that it remembers")
       ->type_name("RECORDING");
   AddLayoutOptions(*parser, arguments->recording);
+
+  // how it looks
   AddPictureOptions(*parser, arguments->pictures);
   parser->add_flag("--data", arguments->data,
                    "also the series of each picture, before thinning, as NAME.csv");

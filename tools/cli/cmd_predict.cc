@@ -37,6 +37,7 @@ struct Begin {
 };
 
 CourseStart StartWith(const std::vector<double>& energies) {
+  // E1 and E2; without warming there is none
   CourseStart start;
   if (!energies.empty()) start.energy = energies[0];
   if (energies.size() > 1) start.second_energy = energies[1];
@@ -45,10 +46,13 @@ CourseStart StartWith(const std::vector<double>& energies) {
 
 Begin BeginOf(const PredictArguments& arguments, const StoredModel& stored,
               const Measurements& next) {
+  // as --initial has it
   if (!arguments.follow.are_given()) {
     return {StartWith(InitialEnergy(arguments.initial, stored.model.friction, arguments.estimate)),
             arguments.initial, std::nullopt};
   }
+
+  // as an earlier recording left it
   const CarriedHeat carried = HeatBefore(arguments.follow, arguments.recording, stored, next);
   return {
       StartWith(carried.energy),
@@ -58,6 +62,7 @@ Begin BeginOf(const PredictArguments& arguments, const StoredModel& stored,
 
 /// Refuses what cannot be had together, before any time is spent.
 void CheckStart(const PredictArguments& arguments) {
+  // both tell the same heat
   CheckFollow(arguments.follow, arguments.recording);
   if (!arguments.follow.are_given() || arguments.initial == "cold") return;
   Refuse({"--follows"},
@@ -66,6 +71,7 @@ void CheckStart(const PredictArguments& arguments) {
 
 std::string PredictedToText(const PredictArguments& arguments, const StoredModel& stored,
                             const Predicted& predicted, const Begin& begin, int width) {
+  // how far prediction and record are apart
   const Metrics& metrics = predicted.metrics;
   const std::string& unit = predicted.measurements.torque_unit;
   Table table{
@@ -76,6 +82,7 @@ std::string PredictedToText(const PredictArguments& arguments, const StoredModel
   std::string text = fmt::format("{} of {} ({})\n\n", stored.identifier, arguments.estimate,
                                  StatusName(stored.status)) +
                      TableToText(table, 1, width);
+  // how warm the joint has become
   if (stored.model.friction.thermal) {
     text += fmt::format("\nE at the end: {:.4g} {} (begun {})\n",
                         predicted.torque.friction.energy.tail<1>()[0], unit, begin.words);
@@ -84,6 +91,7 @@ std::string PredictedToText(const PredictArguments& arguments, const StoredModel
 }
 
 ExitStatus Predict(const PredictArguments& arguments) {
+  // what is read must not be written over, and all that can be refused is first
   std::vector<std::filesystem::path> inputs(arguments.recording.recordings.begin(),
                                             arguments.recording.recordings.end());
   inputs.emplace_back(arguments.estimate);
@@ -93,13 +101,16 @@ ExitStatus Predict(const PredictArguments& arguments) {
   if (!arguments.output.empty()) AtomicFile{arguments.output};
 
   Activity activity("reading the recording");
+  // the estimate, the log, and the heat between them
   const StoredModel stored = ReadStoredModel(arguments.estimate);
   const PreparedLog log = ReadAndPrepare(arguments.recording);
   const Begin begin = BeginOf(arguments, stored, log.taken().measurements);
+  // what the friction says of the log, and what the log says of it
   const Predicted predicted = PredictLog(stored, log, begin.start);
   if (!arguments.output.empty()) WriteWholeFile(arguments.output, PredictedToCsv(predicted));
   std::FILE* const words = WordsBeside({arguments.output});
   activity.Aside([&] {
+    // void numbers are shown, since they were asked for
     if (stored.status != Status::ok) {
       Say(stderr, "{} is {}: its friction is void, and so is what it predicts\n",
           arguments.estimate, StatusName(stored.status));
@@ -119,6 +130,7 @@ ExitStatus Predict(const PredictArguments& arguments) {
 
 Command AddPredictCommand(CLI::App& program) {
   auto arguments = std::make_shared<PredictArguments>();
+  // the estimate, the recording, and how it is read
   CLI::App* parser = program.add_subcommand(
       "predict", "What a stored estimate predicts of another recording, and how well");
   parser
@@ -127,6 +139,8 @@ Command AddPredictCommand(CLI::App& program) {
       ->required();
   AddRecordingOptions(*parser, arguments->recording);
   AddHoldOptions(*parser, arguments->recording.holds);
+
+  // with which heat it begins
   parser
       ->add_option("--initial", arguments->initial,
                    "heat at the first sample: cold; end, that at the end of the estimate's own "
@@ -134,6 +148,8 @@ Command AddPredictCommand(CLI::App& program) {
       ->type_name("cold|end|settled:SPEED")
       ->capture_default_str();
   AddFollowOptions(*parser, arguments->follow);
+
+  // what is written and printed
   parser
       ->add_option("-o,--output", arguments->output,
                    "CSV of time, position, velocity, torque, predicted, residual, energy and "

@@ -46,6 +46,7 @@ struct Page {
 
 /// Position of the best identifier of the suite that is none from outside; nothing where all are.
 std::optional<std::size_t> BestOfOurs(const report::RunPage& page) {
+  // by rank on the board, then by its place in the suite
   for (const LeaderboardRow& best : page.view.board.rows) {
     for (std::size_t i = 0; i < page.suite.identifiers.size(); ++i) {
       const SuiteIdentifier& identifier = page.suite.identifiers[i];
@@ -58,11 +59,13 @@ std::optional<std::size_t> BestOfOurs(const report::RunPage& page) {
 /// Torque and fit of the extremes of that identifier, each simulated and identified once more; or why there
 /// are none.
 void ReplayExtremes(report::RunPage& page, Activity& activity) {
+  // what the page says where it shows no extremes
   page.without_extremes = "No identifier of warmjoint's own gave numbers that could be shown.";
   const std::optional<std::size_t> best = BestOfOurs(page);
   if (!best) return;
   const report::RunRow& row = page.view.rows[*best];
   std::vector<report::ReplayedExtreme> replayed;
+  // the extremes are simulated again by their seed, and identified again
   try {
     for (const report::Extreme& extreme : report::ExtremesOf(row)) {
       activity.Is(fmt::format("simulating the {} realization again", extreme.rank));
@@ -71,6 +74,7 @@ void ReplayExtremes(report::RunPage& page, Activity& activity) {
                           report::MakeFitView(again.log, again.estimate)});
     }
   } catch (const BadInput& refusal) {
+    // a realization that cannot be repeated is no reason to lose the page
     page.without_extremes = fmt::format("No realization is shown: {}.", refusal.what());
     return;
   }
@@ -80,10 +84,12 @@ void ReplayExtremes(report::RunPage& page, Activity& activity) {
 Page RunReport(const ReportArguments& arguments, Activity& activity) {
   const RunStore store = RunStore::OpenToRead(arguments.source);
   TellOfEditedSuite(store);
+  // all that the run itself gives
   report::RunPage page{report::ReadRunView(store), StoredSuite(store), store.ReadDescription(), {}};
   for (const report::RunFigure& figure : report::RunFigures()) {
     if (auto made = figure.make(page.view)) page.figures.push_back(*std::move(made));
   }
+  // then what is simulated again for this page
   ReplayExtremes(page, activity);
   activity.Is(fmt::format("drawing {} pictures", page.figures.size()));
   const fs::path beside = fs::path(arguments.source) / "report.html";
@@ -105,14 +111,17 @@ bool IsRecording(const fs::path& source) {
 /// Of a log that is identified here, so that the page can show a void fit, too.
 std::string RecordingReport(const ReportArguments& arguments, Activity& activity) {
   const RecordingArguments& recording = arguments.recording;
+  // identified as `identify` would
   IdentifySettings settings = arguments.settings;
   settings.options = ReadPairs(arguments.set, "--set");
   const IdentifyTask task = CheckSettings(settings, JointOf(recording));
   const PreparedLog log = ReadAndPrepare(recording);
   activity.Is(fmt::format("fitting {} to {} samples", task.identifier.name,
                           log.taken().measurements.size()));
+  // of a void fit the numbers too
   const Estimate shown = IdentifyLog(task, log, HoldOutSource{}).shown;
   activity.Is("drawing");
+  // the command line that makes the same estimate
   std::vector<std::string> words{"warmjoint", "identify"};
   const std::vector<std::string> typed = WordsOf(recording);
   words.insert(words.end(), typed.begin(), typed.end());
@@ -124,6 +133,7 @@ std::string RecordingReport(const ReportArguments& arguments, Activity& activity
 
 /// Of an estimate file, with the recording that it remembers.
 std::string EstimateReport(const ReportArguments& arguments) {
+  // the estimate, and the recording that it remembers
   const nlohmann::json file = ReadJsonFile(arguments.source);
   const Estimate estimate = EstimateFromJson(file, {arguments.source});
   if (!file.contains("recording")) {
@@ -131,6 +141,7 @@ std::string EstimateReport(const ReportArguments& arguments) {
   }
   const RecordingArguments recording = RecordingFromJson(file["recording"], {arguments.source});
   const PreparedLog log = ReadAndPrepare(recording);
+  // of a refused estimate the fit is made again, so that the page can show it
   return LogReport(
       log, WithFitAgain(estimate, log),
       {JoinCommand({"warmjoint", "report", arguments.source, "-o", arguments.output})});
@@ -139,6 +150,7 @@ std::string EstimateReport(const ReportArguments& arguments) {
 ExitStatus Report(const ReportArguments& arguments) {
   SettleArithmetic();
   Activity activity("reading " + arguments.source);
+  // a run by its directory, a log by its file
   if (!fs::exists(arguments.source)) {
     Refuse({arguments.source},
            "is not there; give a directory of `run`, a recording or an estimate file");
@@ -147,6 +159,7 @@ ExitStatus Report(const ReportArguments& arguments) {
   if (fs::is_directory(arguments.source)) {
     page = RunReport(arguments, activity);
   } else {
+    // a log has no place of its own for the page
     if (arguments.output.empty()) {
       Refuse({arguments.source}, "is a log: name the page that is to be made, as -o page.html");
     }
@@ -155,6 +168,8 @@ ExitStatus Report(const ReportArguments& arguments) {
     page = {arguments.output, IsEstimate(arguments.source) ? EstimateReport(arguments)
                                                            : RecordingReport(arguments, activity)};
   }
+
+  // the page as a whole, and where it lies
   WriteWholeFile(page.target, page.html);
   activity.Aside([&] { fmt::print(WordsBeside({page.target}), "{}\n", page.target.string()); });
   return ExitStatus::done;

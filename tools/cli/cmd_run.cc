@@ -24,13 +24,16 @@ constexpr std::uint64_t kLargestSeed = std::numeric_limits<std::uint64_t>::max()
 
 ExitStatus Run(RunArguments arguments) {
   SettleArithmetic();
+  // a suite by its name or file, in shards or here
   arguments.suite = FindSuite(arguments.suite);
   if (arguments.in_shards()) return RunInShards(arguments);
   RefuseShardOptions(arguments);
 
   const RunTask task = PrepareRun(arguments);
   RunStore store = RunStore::CreateOrResume(arguments.output, task.description);
+  // who brought commands along is told what keeps them apart
   TellWall(task.suite.identifiers, {arguments.suite, arguments.output});
+  // interrupts end the run after the realizations in hand
   CatchInterrupts();
   const RunOutcome outcome =
       RunSuite(task.suite, task.identifiers, {task.jobs, task.shard, arguments.keep}, store);
@@ -40,6 +43,7 @@ ExitStatus Run(RunArguments arguments) {
         outcome.finished, outcome.total);
     return ExitStatus::interrupted;
   }
+  // tables and words of a run that is over; a shard says little by itself
   return TellEnding(store.directory(), EndRun(store),
                     task.shard.IsWhole() ? RunPart::whole : RunPart::shard);
 }
@@ -50,6 +54,7 @@ Command AddRunCommand(CLI::App& program) {
   auto arguments = std::make_shared<RunArguments>();
   CLI::App* parser = program.add_subcommand(
       "run", "Run a suite: realizations, identifiers, scores; resumes where it stopped");
+  // what is run, and where it is kept
   parser
       ->add_option("SUITE", arguments->suite, "suite file (YAML), or one of: warmjoint list suites")
       ->type_name("SUITE")
@@ -57,6 +62,8 @@ Command AddRunCommand(CLI::App& program) {
   parser->add_option("-o,--output", arguments->output, "run directory, made or resumed")
       ->type_name("DIR")
       ->required();
+
+  // what changes of the suite
   AddWholeNumber(*parser, "--jobs", arguments->jobs, 1, kMostJobs,
                  "threads; default: one for each core");
   AddWholeNumber(*parser, "--realizations", arguments->realizations, 1, kMostRealizations,
@@ -68,6 +75,8 @@ Command AddRunCommand(CLI::App& program) {
                    "'name=command {recording} {estimate}'; +NAME or '+name=command ...' adds to "
                    "those of the suite; repeatable")
       ->type_name("IDENTIFIER");
+
+  // which part of it, and what commands may do
   parser
       ->add_option("--shard", arguments->shard,
                    "part i of n, or realizations a to b - 1, to be merged later: i/n or "

@@ -46,11 +46,14 @@ struct SimulateArguments {
 
 /// The scenario that a run carried out, by its resolved suite.
 Scenario ScenarioOfRun(const SimulateArguments& arguments) {
+  // the run as it was, or it is no replay
   const bool changed = !arguments.scenario.empty() || !arguments.set.empty() || arguments.seed ||
                        !arguments.motion.recordings.empty();
   if (changed) {
     Refuse({"--from"}, "replays a run as it was: leave out SCENARIO, --set, --seed and --motion");
   }
+
+  // the suite that the run stored, not a file that may have changed
   const RunStore store = RunStore::OpenToRead(arguments.from);
   TellOfEditedSuite(store);
   const Suite suite = StoredSuite(store);
@@ -58,6 +61,8 @@ Scenario ScenarioOfRun(const SimulateArguments& arguments) {
     Refuse({"--realization"}, "is {}; {} has 0 to {}", *arguments.realization, arguments.from,
            suite.realizations - 1);
   }
+
+  // the variant by its name; a run without a ladder has one scenario
   const std::vector<std::string> names = store.ReadDescription().variants;
   if (names.empty() && arguments.variant.empty()) return VariantScenario(suite, 0);
   const auto named = std::find(names.begin(), names.end(), arguments.variant);
@@ -73,12 +78,14 @@ Scenario ResolveScenario(const SimulateArguments& arguments,
                          const std::optional<Measurements>& log) {
   if (!arguments.from.empty()) return ScenarioOfRun(arguments);
   if (arguments.scenario.empty()) Refuse({"simulate"}, "give SCENARIO, or --from RUN");
+  // the log's motion first, so that --set can still change it
   Settings settings;
   if (log) settings = MotionSettings(*log);
   for (const auto& [key, value] : ReadPairs(arguments.set, "--set")) {
     settings.push_back({key, value});
   }
   Scenario scenario = ReadScenario(arguments.scenario, settings);
+  // --seed goes over all of them
   if (arguments.seed) scenario.seed = *arguments.seed;
   return scenario;
 }
@@ -87,6 +94,7 @@ Scenario ResolveScenario(const SimulateArguments& arguments,
 Recording Carried(Plant& plant, const Scenario& scenario, std::uint64_t realization) {
   ProgressLine line;
   return plant.Run(realization, [&](double share) {
+    // the rest at the mean speed until now
     if (!line.Due()) return;
     std::string words = fmt::format("{:.1f} % of {:g} s", 100 * share, scenario.duration);
     if (share > 0) {
@@ -99,9 +107,11 @@ Recording Carried(Plant& plant, const Scenario& scenario, std::uint64_t realizat
 
 ExitStatus Simulate(const SimulateArguments& arguments) {
   SettleArithmetic();
+  // the motion of a log, if one is to be repeated
   std::optional<Measurements> log;
   if (!arguments.motion.recordings.empty())
     log = Prepare(ReadRecording(arguments.motion)).taken().measurements;
+  // what cannot be simulated is refused before its outputs are made
   const Scenario scenario = ResolveScenario(arguments, log);
   RequireMemoryFor(scenario, arguments.from.empty() ? arguments.scenario : arguments.from);
   const std::unique_ptr<Plant> plant = MakePlant(scenario);
@@ -109,6 +119,7 @@ ExitStatus Simulate(const SimulateArguments& arguments) {
   for (const std::string& file : SimulatedFiles()) {
     outputs.push_back(std::filesystem::path(arguments.output) / file);
   }
+  // none of its inputs is written over
   for (const std::string& input : arguments.motion.recordings) inputs.emplace_back(input);
   KeepApart(outputs, inputs);
   AtomicDirectory directory(arguments.output, SimulatedFiles());
@@ -116,11 +127,13 @@ ExitStatus Simulate(const SimulateArguments& arguments) {
   const Recording recording = Carried(*plant, scenario, arguments.realization.value_or(0));
   WriteSimulated(recording, ScenarioToYaml(scenario), arguments.format, directory.temporary());
   directory.Commit();
+  // what came of it, and whether the joint did what it should
   fmt::print("{}: {} samples over {:.6g} s\n", arguments.output, recording.measurements.size(),
              scenario.duration);
   if (!recording.following.Follows()) {
     SayNotice("notice: {}\n", NotFollowingInWords(recording.following));
   }
+  // the log's own torque beside the simulated one
   if (log) fmt::print("{}", CompareTorque(*log, recording.measurements));
   return ExitStatus::done;
 }
@@ -131,6 +144,7 @@ Command AddSimulateCommand(CLI::App& program) {
   auto arguments = std::make_shared<SimulateArguments>();
   CLI::App* parser =
       program.add_subcommand("simulate", "Simulate a scenario: a recording and its truth");
+  // what is simulated: a scenario, a run's realization or a log's motion
   parser->add_option("SCENARIO", arguments->scenario, "scenario file (YAML)")
       ->type_name("SCENARIO");
   parser->add_option("--from", arguments->from, "run directory: replay its --realization")
@@ -143,6 +157,8 @@ Command AddSimulateCommand(CLI::App& program) {
       ->type_name("RECORDING")
       ->expected(1);
   AddLayoutOptions(*parser, arguments->motion);
+
+  // what changes of it
   parser->add_option("--set", arguments->set, "another value for a key, as noise.torque=0.1")
       ->type_name("ENTRY=VALUE")
       ->take_all();
@@ -150,6 +166,8 @@ Command AddSimulateCommand(CLI::App& program) {
   AddWholeNumber(*parser, "--seed", arguments->seed, 0, largest, "instead of the scenario's");
   AddWholeNumber(*parser, "--realization", arguments->realization, 0, largest,
                  "which of the seed's realizations; default: 0");
+
+  // what is written
   AddChoice(*parser, "--format", arguments->format, {"csv", "h5"}, "of the recording; h5: HDF5");
   parser->add_option("-o,--output", arguments->output, "directory for the files, made as a whole")
       ->type_name("DIR")

@@ -29,6 +29,7 @@ struct StatusArguments {
 
 /// What Slurm says; nothing where nothing was submitted or nobody answers.
 std::optional<QueuedShards> AskSlurm(const fs::path& run) {
+  // without submissions there is nothing to ask
   const Submissions submissions = ReadSubmissions(run);
   if (submissions.arrays.empty()) return std::nullopt;
   const auto queue = AskQueue();
@@ -38,9 +39,11 @@ std::optional<QueuedShards> AskSlurm(const fs::path& run) {
 
 ExitStatus ShowStatus(const StatusArguments& arguments) {
   const fs::path run = fs::absolute(arguments.run).lexically_normal();
+  // pieces are of what is started again
   if (arguments.split && !arguments.resubmit) {
     Refuse({"warmjoint status"}, "--split goes with --resubmit");
   }
+  // first what is started again, so that the status counts it
   if (arguments.resubmit) {
     const std::vector<int> again = Resubmit(run, static_cast<int>(arguments.split.value_or(1)));
     fmt::print(stderr, "{}\n",
@@ -57,6 +60,7 @@ ExitStatus ShowStatus(const StatusArguments& arguments) {
 Command AddStatusCommand(CLI::App& program) {
   auto arguments = std::make_shared<StatusArguments>();
   CLI::App* parser = program.add_subcommand("status", "How far a planned run is");
+  // what is told, then what is started
   parser->add_option("RUN", arguments->run, "directory of `run --slurm` or --local-shards")
       ->type_name("RUN")
       ->required();

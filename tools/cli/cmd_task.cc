@@ -18,11 +18,14 @@ struct TaskArguments {
 };
 
 ExitStatus RunOneTask(const TaskArguments& arguments) {
+  // the same bits on every machine, and an end after the realizations in hand
   SettleArithmetic();
   CatchInterrupts();
   const auto say = [&](const char* words) {
     fmt::print("shard {} of {}: {}\n", arguments.shard, arguments.run, words);
   };
+
+  // another task at work is as good as done; a given-up shard needs a person
   switch (RunTask(std::filesystem::absolute(arguments.run).lexically_normal(), arguments.shard)) {
     case TaskEnd::done:
       say("done");

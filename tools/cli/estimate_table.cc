@@ -20,6 +20,7 @@ std::string Interval(const std::array<double, 2>& interval) {
 Table ParameterTable(const Estimate& estimate) {
   const std::string heading = estimate.status == Status::ok ? "parameter" : "void parameter";
   Table table{{heading, "value", "unit", "std", "95 % interval"}, {}};
+  // what is not known is a dash
   for (const EstimatedParameter& one : ShownParameters(estimate)) {
     table.rows.push_back({one.name, fmt::format("{:.6g}", one.value), one.unit,
                           one.std ? fmt::format("{:.2g}", *one.std) : "-",
@@ -42,6 +43,7 @@ std::string FigureText(double figure, int digits) {
 }
 
 void AddMetrics(Table& table, const std::string& name, const std::optional<Metrics>& metrics) {
+  // a figure that does not exist is a dash
   if (!metrics) return;
   table.rows.push_back({name, std::to_string(metrics->n), fmt::format("{:.4g}", metrics->rmse),
                         fmt::format("{:.4g}", metrics->mae),
@@ -51,6 +53,7 @@ void AddMetrics(Table& table, const std::string& name, const std::optional<Metri
 
 std::string RemarksText(const Estimate& estimate, Detail detail) {
   const std::vector<std::string> all = Remarks(estimate);
+  // the first few, or all of them
   const std::vector<std::string> shown = detail == Detail::full ? all : BriefRemarks(estimate);
   std::string text;
   for (const std::string& remark : shown) text += fmt::format("  {}\n", Printable(remark));
@@ -60,6 +63,7 @@ std::string RemarksText(const Estimate& estimate, Detail detail) {
 
 Table DiagnosticTable(const Estimate& estimate) {
   Table table{{"test for lack of fit", "p", "effect", "verdict", "finding"}, {}};
+  // a test that was not made has no figures, only a reason
   for (const Diagnostic& one : estimate.diagnostics) {
     table.rows.push_back({one.test, one.made ? fmt::format("{:.2g}", one.p_adjusted) : "-",
                           one.made ? fmt::format("{:.2g} {}", one.effect, one.effect_unit) : "-",
@@ -73,6 +77,7 @@ Table DiagnosticTable(const Estimate& estimate) {
 
 /// How the heat goes with the log's temperature.
 std::string TemperatureText(const Estimate& estimate, int width) {
+  // these stand beside the fit, which has not used them
   if (estimate.temperature.empty()) return "";
   Table table{{"temperature beside E", "value", "unit", "95 % interval"}, {}};
   for (const EstimatedParameter& one : estimate.temperature) {
@@ -88,6 +93,7 @@ std::string TemperatureText(const Estimate& estimate, int width) {
 /// The structures that were tried.
 Table TrialTable(const StructureChoice& choice, const std::string& unit) {
   Table table{{"structure", "parameters", fmt::format("held-out RMSE {}", unit), "remark"}, {}};
+  // which was chosen, and why others were no contenders
   for (const StructureTrial& one : choice.trials) {
     table.rows.push_back({one.name,
                           one.parameters > 0 ? fmt::format("{:.3g}", one.parameters) : "-",
@@ -100,6 +106,7 @@ Table TrialTable(const StructureChoice& choice, const std::string& unit) {
 /// What was assumed, and what each parameter would do were it off by that much.
 std::string AssumptionsText(const Estimate& estimate) {
   std::string text;
+  // each with the parameters that it would move
   for (const Assumption& one : estimate.assumptions) {
     std::vector<std::string> moves;
     for (const auto& [name, change] : one.moves) {
@@ -128,13 +135,16 @@ Colour ColourOf(Status status) {
 
 std::string EstimateToText(const Estimate& estimate, const Measurements& measurements,
                            const Page& page, Detail detail) {
+  // the verdict, and what led to it
   std::string text =
       fmt::format("{}: {}\n", Printable(estimate.identifier),
                   Paint(StatusName(estimate.status), ColourOf(estimate.status), page));
+  // a choice whose winner failed still says why it was chosen
   if (estimate.choice && estimate.status != Status::ok && !estimate.choice->chosen.empty()) {
     text += fmt::format("  {}\n", Printable(estimate.choice->reason));
   }
   text += RemarksText(estimate, detail);
+  // numbers, void or not
   if (!estimate.parameters.empty())
     text += fmt::format("\n{}", TableToText(ParameterTable(estimate), 1, page.width));
 
@@ -142,6 +152,8 @@ std::string EstimateToText(const Estimate& estimate, const Measurements& measure
   if (estimate.gravity && estimate.gravity->kind == GravityKind::paired) {
     text += PairedGravity(*estimate.gravity, unit);
   }
+
+  // how well it fits what it has seen and what it has not
   Table table{{"fit", "samples", fmt::format("RMSE {}", unit), fmt::format("MAE {}", unit), "Fit %",
                fmt::format("FPE ({})^2", unit)},
               {}};
@@ -152,6 +164,7 @@ std::string EstimateToText(const Estimate& estimate, const Measurements& measure
     text += fmt::format("\nno held-out figures: {}\n", Printable(estimate.without_holdout));
   }
   text += TemperatureText(estimate, page.width);
+  // all that the verdict rests on
   if (detail == Detail::full && estimate.choice) {
     text += "\n" + TableToText(TrialTable(*estimate.choice, unit), 1, page.width);
   }

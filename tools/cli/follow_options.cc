@@ -17,11 +17,14 @@ Estimate ReadEstimate(const std::string& file) {
 
 /// The heat at the end of a log, as a model has it that knows no errors.
 LeftHeat HeatAtEnd(const StoredModel& stored, const PreparedLog& log, const std::string& file) {
+  // the samples that such a model predicts: all that move, where it has an inertia
   const LogView& view = stored.model.inertia ? log.moving() : log.steady();
   const Measurements& m = view.measurements;
   const FrictionState end = PredictTorque(stored.model, m, view.selection, {}).friction.end;
+  // its heat at the last sample, which is no estimate and has no errors
   LeftHeat left{file, m.time[m.size() - 1], m.torque_unit, {}};
   left.stages.push_back({end.energy, 0, stored.model.friction.thermal->time_constant, 0});
+  // a second stage has its own heat and cools by its own time constant
   if (stored.model.friction.second_thermal) {
     left.stages.push_back(
         {end.second_energy, 0, stored.model.friction.second_thermal->time_constant, 0});
@@ -45,6 +48,7 @@ void AddFollowOptions(CLI::App& parser, FollowArguments& arguments) {
 }
 
 void CheckFollow(const FollowArguments& arguments, const RecordingArguments& recording) {
+  // each option alone makes no sense
   if (arguments.pause && !arguments.are_given()) {
     Refuse({"--pause"}, "is the time since an earlier recording; name that with --follows");
   }
@@ -57,8 +61,11 @@ void CheckFollow(const FollowArguments& arguments, const RecordingArguments& rec
 CarriedHeat HeatBefore(const FollowArguments& arguments, const RecordingArguments& recording,
                        const IdentifySettings& settings, const Measurements& next) {
   const std::string& file = arguments.file;
+  // an estimate file tells the heat that its log left
   if (IsJsonFile(file))
     return CarryOver(HeatLeftBy(ReadEstimate(file), file), arguments.pause, next);
+
+  // a recording is identified first, from a cold start and without held-out figures
   const PreparedLog log = ReadEarlier(arguments, recording);
   const IdentifyTask task = CheckSettings(settings, JointOf(recording));
   const Estimate estimate = IdentifyLog(task, log, {0, std::nullopt}).estimate;
@@ -68,11 +75,13 @@ CarriedHeat HeatBefore(const FollowArguments& arguments, const RecordingArgument
 CarriedHeat HeatBefore(const FollowArguments& arguments, const RecordingArguments& recording,
                        const StoredModel& stored, const Measurements& next) {
   const std::string& file = arguments.file;
+  // heat needs a model that warms
   if (!stored.model.friction.thermal) {
     Refuse({"--follows"}, "is for a friction that warms, and the estimate knows no warming");
   }
   if (IsJsonFile(file))
     return CarryOver(HeatLeftBy(ReadEstimate(file), file), arguments.pause, next);
+  // of a recording the model tells the heat by its motion
   return CarryOver(HeatAtEnd(stored, ReadEarlier(arguments, recording), file), arguments.pause,
                    next);
 }

@@ -5,6 +5,7 @@
 namespace warmjoint::inline tools {
 
 IdentifySettings SettingsOf(const IdentifyArguments& arguments, const std::string& identifier) {
+  // the settings that all identifiers share, and what is this one's
   IdentifySettings settings = arguments.settings;
   settings.identifier = identifier;
   settings.options = ReadPairs(arguments.set, "--set");

@@ -18,6 +18,7 @@ namespace {
 
 /// The settings of one of several identifiers: options that it does not have are for the others.
 IdentifySettings SettingsOfOne(const IdentifyArguments& arguments, const std::string& name) {
+  // an option that no identifier knows stays, so that it is refused
   IdentifySettings settings = SettingsOf(arguments, name);
   const Identifier& identifier = FindIdentifier(name);
   std::erase_if(settings.options, [&](const auto& option) {
@@ -26,6 +27,7 @@ IdentifySettings SettingsOfOne(const IdentifyArguments& arguments, const std::st
     });
     return known && !identifier.Has(option.first);
   });
+  // gravity is for those that can tell it from friction
   if (!TellsGravity(identifier)) settings.gravity = "none";
   return settings;
 }
@@ -37,6 +39,7 @@ std::string ComparedToText(const std::vector<ComparedIdentifier>& compared, cons
                fmt::format("above the best {}", unit)},
               {}};
   for (const ComparedIdentifier& one : compared) {
+    // an identifier without an answer has no error
     std::vector<std::string> row{one.name, std::string(StatusName(one.status)), "-", "-", "-"};
     if (one.rmse) {
       row[2] = fmt::format("{:.4g}", *one.rmse);

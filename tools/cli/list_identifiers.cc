@@ -14,6 +14,7 @@ ordered_json IdentifiersJson() {
   ordered_json all = ordered_json::array();
   for (const Identifier& identifier : Identifiers()) {
     ordered_json options = ordered_json::array();
+    // options in full, of which the short line shows the names
     for (const OptionInfo& option : identifier.options) {
       options.push_back({{"name", option.name},
                          {"default", option.default_value},
@@ -50,6 +51,7 @@ std::string Allowed(const std::string& allowed) {
 }  // namespace
 
 std::string IdentifierLine(const ordered_json& identifier, int width) {
+  // what it does, and the names of its options
   std::vector<std::string> options;
   for (const ordered_json& option : identifier["options"]) options.push_back(option["name"]);
   std::string text = Wrap(Head(identifier), width, 0);
@@ -58,6 +60,7 @@ std::string IdentifierLine(const ordered_json& identifier, int width) {
 }
 
 std::string IdentifierText(const ordered_json& identifier, int width) {
+  // what it does, then each option with all that is known of it
   std::string text = Wrap(Head(identifier), width, 0);
   if (identifier["options"].empty()) return text + "    It has no options.\n";
   text += "\nOptions, each given as --set NAME=VALUE:\n";

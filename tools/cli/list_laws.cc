@@ -33,8 +33,11 @@ ordered_json LawJson(std::string_view name, std::string_view equation,
 
 /// What a friction can carry beside its law.
 ordered_json PartsJson() {
+  // options of a friction, each a constant of its own
   std::vector<ParameterInfo> options;
   for (const FrictionOption& option : FrictionOptions()) options.push_back(option.info);
+
+  // maps have no table, but quantities, kernels and factors
   ordered_json maps = LawJson(
       "maps",
       "(10)-(16) factor(v) sum_i w_i kappa_i, Gaussian kernels over one to four quantities; the "
@@ -49,6 +52,8 @@ ordered_json PartsJson() {
   for (const MapFactor factor : {MapFactor::one, MapFactor::direction, MapFactor::velocity}) {
     maps["factors"].push_back(MapFactorName(factor));
   }
+
+  // each as if it were a law, with its formula
   return {LawJson("thermal", "(20)-(22) F = Fn + sign(v) E, E = k / (1 + s tau) W; joins any law",
                   Thermal::parameters),
           LawJson("thermal.second", "E = E1 + E2, E2 = k2 / (1 + s tau2) W; joins thermal",
@@ -67,6 +72,7 @@ std::string Words(const ordered_json& words) {
 std::string ParametersText(const ordered_json& parameters, int width) {
   Table table{{"  parameter", "symbol", "unit", "(linear)", "from", "to", "meaning"}, {}};
   for (const ordered_json& info : parameters) {
+    // a bound that does not exist is infinite
     const auto bound = [&](const char* key, const char* none) {
       return info[key].is_null() ? std::string(none) : fmt::format("{}", info[key].get<double>());
     };
@@ -88,10 +94,12 @@ nlohmann::ordered_json LawsJson() {
 }
 
 std::string LawText(const ordered_json& law, int width) {
+  // the formula, then the table of its parameters
   std::string text = Wrap(
       fmt::format("{}  {}\n", law["name"].get<std::string>(), law["equation"].get<std::string>()),
       width, 4);
   if (!law["parameters"].empty()) text += ParametersText(law["parameters"], width);
+  // maps have words in the place of numbers
   for (const char* key : {"quantities", "kernels", "factors"}) {
     if (law.contains(key)) text += Wrap(fmt::format("  {}: {}\n", key, Words(law[key])), width);
   }

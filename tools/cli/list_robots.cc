@@ -27,6 +27,7 @@ ordered_json JointJson(const RobotJoint& joint) {
 ordered_json RobotsJson() {
   ordered_json all = ordered_json::array();
   for (const RobotInfo& robot : Robots()) {
+    // its joints, and which of them the friction file is for
     ordered_json joints = ordered_json::array();
     for (const RobotJoint& joint : robot.joints) joints.push_back(JointJson(joint));
     all.push_back({{"name", robot.name},
@@ -40,11 +41,13 @@ ordered_json RobotsJson() {
 }
 
 std::string RobotText(const ordered_json& robot, int width) {
+  // what it is, then a line for each joint
   std::string text = Wrap(fmt::format("{}  {}\n", robot["name"].get<std::string>(),
                                       robot["description"].get<std::string>()),
                           width, 4);
   Table table{{"  joint", "unit", "from", "to", "speed", "effort", "friction file"}, {}};
   for (const ordered_json& joint : robot["joints"]) {
+    // a joint that turns for ever has no limits
     const auto limit = [&](const char* key, const char* none) {
       return joint[key].is_null() ? std::string(none)
                                   : fmt::format("{:.4g}", joint[key].get<double>());

@@ -25,6 +25,7 @@ std::string SeenFromHere(const fs::path& file) {
 ordered_json SuitesJson() {
   ordered_json suites = ordered_json::array();
   for (const std::string& name : SuiteNames()) {
+    // read in full: its variants and labels come of reading it
     const std::string file = SuiteFile(name);
     const Suite suite = ReadSuite(file);
     ordered_json identifiers = ordered_json::array();

@@ -43,6 +43,7 @@ void Tell(const char* kind, const std::string& message) {
 
 ExitStatus Run(int argc, char** argv) {
   try {
+    // every failure has its words and its exit status
     return warmjoint::RunProgram(argc, argv);
   } catch (const warmjoint::BadInput& error) {
     Tell("error", error.what());
@@ -60,7 +61,7 @@ ExitStatus Run(int argc, char** argv) {
     Tell("error", "this takes more memory than there is; give less data or a smaller task");
     return ExitStatus::bad_input;
   } catch (const std::exception& error) {
-    // words that could not be printed; all else is a mistake of ours
+    // a stream that failed is told of at the end; all else is a mistake of ours
     if (!std::ferror(stdout) && !std::ferror(stderr)) {
       Tell("internal error", error.what());
       return ExitStatus::internal_error;

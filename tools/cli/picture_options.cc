@@ -41,6 +41,7 @@ const std::map<std::string, PaperFigure>& PaperFigures() {
 }
 
 double Millimetres(const std::string& text, const std::string& size) {
+  // within what can be printed
   const std::optional<double> number = ParseNumber(text);
   if (!number || !(*number >= kSmallest && *number <= kLargest)) {
     Refuse({"--size"},
@@ -59,6 +60,7 @@ Names NamesOf(const std::vector<report::Figure>& figures) {
 
 /// Why a source has no figure of that name.
 std::string Lacking(const std::string& figure, const SourcePictures& pictures) {
+  // a figure of the family that the source cannot give, or none of the family at all
   for (const auto& [name, need] : pictures.left_out) {
     if (name == figure) return fmt::format("{} needs {}", figure, need);
   }
@@ -68,6 +70,7 @@ std::string Lacking(const std::string& figure, const SourcePictures& pictures) {
 }  // namespace
 
 void AddPictureOptions(CLI::App& parser, PictureArguments& arguments) {
+  // format and style
   AddChoice(parser, "--format", arguments.format, {"png", "svg", "pdf"}, "of the pictures");
   Names styles;
   std::string summary;
@@ -76,12 +79,16 @@ void AddPictureOptions(CLI::App& parser, PictureArguments& arguments) {
     summary += fmt::format("{}{}: {}", summary.empty() ? "" : "; ", style.name, style.summary);
   }
   AddChoice(parser, "--style", arguments.style, styles, summary);
+
+  // size and resolution
   parser
       .add_option("--size", arguments.size,
                   "width x height of each picture in mm, as 88x60, or its width alone")
       ->type_name("WxH");
   AddNumber(parser, "--dpi", arguments.dpi, {30, 1200, "30 to 1200"},
             "pixels an inch of PNG; the style's where it is not given");
+
+  // titles, and which figures
   AddChoice(parser, "--title", arguments.title, {"shown", "none"},
             "of the figures, which papers give in the caption");
   parser
@@ -94,6 +101,7 @@ void AddPictureOptions(CLI::App& parser, PictureArguments& arguments) {
 
 report::PageSetting SettingOf(const PictureArguments& arguments) {
   report::PageSetting setting;
+  // format, style and resolution by name
   for (report::FileFormat format :
        {report::FileFormat::png, report::FileFormat::svg, report::FileFormat::pdf}) {
     if (report::NameOf(format) == arguments.format) setting.format = format;
@@ -101,6 +109,7 @@ report::PageSetting SettingOf(const PictureArguments& arguments) {
   setting.style = report::StyleNamed(arguments.style);
   setting.dpi = arguments.dpi;
   setting.titled = arguments.title != "none";
+  // one number is the width, and the height follows
   if (!arguments.size.empty()) {
     const std::size_t cross = arguments.size.find('x');
     setting.width = Millimetres(arguments.size.substr(0, cross), arguments.size);
@@ -116,6 +125,7 @@ std::vector<report::Figure> Chosen(const PictureArguments& arguments, const std:
   std::vector<report::Figure> figures = pictures.figures;
   if (arguments.figures.empty()) return figures;
   Names wanted;
+  // each by the name of the figure, or by the paper's number for it
   for (const std::string& figure : arguments.figures) {
     const auto paper = PaperFigures().find(figure);
     const Names names = paper == PaperFigures().end() ? Names{figure} : paper->second.names;
@@ -123,6 +133,7 @@ std::vector<report::Figure> Chosen(const PictureArguments& arguments, const std:
     const bool any = std::any_of(names.begin(), names.end(), [&](const std::string& name) {
       return std::find(there.begin(), there.end(), name) != there.end();
     });
+    // what cannot be had is refused with what there is
     if (!any) {
       const std::string what = paper == PaperFigures().end()
                                    ? Lacking(figure, pictures)
@@ -133,6 +144,8 @@ std::vector<report::Figure> Chosen(const PictureArguments& arguments, const std:
     }
     wanted.insert(wanted.end(), names.begin(), names.end());
   }
+
+  // in the family's own order, each once
   std::erase_if(figures, [&](const report::Figure& figure) {
     return std::find(wanted.begin(), wanted.end(), figure.name) == wanted.end();
   });

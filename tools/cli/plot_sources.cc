@@ -24,6 +24,7 @@ constexpr int kFilmFrames = 24;
 template <typename View>
 SourcePictures Make(const std::vector<report::NamedFigure<View>>& family, const View& view) {
   SourcePictures pictures;
+  // who has nothing to draw says what is needed for it
   for (const auto& one : family) {
     if (auto figure = one.make(view)) {
       pictures.figures.push_back(*std::move(figure));
@@ -36,6 +37,7 @@ SourcePictures Make(const std::vector<report::NamedFigure<View>>& family, const 
 
 /// The estimate of a file beside its own recording, where that is there.
 report::EstimateView OwnView(const nlohmann::json& file, const fs::path& path, Estimate estimate) {
+  // a recording that is not named, or has gone, is no reason for no pictures
   if (!file.contains("recording")) {
     fmt::print(stderr, "{}: names no recording; give --recording for the pictures that need it\n",
                path.string());
@@ -55,11 +57,14 @@ report::EstimateView OwnView(const nlohmann::json& file, const fs::path& path, E
 
 SourcePictures PicturesOfEstimate(const fs::path& path, const RecordingArguments& recording) {
   const nlohmann::json file = ReadJsonFile(path);
+  // the estimate with the data that it is shown beside
   Estimate estimate = EstimateFromJson(file, {path});
   report::EstimateView view =
       recording.recordings.empty()
           ? OwnView(file, path, std::move(estimate))
           : report::MakeEstimateView(std::move(estimate), ReadAndPrepare(recording));
+
+  // what it gives, and itself for the figure of several
   SourcePictures pictures = Make(report::EstimateFigures(), view);
   pictures.estimate = std::move(view);
   return pictures;
@@ -67,6 +72,7 @@ SourcePictures PicturesOfEstimate(const fs::path& path, const RecordingArguments
 
 SourcePictures PicturesOfSimulation(const fs::path& directory) {
   const report::SimulationView view = report::ReadSimulationView(directory);
+  // a robot that warms needs OpenGL for its pictures
   SourcePictures pictures = Make(report::SimulationFigures(), view);
   if (!report::HasWarmRobot(view)) return pictures;
   const std::unique_ptr<report::GlContext> context = report::MakeGlContext();
@@ -78,6 +84,7 @@ SourcePictures PicturesOfSimulation(const fs::path& directory) {
 }  // namespace
 
 SourcePictures PicturesOf(const std::string& source, const RecordingArguments& recording) {
+  // by what stands there, of a file by its kind, of a directory by what it holds
   if (source == kKernelsSource && !fs::exists(source)) return {{report::MakeKernels()}, {}, {}};
   if (fs::is_regular_file(source)) return PicturesOfEstimate(source, recording);
   if (report::IsSimulation(source)) return PicturesOfSimulation(source);

@@ -21,6 +21,7 @@ constexpr const char* kHelp =
 
 std::string Footer() {
   std::string footer = "`warmjoint COMMAND --help` explains each command.\n\nExit status:";
+  // all statuses in one sentence
   const char* separator = " ";
   for (const ExitMeaning& one : ExitMeanings()) {
     footer += fmt::format("{}{} {}", separator, one.status, one.meaning);
@@ -43,12 +44,15 @@ std::string HelpOf(const CLI::App* parser) {
 }  // namespace
 
 ExitStatus RunProgram(int argc, const char* const* argv) {
+  // help comes from the tree of the parser, as man pages and completion do
   CLI::App program{kHelp, "warmjoint"};
   program.formatter_fn([](const CLI::App* parser, const std::string&, CLI::AppFormatMode) {
     return HelpOf(parser);
   });
   program.set_help_flag("-h,--help", "this help");
   program.set_version_flag("-V,--version", "warmjoint " WARMJOINT_VERSION, "the program's version");
+
+  // all subcommands, each with --quiet
   program.require_subcommand(1);
   const std::vector<Command> commands = AddCommands(program);
   AddQuiet(program);
@@ -63,6 +67,8 @@ ExitStatus RunProgram(int argc, const char* const* argv) {
     program.exit(error);
     return ExitStatus::done;
   }
+
+  // exactly one subcommand was given
   const auto chosen = std::find_if(commands.begin(), commands.end(),
                                    [](const Command& command) { return command.parser->parsed(); });
   return chosen->run();

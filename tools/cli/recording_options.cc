@@ -19,6 +19,7 @@ void AddRecordingOptions(CLI::App& parser, RecordingArguments& arguments) {
 }
 
 void AddLayoutOptions(CLI::App& parser, RecordingArguments& arguments) {
+  // columns: their names, units and factors
   parser.add_option("--map", arguments.map, "columns of the file, as torque=force_N,time=t_s")
       ->type_name("COLUMN=NAME")
       ->delimiter(',')
@@ -33,6 +34,8 @@ void AddLayoutOptions(CLI::App& parser, RecordingArguments& arguments) {
       ->type_name("COLUMN=NUMBER")
       ->delimiter(',')
       ->take_all();
+
+  // sensors that wrap, and a temperature that is set beside the answer
   parser
       .add_option(
           "--wrap", arguments.wrap,
@@ -45,6 +48,8 @@ void AddLayoutOptions(CLI::App& parser, RecordingArguments& arguments) {
           "column with a temperature, as --map temperature=NAME: the answer is set beside it; one "
           "whose name ends in degC, or as temp_K, is found")
       ->type_name("NAME");
+
+  // the joint and its drive
   AddChoice(
       parser, "--joint", arguments.joint, {"rotary", "linear"}, "kind of the joint",
       {{"prismatic", "linear"}, {"revolute", "rotary"}, {"hinge", "rotary"}, {"slide", "linear"}});
@@ -61,6 +66,7 @@ void AddLayoutOptions(CLI::App& parser, RecordingArguments& arguments) {
 }
 
 void AddHoldOptions(CLI::App& parser, HoldOptions& holds) {
+  // both in seconds, at least 0
   const Bounds seconds{0, std::numeric_limits<double>::infinity(), "of 0 or more, s"};
   AddNumber(parser, "--trim", holds.trim, seconds,
             "s to leave out at each end of a constant speed");

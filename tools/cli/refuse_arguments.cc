@@ -43,15 +43,18 @@ std::vector<std::string> CommandsWith(const CommandNode& program, const std::str
 /// Refuses an option that the command lacks.
 [[noreturn]] void RefuseOption(const CommandNode& program, const CommandNode* command,
                                const Place& place, const std::string& option) {
+  // an option before its command
   const std::vector<std::string> others = CommandsWith(program, option);
   if (!command && !others.empty()) {
     Refuse(place, "{} stands behind its command: warmjoint {} {}", option,
            others.size() == 1 ? others.front() : "COMMAND", option);
   }
+  // an option that the command has, in the wrong place
   if (command && Holds(OptionNames(*command), option)) {
     Refuse({program.name}, "{0} stands behind its command: warmjoint {1} {0}", option,
            command->name);
   }
+  // an option of other commands, or of none
   if (command && !others.empty()) {
     Refuse(place, "there is no option '{}' here; it belongs to: {}", option,
            fmt::join(others, ", "));
@@ -63,9 +66,12 @@ std::vector<std::string> CommandsWith(const CommandNode& program, const std::str
 /// Refuses arguments that nothing took, which explain a failure better than what is then missing.
 void RefuseLeftovers(const CLI::App& parser, const CommandNode& program, const CommandNode* command,
                      const Place& place) {
+  // the first one that nothing took
   const std::vector<std::string> leftovers = parser.remaining(true);
   if (leftovers.empty()) return;
   const std::string& name = leftovers.front();
+
+  // by its dash an option, else an argument or a subcommand
   if (name.size() > 1 && name[0] == '-') {
     RefuseOption(program, command, place, name.substr(0, name.find('=')));
   }
@@ -76,6 +82,7 @@ void RefuseLeftovers(const CLI::App& parser, const CommandNode& program, const C
 
 /// The option or argument that a complaint of the parser begins with.
 std::optional<OptionNode> Named(const CommandNode& command, const std::string& complaint) {
+  // the complaint begins with the name, behind it stands what is wrong
   const std::string name = complaint.substr(0, complaint.find_first_of(": "));
   for (const OptionNode& option : command.options) {
     if (Holds(option.names, name)) return option;
@@ -88,6 +95,7 @@ std::optional<OptionNode> Named(const CommandNode& command, const std::string& c
 
 /// Says what form a value must have that could not be read: "Could not convert: --gear = ten".
 void RefuseValue(const CommandNode& command, const Place& place, const CLI::ParseError& error) {
+  // the parser's own words, of which name and value are taken
   const std::string complaint = error.what();
   const size_t begin = complaint.find("--"), equals = complaint.find(" = ");
   if (error.get_name() != "ConversionError" || begin > equals || equals == std::string::npos)
@@ -100,6 +108,7 @@ void RefuseValue(const CommandNode& command, const Place& place, const CLI::Pars
 
 /// Says what is missing, where something is.
 void RefuseMissing(const CommandNode& command, const Place& place, const CLI::ParseError& error) {
+  // what is missing, or stands without its value
   const std::optional<OptionNode> option = Named(command, error.what());
   if (!option) return;
   const std::string& name = option->argument.empty() ? option->names.back() : option->argument;
@@ -115,12 +124,15 @@ void RefuseMissing(const CommandNode& command, const Place& place, const CLI::Pa
 }  // namespace
 
 void RefuseArguments(const CLI::App& program, const CLI::ParseError& error) {
+  // without a subcommand there is nothing to compare with
   const CommandNode tree = ReadTree(program);
   const std::vector<CLI::App*> chosen = program.get_subcommands();
   if (chosen.empty()) {
     RefuseLeftovers(program, tree, nullptr, {tree.name});
     Refuse({tree.name}, "give a command, for example check, identify, simulate or run; see --help");
   }
+
+  // what nothing took, what is missing, what cannot be read, and then all else
   const CommandNode command = ReadTree(*chosen.front());
   const Place place{FullName(command, tree.name)};
   RefuseLeftovers(program, tree, &command, place);

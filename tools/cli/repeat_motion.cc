@@ -15,6 +15,7 @@ namespace {
 
 /// Torque at a time within the recording, N.m or N.
 double TorqueAt(const Measurements& m, double time) {
+  // between the samples on both sides of it
   const double* begin = m.time.data();
   const auto after = std::upper_bound(begin, begin + m.size(), time) - begin;
   const auto i = std::clamp<Eigen::Index>(after, 1, m.size() - 1);
@@ -25,16 +26,20 @@ double TorqueAt(const Measurements& m, double time) {
 }  // namespace
 
 Settings MotionSettings(const Measurements& log) {
+  // the scenario moves as the log does, for as long
   const Motion motion = MotionOf(log, SelectConstantSpeed(log));
   return {{"motion", MotionToYaml(motion, "")},
           {"duration", fmt::format("{}", log.time[log.size() - 1] - log.time[0])}};
 }
 
 std::string CompareTorque(const Measurements& log, const Measurements& simulated) {
+  // amperes and torques do not compare
   if (log.torque_unit != simulated.torque_unit) {
     return fmt::format("torque not compared: recorded in {}, simulated in {}\n", log.torque_unit,
                        simulated.torque_unit);
   }
+
+  // samples at constant speed, at the times since the beginning of each
   const Selection selection = SelectConstantSpeed(log);
   std::vector<double> recorded, repeated;
   for (Eigen::Index i = 0; i < log.size(); ++i) {

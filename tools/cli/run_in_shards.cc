@@ -40,20 +40,27 @@ Consent ConsentOf(const RunArguments& arguments, const Suite& suite) {
 }
 
 Plan MakePlan(const RunArguments& arguments, const Suite& suite) {
+  // identifiers are checked now, not first by a task
   const std::vector<PreparedIdentifier> identifiers =
       PrepareIdentifiers(suite.identifiers, {arguments.suite});
   Plan plan;
   plan.id = DrawId();
+
+  // what is computed, and by what
   const RunDescription description = Describe(suite);
   plan.suite_yaml = description.suite_yaml;
   plan.versions = description.versions;
   plan.directory = fs::current_path();
   plan.program = ThisProgram();
   plan.plugin = ThisPlugin();
+
+  // what tasks may do, and how many at a time
   plan.consent = ConsentOf(arguments, suite);
   plan.jobs = static_cast<int>(arguments.jobs.value_or(1));
   plan.array_parallelism = static_cast<int>(arguments.array_parallelism.value_or(0));
   plan.sbatch = arguments.sbatch;
+
+  // a timed probe tells how long a shard is
   const Probe probe = ProbeSuite(suite, identifiers);
   TellNotFollowing(probe.following, description);
   plan.probe_seconds = probe.seconds;
@@ -65,6 +72,7 @@ Plan MakePlan(const RunArguments& arguments, const Suite& suite) {
 }
 
 void RefuseOtherContent(const fs::path& run) {
+  // folders of a plan may be there, results of another run not
   for (const auto& entry : fs::directory_iterator(run)) {
     const std::string name = entry.path().filename();
     if (name == "slurm" || name == ".lock") continue;
@@ -74,6 +82,7 @@ void RefuseOtherContent(const fs::path& run) {
 
 /// The plan that the directory holds, which a person may have edited, or a new one.
 Plan TakeOrMakePlan(const fs::path& run, const RunArguments& arguments) {
+  // the same suite goes on by the plan that is there
   const Suite suite = ResolveSuite(arguments);
   if (HasPlan(run)) {
     Plan plan = ReadPlan(run);
@@ -81,11 +90,15 @@ Plan TakeOrMakePlan(const fs::path& run, const RunArguments& arguments) {
                        {run.string()});
     return plan;
   }
+
+  // a new plan, with the scripts that people may edit
   RefuseOtherContent(run);
   const Plan plan = MakePlan(arguments, suite);
   WritePlan(run, plan);
   WriteWholeFile(PlanFolder(run) / "array.sbatch", ArrayScript(plan, run, MostIndices()));
   WriteWholeFile(PlanFolder(run) / "merge.sbatch", MergeScript(plan, run));
+
+  // what was planned, before anything starts
   const double longest = plan.probe_seconds / plan.jobs * plan.shards.front().size();
   fmt::print("{}: {} realizations in {} shards of about {:.3g} s ({:.3g} s each, measured)\n",
              PlanFile(run).string(), suite.realizations, plan.shards.size(), longest,
@@ -93,8 +106,9 @@ Plan TakeOrMakePlan(const fs::path& run, const RunArguments& arguments) {
   return plan;
 }
 
-/// Numbers of the shards that are not done.
+/// Numbers of the shards that are neither done nor failed.
 std::vector<int> OpenShards(const fs::path& run, const Plan& plan) {
+  // nobody asks a queue, so that what waits counts as missing
   const RunStatus status = StatusOf(run, plan, std::nullopt);
   std::vector<int> open = status.missing;
   open.insert(open.end(), status.running.begin(), status.running.end());
@@ -109,11 +123,15 @@ ExitStatus Conclude(const fs::path& run, const Plan& plan) {
 }
 
 ExitStatus RunHere(const fs::path& run, const Plan& plan, int at_once) {
+  // this machine must give the bits that the plan's would
   RefuseOtherMachine(plan, run);
   CatchInterrupts();
+  // who starts again by hand gives failed shards their starts back
   for (const int number : StatusOf(run, plan, std::nullopt).failed) {
     Forgive(ShardFolder(run, number));
   }
+
+  // unfinished shards go on with the same command
   if (!RunLocally(run, plan, OpenShards(run, plan), at_once)) {
     fmt::print(stderr, "interrupted: {}the same command goes on\n",
                StatusText(run, StatusOf(run, plan, std::nullopt)));
@@ -123,6 +141,7 @@ ExitStatus RunHere(const fs::path& run, const Plan& plan, int at_once) {
 }
 
 ExitStatus SubmitAll(const fs::path& run, const Plan& plan, const RunArguments& arguments) {
+  // twice submitted would be twice computed
   const Submissions before = ReadSubmissions(run);
   if (!before.arrays.empty()) {
     Refuse({run.string()},
@@ -130,9 +149,13 @@ ExitStatus SubmitAll(const fs::path& run, const Plan& plan, const RunArguments& 
            "--resubmit what is missing",
            fmt::join(before.Jobs(), ", "), run.string());
   }
+
+  // all open shards, as arrays with a job that merges
   Submit(run, plan, OpenShards(run, plan));
   fmt::print("submitted as jobs {}; see: warmjoint status {}\n",
              fmt::join(ReadSubmissions(run).Jobs(), ", "), run.string());
+
+  // who waits also sees the end
   if (!arguments.wait) return ExitStatus::done;
   CatchInterrupts();
   if (!WaitForJobs(run, plan)) return ExitStatus::interrupted;
@@ -142,11 +165,14 @@ ExitStatus SubmitAll(const fs::path& run, const Plan& plan, const RunArguments& 
 }  // namespace
 
 void AddShardOptions(CLI::App& parser, RunArguments& arguments) {
+  // where the tasks run
   parser.add_flag("--slurm", arguments.slurm, "as tasks of a Slurm cluster; see `status`")
       ->group("In shards");
   AddWholeNumber(parser, "--local-shards", arguments.local_shards, 1, 1024,
                  "as tasks on this machine, so many at a time")
       ->group("In shards");
+
+  // how the run is parted, and what the cluster is told
   AddWholeNumber(parser, "--shards", arguments.shards, 1, kMostShards,
                  "number of shards; default: of about 15 minutes each, by a timed probe")
       ->group("In shards");
@@ -156,6 +182,8 @@ void AddShardOptions(CLI::App& parser, RunArguments& arguments) {
   AddWholeNumber(parser, "--array-parallelism", arguments.array_parallelism, 1, kMostShards,
                  "tasks at a time")
       ->group("In shards");
+
+  // how far this command goes
   parser.add_flag("--dry-run", arguments.dry_run, "write plan and scripts, and submit nothing")
       ->group("In shards");
   parser.add_flag("--wait", arguments.wait, "until all tasks have ended, and merge")
@@ -172,6 +200,7 @@ void RefuseShardOptions(const RunArguments& arguments) {
 }
 
 ExitStatus RunInShards(const RunArguments& arguments) {
+  // what does not go together
   if (arguments.slurm && arguments.local_shards) {
     Refuse({"warmjoint run"}, "give --slurm or --local-shards, not both");
   }
@@ -180,14 +209,18 @@ ExitStatus RunInShards(const RunArguments& arguments) {
            "--keep-recordings and --shard do not go with --slurm and --local-shards");
   }
   CheckSbatch(arguments.sbatch);
+
+  // the plan's folder is locked while it is made and carried out
   const fs::path run = fs::absolute(arguments.output).lexically_normal();
   fs::create_directories(PlanFolder(run));
   const DirectoryLock lock(PlanFolder(run));
   const Plan plan = TakeOrMakePlan(run, arguments);
+  // people may look at it, or submit it, themselves
   if (arguments.dry_run) {
     fmt::print("{}\n{}", (PlanFolder(run) / "array.sbatch").string(), ParallelRecipe(plan, run));
     return ExitStatus::done;
   }
+  // what is there already, on the cluster, or here
   if (fs::exists(run / "results.sqlite")) return Conclude(run, plan);
   if (arguments.slurm) return SubmitAll(run, plan, arguments);
   return RunHere(run, plan, static_cast<int>(*arguments.local_shards));

@@ -18,6 +18,7 @@ fs::path SuiteFolder() { return DataFolder() / "scenarios" / "suites"; }
 }  // namespace
 
 std::vector<std::string> SuiteNames() {
+  // an installation without suites has none
   std::vector<std::string> names;
   if (!fs::is_directory(SuiteFolder())) return names;
   for (const auto& entry : fs::directory_iterator(SuiteFolder())) {
@@ -30,6 +31,7 @@ std::vector<std::string> SuiteNames() {
 fs::path SuiteFile(const std::string& name) { return SuiteFolder() / (name + kExtension); }
 
 std::string FindSuite(const std::string& name_or_path) {
+  // a file goes before a name
   std::error_code unknown;
   const fs::path path = name_or_path;
   if (fs::exists(path, unknown) && !fs::is_directory(path, unknown)) return name_or_path;

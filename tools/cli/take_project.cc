@@ -18,6 +18,7 @@ namespace fs = std::filesystem;
 
 /// The project file beside the recordings; empty where there is none.
 fs::path ProjectFileOf(const std::vector<std::string>& recordings) {
+  // all recordings beside the same file, or all beside none
   std::optional<fs::path> found;
   for (const std::string& recording : recordings) {
     const fs::path file = fs::path(recording).parent_path() / kProjectFile;
@@ -26,6 +27,7 @@ fs::path ProjectFileOf(const std::vector<std::string>& recordings) {
     if (here && !fs::is_regular_file(file, ignored)) {
       Refuse({file.string()}, "is not a regular file; give --no-project to leave it out");
     }
+    // links to one file are one file
     const fs::path one = here ? fs::weakly_canonical(file, ignored) : fs::path();
     if (found && *found != one) {
       Refuse(
@@ -36,6 +38,7 @@ fs::path ProjectFileOf(const std::vector<std::string>& recordings) {
     found = one;
   }
   if (!found || found->empty()) return {};
+  // by the name under which the first recording stands, not by one behind links
   return fs::path(recordings.front()).parent_path() / kProjectFile;
 }
 
@@ -52,6 +55,7 @@ class Taking {
 
   /// Adds the pairs whose column the command line does not name, and leaves these alone in `from`.
   void Pairs(const char* name, std::vector<std::string>& from, std::vector<std::string>& into) {
+    // what the command line says of a column goes over the file
     const auto given = ReadPairs(into, std::string("--") + name);
     std::erase_if(from, [&](const std::string& pair) {
       return given.contains(pair.substr(0, pair.find('=')));
@@ -64,6 +68,7 @@ class Taking {
   /// Takes a value that the command line does not give, and empties `from` where it does.
   template <typename T>
   void Value(const char* name, std::optional<T>& from, T& into) {
+    // keys of the file are called as the options, with underscores
     std::string option = std::string("--") + name;
     std::replace(option.begin(), option.end(), '_', '-');
     if (IsGiven(parser_, option)) from.reset();
@@ -91,19 +96,25 @@ void AddProjectOption(CLI::App& parser) {
 
 void TakeProject(const CLI::App& parser, RecordingArguments& arguments) {
   if (IsGiven(parser, "--no-project")) return;
+  // no option and no file: nothing to take
   const fs::path file = ProjectFileOf(arguments.recordings);
   if (file.empty()) return;
 
   Project project = ParseProject(ReadWholeFile(file, kLargestDocument), file);
   Taking taking(parser);
+  // by column
   taking.Pairs("map", project.map, arguments.map);
   taking.Pairs("unit", project.unit, arguments.unit);
   taking.Pairs("scale", project.scale, arguments.scale);
+
+  // as a whole
   taking.Value("wrap", project.wrap, arguments.wrap);
   taking.Value("joint", project.joint, arguments.joint);
   taking.Value("gear", project.gear, arguments.gear);
   taking.Value("trim", project.trim, arguments.holds.trim);
   taking.Value("shortest_hold", project.shortest_hold, arguments.holds.shortest);
+
+  // it is remembered with the estimate, and told
   arguments.project = TakenProject{file, project};
   SayNotice("{}: {}\n", file.string(),
             taking.words().empty() ? "sets nothing that the command line does not"

@@ -9,12 +9,16 @@ namespace warmjoint::inline tools {
 
 ExitStatus TellEnding(const std::filesystem::path& directory, const RunEnding& ending,
                       RunPart part) {
+  // how many results there are, and of which kind
   Say(stdout, "{}: {}; see: warmjoint compare {}\n", directory.string(), CountsInWords(ending),
       directory.string());
+  // who never answered is told with the first reason
   for (const auto& [label, reason] : ending.silent) {
     Say(stderr, "{} answered in no realization; the first time: {}\n", Excerpt(label),
         Excerpt(reason, kLongestComplaint));
   }
+
+  // a shard may hold too few realizations to say that
   const bool done = ending.silent.empty() || part == RunPart::shard;
   return done ? ExitStatus::done : ExitStatus::no_answer;
 }

@@ -12,6 +12,7 @@ namespace warmjoint::inline tools {
 
 void TellWall(const std::vector<SuiteIdentifier>& identifiers,
               const std::vector<std::filesystem::path>& secrets) {
+  // one sentence on the wall, a warning for each secret that it does not hide
   bool told = false;
   for (const SuiteIdentifier& identifier : identifiers) {
     if (identifier.name != kExternal) continue;

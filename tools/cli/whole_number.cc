@@ -9,6 +9,7 @@ namespace warmjoint::inline tools {
 CLI::Option* AddWholeNumber(CLI::App& parser, const std::string& name,
                             std::optional<std::uint64_t>& number, std::uint64_t lowest,
                             std::uint64_t highest, const std::string& description) {
+  // digits alone: a sign is refused, not wrapped round
   const auto read = [&number, name, lowest, highest](const std::string& text) {
     number = ParseUnsigned(text);
     if (number && lowest <= *number && *number <= highest) return;

@@ -60,7 +60,7 @@ std::vector<IdentifierInfo> Identifiers() {
 
 Estimate Identify(const PreparedLog& log, const IdentifySettings& settings) {
   return Guarded([&] {
-    // checked, identified and given back its unit, as the command does
+    // as the command does: checked, identified, and without a friction in amperes
     const identification::PreparedLog& prepared = log.state().log;
     const models::Measurements& measurements = prepared.taken().measurements;
     const tools::IdentifyTask task =
