@@ -26,6 +26,7 @@ std::string Row(const LeaderboardRow& row) {
 }
 
 std::string Header() {
+  // both errors of parameters have a root mean square too, the figures of a fit have none
   std::string header = "identifier,runs,failed";
   for (const char* name : {"npe_continuous", "npe_discrete"}) {
     header += fmt::format(",{0}_median,{0}_q25,{0}_q75,{0}_rms", name);

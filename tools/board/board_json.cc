@@ -65,6 +65,7 @@ ordered_json RowJson(const LeaderboardRow& row) {
 
 /// Board or group without its head.
 void AddNumbers(ordered_json& json, const Leaderboard& board) {
+  // how many, how well it could be done, and how well it was done
   json["realizations"] = board.finished;
   json["bound_npe"] = {{"continuous", {{"rms", NumberOrNull(board.bound_npe_continuous)}}},
                        {"discrete", {{"rms", NumberOrNull(board.bound_npe_discrete)}}}};

@@ -41,6 +41,7 @@ const std::map<std::string, FigureText>& FigureTexts() {
 }
 
 std::string ClaimNote(const LeaderboardRow& row, std::string_view unit) {
+  // what is claimed and what was reached, figure by figure
   std::vector<std::string> claimed, reached;
   for (const auto& [name, value] : row.claim->figures) {
     const FigureText& figure = FigureTexts().at(name);

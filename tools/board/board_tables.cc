@@ -85,6 +85,7 @@ Table RankingTable(const Leaderboard& board) {
 }
 
 Table GroupTable(const Leaderboard& board) {
+  // a row a group, a column an identifier
   Table table{{board.variable.empty() ? "variant" : board.variable, "bound"}, {}};
   for (const LeaderboardRow& row : board.rows) table.header.push_back(row.identifier);
   for (const Leaderboard& group : board.groups) {
@@ -101,6 +102,7 @@ Table AgreementTable(const Leaderboard& board) {
                fmt::format("MAE {}", kTorqueUnit.For(board.joint)), "Fit %",
                fmt::format("FPE ({})^2", kTorqueUnit.For(board.joint)), "time"},
               {}};
+  // medians over the runs
   for (const LeaderboardRow& row : board.rows) {
     table.rows.push_back({row.identifier, NumberText(row.rmse.median), NumberText(row.mae.median),
                           NumberText(row.fit.median), NumberText(row.fpe.median),

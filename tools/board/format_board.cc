@@ -56,6 +56,7 @@ const std::vector<BoardFormat>& BoardFormats() {
 }
 
 std::string BoardToText(const Leaderboard& board, int width) {
+  // the verdict first, then who is how good
   std::string text =
       fmt::format("{}: {}\n{}\n{}\n\n", board.suite, board.question, Verdict(board), Head(board));
   text += TableToText(RankingTable(board), 2, width) + "\n";
@@ -64,6 +65,8 @@ std::string BoardToText(const Leaderboard& board, int width) {
   if (!groups.rows.empty()) {
     text += fmt::format("Median NPE by group:\n{}\n", TableToText(groups, 1, width));
   }
+
+  // how well torques agree, how well each parameter is known, and what remains to be said
   text += TableToText(AgreementTable(board), 1, width) + "\n";
   const Table parameters = ParameterTable(board);
   if (!parameters.rows.empty()) text += TableToText(parameters, 2, width) + "\n";
@@ -72,6 +75,7 @@ std::string BoardToText(const Leaderboard& board, int width) {
 }
 
 std::string BoardToMarkdown(const Leaderboard& board) {
+  // the verdict first, then who is how good
   std::string text = fmt::format("### {}\n\n{}\n\n**{}** {}\n\n", board.suite, board.question,
                                  Verdict(board), Head(board));
   text += TableToMarkdown(RankingTable(board), 2) + "\n";
@@ -80,6 +84,8 @@ std::string BoardToMarkdown(const Leaderboard& board) {
   if (!groups.rows.empty()) {
     text += fmt::format("Median NPE by group:\n\n{}\n", TableToMarkdown(groups, 1));
   }
+
+  // how well torques agree, how well each parameter is known, and what remains to be said
   text += TableToMarkdown(AgreementTable(board), 1) + "\n";
   const Table parameters = ParameterTable(board);
   if (!parameters.rows.empty()) text += TableToMarkdown(parameters, 2) + "\n";

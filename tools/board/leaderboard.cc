@@ -50,6 +50,7 @@ std::vector<LeaderboardRow> Rank(const Suite& suite,
 }
 
 Leaderboard SumUpBoard(const Suite& suite, const GroupColumns& group) {
+  // the suite, and how well it could be done
   Leaderboard board;
   board.suite = suite.name;
   board.question = suite.question;
@@ -92,6 +93,7 @@ GroupColumns BoardBuilder::All() const {
 }
 
 Leaderboard BoardBuilder::Finish() const {
+  // all groups as one, however they are parted
   Leaderboard board = SumUpBoard(suite_, groups_.size() == 1 ? groups_.front() : All());
   board.realizations = suite_.realizations * suite_.variants();
   if (!suite_.ladder) return board;
@@ -118,6 +120,7 @@ void GroupColumns::Add(const GroupColumns& other) {
 
 Leaderboard MakeLeaderboard(const Suite& suite, const std::vector<Result>& results) {
   BoardBuilder builder(suite);
+  // results of one unit stand beside each other
   for (auto begin = results.begin(); begin != results.end();) {
     const auto end = std::find_if(begin, results.end(), [&](const Result& result) {
       return result.variant != begin->variant || result.realization != begin->realization;

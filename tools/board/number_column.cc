@@ -27,6 +27,7 @@ std::filesystem::path Folder() {
 
 /// A new file that has no name any more.
 std::FILE* OpenNameless() {
+  // unlinked at once, so that no end of the process leaves it behind
   const std::filesystem::path folder = Folder();
   std::string name = folder / "warmjoint-numbers-XXXXXX";
   const int descriptor = mkostemp(name.data(), O_CLOEXEC);
@@ -56,6 +57,7 @@ void NumberFile::Read(std::uint32_t position, NumberBlock& block) const {
 NumberColumn::NumberColumn(std::shared_ptr<NumberFile> file) : file_(std::move(file)) {}
 
 void NumberColumn::Add(double value) {
+  // a full block goes to the file, the rest stays here
   tail_.push_back(value);
   if (tail_.size() < std::tuple_size_v<NumberBlock>) return;
   NumberBlock block;

@@ -25,6 +25,7 @@ std::uint64_t KeyOf(double value) {
 /// The quantile of `count` numbers of which at(i) is the one at place i in ascending order.
 template <typename At>
 double QuantileBy(const At& at, std::size_t count, double share) {
+  // between two neighbours in proportion; no difference of infinities is taken
   if (count == 0) return std::numeric_limits<double>::quiet_NaN();
   const double position = share * static_cast<double>(count - 1);
   const auto below = static_cast<std::size_t>(position);
@@ -90,6 +91,7 @@ double Quantile(const std::vector<double>& sorted, double share) {
 }
 
 Summary Summarise(const NumberColumn& values) {
+  // NaN is what a run does not know: neither place nor square
   const Ascending ascending(values);
   double squares = 0;
   values.ForEach([&](double value) {

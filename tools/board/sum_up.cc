@@ -20,9 +20,12 @@ ParameterSums& SumsOf(std::vector<ParameterSums>& all, const std::string& name) 
 
 void AddParameters(std::vector<ParameterSums>& all, const Score& score) {
   for (const ParameterScore& one : score.continuous) {
+    // each parameter by its name
     ParameterSums& sums = SumsOf(all, one.name);
     sums.intervals += one.covered.has_value();
     sums.covered += one.covered.value_or(false);
+
+    // errors only of what was estimated
     if (!one.estimated) continue;
     sums.estimated = true;
     sums.error.Add(one.estimate - one.truth);

@@ -16,6 +16,7 @@ constexpr size_t kNarrowest = 16;  // columns that broken words need at least
 size_t Width(const std::string& text) { return static_cast<size_t>(ShownWidth(text)); }
 
 std::vector<size_t> Widths(const Table& table) {
+  // as wide as the widest cell of each column
   std::vector<size_t> widths;
   for (const std::string& cell : table.header) widths.push_back(Width(cell));
   for (const auto& row : table.rows) {
@@ -27,6 +28,7 @@ std::vector<size_t> Widths(const Table& table) {
 std::string Line(const std::vector<std::string>& cells, const std::vector<size_t>& widths,
                  size_t left) {
   std::string line;
+  // text to the left, numbers to the right; no blanks at the end of a line
   for (size_t i = 0; i < cells.size(); ++i) {
     const std::string blanks(widths[i] - Width(cells[i]), ' ');
     line += i < left ? cells[i] + blanks : blanks + cells[i];
@@ -125,6 +127,7 @@ std::string TableToText(const Table& given, size_t left, int width) {
 
 std::string TableToMarkdown(const Table& given, size_t left) {
   const Table table = Shown(given);
+  // a colon at the right stands for a column of numbers
   std::string text = MarkdownLine(table.header) + "|";
   for (size_t i = 0; i < table.header.size(); ++i) text += i < left ? " --- |" : " ---: |";
   text += "\n";

@@ -36,6 +36,7 @@ void RefuseFound(const SQLite::Database& results, const std::string& query, cons
 }
 
 void CheckPositions(const SQLite::Database& results, const char* table, const Place& place) {
+  // positions from 0 on, without a hole
   SQLite::Statement row(results, fmt::format("SELECT count(*), coalesce(min(position), 0),"
                                              " coalesce(max(position), -1) FROM {}",
                                              table));
@@ -53,6 +54,7 @@ void CheckRows(const SQLite::Database& results, const RunDescription& descriptio
   CheckPositions(results, "identifier", place);
   CheckPositions(results, "variant", place);
 
+  // an index into each table that the run has, and a unit that is finished
   const std::size_t variants = std::max<std::size_t>(1, description.variants.size());
   // rows that name units or identifiers that the run does not have, or units that are not finished
   const std::string unit = fmt::format(

@@ -91,12 +91,14 @@ class Cursor {
 
 /// An insertion of rows with as many columns as `row`.
 Statement InsertLike(SQLite::Database& fresh, const Table& table, sqlite3_stmt* row) {
+  // as many places as the source has columns, without their names
   const std::vector<std::string> marks(static_cast<std::size_t>(sqlite3_column_count(row)), "?");
   return Prepare(fresh,
                  fmt::format("INSERT INTO {} VALUES ({})", table.name, fmt::join(marks, ", ")));
 }
 
 void Insert(SQLite::Database& fresh, sqlite3_stmt* insert, sqlite3_stmt* row) {
+  // each value as SQLite has it, of whatever type
   const int columns = sqlite3_column_count(row);
   for (int i = 0; i < columns; ++i) {
     fresh.check(sqlite3_bind_value(insert, i + 1, sqlite3_column_value(row, i)));
@@ -111,7 +113,7 @@ std::string TextOf(sqlite3_stmt* row, int column) {
   return text ? text : "";
 }
 
-/// Refuses a second row of the key that was copied last.
+/// Refuses a second row of one key where each may be there once, or where both differ.
 void CheckOverlap(const Cursor& cursor, const Table& table, bool equal, Overlap overlap) {
   const Place place{cursor.source().file.parent_path().string()};
   if (table.digest >= 0 && overlap == Overlap::refused) {

@@ -39,6 +39,7 @@ void AddMetrics(Canonical& text, const Metrics& m) {
 }
 
 void AddScore(Canonical& text, const Score& score) {
+  // the errors over all parameters, then each parameter in both parametrisations
   text.Add(score.npe_continuous).Add(score.npe_discrete);
   text.Add(score.bound_npe_continuous).Add(score.bound_npe_discrete);
   for (const auto* family : {&score.continuous, &score.discrete}) {
@@ -53,6 +54,7 @@ void AddScore(Canonical& text, const Score& score) {
 }  // namespace
 
 std::string DigestOfPlan(const RunDescription& description) {
+  // what decides which results a run has
   Canonical text;
   text.Add(kSchemaVersion).Add(description.suite_yaml);
   for (const auto& [name, value] : description.versions) text.Add(name).Add(value);
@@ -80,6 +82,7 @@ std::string DigestOfResults(const std::string& plan, Unit unit, std::span<const 
 
 std::string DigestOfTrace(const std::string& plan, Unit unit, int identifier,
                           const TraceTable& trace) {
+  // where the trace belongs, its columns, and its numbers as they lie in memory
   Canonical text;
   text.Add(plan).Add(unit.variant).Add(unit.realization).Add(identifier);
   for (const std::string& column : trace.columns) text.Add(column);

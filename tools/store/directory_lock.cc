@@ -12,6 +12,7 @@ namespace warmjoint::inline tools {
 
 DirectoryLock::DirectoryLock(const std::filesystem::path& directory) {
   const std::filesystem::path path = directory / ".lock";
+  // the kernel lets go of the lock with its process, however that ends
   file_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0644);
   if (file_ < 0) Refuse({directory.string()}, "cannot be written to: {}", std::strerror(errno));
   if (flock(file_, LOCK_EX | LOCK_NB) != 0) {

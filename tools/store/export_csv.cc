@@ -81,6 +81,7 @@ void CsvColumns::Add(const Result& result) {
 }
 
 std::vector<std::string> CsvColumns::Names() const {
+  // constants of the law stand in both parametrisations, and once in the table
   std::vector<std::string> names = continuous_;
   for (const std::string& name : discrete_) {
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
@@ -89,10 +90,13 @@ std::vector<std::string> CsvColumns::Names() const {
 }
 
 std::string CsvHeader(const std::vector<std::string>& names, const RunDescription& description) {
+  // variants only where there are several, then the figures of every result
   std::string csv = description.variants.empty() ? "" : "variant,";
   csv +=
       "realization,identifier,status,n,parameters,effective_parameters,rmse,mae,fit,fpe,"
       "npe_continuous,npe_discrete,bound_npe_continuous,bound_npe_discrete";
+
+  // four columns for each parameter
   for (const std::string& name : names) {
     csv += fmt::format(",{0},{0}_truth,{0}_bound,{0}_covered", name);
   }

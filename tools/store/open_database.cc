@@ -19,11 +19,14 @@ constexpr int kPatience = 10'000;        // ms
 
 /// Takes from the file's own schema all that could act.
 void Disarm(SQLite::Database& database) {
+  // no writes to the schema's own tables, no functions, triggers and views of the file
   sqlite3* handle = database.getHandle();
   sqlite3_db_config(handle, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
   sqlite3_db_config(handle, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
   sqlite3_db_config(handle, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
   sqlite3_db_config(handle, SQLITE_DBCONFIG_ENABLE_VIEW, 0, nullptr);
+
+  // and no value or other database that would take the memory
   sqlite3_limit(handle, SQLITE_LIMIT_LENGTH, kLargestValue);
   sqlite3_limit(handle, SQLITE_LIMIT_ATTACHED, 1);
 }
@@ -39,6 +42,7 @@ void CheckIntegrity(const SQLite::Database& database, const fs::path& path) {
 
 /// Refuses SQLite's write-ahead mode, which another program set: it keeps rows in files of its own beside this one.
 void RefuseWriteAhead(const fs::path& path) {
+  // the header's byte 19 tells how the file is to be read
   std::array<char, 20> header{};
   std::ifstream(path, std::ios::binary).read(header.data(), header.size());
   constexpr char write_ahead = 2;  // version of the format, for readers
@@ -75,6 +79,7 @@ int FlagsOf(Access access) {
 
 void RethrowStoreError(const fs::path& path, const SQLite::Exception& error) {
   const Place place{path.string()};
+  // a device that fails, a writer that does not end, a mistake of ours, or a file that is none
   switch (error.getErrorCode()) {
     case SQLITE_FULL:
       FailOutput(path.string(), ENOSPC);

@@ -68,6 +68,7 @@ std::vector<Result> RunStore::ReadResults() const {
 }
 
 void RunStore::Verify() const {
+  // reading compares the digest of every unit, and here of every trace
   ForEachUnit([](const std::vector<Result>&) {});
   Guarded(results_file(), [&] {
     const std::string plan = DigestOfPlan(ReadDescription());

@@ -61,6 +61,7 @@ namespace {
 void RefuseDifferentVersions(const RunDescription& stored, const RunDescription& asked,
                              const Place& place) {
   if (stored.versions == asked.versions) return;
+  // the versions that are stored, since those asked for are this program's own
   std::string made;
   for (const auto& [name, value] : stored.versions) made += fmt::format(" {} {}", name, value);
   Refuse(place, "was made with{}, which does not mix with this; run in another directory", made);

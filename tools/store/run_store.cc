@@ -31,6 +31,7 @@ void RemoveLeftovers(const fs::path& directory) {
 
 /// Refuses a directory that holds other things than a run.
 void MakeRunDirectory(const fs::path& directory) {
+  // a directory, which is made where it is absent
   if (fs::exists(directory) && !fs::is_directory(directory)) {
     Refuse({directory.string()}, "is a file; a run needs a directory");
   }

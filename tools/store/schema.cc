@@ -95,6 +95,7 @@ std::vector<std::string> ReadNames(const SQLite::Database& database, const char*
 }  // namespace
 
 void CreateResultTables(SQLite::Database& results, const RunDescription& description) {
+  // tables and their version at once, or neither
   SQLite::Transaction transaction(results);
   results.exec(kResultTables);
   results.exec(fmt::format("PRAGMA user_version = {}", kSchemaVersion));
@@ -144,6 +145,7 @@ void CheckTimingSchema(const SQLite::Database& timings, const Place& place) {
 
 RunDescription ReadStoredDescription(const SQLite::Database& results) {
   RunDescription description;
+  // the suite's one row, then the lists of names
   SQLite::Statement suite(results, "SELECT yaml FROM suite");
   while (suite.executeStep()) description.suite_yaml = suite.getColumn(0).getString();
 

@@ -35,6 +35,7 @@ Suite StoredSuite(const RunStore& store) {
 
 void TellOfEditedSuite(const RunStore& store) {
   const std::filesystem::path file = store.suite_file();
+  // nobody minds a file that is gone: the database has the suite
   if (!std::filesystem::exists(file)) return;
   if (ReadWholeFile(file) == store.ReadDescription().suite_yaml) return;
   fmt::print(stderr, "notice: {} was edited; the suite that the run stored is taken\n",

@@ -24,6 +24,7 @@ constexpr const char* kSeconds =
     " ORDER BY variant, realization, identifier";
 
 std::optional<Metrics> ReadMetrics(SQLite::Statement& row) {
+  // n is there where a fit has figures
   if (row.getColumn(5).isNull()) return std::nullopt;
   Metrics metrics;
   metrics.n = row.getColumn(5);
@@ -77,6 +78,7 @@ UnitReader::UnitReader(const SQLite::Database& results, const SQLite::Database* 
 }
 
 std::optional<std::vector<Result>> UnitReader::Next() {
+  // the next finished unit, with the digest of what it had
   if (!realizations_.open) return std::nullopt;
   const Unit unit = realizations_.unit();
   const std::string digest = realizations_.row.getColumn(2).getString();
@@ -115,6 +117,7 @@ Result UnitReader::ReadResult() {
 }
 
 void UnitReader::ReadParameters(Result& result) {
+  // both tables are read once, in the same order
   const std::tuple key{Unit{result.variant, result.realization}, result.identifier};
   Rows& rows = parameters_;
   for (; rows.open; rows.Step()) {
@@ -134,6 +137,7 @@ double UnitReader::ReadSeconds(const Result& result) {
   if (!seconds_) return unknown;
   const std::tuple key{Unit{result.variant, result.realization}, result.identifier};
   Rows& rows = *seconds_;
+  // times of other results are passed over; one that is missing is not known
   while (rows.open && std::tuple{rows.unit(), rows.identifier()} < key) rows.Step();
   const bool known = rows.open && std::tuple{rows.unit(), rows.identifier()} == key;
   return known ? StoredNumber(rows.row.getColumn(3)) : unknown;

@@ -51,6 +51,7 @@ void InsertParameters(SQLite::Statement& insert, const Result& result, int discr
 }
 
 void InsertTrace(SQLite::Statement& insert, const Result& result, const std::string& plan) {
+  // few identifiers have one
   if (result.trace.values.empty()) return;
   insert.reset();
   insert.bind(1, result.variant);
