@@ -24,6 +24,7 @@ namespace fs = std::filesystem;
 /// refused.
 std::vector<FrictionForJoint> Expand(mjSpec& spec, const std::vector<FrictionForJoint>& frictions,
                                      const Place& place) {
+  // the pattern that gave each joint its friction, for those that two of them mean
   std::vector<FrictionForJoint> expanded;
   std::map<std::string, std::string> given;
   for (const FrictionForJoint& friction : frictions) {
@@ -63,6 +64,7 @@ void Change(mjSpec& spec, const AttachOptions& options, const Place& place) {
 /// Takes away what the friction replaces and what would clip it. Returns notices.
 std::vector<std::string> MakeRoom(mjSpec& spec, const std::vector<FrictionForJoint>& frictions,
                                   FrictionForm form, const Place& place) {
+  // the joints' own damping and dry friction
   std::vector<std::string> joints, replaced, notices;
   for (const FrictionForJoint& friction : frictions) {
     joints.push_back(friction.joint);
@@ -75,6 +77,8 @@ std::vector<std::string> MakeRoom(mjSpec& spec, const std::vector<FrictionForJoi
         "{}: damping and frictionloss of the model were removed; the friction replaces them",
         fmt::join(replaced, ", ")));
   }
+
+  // passive forces are not clipped by limits on actuators
   if (form == FrictionForm::passive) return notices;
   for (std::string& notice : MoveEffortLimits(spec, joints, place)) {
     notices.push_back(std::move(notice));
@@ -84,6 +88,7 @@ std::vector<std::string> MakeRoom(mjSpec& spec, const std::vector<FrictionForJoi
 
 /// Refuses joints on which friction acts before any is attached.
 void RefuseSecond(const mjModel* m, const std::vector<FrictionForJoint>& frictions,
+                  // the plugin itself, since it compares all of its instances
                   const Place& place) {
   int plugin = -1;
   mjp_getPlugin(kFrictionPlugin, &plugin);
@@ -119,11 +124,14 @@ bool HasFiles(mjSpec& spec) {
 
 Attached AttachFriction(const fs::path& model, const std::vector<FrictionForJoint>& frictions,
                         const fs::path& out, const AttachOptions& options) {
+  // the model, with a friction for each joint that is meant
   const Place place{model.string()};
   ParsedModel parsed = ParseModel(model, options.packages);
   mjSpec& spec = *parsed.spec;
   const std::vector<FrictionForJoint> each = Expand(spec, frictions, place);
   NoteNameless(spec, frictions.size(), each.size(), parsed.notices);
+
+  // what changes of it besides friction
   Change(spec, options, place);
   for (std::string& notice : MakeRoom(spec, each, options.form, place)) {
     parsed.notices.push_back(std::move(notice));

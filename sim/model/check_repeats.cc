@@ -44,10 +44,12 @@ class RepeatCount {
         if (around.size() > 1) around.pop_back();
         continue;
       }
+      // what stands inside is copied as often as all around it together
       const double within = around.back() * Copies(*tag, around.back(), place);
       CheckTexture(*tag, place);
       if (tag->name == "include") Include(*tag, around.back(), depth, place);
       if (tag->kind == XmlTag::Kind::opens) around.push_back(within);
+      // the engine's own readers call themselves for each depth
       if (depth + static_cast<int>(around.size()) > kDeepest) {
         Refuse(place, "nests deeper than {} elements; a model does not", kDeepest);
       }
@@ -55,7 +57,7 @@ class RepeatCount {
   }
 
  private:
-  /// How often a repeating element stands for what it holds; 1 for others.
+  /// How often a repeating element stands for what it holds; 1 for others. around: its own copies.
   double Copies(const XmlTag& tag, double around, const Place& place) {
     const bool repeats =
         tag.name == "replicate" || tag.name == "composite" || tag.name == "flexcomp";
@@ -71,6 +73,7 @@ class RepeatCount {
 
   static void CheckTexture(const XmlTag& tag, const Place& place) {
     if (tag.name != "texture") return;
+    // three bytes a pixel
     const double bytes = 3 * Product(tag, "width") * Product(tag, "height");
     if (bytes <= kLargestTexture) return;
     Refuse(place, "width and height of a <texture> make {:.1f} GiB; 1 GiB at most",

@@ -12,9 +12,12 @@ namespace {
 
 /// Gives an actuator the range of its joint, in the actuator's own force, cut to what it had.
 void LimitForce(mjsActuator& motor, const double range[2]) {
+  // a negative gear turns the range round
   const double gear = motor.gear[0];
   const double lower = std::min(range[0] / gear, range[1] / gear);
   const double upper = std::max(range[0] / gear, range[1] / gear);
+
+  // a range that the actuator had already stays, where it is narrower
   const bool limited =
       motor.forcelimited == mjLIMITED_TRUE ||
       (motor.forcelimited == mjLIMITED_AUTO && motor.forcerange[0] < motor.forcerange[1]);
@@ -56,6 +59,7 @@ void Note(const std::vector<std::string>& joints, const char* sentence,
 std::vector<std::string> MoveEffortLimits(mjSpec& spec, const std::vector<std::string>& joints,
                                           const Place& place) {
   std::vector<std::string> moved, shared, dropped;
+  // motors take the joint's limit over, so that it clips them and not friction
   for (const std::string& name : joints) {
     mjsJoint* joint = FindJoint(spec, name, place);
     if (!Limited(*joint)) continue;

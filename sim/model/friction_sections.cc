@@ -36,15 +36,20 @@ std::string ThermalConfigs(std::string_view prefix, const std::optional<Thermal>
 
 std::string InlineConfigs(const FrictionForJoint& of) {
   const FrictionDescription& friction = of.friction;
+  // the law and its warming
   std::string configs = Config("law", friction.law);
   for (const auto& [key, value] : friction.parameters) configs += Config(key, value);
   configs += ThermalConfigs("", friction.thermal);
   configs += ThermalConfigs(kSecondStage, friction.second_thermal);
+
+  // what joins any law, where it is given
   for (const FrictionOption& option : FrictionOptions()) {
     const double value = friction.*option.value;
     if (value != 0) configs += Config(std::string(option.info.name), value);
   }
   if (friction.gear != 1) configs += Config("gear", friction.gear);
+
+  // maps and the first heat
   if (!friction.maps.empty()) {
     json maps = json::array();
     for (const FrictionMap& map : friction.maps) maps.push_back(MapToJson(map));
@@ -76,6 +81,7 @@ std::string FrictionSections(const FrictionForJoint& friction) {
 
 std::string InstanceSection(const std::string& instance,
                             const std::vector<FrictionForJoint>& frictions) {
+  // friction and first heat of each joint, by its name
   json joints = json::object(), energies = json::object();
   for (const FrictionForJoint& friction : frictions) {
     joints[friction.joint] = FrictionToJson(friction.friction);

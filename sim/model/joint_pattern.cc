@@ -37,11 +37,14 @@ mjsJoint* FindJoint(mjSpec& spec, const std::string& joint, const Place& place) 
 }
 
 std::vector<std::string> MatchJoints(mjSpec& spec, const std::string& pattern, const Place& place) {
+  // a name goes before a pattern, also one with letters that patterns use
   const bool named = mjs_findElement(&spec, mjOBJ_JOINT, pattern.c_str()) != nullptr;
   if (named || !LooksLikePattern(pattern)) {
     FindJoint(spec, pattern, place);
     return {pattern};
   }
+
+  // all hinges and slides whose whole name fits
   const std::regex expression = ReadPattern(pattern, place);
   std::vector<std::string> joints;
   for (mjsElement* element : SpecElements(spec, mjOBJ_JOINT)) {

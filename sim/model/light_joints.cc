@@ -34,7 +34,7 @@ class Trial {
 
   /// Why the plugin refuses the joint with more inertia and another step; nothing where it does not.
   std::optional<std::string> Refusal(double added, double timestep) {
-    // the first is of coupled joints, the second of those that nothing else moves
+    // first the inertia of coupled joints, then that of joints with all others held
     m_->dof_invweight0[dof()] = inverse_ / (1 + added * inverse_);
     m_->dof_M0[dof()] = uncoupled_ + added;
     m_->opt.timestep = timestep;
@@ -45,6 +45,7 @@ class Trial {
     } catch (const BadInput& refused) {
       refusal = refused.what();
     }
+    // the copy is as it was for the next trial
     m_->dof_invweight0[dof()] = inverse_;
     m_->dof_M0[dof()] = uncoupled_;
     m_->opt.timestep = timestep_;
@@ -102,6 +103,7 @@ void RefuseLightJoints(const mjModel* model, const std::vector<FrictionForJoint>
   std::vector<std::string> reasons, armatures;
   double timestep = model->opt.timestep;
   bool shorter_helps = true;
+  // each joint that the plugin would refuse, with what would let it pass
   for (const FrictionForJoint& friction : frictions) {
     Trial trial(copy.get(), friction);
     const auto reason = trial.Refusal(0, trial.timestep());
@@ -114,6 +116,8 @@ void RefuseLightJoints(const mjModel* model, const std::vector<FrictionForJoint>
     shorter_helps = shorter_helps && longest;
     if (longest) timestep = std::min(timestep, *longest);
   }
+
+  // one refusal for all of them, with whichever remedies there are
   if (reasons.empty()) return;
   const std::string by_armature = fmt::format("{}", fmt::join(armatures, " "));
   const std::string by_timestep = shorter_helps ? fmt::format("--timestep {}", timestep) : "";

@@ -45,6 +45,7 @@ double FixedMass(mjsBody* body) {
 }
 
 void CheckInertials(mjSpec& spec, const Place& place) {
+  // a body with a joint, and all that is fixed to it, must have a mass
   for (mjsElement* element : SpecElements(spec, mjOBJ_BODY)) {
     mjsBody* body = mjs_asBody(element);
     if (!mjs_firstChild(body, mjOBJ_JOINT, 0) || FixedMass(body) > 0) continue;
@@ -72,6 +73,7 @@ SpecPtr ParseUrdf(const std::string& text, std::string& message) {
 }
 
 [[noreturn]] void RefuseUnread(const std::filesystem::path& path, const std::string& message) {
+  // a plugin that MuJoCo lacks has a remedy of its own
   const Place place{path.string(), LineOf(message)};
   const std::string plugin = UnknownPlugin(message);
   if (plugin.empty()) Refuse(place, "MuJoCo cannot read it: {}", message);
@@ -92,6 +94,7 @@ std::string PluginRefusal(const std::string& message) {
 }  // namespace
 
 ParsedModel ParseModel(const std::filesystem::path& path, const PackageFolders& packages) {
+  // the plugin is known before a model asks for it, and what could fill the memory refused
   RegisterFrictionPlugin();
   const std::string text = ReadWholeFile(path);
   CheckRepeats(text, path);
@@ -116,6 +119,7 @@ ParsedModel ParseModel(const std::filesystem::path& path, const PackageFolders& 
 ModelPtr CompileModel(mjSpec& spec, const Place& place) {
   ModelPtr model(mj_compile(&spec, nullptr));
   if (model) return model;
+  // what our plugin refused says more than MuJoCo's message around it
   const std::string message = Flatten(mjs_getError(&spec));
   const std::string refusal = PluginRefusal(message);
   if (!refusal.empty()) Refuse(place, "{}", refusal);

@@ -21,6 +21,7 @@ fs::path MujocoFolder() {
 bool LoadOnce() {
   const fs::path beside = MujocoFolder();
   if (beside.empty()) return false;
+  // folders in which its packages have them
   bool any = false;
   for (const char* folder : {"plugin", "mujoco_plugin", "../bin/mujoco_plugin"}) {
     std::error_code absent;
@@ -34,6 +35,7 @@ bool LoadOnce() {
 }  // namespace
 
 bool LoadMujocoPlugins() {
+  // once in a process: a second time each would be registered twice
   static bool loaded = false;
   if (loaded) return false;
   loaded = true;

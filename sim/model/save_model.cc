@@ -5,6 +5,7 @@
 namespace warmjoint::inline sim {
 
 std::string ModelToXml(mjSpec& spec, const Place& place) {
+  // as it was written, not as the compiler changed it
   spec.compiler.savecompiled = 0;
   spec.compiler.savecanonical = 0;
 

@@ -56,10 +56,13 @@ class MeshSorter {
         touched_(TouchedMeshes(spec)) {}
 
   void Sort(mjsElement* element) {
+    // a mesh without a file has its points in the model
     mjsMesh* mesh = mjs_asMesh(element);
     const std::string file = mjs_getString(mesh->file);
     if (file.empty()) return;
     const std::string name = fs::path(file).filename();
+
+    // packages are folders that only the user knows
     if (file.starts_with(kPackage)) {
       const size_t end = std::min(file.find('/', kPackage.size()), file.size());
       const std::string package = file.substr(kPackage.size(), end - kPackage.size());
@@ -70,6 +73,8 @@ class MeshSorter {
       }
       PointTo(*mesh, known->second / file.substr(std::min(end + 1, file.size())), package);
     }
+
+    // what MuJoCo cannot read is left out, and what is only seen where its file is lacking
     if (!MujocoReads(file)) return LeaveOut(element, name, foreign_);
     const bool seen_alone = !touched_.contains(NameOf(element));
     if (seen_alone && !fs::exists(folder_ / mjs_getString(mesh->file))) {
@@ -78,6 +83,7 @@ class MeshSorter {
   }
 
   std::vector<std::string> Finish() {
+    // meshes are deleted after the walk over them
     Remove(spec_, doomed_);
     std::vector<std::string> notices;
     const auto note = [&](const std::set<std::string>& files, const std::string& why) {
@@ -96,6 +102,7 @@ class MeshSorter {
  private:
   void PointTo(mjsMesh& mesh, const fs::path& file, const std::string& package) {
     const fs::path absolute = fs::weakly_canonical(fs::absolute(file));
+    // a file that its package lacks is a folder given wrong
     if (MujocoReads(absolute) && !fs::exists(absolute)) {
       Refuse(place_,
              "package {} is {}, which has no file {}; give its folder by --package {}=FOLDER",

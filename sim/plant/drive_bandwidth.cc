@@ -16,6 +16,7 @@ double ForFriction(const DriveTask& task, const MotionSegment& segment) {
   constexpr double decay = 6.6, slow_decay = 4.6;  // to 1 %: of a double pole and of a single one
   constexpr double lead = 10 - slow_decay;         // what the settling time leaves for sticking
   const double speed = std::abs(segment.velocity);
+  // what the level and the slope of friction ask for, 1/s
   const double b = (2 * task.level / speed + slow_decay * task.slope) / task.inertia;
   const double d = segment.duration;
   return std::max(b / lead, (decay + std::sqrt(decay * decay + 0.4 * b * d)) / (0.2 * d));

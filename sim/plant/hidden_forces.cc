@@ -18,6 +18,7 @@ class Direction {
   void Go(double velocity, double way) {
     const double sign = Sign(velocity);
     way_ += std::abs(way);
+    // the first motion is no change of direction
     if (sign == 0 || sign == held_) return;
     odd_ = held_ != 0 && !odd_;
     way_ = 0;
@@ -41,6 +42,7 @@ VectorXd Levels(const Disturbances& d, const VectorXd& time, const VectorXd& vel
   Direction direction;
   for (Index i = 0; i < time.size(); ++i) {
     direction.Go(velocity[i], i > 0 ? position[i] - position[i - 1] : 0);
+    // of every other hold, then with time, then with the way since the joint turned
     double level = direction.odd() ? d.hold_parity.level : 0;
     if (time[i] >= d.step_in_time.time) level += d.step_in_time.level;
     level += d.run_in.level * std::exp(-time[i] / d.run_in.time_constant);
@@ -78,6 +80,7 @@ VectorXd HiddenTorque(const Disturbances& disturbances, const VectorXd& time,
                       const VectorXd& velocity, const VectorXd& position,
                       const VectorXd& acceleration) {
   const HiddenForces& hidden = disturbances.hidden;
+  // along the direction of motion
   VectorXd levels = Levels(disturbances, time, velocity, position);
   if (hidden.memory.slope != 0) {
     levels += hidden.memory.slope * SpeedBehind(time, velocity, hidden.memory.time_constant);
@@ -88,6 +91,7 @@ VectorXd HiddenTorque(const Disturbances& disturbances, const VectorXd& time,
     levels.array() += hidden.ripple.amplitude * (wave * position.array()).sin();
   }
 
+  // what acts whatever the direction
   VectorXd torque = velocity.unaryExpr(&Sign).cwiseProduct(levels);
   torque += hidden.spring.stiffness * position;
   if (hidden.inertia.inertia != 0) {

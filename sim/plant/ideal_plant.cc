@@ -24,6 +24,7 @@ struct SampledPlan {
 /// Means over the steps within which segments end: losses follow the speed, not the samples. rate: Hz
 void FollowSwitches(const std::vector<MotionSegment>& plan, double rate, SampledPlan& samples) {
   constexpr double kAtSample = 1e-6;  // of a step
+  // which share of a step is moved at which speed, where a segment ends within it
   Eigen::VectorXd speed = samples.velocity.cwiseAbs(), square = samples.velocity.cwiseAbs2();
   bool within = false;
   double end = 0;
@@ -39,6 +40,8 @@ void FollowSwitches(const std::vector<MotionSegment>& plan, double rate, Sampled
     square[i] += share * (behind * behind - before * before);
     within = true;
   }
+
+  // losses are as of a velocity whose square is the mean over mean speed
   if (!within) return;
   samples.loss_velocity = Eigen::VectorXd::Zero(speed.size());
   for (Eigen::Index i = 0; i < speed.size(); ++i) {
@@ -121,6 +124,7 @@ Eigen::VectorXd WithNoise(Eigen::VectorXd values, double deviation, RandomStream
 class IdealPlant : public Plant {
  public:
   explicit IdealPlant(const Scenario& scenario) : scenario_(scenario) {
+    // what this plant cannot carry out
     CheckFriction(scenario.friction, {scenario.name});
     if (scenario.friction.second_thermal && scenario.disturbances.second_heat) {
       Refuse({scenario.name},
@@ -136,6 +140,7 @@ class IdealPlant : public Plant {
 
  private:
   Recording CarryOut(std::uint64_t realization, const RunWatch&) override {
+    // friction along the motion, finer where speeds change by ramps
     const RandomKey key{scenario_.seed, realization};
     const int parts = PartsOfStep(scenario_);
     const double rate = parts * scenario_.sampling.rate;
@@ -143,12 +148,15 @@ class IdealPlant : public Plant {
     Prediction friction = AlongMotion(FrictionOfPlant())
                               .Predict(CourseOf(samples, 1 / rate), {scenario_.initial_energy});
     RefusePush(samples, friction);
+
+    // of which samples are stored
     for (Eigen::VectorXd* column :
          {&samples.time, &samples.velocity, &samples.position, &samples.acceleration,
           &friction.force, &friction.loss, &friction.energy}) {
       *column = EveryOf(*column, parts);
     }
 
+    // the log and the truth behind it
     Recording recording;
     recording.measurements = Measure(samples, friction.force, key);
     Truth& truth = recording.truth;
@@ -171,6 +179,7 @@ class IdealPlant : public Plant {
     const Motion& motion = scenario_.motion;
     const double duration = scenario_.duration, acceleration = scenario_.controller.acceleration;
     const double start = StartPosition(motion, {});
+    // ramps follow corners, or segments with an acceleration; else speeds jump
     RandomStream random(key, Stream::motion);
     if (FollowsCorners(motion)) {
       const std::vector<VelocityCorner> corners = PlanCorners(motion, duration, random);
@@ -213,6 +222,7 @@ class IdealPlant : public Plant {
   /// step: between the samples, s.
   JointCourse CourseOf(const SampledPlan& samples, double step) const {
     const Disturbances& disturbances = scenario_.disturbances;
+    // the motion, and what else friction follows
     JointCourse course{samples.time, samples.velocity, samples.position};
     course.step = step;
     course.mean_speed = samples.mean_speed;
@@ -221,6 +231,7 @@ class IdealPlant : public Plant {
     course.ambient_rise = samples.time.unaryExpr(
         [&](double t) { return disturbances.ambient_temperature.RiseAt(t); });
 
+    // what moves its level
     const AmbientDrift& drift = disturbances.ambient_drift;
     if (drift.amplitude != 0) {
       course.level =
@@ -247,11 +258,14 @@ class IdealPlant : public Plant {
   Measurements Measure(const SampledPlan& samples, const Eigen::VectorXd& force,
                        RandomKey key) const {
     const Noise& noise = scenario_.noise;
+    // what the log is of
     Measurements log;
     log.joint = scenario_.joint_kind;
     log.torque_unit = kTorqueUnit.For(scenario_.joint_kind);
     log.gear = scenario_.friction.gear;
     log.source = scenario_.name;
+
+    // its columns with their noise
     log.time = samples.time;
     log.position = WithNoise(samples.position, noise.position, {key, Stream::position_noise});
     log.velocity = WithNoise(samples.velocity, noise.velocity, {key, Stream::velocity_noise});

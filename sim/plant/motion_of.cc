@@ -41,6 +41,7 @@ double Way(const std::vector<VelocityCorner>& corners) {
 /// Corners strictly between two others, by the recorded motion. samples: recorded between them.
 std::vector<VelocityCorner> Between(const VelocityCorner& from, const VelocityCorner& to,
                                     Eigen::Index samples, const RecordedPosition& position) {
+  // at most every second sample, evenly in time
   const Eigen::Index n = std::min(kMostCorners, samples / 2);
   if (n < 1) return {};
   const double step = (to.time - from.time) / static_cast<double>(n + 1);
@@ -85,6 +86,7 @@ Motion MotionOf(const Measurements& measurements, const Selection& selection) {
   }
   fix(last, position.MeanVelocity(time[last - 1], time[last]));
 
+  // corners between the ends follow the recorded motion
   Motion motion;
   motion.start = measurements.position[0];
   for (size_t i = 0; i < fixed.size(); ++i) {

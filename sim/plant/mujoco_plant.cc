@@ -65,12 +65,15 @@ class MujocoPlant : public Plant {
         steps_per_reading_(WholeSteps(1 / scenario.sampling.sensor_rate, scenario.timestep,
                                       scenario, "sampling.sensor_rate")) {
     const double fastest = FastestDrive();
+    // a bandwidth that the step can carry
     if (!(scenario.controller.bandwidth >= 0 && scenario.controller.bandwidth <= fastest)) {
       Refuse({scenario.name},
              "controller.bandwidth is {} rad/s; at timestep {} s it must be at most {}, or 0, "
              "which chooses it",
              scenario.controller.bandwidth, scenario.timestep, fastest);
     }
+
+    // what decides which bandwidth is enough
     const JointFriction friction(scenario.friction);
     task_ = {joint_.inertia, friction.HoldingLevel(), friction.SteepestSlope(),
              joint_.gravity_slope};
@@ -79,6 +82,7 @@ class MujocoPlant : public Plant {
  private:
   Recording CarryOut(std::uint64_t realization, const RunWatch& watch) override {
     const RandomKey key{scenario_.seed, realization};
+    // where it goes, and at which speeds
     const double start = StartPosition(scenario_.motion, joint_.limits);
     RandomStream motion(key, Stream::motion);
     corners_ = FollowsCorners(scenario_.motion)
@@ -113,6 +117,7 @@ class MujocoPlant : public Plant {
   /// The drive's bandwidth and the one that does.
   Following Sufficient(const std::vector<MotionSegment>& plan) const {
     Following following;
+    // what the scenario says, else what does, within what the step can carry
     Advise(following, SufficientBandwidth(task_, plan));
     following.bandwidth =
         scenario_.controller.bandwidth != 0
@@ -124,6 +129,7 @@ class MujocoPlant : public Plant {
   /// Sets the bandwidth that does, in two digits, and the step where the scenario's is too long for it.
   void Advise(Following& following, double bandwidth) const {
     if (bandwidth == 0) return;
+    // a number of two digits at or above it
     const double unit = std::pow(10, std::floor(std::log10(bandwidth)) - 1);
     following.sufficient = unit * std::ceil(bandwidth / unit);
     const double parts = std::ceil(following.sufficient / FastestDrive() * (1 - 1e-12));
@@ -147,6 +153,7 @@ class MujocoPlant : public Plant {
 
   /// Refuses motions that leave the joint's limits.
   void CheckReach(const std::vector<MotionSegment>& plan, double position) const {
+    // ends of segments are the extremes of a motion at constant speeds
     for (const MotionSegment& segment : plan) {
       position += segment.velocity * segment.duration;
       CheckPosition(position);
@@ -172,6 +179,7 @@ class MujocoPlant : public Plant {
   }
 
   Recording Empty() const {
+    // columns are filled in while the joint moves
     const auto n =
         static_cast<Eigen::Index>(std::llround(scenario_.duration * scenario_.sampling.rate));
     Recording recording;
@@ -220,10 +228,12 @@ class MujocoPlant : public Plant {
       // about the step, since to one side of a corner the torque would lead the motion that is logged
       const double half_step_after = reference.Velocity(time + 0.5 * h);
       const double slope = (half_step_after - half_step_before) / h;
+      // the drive's torque for the step
       half_step_before = half_step_after;
       const double torque = drive.Torque(wanted, slope, d->qvel[0]);
       d->qfrc_applied[0] = torque;
 
+      // sensors and samples see the state before the step, forces during it
       const bool reads = step >= 0 && step % steps_per_reading_ == 0 && !log.Full();
       const bool stores = step >= 0 && step % steps_per_sample_ == 0 && sample < n;
       const double position = d->qpos[0], velocity = d->qvel[0];
@@ -242,6 +252,8 @@ class MujocoPlant : public Plant {
         ++sample;
       }
     }
+
+    // how much of the time the joint kept to its motion
     Following& following = recording.following;
     following.share = speed.share();
     // where the formula holds no answer, a faster drive is what can be tried

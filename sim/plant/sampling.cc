@@ -51,6 +51,7 @@ Eigen::Index SensorReadings(const Sampling& sampling, Eigen::Index stored) {
 }
 
 double NoiseLeft(const Sampling& sampling, Eigen::Index stored) {
+  // between two readings, each with its share, whose noise the filter relates
   const auto [square, neighbours] = ImpulseEnergy(sampling);
   double variance = 0;
   for (Eigen::Index k = 0; k < stored; ++k) {
@@ -70,6 +71,7 @@ LoggedSignal::LoggedSignal(const Sampling& sampling, double noise, const RandomS
 }
 
 void LoggedSignal::Read(double value) {
+  // the filter begins settled on the first reading
   if (reading_ == 0 && filter_) filter_->Settle(value);
   const double current = Filtered(noise_ > 0 ? value + noise_ * random_.Normal() : value);
 

@@ -41,6 +41,7 @@ double BeyondBand(double torque, double band) {
 /// The torque as its sensor, its range and its way to the log leave it.
 void SpoilTorque(const SensorFaults& faults, const VectorXd& time, VectorXd& torque) {
   for (Index i = 0; i < torque.size(); ++i) {
+    // drift, range and resolution, in the order in which they arise
     const double hours = time[i] / kHour;
     torque[i] =
         torque[i] * (1 + faults.sensor_drift.gain * hours) + faults.sensor_drift.offset * hours;
@@ -51,6 +52,8 @@ void SpoilTorque(const SensorFaults& faults, const VectorXd& time, VectorXd& tor
     const double step = faults.torque_resolution.resolution;
     if (step > 0) torque[i] = step * std::round(torque[i] / step);
   }
+
+  // and its way into the log
   if (faults.late_torque.samples > 0) torque = Delayed(torque, faults.late_torque.samples);
 }
 
@@ -96,6 +99,7 @@ void SpoilClock(const Clock& clock, VectorXd& time) {
 }  // namespace
 
 void DisturbMotion(const Disturbances& disturbances, Measurements& log) {
+  // the motion as filter, delay and encoder leave it
   if (disturbances.velocity_filter.time_constant > 0) {
     log.velocity = LowPass(log.time, log.velocity, disturbances.velocity_filter.time_constant);
   }
@@ -109,6 +113,7 @@ void DisturbMotion(const Disturbances& disturbances, Measurements& log) {
 }
 
 void LoseSamples(const LostSamples& lost, RandomStream random, Recording& recording) {
+  // the first and the last sample stay, so that the log keeps its length in time
   if (lost.fraction == 0) return;
   const Index last = recording.measurements.size() - 1;
   std::vector<Index> left;
@@ -122,6 +127,7 @@ void LoseSamples(const LostSamples& lost, RandomStream random, Recording& record
 void SpoilLog(const SensorFaults& faults, Recording& recording) {
   if (faults == SensorFaults{}) return;
   Measurements& log = recording.measurements;
+  // each sensor by itself
   SpoilTorque(faults, log.time, log.torque);
   Stick(faults.stuck_torque, log.time, log.torque);
   Stick(faults.stuck_position, log.time, log.position);
@@ -129,6 +135,8 @@ void SpoilLog(const SensorFaults& faults, Recording& recording) {
   log.position *= faults.column_scale.position;
   log.velocity *= faults.column_scale.velocity;
   log.torque *= faults.column_scale.torque;
+
+  // the log as a whole: its columns, its samples, its clock
   MistakeColumns(faults, log);
   LeaveOut(0, faults.cut_start.time, recording);
   LeaveOut(faults.gap.time, faults.gap.time + faults.gap.duration, recording);

@@ -28,6 +28,7 @@ void KeepOnly(mjSpec* spec, mjsJoint* joint) {
 }
 
 void SetUp(mjSpec* spec, mjsJoint* joint, double timestep) {
+  // nothing but the joint, its drive and its friction acts
   spec->compiler.fusestatic = 1;
   spec->option.timestep = timestep;
   spec->option.integrator = mjINT_EULER;
@@ -60,6 +61,7 @@ double GravitySlope(const mjModel* m) {
 SingleJointModel LoadSingleJoint(const std::string& path, const std::string& joint,
                                  const FrictionDescription& friction, double timestep,
                                  const std::string& asked_by) {
+  // the robot with one joint, and friction on it
   const ParsedModel parsed = ParseModel(path);
   mjSpec& spec = *parsed.spec;
   const Place place{fmt::format("{}: robot {}", asked_by, path)};
@@ -70,6 +72,7 @@ SingleJointModel LoadSingleJoint(const std::string& path, const std::string& joi
   SingleJointModel result;
   result.model = CompileModel(spec, place);
 
+  // what the plant needs to know, and where its numbers lie
   const mjModel* m = result.model.get();
   result.kind = m->jnt_type[0] == mjJNT_SLIDE ? JointKind::linear : JointKind::rotary;
   result.limits = m->jnt_limited[0] ? std::pair(m->jnt_range[0], m->jnt_range[1])

@@ -29,6 +29,7 @@ VelocityReference::VelocityReference(const std::vector<MotionSegment>& plan, dou
 VelocityReference VelocityReference::Through(const std::vector<VelocityCorner>& corners,
                                              double acceleration, double settling) {
   VelocityReference reference;
+  // from rest to the first velocity, a settling time before the motion begins
   const double first = corners.front().velocity;
   if (first != 0) {
     reference.corners_.push_back({-settling - std::abs(first) / acceleration, 0});
@@ -36,6 +37,7 @@ VelocityReference VelocityReference::Through(const std::vector<VelocityCorner>& 
   } else {
     reference.corners_.push_back({0, 0});
   }
+  // corners in order of time
   for (const VelocityCorner& corner : corners) {
     if (corner.time > reference.corners_.back().time) reference.corners_.push_back(corner);
   }
@@ -43,6 +45,7 @@ VelocityReference VelocityReference::Through(const std::vector<VelocityCorner>& 
 }
 
 double VelocityReference::run_up() const {
+  // way of each straight line before 0
   double way = 0;
   for (size_t i = 0; i + 1 < corners_.size() && corners_[i].time < 0; ++i) {
     const VelocityCorner& from = corners_[i];

@@ -16,7 +16,7 @@ class VelocityReference {
   /// A lead is cut to the length of its segment.
   VelocityReference(const std::vector<MotionSegment>& plan, double acceleration, double settling);
 
-  /// Follows corners, from rest: where the first is above 0, a ramp leads it by the settling time.
+  /// Follows corners, from rest: where the first is not 0, a ramp leads it by the settling time.
   static VelocityReference Through(const std::vector<VelocityCorner>& corners, double acceleration,
                                    double settling);
 

@@ -21,6 +21,7 @@ constexpr std::pair<const char*, Eigen::VectorXd Truth::*> kArrays[] = {
 };
 
 void CheckKeys(const json& object, const Place& place) {
+  // colour of the noise is there where it has any
   static const std::vector<std::string> needed{
       "friction", "initial_energy", "torque_noise", "plant", "velocity", "force", "loss", "energy"};
   std::vector<std::string> known = needed;
@@ -44,6 +45,7 @@ T Member(const json& object, const char* key, const char* kind, const Place& pla
 }  // namespace
 
 json TruthToJson(const Truth& truth) {
+  // friction, start and noise
   json result{{"friction", FrictionToJson(truth.friction)},
               {"initial_energy", truth.initial_energy},
               {"torque_noise", truth.torque_noise},
@@ -52,11 +54,13 @@ json TruthToJson(const Truth& truth) {
     result["coloured_noise"] = truth.coloured_noise;
     result["correlation_time"] = truth.correlation_time;
   }
+  // columns of N samples each
   for (const auto& [key, array] : kArrays) result[key] = truth.*array;
   return result;
 }
 
 Truth TruthFromJson(const json& object, const Place& place) {
+  // friction, start and noise
   CheckKeys(object, place);
   Truth truth;
   truth.friction = FrictionFromJson(object["friction"], place);
@@ -68,6 +72,8 @@ Truth TruthFromJson(const json& object, const Place& place) {
   if (object.contains("coloured_noise")) {
     truth.coloured_noise = Member<double>(object, "coloured_noise", "a number", place);
   }
+
+  // which plant, and columns of one length
   truth.plant = Member<std::string>(object, "plant", "text", place);
 
   for (const auto& [key, array] : kArrays) {
@@ -83,6 +89,7 @@ Truth TruthFromJson(const json& object, const Place& place) {
 
 void WriteTruth(const Truth& truth, const std::string& path) {
   const nlohmann::json json = TruthToJson(truth);
+  // one thread at a time: the writer asks for the locale
   const auto written = [&] {
     const auto turn = JsonTurn();
     return json.dump() + "\n";
