@@ -16,6 +16,7 @@ constexpr double kLargest = 1e30;       // of any value; beyond it squares and p
 constexpr double kShortestStep = 1e-9;  // s, on average
 
 void CheckValues(const RawColumns& raw, const std::string& column, const Eigen::VectorXd& values) {
+  // NaN fails the comparison too
   for (Eigen::Index i = 0; i < values.size(); ++i) {
     if (std::abs(values[i]) <= kLargest) continue;
     Refuse(
@@ -27,6 +28,7 @@ void CheckValues(const RawColumns& raw, const std::string& column, const Eigen::
 }
 
 void CheckTime(const RawColumns& raw, const Eigen::VectorXd& time) {
+  // stamps increase from sample to sample
   for (Eigen::Index i = 1; i < time.size(); ++i) {
     if (time[i] > time[i - 1]) continue;
     if (time[i] == time[i - 1]) {
@@ -78,9 +80,12 @@ double ScaleOf(const std::string& column, const CsvLayout& layout) {
 /// Position without the jumps of a sensor that starts its turn, or its range, again. range: rad or
 /// m; 0: a turn, of a rotary joint.
 void Unwrap(double range, Measurements& measurements) {
+  // a linear sensor has no turn
   if (range == 0 && measurements.joint != JointKind::rotary) return;
   const Eigen::VectorXd &time = measurements.time, &velocity = measurements.velocity;
   Eigen::VectorXd& position = measurements.position;
+
+  // by the range that is given, else by turns, with the speed to tell jumps from motion
   const int jumps = range > 0 ? UnwrapRange(time, velocity, range, position)
                               : UnwrapTurns(time, velocity, position);
   if (jumps == 0) return;
@@ -93,6 +98,7 @@ void Unwrap(double range, Measurements& measurements) {
 
 Measurements AssembleMeasurements(RawColumns raw, const std::vector<ColumnSource>& sources,
                                   const CsvLayout& layout) {
+  // what is known beside the columns
   Measurements measurements;
   measurements.joint = layout.joint;
   measurements.gear = layout.gear;
@@ -118,12 +124,14 @@ Measurements AssembleMeasurements(RawColumns raw, const std::vector<ColumnSource
     }
   }
 
+  // all of it at once: at least three samples, in order, with a torque that changes
   CheckCourse(raw, measurements);
   Unwrap(range, measurements);
   return measurements;
 }
 
 void CheckSamples(const Measurements& measurements) {
+  // without lines of a file, since the samples come from elsewhere
   const RawColumns raw{measurements.source, {}, {}};
   for (const RecordingColumn& column : RecordingColumns()) {
     const Eigen::VectorXd* values = column.get(measurements);

@@ -7,6 +7,7 @@ JointCourse CourseOf(const Measurements& measurements, BristleStart bristle) {
   JointCourse course{m.time, m.velocity, m.position};
   // the motor's own sensor, or the gear
   course.motor_position = m.motor_position.value_or(m.gear * m.position);
+  // what the log has beside its motion
   if (m.load) course.load = *m.load;
   if (m.mean_speed && m.loss_velocity) {
     course.mean_speed = *m.mean_speed;

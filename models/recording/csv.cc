@@ -13,6 +13,7 @@ Measurements ReadCsv(const std::string& path, const CsvLayout& layout) {
 }
 
 Measurements ParseCsv(std::string_view text, const std::string& name, const CsvLayout& layout) {
+  // the header tells where the columns are, and only those are read
   const CsvText csv(text, name);
   const std::vector<ColumnSource> sources = FindColumns(csv.names(), layout, csv.header_place());
 

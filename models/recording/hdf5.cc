@@ -37,6 +37,7 @@ void WriteObjects(const Measurements& measurements, H5::H5File& file) {
   root.createAttribute("gear", H5::PredType::NATIVE_DOUBLE, H5::DataSpace())
       .write(H5::PredType::NATIVE_DOUBLE, &measurements.gear);
 
+  // a dataset for each column that is there, with its unit
   const auto timeless = WithoutTimes<H5::DSetCreatPropList>();
   for (const RecordingColumn& column : RecordingColumns()) {
     const Eigen::VectorXd* values = column.get(measurements);

@@ -19,6 +19,7 @@ std::string ReadTextAttribute(const H5::H5Object& object, const std::string& nam
 }
 
 bool IsColumn(const H5::Group& root, const std::string& name) {
+  // one dimension of numbers
   if (root.childObjType(name) != H5O_TYPE_DATASET) return false;
   const H5::DataSet data = root.openDataSet(name);
   const H5T_class_t type = data.getTypeClass();
@@ -26,6 +27,7 @@ bool IsColumn(const H5::Group& root, const std::string& name) {
 }
 
 Eigen::VectorXd ReadValues(const H5::DataSet& data, const std::string& name, const Place& place) {
+  // what a damaged file states is not believed
   const hssize_t count = data.getSpace().getSimpleExtentNpoints();
   if (count < 0 || static_cast<unsigned long long>(count) > kMostSamples) {
     Refuse(place, "{} states {} samples; {} at most are read", Excerpt(name), count, kMostSamples);

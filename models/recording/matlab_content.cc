@@ -49,6 +49,7 @@ bool IsStruct(const matvar_t& variable) {
 }
 
 /// Calls `use` with the name and the value of each field of a struct of one element.
+// none where the library cannot tell the names
 void ForEachField(matvar_t& variable,
                   const std::function<void(const std::string&, matvar_t&)>& use) {
   char* const* names = Mat_VarGetStructFieldnames(&variable);
@@ -72,6 +73,7 @@ Eigen::VectorXd ValuesOf(const matvar_t& variable) {
   const std::size_t count = CountOf(variable);
   const auto size = static_cast<std::size_t>(std::max(variable.data_size, 0));
   if (!variable.data || size == 0 || variable.nbytes / size < count) return {};
+  // by the type that the file has
   switch (variable.class_type) {
     case MAT_C_DOUBLE:
       return Numbers<double>(variable, count);
@@ -101,6 +103,7 @@ Eigen::VectorXd ValuesOf(const matvar_t& variable) {
 /// A text of plain characters; empty where it is none.
 std::string TextOf(const matvar_t& variable) {
   if (variable.class_type != MAT_C_CHAR || !variable.data) return "";
+  // a unit or a kind of joint is short
   const std::size_t count = std::min<std::size_t>(CountOf(variable), 100);
   std::string text;
   // one or two bytes a character

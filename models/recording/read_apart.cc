@@ -104,6 +104,7 @@ std::string Packed(const FileContent& content) {
 }
 
 FileContent Unpacked(AnswerReader& reader) {
+  // in the order in which they were packed
   FileContent content;
   content.joint = reader.Text();
   const bool has_gear = reader.Number(1) == 1;
@@ -168,6 +169,7 @@ void Limit(int resource, rlim_t value) {
 
 /// All that comes through a pipe within some seconds; false where it is not at its end by then.
 bool ReadAll(int in, double seconds, std::string& bytes) {
+  // block by block, until the child closes its end or stays silent for too long
   std::array<char, 1 << 16> block;
   for (;;) {
     pollfd readable{in, POLLIN, 0};

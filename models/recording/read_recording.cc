@@ -21,6 +21,7 @@ bool IsHdf5(const std::string& path) {
 /// Refuses what tools/convert makes readable.
 void RefuseUnreadable(const std::string& path) {
   const std::string extension = Extension(path);
+  // formats of other tools, by their extension
   for (const char* other : {".db3", ".mcap", ".bag", ".parquet", ".npz", ".npy"}) {
     if (extension != other) continue;
     Refuse({path}, "{} is not read here; first: tools/convert {} -o log.h5", other, path);
@@ -40,6 +41,7 @@ Measurements ReadForeignRecording(const std::string& path, const CsvLayout& layo
 }
 
 void WriteRecording(const Measurements& measurements, const std::string& path) {
+  // the extension tells the format
   if (IsHdf5(path)) return WriteHdf5(measurements, path);
   if (Extension(path) == ".csv") return WriteCsv(measurements, path);
   Refuse({path}, "recordings are written as .csv or .h5, not '{}'; choose one of them",

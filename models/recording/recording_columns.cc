@@ -40,6 +40,7 @@ std::vector<std::string> OurNames() {
 
 void CheckNames(const std::map<std::string, std::string>& given, std::string_view option,
                 const Place& place) {
+  // a column of ours on the left, theirs on the right
   const std::vector<std::string> known = OurNames();
   for (const auto& [ours, theirs] : given) {
     if (std::find(known.begin(), known.end(), ours) != known.end()) continue;
@@ -50,6 +51,7 @@ void CheckNames(const std::map<std::string, std::string>& given, std::string_vie
 
 /// A name in the file that looks like `column`; "NAME" where none does.
 std::string LikelyName(const RecordingColumn& column, const std::vector<std::string>& names) {
+  // hints from the likeliest on, of which the first that fits counts
   for (const std::string& hint : column.other_names) {
     for (const std::string& name : names) {
       std::string lower = name;
@@ -97,6 +99,7 @@ std::size_t IndexOf(const std::string& theirs, const std::vector<std::string>& n
 }  // namespace
 
 const std::vector<RecordingColumn>& RecordingColumns() {
+  // name, whether it is needed, units of rotary and linear joints, other names, and where it lies
   using M = Measurements;
   static const std::vector<RecordingColumn> columns{
       {"time", true, {"s"}, {"s"}, {"time", "stamp", "t"}, Get<&M::time>, Set<&M::time>},
@@ -147,6 +150,7 @@ std::string UnitOf(const RecordingColumn& column, const Measurements& measuremen
 
 std::vector<ColumnSource> FindColumns(const std::vector<std::string>& names,
                                       const CsvLayout& layout, const Place& place) {
+  // options that name no column of ours are mistakes, whatever the file holds
   CheckNames(layout.column, "--map", place);
   CheckNames(layout.unit, "--unit", place);
   CheckNames(layout.scale, "--scale", place);

@@ -9,6 +9,7 @@
 namespace warmjoint::inline models {
 
 std::optional<std::string> TemperatureUnitIn(const std::string& name) {
+  // brackets and blanks behind a unit are no part of it
   constexpr std::string_view separators = "_ [(/.-";
   std::string_view text = name;
   while (!text.empty() && std::string_view("]) ").find(text.back()) != std::string_view::npos) {

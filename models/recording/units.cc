@@ -59,6 +59,7 @@ const std::vector<Unit>& Units() {
 
 const Unit& FindUnit(std::string_view name, const std::vector<std::string>& bases,
                      std::string_view column, const Place& place) {
+  // units of the column's own quantity alone
   std::vector<std::string> fitting;
   for (const Unit& unit : Units()) {
     if (std::find(bases.begin(), bases.end(), unit.base) == bases.end()) continue;

@@ -47,6 +47,7 @@ int UnwrapTurns(const Eigen::VectorXd& time, const Eigen::VectorXd& velocity,
                 Eigen::VectorXd& position) {
   constexpr double turn = 2 * std::numbers::pi;  // rad
   constexpr double slack = 1e-3 * turn;          // sensors round their last step
+  // what spans more than a turn already counts its turns
   if (position.maxCoeff() - position.minCoeff() > turn + slack) return 0;
   Eigen::VectorXd unwrapped = position;
   const Undone undone = Undo(time, velocity, turn, unwrapped);

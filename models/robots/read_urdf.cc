@@ -32,6 +32,7 @@ class Collector : public console_bridge::OutputHandler {
 void CheckDepth(const std::string& text, const Place& place) {
   constexpr int deepest = 500;
   XmlTagReader reader(text);
+  // how many elements are open at each tag
   int depth = 0;
   while (const auto tag = reader.Next()) {
     if (tag->kind == XmlTag::Kind::opens) ++depth;
@@ -49,6 +50,7 @@ urdf::ModelInterfaceSharedPtr ReadUrdf(const std::filesystem::path& path) {
   static std::mutex one_at_a_time;
   const std::lock_guard lock(one_at_a_time);
 
+  // read, checked and parsed, with what the parser says kept for the refusal
   const std::string text = ReadWholeFile(path);
   CheckDepth(text, {path.string()});
   Collector collector;

@@ -42,6 +42,7 @@ RobotJoint Describe(const urdf::Joint& joint) {
 
 /// The movable joints below a link, parents first.
 void CollectJoints(const urdf::Link& link, std::vector<RobotJoint>& joints) {
+  // this link's joints before those of its children
   for (const urdf::JointSharedPtr& joint : link.child_joints) {
     if (joint->type != urdf::Joint::FIXED) joints.push_back(Describe(*joint));
   }
@@ -49,6 +50,7 @@ void CollectJoints(const urdf::Link& link, std::vector<RobotJoint>& joints) {
 }
 
 std::string ReadFrictionJoint(const fs::path& path, const std::vector<RobotJoint>& joints) {
+  // the joint that the friction file is for
   const nlohmann::json file = ReadJsonFile(path);
   const std::string name =
       file.contains("joint") && file["joint"].is_string() ? file["joint"].get<std::string>() : "";
@@ -61,8 +63,10 @@ std::string ReadFrictionJoint(const fs::path& path, const std::vector<RobotJoint
 
 RobotInfo ReadRobot(const std::string& name) {
   const fs::path folder = DataFolder() / "models" / "robots" / name;
+  // its files, by their names in its folder
   RobotInfo robot;
   robot.name = name;
+  // what they say of it
   robot.description = ReadHeading(folder / "README.md");
   robot.mjcf = folder / (name + ".xml");
   robot.urdf = folder / (name + ".urdf");

@@ -13,6 +13,7 @@ constexpr size_t kBlock = 64, kBlocks = 16;
 AttributeWatch::AttributeWatch(std::string_view text) : copy_(text), prepared_(0) {}
 
 bool AttributeWatch::Same(std::string_view text) {
+  // of a long text blocks are enough, unless something was prepared since all was compared
   if (text.size() != copy_.size()) return false;
   const uint64_t count = count_.load(std::memory_order_relaxed);
   if (text.size() > kShort && prepared_ == count) return SameBlocks(text);
@@ -22,6 +23,7 @@ bool AttributeWatch::Same(std::string_view text) {
 }
 
 bool AttributeWatch::SameBlocks(std::string_view text) const {
+  // blocks from the first byte to the last, evenly
   const size_t stride = (text.size() - kBlock) / (kBlocks - 1);
   bool same = true;
   for (size_t i = 0; i < kBlocks; ++i) {

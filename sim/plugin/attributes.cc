@@ -20,6 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string BoundOf(const ParameterInfo& info) {
+  // bounds as words, as the table of parameters has them
   if (info.name == Thermal::parameters[0].name) {
     return fmt::format("-{0:g} to {0:g}", kLargestThermalGain);
   }
@@ -46,6 +47,8 @@ std::vector<PluginAttribute> MakeAttributes() {
       {"folder", "", "path", "folder from which file starts where it is relative"},
       {"gear", "rad/rad", "not 0", "motor turns for each joint turn; 1 where not given"},
   };
+
+  // the parameters of all laws, each once, then what joins any law
   for (const Law& law : Laws()) {
     for (const ParameterInfo& info : law.parameters) AddParameter(info, attributes);
   }
@@ -71,6 +74,7 @@ double Number(const std::string& name, const std::string& text, const Place& pla
 /// Where a relative file lies: in `folder`, in the model's folder where this program loaded it, or
 /// in the working directory. MuJoCo does not tell a plugin where its model comes from.
 fs::path Locate(const fs::path& file, const fs::path& folder) {
+  // a folder that is given goes before the model's, and that before the working directory
   if (file.is_absolute()) return file;
   const fs::path inside = folder / file;
   const fs::path beside = ModelFolder() / inside;
@@ -79,6 +83,7 @@ fs::path Locate(const fs::path& file, const fs::path& folder) {
 
 /// Refuses every attribute that is given beside `whole`, which stands for all of friction.
 void RefuseBeside(const std::string& whole, const AttributeReader& read, const Place& place) {
+  // what does not describe the friction may stand beside it
   for (const PluginAttribute& attribute : PluginAttributes()) {
     const bool beside = attribute.name == "folder" || attribute.name == "instance" ||
                         attribute.name == "initial_energy";
@@ -93,6 +98,7 @@ FrictionDescription ReadFile(const std::string& file, const AttributeReader& rea
                              const Place& place) {
   RefuseBeside("file", read, place);
   const fs::path path = Locate(file, read("folder"));
+  // a file that is not found may be looked for in the wrong folder
   try {
     return ReadFrictionFile(path);
   } catch (const BadInput& refusal) {
@@ -108,6 +114,7 @@ FrictionDescription ReadFile(const std::string& file, const AttributeReader& rea
 /// A gain and a time constant; nothing where neither is given.
 std::optional<Thermal> ReadThermal(std::string_view prefix, const AttributeReader& read,
                                    const Place& place) {
+  // the two make sense together alone
   const std::string gain_name = fmt::format("{}{}", prefix, kGainName);
   const std::string time_name = fmt::format("{}{}", prefix, kTimeConstantName);
   const std::string gain = read(gain_name), time_constant = read(time_name);
@@ -131,6 +138,8 @@ std::vector<FrictionMap> ReadMaps(const std::string& text, const Place& place) {
 /// The object of joints; of a name given twice JSON would keep the last alone.
 nlohmann::json ParseJoints(const std::string& text, const Place& place) {
   using nlohmann::json;
+
+  // refused while it is parsed: afterwards only one of them is left
   std::set<std::string> names;
   const auto refuse_twice = [&](int depth, json::parse_event_t event, json& value) {
     if (event != json::parse_event_t::key || depth != 1) return true;
@@ -150,6 +159,7 @@ FrictionOfJoints ReadJoints(const AttributeReader& read, const Place& place) {
   if (!object.is_object() || object.empty()) {
     Refuse(place, "joints must be a JSON object of joint names and their friction");
   }
+  // each friction is checked as one of a file is
   FrictionOfJoints joints;
   for (const auto& [name, friction] : object.items()) {
     joints[name] = FrictionFromJson(friction, {fmt::format("{}: joints: {}", place.file, name)});
@@ -172,6 +182,8 @@ FrictionDescription ReadInline(const AttributeReader& read, const Place& place) 
       if (!text.empty()) friction.parameters[name] = Number(name, text, place);
     }
   }
+
+  // what joins any law, and what of the table was left out
   friction.thermal = ReadThermal("", read, place);
   friction.second_thermal = ReadThermal(kSecondStage, read, place);
   for (const FrictionOption& option : FrictionOptions()) {
@@ -222,6 +234,7 @@ InitialEnergies ReadInitialEnergy(const AttributeReader& read, const FrictionOfJ
   using nlohmann::json;
   const std::string text = read("initial_energy");
   if (text.empty()) return {};
+  // a number for every joint, or a number for each by its name
   const json given = json::parse(text, nullptr, false);
   if (given.is_discarded()) {
     Refuse(place, "initial_energy is '{}'; it must be a number, or JSON by joint", Excerpt(text));
@@ -248,6 +261,7 @@ InitialEnergies ReadInitialEnergy(const AttributeReader& read, const FrictionOfJ
 }
 
 std::string FileStamp(const AttributeReader& read) {
+  // path, size and time: a file that changed is read again
   const std::string file = read("file");
   if (file.empty()) return "";
   const fs::path path = Locate(file, read("folder"));

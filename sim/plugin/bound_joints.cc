@@ -20,6 +20,7 @@ namespace {
 /// others: the other instances on each kinematic tree.
 BoundJoint BindJoint(const mjModel* m, int joint, const PreparedJoint& prepared,
                      const OtherInstances& others) {
+  // where the engine keeps its numbers, and with whom it shares its tree
   BoundJoint bound{.friction = prepared.friction};
   bound.joint = joint;
   bound.dof = m->jnt_dofadr[joint];
@@ -54,6 +55,7 @@ class FrictionOfActuators {
   }
 
   const PreparedJoint& Of(int actuator) {
+    // one friction may be meant for every joint; else each joint has its own
     if (const auto every = all_.find(""); every != all_.end()) return *every->second;
     const std::string name = JointOf(actuator);
     const auto found = all_.find(name);
@@ -92,6 +94,7 @@ BoundJoints::BoundJoints(const mjModel* m, int instance, int states)
       text_(AttributeText(m, instance)),
       signature_(m->signature),
       passive_(!DrivenByActuators(m, instance)) {
+  // what moves the joints, what reads them, and numbers that a user may change
   if (passive_) {
     BindPassive(m, states);
   } else {
@@ -102,6 +105,7 @@ BoundJoints::BoundJoints(const mjModel* m, int instance, int states)
 }
 
 void BoundJoints::BindActuators(const mjModel* m) {
+  // the instance's joints in the order of its actuators
   const auto prepared = PrepareInstance(m, instance_, {InstanceName(m, instance_)});
   FrictionOfActuators frictions(m, instance_, *prepared);
   const OtherInstances others = FindOthers(m, instance_);
@@ -128,6 +132,7 @@ void BoundJoints::BindActuators(const mjModel* m) {
 }
 
 void BoundJoints::BindPassive(const mjModel* m, int states) {
+  // in the order of joints, each with its states behind those of the reports
   const std::string name = InstanceName(m, instance_);
   const auto prepared = PrepareInstance(m, instance_, {name});
   const OtherInstances others = FindOthers(m, instance_);
@@ -156,6 +161,7 @@ void BoundJoints::BindSensors(const mjModel* m) {
 }
 
 void BoundJoints::BindNumbers(const mjModel* m) {
+  // only a named instance can have numbers in the model
   const std::string start = NameIn(m, mjOBJ_PLUGIN, instance_) + "/";
   if (start == "/") return;
   for (int i = 0; i < m->nnumeric; ++i) {
@@ -187,6 +193,7 @@ void BoundJoints::BindNumbers(const mjModel* m) {
 
 bool BoundJoints::ReadArrays(const mjModel* m) {
   bool any = false;
+  // a number that changed since the last look goes into its joint's friction
   for (NumberArray& array : numbers_) {
     const mjtNum* now = m->numeric_data + array.address;
     for (size_t i = 0; i < joints_.size(); ++i) {
@@ -201,6 +208,7 @@ bool BoundJoints::ReadArrays(const mjModel* m) {
 }
 
 int SensorSize(const mjModel* m, int instance) {
+  // the passive form names its joints, the other has actuators
   if (!DrivenByActuators(m, instance)) {
     const auto prepared = PrepareInstance(m, instance, {InstanceName(m, instance)});
     return kSensed * static_cast<int>(prepared->joints.size());

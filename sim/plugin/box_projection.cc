@@ -32,11 +32,13 @@ void BoxProjection::Find(InertiaBlock& inertia, const mjData* d) {
   const size_t size = course.size();
   int best = kMostTurns, patience = kPatience;
   for (int turn = 0; turn < kMostTurns; ++turn) {
+    // forces of those that hold follow from the slips of those at their bounds
     for (size_t i = 0; i < size; ++i) slip[i] = course[i] == within ? 0 : aim[i] - Bound(i);
     inertia.SolveBlock(slip.data());
     force = aim;
     inertia.Subtract(d, slip.data(), force.data());
 
+    // until nothing is wrong; one at a time where all at once does not get nearer
     const int wrong = Count();
     if (wrong == 0) break;
     if (wrong < best) patience = kPatience + 1;

@@ -16,11 +16,14 @@ constexpr double kMostSlope = 0.5;
 BristleTree::BristleTree(const mjModel* m, int tree, const std::vector<CoupledJoint>& joints)
     : joints_(joints), inertia_(m, tree) {
   complete_ = joints_.size() == size();
+  // numbers of two joints stand beside each other, so that one instruction does both
   const size_t pairs = (size() + 1) / 2;
   for (std::vector<Two>* numbers : {&present_, &mobility_, &side_, &start_, &slip_}) {
     numbers->assign(pairs, Two::Zero());
   }
   for (std::vector<Two>* numbers : {&pair_, &force_}) numbers->assign(2 * pairs, Two::Zero());
+
+  // which rows are joints of this instance, and whose level more than heat changes
   std::vector<int> asking;
   for (const CoupledJoint& joint : joints_) {
     const int i = joint.dof - inertia_.first();
@@ -42,6 +45,7 @@ void BristleTree::Shape(double h, double slope, double damping) {
 }
 
 void BristleTree::Step(const mjData* d, const LevelSource& levels, Rows rows, size_t first) {
+  // first what is likely and cheap: all slide but a few, then all hold, then the search
   const double slow = Stretch(d, rows);
   levels_.Begin(levels, first, rows);
   const auto joints = static_cast<double>(joints_.size());
@@ -62,6 +66,7 @@ double BristleTree::Stretch(const mjData* d, Rows rows) {
     const RowPair row = rows.pair(k);
     const Two impulse = per_speed * row[kSpeed];
     row[kStretch] = row[kLoad] * row[kPerInertia] + impulse;
+    // slow is a joint that its level could stop within the step
     const Two mobility{inverse[2 * k], 2 * k + 1 < rows_count ? inverse[2 * k + 1] : 0};
     const Two slack = mobility * row[kUpper].max(row[kLower]) - impulse.abs();
     slow += WhereNegative(slack, Two::Zero(), present[k]);
@@ -86,12 +91,15 @@ void BristleTree::Multiply(const mjData* d, Rows rows) {
 /// Whether everything is held by forces within the levels.
 bool BristleTree::Hold(Rows rows) {
   const double damping = damping_;
+  // levels that have to be asked for, on the side of the force first
   for (const int i : levels_.asking()) {
     const double elastic = force_[i][0], friction = elastic + damping * force_[i][1];
     const int side = elastic < 0 ? -1 : 1;
     levels_.Of(i, side);
     if (side * friction < 0) levels_.Of(i, -side);
   }
+
+  // the damper and the bristle within both levels, in pairs
   const size_t pairs = present_.size();
   const Two* const force = force_.data();
   Two within{0, 0};
@@ -111,11 +119,13 @@ bool BristleTree::Hold(Rows rows) {
 
 /// Sets every joint's side and the level there; returns the row that is the likeliest to be held.
 int BristleTree::TakeSides(Rows rows) {
+  // levels that have to be asked for, on the side of the stretch
   for (const int i : levels_.asking()) levels_.Of(i, rows.row(i)[kStretch] < 0 ? -1 : 1);
   const size_t pairs = present_.size();
   const double impulse = impulse_;
   const Two *const presents = present_.data(), *const mobility = mobility_.data();
   Two *const sides = side_.data(), least{0, 0}, likely{0, 1}, place{0, 1};
+  // the one whose speed its level stops most easily is the likeliest to be held
   for (size_t k = 0; k < pairs; ++k, place += 2) {
     const RowPair row = rows.pair(k);
     const Two stretch = row[kStretch], present = presents[k];
@@ -137,6 +147,7 @@ bool BristleTree::Slide(const mjData* d, Rows rows) {
   const size_t pairs = present_.size();
   const Two *const present = present_.data(), *const sides = side_.data();
   Two *const start = start_.data(), least{0, 0};
+  // sliding is right where slip and speed go to the side of the stretch
   for (size_t k = 0; k < pairs; ++k) {
     const RowPair row = rows.pair(k);
     const Two bearing = few_.bearing(k), slip = row[kStretch] - bearing, v = row[kSpeed];

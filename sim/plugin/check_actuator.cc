@@ -13,6 +13,7 @@ std::string NameOf(const mjModel* m, mjtObj type, const char* what, int id) {
 }
 
 void CheckTransmission(const mjModel* m, int i, const Place& place) {
+  // the engine must pass force on to the joint as it is
   if (m->actuator_trntype[i] != mjTRN_JOINT) {
     Refuse(place, "drives no joint; friction needs the attribute joint");
   }
@@ -30,6 +31,7 @@ void CheckTransmission(const mjModel* m, int i, const Place& place) {
 }
 
 void CheckElement(const mjModel* m, int i, const JointFriction& friction, const Place& place) {
+  // states as the friction needs them, and nothing that clips them
   const auto states = static_cast<size_t>(m->actuator_actadr[i] < 0 ? 0 : m->actuator_actnum[i]);
   if (m->actuator_dyntype[i] != mjDYN_NONE) Refuse(place, "dyntype must be none");
   if (states != friction.state().size()) {
@@ -51,6 +53,7 @@ void CheckElement(const mjModel* m, int i, const JointFriction& friction, const 
 
 /// Two frictions on one joint would be one friction that is stiffer than the step can carry.
 void RefuseSecond(const mjModel* m, int i, const Place& place) {
+  // an earlier actuator of the same plugin on the same joint
   for (int other = 0; other < i; ++other) {
     const int plugin = m->actuator_plugin[other];
     if (plugin < 0 || m->plugin[plugin] != m->plugin[m->actuator_plugin[i]]) continue;
@@ -67,6 +70,7 @@ std::string ActuatorName(const mjModel* m, int actuator) {
 }
 
 std::string InstanceName(const mjModel* m, int instance) {
+  // by the actuator that a user knows, else by its own name
   for (int i = 0; i < m->nactuator; ++i) {
     if (m->actuator_plugin[i] == instance) return ActuatorName(m, i);
   }

@@ -16,7 +16,9 @@ double At(const Two* pairs, int i) { return pairs->data()[i]; }
 
 bool FewHeld::Find(const InertiaBlock& inertia, const mjData* d, AskedLevels& levels,
                    const Two* side, const Two* start, Two* slip) {
+  // what slips away from its side, unless the last call has found it
   if (apart_count_ == 0 && !AddWrong(levels, side, start)) return false;
+  // until the few, and all others beside them, are right
   for (int turn = 0; turn < kMostTurns; ++turn) {
     if (missing_ && !FindColumns(inertia, d)) return false;
     FindLack(start);
@@ -31,6 +33,7 @@ bool FewHeld::Find(const InertiaBlock& inertia, const mjData* d, AskedLevels& le
 
 /// Takes in what slips away from its side; false where those are too many.
 bool FewHeld::AddWrong(AskedLevels& levels, const Two* side, const Two* slip) {
+  // what slips against its side is apart from now on, if there is room
   for (size_t k = 0; k < pairs_; ++k) {
     const Two along = side[k] * slip[k];
     for (int lane = 0; lane < 2; ++lane) {
@@ -51,6 +54,7 @@ bool FewHeld::IsApart(int joint) const {
 }
 
 void FewHeld::Add(int joint, double side, AskedLevels& levels) {
+  // held at first, between the levels of both sides
   const double upper = levels.Of(joint, 1), lower = levels.Of(joint, -1);
   const double level = side > 0 ? upper : -lower, other = side > 0 ? -lower : upper;
   const int column = columns_.Find(joint);
@@ -63,6 +67,7 @@ bool FewHeld::FindColumns(const InertiaBlock& inertia, const mjData* d) {
   missing_ = false;
   std::array<int, kMost> joints;
   size_t count = 0;
+  // columns that were found before stay where they are
   int place = columns_.count();
   for (int n = 0; n < apart_count_; ++n) {
     Apart& apart = apart_[n];
@@ -75,6 +80,7 @@ bool FewHeld::FindColumns(const InertiaBlock& inertia, const mjData* d) {
 
 /// What the forces of those that are apart lack to their levels.
 void FewHeld::FindLack(const Two* start) {
+  // one alone needs no matrix
   if (apart_count_ == 1 && apart_[0].held) [[likely]] {
     Apart& apart = apart_[0];
     apart.lack = -At(start, apart.joint) / At(ColumnOf(apart), apart.joint);
@@ -98,6 +104,7 @@ void FewHeld::FindLack(const Two* start) {
     }
     held[r]->lack = lack;
   }
+  // elimination forwards, then back
   for (int p = 0; p < count; ++p) {
     for (int r = p + 1; r < count; ++r) {
       const double factor = matrix[r][p] / matrix[p][p];
@@ -118,6 +125,7 @@ bool FewHeld::Slip(const Two* side, const Two* start, Two* slip) const {
   const size_t pairs = pairs_;
   const int count = apart_count_;
   const Two* from = start;
+  // each force that lacks something moves all joints
   for (int n = 0; n < count; ++n, from = slip) {
     const Apart& apart = apart_[n];
     const Two* const column = ColumnOf(apart);
@@ -126,6 +134,7 @@ bool FewHeld::Slip(const Two* side, const Two* start, Two* slip) const {
     right = right && apart.held && apart.within();
   }
   if (count == 0) std::copy_n(start, pairs, slip);
+  // what is held does not slip, whatever the rounding
   for (int n = 0; n < count; ++n) {
     const int joint = apart_[n].joint;
     if (apart_[n].held) At(slip, joint) = 0;
@@ -137,6 +146,7 @@ bool FewHeld::Slip(const Two* side, const Two* start, Two* slip) const {
 
 /// Changes what is wrong with those that are apart; whether nothing is.
 bool FewHeld::Change(const Two* slip) {
+  // backwards: the last, which was looked at, takes the place of one that leaves
   bool right = true;
   for (int n = apart_count_ - 1; n >= 0; --n) {
     Apart& apart = apart_[n];

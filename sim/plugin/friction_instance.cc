@@ -34,6 +34,7 @@ void FrictionInstance::Bind(const mjModel* m, bool in_run) {
     bound_ = BoundJoints(m, instance_, kFrictionReports);
     Rebind(m);
   }
+  // numbers and step of the model may change between two steps
   const bool same = timestep_ == m->opt.timestep && integrator_ == m->opt.integrator;
   if (bound_.ReadNumbers(m) || !same) [[unlikely]]
     ReadNumbers(m);
@@ -42,16 +43,21 @@ void FrictionInstance::Bind(const mjModel* m, bool in_run) {
 /// Makes scratch of the right size, and the joints ready for the model's step.
 void FrictionInstance::Rebind(const mjModel* m) {
   const std::vector<BoundJoint>& joints = bound_.joints();
+  // what has to be found for the joints at each step
   const bool needs_load = std::any_of(joints.begin(), joints.end(),
                                       [](const BoundJoint& joint) { return joint.needs_load; });
   needs_ambient_ = std::any_of(joints.begin(), joints.end(),
                                [](const BoundJoint& joint) { return joint.needs_ambient; });
+
+  // where the engine wants forces and states of those that actuators drive
   driven_.clear();
   for (const BoundJoint& joint : joints) {
     if (bound_.passive()) break;
     driven_.push_back({m->actuator_group[joint.actuator], joint.state,
                        static_cast<int>(joint.friction.state().size()), joint.output});
   }
+
+  // scratch of the model's size
   load_.assign(needs_load && bound_.passive() ? static_cast<size_t>(m->nv) : 0, 0);
   rows_ = JointRows(m, joints);
   ReadNumbers(m);
@@ -78,6 +84,7 @@ bool FrictionInstance::InRun(const mjModel* m, const mjData* d) const {
 
 void FrictionInstance::Prepare(const mjModel* m, mjData* d) {
   Bind(m, InRun(m, d));
+  // told once: numbers that a user set and the step does not bear
   if (!checked_) [[unlikely]] {
     WarnOfNumbers(m, d, instance_, bound_.joints());
     checked_ = true;
@@ -101,6 +108,7 @@ void FrictionInstance::StepActuators(const mjModel* m, mjData* d) {
   if (warm || needs_ambient_) BeginJoints(d, warm);
   Step(m, d, d->qfrc_bias);
 
+  // a step of Euler lands on the next states; stages of Runge-Kutta change nothing
   const double rate = m->opt.integrator == mjINT_RK4 ? 0 : 1 / timestep_;
   const double* next = rows_.next().data();
   for (const Driven& joint : driven_) {
@@ -112,6 +120,7 @@ void FrictionInstance::StepActuators(const mjModel* m, mjData* d) {
 
 /// Takes over the controls that tell an ambient. warm: whether the joints are to have their first heat.
 void FrictionInstance::BeginJoints(const mjData* d, bool warm) {
+  // numbers that are none must not reach the heat
   const std::vector<BoundJoint>& joints = bound_.joints();
   for (size_t i = 0; i < joints.size(); ++i) {
     const BoundJoint& joint = joints[i];
@@ -149,6 +158,7 @@ void FrictionInstance::Reset(const mjModel* m, mjtNum* state) {
   Bind(m, false);
   std::fill_n(state, m->plugin_statenum[instance_], 0.0);
   stepped_ = false;
+  // the passive form has its first heat here, the other takes it at its first step
   mjtNum* next = state + kFrictionReports;
   for (const BoundJoint& joint : bound_.joints()) {
     const auto& [first, second] = joint.initial_energy;
@@ -184,7 +194,10 @@ void FrictionInstance::AdvancePassive(const mjModel* m, mjData* d) const {
 
 void FrictionInstance::AdvanceActuators(const mjModel* m, mjData* d) const {
   if (m->opt.disableflags & mjDSBL_ACTUATION) return;
+  // the first heat was taken
   d->plugin_state[m->plugin_stateadr[instance_] + kStartsWarm] = 0;
+
+  // states by Runge-Kutta, and those that are no numbers any more, are written here
   const bool all = m->opt.integrator == mjINT_RK4;
   const double* next = rows_.next().data();
   for (const Driven& joint : driven_) {

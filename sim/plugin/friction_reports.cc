@@ -13,6 +13,7 @@ namespace warmjoint::inline sim {
 void WarnOfNumbers(const mjModel* m, mjData* d, int instance,
                    const std::vector<BoundJoint>& joints) {
   mjtNum& reported = d->plugin_state[m->plugin_stateadr[instance] + kReportsStep];
+  // once after a reset
   if (reported != 0) return;
   for (const BoundJoint& joint : joints) {
     try {
@@ -32,6 +33,7 @@ void WarnOfPush(const mjModel* m, mjData* d, int instance, const std::vector<Bou
   // a double counts 52 joints; those beyond share the last place
   const uint64_t bit = uint64_t{1} << std::min<size_t>(place, 51);
   mjtNum& reported = d->plugin_state[m->plugin_stateadr[instance] + kReportsPush];
+  // once for each joint
   const auto before = static_cast<uint64_t>(reported);
   if (before & bit) return;
   reported = static_cast<mjtNum>(before | bit);

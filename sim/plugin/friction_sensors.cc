@@ -5,6 +5,7 @@
 namespace warmjoint::inline sim {
 
 void FrictionSensors::Ask(const mjModel* m, mjData* d, const BoundJoints& bound, bool off) {
+  // sensors are told at the stage of positions, and written by the step that follows
   if (bound.sensors().empty()) return;
   asked_ = !off;
   if (!off) return;
@@ -17,6 +18,8 @@ void FrictionSensors::Note(const mjModel* m, mjData* d, const BoundJoints& bound
   if (!asked_) return;
   asked_ = false;
   const std::vector<BoundJoint>& joints = bound.joints();
+
+  // force, heat, its rise of temperature, loss, and whether it holds
   sensed_.clear();
   for (size_t i = 0; i < joints.size(); ++i) {
     const auto [first, second] = rows.energies(i);

@@ -9,6 +9,7 @@ namespace warmjoint::inline sim {
 
 InertiaBlock::InertiaBlock(const mjModel* m, int tree)
     : first_(m->tree_dofadr[tree]), address_(m->M_rowadr[first_]) {
+  // the tree's rows of M, which end with their diagonal elements
   for (int dof = first_; dof < first_ + m->tree_dofnum[tree]; ++dof) {
     row_.push_back(m->M_rowadr[dof] - address_);
     others_.push_back(m->M_rownnz[dof] - 1);
@@ -40,6 +41,7 @@ const InertiaBlock::Chain* InertiaBlock::FindChain() const {
 
 void InertiaBlock::MultiplyRows(const mjData* d, const Eigen::Array2d* x,
                                 Eigen::Array2d* mx) const {
+  // each element counts in its row and, mirrored, in its column
   const double* inertia = d->M + address_;
   const int* column = column_.data();
   const int rows = size();
@@ -56,6 +58,7 @@ void InertiaBlock::MultiplyRows(const mjData* d, const Eigen::Array2d* x,
 }
 
 void InertiaBlock::Subtract(const mjData* d, const double* x, double* y) const {
+  // each element counts in its row and, mirrored, in its column
   const double* inertia = d->M + address_;
   const int* column = column_.data();
   for (int k = 0; k < size(); ++k, ++inertia, ++column) {
@@ -72,6 +75,7 @@ void InertiaBlock::Subtract(const mjData* d, const double* x, double* y) const {
 /// The ancestors of an ancestor are the beginning of a row's own, so that no element is added, and
 /// rows are indexed alike.
 void InertiaBlock::Factorise(const mjData* d, const std::vector<char>& takes) {
+  // rows and columns of those that take part
   const double* inertia = d->M + address_;
   for (int k = 0; k < size(); ++k) {
     int length = 0;
@@ -84,6 +88,8 @@ void InertiaBlock::Factorise(const mjData* d, const std::vector<char>& takes) {
     length_[k] = length;
     inverse_[k] = takes[k] ? inertia[row + others_[k]] : 0;
   }
+
+  // L^T D L from the last row on, in place
   for (int k = size() - 1; k >= 0; --k) {
     if (!takes[k]) continue;
     const double inverse = inverse_[k] = 1 / inverse_[k];

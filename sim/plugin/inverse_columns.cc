@@ -11,6 +11,7 @@ InverseColumns::InverseColumns(size_t size) : pairs_((size + 1) / 2) {
 
 void InverseColumns::Start(const InertiaBlock& inertia, const mjData* d, Rows rows, int likely) {
   const size_t pairs = pairs_;
+  // M^-1 of the levels and of the likely joint, in one go
   Two* const solved = solved_.data();
   for (size_t k = 0; k < pairs; ++k) {
     const Two force = rows.pair(k)[kFriction];
@@ -27,6 +28,7 @@ bool InverseColumns::Add(const InertiaBlock& inertia, const mjData* d,
                          std::span<const int> joints) {
   const auto count = static_cast<int>(joints.size());
   if (count_ + count > kMost) return false;
+  // two columns at a time
   for (int n = 0; n < count; n += 2) {
     std::fill(solved_.begin(), solved_.end(), Two::Zero());
     const int lanes = std::min(2, count - n);

@@ -20,6 +20,7 @@ void AddAround(const InstanceNames& instance, std::vector<Renaming>& candidates)
 Renaming FindRenaming(const InstanceNames& instance, const std::vector<std::string>& joints,
                       const std::vector<std::string>& driven,
                       const std::function<bool(const std::string&)>& exists) {
+  // around the written name, none, beginnings of the actual name, and those of driven joints
   std::vector<Renaming> candidates;
   AddAround(instance, candidates);
   candidates.emplace_back();
@@ -31,6 +32,7 @@ Renaming FindRenaming(const InstanceNames& instance, const std::vector<std::stri
     candidates.push_back({joint.substr(0, joint.size() - joints.front().size()), ""});
   }
 
+  // the first of them by which every joint is there
   for (const Renaming& renaming : candidates) {
     const auto fits = [&](const std::string& joint) { return exists(renaming(joint)); };
     if (std::all_of(joints.begin(), joints.end(), fits)) return renaming;

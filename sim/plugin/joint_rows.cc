@@ -18,6 +18,7 @@ bool HasSecondStage(const JointFriction& friction) {
 }  // namespace
 
 JointRows::JointRows(const mjModel* m, const std::vector<BoundJoint>& joints) {
+  // joints that the inertia matrix couples, apart from those with a bristle of their own
   std::vector<CoupledJoint> coupled;
   std::vector<bool> is_coupled(joints.size());
   for (size_t i = 0; i < joints.size(); ++i) {
@@ -30,6 +31,8 @@ JointRows::JointRows(const mjModel* m, const std::vector<BoundJoint>& joints) {
         {joint.dof, inertia, joint.instances, !joint.friction.level_follows_heat_alone()});
   }
   bristles_ = CoupledBristles(m, coupled);
+
+  // rows of trees first, then a row for each joint that stands alone
   size_t rows = bristles_.size();
   joint_at_.assign(rows, 0);
   std::vector<size_t> places;
@@ -40,6 +43,7 @@ JointRows::JointRows(const mjModel* m, const std::vector<BoundJoint>& joints) {
     if (joints[i].friction.own_bristle()) alone_.push_back(i);
   }
   states_ = JointStates(joints, places);
+  // a row is absent until a coupled joint has it
   numbers_.assign(NumbersOf(rows), 0);
   for (size_t row = 0; row < rows + rows % 2; ++row) numbers_[PlaceOf(row) + 2 * kAbsent] = 1;
   for (const CoupledJoint& joint : coupled) {
@@ -52,6 +56,7 @@ JointRows::JointRows(const mjModel* m, const std::vector<BoundJoint>& joints) {
 }
 
 void JointRows::ReadNumbers(const mjModel* m, const std::vector<BoundJoint>& joints) {
+  // the numbers of each joint's friction, as they are now
   for (size_t i = 0; i < joints.size(); ++i) {
     const JointFriction& friction = joints[i].friction;
     const Heat& heat = friction.heat();
@@ -65,6 +70,8 @@ void JointRows::ReadNumbers(const mjModel* m, const std::vector<BoundJoint>& joi
     Of(i, kSecondPole) = heat.second.pole;
     Of(i, kSecondGain) = heat.second.gain;
   }
+
+  // what no joint has need not be worked out
   slopes_change_ = has_ambient_ = has_second_stage_ = false;
   for (size_t i = 0; i < joints.size(); ++i) {
     slopes_change_ = slopes_change_ || Of(i, kPerEnergy) != 0;
@@ -81,6 +88,7 @@ void JointRows::ReadNumbers(const mjModel* m, const std::vector<BoundJoint>& joi
 void JointRows::Step(const mjModel* m, const mjtNum* load) {
   load_ = load;
   pushed_.clear();
+  // levels, bristles, then what follows of them
   SetLevels();
   if (slopes_change_) SetSlopes();
   bristles_.Step(d_, *this, {numbers_.data()});
@@ -145,6 +153,7 @@ bool JointRows::Complete() {
   Two least = Two::Ones();
   double* const end = numbers_.data() + numbers_.size();
   for (RowPair row{numbers_.data()}; row.numbers != end; row.numbers += 2 * kColumns) {
+    // loss and heat of the step; friction of 0 in motion is looked at again
     const Two v = row[kSpeed], f = row[kFriction], viscous = row[kSlope] * v;
     const Two loss = viscous * v + row[kSliding] * (f * v).abs();
     row[kLoss] = loss;
@@ -192,6 +201,7 @@ void JointRows::Take(size_t i, const FrictionStep& step) {
 
 /// Friction without a force may be one that would push.
 void JointRows::TakeDeficits() {
+  // joints that move without friction, but for those with a bristle of their own
   for (size_t i = 0; i < states_.at().size(); ++i) {
     if (Of(i, kFriction) != 0 || Of(i, kSpeed) == 0) continue;
     if (joints_[i].friction.own_bristle()) continue;

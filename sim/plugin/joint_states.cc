@@ -4,6 +4,7 @@ namespace warmjoint::inline sim {
 
 JointStates::JointStates(const std::vector<BoundJoint>& joints, const std::vector<size_t>& places) {
   int next = 0;
+  // states of joints stand beside each other, in the order of joints
   for (size_t i = 0; i < joints.size(); ++i) {
     const auto own = static_cast<int>(joints[i].friction.state().size());
     at_.push_back({places[i], joints[i].dof, joints[i].state, next, own == 2});
@@ -15,6 +16,7 @@ JointStates::JointStates(const std::vector<BoundJoint>& joints, const std::vecto
 
 /// Joints that follow each other, and have the same two states, are loaded and stored together.
 void JointStates::FindTwos() {
+  // two plain joints of a pair of rows, which are neighbours in the model as well
   for (size_t i = 0; i < at_.size(); ++i) {
     const At& at = at_[i];
     const auto follows = [&](const At& next) {
@@ -36,6 +38,8 @@ void JointStates::Load(const mjData* d, const std::vector<BoundJoint>& joints, c
   d_ = d;
   joints_ = joints.data();
   states_ = states;
+
+  // two joints at a time, then those that are left
   Two finite = Two::Zero();
   for (const At& at : twos_) {
     const RowPair row{rows + at.place};
@@ -73,6 +77,7 @@ void JointStates::TakeForces(const double* rows, mjtNum* forces) const {
 void JointStates::Store(double* rows) {
   double* const next = next_.data();
   Two finite = Two::Zero();
+  // two joints at a time, then those that are left
   for (const At& at : twos_) {
     const RowPair row{rows + at.place};
     const Two load = row[kLoad], first = row[kNextFirst], sum = row[kForce] + load + first;
@@ -81,6 +86,8 @@ void JointStates::Store(double* rows) {
     finite += sum - sum;
   }
   for (const size_t i : ones_) StoreOne(i, rows);
+
+  // one by one where any number is not finite
   if (finite[0] == 0 && finite[1] == 0) [[likely]]
     return;
   for (size_t i = 0; i < at_.size(); ++i) StoreOne(i, rows);

@@ -44,6 +44,7 @@ std::vector<PassiveJoint> FindPassive(const mjModel* m, int instance,
            "no actuator refers to it; one that acts by itself needs the attribute joints, which "
            "names them");
   }
+  // names as the model has them, whatever prefix it was given
   const std::vector<std::string> all = JointsIn(m), named = JointsOf(prepared);
   const std::set<std::string> known(all.begin(), all.end());
   const InstanceNames names{prepared.written_name, NameIn(m, mjOBJ_PLUGIN, instance)};
@@ -60,6 +61,8 @@ std::vector<PassiveJoint> FindPassive(const mjModel* m, int instance,
     }
     joints.push_back({id, &joint});
   }
+
+  // in the order of the model
   const auto before = [](const PassiveJoint& a, const PassiveJoint& b) {
     return a.joint < b.joint;
   };
@@ -77,11 +80,14 @@ int PassiveStates(const mjModel* m, int instance) {
 }
 
 std::string FrictionOn(const mjModel* m, int joint, int plugin, int end) {
+  // actuators of the same plugin
   for (int i = 0; i < m->nactuator; ++i) {
     const int instance = m->actuator_plugin[i];
     const bool ours = instance >= 0 && m->plugin[instance] == plugin;
     if (ours && m->actuator_trnid[2 * i] == joint) return ActuatorName(m, i);
   }
+
+  // instances that act by themselves, of those before `end`
   for (int other = 0; other < end; ++other) {
     if (m->plugin[other] != plugin || DrivenByActuators(m, other)) continue;
     const auto prepared = PrepareInstance(m, other, {InstanceName(m, other)});
@@ -104,6 +110,7 @@ OtherInstances FindOthers(const mjModel* m, int instance) {
   const auto add = [&](int joint, int other) {
     others[m->dof_treeid[m->jnt_dofadr[joint]]].insert(other);
   };
+  // through actuators, and by themselves
   for (int i = 0; i < m->nactuator; ++i) {
     const int other = m->actuator_plugin[i];
     const bool friction =

@@ -22,6 +22,7 @@ class Shelf {
   }
 
   void Keep(const std::string& key, std::shared_ptr<const PreparedInstance> instance) {
+    // the oldest leave until the rest fits, but for the newest
     const std::lock_guard lock(mutex_);
     if (!instances_.emplace(key, std::move(instance)).second) return;
     order_.push_back(key);
@@ -54,6 +55,7 @@ std::shared_ptr<const PreparedInstance> PrepareInstance(const mjModel* m, int in
     const char* text = mj_getPluginConfig(m, instance, name.c_str());
     return text ? text : "";
   };
+  // the same text and the same file are prepared once
   const std::string key = std::string(AttributeText(m, instance)) + FileStamp(read);
   if (auto known = TheShelf().Find(key)) return known;
 

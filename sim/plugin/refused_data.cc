@@ -6,6 +6,7 @@ namespace warmjoint::inline sim {
 namespace {
 
 void FreeData(const mjModel* m, mjData* d, int instance) {
+  // what earlier instances hold of the data, then the data as the engine made it
   for (int before = 0; before < instance; ++before) {
     const mjpPlugin* plugin = mjp_getPluginAtSlot(m->plugin[before]);
     if (plugin->destroy) plugin->destroy(d, before);
@@ -18,6 +19,7 @@ void FreeData(const mjModel* m, mjData* d, int instance) {
 }  // namespace
 
 int RefuseData(const mjModel* m, mjData* d, int instance, const char* refusal, int version) {
+  // only a known engine's data can be freed from here
   if (!KnowsEngine(version)) {
     mju_warning("%s: %s", kFrictionPlugin, refusal);
     return -1;

@@ -96,6 +96,7 @@ void Compute(const mjModel* m, mjData* d, int instance, int capability) {
 }
 
 int SensorNumbers(const mjModel* m, int instance, int) {
+  // a refusal is told by States; until then one joint's numbers
   try {
     return SensorSize(m, instance);
   } catch (const std::exception&) {

@@ -26,6 +26,7 @@ void CheckKeys(const json& object, const Place& place) {
       "friction", "initial_energy", "torque_noise", "plant", "velocity", "force", "loss", "energy"};
   std::vector<std::string> known = needed;
   known.insert(known.end(), {"coloured_noise", "correlation_time"});
+  // an object of known keys, with all that are needed
   if (!object.is_object()) Refuse(place, "holds no object; a truth file is one");
   RefuseUnknownKeys(object, "truth", known, place);
   for (const std::string& key : needed) {

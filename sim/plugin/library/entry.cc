@@ -31,6 +31,7 @@ int AddEngine(dl_phdr_info* library, size_t, void* data) {
 /// linked with and brought along: models of the program's would not find the plugin.
 mjPLUGIN_LIB_INIT(warmjoint_friction) {
   Engines engines;
+  // one MuJoCo, of the version whose structures this library knows
   dl_iterate_phdr(AddEngine, &engines);
   if (engines.count > 1 || mj_version() != mjVERSION_HEADER) {
     std::fprintf(stderr,
