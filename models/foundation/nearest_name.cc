@@ -22,6 +22,7 @@ bool IsHalfOf(std::string_view a, std::string_view b) {
 
 /// As many of the names as fit, and how many more there are.
 std::string ShortList(const std::vector<std::string>& known) {
+  // the first name always, further ones as long as the list stays short
   std::string list;
   for (std::size_t i = 0; i < known.size(); ++i) {
     const std::string name = Excerpt(known[i]);

@@ -15,6 +15,7 @@ std::size_t Through(std::string_view text, std::string_view end) {
 
 /// Size of the tag at the front: a > within quotes does not end it.
 std::size_t SizeOfTag(std::string_view text) {
+  // a quote ends at another of its kind
   char quote = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (quote == 0 && text[i] == '>') return i + 1;

@@ -29,6 +29,7 @@ void CheckValue(const ParameterInfo& info, double value, const Place& place) {
 
 /// A joint at rest cannot bear less than a sliding one.
 void CheckStaticLevel(const FrictionDescription& friction, const Place& place) {
+  // only laws with a level at rest of its own can contradict themselves
   const Law& law = *FindLaw(friction.law);
   const std::optional<size_t> at_rest = PlaceOf(LawPart::rest_level, law);
   if (!at_rest) return;
@@ -162,6 +163,7 @@ void CheckFriction(const FrictionDescription& friction, const Place& place) {
 }
 
 std::span<const FrictionOption> FrictionOptions() {
+  // each option with its name, symbol, unit, bounds and default
   static const std::array options{
       FrictionOption{{"level_per_temperature", "kT", kLevelPerTemperatureUnit, -kInfinity,
                       kInfinity, 0, "change of the level for each K of the ambient, once settled"},

@@ -77,6 +77,7 @@ const MapAxis* FindAxis(const FrictionMap& map, MapQuantity quantity) {
 }
 
 void CheckMap(const FrictionMap& map, const Place& place) {
+  // few axes, kernels on each, and a finite weight for each product of kernels
   if (map.axes.empty() || map.axes.size() > kMostMapAxes) {
     Refuse(place, "a map has {} axes; give 1 to {}", map.axes.size(), kMostMapAxes);
   }

@@ -66,6 +66,7 @@ MapAxis AxisFromJson(const json& object, const Place& place) {
 }  // namespace
 
 json MapToJson(const FrictionMap& map) {
+  // a period only where the axis is a circle
   json axes = json::array();
   for (const MapAxis& axis : map.axes) {
     json object{{"quantity", MapQuantityName(axis.quantity)},

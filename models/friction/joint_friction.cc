@@ -48,6 +48,7 @@ struct OtherNumber {
 
 std::span<const OtherNumber> OtherNumbers() {
   using Friction = FrictionDescription;
+  // numbers that a run may change, where the friction has them
   static const std::array numbers{
       OtherNumber{"", Thermal::parameters[0],
                   [](Friction& f) { return f.thermal ? &f.thermal->gain : nullptr; }},
@@ -72,6 +73,7 @@ std::span<const OtherNumber> OtherNumbers() {
 }  // namespace
 
 std::vector<StateMember> StateOf(const FrictionDescription& friction) {
+  // a second stage and the direction of a slide only where the friction knows them
   std::vector<StateMember> members{{"bristle load", &FrictionState::bristle},
                                    {"energy", &FrictionState::energy}};
   if (friction.second_thermal) {

@@ -75,9 +75,12 @@ void PreparedMap::ForEachRow(const FrictionMap& map, const std::vector<size_t>& 
 /// the last and the first of its rows.
 template <size_t axis, typename Sums>
 double PreparedMap::Sum(const Active& active, size_t row, const Sums& sums) const {
+  // from the first row of this axis that is active
   const ActiveKernels& kernels = active[axis];
   row += static_cast<size_t>(kernels.first) * strides_[axis];
   if (axis + 2 == axes_.size()) return sums(kernels, row);
+
+  // each of its kernels weighs what the axes behind it come to
   double sum = 0;
   if constexpr (axis + 2 < kMostMapAxes) {
     const double* value = kernels.value.data() + kernels.begin;

@@ -14,6 +14,7 @@ constexpr int kPlaces = 720;
 
 /// The positions that the maps cover: their centres, a turn of the motor, or a single place.
 std::pair<double, double> Travel(const FrictionDescription& friction) {
+  // all axes over the position together
   double first = 0, last = 0;
   bool by_position = false, by_motor = false;
   for (const FrictionMap& map : friction.maps) {
@@ -28,6 +29,8 @@ std::pair<double, double> Travel(const FrictionDescription& friction) {
       by_position = true;
     }
   }
+
+  // a motor's turn is the gear's part of a joint's turn
   if (by_position || !by_motor) return {first, last};
   return {0, 2 * std::numbers::pi / std::abs(friction.gear)};
 }
