@@ -79,6 +79,13 @@ struct Refusal {
   std::optional<FrictionKind> unsettled{};
 };
 
+/// E at the last sample of a log that has one stage of heat.
+struct EndEnergy {
+  double value = 0;  // N.m or N
+  Eigen::VectorXd
+      slopes;  // [m <= p] dE/dx by the first m estimated rows, all that it depends on; exact
+};
+
 /// A fit of the model F + G + M a to the samples that `used` keeps.
 struct Fit {
   std::string identifier;
@@ -103,9 +110,8 @@ struct Fit {
   /// Standard error of E at the end of the log, N.m or N, of a fit whose table does not hold all that
   /// E depends on, as the weights of maps; else not set: it follows from the table.
   std::optional<double> end_energy_std;
-  /// dE/dx at the end of the log by the first m estimated rows, all that it depends on, [m <= p], exact;
-  /// or not set: the report finds them by differences.
-  std::function<Eigen::VectorXd()> end_energy_slopes;
+  /// E at the end of the log by the fit's own recursion; or not set: the report finds it along the motion.
+  std::function<EndEnergy()> end_energy;
   std::vector<FitParameter> parameters;  // [P]; those estimated come in the order of x
 
   // what it was fitted to, and how well

@@ -1,11 +1,26 @@
 #include "identification/forward/closed_loop.h"
 
 #include <cmath>
+#include <type_traits>
 
 #include "identification/forward/closed_loop_kernel.h"
 #include "models/friction/sign.h"
 
 namespace warmjoint::inline identification {
+namespace {
+
+/// Calls run(D) with the number of law parameters where the compiler may know it, or Dynamic.
+template <typename Run>
+void WithLoopSize(const ClosedLoop& loop, Run&& run) {
+  // most laws have two levels, which then stay in registers
+  if (loop.levels().cols() == 2 && loop.jumps().empty()) {
+    run(std::integral_constant<int, 2>());
+  } else {
+    run(std::integral_constant<int, Eigen::Dynamic>());
+  }
+}
+
+}  // namespace
 
 ClosedLoop::ClosedLoop(const Eigen::VectorXd& time, const Eigen::VectorXd& velocity,
                        const Eigen::MatrixXd& columns, const std::vector<Eigen::Index>& starts)
@@ -59,14 +74,17 @@ Eigen::MatrixXd ClosedLoop::Jacobian(const Eigen::VectorXd& parameters, const Th
                                      double initial_energy, const Eigen::VectorXd& jumps) const {
   const Eigen::Index d = levels_.cols(), all = d + 3 + static_cast<Eigen::Index>(jumps_.size());
   Eigen::MatrixXd jacobian(size(), all);
-  // levels become torques by the direction of motion
-  const auto write = [&](Eigen::Index n, double, const double* g, const double* S) {
-    for (Eigen::Index i = 0; i < d; ++i) jacobian(n, i) = direction_[n] * (g[i] + S[i]);
-    for (Eigen::Index i = d; i < all; ++i) jacobian(n, i) = direction_[n] * S[i];
-  };
-  WithHolds(intervals_, thermal, [&](const auto& hold) {
-    RunWithSensitivities<Eigen::Dynamic>(*this, parameters.data(), thermal.gain, initial_energy,
-                                         jumps.data(), hold, write);
+  WithLoopSize(*this, [&]<int D>(std::integral_constant<int, D>) {
+    const Eigen::Index own = LoopSize<D>(d).value(), count = D == Eigen::Dynamic ? all : D + 3;
+    // levels become torques by the direction of motion
+    const auto write = [&](Eigen::Index n, double, const double* g, const double* S) {
+      for (Eigen::Index i = 0; i < own; ++i) jacobian(n, i) = direction_[n] * (g[i] + S[i]);
+      for (Eigen::Index i = own; i < count; ++i) jacobian(n, i) = direction_[n] * S[i];
+    };
+    WithHolds(intervals_, thermal, [&](const auto& hold) {
+      RunWithSensitivities<D>(*this, parameters.data(), thermal.gain, initial_energy, jumps.data(),
+                              hold, write);
+    });
   });
 
   // from log(tau) to tau
@@ -74,23 +92,52 @@ Eigen::MatrixXd ClosedLoop::Jacobian(const Eigen::VectorXd& parameters, const Th
   return jacobian;
 }
 
-Eigen::VectorXd ClosedLoop::EndSlopes(const Eigen::VectorXd& parameters, const Thermal& thermal,
-                                      double initial_energy, const Eigen::VectorXd& jumps) const {
-  const Eigen::Index all = levels_.cols() + 3 + static_cast<Eigen::Index>(jumps_.size());
-  Eigen::VectorXd slopes = Eigen::VectorXd::Zero(all);
-  const auto take_last = [&](Eigen::Index n, double, const double*, const double* S) {
-    if (n + 1 == size()) slopes = Eigen::Map<const Eigen::VectorXd>(S, all);
-  };
-  const auto run = [&]<int D>(const auto& hold) {
-    RunWithSensitivities<D>(*this, parameters.data(), thermal.gain, initial_energy, jumps.data(),
-                            hold, take_last);
-  };
-  // most laws have two levels, which then stay in registers
-  const bool two = levels_.cols() == 2 && jumps_.empty();
-  WithHolds(intervals_, thermal, [&](const auto& hold) {
-    two ? run.template operator()<2>(hold) : run.template operator()<Eigen::Dynamic>(hold);
+Eigen::MatrixXd ClosedLoop::LawJacobian(const Thermal& thermal) const {
+  const Eigen::Index d = levels_.cols();
+  Rows jacobian(size(), d);
+  Eigen::VectorXd S = Eigen::VectorXd::Zero(d);  // dE/dp
+  const double* g = levels_.data();
+  const double* of_loss = loss_levels().data();
+  WithHolds(intervals_, thermal, [&](const auto& hold_after) {
+    double* out = jacobian.data();
+    for (Eigen::Index n = 0; n < size(); ++n, g += d, of_loss += d, out += d) {
+      const auto [feedback, lambda] = FedBack(hold_after[n], speed_[n]);
+      for (Eigen::Index i = 0; i < d; ++i) {
+        out[i] = direction_[n] * (g[i] + S[i]);
+        S[i] = ThermalStep(feedback, lambda, S[i], of_loss[i]);
+      }
+    }
   });
-  return slopes;
+  return jacobian;
+}
+
+LoopEnd ClosedLoop::End(const Eigen::VectorXd& parameters, const Thermal& thermal,
+                        double initial_energy, const Eigen::VectorXd& jumps) const {
+  const Eigen::Index all = levels_.cols() + 3 + static_cast<Eigen::Index>(jumps_.size());
+  LoopEnd end{initial_energy, Eigen::VectorXd::Zero(all)};
+  const auto take_last = [&](Eigen::Index n, double level, const double*, const double* S) {
+    if (n + 1 < size()) return;
+    end.energy = level - levels_.row(n).dot(parameters);
+    end.slopes = Eigen::Map<const Eigen::VectorXd>(S, all);
+  };
+  WithLoopSize(*this, [&]<int D>(std::integral_constant<int, D>) {
+    WithHolds(intervals_, thermal, [&](const auto& hold) {
+      RunWithSensitivities<D>(*this, parameters.data(), thermal.gain, initial_energy, jumps.data(),
+                              hold, take_last);
+    });
+  });
+  return end;
+}
+
+ClosedLoop ClosedLoop::WithColumns(const Eigen::MatrixXd& columns,
+                                   const Eigen::MatrixXd& loss_columns) const {
+  ClosedLoop loop;
+  loop.speed_ = speed_;
+  loop.direction_ = direction_;
+  loop.intervals_ = intervals_;
+  loop.levels_ = direction_.asDiagonal() * columns;
+  if (loss_columns.size() > 0) loop.loss_levels_ = direction_.asDiagonal() * loss_columns;
+  return loop;
 }
 
 ClosedLoop ClosedLoop::WithJumps(std::vector<Eigen::Index> samples) const {

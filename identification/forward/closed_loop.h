@@ -20,6 +20,12 @@ struct LoopResponse {
   std::optional<Eigen::Index> feeds_itself;
 };
 
+/// Where the loop ends.
+struct LoopEnd {
+  double energy = 0;       // E at the last sample, N.m or N
+  Eigen::VectorXd slopes;  // [d + 3 + J] dE/d(p, k, log tau, E0, jumps)
+};
+
 /// The loop E -> F -> W -> E over N samples of a velocity, for a law that is linear in its d
 /// parameters p. In its domain (F v >= 0) the loop is linear in E with the pole
 /// lambda = te + ke |v|: written with the level a = F sign(v) = g p + E, g = sign(v) dFn/dp,
@@ -48,14 +54,21 @@ class ClosedLoop {
   Eigen::MatrixXd Jacobian(const Eigen::VectorXd& parameters, const Thermal& thermal,
                            double initial_energy = 0, const Eigen::VectorXd& jumps = {}) const;
 
-  /// dE/d(p, k, log tau, E0, jumps) at the last sample: [d + 3 + J], exact.
-  Eigen::VectorXd EndSlopes(const Eigen::VectorXd& parameters, const Thermal& thermal,
-                            double initial_energy = 0, const Eigen::VectorXd& jumps = {}) const;
+  /// dF/dp alone, which is the same for all parameters: [N x d], exact.
+  Eigen::MatrixXd LawJacobian(const Thermal& thermal) const;
+
+  /// E at the last sample, and its exact derivatives there.
+  LoopEnd End(const Eigen::VectorXd& parameters, const Thermal& thermal, double initial_energy = 0,
+              const Eigen::VectorXd& jumps = {}) const;
 
   /// Along a recording. Where it tells mean speeds, these make the losses, with loss_columns, which are
   /// `columns` at its loss velocity; empty: the same. Both [N x d].
   static ClosedLoop Along(const Measurements& measurements, const Eigen::MatrixXd& columns,
                           const Eigen::MatrixXd& loss_columns = {});
+
+  /// The same motion with other columns, and those of its losses where they differ; without jumps.
+  ClosedLoop WithColumns(const Eigen::MatrixXd& columns,
+                         const Eigen::MatrixXd& loss_columns = {}) const;
 
   /// The same loop whose E jumps at samples, ascending: [J]
   ClosedLoop WithJumps(std::vector<Eigen::Index> samples) const;
@@ -71,6 +84,8 @@ class ClosedLoop {
   const std::vector<Eigen::Index>& jumps() const { return jumps_; }  // [J] samples
 
  private:
+  ClosedLoop() = default;
+
   Eigen::VectorXd speed_;
   Eigen::VectorXd direction_;
   Rows levels_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 
 namespace warmjoint::inline identification {
 
@@ -39,18 +40,57 @@ class RowProducts {
   }
 
  private:
-  static constexpr Eigen::Index kBlock = 128;  // rows: they stay in the nearest cache
+  static constexpr Eigen::Index kBlock = 128;  // rows, even: they stay in the nearest cache
+  static constexpr int kTile = 3;  // columns: nine sums of two and six factors fill 16 registers
 
   void TakeUp() {
-    const auto rows = rows_.topRows(count_);
     if constexpr (P == Eigen::Dynamic) {
+      const auto rows = rows_.topRows(count_);
       sums_.template selfadjointView<Eigen::Upper>().rankUpdate(rows.transpose());
     } else {
-      for (Eigen::Index j = 0; j < P; ++j) {
-        for (Eigen::Index i = 0; i <= j; ++i) sums_(i, j) += rows.col(i).dot(rows.col(j));
-      }
+      AddTiles<0, 0>();
     }
     count_ = 0;
+  }
+
+  /// Products of columns I.. with columns J.., and of all tiles behind these: the upper triangle.
+  template <int I, int J>
+  void AddTiles() {
+    AddTile<I, J>();
+    if constexpr (I + kTile <= J) {
+      AddTiles<I + kTile, J>();
+    } else if constexpr (J + kTile < P) {
+      AddTiles<0, J + kTile>();
+    }
+  }
+
+  /// Sums of up to kTile by kTile products that stay in registers, two rows at a time.
+  template <int I, int J>
+  void AddTile() {
+    using Two = Eigen::Array2d;
+    constexpr int p = std::min(kTile, P - I), q = std::min(kTile, P - J);
+    Two sums[p][q];
+    for (int i = 0; i < p; ++i) {
+      for (int j = 0; j < q; ++j) sums[i][j].setZero();
+    }
+    // the row behind an odd one is 0
+    if (count_ % 2 == 1) rows_.row(count_).setZero();
+    const double* first = rows_.data();
+    for (Eigen::Index k = 0; k < count_; k += 2) {
+      Two left[p], right[q];
+      for (int i = 0; i < p; ++i) left[i] = Eigen::Map<const Two>(first + (I + i) * kBlock + k);
+      for (int j = 0; j < q; ++j) right[j] = Eigen::Map<const Two>(first + (J + j) * kBlock + k);
+      for (int i = 0; i < p; ++i) {
+        for (int j = 0; j < q; ++j) {
+          if (I + i <= J + j) sums[i][j] += left[i] * right[j];
+        }
+      }
+    }
+    for (int i = 0; i < p; ++i) {
+      for (int j = 0; j < q; ++j) {
+        if (I + i <= J + j) sums_(I + i, J + j) += sums[i][j].sum();
+      }
+    }
   }
 
   Eigen::Matrix<double, kBlock, P> rows_;

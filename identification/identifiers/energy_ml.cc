@@ -31,6 +31,16 @@ namespace {
 
 constexpr const char* kName = "energy-ml";
 
+/// Squares that linear least squares leave; infinite where its columns are not told apart. A: [n x d]; y: [n]
+double LeftOver(const Eigen::MatrixXd& A, const Eigen::VectorXd& y, const LeastSquares& fit) {
+  return fit.mixed.empty() ? (y - A * fit.solution).squaredNorm() : kInfinity;
+}
+
+/// Those of the rows by themselves.
+double LeftOver(const Eigen::MatrixXd& A, const Eigen::VectorXd& y) {
+  return LeftOver(A, y, SolveLeastSquares(A, y));
+}
+
 /// What all passes of a fit share.
 struct Course {
   const IdentifierInput& input;  // without gravity where it is known
@@ -38,6 +48,7 @@ struct Course {
   Eigen::MatrixXd kept_columns;  // [n x d] law, then gravity
   Eigen::VectorXd torque;        // [n] N.m or N
   LeastSquares nominal;          // without warming
+  double nominal_squares;        // that it leaves; infinite where its columns are not told apart
   Selection moving;              // of the kept samples
   Eigen::VectorXd kept;          // [N] 1 where moving
   ClosedLoop loop;
@@ -54,14 +65,13 @@ struct Course {
         kept_columns(Kept(task.columns, input.selection)),
         torque(Kept(input.measurements.torque, input.selection)),
         nominal(SolveLeastSquares(kept_columns, torque)),
+        nominal_squares(LeftOver(kept_columns, torque, nominal)),
         moving(WithoutRest(input.selection, input.measurements)),
         kept(moving.keep.cast<double>()),
         loop(ClosedLoop::Along(input.measurements, task.columns.leftCols(task.law_count()),
                                LossColumns(task.law, input.measurements))),
         level(loop.direction().cwiseProduct(input.measurements.torque)),
         offsets(loop.direction().asDiagonal() * task.gravity.columns) {}
-
-  double NominalSquares() const { return (torque - kept_columns * nominal.solution).squaredNorm(); }
 };
 
 /// A start for all linear parameters, law before gravity, and the warming: the scan over tau once
@@ -80,17 +90,10 @@ WarmStart Scan(const Course& course, const Eigen::VectorXd& level) {
   return start;
 }
 
-/// Squares that linear least squares leave. A: [n x d]; y: [n]
-double LeftOver(const Eigen::MatrixXd& A, const Eigen::VectorXd& y) {
-  const LeastSquares fit = SolveLeastSquares(A, y);
-  return fit.mixed.empty() ? (y - A * fit.solution).squaredNorm() : kInfinity;
-}
-
 /// How sure a fit to plain squares is of its x, whatever the colour of the noise.
 Uncertainty KnownOf(const Course& course, const WarmFit& plain) {
   const auto& [input, gravity] = std::tie(course.input, course.task.gravity);
-  const LoopResponse response = course.loop.Simulate(plain.parameters(), plain.thermal(),
-                                                     plain.initial_energy(), plain.jump_values());
+  const LoopResponse response = WarmResponse(course.loop, plain);
   const Eigen::VectorXd fitted = response.force + gravity.columns * plain.offset_values();
   const Eigen::VectorXd residual = Kept(input.measurements.torque - fitted, input.selection);
   return JudgeUncertainty(Kept(WarmJacobian(course.loop, gravity, plain), input.selection),
@@ -114,13 +117,13 @@ struct Whitened {
 };
 
 /// Fits once more on whitened rows, where the noise is coloured beyond doubt; the fit stays as it was
-/// where that changes more than noise may.
-Whitened FitAgainWhitened(const Course& course, WarmFit& fit) {
+/// where that changes more than noise may. response: of the loop by the fit
+Whitened FitAgainWhitened(const Course& course, const LoopResponse& response, WarmFit& fit) {
   const Measurements& m = course.input.measurements;
   const WarmFit plain = fit;
   Whitened white;
   white.map = FitWhitened(m, course.input.selection, course.loop, course.level, course.offsets,
-                          course.spread, fit);
+                          course.spread, response, fit);
   if (!white.map) return white;
 
   // back to the plain fit where whitening changes too much, or leaves the bounds
@@ -136,7 +139,7 @@ Whitened FitAgainWhitened(const Course& course, WarmFit& fit) {
 RobustWarmFit FitBySquares(Course& course, const WarmStart& start) {
   // first without gaps, with E(0) as the options have it
   const double scale =
-      std::sqrt(course.NominalSquares() / static_cast<double>(course.torque.size()));
+      std::sqrt(course.nominal_squares / static_cast<double>(course.torque.size()));
   RobustWarmFit robust{FitWarmFriction(course.loop, course.level, course.offsets, course.kept,
                                        start, InitialEnergyOf(course.input.options), scale),
                        course.kept, kInfinity};
@@ -162,7 +165,7 @@ RobustWarmFit FitBySquares(Course& course, const WarmStart& start) {
 /// noise is coloured beyond doubt.
 Fit FitFurther(const Course& course, const WarmStart& start, RobustWarmFit robust) {
   const auto& [input, task] = std::tie(course.input, course.task);
-  double nominal_squares = course.NominalSquares();
+  double nominal_squares = course.nominal_squares;
   // outliers count less, in the fit without warming as well
   if (input.options.Text("loss") == "huber") {
     robust = RefineByHuber(course.loop, course.level, course.offsets, course.kept,
@@ -181,8 +184,10 @@ Fit FitFurther(const Course& course, const WarmStart& start, RobustWarmFit robus
         input.measurements, course.moving, course.loop, course.offsets, course.spread,
         [&](const Eigen::VectorXd& level) { return Scan(course, level); }, robust.fit);
   }
+  LoopResponse response = WarmResponse(course.loop, robust.fit);
   Whitened whitened;
-  if (by_squares && !lag) whitened = FitAgainWhitened(course, robust.fit);
+  if (by_squares && !lag) whitened = FitAgainWhitened(course, response, robust.fit);
+  if (whitened.map) response = WarmResponse(course.loop, robust.fit);
 
   // the fit without warming, on the same rows
   if (lag)
@@ -191,7 +196,7 @@ Fit FitFurther(const Course& course, const WarmStart& start, RobustWarmFit robus
     nominal_squares = LeftOver(map->Of(course.kept_columns), map->Of(course.torque));
   return ConcludeWarm(kName,
                       {input, task.law, task.gravity, course.loop, start, course.gaps, whitened.map,
-                       whitened.refused, lag},
+                       whitened.refused, lag, response},
                       robust, nominal_squares);
 }
 

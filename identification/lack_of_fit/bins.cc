@@ -105,7 +105,9 @@ Eigen::MatrixXd Bins::Means(const Eigen::MatrixXd& all) const {
   for (Index column = 0; column < all.cols(); ++column) {
     for (Index c = 0; c < size(); ++c) {
       const auto i = static_cast<size_t>(c);
-      means(c, column) = all.col(column).segment(begin[i], end[i] - begin[i]).mean();
+      double sum = 0;
+      for (Index n = begin[i]; n < end[i]; ++n) sum += all(n, column);
+      means(c, column) = sum / static_cast<double>(end[i] - begin[i]);
     }
   }
   return means;

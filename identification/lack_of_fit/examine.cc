@@ -119,8 +119,7 @@ void LearnHints(Index p, Examination& examination) {
 
 /// What returns with every hold and vanishes somewhere in it has a mean over the hold that is no farther from 0
 /// than its values are from each other. The mean looks like friction, or like an offset.
-void HideMeans(const Bins& bins, const Eigen::MatrixXd& derivatives, Index p,
-               Examination& examination) {
+void HideMeans(const Bins& bins, const ForceMoves& moves, Index p, Examination& examination) {
   // how far apart the values lie of all that returns with the holds
   double range = 0;
   for (const Finding& finding : examination.findings) {
@@ -133,19 +132,18 @@ void HideMeans(const Bins& bins, const Eigen::MatrixXd& derivatives, Index p,
   // such a mean acts against the motion, as friction, or in one direction, as an offset
   Eigen::MatrixXd means(bins.size(), 2);
   means << bins.velocity.array().sign().matrix(), Eigen::VectorXd::Ones(bins.size());
-  examination.by_hidden =
-      MovesBy(range * means, bins, derivatives).topRows(p).cwiseAbs().rowwise().sum();
+  examination.by_hidden = moves.By(range * means).topRows(p).cwiseAbs().rowwise().sum();
 }
 
 /// Takes off what the steps of the torque leave in the residual, and learns how they move the parameters. rest: [N]
 void TakeOffRounding(const FittedModel& model, const Measurements& m, const Bins& bins,
-                     const Eigen::MatrixXd& derivatives, Index p, Eigen::VectorXd& rest,
+                     const ForceMoves& moves, Index p, Eigen::VectorXd& rest,
                      Examination& examination) {
   const double variance = examination.squares / examination.samples;
   const Eigen::VectorXd rounding = MeanRounding(m.torque, model.residual, variance);
   if (rounding.size() == 0) return;
   rest -= rounding;
-  examination.by_rounding = MovesBy(bins.Means(rounding), bins, derivatives).topRows(p);
+  examination.by_rounding = moves.By(bins.Means(rounding)).topRows(p);
 }
 
 /// What sizes are measured by.
@@ -210,15 +208,16 @@ Examination ExamineResidual(const Fit& fit, const Inference& inference, const Me
   const Index p = model->derivatives.cols() - model->jump_spread.size();
   Measure(*model, bins, derivatives, p, examination);
   LearnHeat(*model, bins, p, derivatives, examination);
-  LearnAssumptions(fit, *model, bins, p, derivatives, examination);
+  const ForceMoves moves(bins, derivatives);
+  LearnAssumptions(fit, *model, bins, p, derivatives, moves, examination);
   const Circumstances known = CircumstancesOf(*model, m, bins);
-  LearnLeftOpen(*model, m, bins, known, p, derivatives, examination);
+  LearnLeftOpen(*model, m, bins, known, p, moves, examination);
   LearnOtherUnits(fit, inference, m.joint, examination);
 
   // what is known to act on friction, then what changes within segments, then what stays
   ErrorLevel level(static_cast<int>(LackOfFitTests().size()));
   Eigen::VectorXd rest = model->residual;
-  TakeOffRounding(*model, m, bins, derivatives, p, rest, examination);
+  TakeOffRounding(*model, m, bins, moves, p, rest, examination);
   std::vector<Finding>& table = examination.findings;
   TestInTurn(Turn::first, bins, derivatives, known, rest, level, table);
   TestWithin(*model, m, bins, derivatives, known, rest, level, table);
@@ -226,7 +225,7 @@ Examination ExamineResidual(const Fit& fit, const Inference& inference, const Me
   // what all of that does to the parameters
   SumMoves(p, examination);
   LearnHints(p, examination);
-  HideMeans(bins, derivatives, p, examination);
+  HideMeans(bins, moves, p, examination);
   return examination;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "identification/linear/rigid_part.h"
 
@@ -38,28 +39,56 @@ MatrixXd Wave(const ArrayXd& angle) {
   return wave;
 }
 
+/// Rows of one direction of motion: a wave over them, and what they weigh in its products.
+struct Turning {
+  ArrayXd weight;                      // weighted rest, N.m or N
+  ArrayXd cosine, sine;                // of the present number of cycles
+  ArrayXd cosine_before, sine_before;  // half a cycle less over the log
+  ArrayXd twice;                       // 2 cos of what half a cycle more turns each row by
+
+  /// The rows of `bins` whose velocity has the sign.
+  Turning(const Bins& bins, const VectorXd& rest, double sign) {
+    std::vector<Index> rows;
+    for (Index c = 0; c < bins.size(); ++c) {
+      if (bins.velocity[c] * sign > 0) rows.push_back(c);
+    }
+    weight = rest(rows).array();
+    const ArrayXd angle = 2 * kPi * bins.time(rows).array();
+    cosine = (kFewestCycles * angle).cos();
+    sine = (kFewestCycles * angle).sin();
+    cosine_before = ((kFewestCycles - kCyclesApart) * angle).cos();
+    sine_before = ((kFewestCycles - kCyclesApart) * angle).sin();
+    twice = 2 * (kCyclesApart * angle).cos();
+  }
+
+  /// Products of the rest with cosine and sine.
+  Eigen::Vector2d Products() const { return {(weight * cosine).sum(), (weight * sine).sum()}; }
+
+  /// Half a cycle more over the log: cos(a + b) = 2 cos b cos a - cos(a - b), and so the sine.
+  void Turn() {
+    cosine_before = twice * cosine - cosine_before;
+    cosine.swap(cosine_before);
+    sine_before = twice * sine - sine_before;
+    sine.swap(sine_before);
+  }
+};
+
 /// How many cycles over the log explain most of what is left if they cover it evenly.
 double StrongestCycles(const Bins& bins, const GrowingFit& fit, double most) {
-  // what is left, as a force in one direction and as one against the motion
   const VectorXd left = bins.weight.cwiseProduct(fit.Left());
-  const VectorXd friction = SignOf(bins).matrix().cwiseProduct(left);
-
-  // half a cycle turns each wave by an angle of its own, which costs no sine
-  const ArrayXd angle = 2 * kPi * bins.time.array();
-  MatrixXd wave = Wave(kFewestCycles * angle);
-  const MatrixXd turn = Wave(kCyclesApart * angle);
+  Turning forwards(bins, left, 1), backwards(bins, left, -1);
   double strongest = 0, explained = -1;
   for (double cycles = kFewestCycles; cycles <= most; cycles += kCyclesApart) {
+    // as a force in one direction and as one against the motion: sum and difference of the directions, whose squares
+    // add up to twice those of both
     const double both =
-        (wave.transpose() * left).squaredNorm() + (wave.transpose() * friction).squaredNorm();
+        2 * (forwards.Products().squaredNorm() + backwards.Products().squaredNorm());
     if (both > explained) {
       explained = both;
       strongest = cycles;
     }
-    // turned on to the next number of cycles
-    const VectorXd cosine = wave.col(0);
-    wave.col(0) = cosine.cwiseProduct(turn.col(0)) - wave.col(1).cwiseProduct(turn.col(1));
-    wave.col(1) = cosine.cwiseProduct(turn.col(1)) + wave.col(1).cwiseProduct(turn.col(0));
+    forwards.Turn();
+    backwards.Turn();
   }
   return strongest;
 }
@@ -140,7 +169,8 @@ Features OfStep(const Bins& bins, const Circumstances&, const GrowingFit& fit) {
 Features OfHoldParity(const Bins& bins, const Circumstances&, const GrowingFit&) {
   if (bins.hold.size() == 0) return {MatrixXd(bins.size(), 0)};
   const ArrayXd passed = bins.hold.array() + bins.phase.array();
-  const MatrixXd parity = (kPi * bins.hold.array()).cos().round().matrix();
+  const MatrixXd parity =
+      bins.hold.unaryExpr([](double hold) { return std::fmod(hold, 2) == 0 ? 1.0 : -1.0; });
   return {BothWays(bins, Beside(parity, Wave(kPi * passed)))};
 }
 

@@ -98,7 +98,8 @@ Eigen::MatrixXd AddWarming(const Fit& fit, const Inference& inference, const Mea
   if (m.loss_velocity) {
     of_loss = NominalDerivatives(*FindLaw(fit.friction.law), values, *m.loss_velocity);
   }
-  const ClosedLoop loop = ClosedLoop::Along(m, model.derivatives, of_loss).WithJumps(Behind(gaps));
+  ClosedLoop& loop = model.loop.emplace(ClosedLoop::Along(m, model.derivatives, of_loss));
+  if (!gaps.empty()) loop = loop.WithJumps(Behind(gaps));
   const auto d = static_cast<Eigen::Index>(values.size());
   const Eigen::Map<const Eigen::VectorXd> parameters(values.data(), d);
   // the jumps that were fitted, else none

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "identification/forward/closed_loop.h"
 #include "identification/inference/inference.h"
 #include "models/recording/measurements.h"
 
@@ -26,6 +27,7 @@ struct FittedModel {
   std::optional<Eigen::VectorXd> maps;       // [N] what they give, N.m or N, where there are any
 
   std::optional<Thermal> thermal;  // where a warming was estimated
+  std::optional<ClosedLoop> loop;  // there: of the law's parameters, with the jumps
   bool has_bristle = false;        // whether the law sticks by a state of its own
 };
 

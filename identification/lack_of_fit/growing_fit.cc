@@ -1,10 +1,10 @@
 #include "identification/lack_of_fit/growing_fit.h"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "identification/lack_of_fit/orthonormal.h"
 #include "identification/lack_of_fit/significance.h"
 #include "identification/linear/rigid_part.h"
 
@@ -20,25 +20,6 @@ using Eigen::VectorXd;
 constexpr double kDistinct = 0.02;
 constexpr double kWorthACloserLook = 0.05;  // p that no correction makes a rejection
 constexpr double kFewestFree = 8;           // parts, or samples, beyond the columns of a fit
-
-Basis Orthonormal(const MatrixXd& columns, double distinct) {
-  const Eigen::ColPivHouseholderQR<MatrixXd> qr(columns);
-  // as many columns count as stand out beside those before them
-  const Index most = std::min(columns.rows(), columns.cols());
-  const Index rank = (qr.matrixQR().diagonal().head(most).array().abs() > distinct).count();
-  // Eigen walks off a null pointer where there is nothing to multiply
-  if (rank == 0) return {MatrixXd(columns.rows(), 0), MatrixXd(columns.cols(), 0)};
-  // Q, and the mix of columns that makes it: R^-1 with their order turned back
-  Basis result;
-  result.basis = qr.householderQ() * MatrixXd::Identity(columns.rows(), rank);
-  MatrixXd inverse = MatrixXd::Zero(columns.cols(), rank);
-  inverse.topRows(rank) = qr.matrixQR()
-                              .topLeftCorner(rank, rank)
-                              .triangularView<Eigen::Upper>()
-                              .solve(MatrixXd::Identity(rank, rank));
-  result.mix = qr.colsPermutation() * inverse;
-  return result;
-}
 
 /// The part of the recording that each row belongs to; about as many samples in each. [m]
 Eigen::VectorXi PartOf(const VectorXd& weight, Index parts) {
@@ -85,20 +66,26 @@ void GrowingFit::LearnNoise(const std::vector<Features>& all) {
   // what remains beside the fit and all features together is noise
   MatrixXd columns = columns_;
   for (const Features& features : all) columns = Beside(columns, Normed(features.columns));
-  const MatrixXd basis = Orthonormal(columns, kDistinct).basis;
-  noise_ = FitNoise(residual_ - basis * (basis.transpose() * residual_), place_);
+  const MatrixXd mix = MixOfDistinct(columns, kDistinct);
+  const VectorXd shared = mix.transpose() * (columns.transpose() * residual_);
+  noise_ = FitNoise(residual_ - columns * (mix * shared), place_);
 
   // what all of them took up counts in samples, at most half of them
   const auto m = static_cast<double>(size());
-  const double taken =
-      std::min(ScatterThrough(noise_, basis, place_).trace() / noise_.variance, 0.5 * m);
+  taken_ = static_cast<double>(mix.cols());
+  const double all_taken =
+      noise_.order() == 0 ? taken_
+                          : ScatterThrough(noise_, columns * mix, place_).trace() / noise_.variance;
+  const double taken = std::min(all_taken, 0.5 * m);
   noise_.variance *= m / (m - taken);
   noise_.innovation *= m / (m - taken);
-  taken_ = static_cast<double>(basis.cols());
 }
 
 GrowingFit::Evidence GrowingFit::ByColour(const VectorXd& coefficients, const MatrixXd& own) const {
-  const MatrixXd scatter = ScatterThrough(noise_, own, place_);
+  // white noise scatters alike along all directions
+  const MatrixXd scatter =
+      noise_.order() == 0 ? MatrixXd(noise_.variance * MatrixXd::Identity(own.cols(), own.cols()))
+                          : ScatterThrough(noise_, own, place_);
   const auto rows = static_cast<double>(own.rows());
 
   // the coefficient a of AR(1) noise is estimated too small by (1 + 3 a)/m (Marriott, Pope 1954),
@@ -195,14 +182,15 @@ void GrowingFit::Take(const Features& features) {
 }
 
 VectorXd GrowingFit::ExplainedBy(const MatrixXd& columns) const {
-  // each column less what the fit holds of it
-  MatrixXd beside = Normed(columns);
-  beside -= fit_.basis * (fit_.basis.transpose() * beside);
-  VectorXd explained(columns.cols());
+  // what the fit holds of each column, and its product with what the fit leaves, which none of that has
+  const MatrixXd weighted = roots_.asDiagonal() * columns;
+  const MatrixXd shared = fit_.basis.transpose() * weighted;
+  const VectorXd products = weighted.transpose() * left_;
+  VectorXd explained = VectorXd::Zero(columns.cols());
   for (Index i = 0; i < columns.cols(); ++i) {
-    const double norm = beside.col(i).squaredNorm();
-    const double product = beside.col(i).dot(left_);
-    explained[i] = norm > kDistinct * kDistinct ? product * product / norm : 0;
+    const double square = weighted.col(i).squaredNorm();
+    const double beside = square - shared.col(i).squaredNorm();
+    if (beside > kDistinct * kDistinct * square) explained[i] = products[i] * products[i] / beside;
   }
   return explained;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "identification/lack_of_fit/finding.h"
+#include "identification/lack_of_fit/orthonormal.h"
 #include "identification/uncertainty/noise_model.h"
 
 namespace warmjoint::inline identification {
@@ -14,12 +15,6 @@ struct Features {
   Eigen::MatrixXd columns;  // [m x q]; q = 0: nothing to ask
   int candidates = 1;       // of which these explain most
   double period = 0;        // of those, or time constant, s; 0 where they have none
-};
-
-/// An orthonormal basis of columns, and how it is made of them: basis = columns * mix.
-struct Basis {
-  Eigen::MatrixXd basis;  // [m x r]
-  Eigen::MatrixXd mix;    // [q x r]
 };
 
 /// The fit beside which features are tested.

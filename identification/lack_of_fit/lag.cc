@@ -30,12 +30,14 @@ struct Followers {
 
 /// Means over the kept samples of each row. column: [N]
 VectorXd Means(const Followers& followers, const Selection& selection, const auto& column) {
-  VectorXd means = VectorXd::Zero(followers.rows());
+  VectorXd means(followers.rows());
   for (Index row = 0; row < followers.rows(); ++row) {
     const auto r = static_cast<size_t>(row);
+    double sum = 0;
     for (Index i = followers.begin[r]; i < followers.end[r]; ++i) {
-      if (selection.keep[i]) means[row] += column[i] / followers.weight[r];
+      if (selection.keep[i]) sum += column[i];
     }
+    means[row] = sum / followers.weight[r];
   }
   return means;
 }
@@ -90,10 +92,26 @@ VectorXd TimeConstants(double step, double hold) {
 
 /// (F0 - F1) exp(-t/T), a column for each T. [rows x kLags]
 MatrixXd Decays(const Followers& followers, const VectorXd& lags) {
-  const Eigen::Map<const Eigen::ArrayXd> since(followers.since.data(), followers.rows());
-  const Eigen::Map<const Eigen::ArrayXd> drop(followers.drop.data(), followers.rows());
+  // rows of different segments share their times: each time once
+  std::vector<double> times = followers.since;
+  std::ranges::sort(times);
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  const Eigen::Map<const Eigen::ArrayXd> since(times.data(), static_cast<Index>(times.size()));
+  MatrixXd shares(since.size(), lags.size());
+  for (Index k = 0; k < lags.size(); ++k) shares.col(k) = (-since / lags[k]).exp();
+
+  // the share of each row, times its drop
+  std::vector<Index> place(followers.since.size());
+  for (size_t r = 0; r < place.size(); ++r) {
+    place[r] = std::ranges::lower_bound(times, followers.since[r]) - times.begin();
+  }
   MatrixXd decays(followers.rows(), lags.size());
-  for (Index k = 0; k < lags.size(); ++k) decays.col(k) = drop * (-since / lags[k]).exp();
+  for (Index k = 0; k < lags.size(); ++k) {
+    for (Index row = 0; row < followers.rows(); ++row) {
+      const auto r = static_cast<size_t>(row);
+      decays(row, k) = followers.drop[r] * shares(place[r], k);
+    }
+  }
   return decays;
 }
 

@@ -9,7 +9,6 @@
 #include "identification/lack_of_fit/sensitivity.h"
 #include "identification/lack_of_fit/table.h"
 #include "identification/lack_of_fit/with_heat.h"
-#include "identification/linear/least_squares.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/uncertainty/tails.h"
 #include "identification/uncertainty/uncertainty.h"
@@ -30,27 +29,45 @@ struct Possible {
   double least, most;
 };
 
-/// Both ends of what the tests of the log leave open of a force's factor beside the fit: of its interval
-/// at their level. force, residual: [m] means over bins.
-Possible Interval(const VectorXd& force, const VectorXd& residual, const Bins& bins,
-                  const MatrixXd& derivatives, const Possible& possible) {
-  // the force joins the fit for one step of least squares
-  const VectorXd root = bins.weight.cwiseSqrt();
-  const MatrixXd rows = root.asDiagonal() * Beside(derivatives, force);
-  const VectorXd seen = root.cwiseProduct(residual);
-  const LeastSquares fit = SolveLeastSquares(rows, seen, kTold);
+/// What the tests of the log leave open of a force's factor beside the fit.
+class OpenFactor {
+ public:
+  /// residual: [m] means over bins
+  OpenFactor(const ForceMoves& fit, const VectorXd& residual)
+      : fit_(fit), left_(fit.root().cwiseProduct(residual)) {
+    left_ -= fit.basis() * (fit.basis().transpose() * left_);
+  }
 
+  /// Both ends of its interval at their level. force: [m] means over bins.
+  Possible Interval(const VectorXd& force, const Possible& possible) const;
+
+ private:
+  const ForceMoves& fit_;
+  VectorXd left_;  // [m] weighted, of the residual beside the fit
+};
+
+Possible OpenFactor::Interval(const VectorXd& force, const Possible& possible) const {
   // what the log cannot tell from the fit is open as far as it is possible at all
-  if (!fit.mixed.empty()) return possible;
-  const Selection all{Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(bins.size(), true), {}};
-  const Uncertainty known = JudgeUncertainty(rows, fit.cofactor, seen - rows * fit.solution, all);
-  const Index last = rows.cols() - 1;
+  const VectorXd weighted = fit_.root().cwiseProduct(force);
+  const VectorXd own = weighted - fit_.basis() * (fit_.basis().transpose() * weighted);
+  const double square = own.squaredNorm();
+  const bool told = square > kTold * kTold * weighted.squaredNorm();
+  if (!fit_.AllApart() || !told) return possible;
+
+  // the force joins the fit for one step of least squares, whose other columns are a basis of the fit's
+  const double factor = own.dot(left_) / square;
+  const Index p = fit_.basis().cols();
+  MatrixXd cofactor = MatrixXd::Identity(p + 1, p + 1);
+  cofactor(p, p) = 1 / square;
+  const Selection all{Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(own.size(), true), {}};
+  const Uncertainty known = JudgeUncertainty([&] { return Beside(fit_.basis(), own); }, cofactor,
+                                             left_ - factor * own, all);
 
   // the level of one test among all that the log faces
   const double level = 1 - kErrorLevel / static_cast<double>(LackOfFitTests().size());
-  const double reach = StudentQuantile(known.freedom, level) * known.Deviation(last);
+  const double reach = StudentQuantile(known.freedom, level) * known.Deviation(p);
   const auto within = [&](double c) { return std::clamp(c, possible.least, possible.most); };
-  return {within(fit.solution[last] - reach), within(fit.solution[last] + reach)};
+  return {within(factor - reach), within(factor + reach)};
 }
 
 /// The end that is farther from 0.
@@ -104,11 +121,11 @@ MatrixXd Curves(const FittedModel& model, const Measurements& m, const Bins& bin
 }  // namespace
 
 void LearnLeftOpen(const FittedModel& model, const Measurements& m, const Bins& bins,
-                   const Circumstances& known, Index p, const MatrixXd& derivatives,
+                   const Circumstances& known, Index p, const ForceMoves& fit,
                    Examination& examination) {
-  const VectorXd residual = bins.Means(model.residual);
+  const OpenFactor open(fit, bins.Means(model.residual));
   const auto moves = [&](const VectorXd& force, double factor) -> VectorXd {
-    return MovesBy(factor * force, bins, derivatives).topRows(p);
+    return fit.By(factor * force).topRows(p);
   };
 
   // a start that was not cold
@@ -116,7 +133,7 @@ void LearnLeftOpen(const FittedModel& model, const Measurements& m, const Bins& 
     const VectorXd force = bins.Means(*model.by_initial_energy);
     const Possible warm{std::min(model.energy.minCoeff(), 0.0),
                         std::max(model.energy.maxCoeff(), 0.0)};
-    examination.open_start = FarEnd(Interval(force, residual, bins, derivatives, warm));
+    examination.open_start = FarEnd(open.Interval(force, warm));
     examination.by_open_start = moves(force, examination.open_start);
   }
 
@@ -127,7 +144,7 @@ void LearnLeftOpen(const FittedModel& model, const Measurements& m, const Bins& 
     VectorXd by = VectorXd::Zero(forces.cols() > 0 ? p : 0);
     for (Index i = 0; i < forces.cols(); ++i) {
       const VectorXd force = forces.col(i);
-      const double factor = FarEnd(Interval(force, residual, bins, derivatives, {-most, most}));
+      const double factor = FarEnd(open.Interval(force, {-most, most}));
       by = by.cwiseMax(moves(force, factor).cwiseAbs());
     }
     return by;
@@ -139,8 +156,7 @@ void LearnLeftOpen(const FittedModel& model, const Measurements& m, const Bins& 
   // friction, or a sensor, that drifts for another reason than its losses
   examination.by_open_drift.setZero(p);
   for (const Drift& drift : Drifts(model, m, bins, examination.friction)) {
-    const double factor =
-        FarEnd(Interval(drift.from_first, residual, bins, derivatives, {-drift.most, drift.most}));
+    const double factor = FarEnd(open.Interval(drift.from_first, {-drift.most, drift.most}));
     for (const VectorXd& force : {drift.from_first, drift.until_last}) {
       examination.by_open_drift =
           examination.by_open_drift.cwiseMax(moves(force, factor).cwiseAbs());

@@ -5,6 +5,7 @@
 #include "identification/lack_of_fit/circumstances.h"
 #include "identification/lack_of_fit/examine.h"
 #include "identification/lack_of_fit/fitted_model.h"
+#include "identification/lack_of_fit/sensitivity.h"
 #include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
@@ -19,9 +20,9 @@ namespace warmjoint::inline identification {
 ///   (1 - exp(-t/T))/(1 - exp(-1/T)), T = 1/2, 1/4, 1/8; t: share of the log. The friction that is asked for
 ///   may be that of the first moment or of the last, d or d - 1. Of all of them the largest counts, for each
 ///   parameter by itself; c at most the friction, or 1.
-/// derivatives: [m x (p + ...)], over bins.
+/// fit: over the bins.
 void LearnLeftOpen(const FittedModel& model, const Measurements& measurements, const Bins& bins,
-                   const Circumstances& known, Eigen::Index p, const Eigen::MatrixXd& derivatives,
+                   const Circumstances& known, Eigen::Index p, const ForceMoves& fit,
                    Examination& examination);
 
 }  // namespace warmjoint::inline identification

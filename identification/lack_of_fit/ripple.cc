@@ -28,51 +28,60 @@ constexpr double kFinestPosition = 512;  // cycles over the travel; why: twelve 
 constexpr double kSamplesACycle = 16;    // why: two samples a bin
 constexpr double kBinsACycle = 8;        // why: a wave in eight steps has 95 % of its squares
 
-/// Sums of the residual and of samples over bins of the axis, apart for each direction and part.
+/// The residual of the kept samples by bins of the axis, apart for each direction and part.
 class BinnedResidual {
  public:
+  /// A kept sample.
+  struct Sample {
+    double value;   // what is left of its residual, N.m or N
+    int bin, part;  // of the axis, of the recording
+    int direction;  // 0 forwards, 1 backwards
+  };
+
   BinnedResidual(const AngleAxis& axis, const VectorXd& residual, const VectorXd& velocity,
                  const Selection& selection)
       : bins_(static_cast<Index>(
             std::bit_ceil(static_cast<unsigned>(kBinsACycle * axis.step * axis.frequencies)))),
+        counts_(MatrixXd::Zero(bins_, 2)),
         taken_(MatrixXd::Zero(bins_, 2)) {
-    const auto n = static_cast<double>(selection.count());
-    for (int d = 0; d < 2; ++d) {
-      sums_[d].setZero(bins_, kParts);
-      counts_[d].setZero(bins_, kParts);
-    }
-
     // each kept sample into its bin, by direction and by part of the recording
-    Index row = 0;
+    const auto n = static_cast<double>(selection.count());
+    samples_.reserve(static_cast<size_t>(n));
+    double sums[2] = {0, 0};
     for (Index i = 0; i < residual.size(); ++i) {
       if (!selection.keep[i]) continue;
-      const Index bin = Bin(axis.phase[i]);
-      const auto part = static_cast<Index>(static_cast<double>(row++) / n * kParts);
+      const auto bin = static_cast<int>(Bin(axis.phase[i]));
+      const auto part = static_cast<int>(static_cast<double>(samples_.size()) / n * kParts);
       const int d = velocity[i] < 0;
-      sums_[d](bin, part) += residual[i];
-      counts_[d](bin, part) += 1;
-      squares_ += residual[i] * residual[i];
+      samples_.push_back({residual[i], bin, part, d});
+      counts_(bin, d) += 1;
+      sums[d] += residual[i];
     }
-    variance_ = squares_ / n;
 
     // a level of each direction is no ripple
     for (int d = 0; d < 2; ++d) {
-      samples_[d] = counts_[d].sum();
-      if (samples_[d] > 0) sums_[d] -= sums_[d].sum() / samples_[d] * counts_[d];
+      numbers_[d] = counts_.col(d).sum();
+      sums[d] /= std::max(numbers_[d], 1.0);
     }
+    for (Sample& sample : samples_) sample.value -= sums[sample.direction];
   }
 
   Index bins() const { return bins_; }
-  double variance() const { return variance_; }
-  double samples(int d) const { return samples_[d]; }
-  VectorXd Total(int d) const { return sums_[d].rowwise().sum(); }
-  const MatrixXd& counts(int d) const { return counts_[d]; }
-  const MatrixXd& sums(int d) const { return sums_[d]; }
+  double number(int d) const { return numbers_[d]; }               // of samples in a direction
+  const std::vector<Sample>& samples() const { return samples_; }  // in time
+  Eigen::MatrixXd::ConstColXpr counts(int d) const { return counts_.col(d); }  // [bins] samples
 
-  /// Takes a wave [bins] off every sample of direction d.
-  void TakeOff(int d, const VectorXd& wave) {
-    sums_[d] -= wave.asDiagonal() * counts_[d];
-    taken_.col(d) += wave;
+  /// Sums over each bin, N.m or N. [bins x 2] forwards, backwards
+  MatrixXd Totals() const {
+    MatrixXd totals = MatrixXd::Zero(bins_, 2);
+    for (const Sample& sample : samples_) totals(sample.bin, sample.direction) += sample.value;
+    return totals;
+  }
+
+  /// Takes a wave of each direction off every sample. waves: [bins x 2]
+  void TakeOff(const MatrixXd& waves) {
+    for (Sample& sample : samples_) sample.value -= waves(sample.bin, sample.direction);
+    taken_ += waves;
   }
 
   /// All that was taken off a sample, N.m or N.
@@ -84,12 +93,10 @@ class BinnedResidual {
   }
 
   Index bins_;
-  MatrixXd sums_[2];    // [bins x parts] N.m or N; forwards, backwards
-  MatrixXd counts_[2];  // [bins x parts]
-  MatrixXd taken_;      // [bins x 2] N.m or N
-  double samples_[2] = {0, 0};
-  double squares_ = 0;
-  double variance_ = 0;
+  std::vector<Sample> samples_;
+  MatrixXd counts_;  // [bins x 2] forwards, backwards
+  MatrixXd taken_;   // [bins x 2] N.m or N
+  double numbers_[2] = {0, 0};
 };
 
 /// The frequency that explains most if it covers the axis evenly, and how much.
@@ -112,13 +119,15 @@ MatrixXd Waves(double frequency, Index bins) {
 
 Peak StrongestFrequency(const AngleAxis& axis, const BinnedResidual& binned) {
   // both directions in one transform: forwards + i backwards, with zeros behind for steps below a cycle
-  const VectorXd forwards = binned.Total(0), backwards = binned.Total(1);
+  const MatrixXd totals = binned.Totals();
   const auto length = static_cast<size_t>(static_cast<double>(binned.bins()) / axis.step);
   std::vector<std::complex<double>> sums(length), waves;
   for (Index b = 0; b < binned.bins(); ++b) {
-    sums[static_cast<size_t>(b)] = {forwards[b], backwards[b]};
+    sums[static_cast<size_t>(b)] = {totals(b, 0), totals(b, 1)};
   }
-  Eigen::FFT<double>().fwd(waves, sums);
+  // one transform a thread, which keeps its tables
+  static thread_local Eigen::FFT<double> transform;
+  transform.fwd(waves, sums);
 
   // the transform at k and at -k together tells the directions apart
   Peak peak;
@@ -126,8 +135,8 @@ Peak StrongestFrequency(const AngleAxis& axis, const BinnedResidual& binned) {
     const std::complex<double> wave = waves[static_cast<size_t>(k)];
     const std::complex<double> mirrored = std::conj(waves[length - static_cast<size_t>(k)]);
     const double explained =
-        2 * (std::norm(0.5 * (wave + mirrored)) / std::max(binned.samples(0), 1.0) +
-             std::norm(0.5 * (wave - mirrored)) / std::max(binned.samples(1), 1.0));
+        2 * (std::norm(0.5 * (wave + mirrored)) / std::max(binned.number(0), 1.0) +
+             std::norm(0.5 * (wave - mirrored)) / std::max(binned.number(1), 1.0));
     if (explained > peak.explained) peak = {k, explained};
   }
   return peak;
@@ -136,34 +145,39 @@ Peak StrongestFrequency(const AngleAxis& axis, const BinnedResidual& binned) {
 /// One frequency, fitted, with its waves.
 struct Ripple {
   Finding finding;
-  VectorXd waves[2];  // [bins] forwards, backwards; N.m or N
+  MatrixXd waves;  // [bins x 2] forwards, backwards; N.m or N
 };
 
 /// Fits one frequency, each direction by itself.
 Ripple FitRipple(const AngleAxis& axis, int index, const BinnedResidual& binned) {
+  Ripple ripple;
+  ripple.waves.resize(binned.bins(), 2);
   const MatrixXd waves = Waves(axis.step * index, binned.bins());
-  MatrixXd scores = MatrixXd::Zero(4, kParts);
+  const MatrixXd totals = binned.Totals();
   MatrixXd normal = MatrixXd::Zero(4, 4);
   Vector4d score = Vector4d::Zero(), coefficients = Vector4d::Zero();
   for (int d = 0; d < 2; ++d) {
     // the other direction may not be there at all
-    const VectorXd count = binned.counts(d).rowwise().sum();
-    Eigen::Matrix2d own = waves.transpose() * count.asDiagonal() * waves;
+    Eigen::Matrix2d own = waves.transpose() * binned.counts(d).asDiagonal() * waves;
     own.diagonal().array() += 1e-9 * (1 + own.trace());
-    score.segment<2>(2 * d) = waves.transpose() * binned.Total(d);
+    score.segment<2>(2 * d) = waves.transpose() * totals.col(d);
     coefficients.segment<2>(2 * d) = own.inverse() * score.segment<2>(2 * d);
     normal.block<2, 2>(2 * d, 2 * d) = own;
-    // the scores of what is left, in each part of the recording
-    const VectorXd wave = waves * coefficients.segment<2>(2 * d);
-    const MatrixXd rest = binned.sums(d) - wave.asDiagonal() * binned.counts(d);
-    scores.middleRows<2>(2 * d) = waves.transpose() * rest;
+    ripple.waves.col(d) = waves * coefficients.segment<2>(2 * d);
+  }
+
+  // the scores of what is left, in each part of the recording
+  MatrixXd scores = MatrixXd::Zero(4, kParts);
+  for (const auto& [value, bin, part, d] : binned.samples()) {
+    const double rest = value - ripple.waves(bin, d);
+    scores(2 * d, part) += rest * waves(bin, 0);
+    scores(2 * d + 1, part) += rest * waves(bin, 1);
   }
   constexpr double parts = kParts;
-  const bool both = binned.samples(0) > 0 && binned.samples(1) > 0;
-  const Index first = binned.samples(0) > 0 ? 0 : 2, q = both ? 4 : 2;
+  const bool both = binned.number(0) > 0 && binned.number(1) > 0;
+  const Index first = binned.number(0) > 0 ? 0 : 2, q = both ? 4 : 2;
   const MatrixXd scatter = parts / (parts - static_cast<double>(q)) * scores * scores.transpose();
 
-  Ripple ripple;
   Finding& finding = ripple.finding;
   finding.test = axis.test;
   finding.made = true;
@@ -178,7 +192,6 @@ Ripple FitRipple(const AngleAxis& axis, int index, const BinnedResidual& binned)
   const Eigen::Vector2d even = coefficients.head<2>() + coefficients.tail<2>();
   const Eigen::Vector2d odd = coefficients.head<2>() - coefficients.tail<2>();
   finding.alike = both ? even.squaredNorm() / (even.squaredNorm() + odd.squaredNorm()) : 0;
-  for (int d = 0; d < 2; ++d) ripple.waves[d] = waves * coefficients.segment<2>(2 * d);
   return ripple;
 }
 
@@ -226,7 +239,7 @@ Finding TestAxis(const AngleAxis& axis, const VectorXd& velocity, const Selectio
     // of one axis as one: the strongest frequency stands for all
     if (i > 0) finding.explained += ripple.finding.explained;
     finding.rejected = true;
-    for (int d = 0; d < 2; ++d) binned.TakeOff(d, ripple.waves[d]);
+    binned.TakeOff(ripple.waves);
   }
   if (!finding.rejected) return finding;
 

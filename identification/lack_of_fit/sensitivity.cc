@@ -1,8 +1,9 @@
 #include "identification/lack_of_fit/sensitivity.h"
 
-#include <Eigen/QR>
 #include <cmath>
+#include <utility>
 
+#include "identification/lack_of_fit/orthonormal.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/rigid_part.h"
 
@@ -14,6 +15,8 @@ using Eigen::Index;
 constexpr double kWarmStart =
     0.1;                         // of the warmth that the joint reaches; why: cold_start asks that
 constexpr double kDrift = 0.01;  // of the friction, over the log; why: no_slow_drift asks that
+constexpr double kAlike =
+    1e-13;  // beside other columns, of norm 1; why: what rounding leaves of a column that is a mix
 constexpr double kFading = 1.0 / 3;  // of the log: time constant of a drift that dies away
 
 /// s t and s (1 - exp(-t/T)), the friction's drift over the log, even and fading. [m x 2]
@@ -27,11 +30,20 @@ Eigen::MatrixXd Drifts(const Bins& bins) {
 
 }  // namespace
 
-Eigen::MatrixXd MovesBy(const Eigen::MatrixXd& forces, const Bins& bins,
-                        const Eigen::MatrixXd& derivatives) {
-  const Eigen::VectorXd root = bins.weight.cwiseSqrt();
-  const Eigen::MatrixXd weighted = root.asDiagonal() * derivatives;
-  return -weighted.colPivHouseholderQr().solve(root.asDiagonal() * forces);
+ForceMoves::ForceMoves(const Bins& bins, const Eigen::MatrixXd& derivatives)
+    : root_(bins.weight.cwiseSqrt()) {
+  // columns of norm 1, so that units do not count
+  const Eigen::MatrixXd weighted = root_.asDiagonal() * derivatives;
+  const Eigen::VectorXd scale =
+      weighted.colwise().norm().transpose().unaryExpr([](double x) { return x > 0 ? 1 / x : 1; });
+  Basis made = Orthonormal(weighted * scale.asDiagonal(), kAlike);
+  basis_ = std::move(made.basis);
+  mix_ = scale.asDiagonal() * made.mix;
+}
+
+Eigen::MatrixXd ForceMoves::By(const Eigen::MatrixXd& forces) const {
+  const Eigen::MatrixXd shared = basis_.transpose() * (root_.asDiagonal() * forces);
+  return -mix_ * shared;
 }
 
 Eigen::MatrixXd DerivativesOver(const Bins& bins, const FittedModel& model) {
@@ -44,7 +56,8 @@ void LearnHeat(const FittedModel& model, const Bins& bins, Index p,
   if (!model.held_loss) return;
   // the force that held losses leave out is the last column
   const Index q = derivatives.cols() - 1;
-  examination.by_heat = MovesBy(derivatives.rightCols(1), bins, derivatives.leftCols(q)).topRows(p);
+  const ForceMoves moves(bins, derivatives.leftCols(q));
+  examination.by_heat = moves.By(derivatives.rightCols(1)).topRows(p);
 
   // the share of that force in the residual
   const Eigen::VectorXd root = bins.weight.cwiseSqrt();
@@ -61,30 +74,31 @@ void LearnHeat(const FittedModel& model, const Bins& bins, Index p,
 }
 
 void LearnAssumptions(const Fit& fit, const FittedModel& model, const Bins& bins, Index p,
-                      const Eigen::MatrixXd& derivatives, Examination& examination) {
+                      const Eigen::MatrixXd& derivatives, const ForceMoves& moves,
+                      Examination& examination) {
   // a start that was not cold
   if (model.by_initial_energy) {
     const double energy = kWarmStart * model.energy.cwiseAbs().maxCoeff();
-    examination.by_start =
-        MovesBy(energy * bins.Means(*model.by_initial_energy), bins, derivatives).topRows(p);
+    examination.by_start = moves.By(energy * bins.Means(*model.by_initial_energy)).topRows(p);
   }
 
   // friction that drifts for another reason than its losses
   const Eigen::MatrixXd by_drifts =
-      MovesBy(kDrift * examination.friction * Drifts(bins), bins, derivatives).topRows(p);
+      moves.By(kDrift * examination.friction * Drifts(bins)).topRows(p);
   examination.by_drift = by_drifts.cwiseAbs().rowwise().maxCoeff();
 
   // a torque sensor that swallows what is small
   const Eigen::VectorXd torque = bins.Means(model.torque);
   examination.dead_band = torque.cwiseAbs().minCoeff();
   const Eigen::VectorXd swallowed = -examination.dead_band * bins.velocity.array().sign();
-  examination.by_dead_band = MovesBy(swallowed, bins, derivatives).topRows(p);
+  examination.by_dead_band = moves.By(swallowed).topRows(p);
 
   // heat that came or went in gaps of the log
   const Index jumps = model.jump_spread.size();
   if (jumps == 0 || !fit.jump_samples.empty()) return;
   const Eigen::MatrixXd forces = derivatives.middleCols(p, jumps) * model.jump_spread.asDiagonal();
-  examination.by_gaps = MovesBy(forces, bins, derivatives.leftCols(p)).cwiseAbs().rowwise().sum();
+  const ForceMoves without_jumps(bins, derivatives.leftCols(p));
+  examination.by_gaps = without_jumps.By(forces).cwiseAbs().rowwise().sum();
 }
 
 }  // namespace warmjoint::inline identification

@@ -9,10 +9,28 @@
 
 namespace warmjoint::inline identification {
 
-/// Omitted-variable bias with its sign turned: the change of x once each force, N.m or N, is known,
-/// -(J^T W J)^-1 J^T W f. derivatives: J [m x p]; forces: [m x q]; returns [p x q].
-Eigen::MatrixXd MovesBy(const Eigen::MatrixXd& forces, const Bins& bins,
-                        const Eigen::MatrixXd& derivatives);
+/// Omitted-variable bias with its sign turned: the change of x once a force f, N.m or N, is known,
+/// -(J^T W J)^-1 J^T W f. J is taken apart once for all forces.
+class ForceMoves {
+ public:
+  /// derivatives: J [m x p]
+  ForceMoves(const Bins& bins, const Eigen::MatrixXd& derivatives);
+
+  /// forces: [m x q]; returns [p x q].
+  Eigen::MatrixXd By(const Eigen::MatrixXd& forces) const;
+
+  /// Of the rows of J times the root of their weight. [m x r]
+  const Eigen::MatrixXd& basis() const { return basis_; }
+  /// Whether no parameter is a mix of the others.
+  bool AllApart() const { return basis_.cols() == mix_.rows(); }
+  /// [m] of the weights
+  const Eigen::VectorXd& root() const { return root_; }
+
+ private:
+  Eigen::VectorXd root_;
+  Eigen::MatrixXd basis_;
+  Eigen::MatrixXd mix_;  // [p x r] basis = root J mix
+};
 
 /// Of the parameters, of the jumps at gaps, and of heat within the steps where that matters (held_loss.h), over
 /// bins. [m x (p + ...)]
@@ -23,8 +41,9 @@ Eigen::MatrixXd DerivativesOver(const Bins& bins, const FittedModel& model);
 void LearnHeat(const FittedModel& model, const Bins& bins, Eigen::Index p,
                const Eigen::MatrixXd& derivatives, Examination& examination);
 
-/// Fills the moves by start, slow drift and gaps. derivatives: DerivativesOver.
+/// Fills the moves by start, slow drift and gaps. derivatives: DerivativesOver; moves: by them.
 void LearnAssumptions(const Fit& fit, const FittedModel& model, const Bins& bins, Eigen::Index p,
-                      const Eigen::MatrixXd& derivatives, Examination& examination);
+                      const Eigen::MatrixXd& derivatives, const ForceMoves& moves,
+                      Examination& examination);
 
 }  // namespace warmjoint::inline identification

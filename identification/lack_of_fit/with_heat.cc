@@ -8,10 +8,9 @@ Eigen::MatrixXd WithHeat(const FittedModel& model, const Measurements& m,
                          const Eigen::MatrixXd& forces, const Eigen::MatrixXd& at_losses) {
   if (!model.thermal) return forces;
   const ClosedLoop loop =
-      ClosedLoop::Along(m, forces, m.loss_velocity ? at_losses : Eigen::MatrixXd());
+      model.loop->WithColumns(forces, m.loss_velocity ? at_losses : Eigen::MatrixXd());
   // by a force's own factor the loop is linear: its derivative is the same wherever the others are
-  const Eigen::VectorXd none = Eigen::VectorXd::Zero(forces.cols());
-  return loop.Jacobian(none, *model.thermal).leftCols(forces.cols());
+  return loop.LawJacobian(*model.thermal);
 }
 
 }  // namespace warmjoint::inline identification

@@ -52,7 +52,9 @@ Eigen::MatrixXd LawColumns(const Law& law, const Eigen::VectorXd& velocity) {
   for (Eigen::Index i = 0; i < d; ++i) {
     unit[i] = 1;
     for (Eigen::Index n = 0; n < velocity.size(); ++n) {
-      columns(n, i) = law.force(velocity[n], unit.data());
+      // samples of one segment share their speed
+      const bool again = n > 0 && velocity[n] == velocity[n - 1];
+      columns(n, i) = again ? columns(n - 1, i) : law.force(velocity[n], unit.data());
     }
     unit[i] = 0;
   }

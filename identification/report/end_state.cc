@@ -10,14 +10,12 @@ namespace warmjoint::inline identification {
 
 namespace {
 
-/// Slopes of E of both stages over the estimated coordinates, [2 x p]: the fit's own, or by differences.
-Eigen::MatrixXd EndSlopes(const Fit& fit, const Inference& inference,
-                          const FrictionDescription& friction, const FiguresOf& end_of) {
-  if (!fit.end_energy_slopes) return SlopesByDifferences(fit, inference, friction, end_of);
-  const Eigen::VectorXd first = fit.end_energy_slopes();
-  Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(2, inference.known.covariance.rows());
-  slopes.row(0).head(first.size()) = first;
-  return slopes;
+/// Whether the friction that is reported is the fitted one: a verdict may have moved parameters.
+bool IsAsFitted(const Fit& fit, const Inference& inference) {
+  for (size_t i = 0; i < fit.parameters.size(); ++i) {
+    if (inference.parameters[i].value != fit.parameters[i].value) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -27,15 +25,22 @@ std::vector<EstimatedParameter> EndState(const Fit& fit, const Inference& infere
                                          const Measurements& m) {
   if (!friction.thermal) return {};
 
-  // E of both stages at the end of the log, as friction and start make it
-  const JointCourse course = CourseOf(m);
+  // E of both stages at the end of the log: by the fit's own recursion, or along the motion
   const auto end_of = [&](const FrictionDescription& one, const CourseStart& start) {
-    const FrictionState end = AlongMotion(one).Predict(course, start).end;
+    const FrictionState end = AlongMotion(one).Predict(CourseOf(m), start).end;
     return Eigen::VectorXd(Eigen::Vector2d(end.energy, end.second_energy));
   };
-  const Eigen::VectorXd end = end_of(friction, fit.Start());
-  const FigureErrors errors =
-      ErrorsBySlopes(fit, inference, EndSlopes(fit, inference, friction, end_of));
+  Eigen::VectorXd end;
+  Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(2, inference.known.covariance.rows());
+  if (fit.end_energy) {
+    const EndEnergy own = fit.end_energy();
+    end = Eigen::Vector2d(own.value, 0);
+    slopes.row(0).head(own.slopes.size()) = own.slopes;
+  } else {
+    slopes = SlopesByDifferences(fit, inference, friction, end_of);
+  }
+  if (!fit.end_energy || !IsAsFitted(fit, inference)) end = end_of(friction, fit.Start());
+  const FigureErrors errors = ErrorsBySlopes(fit, inference, slopes);
 
   // when, and a row for each stage
   std::vector<EstimatedParameter> state;

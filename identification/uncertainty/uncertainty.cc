@@ -11,10 +11,11 @@ namespace {
 constexpr double kUneven = 4;        // deviations
 constexpr double kLeastLevel = 0.2;  // of the line through |r|, of its mean
 
-double Correlation(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
-  const Eigen::VectorXd x = a.array() - a.mean(), y = b.array() - b.mean();
-  const double norm = x.norm() * y.norm();
-  return norm > 0 ? x.dot(y) / norm : 0;
+/// Of a column whose mean is 0 and another one.
+double Correlation(const Eigen::VectorXd& centred, const Eigen::VectorXd& other) {
+  const double spread = (other.array() - other.mean()).square().sum();
+  const double norm = centred.norm() * std::sqrt(spread);
+  return norm > 0 ? centred.dot(other) / norm : 0;
 }
 
 /// [n x 2] or [n x 1]: time, |f|
@@ -28,7 +29,8 @@ Eigen::MatrixXd Circumstances(Eigen::Index n, const Eigen::VectorXd& fitted) {
 /// By how many deviations r^2 goes with a column. Of coloured noise, fewer samples count.
 double Unevenness(const Eigen::VectorXd& residual, const Eigen::MatrixXd& known,
                   const NoiseModel& noise) {
-  const Eigen::VectorXd squares = residual.cwiseAbs2();
+  Eigen::VectorXd squares = residual.cwiseAbs2();
+  squares.array() -= squares.mean();
   double most = 0;
   for (const auto& column : known.colwise()) {
     most = std::max(most, std::abs(Correlation(squares, column)));

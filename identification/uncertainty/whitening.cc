@@ -39,6 +39,14 @@ Eigen::VectorXd VelocityOf(const std::vector<Index>& kept, const Measurements& m
   return velocity;
 }
 
+/// Whether all samples of one recording are kept, less than half a step off an even clock: one place each.
+bool AreNeighbours(const Selection& selection, const Measurements& m) {
+  const Index n = m.time.size();
+  if (n < 2 || !m.starts.empty() || selection.count() != n) return false;
+  const auto steps = m.time.tail(n - 1) - m.time.head(n - 1);
+  return steps.maxCoeff() < 1.5 * steps.minCoeff();
+}
+
 /// Where kept samples stand on an even grid of their median step, from 0 on. [n]
 std::vector<Index> PlacesOf(const std::vector<Index>& kept, const Measurements& m) {
   std::vector<Index> places(kept.size(), 0);
@@ -134,6 +142,10 @@ void Whitening::Apply(Rows& rows) const {
 std::shared_ptr<const Whitening> WhiteningFor(const Eigen::VectorXd& residual,
                                               const Measurements& measurements,
                                               const Selection& selection) {
+  // white noise of neighbours is the common case: their places are asked for beyond it alone
+  const bool neighbours = AreNeighbours(selection, measurements);
+  if (neighbours && !IsSurelyColoured(FitNoise(residual, selection), residual.size()))
+    return nullptr;
   const std::vector<Index> kept = KeptSamples(selection);
   const std::vector<Index> places = PlacesOf(kept, measurements);
   const NoiseModel noise = FitNoise(residual, OnEvenGrid(places));

@@ -59,12 +59,10 @@ Eigen::VectorXd FitJumps(ClosedLoop& loop, const Eigen::VectorXd& level,
 std::shared_ptr<const Whitening> FitWhitened(const Measurements& m, const Selection& moving,
                                              const ClosedLoop& loop, const Eigen::VectorXd& level,
                                              const Eigen::MatrixXd& offsets,
-                                             const Eigen::VectorXd& spread, WarmFit& fit) {
-  if (!fit.converged) return nullptr;
+                                             const Eigen::VectorXd& spread,
+                                             const LoopResponse& response, WarmFit& fit) {
+  if (!fit.converged || response.feeds_itself) return nullptr;
   // what the fit leaves, and the noise in it
-  const LoopResponse response =
-      loop.Simulate(fit.parameters(), fit.thermal(), fit.initial_energy(), fit.jump_values());
-  if (response.feeds_itself) return nullptr;
   const Eigen::VectorXd left =
       loop.direction().cwiseProduct(level - offsets * fit.offset_values()) - response.force;
   auto whitening = WhiteningFor(Kept(left, moving), m, moving);

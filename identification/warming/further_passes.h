@@ -23,10 +23,12 @@ Eigen::VectorXd FitJumps(ClosedLoop& loop, const Eigen::VectorXd& level,
 /// Fits once more, the rows whitened by the colour of the residual that the fit leaves; from that
 /// fit, whose place it takes. Returns that whitening. Nothing, and the fit as it was, where the noise
 /// may be white (IsSurelyColoured) or the next fit does not settle. moving: the samples that count,
-/// none of them at rest; spread: [J] as FitJumps returns it. The trace goes on in whitened squares.
+/// none of them at rest; spread: [J] as FitJumps returns it; response: of the loop by that fit. The trace goes on in
+/// whitened squares.
 std::shared_ptr<const Whitening> FitWhitened(const Measurements& m, const Selection& moving,
                                              const ClosedLoop& loop, const Eigen::VectorXd& level,
                                              const Eigen::MatrixXd& offsets,
-                                             const Eigen::VectorXd& spread, WarmFit& fit);
+                                             const Eigen::VectorXd& spread,
+                                             const LoopResponse& response, WarmFit& fit);
 
 }  // namespace warmjoint::inline identification

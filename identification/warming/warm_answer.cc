@@ -123,6 +123,10 @@ std::vector<FitParameter> HeatTable(const WarmFit& warm, const Measurements& mea
   return rows;
 }
 
+LoopResponse WarmResponse(const ClosedLoop& loop, const WarmFit& fit) {
+  return loop.Simulate(fit.parameters(), fit.thermal(), fit.initial_energy(), fit.jump_values());
+}
+
 Eigen::MatrixXd WarmJacobian(const ClosedLoop& loop, const RigidPart& gravity, const WarmFit& fit) {
   const Thermal thermal = fit.thermal();
   const Eigen::MatrixXd all =
@@ -134,14 +138,14 @@ Eigen::MatrixXd WarmJacobian(const ClosedLoop& loop, const RigidPart& gravity, c
   return Beside(jacobian, gravity.columns);
 }
 
-Eigen::VectorXd WarmEndSlopes(const ClosedLoop& loop, const WarmFit& fit) {
-  const Eigen::VectorXd all =
-      loop.EndSlopes(fit.parameters(), fit.thermal(), fit.initial_energy(), fit.jump_values());
+EndEnergy WarmEnd(const ClosedLoop& loop, const WarmFit& fit) {
+  const LoopEnd end =
+      loop.End(fit.parameters(), fit.thermal(), fit.initial_energy(), fit.jump_values());
   const Eigen::Index first = fit.law_parameters + (fit.estimates_initial_energy() ? 3 : 2);
   const Eigen::Index jumps = fit.jump_weights.size();
-  Eigen::VectorXd slopes(first + jumps);
-  slopes << all.head(first), all.tail(jumps);
-  return slopes;
+  EndEnergy result{end.energy, Eigen::VectorXd(first + jumps)};
+  result.slopes << end.slopes.head(first), end.slopes.tail(jumps);
+  return result;
 }
 
 Fit ConcludeWarm(const char* name, const WarmTask& task, const RobustWarmFit& robust,
@@ -149,9 +153,7 @@ Fit ConcludeWarm(const char* name, const WarmTask& task, const RobustWarmFit& ro
   const IdentifierInput& input = task.input;
   const Measurements& m = input.measurements;
   const WarmFit& warm = robust.fit;
-  // the course of force and energy along the log
-  const LoopResponse response = task.loop.Simulate(warm.parameters(), warm.thermal(),
-                                                   warm.initial_energy(), warm.jump_values());
+  const LoopResponse& response = task.response;
   Fit fit;
   fit.identifier = name;
   fit.trace = Trace(warm, input.selection.count());
@@ -174,7 +176,7 @@ Fit ConcludeWarm(const char* name, const WarmTask& task, const RobustWarmFit& ro
   fit.jacobian = [loop, gravity = task.gravity, warm] {
     return WarmJacobian(*loop, gravity, warm);
   };
-  fit.end_energy_slopes = [loop, warm] { return WarmEndSlopes(*loop, warm); };
+  fit.end_energy = [loop, warm] { return WarmEnd(*loop, warm); };
   if (task.structure) HoldStructure(*task.structure, Kept(response.force, fit.used), fit);
   // parameters and loss, as reports tell them
   fit.count = static_cast<int>(warm.solution.x.size());

@@ -27,7 +27,11 @@ struct WarmTask {
   std::shared_ptr<const Whitening> whitening;
   std::optional<Disagreement> structure;  // why the rows were not whitened
   std::shared_ptr<const LaggedRows> lag;  // of a torque that lags; or none
+  const LoopResponse& response;           // of the loop by the fit
 };
+
+/// The loop by a fit.
+LoopResponse WarmResponse(const ClosedLoop& loop, const WarmFit& fit);
 
 /// Rows of what is told of the heat: gain, time constant, E(0) where it was estimated, jumps.
 std::vector<FitParameter> HeatTable(const WarmFit& warm, const Measurements& measurements);
@@ -35,8 +39,8 @@ std::vector<FitParameter> HeatTable(const WarmFit& warm, const Measurements& mea
 /// d(F + G)/dx over all samples, without lag. [N x p]
 Eigen::MatrixXd WarmJacobian(const ClosedLoop& loop, const RigidPart& gravity, const WarmFit& fit);
 
-/// dE/dx at the end of the log, by law, heat, E(0) where it was estimated, and jumps. [p without gravity]
-Eigen::VectorXd WarmEndSlopes(const ClosedLoop& loop, const WarmFit& fit);
+/// E at the end of the log, with its slopes by law, heat, E(0) where it was estimated, and jumps. [p without gravity]
+EndEnergy WarmEnd(const ClosedLoop& loop, const WarmFit& fit);
 
 /// The fit as a value, or why there is none to trust. name: of the identifier; nominal_squares: of the
 /// fit without warming, its rows mapped as those of `robust`.

@@ -114,12 +114,28 @@ TEST(ClosedLoop, TellsTheSlopesOfItsLastHeat) {
     differences[i] = (end(x[i] + step) - end(x[i] - step)) / (2 * step);
   }
   differences[3] *= x[3];
-  ExpectNear(loop.EndSlopes(x.head(2), thermal, x[4], x.tail(2)), differences, 1e-8);
+  ExpectNear(loop.End(x.head(2), thermal, x[4], x.tail(2)).slopes, differences, 1e-8);
 
   // without jumps it is compiled for its size: the same but for rounding
   const Eigen::Vector2d none(0, 0);
-  ExpectNear(Loop(EvenTime(50), v).EndSlopes(x.head(2), thermal, x[4]),
-             loop.EndSlopes(x.head(2), thermal, x[4], none).head(5), 1e-13);
+  const LoopEnd fixed = Loop(EvenTime(50), v).End(x.head(2), thermal, x[4]);
+  const LoopEnd dynamic = loop.End(x.head(2), thermal, x[4], none);
+  ExpectNear(fixed.slopes, dynamic.slopes.head(5), 1e-13);
+
+  // E itself is that of the simulation
+  const LoopResponse response = loop.Simulate(x.head(2), thermal, x[4], none);
+  EXPECT_NEAR(fixed.energy, response.energy[49], 1e-13 * std::abs(response.energy[49]));
+  EXPECT_NEAR(dynamic.energy, response.energy[49], 1e-13 * std::abs(response.energy[49]));
+}
+
+TEST(ClosedLoop, HasOneDerivativeByTheLawWhereverItsParametersAre) {
+  Eigen::VectorXd v(50);
+  for (int i = 0; i < 50; ++i) v[i] = (i / 10 % 2 ? -0.1 : 0.1) * (1 + i / 10);
+  const ClosedLoop loop = Loop(EvenTime(50), v);
+  const Thermal thermal{-0.6, 40};
+  const Eigen::MatrixXd all = loop.Jacobian(Eigen::Vector2d(5, 15), thermal, -0.3);
+  // 1e-15: the same recursion
+  ExpectNear(loop.LawJacobian(thermal), all.leftCols(2), 1e-15);
 }
 
 TEST(ClosedLoop, AgreesWithFiniteDifferences) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "identification/linear/linear_laws.h"
 #include "models/friction/along_motion.h"
 #include "models/recording/course_of.h"
 #include "tests/support/warm_recording.h"
@@ -10,9 +11,10 @@ namespace warmjoint {
 namespace {
 
 /// A fit of the truth, as far as WithHeat asks.
-FittedModel Warm(const FrictionDescription& friction) {
+FittedModel Warm(const FrictionDescription& friction, const Measurements& m) {
   FittedModel model;
   model.thermal = friction.thermal;
+  model.loop = ClosedLoop::Along(m, LawColumns(*FindLaw(friction.law), m.velocity));
   return model;
 }
 
@@ -35,7 +37,7 @@ TEST(WithHeat, IsTheDerivativeByALevel) {
   below.parameters["coulomb"] -= step;
   const Eigen::VectorXd sign = m.velocity.array().sign().matrix();
   // F is linear in coulomb: what differs is rounding, 1e-16 of 20 N.m over 0.02
-  const Eigen::VectorXd off = WithHeat(Warm(friction), m, sign) - Slope(above, below, m, step);
+  const Eigen::VectorXd off = WithHeat(Warm(friction, m), m, sign) - Slope(above, below, m, step);
   EXPECT_LT(off.lpNorm<Eigen::Infinity>(), 1e-11);
 }
 
@@ -48,7 +50,7 @@ TEST(WithHeat, IsTheDerivativeByASlopeThatWarms) {
   below.viscous_per_energy = -step;
   const Eigen::VectorXd slope = m.velocity.cwiseProduct(Along(friction, m).energy);
   // by the third derivative, of some 10 N.m: step^2 times that
-  const Eigen::VectorXd off = WithHeat(Warm(friction), m, slope) - Slope(above, below, m, step);
+  const Eigen::VectorXd off = WithHeat(Warm(friction, m), m, slope) - Slope(above, below, m, step);
   EXPECT_LT(off.lpNorm<Eigen::Infinity>(), 1e-6);
 }
 

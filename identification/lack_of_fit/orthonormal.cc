@@ -1,0 +1,137 @@
+#include "identification/lack_of_fit/orthonormal.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+namespace warmjoint::inline identification {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+constexpr double kAsLong =
+    1e-9;  // relative; why: rounding makes 1e-15 of it, nothing that is meant so little
+constexpr double kSeenByProducts =
+    1e-6;  // of a column's square; why: a basis made of such ones is orthonormal to 1e-16 of it, 1e-10
+
+/// The inverse of the leading rank x rank of a triangular R.
+MatrixXd InverseOf(const MatrixXd& R, Index rank) {
+  return R.topLeftCorner(rank, rank)
+      .triangularView<Eigen::Upper>()
+      .solve(MatrixXd::Identity(rank, rank));
+}
+
+/// Cholesky's factor of products, as many rows as columns stand out, and the order in which they joined.
+struct Factor {
+  MatrixXd root;             // [q x q] R, of the columns in their order
+  std::vector<Index> order;  // [q]
+  Index rank = 0;
+  double least = 1;  // square of what the last column to join had beside those before it
+};
+
+/// Where in the order the column stands of which most is left. Of those that are as long up to rounding it is the
+/// first, so that rounding decides nothing. products: [q x q] of what is left
+Index Longest(const MatrixXd& products, const std::vector<Index>& order, Index rank) {
+  const auto left = [&](Index place) {
+    const Index column = order[static_cast<size_t>(place)];
+    return products(column, column);
+  };
+  Index longest = rank;
+  for (Index place = rank + 1; place < products.rows(); ++place) {
+    if (left(place) > left(longest) * (1 + kAsLong)) longest = place;
+  }
+  return longest;
+}
+
+/// products: [q x q] of the columns
+Factor FactorOf(MatrixXd products, Index most, double distinct) {
+  const Index q = products.rows();
+  Factor factor{MatrixXd::Zero(q, q), std::vector<Index>(static_cast<size_t>(q)), 0, 1};
+  auto& [root, order, rank, least] = factor;
+  std::iota(order.begin(), order.end(), Index{0});
+  for (; rank < most; ++rank) {
+    // the column of which most is left, while that stands out
+    const Index at = Longest(products, order, rank);
+    const Index pivot = order[static_cast<size_t>(at)];
+    const double square = products(pivot, pivot);
+    if (!(square > distinct * distinct)) break;
+    least = square;
+    root.col(at).swap(root.col(rank));
+    std::swap(order[static_cast<size_t>(rank)], order[static_cast<size_t>(at)]);
+
+    // its row of R, and what the others have beside it
+    const double norm = std::sqrt(square);
+    root(rank, rank) = norm;
+    for (Index j = rank + 1; j < q; ++j) {
+      const Index column = order[static_cast<size_t>(j)];
+      root(rank, j) = products(column, pivot) / norm;
+      for (Index i = rank + 1; i <= j; ++i) {
+        const Index row = order[static_cast<size_t>(i)];
+        products(column, row) -= root(rank, i) * root(rank, j);
+        products(row, column) = products(column, row);
+      }
+    }
+  }
+  return factor;
+}
+
+MatrixXd ProductsOf(const MatrixXd& columns) {
+  MatrixXd products = MatrixXd::Zero(columns.cols(), columns.cols());
+  products.selfadjointView<Eigen::Lower>().rankUpdate(columns.transpose());
+  products.triangularView<Eigen::StrictlyUpper>() = products.transpose();
+  return products;
+}
+
+/// R^-1 with the order of the columns turned back. [q x rank]
+MatrixXd MixOf(const Factor& factor) {
+  MatrixXd mix = MatrixXd::Zero(factor.root.rows(), factor.rank);
+  // Eigen walks off a null pointer where there is nothing to multiply
+  if (factor.rank == 0) return mix;
+  const MatrixXd inverse = InverseOf(factor.root, factor.rank);
+  for (Index j = 0; j < factor.rank; ++j) {
+    mix.row(factor.order[static_cast<size_t>(j)]) = inverse.row(j);
+  }
+  return mix;
+}
+
+/// By Householder's method, which tells columns apart that differ by as little as rounding.
+Basis ByHouseholder(const MatrixXd& columns, double distinct) {
+  const Eigen::ColPivHouseholderQR<MatrixXd> qr(columns);
+  // as many columns count as stand out beside those before them
+  const Index most = std::min(columns.rows(), columns.cols());
+  const Index rank = (qr.matrixQR().diagonal().head(most).array().abs() > distinct).count();
+  if (rank == 0) return {MatrixXd(columns.rows(), 0), MatrixXd(columns.cols(), 0)};
+  // Q, and the mix of columns that makes it: R^-1 with their order turned back
+  Basis result;
+  result.basis = qr.householderQ() * MatrixXd::Identity(columns.rows(), rank);
+  MatrixXd inverse = MatrixXd::Zero(columns.cols(), rank);
+  inverse.topRows(rank) = InverseOf(qr.matrixQR(), rank);
+  result.mix = qr.colsPermutation() * inverse;
+  return result;
+}
+
+}  // namespace
+
+Basis Orthonormal(const MatrixXd& columns, double distinct) {
+  const Factor factor =
+      FactorOf(ProductsOf(columns), std::min(columns.cols(), columns.rows()), distinct);
+  // products lose what is left of a column to rounding once it is short
+  const bool told =
+      factor.least > kSeenByProducts && (distinct * distinct > kSeenByProducts ||
+                                         factor.rank == std::min(columns.cols(), columns.rows()));
+  if (!told) return ByHouseholder(columns, distinct);
+  Basis result{MatrixXd(columns.rows(), factor.rank), MixOf(factor)};
+  if (factor.rank > 0) result.basis.noalias() = columns * result.mix;
+  return result;
+}
+
+MatrixXd MixOfDistinct(const MatrixXd& columns, double distinct) {
+  assert(distinct * distinct > kSeenByProducts);
+  return MixOf(FactorOf(ProductsOf(columns), std::min(columns.cols(), columns.rows()), distinct));
+}
+
+}  // namespace warmjoint::inline identification
