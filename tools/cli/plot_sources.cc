@@ -45,8 +45,10 @@ RecordingArguments OwnRecording(const nlohmann::json& file, const fs::path& path
   RecordingArguments remembered = RecordingFromJson(file["recording"], {path});
   for (const std::string& recording : remembered.recordings) {
     if (fs::exists(recording)) continue;
-    SayNotice("{}: its recording {} is not there; give --recording for the pictures that need it\n",
-              path.string(), recording);
+    // a warning, which --quiet leaves: it was there when the estimate was made
+    Say(stderr,
+        "{}: its recording {} is not there; give --recording for the pictures that need it\n",
+        path.string(), recording);
     return {};
   }
   return remembered;

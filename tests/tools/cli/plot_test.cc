@@ -163,9 +163,21 @@ TEST(Plot, KeepsNoticesToItselfWhereAsked) {
   const auto at = [&](const std::string& name) { return std::string(scratch.path() / name); };
   WriteRecordingFile(at("log.csv"), 480, [](int i) { return (i / 30 % 2 ? -0.4 : 0.4); });
   RunWarmjoint({"identify", at("log.csv"), "-o", at("e.json")});
-  fs::remove(at("log.csv"));
-  EXPECT_THAT(Call({"plot", at("e.json"), "-o", at("told")}).err, HasSubstr("log.csv"));
+  auto file = nlohmann::json::parse(ReadWholeFile(at("e.json")));
+  file.erase("recording");
+  WriteWholeFile(at("e.json"), file.dump());
+  EXPECT_THAT(Call({"plot", at("e.json"), "-o", at("told")}).err, HasSubstr("--recording"));
   EXPECT_EQ(Call({"plot", at("e.json"), "-o", at("quiet"), "--quiet"}).err, "");
+}
+
+TEST(Compare, KeepsNoticesToItselfWhereAsked) {
+  const ScratchDirectory scratch;
+  const auto at = [&](const std::string& name) { return std::string(scratch.path() / name); };
+  WriteWholeFile(at("suite.yaml"), TableOneSuite(1, "  - {name: nominal-ls}\n"));
+  Call({"run", at("suite.yaml"), "-o", at("run")});
+  WriteWholeFile(at("run/suite.yaml"), "name: other\n");
+  EXPECT_THAT(Call({"compare", at("run")}).err, HasSubstr("suite.yaml"));
+  EXPECT_EQ(Call({"compare", at("run"), "--quiet"}).err, "");
 }
 
 TEST(Report, RefusesWhatItCannotTakeBeforeItIsMade) {
