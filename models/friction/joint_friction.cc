@@ -1,5 +1,6 @@
 #include "models/friction/joint_friction.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
@@ -46,6 +47,11 @@ struct OtherNumber {
   }
 };
 
+/// The row of FrictionOptions for a member.
+const ParameterInfo& InfoOf(double FrictionDescription::*member) {
+  return std::ranges::find(FrictionOptions(), member, &FrictionOption::value)->info;
+}
+
 std::span<const OtherNumber> OtherNumbers() {
   using Friction = FrictionDescription;
   // numbers that a run may change, where the friction has them
@@ -60,11 +66,11 @@ std::span<const OtherNumber> OtherNumbers() {
                   [](Friction& f) {
                     return f.second_thermal ? &f.second_thermal->time_constant : nullptr;
                   }},
-      OtherNumber{"", FrictionOptions()[0].info,
+      OtherNumber{"", InfoOf(&Friction::level_per_temperature),
                   [](Friction& f) {
                     return f.level_per_temperature != 0 ? &f.level_per_temperature : nullptr;
                   }},
-      OtherNumber{"", FrictionOptions()[1].info,
+      OtherNumber{"", InfoOf(&Friction::viscous_per_energy),
                   [](Friction& f) { return f.thermal ? &f.viscous_per_energy : nullptr; }},
   };
   return numbers;

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -169,12 +170,15 @@ void Limit(int resource, rlim_t value) {
 
 /// All that comes through a pipe within some seconds; false where it is not at its end by then.
 bool ReadAll(int in, double seconds, std::string& bytes) {
-  // block by block, until the child closes its end or stays silent for too long
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + std::chrono::duration<double>(seconds);
+  // block by block, until the child closes its end or the time is over
   std::array<char, 1 << 16> block;
   for (;;) {
+    const std::chrono::duration<double, std::milli> left = end - Clock::now();
     pollfd readable{in, POLLIN, 0};
-    const int ready = poll(&readable, 1, static_cast<int>(1000 * seconds));
-    if (ready == 0) return false;
+    const int ready = poll(&readable, 1, static_cast<int>(std::max(0.0, std::ceil(left.count()))));
+    if (ready == 0 || left.count() <= 0) return false;
     if (ready < 0 && errno != EINTR) return false;
     if (ready < 0) continue;
     const ssize_t n = read(in, block.data(), block.size());

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "models/foundation/excerpt.h"
+#include "models/foundation/parse_number.h"
 #include "models/friction/joint_friction.h"
 #include "sim/model/mujoco_handles.h"
 #include "sim/plugin/check_joint.h"
@@ -66,7 +67,7 @@ class Trial {
 /// The number of two digits next to `value`, on the side that `round` takes.
 double TwoDigits(double value, double (*round)(double)) {
   const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
-  return std::stod(fmt::format("{:.2g}", round(value / unit) * unit));
+  return *ParseNumber(fmt::format("{:.2g}", round(value / unit) * unit));
 }
 
 /// The bound between `refused` and `accepted`, from the side of the accepted, to 1e-3.

@@ -60,7 +60,7 @@ void AddOutliers(const Outliers& outliers, RandomStream random, Measurements& lo
 }  // namespace
 
 void DisturbLog(const Scenario& scenario, std::uint64_t realization, Recording& recording,
-                const Eigen::VectorXd& acceleration) {
+                const Eigen::VectorXd& position, const Eigen::VectorXd& acceleration) {
   const RandomKey key{scenario.seed, realization};
   const Disturbances& disturbances = scenario.disturbances;
   // what the torque has beside friction: its lag and hidden forces
@@ -69,7 +69,7 @@ void DisturbLog(const Scenario& scenario, std::uint64_t realization, Recording& 
     log.torque += LowPass(log.time, recording.truth.force, lag) - recording.truth.force;
   }
   log.torque +=
-      HiddenTorque(disturbances, log.time, recording.truth.velocity, log.position, acceleration);
+      HiddenTorque(disturbances, log.time, recording.truth.velocity, position, acceleration);
 
   // what sensors make of the motion, then noise on the torque
   DisturbMotion(disturbances, log);

@@ -10,8 +10,8 @@ namespace warmjoint::inline sim {
 /// periodic torque; makes of the motion what poorer sensors log; and spoils what is left as faulty sensors, clocks and
 /// files do. Random numbers come from streams of their own, so that they leave all others as they are.
 /// Coloured noise joins Truth.torque_noise; outliers and uneven noise, being no noise of one size, do not.
-/// acceleration: as of HiddenTorque.
+/// position, acceleration: the true ones, as of HiddenTorque.
 void DisturbLog(const Scenario& scenario, std::uint64_t realization, Recording& recording,
-                const Eigen::VectorXd& acceleration = {});
+                const Eigen::VectorXd& position, const Eigen::VectorXd& acceleration = {});
 
 }  // namespace warmjoint::inline sim

@@ -169,7 +169,7 @@ class IdealPlant : public Plant {
     truth.loss = std::move(friction.loss);
     truth.energy = std::move(friction.energy);
     const bool follows = FollowsCorners(scenario_.motion);
-    DisturbLog(scenario_, realization, recording,
+    DisturbLog(scenario_, realization, recording, samples.position,
                follows ? samples.acceleration : Eigen::VectorXd());
     return recording;
   }

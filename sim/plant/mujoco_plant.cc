@@ -95,9 +95,9 @@ class MujocoPlant : public Plant {
     recording.following = Sufficient(plan);
     bandwidth_ = recording.following.bandwidth;
     SensorLog log(scenario_, key, recording.truth.velocity.size());
-    Move(MakeReference(plan), start, log, recording, watch);
+    const Eigen::VectorXd position = Move(MakeReference(plan), start, log, recording, watch);
     log.WriteTo(recording.measurements);
-    DisturbLog(scenario_, realization, recording);
+    DisturbLog(scenario_, realization, recording, position);
     return recording;
   }
 
@@ -198,9 +198,10 @@ class MujocoPlant : public Plant {
     return recording;
   }
 
-  /// Drives the joint along the reference; sensors read and samples are taken before their step.
-  void Move(VelocityReference reference, double start, SensorLog& log, Recording& recording,
-            const RunWatch& watch) {
+  /// Drives the joint along the reference; sensors read and samples are taken before their step. The true position of
+  /// each sample, [N] rad or m.
+  Eigen::VectorXd Move(VelocityReference reference, double start, SensorLog& log,
+                       Recording& recording, const RunWatch& watch) {
     Truth& truth = recording.truth;
     const mjModel* m = joint_.model.get();
     mjData* d = data_.get();
@@ -215,6 +216,7 @@ class MujocoPlant : public Plant {
     SetEnergy(state);
 
     const Eigen::Index n = truth.velocity.size();
+    Eigen::VectorXd positions(n);
     Eigen::Index sample = 0;
     SpeedWatch speed;
     double half_step_before = reference.Velocity(static_cast<double>(-run_up) * h - 0.5 * h);
@@ -239,6 +241,7 @@ class MujocoPlant : public Plant {
       const double position = d->qpos[0], velocity = d->qvel[0];
       if (step >= 0) speed.Look(wanted, velocity, steady);
       if (stores) {
+        positions[sample] = position;
         truth.velocity[sample] = velocity;
         truth.energy[sample] = EnergyIn(state);
       }
@@ -253,8 +256,12 @@ class MujocoPlant : public Plant {
       }
     }
 
-    // how much of the time the joint kept to its motion
-    Following& following = recording.following;
+    Judge(speed, recording.following);
+    return positions;
+  }
+
+  /// How much of the time the joint kept to its motion.
+  void Judge(const SpeedWatch& speed, Following& following) const {
     following.share = speed.share();
     // where the formula holds no answer, a faster drive is what can be tried
     const bool did = following.bandwidth >= following.sufficient;

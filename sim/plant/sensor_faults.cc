@@ -140,7 +140,7 @@ void SpoilLog(const SensorFaults& faults, Recording& recording) {
   MistakeColumns(faults, log);
   LeaveOut(0, faults.cut_start.time, recording);
   LeaveOut(faults.gap.time, faults.gap.time + faults.gap.duration, recording);
-  if (faults.restarted_clock) log.time.array() -= log.time[0];
+  if (faults.restarted_clock && log.size() > 0) log.time.array() -= log.time[0];
   SpoilClock(faults.clock, log.time);
 }
 

@@ -16,7 +16,8 @@ VelocityReference::VelocityReference(const std::vector<MotionSegment>& plan, dou
     const double change = std::abs(segment.velocity - velocity) / acceleration;
     if (change > 0) {
       const double start = std::max(begin - settling - change, free_since);
-      corners_.push_back({start, velocity});
+      // a ramp that follows on the last one at once begins with its end
+      if (corners_.empty() || start > corners_.back().time) corners_.push_back({start, velocity});
       corners_.push_back({start + change, segment.velocity});
       free_since = start + change;
     }

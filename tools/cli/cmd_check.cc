@@ -87,6 +87,7 @@ ExitStatus Check(const CheckArguments& arguments) {
     setting.format = report::FormatOf(arguments.plot);
     AtomicFile{arguments.plot};
   }
+  if (!arguments.segments.empty()) AtomicFile{arguments.segments};
   KeepApart(outputs,
             {arguments.recording.recordings.begin(), arguments.recording.recordings.end()});
 
@@ -115,6 +116,10 @@ ExitStatus Check(const CheckArguments& arguments) {
       fmt::print(words, "{}\n", Json(files).dump(2));
     } else {
       SayText(words, Text(files, PageOf(words).width));
+    }
+    if (!arguments.plot.empty() && !files.front().check) {
+      Say(stderr, "{}: is not drawn, since {} cannot be read; give one that can be read first\n",
+          arguments.plot, files.front().file);
     }
   });
 

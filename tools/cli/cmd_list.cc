@@ -34,6 +34,12 @@ nlohmann::ordered_json Members(const Family& family, const std::string& name) {
          Suggestion(name, names));
 }
 
+std::vector<std::string> Names(const Family& family, const std::string& name) {
+  // all of them are known without their contents
+  if (name.empty()) return family.names();
+  return {Members(family, name).front()["name"]};
+}
+
 std::string Text(const Family& family, const ListArguments& arguments) {
   // all in short, or one in full
   const int width = PageOf(stdout).width;
@@ -50,7 +56,7 @@ ExitStatus List(const ListArguments& arguments) {
   for (const Family& family : Families()) {
     if (family.name != arguments.family) continue;
     if (arguments.format == "names") {
-      fmt::print("{}\n", fmt::join(family.names(), "\n"));
+      fmt::print("{}\n", fmt::join(Names(family, arguments.member), "\n"));
     } else if (arguments.format == "json") {
       fmt::print("{}\n", Members(family, arguments.member).dump(2));
     } else {

@@ -12,6 +12,7 @@
 #include "tools/cli/command.h"
 #include "tools/parser/choice.h"
 #include "tools/terminal/say.h"
+#include "tools/terminal/shell_words.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -39,14 +40,8 @@ struct NewArguments {
 };
 
 /// The text with every "NAME" replaced.
-std::string Named(std::string text, const std::string& name) {
-  constexpr std::string_view mark = "NAME";
-  // the search goes on behind what was put in
-  for (size_t at = text.find(mark); at != std::string::npos;
-       at = text.find(mark, at + name.size())) {
-    text.replace(at, mark.size(), name);
-  }
-  return text;
+std::string Named(const std::string& text, const std::string& name) {
+  return Replaced(text, "NAME", name);
 }
 
 /// Names become files, labels of rows and words of a shell: letters, digits, - and _ do for all.

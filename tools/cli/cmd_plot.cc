@@ -8,6 +8,7 @@
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
+#include "tools/actions/outputs.h"
 #include "tools/cli/command.h"
 #include "tools/cli/picture_options.h"
 #include "tools/cli/plot_sources.h"
@@ -57,9 +58,11 @@ class Album {
     if (is_new) pages_.push_back(figure);
   }
 
-  /// The numbers that a figure shows.
-  void WriteData(const report::Figure& figure, const fs::path& folder) {
+  /// The numbers that a figure shows. recordings: that must not be written over.
+  void WriteData(const report::Figure& figure, const fs::path& folder,
+                 const std::vector<fs::path>& recordings) {
     const fs::path path = folder / (figure.name + ".csv");
+    KeepApart({path}, recordings);
     WriteWholeFile(path, report::FigureCsv(figure));
     Tell(path, "the series of " + figure.name);
   }
@@ -147,6 +150,7 @@ ExitStatus PlotSources(const PlotArguments& arguments) {
   Activity activity("preparing to draw");
   Album album(setting, activity);
   std::vector<report::NamedEstimate> estimates;
+  std::vector<fs::path> recordings;
   for (std::size_t i = 0; i < folders.size(); ++i) {
     activity.Is("reading " + arguments.sources[i]);
     SourcePictures pictures = PicturesOf(arguments.sources[i], arguments.recording);
@@ -174,9 +178,10 @@ ExitStatus PlotSources(const PlotArguments& arguments) {
             [&] { SayNotice("{}: left out: {}\n", arguments.sources[i], refusal.what()); });
         continue;
       }
-      if (arguments.data) album.WriteData(figure, folders[i]);
+      if (arguments.data) album.WriteData(figure, folders[i], pictures.recordings);
     }
     album.DrawFilm(pictures.film, folders[i]);
+    recordings.insert(recordings.end(), pictures.recordings.begin(), pictures.recordings.end());
     if (pictures.estimate) {
       const std::string name = fs::path(arguments.sources[i]).stem().string();
       estimates.emplace_back(name, *std::move(pictures.estimate));
@@ -187,7 +192,7 @@ ExitStatus PlotSources(const PlotArguments& arguments) {
   const bool all_figures = arguments.pictures.figures.empty();
   if (const auto overlay = report::MakeOverlay(estimates); overlay && all_figures) {
     album.Draw(*overlay, arguments.output);
-    if (arguments.data) album.WriteData(*overlay, arguments.output);
+    if (arguments.data) album.WriteData(*overlay, arguments.output, recordings);
   }
   if (!arguments.sheet.empty()) album.WriteSheet(arguments.sheet);
   return ExitStatus::done;

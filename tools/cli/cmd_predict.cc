@@ -1,6 +1,7 @@
 // warmjoint predict ESTIMATE RECORDING: a stored estimate on another recording.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -78,7 +79,7 @@ std::string PredictedToText(const PredictArguments& arguments, const StoredModel
       {"prediction", "samples", fmt::format("RMSE {}", unit), fmt::format("MAE {}", unit), "Fit %"},
       {{predicted.measurements.source, std::to_string(metrics.n),
         fmt::format("{:.4g}", metrics.rmse), fmt::format("{:.4g}", metrics.mae),
-        fmt::format("{:.2f}", metrics.fit)}}};
+        std::isfinite(metrics.fit) ? fmt::format("{:.2f}", metrics.fit) : "-"}}};
   std::string text = fmt::format("{} of {} ({})\n\n", stored.identifier, arguments.estimate,
                                  StatusName(stored.status)) +
                      TableToText(table, 1, width);

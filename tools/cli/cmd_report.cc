@@ -81,8 +81,17 @@ void ReplayExtremes(report::RunPage& page, Activity& activity) {
   if (!replayed.empty()) page.extremes = report::ExtremesFigure(row.label, replayed);
 }
 
+/// Refuses, before time is spent, a page that would be written over what it is made of, or cannot be written.
+void ClaimOutput(const fs::path& target, const std::vector<fs::path>& inputs) {
+  KeepApart({target}, inputs);
+  AtomicFile{target};
+}
+
 Page RunReport(const ReportArguments& arguments, Activity& activity) {
   const RunStore store = RunStore::OpenToRead(arguments.source);
+  const fs::path beside = fs::path(arguments.source) / "report.html";
+  const fs::path target = arguments.output.empty() ? beside : fs::path(arguments.output);
+  ClaimOutput(target, {store.results_file(), store.timings_file(), store.suite_file()});
   TellOfEditedSuite(store);
   // all that the run itself gives
   report::RunPage page{report::ReadRunView(store), StoredSuite(store), store.ReadDescription(), {}};
@@ -92,9 +101,7 @@ Page RunReport(const ReportArguments& arguments, Activity& activity) {
   // then what is simulated again for this page
   ReplayExtremes(page, activity);
   activity.Is(fmt::format("drawing {} pictures", page.figures.size()));
-  const fs::path beside = fs::path(arguments.source) / "report.html";
-  return {arguments.output.empty() ? beside : fs::path(arguments.output),
-          report::MakeRunPage(page)};
+  return {target, report::MakeRunPage(page)};
 }
 
 std::string LogReport(const PreparedLog& log, const Estimate& estimate,
@@ -147,6 +154,17 @@ std::string EstimateReport(const ReportArguments& arguments) {
       {JoinCommand({"warmjoint", "report", arguments.source, "-o", arguments.output})});
 }
 
+/// Refuses options of a recording beside a run or an estimate, which have their own.
+void RefuseOptionsOfRecordings(const CLI::App& parser, const std::string& source) {
+  for (const CLI::Option* option : parser.get_options()) {
+    const std::string name = option->get_name();
+    const bool fits = option->get_positional() || name == "--output" || name == "--quiet" ||
+                      name == "--no-project";
+    if (fits || option->count() == 0) continue;
+    Refuse({name}, "goes with a recording; {} was made with its own, leave the option out", source);
+  }
+}
+
 ExitStatus Report(const ReportArguments& arguments) {
   SettleArithmetic();
   Activity activity("reading " + arguments.source);
@@ -163,8 +181,7 @@ ExitStatus Report(const ReportArguments& arguments) {
     if (arguments.output.empty()) {
       Refuse({arguments.source}, "is a log: name the page that is to be made, as -o page.html");
     }
-    KeepApart({arguments.output}, {arguments.source});
-    AtomicFile{arguments.output};  // refused before time is spent
+    ClaimOutput(arguments.output, {arguments.source});
     page = {arguments.output, IsEstimate(arguments.source) ? EstimateReport(arguments)
                                                            : RecordingReport(arguments, activity)};
   }
@@ -203,6 +220,8 @@ Command AddReportCommand(CLI::App& program) {
             if (IsRecording(arguments->source)) {
               arguments->recording.recordings = {arguments->source};
               TakeProject(*parser, arguments->recording);
+            } else {
+              RefuseOptionsOfRecordings(*parser, arguments->source);
             }
             return Report(*arguments);
           }};

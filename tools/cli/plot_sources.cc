@@ -1,7 +1,5 @@
 #include "tools/cli/plot_sources.h"
 
-#include <fmt/core.h>
-
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -12,6 +10,7 @@
 #include "tools/report/run/run_figures.h"
 #include "tools/report/simulation/simulation_figures.h"
 #include "tools/report/simulation/warm_robot.h"
+#include "tools/terminal/say.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -35,38 +34,49 @@ SourcePictures Make(const std::vector<report::NamedFigure<View>>& family, const 
   return pictures;
 }
 
-/// The estimate of a file beside its own recording, where that is there.
-report::EstimateView OwnView(const nlohmann::json& file, const fs::path& path, Estimate estimate) {
+/// The recording that an estimate file remembers; none where it names none, or it has gone.
+RecordingArguments OwnRecording(const nlohmann::json& file, const fs::path& path) {
   // a recording that is not named, or has gone, is no reason for no pictures
   if (!file.contains("recording")) {
-    fmt::print(stderr, "{}: names no recording; give --recording for the pictures that need it\n",
-               path.string());
-    return report::MakeEstimateView(std::move(estimate));
+    SayNotice("{}: names no recording; give --recording for the pictures that need it\n",
+              path.string());
+    return {};
   }
-  const RecordingArguments remembered = RecordingFromJson(file["recording"], {path});
+  RecordingArguments remembered = RecordingFromJson(file["recording"], {path});
   for (const std::string& recording : remembered.recordings) {
     if (fs::exists(recording)) continue;
-    fmt::print(
-        stderr,
+    // a warning, which --quiet leaves: it was there when the estimate was made
+    Say(stderr,
         "{}: its recording {} is not there; give --recording for the pictures that need it\n",
         path.string(), recording);
-    return report::MakeEstimateView(std::move(estimate));
+    return {};
   }
-  return report::ViewOwnRecording(std::move(estimate), ReadAndPrepare(remembered));
+  return remembered;
 }
 
-SourcePictures PicturesOfEstimate(const fs::path& path, const RecordingArguments& recording) {
+/// The estimate beside the recording that is given, else beside its own, else alone.
+report::EstimateView ViewOf(Estimate estimate, const RecordingArguments& given,
+                            const RecordingArguments& own) {
+  if (!given.recordings.empty()) {
+    return report::MakeEstimateView(std::move(estimate), ReadAndPrepare(given));
+  }
+  if (own.recordings.empty()) return report::MakeEstimateView(std::move(estimate));
+  return report::ViewOwnRecording(std::move(estimate), ReadAndPrepare(own));
+}
+
+SourcePictures PicturesOfEstimate(const fs::path& path, const RecordingArguments& given) {
   const nlohmann::json file = ReadJsonFile(path);
   // the estimate with the data that it is shown beside
   Estimate estimate = EstimateFromJson(file, {path});
-  report::EstimateView view =
-      recording.recordings.empty()
-          ? OwnView(file, path, std::move(estimate))
-          : report::MakeEstimateView(std::move(estimate), ReadAndPrepare(recording));
+  RecordingArguments own;
+  if (given.recordings.empty()) own = OwnRecording(file, path);
+  report::EstimateView view = ViewOf(std::move(estimate), given, own);
 
   // what it gives, and itself for the figure of several
   SourcePictures pictures = Make(report::EstimateFigures(), view);
   pictures.estimate = std::move(view);
+  const RecordingArguments& shown = given.recordings.empty() ? own : given;
+  pictures.recordings.assign(shown.recordings.begin(), shown.recordings.end());
   return pictures;
 }
 
@@ -74,6 +84,7 @@ SourcePictures PicturesOfSimulation(const fs::path& directory) {
   const report::SimulationView view = report::ReadSimulationView(directory);
   // a robot that warms needs OpenGL for its pictures
   SourcePictures pictures = Make(report::SimulationFigures(), view);
+  pictures.recordings = {directory / "recording.csv"};
   if (!report::HasWarmRobot(view)) return pictures;
   const std::unique_ptr<report::GlContext> context = report::MakeGlContext();
   pictures.figures.push_back(*report::MakeWarmRobot(view, *context));
@@ -85,7 +96,8 @@ SourcePictures PicturesOfSimulation(const fs::path& directory) {
 
 SourcePictures PicturesOf(const std::string& source, const RecordingArguments& recording) {
   // by what stands there, of a file by its kind, of a directory by what it holds
-  if (source == kKernelsSource && !fs::exists(source)) return {{report::MakeKernels()}, {}, {}};
+  if (source == kKernelsSource && !fs::exists(source))
+    return {{report::MakeKernels()}, {}, {}, {}, {}};
   if (fs::is_regular_file(source)) return PicturesOfEstimate(source, recording);
   if (report::IsSimulation(source)) return PicturesOfSimulation(source);
   return Make(report::RunFigures(), report::ReadRunView(RunStore::OpenToRead(source)));

@@ -23,6 +23,7 @@ struct SourcePictures {
   /// Figures that this source does not give, and what they need.
   std::vector<std::pair<std::string, std::string>> left_out;
   std::optional<report::EstimateView> estimate = std::nullopt;
+  std::vector<std::filesystem::path> recordings{};  // that were read for them
 };
 
 /// A directory of `run` or `simulate`, an estimate file, or `kernels`. recording: in place of the

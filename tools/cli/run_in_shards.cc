@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <stdlib.h>
 
+#include <algorithm>
+
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "scenarios/suite.h"
@@ -23,6 +25,8 @@
 #include "tools/store/directory_lock.h"
 #include "tools/suite/describe_run.h"
 #include "tools/suite/interrupt.h"
+#include "tools/terminal/say.h"
+#include "tools/terminal/shell_words.h"
 
 namespace warmjoint::inline tools {
 namespace fs = std::filesystem;
@@ -34,7 +38,7 @@ Consent ConsentOf(const RunArguments& arguments, const Suite& suite) {
   if (arguments.shell) return Consent::shell;
   // what the command line named was agreed to by naming it
   for (const SuiteIdentifier& identifier : suite.identifiers) {
-    if (identifier.name == "external") return Consent::commands;
+    if (identifier.name == kExternal) return Consent::commands;
   }
   return arguments.allow_commands ? Consent::commands : Consent::none;
 }
@@ -80,6 +84,28 @@ void RefuseOtherContent(const fs::path& run) {
   }
 }
 
+/// Tells which options ask for another plan than the one that is there, which stays.
+void TellOtherPlan(const Plan& plan, const RunArguments& arguments, const fs::path& run) {
+  // each option that was given, beside what the plan has
+  std::vector<std::string> others;
+  const auto compare = [&](const char* option, const std::optional<std::uint64_t>& asked,
+                           std::uint64_t planned) {
+    if (!asked || *asked == planned) return;
+    others.push_back(fmt::format("{} {} asked, {} planned", option, *asked, planned));
+  };
+  compare("--shards", arguments.shards, plan.shards.size());
+  compare("--jobs", arguments.jobs, static_cast<std::uint64_t>(plan.jobs));
+  compare("--array-parallelism", arguments.array_parallelism,
+          static_cast<std::uint64_t>(plan.array_parallelism));
+  if (!arguments.sbatch.empty() && arguments.sbatch != plan.sbatch) {
+    others.push_back(fmt::format("--sbatch {} asked, {} planned", fmt::join(arguments.sbatch, ", "),
+                                 plan.sbatch.empty() ? "none" : JoinCommand(plan.sbatch)));
+  }
+  if (others.empty()) return;
+  SayNotice("notice: {} stays as it is ({}); choose a new directory for another plan\n",
+            PlanFile(run).string(), fmt::join(others, "; "));
+}
+
 /// The plan that the directory holds, which a person may have edited, or a new one.
 Plan TakeOrMakePlan(const fs::path& run, const RunArguments& arguments) {
   // the same suite goes on by the plan that is there
@@ -88,26 +114,31 @@ Plan TakeOrMakePlan(const fs::path& run, const RunArguments& arguments) {
     Plan plan = ReadPlan(run);
     RefuseDifferentRun({plan.suite_yaml, {}, {}, {}}, {SuiteToYaml(suite), {}, {}, {}},
                        {run.string()});
+    TellOtherPlan(plan, arguments, run);
     return plan;
   }
 
-  // a new plan, with the scripts that people may edit
+  // a new plan behind the scripts that people may edit: a directory with a plan has them
   RefuseOtherContent(run);
   const Plan plan = MakePlan(arguments, suite);
-  WritePlan(run, plan);
   WriteWholeFile(PlanFolder(run) / "array.sbatch", ArrayScript(plan, run, MostIndices()));
   WriteWholeFile(PlanFolder(run) / "merge.sbatch", MergeScript(plan, run));
+  WritePlan(run, plan);
 
   // what was planned, before anything starts
-  const double longest = plan.probe_seconds / plan.jobs * plan.shards.front().size();
+  const auto largest = std::ranges::max_element(plan.shards, {}, &PlannedShard::size);
+  const double longest = plan.probe_seconds / plan.jobs * largest->size();
   fmt::print("{}: {} realizations in {} shards of about {:.3g} s ({:.3g} s each, measured)\n",
              PlanFile(run).string(), suite.realizations, plan.shards.size(), longest,
              plan.probe_seconds);
   return plan;
 }
 
-/// Numbers of the shards that are neither done nor failed.
+/// Numbers of the shards that are not done. Who starts again by hand gives failed ones their starts back.
 std::vector<int> OpenShards(const fs::path& run, const Plan& plan) {
+  for (const int number : StatusOf(run, plan, std::nullopt).failed) {
+    Forgive(ShardFolder(run, number));
+  }
   // nobody asks a queue, so that what waits counts as missing
   const RunStatus status = StatusOf(run, plan, std::nullopt);
   std::vector<int> open = status.missing;
@@ -126,11 +157,6 @@ ExitStatus RunHere(const fs::path& run, const Plan& plan, int at_once) {
   // this machine must give the bits that the plan's would
   RefuseOtherMachine(plan, run);
   CatchInterrupts();
-  // who starts again by hand gives failed shards their starts back
-  for (const int number : StatusOf(run, plan, std::nullopt).failed) {
-    Forgive(ShardFolder(run, number));
-  }
-
   // unfinished shards go on with the same command
   if (!RunLocally(run, plan, OpenShards(run, plan), at_once)) {
     fmt::print(stderr, "interrupted: {}the same command goes on\n",
@@ -151,7 +177,7 @@ ExitStatus SubmitAll(const fs::path& run, const Plan& plan, const RunArguments& 
   }
 
   // all open shards, as arrays with a job that merges
-  Submit(run, plan, OpenShards(run, plan));
+  Submit(run, plan, OpenShards(run, plan), {});
   fmt::print("submitted as jobs {}; see: warmjoint status {}\n",
              fmt::join(ReadSubmissions(run).Jobs(), ", "), run.string());
 

@@ -42,12 +42,16 @@ std::string Forwarded(const Plan& plan) {
 constexpr const char* kBody = R"sh(
 offset=${{1:-0}}
 me=${{SLURM_ARRAY_JOB_ID}}_$SLURM_ARRAY_TASK_ID  # the job number alone may stand for the whole array
-trap 'kill -TERM $task 2>/dev/null' TERM
+asked=
+trap 'asked=yes; kill -TERM $task 2>/dev/null' TERM
 status=137
 # 137: the task was killed and not this script; the shard itself counts how often it is started in vain
 while [ $status -eq 137 ]; do
+  # asked to end while no task was there to be told
+  [ -n "$asked" ] && status=130 && break
   {program} task {run} $((offset + SLURM_ARRAY_TASK_ID + 1)) &
   task=$!
+  [ -n "$asked" ] && kill -TERM $task
   status=0
   wait $task || status=$?
   while kill -0 $task 2>/dev/null; do
@@ -55,6 +59,9 @@ while [ $status -eq 137 ]; do
     wait $task || status=$?
   done
 done
+
+# a task that was asked before it could catch the signal had nothing to leave
+[ -n "$asked" ] && [ $status -eq 143 ] && status=130
 
 # 130: asked to end. Another task goes on from the last checkpoint, unless the job was cancelled: then it is running no
 # more. A controller that is away is asked again

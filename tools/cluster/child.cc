@@ -54,6 +54,12 @@ int Wait(pid_t pid) {
   return StatusOf(status);
 }
 
+int MakeMemoryFile(const char* name) {
+  const int file = memfd_create(name, MFD_CLOEXEC);
+  if (file < 0) throw std::system_error(errno, std::generic_category(), "no file in memory");
+  return file;
+}
+
 std::string WholeOf(int file) {
   std::string text;
   char block[4096];
@@ -98,8 +104,8 @@ void Child::Signal(int signal) const {
 
 Captured Capture(const std::vector<std::string>& arguments) {
   // into memory: no pipe that fills while nobody reads
-  const int out = memfd_create("out", MFD_CLOEXEC);
-  const int err = memfd_create("err", MFD_CLOEXEC);
+  const int out = MakeMemoryFile("out");
+  const int err = MakeMemoryFile("err");
   const int status = Wait(Start(arguments, "", out, err));
   return {status, WholeOf(out), WholeOf(err)};
 }

@@ -51,7 +51,8 @@ Claim LookAt(const fs::path& folder, double patience) {
     if (state->phase != Phase::running || ours) return Claim::free;
     // a later time stamp is a sign of life; whoever was silent for too long was killed
     if (state->updated > first->updated) return Claim::taken;
-    if (Now() - state->updated > patience || Interrupted()) return Claim::free;
+    if (Now() - state->updated > patience) return Claim::free;
+    if (Interrupted()) return Claim::interrupted;
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
   }
   return Claim::free;

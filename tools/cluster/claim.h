@@ -9,10 +9,11 @@
 namespace warmjoint::inline tools {
 
 enum class Claim {
-  free,    // nobody is at work on it
-  taken,   // another task is, and gave a sign of life while this one watched
-  done,    // it is finished
-  failed,  // it was given up
+  free,         // nobody is at work on it
+  taken,        // another task is, and gave a sign of life while this one watched
+  done,         // it is finished
+  failed,       // it was given up
+  interrupted,  // another task may be at work: this one was asked to end before it knew
 };
 
 /// Looks whether a shard can be taken. Where its state says that another task is at work, it waits for

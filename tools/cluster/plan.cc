@@ -4,22 +4,36 @@
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
+#include "models/foundation/excerpt.h"
 #include "models/foundation/json_members.h"
 #include "models/foundation/read_json.h"
 #include "tools/cluster/run_layout.h"
 
 namespace warmjoint::inline tools {
 namespace fs = std::filesystem;
-namespace {
 
-using nlohmann::json;
-
+// where json finds it: not in the namespace of this file alone
 NLOHMANN_JSON_SERIALIZE_ENUM(Consent, {{Consent::none, "none"},
                                        {Consent::commands, "commands"},
                                        {Consent::shell, "shell"}})
 
+namespace {
+
+using nlohmann::json;
+
 constexpr int kMostShards = 1'000'000;
 constexpr double kLongestCheckpoint = 86'400;  // s
+
+/// A value for a message.
+std::string Shown(const json& value) { return Excerpt(value.dump()); }
+
+Consent ReadConsent(const json& value, const Place& place) {
+  // a word, or its number, which plans may hold, too
+  for (const Consent consent : {Consent::none, Consent::commands, Consent::shell}) {
+    if (value == json(consent) || value == static_cast<int>(consent)) return consent;
+  }
+  Refuse(place, R"('consent' is {}; it must be "none", "commands" or "shell")", Shown(value));
+}
 
 json ToJson(const PinnedFile& file) { return {{"path", file.path}, {"sha256", file.sha256}}; }
 
@@ -35,7 +49,7 @@ class Members {
   }
   std::string Text(const char* name) const {
     const json& value = Get(name);
-    if (!value.is_string()) Refuse(place_, "'{}' must be a text", name);
+    if (!value.is_string()) Refuse(place_, "'{}' is {}; it must be a text", name, Shown(value));
     return value.get<std::string>();
   }
   double Number(const char* name, double lowest, double highest) const {
@@ -47,6 +61,30 @@ class Members {
     const double value = Number(name, lowest, highest);
     if (value == static_cast<int>(value)) return static_cast<int>(value);
     Refuse(place_, "'{}' is {}; it must be a whole number", name, value);
+  }
+  std::vector<std::string> Texts(const char* name) const {
+    const json& list = Get(name);
+    if (!list.is_array()) Refuse(place_, "'{}' must be a list of texts", name);
+    std::vector<std::string> texts;
+    for (const json& one : list) {
+      if (!one.is_string()) {
+        Refuse(place_, "'{}' holds {}; it must be a list of texts", name, Shown(one));
+      }
+      texts.push_back(one.get<std::string>());
+    }
+    return texts;
+  }
+  std::vector<std::pair<std::string, std::string>> NamedTexts(const char* name) const {
+    const json& object = Get(name);
+    if (!object.is_object()) Refuse(place_, "'{}' must be an object of texts", name);
+    std::vector<std::pair<std::string, std::string>> texts;
+    for (const auto& [key, value] : object.items()) {
+      if (!value.is_string()) {
+        Refuse(place_, "'{}' of '{}' is {}; it must be a text", key, name, Shown(value));
+      }
+      texts.emplace_back(key, value.get<std::string>());
+    }
+    return texts;
   }
   PinnedFile File(const char* name) const {
     RefuseUnknownKeys(Get(name), name, {"path", "sha256"}, place_);
@@ -98,14 +136,15 @@ void WritePlan(const fs::path& run, const Plan& plan) {
 
 bool HasPlan(const fs::path& run) { return fs::exists(PlanFile(run)); }
 
-Plan ReadPlan(const fs::path& run) {
-  // a directory without a plan is told what makes one
-  if (!HasPlan(run)) {
-    Refuse({run.string()},
-           "holds no plan (slurm/plan.json is missing); give the -o of `warmjoint run --slurm` or "
-           "`--local-shards`");
-  }
+void RefuseWithoutPlan(const fs::path& run) {
+  if (HasPlan(run)) return;
+  Refuse({run.string()},
+         "holds no plan (slurm/plan.json is missing); give the -o of `warmjoint run --slurm` or "
+         "`--local-shards`");
+}
 
+Plan ReadPlan(const fs::path& run) {
+  RefuseWithoutPlan(run);
   // entries that nobody knows are mistakes of whoever edited the file
   const Place place{PlanFile(run).string()};
   const json file = ReadJsonFile(place.file);
@@ -122,7 +161,7 @@ Plan ReadPlan(const fs::path& run) {
   plan.directory = members.Text("directory");
   plan.program = members.File("program");
   plan.plugin = members.File("plugin");
-  plan.consent = members.Get("consent").get<Consent>();
+  plan.consent = ReadConsent(members.Get("consent"), place);
 
   // numbers within bounds that make sense
   plan.jobs = members.Whole("jobs", 1, 1024);
@@ -132,10 +171,8 @@ Plan ReadPlan(const fs::path& run) {
   plan.array_parallelism = members.Whole("array_parallelism", 0, kMostShards);
 
   // words for sbatch, versions and shards
-  plan.sbatch = members.Get("sbatch").get<std::vector<std::string>>();
-  for (const auto& [name, value] : members.Get("versions").items()) {
-    plan.versions.emplace_back(name, value.get<std::string>());
-  }
+  plan.sbatch = members.Texts("sbatch");
+  plan.versions = members.NamedTexts("versions");
   plan.shards = ReadShards(members.Get("shards"), place);
   return plan;
 }

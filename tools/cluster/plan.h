@@ -49,4 +49,7 @@ Plan ReadPlan(const std::filesystem::path& run);
 
 bool HasPlan(const std::filesystem::path& run);
 
+/// Throws BadInput that tells what makes a plan.
+void RefuseWithoutPlan(const std::filesystem::path& run);
+
 }  // namespace warmjoint::inline tools

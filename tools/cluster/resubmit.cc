@@ -5,6 +5,7 @@
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "tools/cluster/batch_script.h"
+#include "tools/cluster/checkpoint.h"
 #include "tools/cluster/make_plan.h"
 #include "tools/cluster/run_layout.h"
 #include "tools/cluster/run_status.h"
@@ -31,21 +32,13 @@ int FirstOpen(const fs::path& folder, const PlannedShard& shard, int variants) {
   return shard.end;
 }
 
-/// Ends shard `number` at what it has finished and adds shards for the rest; their numbers.
+/// Ends shard `number` of the plan at what it has finished and adds shards for the rest; their numbers.
 std::vector<int> Split(const fs::path& run, Plan& plan, int number, int pieces, int variants) {
   // what is open is parted, and the shard ends where it begins
   PlannedShard& shard = plan.shards[static_cast<std::size_t>(number - 1)];
-  const fs::path folder = ShardFolder(run, number);
-  const int open = FirstOpen(folder, shard, variants);
+  const int open = FirstOpen(ShardFolder(run, number), shard, variants);
   const auto rest = PartEvenly(open, shard.end, std::min(pieces, shard.end - open));
   shard.end = open;
-
-  // the finished part is a shard that is done
-  fs::create_directories(folder);
-  ShardState state = ReadShardState(folder).value_or(ShardState());
-  state.phase = Phase::done;
-  state.finished = state.total = shard.size() * variants;
-  WriteShardState(folder, state);
 
   // the rest goes to the end of the plan, so that no other shard changes its number
   std::vector<int> numbers;
@@ -56,12 +49,29 @@ std::vector<int> Split(const fs::path& run, Plan& plan, int number, int pieces, 
   return numbers;
 }
 
+/// Writes down that shard `number`, which ends at what it has finished, is done.
+void EndAtFinished(const fs::path& run, const Plan& plan, int number, int variants) {
+  const PlannedShard& shard = plan.shards[static_cast<std::size_t>(number - 1)];
+  const fs::path folder = ShardFolder(run, number);
+  fs::create_directories(folder);
+  ShardState state = ReadShardState(folder).value_or(ShardState());
+  state.phase = Phase::done;
+  state.finished = state.total = shard.size() * variants;
+
+  // failures beyond its new end are those of the shards that follow
+  const fs::path results = folder / "results.sqlite";
+  state.failures.clear();
+  if (fs::exists(results)) state.failures = TallyOf(results, shard).failures;
+  WriteShardState(folder, state);
+}
+
 }  // namespace
 
 std::vector<int> Resubmit(const fs::path& run, int pieces) {
-  Plan plan = ReadPlan(run);
-  // nobody else may plan or submit meanwhile
+  RefuseWithoutPlan(run);
+  // nobody else may plan or submit meanwhile, so that the plan stays as it is read
   const DirectoryLock lock(PlanFolder(run));
+  Plan plan = ReadPlan(run);
   const auto queue = AskQueue();
   if (!queue) {
     Refuse({run.string()},
@@ -87,9 +97,13 @@ std::vector<int> Resubmit(const fs::path& run, int pieces) {
       again.insert(again.end(), numbers.begin(), numbers.end());
     }
   }
-  // the tasks read the plan: it is written before they are submitted
-  if (pieces > 1) WritePlan(run, plan);
-  if (!again.empty()) Submit(run, plan, again);
+  // the plan has the rest of a shard before that shard is done, and both are there before a task reads them: what ends
+  // this command in between leaves shards that are submitted again
+  if (pieces > 1) {
+    WritePlan(run, plan);
+    for (const int number : lost) EndAtFinished(run, plan, number, variants);
+  }
+  if (!again.empty()) Submit(run, plan, again, *queue);
   return again;
 }
 

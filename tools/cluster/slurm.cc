@@ -60,7 +60,8 @@ std::optional<std::vector<QueuedTask>> AskQueue() {
     std::istringstream words(line);
     std::string job, index, state;
     words >> job >> index >> state;
-    // N/A is the index of a job without an array; what is COMPLETING counts as running
+    // N/A is the index of a job without an array. All that has started counts as running, COMPLETING too: such a task
+    // may still be writing, and is lost only once it has left the queue
     const auto number = ParseInteger(index);
     tasks.push_back({job, number ? static_cast<int>(*number) : -1, state != "PENDING"});
   }

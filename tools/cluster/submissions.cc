@@ -30,6 +30,35 @@ void WriteSubmissions(const fs::path& run, const Submissions& submissions) {
   WriteWholeFile(FileOf(run), file.dump() + "\n");
 }
 
+/// The jobs that a merge awaits, however they end: all that is submitted now, and what earlier calls left in the queue.
+std::vector<std::string> Awaited(const std::vector<SubmittedArray>& all, std::size_t earlier,
+                                 const std::vector<QueuedTask>& queue) {
+  std::vector<std::string> jobs;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const bool is_queued =
+        std::ranges::any_of(queue, [&](const QueuedTask& task) { return task.job == all[i].job; });
+    if (i >= earlier || is_queued) jobs.push_back(all[i].job);
+  }
+  return jobs;
+}
+
+/// Submits the job that merges; its number.
+std::string SubmitMerge(const fs::path& run, const std::vector<std::string>& awaited) {
+  std::vector<std::string> arguments;
+  if (!awaited.empty()) {
+    arguments.push_back(fmt::format("--dependency=afterany:{}", fmt::join(awaited, ":")));
+  }
+  arguments.push_back((PlanFolder(run) / "merge.sbatch").string());
+  try {
+    return Sbatch(arguments);
+  } catch (const BadInput& refusal) {
+    Refuse({run.string()},
+           "the job that merges could not be submitted: {}; once the tasks have ended (see "
+           "`warmjoint status {}`), `warmjoint merge {}` merges them",
+           refusal.what(), run.string(), run.string());
+  }
+}
+
 /// What a refusal says of the arrays before it.
 std::string SubmittedBefore(const std::vector<SubmittedArray>& arrays) {
   // nothing of this call, whatever was submitted before
@@ -83,10 +112,12 @@ QueuedShards InQueue(const Submissions& submissions, const std::vector<QueuedTas
   return shards;
 }
 
-void Submit(const fs::path& run, const Plan& plan, const std::vector<int>& shards) {
+void Submit(const fs::path& run, const Plan& plan, const std::vector<int>& shards,
+            const std::vector<QueuedTask>& queue) {
   fs::create_directories(PlanFolder(run) / "log");
   // what was submitted before stays in the list
   Submissions all = ReadSubmissions(run);
+  const std::size_t earlier = all.arrays.size();
   std::vector<SubmittedArray> taken;
   for (const JobArray& array : ArraysOf(shards, MostIndices(), plan.array_parallelism)) {
     try {
@@ -106,10 +137,8 @@ void Submit(const fs::path& run, const Plan& plan, const std::vector<int>& shard
     WriteSubmissions(run, all);
   }
 
-  // a job that merges once all of these have ended, however they ended
-  std::string after = "--dependency=afterany";
-  for (const SubmittedArray& one : taken) after += ":" + one.job;
-  all.merges.push_back(Sbatch({after, (PlanFolder(run) / "merge.sbatch").string()}));
+  // and the job that merges
+  all.merges.push_back(SubmitMerge(run, Awaited(all.arrays, earlier, queue)));
   WriteSubmissions(run, all);
 }
 

@@ -33,9 +33,10 @@ struct QueuedShards {
 };
 QueuedShards InQueue(const Submissions& submissions, const std::vector<QueuedTask>& queue);
 
-/// Submits shards as arrays, and a job that merges once all of them have ended; jobs.json is kept up to
-/// date after each answer. Throws BadInput where sbatch refuses, naming the shards that are not submitted
-/// and those that are.
-void Submit(const std::filesystem::path& run, const Plan& plan, const std::vector<int>& shards);
+/// Submits shards as arrays, and a job that merges once these have ended and what the queue holds of earlier ones; at
+/// once where there are none. jobs.json is kept up to date after each answer. Throws BadInput where sbatch refuses,
+/// naming the shards that are not submitted and those that are.
+void Submit(const std::filesystem::path& run, const Plan& plan, const std::vector<int>& shards,
+            const std::vector<QueuedTask>& queue);
 
 }  // namespace warmjoint::inline tools

@@ -68,13 +68,13 @@ class Task {
   TaskEnd Run() {
     state_ = TakeOver(published_);
     state_.total = shard_.size() * ParseSuite(plan_.suite_yaml, "suite.yaml").variants();
-    // what was left here may be older than what another machine went on with
-    if (!folder_.HasStore() || Snapshot().finished < state_.finished)
-      folder_.FetchStore(published_);
+    // what was left here may be damaged, or older than what another machine went on with
+    const std::optional<Tally> here = Snapshot();
+    if (!here || here->finished < state_.finished) folder_.FetchStore(published_);
     // start after start, until too many in a row finish nothing
     while (state_.idle_starts <= plan_.restarts) {
       const int status = RunOnce();
-      if (status == 0) return Finish();
+      if (status == 0 && Publish()) return Finish();
       if (Interrupted()) return Leave(Phase::interrupted, "it was asked to end");
       const std::string words = LastWords(folder_.path() / "words", status);
       fmt::print(stderr, "shard {}: start {} ended with status {}: {}\n", number_, state_.starts,
@@ -144,7 +144,8 @@ class Task {
   }
 
   TaskEnd Finish() {
-    Checkpoint(Phase::done, "");
+    state_.last_words = "";
+    WriteState(Phase::done);
     folder_.Remove();
     return TaskEnd::done;
   }
@@ -155,30 +156,43 @@ class Task {
     return phase == Phase::failed ? TaskEnd::failed : TaskEnd::interrupted;
   }
 
-  /// Takes copies of the store, which the child may be writing to; what they hold.
-  Tally Snapshot() const {
+  /// Takes copies of the store, which the child may be writing to; what they hold. Nothing where there is no store, or
+  /// a damaged one.
+  std::optional<Tally> Snapshot() const {
+    if (!folder_.HasStore()) return std::nullopt;
     const fs::path results = folder_.path() / "results.snapshot";
-    TakeSnapshot(folder_.store() / "timings.sqlite", folder_.path() / "timings.snapshot");
-    TakeSnapshot(folder_.store() / "results.sqlite", results);
-    return TallyOf(results, shard_);
+    try {
+      TakeSnapshot(folder_.store() / "timings.sqlite", folder_.path() / "timings.snapshot");
+      TakeSnapshot(folder_.store() / "results.sqlite", results);
+      return TallyOf(results, shard_);
+    } catch (const BadInput& damage) {
+      fmt::print(stderr, "shard {}: {}\n", number_, damage.what());
+      return std::nullopt;
+    }
   }
 
-  /// Copies what is finished into the run, timings first, and writes down how far the shard is.
+  /// Copies what is finished into the run, timings first. Whether there was a sound store to copy.
+  bool Publish() {
+    const std::optional<Tally> tally = Snapshot();
+    if (!tally) return false;
+    const bool more = tally->finished > state_.finished;
+    if (more || !fs::exists(published_ / "results.sqlite")) {
+      PutFile(folder_.path() / "timings.snapshot", published_ / "timings.sqlite");
+      PutFile(folder_.path() / "results.snapshot", published_ / "results.sqlite");
+    }
+    // how far the shard is
+    if (more) state_.idle_starts = 0;
+    state_.finished = tally->finished;
+    state_.failures = tally->failures;
+    const double seconds = Seconds(start_);
+    state_.rate = seconds > 0 ? (state_.finished - finished_before_) / seconds : 0;
+    return true;
+  }
+
+  /// Publishes what is finished and writes down how far the shard is.
   void Checkpoint(Phase phase, const std::string& words) {
     state_.last_words = words;
-    if (folder_.HasStore()) {
-      const Tally tally = Snapshot();
-      const bool more = tally.finished > state_.finished;
-      if (more || !fs::exists(published_ / "results.sqlite")) {
-        PutFile(folder_.path() / "timings.snapshot", published_ / "timings.sqlite");
-        PutFile(folder_.path() / "results.snapshot", published_ / "results.sqlite");
-      }
-      if (more) state_.idle_starts = 0;
-      state_.finished = tally.finished;
-      state_.failures = tally.failures;
-      const double seconds = Seconds(start_);
-      state_.rate = seconds > 0 ? (state_.finished - finished_before_) / seconds : 0;
-    }
+    Publish();
     WriteState(phase);
   }
 
@@ -249,6 +263,8 @@ TaskEnd RunTask(const fs::path& run, int number) {
       return TaskEnd::failed;
     case Claim::taken:
       return TaskEnd::elsewhere;
+    case Claim::interrupted:
+      return TaskEnd::interrupted;
     case Claim::free:
       break;
   }

@@ -13,6 +13,7 @@
 #include "tools/interface/convert_recording.h"
 #include "tools/interface/convert_truth.h"
 #include "tools/interface/guarded.h"
+#include "tools/suite/following_tally.h"
 #include "tools/suite/memory_of_work.h"
 
 namespace warmjoint::api {
@@ -32,7 +33,8 @@ Simulation CarryOut(scenarios::Scenario scenario, const SimulateSettings& settin
   tools::RequireMemoryFor(scenario, file);
   const sim::Recording made = sim::MakePlant(scenario)->Run(settings.realization, settings.watch);
   return {FromMeasurements(made.measurements), FromTruth(made.truth),
-          scenarios::ScenarioToYaml(scenario)};
+          scenarios::ScenarioToYaml(scenario),
+          made.following.Follows() ? "" : tools::NotFollowingInWords(made.following)};
 }
 
 }  // namespace

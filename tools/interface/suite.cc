@@ -96,7 +96,8 @@ RunSummary RunSuite(const std::filesystem::path& suite, const std::filesystem::p
     if (settings.watch) options.watch = settings.watch;
     const tools::RunOutcome outcome = tools::RunSuite(task.suite, task.identifiers, options, store);
     tools::RunEnding ending = tools::EndRun(store);
-    return RunSummary{outcome.finished, ending.results, ending.failed(), std::move(ending.silent)};
+    return RunSummary{outcome.finished, ending.results, ending.failed(), std::move(ending.silent),
+                      outcome.following.Words(task.description.variants)};
   });
 }
 

@@ -21,7 +21,7 @@ _warmjoint_value() {
   local newline=$'\n'
   case $1 in
     *'|'*) _warmjoint_words "${1//|/$newline}" ;;
-    FILE|SCENARIO|RECORDING|SOURCE|JOINT=FILE|SHARE/FILE) _warmjoint_files -f ;;
+    FILE|SCENARIO|RECORDING|ESTIMATE|SOURCE|JOINT=FILE|SHARE/FILE) _warmjoint_files -f ;;
     DIR|RUN) _warmjoint_files -d ;;
     SUITE) _warmjoint_words "$(_warmjoint_names suites)"; _warmjoint_files -f ;;
     ROBOT|MODEL) _warmjoint_words "$(_warmjoint_names robots)"; _warmjoint_files -f ;;
@@ -79,6 +79,12 @@ complete -F _warmjoint warmjoint
 
 std::string Quoted(const std::string& text) { return "'" + text + "'"; }
 
+/// What the script knows a value by: its choices, "text|json", or its kind.
+std::string KindOf(const OptionNode& option) {
+  const std::vector<std::string> choices = option.Choices();
+  return Quoted(choices.empty() ? option.Kind() : fmt::format("{}", fmt::join(choices, "|")));
+}
+
 /// "  run) options=...; case $2 in -o|--output) kind=DIR ;; esac ;;"
 std::string OptionCase(const CommandNode& command, const std::string& pattern) {
   // all names of its options, and of those that take a value which kind
@@ -86,8 +92,7 @@ std::string OptionCase(const CommandNode& command, const std::string& pattern) {
   for (const OptionNode& option : command.options) {
     for (const std::string& name : option.names) names += (names.empty() ? "" : "\\n") + name;
     if (!option.takes_value()) continue;
-    kinds +=
-        fmt::format("      {}) kind={} ;;\n", fmt::join(option.names, "|"), Quoted(option.value));
+    kinds += fmt::format("      {}) kind={} ;;\n", fmt::join(option.names, "|"), KindOf(option));
   }
 
   // names of options are what a dash may become
@@ -105,7 +110,7 @@ std::string ArgumentCase(const CommandNode& command) {
     // by their numbers; a repeatable one stands for all that follow
     const OptionNode& argument = command.arguments[i];
     text += fmt::format("      {}) kind={} ;;\n", argument.repeatable ? "*" : std::to_string(i),
-                        Quoted(argument.value));
+                        KindOf(argument));
   }
   return text + "      esac\n      ;;\n";
 }

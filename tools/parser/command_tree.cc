@@ -43,9 +43,15 @@ std::vector<std::string> OptionNode::Choices() const {
   // other values have no list of words
   if (value.find('|') == std::string::npos) return choices;
   std::istringstream stream(value);
-  for (std::string choice; std::getline(stream, choice, '|');) choices.push_back(choice);
+  for (std::string choice; std::getline(stream, choice, '|');) {
+    const bool stands_for_another =
+        std::any_of(choice.begin(), choice.end(), [](char c) { return 'A' <= c && c <= 'Z'; });
+    if (!stands_for_another) choices.push_back(choice);
+  }
   return choices;
 }
+
+std::string OptionNode::Kind() const { return value.substr(0, value.find('|')); }
 
 CommandNode ReadTree(const CLI::App& parser) {
   CommandNode node{

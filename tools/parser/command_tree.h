@@ -19,8 +19,11 @@ struct OptionNode {
   bool repeatable = false;  // may be given several times, or takes several values
 
   bool takes_value() const { return !value.empty(); }
-  /// The words of a value that is one of some: "text", "json". Empty for other values.
+  /// The words of a value that is one of some: "text", "json". Empty for other values. What is in capitals stands for
+  /// a text of one's own and is no such word: "cold" of "cold|settled:SPEED".
   std::vector<std::string> Choices() const;
+  /// What completes a value without choices: "FILE", "NAME" of "NAME|N".
+  std::string Kind() const;
 };
 
 /// The program, or a subcommand of it.

@@ -22,7 +22,7 @@ std::string Entry(const std::string& head, const std::string& words, int width) 
 
   // every line begins in the same column
   for (const std::string& line : WrapLine(words, std::max(20, width - kColumn))) {
-    if (first) text.append(kColumn - text.size(), ' ');
+    if (first) text.append(kColumn - static_cast<std::size_t>(ShownWidth(text)), ' ');
     text += (first ? "" : margin) + line + "\n";
     first = false;
   }

@@ -16,7 +16,7 @@ _warmjoint_names() {
 # completes a value of the kind $1
 _warmjoint_value() {
   case $1 in
-    FILE|SCENARIO|RECORDING|SOURCE|SHARE/FILE) _files ;;
+    FILE|SCENARIO|RECORDING|ESTIMATE|SOURCE|SHARE/FILE) _files ;;
     DIR|RUN) _files -/ ;;
     JOINT=FILE) compset -P '*=' && _files ;;
     KEY=VALUE) compset -P 'law=' && _warmjoint_names laws ;;
@@ -50,7 +50,7 @@ std::string ValueSpec(const OptionNode& option) {
   // words are offered as they stand, other kinds by the function that knows them
   const std::vector<std::string> choices = option.Choices();
   if (!choices.empty()) return fmt::format(":value:({})", fmt::join(choices, " "));
-  return fmt::format(":{0}:_warmjoint_value {0}", option.value);
+  return fmt::format(":{0}:_warmjoint_value {0}", option.Kind());
 }
 
 std::string OptionSpec(const OptionNode& option) {

@@ -25,7 +25,7 @@ struct Table {
 };
 
 constexpr std::array<Table, 4> kResultTables{
-    {{"realization", 2, 2}, {"result", 3}, {"parameter", 5}, {"trace", 3}}};
+    {{"realization", 2, 2}, {"result", 3}, {"parameter", 5}, {"trace", 3, 5}}};
 constexpr std::array<Table, 2> kTimingTables{{{"identification", 3}, {"simulation", 2}}};
 
 struct Finalize {

@@ -33,6 +33,7 @@ std::set<Unit> MissingUnits(const Suite& suite, const RunStore& merged) {
 
 MergedRun MergeRuns(const std::vector<std::filesystem::path>& shards,
                     const std::filesystem::path& directory, const MergeOptions& options) {
+  if (shards.empty()) Refuse({directory.string()}, "has no shards to merge; give at least one");
   // all shards must be of one run, and as they were stored, before anything is written
   const RunDescription description =
       RunStore::OpenToRead(shards.front(), options.access).ReadDescription();

@@ -1,9 +1,8 @@
 #include "tools/store/stored_suite.h"
 
-#include <fmt/format.h>
-
 #include "models/foundation/atomic_file.h"
 #include "scenarios/parse_suite.h"
+#include "tools/terminal/say.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -38,8 +37,7 @@ void TellOfEditedSuite(const RunStore& store) {
   // nobody minds a file that is gone: the database has the suite
   if (!std::filesystem::exists(file)) return;
   if (ReadWholeFile(file) == store.ReadDescription().suite_yaml) return;
-  fmt::print(stderr, "notice: {} was edited; the suite that the run stored is taken\n",
-             file.string());
+  SayNotice("notice: {} was edited; the suite that the run stored is taken\n", file.string());
 }
 
 }  // namespace warmjoint::inline tools

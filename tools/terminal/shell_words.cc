@@ -14,10 +14,14 @@ constexpr std::string_view kBlanks = " \t\r\n";
 bool IsPlain(const std::string& word) {
   // without blanks, quotes, wildcards and what else a shell may expand
   constexpr std::string_view plain = "_-./:=,+@%{}";
-  return !word.empty() && std::all_of(word.begin(), word.end(), [&](char c) {
+  const bool is_plain = std::all_of(word.begin(), word.end(), [&](char c) {
     const bool letter = ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z') || ('0' <= c && c <= '9');
     return letter || plain.find(c) != std::string_view::npos;
   });
+  // {recording} stays as it is, {a,b} and {1..3} become several words
+  const auto has = [&](std::string_view part) { return word.find(part) != std::string::npos; };
+  const bool is_several = has("{") && (has(",") || has(".."));
+  return !word.empty() && is_plain && !is_several;
 }
 
 }  // namespace

@@ -116,10 +116,17 @@ std::string CutToWidth(std::string_view text, int width) {
   if (ShownWidth(text) <= width) return std::string(text);
   // three dots stand for what is cut off, where there is room for them
   const int kept = std::max(0, width - 3);
-  std::string_view rest = text;
-  for (int i = 0; i < kept; ++i) rest.remove_prefix(CharacterBytes(rest));
-  return std::string(text.substr(0, text.size() - rest.size())) +
-         std::string(static_cast<std::size_t>(std::min(3, std::max(0, width))), '.');
+  const std::string dots(static_cast<std::size_t>(std::min(3, std::max(0, width))), '.');
+  std::string cut;
+  // colours stay, those behind the cut too, so that what was begun ends
+  for (int used = 0; !text.empty();) {
+    const std::size_t colour = ColourBytes(text);
+    const std::size_t bytes = colour > 0 ? colour : CharacterBytes(text);
+    if (colour == 0 && used++ == kept) cut += dots;
+    if (colour > 0 || used <= kept) cut += text.substr(0, bytes);
+    text.remove_prefix(bytes);
+  }
+  return cut;
 }
 
 }  // namespace warmjoint::inline tools

@@ -186,6 +186,26 @@ TEST(Disturbances, ALogMayHaveNoVelocity) {
   EXPECT_EQ(truth.velocity.size(), log.size());
 }
 
+TEST(Disturbances, HiddenForcesFollowTheMotionAndNotItsSensor) {
+  for (const PlantKind plant : {PlantKind::ideal, PlantKind::mujoco}) {
+    Scenario scenario = test::Table1();
+    scenario.plant = plant;
+    scenario.robot = "rotary";
+    scenario.joint = "hinge";
+    scenario.duration = 100;
+    HiddenForces& hidden = scenario.disturbances.hidden;
+    hidden.backlash = {5, 0.3};
+    hidden.hysteresis = {3, 0.5};
+    hidden.ripple = {1, 1.3};
+    hidden.spring = {0.5};
+    const Recording exact = Simulate(scenario);
+    scenario.noise.position = 0.02;
+    const Recording noisy = Simulate(scenario);
+    EXPECT_NE(noisy.measurements.position, exact.measurements.position);
+    EXPECT_EQ(noisy.measurements.torque, exact.measurements.torque);
+  }
+}
+
 TEST(Disturbances, FrictionThatNoModelKnowsOpposesTheMotion) {
   const auto [plain, truth, drive] = Disturbed([](Disturbances&) {});
   const Eigen::ArrayXd sign = truth.velocity.array().sign();

@@ -141,5 +141,12 @@ TEST(SensorFaults, ClocksRunWrongAndUneven) {
   EXPECT_TRUE((time.tail(7200).array() > time.head(7200).array()).all());
 }
 
+TEST(SensorFaults, AClockRestartsInALogWithoutSamplesToo) {
+  SensorFaults faults;
+  faults.cut_start = {10'000};
+  faults.restarted_clock = true;
+  EXPECT_EQ(Spoilt(faults).measurements.size(), 0);
+}
+
 }  // namespace
 }  // namespace warmjoint

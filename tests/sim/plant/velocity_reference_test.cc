@@ -29,6 +29,14 @@ TEST(VelocityReference, KnowsItsRunUp) {
   EXPECT_DOUBLE_EQ(VelocityReference({{2, -1}}, 4, 0.1).run_up(), -0.225);
 }
 
+TEST(VelocityReference, KnowsTheRunUpOfRampsThatFollowOnEachOther) {
+  // 0.02 s to 0.1, at once 0.22 s to -1, and 0.28 s at full speed
+  VelocityReference reference({{0.05, 0.1}, {2, -1}}, 5, 0.5);
+  EXPECT_NEAR(reference.run_up(), 0.02 * 0.05 - 0.22 * 0.45 - 0.28, 1e-15);
+  EXPECT_DOUBLE_EQ(reference.Velocity(-0.5), 0.1);
+  EXPECT_EQ(reference.acceleration(), -5);
+}
+
 TEST(VelocityReference, GoesThroughCornersAndHasSettledOnTheFirst) {
   auto reference = VelocityReference::Through({{0, 1}, {2, 1}, {3, -1}}, 4, 0.1);
   EXPECT_DOUBLE_EQ(reference.begin(), -0.35);

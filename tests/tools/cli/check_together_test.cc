@@ -91,5 +91,18 @@ TEST_F(CheckTogether, OneThatCannotBeReadIsTheWorst) {
   EXPECT_THAT(Run({"a.csv", "b.csv", "--gear", "0"}).out, Not(HasSubstr("unreadable")));
 }
 
+TEST_F(CheckTogether, TellsThatTheFirstCannotBeDrawn) {
+  const ProgramAnswer answer = Run({"broken.csv", "a.csv", "--plot", "log.png"});
+  EXPECT_EQ(answer.status, 2);
+  EXPECT_THAT(answer.err, HasSubstr("log.png"));
+  EXPECT_FALSE(std::filesystem::exists(scratch_.path() / "log.png"));
+}
+
+TEST_F(CheckTogether, RefusesATableThatCannotBeWrittenBeforeItReads) {
+  const ProgramAnswer answer = Run({"broken.csv", "--segments", "absent/segments.csv"});
+  EXPECT_NE(answer.status, 0);
+  EXPECT_THAT(answer.err, HasSubstr("absent/segments.csv"));
+}
+
 }  // namespace
 }  // namespace warmjoint

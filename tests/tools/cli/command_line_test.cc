@@ -93,5 +93,10 @@ TEST(CommandLine, ListsParametersOfLawsAndOptionsOfIdentifiers) {
   }
 }
 
+TEST(CommandLine, ListsTheNameOfOneMemberAlone) {
+  EXPECT_EQ(RunWarmjoint({"list", "laws", "coulomb", "--format", "names"}).out, "coulomb\n");
+  EXPECT_EQ(RunWarmjoint({"list", "laws", "colomb", "--format", "names"}).status, 2);
+}
+
 }  // namespace
 }  // namespace warmjoint

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "models/foundation/atomic_file.h"
+#include "tests/tools/cli/recording_file.h"
 #include "tests/tools/cli/run_program.h"
 #include "tests/tools/cli/table_one_yaml.h"
 #include "tests/tools/scratch_directory.h"
@@ -143,6 +144,55 @@ TEST(Plot, RefusesWhatIsNoSourceAndLeavesNothingBehind) {
   EXPECT_EQ(answer.status, 2);
   EXPECT_THAT(answer.err, HasSubstr(at("nothing")));
   EXPECT_FALSE(fs::exists(at("pictures")));
+}
+
+TEST(Plot, WritesNoDataOverARecording) {
+  const ScratchDirectory scratch;
+  const auto at = [&](const std::string& name) { return std::string(scratch.path() / name); };
+  WriteRecordingFile(at("log.csv"), 480, [](int i) { return (i / 30 % 2 ? -0.4 : 0.4); });
+  const std::string before = ReadWholeFile(at("log.csv"));
+  RunWarmjoint({"identify", at("log.csv"), "-o", at("e.json")});
+  const ProgramAnswer answer =
+      RunWarmjoint({"plot", at("e.json"), "-o", at(""), "--figure", "log", "--data"});
+  EXPECT_EQ(answer.status, 2);
+  EXPECT_EQ(ReadWholeFile(at("log.csv")), before);
+}
+
+TEST(Plot, KeepsNoticesToItselfWhereAsked) {
+  const ScratchDirectory scratch;
+  const auto at = [&](const std::string& name) { return std::string(scratch.path() / name); };
+  WriteRecordingFile(at("log.csv"), 480, [](int i) { return (i / 30 % 2 ? -0.4 : 0.4); });
+  RunWarmjoint({"identify", at("log.csv"), "-o", at("e.json")});
+  auto file = nlohmann::json::parse(ReadWholeFile(at("e.json")));
+  file.erase("recording");
+  WriteWholeFile(at("e.json"), file.dump());
+  EXPECT_THAT(Call({"plot", at("e.json"), "-o", at("told")}).err, HasSubstr("--recording"));
+  EXPECT_EQ(Call({"plot", at("e.json"), "-o", at("quiet"), "--quiet"}).err, "");
+}
+
+TEST(Compare, KeepsNoticesToItselfWhereAsked) {
+  const ScratchDirectory scratch;
+  const auto at = [&](const std::string& name) { return std::string(scratch.path() / name); };
+  WriteWholeFile(at("suite.yaml"), TableOneSuite(1, "  - {name: nominal-ls}\n"));
+  Call({"run", at("suite.yaml"), "-o", at("run")});
+  WriteWholeFile(at("run/suite.yaml"), "name: other\n");
+  EXPECT_THAT(Call({"compare", at("run")}).err, HasSubstr("suite.yaml"));
+  EXPECT_EQ(Call({"compare", at("run"), "--quiet"}).err, "");
+}
+
+TEST(Report, RefusesWhatItCannotTakeBeforeItIsMade) {
+  const ScratchDirectory scratch;
+  const auto at = [&](const std::string& name) { return std::string(scratch.path() / name); };
+  WriteWholeFile(at("suite.yaml"), TableOneSuite(1, "  - {name: nominal-ls}\n"));
+  Call({"run", at("suite.yaml"), "-o", at("run")});
+  const std::string before = ReadWholeFile(at("run/results.sqlite"));
+  EXPECT_EQ(RunWarmjoint({"report", at("run"), "-o", at("run/results.sqlite")}).status, 2);
+  EXPECT_EQ(ReadWholeFile(at("run/results.sqlite")), before);
+  for (const char* option : {"--gear", "--trim", "--identifier"}) {
+    const ProgramAnswer answer = RunWarmjoint({"report", at("run"), option, "2"});
+    EXPECT_EQ(answer.status, 2);
+    EXPECT_THAT(answer.err, HasSubstr(option));
+  }
 }
 
 }  // namespace

@@ -10,6 +10,10 @@
 #include "tests/tools/cli/run_program.h"
 #include "tests/tools/cli/table_one_yaml.h"
 #include "tests/tools/scratch_directory.h"
+#include "tools/cluster/plan.h"
+#include "tools/cluster/run_layout.h"
+#include "tools/cluster/shard_state.h"
+#include "tools/cluster/task_folder.h"
 
 namespace warmjoint {
 namespace {
@@ -142,6 +146,48 @@ TEST_F(LocalShards, AMachineThatCalculatesOtherwiseRefuses) {
   EXPECT_THAT(task.err, HasSubstr("made where arithmetic is f"));
   EXPECT_THAT(Status("run")["last_words"].dump(), HasSubstr("made where arithmetic is f"));
   EXPECT_THAT(Status("run")["shards"]["done"], IsEmpty());
+}
+
+TEST_F(LocalShards, AnInterruptedTaskLeavesAShardToTheOneAtWork) {
+  ASSERT_EQ(
+      RunWarmjoint(Command("run", {"--local-shards", "1", "--shards", "2", "--dry-run"})).status,
+      0);
+  const std::filesystem::path folder = ShardFolder(Path("run"), 1);
+  std::filesystem::create_directories(folder);
+  ShardState state;
+  state.owner = "elsewhere:12";
+  state.updated = Now();
+  WriteShardState(folder, state);
+  const std::string before = ReadWholeFile(folder / "state.json");
+  EXPECT_EQ(RunAndSignal({"task", Path("run"), "1"}, SIGTERM, 1), 130);
+  EXPECT_EQ(ReadWholeFile(folder / "state.json"), before);
+}
+
+TEST_F(LocalShards, ADamagedStoreOfTheMachineGivesWayToTheRunsCopy) {
+  ASSERT_EQ(
+      RunWarmjoint(Command("run", {"--local-shards", "1", "--shards", "1", "--dry-run"})).status,
+      0);
+  // what a killed task left: a store that is no database any more
+  const TaskFolder left(ReadPlan(Path("run")), 1);
+  std::filesystem::create_directories(left.store());
+  for (const char* name : {"suite.yaml", "results.sqlite", "timings.sqlite"}) {
+    WriteWholeFile(left.store() / name, std::string(8192, 'x'));
+  }
+  const ProgramAnswer task = RunWarmjoint({"task", Path("run"), "1"});
+  ASSERT_EQ(task.status, 0) << task.err;
+  ASSERT_EQ(RunWarmjoint(Command("run", {"--local-shards", "1"})).status, 0);
+  ExpectWhole("run");
+}
+
+TEST_F(LocalShards, APlanIsThereOnceItsScriptsAre) {
+  // scripts that cannot be written
+  std::filesystem::create_directories(Path("run") + "/slurm/array.sbatch/in-the-way");
+  const std::vector<std::string> command =
+      Command("run", {"--local-shards", "1", "--shards", "2", "--dry-run"});
+  EXPECT_NE(RunWarmjoint(command).status, 0);
+  std::filesystem::remove_all(Path("run") + "/slurm/array.sbatch");
+  ASSERT_EQ(RunWarmjoint(command).status, 0);
+  EXPECT_TRUE(std::filesystem::exists(Path("run") + "/slurm/merge.sbatch"));
 }
 
 TEST_F(LocalShards, ASecondCommandForTheSameRunIsRefused) {

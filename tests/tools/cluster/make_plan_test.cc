@@ -5,6 +5,7 @@
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
+#include "tests/tools/cli/run_program.h"
 #include "tests/tools/scratch_directory.h"
 #include "tools/cluster/batch_script.h"
 #include "tools/cluster/run_layout.h"
@@ -12,6 +13,7 @@
 namespace warmjoint {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
@@ -88,6 +90,21 @@ TEST(Plan, RefusesWhatAnEditBroke) {
   EXPECT_THAT([&] { edited("\"jobs\": 1", "\"jobs\": -1"); },
               ThrowsMessage<BadInput>(HasSubstr("from 1 to 1024")));
   EXPECT_THAT([&] { edited("   7", "   2"); }, ThrowsMessage<BadInput>(HasSubstr("[3,2]")));
+  EXPECT_THAT([&] { edited("\"partition=long\"", "7"); },
+              ThrowsMessage<BadInput>(AllOf(HasSubstr("'sbatch' holds 7"), HasSubstr("texts"))));
+  EXPECT_THAT([&] { edited("\"0.1.0\"", "0.1"); },
+              ThrowsMessage<BadInput>(HasSubstr("'warmjoint' of 'versions' is 0.1")));
+  EXPECT_THAT([&] { edited("\"commands\"", "\"comands\""); },
+              ThrowsMessage<BadInput>(
+                  AllOf(HasSubstr("'consent' is \"comands\""), HasSubstr("\"commands\""))));
+}
+
+TEST(Plan, HoldsConsentAsAWord) {
+  const ScratchDirectory scratch;
+  std::filesystem::create_directories(PlanFolder(scratch.path()));
+  WritePlan(scratch.path(), Little());
+  const std::string text = ReadWholeFile(PlanFile(scratch.path()));
+  EXPECT_THAT(text, HasSubstr("\"consent\": \"commands\""));
 }
 
 TEST(BatchScript, HandsKeysOnAndKeepsItsOwn) {
@@ -103,6 +120,34 @@ TEST(BatchScript, HandsKeysOnAndKeepsItsOwn) {
        {"array=1", "partition", "=x", "time=1\nrm", "signal=KILL", "-p=x y\""}) {
     EXPECT_THROW(CheckSbatch({entry}), BadInput) << entry;
   }
+}
+
+/// A script of its own in a folder, which can be run.
+std::filesystem::path Executable(const std::filesystem::path& file, const std::string& body) {
+  WriteWholeFile(file, "#!/bin/sh\n" + body + "\n");
+  std::filesystem::permissions(file, std::filesystem::perms::owner_all);
+  return file;
+}
+
+TEST(BatchScript, StartsNoTaskThatIsAskedToEndBeforeItIsThere) {
+  const ScratchDirectory scratch;
+  Executable(scratch.path() / "squeue", "echo COMPLETING");
+  // the script is asked to end and its task is killed; a second start would end well
+  Plan plan = Little();
+  plan.program.path =
+      Executable(scratch.path() / "program",
+                 "echo start >>" + (scratch.path() / "starts").string() + "\n[ $(grep -c . " +
+                     (scratch.path() / "starts").string() +
+                     ") = 1 ] || exit 0\nkill -TERM $PPID; sleep 0.2; kill -KILL $$");
+  const std::filesystem::path script =
+      Executable(scratch.path() / "array.sbatch", ArrayScript(plan, "/run", 1000));
+  const ProgramAnswer answer =
+      RunCommandLine({"bash", script}, {{},
+                                        {{"PATH", scratch.path().string() + ":" + getenv("PATH")},
+                                         {"SLURM_ARRAY_JOB_ID", "1"},
+                                         {"SLURM_ARRAY_TASK_ID", "0"}}});
+  EXPECT_EQ(answer.status, 130) << answer.err;
+  EXPECT_EQ(ReadWholeFile(scratch.path() / "starts"), "start\n");
 }
 
 }  // namespace

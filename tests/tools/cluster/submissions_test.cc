@@ -1,4 +1,5 @@
 // What is said to Slurm and what becomes of its answers, with a Slurm that is three scripts.
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <stdlib.h>
@@ -9,6 +10,9 @@
 #include "tests/tools/cli/run_program.h"
 #include "tests/tools/cli/table_one_yaml.h"
 #include "tests/tools/scratch_directory.h"
+#include "tools/cluster/plan.h"
+#include "tools/cluster/run_layout.h"
+#include "tools/cluster/shard_state.h"
 
 namespace warmjoint {
 namespace {
@@ -95,7 +99,83 @@ TEST_F(Submissions, ARefusalNamesTheRangeAndWhatIsSubmitted) {
   ASSERT_EQ(rest.status, 0) << rest.err;
   EXPECT_THAT(rest.err, HasSubstr("shards 21-25"));
   EXPECT_THAT(Said(), AllOf(HasSubstr("--array=0-4 "), Not(HasSubstr("--array=0-9"))));
+  // merged behind the arrays of the first call, too
+  EXPECT_THAT(Said(), HasSubstr("--dependency=afterany:101:102:105 "));
   EXPECT_EQ(nlohmann::json::parse(rest.out)["shards"]["waiting"].size(), 20u);
+}
+
+TEST_F(Submissions, OfShardsThatAreAllDoneAreTheMergeAlone) {
+  ASSERT_EQ(Run({"--dry-run"}).status, 0);
+  for (int shard = 1; shard <= 25; ++shard) {
+    ASSERT_EQ(RunWarmjoint({"task", Path("run"), std::to_string(shard)}).status, 0);
+  }
+  const ProgramAnswer answer = Run();
+  ASSERT_EQ(answer.status, 0) << answer.err;
+  EXPECT_EQ(Said(), "--parsable " + Path("run") + "/slurm/merge.sbatch\n");
+}
+
+TEST_F(Submissions, AreOfFailedShardsToo) {
+  ASSERT_EQ(Run({"--dry-run"}).status, 0);
+  const std::filesystem::path folder = ShardFolder(Path("run"), 3);
+  std::filesystem::create_directories(folder);
+  ShardState state;
+  state.phase = Phase::failed;
+  WriteShardState(folder, state);
+  ASSERT_EQ(Run().status, 0);
+  EXPECT_THAT(Said(), HasSubstr("--array=0-9 "));
+  EXPECT_EQ(ReadShardState(folder)->phase, Phase::interrupted);
+}
+
+TEST_F(Submissions, GoByThePlanThatIsThere) {
+  ASSERT_EQ(Run({"--dry-run"}).status, 0);
+  const ProgramAnswer same = Run({"--dry-run"});
+  EXPECT_EQ(same.err, "");
+  const ProgramAnswer other = Run({"--dry-run", "--jobs", "3", "--sbatch", "partition=long"});
+  EXPECT_EQ(other.status, 0);
+  EXPECT_THAT(other.err, AllOf(HasSubstr("--jobs 3"), HasSubstr("--sbatch partition=long"),
+                               Not(HasSubstr("--shards"))));
+}
+
+TEST_F(Submissions, OfPiecesKeepEveryRealizationWhereTheyAreRefused) {
+  ASSERT_EQ(Run({"--dry-run"}).status, 0);
+  // the one shard has lost its task after five failures, of which two lie behind the first hole
+  Plan plan = ReadPlan(Path("run"));
+  plan.shards = {{0, 25}};
+  WritePlan(Path("run"), plan);
+  ASSERT_EQ(RunWarmjoint({"task", Path("run"), "1"}).status, 0);
+  const std::filesystem::path folder = ShardFolder(Path("run"), 1);
+  SQLite::Database results((folder / "results.sqlite").string(), SQLite::OPEN_READWRITE);
+  for (const std::string table : {"realization", "result", "parameter", "trace"}) {
+    results.exec("DELETE FROM " + table + " WHERE realization = 10");
+  }
+  results.exec("UPDATE result SET status = 'no_answer' WHERE realization IN (2, 5, 7, 12, 20)");
+  ShardState state = *ReadShardState(folder);
+  state.phase = Phase::interrupted;
+  state.failures = {{"no_answer", 5}};
+  WriteShardState(folder, state);
+
+  // sbatch refuses: what is done and what is open make up the whole all the same
+  WriteWholeFile(Path("said"), "");
+  Refuse(1);
+  const ProgramAnswer answer = RunWarmjoint({"status", Path("run"), "--resubmit", "--split", "2"});
+  EXPECT_THAT(answer.err, HasSubstr("could not be submitted"));
+  const Plan split = ReadPlan(Path("run"));
+  ASSERT_EQ(split.shards.size(), 3u);
+  EXPECT_EQ(split.shards[0].end, 10);
+  EXPECT_EQ(split.shards[1].first, 10);
+  EXPECT_EQ(split.shards[2].end, 25);
+  EXPECT_EQ(ReadShardState(folder)->phase, Phase::done);
+  EXPECT_EQ(ReadShardState(folder)->failures.at("no_answer"), 3);
+}
+
+TEST_F(Submissions, OfPiecesLeaveAllAsItIsWhereOneShardCannotBeRead) {
+  ASSERT_EQ(Run({"--dry-run"}).status, 0);
+  const std::filesystem::path damaged = ShardFolder(Path("run"), 2);
+  std::filesystem::create_directories(damaged);
+  WriteWholeFile(damaged / "results.sqlite", "no database");
+  EXPECT_EQ(RunWarmjoint({"status", Path("run"), "--resubmit", "--split", "2"}).status, 2);
+  EXPECT_FALSE(ReadShardState(ShardFolder(Path("run"), 1)));
+  EXPECT_EQ(ReadPlan(Path("run")).shards.size(), 25u);
 }
 
 TEST_F(Submissions, WithoutAnAnswerOfTheQueueNothingIsTakenForLost) {

@@ -52,6 +52,16 @@ TEST(Simulate, MakesTheFilesOfTheCommand) {
   EXPECT_EQ(truth.plant, "ideal");
 }
 
+TEST(Simulate, TellsOfAJointThatDoesNotFollowItsMotion) {
+  SimulateSettings settings;
+  settings.set = {{"plant", "mujoco"},   {"robot", "rotary"},        {"joint", "hinge"},
+                  {"timestep", "0.002"}, {"motion.speeds", "[0.1]"}, {"controller.bandwidth", "5"}};
+  EXPECT_THAT(SimulateText(TableOneYaml(60), settings).not_following,
+              HasSubstr("controller.bandwidth to 67 rad/s"));
+  settings.set.back().second = "67";
+  EXPECT_EQ(SimulateText(TableOneYaml(60), settings).not_following, "");
+}
+
 TEST(Simulate, TakesATextAndReplaysItsOwn) {
   const Simulation first = SimulateText(TableOneYaml(300));
   const Simulation again = SimulateText(first.scenario);

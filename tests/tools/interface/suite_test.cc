@@ -67,6 +67,19 @@ TEST(Suite, HasTheLeaderboardOfTheCommand) {
   }
 }
 
+TEST(Suite, TellsOfJointsThatDoNotFollowTheirMotion) {
+  const ScratchDirectory scratch;
+  const std::string suite = scratch.path() / "slow.yaml";
+  std::string text = TableOneSuite(1, "  - {name: nominal-ls}\n");
+  const std::string engine =
+      "  plant: mujoco\n  robot: rotary\n  joint: hinge\n  timestep: 0.002\n"
+      "  controller: {bandwidth: 1}\n";
+  const std::string ideal = "  plant: ideal\n";
+  WriteWholeFile(suite, text.replace(text.find(ideal), ideal.size(), engine));
+  EXPECT_THAT(RunSuite(suite, scratch.path() / "run").not_following,
+              testing::HasSubstr("in 1 of 1 simulated realizations"));
+}
+
 TEST(Suite, StopsWhereTheWatchThrowsAndGoesOn) {
   const ScratchDirectory scratch;
   const std::string suite = SuiteFile(scratch, 4);

@@ -16,6 +16,7 @@ namespace {
 
 using testing::AllOf;
 using testing::Contains;
+using testing::IsEmpty;
 using testing::IsSupersetOf;
 using testing::Not;
 using testing::UnorderedElementsAre;
@@ -72,6 +73,12 @@ TEST_F(Completion, OffersChoicesOfOptionsInBothForms) {
               UnorderedElementsAre("laws", "identifiers", "robots", "suites"));
 }
 
+TEST_F(Completion, OffersNoPlaceholders) {
+  EXPECT_THAT(Offers({"predict", "e.json", "log.csv", "--initial", ""}),
+              UnorderedElementsAre("cold", "end"));
+  EXPECT_THAT(Offers({"plot", "runs", "--figure", ""}), IsEmpty());
+}
+
 TEST_F(Completion, OffersMembersOfFamiliesByName) {
   EXPECT_THAT(Offers({"run", "tab"}),
               UnorderedElementsAre("table1", "table1-mujoco", "table1-rests"));
@@ -86,6 +93,7 @@ TEST_F(Completion, OffersMembersOfFamiliesByName) {
 TEST_F(Completion, OffersFilesAndFolders) {
   EXPECT_THAT(Offers({"check", "lo"}), UnorderedElementsAre("log.csv"));
   EXPECT_THAT(Offers({"check", "--joint", "linear", "lo"}), UnorderedElementsAre("log.csv"));
+  EXPECT_THAT(Offers({"predict", "lo"}), UnorderedElementsAre("log.csv"));
   EXPECT_THAT(Offers({"compare", ""}), UnorderedElementsAre("runs"));
   EXPECT_THAT(Offers({"attach", "pendulum", "--joint", "hinge", "=", "lo"}),
               UnorderedElementsAre("log.csv"));

@@ -274,5 +274,24 @@ TEST(RunStore, StartsAnewWhereNothingWasStoredYet) {
   EXPECT_TRUE(RunStore::OpenToRead(scratch.path() / "run").ReadResults().empty());
 }
 
+TEST(RunStore, GathersOverlapsOnlyWhereTheirTracesAgreeToo) {
+  const ScratchDirectory scratch;
+  const auto shard = [&](const char* name, float rmse) {
+    Realization one = TwoResults(1);
+    one.results[0].trace = {{"iteration", "rmse"}, {0, 1.5f, 1, rmse}};
+    RunStore store = RunStore::CreateOrResume(scratch.path() / name, TwoIdentifiers());
+    store.Write(std::vector{one});
+    return scratch.path() / name;
+  };
+  const std::vector shards{shard("one", 0.5f), shard("same", 0.5f), shard("other", 0.25f)};
+  const auto gather = [&](const char* name, std::size_t second) {
+    RunStore merged = RunStore::CreateOrResume(scratch.path() / name, TwoIdentifiers());
+    merged.Gather({shards[0], shards[second]}, Overlap::equal);
+  };
+  EXPECT_NO_THROW(gather("alike", 1));
+  EXPECT_THAT([&] { gather("apart", 2); },
+              ThrowsMessage<BadInput>(HasSubstr("holds other results of realization 1")));
+}
+
 }  // namespace
 }  // namespace warmjoint

@@ -23,7 +23,8 @@ TEST(ShellWords, JoinsToWhatSplitsToTheSame) {
   const std::vector<std::string> words{"a b",         "it's", "",     "$(x)",
                                        "{recording}", "a\"b", "c\\d", "e\nf"};
   EXPECT_EQ(SplitCommand(JoinCommand(words), {}), words);
-  EXPECT_EQ(JoinCommand({"./run.py", "{recording}", "--n=3"}), "./run.py {recording} --n=3");
+  EXPECT_EQ(JoinCommand({"./run.py", "{recording}", "--n=3,4"}), "./run.py {recording} --n=3,4");
+  EXPECT_EQ(JoinCommand({"/tmp/{a,b}/run", "{1..3}"}), "'/tmp/{a,b}/run' '{1..3}'");
 }
 
 }  // namespace

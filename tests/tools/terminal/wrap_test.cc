@@ -41,6 +41,11 @@ TEST(CutToWidth, ShowsThatSomethingIsLeftOut) {
   EXPECT_EQ(CutToWidth("12345678", 8), "12345678");
   EXPECT_EQ(CutToWidth("123456789", 8), "12345...");
   EXPECT_EQ(CutToWidth("ééééééééé", 8), "ééééé...");
+  EXPECT_EQ(CutToWidth("12345", 2), "..");
+}
+
+TEST(CutToWidth, CountsNoColoursAndEndsThem) {
+  EXPECT_EQ(CutToWidth("\033[1;32m123456789\033[0m", 8), "\033[1;32m12345...\033[0m");
 }
 
 }  // namespace

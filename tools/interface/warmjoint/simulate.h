@@ -30,6 +30,8 @@ struct Simulation {
   Recording recording{};
   Truth truth{};
   std::string scenario{};  // YAML, all defaults written out: the same again
+  std::string
+      not_following{};  // of a joint that did not follow its motion: how much, and what cures it; else empty
 };
 
 /// What changes of a scenario.

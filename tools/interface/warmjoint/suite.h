@@ -31,6 +31,8 @@ struct RunSummary {
   std::size_t failed = 0;  // results that are not ok
   std::vector<std::pair<std::string, std::string>>
       silent{};  // identifiers that never answered, with the first message
+  std::string
+      not_following{};  // of joints that did not follow their motion in this call: how many, and what cures it
 };
 
 /// Runs a suite into a directory, or goes on where an earlier run stopped. Results are those of `warmjoint run`, bit for
