@@ -75,7 +75,6 @@ void FrictionInstance::Rebind(const mjModel* m) {
 void FrictionInstance::ReadNumbers(const mjModel* m) {
   timestep_ = m->opt.timestep;
   integrator_ = m->opt.integrator;
-  rate_ = integrator_ == mjINT_RK4 ? 0 : 1 / timestep_;
   for (BoundJoint& joint : bound_.joints()) joint.friction.SetTimestep(timestep_);
   rows_.ReadNumbers(m, bound_.joints());
   checked_ = false;
@@ -116,7 +115,7 @@ void FrictionInstance::StepActuators(const mjModel* m, mjData* d) {
   Step(m, d, d->qfrc_bias);
 
   // a step of Euler lands on the next states; stages of Runge-Kutta change nothing
-  left_.FindRates(rows_.next(), d->act, rate_, d->act_dot);
+  euler_ = integrator_ != mjINT_RK4 && left_.FindRates(rows_.next(), d->act, timestep_, d->act_dot);
 }
 
 /// Takes over the controls that tell an ambient. warm: whether the joints are to have their first heat.
@@ -132,8 +131,7 @@ void FrictionInstance::BeginJoints(const mjData* d, bool warm) {
 }
 
 void FrictionInstance::ApplyActuators(const mjModel* m, mjData* d) const {
-  const size_t joints = driven_.size();
-  for (size_t i = 0; i < joints; ++i) d->actuator_force[driven_[i].output] = -rows_.force(i);
+  rows_.GiveTo(d->actuator_force);
 
   // none where the group is switched off
   if (m->opt.disableactuator == 0) [[likely]]
@@ -209,9 +207,8 @@ void FrictionInstance::AdvanceActuators(const mjModel* m, mjData* d) {
   if (mark_ >= 0) state[mark_] = bound_.mark();
 
   // the engine has stepped act, but not as RK4 would have it, nor from numbers that are none
-  if (m->opt.integrator == mjINT_RK4) CorrectActs(m, d);
-  if (left_.Keep(d->act, d->time)) [[likely]]
-    return;
+  if (euler_) [[likely]]
+    return left_.Ended(d->time);
   CorrectActs(m, d);
   left_.Keep(d->act, d->time);
 }

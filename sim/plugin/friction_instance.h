@@ -79,10 +79,10 @@ class FrictionInstance {
   FrictionSensors sensors_;
   std::vector<Driven> driven_;  // of each joint; empty in the passive form
   double timestep_ = 0;
-  double rate_ = 0;  // of act_dot: 1 over the timestep, or 0 under RK4, 1/s
   int integrator_ = 0;
   int mark_ = -1;               // where the mark is among the instance's entries of plugin_state
   bool checked_ = true;         // the numbers, against the inertia
+  bool euler_ = false;          // the engine's step of act lands where the last step shall end
   bool stepped_ = false;        // since the last Advance
   bool needs_ambient_ = false;  // by one of the joints
   std::vector<mjtNum> load_;    // [nv] where a joint of the passive form needs it

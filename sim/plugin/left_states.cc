@@ -1,5 +1,6 @@
 #include "sim/plugin/left_states.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "sim/plugin/row_pairs.h"
@@ -43,19 +44,11 @@ bool LeftStates::Match(const mjtNum* states, double time) const {
   return same;
 }
 
-bool LeftStates::Keep(const mjtNum* states, double time) {
+void LeftStates::Keep(const mjtNum* states, double time) {
   time_ = time;
-  Two finite = Two::Zero();
-  double* const left = left_.data();
-  for (const StateRun run : runs_) {
-    ByTwos(run, [&]<typename Numbers>(const Numbers&, int k) {
-      const Numbers now = Numbers::Map(states + run.begin + k);
-      Numbers::Map(left + run.next + k) = now;
-      finite.head<Numbers::SizeAtCompileTime>() += now - now;
-    });
+  for (const StateRun& run : runs_) {
+    std::copy_n(states + run.begin, run.states, left_.begin() + run.next);
   }
-  // a difference from itself is 0 for finite numbers alone
-  return finite[0] == 0 && finite[1] == 0;
 }
 
 void LeftStates::Put(const std::vector<double>& next, mjtNum* states, double time) {
@@ -71,15 +64,23 @@ void LeftStates::Put(const std::vector<double>& next, mjtNum* states, double tim
   }
 }
 
-void LeftStates::FindRates(const std::vector<double>& next, const mjtNum* states, double per_second,
-                           mjtNum* rates) const {
+bool LeftStates::FindRates(const std::vector<double>& next, const mjtNum* act, double h,
+                           mjtNum* act_dot) {
+  const double per_second = 1 / h;
   const double* const to = next.data();
+  double* const left = left_.data();
+  Two finite = Two::Zero();
   for (const StateRun run : runs_) {
     ByTwos(run, [&]<typename Numbers>(const Numbers&, int k) {
-      const Numbers now = Numbers::Map(states + run.begin + k);
-      Numbers::Map(rates + run.begin + k) = (Numbers::Map(to + run.next + k) - now) * per_second;
+      const Numbers now = Numbers::Map(act + run.begin + k);
+      const Numbers rate = (Numbers::Map(to + run.next + k) - now) * per_second;
+      Numbers::Map(act_dot + run.begin + k) = rate;
+      Numbers::Map(left + run.next + k) = now + rate * h;
+      finite.head<Numbers::SizeAtCompileTime>() += rate - rate;
     });
   }
+  // a difference from itself is 0 for finite numbers alone
+  return finite[0] == 0 && finite[1] == 0;
 }
 
 }  // namespace warmjoint::inline sim

@@ -31,15 +31,18 @@ class LeftStates {
   /// Whether these are the states and the time that were kept. states: d->act or d->plugin_state.
   bool Match(const mjtNum* states, double time) const;
 
-  /// Keeps them at the end of a step; false where one is no finite number.
-  bool Keep(const mjtNum* states, double time);
+  /// Keeps them at the end of a step.
+  void Keep(const mjtNum* states, double time);
 
   /// Ends a step with these next states of all joints, one joint after the other: writes and keeps them.
   void Put(const std::vector<double>& next, mjtNum* states, double time);
 
-  /// Finds at which rates the states move to those, act_dot; per_second: 1 over the step, 1/s.
-  void FindRates(const std::vector<double>& next, const mjtNum* states, double per_second,
-                 mjtNum* rates) const;
+  /// Finds the rates of act, act_dot, by which the engine's Euler step of h s lands on the next states,
+  /// and keeps where its rounding leaves them, until Ended. False where a rate is no finite number.
+  bool FindRates(const std::vector<double>& next, const mjtNum* act, double h, mjtNum* act_dot);
+
+  /// The engine has made that step.
+  void Ended(double time) { time_ = time; }
 
  private:
   std::vector<StateRun> runs_;

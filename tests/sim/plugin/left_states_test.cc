@@ -43,7 +43,7 @@ TEST(LeftStates, MatchThemselvesAtTheirTimeAndNothingElse) {
   LeftStates left(JointsAt({0, 5}, {3, 2}));
   std::vector<mjtNum> act{0.1, 0.2, 0.3, 7, 8, -0.4, 0.5};
   EXPECT_FALSE(left.Match(act.data(), 0)) << "before the first step";
-  EXPECT_TRUE(left.Keep(act.data(), 2));
+  left.Keep(act.data(), 2);
   EXPECT_TRUE(left.Match(act.data(), 2));
   EXPECT_FALSE(left.Match(act.data(), 2.001));
   for (size_t k = 0; k < act.size(); ++k) {
@@ -55,28 +55,40 @@ TEST(LeftStates, MatchThemselvesAtTheirTimeAndNothingElse) {
   }
 }
 
+TEST(LeftStates, ArePutWhereTheJointsHaveThem) {
+  LeftStates left(JointsAt({0, 5}, {3, 2}));
+  std::vector<mjtNum> act(7, -1.0);
+  left.Put({1, 2, 3, 4, 5}, act.data(), 3);
+  EXPECT_EQ(act, (std::vector<mjtNum>{1, 2, 3, -1, -1, 4, 5}));
+  EXPECT_TRUE(left.Match(act.data(), 3));
+}
+
+TEST(LeftStates, AreThoseOnWhichTheEnginesStepLands) {
+  LeftStates left(JointsAt({0, 5}, {3, 2}));
+  const std::vector<double> next{0.1, 0.02, 0.3, 0.7, 0.55};
+  std::vector<mjtNum> act(7, -1.0), rates(7, 0.0);
+  const double h = 0.003;
+  EXPECT_TRUE(left.FindRates(next, act.data(), h, rates.data()));
+  EXPECT_EQ(rates[3], 0);
+  for (size_t k = 0; k < act.size(); ++k) act[k] += rates[k] * h;
+  EXPECT_NEAR(act[1], 0.02, 1e-15);
+  EXPECT_FALSE(left.Match(act.data(), 1));
+  left.Ended(1);
+  EXPECT_TRUE(left.Match(act.data(), 1));
+}
+
 TEST(LeftStates, TellNumbersThatAreNone) {
   LeftStates left(JointsAt({0, 5}, {3, 2}));
-  std::vector<mjtNum> act(7, 1.0);
+  const std::vector<double> next(5, 0.0);
+  std::vector<mjtNum> act(7, 1.0), rates(7, 0.0);
   for (const double none : {kNan, -kNan, std::numeric_limits<double>::infinity()}) {
     for (size_t k = 0; k < act.size(); ++k) {
       act[k] = none;
-      EXPECT_EQ(left.Keep(act.data(), 0), k == 3 || k == 4) << k;
+      const bool finite = left.FindRates(next, act.data(), 0.001, rates.data());
+      EXPECT_EQ(finite, k == 3 || k == 4) << k;
       act[k] = 1;
     }
   }
-}
-
-TEST(LeftStates, ArePutAndFindRates) {
-  LeftStates left(JointsAt({0, 5}, {3, 2}));
-  const std::vector<double> next{1, 2, 3, 4, 5};
-  const std::vector<mjtNum> nothing(7, 0.0);
-  std::vector<mjtNum> act(7, -1.0), rates = nothing;
-  left.FindRates(next, act.data(), 10, rates.data());
-  EXPECT_EQ(rates, (std::vector<mjtNum>{20, 30, 40, 0, 0, 50, 60}));
-  left.Put(next, act.data(), 3);
-  EXPECT_EQ(act, (std::vector<mjtNum>{1, 2, 3, -1, -1, 4, 5}));
-  EXPECT_TRUE(left.Match(act.data(), 3));
 }
 
 }  // namespace
