@@ -16,7 +16,8 @@ namespace warmjoint::inline sim {
 /// Friction of the joints of one plugin instance, in two forms:
 ///   actuator: actuators refer to the instance; states in mjData.act, forces in actuator_force
 ///   passive:  none refers to it; states in plugin_state, forces in qfrc_passive
-/// Keeps no state of its own beyond scratch, which is filled and used up within one step.
+/// Keeps no state of its own beyond scratch, which is filled and used up within one step, and what a
+/// step has left, which tells where nothing has to look for another model.
 class FrictionInstance {
  public:
   /// Reads the instance's attributes and checks them and its joints against the model.
