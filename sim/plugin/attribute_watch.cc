@@ -1,5 +1,6 @@
 #include "sim/plugin/attribute_watch.h"
 
+#include <cmath>
 #include <cstring>
 
 namespace warmjoint::inline sim {
@@ -8,9 +9,16 @@ namespace {
 constexpr size_t kShort = 2048;  // bytes
 constexpr size_t kBlock = 64, kBlocks = 16;
 
+/// FNV-1a of 64 bits, of which a double bears 53.
+double MarkOf(std::string_view text) {
+  uint64_t hash = 14695981039346656037u;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
+  return std::ldexp(static_cast<double>((hash >> 11) | 1), -53);
+}
+
 }  // namespace
 
-AttributeWatch::AttributeWatch(std::string_view text) : copy_(text), prepared_(0) {}
+AttributeWatch::AttributeWatch(std::string_view text) : copy_(text), mark_(MarkOf(text)) {}
 
 bool AttributeWatch::Same(std::string_view text) {
   // of a long text blocks are enough, unless something was prepared since all was compared

@@ -22,6 +22,9 @@ class AttributeWatch {
   /// Whether no compilation and no mjData was announced since all of it was compared.
   bool Quiet() const { return prepared_ == count_.load(std::memory_order_relaxed); }
 
+  /// What tells the text from others in a state: a fraction above 0, the same in every process.
+  double mark() const { return mark_; }
+
   /// Tells all watches that there may be another model. Any thread may call it.
   static void Prepared() { ++count_; }
 
@@ -31,6 +34,7 @@ class AttributeWatch {
   inline static std::atomic<uint64_t> count_{1};  // of calls of Prepared
 
   std::string copy_;
+  double mark_;
   uint64_t prepared_ = 0;  // count of calls when all of it was compared
 };
 

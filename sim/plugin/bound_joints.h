@@ -46,12 +46,16 @@ class BoundJoints {
   /// names actuator or joint, attribute, value and bound.
   BoundJoints(const mjModel* m, int instance, int states);
 
-  /// Whether these joints are those of the instance in that model. in_run: the states are those that
-  /// the last step has left, as with another model they would not be.
-  bool FitsModel(const mjModel* m, bool in_run) {
-    if (m != model_ || m->signature != signature_) return false;
-    return (in_run && text_.Quiet()) || text_.Same(AttributeText(m, instance_));
+  /// Whether these joints are those of the instance in that model.
+  bool FitsModel(const mjModel* m) {
+    return IsPlaceOf(m) && text_.Same(AttributeText(m, instance_));
   }
+
+  /// Whether the model is where these joints were found, and no other one was announced since.
+  bool Undisturbed(const mjModel* m) const { return IsPlaceOf(m) && text_.Quiet(); }
+
+  /// What tells the instance's attributes from others in a state (AttributeWatch).
+  double mark() const { return text_.mark(); }
 
   bool passive() const { return passive_; }
   std::vector<BoundJoint>& joints() { return joints_; }
@@ -64,6 +68,7 @@ class BoundJoints {
   bool ReadNumbers(const mjModel* m) { return !numbers_.empty() && ReadArrays(m); }
 
  private:
+  bool IsPlaceOf(const mjModel* m) const { return m == model_ && m->signature == signature_; }
   bool ReadArrays(const mjModel* m);
   void BindActuators(const mjModel* m);
   void BindPassive(const mjModel* m, int states);

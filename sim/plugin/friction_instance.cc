@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace warmjoint::inline sim {
 namespace {
@@ -27,14 +26,16 @@ FrictionInstance::FrictionInstance(const mjModel* m, int instance)
   Rebind(m);
 }
 
-/// Finds the joints in the model that the instance is called with. in_run: whether the states are those
-/// that the last step has left.
-void FrictionInstance::Bind(const mjModel* m, bool in_run) {
-  if (!bound_.FitsModel(m, in_run)) [[unlikely]] {
-    bound_ = BoundJoints(m, instance_, kFrictionReports);
-    Rebind(m);
-  }
-  // numbers and step of the model may change between two steps
+/// Finds the joints in the model that the instance is called with.
+void FrictionInstance::Bind(const mjModel* m) {
+  if (bound_.FitsModel(m)) [[likely]]
+    return;
+  bound_ = BoundJoints(m, instance_, kFrictionReports);
+  Rebind(m);
+}
+
+/// Takes over what may be set between two steps.
+void FrictionInstance::TakeNumbers(const mjModel* m) {
   const bool same = timestep_ == m->opt.timestep && integrator_ == m->opt.integrator;
   if (bound_.ReadNumbers(m) || !same) [[unlikely]]
     ReadNumbers(m);
@@ -60,6 +61,12 @@ void FrictionInstance::Rebind(const mjModel* m) {
   // scratch of the model's size
   load_.assign(needs_load && bound_.passive() ? static_cast<size_t>(m->nv) : 0, 0);
   rows_ = JointRows(m, joints);
+  left_ = LeftStates(joints);
+
+  // a model that was saved before there was a mark has no place for it
+  const int entries = m->plugin_statenum[instance_];
+  const size_t own = bound_.passive() ? rows_.next().size() : 0;
+  mark_ = entries == kFrictionEntries + static_cast<int>(own) ? entries - 1 : -1;
   ReadNumbers(m);
   checked_ = true;
   stepped_ = false;
@@ -73,17 +80,16 @@ void FrictionInstance::ReadNumbers(const mjModel* m) {
   checked_ = false;
 }
 
-/// The engine rounds the states of the actuator form.
-bool FrictionInstance::InRun(const mjModel* m, const mjData* d) const {
-  const std::vector<double>& next = rows_.next();
-  const size_t numbers = kFrictionReports + next.size();
-  if (!passive() || m->plugin_statenum[instance_] != static_cast<int>(numbers)) return false;
-  const mjtNum* states = d->plugin_state + m->plugin_stateadr[instance_] + kFrictionReports;
-  return std::memcmp(states, next.data(), next.size() * sizeof(double)) == 0;
+/// Whether a step begins where the last one has ended, in this model.
+bool FrictionInstance::GoesOn(const mjModel* m, const mjData* d) const {
+  if (mark_ < 0 || !bound_.Undisturbed(m)) return false;
+  const mjtNum mark = d->plugin_state[m->plugin_stateadr[instance_] + mark_];
+  return mark == bound_.mark() && left_.Match(passive() ? d->plugin_state : d->act, d->time);
 }
 
 void FrictionInstance::Prepare(const mjModel* m, mjData* d) {
-  Bind(m, InRun(m, d));
+  if (!GoesOn(m, d)) Bind(m);
+  TakeNumbers(m);
   // told once: numbers that a user set and the step does not bear
   if (!checked_) [[unlikely]] {
     WarnOfNumbers(m, d, instance_, bound_.joints());
@@ -109,13 +115,7 @@ void FrictionInstance::StepActuators(const mjModel* m, mjData* d) {
   Step(m, d, d->qfrc_bias);
 
   // a step of Euler lands on the next states; stages of Runge-Kutta change nothing
-  const double rate = m->opt.integrator == mjINT_RK4 ? 0 : 1 / timestep_;
-  const double* next = rows_.next().data();
-  for (const Driven& joint : driven_) {
-    const mjtNum* act = d->act + joint.state;
-    mjtNum* act_dot = d->act_dot + joint.state;
-    for (int k = 0; k < joint.states; ++k) act_dot[k] = (*next++ - act[k]) * rate;
-  }
+  euler_ = integrator_ != mjINT_RK4 && left_.FindRates(rows_.next(), d->act, timestep_, d->act_dot);
 }
 
 /// Takes over the controls that tell an ambient. warm: whether the joints are to have their first heat.
@@ -131,9 +131,13 @@ void FrictionInstance::BeginJoints(const mjData* d, bool warm) {
 }
 
 void FrictionInstance::ApplyActuators(const mjModel* m, mjData* d) const {
-  for (size_t i = 0; i < driven_.size(); ++i) {
-    const Driven& joint = driven_[i];
-    d->actuator_force[joint.output] = Disabled(m, joint.group) ? 0 : -rows_.force(i);
+  rows_.GiveTo(d->actuator_force);
+
+  // none where the group is switched off
+  if (m->opt.disableactuator == 0) [[likely]]
+    return;
+  for (const Driven& joint : driven_) {
+    if (Disabled(m, joint.group)) d->actuator_force[joint.output] = 0;
   }
 }
 
@@ -155,8 +159,10 @@ void FrictionInstance::StepPassive(const mjModel* m, mjData* d) {
 }
 
 void FrictionInstance::Reset(const mjModel* m, mjtNum* state) {
-  Bind(m, false);
+  Bind(m);
+  TakeNumbers(m);
   std::fill_n(state, m->plugin_statenum[instance_], 0.0);
+  if (mark_ >= 0) state[mark_] = bound_.mark();
   stepped_ = false;
   // the passive form has its first heat here, the other takes it at its first step
   mjtNum* next = state + kFrictionReports;
@@ -174,7 +180,7 @@ void FrictionInstance::Reset(const mjModel* m, mjtNum* state) {
   }
 }
 
-void FrictionInstance::Sense(const mjModel* m, mjData* d) {
+void FrictionInstance::AskSensors(const mjModel* m, mjData* d) {
   const bool off = passive() ? PassiveForcesOff(m) : m->opt.disableflags & mjDSBL_ACTUATION;
   sensors_.Ask(m, d, bound_, off);
 }
@@ -185,19 +191,30 @@ void FrictionInstance::Advance(const mjModel* m, mjData* d) {
   bound_.passive() ? AdvancePassive(m, d) : AdvanceActuators(m, d);
 }
 
-void FrictionInstance::AdvancePassive(const mjModel* m, mjData* d) const {
+void FrictionInstance::AdvancePassive(const mjModel* m, mjData* d) {
   if (PassiveForcesOff(m)) return;
   mjtNum* state = d->plugin_state + m->plugin_stateadr[instance_];
   state[kAmbientRise] = Finite(state[kAmbientRise]);
-  std::copy(rows_.next().begin(), rows_.next().end(), state + kFrictionReports);
+  left_.Put(rows_.next(), d->plugin_state, d->time);
+  if (mark_ >= 0) state[mark_] = bound_.mark();
 }
 
-void FrictionInstance::AdvanceActuators(const mjModel* m, mjData* d) const {
+void FrictionInstance::AdvanceActuators(const mjModel* m, mjData* d) {
   if (m->opt.disableflags & mjDSBL_ACTUATION) return;
+  mjtNum* state = d->plugin_state + m->plugin_stateadr[instance_];
   // the first heat was taken
-  d->plugin_state[m->plugin_stateadr[instance_] + kStartsWarm] = 0;
+  state[kStartsWarm] = 0;
+  if (mark_ >= 0) state[mark_] = bound_.mark();
 
-  // states by Runge-Kutta, and those that are no numbers any more, are written here
+  // the engine has stepped act, but not as RK4 would have it, nor from numbers that are none
+  if (euler_) [[likely]]
+    return left_.Ended(d->time);
+  CorrectActs(m, d);
+  left_.Keep(d->act, d->time);
+}
+
+/// Writes the next states into act: of all joints under RK4, else where the engine has left none.
+void FrictionInstance::CorrectActs(const mjModel* m, mjData* d) const {
   const bool all = m->opt.integrator == mjINT_RK4;
   const double* next = rows_.next().data();
   for (const Driven& joint : driven_) {

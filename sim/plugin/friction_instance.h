@@ -9,13 +9,15 @@
 #include "sim/plugin/friction_reports.h"
 #include "sim/plugin/friction_sensors.h"
 #include "sim/plugin/joint_rows.h"
+#include "sim/plugin/left_states.h"
 
 namespace warmjoint::inline sim {
 
 /// Friction of the joints of one plugin instance, in two forms:
 ///   actuator: actuators refer to the instance; states in mjData.act, forces in actuator_force
 ///   passive:  none refers to it; states in plugin_state, forces in qfrc_passive
-/// Keeps no state of its own beyond scratch, which is filled and used up within one step.
+/// Keeps no state of its own beyond scratch, which is filled and used up within one step, and what a
+/// step has left, which tells where nothing has to look for another model.
 class FrictionInstance {
  public:
   /// Reads the instance's attributes and checks them and its joints against the model.
@@ -27,7 +29,7 @@ class FrictionInstance {
   /// Actuator form: steps every joint and writes act_dot = (next - now) / h, so that the engine's
   /// Euler step of act lands on the next state; keeps the forces for ApplyActuators. Under RK4,
   /// which asks at four stages, act_dot is 0 and Advance writes the states. Allocates and locks
-  /// nothing unless the model is another one than before.
+  /// nothing unless the model is another one than before, for which nothing looks while a run goes on.
   void StepActuators(const mjModel* m, mjData* d);
 
   /// Actuator form: writes actuator_force = -F of the last step.
@@ -41,7 +43,9 @@ class FrictionInstance {
 
   /// Lets the step that follows write sensordata of the instance's sensors, kSensed numbers for each
   /// joint; writes zeros where none will follow.
-  void Sense(const mjModel* m, mjData* d);
+  void Sense(const mjModel* m, mjData* d) {
+    if (!bound_.sensors().empty()) AskSensors(m, d);
+  }
 
   /// Commits the states of the last step: plugin_state, or act where the engine's own integration
   /// of it would not do (RK4, or a state that was not finite).
@@ -56,24 +60,30 @@ class FrictionInstance {
     int output;  // in actuator_force
   };
 
-  void Bind(const mjModel* m, bool in_run);
-  bool InRun(const mjModel* m, const mjData* d) const;
+  void Bind(const mjModel* m);
+  void TakeNumbers(const mjModel* m);
+  bool GoesOn(const mjModel* m, const mjData* d) const;
   void Rebind(const mjModel* m);
   void ReadNumbers(const mjModel* m);
   void Prepare(const mjModel* m, mjData* d);
   void Step(const mjModel* m, mjData* d, const mjtNum* load);
+  void AskSensors(const mjModel* m, mjData* d);
   void BeginJoints(const mjData* d, bool warm);
-  void AdvancePassive(const mjModel* m, mjData* d) const;
-  void AdvanceActuators(const mjModel* m, mjData* d) const;
+  void AdvancePassive(const mjModel* m, mjData* d);
+  void AdvanceActuators(const mjModel* m, mjData* d);
+  void CorrectActs(const mjModel* m, mjData* d) const;
 
   int instance_;
   BoundJoints bound_;
   JointRows rows_;
+  LeftStates left_;
   FrictionSensors sensors_;
   std::vector<Driven> driven_;  // of each joint; empty in the passive form
   double timestep_ = 0;
   int integrator_ = 0;
+  int mark_ = -1;               // where the mark is among the instance's entries of plugin_state
   bool checked_ = true;         // the numbers, against the inertia
+  bool euler_ = false;          // the engine's step of act lands where the last step shall end
   bool stepped_ = false;        // since the last Advance
   bool needs_ambient_ = false;  // by one of the joints
   std::vector<mjtNum> load_;    // [nv] where a joint of the passive form needs it

@@ -10,7 +10,10 @@
 
 namespace warmjoint::inline sim {
 
-/// Entries of mjData.plugin_state of each instance, before the states of a passive one's joints.
+/// Entries of mjData.plugin_state of each instance, before the states of a passive one's joints. One
+/// more stands behind those: the mark of the attributes with which the state was stepped or reset
+/// (AttributeWatch), which tells apart states of models that one place in memory holds in turn. Never
+/// read by the dynamics.
 enum FrictionReport : int {
   /// The sum of 2^i over those of the instance's joints, counted from 0 in their order (BoundJoints),
   /// in which friction would have pushed, until a reset. Never read by the dynamics.
@@ -25,6 +28,9 @@ enum FrictionReport : int {
   kStartsWarm = kAmbientRise,
   kFrictionReports,
 };
+
+/// So many are in plugin_state beside the states of a passive instance's joints.
+inline constexpr int kFrictionEntries = kFrictionReports + 1;
 
 /// Warns, once until a reset, of a joint whose step or numbers a program set after loading to what
 /// the step does not bear; they are taken as they are.

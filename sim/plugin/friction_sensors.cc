@@ -6,7 +6,6 @@ namespace warmjoint::inline sim {
 
 void FrictionSensors::Ask(const mjModel* m, mjData* d, const BoundJoints& bound, bool off) {
   // sensors are told at the stage of positions, and written by the step that follows
-  if (bound.sensors().empty()) return;
   asked_ = !off;
   if (!off) return;
   sensed_.assign(kSensed * bound.joints().size(), 0);

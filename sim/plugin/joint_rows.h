@@ -54,7 +54,10 @@ class JointRows : private LevelSource {
   /// Takes F from the forces of all degrees of freedom, N.m or N.
   void TakeFrom(mjtNum* forces) const { states_.TakeForces(numbers_.data(), forces); }
 
-  /// The same for those for which `acts`.
+  /// Writes -F of all joints of the actuator form, N.m or N.
+  void GiveTo(mjtNum* outputs) const { states_.GiveForces(numbers_.data(), outputs); }
+
+  /// TakeFrom for those for which `acts`.
   template <typename Acts>
   void TakeFrom(mjtNum* forces, const Acts& acts) const {
     for (const JointStates::At& at : states_.at()) {

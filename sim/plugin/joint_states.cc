@@ -7,7 +7,7 @@ JointStates::JointStates(const std::vector<BoundJoint>& joints, const std::vecto
   // states of joints stand beside each other, in the order of joints
   for (size_t i = 0; i < joints.size(); ++i) {
     const auto own = static_cast<int>(joints[i].friction.state().size());
-    at_.push_back({places[i], joints[i].dof, joints[i].state, next, own == 2});
+    at_.push_back({places[i], joints[i].dof, joints[i].state, next, joints[i].output, own == 2});
     next += own;
   }
   next_.assign(static_cast<size_t>(next), 0);
@@ -21,7 +21,7 @@ void JointStates::FindTwos() {
     const At& at = at_[i];
     const auto follows = [&](const At& next) {
       return next.plain && next.place == at.place + 1 && next.dof == at.dof + 1 &&
-             next.state == at.state + 2;
+             next.state == at.state + 2 && (next.output < 0 || next.output == at.output + 1);
     };
     const bool first = at.plain && at.place % (2 * kColumns) == 0;
     if (first && i + 1 < at_.size() && follows(at_[i + 1])) {
@@ -72,6 +72,13 @@ void JointStates::TakeForces(const double* rows, mjtNum* forces) const {
     Two::Map(forces + at.dof) -= Two::Map(rows + at.place + 2 * kForce);
   }
   for (const size_t i : ones_) forces[at_[i].dof] -= rows[at_[i].place + 2 * kForce];
+}
+
+void JointStates::GiveForces(const double* rows, mjtNum* outputs) const {
+  for (const At& at : twos_) {
+    Two::Map(outputs + at.output) = -Two::Map(rows + at.place + 2 * kForce);
+  }
+  for (const size_t i : ones_) outputs[at_[i].output] = -rows[at_[i].place + 2 * kForce];
 }
 
 void JointStates::Store(double* rows) {

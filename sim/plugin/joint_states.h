@@ -21,6 +21,7 @@ class JointStates {
     int dof;
     int state;   // in act or plugin_state
     int next;    // in next()
+    int output;  // in actuator_force; -1 in the passive form
     bool plain;  // whether it has two states
   };
 
@@ -41,6 +42,9 @@ class JointStates {
 
   /// Takes F of all joints from the forces of the degrees of freedom.
   void TakeForces(const double* rows, mjtNum* forces) const;
+
+  /// Writes -F of all joints of the actuator form.
+  void GiveForces(const double* rows, mjtNum* outputs) const;
 
   /// Ends a step. A joint whose next state would be no number keeps the one before, and has no force.
   void Store(double* rows);

@@ -58,7 +58,7 @@ int CountStates(const mjModel* m, int instance, std::array<char, n>& refusal) {
   try {
     PrepareInstance(m, instance, {InstanceName(m, instance)});
     const bool passive = !DrivenByActuators(m, instance);
-    return kFrictionReports + (passive ? PassiveStates(m, instance) : 0);
+    return kFrictionEntries + (passive ? PassiveStates(m, instance) : 0);
   } catch (const std::exception& refused) {
     Note(refused, refusal);
     return 0;
@@ -87,11 +87,11 @@ void Guarded(const Callback& callback) {
 }
 
 void Compute(const mjModel* m, mjData* d, int instance, int capability) {
-  const bool passive = InstanceOf(d, instance)->passive();
-  if (capability == mjPLUGIN_SENSOR) InstanceOf(d, instance)->Sense(m, d);
-  if (capability == mjPLUGIN_ACTUATOR && !passive) InstanceOf(d, instance)->ApplyActuators(m, d);
-  if (capability == mjPLUGIN_PASSIVE && passive) {
-    Guarded([&] { InstanceOf(d, instance)->StepPassive(m, d); });
+  FrictionInstance& friction = *InstanceOf(d, instance);
+  if (capability == mjPLUGIN_SENSOR) return friction.Sense(m, d);
+  if (capability == mjPLUGIN_ACTUATOR && !friction.passive()) friction.ApplyActuators(m, d);
+  if (capability == mjPLUGIN_PASSIVE && friction.passive()) {
+    Guarded([&] { friction.StepPassive(m, d); });
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
 #include <string>
 
 namespace warmjoint {
@@ -45,6 +46,22 @@ TEST(AttributeWatch, TellsADifferentLongTextThatNothingAnnounced) {
     EXPECT_FALSE(watch.Same(other)) << begin;
   }
   EXPECT_TRUE(watch.Same(text));
+}
+
+TEST(AttributeWatch, MarksATextByAFractionOfItsOwn) {
+  std::set<double> marks;
+  std::string text(200, 'a');
+  for (size_t i = 0; i < text.size(); ++i) {
+    text[i] = 'b';
+    const double mark = AttributeWatch(text).mark();
+    EXPECT_GT(mark, 0);
+    EXPECT_LT(mark, 1);
+    EXPECT_EQ(AttributeWatch(text).mark(), mark);
+    marks.insert(mark);
+  }
+  EXPECT_EQ(marks.size(), text.size());
+  // in every process and on every machine
+  EXPECT_EQ(AttributeWatch("coulomb").mark(), 0x1.88845b0ab5fa3p-1);
 }
 
 TEST(AttributeWatch, IsQuietFromAComparisonToTheNextAnnouncement) {

@@ -38,6 +38,13 @@ constexpr char kArrays[] = R"(
   <numeric name="arm/viscous" size="3" data="0.1 0.1 0.1"/>
   <numeric name="arm/thermal_gain" size="3" data="-0.02 -0.02 -0.02"/>)";
 
+/// The state but for its last number, which tells the attributes.
+std::vector<mjtNum> StateButMark(const Model& m, const Data& d) {
+  std::vector<mjtNum> state = FullState(m.get(), d.get());
+  state.pop_back();
+  return state;
+}
+
 TEST(PluginNumbers, InArraysActAsTheSameInTheAttributes) {
   for (const Form form : {Form::actuator, Form::passive}) {
     const Model arrays =
@@ -50,7 +57,7 @@ TEST(PluginNumbers, InArraysActAsTheSameInTheAttributes) {
     const Data a(mj_makeData(arrays.get())), b(mj_makeData(text.get()));
     DriveArm(arrays.get(), a.get(), 1000);
     DriveArm(text.get(), b.get(), 1000);
-    EXPECT_EQ(FullState(arrays.get(), a.get()), FullState(text.get(), b.get()));
+    EXPECT_EQ(StateButMark(arrays, a), StateButMark(text, b));
 
     // and back, between two steps
     const Model first = MustCompile(ArmXml(Law(0.7, 0.1, -0.02), form, "implicitfast"));
@@ -60,7 +67,7 @@ TEST(PluginNumbers, InArraysActAsTheSameInTheAttributes) {
     }
     DriveArm(arrays.get(), a.get(), 500);
     DriveArm(first.get(), b.get(), 500);
-    EXPECT_EQ(FullState(arrays.get(), a.get()), FullState(first.get(), b.get()));
+    EXPECT_EQ(StateButMark(arrays, a), StateButMark(first, b));
   }
 }
 

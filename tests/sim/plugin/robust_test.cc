@@ -48,7 +48,53 @@ TEST_P(PluginNan, InAStateLastsOneStep) {
   EXPECT_LT(States(d.get())[1], 0);
 }
 
+TEST_P(PluginNan, InOneStateInTheMidstOfARunCountsAsZero) {
+  for (int k = 0; k < 2 * kArmJoints; ++k) {
+    const Data d(mj_makeData(m.get()));
+    DriveArm(m.get(), d.get(), 300);
+    const Data zero(mj_copyData(nullptr, m.get(), d.get()));
+    States(d.get())[k] = kNan;
+    States(zero.get())[k] = 0;
+    mj_step(m.get(), d.get());
+    mj_step(m.get(), zero.get());
+    // the engine adds h act_dot to what stands in act, which rounds, and the plugin writes beside it
+    for (int i = 0; i < 2 * kArmJoints; ++i) {
+      EXPECT_NEAR(States(d.get())[i], States(zero.get())[i], 1e-15) << k << ", " << i;
+    }
+    for (int i = 0; i < m->nv; ++i) EXPECT_EQ(d->qvel[i], zero->qvel[i]);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Forms, PluginNan, testing::Values(Form::actuator, Form::passive));
+
+TEST(PluginGroups, SwitchedOffInTheMidstOfARunKeepTheirStatesAndGoOn) {
+  for (const char* integrator : {"Euler", "implicitfast", "RK4"}) {
+    const Model m = MustCompile(ArmXml(FrictionsOfEveryLaw()[1], Form::actuator, integrator));
+    // the second joint's friction has a group of its own
+    m->actuator_group[kArmJoints + 1] = 3;
+    const Data d(mj_makeData(m.get()));
+    DriveArm(m.get(), d.get(), 300);
+    const std::vector<mjtNum> before(d->act, d->act + m->na);
+
+    m->opt.disableactuator = 1 << 3;
+    DriveArm(m.get(), d.get(), 100);
+    for (int joint = 0; joint < kArmJoints; ++joint) {
+      const bool off = joint == 1;
+      EXPECT_EQ(d->actuator_force[kArmJoints + joint] == 0, off) << integrator << joint;
+      EXPECT_EQ(d->act[2 * joint] == before[2 * joint], off) << integrator << joint;
+      EXPECT_EQ(d->act[2 * joint + 1] == before[2 * joint + 1], off) << integrator << joint;
+    }
+
+    // goes on as data that never was switched off, from the state that it has now
+    const std::vector<mjtNum> state = FullState(m.get(), d.get());
+    m->opt.disableactuator = 0;
+    DriveArm(m.get(), d.get(), 100);
+    const Data fresh(mj_makeData(m.get()));
+    mj_setState(m.get(), fresh.get(), state.data(), mjSTATE_FULLPHYSICS);
+    DriveArm(m.get(), fresh.get(), 100);
+    EXPECT_EQ(FullState(m.get(), fresh.get()), FullState(m.get(), d.get())) << integrator;
+  }
+}
 
 TEST(PluginTimestep, RaisedBeyondWhatTheFrictionBearsWarnsOnce) {
   for (const Form form : {Form::actuator, Form::passive}) {
