@@ -40,8 +40,9 @@ class RowProducts {
   }
 
  private:
-  static constexpr Eigen::Index kBlock = 128;  // rows, even: they stay in the nearest cache
-  static constexpr int kTile = 3;  // columns: nine sums of two and six factors fill 16 registers
+  static constexpr Eigen::Index kBlock = 128;  // rows: they stay in the nearest cache
+  // why: nine sums of two and their six factors fill 16 registers; no result depends on it
+  static constexpr int kTile = 3;  // columns
 
   void TakeUp() {
     if constexpr (P == Eigen::Dynamic) {

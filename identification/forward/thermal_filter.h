@@ -39,6 +39,10 @@ class ThermalFilter {
   Eigen::VectorXd Energy(const Thermal& thermal, const Eigen::VectorXd& loss,
                          double initial = 0) const;
 
+  /// The same at unit gain for several time constants, s. Returns [N x time constants].
+  Eigen::MatrixXd UnitEnergies(const std::vector<double>& time_constants,
+                               const Eigen::VectorXd& loss, double initial = 0) const;
+
   /// The transpose of that linear map, from weights of E to weights of the loss: u . Energy(W) =
   /// Transposed(u) . W. Runs back in time, l[i] = u[i] + te l[i+1], and gives gain (1 - te) l[i+1].
   /// weights: [N] u; returns [N].

@@ -1,6 +1,5 @@
 #include "identification/lack_of_fit/circumstances.h"
 
-#include <array>
 #include <cmath>
 #include <vector>
 
@@ -19,11 +18,7 @@ Eigen::MatrixXd Energies(const FittedModel& model, const Measurements& m) {
   const double duration = m.time[m.size() - 1] - m.time[0];
   const Eigen::VectorXd loss = model.torque.cwiseProduct(m.velocity).cwiseAbs();
   const ThermalFilter filter(m.time, m.starts);
-  Eigen::MatrixXd energies(m.size(), 3);
-  for (int i = 0; i < 3; ++i) {
-    energies.col(i) = filter.Energy({1, duration / std::array{40.0, 12.0, 3.0}[i]}, loss);
-  }
-  return energies;
+  return filter.UnitEnergies({duration / 40, duration / 12, duration / 3}, loss);
 }
 
 /// Median duration of the segments; 0 where there are none.
@@ -51,11 +46,7 @@ std::vector<double> MemoryTimes(double hold, double duration) {
 Eigen::MatrixXd LateSpeeds(const Measurements& m, const std::vector<double>& times) {
   const Eigen::VectorXd speed = m.velocity.cwiseAbs();
   const ThermalFilter filter(m.time, m.starts);
-  Eigen::MatrixXd late(m.size(), static_cast<Eigen::Index>(times.size()));
-  for (Eigen::Index i = 0; i < late.cols(); ++i) {
-    late.col(i) = filter.Energy({1, times[static_cast<size_t>(i)]}, speed, speed[0]) - speed;
-  }
-  return late;
+  return filter.UnitEnergies(times, speed, speed[0]).colwise() - speed;
 }
 
 }  // namespace

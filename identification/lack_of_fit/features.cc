@@ -35,7 +35,10 @@ MatrixXd BothWays(const Bins& bins, const MatrixXd& columns) {
 /// cos, sin of an angle. [m x 2]
 MatrixXd Wave(const ArrayXd& angle) {
   MatrixXd wave(angle.size(), 2);
-  wave << angle.cos().matrix(), angle.sin().matrix();
+  for (Index i = 0; i < angle.size(); ++i) {
+    wave(i, 0) = std::cos(angle[i]);
+    wave(i, 1) = std::sin(angle[i]);
+  }
   return wave;
 }
 
@@ -131,10 +134,13 @@ Features OfTemperature(const Bins& bins, const Circumstances& known, const Growi
 }
 
 Features OfTime(const Bins& bins, const Circumstances&, const GrowingFit&) {
-  const ArrayXd sign = SignOf(bins), angle = kPi * bins.time.array();
+  // cos k a by cos a: Chebyshev's polynomials
+  const ArrayXd sign = SignOf(bins), first = (kPi * bins.time.array()).cos();
+  const ArrayXd second = 2 * first.square() - 1;
   MatrixXd drift(bins.size(), 6);
-  for (int k = 1; k <= 4; ++k) drift.col(k - 1) = sign * (k * angle).cos();
-  for (int k = 1; k <= 2; ++k) drift.col(3 + k) = (k * angle).cos();
+  drift << (sign * first).matrix(), (sign * second).matrix(),
+      (sign * first * (2 * second - 1)).matrix(), (sign * (2 * second.square() - 1)).matrix(),
+      first.matrix(), second.matrix();
   return {drift};
 }
 

@@ -1,7 +1,6 @@
 #include "identification/lack_of_fit/left_open.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 
@@ -21,7 +20,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr std::array kFadings{1.0 / 2, 1.0 / 4, 1.0 / 8};  // of the log: time constants of drifts
+// why: a drift that takes half the log to die away is still nearly even, one of an eighth is over before the
+// warming is; between them by halves
+constexpr double kSlowest = 1.0 / 2;  // of the log: the longest time constant of a drift
+constexpr Index kFadings = 3;         // time constants, each half as long as the one before
 constexpr double kTold = 1e-6;  // of a column beside the fit, below which the log tells nothing
 
 /// Values between which a factor may lie at all.
@@ -84,13 +86,15 @@ struct Drift {
 std::vector<Drift> Drifts(const FittedModel& model, const Measurements& m, const Bins& bins,
                           double friction) {
   // courses d(t) of friction, and 1
-  constexpr Index kCourses = 1 + static_cast<Index>(kFadings.size());
+  constexpr Index kCourses = 1 + kFadings;
   const ArrayXd t = (m.time.array() - m.time[0]) / (m.time[m.size() - 1] - m.time[0]);
   MatrixXd levels(m.size(), kCourses + 1);
   levels.col(0) = t;
-  for (size_t i = 0; i < kFadings.size(); ++i) {
-    levels.col(1 + static_cast<Index>(i)) =
-        (1 - (-t / kFadings[i]).exp()) / (1 - std::exp(-1 / kFadings[i]));
+  // each fading is the square of the one before it
+  ArrayXd faded = (-t / kSlowest).exp();
+  double end = std::exp(-1 / kSlowest);
+  for (Index i = 1; i < kCourses; ++i, faded = faded.square().eval(), end *= end) {
+    levels.col(i) = (1 - faded) / (1 - end);
   }
   levels.col(kCourses).setOnes();
 

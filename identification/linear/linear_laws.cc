@@ -1,5 +1,6 @@
 #include "identification/linear/linear_laws.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -48,15 +49,17 @@ Eigen::MatrixXd LawColumns(const Law& law, const Eigen::VectorXd& velocity) {
   Eigen::MatrixXd columns(velocity.size(), d);
   Eigen::VectorXd unit = Eigen::VectorXd::Zero(d);
 
-  // the law with one parameter of 1 and all others of 0
-  for (Eigen::Index i = 0; i < d; ++i) {
-    unit[i] = 1;
-    for (Eigen::Index n = 0; n < velocity.size(); ++n) {
-      // samples of one segment share their speed
-      const bool again = n > 0 && velocity[n] == velocity[n - 1];
-      columns(n, i) = again ? columns(n - 1, i) : law.force(velocity[n], unit.data());
+  // the law with one parameter of 1 and all others of 0; samples of one segment share their speed
+  for (Eigen::Index begin = 0, end = 0; begin < velocity.size(); begin = end) {
+    while (end < velocity.size() && velocity[end] == velocity[begin]) ++end;
+    end = std::max(end, begin + 1);
+    for (Eigen::Index i = 0; i < d; ++i) {
+      unit[i] = 1;
+      columns.col(i)
+          .segment(begin, end - begin)
+          .setConstant(law.force(velocity[begin], unit.data()));
+      unit[i] = 0;
     }
-    unit[i] = 0;
   }
   return columns;
 }

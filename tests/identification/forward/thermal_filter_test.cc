@@ -116,5 +116,24 @@ TEST(ThermalFilter, TakesRoundedTimesForEven) {
   EXPECT_LT((rounded - exact).cwiseAbs().maxCoeff(), 7e-9);
 }
 
+TEST(ThermalFilter, FiltersWithSeveralTimeConstantsAtOnce) {
+  // even and uneven clocks, a second recording that starts cold
+  for (const double jitter : {0.0, 0.3}) {
+    Eigen::VectorXd time(40), loss(40);
+    for (int i = 0; i < 40; ++i) {
+      time[i] = 0.5 * i + jitter * (i % 3);
+      loss[i] = 1 + i % 7;
+    }
+    const ThermalFilter filter(time, {25});
+    const std::vector<double> taus{0.8, 3, 20};
+    const Eigen::MatrixXd all = filter.UnitEnergies(taus, loss, 0.4);
+    for (int k = 0; k < 3; ++k) {
+      // the same recursion
+      EXPECT_EQ(all.col(k), filter.Energy({1, taus[static_cast<size_t>(k)]}, loss, 0.4)) << jitter;
+    }
+    EXPECT_EQ(filter.UnitEnergies({}, loss).cols(), 0);
+  }
+}
+
 }  // namespace
 }  // namespace warmjoint
