@@ -186,6 +186,24 @@ ExitStatus Identify(IdentifyArguments arguments) {
   return Deliver(arguments, IdentifyLog(task, log, holdout, tell), log, activity);
 }
 
+/// What is written, and how much is said.
+void AddOutputOptions(CLI::App& parser, IdentifyArguments& arguments) {
+  parser.add_option("-o,--output", arguments.output, "estimate.json; -: standard output")
+      ->type_name("FILE");
+  parser
+      .add_option("--plot", arguments.plot, "picture of data, fit and verdict: .png, .svg or .pdf")
+      ->type_name("FILE");
+  parser.add_option("--mjcf", arguments.mjcf, "MuJoCo model of a joint with this friction")
+      ->type_name("FILE");
+  AddChoice(parser, "--format", arguments.format, {"text", "json"},
+            "of what is printed; json: as in estimate.json");
+  parser.add_flag("-v,--explain", arguments.explain,
+                  "every remark, every test for lack of fit and every assumption");
+  parser.add_flag("--force", arguments.force,
+                  "show the numbers of an inadequate model with their intervals and write its\n"
+                  "friction, all void; status and exit status 3 stay");
+}
+
 }  // namespace
 
 Command AddIdentifyCommand(CLI::App& program) {
@@ -232,22 +250,7 @@ Command AddIdentifyCommand(CLI::App& program) {
       ->type_name("KEY=VALUE")
       ->take_all();
 
-  // what is written, and how much is said
-  parser->add_option("-o,--output", arguments->output, "estimate.json; -: standard output")
-      ->type_name("FILE");
-  parser
-      ->add_option("--plot", arguments->plot,
-                   "picture of data, fit and verdict: .png, .svg or .pdf")
-      ->type_name("FILE");
-  parser->add_option("--mjcf", arguments->mjcf, "MuJoCo model of a joint with this friction")
-      ->type_name("FILE");
-  AddChoice(*parser, "--format", arguments->format, {"text", "json"},
-            "of what is printed; json: as in estimate.json");
-  parser->add_flag("-v,--explain", arguments->explain,
-                   "every remark, every test for lack of fit and every assumption");
-  parser->add_flag("--force", arguments->force,
-                   "show the numbers of an inadequate model with their intervals and write its\n"
-                   "friction, all void; status and exit status 3 stay");
+  AddOutputOptions(*parser, *arguments);
   // the project file counts before anything is read
   return {parser, [arguments, parser] {
             TakeProject(*parser, arguments->recording);

@@ -82,6 +82,26 @@ std::optional<Covariance> FromCovariance(
   return made;
 }
 
+/// Parameters of one interface as those of the other.
+template <typename To, typename From>
+std::vector<To> Parameters(const std::vector<From>& given) {
+  std::vector<To> made;
+  for (const From& one : given) {
+    made.push_back({one.name, one.value, one.unit, one.std, one.interval95});
+  }
+  return made;
+}
+
+/// The same of how a structure was chosen.
+template <typename To, typename From>
+To Choice(const From& choice) {
+  To made{choice.chosen, choice.reason, choice.blocks, {}};
+  for (const auto& one : choice.trials) {
+    made.trials.push_back({one.name, one.rmse, one.parameters, one.dropped});
+  }
+  return made;
+}
+
 }  // namespace
 
 Metrics FromMetrics(const identification::Metrics& metrics) {
@@ -99,9 +119,7 @@ identification::Estimate ToEstimate(const Estimate& estimate) {
   made.warnings = estimate.warnings;
 
   // numbers, and how well they fit
-  for (const Parameter& one : estimate.parameters) {
-    made.parameters.push_back({one.name, one.value, one.unit, one.std, one.interval95});
-  }
+  made.parameters = Parameters<identification::EstimatedParameter>(estimate.parameters);
   made.metrics = ToMetrics(estimate.metrics);
   made.holdout = ToMetrics(estimate.holdout);
   for (const TraceEntry& entry : estimate.trace) {
@@ -134,20 +152,10 @@ identification::Estimate ToEstimate(const Estimate& estimate) {
   }
 
   // the state at the end, what a temperature says, and the choice of a structure
-  for (const Parameter& one : estimate.state_end) {
-    made.state_end.push_back({one.name, one.value, one.unit, one.std, one.interval95});
-  }
-  for (const Parameter& one : estimate.temperature) {
-    made.temperature.push_back({one.name, one.value, one.unit, one.std, one.interval95});
-  }
+  made.state_end = Parameters<identification::EstimatedParameter>(estimate.state_end);
+  made.temperature = Parameters<identification::EstimatedParameter>(estimate.temperature);
   made.without_holdout = estimate.without_holdout;
-  if (estimate.choice) {
-    const StructureChoice& choice = *estimate.choice;
-    made.choice = {choice.chosen, choice.reason, choice.blocks, {}};
-    for (const StructureTrial& one : choice.trials) {
-      made.choice->trials.push_back({one.name, one.rmse, one.parameters, one.dropped});
-    }
-  }
+  if (estimate.choice) made.choice = Choice<identification::StructureChoice>(*estimate.choice);
   return made;
 }
 
@@ -161,9 +169,7 @@ Estimate FromEstimate(const identification::Estimate& estimate) {
   made.warnings = estimate.warnings;
 
   // numbers, and how well they fit
-  for (const identification::EstimatedParameter& one : estimate.parameters) {
-    made.parameters.push_back({one.name, one.value, one.unit, one.std, one.interval95});
-  }
+  made.parameters = Parameters<Parameter>(estimate.parameters);
   if (estimate.metrics) made.metrics = FromMetrics(*estimate.metrics);
   if (estimate.holdout) made.holdout = FromMetrics(*estimate.holdout);
   for (const identification::TraceEntry& entry : estimate.trace) {
@@ -196,20 +202,10 @@ Estimate FromEstimate(const identification::Estimate& estimate) {
   }
 
   // the state at the end, what a temperature says, and the choice of a structure
-  for (const identification::EstimatedParameter& one : estimate.state_end) {
-    made.state_end.push_back({one.name, one.value, one.unit, one.std, one.interval95});
-  }
-  for (const identification::EstimatedParameter& one : estimate.temperature) {
-    made.temperature.push_back({one.name, one.value, one.unit, one.std, one.interval95});
-  }
+  made.state_end = Parameters<Parameter>(estimate.state_end);
+  made.temperature = Parameters<Parameter>(estimate.temperature);
   made.without_holdout = estimate.without_holdout;
-  if (estimate.choice) {
-    const identification::StructureChoice& choice = *estimate.choice;
-    made.choice = {choice.chosen, choice.reason, choice.blocks, {}};
-    for (const identification::StructureTrial& one : choice.trials) {
-      made.choice->trials.push_back({one.name, one.rmse, one.parameters, one.dropped});
-    }
-  }
+  if (estimate.choice) made.choice = Choice<StructureChoice>(*estimate.choice);
   return made;
 }
 
