@@ -15,7 +15,6 @@
 #include "identification/linear/linear_task.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/linear/robust.h"
-#include "identification/maps/energy_ml_maps.h"
 #include "identification/uncertainty/disagreement.h"
 #include "identification/warming/expected_start.h"
 #include "identification/warming/further_passes.h"
@@ -197,12 +196,6 @@ Fit FitFurther(const Course& course, const WarmStart& start, RobustWarmFit robus
 
 Fit FitWarming(const IdentifierInput& given) {
   if (auto why = WhyNoLag(given)) return Refused(kName, Status::bad_data, *why);
-  if (given.options.Text("position") != "none") {
-    if (!AsksForLag(given)) return FitWithMaps(kName, given);
-    return Refused(kName, Status::bad_data,
-                   "torque_lag is estimated beside a law without maps; use position none, or "
-                   "torque_lag none");
-  }
   const LinearTask task = BeginLinear(given, 3);
   if (task.refusal) return Refused(kName, *task.refusal);
   const IdentifierInput input = task.gravity.Of(given);
@@ -225,11 +218,9 @@ Fit FitWarming(const IdentifierInput& given) {
 }  // namespace
 
 Identifier EnergyMl() {
-  std::vector<OptionInfo> options = WarmMapOptions();
-  options.insert(options.begin() + 1,
-                 {GravityOption(), MotionOption(), LossOption(), TorqueLagOption()});
-  const std::vector<OptionInfo> start = InitialEnergyOptions();
-  options.insert(options.begin() + 1, start.begin(), start.end());
+  std::vector<OptionInfo> options{LawOption()};
+  for (const OptionInfo& option : InitialEnergyOptions()) options.push_back(option);
+  options.insert(options.end(), {GravityOption(), MotionOption(), LossOption(), TorqueLagOption()});
   return {kName,
           "law and warming together by maximum likelihood over the closed loop; needs no start",
           options, &FitWarming};

@@ -1,4 +1,4 @@
-// Identifier `energy-ml`: law and warming together, by maximum likelihood over the closed loop.
+// Law and warming together, by maximum likelihood over the closed loop: `energy-ml` without maps.
 #pragma once
 
 #include "identification/identifier.h"
@@ -14,6 +14,8 @@ namespace warmjoint::inline identification {
 /// solution. not_identifiable where the motion cannot tell the law's parameters apart, or where the
 /// warm-up cannot be seen: its share of the residual is not beyond chance, or tau is not known to
 /// better than a factor of about e.
+///
+/// The identifier of the list can have maps beside them (energy_ml_with_maps.h).
 Identifier EnergyMl();
 
 }  // namespace warmjoint::inline identification

@@ -3,7 +3,7 @@
 #include "identification/identifiers/auto.h"
 #include "identification/identifiers/energy_em.h"
 #include "identification/identifiers/energy_map.h"
-#include "identification/identifiers/energy_ml.h"
+#include "identification/identifiers/energy_ml_with_maps.h"
 #include "identification/identifiers/kalman.h"
 #include "identification/identifiers/load_map.h"
 #include "identification/identifiers/lpv_energy.h"
@@ -20,9 +20,9 @@ namespace warmjoint::inline identification {
 
 const std::vector<Identifier>& Identifiers() {
   static const std::vector<Identifier> identifiers{
-      NominalLs(),       PositionRidge(), MotorRidge(), EnergyMap(), LoadMap(),
-      LpvEnergy(),       EnergyEm(),      EnergyMl(),   Rls(),       Kalman(),
-      StribeckByCeres(), LuGreByCeres(),  Auto(),
+      NominalLs(), PositionRidge(),    MotorRidge(), EnergyMap(), LoadMap(),         LpvEnergy(),
+      EnergyEm(),  EnergyMlWithMaps(), Rls(),        Kalman(),    StribeckByCeres(), LuGreByCeres(),
+      Auto(),
   };
   return identifiers;
 }

@@ -13,7 +13,6 @@
 #include "identification/lagged/lagged_fit.h"
 #include "identification/lagged/linear_lag.h"
 #include "identification/linear/least_squares.h"
-#include "identification/linear/linear_laws.h"
 #include "identification/linear/linear_task.h"
 #include "identification/linear/robust.h"
 #include "identification/uncertainty/disagreement.h"
@@ -156,11 +155,7 @@ Fit FitLaw(const IdentifierInput& given) {
 Identifier NominalLs() {
   return {kName,
           "a nominal law by linear least squares, without warming",
-          {{"law", "viscous_coulomb", LinearLawWords(), "nominal friction law"},
-           GravityOption(),
-           MotionOption(),
-           LossOption(),
-           TorqueLagOption()},
+          {LawOption(), GravityOption(), MotionOption(), LossOption(), TorqueLagOption()},
           &FitLaw};
 }
 

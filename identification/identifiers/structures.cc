@@ -5,7 +5,7 @@
 #include <initializer_list>
 
 #include "identification/holdout/blocked_hold_out.h"
-#include "identification/identifiers/energy_ml.h"
+#include "identification/identifiers/energy_ml_with_maps.h"
 #include "identification/identifiers/motor_ridge.h"
 #include "identification/identifiers/nominal_ls.h"
 #include "identification/identifiers/position_ridge.h"
@@ -101,7 +101,8 @@ std::vector<Structure> ColdStructures(const std::string& gravity) {
 }
 
 std::vector<Structure> WarmStructures(const std::string& gravity) {
-  return LinearStructures(EnergyMl(), gravity, {"coulomb", "viscous_coulomb", "asymmetric"});
+  return LinearStructures(EnergyMlWithMaps(), gravity,
+                          {"coulomb", "viscous_coulomb", "asymmetric"});
 }
 
 Structure StribeckStructure(const std::string& warming) {
@@ -129,7 +130,7 @@ std::vector<Structure> MapStructures(const IdentifierInput& input, const std::st
   for (const std::string& kind : kinds) {
     std::map<std::string, std::string> given;
     if (kind != "none") given = {{kGravityOption, kind}};
-    const Structure warm{EnergyMl(), given};
+    const Structure warm{EnergyMlWithMaps(), given};
     structures.push_back(shaped({PositionRidge(), given}, kernels.position));
     structures.push_back(shaped(warm.With("position", "map"), kernels.position));
     // ripple of the motor, where its angle is known
