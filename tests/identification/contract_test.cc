@@ -12,6 +12,7 @@
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
+#include "identification/seen_samples.h"
 #include "tests/support/bristle_recording.h"
 
 namespace warmjoint {
@@ -368,7 +369,7 @@ TEST_P(Contract, GetsASlowLogSplitAtItsSwitchesOnlyForSteadyMotion) {
   const Selection selection = SelectMoving(log);
   const Options options(GetParam().options, {}, {});
   const PreparedLog prepared = Prepare(log, selection);
-  const IdentifierInput seen = GetParam().Seen({prepared, options, {}});
+  const IdentifierInput seen = Seen(GetParam(), {prepared, options, {}});
   const bool steady = GetParam().regime == Regime::steady;
   EXPECT_EQ(seen.measurements.size(), steady ? 41 : 40);
   EXPECT_GT(prepared.unseen(), 0);

@@ -9,6 +9,7 @@
 #include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
 #include "identification/report/tell_preparation.h"
+#include "identification/seen_samples.h"
 #include "tests/support/judging.h"
 
 namespace warmjoint {
@@ -150,7 +151,7 @@ TEST(SegmentVelocity, IsForSteadyMotionAlone) {
   const auto velocities_of = [&](const char* name) {
     const Identifier& identifier = FindIdentifier(name);
     const Options options(identifier.options, {}, {});
-    const IdentifierInput seen = identifier.Seen({Prepare(m, selection), options, {}});
+    const IdentifierInput seen = Seen(identifier, {Prepare(m, selection), options, {}});
     return Eigen::VectorXd(seen.measurements.velocity);
   };
   EXPECT_EQ(velocities_of("lugre"), m.velocity);

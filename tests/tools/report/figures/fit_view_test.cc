@@ -6,6 +6,7 @@
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
+#include "identification/preparation/moving_view.h"
 #include "identification/preparation/prepare.h"
 #include "models/foundation/low_pass.h"
 #include "tests/support/excited_recording.h"
@@ -52,7 +53,7 @@ TEST(FitView, OfAnyMotionFitsFrictionGravityAndInertia) {
   EXPECT_NEAR(std::sqrt(residuals.squaredNorm() / static_cast<double>(residuals.size())),
               estimate.metrics->rmse, 1e-9);
   // and what is taken off is gravity and inertia
-  const Measurements& m = log.moving().measurements;
+  const Measurements& m = MovingView(log).measurements;
   const Eigen::VectorXd rigid =
       estimate.Find("inertia")->value * *m.acceleration + estimate.gravity->Torque(m.position);
   EXPECT_LT((view.rigid - rigid).cwiseAbs().maxCoeff(), 1e-12);
