@@ -8,7 +8,6 @@
 #include "tools/actions/initial_energy.h"
 #include "tools/actions/outputs.h"
 #include "tools/actions/predict_recording.h"
-#include "tools/board/table.h"
 #include "tools/cli/command.h"
 #include "tools/cli/follow_options.h"
 #include "tools/cli/recording_options.h"
@@ -16,6 +15,7 @@
 #include "tools/parser/choice.h"
 #include "tools/terminal/activity.h"
 #include "tools/terminal/say.h"
+#include "tools/terminal/table.h"
 
 namespace warmjoint::inline tools {
 namespace {

@@ -23,6 +23,7 @@
 #include "tools/store/directory_lock.h"
 #include "tools/suite/describe_run.h"
 #include "tools/suite/interrupt.h"
+#include "tools/suite/prepare_identifiers.h"
 
 namespace warmjoint::inline tools {
 namespace fs = std::filesystem;

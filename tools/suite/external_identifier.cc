@@ -16,9 +16,9 @@
 #include "models/foundation/robust_noise.h"
 #include "models/friction/thermal_names.h"
 #include "models/recording/course_of.h"
+#include "models/recording/hdf5.h"
 #include "models/recording/read_recording.h"
 #include "tools/suite/interpreter.h"
-#include "tools/suite/keep_recording.h"
 #include "tools/suite/run_command.h"
 #include "tools/suite/working_directory.h"
 #include "tools/terminal/shell_words.h"
@@ -34,7 +34,7 @@ void WriteMeasurements(const Measurements& measurements, const std::string& comm
     WriteRecording(measurements, directory / "recording.csv");
   }
   if (Mentions(command, "{recording.h5}")) {
-    WriteHdf5Alone(measurements, directory / "recording.h5");
+    WriteHdf5(measurements, directory / "recording.h5");
   }
 }
 

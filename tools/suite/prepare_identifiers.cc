@@ -1,4 +1,4 @@
-#include "tools/suite/prepared_identifier.h"
+#include "tools/suite/prepare_identifiers.h"
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
