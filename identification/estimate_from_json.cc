@@ -7,6 +7,7 @@
 #include "models/foundation/excerpt.h"
 #include "models/foundation/matrix_json.h"
 #include "models/foundation/nearest_name.h"
+#include "models/friction/friction_json.h"
 
 namespace warmjoint::inline identification {
 namespace {

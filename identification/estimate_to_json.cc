@@ -3,6 +3,7 @@
 #include "identification/estimate.h"
 #include "models/foundation/matrix_json.h"
 #include "models/foundation/number_json.h"
+#include "models/friction/friction_json.h"
 
 namespace warmjoint::inline identification {
 namespace {

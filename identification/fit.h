@@ -12,7 +12,7 @@
 #include "identification/preparation/friction_kind.h"
 #include "identification/uncertainty/uncertainty.h"
 #include "identification/uncertainty/whitening.h"
-#include "models/friction/along_motion.h"
+#include "models/friction/course_start.h"
 #include "models/recording/selection.h"
 
 namespace warmjoint::inline identification {

@@ -7,6 +7,7 @@
 #include "identification/inference/inference.h"
 #include "identification/preparation/moving_view.h"
 #include "identification/seen_samples.h"
+#include "models/friction/course_start.h"
 
 namespace warmjoint::inline identification {
 namespace {

@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "models/friction/friction_json.h"
+#include "models/friction/friction_map_json.h"
 #include "models/friction/joint_friction.h"
 #include "models/friction/thermal_names.h"
 #include "sim/model/escape_xml.h"

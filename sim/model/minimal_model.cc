@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "models/friction/check_friction.h"
 #include "models/friction/law_part.h"
 #include "sim/model/friction_sections.h"
 

@@ -13,6 +13,7 @@
 #include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
 #include "identification/seen_samples.h"
+#include "models/friction/check_friction.h"
 #include "tests/support/bristle_recording.h"
 
 namespace warmjoint {

@@ -8,6 +8,7 @@
 #include "identification/fit_data.h"
 #include "identification/preparation/moving_view.h"
 #include "models/foundation/read_json.h"
+#include "models/friction/friction_json.h"
 
 namespace warmjoint::inline tools {
 

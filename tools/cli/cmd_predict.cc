@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "models/foundation/atomic_file.h"
+#include "models/friction/course_start.h"
 #include "tools/actions/initial_energy.h"
 #include "tools/actions/outputs.h"
 #include "tools/actions/predict_recording.h"
