@@ -1,9 +1,11 @@
+#include "identification/estimate_from_json.h"
+
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "identification/estimate.h"
+#include "identification/gravity_json.h"
+#include "identification/map_band_json.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/matrix_json.h"
 #include "models/foundation/nearest_name.h"
@@ -13,9 +15,6 @@ namespace warmjoint::inline identification {
 namespace {
 
 using nlohmann::json;
-
-constexpr std::array kStatuses{Status::ok, Status::not_converged, Status::not_identifiable,
-                               Status::inadequate_model, Status::bad_data};
 
 // a member that is absent counts as null
 

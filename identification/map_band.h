@@ -2,11 +2,8 @@
 #pragma once
 
 #include <array>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
-
-#include "models/foundation/bad_input.h"
 
 namespace warmjoint::inline identification {
 
@@ -18,11 +15,5 @@ struct MapBand {
   std::vector<double> std;                        // [g]
   std::vector<std::array<double, 2>> interval95;  // [g]
 };
-
-/// {quantities[], points[][], value[], std[], interval95[][]}.
-nlohmann::json BandToJson(const MapBand& band);
-
-/// The inverse. Throws BadInput from `place`.
-MapBand BandFromJson(const nlohmann::json& json, const Place& place);
 
 }  // namespace warmjoint::inline identification

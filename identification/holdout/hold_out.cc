@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "identification/holdout/evaluate.h"
-#include "identification/inference/bounds.h"
 #include "identification/inference/inference.h"
+#include "identification/physical_bounds.h"
 #include "identification/preparation/moving_view.h"
 #include "identification/seen_samples.h"
 #include "models/friction/course_start.h"

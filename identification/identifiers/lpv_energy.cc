@@ -1,8 +1,8 @@
 #include "identification/identifiers/lpv_energy.h"
 
 #include "identification/identifiers/energy_ml.h"
-#include "identification/inference/bounds.h"
 #include "identification/maps/over_energy.h"
+#include "identification/physical_bounds.h"
 #include "identification/warming/slope_heat.h"
 
 namespace warmjoint::inline identification {

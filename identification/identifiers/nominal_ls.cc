@@ -8,13 +8,12 @@
 
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
-#include "identification/inference/bounds.h"
-#include "identification/inference/hold_structure.h"
 #include "identification/lagged/lagged_fit.h"
 #include "identification/lagged/linear_lag.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_task.h"
 #include "identification/linear/robust.h"
+#include "identification/physical_bounds.h"
 #include "identification/uncertainty/disagreement.h"
 
 namespace warmjoint::inline identification {
@@ -143,7 +142,7 @@ Fit FitLaw(const IdentifierInput& given) {
   }
   if (rows.structure) {
     const Eigen::Index count = task.law_count();
-    HoldStructure(*rows.structure, rows.A.leftCols(count) * solved.solution.head(count), fit);
+    fit.held_structure = {*rows.structure, rows.A.leftCols(count) * solved.solution.head(count)};
   }
   if (rows.lag) AddLag(rows.lag, task.columns * solved.solution, input.measurements, fit);
   if (!rows.lag && AsksForLag(given)) fit.afterword = kNoLagSeen;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "identification/metrics.h"
 #include "identification/report/discrete_pair.h"
 #include "identification/report/end_state.h"
 #include "identification/report/heat_beside_temperature.h"
@@ -127,7 +128,7 @@ Estimate ReportFit(const Fit& fit, const Inference& inference, const Measurement
     }
   }
   // without intervals there is no covariance either
-  if (fit.without_intervals.empty()) estimate.covariance = CovarianceOfValues(fit, inference);
+  if (inference.without_intervals.empty()) estimate.covariance = CovarianceOfValues(fit, inference);
   return estimate;
 }
 

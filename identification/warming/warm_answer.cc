@@ -8,7 +8,6 @@
 
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
-#include "identification/inference/hold_structure.h"
 #include "identification/lagged/lagged_fit.h"
 #include "identification/linear/against_pushing.h"
 #include "identification/linear/least_squares.h"
@@ -175,7 +174,7 @@ Fit ConcludeWarm(const char* name, const WarmTask& task, const RobustWarmFit& ro
     return WarmJacobian(*loop, gravity, warm);
   };
   fit.end_energy_slopes = [loop, warm] { return WarmEndSlopes(*loop, warm); };
-  if (task.structure) HoldStructure(*task.structure, Kept(response.force, fit.used), fit);
+  if (task.structure) fit.held_structure = {*task.structure, Kept(response.force, fit.used)};
   // parameters and loss, as reports tell them
   fit.count = static_cast<int>(warm.solution.x.size());
   fit.effective_parameters = fit.count;

@@ -4,8 +4,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "identification/estimate_from_json.h"
 #include "identification/find_parameter.h"
 #include "identification/fit_data.h"
+#include "identification/metrics.h"
 #include "identification/preparation/moving_view.h"
 #include "models/foundation/read_json.h"
 #include "models/friction/friction_json.h"

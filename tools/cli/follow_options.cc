@@ -1,5 +1,6 @@
 #include "tools/cli/follow_options.h"
 
+#include "identification/estimate_from_json.h"
 #include "identification/preparation/moving_view.h"
 #include "models/foundation/read_json.h"
 

@@ -6,8 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "identification/answer/judge_estimate.h"
+#include "identification/estimate_from_json.h"
 #include "identification/find_parameter.h"
 #include "identification/fit_data.h"
+#include "identification/metrics.h"
 #include "identification/options.h"
 #include "identification/warming/estimated_start.h"
 #include "models/foundation/atomic_file.h"

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "identification/answer/identify.h"
+#include "identification/estimate_from_json.h"
+#include "identification/estimate_to_json.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/prepare.h"
