@@ -13,6 +13,7 @@
 #include "identification/identifiers/position_ridge.h"
 #include "identification/identifiers/rls.h"
 #include "identification/identifiers/stribeck.h"
+#include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
 

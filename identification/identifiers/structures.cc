@@ -12,6 +12,7 @@
 #include "identification/identifiers/stribeck.h"
 #include "identification/lagged/lagged_fit.h"
 #include "identification/linear/rigid_part.h"
+#include "identification/read_options.h"
 #include "identification/warming/expected_start.h"
 #include "models/friction/asymmetric_stribeck.h"
 #include "models/recording/motor_angle.h"
@@ -57,7 +58,7 @@ Structure Structure::Quick() const {
 Options Structure::OptionsBeside(const Options& input) const {
   auto all = given;
   if (TellsStart(identifier)) all.merge(StartAsGiven(input));
-  return {identifier.options, all, {}};
+  return ReadOptions(identifier.options, all, {});
 }
 
 Fit Structure::Fitted(const IdentifierInput& input) const {

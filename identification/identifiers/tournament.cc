@@ -14,6 +14,7 @@
 #include "identification/identifiers/stribeck.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/physical_bounds.h"
+#include "identification/read_options.h"
 #include "models/friction/coulomb.h"
 #include "models/recording/course_of.h"
 #include "models/recording/motor_angle.h"
@@ -100,8 +101,8 @@ ChosenKernels Tournament::KernelsBesideBest(const std::string& gravity) const {
 
   // energy-ml has both maps, over position and over the motor's angle
   const auto chosen = [&](const char* position) {
-    const Options options(EnergyMlWithMaps().options,
-                          {{kGravityOption, gravity}, {"position", position}}, {});
+    const Options options = ReadOptions(EnergyMlWithMaps().options,
+                                        {{kGravityOption, gravity}, {"position", position}}, {});
     return MapBesideEnergy(quick_.With(options), energy);
   };
   ChosenKernels kernels{chosen("map"), {}};

@@ -23,6 +23,7 @@
 #include "identification/identifiers/identifier_list.h"
 #include "identification/maps/holes.h"
 #include "identification/preparation/prepare.h"
+#include "identification/read_options.h"
 #include "identification/seen_samples.h"
 #include "identification/uncertainty/tails.h"
 #include "models/recording/course_of.h"
@@ -107,7 +108,7 @@ struct Outcomes {
 };
 
 Fit FitTo(const Identifier& identifier, const PreparedLog& log, const Given& given) {
-  const Options options(identifier.options, given, {});
+  const Options options = ReadOptions(identifier.options, given, {});
   const IdentifierInput input{log, options, {}};
   return identifier.fit(Seen(identifier, input));
 }

@@ -23,6 +23,7 @@
 #include "identification/identifiers/structures.h"
 #include "identification/preparation/moving_view.h"
 #include "identification/preparation/prepare.h"
+#include "identification/read_options.h"
 #include "identification/seen_samples.h"
 #include "identification/uncertainty/tails.h"
 #include "scenarios/suite.h"
@@ -98,14 +99,14 @@ struct Compared {
 
 Compared Choose(const PreparedLog& log) {
   const Identifier& identifier = FindIdentifier("auto");
-  const Options options(identifier.options, {}, {});
+  const Options options = ReadOptions(identifier.options, {}, {});
   const IdentifierInput input{log, options, {}};
   Fit fit = identifier.fit(Seen(identifier, input));
   return {fit.choice ? WithoutShape(fit.choice->chosen) : "nothing", std::move(fit)};
 }
 
 Fit FitRight(const Structure& right, const PreparedLog& log) {
-  const Options options(right.identifier.options, right.given, {});
+  const Options options = ReadOptions(right.identifier.options, right.given, {});
   const IdentifierInput input{log, options, {}};
   return right.identifier.fit(Seen(right.identifier, input));
 }

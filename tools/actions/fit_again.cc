@@ -6,6 +6,7 @@
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/moving_view.h"
+#include "identification/read_options.h"
 #include "identification/report/report_fit.h"
 #include "identification/seen_samples.h"
 
@@ -23,7 +24,7 @@ std::optional<Maker> MakerOf(const Estimate& estimate) {
   const auto& all = Identifiers();
   const auto found = std::ranges::find(all, estimate.identifier, &Identifier::name);
   if (found == all.end()) return std::nullopt;
-  return Maker{*found, Options(found->options, estimate.options, {"options of the estimate"})};
+  return Maker{*found, ReadOptions(found->options, estimate.options, {"options of the estimate"})};
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "identification/fit_data.h"
 #include "identification/metrics.h"
 #include "identification/options.h"
+#include "identification/read_options.h"
 #include "identification/warming/estimated_start.h"
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/excerpt.h"
@@ -169,7 +170,7 @@ Estimate Ask(const Command& command, const PreparedLog& log) {
 
 PreparedIdentifier PrepareExternal(const SuiteIdentifier& identifier, const Place& place,
                                    const Judging& judging) {
-  const Options options(ExternalOptions(), identifier.options, place);
+  const Options options = ReadOptions(ExternalOptions(), identifier.options, place);
   Command command{identifier.label, options.Text("command"), {}, {}, {}, judging};
   // a command that is not told where to write cannot answer
   if (!Mentions(command.text, "{estimate}")) {

@@ -5,6 +5,7 @@
 #include "identification/answer/identify.h"
 #include "identification/identifiers/energy_ml.h"
 #include "identification/preparation/prepare.h"
+#include "identification/read_options.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint {
@@ -15,7 +16,7 @@ using ::testing::HasSubstr;
 Fit Fitted(const Identifier& identifier, const std::map<std::string, std::string>& given) {
   const Measurements m =
       test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(1200, 3), 0.5, 3);
-  const Options options(identifier.options, given, {});
+  const Options options = ReadOptions(identifier.options, given, {});
   return identifier.fit({Prepare(m), options, {}});
 }
 
