@@ -11,7 +11,6 @@
 
 #include "identification/chosen_structure.h"
 #include "identification/diagnostic.h"
-#include "identification/friction_at_speed.h"
 #include "identification/gravity.h"
 #include "identification/map_band.h"
 #include "identification/metrics.h"

@@ -3,7 +3,7 @@
 
 #include "identification/estimate.h"
 #include "identification/fit.h"
-#include "models/friction/law_part.h"
+#include "models/friction/law.h"
 
 namespace warmjoint::inline identification {
 

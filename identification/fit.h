@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "identification/chosen_structure.h"
-#include "identification/friction_at_speed.h"
 #include "identification/gravity.h"
 #include "identification/map_band.h"
 #include "identification/preparation/friction_kind.h"

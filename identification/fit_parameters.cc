@@ -5,7 +5,7 @@
 #include <cassert>
 
 #include "identification/fit_data.h"
-#include "models/friction/thermal_names.h"
+#include "models/friction/thermal.h"
 
 namespace warmjoint::inline identification {
 namespace {

@@ -9,7 +9,7 @@
 #include "identification/score/cramer_rao.h"
 #include "identification/score/npe.h"
 #include "models/foundation/robust_noise.h"
-#include "models/friction/thermal_names.h"
+#include "models/friction/thermal.h"
 
 namespace warmjoint::inline identification {
 namespace {

@@ -6,10 +6,10 @@
 
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
-#include "models/friction/law_part.h"
+#include "models/friction/law.h"
 #include "models/friction/parameter_rows.h"
 #include "models/friction/survey_work.h"
-#include "models/friction/thermal_bounds.h"
+#include "models/friction/thermal.h"
 
 namespace warmjoint::inline models {
 namespace {
@@ -53,8 +53,8 @@ void CheckValue(const ParameterInfo& info, double value, const Place& place) {
 
 /// A joint at rest cannot bear less than a sliding one.
 void CheckStaticLevel(const FrictionDescription& friction, const Place& place) {
-  const Law& law = *FindLaw(friction.law);
   // only laws with a level at rest of its own can contradict themselves
+  const Law& law = *FindLaw(friction.law);
   const std::optional<size_t> at_rest = PlaceOf(LawPart::rest_level, law);
   if (!at_rest) return;
   const std::vector<double> values = LawValues(friction);

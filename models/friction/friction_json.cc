@@ -6,7 +6,7 @@
 #include "models/foundation/read_json.h"
 #include "models/friction/check_friction.h"
 #include "models/friction/friction_map_json.h"
-#include "models/friction/thermal_names.h"
+#include "models/friction/thermal.h"
 
 namespace warmjoint::inline models {
 namespace {

@@ -13,8 +13,7 @@
 #include "models/friction/friction_json.h"
 #include "models/friction/friction_map_json.h"
 #include "models/friction/law.h"
-#include "models/friction/thermal_bounds.h"
-#include "models/friction/thermal_names.h"
+#include "models/friction/thermal.h"
 #include "sim/plugin/model_folder.h"
 
 namespace warmjoint::inline sim {

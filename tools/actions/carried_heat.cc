@@ -13,7 +13,7 @@
 #include "identification/uncertainty/tails.h"
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
-#include "models/friction/thermal_names.h"
+#include "models/friction/thermal.h"
 
 namespace warmjoint::inline tools {
 namespace {

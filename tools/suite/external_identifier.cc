@@ -17,7 +17,7 @@
 #include "models/foundation/excerpt.h"
 #include "models/foundation/read_json.h"
 #include "models/foundation/robust_noise.h"
-#include "models/friction/thermal_names.h"
+#include "models/friction/thermal.h"
 #include "models/recording/course_of.h"
 #include "models/recording/hdf5.h"
 #include "models/recording/read_recording.h"
