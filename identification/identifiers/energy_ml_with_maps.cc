@@ -1,15 +1,15 @@
 #include "identification/identifiers/energy_ml_with_maps.h"
 
-#include "identification/identifiers/energy_ml.h"
+#include "identification/identifiers/energy_ml_behind_lag.h"
 #include "identification/lagged/lagged_fit.h"
 #include "identification/maps/energy_ml_maps.h"
 
 namespace warmjoint::inline identification {
 namespace {
 
-/// Law and warming alone.
+/// Without maps.
 const Identifier& Plain() {
-  static const Identifier plain = EnergyMl();
+  static const Identifier plain = EnergyMlBehindLag();
   return plain;
 }
 

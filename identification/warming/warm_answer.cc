@@ -8,7 +8,6 @@
 
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
-#include "identification/lagged/lagged_fit.h"
 #include "identification/linear/against_pushing.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_task.h"
@@ -179,17 +178,10 @@ Fit ConcludeWarm(const char* name, const WarmTask& task, const RobustWarmFit& ro
   fit.count = static_cast<int>(warm.solution.x.size());
   fit.effective_parameters = fit.count;
   if (!std::isinf(robust.threshold)) fit.loss_bend = robust.threshold;
-  fit.summary =
-      fmt::format("maximum likelihood on {} samples{}{}{}, refined in {} iterations",
-                  fit.torque.size(), m.acceleration ? kOfAnyMotion : "", task.lag ? kBehindLag : "",
-                  task.whitening ? kWhitened : "", warm.trace.size() - 1);
-  // what to know about gaps and lag
+  fit.summary = fmt::format("maximum likelihood on {} samples{}{}{}, refined in {} iterations",
+                            fit.torque.size(), m.acceleration ? kOfAnyMotion : "", task.behind,
+                            task.whitening ? kWhitened : "", warm.trace.size() - 1);
   if (!task.gaps.empty()) fit.warnings.push_back(LossesInGaps(task.gaps, m));
-  if (task.lag) {
-    AddLag(task.lag, response.force + task.gravity.columns * warm.offset_values(), m, fit);
-  } else if (AsksForLag(input)) {
-    fit.afterword = kNoLagSeen;
-  }
   return fit;
 }
 

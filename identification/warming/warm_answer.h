@@ -7,7 +7,6 @@
 
 #include "identification/fit.h"
 #include "identification/identifier.h"
-#include "identification/lagged/lagged_rows.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/uncertainty/disagreement.h"
 #include "identification/warming/gaps.h"
@@ -26,7 +25,7 @@ struct WarmTask {
   const std::vector<LogGap>& gaps;
   std::shared_ptr<const Whitening> whitening;
   std::optional<Disagreement> structure;  // why the rows were not whitened
-  std::shared_ptr<const LaggedRows> lag;  // of a torque that lags; or none
+  const char* behind = "";                // what the summary says the rows stand behind
 };
 
 /// Rows of what is told of the heat: gain, time constant, E(0) where it was estimated, jumps.
