@@ -1,20 +1,20 @@
+#include "identification/estimate_from_json.h"
+
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "identification/estimate.h"
+#include "identification/gravity_json.h"
+#include "identification/map_band_json.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/matrix_json.h"
 #include "models/foundation/nearest_name.h"
+#include "models/friction/friction_json.h"
 
 namespace warmjoint::inline identification {
 namespace {
 
 using nlohmann::json;
-
-constexpr std::array kStatuses{Status::ok, Status::not_converged, Status::not_identifiable,
-                               Status::inadequate_model, Status::bad_data};
 
 // a member that is absent counts as null
 

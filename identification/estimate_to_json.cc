@@ -1,8 +1,12 @@
+#include "identification/estimate_to_json.h"
+
 #include <nlohmann/json.hpp>
 
-#include "identification/estimate.h"
+#include "identification/gravity_json.h"
+#include "identification/map_band_json.h"
 #include "models/foundation/matrix_json.h"
 #include "models/foundation/number_json.h"
+#include "models/friction/friction_json.h"
 
 namespace warmjoint::inline identification {
 namespace {

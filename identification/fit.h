@@ -8,11 +8,16 @@
 #include <string>
 #include <vector>
 
-#include "identification/estimate.h"
+#include "identification/chosen_structure.h"
+#include "identification/gravity.h"
+#include "identification/map_band.h"
 #include "identification/preparation/friction_kind.h"
+#include "identification/status.h"
+#include "identification/uncertainty/disagreement.h"
 #include "identification/uncertainty/uncertainty.h"
 #include "identification/uncertainty/whitening.h"
-#include "models/friction/along_motion.h"
+#include "models/friction/course_start.h"
+#include "models/friction/friction_description.h"
 #include "models/recording/selection.h"
 
 namespace warmjoint::inline identification {
@@ -63,6 +68,13 @@ struct Iterate {
   double rmse = 0;             // over the kept samples, N.m or N
   /// E at this moment, N.m or N, of a filter whose iterations are the samples that it has seen.
   std::optional<double> energy{};
+};
+
+/// That the colour of a fit's residual is structure and no noise: what whitening would have changed.
+struct HeldStructure {
+  Disagreement change;
+  Eigen::VectorXd
+      friction;  // [n] F at the kept samples, N.m or N, beside which it is little or much
 };
 
 /// A first-order lag of the torque's way into the log.
@@ -133,6 +145,7 @@ struct Fit {
   /// The same structure, fitted to other samples: of an identifier that chooses one; else not set.
   std::function<Fit(const IdentifierInput&)> structure;
 
+  std::optional<HeldStructure> held_structure;  // where the residual is not only noise
   std::string without_intervals;  // why no number gets an interval: a clause; empty: they do
 
   /// The heat that the log began with: E(0), and the jumps of E.

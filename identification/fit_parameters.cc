@@ -1,7 +1,11 @@
 #include "identification/fit_parameters.h"
 
-#include "identification/find_parameter.h"
+#include <fmt/format.h>
+
+#include <cassert>
+
 #include "identification/fit_data.h"
+#include "models/friction/thermal.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -18,6 +22,26 @@ constexpr ParameterInfo kTorqueLagInfo{kTorqueLagName,
                                        "time constant of the torque's lag"};
 
 }  // namespace
+
+std::string NameOf(Role role, int which) {
+  switch (role) {
+    case Role::heat:
+      return std::string(which == 0 ? kGainName : kTimeConstantName);
+    case Role::start:
+      return "initial_energy";
+    case Role::jump:
+      return fmt::format("energy_jump_{}", which + 1);
+    case Role::inertia:
+      return std::string(kInertiaName);
+    case Role::lag:
+      return std::string(kTorqueLagName);
+    case Role::law:
+    case Role::gravity:
+      break;
+  }
+  assert(false);
+  return "";
+}
 
 FitParameter TableParameter(const ParameterInfo& info, Role role, double value,
                             const Measurements& measurements) {

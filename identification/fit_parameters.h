@@ -1,6 +1,8 @@
 // The rows of a fit's table of parameters: their names, units and bounds, in one place.
 #pragma once
 
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "identification/fit.h"
@@ -8,6 +10,12 @@
 #include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
+
+inline constexpr std::string_view kInertiaName = "inertia", kTorqueLagName = "torque_lag";
+
+/// The name of the which-th row with a role, of those whose names depend neither on the law nor on the
+/// kind of gravity: heat (gain, time constant), start, jump, inertia and lag.
+std::string NameOf(Role role, int which = 0);
 
 /// A parameter of any table (parameter_info.h) with its value.
 FitParameter TableParameter(const ParameterInfo& info, Role role, double value,

@@ -2,11 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <nlohmann/json_fwd.hpp>
-#include <string>
+#include <numbers>
+#include <string_view>
 #include <vector>
-
-#include "models/foundation/bad_input.h"
 
 namespace warmjoint::inline identification {
 
@@ -20,6 +18,7 @@ enum class GravityKind { sincos, paired, constant };
 std::string_view GravityName(GravityKind kind);
 
 inline constexpr int kGravityKnots = 64;  // on a turn; a line misses g sin p by g (2 pi/64)^2/8
+inline constexpr double kKnotSpacing = 2 * std::numbers::pi / kGravityKnots;  // rad
 
 /// Gravity with its values.
 struct GravityModel {
@@ -38,11 +37,5 @@ struct GravityModel {
 /// position: [N] rad or m; returns [N x m].
 Eigen::MatrixXd GravityColumns(GravityKind kind, const std::vector<int>& knots,
                                const Eigen::VectorXd& position);
-
-/// {kind, sine, cosine}, {kind, position[] (rad), torque[]} or {kind, offset}.
-nlohmann::json GravityToJson(const GravityModel& gravity);
-
-/// The inverse. Throws BadInput from `place`.
-GravityModel GravityFromJson(const nlohmann::json& json, const Place& place);
 
 }  // namespace warmjoint::inline identification

@@ -52,11 +52,6 @@ class IdentifierInput {
     return {log, log.taken().measurements, log.taken().selection, options, start, narrator};
   }
 
-  /// The log with its accelerations, for fits to motion of any kind.
-  IdentifierInput Moving() const {
-    return {log, log.moving().measurements, log.moving().selection, options, start, narrator};
-  }
-
   const PreparedLog log;
   const Measurements& measurements;
   const Selection& selection;  // filter over all samples, fit on those kept
@@ -95,17 +90,6 @@ struct Identifier {
   /// Whether the table of options has a row of that name.
   bool Has(std::string_view option) const {
     return std::ranges::find(options, option, &OptionInfo::name) != options.end();
-  }
-
-  /// The input with the samples that the identifier learns from: those of its regime; of one that
-  /// has the option `motion`, all that move where that asks for them, or where the log shows no
-  /// constant speeds.
-  IdentifierInput Seen(const IdentifierInput& input) const {
-    if (regime == Regime::transient) return input.AsTaken();
-    if (!Has("motion")) return input;
-    const std::string& motion = input.options.Text("motion");
-    const bool any = motion == "any" || (motion == "chosen" && !input.log.HoldsSpeeds());
-    return any ? input.Moving() : input;
   }
 };
 

@@ -1,12 +1,9 @@
-// Friction along a map, with its uncertainty.
+// Friction along a map, and at one speed, with its uncertainty.
 #pragma once
 
 #include <array>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
-
-#include "models/foundation/bad_input.h"
 
 namespace warmjoint::inline identification {
 
@@ -19,10 +16,14 @@ struct MapBand {
   std::vector<std::array<double, 2>> interval95;  // [g]
 };
 
-/// {quantities[], points[][], value[], std[], interval95[][]}.
-nlohmann::json BandToJson(const MapBand& band);
-
-/// The inverse. Throws BadInput from `place`.
-MapBand BandFromJson(const nlohmann::json& json, const Place& place);
+/// What law and maps brake with at one speed: the mean over the places and directions of the kept
+/// samples.
+struct FrictionAtSpeed {
+  double speed = 0;
+  double value = 0;
+  double std = 0;
+  std::array<double, 2> interval95{};
+  std::string speed_unit{}, unit{};  // of a report; empty in a file that does not tell them
+};
 
 }  // namespace warmjoint::inline identification

@@ -1,7 +1,7 @@
+#include "identification/metrics.h"
+
 #include <cmath>
 #include <limits>
-
-#include "identification/estimate.h"
 
 namespace warmjoint::inline identification {
 

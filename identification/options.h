@@ -1,13 +1,13 @@
-// Options of identifiers: `--set key=value`, checked against the identifier's own table.
+// Options of identifiers, `--set key=value`, as values.
 #pragma once
 
+#include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
-
-#include "models/foundation/bad_input.h"
 
 namespace warmjoint::inline identification {
 
@@ -20,13 +20,17 @@ struct OptionInfo {
   std::string meaning;
 };
 
-/// Values by name, defaults filled in.
+/// "lower:upper" with lower <= upper, both finite; nothing where the text is no such range.
+std::optional<std::pair<double, double>> ParseRange(std::string_view text);
+
+/// Values by name, defaults filled in: made by ReadOptions (read_options.h).
 class Options {
  public:
-  /// Throws BadInput from `place` for an unknown name (with the nearest) or a value that is not
-  /// allowed. Numbers must be finite.
-  Options(const std::vector<OptionInfo>& table, const std::map<std::string, std::string>& given,
-          const Place& place);
+  using Values = std::map<std::string, std::string, std::less<>>;
+
+  /// values: of each option of a table, as its row allows; changed: those that are not at their default.
+  Options(Values values, std::map<std::string, std::string> changed)
+      : values_(std::move(values)), changed_(std::move(changed)) {}
 
   /// The value of an option of the table; a name that the table lacks is a bug.
   const std::string& Text(std::string_view name) const;
@@ -39,7 +43,7 @@ class Options {
   const std::map<std::string, std::string>& changed() const { return changed_; }
 
  private:
-  std::map<std::string, std::string, std::less<>> values_;
+  Values values_;
   std::map<std::string, std::string> changed_;
 };
 

@@ -6,6 +6,7 @@
 
 #include "models/foundation/excerpt.h"
 #include "models/foundation/matrix_json.h"
+#include "models/friction/check_friction.h"
 
 namespace warmjoint::inline scenarios {
 namespace {

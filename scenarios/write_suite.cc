@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "scenarios/suite.h"
 #include "scenarios/write_scenario.h"
 

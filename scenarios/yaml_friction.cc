@@ -8,6 +8,7 @@
 #include "models/foundation/excerpt.h"
 #include "models/foundation/parse_number.h"
 #include "models/foundation/read_json.h"
+#include "models/friction/friction_json.h"
 #include "scenarios/yaml_distribution.h"
 
 namespace warmjoint::inline scenarios {

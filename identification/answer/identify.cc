@@ -6,12 +6,13 @@
 #include "identification/lack_of_fit/judge.h"
 #include "identification/report/report_fit.h"
 #include "identification/report/tell_preparation.h"
+#include "identification/seen_samples.h"
 
 namespace warmjoint::inline identification {
 
 Answer FitAndJudge(const Identifier& identifier, const IdentifierInput& given,
                    const Judging& judging) {
-  const IdentifierInput input = identifier.Seen(given);
+  const IdentifierInput input = Seen(identifier, given);
 
   // fit, then infer
   Answer answer;
@@ -31,7 +32,7 @@ Answer FitAndJudge(const Identifier& identifier, const IdentifierInput& given,
 
 Estimate ReportAnswer(const Identifier& identifier, const IdentifierInput& given,
                       const Answer& answer) {
-  const IdentifierInput input = identifier.Seen(given);
+  const IdentifierInput input = Seen(identifier, given);
   Estimate estimate = ReportFit(answer.fit, answer.judged, input.measurements);
   estimate.options = input.options.changed();
 
@@ -47,7 +48,7 @@ Estimate IdentifyAndJudge(const Identifier& identifier, const IdentifierInput& i
 }
 
 Estimate IdentifyUnjudged(const Identifier& identifier, const IdentifierInput& given) {
-  const IdentifierInput input = identifier.Seen(given);
+  const IdentifierInput input = Seen(identifier, given);
   const Fit fit = identifier.fit(input);
   return ReportFit(fit, Infer(fit), input.measurements);
 }
@@ -58,7 +59,7 @@ Estimate WithVoidNumbers(const Identifier& identifier, const IdentifierInput& in
 
   // a verdict that voided nothing leaves nothing to force
   if (answer.judged.status == answer.inferred.status) return shown;
-  Estimate before = ReportFit(answer.fit, answer.inferred, identifier.Seen(input).measurements);
+  Estimate before = ReportFit(answer.fit, answer.inferred, Seen(identifier, input).measurements);
   shown.parameters = std::move(before.parameters);
   shown.friction = std::move(before.friction);
   shown.bands = std::move(before.bands);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "identification/identifier.h"
+#include "identification/metrics.h"
 
 namespace warmjoint::inline identification {
 

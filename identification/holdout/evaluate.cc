@@ -2,7 +2,8 @@
 
 #include "identification/fit_data.h"
 #include "identification/holdout/predict_torque.h"
-#include "identification/inference/bounds.h"
+#include "identification/metrics.h"
+#include "identification/physical_bounds.h"
 
 namespace warmjoint::inline identification {
 

@@ -5,6 +5,8 @@
 
 #include "identification/fit.h"
 #include "identification/holdout/predict_torque.h"
+#include "identification/metrics.h"
+#include "models/friction/course_start.h"
 
 namespace warmjoint::inline identification {
 

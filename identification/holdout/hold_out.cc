@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include "identification/holdout/evaluate.h"
-#include "identification/inference/bounds.h"
 #include "identification/inference/inference.h"
+#include "identification/physical_bounds.h"
+#include "identification/preparation/moving_view.h"
+#include "identification/seen_samples.h"
+#include "models/friction/course_start.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -12,13 +15,13 @@ namespace {
 /// Another log with the samples that the identifier learned from in `input`.
 IdentifierInput SeenAs(const IdentifierInput& input, const Identifier& identifier,
                        const IdentifierInput& other) {
-  if (input.measurements.acceleration) return other.Moving();
+  if (input.measurements.acceleration) return other.On(MovingView(other.log));
   return identifier.regime == Regime::transient ? other.AsTaken() : other;
 }
 
 /// Another recording as the fit's model is compared with it.
 const LogView& SeenBy(const Identifier& identifier, const Fit& fit, const PreparedLog& other) {
-  if (fit.inertia) return other.moving();
+  if (fit.inertia) return MovingView(other);
   return identifier.regime == Regime::transient ? other.taken() : other.steady();
 }
 
@@ -32,7 +35,7 @@ std::string WhyNone(const Fit& fit, Eigen::Index asked) {
 
 std::optional<FirstPart> FitFirstPart(const Identifier& identifier, const IdentifierInput& given,
                                       double fraction, const Fit& all_data) {
-  const IdentifierInput input = identifier.Seen(given);
+  const IdentifierInput input = Seen(identifier, given);
   const Eigen::VectorXd& time = input.measurements.time;
   // a share of the time, however many samples lie in it
   const double split = time[0] + (1 - fraction) * (time[time.size() - 1] - time[0]);
@@ -49,7 +52,7 @@ std::optional<Metrics> HoldOut(const Identifier& identifier, const IdentifierInp
   if (!first) return std::nullopt;
 
   // the test part alone is compared, the prediction runs from the start
-  const IdentifierInput input = identifier.Seen(given);
+  const IdentifierInput input = Seen(identifier, given);
   Selection test = input.selection;
   test.keep.head((input.measurements.time.array() < first->split).count()) = false;
   return Evaluate(first->fit, input.measurements, test, first->fit.Start());
@@ -78,7 +81,7 @@ std::string WhyNoHoldOut(const Identifier& identifier, const IdentifierInput& gi
   }
 
   // else the rest holds no sample to compare
-  const IdentifierInput input = identifier.Seen(given);
+  const IdentifierInput input = Seen(identifier, given);
   const auto before = (input.measurements.time.array() < first->split).count();
   const Eigen::Index left = input.measurements.size() - before;
   return fmt::format("of the last {:.3g} % of the log, {}", 100 * fraction,

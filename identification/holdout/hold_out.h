@@ -5,6 +5,7 @@
 #include <string>
 
 #include "identification/identifier.h"
+#include "identification/metrics.h"
 
 namespace warmjoint::inline identification {
 

@@ -11,6 +11,7 @@
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
 #include "identification/linear/against_pushing.h"
+#include "identification/linear/linear_task.h"
 #include "identification/maps/position_maps.h"
 
 namespace warmjoint::inline identification {
@@ -241,6 +242,7 @@ Fit FitInTurn(const IdentifierInput& input) {
 
 Identifier EnergyEm() {
   std::vector<OptionInfo> options{
+      LawOption(),
       {"iterations", "50", "integer >= 0", "iterations of the loop"},
       {"start", "options", "options|guess|random",
        "start_gain and start_time_constant, the torque's envelope (25), or drawn evenly"},
@@ -252,14 +254,9 @@ Identifier EnergyEm() {
        "largest distance from the fixed point that counts as converged, relative"},
       GravityOption(),
   };
-
-  // the row of the law comes first, those of the map last
-  std::vector<OptionInfo> part =
-      PositionPartOptions("none|map", "a map over position beside the law");
-  options.insert(options.begin(), std::make_move_iterator(part.begin()),
-                 std::make_move_iterator(part.begin() + 1));
-  options.insert(options.end(), std::make_move_iterator(part.begin() + 1),
-                 std::make_move_iterator(part.end()));
+  for (OptionInfo& option : PositionPartOptions("none|map", "a map over position beside the law")) {
+    options.push_back(std::move(option));
+  }
   return {kName, "Algorithm 1: energy filter and nominal law fitted in turn, a trace per iteration",
           options, &FitInTurn};
 }

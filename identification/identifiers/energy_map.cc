@@ -1,9 +1,9 @@
 #include "identification/identifiers/energy_map.h"
 
-#include "identification/inference/bounds.h"
 #include "identification/maps/over_energy.h"
 #include "identification/maps/position_maps.h"
 #include "identification/maps/warm_maps.h"
+#include "identification/physical_bounds.h"
 
 namespace warmjoint::inline identification {
 namespace {

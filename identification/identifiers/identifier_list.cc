@@ -3,7 +3,7 @@
 #include "identification/identifiers/auto.h"
 #include "identification/identifiers/energy_em.h"
 #include "identification/identifiers/energy_map.h"
-#include "identification/identifiers/energy_ml.h"
+#include "identification/identifiers/energy_ml_with_maps.h"
 #include "identification/identifiers/kalman.h"
 #include "identification/identifiers/load_map.h"
 #include "identification/identifiers/lpv_energy.h"
@@ -13,6 +13,7 @@
 #include "identification/identifiers/position_ridge.h"
 #include "identification/identifiers/rls.h"
 #include "identification/identifiers/stribeck.h"
+#include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
 
@@ -20,9 +21,9 @@ namespace warmjoint::inline identification {
 
 const std::vector<Identifier>& Identifiers() {
   static const std::vector<Identifier> identifiers{
-      NominalLs(),       PositionRidge(), MotorRidge(), EnergyMap(), LoadMap(),
-      LpvEnergy(),       EnergyEm(),      EnergyMl(),   Rls(),       Kalman(),
-      StribeckByCeres(), LuGreByCeres(),  Auto(),
+      NominalLs(), PositionRidge(),    MotorRidge(), EnergyMap(), LoadMap(),         LpvEnergy(),
+      EnergyEm(),  EnergyMlWithMaps(), Rls(),        Kalman(),    StribeckByCeres(), LuGreByCeres(),
+      Auto(),
   };
   return identifiers;
 }

@@ -11,6 +11,7 @@
 #include "identification/linear/against_pushing.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
+#include "identification/linear/linear_task.h"
 #include "identification/online/kalman_passes.h"
 #include "identification/warming/warming_verdict.h"
 
@@ -166,7 +167,7 @@ Fit FitOnline(const IdentifierInput& input) {
 Identifier Kalman() {
   return {kName,
           "law, warming and energy online, by a bank of extended Kalman filters",
-          {{"law", "viscous_coulomb", LinearLawWords(), "nominal friction law"},
+          {LawOption(),
            {"passes", "10", "integer >= 1 <= 100",
             "most passes over the recording; 1: as online, without intervals"}},
           &FitOnline};

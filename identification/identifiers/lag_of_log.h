@@ -5,6 +5,7 @@
 
 #include "identification/holdout/predict_torque.h"
 #include "identification/identifiers/structures.h"
+#include "models/friction/course_start.h"
 
 namespace warmjoint::inline identification {
 

@@ -1,8 +1,9 @@
 #include "identification/identifiers/lpv_energy.h"
 
 #include "identification/identifiers/energy_ml.h"
-#include "identification/inference/bounds.h"
 #include "identification/maps/over_energy.h"
+#include "identification/physical_bounds.h"
+#include "identification/read_options.h"
 #include "identification/warming/slope_heat.h"
 
 namespace warmjoint::inline identification {
@@ -27,7 +28,7 @@ Fit FitSlopeAndLevel(const IdentifierInput& input) {
   // E, from a fit whose level alone warms
   MapTask task{kName, ReadMapSettings(input.options), {}, {}};
   const Identifier warm = EnergyMl();
-  const Options options(warm.options, {{"law", task.settings.law}}, {kName});
+  const Options options = ReadOptions(warm.options, {{"law", task.settings.law}}, {kName});
   Fit first = warm.fit(input.With(options));
   first.identifier = kName;
   if (!GivesFriction(first)) return first;

@@ -2,9 +2,9 @@
 
 #include <utility>
 
-#include "identification/inference/bounds.h"
 #include "identification/maps/identify_maps.h"
 #include "identification/maps/motor_maps.h"
+#include "identification/physical_bounds.h"
 
 namespace warmjoint::inline identification {
 namespace {

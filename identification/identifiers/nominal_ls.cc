@@ -8,14 +8,12 @@
 
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
-#include "identification/inference/bounds.h"
-#include "identification/inference/hold_structure.h"
 #include "identification/lagged/lagged_fit.h"
 #include "identification/lagged/linear_lag.h"
 #include "identification/linear/least_squares.h"
-#include "identification/linear/linear_laws.h"
 #include "identification/linear/linear_task.h"
 #include "identification/linear/robust.h"
+#include "identification/physical_bounds.h"
 #include "identification/uncertainty/disagreement.h"
 
 namespace warmjoint::inline identification {
@@ -144,7 +142,7 @@ Fit FitLaw(const IdentifierInput& given) {
   }
   if (rows.structure) {
     const Eigen::Index count = task.law_count();
-    HoldStructure(*rows.structure, rows.A.leftCols(count) * solved.solution.head(count), fit);
+    fit.held_structure = {*rows.structure, rows.A.leftCols(count) * solved.solution.head(count)};
   }
   if (rows.lag) AddLag(rows.lag, task.columns * solved.solution, input.measurements, fit);
   if (!rows.lag && AsksForLag(given)) fit.afterword = kNoLagSeen;
@@ -156,11 +154,7 @@ Fit FitLaw(const IdentifierInput& given) {
 Identifier NominalLs() {
   return {kName,
           "a nominal law by linear least squares, without warming",
-          {{"law", "viscous_coulomb", LinearLawWords(), "nominal friction law"},
-           GravityOption(),
-           MotionOption(),
-           LossOption(),
-           TorqueLagOption()},
+          {LawOption(), GravityOption(), MotionOption(), LossOption(), TorqueLagOption()},
           &FitLaw};
 }
 

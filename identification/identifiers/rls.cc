@@ -8,7 +8,6 @@
 #include "identification/fit_parameters.h"
 #include "identification/inference/covariance.h"
 #include "identification/linear/least_squares.h"
-#include "identification/linear/linear_laws.h"
 #include "identification/linear/linear_task.h"
 #include "identification/online/measured_heat.h"
 #include "identification/online/recursive_least_squares.h"
@@ -152,7 +151,7 @@ Identifier Rls() {
   return {
       kName,
       "a nominal law online, by recursive least squares with forgetting",
-      {{"law", "viscous_coulomb", LinearLawWords(), "nominal friction law"},
+      {LawOption(),
        {"forgetting", "0.999", "number > 0 <= 1", "weight of a sample relative to the next one"},
        {"thermal_gain", "0", "number", "known thermal gain, N.m/W or N/W; 0: no warming"},
        {"thermal_time_constant", "600", "number > 0", "known time constant of warming, s"},

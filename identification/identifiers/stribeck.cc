@@ -6,12 +6,12 @@
 
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
-#include "identification/inference/bounds.h"
 #include "identification/linear/against_pushing.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/nonlinear/stribeck_fit.h"
 #include "identification/nonlinear/stribeck_verdict.h"
+#include "identification/physical_bounds.h"
 #include "identification/uncertainty/uncertainty.h"
 #include "identification/warming/scan_time_constant.h"
 #include "identification/warming/warm_fit.h"

@@ -5,13 +5,14 @@
 #include <initializer_list>
 
 #include "identification/holdout/blocked_hold_out.h"
-#include "identification/identifiers/energy_ml.h"
+#include "identification/identifiers/energy_ml_with_maps.h"
 #include "identification/identifiers/motor_ridge.h"
 #include "identification/identifiers/nominal_ls.h"
 #include "identification/identifiers/position_ridge.h"
 #include "identification/identifiers/stribeck.h"
 #include "identification/lagged/lagged_fit.h"
 #include "identification/linear/rigid_part.h"
+#include "identification/read_options.h"
 #include "identification/warming/expected_start.h"
 #include "models/friction/asymmetric_stribeck.h"
 #include "models/recording/motor_angle.h"
@@ -57,7 +58,7 @@ Structure Structure::Quick() const {
 Options Structure::OptionsBeside(const Options& input) const {
   auto all = given;
   if (TellsStart(identifier)) all.merge(StartAsGiven(input));
-  return {identifier.options, all, {}};
+  return ReadOptions(identifier.options, all, {});
 }
 
 Fit Structure::Fitted(const IdentifierInput& input) const {
@@ -101,7 +102,8 @@ std::vector<Structure> ColdStructures(const std::string& gravity) {
 }
 
 std::vector<Structure> WarmStructures(const std::string& gravity) {
-  return LinearStructures(EnergyMl(), gravity, {"coulomb", "viscous_coulomb", "asymmetric"});
+  return LinearStructures(EnergyMlWithMaps(), gravity,
+                          {"coulomb", "viscous_coulomb", "asymmetric"});
 }
 
 Structure StribeckStructure(const std::string& warming) {
@@ -129,7 +131,7 @@ std::vector<Structure> MapStructures(const IdentifierInput& input, const std::st
   for (const std::string& kind : kinds) {
     std::map<std::string, std::string> given;
     if (kind != "none") given = {{kGravityOption, kind}};
-    const Structure warm{EnergyMl(), given};
+    const Structure warm{EnergyMlWithMaps(), given};
     structures.push_back(shaped({PositionRidge(), given}, kernels.position));
     structures.push_back(shaped(warm.With("position", "map"), kernels.position));
     // ripple of the motor, where its angle is known

@@ -8,12 +8,13 @@
 #include "identification/fit_data.h"
 #include "identification/forward/map_points.h"
 #include "identification/holdout/blocked_hold_out.h"
-#include "identification/identifiers/energy_ml.h"
+#include "identification/identifiers/energy_ml_with_maps.h"
 #include "identification/identifiers/lag_of_log.h"
 #include "identification/identifiers/left_over_place.h"
 #include "identification/identifiers/stribeck.h"
-#include "identification/inference/bounds.h"
 #include "identification/linear/rigid_part.h"
+#include "identification/physical_bounds.h"
+#include "identification/read_options.h"
 #include "models/friction/coulomb.h"
 #include "models/recording/course_of.h"
 #include "models/recording/motor_angle.h"
@@ -100,8 +101,8 @@ ChosenKernels Tournament::KernelsBesideBest(const std::string& gravity) const {
 
   // energy-ml has both maps, over position and over the motor's angle
   const auto chosen = [&](const char* position) {
-    const Options options(EnergyMl().options, {{kGravityOption, gravity}, {"position", position}},
-                          {});
+    const Options options = ReadOptions(EnergyMlWithMaps().options,
+                                        {{kGravityOption, gravity}, {"position", position}}, {});
     return MapBesideEnergy(quick_.With(options), energy);
   };
   ChosenKernels kernels{chosen("map"), {}};
@@ -111,7 +112,7 @@ ChosenKernels Tournament::KernelsBesideBest(const std::string& gravity) const {
 
 bool Tournament::MayWarm() const {
   return std::ranges::any_of(trials_, [](const Trial& trial) {
-    if (trial.structure.identifier.name != EnergyMl().name) return false;
+    if (trial.structure.identifier.name != EnergyMlWithMaps().name) return false;
     // one without slope, where the joint has one, need not settle for its warming
     const bool too_poor = trial.structure.Given("law", "") == Coulomb::name;
     return too_poor ? trial.gives_friction : trial.told.status != Status::not_identifiable;

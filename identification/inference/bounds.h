@@ -1,4 +1,4 @@
-// Whether the values of a fit make a friction: physical bounds.
+// Whether the intervals of a fit reach into the physical bounds of a friction.
 #pragma once
 
 #include "identification/inference/inference.h"
@@ -9,12 +9,5 @@ namespace warmjoint::inline identification {
 /// interval, or whose static level is below its Coulomb level. Where only the value lies outside, no
 /// friction is given and a warning says so; else the friction may be used.
 void JudgeBounds(const Fit& fit, Inference& inference);
-
-/// Whether the fit's friction may be used: nothing refuses it, its values lie inside of their physical
-/// bounds, and its static level is not below its Coulomb level. That of Infer, without its covariance.
-bool GivesFriction(const Fit& fit);
-
-/// Whether the value of a law parameter lies outside of its bounds, by chance or not.
-bool LeavesBounds(const std::vector<FitParameter>& parameters);
 
 }  // namespace warmjoint::inline identification

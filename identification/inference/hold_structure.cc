@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "identification/fit_data.h"
-#include "identification/inference/covariance.h"
 #include "identification/relevance.h"
 
 namespace warmjoint::inline identification {
@@ -17,8 +16,9 @@ double Rms(const Eigen::VectorXd& values) {
 
 }  // namespace
 
-void HoldStructure(const Disagreement& structure, const Eigen::VectorXd& friction, Fit& fit) {
+void HoldStructure(const Fit& fit, Inference& inference) {
   // columns of gravity may have no name of their own
+  const auto& [structure, friction] = *fit.held_structure;
   const auto row = static_cast<std::size_t>(structure.parameter);
   const bool named = row < fit.parameters.size() && !fit.parameters[row].name.empty();
   const std::string name = named ? fit.parameters[row].name : "gravity";
@@ -26,15 +26,13 @@ void HoldStructure(const Disagreement& structure, const Eigen::VectorXd& frictio
   // how far the structure moves the fitted torque, beside the size of the friction
   const double moved = Rms(Kept(fit.jacobian(), fit.used) * structure.differences);
   if (!(moved < kDefaultRelevance * Rms(friction))) {
-    fit.without_intervals = DescribeDisagreement(structure, name);
+    inference.without_intervals = DescribeDisagreement(structure, name);
     return;
   }
 
   // little beside the friction: it joins the errors as one more of them
-  Uncertainty known = CovarianceOf(fit);
-  known.covariance += structure.differences * structure.differences.transpose();
-  fit.errors.known = std::move(known);
-  fit.warnings.push_back(
+  inference.known.covariance += structure.differences * structure.differences.transpose();
+  inference.warnings.push_back(
       fmt::format("the residual is not only noise: treating its slow part as noise would change {} "
                   "by {:.2g} standard errors; intervals were widened to cover this",
                   name, structure.deviations));

@@ -6,6 +6,7 @@
 
 #include "identification/inference/bounds.h"
 #include "identification/inference/covariance.h"
+#include "identification/inference/hold_structure.h"
 #include "identification/linear/robust.h"
 #include "identification/uncertainty/tails.h"
 
@@ -30,7 +31,8 @@ KnownParameter Known(const FitParameter& parameter, double deviation, double qua
 }
 
 /// One for each row of the table; those that were given, or that noise does not tell, have none.
-std::vector<KnownParameter> Intervals(const Fit& fit, const Uncertainty& known) {
+std::vector<KnownParameter> Intervals(const Fit& fit, const Inference& inference) {
+  const Uncertainty& known = inference.known;
   std::vector<KnownParameter> all;
   Eigen::Index column = 0;
   for (const FitParameter& parameter : fit.parameters) {
@@ -38,7 +40,7 @@ std::vector<KnownParameter> Intervals(const Fit& fit, const Uncertainty& known) 
     if (parameter.estimated) {
       const double quantile = StudentQuantile(known.Freedom(column), kIntervalLevel);
       const double deviation = known.Deviation(column++);
-      const bool tells = parameter.has_interval && fit.without_intervals.empty();
+      const bool tells = parameter.has_interval && inference.without_intervals.empty();
       if (tells) one = Known(parameter, deviation, quantile);
     }
     all.push_back(one);
@@ -46,13 +48,13 @@ std::vector<KnownParameter> Intervals(const Fit& fit, const Uncertainty& known) 
   return all;
 }
 
-std::string MessageOf(const Fit& fit, const Uncertainty& known) {
+std::string MessageOf(const Fit& fit, const Inference& inference) {
   // without intervals, the reason stands in the place of the noise
-  if (!fit.without_intervals.empty()) {
-    return fmt::format("{}; {}{}", fit.summary, fit.without_intervals, fit.afterword);
+  if (!inference.without_intervals.empty()) {
+    return fmt::format("{}; {}{}", fit.summary, inference.without_intervals, fit.afterword);
   }
   const std::string loss = fit.loss_bend ? DescribeLoss(fit.residual(), *fit.loss_bend) : "";
-  return fit.summary + loss + NoiseOf(known) + fit.afterword;
+  return fit.summary + loss + NoiseOf(inference.known) + fit.afterword;
 }
 
 }  // namespace
@@ -93,9 +95,11 @@ Inference Infer(const Fit& fit) {
     inference.message = "torque or velocity is too large to square";
     return inference;
   }
-  inference.parameters = Intervals(fit, inference.known);
-  inference.message = MessageOf(fit, inference.known);
-  inference.warnings = fit.warnings;
+  inference.without_intervals = fit.without_intervals;
+  if (fit.held_structure) HoldStructure(fit, inference);
+  inference.parameters = Intervals(fit, inference);
+  inference.message = MessageOf(fit, inference);
+  inference.warnings.insert(inference.warnings.end(), fit.warnings.begin(), fit.warnings.end());
 
   // and whether they make a friction
   if (fit.voided) {

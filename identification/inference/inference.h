@@ -28,6 +28,7 @@ struct Inference {
   std::string message;
   std::vector<std::string> warnings;
   Uncertainty known;
+  std::string without_intervals;  // why no number gets an interval: a clause; empty: they do
   std::vector<KnownParameter> parameters;  // [P] as the fit's table
   bool gives_friction = false;  // whether the fit's friction may be used: inside of its bounds
   bool gives_bands = true;

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 
 #include "identification/inference/inference.h"
-#include "models/friction/along_motion.h"
+#include "models/friction/course_start.h"
 #include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {

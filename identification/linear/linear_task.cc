@@ -5,6 +5,10 @@
 
 namespace warmjoint::inline identification {
 
+OptionInfo LawOption() {
+  return {"law", "viscous_coulomb", LinearLawWords(), "nominal friction law"};
+}
+
 LinearTask BeginLinear(const IdentifierInput& given, int more) {
   LinearTask task{*FindLaw(given.options.Text("law")), PrepareRigid(given), {}, {}};
   const RigidPart& gravity = task.gravity;

@@ -8,6 +8,9 @@ namespace warmjoint::inline identification {
 /// What a summary adds of samples that accelerate.
 inline constexpr const char* kOfAnyMotion = " of motion of any kind, with inertia";
 
+/// The row `law` of an identifier's options, with all linear laws as its words.
+OptionInfo LawOption();
+
 /// Law, gravity and inertia, all linear in their parameters, on usable data.
 struct LinearTask {
   const Law& law;

@@ -9,7 +9,7 @@
 
 namespace warmjoint::inline identification {
 
-/// law, position=none|map|motor, and what says how the maps are made.
+/// position=none|map|motor, and what says how the maps are made.
 std::vector<OptionInfo> WarmMapOptions();
 
 /// Law, warming and the maps that the option `position` names, together. Refuses options that

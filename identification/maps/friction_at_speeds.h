@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "identification/friction_at_speed.h"
+#include "identification/map_band.h"
 #include "identification/maps/map_fit.h"
 #include "models/friction/law.h"
 

@@ -9,7 +9,6 @@
 
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
-#include "identification/inference/bounds.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/maps/finer_maps.h"
@@ -17,6 +16,7 @@
 #include "identification/maps/holes.h"
 #include "identification/maps/imitated_columns.h"
 #include "identification/maps/make_bands.h"
+#include "identification/physical_bounds.h"
 #include "models/friction/sign.h"
 
 namespace warmjoint::inline identification {

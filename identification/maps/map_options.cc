@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "identification/linear/linear_laws.h"
+#include "identification/linear/linear_task.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -17,7 +17,7 @@ Eigen::VectorXd Column(MapQuantity quantity, const MapPoints& points) {
 
 std::vector<OptionInfo> MapOptions() {
   return {
-      {"law", "viscous_coulomb", LinearLawWords(), "nominal friction law"},
+      LawOption(),
       {"kernel", "normalised", "normalised|plain",
        "normalised kernels keep the value of the nearest centre outside of the data, (16)"},
       {"width", "0", "number >= 0",

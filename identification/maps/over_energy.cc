@@ -7,7 +7,7 @@
 
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
-#include "identification/inference/bounds.h"
+#include "identification/physical_bounds.h"
 #include "models/recording/course_of.h"
 
 namespace warmjoint::inline identification {

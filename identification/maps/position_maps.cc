@@ -17,9 +17,10 @@ std::vector<OptionInfo> PositionMapOptions() {
 std::vector<OptionInfo> PositionPartOptions(const std::string& allowed,
                                             const std::string& meaning) {
   std::vector<OptionInfo> options = MapOptions();
-  options.insert(options.begin() + 1, {"position", "none", allowed, meaning});
+  // the law, which is no part of the map, has a row elsewhere
+  options.front() = {"position", "none", allowed, meaning};
   for (OptionInfo& option : PositionMapOptions()) options.push_back(std::move(option));
-  for (size_t i = 2; i < options.size(); ++i) {
+  for (size_t i = 1; i < options.size(); ++i) {
     options[i].meaning = "of the map: " + options[i].meaning;
   }
   return options;

@@ -8,8 +8,8 @@ namespace warmjoint::inline identification {
 /// basis, kernels, velocity_kernels.
 std::vector<OptionInfo> PositionMapOptions();
 
-/// law, position, and what says how the map is made: for identifiers that can do without, which
-/// `none`, the default, says. allowed, meaning: of the option position.
+/// position, and what says how the map is made: for identifiers that can do without, which `none`, the
+/// default, says. allowed, meaning: of the option position.
 std::vector<OptionInfo> PositionPartOptions(const std::string& allowed, const std::string& meaning);
 
 /// `count` kernels over position for each of `speeds` bins of either direction of motion; alike in

@@ -12,9 +12,11 @@
 #include <memory>
 #include <vector>
 
-#include "identification/nonlinear/quiet_ceres.h"
-
 namespace warmjoint::inline identification {
+
+/// Keeps what Ceres logs below fatal errors off stderr, from the first call on. A fit says in its
+/// status what became of it; Ceres would say it once more, and unasked.
+void QuietCeres();
 
 /// Where a minimisation ended.
 template <int P>

@@ -103,4 +103,11 @@ RecordingCheck CheckRecording(const Measurements& measurements) {
   return CheckRecording(Prepare(measurements));
 }
 
+std::string WhyUnsettled(const Measurements& measurements, FrictionKind kind) {
+  for (const Excitation& one : CheckRecording(measurements).excitation) {
+    if (one.kind == kind && !one.sufficient) return one.reason;
+  }
+  return "does the torque column hold friction?";
+}
+
 }  // namespace warmjoint::inline identification

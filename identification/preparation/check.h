@@ -69,4 +69,8 @@ RecordingCheck CheckRecording(const Measurements& measurements);
 std::vector<Excitation> JudgeExcitation(const Measurements& measurements,
                                         const SamplingCheck& sampling, const MotionCheck& motion);
 
+/// What `check` finds that the recording lacks to show friction of that kind, with its remedy; where it
+/// lacks nothing, a doubt about the torque column.
+std::string WhyUnsettled(const Measurements& measurements, FrictionKind kind);
+
 }  // namespace warmjoint::inline identification

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "identification/preparation/between_samples.h"
+#include "identification/preparation/local_motion.h"
 #include "models/foundation/robust_noise.h"
 #include "models/recording/recordings_of.h"
 #include "models/recording/sampling.h"
@@ -142,6 +143,19 @@ LogView ViewMotion(const Measurements& measurements, MotionSource source) {
     }
   }
   return view;
+}
+
+const LogView& MovingView(const PreparedLog& log) {
+  return log.found().moving.Get([&] { return ViewMotion(log.taken().measurements, log.source()); });
+}
+
+bool HoldsSpeeds(const PreparedLog& log) {
+  constexpr double fewest = 0.1;  // of the samples that move clearly
+  return log.found().holds_speeds.Get([&] {
+    const auto& [m, selection] = log.taken();
+    const auto moving = static_cast<double>((m.velocity.array().abs() > ClearSpeed(m)).count());
+    return static_cast<double>(selection.count()) >= fewest * moving;
+  });
 }
 
 }  // namespace warmjoint::inline identification

@@ -1,8 +1,7 @@
 // A log whose joint moves in any way: its acceleration, and the samples that show friction.
 #pragma once
 
-#include "identification/preparation/local_motion.h"
-#include "identification/preparation/log_view.h"
+#include "identification/preparation/prepared_log.h"
 
 namespace warmjoint::inline identification {
 
@@ -17,5 +16,13 @@ double ClearSpeed(const Measurements& measurements);
 /// of the velocity: where no polynomial fits, or, between differences, where the acceleration
 /// jumps by a tenth of its root mean square, and four times as far as in the median. No segments.
 LogView ViewMotion(const Measurements& measurements, MotionSource source = MotionSource::velocity);
+
+/// A log as fits to motion of any kind see it: ViewMotion of how it was taken. Made when it is first
+/// asked for, and kept with the log.
+const LogView& MovingView(const PreparedLog& log);
+
+/// Whether constant speeds are what a log shows of friction: a tenth or more of what moves clearly moves
+/// at a constant speed.
+bool HoldsSpeeds(const PreparedLog& log);
 
 }  // namespace warmjoint::inline identification

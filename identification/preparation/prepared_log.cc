@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "identification/preparation/moving_view.h"
-
 namespace warmjoint::inline identification {
 namespace {
 
@@ -18,26 +16,7 @@ LogView Head(const LogView& all, double time) {
   return head;
 }
 
-/// Whether a tenth or more of what moves clearly moves at a constant speed.
-bool ShowsSpeeds(const LogView& taken) {
-  constexpr double fewest = 0.1;  // of the samples that move clearly
-  const Measurements& m = taken.measurements;
-  const auto moving = static_cast<double>((m.velocity.array().abs() > ClearSpeed(m)).count());
-  return static_cast<double>(taken.selection.count()) >= fewest * moving;
-}
-
 }  // namespace
-
-const LogView& PreparedLog::moving() const {
-  std::call_once(moving_->once,
-                 [&] { moving_->view = ViewMotion(log_->taken.measurements, log_->source); });
-  return moving_->view;
-}
-
-bool PreparedLog::HoldsSpeeds() const {
-  std::call_once(moving_->speeds_once, [&] { moving_->holds_speeds = ShowsSpeeds(log_->taken); });
-  return moving_->holds_speeds;
-}
 
 PreparedLog PreparedLog::Before(double time) const {
   Log before = *log_;

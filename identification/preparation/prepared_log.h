@@ -1,6 +1,7 @@
 // A log as every identifier gets it.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -12,6 +13,20 @@
 namespace warmjoint::inline identification {
 
 struct HoldOptions;
+
+/// What is made when it is first asked for, by whichever thread is first.
+template <typename T>
+class MadeOnce {
+ public:
+  const T& Get(const std::function<T()>& make) {
+    std::call_once(once_, [&] { value_ = make(); });
+    return value_;
+  }
+
+ private:
+  std::once_flag once_;
+  T value_{};
+};
 
 /// A recording prepared for a fit: what moves at constant speed, one velocity for each segment where
 /// the noise of the samples' would bias a fit (segment_velocity.h), a sample at each switch of speed
@@ -29,13 +44,15 @@ class PreparedLog {
   /// The log as fits at constant speed see it.
   const LogView& steady() const { return log_->steady ? *log_->steady : log_->taken; }
 
-  /// The log as fits to motion of any kind see it: as it was taken, with its acceleration and means
-  /// between samples; all samples take part that move clearly (moving_view.h).
-  const LogView& moving() const;
+  /// What tells the velocity of `taken`.
+  MotionSource source() const { return log_->source; }
 
-  /// Whether constant speeds are what the log shows of friction: a tenth or more of what moves
-  /// clearly moves at a constant speed.
-  bool HoldsSpeeds() const;
+  /// What others found in the log when they first needed it (moving_view.h).
+  struct Found {
+    MadeOnce<LogView> moving;
+    MadeOnce<bool> holds_speeds;
+  };
+  Found& found() const { return *found_; }
 
   /// What was done to the velocity, if anything.
   const std::optional<VelocityNoise>& velocity_noise() const { return log_->velocity_noise; }
@@ -63,20 +80,13 @@ class PreparedLog {
     std::vector<std::string> warnings;
   };
 
-  /// What is made when it is first asked for.
-  struct Moving {
-    std::once_flag once;
-    LogView view;
-    std::once_flag speeds_once;
-    bool holds_speeds = false;
-  };
   struct Maker;
   explicit PreparedLog(Log log) : log_(std::make_shared<const Log>(std::move(log))) {}
   friend PreparedLog Prepare(Measurements measurements, const HoldOptions& holds);
   friend PreparedLog Prepare(Measurements measurements, Selection known);
 
   std::shared_ptr<const Log> log_;
-  std::shared_ptr<Moving> moving_ = std::make_shared<Moving>();
+  std::shared_ptr<Found> found_ = std::make_shared<Found>();
 };
 
 }  // namespace warmjoint::inline identification

@@ -77,7 +77,7 @@ Eigen::MatrixXd SlopesByDifferences(const Fit& fit, const Inference& inference,
 FigureErrors ErrorsBySlopes(const Fit& fit, const Inference& inference,
                             const Eigen::MatrixXd& slopes) {
   FigureErrors errors{slopes * inference.known.covariance * slopes.transpose(),
-                      Eigen::VectorXd::Zero(slopes.rows()), fit.without_intervals.empty()};
+                      Eigen::VectorXd::Zero(slopes.rows()), inference.without_intervals.empty()};
   for (const EstimatedRow& at : RowsThatMatter(fit)) {
     const KnownParameter& known = inference.parameters[at.row];
     errors.told = errors.told && known.interval95;

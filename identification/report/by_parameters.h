@@ -6,6 +6,7 @@
 
 #include "identification/fit.h"
 #include "identification/inference/inference.h"
+#include "models/friction/course_start.h"
 
 namespace warmjoint::inline identification {
 

@@ -4,7 +4,6 @@
 
 #include "identification/uncertainty/tails.h"
 #include "models/friction/thermal.h"
-#include "models/friction/thermal_names.h"
 
 namespace warmjoint::inline identification {
 namespace {

@@ -52,7 +52,7 @@ std::vector<EstimatedParameter> EndState(const Fit& fit, const Inference& infere
     // from the fit where its table does not hold all that E depends on, else from the parameters
     const double deviation =
         fit.end_energy_std.value_or(std::sqrt(std::max(0.0, errors.covariance(stage, stage))));
-    const bool told = fit.end_energy_std ? fit.without_intervals.empty() : errors.told;
+    const bool told = fit.end_energy_std ? inference.without_intervals.empty() : errors.told;
     if (told && std::isfinite(deviation)) {
       one.std = deviation;
       const double half = reach * deviation + errors.widened[stage];

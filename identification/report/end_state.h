@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "identification/estimate.h"
 #include "identification/fit.h"
 #include "identification/inference/inference.h"
 #include "models/recording/measurements.h"

@@ -2,13 +2,14 @@
 
 #include <cmath>
 
+#include "identification/metrics.h"
+#include "identification/preparation/check.h"
 #include "identification/report/discrete_pair.h"
 #include "identification/report/end_state.h"
 #include "identification/report/heat_beside_temperature.h"
-#include "identification/report/unsettled.h"
 #include "models/foundation/robust_noise.h"
 #include "models/friction/joint_kind.h"
-#include "models/friction/thermal_names.h"
+#include "models/friction/thermal.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -127,7 +128,7 @@ Estimate ReportFit(const Fit& fit, const Inference& inference, const Measurement
     }
   }
   // without intervals there is no covariance either
-  if (fit.without_intervals.empty()) estimate.covariance = CovarianceOfValues(fit, inference);
+  if (inference.without_intervals.empty()) estimate.covariance = CovarianceOfValues(fit, inference);
   return estimate;
 }
 

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "models/friction/evaluate_map.h"
 #include "models/friction/prepared_map.h"
 
 namespace warmjoint::inline identification {

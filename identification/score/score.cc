@@ -5,10 +5,11 @@
 
 #include "identification/find_parameter.h"
 #include "identification/linear/rigid_part.h"
+#include "identification/preparation/moving_view.h"
 #include "identification/score/cramer_rao.h"
 #include "identification/score/npe.h"
 #include "models/foundation/robust_noise.h"
-#include "models/friction/thermal_names.h"
+#include "models/friction/thermal.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -69,7 +70,7 @@ Eigen::MatrixXd Nuisance(const Estimate& estimate, const Measurements& m) {
 
 const LogView& ScoredView(const Estimate& estimate, const PreparedLog& log) {
   const bool any = Find(Role::inertia, estimate) && !Find(LawPart::bristle, estimate);
-  return any ? log.moving() : log.taken();
+  return any ? MovingView(log) : log.taken();
 }
 
 Score ScoreEstimate(const Estimate& estimate, const Measurements& measurements,

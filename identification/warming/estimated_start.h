@@ -2,7 +2,7 @@
 #pragma once
 
 #include "identification/estimate.h"
-#include "models/friction/along_motion.h"
+#include "models/friction/course_start.h"
 #include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {

@@ -8,8 +8,6 @@
 
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
-#include "identification/inference/hold_structure.h"
-#include "identification/lagged/lagged_fit.h"
 #include "identification/linear/against_pushing.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_task.h"
@@ -153,6 +151,7 @@ Fit ConcludeWarm(const char* name, const WarmTask& task, const RobustWarmFit& ro
   const IdentifierInput& input = task.input;
   const Measurements& m = input.measurements;
   const WarmFit& warm = robust.fit;
+  // the course of force and energy along the log
   const LoopResponse& response = task.response;
   Fit fit;
   fit.identifier = name;
@@ -177,22 +176,15 @@ Fit ConcludeWarm(const char* name, const WarmTask& task, const RobustWarmFit& ro
     return WarmJacobian(*loop, gravity, warm);
   };
   fit.end_energy = [loop, warm] { return WarmEnd(*loop, warm); };
-  if (task.structure) HoldStructure(*task.structure, Kept(response.force, fit.used), fit);
+  if (task.structure) fit.held_structure = {*task.structure, Kept(response.force, fit.used)};
   // parameters and loss, as reports tell them
   fit.count = static_cast<int>(warm.solution.x.size());
   fit.effective_parameters = fit.count;
   if (!std::isinf(robust.threshold)) fit.loss_bend = robust.threshold;
-  fit.summary =
-      fmt::format("maximum likelihood on {} samples{}{}{}, refined in {} iterations",
-                  fit.torque.size(), m.acceleration ? kOfAnyMotion : "", task.lag ? kBehindLag : "",
-                  task.whitening ? kWhitened : "", warm.trace.size() - 1);
-  // what to know about gaps and lag
+  fit.summary = fmt::format("maximum likelihood on {} samples{}{}{}, refined in {} iterations",
+                            fit.torque.size(), m.acceleration ? kOfAnyMotion : "", task.behind,
+                            task.whitening ? kWhitened : "", warm.trace.size() - 1);
   if (!task.gaps.empty()) fit.warnings.push_back(LossesInGaps(task.gaps, m));
-  if (task.lag) {
-    AddLag(task.lag, response.force + task.gravity.columns * warm.offset_values(), m, fit);
-  } else if (AsksForLag(input)) {
-    fit.afterword = kNoLagSeen;
-  }
   return fit;
 }
 

@@ -7,7 +7,6 @@
 
 #include "identification/fit.h"
 #include "identification/identifier.h"
-#include "identification/lagged/lagged_rows.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/uncertainty/disagreement.h"
 #include "identification/warming/gaps.h"
@@ -24,10 +23,10 @@ struct WarmTask {
   const ClosedLoop& loop;
   const WarmStart& scanned;
   const std::vector<LogGap>& gaps;
+  const LoopResponse& response;  // of the loop by the fit
   std::shared_ptr<const Whitening> whitening;
   std::optional<Disagreement> structure;  // why the rows were not whitened
-  std::shared_ptr<const LaggedRows> lag;  // of a torque that lags; or none
-  const LoopResponse& response;           // of the loop by the fit
+  const char* behind = "";                // what the summary says the rows stand behind
 };
 
 /// The loop by a fit.

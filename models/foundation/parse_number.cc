@@ -47,6 +47,11 @@ std::optional<double> ParseNumber(std::string_view text) {
   return value;
 }
 
+std::optional<double> ParseFinite(std::string_view text) {
+  const auto number = ParseNumber(text);
+  return number && std::isfinite(*number) ? number : std::nullopt;
+}
+
 std::optional<std::uint64_t> ParseUnsigned(std::string_view text) {
   return Parse<std::uint64_t>(text);
 }

@@ -12,6 +12,9 @@ namespace warmjoint::inline models {
 /// fit.
 std::optional<double> ParseNumber(std::string_view text);
 
+/// The same without "nan" and "inf".
+std::optional<double> ParseFinite(std::string_view text);
+
 /// The same for whole numbers; nothing for "1.5", "1e3" or what does not fit 64 bits.
 std::optional<std::int64_t> ParseInteger(std::string_view text);
 

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "models/friction/course_start.h"
 #include "models/friction/friction_description.h"
 #include "models/friction/joint_friction.h"
 
@@ -27,19 +28,6 @@ struct JointCourse {
   /// Samples, above 0 and ascending, at which another recording begins: the joint is cold again.
   std::vector<Eigen::Index> starts{};
   double step = 0;  // s, where it is known to be the same throughout; 0: as `time` tells
-};
-
-/// A change of E that no loss explains, as in a gap of the log.
-struct EnergyJump {
-  Eigen::Index sample = 0;
-  double change = 0;  // N.m or N
-};
-
-/// What a joint remembers as a motion begins, and what else is known of E.
-struct CourseStart {
-  double energy = 0;                // E1, N.m or N
-  double second_energy = 0;         // E2, N.m or N
-  std::vector<EnergyJump> jumps{};  // of E1, their samples ascending
 };
 
 /// Friction along a motion of N samples.

@@ -1,15 +1,13 @@
-// One joint's friction as plain data: what a friction file holds, and what estimates, scenarios,
-// the plugin and `attach` exchange.
+// One joint's friction as plain data: what a friction file holds (friction_json.h), and what estimates,
+// scenarios, the plugin and `attach` exchange.
 #pragma once
 
 #include <map>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "models/foundation/bad_input.h"
 #include "models/friction/friction_map.h"
 #include "models/friction/law.h"
 #include "models/friction/thermal.h"
@@ -45,25 +43,8 @@ std::span<const FrictionOption> FrictionOptions();
 /// Gives the parameters that may be left out their defaults, where they are missing.
 void FillDefaults(FrictionDescription& friction);
 
-/// Checks names and bounds against the parameter tables, and that all parts make sense together:
-///   static >= coulomb; what depends on E needs thermal; viscous_per_energy needs a law with a
-///   slope, and a slope that falls as the joint warms; maps over motor_position lie on the circle.
-/// Throws BadInput from `place`.
-void CheckFriction(const FrictionDescription& friction, const Place& place);
-
-/// The law's parameter values in the order of its table. The description must have been checked.
+/// The law's parameter values in the order of its table. The description must have been checked
+/// (check_friction.h).
 std::vector<double> LawValues(const FrictionDescription& friction);
-
-/// {law, parameters{}, thermal{thermal_gain, thermal_time_constant, ambient, second{thermal_gain,
-/// thermal_time_constant}}, gear, level_per_temperature, viscous_per_energy, load_gain, maps[]};
-/// what is at its default is left out.
-nlohmann::json FrictionToJson(const FrictionDescription& friction);
-
-/// The inverse; checked. Unknown keys, missing parameters and wrong types throw BadInput.
-FrictionDescription FrictionFromJson(const nlohmann::json& json, const Place& place);
-
-/// Reads a friction file: an object with a `friction` member (as in estimate.json) or that member
-/// by itself. Throws BadInput.
-FrictionDescription ReadFrictionFile(const std::string& path);
 
 }  // namespace warmjoint::inline models

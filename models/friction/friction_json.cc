@@ -1,9 +1,12 @@
+#include "models/friction/friction_json.h"
+
 #include <nlohmann/json.hpp>
 
 #include "models/foundation/json_members.h"
 #include "models/foundation/read_json.h"
-#include "models/friction/friction_description.h"
-#include "models/friction/thermal_names.h"
+#include "models/friction/check_friction.h"
+#include "models/friction/friction_map_json.h"
+#include "models/friction/thermal.h"
 
 namespace warmjoint::inline models {
 namespace {

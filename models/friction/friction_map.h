@@ -1,13 +1,10 @@
 // Friction as a map over what a joint knows of itself: position, velocity, energy, load.
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <nlohmann/json_fwd.hpp>
 #include <string_view>
 #include <vector>
 
-#include "models/foundation/bad_input.h"
 #include "models/friction/gaussian_axis.h"
 
 namespace warmjoint::inline models {
@@ -55,63 +52,5 @@ struct FrictionMap {
 
 /// The map's axis over that quantity, or nullptr.
 const MapAxis* FindAxis(const FrictionMap& map, MapQuantity quantity);
-
-/// Refuses, from `place`, sizes that do not fit, widths or periods that are not positive, centres
-/// that do not ascend, an axis with its sides apart that has a centre at 0, numbers not finite.
-void CheckMap(const FrictionMap& map, const Place& place);
-
-/// {axes: [{quantity, centres, width, period?, sides: together|apart}], kernels: normalised|plain,
-/// factor: one|direction|velocity, weights: [...]}.
-nlohmann::json MapToJson(const FrictionMap& map);
-
-/// The inverse; checked.
-FrictionMap MapFromJson(const nlohmann::json& json, const Place& place);
-
-namespace internal {
-
-/// The kernels of each axis at a point, and the sum of their products times the weights.
-template <typename T>
-struct MapContraction {
-  const FrictionMap& map;
-  std::array<std::array<T, kMostMapCentres>, kMostMapAxes> phi;
-
-  /// Sums the axes from `axis` on, under one kernel (`offset`) of those before it.
-  template <size_t axis>
-  T Sum(size_t offset) const {
-    if constexpr (axis < kMostMapAxes) {
-      if (axis == map.axes.size()) return T(map.weights[offset]);
-      const size_t count = std::min(map.axes[axis].kernels.size(), kMostMapCentres);
-      T sum(0);
-      for (size_t i = 0; i < count; ++i) {
-        if (phi[axis][i] == T(0)) continue;
-        sum += phi[axis][i] * Sum<axis + 1>(offset * count + i);
-      }
-      return sum;
-    } else {
-      return T(map.weights[offset]);
-    }
-  }
-};
-
-}  // namespace internal
-
-/// factor(v) of a map.
-template <typename T>
-T EvaluateFactor(MapFactor factor, const T& velocity) {
-  if (factor == MapFactor::velocity) return velocity;
-  return T(factor == MapFactor::direction ? Sign(velocity) : 1);
-}
-
-/// Value of a checked map, N.m or N; allocates nothing. T: double, or a dual number.
-template <typename T>
-T EvaluateMap(const FrictionMap& map, const MapPoint<T>& point) {
-  internal::MapContraction<T> contraction{map, {}};
-  for (size_t a = 0; a < map.axes.size(); ++a) {
-    const T& x = point[static_cast<size_t>(map.axes[a].quantity)];
-    AxisKernels(map.axes[a].kernels, map.kernels, x, contraction.phi[a].data());
-  }
-  const T& velocity = point[static_cast<size_t>(MapQuantity::velocity)];
-  return EvaluateFactor(map.factor, velocity) * contraction.template Sum<0>(0);
-}
 
 }  // namespace warmjoint::inline models

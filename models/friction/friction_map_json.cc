@@ -1,9 +1,11 @@
+#include "models/friction/friction_map_json.h"
+
 #include <nlohmann/json.hpp>
 
 #include "models/foundation/excerpt.h"
 #include "models/foundation/json_members.h"
 #include "models/foundation/nearest_name.h"
-#include "models/friction/friction_map.h"
+#include "models/friction/check_friction.h"
 
 namespace warmjoint::inline models {
 namespace {

@@ -5,11 +5,10 @@
 #include <cmath>
 #include <span>
 
+#include "models/friction/law.h"
 #include "models/friction/law_list.h"
-#include "models/friction/law_part.h"
 #include "models/friction/lugre_bristle.h"
-#include "models/friction/thermal_bounds.h"
-#include "models/friction/thermal_names.h"
+#include "models/friction/thermal.h"
 
 namespace warmjoint::inline models {
 namespace {

@@ -1,5 +1,7 @@
 #include "models/friction/law.h"
 
+#include <algorithm>
+
 #include "models/friction/law_list.h"
 
 namespace warmjoint::inline models {
@@ -38,6 +40,20 @@ std::vector<std::string> LawNames() {
   std::vector<std::string> names;
   for (const Law& law : Laws()) names.emplace_back(law.name);
   return names;
+}
+
+LawPart PartOf(std::string_view name) {
+  for (const Law& law : Laws()) {
+    const auto found = std::ranges::find(law.parameters, name, &ParameterInfo::name);
+    if (found != law.parameters.end()) return found->part;
+  }
+  return LawPart::other;
+}
+
+std::optional<size_t> PlaceOf(LawPart part, const Law& law) {
+  const auto found = std::ranges::find(law.parameters, part, &ParameterInfo::part);
+  if (found == law.parameters.end()) return std::nullopt;
+  return static_cast<size_t>(found - law.parameters.begin());
 }
 
 void Regressor(const Law& law, double v, double* row) {

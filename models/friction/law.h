@@ -1,6 +1,7 @@
 // The family of nominal friction laws, and its one list.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -32,6 +33,14 @@ const Law* FindLaw(std::string_view name);
 
 /// Names of all laws, in the order of the list.
 std::vector<std::string> LawNames();
+
+/// What the parameter of that name is in the laws that have it, for what was read from a file;
+/// LawPart::other where none has.
+LawPart PartOf(std::string_view name);
+
+/// The place in the law's table of the first parameter that is that part; nothing where there is
+/// none.
+std::optional<size_t> PlaceOf(LawPart part, const Law& law);
 
 /// Row of the regressor at velocity v: dF/dp, one entry for each parameter.
 /// Exact for laws that are linear in their parameters: the force for each unit vector.

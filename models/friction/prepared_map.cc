@@ -5,6 +5,8 @@
 #include <array>
 #include <numeric>
 
+#include "models/friction/evaluate_map.h"
+
 namespace warmjoint::inline models {
 namespace {
 

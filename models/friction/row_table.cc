@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "models/friction/evaluate_map.h"
 #include "models/friction/even_grid.h"
 #include "models/friction/friction_map.h"
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <string_view>
 
 #include "models/friction/parameter_info.h"
 #include "models/friction/sign.h"
@@ -27,6 +28,21 @@ struct Thermal {
                     "time constant of warming and cooling"},
   };
 };
+
+/// In size, N.m/W or N/W; joints show some 1 N.m/W, and a larger number is one that slipped.
+inline constexpr double kLargestThermalGain = 1e6;
+
+// What these numbers are called in files and attributes.
+
+inline constexpr std::string_view kGainName = Thermal::parameters[0].name;
+inline constexpr std::string_view kTimeConstantName = Thermal::parameters[1].name;
+
+/// Stands before both in a second stage.
+inline constexpr std::string_view kSecondStage = "second_";
+
+/// The sampled pair of Eq. (22).
+inline constexpr std::string_view kDiscreteGainName = "thermal_gain_discrete";
+inline constexpr std::string_view kPoleName = "thermal_pole";
 
 /// The same, sampled with a zero-order hold, Eq. (22): E[i+1] = pole E[i] + gain W[i].
 struct DiscreteThermal {

@@ -3,6 +3,7 @@
 #include <H5Cpp.h>
 
 #include <algorithm>
+#include <mutex>
 
 #include "models/foundation/atomic_file.h"
 #include "models/recording/hdf5_content.h"
@@ -80,6 +81,8 @@ Measurements ReadHdf5Apart(const std::string& path, const CsvLayout& layout, dou
 }
 
 void WriteHdf5(const Measurements& measurements, const std::string& path) {
+  static std::mutex one_at_a_time;
+  const std::lock_guard lock(one_at_a_time);
   H5::Exception::dontPrint();
   try {
     WriteWholeFile(path, Image(measurements));

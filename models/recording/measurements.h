@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "models/friction/joint_kind.h"
-#include "models/recording/log_gap.h"
+#include "models/recording/sampling.h"
 
 namespace warmjoint::inline models {
 

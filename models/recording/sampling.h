@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "models/foundation/robust_noise.h"
 
@@ -16,5 +17,26 @@ inline constexpr double kGapSteps = 3;
 
 /// The longest step between samples that is no gap, s. time: [N] s, N at least 2.
 inline double LongestStep(const Eigen::VectorXd& time) { return kGapSteps * MedianStep(time); }
+
+/// A time without samples.
+struct LogGap {
+  Eigen::Index behind = 0;  // first sample after it
+  double length = 0;        // s
+};
+
+/// Every step that is longer than LongestStep, in order of time. time: [N] s
+inline std::vector<LogGap> GapsOf(const Eigen::VectorXd& time) {
+  std::vector<LogGap> gaps;
+  if (time.size() < 2) return gaps;
+  // no step is more than so many times the shortest: none is of the median, which needs no search for that
+  const auto steps = time.tail(time.size() - 1) - time.head(time.size() - 1);
+  if (steps.maxCoeff() <= kGapSteps * steps.minCoeff()) return gaps;
+  const double longest = LongestStep(time);
+  for (Eigen::Index n = 1; n < time.size(); ++n) {
+    const double length = time[n] - time[n - 1];
+    if (length > longest) gaps.push_back({n, length});
+  }
+  return gaps;
+}
 
 }  // namespace warmjoint::inline models

@@ -7,6 +7,7 @@
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/read_json.h"
+#include "models/friction/friction_json.h"
 #include "models/robots/read_urdf.h"
 #include "models/robots/robot_folder.h"
 

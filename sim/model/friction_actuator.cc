@@ -6,6 +6,7 @@
 #include <set>
 
 #include "models/foundation/excerpt.h"
+#include "models/friction/check_friction.h"
 #include "models/friction/joint_friction.h"
 #include "sim/model/joint_pattern.h"
 #include "sim/model/mujoco_handles.h"

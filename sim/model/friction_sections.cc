@@ -4,8 +4,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "models/friction/friction_json.h"
+#include "models/friction/friction_map_json.h"
 #include "models/friction/joint_friction.h"
-#include "models/friction/thermal_names.h"
+#include "models/friction/thermal.h"
 #include "sim/model/escape_xml.h"
 #include "sim/plugin/plugin_name.h"
 

@@ -4,7 +4,8 @@
 
 #include <algorithm>
 
-#include "models/friction/law_part.h"
+#include "models/friction/check_friction.h"
+#include "models/friction/law.h"
 #include "sim/model/friction_sections.h"
 
 namespace warmjoint::inline sim {

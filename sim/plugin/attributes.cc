@@ -9,9 +9,11 @@
 #include "models/foundation/json_members.h"
 #include "models/foundation/nearest_name.h"
 #include "models/foundation/parse_number.h"
+#include "models/friction/check_friction.h"
+#include "models/friction/friction_json.h"
+#include "models/friction/friction_map_json.h"
 #include "models/friction/law.h"
-#include "models/friction/thermal_bounds.h"
-#include "models/friction/thermal_names.h"
+#include "models/friction/thermal.h"
 #include "sim/plugin/model_folder.h"
 
 namespace warmjoint::inline sim {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "models/foundation/bad_input.h"
 #include "models/friction/friction_description.h"
 
 namespace warmjoint::inline sim {

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "models/foundation/bad_input.h"
 #include "models/friction/joint_friction.h"
 #include "sim/plugin/attributes.h"
 

@@ -7,6 +7,7 @@
 #include "models/foundation/json_members.h"
 #include "models/foundation/json_turn.h"
 #include "models/foundation/read_json.h"
+#include "models/friction/friction_json.h"
 
 namespace warmjoint::inline sim {
 namespace {

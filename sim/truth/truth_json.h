@@ -4,6 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "models/foundation/bad_input.h"
 #include "sim/truth/truth.h"
 
 namespace warmjoint::inline sim {

@@ -7,6 +7,7 @@
 #include "tests/support/table1.h"
 #include "tools/suite/describe_run.h"
 #include "tools/suite/engine.h"
+#include "tools/suite/prepare_identifiers.h"
 
 namespace warmjoint {
 namespace {

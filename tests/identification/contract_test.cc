@@ -9,9 +9,13 @@
 #include <set>
 
 #include "identification/answer/identify.h"
+#include "identification/estimate_to_json.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
+#include "identification/read_options.h"
+#include "identification/seen_samples.h"
+#include "models/friction/check_friction.h"
 #include "tests/support/bristle_recording.h"
 
 namespace warmjoint {
@@ -42,7 +46,7 @@ class Contract : public ::testing::TestWithParam<Identifier> {
         given[option.name] = "8";
       }
     }
-    const Options options(GetParam().options, given, {});
+    const Options options = ReadOptions(GetParam().options, given, {});
     return IdentifyUnjudged(GetParam(),
                             {Prepare(measurements, selection), options, StartKey{{11, 3}}});
   }
@@ -168,7 +172,7 @@ TEST_P(Contract, DocumentsItselfAndItsOptions) {
     EXPECT_FALSE(option.meaning.empty()) << option.name;
     // the default passes the option's own check
     EXPECT_NO_THROW(
-        Options(identifier.options, {{option.name, option.default_value}}, Place{option.name}));
+        ReadOptions(identifier.options, {{option.name, option.default_value}}, Place{option.name}));
   }
 }
 
@@ -366,9 +370,9 @@ TEST_P(Contract, GetsASlowLogSplitAtItsSwitchesOnlyForSteadyMotion) {
   log.velocity.tail(20).setConstant(-1);
   log.position = 19.5 - (log.time.array() - 19.5).abs();
   const Selection selection = SelectMoving(log);
-  const Options options(GetParam().options, {}, {});
+  const Options options = ReadOptions(GetParam().options, {}, {});
   const PreparedLog prepared = Prepare(log, selection);
-  const IdentifierInput seen = GetParam().Seen({prepared, options, {}});
+  const IdentifierInput seen = Seen(GetParam(), {prepared, options, {}});
   const bool steady = GetParam().regime == Regime::steady;
   EXPECT_EQ(seen.measurements.size(), steady ? 41 : 40);
   EXPECT_GT(prepared.unseen(), 0);

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "identification/estimate.h"
+#include "identification/estimate_from_json.h"
+#include "identification/estimate_to_json.h"
 
 namespace warmjoint {
 namespace {

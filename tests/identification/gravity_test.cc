@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "identification/gravity_json.h"
+
 namespace warmjoint {
 namespace {
 

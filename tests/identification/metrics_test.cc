@@ -1,3 +1,5 @@
+#include "identification/metrics.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>

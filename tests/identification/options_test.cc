@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include "identification/read_options.h"
+
 namespace warmjoint {
 namespace {
 
@@ -18,7 +20,7 @@ const std::vector<OptionInfo>& Table() {
 }
 
 Options Given(const std::map<std::string, std::string>& given) {
-  return Options(Table(), given, {"suite.yaml", 7});
+  return ReadOptions(Table(), given, {"suite.yaml", 7});
 }
 
 std::string Refusal(const std::string& name, const std::string& value) {
@@ -51,7 +53,7 @@ TEST(Options, RefuseAnUnknownNameWithTheNearest) {
   EXPECT_THAT(message, HasSubstr("suite.yaml:7: "));
   EXPECT_THAT(message, HasSubstr("'iteration'"));
   EXPECT_THAT(message, HasSubstr("did you mean 'iterations'?"));
-  EXPECT_THROW(Options({}, {{"law", "coulomb"}}, {}), BadInput);
+  EXPECT_THROW(ReadOptions({}, {{"law", "coulomb"}}, {}), BadInput);
 }
 
 TEST(Options, RefuseAWordThatIsNotAllowedWithTheNearest) {

@@ -7,6 +7,7 @@
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
+#include "identification/read_options.h"
 #include "models/recording/join_recordings.h"
 #include "tests/support/warm_recording.h"
 
@@ -29,7 +30,7 @@ Estimate Identify(const std::string& name, const Measurements& m) {
   for (const OptionInfo& option : identifier.options) {
     if (option.name == "iterations") given["iterations"] = "500";
   }
-  const Options options(identifier.options, given, {});
+  const Options options = ReadOptions(identifier.options, given, {});
   const Selection selection = SelectMoving(m);
   return IdentifyUnjudged(identifier, {Prepare(m, selection), options, {11, 3}});
 }
@@ -90,7 +91,7 @@ TEST(SeveralRecordings, PredictionAndFilterStartColdWithEach) {
 TEST(SeveralRecordings, AreHeldOutFromTheEnd) {
   const Measurements m = Mornings(0.5);
   const Identifier& identifier = FindIdentifier("energy-ml");
-  const Options options(identifier.options, {}, {});
+  const Options options = ReadOptions(identifier.options, {}, {});
   const Selection selection = SelectMoving(m);
   const auto held = HoldOut(identifier, {Prepare(m, selection), options, {}}, 1.0 / 3);
   ASSERT_TRUE(held);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "models/foundation/bad_input.h"
 #include "scenarios/write_scenario.h"
 #include "tests/support/folders.h"
 

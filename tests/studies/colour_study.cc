@@ -17,6 +17,7 @@
 #include "identification/fit_data.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/prepare.h"
+#include "identification/read_options.h"
 #include "identification/score/score.h"
 #include "models/foundation/robust_noise.h"
 #include "scenarios/suite.h"
@@ -101,7 +102,7 @@ void Study(const Suite& suite, int variant, int realizations) {
   const std::unique_ptr<Plant> plant = MakePlant(VariantScenario(suite, variant));
   for (const SuiteIdentifier& one : suite.identifiers) {
     const Identifier& identifier = FindIdentifier(one.name);
-    const Options options(identifier.options, one.options, {one.label});
+    const Options options = ReadOptions(identifier.options, one.options, {one.label});
     int told = 0, wrong = 0;
     std::array<int, kBounds.size()> refused{}, refused_wrong{};
     for (int r = 0; r < realizations; ++r) {

@@ -7,6 +7,7 @@
 #include <functional>
 #include <string>
 
+#include "models/foundation/bad_input.h"
 #include "models/foundation/parse_number.h"
 #include "scenarios/suite.h"
 

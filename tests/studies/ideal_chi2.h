@@ -12,6 +12,8 @@
 #include "identification/inference/inference.h"
 #include "identification/lack_of_fit/fitted_model.h"
 #include "identification/preparation/prepare.h"
+#include "identification/read_options.h"
+#include "identification/seen_samples.h"
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"
 
@@ -58,10 +60,10 @@ class IdealChi2 {
   std::optional<double> Of(const SuiteIdentifier& one, std::uint64_t realization) const {
     if (!plant_) return {};
     const Identifier& identifier = FindIdentifier(one.name);
-    const Options options(identifier.options, one.options, {one.label});
+    const Options options = ReadOptions(identifier.options, one.options, {one.label});
     const PreparedLog log = Prepare(plant_->Run(realization).measurements);
     const IdentifierInput given{log, options, {}};
-    const IdentifierInput input = identifier.Seen(given);
+    const IdentifierInput input = Seen(identifier, given);
     const double squares =
         LeastSquaresOf(identifier.fit(input), input.measurements, input.selection);
     if (squares < 0) return {};

@@ -23,6 +23,8 @@
 #include "identification/identifiers/identifier_list.h"
 #include "identification/maps/holes.h"
 #include "identification/preparation/prepare.h"
+#include "identification/read_options.h"
+#include "identification/seen_samples.h"
 #include "identification/uncertainty/tails.h"
 #include "models/recording/course_of.h"
 #include "scenarios/suite.h"
@@ -106,9 +108,9 @@ struct Outcomes {
 };
 
 Fit FitTo(const Identifier& identifier, const PreparedLog& log, const Given& given) {
-  const Options options(identifier.options, given, {});
+  const Options options = ReadOptions(identifier.options, given, {});
   const IdentifierInput input{log, options, {}};
-  return identifier.fit(identifier.Seen(input));
+  return identifier.fit(Seen(identifier, input));
 }
 
 /// rms of the friction's error along a log; nothing where the fit predicts nothing.

@@ -21,7 +21,10 @@
 #include "identification/holdout/predict_torque.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/identifiers/structures.h"
+#include "identification/preparation/moving_view.h"
 #include "identification/preparation/prepare.h"
+#include "identification/read_options.h"
+#include "identification/seen_samples.h"
 #include "identification/uncertainty/tails.h"
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"
@@ -53,7 +56,7 @@ const std::map<std::string, std::pair<std::string, Given>> kRight{
 /// Mean squared errors of a fit's prediction on blocks of another log; nothing where it predicts nothing.
 std::optional<Eigen::VectorXd> ErrorsOn(const PreparedLog& log, const Fit& fit) {
   if (fit.refusal) return std::nullopt;
-  const LogView& view = fit.inertia ? log.moving() : log.steady();
+  const LogView& view = fit.inertia ? MovingView(log) : log.steady();
   const TorquePrediction predicted =
       PredictTorque(ModelOf(fit), view.measurements, view.selection, fit.Start());
   const std::vector<Eigen::Index> bounds = CutIntoBlocks(view.selection, kBlocks);
@@ -96,16 +99,16 @@ struct Compared {
 
 Compared Choose(const PreparedLog& log) {
   const Identifier& identifier = FindIdentifier("auto");
-  const Options options(identifier.options, {}, {});
+  const Options options = ReadOptions(identifier.options, {}, {});
   const IdentifierInput input{log, options, {}};
-  Fit fit = identifier.fit(identifier.Seen(input));
+  Fit fit = identifier.fit(Seen(identifier, input));
   return {fit.choice ? WithoutShape(fit.choice->chosen) : "nothing", std::move(fit)};
 }
 
 Fit FitRight(const Structure& right, const PreparedLog& log) {
-  const Options options(right.identifier.options, right.given, {});
+  const Options options = ReadOptions(right.identifier.options, right.given, {});
   const IdentifierInput input{log, options, {}};
-  return right.identifier.fit(right.identifier.Seen(input));
+  return right.identifier.fit(Seen(right.identifier, input));
 }
 
 void Study(const Suite& suite, int variant, int realizations) {

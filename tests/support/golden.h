@@ -8,6 +8,7 @@
 #include <string>
 
 #include "models/friction/along_motion.h"
+#include "models/friction/friction_json.h"
 #include "tests/support/folders.h"
 
 namespace warmjoint::test {

@@ -11,6 +11,7 @@
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
+#include "identification/read_options.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint::test {
@@ -37,7 +38,7 @@ inline Measurements RecordHour(const FrictionDescription& friction, std::uint64_
 inline Estimate Answer(const std::string& name, const Measurements& measurements,
                        const std::map<std::string, std::string>& given = {}) {
   const Identifier& identifier = FindIdentifier(name);
-  const Options options(identifier.options, given, {});
+  const Options options = ReadOptions(identifier.options, given, {});
   return IdentifyAndJudge(identifier, {Prepare(measurements), options, {}});
 }
 

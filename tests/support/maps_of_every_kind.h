@@ -8,6 +8,7 @@
 #include "identification/forward/map_points.h"
 #include "identification/ridge/row_groups.h"
 #include "models/foundation/random_stream.h"
+#include "models/friction/evaluate_map.h"
 
 namespace warmjoint::test {
 

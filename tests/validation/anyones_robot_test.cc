@@ -9,6 +9,7 @@
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
+#include "identification/read_options.h"
 #include "sim/model/load_model.h"
 #include "sim/plant/plant.h"
 #include "tests/support/shared_data.h"
@@ -57,7 +58,7 @@ TEST_P(AnyonesRobot, GivesBackTheFrictionOfAJointUnderGravity) {
   const Recording recording = MakePlant(scenario)->Run(0);
 
   const Identifier& identifier = FindIdentifier("energy-ml");
-  const Options options(identifier.options, {{"gravity", "sincos"}}, {});
+  const Options options = ReadOptions(identifier.options, {{"gravity", "sincos"}}, {});
   const Estimate estimate =
       IdentifyUnjudged(identifier, {Prepare(recording.measurements), options, {}});
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;

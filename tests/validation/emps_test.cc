@@ -9,6 +9,7 @@
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
+#include "identification/read_options.h"
 #include "models/recording/read_recording.h"
 #include "tests/support/shared_data.h"
 
@@ -33,7 +34,7 @@ Measurements Emps() {
 double TestRmse(const Measurements& m, const std::string& name,
                 const std::map<std::string, std::string>& given) {
   const Identifier& identifier = FindIdentifier(name);
-  const Options options(identifier.options, given, {});
+  const Options options = ReadOptions(identifier.options, given, {});
   const auto held = HoldOut(identifier, {Prepare(m), options, {}}, 0.4);
   if (!held) return kInfinity;
   std::cout << name << ": " << held->rmse << " N rms on the last 40 %\n";
@@ -53,7 +54,7 @@ TEST(Emps, RipplesFourTimesATurnOfTheScrew) {
   WARMJOINT_NEED_SHARED(kFile);
   const Measurements m = Emps();
   const Identifier& identifier = FindIdentifier("motor-ridge");
-  const Options options(identifier.options, {}, {});
+  const Options options = ReadOptions(identifier.options, {}, {});
   const Estimate estimate = IdentifyUnjudged(identifier, {Prepare(m), options, {}});
   std::cout << estimate.message << "\n";
   // 2.50 mm, strongest in both directions

@@ -7,6 +7,7 @@
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
+#include "identification/read_options.h"
 #include "models/foundation/atomic_file.h"
 #include "models/recording/read_recording.h"
 #include "scenarios/scenario.h"
@@ -47,7 +48,7 @@ Scenario Sweeps(const std::string& robot) {
 
 Estimate Identify(const Measurements& measurements, const std::string& gravity) {
   const Identifier& identifier = FindIdentifier("energy-ml");
-  const Options options(identifier.options, {{"gravity", gravity}}, {});
+  const Options options = ReadOptions(identifier.options, {{"gravity", gravity}}, {});
   return IdentifyUnjudged(identifier, {Prepare(measurements), options, {}});
 }
 
@@ -82,7 +83,7 @@ TEST(Gravity, OfTheEmpsAxisIsItsPublishedOffset) {
   const Measurements log =
       ReadRecording(test::SharedFolder() / "data" / "emps" / "DATA_EMPS.csv", layout);
   const Identifier& identifier = FindIdentifier("nominal-ls");
-  const Options options(identifier.options, {{"gravity", "paired"}}, {});
+  const Options options = ReadOptions(identifier.options, {{"gravity", "paired"}}, {});
   const Estimate estimate = IdentifyUnjudged(identifier, {Prepare(log), options, {}});
   ASSERT_TRUE(estimate.Find("gravity_offset")) << estimate.message;
 

@@ -9,6 +9,7 @@
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
 #include "models/foundation/read_json.h"
+#include "models/friction/friction_json.h"
 #include "tools/actions/initial_energy.h"
 
 namespace warmjoint::inline tools {

@@ -9,10 +9,11 @@
 #include <nlohmann/json.hpp>
 
 #include "identification/find_parameter.h"
+#include "identification/fit_parameters.h"
 #include "identification/uncertainty/tails.h"
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
-#include "models/friction/thermal_names.h"
+#include "models/friction/thermal.h"
 
 namespace warmjoint::inline tools {
 namespace {

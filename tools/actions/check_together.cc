@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "identification/preparation/check_report.h"
-#include "tools/board/table.h"
+#include "tools/terminal/table.h"
 
 namespace warmjoint::inline tools {
 namespace {

@@ -9,6 +9,8 @@
 #include "identification/answer/identify.h"
 #include "identification/fit_data.h"
 #include "identification/holdout/blocked_hold_out.h"
+#include "identification/preparation/moving_view.h"
+#include "identification/seen_samples.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -23,7 +25,7 @@ std::vector<Eigen::Index> BoundsAt(const std::vector<double>& times, const Eigen
 
 /// Where the blocks but the first begin, s.
 std::vector<double> BlockTimes(const PreparedLog& log) {
-  const auto& [m, selection] = log.HoldsSpeeds() ? log.steady() : log.moving();
+  const auto& [m, selection] = HoldsSpeeds(log) ? log.steady() : MovingView(log);
   std::vector<double> times;
   const std::vector<Eigen::Index> bounds = CutIntoBlocks(selection, kComparedBlocks);
   for (size_t i = 1; i + 1 < bounds.size(); ++i) times.push_back(m.time[bounds[i]]);
@@ -85,7 +87,7 @@ std::vector<ComparedIdentifier> CompareIdentifiers(const std::vector<IdentifyTas
     one.status = estimate.status;
     one.message = estimate.FullMessage();
     // errors over blocks that are the same times for all
-    const IdentifierInput input = task.identifier.Seen(given);
+    const IdentifierInput input = Seen(task.identifier, given);
     const std::vector<Eigen::Index> bounds = BoundsAt(times, input.measurements.time);
     if (const auto blocks = BlockedFigures(task.identifier, input, bounds)) {
       Figure(input, *blocks, one);

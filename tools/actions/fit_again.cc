@@ -5,7 +5,10 @@
 #include "identification/answer/identify.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
+#include "identification/preparation/moving_view.h"
+#include "identification/read_options.h"
 #include "identification/report/report_fit.h"
+#include "identification/seen_samples.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -21,7 +24,7 @@ std::optional<Maker> MakerOf(const Estimate& estimate) {
   const auto& all = Identifiers();
   const auto found = std::ranges::find(all, estimate.identifier, &Identifier::name);
   if (found == all.end()) return std::nullopt;
-  return Maker{*found, Options(found->options, estimate.options, {"options of the estimate"})};
+  return Maker{*found, ReadOptions(found->options, estimate.options, {"options of the estimate"})};
 }
 
 }  // namespace
@@ -46,12 +49,12 @@ std::optional<HeldOutFit> FitFirstPartAgain(const Estimate& estimate, const Prep
   const IdentifierInput input{log, options, {}};
 
   // one that chooses a structure has chosen it on all samples
-  const Fit all_data = estimate.choice ? identifier.fit(identifier.Seen(input)) : Fit{};
+  const Fit all_data = estimate.choice ? identifier.fit(Seen(identifier, input)) : Fit{};
   const auto first = FitFirstPart(identifier, input, fraction, all_data);
   if (!first) return std::nullopt;
   // the fit to the first part as an estimate of its own
   const PreparedLog seen = log.Before(first->split);
-  const LogView& fitted = first->fit.inertia ? seen.moving() : seen.steady();
+  const LogView& fitted = first->fit.inertia ? MovingView(seen) : seen.steady();
   HeldOutFit made{first->split, ReportFit(first->fit, Infer(first->fit), fitted.measurements)};
   if (!made.estimate.friction) return std::nullopt;
   made.estimate.status = estimate.status;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "identification/fit_data.h"
+#include "identification/metrics.h"
 #include "identification/warming/estimated_start.h"
 #include "models/recording/course_of.h"
 #include "tools/suite/external_identifier.h"

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "identification/estimate_to_json.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/linear/rigid_part.h"
+#include "identification/read_options.h"
 #include "identification/warming/expected_start.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
@@ -130,7 +132,8 @@ IdentifyTask CheckSettings(const IdentifySettings& settings, JointKind joint) {
   RequireWord(settings.motion, "--motion", {"chosen", "constant", "any"});
   RequireWord(settings.start, "--start", {"cold", "unknown", "estimated"});
   const Identifier& identifier = FindIdentifier(settings.identifier);
-  Options options(identifier.options, GivenOptions(settings, identifier, joint), {"--set"});
+  Options options =
+      ReadOptions(identifier.options, GivenOptions(settings, identifier, joint), {"--set"});
   return {identifier, std::move(options), JudgingOf(settings), settings.void_numbers};
 }
 

@@ -4,9 +4,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "identification/estimate_from_json.h"
 #include "identification/find_parameter.h"
 #include "identification/fit_data.h"
+#include "identification/metrics.h"
+#include "identification/preparation/moving_view.h"
 #include "models/foundation/read_json.h"
+#include "models/friction/friction_json.h"
 
 namespace warmjoint::inline tools {
 
@@ -38,7 +42,7 @@ StoredModel ReadStoredModel(const std::string& file) {
 
 Predicted PredictLog(const StoredModel& stored, const PreparedLog& log, const CourseStart& start) {
   // with an inertia any motion can be compared, else constant speeds only
-  const LogView& view = stored.model.inertia ? log.moving() : log.steady();
+  const LogView& view = stored.model.inertia ? MovingView(log) : log.steady();
   const Measurements& m = view.measurements;
   const std::string_view unit = kTorqueUnit.For(m.joint);
   if (m.torque_unit != unit) {

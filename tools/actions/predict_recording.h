@@ -7,6 +7,7 @@
 #include "identification/estimate.h"
 #include "identification/holdout/predict_torque.h"
 #include "identification/preparation/prepared_log.h"
+#include "models/friction/course_start.h"
 
 namespace warmjoint::inline tools {
 

@@ -4,7 +4,7 @@
 
 #include "identification/preparation/prepare.h"
 #include "sim/plant/plant.h"
-#include "tools/suite/prepared_identifier.h"
+#include "tools/suite/prepare_identifiers.h"
 #include "tools/suite/start_key.h"
 #include "tools/terminal/shell_words.h"
 

@@ -8,6 +8,7 @@
 #include "tools/board/write_tables.h"
 #include "tools/suite/describe_run.h"
 #include "tools/suite/memory_of_work.h"
+#include "tools/suite/prepare_identifiers.h"
 
 namespace warmjoint::inline tools {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "tools/board/leaderboard.h"
-#include "tools/board/table.h"
+#include "tools/terminal/table.h"
 
 namespace warmjoint::inline tools {
 

@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "models/foundation/atomic_file.h"
+#include "models/friction/course_start.h"
 #include "tools/actions/initial_energy.h"
 #include "tools/actions/outputs.h"
 #include "tools/actions/predict_recording.h"
-#include "tools/board/table.h"
 #include "tools/cli/command.h"
 #include "tools/cli/follow_options.h"
 #include "tools/cli/recording_options.h"
@@ -17,6 +17,7 @@
 #include "tools/parser/choice.h"
 #include "tools/terminal/activity.h"
 #include "tools/terminal/say.h"
+#include "tools/terminal/table.h"
 
 namespace warmjoint::inline tools {
 namespace {

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "models/foundation/printable.h"
-#include "tools/board/table.h"
 #include "tools/report/estimate/remarks.h"
 #include "tools/report/estimate/shown_parameters.h"
+#include "tools/terminal/table.h"
 
 namespace warmjoint::inline tools {
 namespace {

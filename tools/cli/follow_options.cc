@@ -1,5 +1,7 @@
 #include "tools/cli/follow_options.h"
 
+#include "identification/estimate_from_json.h"
+#include "identification/preparation/moving_view.h"
 #include "models/foundation/read_json.h"
 
 namespace warmjoint::inline tools {
@@ -18,7 +20,7 @@ Estimate ReadEstimate(const std::string& file) {
 /// The heat at the end of a log, as a model has it that knows no errors.
 LeftHeat HeatAtEnd(const StoredModel& stored, const PreparedLog& log, const std::string& file) {
   // the samples that such a model predicts: all that move, where it has an inertia
-  const LogView& view = stored.model.inertia ? log.moving() : log.steady();
+  const LogView& view = stored.model.inertia ? MovingView(log) : log.steady();
   const Measurements& m = view.measurements;
   const FrictionState end = PredictTorque(stored.model, m, view.selection, {}).friction.end;
   // its heat at the last sample, which is no estimate and has no errors

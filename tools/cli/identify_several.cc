@@ -9,9 +9,9 @@
 #include "identification/linear/rigid_part.h"
 #include "models/foundation/excerpt.h"
 #include "tools/actions/compare_identifiers.h"
-#include "tools/board/table.h"
 #include "tools/terminal/activity.h"
 #include "tools/terminal/say.h"
+#include "tools/terminal/table.h"
 
 namespace warmjoint::inline tools {
 namespace {

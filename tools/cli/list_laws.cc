@@ -4,8 +4,8 @@
 
 #include "models/foundation/number_json.h"
 #include "models/friction/friction_description.h"
-#include "tools/board/table.h"
 #include "tools/cli/families.h"
+#include "tools/terminal/table.h"
 #include "tools/terminal/wrap.h"
 
 namespace warmjoint::inline tools {

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "identification/estimate_from_json.h"
 #include "models/foundation/bad_input.h"
 #include "models/foundation/read_json.h"
 #include "tools/report/estimate/estimate_figures.h"

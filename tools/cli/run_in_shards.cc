@@ -25,6 +25,7 @@
 #include "tools/store/directory_lock.h"
 #include "tools/suite/describe_run.h"
 #include "tools/suite/interrupt.h"
+#include "tools/suite/prepare_identifiers.h"
 #include "tools/terminal/say.h"
 #include "tools/terminal/shell_words.h"
 

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
 #include "tools/interface/convert_friction.h"

@@ -4,6 +4,7 @@
 
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
+#include "models/friction/check_friction.h"
 
 namespace warmjoint::api {
 namespace {

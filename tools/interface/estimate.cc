@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "identification/estimate_from_json.h"
+#include "identification/estimate_to_json.h"
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/read_json.h"
 #include "tools/actions/identify_recording.h"

@@ -5,6 +5,8 @@
 
 #include "models/foundation/read_json.h"
 #include "models/friction/along_motion.h"
+#include "models/friction/check_friction.h"
+#include "models/friction/friction_json.h"
 #include "models/friction/joint_friction.h"
 #include "models/friction/settled_energy.h"
 #include "models/recording/course_of.h"

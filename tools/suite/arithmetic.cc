@@ -7,6 +7,7 @@
 #include "scenarios/parse_suite.h"
 #include "tools/store/digest.h"
 #include "tools/store/sha256.h"
+#include "tools/suite/prepare_identifiers.h"
 #include "tools/suite/run_realization.h"
 
 namespace warmjoint::inline tools {

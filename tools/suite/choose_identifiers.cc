@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "identification/identifiers/identifier_list.h"
+#include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
 
 namespace warmjoint::inline tools {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "identification/read_options.h"
 #include "models/foundation/excerpt.h"
 #include "tools/suite/command_line.h"
 #include "tools/suite/interpreter.h"
@@ -157,7 +158,7 @@ bool NeedsShell(const SuiteIdentifier& identifier) {
 }
 
 std::vector<fs::path> ReadableBy(const SuiteIdentifier& identifier) {
-  const Options options(ExternalOptions(), identifier.options, {identifier.label});
+  const Options options = ReadOptions(ExternalOptions(), identifier.options, {identifier.label});
   const std::vector<std::string> words =
       SplitCommand(options.Text("command"), {Excerpt(identifier.label)});
   if (words.empty()) Refuse({Excerpt(identifier.label)}, "its command is empty");

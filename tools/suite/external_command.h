@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "identification/options.h"
+#include "models/foundation/bad_input.h"
 #include "scenarios/suite_identifier.h"
 
 namespace warmjoint::inline tools {

@@ -6,19 +6,22 @@
 #include <nlohmann/json.hpp>
 
 #include "identification/answer/judge_estimate.h"
+#include "identification/estimate_from_json.h"
 #include "identification/find_parameter.h"
 #include "identification/fit_data.h"
+#include "identification/metrics.h"
 #include "identification/options.h"
+#include "identification/read_options.h"
 #include "identification/warming/estimated_start.h"
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/read_json.h"
 #include "models/foundation/robust_noise.h"
-#include "models/friction/thermal_names.h"
+#include "models/friction/thermal.h"
 #include "models/recording/course_of.h"
+#include "models/recording/hdf5.h"
 #include "models/recording/read_recording.h"
 #include "tools/suite/interpreter.h"
-#include "tools/suite/keep_recording.h"
 #include "tools/suite/run_command.h"
 #include "tools/suite/working_directory.h"
 #include "tools/terminal/shell_words.h"
@@ -34,7 +37,7 @@ void WriteMeasurements(const Measurements& measurements, const std::string& comm
     WriteRecording(measurements, directory / "recording.csv");
   }
   if (Mentions(command, "{recording.h5}")) {
-    WriteHdf5Alone(measurements, directory / "recording.h5");
+    WriteHdf5(measurements, directory / "recording.h5");
   }
 }
 
@@ -167,7 +170,7 @@ Estimate Ask(const Command& command, const PreparedLog& log) {
 
 PreparedIdentifier PrepareExternal(const SuiteIdentifier& identifier, const Place& place,
                                    const Judging& judging) {
-  const Options options(ExternalOptions(), identifier.options, place);
+  const Options options = ReadOptions(ExternalOptions(), identifier.options, place);
   Command command{identifier.label, options.Text("command"), {}, {}, {}, judging};
   // a command that is not told where to write cannot answer
   if (!Mentions(command.text, "{estimate}")) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "identification/lack_of_fit/judging.h"
+#include "models/foundation/bad_input.h"
 #include "tools/suite/external_command.h"
 #include "tools/suite/prepared_identifier.h"
 

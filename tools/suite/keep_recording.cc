@@ -2,25 +2,19 @@
 
 #include <fmt/format.h>
 
-#include <mutex>
+#include <string>
 
 #include "models/recording/hdf5.h"
 #include "sim/truth/truth_json.h"
 
 namespace warmjoint::inline tools {
 
-void WriteHdf5Alone(const Measurements& measurements, const std::string& path) {
-  static std::mutex one_at_a_time;
-  const std::lock_guard lock(one_at_a_time);
-  WriteHdf5(measurements, path);
-}
-
 void RecordingKeeper::Keep(const Recording& recording, Unit unit) const {
   if (folder_.empty()) return;
   const std::filesystem::path folder = folder_ / fmt::format("variant-{}", unit.variant);
   std::filesystem::create_directories(folder);
   const std::string stem = folder / fmt::format("realization-{}", unit.realization);
-  WriteHdf5Alone(recording.measurements, stem + ".h5");
+  WriteHdf5(recording.measurements, stem + ".h5");
   WriteTruth(recording.truth, stem + ".truth.json");
 }
 

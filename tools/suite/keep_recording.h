@@ -2,15 +2,11 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 
 #include "sim/truth/simulated_recording.h"
 #include "tools/store/result.h"
 
 namespace warmjoint::inline tools {
-
-/// WriteHdf5 for many threads: the HDF5 library serves one at a time.
-void WriteHdf5Alone(const Measurements& measurements, const std::string& path);
 
 /// Keeps recordings in a folder, or nowhere.
 class RecordingKeeper {

@@ -1,16 +1,13 @@
-// Identifiers of a suite, ready to run.
+// An identifier of a suite, ready to run.
 #pragma once
 
 #include <functional>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "identification/estimate.h"
 #include "identification/preparation/prepared_log.h"
-#include "models/foundation/bad_input.h"
 #include "models/foundation/start_stream.h"
-#include "scenarios/suite_identifier.h"
 
 namespace warmjoint::inline tools {
 
@@ -24,10 +21,5 @@ class NoAnswer : public std::runtime_error {
 
 /// An identifier with its name looked up and its options checked. Safe to call from many threads.
 using PreparedIdentifier = std::function<Estimate(const PreparedLog&, StartKey)>;
-
-/// The suite's identifiers in its order. Throws BadInput from `place` for unknown names and
-/// options.
-std::vector<PreparedIdentifier> PrepareIdentifiers(const std::vector<SuiteIdentifier>& identifiers,
-                                                   const Place& place);
 
 }  // namespace warmjoint::inline tools

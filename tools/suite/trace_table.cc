@@ -4,7 +4,7 @@
 #include <map>
 
 #include "identification/score/npe.h"
-#include "models/friction/thermal_names.h"
+#include "models/friction/thermal.h"
 
 namespace warmjoint::inline tools {
 namespace {

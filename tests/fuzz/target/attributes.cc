@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "models/friction/check_friction.h"
 #include "tests/fuzz/fuzz.h"
 
 namespace {

@@ -3,6 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "identification/estimate_from_json.h"
+#include "identification/estimate_to_json.h"
 #include "models/foundation/read_json.h"
 #include "tests/fuzz/fuzz.h"
 

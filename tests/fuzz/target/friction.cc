@@ -4,6 +4,7 @@
 
 #include "models/foundation/read_json.h"
 #include "models/friction/friction_description.h"
+#include "models/friction/friction_json.h"
 #include "models/friction/joint_friction.h"
 #include "tests/fuzz/fuzz.h"
 

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "identification/identifiers/identifier_list.h"
+#include "identification/read_options.h"
 #include "models/foundation/read_json.h"
 #include "tests/fuzz/fuzz.h"
 #include "tools/actions/project_file.h"
@@ -60,7 +61,7 @@ void Read(std::string_view bytes) {
 
   // what an identifier is told
   const Identifier& identifier = FindIdentifier(name);
-  const Options options(identifier.options, ReadPairs(set, "--set"), {"--set"});
+  const Options options = ReadOptions(identifier.options, ReadPairs(set, "--set"), {"--set"});
   for (const OptionInfo& option : identifier.options) {
     fuzz::Require(options.Text(option.name).data() != nullptr);
     if (option.allowed == "range") {

@@ -6,6 +6,7 @@
 #include "identification/identifiers/nominal_ls.h"
 #include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
+#include "identification/read_options.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint {
@@ -29,7 +30,7 @@ TEST(BlockedHoldOut, HasTheErrorOfTheNoiseWhereTheModelIsRight) {
       test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 4), 0.5, 4);
   const Selection selection = SelectMoving(m);
   const Identifier warm = EnergyMl();
-  const Options options(warm.options, {}, {});
+  const Options options = ReadOptions(warm.options, {}, {});
   const auto errors =
       BlockedErrors(warm, {Prepare(m, selection), options, {}}, CutIntoBlocks(selection, 6));
   ASSERT_TRUE(errors);
@@ -43,7 +44,7 @@ TEST(BlockedHoldOut, SeesTheWarmingThatTheModelLacks) {
       test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 4), 0.5, 4);
   const Selection selection = SelectMoving(m);
   const Identifier cold = NominalLs();
-  const Options options(cold.options, {}, {});
+  const Options options = ReadOptions(cold.options, {}, {});
   const auto errors =
       BlockedErrors(cold, {Prepare(m, selection), options, {}}, CutIntoBlocks(selection, 6));
   ASSERT_TRUE(errors);
@@ -61,7 +62,7 @@ TEST(BlockedHoldOut, StartsAsWarmAsTheFitSays) {
   Measurements m = test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(600, 4), 0, 4);
   m.torque = PredictFriction(test::TableOne(), m, {-6}).force;
   const Selection selection = SelectMoving(m);
-  const Options options(knowing.options, {}, {});
+  const Options options = ReadOptions(knowing.options, {}, {});
   const auto errors =
       BlockedErrors(knowing, {Prepare(m, selection), options, {}}, CutIntoBlocks(selection, 6));
   ASSERT_TRUE(errors);

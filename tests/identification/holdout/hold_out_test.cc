@@ -5,6 +5,7 @@
 #include "identification/fit_parameters.h"
 #include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
+#include "identification/read_options.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint {
@@ -15,7 +16,7 @@ struct Trial {
   Identifier identifier;
   Measurements measurements;
   Selection selection = SelectMoving(measurements);
-  Options options{identifier.options, {}, {}};
+  Options options = ReadOptions(identifier.options, {}, {});
 
   IdentifierInput input() const { return {Prepare(measurements, selection), options, {}}; }
 };

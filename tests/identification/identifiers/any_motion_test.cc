@@ -8,6 +8,7 @@
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/prepare.h"
+#include "identification/read_options.h"
 #include "tests/support/excited_recording.h"
 
 namespace warmjoint {
@@ -20,7 +21,7 @@ using test::Excited, test::kInertia, test::kSine, test::kCosine;
 Estimate AnswerTo(const std::string& name, const Measurements& m,
                   std::map<std::string, std::string> given = {{"gravity", "sincos"}}) {
   const Identifier& identifier = FindIdentifier(name);
-  const Options options(identifier.options, given, {});
+  const Options options = ReadOptions(identifier.options, given, {});
   return IdentifyAndJudge(identifier, {Prepare(m), options, {}});
 }
 
@@ -82,7 +83,7 @@ TEST(AnyMotion, HeldOutFiguresAreOfTheSameModel) {
   FrictionDescription cold = test::TableOne();
   cold.thermal.reset();
   const Identifier& identifier = FindIdentifier("nominal-ls");
-  const Options options(identifier.options, {{"gravity", "sincos"}}, {});
+  const Options options = ReadOptions(identifier.options, {{"gravity", "sincos"}}, {});
   const auto held = HoldOut(identifier, {Prepare(Excited(cold, 6000, 5)), options, {}}, 0.3);
   ASSERT_TRUE(held);
   // noise alone: 0.5 with a standard error of 0.5/sqrt(2 * 1500)

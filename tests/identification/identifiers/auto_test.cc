@@ -5,6 +5,7 @@
 #include "identification/answer/identify.h"
 #include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
+#include "identification/read_options.h"
 #include "models/foundation/low_pass.h"
 #include "models/foundation/random_stream.h"
 #include "models/recording/course_of.h"
@@ -19,7 +20,7 @@ using ::testing::HasSubstr;
 
 Estimate AnswerTo(const Measurements& m) {
   const Identifier identifier = Auto();
-  const Options options(identifier.options, {}, {});
+  const Options options = ReadOptions(identifier.options, {}, {});
   return IdentifyUnjudged(identifier, {Prepare(m), options, {}});
 }
 
@@ -200,11 +201,11 @@ TEST(Auto, BeginsAsWarmAsItIsTold) {
   const double energy = PredictFriction(truth, all).energy[600];
   const Measurements log = test::Without(all, {{-1, 599.5}});
   const Identifier identifier = Auto();
-  const Options options(identifier.options,
-                        {{"initial_energy", "expected"},
-                         {"expected_energy", std::to_string(energy)},
-                         {"expected_energy_std", "0.05"}},
-                        {});
+  const Options options = ReadOptions(identifier.options,
+                                      {{"initial_energy", "expected"},
+                                       {"expected_energy", std::to_string(energy)},
+                                       {"expected_energy_std", "0.05"}},
+                                      {});
   const Estimate estimate = IdentifyUnjudged(identifier, {Prepare(log), options, {}});
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
   for (const auto& [name, value] :

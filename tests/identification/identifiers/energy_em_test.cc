@@ -7,6 +7,7 @@
 #include "identification/answer/identify.h"
 #include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
+#include "identification/read_options.h"
 #include "tests/support/travelling.h"
 
 namespace warmjoint {
@@ -17,7 +18,7 @@ using Given = std::map<std::string, std::string>;
 
 Estimate Identify(const Measurements& measurements, const Given& given = {}, StartKey key = {}) {
   const Identifier identifier = EnergyEm();
-  const Options options(identifier.options, given, {});
+  const Options options = ReadOptions(identifier.options, given, {});
   return IdentifyUnjudged(identifier, {Prepare(measurements), options, key});
 }
 

@@ -7,6 +7,7 @@
 #include "identification/answer/identify.h"
 #include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
+#include "identification/read_options.h"
 #include "models/foundation/random_stream.h"
 #include "models/friction/thermal.h"
 #include "tests/support/vectors.h"
@@ -20,7 +21,7 @@ using ::testing::HasSubstr;
 Estimate FitWarming(const Measurements& measurements,
                     const std::map<std::string, std::string>& given = {}) {
   const Identifier identifier = EnergyMl();
-  const Options options(identifier.options, given, {});
+  const Options options = ReadOptions(identifier.options, given, {});
   return IdentifyUnjudged(identifier, {Prepare(measurements), options, {}});
 }
 

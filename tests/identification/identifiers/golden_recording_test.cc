@@ -6,6 +6,7 @@
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/prepare.h"
+#include "identification/read_options.h"
 #include "tests/support/vectors.h"
 
 namespace warmjoint {
@@ -23,7 +24,7 @@ Measurements GoldenLog(const std::string& law) {
 Estimate Identify(const std::string& name, const Measurements& m,
                   const std::map<std::string, std::string>& given) {
   const Identifier& identifier = FindIdentifier(name);
-  const Options options(identifier.options, given, {});
+  const Options options = ReadOptions(identifier.options, given, {});
   const IdentifierInput input{Prepare(m), options, {}};
   EXPECT_GT(input.selection.count(), m.size() / 2);
   return IdentifyUnjudged(identifier, input);

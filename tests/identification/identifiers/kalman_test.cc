@@ -9,6 +9,7 @@
 #include "identification/identifiers/rls.h"
 #include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
+#include "identification/read_options.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint {
@@ -18,7 +19,7 @@ using ::testing::HasSubstr;
 
 Estimate AnswerTo(const Identifier& identifier, const Measurements& m,
                   const std::map<std::string, std::string>& given = {}) {
-  const Options options(identifier.options, given, {});
+  const Options options = ReadOptions(identifier.options, given, {});
   return IdentifyUnjudged(identifier, {Prepare(m), options, {}});
 }
 

@@ -9,6 +9,7 @@
 #include "identification/nonlinear/lugre_data.h"
 #include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
+#include "identification/read_options.h"
 #include "models/recording/join_recordings.h"
 #include "tests/support/bristle_recording.h"
 
@@ -33,7 +34,7 @@ Estimate AnswerTo(const Measurements& m, const Selection& selection,
                   const std::map<std::string, std::string>& given = {},
                   Verdict verdict = Verdict::judged) {
   const Identifier identifier = LuGreByCeres();
-  const Options options(identifier.options, given, {});
+  const Options options = ReadOptions(identifier.options, given, {});
   const IdentifierInput input{Prepare(m, selection), options, {}};
   return verdict == Verdict::judged ? IdentifyAndJudge(identifier, input)
                                     : IdentifyUnjudged(identifier, input);
@@ -148,7 +149,7 @@ TEST(Lugre, AgreesWithStribeckWhereTheJointSlidesSteadily) {
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
 
   const Identifier stribeck = StribeckByCeres();
-  const Options options(stribeck.options, {}, {});
+  const Options options = ReadOptions(stribeck.options, {}, {});
   const Selection moving = SelectMoving(m);
   const Selection steady =
       SteadySamples(IdentifierInput(Prepare(m, moving), options, {}).AsTaken(), 0.01);

@@ -5,6 +5,7 @@
 #include "identification/answer/identify.h"
 #include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
+#include "identification/read_options.h"
 #include "tests/support/travelling.h"
 
 namespace warmjoint {
@@ -26,7 +27,8 @@ Measurements Geared(std::vector<FrictionMap> maps, double noise) {
 
 Estimate Identify(const Measurements& m) {
   const Identifier identifier = MotorRidge();
-  const Options options(identifier.options, {{"width", "1"}, {"arm_kernels", "10"}}, {});
+  const Options options =
+      ReadOptions(identifier.options, {{"width", "1"}, {"arm_kernels", "10"}}, {});
   const Selection selection = SelectMoving(m);
   return IdentifyUnjudged(identifier, {Prepare(m, selection), options, {}});
 }

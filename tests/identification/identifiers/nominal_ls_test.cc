@@ -9,6 +9,7 @@
 #include "identification/answer/identify.h"
 #include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
+#include "identification/read_options.h"
 #include "models/foundation/random_stream.h"
 #include "tests/support/vectors.h"
 
@@ -21,7 +22,7 @@ using ::testing::Not;
 
 Estimate FitLaw(const Measurements& measurements, const std::string& law) {
   const Identifier identifier = NominalLs();
-  const Options options(identifier.options, {{"law", law}}, {});
+  const Options options = ReadOptions(identifier.options, {{"law", law}}, {});
   return IdentifyUnjudged(identifier, {Prepare(measurements), options, {}});
 }
 

@@ -6,6 +6,7 @@
 #include "identification/identifiers/nominal_ls.h"
 #include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
+#include "identification/read_options.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint {
@@ -13,7 +14,7 @@ namespace {
 
 Estimate AnswerTo(const Identifier& identifier, const Measurements& m,
                   const std::map<std::string, std::string>& given) {
-  const Options options(identifier.options, given, {});
+  const Options options = ReadOptions(identifier.options, given, {});
   return IdentifyUnjudged(identifier, {Prepare(m), options, {}});
 }
 

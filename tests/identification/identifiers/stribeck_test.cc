@@ -8,6 +8,7 @@
 #include "identification/nonlinear/stribeck_fit.h"
 #include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
+#include "identification/read_options.h"
 #include "models/recording/join_recordings.h"
 #include "tests/support/slow_recording.h"
 
@@ -19,7 +20,7 @@ using ::testing::HasSubstr;
 
 Estimate AnswerTo(const Measurements& m, const std::map<std::string, std::string>& given = {}) {
   const Identifier identifier = StribeckByCeres();
-  const Options options(identifier.options, given, {});
+  const Options options = ReadOptions(identifier.options, given, {});
   return IdentifyUnjudged(identifier, {Prepare(m), options, {}});
 }
 

@@ -7,6 +7,7 @@
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
+#include "identification/read_options.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint {
@@ -133,7 +134,7 @@ TEST(JudgeBounds, SeldomVoidsTheRightModelAtItsBound) {
   // without viscous friction half of the values fall below 0, and 2.5 % with their whole interval
   FrictionDescription friction{"viscous_coulomb", {{"viscous", 0}, {"coulomb", 15}}, {}, 0, 1};
   const Identifier& identifier = FindIdentifier("nominal-ls");
-  const Options options(identifier.options, {}, {});
+  const Options options = ReadOptions(identifier.options, {}, {});
   int below = 0, voided = 0;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
     const Measurements m =

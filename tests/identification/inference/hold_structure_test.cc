@@ -35,18 +35,21 @@ Disagreement MovedBy(double difference) {
 TEST(HoldStructure, LetsTheErrorsReachAsFarAsTheWhitenedFit) {
   Fit fit = LevelFit();
   const double before = CovarianceOf(fit).covariance(0, 0);
-  HoldStructure(MovedBy(0.2), fit.fitted, fit);
-  EXPECT_TRUE(fit.without_intervals.empty());
-  EXPECT_EQ(fit.warnings.size(), 1u);
-  EXPECT_DOUBLE_EQ(CovarianceOf(fit).covariance(0, 0), before + 0.04);
+  fit.held_structure = {MovedBy(0.2), fit.fitted};
+  const Inference inference = Infer(fit);
+  EXPECT_TRUE(inference.without_intervals.empty());
+  EXPECT_EQ(inference.warnings.size(), 1u);
+  EXPECT_DOUBLE_EQ(inference.known.covariance(0, 0), before + 0.04);
 }
 
 TEST(HoldStructure, GivesNoIntervalsWhereItMovesTheFrictionByTwoPerCent) {
   // J d is 0.31 N.m of 15 everywhere, 2.07 %
   Fit fit = LevelFit();
-  HoldStructure(MovedBy(0.31), fit.fitted, fit);
-  EXPECT_FALSE(fit.without_intervals.empty());
-  EXPECT_FALSE(fit.errors.known);
+  const double before = CovarianceOf(fit).covariance(0, 0);
+  fit.held_structure = {MovedBy(0.31), fit.fitted};
+  const Inference inference = Infer(fit);
+  EXPECT_FALSE(inference.without_intervals.empty());
+  EXPECT_DOUBLE_EQ(inference.known.covariance(0, 0), before);
 }
 
 }  // namespace

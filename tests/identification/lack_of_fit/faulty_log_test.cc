@@ -7,6 +7,7 @@
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
+#include "identification/read_options.h"
 #include "tests/support/judging.h"
 
 namespace warmjoint {
@@ -26,7 +27,7 @@ TEST(FaultyLog, EndsAsBadDataForEveryIdentifier) {
   const Selection selection = SelectConstantSpeed(m);
   for (const char* name : {"energy-ml", "nominal-ls", "lugre", "kalman"}) {
     const Identifier& identifier = FindIdentifier(name);
-    const Options options(identifier.options, {}, {});
+    const Options options = ReadOptions(identifier.options, {}, {});
     const Estimate estimate = IdentifyAndJudge(identifier, {Prepare(m, selection), options, {}});
     EXPECT_EQ(estimate.status, Status::bad_data) << name;
     EXPECT_THAT(estimate.message, HasSubstr("--unit velocity=rpm")) << name;
@@ -39,7 +40,7 @@ TEST(FaultyLog, ShowsItsNumbersByForce) {
   const Measurements m = HourInRpm();
   const Selection selection = SelectConstantSpeed(m);
   const Identifier& identifier = FindIdentifier("nominal-ls");
-  const Options options(identifier.options, {}, {});
+  const Options options = ReadOptions(identifier.options, {}, {});
   const IdentifierInput input{Prepare(m, selection), options, {}};
   const Answer answer = FitAndJudge(identifier, input);
   ASSERT_EQ(answer.inferred.status, Status::ok);

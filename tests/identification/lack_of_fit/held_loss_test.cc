@@ -6,6 +6,7 @@
 
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/prepare.h"
+#include "identification/read_options.h"
 #include "tests/support/judging.h"
 
 namespace warmjoint {
@@ -49,7 +50,7 @@ TEST(HeldLoss, MattersWhereTheTimeConstantIsKnownFinerThanTheStep) {
   const Measurements slow = test::RecordHour(test::TableOne(), 1);
   const auto matters = [](const Measurements& log) {
     const Identifier& identifier = FindIdentifier("energy-ml");
-    const Options options(identifier.options, {}, {});
+    const Options options = ReadOptions(identifier.options, {}, {});
     const IdentifierInput input{Prepare(log), options, {}};
     const Fit fit = identifier.fit(input);
     return StepMatters(fit, Infer(fit), input.measurements);

@@ -6,6 +6,7 @@
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
+#include "identification/read_options.h"
 #include "models/friction/sign.h"
 #include "tests/support/judging.h"
 
@@ -161,7 +162,7 @@ TEST(Judge, DoesNotTakeWhatIsPeriodicInTimeForRipple) {
 TEST(Judge, TakesBackEverythingButTheValues) {
   const Measurements warm = RecordHour(test::TableOne(), 1);
   const Identifier& identifier = FindIdentifier("nominal-ls");
-  const Options options(identifier.options, {}, {});
+  const Options options = ReadOptions(identifier.options, {}, {});
   const Selection selection = SelectMoving(warm);
   const IdentifierInput input{Prepare(warm, selection), options, {}};
   const Estimate before = IdentifyUnjudged(identifier, input);
@@ -187,7 +188,7 @@ TEST(Judge, WarnsOfSmallStructureAndLetsIntervalsReachAsFar) {
     m.torque[i] += std::copysign(0.4 * std::exp(-std::pow(v / 0.2, 2)), v);
   }
   const Identifier& identifier = FindIdentifier("nominal-ls");
-  const Options options(identifier.options, {}, {});
+  const Options options = ReadOptions(identifier.options, {}, {});
   const Selection selection = SelectMoving(m);
   const IdentifierInput input{Prepare(m, selection), options, {}};
   const Estimate before = IdentifyUnjudged(identifier, input);

@@ -8,6 +8,7 @@
 
 #include "identification/holdout/hold_out.h"
 #include "identification/preparation/prepare.h"
+#include "identification/read_options.h"
 #include "models/foundation/low_pass.h"
 #include "tests/support/bristle_recording.h"
 #include "tests/support/judging.h"
@@ -34,7 +35,7 @@ struct Step {
 
 Step Take(const std::string& name, const Options_& given, const Measurements& m) {
   const Identifier& identifier = FindIdentifier(name);
-  const Options options(identifier.options, given, {});
+  const Options options = ReadOptions(identifier.options, given, {});
   const IdentifierInput input{Prepare(m), options, {}};
   Step step{name, given, IdentifyAndJudge(identifier, input), 0};
   const auto held = HoldOut(identifier, input, 0.3);
@@ -133,7 +134,7 @@ TEST(Remedies, AgainstFrictionThatFollowsLate) {
 
   // eight time constants a hold, three of which are left out at each end
   const Identifier& identifier = FindIdentifier("energy-ml");
-  const Options options(identifier.options, {}, {});
+  const Options options = ReadOptions(identifier.options, {}, {});
   const PreparedLog log = Prepare(FollowingLate(10800, 480, 1), HoldOptions{.trim = 180});
   const Estimate patient = IdentifyAndJudge(identifier, {log, options, {}});
   ASSERT_EQ(patient.status, Status::ok) << patient.message;

@@ -7,6 +7,7 @@
 
 #include "identification/fit_data.h"
 #include "identification/preparation/prepare.h"
+#include "identification/read_options.h"
 #include "tests/support/judging.h"
 #include "tests/support/travelling.h"
 
@@ -26,7 +27,7 @@ std::vector<double> NumbersIn(const std::string& text) {
 /// Examines what an identifier leaves of a log, and reads the words of what was found.
 void ExpectWordsMeanWhatTheySay(const char* name, const Measurements& m) {
   const Identifier& identifier = FindIdentifier(name);
-  const Options options(identifier.options, {}, {});
+  const Options options = ReadOptions(identifier.options, {}, {});
   const IdentifierInput input{Prepare(m), options, {}};
   const Fit fit = identifier.fit(input);
   const Inference inference = Infer(fit);

@@ -9,6 +9,7 @@
 #include "identification/lagged/lag_search.h"
 #include "identification/lagged/seen_lag.h"
 #include "identification/preparation/prepare.h"
+#include "identification/read_options.h"
 #include "models/foundation/low_pass.h"
 #include "models/foundation/random_stream.h"
 #include "tests/support/warm_recording.h"
@@ -36,7 +37,7 @@ Measurements Lagging(double lag, double noise, std::optional<Thermal> thermal = 
 
 Estimate Identified(const std::string& name, const Measurements& m) {
   const Identifier& identifier = FindIdentifier(name);
-  const Options options(identifier.options, {{"torque_lag", "estimated"}}, {});
+  const Options options = ReadOptions(identifier.options, {{"torque_lag", "estimated"}}, {});
   return IdentifyUnjudged(identifier, {Prepare(m), options, {}});
 }
 
@@ -86,7 +87,7 @@ TEST(TorqueLag, IsNotFittedWhereTheTorqueShowsNone) {
     const Estimate asked = Identified(name, m);
     const Identifier& identifier = FindIdentifier(name);
     const Estimate plain =
-        IdentifyUnjudged(identifier, {Prepare(m), Options(identifier.options, {}, {}), {}});
+        IdentifyUnjudged(identifier, {Prepare(m), ReadOptions(identifier.options, {}, {}), {}});
     ASSERT_EQ(asked.status, Status::ok) << asked.message;
     EXPECT_EQ(asked.Find("torque_lag"), nullptr);
     EXPECT_EQ(asked.Find("coulomb")->value, plain.Find("coulomb")->value);
@@ -97,15 +98,16 @@ TEST(TorqueLag, IsNotFittedWhereTheTorqueShowsNone) {
 TEST(TorqueLag, LeavesTheVerdictNothingToFind) {
   const Measurements m = Lagging(kLag, 0.5);
   const Identifier& identifier = FindIdentifier("energy-ml");
-  const Options with(identifier.options, {{"torque_lag", "estimated"}}, {});
-  const Options without(identifier.options, {}, {});
+  const Options with = ReadOptions(identifier.options, {{"torque_lag", "estimated"}}, {});
+  const Options without = ReadOptions(identifier.options, {}, {});
   EXPECT_EQ(IdentifyAndJudge(identifier, {Prepare(m), with, {}}).status, Status::ok);
   EXPECT_NE(IdentifyAndJudge(identifier, {Prepare(m), without, {}}).status, Status::ok);
 }
 
 TEST(TorqueLag, IsRefusedBesideOptionsThatRuleItOut) {
   const Identifier& identifier = FindIdentifier("nominal-ls");
-  const Options huber(identifier.options, {{"torque_lag", "estimated"}, {"loss", "huber"}}, {});
+  const Options huber =
+      ReadOptions(identifier.options, {{"torque_lag", "estimated"}, {"loss", "huber"}}, {});
   EXPECT_EQ(IdentifyUnjudged(identifier, {Prepare(Lagging(kLag, 0.5)), huber, {}}).status,
             Status::bad_data);
 }

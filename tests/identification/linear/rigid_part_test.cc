@@ -9,6 +9,7 @@
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
+#include "identification/read_options.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint {
@@ -31,7 +32,7 @@ Estimate Identify(const Identifier& identifier, const Measurements& m, const std
   for (const OptionInfo& option : identifier.options) {
     if (option.name == "iterations") given["iterations"] = "500";
   }
-  const Options options(identifier.options, given, {});
+  const Options options = ReadOptions(identifier.options, given, {});
   const Selection selection = SelectMoving(m);
   return IdentifyUnjudged(identifier, {Prepare(m, selection), options, {11, 3}});
 }
@@ -139,7 +140,7 @@ TEST(FitGravity, IsHeldOutTogetherWithFriction) {
   const Measurements m = Record(1, 7);
   const Selection selection = SelectMoving(m);
   for (const char* gravity : {"sincos", "paired"}) {
-    const Options options(energy_ml.options, {{"gravity", gravity}}, {});
+    const Options options = ReadOptions(energy_ml.options, {{"gravity", gravity}}, {});
     const auto held = HoldOut(energy_ml, {Prepare(m, selection), options, {}}, 0.3);
     ASSERT_TRUE(held);
     // noise of 0.5 N.m; parameters of the first part cost less than a tenth of it

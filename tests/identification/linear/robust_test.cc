@@ -8,6 +8,7 @@
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
+#include "identification/read_options.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint {
@@ -28,7 +29,7 @@ Measurements Wild(std::uint64_t seed, double share) {
 
 Estimate Identify(const char* name, const Measurements& m, const char* loss) {
   const Identifier& identifier = FindIdentifier(name);
-  const Options options(identifier.options, {{"loss", loss}}, {});
+  const Options options = ReadOptions(identifier.options, {{"loss", loss}}, {});
   return IdentifyUnjudged(identifier, {Prepare(m), options, {}});
 }
 

@@ -7,6 +7,7 @@
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/prepare.h"
+#include "identification/read_options.h"
 #include "tests/support/travelling.h"
 
 namespace warmjoint {
@@ -14,7 +15,7 @@ namespace {
 
 Estimate Identified(const PreparedLog& log) {
   const Identifier& identifier = FindIdentifier("position-ridge");
-  const Options options(identifier.options, {{"kernels", "20"}, {"width", "1"}}, {});
+  const Options options = ReadOptions(identifier.options, {{"kernels", "20"}, {"width", "1"}}, {});
   return IdentifyUnjudged(identifier, {log, options, {}});
 }
 

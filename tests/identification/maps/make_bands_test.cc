@@ -9,6 +9,7 @@
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
+#include "identification/read_options.h"
 #include "tests/support/travelling.h"
 
 namespace warmjoint {
@@ -37,7 +38,7 @@ Trial Identify(const FrictionDescription& truth, const char* name, std::uint64_t
   m.torque = PredictFriction(truth, m).force;
   test::AddNoise(m, 0.1, colour, seed);
   const Identifier& identifier = FindIdentifier(name);
-  const Options options(identifier.options, given, {});
+  const Options options = ReadOptions(identifier.options, given, {});
   trial.estimate = IdentifyUnjudged(identifier, {Prepare(m), options, {}});
   return trial;
 }

@@ -2,9 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "identification/identifiers/energy_ml.h"
+#include "identification/identifiers/energy_ml_with_maps.h"
 #include "identification/maps/position_maps.h"
 #include "identification/preparation/prepare.h"
+#include "identification/read_options.h"
 #include "tests/support/travelling.h"
 
 namespace warmjoint {
@@ -22,8 +23,8 @@ class MapBlockTest : public ::testing::Test {
 
   /// Expects that a block fits beside a course of E as one that is made anew.
   void ExpectTheSame(const std::map<std::string, std::string>& given) {
-    const Identifier identifier = EnergyMl();
-    const Options options(identifier.options, given, {});
+    const Identifier identifier = EnergyMlWithMaps();
+    const Options options = ReadOptions(identifier.options, given, {});
     const IdentifierInput input{Prepare(m_), options, {}};
     MapBeginning begin = BeginMaps(input, "energy-ml", {MapQuantity::position});
     begin.task.candidates = PositionMaps(options, begin.task.settings, begin.points);

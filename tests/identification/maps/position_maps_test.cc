@@ -8,6 +8,7 @@
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/prepare.h"
+#include "identification/read_options.h"
 #include "tests/support/travelling.h"
 
 namespace warmjoint {
@@ -34,7 +35,7 @@ struct Across {
 Across FitAndTry(const PreparedLog& log, const PreparedLog& other,
                  const std::map<std::string, std::string>& given) {
   const Identifier& identifier = FindIdentifier("position-ridge");
-  const Options options(identifier.options, given, {});
+  const Options options = ReadOptions(identifier.options, given, {});
   const Fit fit = identifier.fit({log, options, {}});
   const GaussianAxis& axis = fit.friction.maps.at(0).axes[0].kernels;
   const double rmse = HoldOut(identifier, fit, other)->rmse;

@@ -9,6 +9,7 @@
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
+#include "identification/read_options.h"
 #include "tests/support/travelling.h"
 #include "tests/support/without_times.h"
 
@@ -34,7 +35,7 @@ Measurements Recorded(const FrictionDescription& friction, double noise, std::ui
 Estimate Identify(const Measurements& m, const char* name,
                   const std::map<std::string, std::string>& given) {
   const Identifier& identifier = FindIdentifier(name);
-  const Options options(identifier.options, given, {});
+  const Options options = ReadOptions(identifier.options, given, {});
   const Selection selection = SelectMoving(m);
   const IdentifierInput input{Prepare(m, selection), options, {}};
   Estimate estimate = IdentifyUnjudged(identifier, input);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "identification/preparation/check_report.h"
+#include "tests/support/warm_recording.h"
 
 namespace warmjoint {
 namespace {
@@ -116,6 +117,17 @@ TEST(CheckToJson, HoldsWhatTheTextSays) {
   EXPECT_EQ(json["motion"]["levels"].size(), 2U);
   EXPECT_EQ(json["excitation"].size(), 7U);
   EXPECT_EQ(json["joint"], "rotary");
+}
+
+TEST(Unsettled, SaysWhatTheRecordingLacks) {
+  const auto record = [](Eigen::Index n) {
+    return test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(n, 1), 0.5, 1);
+  };
+  EXPECT_THAT(WhyUnsettled(record(60), FrictionKind::warm_up), HasSubstr("the log lasts 59 s"));
+  EXPECT_THAT(WhyUnsettled(record(60), FrictionKind::stribeck),
+              HasSubstr("the slowest below 1/20 of the fastest"));
+  EXPECT_THAT(WhyUnsettled(record(3600), FrictionKind::warm_up),
+              HasSubstr("does the torque column"));
 }
 
 }  // namespace

@@ -77,10 +77,10 @@ TEST(MovingView, LeavesOutCornersOfTheVelocity) {
 }
 
 TEST(PreparedLog, TellsWhetherItHoldsSpeeds) {
-  EXPECT_FALSE(Prepare(Sine(2000, 0.01, 1)).HoldsSpeeds());
+  EXPECT_FALSE(HoldsSpeeds(Prepare(Sine(2000, 0.01, 1))));
   Eigen::VectorXd holds(400);
   for (Eigen::Index i = 0; i < 400; ++i) holds[i] = i / 40 % 2 ? -0.5 : 1;
-  EXPECT_TRUE(Prepare(test::Record(1, holds, Eigen::VectorXd::Zero(400))).HoldsSpeeds());
+  EXPECT_TRUE(HoldsSpeeds(Prepare(test::Record(1, holds, Eigen::VectorXd::Zero(400)))));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/prepare.h"
+#include "identification/read_options.h"
 #include "models/recording/course_of.h"
 #include "tests/support/travelling.h"
 #include "tests/support/without_times.h"
@@ -19,7 +20,7 @@ namespace {
 /// E at the end of a log as its estimate has it.
 EstimatedParameter EndOf(const Measurements& m, const std::map<std::string, std::string>& given) {
   const Identifier& identifier = FindIdentifier("energy-ml");
-  const Options options(identifier.options, given, {});
+  const Options options = ReadOptions(identifier.options, given, {});
   const Estimate estimate = IdentifyUnjudged(identifier, {Prepare(m), options, {}});
   EXPECT_EQ(estimate.status, Status::ok) << estimate.message;
   for (const EstimatedParameter& one : estimate.state_end) {
@@ -60,7 +61,7 @@ TEST(EndState, IsTheSameByTheFitsRecursionAsAlongTheMotion) {
   // E(0) and, behind a gap, a jump are estimated too
   const Measurements m = test::Without(Log(test::TableOne(), 1), {{2000, 2400}});
   const Identifier& identifier = FindIdentifier("energy-ml");
-  const Options options(identifier.options, {{"initial_energy", "estimated"}}, {});
+  const Options options = ReadOptions(identifier.options, {{"initial_energy", "estimated"}}, {});
   Fit fit = identifier.fit({Prepare(m), options, {}});
   ASSERT_FALSE(fit.refusal);
   ASSERT_TRUE(fit.end_energy);

@@ -9,6 +9,7 @@
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
+#include "identification/read_options.h"
 #include "tests/support/coloured_noise.h"
 #include "tests/support/warm_recording.h"
 
@@ -32,7 +33,7 @@ Measurements WithThermometer(std::uint64_t seed, double lag) {
 
 Estimate Fitted(const Measurements& m, const std::string& name = "energy-ml") {
   const Identifier& identifier = FindIdentifier(name);
-  const Options options(identifier.options, {}, {});
+  const Options options = ReadOptions(identifier.options, {}, {});
   const Selection selection = SelectMoving(m);
   return IdentifyUnjudged(identifier, {Prepare(m, selection), options, {}});
 }

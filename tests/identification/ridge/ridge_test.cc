@@ -5,6 +5,7 @@
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/ridge/local_rows.h"
+#include "models/friction/evaluate_map.h"
 #include "models/friction/gaussian_axis.h"
 #include "tests/support/vectors.h"
 

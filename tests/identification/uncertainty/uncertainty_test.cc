@@ -10,6 +10,7 @@
 #include "identification/linear/least_squares.h"
 #include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
+#include "identification/read_options.h"
 #include "identification/uncertainty/tails.h"
 #include "tests/support/warm_recording.h"
 
@@ -22,7 +23,7 @@ Eigen::Vector2d Coverage(double pole, Eigen::Index rest) {
   FrictionDescription friction = test::TableOne();
   friction.thermal.reset();
   const Identifier& identifier = FindIdentifier("nominal-ls");
-  const Options options(identifier.options, {}, {});
+  const Options options = ReadOptions(identifier.options, {}, {});
   Eigen::Vector2d covered = Eigen::Vector2d::Zero();
   for (std::uint64_t seed = 0; seed < 500; ++seed) {
     Measurements m =

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "models/friction/course_start.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint {

@@ -5,7 +5,10 @@
 #include <functional>
 #include <numbers>
 
+#include "models/friction/evaluate_map.h"
 #include "models/friction/friction_description.h"
+#include "models/friction/friction_json.h"
+#include "models/friction/friction_map_json.h"
 #include "tests/support/shared_data.h"
 
 namespace warmjoint {

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "models/friction/evaluate_map.h"
 #include "tests/support/shared_data.h"
 
 namespace warmjoint {

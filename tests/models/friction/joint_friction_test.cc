@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "models/foundation/random_stream.h"
+#include "models/friction/check_friction.h"
 #include "models/friction/lugre_bristle.h"
 
 namespace warmjoint {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "models/friction/check_friction.h"
+
 namespace warmjoint {
 namespace {
 

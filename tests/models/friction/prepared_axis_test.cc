@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "models/foundation/random_stream.h"
+#include "models/friction/evaluate_map.h"
 #include "tests/support/axes_of_every_kind.h"
 
 namespace warmjoint {

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "models/foundation/random_stream.h"
+#include "models/friction/evaluate_map.h"
 #include "models/friction/friction_map.h"
 
 namespace warmjoint {

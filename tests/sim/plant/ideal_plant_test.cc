@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "models/foundation/bad_input.h"
 #include "tests/support/table1.h"
 
 namespace warmjoint {

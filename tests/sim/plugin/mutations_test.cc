@@ -6,6 +6,7 @@
 #include <string>
 
 #include "models/foundation/random_stream.h"
+#include "models/friction/friction_json.h"
 #include "tests/sim/plugin/two_forms.h"
 
 namespace warmjoint {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "models/friction/friction_json.h"
 #include "models/friction/joint_friction.h"
 #include "sim/model/escape_xml.h"
 #include "sim/plugin/friction_instance.h"

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "models/friction/friction_json.h"
 #include "tests/models/recording/temporary_file.h"
 
 namespace warmjoint {

@@ -4,7 +4,7 @@
 
 #include "scenarios/parse_suite.h"
 #include "sim/plant/plant.h"
-#include "tools/suite/prepared_identifier.h"
+#include "tools/suite/prepare_identifiers.h"
 #include "tools/suite/run_realization.h"
 
 namespace warmjoint {

@@ -7,6 +7,7 @@
 
 #include "models/foundation/atomic_file.h"
 #include "models/friction/friction_description.h"
+#include "models/friction/friction_json.h"
 #include "tests/support/folders.h"
 #include "tests/support/shared_data.h"
 #include "tests/tools/cli/recording_file.h"

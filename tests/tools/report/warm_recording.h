@@ -2,6 +2,7 @@
 #pragma once
 
 #include "identification/estimate.h"
+#include "identification/metrics.h"
 #include "models/foundation/random_stream.h"
 #include "models/recording/course_of.h"
 #include "models/recording/measurements.h"

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "models/foundation/atomic_file.h"
+#include "models/foundation/bad_input.h"
 #include "tests/tools/scratch_directory.h"
 
 namespace warmjoint {

@@ -7,6 +7,7 @@
 
 #include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
+#include "models/foundation/bad_input.h"
 #include "tests/tools/scratch_directory.h"
 #include "tools/suite/wall.h"
 

@@ -1,6 +1,7 @@
 #include "tools/report/estimate/estimate_view.h"
 
 #include "identification/find_parameter.h"
+#include "identification/preparation/moving_view.h"
 #include "tools/actions/fit_again.h"
 #include "tools/actions/identify_recording.h"
 
@@ -34,7 +35,7 @@ EstimateView ViewOwnRecording(Estimate estimate, const PreparedLog& own) {
   EstimateView view = MakeEstimateView(WithFitAgain(std::move(estimate), own), own);
   if (!view.estimate.holdout) return view;
   const auto& [measurements, selection] =
-      Find(Role::inertia, view.estimate) ? own.moving() : own.taken();
+      Find(Role::inertia, view.estimate) ? MovingView(own) : own.taken();
   if (const auto first = FitFirstPartAgain(view.estimate, own, HoldOutSource{}.fraction)) {
     view.held_out =
         MakeFitView(measurements, From(first->split, measurements, selection), first->estimate);

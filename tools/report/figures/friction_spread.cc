@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "identification/find_parameter.h"
+#include "identification/fit_parameters.h"
 
 namespace warmjoint::report {
 namespace {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "models/foundation/robust_noise.h"
+#include "models/friction/evaluate_map.h"
 #include "tools/report/draw/ticks.h"
 #include "tools/report/figures/axes.h"
 #include "tools/report/figures/fit_panels.h"

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "models/friction/law.h"
-#include "models/friction/thermal_names.h"
+#include "models/friction/thermal.h"
 
 namespace warmjoint::report {
 

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "tools/board/table.h"
 #include "tools/report/draw/draw_figure.h"
 #include "tools/report/draw/escape.h"
+#include "tools/terminal/table.h"
 
 namespace warmjoint::report {
 

@@ -10,9 +10,12 @@
 #include <vector>
 
 #include "identification/answer/identify.h"
+#include "identification/estimate_from_json.h"
+#include "identification/estimate_to_json.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/prepare.h"
+#include "identification/read_options.h"
 #include "tests/tools/report/look.h"
 #include "tests/tools/report/mapped_recording.h"
 #include "tests/tools/report/warm_recording.h"
@@ -107,7 +110,7 @@ TEST(EstimateFigures, ShowTheFitOfARefusedEstimateWithItsOptions) {
 TEST(EstimateFigures, PredictTheHeldOutSamplesByAFitThatHasNotSeenThem) {
   const PreparedLog log = Prepare(WarmRecording().measurements);
   const Identifier& identifier = FindIdentifier("energy-ml");
-  const Options options(identifier.options, {}, {});
+  const Options options = ReadOptions(identifier.options, {}, {});
   const IdentifierInput input{log, options, {}};
   Estimate estimate = IdentifyAndJudge(identifier, input);
   estimate.holdout = HoldOut(identifier, input, 0.3);
@@ -122,7 +125,7 @@ TEST(EstimateFigures, PredictTheHeldOutSamplesByAFitThatHasNotSeenThem) {
 TEST(EstimateFigures, PredictTheHeldOutSamplesByTheStructureThatWasChosen) {
   const PreparedLog log = Prepare(WarmRecording().measurements);
   const Identifier& identifier = FindIdentifier("auto");
-  const Options options(identifier.options, {}, {});
+  const Options options = ReadOptions(identifier.options, {}, {});
   const IdentifierInput input{log, options, {}};
   const Answer answer = FitAndJudge(identifier, input);
   Estimate estimate = ReportAnswer(identifier, input, answer);

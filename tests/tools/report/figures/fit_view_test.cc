@@ -6,7 +6,9 @@
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
+#include "identification/preparation/moving_view.h"
 #include "identification/preparation/prepare.h"
+#include "identification/read_options.h"
 #include "models/foundation/low_pass.h"
 #include "tests/support/excited_recording.h"
 #include "tests/tools/report/look.h"
@@ -27,7 +29,7 @@ struct Identified {
 
 Identified Identify(const Measurements& m, const std::map<std::string, std::string>& given) {
   const Identifier& identifier = FindIdentifier("energy-ml");
-  const Options options(identifier.options, given, {});
+  const Options options = ReadOptions(identifier.options, given, {});
   PreparedLog log = Prepare(m);
   Estimate estimate = IdentifyAndJudge(identifier, {log, options, {}});
   return {std::move(log), std::move(estimate)};
@@ -52,7 +54,7 @@ TEST(FitView, OfAnyMotionFitsFrictionGravityAndInertia) {
   EXPECT_NEAR(std::sqrt(residuals.squaredNorm() / static_cast<double>(residuals.size())),
               estimate.metrics->rmse, 1e-9);
   // and what is taken off is gravity and inertia
-  const Measurements& m = log.moving().measurements;
+  const Measurements& m = MovingView(log).measurements;
   const Eigen::VectorXd rigid =
       estimate.Find("inertia")->value * *m.acceleration + estimate.gravity->Torque(m.position);
   EXPECT_LT((view.rigid - rigid).cwiseAbs().maxCoeff(), 1e-12);

@@ -1,4 +1,4 @@
-#include "models/friction/friction_description.h"
+#include "models/friction/friction_json.h"
 
 #include <gmock/gmock.h>
 
@@ -28,11 +28,11 @@ std::string RefusalOf(const json& object) {
   return "accepted";
 }
 
-TEST(FrictionDescription, SurvivesARoundTrip) {
+TEST(FrictionJson, SurvivesARoundTrip) {
   EXPECT_EQ(FrictionToJson(FrictionFromJson(Example(), {"robot.json"})), Example());
 }
 
-TEST(FrictionDescription, IsReadFromAnEstimateOrByItself) {
+TEST(FrictionJson, IsReadFromAnEstimateOrByItself) {
   const std::string path = testing::TempDir() + "/friction.json";
   for (const json& file : {Example(), json{{"identifier", "energy-ml"}, {"friction", Example()}}}) {
     WriteWholeFile(path, file.dump(2));
@@ -41,7 +41,7 @@ TEST(FrictionDescription, IsReadFromAnEstimateOrByItself) {
   std::filesystem::remove(path);
 }
 
-TEST(FrictionDescription, NamesTheLineThatIsNotJson) {
+TEST(FrictionJson, NamesTheLineThatIsNotJson) {
   const std::string path = testing::TempDir() + "/broken.json";
   WriteWholeFile(path, "{\n\"law\": \"coulomb\",\n}\n");
   try {
@@ -53,7 +53,7 @@ TEST(FrictionDescription, NamesTheLineThatIsNotJson) {
   std::filesystem::remove(path);
 }
 
-TEST(FrictionDescription, RefusesUnknownNamesWithTheNearest) {
+TEST(FrictionJson, RefusesUnknownNamesWithTheNearest) {
   json object = Example();
   object["law"] = "viscos_coulomb";
   EXPECT_THAT(RefusalOf(object), HasSubstr("did you mean 'viscous_coulomb'?"));
@@ -65,14 +65,14 @@ TEST(FrictionDescription, RefusesUnknownNamesWithTheNearest) {
   EXPECT_THAT(RefusalOf(object), HasSubstr("did you mean 'thermal'?"));
 }
 
-TEST(FrictionDescription, TakesDefaultsForWhatMayBeLeftOut) {
+TEST(FrictionJson, TakesDefaultsForWhatMayBeLeftOut) {
   json object = Example();
   object["law"] = "stribeck";
   object["parameters"].update({{"static", 16.0}, {"stribeck_velocity", 0.1}});
   EXPECT_EQ(FrictionFromJson(object, {"robot.json"}).parameters.at("stribeck_exponent"), 2);
 }
 
-TEST(FrictionDescription, RefusesALevelAtRestBelowThatOfSliding) {
+TEST(FrictionJson, RefusesALevelAtRestBelowThatOfSliding) {
   json object = Example();
   object["law"] = "asymmetric_stribeck";
   object["parameters"] = {{"viscous", 5.0},
@@ -85,7 +85,7 @@ TEST(FrictionDescription, RefusesALevelAtRestBelowThatOfSliding) {
   EXPECT_THAT(RefusalOf(object), HasSubstr("static_rise is -1; it must be a finite number from 0"));
 }
 
-TEST(FrictionDescription, SurvivesARoundTripWithAllItsParts) {
+TEST(FrictionJson, SurvivesARoundTripWithAllItsParts) {
   json object = Example();
   object["thermal"]["second"] = {{"thermal_gain", -1.0}, {"thermal_time_constant", 20.0}};
   object["load_gain"] = 0.1;
@@ -102,7 +102,7 @@ TEST(FrictionDescription, SurvivesARoundTripWithAllItsParts) {
   EXPECT_EQ(FrictionToJson(FrictionFromJson(object, {"robot.json"})), object);
 }
 
-TEST(FrictionDescription, RefusesPartsThatMakeNoSenseTogether) {
+TEST(FrictionJson, RefusesPartsThatMakeNoSenseTogether) {
   json cold = Example();
   cold.erase("thermal");
   for (const char* option : {"level_per_temperature", "viscous_per_energy"}) {
@@ -138,7 +138,7 @@ TEST(FrictionDescription, RefusesPartsThatMakeNoSenseTogether) {
   EXPECT_THAT(RefusalOf(object), HasSubstr("has the period 6; the motor's angle lies on a circle"));
 }
 
-TEST(FrictionDescription, RefusesImpossibleValues) {
+TEST(FrictionJson, RefusesImpossibleValues) {
   json object = Example();
   object["parameters"]["coulomb"] = -1;
   EXPECT_THAT(RefusalOf(object), HasSubstr("robot.json: coulomb is -1"));

@@ -1,7 +1,8 @@
-#include "tools/suite/prepared_identifier.h"
+#include "tools/suite/prepare_identifiers.h"
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
+#include "identification/read_options.h"
 #include "tools/suite/external_identifier.h"
 
 namespace warmjoint::inline tools {
@@ -17,7 +18,7 @@ std::vector<PreparedIdentifier> PrepareIdentifiers(const std::vector<SuiteIdenti
     }
     // options are checked before anything runs
     const Identifier& identifier = FindIdentifier(one.name);
-    const Options options(identifier.options, one.options, place);
+    const Options options = ReadOptions(identifier.options, one.options, place);
     prepared.emplace_back([identifier, options](const PreparedLog& log, StartKey start) {
       return IdentifyAndJudge(identifier, {log, options, start});
     });

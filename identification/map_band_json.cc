@@ -1,4 +1,4 @@
-#include "identification/map_band.h"
+#include "identification/map_band_json.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,4 +1,4 @@
-#include "identification/nonlinear/quiet_ceres.h"
+#include "identification/nonlinear/solve_by_ceres.h"
 
 #include <glog/logging.h>
 

@@ -1,0 +1,24 @@
+// Friction files: one joint's friction as JSON.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "models/foundation/bad_input.h"
+#include "models/friction/friction_description.h"
+
+namespace warmjoint::inline models {
+
+/// {law, parameters{}, thermal{thermal_gain, thermal_time_constant, ambient, second{thermal_gain,
+/// thermal_time_constant}}, gear, level_per_temperature, viscous_per_energy, load_gain, maps[]};
+/// what is at its default is left out.
+nlohmann::json FrictionToJson(const FrictionDescription& friction);
+
+/// The inverse; checked. Unknown keys, missing parameters and wrong types throw BadInput.
+FrictionDescription FrictionFromJson(const nlohmann::json& json, const Place& place);
+
+/// Reads a friction file: an object with a `friction` member (as in estimate.json) or that member
+/// by itself. Throws BadInput.
+FrictionDescription ReadFrictionFile(const std::string& path);
+
+}  // namespace warmjoint::inline models

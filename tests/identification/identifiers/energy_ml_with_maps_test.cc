@@ -1,0 +1,46 @@
+#include "identification/identifiers/energy_ml_with_maps.h"
+
+#include <gmock/gmock.h>
+
+#include "identification/answer/identify.h"
+#include "identification/identifiers/energy_ml.h"
+#include "identification/preparation/prepare.h"
+#include "identification/read_options.h"
+#include "tests/support/warm_recording.h"
+
+namespace warmjoint {
+namespace {
+
+using ::testing::HasSubstr;
+
+Fit Fitted(const Identifier& identifier, const std::map<std::string, std::string>& given) {
+  const Measurements m =
+      test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(1200, 3), 0.5, 3);
+  const Options options = ReadOptions(identifier.options, given, {});
+  return identifier.fit({Prepare(m), options, {}});
+}
+
+TEST(EnergyMlWithMaps, IsEnergyMlWhereNoMapIsAskedFor) {
+  const Fit plain = Fitted(EnergyMl(), {}), same = Fitted(EnergyMlWithMaps(), {});
+  ASSERT_FALSE(plain.refusal);
+  EXPECT_EQ(same.identifier, plain.identifier);
+  EXPECT_EQ(same.fitted, plain.fitted);
+  EXPECT_TRUE(same.friction.maps.empty());
+}
+
+TEST(EnergyMlWithMaps, HasTheOptionsOfEnergyMlThenThoseOfMaps) {
+  const std::vector<OptionInfo> plain = EnergyMl().options, all = EnergyMlWithMaps().options;
+  ASSERT_GT(all.size(), plain.size());
+  for (size_t i = 0; i < plain.size(); ++i) EXPECT_EQ(all[i].name, plain[i].name);
+  EXPECT_EQ(all[plain.size()].name, "position");
+}
+
+TEST(EnergyMlWithMaps, RefusesALagBesideMaps) {
+  const Fit fit = Fitted(EnergyMlWithMaps(), {{"position", "map"}, {"torque_lag", "estimated"}});
+  ASSERT_TRUE(fit.refusal);
+  EXPECT_EQ(fit.refusal->status, Status::bad_data);
+  EXPECT_THAT(fit.refusal->message, HasSubstr("use position none, or torque_lag none"));
+}
+
+}  // namespace
+}  // namespace warmjoint
