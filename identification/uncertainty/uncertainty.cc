@@ -12,7 +12,7 @@ constexpr double kUneven = 4;        // deviations
 constexpr double kLeastLevel = 0.2;  // of the line through |r|, of its mean
 
 /// Of a column whose mean is 0 and another one.
-double Correlation(const Eigen::VectorXd& centred, const Eigen::VectorXd& other) {
+double Correlation(const Eigen::VectorXd& centred, const Eigen::Ref<const Eigen::VectorXd>& other) {
   const double spread = (other.array() - other.mean()).square().sum();
   const double norm = centred.norm() * std::sqrt(spread);
   return norm > 0 ? centred.dot(other) / norm : 0;

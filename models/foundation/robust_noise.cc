@@ -19,6 +19,8 @@ double QuantileInPlace(Eigen::VectorXd& x, double quantile) {
 double MedianStep(const Eigen::VectorXd& time) {
   const Eigen::Index n = time.size() - 1;
   Eigen::VectorXd steps = time.tail(n) - time.head(n);
+  // an exact clock needs no search
+  if (n > 0 && steps.minCoeff() == steps.maxCoeff()) return steps[0];
   return MedianInPlace(steps);
 }
 
