@@ -10,7 +10,8 @@ Fit StictionFit(double viscous, double at_rest) {
   Fit fit;
   fit.friction.law = "stiction";
   fit.friction.parameters = {{"viscous", viscous}, {"coulomb", 10}, {"static", at_rest}};
-  fit.parameters = {FitParameter{.name = "viscous", .value = viscous, .lower = 0}};
+  fit.parameters = {
+      FitParameter{.name = "viscous", .value = viscous, .unit = "N.m.s/rad", .lower = 0}};
   return fit;
 }
 

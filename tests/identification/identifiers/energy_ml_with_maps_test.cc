@@ -4,6 +4,7 @@
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/energy_ml.h"
+#include "identification/identifiers/energy_ml_behind_lag.h"
 #include "identification/preparation/prepare.h"
 #include "identification/read_options.h"
 #include "tests/support/warm_recording.h"
@@ -29,7 +30,8 @@ TEST(EnergyMlWithMaps, IsEnergyMlWhereNoMapIsAskedFor) {
 }
 
 TEST(EnergyMlWithMaps, HasTheOptionsOfEnergyMlThenThoseOfMaps) {
-  const std::vector<OptionInfo> plain = EnergyMl().options, all = EnergyMlWithMaps().options;
+  const std::vector<OptionInfo> plain = EnergyMlBehindLag().options,
+                                all = EnergyMlWithMaps().options;
   ASSERT_GT(all.size(), plain.size());
   for (size_t i = 0; i < plain.size(); ++i) EXPECT_EQ(all[i].name, plain[i].name);
   EXPECT_EQ(all[plain.size()].name, "position");
