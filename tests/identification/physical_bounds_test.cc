@@ -26,9 +26,7 @@ TEST(PhysicalBounds, GiveNoFrictionThatRisesFromRest) {
 }
 
 TEST(PhysicalBounds, GiveNoFrictionOfAFitThatIsRefused) {
-  Fit fit = StictionFit(1, 12);
-  fit.refusal = Refusal{Status::not_converged, "went on"};
-  EXPECT_FALSE(GivesFriction(fit));
+  EXPECT_FALSE(GivesFriction(Refused("energy-ml", Status::not_converged, "it went on")));
 }
 
 }  // namespace

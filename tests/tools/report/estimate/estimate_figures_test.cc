@@ -91,7 +91,8 @@ TEST(EstimateFigures, ShowTheRecordingAloneWithoutAFriction) {
 /// An answer that knows no warming about a joint that warms, as its file holds it after a verdict.
 Estimate Refused(const PreparedLog& log, std::map<std::string, std::string> options) {
   const Identifier& identifier = FindIdentifier("nominal-ls");
-  Estimate estimate = IdentifyAndJudge(identifier, {log, {identifier.options, options, {}}, {}});
+  Estimate estimate =
+      IdentifyAndJudge(identifier, {log, ReadOptions(identifier.options, options, {}), {}});
   EXPECT_NE(estimate.status, Status::ok);
   return EstimateFromJson(EstimateToJson(estimate), {"estimate.json"});
 }
