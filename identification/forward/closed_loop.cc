@@ -25,15 +25,26 @@ void WithLoopSize(const ClosedLoop& loop, Run&& run) {
 ClosedLoop::ClosedLoop(const Eigen::VectorXd& time, const Eigen::VectorXd& velocity,
                        const Eigen::MatrixXd& columns, const std::vector<Eigen::Index>& starts)
     : speed_(velocity.cwiseAbs()),
-      direction_(velocity.unaryExpr([](double v) { return static_cast<double>(Sign(v)); })),
-      levels_(direction_.asDiagonal() * columns),
-      intervals_(FindIntervals(time, starts)) {}
+      direction_(velocity.size()),
+      intervals_(FindIntervals(time, starts)) {
+  for (Eigen::Index n = 0; n < size(); ++n) direction_[n] = Sign(velocity[n]);
+  levels_ = Signed(columns);
+}
+
+/// Columns times the direction of motion, a sample after the other. [N x d]
+ClosedLoop::Rows ClosedLoop::Signed(const Eigen::MatrixXd& columns) const {
+  Rows rows(columns.rows(), columns.cols());
+  for (Eigen::Index n = 0; n < rows.rows(); ++n) {
+    for (Eigen::Index i = 0; i < rows.cols(); ++i) rows(n, i) = direction_[n] * columns(n, i);
+  }
+  return rows;
+}
 
 ClosedLoop ClosedLoop::Along(const Measurements& m, const Eigen::MatrixXd& columns,
                              const Eigen::MatrixXd& loss_columns) {
   ClosedLoop loop(m.time, m.velocity, columns, m.starts);
   if (m.mean_speed) loop.speed_ = *m.mean_speed;
-  if (loss_columns.size() > 0) loop.loss_levels_ = loop.direction_.asDiagonal() * loss_columns;
+  if (loss_columns.size() > 0) loop.loss_levels_ = loop.Signed(loss_columns);
   return loop;
 }
 
@@ -135,8 +146,8 @@ ClosedLoop ClosedLoop::WithColumns(const Eigen::MatrixXd& columns,
   loop.speed_ = speed_;
   loop.direction_ = direction_;
   loop.intervals_ = intervals_;
-  loop.levels_ = direction_.asDiagonal() * columns;
-  if (loss_columns.size() > 0) loop.loss_levels_ = direction_.asDiagonal() * loss_columns;
+  loop.levels_ = Signed(columns);
+  if (loss_columns.size() > 0) loop.loss_levels_ = Signed(loss_columns);
   return loop;
 }
 

@@ -85,6 +85,7 @@ class ClosedLoop {
 
  private:
   ClosedLoop() = default;
+  Rows Signed(const Eigen::MatrixXd& columns) const;
 
   Eigen::VectorXd speed_;
   Eigen::VectorXd direction_;

@@ -133,18 +133,13 @@ void CondensedProblem::Fill(Eigen::Index n, double residual, const double* g, co
   const Eigen::Index d = size.value();
   const Eigen::Index q = D == Eigen::Dynamic ? offsets_.cols() : 0;
   const Eigen::Index j = D == Eigen::Dynamic ? jump_weights_.size() : 0;
-  // derivatives by law, warming, jumps and offsets, then the residual itself
-  for (Eigen::Index i = 0; i < d; ++i) row[i] = -(g[i] + S[i]);
-  for (Eigen::Index i = d; i < d + Q; ++i) row[i] = -S[i];
-  for (Eigen::Index i = 0; i < j; ++i) row[d + Q + i] = -S[d + 3 + i];
-  for (Eigen::Index i = 0; i < q; ++i) row[d + Q + j + i] = -offsets_(n, i);
-  row[d + Q + j + q] = residual;
-
-  // a robust loss alone weighs samples
   const double w = weight_[n];
-  if (w == 1) [[likely]]
-    return;
-  for (Eigen::Index i = 0; i <= d + Q + j + q; ++i) row[i] *= w;
+  // derivatives by law, warming, jumps and offsets, then the residual itself
+  for (Eigen::Index i = 0; i < d; ++i) row[i] = -w * (g[i] + S[i]);
+  for (Eigen::Index i = d; i < d + Q; ++i) row[i] = -w * S[i];
+  for (Eigen::Index i = 0; i < j; ++i) row[d + Q + i] = -w * S[d + 3 + i];
+  for (Eigen::Index i = 0; i < q; ++i) row[d + Q + j + i] = -w * offsets_(n, i);
+  row[d + Q + j + q] = w * residual;
 }
 
 void CondensedProblem::AddKnown(Eigen::Index i, double w, double b) const {
