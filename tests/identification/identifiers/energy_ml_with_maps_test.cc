@@ -2,27 +2,18 @@
 
 #include <gmock/gmock.h>
 
-#include "identification/answer/identify.h"
 #include "identification/identifiers/energy_ml.h"
 #include "identification/identifiers/energy_ml_behind_lag.h"
-#include "identification/preparation/prepare.h"
-#include "identification/read_options.h"
-#include "tests/support/warm_recording.h"
+#include "tests/identification/identifiers/fit_of_table_one.h"
 
 namespace warmjoint {
 namespace {
 
 using ::testing::HasSubstr;
 
-Fit Fitted(const Identifier& identifier, const std::map<std::string, std::string>& given) {
-  const Measurements m =
-      test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(1200, 3), 0.5, 3);
-  const Options options = ReadOptions(identifier.options, given, {});
-  return identifier.fit({Prepare(m), options, {}});
-}
-
 TEST(EnergyMlWithMaps, IsEnergyMlWhereNoMapIsAskedFor) {
-  const Fit plain = Fitted(EnergyMl(), {}), same = Fitted(EnergyMlWithMaps(), {});
+  const Fit plain = test::FitOfTableOne(EnergyMl(), {}),
+            same = test::FitOfTableOne(EnergyMlWithMaps(), {});
   ASSERT_FALSE(plain.refusal);
   EXPECT_EQ(same.identifier, plain.identifier);
   EXPECT_EQ(same.fitted, plain.fitted);
@@ -38,7 +29,8 @@ TEST(EnergyMlWithMaps, HasTheOptionsOfEnergyMlThenThoseOfMaps) {
 }
 
 TEST(EnergyMlWithMaps, RefusesALagBesideMaps) {
-  const Fit fit = Fitted(EnergyMlWithMaps(), {{"position", "map"}, {"torque_lag", "estimated"}});
+  const Fit fit =
+      test::FitOfTableOne(EnergyMlWithMaps(), {{"position", "map"}, {"torque_lag", "estimated"}});
   ASSERT_TRUE(fit.refusal);
   EXPECT_EQ(fit.refusal->status, Status::bad_data);
   EXPECT_THAT(fit.refusal->message, HasSubstr("use position none, or torque_lag none"));

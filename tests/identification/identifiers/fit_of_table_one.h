@@ -1,0 +1,21 @@
+// Fits of identifiers to one log of Table I, for tests of what they are made of.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "identification/identifier.h"
+#include "identification/preparation/prepare.h"
+#include "identification/read_options.h"
+#include "tests/support/warm_recording.h"
+
+namespace warmjoint::test {
+
+/// Twenty minutes of Table I at 1 Hz, noise 0.5 N.m. given: options by name
+inline Fit FitOfTableOne(const Identifier& identifier,
+                         const std::map<std::string, std::string>& given) {
+  const Measurements m = RecordFriction(TableOne(), 1, AlternatingSpeeds(1200, 3), 0.5, 3);
+  return identifier.fit({Prepare(m), ReadOptions(identifier.options, given, {}), {}});
+}
+
+}  // namespace warmjoint::test
