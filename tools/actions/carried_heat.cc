@@ -144,4 +144,24 @@ nlohmann::json CarriedHeatToJson(const CarriedHeat& carried) {
   return json;
 }
 
+CarriedHeat CarriedHeatFromJson(const nlohmann::json& json, const Place& place) {
+  CarriedHeat carried;
+  try {
+    json.at("file").get_to(carried.file);
+    json.at("pause").get_to(carried.pause);
+    json.at("pause_from").get_to(carried.pause_from);
+    // the first stage is always there, a second one where there were two
+    for (const char* stage : kStages) {
+      if (!carried.energy.empty() && !json.contains(stage)) break;
+      const nlohmann::json& one = json.at(stage);
+      one.at("unit").get_to(carried.unit);
+      carried.energy.push_back(one.at("value"));
+      carried.std.push_back(one.at("std"));
+    }
+  } catch (const nlohmann::json::exception& error) {
+    Refuse(place, "its member `follows` cannot be read ({})", error.what());
+  }
+  return carried;
+}
+
 }  // namespace warmjoint::inline tools

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "identification/estimate.h"
+#include "models/foundation/bad_input.h"
 #include "models/recording/measurements.h"
 
 namespace warmjoint::inline tools {
@@ -55,5 +56,8 @@ std::string Describe(const CarriedHeat& carried);
 /// {file, pause, pause_from, energy{value, unit, std}}, and second_energy: the `follows` member of
 /// an estimate file.
 nlohmann::json CarriedHeatToJson(const CarriedHeat& carried);
+
+/// The inverse. Throws BadInput from `place`, that of the file.
+CarriedHeat CarriedHeatFromJson(const nlohmann::json& json, const Place& place);
 
 }  // namespace warmjoint::inline tools

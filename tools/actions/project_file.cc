@@ -121,4 +121,24 @@ nlohmann::json ProjectToJson(const Project& project) {
   return json;
 }
 
+Project ProjectFromJson(const nlohmann::json& json) {
+  Project project;
+  // what the file did not say stays empty
+  const auto take = [&](const char* name, auto& member) {
+    if (json.contains(name)) member = json[name].get<std::decay_t<decltype(member)>>();
+  };
+  const auto number = [&](const char* name, std::optional<double>& member) {
+    if (json.contains(name)) member = json[name].get<double>();
+  };
+  take("map", project.map);
+  take("unit", project.unit);
+  take("scale", project.scale);
+  if (json.contains("joint")) project.joint = json["joint"].get<std::string>();
+  number("gear", project.gear);
+  number("wrap", project.wrap);
+  number("trim", project.trim);
+  number("shortest_hold", project.shortest_hold);
+  return project;
+}
+
 }  // namespace warmjoint::inline tools

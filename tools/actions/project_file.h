@@ -35,4 +35,7 @@ Project ParseProject(const std::string& text, const std::string& file);
 /// {map[], unit[], scale[], joint, gear, wrap, trim, shortest_hold}, without what is empty.
 nlohmann::json ProjectToJson(const Project& project);
 
+/// The inverse. Throws nlohmann::json::exception where a member has another type.
+Project ProjectFromJson(const nlohmann::json& json);
+
 }  // namespace warmjoint::inline tools

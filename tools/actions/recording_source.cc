@@ -122,6 +122,15 @@ nlohmann::json TakenProjectToJson(const TakenProject& project, const fs::path& e
   return {{"file", SeenFrom(project.file, estimate)}, {"values", ProjectToJson(project.values)}};
 }
 
+TakenProject TakenProjectFromJson(const nlohmann::json& json, const Place& place) {
+  try {
+    return {Found(json.at("file").get<std::string>(), place.file),
+            ProjectFromJson(json.at("values"))};
+  } catch (const nlohmann::json::exception& error) {
+    Refuse(place, "its member `project` cannot be read ({})", error.what());
+  }
+}
+
 RecordingArguments RecordingFromJson(const nlohmann::json& json, const Place& place) {
   RecordingArguments arguments;
   try {

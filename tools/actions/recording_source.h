@@ -56,6 +56,9 @@ nlohmann::json RecordingToJson(const RecordingArguments& arguments,
 nlohmann::json TakenProjectToJson(const TakenProject& project,
                                   const std::filesystem::path& estimate = {});
 
+/// The inverse. place: of that file. Throws BadInput from it.
+TakenProject TakenProjectFromJson(const nlohmann::json& json, const Place& place);
+
 /// The inverse of RecordingToJson. place: of the estimate file; a recording that is not where it was is
 /// looked for beside that file. Throws BadInput from `place`.
 RecordingArguments RecordingFromJson(const nlohmann::json& json, const Place& place);

@@ -210,4 +210,14 @@ Estimate FromEstimate(const identification::Estimate& estimate) {
   return made;
 }
 
+tools::CarriedHeat ToCarried(const CarriedHeat& carried) {
+  return {carried.file, carried.pause,  carried.pause_from,
+          carried.unit, carried.energy, carried.std};
+}
+
+CarriedHeat FromCarried(const tools::CarriedHeat& carried) {
+  return {carried.file, carried.pause,  carried.pause_from,
+          carried.unit, carried.energy, carried.std};
+}
+
 }  // namespace warmjoint::api

@@ -4,14 +4,18 @@
 #include <warmjoint/estimate.h>
 
 #include "identification/estimate.h"
+#include "tools/actions/carried_heat.h"
 
 namespace warmjoint::api {
 
 /// Throws models::BadInput for a friction or a covariance that makes no sense.
 identification::Estimate ToEstimate(const Estimate& estimate);
 
-/// `recording` stays empty.
+/// `recording` and `follows` stay empty.
 Estimate FromEstimate(const identification::Estimate& estimate);
+
+tools::CarriedHeat ToCarried(const CarriedHeat& carried);
+CarriedHeat FromCarried(const tools::CarriedHeat& carried);
 
 Metrics FromMetrics(const identification::Metrics& metrics);
 

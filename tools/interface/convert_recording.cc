@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "models/foundation/parse_number.h"
+#include "models/foundation/read_json.h"
 #include "models/recording/assemble.h"
 #include "tools/interface/convert_numbers.h"
 
@@ -127,6 +130,13 @@ tools::RecordingArguments ToArguments(const Origin& origin) {
   arguments.wrap = origin.read.wrap;
   arguments.torque_constant = origin.read.torque_constant;
   arguments.holds = {origin.prepare.trim, origin.prepare.shortest_hold};
+
+  // what a project file has set of these
+  if (!origin.project_file.empty()) {
+    const auto values = models::ParseJson(origin.project, "Origin::project");
+    arguments.project = tools::TakenProjectFromJson(
+        {{"file", origin.project_file}, {"values", values}}, {"Origin::project"});
+  }
   return arguments;
 }
 
@@ -149,6 +159,10 @@ Origin FromArguments(const tools::RecordingArguments& arguments, const models::P
   origin.read.wrap = arguments.wrap;
   origin.read.torque_constant = arguments.torque_constant;
   origin.prepare = {arguments.holds.trim, arguments.holds.shortest};
+  if (arguments.project) {
+    origin.project_file = arguments.project->file.string();
+    origin.project = tools::ProjectToJson(arguments.project->values).dump();
+  }
   return origin;
 }
 

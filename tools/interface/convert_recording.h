@@ -19,7 +19,7 @@ models::Measurements ToMeasurements(const Recording& recording);
 /// origin stays empty.
 Recording FromMeasurements(const models::Measurements& measurements);
 
-/// What the command line would say of files that were read so.
+/// What the command line would say of files that were read so. Throws models::BadInput for a project that is no JSON.
 tools::RecordingArguments ToArguments(const Origin& origin);
 
 /// The inverse. Throws models::BadInput from `place` for a scale that is no number.

@@ -17,9 +17,15 @@ namespace {
 
 Estimate FromJson(const nlohmann::json& json, const models::Place& place) {
   Estimate estimate = FromEstimate(identification::EstimateFromJson(json, place));
-  // the files that it tells of, where it tells of files
-  if (json.contains("recording") && !json["recording"].is_null()) {
-    estimate.recording = FromArguments(tools::RecordingFromJson(json["recording"], place), place);
+  // the files that it tells of, where it tells of files, and the heat with which it began
+  const auto holds = [&](const char* name) { return json.contains(name) && !json[name].is_null(); };
+  if (holds("recording")) {
+    tools::RecordingArguments arguments = tools::RecordingFromJson(json["recording"], place);
+    if (holds("project")) arguments.project = tools::TakenProjectFromJson(json["project"], place);
+    estimate.recording = FromArguments(arguments, place);
+  }
+  if (holds("follows")) {
+    estimate.follows = FromCarried(tools::CarriedHeatFromJson(json["follows"], place));
   }
   return estimate;
 }
@@ -28,7 +34,9 @@ Estimate FromJson(const nlohmann::json& json, const models::Place& place) {
 std::string TextOf(const Estimate& estimate, const std::filesystem::path& target = {}) {
   std::optional<tools::RecordingArguments> source;
   if (estimate.recording) source = ToArguments(*estimate.recording);
-  return tools::EstimateFile(ToEstimate(estimate), source, target);
+  std::optional<tools::CarriedHeat> follows;
+  if (estimate.follows) follows = ToCarried(*estimate.follows);
+  return tools::EstimateFile(ToEstimate(estimate), source, target, follows);
 }
 
 }  // namespace

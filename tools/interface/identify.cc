@@ -20,6 +20,9 @@ tools::IdentifySettings ToSettings(const IdentifySettings& settings,
     const tools::LeftHeat left =
         tools::HeatLeftBy(ToEstimate(*settings.follows), "IdentifySettings::follows");
     follows = tools::CarryOver(left, settings.pause, next);
+    // called by the recording that left it, where that was a file
+    const std::optional<Origin>& origin = settings.follows->recording;
+    if (origin && !origin->files.empty()) follows->file = origin->files.front();
   } else if (settings.pause) {
     models::Refuse({"pause"},
                    "is the time since an earlier recording; give that one's estimate as follows");
@@ -63,15 +66,16 @@ Estimate Identify(const PreparedLog& log, const IdentifySettings& settings) {
     // as the command does: checked, identified, and without a friction in amperes
     const identification::PreparedLog& prepared = log.state().log;
     const models::Measurements& measurements = prepared.taken().measurements;
-    const tools::IdentifyTask task =
-        tools::CheckSettings(ToSettings(settings, measurements), measurements.joint);
+    const tools::IdentifySettings asked = ToSettings(settings, measurements);
+    const tools::IdentifyTask task = tools::CheckSettings(asked, measurements.joint);
     identification::Estimate found =
         tools::IdentifyLog(task, prepared, ToHoldOut(settings)).estimate;
     tools::TakeBackAmperes(measurements, found);
 
-    // as a value that remembers its files
+    // as a value that remembers its files, and with what it began
     Estimate estimate = FromEstimate(found);
     estimate.recording = log.state().origin;
+    if (asked.follows) estimate.follows = FromCarried(*asked.follows);
     return estimate;
   });
 }

@@ -41,7 +41,10 @@ Estimate Everything() {
   origin.read.joint = JointKind::linear;
   origin.read.gear = 2;
   origin.prepare = {1, 3};
+  origin.project_file = "warmjoint.yaml";
+  origin.project = R"({"gear":2.0,"joint":"linear","map":["torque=force"],"shortest_hold":3.0})";
   estimate.recording = origin;
+  estimate.follows = CarriedHeat{"monday.json", 300, "given", "N", {-2, -0.5}, {0.1, 0.2}};
   return estimate;
 }
 
@@ -65,6 +68,10 @@ TEST(Estimate, ComesBackFromItsFileWithEveryMember) {
   EXPECT_EQ(back.recording->read.scale.at("torque"), -0.5);
   EXPECT_EQ(back.recording->read.joint, JointKind::linear);
   EXPECT_EQ(back.recording->prepare.shortest_hold, 3);
+  EXPECT_EQ(back.recording->project_file, "warmjoint.yaml");
+  EXPECT_EQ(back.recording->project, Everything().recording->project);
+  EXPECT_EQ(back.follows->pause, 300);
+  EXPECT_EQ(back.follows->energy, (std::vector<double>{-2, -0.5}));
 }
 
 TEST(Estimate, NamesItsStatusAsTheContractDoes) {

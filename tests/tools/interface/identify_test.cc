@@ -164,8 +164,14 @@ TEST(Identify, FollowsAnEarlierRecordingAsTheCommand) {
   settings.pause = 60;
   const Estimate estimate = Identify(ReadRecording(log), settings);
 
-  // all that the fit made; the file tells of the earlier recording, too
+  // all that the fit made, and with what it began; the file names the earlier one's
   const Estimate asked = ReadEstimate(file);
+  ASSERT_TRUE(asked.follows && estimate.follows);
+  EXPECT_EQ(asked.follows->file, earlier);
+  EXPECT_EQ(estimate.follows->file, log);
+  EXPECT_EQ(estimate.follows->pause, 60);
+  EXPECT_EQ(estimate.follows->energy, asked.follows->energy);
+  EXPECT_EQ(estimate.follows->std, asked.follows->std);
   EXPECT_EQ(estimate.options, asked.options);
   EXPECT_EQ(estimate.options.count("expected_energy"), 1u);
   ASSERT_EQ(estimate.parameters.size(), asked.parameters.size());

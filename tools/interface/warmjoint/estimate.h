@@ -113,6 +113,16 @@ struct StructureChoice {
   std::vector<StructureTrial> trials{};
 };
 
+/// The heat that an earlier recording left at the first sample of this one (IdentifySettings::follows).
+struct CarriedHeat {
+  std::string file{};            // that told of it
+  double pause = 0;              // s at rest between them
+  std::string pause_from{};      // "stamps" of both, or "given"
+  std::string unit{};            // "N.m" or "N"
+  std::vector<double> energy{};  // E(0) as it was expected, of each stage of warming
+  std::vector<double> std{};     // standard deviation of each
+};
+
 struct Estimate {
   std::string identifier{};
   std::map<std::string, std::string> options{};  // of the identifier, those not at their defaults
@@ -134,6 +144,7 @@ struct Estimate {
   std::vector<Assumption> assumptions{};
   std::optional<Origin>
       recording{};  // the files that it tells of; none of recordings that were made of vectors
+  std::optional<CarriedHeat> follows{};     // with what it began; none without an earlier recording
   std::vector<Parameter> state_end{};       // at the end of the log: time, energy, second_energy
   std::vector<Parameter> temperature{};     // how the heat goes with the log's temperature
   std::string without_holdout{};            // why `holdout` is none, where it was asked for

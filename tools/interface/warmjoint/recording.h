@@ -66,6 +66,8 @@ struct Origin {
   std::vector<std::string> files;
   ReadSettings read{};
   PrepareSettings prepare{};
+  /// The project file that set some of these, and what it set, as in estimate.json; both empty without one.
+  std::string project_file{}, project{};
 };
 
 /// The log of one joint: N samples in order of time, SI.
