@@ -69,6 +69,8 @@ std::span<const OtherNumber> OtherNumbers() {
                   [](Friction& f) {
                     return f.level_per_temperature != 0 ? &f.level_per_temperature : nullptr;
                   }},
+      OtherNumber{"", InfoOf(&Friction::load_gain),
+                  [](Friction& f) { return f.load_gain != 0 ? &f.load_gain : nullptr; }},
       OtherNumber{"", InfoOf(&Friction::viscous_per_energy),
                   [](Friction& f) { return f.thermal ? &f.viscous_per_energy : nullptr; }},
   };
@@ -91,12 +93,13 @@ std::vector<StateMember> StateOf(const FrictionDescription& friction) {
 }
 
 JointFriction::JointFriction(const FrictionDescription& friction)
-    : friction_(friction),
-      law_(*FindLaw(friction.law)),
-      values_(LawValues(friction)),
-      state_(StateOf(friction)),
+    : values_(LawValues(friction)),
       terms_(std::make_shared<const LevelTerms>(friction)),
-      has_terms_(!terms_->empty()) {
+      has_terms_(!terms_->empty() || friction.load_gain != 0),
+      load_gain_(friction.load_gain),
+      friction_(friction),
+      law_(*FindLaw(friction.law)),
+      state_(StateOf(friction)) {
   second_stage_ = friction.second_thermal.has_value();
   slips_ = law_.pre_sliding == PreSliding::breakaway;
   friction_.maps.clear();
@@ -154,6 +157,7 @@ bool JointFriction::SetNumber(size_t place, double value) {
   // of warming or options: the step of the heat may follow from it
   *other->find(friction_) = value;
   per_energy_ = friction_.viscous_per_energy;
+  load_gain_ = friction_.load_gain;
   if (h_ > 0) heat_ = DiscretiseHeat(friction_, h_);
   return true;
 }

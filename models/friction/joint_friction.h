@@ -60,7 +60,7 @@ inline double SlopeAt(double viscous, double per_energy, double energy) {
 }
 
 /// Steps F = (kv + b E) v + bristle, whose level on the side of motion is
-///   L(side) = g(side, |v|) + E + maps and load (LevelTerms),   E = E1 + E2.
+///   L(side) = g(side, |v|) + E + c |load| + maps (LevelTerms),   E = E1 + E2.
 /// Sliding, F is Eq. (20) with maps exactly and W = |F v| (19); at rest the bristle holds, W = 0.
 /// E takes the exact zero-order-hold step (22) and does not see the loss of its own step.
 /// Copies share their maps.
@@ -99,7 +99,7 @@ class JointFriction {
   double level_per_temperature() const { return friction_.level_per_temperature; }
 
   /// The place of a number that SetNumber sets: a parameter of the law, thermal_gain,
-  /// thermal_time_constant, the same with second_ before them, level_per_temperature or
+  /// thermal_time_constant, the same with second_ before them, level_per_temperature, load_gain or
   /// viscous_per_energy; nothing where this friction has no such number.
   std::optional<size_t> FindNumber(std::string_view name) const;
 
@@ -140,7 +140,7 @@ class JointFriction {
   /// What heat, load and maps add to the law's level on one side of motion, N.m or N, and what heat
   /// adds to its slope, N.m.s/rad or N.s/m. side: 1 or -1; speed: |v|, rad/s or m/s.
   double AddedLevel(int side, double speed, const JointPlace& place) const {
-    return has_terms_ ? place.energy + terms_->At(side, speed, place) : place.energy;
+    return has_terms_ ? place.energy + TermsAt(side, speed, place) : place.energy;
   }
   double SlopeChange(double energy) const {
     return per_energy_ == 0 ? 0 : Slope(energy) - viscous_;
@@ -156,6 +156,11 @@ class JointFriction {
   template <typename... L>
   void ChooseLevel(LawList<L...>);
   void Derive();
+  /// What load and maps add to the level.
+  double TermsAt(int side, double speed, const JointPlace& place) const {
+    const double of_load = load_gain_ * std::abs(place.load);
+    return terms_->empty() ? of_load : of_load + terms_->At(side, speed, place);
+  }
   double Slope(double energy) const { return SlopeAt(viscous_, per_energy_, energy); }
   /// law: the law's own force at v.
   double WithAdded(double law, double v, const JointPlace& place) const {
@@ -163,24 +168,27 @@ class JointFriction {
     return law + SlopeChange(place.energy) * v + side * AddedLevel(side, std::abs(v), place);
   }
 
-  FrictionDescription friction_;  // without its maps
-  Law law_;
+  // what Level reads stands first, side by side
   std::vector<double> values_;  // of the law's table
-  std::vector<StateMember> state_;
-  bool second_stage_ = false;  // the third state is the second energy
-  bool slips_ = false;         // the last state is the slip
-  std::shared_ptr<const LevelTerms> terms_;
-  bool has_terms_;
-  double viscous_ = 0;
-  double per_energy_ = 0;
-  std::optional<Bristle> own_bristle_;
-  Heat heat_;
-  double h_ = 0;
-  Bristle unit_;  // of an effective inertia of 1
   /// The law's level to a side, held or sliding, at a speed.
   double (*level_)(bool sliding, int side, double speed, const double* p) = nullptr;
+  std::shared_ptr<const LevelTerms> terms_;
+  bool has_terms_;  // load or maps
   bool same_at_any_speed_ = false;
+  bool second_stage_ = false;           // the third state is the second energy
+  bool slips_ = false;                  // the last state is the slip
   double holding_[2]{}, sliding_[2]{};  // to sides -1 and 1, where it is the same at any speed
+  double load_gain_ = 0;
+  double viscous_ = 0;
+  double per_energy_ = 0;
+  double h_ = 0;
+
+  FrictionDescription friction_;  // without its maps
+  Law law_;
+  std::vector<StateMember> state_;
+  std::optional<Bristle> own_bristle_;
+  Heat heat_;
+  Bristle unit_;  // of an effective inertia of 1
 };
 
 inline double JointFriction::Level(int side, const FrictionState& state,
@@ -192,7 +200,7 @@ inline double JointFriction::Level(int side, const FrictionState& state,
                      : level_(slides, side, std::abs(motion.velocity), values_.data());
   level += energy;
   if (has_terms_) {
-    level += terms_->At(side, std::abs(motion.velocity), {motion.position, energy, motion.load});
+    level += TermsAt(side, std::abs(motion.velocity), {motion.position, energy, motion.load});
   }
   return level;
 }

@@ -26,26 +26,19 @@ bool NeedsLoad(const FrictionDescription& friction) {
                      [](const FrictionMap& map) { return Depends(map, MapQuantity::load); });
 }
 
-LevelTerms::LevelTerms(const FrictionDescription& friction)
-    : gear_(friction.gear), load_gain_(friction.load_gain) {
+LevelTerms::LevelTerms(const FrictionDescription& friction) : gear_(friction.gear) {
   for (const FrictionMap& map : friction.maps) maps_.emplace_back(map);
   Survey(friction);
 }
 
-double LevelTerms::Maps(int side, double speed, const JointPlace& place) const {
-  const double turn = 2 * std::numbers::pi;
+double LevelTerms::At(int side, double speed, const JointPlace& place) const {
+  constexpr double turn = 2 * std::numbers::pi;
   const double motor = place.motor_position.value_or(gear_ * place.position);
-  const MapPoint<double> point{place.position, motor - turn * std::floor(motor / turn),
+  const MapPoint<double> point{place.position, motor - turn * std::floor(motor * (1 / turn)),
                                side * std::max(speed, kStill), place.energy, place.load};
   double sum = 0;
   for (const PreparedMap& map : maps_) sum += map.Value(point);
-  return sum;
-}
-
-double LevelTerms::At(int side, double speed, const JointPlace& place) const {
-  double terms = load_gain_ * std::abs(place.load);
-  if (!maps_.empty()) terms += side * Maps(side, speed, place);
-  return terms;
+  return side * sum;
 }
 
 void LevelTerms::Survey(const FrictionDescription& friction) {

@@ -1,4 +1,4 @@
-// What maps and load add to the level of friction.
+// What maps add to the level of friction.
 #pragma once
 
 #include <optional>
@@ -20,8 +20,8 @@ struct JointPlace {
   std::optional<double> motor_position{};  // rad; not given: the gear times the position
 };
 
-/// The part of the level that the law itself does not know:
-///   c |load| + side sum_i map_i(position, motor position, side |v|, E, load)
+/// The part of the level that maps tell:
+///   side sum_i map_i(position, motor position, side |v|, E, load)
 /// with the motor position mod(gear position, 2 pi). A map without a velocity axis is a force that
 /// is the same in both directions, so it raises the level of one side and lowers the other's.
 class LevelTerms {
@@ -29,7 +29,7 @@ class LevelTerms {
   /// friction: checked.
   explicit LevelTerms(const FrictionDescription& friction);
 
-  bool empty() const { return maps_.empty() && load_gain_ == 0; }
+  bool empty() const { return maps_.empty(); }
 
   /// side: 1 or -1; speed: |v|, rad/s or m/s. Returns N.m or N.
   double At(int side, double speed, const JointPlace& place) const;
@@ -40,11 +40,9 @@ class LevelTerms {
   double LargestAtRest() const { return largest_at_rest_; }
 
  private:
-  double Maps(int side, double speed, const JointPlace& place) const;
   void Survey(const FrictionDescription& friction);
 
   double gear_ = 1;
-  double load_gain_ = 0;
   std::vector<PreparedMap> maps_;
   double steepest_slope_ = 0;
   double largest_at_rest_ = 0;

@@ -51,7 +51,8 @@ void KernelsFromEnd(const Segment& segment, double place, bool normalised, Activ
 
 }  // namespace
 
-PreparedAxis::PreparedAxis(const GaussianAxis& axis, KernelKind kind) : axis_(axis), kind_(kind) {
+PreparedAxis::PreparedAxis(const GaussianAxis& axis, KernelKind kind)
+    : sides_(axis.sides), kind_(kind), axis_(axis) {
   const int n = static_cast<int>(axis.size());
 
   // with the sides apart, each side is an axis by itself
@@ -73,7 +74,7 @@ PreparedAxis::PreparedAxis(const GaussianAxis& axis, KernelKind kind) : axis_(ax
 }
 
 PreparedAxis::Segment PreparedAxis::MakeSegment(int begin, int end) const {
-  Segment segment{begin, end};
+  Segment segment{.begin = begin, .end = end};
   const int n = segment.size();
   segment.table = TableOf(begin, end);
   const auto from = static_cast<size_t>(begin), to = static_cast<size_t>(end);

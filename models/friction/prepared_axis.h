@@ -37,59 +37,79 @@ class PreparedAxis {
   /// The kernels that count at x; count is 0 where there are none.
   void Kernels(double x, ActiveKernels& active) const;
 
+  /// Kernels of a short even grid at one x, all of them, which their table tells.
+  struct Tabled {
+    const RowTable* table = nullptr;
+    RowTable::Spot spot{};
+    int first = 0;  // place of the first one in the row, a multiple of four
+    int count = 0;
+  };
+
+  /// False where x has no table.
+  bool FindTabled(double x, Tabled& tabled) const;
+
  private:
   /// Centres on one side of 0, or all of them.
   struct Segment {
     int begin = 0, end = 0;         // indices of the axis
     int row = 0;                    // place of the first centre in the row
+    RowTable table{};               // a row for each centre's kernel, where they are few
     int pad = 0;                    // places beside the centres, to both sides
     double per_spacing = 0;         // 1 over that of an even grid
     double ratio = 0;               // r, of the spacing to the width
     std::vector<double> bell{};     // exp(-(i r)^2 / 2), i = 0, 1, ...; empty unless even
     std::vector<double> present{};  // 1 or 0: whether there is a centre, from bell.size() - 1
                                     // places before the first on
-    RowTable table{};               // a row for each centre's kernel, where they are few
     int size() const { return end - begin; }
     int reach() const { return bell.empty() ? 0 : static_cast<int>(bell.size()) - 1; }
   };
   Segment MakeSegment(int begin, int end) const;
   RowTable TableOf(int begin, int end) const;
   int IndexAt(const Segment& segment, int place) const;
-  bool TabledKernels(const Segment& segment, double x, ActiveKernels& active) const;
+  /// The centres that count on the side of x; null where there are none.
+  const Segment* SegmentAt(double x) const;
   void UntabledKernels(const Segment& segment, double x, ActiveKernels& active) const;
   bool EvenKernels(const Segment& segment, double x, ActiveKernels& active) const;
   void FreeKernels(const Segment& segment, double x, ActiveKernels& active) const;
 
-  GaussianAxis axis_;
-  KernelKind kind_;
   std::vector<Segment> segments_;
+  Sides sides_;
+  KernelKind kind_;
+  GaussianAxis axis_;
 };
+
+inline const PreparedAxis::Segment* PreparedAxis::SegmentAt(double x) const {
+  if (sides_ == Sides::apart && x == 0) return nullptr;
+  const Segment& segment = segments_.size() > 1 && x > 0 ? segments_[1] : segments_[0];
+  return segment.size() == 0 ? nullptr : &segment;
+}
+
+inline bool PreparedAxis::FindTabled(double x, Tabled& tabled) const {
+  const Segment* const segment = SegmentAt(x);
+  if (!segment || !segment->table.Locate(x, tabled.spot)) return false;
+  tabled.table = &segment->table;
+  tabled.first = segment->row;
+  tabled.count = segment->size();
+  return true;
+}
 
 inline void PreparedAxis::Kernels(double x, ActiveKernels& active) const {
   active.count = 0;
-  if (axis_.sides == Sides::apart && x == 0) return;
-  const Segment& segment = segments_.size() > 1 && x > 0 ? segments_[1] : segments_[0];
-  if (segment.size() == 0) return;
-  if (TabledKernels(segment, x, active)) return;
-  UntabledKernels(segment, x, active);
-}
-
-/// All kernels of a short segment; false, and nothing done, where they are not tabulated.
-inline bool PreparedAxis::TabledKernels(const Segment& segment, double x,
-                                        ActiveKernels& active) const {
-  RowTable::Spot spot;
-  if (!segment.table.Locate(x, spot)) return false;
-  active.first = segment.row;
-  active.count = segment.size();
+  Tabled tabled;
+  if (!FindTabled(x, tabled)) {
+    if (const Segment* const segment = SegmentAt(x)) UntabledKernels(*segment, x, active);
+    return;
+  }
+  active.first = tabled.first;
+  active.count = tabled.count;
   active.begin = 0;
   active.sum = 1;
   for (int i = 0; i < active.count; i += 4) {
     Four four;
-    segment.table.Quad(static_cast<size_t>(i / 4), spot, four);
+    tabled.table->Quad(static_cast<size_t>(i / 4), tabled.spot, four);
     Store(four, active.value.data() + i);
   }
   std::fill_n(active.value.data() + active.count, 3, 0.0);
-  return true;
 }
 
 }  // namespace warmjoint::inline models

@@ -26,7 +26,7 @@ PreparedMap::PreparedMap(const FrictionMap& map) : factor_(map.factor) {
     return map.axes[a].kernels.size() < map.axes[b].kernels.size();
   });
   for (const size_t a : order) {
-    quantities_.push_back(map.axes[a].quantity);
+    quantities_[axes_.size()] = map.axes[a].quantity;
     axes_.emplace_back(map.axes[a].kernels, map.kernels);
   }
 
@@ -163,6 +163,39 @@ double PreparedMap::Evaluate(const MapPoint<double>& point) const {
   return Divided(factor * sum, divisor);
 }
 
-double PreparedMap::Value(const MapPoint<double>& point) const { return Evaluate(point); }
+WARMJOINT_FOR_EACH_PROCESSOR
+bool PreparedMap::EvaluateTwo(const MapPoint<double>& point, double& value) const {
+  RowTable::Spot spot;
+  if (!table_.Locate(point[static_cast<size_t>(quantities_[1])], spot)) return false;
+  const double factor = EvaluateFactor(factor_, point[static_cast<size_t>(MapQuantity::velocity)]);
+
+  // kernels of the first axis that have no table there
+  const double x = point[static_cast<size_t>(quantities_[0])];
+  PreparedAxis::Tabled kernels;
+  if (!axes_[0].FindTabled(x, kernels)) {
+    ActiveKernels active;
+    axes_[0].Kernels(x, active);
+    const double sum = FromTable(active, static_cast<size_t>(active.first), spot);
+    value = Divided(factor * sum, active.sum);
+    return true;
+  }
+
+  // else each weighs the row at its place, four at a time
+  Four sum{};
+  for (int i = 0; i < kernels.count; i += 4) {
+    Four weights, rows;
+    kernels.table->Quad(static_cast<size_t>(i / 4), kernels.spot, weights);
+    table_.Quad(static_cast<size_t>((kernels.first + i) / 4), spot, rows);
+    sum += weights * rows;
+  }
+  value = factor * ((sum[0] + sum[1]) + (sum[2] + sum[3]));
+  return true;
+}
+
+double PreparedMap::Value(const MapPoint<double>& point) const {
+  double value = 0;
+  if (axes_.size() == 2 && EvaluateTwo(point, value)) return value;
+  return Evaluate(point);
+}
 
 }  // namespace warmjoint::inline models

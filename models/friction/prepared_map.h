@@ -22,8 +22,10 @@ class PreparedMap {
  private:
   using Active = std::array<ActiveKernels, kMostMapAxes>;
 
-  /// Value, compiled for each processor (four.h); apart from it, since to the linker such a function is not what its
-  /// callers in other files see.
+  /// Value, compiled for each processor (four.h); apart from it, since to the linker such functions are not what their
+  /// callers in other files see. The first is for maps of two axes, the last of which is tabulated at the point; false
+  /// where it is not.
+  bool EvaluateTwo(const MapPoint<double>& point, double& value) const;
   double Evaluate(const MapPoint<double>& point) const;
 
   /// Sets the strides and visits, in the order of the rows, the weights of the last axis: a
@@ -35,13 +37,13 @@ class PreparedMap {
   double FromTable(const ActiveKernels& kernels, size_t row, const RowTable::Spot& spot) const;
 
   // the axis with the most centres is the last; its sums are the longest, and tabulated
-  std::vector<MapQuantity> quantities_;
+  std::array<MapQuantity, kMostMapAxes> quantities_{};  // of each axis
+  MapFactor factor_;
   std::vector<PreparedAxis> axes_;
+  RowTable table_;
   std::vector<size_t> strides_;  // of the rows, for each axis but the last
   std::vector<double> weights_;  // [rows x length_], over the last axis's row
   size_t length_ = 0;
-  RowTable table_;
-  MapFactor factor_;
 };
 
 }  // namespace warmjoint::inline models

@@ -61,7 +61,7 @@ double RowTable::Fit(const GaussianAxis& axis, KernelKind kind, const std::vecto
   begin_ = axis.centres.front() - (axis.period ? 0 : spacing / 2);
   cells_ = n * per_spacing;
   end_ = static_cast<double>(cells_);
-  coefficients_.assign((rows + 3) / 4 * 4 * cells_ * kCoefficients, 0);
+  coefficients_.assign((rows + 3) / 4 * cells_, {});
 
   const std::vector<double> nodes = Nodes(kCoefficients, 0.5);
   const std::vector<double> between = Nodes(kCoefficients + 1, 0);
@@ -82,10 +82,9 @@ double RowTable::Fit(const GaussianAxis& axis, KernelKind kind, const std::vecto
     }
     const Eigen::MatrixXd solved = solver.solve(values);
     for (size_t row = 0; row < rows; ++row) {
-      double* const own =
-          coefficients_.data() + (row / 4 * cells_ + cell) * 4 * kCoefficients + row % 4;
+      Polynomials& own = coefficients_[row / 4 * cells_ + cell];
       for (int k = 0; k < kCoefficients; ++k) {
-        own[4 * k] = solved(k, static_cast<Eigen::Index>(row));
+        own[4 * static_cast<size_t>(k) + row % 4] = solved(k, static_cast<Eigen::Index>(row));
       }
     }
     // against the kernels themselves

@@ -25,8 +25,8 @@ struct BoundJoint {
   int instances = 1;  // on its kinematic tree
   bool needs_load = false;
   bool needs_ambient = false;
-  std::array<double, 2> initial_energy{};  // {E1, E2} at a reset, N.m or N
   JointFriction friction;                  // without a timestep
+  std::array<double, 2> initial_energy{};  // {E1, E2} at a reset, N.m or N
 };
 
 /// An array of the model that holds a number of each joint: <numeric name="INSTANCE/NUMBER">.

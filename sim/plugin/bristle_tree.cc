@@ -49,7 +49,11 @@ void BristleTree::Step(const mjData* d, const LevelSource& levels, Rows rows, si
   const double slow = Stretch(d, rows);
   levels_.Begin(levels, first, rows);
   const auto joints = static_cast<double>(joints_.size());
-  if (slow <= FewHeld::kMost && slow < joints && Slide(d, rows)) return;
+  if (slow <= FewHeld::kMost && slow < joints) {
+    TakeSides(rows);
+    // where all are fast, any will do
+    if (Slide(d, rows, slow > 0 ? LikeliestHeld(rows) : 0)) return;
+  }
   Multiply(d, rows);
   if (complete_ && Hold(rows)) return;
   search_.Find(inertia_, d, rows, levels_, rows_of_joints_, force_.data(), {impulse_, damping_});
@@ -117,22 +121,30 @@ bool BristleTree::Hold(Rows rows) {
   return NoneNegative(within);
 }
 
-/// Sets every joint's side and the level there; returns the row that is the likeliest to be held.
-int BristleTree::TakeSides(Rows rows) {
+/// Sets every joint's side and the level there.
+void BristleTree::TakeSides(Rows rows) {
   // levels that have to be asked for, on the side of the stretch
   for (const int i : levels_.asking()) levels_.Of(i, rows.row(i)[kStretch] < 0 ? -1 : 1);
   const size_t pairs = present_.size();
-  const double impulse = impulse_;
-  const Two *const presents = present_.data(), *const mobility = mobility_.data();
-  Two *const sides = side_.data(), least{0, 0}, likely{0, 1}, place{0, 1};
-  // the one whose speed its level stops most easily is the likeliest to be held
-  for (size_t k = 0; k < pairs; ++k, place += 2) {
+  const Two* const presents = present_.data();
+  Two* const sides = side_.data();
+  for (size_t k = 0; k < pairs; ++k) {
     const RowPair row = rows.pair(k);
     const Two stretch = row[kStretch], present = presents[k];
     sides[k] = WhereNegative(stretch, -present, present);
-    const Two level = WhereNegative(stretch, -row[kLower], row[kUpper]);
-    row[kFriction] = level;
-    const Two left = (impulse * row[kSpeed]).abs() - mobility[k] * level.abs();
+    row[kFriction] = WhereNegative(stretch, -row[kLower], row[kUpper]);
+  }
+}
+
+/// The row that is the likeliest to be held: whose speed its level stops most easily.
+int BristleTree::LikeliestHeld(Rows rows) const {
+  const size_t pairs = present_.size();
+  const double impulse = impulse_;
+  const Two* const mobility = mobility_.data();
+  Two least{0, 0}, likely{0, 1}, place{0, 1};
+  for (size_t k = 0; k < pairs; ++k, place += 2) {
+    const RowPair row = rows.pair(k);
+    const Two left = (impulse * row[kSpeed]).abs() - mobility[k] * row[kFriction].abs();
     likely = WhereNegative(left - least, place, likely);
     least = left.min(least);
   }
@@ -141,9 +153,9 @@ int BristleTree::TakeSides(Rows rows) {
 }
 
 /// Whether all slide to the side of their stretch, but for a few. Sliding, z' is where the bristles
-/// carry their levels, and the damper is on the side of the motion.
-bool BristleTree::Slide(const mjData* d, Rows rows) {
-  few_.Start(inertia_, d, rows, TakeSides(rows));
+/// carry their levels, and the damper is on the side of the motion. likely: the row to be held, if any.
+bool BristleTree::Slide(const mjData* d, Rows rows, int likely) {
+  few_.Start(inertia_, d, rows, likely);
   const size_t pairs = present_.size();
   const Two *const present = present_.data(), *const sides = side_.data();
   Two *const start = start_.data(), least{0, 0};

@@ -44,8 +44,9 @@ class BristleTree {
   double Stretch(const mjData* d, Rows rows);
   void Multiply(const mjData* d, Rows rows);
   bool Hold(Rows rows);
-  int TakeSides(Rows rows);
-  bool Slide(const mjData* d, Rows rows);
+  void TakeSides(Rows rows);
+  int LikeliestHeld(Rows rows) const;
+  bool Slide(const mjData* d, Rows rows, int likely);
   bool SlideButFew(const mjData* d, Rows rows);
 
   std::vector<CoupledJoint> joints_;

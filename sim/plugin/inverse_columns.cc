@@ -21,7 +21,7 @@ void InverseColumns::Start(const InertiaBlock& inertia, const mjData* d, Rows ro
   solved[likely][1] = 1;
   inertia.Solve(d, solved);
   count_ = 0;
-  Keep(likely, 1);
+  likely_ = likely;
 }
 
 bool InverseColumns::Add(const InertiaBlock& inertia, const mjData* d,

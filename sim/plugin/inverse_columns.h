@@ -31,7 +31,9 @@ class InverseColumns {
   Two bearing(size_t k) const { return {solved_[2 * k][0], solved_[2 * k + 1][0]}; }
 
   /// The place of a joint's column; -1 where it is not there.
-  int Find(int joint) const {
+  int Find(int joint) {
+    // the first question is when a column is needed at all
+    if (count_ == 0) Keep(likely_, 1);
     int place = count_ - 1;
     while (place >= 0 && joints_[place] != joint) --place;
     return place;
@@ -54,6 +56,7 @@ class InverseColumns {
   std::vector<Two> columns_;  // [kMost][pairs]
   std::array<int, kMost> joints_{};
   int count_ = 0;
+  int likely_ = 0;  // the joint whose column Start has solved for
 };
 
 }  // namespace warmjoint::inline sim

@@ -34,13 +34,8 @@ enum Column : int {
   // numbers of the joint's friction (JointFriction)
   kUpperAtRest,  // the law's own levels, N.m or N
   kLowerAtRest,
-  kViscous,  // kv and b
-  kPerEnergy,
   kPole,  // of the heat's first stage
   kGain,
-  kAmbientGain,
-  kSecondPole,
-  kSecondGain,
   kInertia,  // of the bristle at the reference pose, kg.m^2 or kg, and 1 over it
   kPerInertia,
   kAbsent,  // 0 where a joint has coupled bristles, 1 elsewhere
@@ -50,7 +45,6 @@ enum Column : int {
   kLoad,   // of the bristle, N.m or N; then the next one
   kFirst,  // E1 and E2, N.m or N
   kSecond,
-  kRise,  // of the ambient, K
 
   // what it finds
   kUpper,  // L+ and L-, not negative, N.m or N; where a row asks for them, roughly at first
@@ -61,8 +55,16 @@ enum Column : int {
   kSliding,    // 1 where the bristle has yielded in the direction of motion, or 0
   kForce,      // F, N.m or N
   kLoss,       // W, W
-  kNextFirst,  // E1' and E2'
-  kNextSecond,
+  kNextFirst,  // E1'
+
+  // what few joints have: kv and b, where heat changes the slope, an ambient, and a second stage
+  kViscous,
+  kPerEnergy,
+  kAmbientGain,
+  kRise,  // of the ambient, K
+  kSecondPole,
+  kSecondGain,
+  kNextSecond,  // E2'
   kColumns,
 };
 

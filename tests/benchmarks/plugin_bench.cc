@@ -220,17 +220,18 @@ const char* Name(Drive drive) {
   return kNames[static_cast<int>(drive)];
 }
 
-constexpr double kSpeed = 2;        // rad/s, of joints that slide
-constexpr double kFirmness = 0.02;  // of drives: share of a lack of speed that one step makes up
+constexpr double kSpeed = 2;       // rad/s, of joints that slide
+constexpr double kFirmness = 0.1;  // of drives: share of a lack of speed that one step makes up
 
 /// Torques of the motors, N.m. level: of friction, where there is one, N.m
 void Control(Variant& variant, Drive drive, double level) {
   const mjModel* m = variant.model.get();
   mjData* d = variant.data.get();
   for (int j = 0; j < m->nv; ++j) {
-    const double firm = kFirmness * m->dof_M0[j] / m->opt.timestep;
+    const double firm = kFirmness / (m->dof_invweight0[j] * m->opt.timestep);
     const double swing = 6 * level / (1 + 0.3 * j) * std::sin((2 + j) * d->time);
-    const double keeps = firm * (kSpeed - d->qvel[j]) + (variant.has_friction ? level : 0);
+    const double keeps =
+        d->qfrc_bias[j] + firm * (kSpeed - d->qvel[j]) + (variant.has_friction ? level : 0);
     d->ctrl[j] = drive == Drive::sliding ? keeps : drive == Drive::turning ? swing : 0;
   }
 }

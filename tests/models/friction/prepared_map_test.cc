@@ -63,6 +63,26 @@ TEST(PreparedMap, IsTheSameOverProductsOfAxesWithAFactor) {
   }
 }
 
+TEST(PreparedMap, IsTheSameOverAPlaceAndASpeedOfAnyKind) {
+  for (const GaussianAxis& axis : AxesOfEveryKind()) {
+    // few speeds, which have a table, and many, which have none
+    for (const int speeds : {1, 3, 4, 9}) {
+      SCOPED_TRACE(testing::Message() << axis.size() << " centres, " << speeds << " speeds");
+      FrictionMap map{
+          {{MapQuantity::position, axis}, {MapQuantity::velocity, SpeedAxis(0.1, 3, speeds)}},
+          KernelKind::normalised,
+          {},
+          MapFactor::direction};
+      for (size_t i = 0; i < map.size(); ++i) {
+        map.weights.push_back(std::sin(1.0 + 2.0 * static_cast<double>(i)));
+      }
+      Compare(map, MapQuantity::position, MapQuantity::velocity);
+      // at rest neither side of the speeds counts
+      EXPECT_EQ(PreparedMap(map).Value({0.3}), 0);
+    }
+  }
+}
+
 TEST(PreparedMap, IsTheSameOverAnyNumberOfCentresOfTheShorterAxis) {
   for (int centres = 1; centres <= 24; ++centres) {
     for (const double factor : {0.6, 1.0, 1.7}) {

@@ -71,6 +71,28 @@ TEST(PluginNumbers, InArraysActAsTheSameInTheAttributes) {
   }
 }
 
+TEST(PluginNumbers, OfTheLoadInAnArrayActAsTheSameInTheAttributes) {
+  for (const Form form : {Form::actuator, Form::passive}) {
+    FrictionDescription friction = Law(0.3, 0.1, -0.02);
+    friction.load_gain = 0.05;
+    const Model array =
+        MustCompile(WithArrays(ArmXml(friction, form, "implicitfast"),
+                               R"(<numeric name="arm/load_gain" size="3" data="0.2 0.2 0.2"/>)"));
+    friction.load_gain = 0.2;
+    const Model text = MustCompile(ArmXml(friction, form, "implicitfast"));
+    const Data a(mj_makeData(array.get())), b(mj_makeData(text.get()));
+    DriveArm(array.get(), a.get(), 500);
+    DriveArm(text.get(), b.get(), 500);
+    EXPECT_EQ(StateButMark(array, a), StateButMark(text, b));
+
+    // a gain below 0 is out of its bounds and leaves the one before
+    std::fill_n(array->numeric_data, 3, -1.0);
+    DriveArm(array.get(), a.get(), 100);
+    DriveArm(text.get(), b.get(), 100);
+    EXPECT_EQ(StateButMark(array, a), StateButMark(text, b));
+  }
+}
+
 TEST(PluginNumbers, RandomisedOverABatchEqualSingleRunsBitForBit) {
   for (const Form form : {Form::actuator, Form::passive}) {
     const Model m =
