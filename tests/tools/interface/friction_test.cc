@@ -180,18 +180,18 @@ TEST(Laws, AreThoseOfTheCommand) {
   // the command tells of what joins a law behind them
   ASSERT_LE(laws.size(), listed.size());
   for (std::size_t i = 0; i < laws.size(); ++i) {
-    EXPECT_EQ(laws[i].name, listed[i].at("name"));
-    EXPECT_EQ(laws[i].equation, listed[i].at("equation"));
+    EXPECT_EQ(nlohmann::json(laws[i].name), listed[i].at("name"));
+    EXPECT_EQ(nlohmann::json(laws[i].equation), listed[i].at("equation"));
     ASSERT_EQ(laws[i].parameters.size(), listed[i].at("parameters").size());
     for (std::size_t k = 0; k < laws[i].parameters.size(); ++k) {
       const ParameterInfo& info = laws[i].parameters[k];
       const auto& row = listed[i]["parameters"][k];
-      EXPECT_EQ(info.name, row.at("name"));
-      EXPECT_EQ(info.symbol, row.at("symbol"));
-      EXPECT_EQ(info.rotary_unit, row.at("unit").at("rotary"));
-      EXPECT_EQ(info.linear_unit, row.at("unit").at("linear"));
-      EXPECT_EQ(info.default_value, row.at("default"));
-      EXPECT_EQ(info.meaning, row.at("meaning"));
+      EXPECT_EQ(nlohmann::json(info.name), row.at("name"));
+      EXPECT_EQ(nlohmann::json(info.symbol), row.at("symbol"));
+      EXPECT_EQ(nlohmann::json(info.rotary_unit), row.at("unit").at("rotary"));
+      EXPECT_EQ(nlohmann::json(info.linear_unit), row.at("unit").at("linear"));
+      EXPECT_EQ(nlohmann::json(info.default_value), row.at("default"));
+      EXPECT_EQ(nlohmann::json(info.meaning), row.at("meaning"));
       EXPECT_EQ(std::isfinite(info.upper), !row.at("upper").is_null());
     }
   }

@@ -241,15 +241,15 @@ TEST(Identifiers, AreThoseOfTheCommandWithTheirOptions) {
   const std::vector<IdentifierInfo> all = Identifiers();
   ASSERT_EQ(all.size(), listed.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
-    EXPECT_EQ(all[i].name, listed[i].at("name"));
-    EXPECT_EQ(all[i].summary, listed[i].at("summary"));
+    EXPECT_EQ(nlohmann::json(all[i].name), listed[i].at("name"));
+    EXPECT_EQ(nlohmann::json(all[i].summary), listed[i].at("summary"));
     ASSERT_EQ(all[i].options.size(), listed[i].at("options").size());
     for (std::size_t k = 0; k < all[i].options.size(); ++k) {
       const auto& option = listed[i]["options"][k];
-      EXPECT_EQ(all[i].options[k].name, option.at("name"));
-      EXPECT_EQ(all[i].options[k].default_value, option.at("default"));
-      EXPECT_EQ(all[i].options[k].allowed, option.at("allowed"));
-      EXPECT_EQ(all[i].options[k].meaning, option.at("meaning"));
+      EXPECT_EQ(nlohmann::json(all[i].options[k].name), option.at("name"));
+      EXPECT_EQ(nlohmann::json(all[i].options[k].default_value), option.at("default"));
+      EXPECT_EQ(nlohmann::json(all[i].options[k].allowed), option.at("allowed"));
+      EXPECT_EQ(nlohmann::json(all[i].options[k].meaning), option.at("meaning"));
     }
   }
 }
