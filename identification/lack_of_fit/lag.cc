@@ -143,8 +143,9 @@ Finding TestLag(const FittedModel& model, const Measurements& measurements, Vect
   Index best = 0;
   fit.ExplainedBy(decays).maxCoeff(&best);
   const Features decay{decays.col(best), kLags};
-  fit.LearnNoise({decay});
-  finding = fit.Test(decay);
+  const AskedFeatures asked = fit.Ask({decay});
+  fit.LearnNoise(asked);
+  finding = fit.Test(asked, 0);
   finding.test = &LagTest();
 
   // a lag leaves a share of what was before, not of what comes: the test has one side

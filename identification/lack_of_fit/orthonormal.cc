@@ -7,6 +7,8 @@
 #include <numeric>
 #include <vector>
 
+#include "identification/lack_of_fit/column_products.h"
+
 namespace warmjoint::inline identification {
 namespace {
 
@@ -17,6 +19,9 @@ constexpr double kAsLong =
     1e-9;  // relative; why: rounding makes 1e-15 of it, nothing that is meant so little
 constexpr double kSeenByProducts =
     1e-6;  // of a column's square; why: a basis made of such ones is orthonormal to 1e-16 of it, 1e-10
+
+constexpr double kSureByProducts =
+    1e-2;  // of a column's square; why: a basis made of such ones is orthonormal to 1e-14
 
 /// The inverse of the leading rank x rank of a triangular R.
 MatrixXd InverseOf(const MatrixXd& R, Index rank) {
@@ -79,13 +84,6 @@ Factor FactorOf(MatrixXd products, Index most, double distinct) {
   return factor;
 }
 
-MatrixXd ProductsOf(const MatrixXd& columns) {
-  MatrixXd products = MatrixXd::Zero(columns.cols(), columns.cols());
-  products.selfadjointView<Eigen::Lower>().rankUpdate(columns.transpose());
-  products.triangularView<Eigen::StrictlyUpper>() = products.transpose();
-  return products;
-}
-
 /// R^-1 with the order of the columns turned back. [q x rank]
 MatrixXd MixOf(const Factor& factor) {
   MatrixXd mix = MatrixXd::Zero(factor.root.rows(), factor.rank);
@@ -114,6 +112,15 @@ Basis ByHouseholder(const MatrixXd& columns, double distinct) {
   return result;
 }
 
+/// columns * mix
+Basis ByMix(const MatrixXd& columns, MatrixXd mix) {
+  Basis result{MatrixXd(columns.rows(), mix.cols()), std::move(mix)};
+  for (Index j = 0; j < result.mix.cols(); ++j) {
+    result.basis.col(j).noalias() = columns * result.mix.col(j);
+  }
+  return result;
+}
+
 }  // namespace
 
 Basis Orthonormal(const MatrixXd& columns, double distinct) {
@@ -124,14 +131,17 @@ Basis Orthonormal(const MatrixXd& columns, double distinct) {
       factor.least > kSeenByProducts && (distinct * distinct > kSeenByProducts ||
                                          factor.rank == std::min(columns.cols(), columns.rows()));
   if (!told) return ByHouseholder(columns, distinct);
-  Basis result{MatrixXd(columns.rows(), factor.rank), MixOf(factor)};
-  if (factor.rank > 0) result.basis.noalias() = columns * result.mix;
-  return result;
+  Basis result = ByMix(columns, MixOf(factor));
+  if (factor.least > kSureByProducts) return result;
+  // short columns leave a basis that is orthonormal nearly: once more makes it so to rounding
+  Basis again = ByMix(result.basis, MixOf(FactorOf(ProductsOf(result.basis), factor.rank, 0)));
+  again.mix = result.mix * again.mix;
+  return again;
 }
 
-MatrixXd MixOfDistinct(const MatrixXd& columns, double distinct) {
+MatrixXd MixOfDistinct(const MatrixXd& products, double distinct) {
   assert(distinct * distinct > kSeenByProducts);
-  return MixOf(FactorOf(ProductsOf(columns), std::min(columns.cols(), columns.rows()), distinct));
+  return MixOf(FactorOf(products, products.cols(), distinct));
 }
 
 }  // namespace warmjoint::inline identification

@@ -17,7 +17,7 @@ struct Basis {
 /// columns: [m x q] of norm 1 at most.
 Basis Orthonormal(const Eigen::MatrixXd& columns, double distinct);
 
-/// The mix alone, [q x r]. distinct: 0.001 or more.
-Eigen::MatrixXd MixOfDistinct(const Eigen::MatrixXd& columns, double distinct);
+/// The mix alone, [q x r]. products: [q x q] of the columns with each other; distinct: 0.001 or more.
+Eigen::MatrixXd MixOfDistinct(const Eigen::MatrixXd& products, double distinct);
 
 }  // namespace warmjoint::inline identification
