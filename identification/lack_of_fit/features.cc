@@ -155,21 +155,30 @@ Features OfSpeedMemory(const Bins& bins, const Circumstances& known, const Growi
 }
 
 Features OfStep(const Bins& bins, const Circumstances&, const GrowingFit& fit) {
-  // one column for each place, of friction and of offset
-  MatrixXd after = MatrixXd::Zero(bins.size(), kPlaces - 1);
+  // a column for each place, of the rows that have passed it
+  SharedColumns after;
+  after.shares = MatrixXd::Zero(kPlaces, kPlaces - 1);
+  after.shares.triangularView<Eigen::StrictlyLower>().setOnes();
   // the places that a row has passed, by the samples before it
   const double total = bins.weight.sum();
   double before = 0;
   for (Index c = 0; c < bins.size(); ++c) {
-    const auto places = static_cast<Index>(before / total * kPlaces);
-    after.row(c).head(std::min<Index>(places, kPlaces - 1)).setOnes();
+    after.place.push_back(
+        std::min<Index>(static_cast<Index>(before / total * kPlaces), kPlaces - 1));
     before += bins.weight[c];
   }
-  const MatrixXd all = BothWays(bins, after);
-  // the one step that explains most beside the fit
+
+  // the one step, of the offset or of the friction, that explains most beside the fit
+  SharedColumns turned = after;
+  after.factor.setOnes(bins.size());
+  turned.factor = SignOf(bins);
+  VectorXd explained(2 * after.shares.cols());
+  explained << fit.ExplainedBy(after), fit.ExplainedBy(turned);
   Index best = 0;
-  fit.ExplainedBy(all).maxCoeff(&best);
-  return {all.col(best), static_cast<int>(all.cols())};
+  explained.maxCoeff(&best);
+  const Index offsets = after.shares.cols();
+  return {best < offsets ? after.Column(best) : turned.Column(best - offsets),
+          static_cast<int>(explained.size())};
 }
 
 Features OfHoldParity(const Bins& bins, const Circumstances&, const GrowingFit&) {

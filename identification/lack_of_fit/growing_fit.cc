@@ -57,6 +57,19 @@ MatrixXd Normed(const MatrixXd& columns, const VectorXd& roots) {
   return normed;
 }
 
+/// Squares that columns explain by themselves beside a fit. squares: [c] of each; held: [r x c] products with the fit's
+/// basis; products: [c] with what the fit leaves, which none of that has
+VectorXd ByProducts(const VectorXd& squares, const MatrixXd& held, const VectorXd& products) {
+  VectorXd explained = VectorXd::Zero(squares.size());
+  for (Index i = 0; i < squares.size(); ++i) {
+    const double beside = squares[i] - held.col(i).squaredNorm();
+    if (beside > kDistinct * kDistinct * squares[i]) {
+      explained[i] = products[i] * products[i] / beside;
+    }
+  }
+  return explained;
+}
+
 }  // namespace
 
 GrowingFit::GrowingFit(const VectorXd& weight, const VectorXd& residual,
@@ -192,17 +205,21 @@ void GrowingFit::Take(const Features& features) {
 }
 
 VectorXd GrowingFit::ExplainedBy(const MatrixXd& columns) const {
-  // what the fit holds of each column, and its product with what the fit leaves, which none of that has
   const MatrixXd weighted = roots_.asDiagonal() * columns;
-  const MatrixXd shared = fit_.basis.transpose() * weighted;
-  const VectorXd products = weighted.transpose() * left_;
-  VectorXd explained = VectorXd::Zero(columns.cols());
-  for (Index i = 0; i < columns.cols(); ++i) {
-    const double square = weighted.col(i).squaredNorm();
-    const double beside = square - shared.col(i).squaredNorm();
-    if (beside > kDistinct * kDistinct * square) explained[i] = products[i] * products[i] / beside;
+  return ByProducts(weighted.colwise().squaredNorm(), fit_.basis.transpose() * weighted,
+                    weighted.transpose() * left_);
+}
+
+VectorXd GrowingFit::ExplainedBy(const SharedColumns& columns) const {
+  // what rows of one place have together, then what each column makes of it
+  const VectorXd weight = roots_.cwiseProduct(columns.factor);
+  const MatrixXd& shares = columns.shares;
+  MatrixXd held(fit_.basis.cols(), shares.rows());
+  for (Index k = 0; k < held.rows(); ++k) {
+    held.row(k) = columns.SumsOf(weight.cwiseProduct(fit_.basis.col(k)));
   }
-  return explained;
+  return ByProducts(shares.cwiseAbs2().transpose() * columns.SumsOf(weight.cwiseAbs2()),
+                    held * shares, shares.transpose() * columns.SumsOf(weight.cwiseProduct(left_)));
 }
 
 double GrowingFit::CoefficientOf(const VectorXd& column) const {

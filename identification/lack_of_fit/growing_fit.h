@@ -7,6 +7,7 @@
 #include "identification/lack_of_fit/asked_features.h"
 #include "identification/lack_of_fit/finding.h"
 #include "identification/lack_of_fit/orthonormal.h"
+#include "identification/lack_of_fit/shared_columns.h"
 #include "identification/uncertainty/noise_model.h"
 
 namespace warmjoint::inline identification {
@@ -43,6 +44,7 @@ class GrowingFit {
   /// Squares of the weighted residual that each column explains by itself beside the fit.
   /// columns: [m x c]; returns [c], 0 for a column that the fit holds.
   Eigen::VectorXd ExplainedBy(const Eigen::MatrixXd& columns) const;
+  Eigen::VectorXd ExplainedBy(const SharedColumns& columns) const;
   /// The coefficient of a column beside the fit's, by least squares; 0 for one that the fit holds.
   double CoefficientOf(const Eigen::VectorXd& column) const;
 

@@ -90,28 +90,22 @@ VectorXd TimeConstants(double step, double hold) {
   return VectorXd::LinSpaced(kLags, std::log(shortest), std::log(longest)).array().exp();
 }
 
-/// (F0 - F1) exp(-t/T), a column for each T. [rows x kLags]
-MatrixXd Decays(const Followers& followers, const VectorXd& lags) {
-  // rows of different segments share their times: each time once
+/// (F0 - F1) exp(-t/T), a column for each T.
+SharedColumns Decays(const Followers& followers, const VectorXd& lags) {
+  // rows of different segments share their times
   std::vector<double> times = followers.since;
   std::ranges::sort(times);
   times.erase(std::unique(times.begin(), times.end()), times.end());
-  const Eigen::Map<const Eigen::ArrayXd> since(times.data(), static_cast<Index>(times.size()));
-  MatrixXd shares(since.size(), lags.size());
-  for (Index k = 0; k < lags.size(); ++k) shares.col(k) = (-since / lags[k]).exp();
+  SharedColumns decays;
+  for (const double since : followers.since) {
+    decays.place.push_back(std::ranges::lower_bound(times, since) - times.begin());
+  }
 
-  // the share of each row, times its drop
-  std::vector<Index> place(followers.since.size());
-  for (size_t r = 0; r < place.size(); ++r) {
-    place[r] = std::ranges::lower_bound(times, followers.since[r]) - times.begin();
-  }
-  MatrixXd decays(followers.rows(), lags.size());
-  for (Index k = 0; k < lags.size(); ++k) {
-    for (Index row = 0; row < followers.rows(); ++row) {
-      const auto r = static_cast<size_t>(row);
-      decays(row, k) = followers.drop[r] * shares(place[r], k);
-    }
-  }
+  // what is left after each time, of each row's drop
+  const Eigen::Map<const Eigen::ArrayXd> since(times.data(), static_cast<Index>(times.size()));
+  decays.shares.resize(since.size(), lags.size());
+  for (Index k = 0; k < lags.size(); ++k) decays.shares.col(k) = (-since / lags[k]).exp();
+  decays.factor = Eigen::Map<const VectorXd>(followers.drop.data(), followers.rows());
   return decays;
 }
 
@@ -139,17 +133,17 @@ Finding TestLag(const FittedModel& model, const Measurements& measurements, Vect
   GrowingFit fit(weight, left, derivatives, all);
   const double step = MedianStep(measurements.time);
   const VectorXd lags = TimeConstants(step, MedianInPlace(followers.holds));
-  const MatrixXd decays = Decays(followers, lags);
+  const SharedColumns decays = Decays(followers, lags);
   Index best = 0;
   fit.ExplainedBy(decays).maxCoeff(&best);
-  const Features decay{decays.col(best), kLags};
+  const Features decay{decays.Column(best), kLags};
   const AskedFeatures asked = fit.Ask({decay});
   fit.LearnNoise(asked);
   finding = fit.Test(asked, 0);
   finding.test = &LagTest();
 
   // a lag leaves a share of what was before, not of what comes: the test has one side
-  const double share = fit.CoefficientOf(decays.col(best));
+  const double share = fit.CoefficientOf(decay.columns);
   if (share <= 0 || finding.explained <= 0) finding.p = 1;
   finding.p_adjusted = level.Adjusted(finding.p);
   if (!level.Rejects(finding.p)) return finding;
