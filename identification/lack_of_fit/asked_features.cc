@@ -47,9 +47,9 @@ AskedFeatures::AskedFeatures(const VectorXd& residual, const MatrixXd& basis,
 }
 
 OwnBasis AskedFeatures::Beside(size_t i, double distinct) const {
-  // products of what the fit's basis leaves of the features, with each other and with the residual
+  // products of what the fit leaves of the features, with each other and with the residual
   const Index first = places_[i].first, q = places_[i].count;
-  const MatrixXd shared = products_.block(1, first, rank_, q);
+  const auto shared = products_.block(1, first, rank_, q);
   const MatrixXd beside = products_.block(first, first, q, q) - shared.transpose() * shared;
   const VectorXd with_residual =
       products_.col(0).segment(first, q) - shared.transpose() * products_.col(0).segment(1, rank_);
@@ -82,34 +82,35 @@ VectorXd AskedFeatures::Shares(const OwnBasis& own) const {
 }
 
 MatrixXd AskedFeatures::Scores(const OwnBasis& own) const {
-  // what is left of the residual: less its products with the fit's basis, and with the own one
+  // what is left of the residual beside the fit and the own basis
   VectorXd taken = own.mix * own.b;
   taken.head(rank_) += products_.col(0).segment(1, rank_);
 
   // products of that with the columns, and with their mix
-  MatrixXd scores = MatrixXd::Zero(by_part_.rows(), own.size());
-  VectorXd left(by_part_.rows());
+  MatrixXd left(by_part_.rows(), taken.size());
   for (Index i = 0; i < taken.size(); ++i) {
     const Index column = own.columns[static_cast<size_t>(i)];
-    left = ByPart(0, column);
+    left.col(i) = ByPart(0, column);
     for (Index j = 0; j < taken.size(); ++j) {
-      left -= taken[j] * ByPart(column, own.columns[static_cast<size_t>(j)]);
+      left.col(i) -= taken[j] * ByPart(column, own.columns[static_cast<size_t>(j)]);
     }
-    for (Index s = 0; s < own.size(); ++s) scores.col(s) += own.mix(i, s) * left;
   }
-  return scores;
+  return left * own.mix;
 }
 
 MatrixXd AskedFeatures::Rows(const OwnBasis& own) const {
   return table_(Eigen::all, own.columns) * own.mix;
 }
 
-void WriteNormed(const MatrixXd& columns, const VectorXd& roots, Eigen::Ref<MatrixXd> to) {
+Eigen::RowVectorXd WriteNormed(const MatrixXd& columns, const VectorXd& roots,
+                               Eigen::Ref<MatrixXd> to) {
+  Eigen::RowVectorXd norms(columns.cols());
   for (Index i = 0; i < columns.cols(); ++i) {
-    to.col(i) = roots.cwiseProduct(columns.col(i));
-    const double square = to.col(i).squaredNorm();
-    if (square > 0) to.col(i) *= 1 / std::sqrt(square);
+    const auto weighed = roots.cwiseProduct(columns.col(i));
+    norms[i] = weighed.norm();
+    to.col(i) = weighed * (norms[i] > 0 ? 1 / norms[i] : 1);
   }
+  return norms;
 }
 
 }  // namespace warmjoint::inline identification

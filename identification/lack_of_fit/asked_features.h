@@ -71,8 +71,8 @@ class AskedFeatures {
   Eigen::MatrixXd products_;  // [(1 + r + q) x the same]
 };
 
-/// Columns weighed by roots, of norm 1; a column of zeros stays one. to: as many columns
-void WriteNormed(const Eigen::MatrixXd& columns, const Eigen::VectorXd& roots,
-                 Eigen::Ref<Eigen::MatrixXd> to);
+/// Columns weighed by roots, of norm 1; a column of zeros stays one. to: as many columns; returns the norms, [c].
+Eigen::RowVectorXd WriteNormed(const Eigen::MatrixXd& columns, const Eigen::VectorXd& roots,
+                               Eigen::Ref<Eigen::MatrixXd> to);
 
 }  // namespace warmjoint::inline identification

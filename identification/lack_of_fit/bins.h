@@ -23,7 +23,7 @@ struct Bins {
   Eigen::Index size() const { return weight.size(); }
 
   /// Means over each bin. all: [N x c] over all samples; returns [m x c].
-  Eigen::MatrixXd Means(const Eigen::MatrixXd& all) const;
+  Eigen::MatrixXd Means(const Eigen::Ref<const Eigen::MatrixXd>& all) const;
 };
 
 /// Means over bins of rows that are made one after the other, a sample at a time from the first on. C: columns,

@@ -6,7 +6,6 @@
 
 #include "identification/lack_of_fit/orthonormal.h"
 #include "identification/lack_of_fit/significance.h"
-#include "identification/linear/rigid_part.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -50,16 +49,9 @@ double CarryingParts(const VectorXd& shares) {
   return shares.sum() * shares.sum() / shares.squaredNorm();
 }
 
-/// Weighted columns of norm 1. [m x c]
-MatrixXd Normed(const MatrixXd& columns, const VectorXd& roots) {
-  MatrixXd normed(columns.rows(), columns.cols());
-  WriteNormed(columns, roots, normed);
-  return normed;
-}
-
 /// Squares that columns explain by themselves beside a fit. squares: [c] of each; held: [r x c] products with the fit's
 /// basis; products: [c] with what the fit leaves, which none of that has
-VectorXd ByProducts(const VectorXd& squares, const MatrixXd& held, const VectorXd& products) {
+VectorXd SquaresExplained(const VectorXd& squares, const MatrixXd& held, const VectorXd& products) {
   VectorXd explained = VectorXd::Zero(squares.size());
   for (Index i = 0; i < squares.size(); ++i) {
     const double beside = squares[i] - held.col(i).squaredNorm();
@@ -77,9 +69,9 @@ GrowingFit::GrowingFit(const VectorXd& weight, const VectorXd& residual,
     : place_(place),
       ends_(EndsOf(weight, std::min(kParts, weight.size() / 2))),
       roots_(weight.cwiseSqrt()),
-      norms_((roots_.asDiagonal() * derivatives).colwise().norm().cwiseMax(1e-300)),
-      columns_(Normed(derivatives, roots_)),
+      columns_(derivatives.rows(), derivatives.cols()),
       residual_(roots_.cwiseProduct(residual)) {
+  norms_ = WriteNormed(derivatives, roots_, columns_).cwiseMax(1e-300);
   Refit();
 }
 
@@ -90,14 +82,18 @@ AskedFeatures GrowingFit::Ask(const std::vector<Features>& all) const {
 void GrowingFit::LearnNoise(const AskedFeatures& all) {
   // products of the fit's columns, which are mixes of its basis, and of all features
   const Index r = all.rank(), p = columns_.cols(), q = all.table().cols() - 1 - r;
-  MatrixXd mixes = MatrixXd::Zero(r + q, p + q);
-  mixes.topLeftCorner(r, p) = fit_.basis.transpose() * columns_;
-  mixes.bottomRightCorner(q, q).setIdentity();
-  const MatrixXd products =
-      mixes.transpose() * all.products().bottomRightCorner(r + q, r + q) * mixes;
+  const MatrixXd& held = fit_.held;
+  MatrixXd products(p + q, p + q);
+  products.topLeftCorner(p, p) = held.transpose() * all.products().block(1, 1, r, r) * held;
+  products.topRightCorner(p, q) = held.transpose() * all.products().block(1, 1 + r, r, q);
+  products.bottomLeftCorner(q, p) = products.topRightCorner(p, q).transpose();
+  products.bottomRightCorner(q, q) = all.products().bottomRightCorner(q, q);
 
   // what remains beside them all together is noise
-  const MatrixXd mix = mixes * MixOfDistinct(products, kDistinct);
+  const MatrixXd of_all = MixOfDistinct(products, kDistinct);
+  MatrixXd mix(r + q, of_all.cols());
+  mix.topRows(r) = held * of_all.topRows(p);
+  mix.bottomRows(q) = of_all.bottomRows(q);
   const VectorXd shared = mix.transpose() * all.products().col(0).tail(r + q);
   const auto columns = all.table().rightCols(r + q);
   noise_ = FitNoise(residual_ - columns * (mix * shared), place_);
@@ -116,22 +112,25 @@ void GrowingFit::LearnNoise(const AskedFeatures& all) {
 
 GrowingFit::Evidence GrowingFit::ByColour(const AskedFeatures& asked, const OwnBasis& own) const {
   // white noise scatters alike along all directions
-  const MatrixXd scatter =
-      noise_.order() == 0 ? MatrixXd(noise_.variance * MatrixXd::Identity(own.size(), own.size()))
-                          : ScatterThrough(noise_, asked.Rows(own), place_);
+  const bool white = noise_.order() == 0;
+  const Index q = own.size();
+  const MatrixXd scatter = white ? MatrixXd(noise_.variance * MatrixXd::Identity(q, q))
+                                 : ScatterThrough(noise_, asked.Rows(own), place_);
   const auto rows = static_cast<double>(size());
 
   // the coefficient a of AR(1) noise is estimated too small by (1 + 3 a)/m (Marriott, Pope 1954),
   // and with it R by a share of (4 R - 2)/m
-  const double seen = scatter.selfadjointView<Eigen::Lower>().operatorNorm() / noise_.variance;
+  const double seen =
+      white ? 1 : scatter.selfadjointView<Eigen::Lower>().operatorNorm() / noise_.variance;
   const double small = 1 + std::max(4 * seen * (1 + 4 * seen / rows) - 2, 0.0) / rows;
   // a fit that takes up what is slow leaves a rest that looks too fast: along no direction of the
   // features is noise quieter than white
-  const MatrixXd unbiased = NoQuieter(small * scatter, noise_.variance);
+  const MatrixXd unbiased =
+      white ? MatrixXd(small * scatter) : NoQuieter(small * scatter, noise_.variance);
   // how many samples tell the noise, were it AR(1) noise as strong along the features
   const double red = std::max(small * seen, 1.0);
   const double samples = rows / std::max(2 * red - 1, 1.0) - taken_;
-  const double fewest = kFewestFree + static_cast<double>(own.size());
+  const double fewest = kFewestFree + static_cast<double>(q);
   return {unbiased, HotellingPValue(own.b, unbiased, std::max(samples, fewest))};
 }
 
@@ -200,14 +199,16 @@ Finding GrowingFit::Test(const AskedFeatures& asked, size_t i) const {
 }
 
 void GrowingFit::Take(const Features& features) {
-  columns_ = Beside(columns_, Normed(features.columns, roots_));
+  const Index more = features.columns.cols();
+  columns_.conservativeResize(Eigen::NoChange, columns_.cols() + more);
+  WriteNormed(features.columns, roots_, columns_.rightCols(more));
   Refit();
 }
 
 VectorXd GrowingFit::ExplainedBy(const MatrixXd& columns) const {
   const MatrixXd weighted = roots_.asDiagonal() * columns;
-  return ByProducts(weighted.colwise().squaredNorm(), fit_.basis.transpose() * weighted,
-                    weighted.transpose() * left_);
+  return SquaresExplained(weighted.colwise().squaredNorm(), fit_.basis.transpose() * weighted,
+                          weighted.transpose() * left_);
 }
 
 VectorXd GrowingFit::ExplainedBy(const SharedColumns& columns) const {
@@ -218,8 +219,9 @@ VectorXd GrowingFit::ExplainedBy(const SharedColumns& columns) const {
   for (Index k = 0; k < held.rows(); ++k) {
     held.row(k) = columns.SumsOf(weight.cwiseProduct(fit_.basis.col(k)));
   }
-  return ByProducts(shares.cwiseAbs2().transpose() * columns.SumsOf(weight.cwiseAbs2()),
-                    held * shares, shares.transpose() * columns.SumsOf(weight.cwiseProduct(left_)));
+  return SquaresExplained(shares.cwiseAbs2().transpose() * columns.SumsOf(weight.cwiseAbs2()),
+                          held * shares,
+                          shares.transpose() * columns.SumsOf(weight.cwiseProduct(left_)));
 }
 
 double GrowingFit::CoefficientOf(const VectorXd& column) const {

@@ -1,6 +1,7 @@
 #include "identification/lack_of_fit/left_open.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "identification/linear/rigid_part.h"
 #include "identification/uncertainty/tails.h"
 #include "identification/uncertainty/uncertainty.h"
+#include "models/friction/sign.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -34,6 +36,11 @@ struct Possible {
   double FarEnd() const { return std::abs(least) > std::abs(most) ? least : most; }
 };
 
+/// Deviations of a factor at the level of one test among all that the log faces.
+double Quantile(double freedom) {
+  return StudentQuantile(freedom, 1 - kErrorLevel / static_cast<double>(LackOfFitTests().size()));
+}
+
 /// What the tests of the log leave open of the factors of forces, each by itself beside the fit.
 class OpenFactors {
  public:
@@ -46,6 +53,10 @@ class OpenFactors {
     weighted_ = own_.colwise().squaredNorm();
     const MatrixXd shared = fit.basis().transpose() * own_;
     own_.noalias() -= fit.basis() * shared;
+    const Index freedom = left_.size() - fit.basis().cols() - 1;
+    if (freedom < 1) return;
+    white_freedom_ = static_cast<double>(freedom);
+    white_quantile_ = Quantile(white_freedom_);
   }
 
   /// Both ends of the i-th one's interval at their level.
@@ -53,9 +64,10 @@ class OpenFactors {
 
  private:
   const ForceMoves& fit_;
-  VectorXd left_;      // [m] weighted, of the residual beside the fit
-  MatrixXd own_;       // [m x q] weighted, of the forces beside the fit
-  VectorXd weighted_;  // [q] squares of the forces
+  VectorXd left_;                                  // [m] weighted, of the residual beside the fit
+  MatrixXd own_;                                   // [m x q] weighted, of the forces beside the fit
+  VectorXd weighted_;                              // [q] squares of the forces
+  double white_freedom_ = 0, white_quantile_ = 0;  // of most forces: where what they leave is white
 };
 
 Possible OpenFactors::Interval(Index i, const Possible& possible) const {
@@ -74,9 +86,10 @@ Possible OpenFactors::Interval(Index i, const Possible& possible) const {
   const Uncertainty known = JudgeUncertainty([&] { return Beside(fit_.basis(), own); }, cofactor,
                                              left_ - factor * own, all);
 
-  // the level of one test among all that the log faces
-  const double level = 1 - kErrorLevel / static_cast<double>(LackOfFitTests().size());
-  const double reach = StudentQuantile(known.freedom, level) * known.Deviation(p);
+  // as far as noise reaches at that level
+  const double quantile =
+      known.freedom == white_freedom_ ? white_quantile_ : Quantile(known.freedom);
+  const double reach = quantile * known.Deviation(p);
   const auto within = [&](double c) { return std::clamp(c, possible.least, possible.most); };
   return {within(factor - reach), within(factor + reach)};
 }
@@ -86,18 +99,27 @@ constexpr int kCourses = 1 + kFadings;  // of a drift
 /// Forces against the motion with the heat that they make, over bins: d(t) of the courses of a drift, 1 and v^2.
 /// [m x (kCourses + 2)]
 MatrixXd Heating(const FittedModel& model, const Measurements& m, const Bins& bins) {
-  const ArrayXd sign = m.velocity.array().sign();
+  // courses that die away, each the square of the one before it
   const ArrayXd t = (m.time.array() - m.time[0]) / (m.time[m.size() - 1] - m.time[0]);
-  Forces<kCourses + 2> forces(m.size(), kCourses + 2);
-  forces.col(0) = sign * t;
-  // each fading is the square of the one before it
-  ArrayXd faded = (-t / kSlowest).exp();
+  const ArrayXd slowest = (-t / kSlowest).exp();
+  std::array<double, kFadings> scale;  // so that they end at 1
   double end = std::exp(-1 / kSlowest);
-  for (Index i = 1; i < kCourses; ++i, faded = faded.square().eval(), end *= end) {
-    forces.col(i) = sign * (1 - faded) / (1 - end);
+  for (double& one : scale) {
+    one = 1 / (1 - end);
+    end *= end;
   }
-  forces.col(kCourses) = sign;
-  forces.col(kCourses + 1) = sign * m.velocity.array().square();
+  Forces<kCourses + 2> forces(m.size(), kCourses + 2);
+  for (Index n = 0; n < m.size(); ++n) {
+    const double v = m.velocity[n], sign = Sign(v);
+    auto force = forces.row(n);
+    force[0] = sign * t[n];
+    double faded = slowest[n];
+    for (int i = 0; i < kFadings; ++i, faded *= faded) {
+      force[1 + i] = sign * (1 - faded) * scale[static_cast<size_t>(i)];
+    }
+    force[kCourses] = sign;
+    force[kCourses + 1] = v * std::abs(v);
+  }
 
   // where the log tells the speed of the losses, that of v^2 is theirs
   if (!m.loss_velocity) return WithHeat(model, bins, forces, forces);
@@ -131,13 +153,14 @@ void LearnLeftOpen(const FittedModel& model, const Measurements& m, const Bins& 
                    Examination& examination) {
   // all forces: the start, curves, what follows the speed late, drifts that are 0 at first, and a sensor's gain
   const MatrixXd heating = Heating(model, m, bins);
-  const VectorXd force = bins.Means(model.torque - model.residual);
+  const VectorXd residual = bins.Means(model.residual);
+  const VectorXd force = bins.Means(model.torque) - residual;
   const Index starts = known.initial.cols(), late = known.late_speeds.cols();
   const Index curve = starts, memory = curve + 2, drift = memory + late, gain = drift + kCourses;
   MatrixXd forces(bins.size(), gain + 1);
   forces << known.initial, heating.col(kCourses + 1), Curve(m, bins), known.late_speeds,
       heating.leftCols(kCourses), force.cwiseProduct(bins.time);
-  const OpenFactors open(fit, bins.Means(model.residual), forces);
+  const OpenFactors open(fit, residual, forces);
   const MatrixXd moves = fit.By(forces).topRows(p);
 
   // a start that was not cold

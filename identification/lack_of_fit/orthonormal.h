@@ -5,10 +5,12 @@
 
 namespace warmjoint::inline identification {
 
-/// An orthonormal basis of columns, and how it is made of them: basis = columns * mix.
+/// An orthonormal basis of columns, how it is made of them, basis = columns * mix, and they of it, columns = basis * held
+/// but for what is too short to join.
 struct Basis {
   Eigen::MatrixXd basis;  // [m x r]
   Eigen::MatrixXd mix;    // [q x r]
+  Eigen::MatrixXd held;   // [r x q]
 };
 
 /// A column joins while what it has beside those before it is longer than `distinct`, the longest first. From the

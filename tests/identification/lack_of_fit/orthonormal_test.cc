@@ -49,6 +49,8 @@ TEST(Orthonormal, HoldsWhatStandsOut) {
         << apart;
     // rounding of 300 rows
     EXPECT_LT(Skewness(basis.basis), 1e-13) << apart;
+    // and how the columns are made of it
+    EXPECT_LT((basis.basis * basis.held - columns).colwise().norm().maxCoeff(), 1e-9) << apart;
   }
 }
 
