@@ -103,25 +103,6 @@ Eigen::MatrixXd ClosedLoop::Jacobian(const Eigen::VectorXd& parameters, const Th
   return jacobian;
 }
 
-Eigen::MatrixXd ClosedLoop::LawJacobian(const Thermal& thermal) const {
-  const Eigen::Index d = levels_.cols();
-  Rows jacobian(size(), d);
-  Eigen::VectorXd S = Eigen::VectorXd::Zero(d);  // dE/dp
-  const double* g = levels_.data();
-  const double* of_loss = loss_levels().data();
-  WithHolds(intervals_, thermal, [&](const auto& hold_after) {
-    double* out = jacobian.data();
-    for (Eigen::Index n = 0; n < size(); ++n, g += d, of_loss += d, out += d) {
-      const auto [feedback, lambda] = FedBack(hold_after[n], speed_[n]);
-      for (Eigen::Index i = 0; i < d; ++i) {
-        out[i] = direction_[n] * (g[i] + S[i]);
-        S[i] = ThermalStep(feedback, lambda, S[i], of_loss[i]);
-      }
-    }
-  });
-  return jacobian;
-}
-
 LoopEnd ClosedLoop::End(const Eigen::VectorXd& parameters, const Thermal& thermal,
                         double initial_energy, const Eigen::VectorXd& jumps) const {
   const Eigen::Index all = levels_.cols() + 3 + static_cast<Eigen::Index>(jumps_.size());
@@ -138,17 +119,6 @@ LoopEnd ClosedLoop::End(const Eigen::VectorXd& parameters, const Thermal& therma
     });
   });
   return end;
-}
-
-ClosedLoop ClosedLoop::WithColumns(const Eigen::MatrixXd& columns,
-                                   const Eigen::MatrixXd& loss_columns) const {
-  ClosedLoop loop;
-  loop.speed_ = speed_;
-  loop.direction_ = direction_;
-  loop.intervals_ = intervals_;
-  loop.levels_ = Signed(columns);
-  if (loss_columns.size() > 0) loop.loss_levels_ = Signed(loss_columns);
-  return loop;
 }
 
 ClosedLoop ClosedLoop::WithJumps(std::vector<Eigen::Index> samples) const {

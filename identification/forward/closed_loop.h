@@ -54,9 +54,6 @@ class ClosedLoop {
   Eigen::MatrixXd Jacobian(const Eigen::VectorXd& parameters, const Thermal& thermal,
                            double initial_energy = 0, const Eigen::VectorXd& jumps = {}) const;
 
-  /// dF/dp alone, which is the same for all parameters: [N x d], exact.
-  Eigen::MatrixXd LawJacobian(const Thermal& thermal) const;
-
   /// E at the last sample, and its exact derivatives there.
   LoopEnd End(const Eigen::VectorXd& parameters, const Thermal& thermal, double initial_energy = 0,
               const Eigen::VectorXd& jumps = {}) const;
@@ -65,10 +62,6 @@ class ClosedLoop {
   /// `columns` at its loss velocity; empty: the same. Both [N x d].
   static ClosedLoop Along(const Measurements& measurements, const Eigen::MatrixXd& columns,
                           const Eigen::MatrixXd& loss_columns = {});
-
-  /// The same motion with other columns, and those of its losses where they differ; without jumps.
-  ClosedLoop WithColumns(const Eigen::MatrixXd& columns,
-                         const Eigen::MatrixXd& loss_columns = {}) const;
 
   /// The same loop whose E jumps at samples, ascending: [J]
   ClosedLoop WithJumps(std::vector<Eigen::Index> samples) const;
@@ -84,7 +77,6 @@ class ClosedLoop {
   const std::vector<Eigen::Index>& jumps() const { return jumps_; }  // [J] samples
 
  private:
-  ClosedLoop() = default;
   Rows Signed(const Eigen::MatrixXd& columns) const;
 
   Eigen::VectorXd speed_;

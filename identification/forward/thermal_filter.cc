@@ -28,32 +28,6 @@ Eigen::VectorXd ThermalFilter::Energy(const Thermal& thermal, const Eigen::Vecto
   return energy;
 }
 
-Eigen::MatrixXd ThermalFilter::UnitEnergies(const std::vector<double>& time_constants,
-                                            const Eigen::VectorXd& loss, double initial) const {
-  const auto count = static_cast<Eigen::Index>(time_constants.size());
-  const auto hold_over = [&](double step) {
-    std::vector<ThermalHold<>> holds;
-    for (const double tau : time_constants) holds.push_back(HoldOver(step, tau));
-    return holds;
-  };
-  // all of them a sample further, so that none waits for its own sample before
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> energies(size(), count);
-  energies.row(0).setConstant(initial);
-  std::vector<ThermalHold<>> holds = hold_over(mean_step_);
-  size_t next = 0;
-  for (Eigen::Index i = 0; i < steps_.size(); ++i) {
-    if (!even_) holds = hold_over(steps_[i]);
-    const double* before = energies.data() + i * count;
-    double* after = energies.data() + (i + 1) * count;
-    for (Eigen::Index k = 0; k < count; ++k) {
-      after[k] = holds[static_cast<size_t>(k)].After(before[k], loss[i]);
-    }
-    // another recording starts cold
-    if (Starts(i + 1, next)) energies.row(i + 1).setZero();
-  }
-  return energies;
-}
-
 Eigen::VectorXd ThermalFilter::Transposed(const Thermal& thermal,
                                           const Eigen::VectorXd& weights) const {
   Eigen::VectorXd result = Eigen::VectorXd::Zero(size());

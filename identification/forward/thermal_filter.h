@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -39,9 +40,10 @@ class ThermalFilter {
   Eigen::VectorXd Energy(const Thermal& thermal, const Eigen::VectorXd& loss,
                          double initial = 0) const;
 
-  /// The same at unit gain for several time constants, s. Returns [N x time constants].
-  Eigen::MatrixXd UnitEnergies(const std::vector<double>& time_constants,
-                               const Eigen::VectorXd& loss, double initial = 0) const;
+  /// Calls visit(i, E) for each sample i with E at unit gain for several time constants, s: E [1 x C].
+  template <std::size_t C, typename Visit>
+  void ForEach(const std::array<double, C>& time_constants, const Eigen::VectorXd& loss,
+               double initial, Visit visit) const;
 
   /// The transpose of that linear map, from weights of E to weights of the loss: u . Energy(W) =
   /// Transposed(u) . W. Runs back in time, l[i] = u[i] + te l[i+1], and gives gain (1 - te) l[i+1].
@@ -65,6 +67,32 @@ class ThermalFilter {
   double mean_step_ = 0;  // s
   bool even_ = false;
 };
+
+template <std::size_t C, typename Visit>
+void ThermalFilter::ForEach(const std::array<double, C>& time_constants,
+                            const Eigen::VectorXd& loss, double initial, Visit visit) const {
+  using Row = Eigen::Matrix<double, 1, static_cast<int>(C)>;
+  Row energies = Row::Constant(initial), poles, coolings;
+  const auto hold_over = [&](double step) {
+    for (std::size_t k = 0; k < C; ++k) {
+      const ThermalHold<> hold = HoldOver(step, time_constants[k]);
+      poles[static_cast<Eigen::Index>(k)] = hold.pole;
+      coolings[static_cast<Eigen::Index>(k)] = hold.cooling;
+    }
+  };
+  visit(Eigen::Index{0}, energies);
+
+  // all of them a sample further, so that none waits for its own sample before
+  hold_over(mean_step_);
+  size_t next = 0;
+  for (Eigen::Index i = 0; i < steps_.size(); ++i) {
+    if (!even_) hold_over(steps_[i]);
+    energies = poles.cwiseProduct(energies) + coolings * loss[i];
+    // another recording starts cold
+    if (Starts(i + 1, next)) energies.setZero();
+    visit(i + 1, energies);
+  }
+}
 
 template <typename Visit>
 void ThermalFilter::ForEach(double time_constant, const Eigen::VectorXd& loss, Visit visit) const {

@@ -11,18 +11,26 @@ using Eigen::Index;
 
 constexpr Index kRowsAColumn = 3;
 
-/// One test that is still open, with its features beside the present fit.
+/// The tests that are still open, with their features beside the present fit.
 struct Open {
-  const LackOfFitTest* test;
-  Finding* finding;
-  Features features;
+  std::vector<const LackOfFitTest*> tests;
+  std::vector<Finding*> findings;
+  std::vector<Features> features;
+
+  size_t size() const { return tests.size(); }
+  void Close(size_t i) {
+    const auto at = static_cast<std::ptrdiff_t>(i);
+    tests.erase(tests.begin() + at);
+    findings.erase(findings.begin() + at);
+    features.erase(features.begin() + at);
+  }
 };
 
 /// The tests that there are rows for; the others say why not.
-std::vector<Open> Affordable(const std::vector<const LackOfFitTest*>& tests, const Bins& bins,
-                             const Circumstances& known, const GrowingFit& fit, Index columns,
-                             std::vector<Finding>& findings) {
-  std::vector<Open> open;
+Open Affordable(const std::vector<const LackOfFitTest*>& tests, const Bins& bins,
+                const Circumstances& known, const GrowingFit& fit, Index columns,
+                std::vector<Finding>& findings) {
+  Open open;
   for (size_t i = 0; i < tests.size(); ++i) {
     findings[i].test = tests[i];
     Features features = tests[i]->features(bins, known, fit);
@@ -33,19 +41,22 @@ std::vector<Open> Affordable(const std::vector<const LackOfFitTest*>& tests, con
       findings[i].reason = fmt::format("{} samples or segments are too few for it", bins.size());
     } else {
       columns += more;
-      open.push_back({tests[i], &findings[i], std::move(features)});
+      open.tests.push_back(tests[i]);
+      open.findings.push_back(&findings[i]);
+      open.features.push_back(std::move(features));
     }
   }
   return open;
 }
 
 /// Makes a test beside the present fit.
-void Make(const Open& open, const GrowingFit& fit, const ErrorLevel& level) {
-  Finding made = fit.Test(open.features);
-  made.test = open.test;
+void Make(const Open& open, size_t i, const AskedFeatures& asked, const GrowingFit& fit,
+          const ErrorLevel& level) {
+  Finding made = fit.Test(asked, i);
+  made.test = open.tests[i];
   if (!made.made) made.reason = kHeldByTheFit;
   made.p_adjusted = level.Adjusted(made.p);
-  *open.finding = std::move(made);
+  *open.findings[i] = std::move(made);
 }
 
 }  // namespace
@@ -57,28 +68,30 @@ BinFindings TestBins(const std::vector<const LackOfFitTest*>& tests, const Bins&
   GrowingFit fit(bins.weight, residual, derivatives, all);
   BinFindings result;
   result.findings.resize(tests.size());
-  std::vector<Open> open = Affordable(tests, bins, known, fit, derivatives.cols(), result.findings);
-  std::vector<Features> asked;
-  for (const Open& one : open) asked.push_back(one.features);
+  Open open = Affordable(tests, bins, known, fit, derivatives.cols(), result.findings);
+  AskedFeatures asked = fit.Ask(open.features);
   fit.LearnNoise(asked);
 
-  while (!open.empty()) {
+  while (open.size() > 0) {
     // the test that rejects with the largest gain
     size_t best = open.size();
     for (size_t i = 0; i < open.size(); ++i) {
-      Make(open[i], fit, level);
-      if (!level.WouldReject(open[i].finding->p) || open[i].finding->explained <= 0) continue;
-      if (best == open.size() || open[i].finding->gain > open[best].finding->gain) best = i;
+      Make(open, i, asked, fit, level);
+      const Finding& made = *open.findings[i];
+      if (!level.WouldReject(made.p) || made.explained <= 0) continue;
+      if (best == open.size() || made.gain > open.findings[best]->gain) best = i;
     }
     if (best == open.size()) break;
 
     // joins the fit; scans look for their best candidate beside it
-    open[best].finding->rejected = level.Rejects(open[best].finding->p);
-    fit.Take(open[best].features);
-    open.erase(open.begin() + static_cast<std::ptrdiff_t>(best));
-    for (Open& one : open) {
-      if (one.features.candidates > 1) one.features = one.test->features(bins, known, fit);
+    open.findings[best]->rejected = level.Rejects(open.findings[best]->p);
+    fit.Take(open.features[best]);
+    open.Close(best);
+    for (size_t i = 0; i < open.size(); ++i) {
+      if (open.features[i].candidates == 1) continue;
+      open.features[i] = open.tests[i]->features(bins, known, fit);
     }
+    asked = fit.Ask(open.features);
   }
   result.explained = fit.Explained();
   return result;

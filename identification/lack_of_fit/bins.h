@@ -23,7 +23,37 @@ struct Bins {
   Eigen::Index size() const { return weight.size(); }
 
   /// Means over each bin. all: [N x c] over all samples; returns [m x c].
-  Eigen::MatrixXd Means(const Eigen::MatrixXd& all) const;
+  Eigen::MatrixXd Means(const Eigen::Ref<const Eigen::MatrixXd>& all) const;
+};
+
+/// Means over bins of rows that are made one after the other, a sample at a time from the first on. C: columns,
+/// known so that a row stays in registers.
+template <int C>
+class BinMeans {
+ public:
+  using Row = Eigen::Matrix<double, 1, C>;
+
+  explicit BinMeans(const Bins& bins) : bins_(bins), means_(bins.size(), C) {}
+
+  /// row: of sample n; looked at where a bin holds the sample
+  void Add(Eigen::Index n, const Row& row) {
+    if (bin_ == bins_.begin.size() || n < bins_.begin[bin_]) return;
+    sums_ += row;
+    if (n + 1 < bins_.end[bin_]) return;
+    means_.row(static_cast<Eigen::Index>(bin_)) =
+        sums_ / static_cast<double>(bins_.end[bin_] - bins_.begin[bin_]);
+    sums_.setZero();
+    ++bin_;
+  }
+
+  /// Once all samples were added. [m x C]
+  const Eigen::MatrixXd& means() const { return means_; }
+
+ private:
+  const Bins& bins_;
+  size_t bin_ = 0;
+  Row sums_ = Row::Zero();
+  Eigen::MatrixXd means_;
 };
 
 Bins MakeBins(const Measurements& measurements, const Selection& selection);

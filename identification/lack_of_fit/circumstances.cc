@@ -1,5 +1,7 @@
 #include "identification/lack_of_fit/circumstances.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -13,12 +15,16 @@ namespace {
 
 constexpr int kMemories = 6;  // time constants that are tried
 
-/// The measured losses filtered with three time constants that span those of a recording. [N x 3]
-Eigen::MatrixXd Energies(const FittedModel& model, const Measurements& m) {
+/// Means over bins of the measured losses filtered with three time constants that span those of a recording. [m x 3]
+Eigen::MatrixXd Energies(const FittedModel& model, const Measurements& m, const Bins& bins,
+                         const ThermalFilter& filter) {
   const double duration = m.time[m.size() - 1] - m.time[0];
   const Eigen::VectorXd loss = model.torque.cwiseProduct(m.velocity).cwiseAbs();
-  const ThermalFilter filter(m.time, m.starts);
-  return filter.UnitEnergies({duration / 40, duration / 12, duration / 3}, loss);
+  const std::array times{duration / 40, duration / 12, duration / 3};
+  BinMeans<times.size()> means(bins);
+  filter.ForEach(times, loss, 0,
+                 [&](Eigen::Index n, const auto& energies) { means.Add(n, energies); });
+  return means.means();
 }
 
 /// Median duration of the segments; 0 where there are none.
@@ -42,11 +48,17 @@ std::vector<double> MemoryTimes(double hold, double duration) {
   return times;
 }
 
-/// |v| behind filters of first order, which begin at the first speed, less |v|. [N x times]
-Eigen::MatrixXd LateSpeeds(const Measurements& m, const std::vector<double>& times) {
+/// Means over bins of |v| behind filters of first order, which begin at the first speed, less |v|. [m x times]
+Eigen::MatrixXd LateSpeeds(const Measurements& m, const std::vector<double>& times,
+                           const Bins& bins, const ThermalFilter& filter) {
+  if (times.empty()) return Eigen::MatrixXd(bins.size(), 0);
   const Eigen::VectorXd speed = m.velocity.cwiseAbs();
-  const ThermalFilter filter(m.time, m.starts);
-  return filter.UnitEnergies(times, speed, speed[0]).colwise() - speed;
+  std::array<double, kMemories> all;
+  std::ranges::copy(times, all.begin());
+  BinMeans<kMemories> means(bins);
+  filter.ForEach(all, speed, speed[0],
+                 [&](Eigen::Index n, const auto& late) { means.Add(n, late); });
+  return means.means().colwise() - bins.Means(speed).col(0);
 }
 
 }  // namespace
@@ -54,7 +66,8 @@ Eigen::MatrixXd LateSpeeds(const Measurements& m, const std::vector<double>& tim
 Circumstances CircumstancesOf(const FittedModel& model, const Measurements& m, const Bins& bins) {
   const Eigen::MatrixXd none(bins.size(), 0);
   Circumstances known;
-  known.energies = bins.Means(Energies(model, m));
+  const ThermalFilter filter(m.time, m.starts);
+  known.energies = Energies(model, m, bins, filter);
   known.slopes = known.initial = known.loads = known.temperatures = none;
 
   // a slope that warms, with the heat that it makes itself
@@ -62,7 +75,7 @@ Circumstances CircumstancesOf(const FittedModel& model, const Measurements& m, c
     const Eigen::VectorXd slope = m.velocity.cwiseProduct(model.energy);
     const Eigen::VectorXd at_losses =
         m.loss_velocity.value_or(m.velocity).cwiseProduct(model.energy);
-    known.slopes = bins.Means(WithHeat(model, m, slope, at_losses));
+    known.slopes = WithHeat<1>(model, bins, slope, at_losses);
   }
 
   // the start where it is taken to be known, load and temperature where they are logged
@@ -75,7 +88,7 @@ Circumstances CircumstancesOf(const FittedModel& model, const Measurements& m, c
   known.hold = MedianHold(model, m);
   known.past = MemoryTimes(known.hold, known.duration);
   const Eigen::VectorXd sign = bins.velocity.array().sign();
-  known.late_speeds = sign.asDiagonal() * bins.Means(LateSpeeds(m, known.past));
+  known.late_speeds = sign.asDiagonal() * LateSpeeds(m, known.past, bins, filter);
   return known;
 }
 

@@ -63,7 +63,7 @@ void TestInTurn(Turn turn, const Bins& bins, const Eigen::MatrixXd& derivatives,
   // what they found is taken off all samples of a bin alike
   for (Index c = 0; c < bins.size(); ++c) {
     const auto i = static_cast<size_t>(c);
-    rest.segment(bins.begin[i], bins.end[i] - bins.begin[i]).array() -= made.explained[c];
+    for (Index n = bins.begin[i]; n < bins.end[i]; ++n) rest[n] -= made.explained[c];
   }
   Enter(std::move(made.findings), table);
 }

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <vector>
 
+#include "identification/lack_of_fit/distinct.h"
+#include "identification/lack_of_fit/wave_products.h"
 #include "identification/linear/rigid_part.h"
 
 namespace warmjoint::inline identification {
@@ -29,71 +31,32 @@ MatrixXd Signed(const Bins& bins, const MatrixXd& columns) {
 
 /// Columns and the same times s.
 MatrixXd BothWays(const Bins& bins, const MatrixXd& columns) {
-  return Beside(columns, Signed(bins, columns));
+  MatrixXd both(columns.rows(), 2 * columns.cols());
+  both << columns, SignOf(bins).matrix().asDiagonal() * columns;
+  return both;
 }
 
-/// cos, sin of an angle. [m x 2]
-MatrixXd Wave(const ArrayXd& angle) {
-  MatrixXd wave(angle.size(), 2);
-  for (Index i = 0; i < angle.size(); ++i) {
-    wave(i, 0) = std::cos(angle[i]);
-    wave(i, 1) = std::sin(angle[i]);
+/// Squares of the products of a rest, of the rows of one direction of motion, with the waves of some cycles over the
+/// log. left: [m] weighted, N.m or N; returns [cycles].
+VectorXd SquaresOf(const Bins& bins, const VectorXd& left, double sign, const Frequencies& cycles) {
+  std::vector<Index> rows;
+  for (Index c = 0; c < bins.size(); ++c) {
+    if (bins.velocity[c] * sign > 0) rows.push_back(c);
   }
-  return wave;
+  return WaveProducts(left(rows), bins.time(rows), cycles).rowwise().squaredNorm();
 }
-
-/// Rows of one direction of motion: a wave over them, and what they weigh in its products.
-struct Turning {
-  ArrayXd weight;                      // weighted rest, N.m or N
-  ArrayXd cosine, sine;                // of the present number of cycles
-  ArrayXd cosine_before, sine_before;  // half a cycle less over the log
-  ArrayXd twice;                       // 2 cos of what half a cycle more turns each row by
-
-  /// The rows of `bins` whose velocity has the sign.
-  Turning(const Bins& bins, const VectorXd& rest, double sign) {
-    std::vector<Index> rows;
-    for (Index c = 0; c < bins.size(); ++c) {
-      if (bins.velocity[c] * sign > 0) rows.push_back(c);
-    }
-    weight = rest(rows).array();
-    const ArrayXd angle = 2 * kPi * bins.time(rows).array();
-    cosine = (kFewestCycles * angle).cos();
-    sine = (kFewestCycles * angle).sin();
-    cosine_before = ((kFewestCycles - kCyclesApart) * angle).cos();
-    sine_before = ((kFewestCycles - kCyclesApart) * angle).sin();
-    twice = 2 * (kCyclesApart * angle).cos();
-  }
-
-  /// Products of the rest with cosine and sine.
-  Eigen::Vector2d Products() const { return {(weight * cosine).sum(), (weight * sine).sum()}; }
-
-  /// Half a cycle more over the log: cos(a + b) = 2 cos b cos a - cos(a - b), and so the sine.
-  void Turn() {
-    cosine_before = twice * cosine - cosine_before;
-    cosine.swap(cosine_before);
-    sine_before = twice * sine - sine_before;
-    sine.swap(sine_before);
-  }
-};
 
 /// How many cycles over the log explain most of what is left if they cover it evenly.
 double StrongestCycles(const Bins& bins, const GrowingFit& fit, double most) {
   const VectorXd left = bins.weight.cwiseProduct(fit.Left());
-  Turning forwards(bins, left, 1), backwards(bins, left, -1);
-  double strongest = 0, explained = -1;
-  for (double cycles = kFewestCycles; cycles <= most; cycles += kCyclesApart) {
-    // as a force in one direction and as one against the motion: sum and difference of the directions, whose squares
-    // add up to twice those of both
-    const double both =
-        2 * (forwards.Products().squaredNorm() + backwards.Products().squaredNorm());
-    if (both > explained) {
-      explained = both;
-      strongest = cycles;
-    }
-    forwards.Turn();
-    backwards.Turn();
-  }
-  return strongest;
+  const auto count = static_cast<Index>((most - kFewestCycles) / kCyclesApart) + 1;
+  const Frequencies cycles{kFewestCycles, kCyclesApart, count};
+  // as a force in one direction and as one against the motion: sum and difference of the directions, whose squares add
+  // up to twice those of both
+  const VectorXd explained = SquaresOf(bins, left, 1, cycles) + SquaresOf(bins, left, -1, cycles);
+  Index strongest = 0;
+  explained.maxCoeff(&strongest);
+  return kFewestCycles + kCyclesApart * static_cast<double>(strongest);
 }
 
 }  // namespace
@@ -155,35 +118,49 @@ Features OfSpeedMemory(const Bins& bins, const Circumstances& known, const Growi
 }
 
 Features OfStep(const Bins& bins, const Circumstances&, const GrowingFit& fit) {
-  // one column for each place, of friction and of offset
-  MatrixXd after = MatrixXd::Zero(bins.size(), kPlaces - 1);
+  // a column for each place, of the rows that have passed it
+  SharedColumns after;
+  after.shares = MatrixXd::Zero(kPlaces, kPlaces - 1);
+  after.shares.triangularView<Eigen::StrictlyLower>().setOnes();
   // the places that a row has passed, by the samples before it
   const double total = bins.weight.sum();
   double before = 0;
   for (Index c = 0; c < bins.size(); ++c) {
-    const auto places = static_cast<Index>(before / total * kPlaces);
-    after.row(c).head(std::min<Index>(places, kPlaces - 1)).setOnes();
+    after.place.push_back(
+        std::min<Index>(static_cast<Index>(before / total * kPlaces), kPlaces - 1));
     before += bins.weight[c];
   }
-  const MatrixXd all = BothWays(bins, after);
-  // the one step that explains most beside the fit
+
+  // the one step, of the offset or of the friction, that explains most beside the fit
+  SharedColumns turned = after;
+  after.factor.setOnes(bins.size());
+  turned.factor = SignOf(bins);
+  VectorXd explained(2 * after.shares.cols());
+  explained << fit.ExplainedBy(after), fit.ExplainedBy(turned);
   Index best = 0;
-  fit.ExplainedBy(all).maxCoeff(&best);
-  return {all.col(best), static_cast<int>(all.cols())};
+  explained.maxCoeff(&best);
+  const Index offsets = after.shares.cols();
+  return {best < offsets ? after.Column(best) : turned.Column(best - offsets),
+          static_cast<int>(explained.size())};
 }
 
 Features OfHoldParity(const Bins& bins, const Circumstances&, const GrowingFit&) {
   if (bins.hold.size() == 0) return {MatrixXd(bins.size(), 0)};
   const ArrayXd passed = bins.hold.array() + bins.phase.array();
-  const MatrixXd parity =
-      bins.hold.unaryExpr([](double hold) { return std::fmod(hold, 2) == 0 ? 1.0 : -1.0; });
-  return {BothWays(bins, Beside(parity, Wave(kPi * passed)))};
+  MatrixXd parity(bins.size(), 3);
+  for (Index i = 0; i < bins.size(); ++i) {
+    parity(i, 0) = static_cast<Index>(bins.hold[i]) % 2 == 0 ? 1 : -1;
+  }
+  parity.rightCols(2) = Waves(kPi * passed);
+  return {BothWays(bins, parity)};
 }
 
 Features OfHoldPhase(const Bins& bins, const Circumstances&, const GrowingFit&) {
   if (bins.hold.size() == 0) return {MatrixXd(bins.size(), 0)};
+  const Distinct phases(bins.phase);
+  const ArrayXd waves = (2 * kPi * phases.values()).cos();
   MatrixXd phase(bins.size(), 2);
-  phase << (bins.phase.array() - 0.5).matrix(), (2 * kPi * bins.phase.array()).cos().matrix();
+  phase << (bins.phase.array() - 0.5).matrix(), waves(phases.place).matrix();
   return {BothWays(bins, phase)};
 }
 
@@ -194,7 +171,7 @@ Features OfPeriod(const Bins& bins, const Circumstances& known, const GrowingFit
   if (most < kFewestCycles) return {MatrixXd(bins.size(), 0)};
   const double cycles = StrongestCycles(bins, fit, most);
   const auto candidates = static_cast<int>(2 * (most - kFewestCycles)) + 1;
-  return {BothWays(bins, Wave(2 * kPi * cycles * bins.time.array())), candidates,
+  return {BothWays(bins, Waves(2 * kPi * cycles * bins.time.array())), candidates,
           known.duration / cycles};
 }
 

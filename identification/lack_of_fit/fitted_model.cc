@@ -152,7 +152,7 @@ std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& infere
   if (knows_warming) by_jumps = AddWarming(fit, inference, m, model);
   if (fit.gravity) AddGravity(*fit.gravity, m.position, model);
   if (fit.inertia) model.derivatives = Beside(model.derivatives, *m.acceleration);
-  model.derivatives = Beside(model.derivatives, by_jumps);
+  if (by_jumps.cols() > 0) model.derivatives = Beside(model.derivatives, by_jumps);
   return model;
 }
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
+#include "identification/lack_of_fit/distinct.h"
 #include "models/foundation/robust_noise.h"
 
 namespace warmjoint::inline identification {
@@ -17,27 +19,44 @@ constexpr Index kFewestRows = 40;
 constexpr int kLags = 14;     // time constants that are tried
 constexpr Index kSingle = 4;  // samples of a segment that stay by themselves
 
-/// Runs of samples that follow a change of friction.
-struct Followers {
-  std::vector<Index> begin, end;  // samples of each row
-  std::vector<double> weight;     // samples kept
-  std::vector<double> since;      // s since the segment began
-  std::vector<double> drop;       // F0 - F1, N.m or N
-  VectorXd holds;                 // durations of the segments, s
-
-  Index rows() const { return static_cast<Index>(begin.size()); }
+/// A run of samples that follow a change of friction.
+struct Follower {
+  Index begin, end;  // samples
+  double kept;       // of them
+  double since;      // mean time since the segment began, s
+  double drop;       // F0 - F1, N.m or N
 };
 
-/// Means over the kept samples of each row. column: [N]
-VectorXd Means(const Followers& followers, const Selection& selection, const auto& column) {
-  VectorXd means(followers.rows());
-  for (Index row = 0; row < followers.rows(); ++row) {
-    const auto r = static_cast<size_t>(row);
-    double sum = 0;
-    for (Index i = followers.begin[r]; i < followers.end[r]; ++i) {
-      if (selection.keep[i]) sum += column[i];
+struct Followers {
+  std::vector<Follower> rows;
+  std::vector<double> holds;  // durations of the segments, s
+
+  Index size() const { return static_cast<Index>(rows.size()); }
+  /// One number of each row.
+  VectorXd Column(double Follower::*member) const {
+    VectorXd column(size());
+    std::ranges::transform(rows, column.begin(), member);
+    return column;
+  }
+};
+
+/// Means over the kept samples of each row. columns: [N x c]; returns [rows x c].
+MatrixXd Means(const Followers& followers, const Selection& selection,
+               const Eigen::Ref<const MatrixXd>& columns) {
+  MatrixXd means(followers.size(), columns.cols());
+  for (Index c = 0; c < columns.cols(); ++c) {
+    const double* column = columns.data() + c * columns.outerStride();
+    double* mean = means.data() + c * means.rows();
+    for (const Follower& row : followers.rows) {
+      // most rows are a kept sample by itself
+      if (row.end - row.begin == 1) {
+        *mean++ = column[row.begin];
+        continue;
+      }
+      double sum = 0;
+      for (Index i = row.begin; i < row.end; ++i) sum += selection.keep[i] ? column[i] : 0;
+      *mean++ = sum / row.kept;
     }
-    means[row] = sum / followers.weight[r];
   }
   return means;
 }
@@ -57,13 +76,7 @@ void AddSegment(const Segment& segment, double drop, const VectorXd& time,
       kept += 1;
       since += time[i] - time[segment.begin];
     }
-    if (kept > 0) {
-      followers.begin.push_back(begin);
-      followers.end.push_back(end);
-      followers.weight.push_back(kept);
-      followers.since.push_back(since / kept);
-      followers.drop.push_back(drop);
-    }
+    if (kept > 0) followers.rows.push_back({begin, end, kept, since / kept, drop});
     begin = end;
   }
 }
@@ -71,16 +84,15 @@ void AddSegment(const Segment& segment, double drop, const VectorXd& time,
 /// Segments that follow another one after less than that one's duration. friction: [N] of the fit
 Followers AfterChanges(const VectorXd& friction, const VectorXd& time, const Selection& selection) {
   Followers followers;
-  std::vector<double> holds;
+  followers.rows.reserve(static_cast<size_t>(time.size()));
   for (size_t s = 1; s < selection.segments.size(); ++s) {
     const Segment &before = selection.segments[s - 1], &after = selection.segments[s];
     const double pause = time[after.begin] - time[before.end - 1];
     const double held = time[before.end - 1] - time[before.begin];
     if (pause > std::max(held, 2 * (time[before.begin + 1] - time[before.begin]))) continue;
     AddSegment(after, friction[before.end - 1] - friction[after.begin], time, selection, followers);
-    holds.push_back(time[after.end - 1] - time[after.begin]);
+    followers.holds.push_back(time[after.end - 1] - time[after.begin]);
   }
-  followers.holds = Eigen::Map<const VectorXd>(holds.data(), static_cast<Index>(holds.size()));
   return followers;
 }
 
@@ -90,28 +102,14 @@ VectorXd TimeConstants(double step, double hold) {
   return VectorXd::LinSpaced(kLags, std::log(shortest), std::log(longest)).array().exp();
 }
 
-/// (F0 - F1) exp(-t/T), a column for each T. [rows x kLags]
-MatrixXd Decays(const Followers& followers, const VectorXd& lags) {
-  // rows of different segments share their times: each time once
-  std::vector<double> times = followers.since;
-  std::ranges::sort(times);
-  times.erase(std::unique(times.begin(), times.end()), times.end());
-  const Eigen::Map<const Eigen::ArrayXd> since(times.data(), static_cast<Index>(times.size()));
-  MatrixXd shares(since.size(), lags.size());
-  for (Index k = 0; k < lags.size(); ++k) shares.col(k) = (-since / lags[k]).exp();
-
-  // the share of each row, times its drop
-  std::vector<Index> place(followers.since.size());
-  for (size_t r = 0; r < place.size(); ++r) {
-    place[r] = std::ranges::lower_bound(times, followers.since[r]) - times.begin();
-  }
-  MatrixXd decays(followers.rows(), lags.size());
-  for (Index k = 0; k < lags.size(); ++k) {
-    for (Index row = 0; row < followers.rows(); ++row) {
-      const auto r = static_cast<size_t>(row);
-      decays(row, k) = followers.drop[r] * shares(place[r], k);
-    }
-  }
+/// (F0 - F1) exp(-t/T), a column for each T.
+SharedColumns Decays(const Followers& followers, const VectorXd& lags) {
+  // rows of different segments share their times
+  Distinct times(followers.Column(&Follower::since));
+  SharedColumns decays{std::move(times.place), followers.Column(&Follower::drop), {}};
+  const auto since = times.values();
+  decays.shares.resize(since.size(), lags.size());
+  for (Index k = 0; k < lags.size(); ++k) decays.shares.col(k) = (-since / lags[k]).exp();
   return decays;
 }
 
@@ -125,30 +123,28 @@ Finding TestLag(const FittedModel& model, const Measurements& measurements, Vect
   const Selection& selection = model.selection;
   if (selection.segments.size() < 2) return finding;
   const VectorXd friction = model.torque - model.residual;
-  Followers followers = AfterChanges(friction, measurements.time, selection);
-  if (followers.rows() < kFewestRows) return finding;
+  const Followers followers = AfterChanges(friction, measurements.time, selection);
+  if (followers.size() < kFewestRows) return finding;
 
   // the decay that explains most beside the fit
-  const VectorXd left = Means(followers, selection, residual);
-  MatrixXd derivatives(followers.rows(), model.derivatives.cols());
-  for (Index j = 0; j < derivatives.cols(); ++j) {
-    derivatives.col(j) = Means(followers, selection, model.derivatives.col(j));
-  }
-  const Eigen::Map<const VectorXd> weight(followers.weight.data(), followers.rows());
-  const Selection all{Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(followers.rows(), true), {}};
-  GrowingFit fit(weight, left, derivatives, all);
+  const Selection all{Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(followers.size(), true), {}};
+  GrowingFit fit(followers.Column(&Follower::kept), Means(followers, selection, residual),
+                 Means(followers, selection, model.derivatives), all);
   const double step = MedianStep(measurements.time);
-  const VectorXd lags = TimeConstants(step, MedianInPlace(followers.holds));
-  const MatrixXd decays = Decays(followers, lags);
+  VectorXd holds = Eigen::Map<const VectorXd>(followers.holds.data(),
+                                              static_cast<Index>(followers.holds.size()));
+  const VectorXd lags = TimeConstants(step, MedianInPlace(holds));
+  const SharedColumns decays = Decays(followers, lags);
   Index best = 0;
   fit.ExplainedBy(decays).maxCoeff(&best);
-  const Features decay{decays.col(best), kLags};
-  fit.LearnNoise({decay});
-  finding = fit.Test(decay);
+  const Features decay{decays.Column(best), kLags};
+  const AskedFeatures asked = fit.Ask({decay});
+  fit.LearnNoise(asked);
+  finding = fit.Test(asked, 0);
   finding.test = &LagTest();
 
   // a lag leaves a share of what was before, not of what comes: the test has one side
-  const double share = fit.CoefficientOf(decays.col(best));
+  const double share = fit.CoefficientOf(decay.columns);
   if (share <= 0 || finding.explained <= 0) finding.p = 1;
   finding.p_adjusted = level.Adjusted(finding.p);
   if (!level.Rejects(finding.p)) return finding;
@@ -159,10 +155,9 @@ Finding TestLag(const FittedModel& model, const Measurements& measurements, Vect
   // taken off the residual
   fit.Take(decay);
   const VectorXd explained = fit.Explained();
-  for (Index row = 0; row < followers.rows(); ++row) {
-    const auto r = static_cast<size_t>(row);
-    residual.segment(followers.begin[r], followers.end[r] - followers.begin[r]).array() -=
-        explained[row];
+  for (Index i = 0; i < followers.size(); ++i) {
+    const Follower& row = followers.rows[static_cast<size_t>(i)];
+    residual.segment(row.begin, row.end - row.begin).array() -= explained[i];
   }
   return finding;
 }

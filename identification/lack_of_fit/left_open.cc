@@ -1,6 +1,7 @@
 #include "identification/lack_of_fit/left_open.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "identification/linear/rigid_part.h"
 #include "identification/uncertainty/tails.h"
 #include "identification/uncertainty/uncertainty.h"
+#include "models/friction/sign.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -23,37 +25,56 @@ using Eigen::VectorXd;
 // why: a drift that takes half the log to die away is still nearly even, one of an eighth is over before the
 // warming is; between them by halves
 constexpr double kSlowest = 1.0 / 2;  // of the log: the longest time constant of a drift
-constexpr Index kFadings = 3;         // time constants, each half as long as the one before
+constexpr int kFadings = 3;           // time constants, each half as long as the one before
 constexpr double kTold = 1e-6;  // of a column beside the fit, below which the log tells nothing
 
 /// Values between which a factor may lie at all.
 struct Possible {
   double least, most;
+
+  /// The end that is farther from 0.
+  double FarEnd() const { return std::abs(least) > std::abs(most) ? least : most; }
 };
 
-/// What the tests of the log leave open of a force's factor beside the fit.
-class OpenFactor {
+/// Deviations of a factor at the level of one test among all that the log faces.
+double Quantile(double freedom) {
+  return StudentQuantile(freedom, 1 - kErrorLevel / static_cast<double>(LackOfFitTests().size()));
+}
+
+/// What the tests of the log leave open of the factors of forces, each by itself beside the fit.
+class OpenFactors {
  public:
-  /// residual: [m] means over bins
-  OpenFactor(const ForceMoves& fit, const VectorXd& residual)
-      : fit_(fit), left_(fit.root().cwiseProduct(residual)) {
+  /// residual: [m] means over bins; forces: [m x q] the same
+  OpenFactors(const ForceMoves& fit, const VectorXd& residual, const MatrixXd& forces)
+      : fit_(fit),
+        left_(fit.root().cwiseProduct(residual)),
+        own_(fit.root().asDiagonal() * forces) {
     left_ -= fit.basis() * (fit.basis().transpose() * left_);
+    weighted_ = own_.colwise().squaredNorm();
+    const MatrixXd shared = fit.basis().transpose() * own_;
+    own_.noalias() -= fit.basis() * shared;
+    const Index freedom = left_.size() - fit.basis().cols() - 1;
+    if (freedom < 1) return;
+    white_freedom_ = static_cast<double>(freedom);
+    white_quantile_ = Quantile(white_freedom_);
   }
 
-  /// Both ends of its interval at their level. force: [m] means over bins.
-  Possible Interval(const VectorXd& force, const Possible& possible) const;
+  /// Both ends of the i-th one's interval at their level.
+  Possible Interval(Index i, const Possible& possible) const;
 
  private:
   const ForceMoves& fit_;
-  VectorXd left_;  // [m] weighted, of the residual beside the fit
+  VectorXd left_;                                  // [m] weighted, of the residual beside the fit
+  MatrixXd own_;                                   // [m x q] weighted, of the forces beside the fit
+  VectorXd weighted_;                              // [q] squares of the forces
+  double white_freedom_ = 0, white_quantile_ = 0;  // of most forces: where what they leave is white
 };
 
-Possible OpenFactor::Interval(const VectorXd& force, const Possible& possible) const {
+Possible OpenFactors::Interval(Index i, const Possible& possible) const {
   // what the log cannot tell from the fit is open as far as it is possible at all
-  const VectorXd weighted = fit_.root().cwiseProduct(force);
-  const VectorXd own = weighted - fit_.basis() * (fit_.basis().transpose() * weighted);
+  const auto own = own_.col(i);
   const double square = own.squaredNorm();
-  const bool told = square > kTold * kTold * weighted.squaredNorm();
+  const bool told = square > kTold * kTold * weighted_[i];
   if (!fit_.AllApart() || !told) return possible;
 
   // the force joins the fit for one step of least squares, whose other columns are a basis of the fit's
@@ -65,61 +86,64 @@ Possible OpenFactor::Interval(const VectorXd& force, const Possible& possible) c
   const Uncertainty known = JudgeUncertainty([&] { return Beside(fit_.basis(), own); }, cofactor,
                                              left_ - factor * own, all);
 
-  // the level of one test among all that the log faces
-  const double level = 1 - kErrorLevel / static_cast<double>(LackOfFitTests().size());
-  const double reach = StudentQuantile(known.freedom, level) * known.Deviation(p);
+  // as far as noise reaches at that level
+  const double quantile =
+      known.freedom == white_freedom_ ? white_quantile_ : Quantile(known.freedom);
+  const double reach = quantile * known.Deviation(p);
   const auto within = [&](double c) { return std::clamp(c, possible.least, possible.most); };
   return {within(factor - reach), within(factor + reach)};
 }
 
-/// The end that is farther from 0.
-double FarEnd(const Possible& interval) {
-  return std::abs(interval.least) > std::abs(interval.most) ? interval.least : interval.most;
-}
+constexpr int kCourses = 1 + kFadings;  // of a drift
 
-/// A drift, over bins: zero at the start, and zero at the end.
-struct Drift {
-  VectorXd from_first, until_last;  // [m]
-  double most;                      // of its factor
-};
-
-std::vector<Drift> Drifts(const FittedModel& model, const Measurements& m, const Bins& bins,
-                          double friction) {
-  // courses d(t) of friction, and 1
-  constexpr Index kCourses = 1 + kFadings;
+/// Forces against the motion with the heat that they make, over bins: d(t) of the courses of a drift, 1 and v^2.
+/// [m x (kCourses + 2)]
+MatrixXd Heating(const FittedModel& model, const Measurements& m, const Bins& bins) {
+  // courses that die away, each the square of the one before it
   const ArrayXd t = (m.time.array() - m.time[0]) / (m.time[m.size() - 1] - m.time[0]);
-  MatrixXd levels(m.size(), kCourses + 1);
-  levels.col(0) = t;
-  // each fading is the square of the one before it
-  ArrayXd faded = (-t / kSlowest).exp();
+  const ArrayXd slowest = (-t / kSlowest).exp();
+  std::array<double, kFadings> scale;  // so that they end at 1
   double end = std::exp(-1 / kSlowest);
-  for (Index i = 1; i < kCourses; ++i, faded = faded.square().eval(), end *= end) {
-    levels.col(i) = (1 - faded) / (1 - end);
+  for (double& one : scale) {
+    one = 1 / (1 - end);
+    end *= end;
   }
-  levels.col(kCourses).setOnes();
-
-  // as friction, with the heat that it makes
-  levels = m.velocity.array().sign().matrix().asDiagonal() * levels;
-  const MatrixXd forces = bins.Means(WithHeat(model, m, levels));
-  // each as seen from the first moment, and from the last
-  std::vector<Drift> drifts;
-  for (Index i = 0; i < kCourses; ++i) {
-    drifts.push_back({forces.col(i), forces.col(i) - forces.col(kCourses), friction});
+  Forces<kCourses + 2> forces(m.size(), kCourses + 2);
+  for (Index n = 0; n < m.size(); ++n) {
+    const double v = m.velocity[n], sign = Sign(v);
+    auto force = forces.row(n);
+    force[0] = sign * t[n];
+    double faded = slowest[n];
+    for (int i = 0; i < kFadings; ++i, faded *= faded) {
+      force[1 + i] = sign * (1 - faded) * scale[static_cast<size_t>(i)];
+    }
+    force[kCourses] = sign;
+    force[kCourses + 1] = v * std::abs(v);
   }
 
-  // a sensor
-  const VectorXd force = bins.Means(model.torque - model.residual);
-  const VectorXd gain = force.cwiseProduct(bins.time);
-  drifts.push_back({gain, gain - force, 1});
-  return drifts;
+  // where the log tells the speed of the losses, that of v^2 is theirs
+  if (!m.loss_velocity) return WithHeat(model, bins, forces, forces);
+  Forces<kCourses + 2> at_losses = forces;
+  at_losses.col(kCourses + 1) = m.loss_velocity->cwiseProduct(m.loss_velocity->cwiseAbs());
+  return WithHeat(model, bins, forces, at_losses);
 }
 
-/// s v^2, with its heat and without. [m x 2]
-MatrixXd Curves(const FittedModel& model, const Measurements& m, const Bins& bins) {
-  const VectorXd square = m.velocity.cwiseProduct(m.velocity.cwiseAbs());
-  const VectorXd fast = m.loss_velocity.value_or(m.velocity);
-  const MatrixXd heating = WithHeat(model, m, square, fast.cwiseProduct(fast.cwiseAbs()));
-  return bins.Means(Beside(heating, square));
+/// s v^2, without heat. [m x 1]
+MatrixXd Curve(const Measurements& m, const Bins& bins) {
+  return bins.Means(m.velocity.cwiseProduct(m.velocity.cwiseAbs()));
+}
+
+/// The farthest end of the factor of each of some forces that lies within -most and most. [count]
+VectorXd FarEnds(const OpenFactors& open, Index first, Index count, double most) {
+  VectorXd ends(count);
+  for (Index i = 0; i < count; ++i) ends[i] = open.Interval(first + i, {-most, most}).FarEnd();
+  return ends;
+}
+
+/// The most that any of some forces moves each parameter. moves: [p x q] by a factor of 1; factors: [q]
+VectorXd Farthest(const MatrixXd& moves, const VectorXd& factors) {
+  if (factors.size() == 0) return {};
+  return (moves * factors.asDiagonal()).cwiseAbs().rowwise().maxCoeff();
 }
 
 }  // namespace
@@ -127,45 +151,45 @@ MatrixXd Curves(const FittedModel& model, const Measurements& m, const Bins& bin
 void LearnLeftOpen(const FittedModel& model, const Measurements& m, const Bins& bins,
                    const Circumstances& known, Index p, const ForceMoves& fit,
                    Examination& examination) {
-  const OpenFactor open(fit, bins.Means(model.residual));
-  const auto moves = [&](const VectorXd& force, double factor) -> VectorXd {
-    return fit.By(factor * force).topRows(p);
-  };
+  // all forces: the start, curves, what follows the speed late, drifts that are 0 at first, and a sensor's gain
+  const MatrixXd heating = Heating(model, m, bins);
+  const VectorXd residual = bins.Means(model.residual);
+  const VectorXd force = bins.Means(model.torque) - residual;
+  const Index starts = known.initial.cols(), late = known.late_speeds.cols();
+  const Index curve = starts, memory = curve + 2, drift = memory + late, gain = drift + kCourses;
+  MatrixXd forces(bins.size(), gain + 1);
+  forces << known.initial, heating.col(kCourses + 1), Curve(m, bins), known.late_speeds,
+      heating.leftCols(kCourses), force.cwiseProduct(bins.time);
+  const OpenFactors open(fit, residual, forces);
+  const MatrixXd moves = fit.By(forces).topRows(p);
 
   // a start that was not cold
-  if (model.by_initial_energy) {
-    const VectorXd force = bins.Means(*model.by_initial_energy);
+  if (starts > 0) {
     const Possible warm{std::min(model.energy.minCoeff(), 0.0),
                         std::max(model.energy.maxCoeff(), 0.0)};
-    examination.open_start = FarEnd(open.Interval(force, warm));
-    examination.by_open_start = moves(force, examination.open_start);
+    examination.open_start = open.Interval(0, warm).FarEnd();
+    examination.by_open_start = examination.open_start * moves.col(0);
   }
 
   // a law that bends over the speed, or follows it late
-  const double fastest = bins.velocity.cwiseAbs().maxCoeff();
-  // the farthest that any of several forces moves each parameter
-  const auto farthest = [&](const MatrixXd& forces, double most) {
-    VectorXd by = VectorXd::Zero(forces.cols() > 0 ? p : 0);
-    for (Index i = 0; i < forces.cols(); ++i) {
-      const VectorXd force = forces.col(i);
-      const double factor = FarEnd(open.Interval(force, {-most, most}));
-      by = by.cwiseMax(moves(force, factor).cwiseAbs());
-    }
-    return by;
-  };
-  const double friction = examination.friction;
-  examination.by_open_curve = farthest(Curves(model, m, bins), friction / (fastest * fastest));
-  examination.by_open_memory = farthest(known.late_speeds, friction / fastest);
+  const double fastest = bins.velocity.cwiseAbs().maxCoeff(), friction = examination.friction;
+  examination.by_open_curve =
+      Farthest(moves.middleCols(curve, 2), FarEnds(open, curve, 2, friction / (fastest * fastest)));
+  examination.by_open_memory =
+      Farthest(moves.middleCols(memory, late), FarEnds(open, memory, late, friction / fastest));
 
-  // friction, or a sensor, that drifts for another reason than its losses
-  examination.by_open_drift.setZero(p);
-  for (const Drift& drift : Drifts(model, m, bins, examination.friction)) {
-    const double factor = FarEnd(open.Interval(drift.from_first, {-drift.most, drift.most}));
-    for (const VectorXd& force : {drift.from_first, drift.until_last}) {
-      examination.by_open_drift =
-          examination.by_open_drift.cwiseMax(moves(force, factor).cwiseAbs());
-    }
-  }
+  // friction, or a sensor, that drifts for another reason than its losses: as seen from the first moment
+  VectorXd factors(kCourses + 1);
+  factors << FarEnds(open, drift, kCourses, friction), FarEnds(open, gain, 1, 1);
+  const MatrixXd from_first = moves.rightCols(kCourses + 1);
+  // and from the last, where the force of the end is taken off
+  MatrixXd ends(bins.size(), 2);
+  ends << heating.col(kCourses), force;
+  const MatrixXd at_end = fit.By(ends).topRows(p);
+  MatrixXd until_last = from_first;
+  until_last.leftCols(kCourses).colwise() -= at_end.col(0);
+  until_last.col(kCourses) -= at_end.col(1);
+  examination.by_open_drift = Farthest(from_first, factors).cwiseMax(Farthest(until_last, factors));
 }
 
 }  // namespace warmjoint::inline identification

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <vector>
 
+#include "identification/lack_of_fit/column_products.h"
+
 namespace warmjoint::inline identification {
 namespace {
 
@@ -17,6 +19,9 @@ constexpr double kAsLong =
     1e-9;  // relative; why: rounding makes 1e-15 of it, nothing that is meant so little
 constexpr double kSeenByProducts =
     1e-6;  // of a column's square; why: a basis made of such ones is orthonormal to 1e-16 of it, 1e-10
+
+constexpr double kSureByProducts =
+    1e-2;  // of a column's square; why: a basis made of such ones is orthonormal to 1e-14
 
 /// The inverse of the leading rank x rank of a triangular R.
 MatrixXd InverseOf(const MatrixXd& R, Index rank) {
@@ -79,13 +84,6 @@ Factor FactorOf(MatrixXd products, Index most, double distinct) {
   return factor;
 }
 
-MatrixXd ProductsOf(const MatrixXd& columns) {
-  MatrixXd products = MatrixXd::Zero(columns.cols(), columns.cols());
-  products.selfadjointView<Eigen::Lower>().rankUpdate(columns.transpose());
-  products.triangularView<Eigen::StrictlyUpper>() = products.transpose();
-  return products;
-}
-
 /// R^-1 with the order of the columns turned back. [q x rank]
 MatrixXd MixOf(const Factor& factor) {
   MatrixXd mix = MatrixXd::Zero(factor.root.rows(), factor.rank);
@@ -98,19 +96,46 @@ MatrixXd MixOf(const Factor& factor) {
   return mix;
 }
 
+/// R with the order of the columns turned back. [rank x q]
+MatrixXd HeldOf(const Factor& factor) {
+  MatrixXd held(factor.rank, factor.root.cols());
+  for (Index j = 0; j < held.cols(); ++j) {
+    held.col(factor.order[static_cast<size_t>(j)]) = factor.root.col(j).head(factor.rank);
+  }
+  return held;
+}
+
 /// By Householder's method, which tells columns apart that differ by as little as rounding.
 Basis ByHouseholder(const MatrixXd& columns, double distinct) {
   const Eigen::ColPivHouseholderQR<MatrixXd> qr(columns);
   // as many columns count as stand out beside those before them
-  const Index most = std::min(columns.rows(), columns.cols());
+  const Index q = columns.cols(), most = std::min(columns.rows(), q);
   const Index rank = (qr.matrixQR().diagonal().head(most).array().abs() > distinct).count();
-  if (rank == 0) return {MatrixXd(columns.rows(), 0), MatrixXd(columns.cols(), 0)};
-  // Q, and the mix of columns that makes it: R^-1 with their order turned back
+  if (rank == 0) return {MatrixXd(columns.rows(), 0), MatrixXd(q, 0), MatrixXd(0, q)};
+  // Q, the mix of columns that makes it, R^-1 with their order turned back, and R, which makes them of it
   Basis result;
   result.basis = qr.householderQ() * MatrixXd::Identity(columns.rows(), rank);
-  MatrixXd inverse = MatrixXd::Zero(columns.cols(), rank);
+  MatrixXd inverse = MatrixXd::Zero(q, rank);
   inverse.topRows(rank) = InverseOf(qr.matrixQR(), rank);
   result.mix = qr.colsPermutation() * inverse;
+  const MatrixXd root = qr.matrixQR().topRows(rank).triangularView<Eigen::Upper>();
+  result.held = root * qr.colsPermutation().transpose();
+  return result;
+}
+
+/// From the products of columns. factor: of those
+Basis ByProducts(const MatrixXd& columns, const Factor& factor) {
+  Basis result{MatrixXd(columns.rows(), factor.rank), MixOf(factor), HeldOf(factor)};
+  for (Index j = 0; j < factor.rank; ++j) {
+    // of the column that joined, and of those before it
+    const auto own = result.mix.col(j);
+    const Index joined = factor.order[static_cast<size_t>(j)];
+    result.basis.col(j) = own[joined] * columns.col(joined);
+    for (Index k = 0; k < j; ++k) {
+      const Index before = factor.order[static_cast<size_t>(k)];
+      result.basis.col(j) += own[before] * columns.col(before);
+    }
+  }
   return result;
 }
 
@@ -124,14 +149,18 @@ Basis Orthonormal(const MatrixXd& columns, double distinct) {
       factor.least > kSeenByProducts && (distinct * distinct > kSeenByProducts ||
                                          factor.rank == std::min(columns.cols(), columns.rows()));
   if (!told) return ByHouseholder(columns, distinct);
-  Basis result{MatrixXd(columns.rows(), factor.rank), MixOf(factor)};
-  if (factor.rank > 0) result.basis.noalias() = columns * result.mix;
-  return result;
+  Basis result = ByProducts(columns, factor);
+  if (factor.least > kSureByProducts) return result;
+  // short columns leave a basis that is orthonormal nearly: once more makes it so to rounding
+  Basis again = ByProducts(result.basis, FactorOf(ProductsOf(result.basis), factor.rank, 0));
+  again.mix = result.mix * again.mix;
+  again.held *= result.held;
+  return again;
 }
 
-MatrixXd MixOfDistinct(const MatrixXd& columns, double distinct) {
+MatrixXd MixOfDistinct(const MatrixXd& products, double distinct) {
   assert(distinct * distinct > kSeenByProducts);
-  return MixOf(FactorOf(ProductsOf(columns), std::min(columns.cols(), columns.rows()), distinct));
+  return MixOf(FactorOf(products, products.cols(), distinct));
 }
 
 }  // namespace warmjoint::inline identification

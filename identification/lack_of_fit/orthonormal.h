@@ -5,10 +5,12 @@
 
 namespace warmjoint::inline identification {
 
-/// An orthonormal basis of columns, and how it is made of them: basis = columns * mix.
+/// An orthonormal basis of columns, how it is made of them, basis = columns * mix, and they of it, columns = basis * held
+/// but for what is too short to join.
 struct Basis {
   Eigen::MatrixXd basis;  // [m x r]
   Eigen::MatrixXd mix;    // [q x r]
+  Eigen::MatrixXd held;   // [r x q]
 };
 
 /// A column joins while what it has beside those before it is longer than `distinct`, the longest first. From the
@@ -17,7 +19,7 @@ struct Basis {
 /// columns: [m x q] of norm 1 at most.
 Basis Orthonormal(const Eigen::MatrixXd& columns, double distinct);
 
-/// The mix alone, [q x r]. distinct: 0.001 or more.
-Eigen::MatrixXd MixOfDistinct(const Eigen::MatrixXd& columns, double distinct);
+/// The mix alone, [q x r]. products: [q x q] of the columns with each other; distinct: 0.001 or more.
+Eigen::MatrixXd MixOfDistinct(const Eigen::MatrixXd& products, double distinct);
 
 }  // namespace warmjoint::inline identification

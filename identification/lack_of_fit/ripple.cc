@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <complex>
 #include <numbers>
 #include <optional>
-#include <unsupported/Eigen/FFT>
 
 #include "identification/fit_data.h"
+#include "identification/lack_of_fit/power_spectra.h"
 #include "identification/lack_of_fit/significance.h"
+#include "identification/lack_of_fit/wave_products.h"
 #include "models/foundation/robust_noise.h"
 #include "models/recording/motor_angle.h"
 
@@ -106,38 +106,25 @@ struct Peak {
 };
 
 /// cos and sin of 2 pi f phase in the middle of each bin. [bins x 2]
-MatrixXd Waves(double frequency, Index bins) {
-  MatrixXd waves(bins, 2);
-  for (Index b = 0; b < bins; ++b) {
-    const double phase = 2 * std::numbers::pi * frequency * (static_cast<double>(b) + 0.5) /
-                         static_cast<double>(bins);
-    waves(b, 0) = std::cos(phase);
-    waves(b, 1) = std::sin(phase);
-  }
-  return waves;
+MatrixXd WavesOver(Index bins, double frequency) {
+  const double step = 2 * std::numbers::pi * frequency / static_cast<double>(bins);
+  return EvenWaves(0.5 * step, step, bins);
 }
 
-Peak StrongestFrequency(const AngleAxis& axis, const BinnedResidual& binned) {
-  // both directions in one transform: forwards + i backwards, with zeros behind for steps below a cycle
-  const MatrixXd totals = binned.Totals();
-  const auto length = static_cast<size_t>(static_cast<double>(binned.bins()) / axis.step);
-  std::vector<std::complex<double>> sums(length), waves;
-  for (Index b = 0; b < binned.bins(); ++b) {
-    sums[static_cast<size_t>(b)] = {totals(b, 0), totals(b, 1)};
-  }
-  // one transform a thread, which keeps its tables
-  static thread_local Eigen::FFT<double> transform;
-  transform.fwd(waves, sums);
+/// totals: of the bins
+Peak StrongestFrequency(const AngleAxis& axis, const BinnedResidual& binned,
+                        const MatrixXd& totals) {
+  // with zeros behind for steps below a cycle
+  const auto length = static_cast<Index>(static_cast<double>(binned.bins()) / axis.step);
+  const MatrixXd squares = PowerSpectra(totals, length, axis.frequencies);
+  const Eigen::Vector2d share(2 / std::max(binned.number(0), 1.0),
+                              2 / std::max(binned.number(1), 1.0));
+  const VectorXd explained = squares * share;
 
-  // the transform at k and at -k together tells the directions apart
+  // the constant is no ripple
   Peak peak;
   for (int k = 1; k <= axis.frequencies; ++k) {
-    const std::complex<double> wave = waves[static_cast<size_t>(k)];
-    const std::complex<double> mirrored = std::conj(waves[length - static_cast<size_t>(k)]);
-    const double explained =
-        2 * (std::norm(0.5 * (wave + mirrored)) / std::max(binned.number(0), 1.0) +
-             std::norm(0.5 * (wave - mirrored)) / std::max(binned.number(1), 1.0));
-    if (explained > peak.explained) peak = {k, explained};
+    if (explained[k] > peak.explained) peak = {k, explained[k]};
   }
   return peak;
 }
@@ -148,12 +135,12 @@ struct Ripple {
   MatrixXd waves;  // [bins x 2] forwards, backwards; N.m or N
 };
 
-/// Fits one frequency, each direction by itself.
-Ripple FitRipple(const AngleAxis& axis, int index, const BinnedResidual& binned) {
+/// Fits one frequency, each direction by itself. totals: of the bins
+Ripple FitRipple(const AngleAxis& axis, int index, const BinnedResidual& binned,
+                 const MatrixXd& totals) {
   Ripple ripple;
   ripple.waves.resize(binned.bins(), 2);
-  const MatrixXd waves = Waves(axis.step * index, binned.bins());
-  const MatrixXd totals = binned.Totals();
+  const MatrixXd waves = WavesOver(binned.bins(), axis.step * index);
   MatrixXd normal = MatrixXd::Zero(4, 4);
   Vector4d score = Vector4d::Zero(), coefficients = Vector4d::Zero();
   for (int d = 0; d < 2; ++d) {
@@ -228,9 +215,10 @@ Finding TestAxis(const AngleAxis& axis, const VectorXd& velocity, const Selectio
   BinnedResidual binned(axis, residual, velocity, selection);
   Finding finding;
   for (int i = 0; i < kMost; ++i) {
-    const Peak peak = StrongestFrequency(axis, binned);
+    const MatrixXd totals = binned.Totals();
+    const Peak peak = StrongestFrequency(axis, binned, totals);
     if (peak.index == 0) break;
-    Ripple ripple = FitRipple(axis, peak.index, binned);
+    Ripple ripple = FitRipple(axis, peak.index, binned, totals);
     ripple.finding.p_adjusted = level.Adjusted(ripple.finding.p);
     const bool rejects = ripple.finding.explained > 0 && level.WouldReject(ripple.finding.p);
     if (i == 0) finding = ripple.finding;

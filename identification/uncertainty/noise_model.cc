@@ -23,10 +23,14 @@ class Autocovariance {
  public:
   /// residual: [n] over the kept samples
   Autocovariance(const Eigen::VectorXd& residual, const Selection& selection)
-      : size_(selection.keep.size()), values_(Spread(residual, selection)) {
-    if (!selection.keep.all()) {
-      kept_ = Spread(Eigen::VectorXd::Ones(residual.size()), selection);
+      : size_(selection.keep.size()) {
+    if (residual.size() == size_) {
+      values_.resize(size_ + kAtOnce);
+      values_ << residual, Eigen::VectorXd::Zero(kAtOnce);
+      return;
     }
+    values_ = Spread(residual, selection);
+    kept_ = Spread(Eigen::VectorXd::Ones(residual.size()), selection);
   }
 
   /// Mean product of samples that are `lag` apart; 0 where too few pairs are.
@@ -154,25 +158,26 @@ NoiseModel FitNoise(const Eigen::VectorXd& residual, const Selection& selection)
   // Levinson: order by order, each from the one before
   Eigen::VectorXd covariances = Eigen::VectorXd::Zero(highest + 1);
   covariances[0] = best.variance;
-  Eigen::VectorXd a;
+  Eigen::VectorXd a(highest), next(highest);  // as many of them as the order
   double innovation = best.variance;
   double best_bic = n * std::log(innovation);
   for (Eigen::Index p = 1; p <= highest && p <= best.order() + kPatience; ++p) {
     covariances[p] = autocovariance.At(p);
     // what the model so far leaves of this lag is the next reflection coefficient
-    const double past = a.dot(covariances.segment(1, p - 1).reverse());
+    const auto known = a.head(p - 1);
+    const double past = known.dot(covariances.segment(1, p - 1).reverse());
     const double reflection = -(covariances[p] + past) / innovation;
     if (!(std::abs(reflection) < 1)) break;
-    Eigen::VectorXd next(p);
-    next << a + reflection * a.reverse(), reflection;
-    a = next;
+    next.head(p - 1) = known + reflection * known.reverse();
+    next[p - 1] = reflection;
+    a.swap(next);
     innovation *= 1 - reflection * reflection;
 
     // the order that the Bayesian criterion prefers
     const double bic = n * std::log(innovation) + static_cast<double>(p) * std::log(n);
     if (bic >= best_bic) continue;
     best_bic = bic;
-    best.coefficients = a;
+    best.coefficients = a.head(p);
     best.covariances = covariances.head(p + 1);
     best.innovation = innovation;
   }

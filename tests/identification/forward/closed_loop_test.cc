@@ -128,16 +128,6 @@ TEST(ClosedLoop, TellsTheSlopesOfItsLastHeat) {
   EXPECT_NEAR(dynamic.energy, response.energy[49], 1e-13 * std::abs(response.energy[49]));
 }
 
-TEST(ClosedLoop, HasOneDerivativeByTheLawWhereverItsParametersAre) {
-  Eigen::VectorXd v(50);
-  for (int i = 0; i < 50; ++i) v[i] = (i / 10 % 2 ? -0.1 : 0.1) * (1 + i / 10);
-  const ClosedLoop loop = Loop(EvenTime(50), v);
-  const Thermal thermal{-0.6, 40};
-  const Eigen::MatrixXd all = loop.Jacobian(Eigen::Vector2d(5, 15), thermal, -0.3);
-  // 1e-15: the same recursion
-  ExpectNear(loop.LawJacobian(thermal), all.leftCols(2), 1e-15);
-}
-
 TEST(ClosedLoop, AgreesWithFiniteDifferences) {
   Eigen::VectorXd v(200);  // 0.1 to 1 rad/s, held 20 s, alternating
   for (int i = 0; i < 200; ++i) v[i] = (i / 20 % 2 ? -0.1 : 0.1) * (1 + i / 20);

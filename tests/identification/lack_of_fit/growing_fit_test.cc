@@ -40,8 +40,9 @@ const MatrixXd kLevel = MatrixXd::Ones(kRows, 1);
 
 Finding Ask(const VectorXd& residual, const Features& features) {
   GrowingFit fit(VectorXd::Ones(kRows), residual, kLevel, All());
-  fit.LearnNoise({features});
-  return fit.Test(features);
+  const AskedFeatures asked = fit.Ask({features});
+  fit.LearnNoise(asked);
+  return fit.Test(asked, 0);
 }
 
 /// How many of 300 residuals hold features with a p-value below `level`. height: of the first
@@ -99,13 +100,25 @@ TEST(GrowingFit, FindsWhatWouldPassForColouredNoise) {
 TEST(GrowingFit, TakesWhatWasFound) {
   const Features wave{Wave()};
   GrowingFit fit(VectorXd::Ones(kRows), 3 * Wave() + 0.01 * Noise(0, 1), kLevel, All());
-  fit.LearnNoise({wave});
-  EXPECT_LT(fit.Test(wave).p, 1e-6);
+  const AskedFeatures asked = fit.Ask({wave});
+  fit.LearnNoise(asked);
+  EXPECT_LT(fit.Test(asked, 0).p, 1e-6);
   EXPECT_NEAR(fit.CoefficientOf(Wave()), 3, 1e-2);  // noise: 0.01/sqrt(200)
   fit.Take(wave);
-  EXPECT_FALSE(fit.Test(wave).made);
+  EXPECT_FALSE(fit.Test(fit.Ask({wave}), 0).made);
   EXPECT_EQ(fit.CoefficientOf(Wave()), 0);
   EXPECT_LT((fit.Explained() - 3 * Wave()).norm(), 0.01 * std::sqrt(kRows));
+}
+
+TEST(GrowingFit, AsksEachOfSeveralByItself) {
+  // what features are asked beside makes no difference to what they explain; their noise is learned together
+  const VectorXd residual = 0.3 * Wave() + Noise(0, 1);
+  GrowingFit fit(VectorXd::Ones(kRows), residual, kLevel, All());
+  const AskedFeatures both = fit.Ask({{Transient()}, {Wave(), 4}}), one = fit.Ask({{Wave(), 4}});
+  fit.LearnNoise(both);
+  const Finding among = fit.Test(both, 1), alone = fit.Test(one, 0);
+  EXPECT_NEAR(among.p, alone.p, 1e-12 * alone.p);
+  EXPECT_NEAR(among.moves[0], alone.moves[0], 1e-14);
 }
 
 TEST(GrowingFit, HasNothingToAskOfWhatItHolds) {

@@ -18,6 +18,17 @@ FittedModel Warm(const FrictionDescription& friction, const Measurements& m) {
   return model;
 }
 
+/// Each sample by itself.
+Bins Samples(const Measurements& m) {
+  Bins bins;
+  for (Eigen::Index i = 0; i < m.size(); ++i) {
+    bins.begin.push_back(i);
+    bins.end.push_back(i + 1);
+  }
+  bins.weight = Eigen::VectorXd::Ones(m.size());
+  return bins;
+}
+
 Prediction Along(const FrictionDescription& friction, const Measurements& m) {
   return AlongMotion(friction).Predict(CourseOf(m, BristleStart::torque), {});
 }
@@ -37,7 +48,8 @@ TEST(WithHeat, IsTheDerivativeByALevel) {
   below.parameters["coulomb"] -= step;
   const Eigen::VectorXd sign = m.velocity.array().sign().matrix();
   // F is linear in coulomb: what differs is rounding, 1e-16 of 20 N.m over 0.02
-  const Eigen::VectorXd off = WithHeat(Warm(friction, m), m, sign) - Slope(above, below, m, step);
+  const Eigen::VectorXd off =
+      WithHeat<1>(Warm(friction, m), Samples(m), sign, sign) - Slope(above, below, m, step);
   EXPECT_LT(off.lpNorm<Eigen::Infinity>(), 1e-11);
 }
 
@@ -50,15 +62,35 @@ TEST(WithHeat, IsTheDerivativeByASlopeThatWarms) {
   below.viscous_per_energy = -step;
   const Eigen::VectorXd slope = m.velocity.cwiseProduct(Along(friction, m).energy);
   // by the third derivative, of some 10 N.m: step^2 times that
-  const Eigen::VectorXd off = WithHeat(Warm(friction, m), m, slope) - Slope(above, below, m, step);
+  const Eigen::VectorXd off =
+      WithHeat<1>(Warm(friction, m), Samples(m), slope, slope) - Slope(above, below, m, step);
   EXPECT_LT(off.lpNorm<Eigen::Infinity>(), 1e-6);
+}
+
+TEST(WithHeat, IsTheDerivativeByTheLawsParameters) {
+  const FrictionDescription friction = test::TableOne();
+  const Measurements m = test::RecordFriction(friction, 1, test::AlternatingSpeeds(1200, 1), 0, 1);
+  const FittedModel model = Warm(friction, m);
+  const Forces<2> columns = LawColumns(*FindLaw(friction.law), m.velocity);
+  // F is linear in them, wherever they are
+  const Eigen::MatrixXd all = model.loop->Jacobian(Eigen::Vector2d(5, 15), *friction.thermal);
+  const Eigen::MatrixXd off = WithHeat<2>(model, Samples(m), columns, columns) - all.leftCols(2);
+  // 1e-14: the same recursion, of some 10
+  EXPECT_LT(off.cwiseAbs().maxCoeff(), 1e-14);
+  // over bins, their means
+  const Bins holds =
+      MakeBins(m, {Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(m.size(), true), {}});
+  ASSERT_LT(holds.size(), m.size());
+  const Eigen::MatrixXd apart =
+      WithHeat<2>(model, holds, columns, columns) - holds.Means(all.leftCols(2));
+  EXPECT_LT(apart.cwiseAbs().maxCoeff(), 1e-13);
 }
 
 TEST(WithHeat, IsTheForceItselfWhereNothingWarms) {
   const Measurements m =
       test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(100, 1), 0, 1);
   const Eigen::VectorXd force = m.velocity.cwiseAbs2();
-  EXPECT_EQ(WithHeat({}, m, force), force);
+  EXPECT_EQ(WithHeat<1>({}, Samples(m), force, force), force);
 }
 
 }  // namespace
