@@ -1,6 +1,5 @@
 #include "identification/lack_of_fit/orthonormal.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -39,34 +38,42 @@ struct Factor {
 };
 
 /// Where in the order the column stands of which most is left. Of those that are as long up to rounding it is the
-/// first, so that rounding decides nothing. products: [q x q] of what is left
-Index Longest(const MatrixXd& products, const std::vector<Index>& order, Index rank) {
-  const auto left = [&](Index place) {
-    const Index column = order[static_cast<size_t>(place)];
-    return products(column, column);
-  };
+/// first, so that rounding decides nothing. squares: [q] of what is left
+Index Longest(const Eigen::VectorXd& squares, const std::vector<Index>& order, Index rank) {
+  const auto left = [&](Index place) { return squares[order[static_cast<size_t>(place)]]; };
   Index longest = rank;
-  for (Index place = rank + 1; place < products.rows(); ++place) {
+  for (Index place = rank + 1; place < squares.size(); ++place) {
     if (left(place) > left(longest) * (1 + kAsLong)) longest = place;
   }
   return longest;
 }
 
+/// The factor of q columns none of which has joined.
+Factor Unfactored(Index q) {
+  Factor factor{MatrixXd::Zero(q, q), std::vector<Index>(static_cast<size_t>(q)), 0, 1};
+  std::iota(factor.order.begin(), factor.order.end(), Index{0});
+  return factor;
+}
+
+/// Lets the column at a place of the order join next.
+void LetJoin(Index at, Factor& factor) {
+  factor.root.col(at).swap(factor.root.col(factor.rank));
+  std::swap(factor.order[static_cast<size_t>(factor.rank)], factor.order[static_cast<size_t>(at)]);
+}
+
 /// products: [q x q] of the columns
 Factor FactorOf(MatrixXd products, Index most, double distinct) {
   const Index q = products.rows();
-  Factor factor{MatrixXd::Zero(q, q), std::vector<Index>(static_cast<size_t>(q)), 0, 1};
+  Factor factor = Unfactored(q);
   auto& [root, order, rank, least] = factor;
-  std::iota(order.begin(), order.end(), Index{0});
   for (; rank < most; ++rank) {
     // the column of which most is left, while that stands out
-    const Index at = Longest(products, order, rank);
+    const Index at = Longest(products.diagonal(), order, rank);
     const Index pivot = order[static_cast<size_t>(at)];
     const double square = products(pivot, pivot);
     if (!(square > distinct * distinct)) break;
     least = square;
-    root.col(at).swap(root.col(rank));
-    std::swap(order[static_cast<size_t>(rank)], order[static_cast<size_t>(at)]);
+    LetJoin(at, factor);
 
     // its row of R, and what the others have beside it
     const double norm = std::sqrt(square);
@@ -105,22 +112,34 @@ MatrixXd HeldOf(const Factor& factor) {
   return held;
 }
 
-/// By Householder's method, which tells columns apart that differ by as little as rounding.
-Basis ByHouseholder(const MatrixXd& columns, double distinct) {
-  const Eigen::ColPivHouseholderQR<MatrixXd> qr(columns);
-  // as many columns count as stand out beside those before them
+/// By Gram's and Schmidt's method, each column freed once more of all before it as it joins, which tells columns apart
+/// that differ by as little as rounding.
+Basis ByTakingOff(const MatrixXd& columns, double distinct) {
   const Index q = columns.cols(), most = std::min(columns.rows(), q);
-  const Index rank = (qr.matrixQR().diagonal().head(most).array().abs() > distinct).count();
-  if (rank == 0) return {MatrixXd(columns.rows(), 0), MatrixXd(q, 0), MatrixXd(0, q)};
-  // Q, the mix of columns that makes it, R^-1 with their order turned back, and R, which makes them of it
-  Basis result;
-  result.basis = qr.householderQ() * MatrixXd::Identity(columns.rows(), rank);
-  MatrixXd inverse = MatrixXd::Zero(q, rank);
-  inverse.topRows(rank) = InverseOf(qr.matrixQR(), rank);
-  result.mix = qr.colsPermutation() * inverse;
-  const MatrixXd root = qr.matrixQR().topRows(rank).triangularView<Eigen::Upper>();
-  result.held = root * qr.colsPermutation().transpose();
-  return result;
+  Factor factor = Unfactored(q);
+  auto& [root, order, rank, least] = factor;
+  MatrixXd left = columns, basis(columns.rows(), most);
+  for (; rank < most; ++rank) {
+    // the column of which most is left, while that stands out
+    const Index at = Longest(left.colwise().squaredNorm().transpose(), order, rank);
+    const Index pivot = order[static_cast<size_t>(at)];
+    LetJoin(at, factor);
+    const Eigen::VectorXd again = basis.leftCols(rank).transpose() * left.col(pivot);
+    left.col(pivot) -= basis.leftCols(rank) * again;
+    root.col(rank).head(rank) += again;
+    const double norm = left.col(pivot).norm();
+    if (!(norm > distinct)) break;
+    root(rank, rank) = norm;
+    basis.col(rank) = left.col(pivot) / norm;
+
+    // what the others share with it is taken off them
+    for (Index j = rank + 1; j < q; ++j) {
+      auto other = left.col(order[static_cast<size_t>(j)]);
+      root(rank, j) = basis.col(rank).dot(other);
+      other -= root(rank, j) * basis.col(rank);
+    }
+  }
+  return {basis.leftCols(rank), MixOf(factor), HeldOf(factor)};
 }
 
 /// From the products of columns. factor: of those
@@ -148,7 +167,7 @@ Basis Orthonormal(const MatrixXd& columns, double distinct) {
   const bool told =
       factor.least > kSeenByProducts && (distinct * distinct > kSeenByProducts ||
                                          factor.rank == std::min(columns.cols(), columns.rows()));
-  if (!told) return ByHouseholder(columns, distinct);
+  if (!told) return ByTakingOff(columns, distinct);
   Basis result = ByProducts(columns, factor);
   if (factor.least > kSureByProducts) return result;
   // short columns leave a basis that is orthonormal nearly: once more makes it so to rounding

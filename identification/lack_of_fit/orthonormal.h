@@ -15,7 +15,8 @@ struct Basis {
 
 /// A column joins while what it has beside those before it is longer than `distinct`, the longest first. From the
 /// products of the columns by Cholesky's method with pivots (Golub and Van Loan, Matrix Computations, 4.2.8), orthonormal
-/// to 1e-10; where columns are so alike that products lose that, by Householder's (5.4), a fifth as fast.
+/// to 1e-10; where columns are so alike that products lose that, by Gram's and Schmidt's (5.2.8), which takes each off twice. Of
+/// columns that are as long up to rounding the first joins.
 /// columns: [m x q] of norm 1 at most.
 Basis Orthonormal(const Eigen::MatrixXd& columns, double distinct);
 

@@ -90,5 +90,22 @@ TEST(Orthonormal, ChoosesAlikeWhateverRoundingDoes) {
   EXPECT_LT((mix - other).lpNorm<Eigen::Infinity>(), 1e-10 * mix.lpNorm<Eigen::Infinity>());
 }
 
+TEST(Orthonormal, LeavesOutTheLastOfThoseThatDependOnEachOther) {
+  // three of norm 1 in one plane, whose sum is 0: beside the first the others are as long
+  MatrixXd columns = Columns(300, 3, 1, 6);
+  const Eigen::VectorXd first = columns.col(0);
+  const Eigen::VectorXd beside =
+      (columns.col(1) - first.dot(columns.col(1)) * first).normalized() * std::sqrt(0.75);
+  columns.col(1) = -0.5 * first + beside;
+  columns.col(2) = -0.5 * first - beside;
+  for (const double longer : {1 - 1e-14, 1.0, 1 + 1e-14}) {
+    const Basis basis = Orthonormal(columns * Eigen::RowVector3d(1, 1, longer).asDiagonal(), 1e-9);
+    ASSERT_EQ(basis.mix.cols(), 2);
+    EXPECT_EQ(basis.mix.row(2).norm(), 0) << longer;
+    // the plane's other column by the two that joined: 1e-13 for rounding of 300 rows
+    EXPECT_LT((basis.basis * basis.held - columns).colwise().norm().maxCoeff(), 1e-13) << longer;
+  }
+}
+
 }  // namespace
 }  // namespace warmjoint
