@@ -46,11 +46,9 @@ VectorXd SquaresOf(const Bins& bins, const VectorXd& left, double sign, const Fr
   return WaveProducts(left(rows), bins.time(rows), cycles).rowwise().squaredNorm();
 }
 
-/// How many cycles over the log explain most of what is left if they cover it evenly.
-double StrongestCycles(const Bins& bins, const GrowingFit& fit, double most) {
+/// How many of some cycles over the log explain most of what is left if they cover it evenly.
+double StrongestCycles(const Bins& bins, const GrowingFit& fit, const Frequencies& cycles) {
   const VectorXd left = bins.weight.cwiseProduct(fit.Left());
-  const auto count = static_cast<Index>((most - kFewestCycles) / kCyclesApart) + 1;
-  const Frequencies cycles{kFewestCycles, kCyclesApart, count};
   // as a force in one direction and as one against the motion: sum and difference of the directions, whose squares add
   // up to twice those of both
   const VectorXd explained = SquaresOf(bins, left, 1, cycles) + SquaresOf(bins, left, -1, cycles);
@@ -169,9 +167,9 @@ Features OfPeriod(const Bins& bins, const Circumstances& known, const GrowingFit
   const double most = std::min(static_cast<double>(bins.size()) / kBinsACycle,
                                known.hold > 0 ? known.duration / known.hold : kInfinity);
   if (most < kFewestCycles) return {MatrixXd(bins.size(), 0)};
-  const double cycles = StrongestCycles(bins, fit, most);
-  const auto candidates = static_cast<int>(2 * (most - kFewestCycles)) + 1;
-  return {BothWays(bins, Waves(2 * kPi * cycles * bins.time.array())), candidates,
+  const auto count = static_cast<Index>((most - kFewestCycles) / kCyclesApart) + 1;
+  const double cycles = StrongestCycles(bins, fit, {kFewestCycles, kCyclesApart, count});
+  return {BothWays(bins, Waves(2 * kPi * cycles * bins.time.array())), static_cast<int>(count),
           known.duration / cycles};
 }
 
