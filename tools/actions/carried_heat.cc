@@ -14,6 +14,7 @@
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "models/friction/thermal.h"
+#include "tools/actions/read_member.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -145,8 +146,8 @@ nlohmann::json CarriedHeatToJson(const CarriedHeat& carried) {
 }
 
 CarriedHeat CarriedHeatFromJson(const nlohmann::json& json, const Place& place) {
-  CarriedHeat carried;
-  try {
+  return ReadMember("follows", place, "", [&] {
+    CarriedHeat carried;
     json.at("file").get_to(carried.file);
     json.at("pause").get_to(carried.pause);
     json.at("pause_from").get_to(carried.pause_from);
@@ -158,10 +159,8 @@ CarriedHeat CarriedHeatFromJson(const nlohmann::json& json, const Place& place) 
       carried.energy.push_back(one.at("value"));
       carried.std.push_back(one.at("std"));
     }
-  } catch (const nlohmann::json::exception& error) {
-    Refuse(place, "its member `follows` cannot be read ({})", error.what());
-  }
-  return carried;
+    return carried;
+  });
 }
 
 }  // namespace warmjoint::inline tools

@@ -124,16 +124,13 @@ nlohmann::json ProjectToJson(const Project& project) {
 Project ProjectFromJson(const nlohmann::json& json) {
   Project project;
   // what the file did not say stays empty
-  const auto take = [&](const char* name, auto& member) {
-    if (json.contains(name)) member = json[name].get<std::decay_t<decltype(member)>>();
-  };
+  project.map = json.value("map", project.map);
+  project.unit = json.value("unit", project.unit);
+  project.scale = json.value("scale", project.scale);
+  if (json.contains("joint")) project.joint = json["joint"].get<std::string>();
   const auto number = [&](const char* name, std::optional<double>& member) {
     if (json.contains(name)) member = json[name].get<double>();
   };
-  take("map", project.map);
-  take("unit", project.unit);
-  take("scale", project.scale);
-  if (json.contains("joint")) project.joint = json["joint"].get<std::string>();
   number("gear", project.gear);
   number("wrap", project.wrap);
   number("trim", project.trim);

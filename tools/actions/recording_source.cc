@@ -11,6 +11,7 @@
 #include "models/foundation/excerpt.h"
 #include "models/recording/join_recordings.h"
 #include "models/recording/read_recording.h"
+#include "tools/actions/read_member.h"
 
 namespace warmjoint::inline tools {
 namespace fs = std::filesystem;
@@ -123,30 +124,27 @@ nlohmann::json TakenProjectToJson(const TakenProject& project, const fs::path& e
 }
 
 TakenProject TakenProjectFromJson(const nlohmann::json& json, const Place& place) {
-  try {
-    return {Found(json.at("file").get<std::string>(), place.file),
-            ProjectFromJson(json.at("values"))};
-  } catch (const nlohmann::json::exception& error) {
-    Refuse(place, "its member `project` cannot be read ({})", error.what());
-  }
+  return ReadMember("project", place, "", [&] {
+    return TakenProject{Found(json.at("file").get<std::string>(), place.file),
+                        ProjectFromJson(json.at("values"))};
+  });
 }
 
 RecordingArguments RecordingFromJson(const nlohmann::json& json, const Place& place) {
-  RecordingArguments arguments;
-  try {
-    json.at("files").get_to(arguments.recordings);
-    json.at("map").get_to(arguments.map);
-    json.at("unit").get_to(arguments.unit);
-    json.at("joint").get_to(arguments.joint);
-    json.at("gear").get_to(arguments.gear);
+  RecordingArguments arguments = ReadMember("recording", place, ": give --recording", [&] {
+    RecordingArguments read;
+    json.at("files").get_to(read.recordings);
+    json.at("map").get_to(read.map);
+    json.at("unit").get_to(read.unit);
+    json.at("joint").get_to(read.joint);
+    json.at("gear").get_to(read.gear);
     // what is rarely asked for may be absent
-    arguments.scale = json.value("scale", arguments.scale);
-    arguments.wrap = json.value("wrap", 0.0);
-    arguments.torque_constant = json.value("torque_constant", 0.0);
-    arguments.holds = {json.value("trim", 0.0), json.value("shortest_hold", 0.0)};
-  } catch (const nlohmann::json::exception& error) {
-    Refuse(place, "its member `recording` cannot be read ({}): give --recording", error.what());
-  }
+    read.scale = json.value("scale", read.scale);
+    read.wrap = json.value("wrap", 0.0);
+    read.torque_constant = json.value("torque_constant", 0.0);
+    read.holds = {json.value("trim", 0.0), json.value("shortest_hold", 0.0)};
+    return read;
+  });
   // files are named as they are seen from the estimate
   for (std::string& file : arguments.recordings) {
     if (IsStandardInput(file)) {
