@@ -32,7 +32,7 @@ MatrixXd Signed(const Bins& bins, const MatrixXd& columns) {
 /// Columns and the same times s.
 MatrixXd BothWays(const Bins& bins, const MatrixXd& columns) {
   MatrixXd both(columns.rows(), 2 * columns.cols());
-  both << columns, SignOf(bins).matrix().asDiagonal() * columns;
+  both << columns, Signed(bins, columns);
   return both;
 }
 
@@ -54,7 +54,7 @@ double StrongestCycles(const Bins& bins, const GrowingFit& fit, const Frequencie
   const VectorXd explained = SquaresOf(bins, left, 1, cycles) + SquaresOf(bins, left, -1, cycles);
   Index strongest = 0;
   explained.maxCoeff(&strongest);
-  return kFewestCycles + kCyclesApart * static_cast<double>(strongest);
+  return cycles.first + cycles.step * static_cast<double>(strongest);
 }
 
 }  // namespace

@@ -6,9 +6,8 @@
 namespace warmjoint::inline identification {
 
 /// |sum over n of x[n] exp(-2 pi i k n / length)|^2 of two real sequences, as the real and the imaginary part of one
-/// transform by Stockham's method (Van Loan, Computational Frameworks for the Fast Fourier Transform, 1.7), four at a
-/// time. columns: [n x 2], n <= length: zeros follow; length: a power of 2; returns [(last + 1) x 2] for k = 0 to
-/// last < length.
+/// transform. columns: [n x 2], n <= length: zeros follow; length: best a power of 2; returns [(last + 1) x 2] for
+/// k = 0 to last < length.
 Eigen::MatrixXd PowerSpectra(const Eigen::MatrixXd& columns, Eigen::Index length,
                              Eigen::Index last);
 
