@@ -20,20 +20,6 @@ std::optional<std::string> NotFinite(const char* name, const Eigen::VectorXd& va
 
 }  // namespace
 
-Eigen::MatrixXd Kept(const Eigen::MatrixXd& all, const Selection& selection) {
-  const Eigen::Index count = selection.count();
-  if (count == all.rows()) return all;
-
-  Eigen::MatrixXd kept(count, all.cols());
-  for (Eigen::Index column = 0; column < all.cols(); ++column) {
-    Eigen::Index row = 0;
-    for (Eigen::Index i = 0; i < all.rows(); ++i) {
-      if (selection.keep[i]) kept(row++, column) = all(i, column);
-    }
-  }
-  return kept;
-}
-
 std::optional<std::string> Unusable(const IdentifierInput& input, int parameters) {
   // what every fit uses must be finite
   const Measurements& m = input.measurements;

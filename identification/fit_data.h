@@ -12,7 +12,21 @@
 namespace warmjoint::inline identification {
 
 /// The rows of `all` that the selection keeps. all: [N] or [N x d]; returns [n] or [n x d].
-Eigen::MatrixXd Kept(const Eigen::MatrixXd& all, const Selection& selection);
+template <typename Columns>
+typename Columns::PlainObject Kept(const Eigen::MatrixBase<Columns>& all,
+                                   const Selection& selection) {
+  const Eigen::Index count = selection.count();
+  if (count == all.rows()) return all;
+
+  typename Columns::PlainObject kept(count, all.cols());
+  for (Eigen::Index column = 0; column < all.cols(); ++column) {
+    Eigen::Index row = 0;
+    for (Eigen::Index i = 0; i < all.rows(); ++i) {
+      if (selection.keep[i]) kept(row++, column) = all(i, column);
+    }
+  }
+  return kept;
+}
 
 /// Why nothing can be fitted to these data: a number that is not finite, too few kept samples for
 /// `parameters`, or a constant torque. Empty where the data can be used.

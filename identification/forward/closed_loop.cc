@@ -34,8 +34,12 @@ ClosedLoop::ClosedLoop(const Eigen::VectorXd& time, const Eigen::VectorXd& veloc
 /// Columns times the direction of motion, a sample after the other. [N x d]
 ClosedLoop::Rows ClosedLoop::Signed(const Eigen::MatrixXd& columns) const {
   Rows rows(columns.rows(), columns.cols());
-  for (Eigen::Index n = 0; n < rows.rows(); ++n) {
-    for (Eigen::Index i = 0; i < rows.cols(); ++i) rows(n, i) = direction_[n] * columns(n, i);
+  for (Eigen::Index i = 0; i < rows.cols(); ++i) {
+    // a column after the other, as they lie
+    const double* column = columns.col(i).data();
+    double* to = rows.data() + i;
+    for (Eigen::Index n = 0; n < rows.rows(); ++n, to += rows.cols())
+      *to = direction_[n] * column[n];
   }
   return rows;
 }

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <utility>
 #include <vector>
 
+#include "models/foundation/four.h"
 #include "models/friction/thermal.h"
 
 namespace warmjoint::inline identification {
@@ -40,10 +40,10 @@ class ThermalFilter {
   Eigen::VectorXd Energy(const Thermal& thermal, const Eigen::VectorXd& loss,
                          double initial = 0) const;
 
-  /// Calls visit(i, E) for each sample i with E at unit gain for several time constants, s: E [1 x C].
-  template <std::size_t C, typename Visit>
-  void ForEach(const std::array<double, C>& time_constants, const Eigen::VectorXd& loss,
-               double initial, Visit visit) const;
+  /// E at unit gain for 4 F time constants, s, from E(0) = initial: a function of sample n that writes them, to be called for
+  /// one sample after the other from the first on. It refers to the filter and to the loss.
+  template <std::size_t F>
+  auto Together(const Fours<F>& time_constants, const Eigen::VectorXd& loss, double initial) const;
 
   /// The transpose of that linear map, from weights of E to weights of the loss: u . Energy(W) =
   /// Transposed(u) . W. Runs back in time, l[i] = u[i] + te l[i+1], and gives gain (1 - te) l[i+1].
@@ -68,30 +68,33 @@ class ThermalFilter {
   bool even_ = false;
 };
 
-template <std::size_t C, typename Visit>
-void ThermalFilter::ForEach(const std::array<double, C>& time_constants,
-                            const Eigen::VectorXd& loss, double initial, Visit visit) const {
-  using Row = Eigen::Matrix<double, 1, static_cast<int>(C)>;
-  Row energies = Row::Constant(initial), poles, coolings;
-  const auto hold_over = [&](double step) {
-    for (std::size_t k = 0; k < C; ++k) {
-      const ThermalHold<> hold = HoldOver(step, time_constants[k]);
-      poles[static_cast<Eigen::Index>(k)] = hold.pole;
-      coolings[static_cast<Eigen::Index>(k)] = hold.cooling;
+template <std::size_t F>
+inline auto ThermalFilter::Together(const Fours<F>& time_constants, const Eigen::VectorXd& loss,
+                                    double initial) const {
+  // the hold of an even log is the same for all steps
+  Fours<F> energies, poles, coolings;
+  for (Four& four : energies) four = Four{initial, initial, initial, initial};
+  const auto hold_over = [time_constants](double step, Fours<F>& pole, Fours<F>& cooling) {
+    for (std::size_t k = 0; k < F; ++k) {
+      for (int i = 0; i < 4; ++i) {
+        const ThermalHold<> hold = HoldOver(step, time_constants[k][i]);
+        pole[k][i] = hold.pole;
+        cooling[k][i] = hold.cooling;
+      }
     }
   };
-  visit(Eigen::Index{0}, energies);
-
-  // all of them a sample further, so that none waits for its own sample before
-  hold_over(mean_step_);
-  size_t next = 0;
-  for (Eigen::Index i = 0; i < steps_.size(); ++i) {
-    if (!even_) hold_over(steps_[i]);
-    energies = poles.cwiseProduct(energies) + coolings * loss[i];
+  hold_over(mean_step_, poles, coolings);
+  return [this, &loss, hold_over, energies, poles, coolings, next = size_t{0}](
+             Eigen::Index n, Fours<F>& now) mutable {
+    now = energies;
+    if (n + 1 == size()) return;
+    // all of them a sample further, so that none waits for its own sample before
+    if (!even_) hold_over(steps_[n], poles, coolings);
+    for (std::size_t k = 0; k < F; ++k)
+      energies[k] = poles[k] * energies[k] + coolings[k] * loss[n];
     // another recording starts cold
-    if (Starts(i + 1, next)) energies.setZero();
-    visit(i + 1, energies);
-  }
+    if (Starts(n + 1, next)) energies = {};
+  };
 }
 
 template <typename Visit>

@@ -5,12 +5,39 @@
 
 #include "identification/lack_of_fit/column_products.h"
 #include "identification/lack_of_fit/orthonormal.h"
+#include "models/foundation/four.h"
 
 namespace warmjoint::inline identification {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+namespace {
+
+/// Values times their roots; returns the sum of their squares. All [m].
+WARMJOINT_FOR_EACH_PROCESSOR
+double WriteWeighed(const double* values, const double* roots, Index m, double* to) {
+  // four rows at a time, and those that are left
+  Four squares = {};
+  Index i = 0;
+  for (; i + 4 <= m; i += 4) {
+    Four value, root;
+    Load(values + i, value);
+    Load(roots + i, root);
+    const Four weighed = value * root;
+    Store(weighed, to + i);
+    squares += weighed * weighed;
+  }
+  double sum = (squares[0] + squares[1]) + (squares[2] + squares[3]);
+  for (; i < m; ++i) {
+    to[i] = values[i] * roots[i];
+    sum += to[i] * to[i];
+  }
+  return sum;
+}
+
+}  // namespace
 
 AskedFeatures::AskedFeatures(const VectorXd& residual, const MatrixXd& basis,
                              const std::vector<Features>& features, const VectorXd& roots,
@@ -29,15 +56,8 @@ AskedFeatures::AskedFeatures(const VectorXd& residual, const MatrixXd& basis,
     WriteNormed(features[i].columns, roots, table_.middleCols(places_[i].first, places_[i].count));
   }
 
-  // its products, a part after the other
-  by_part_.resize(static_cast<Index>(ends.size()), c * c);
-  Index begin = 0;
-  for (Index part = 0; part < by_part_.rows(); ++part) {
-    const Index end = ends[static_cast<size_t>(part)];
-    ForEachProduct(table_, begin, end,
-                   [&](Index i, Index j, double product) { by_part_(part, i * c + j) = product; });
-    begin = end;
-  }
+  // its products in each part
+  by_part_ = ProductsByPart(table_, ends);
 
   // and over all of them
   products_.resize(c, c);
@@ -106,9 +126,9 @@ Eigen::RowVectorXd WriteNormed(const MatrixXd& columns, const VectorXd& roots,
                                Eigen::Ref<MatrixXd> to) {
   Eigen::RowVectorXd norms(columns.cols());
   for (Index i = 0; i < columns.cols(); ++i) {
-    const auto weighed = roots.cwiseProduct(columns.col(i));
-    norms[i] = weighed.norm();
-    to.col(i) = weighed * (norms[i] > 0 ? 1 / norms[i] : 1);
+    norms[i] = std::sqrt(
+        WriteWeighed(columns.col(i).data(), roots.data(), roots.size(), to.col(i).data()));
+    if (norms[i] > 0) to.col(i) *= 1 / norms[i];
   }
   return norms;
 }

@@ -13,71 +13,30 @@ constexpr double kOneSpeed = 0.02;  // relative
 constexpr Index kInHold = 8;        // bins within a segment
 constexpr Index kInHolds = 8000;    // bins within all of them, but two in each at least
 
-/// The segment that each sample belongs to, -1 for none; empty where no segments are known. [N]
-Eigen::ArrayXi SegmentOf(Index samples, const Selection& selection) {
-  if (selection.segments.empty()) return {};
-  Eigen::ArrayXi segment = Eigen::ArrayXi::Constant(samples, -1);
-  for (size_t s = 0; s < selection.segments.size(); ++s) {
-    const Segment& one = selection.segments[s];
-    segment.segment(one.begin, one.end - one.begin) = static_cast<int>(s);
-  }
-  return segment;
+/// A stretch of samples that belong to one segment, or to none, as the selection knows them.
+struct Stretch {
+  Index end = 0;       // one past its last sample
+  Index segment = -1;  // -1: none
+};
+
+/// The stretch that a sample lies in. next: segments that end before it; counts on.
+Stretch StretchAt(Index sample, Index samples, const std::vector<Segment>& segments, Index& next) {
+  const auto count = static_cast<Index>(segments.size());
+  const auto at = [&](Index i) -> const Segment& { return segments[static_cast<size_t>(i)]; };
+  while (next < count && at(next).end <= sample) ++next;
+  if (next == count) return {samples, -1};
+  if (sample < at(next).begin) return {at(next).begin, -1};
+  return {at(next).end, next};
 }
 
-/// Where each bin stands in its segment. segment: [N]
-void Place(const Eigen::ArrayXi& segment, const Selection& selection, Bins& bins) {
-  bins.hold.resize(bins.size());
-  bins.phase.resize(bins.size());
-  for (Index c = 0; c < bins.size(); ++c) {
-    const auto i = static_cast<size_t>(c);
-    const int index = segment[bins.begin[i]];
-    bins.hold[c] = index;
-    const Segment& one = selection.segments[static_cast<size_t>(std::max(index, 0))];
-    const double middle = 0.5 * static_cast<double>(bins.begin[i] + bins.end[i]);
-    bins.phase[c] =
-        (middle - static_cast<double>(one.begin)) / static_cast<double>(one.end - one.begin);
-  }
+/// Where the samples of a bin of a segment stand in it, from 0 to 1.
+double PhaseOf(Index begin, Index end, const Segment& one) {
+  const double middle = 0.5 * static_cast<double>(begin + end);
+  return (middle - static_cast<double>(one.begin)) / static_cast<double>(one.end - one.begin);
 }
 
-/// Neighbours that belong together, as many of them as `parts` of a segment leave, and no more than a 400th
-/// of all. parts: 1 or more.
-Bins Gather(const Measurements& measurements, const Selection& selection, Index parts) {
-  const Eigen::VectorXd& v = measurements.velocity;
-  const Eigen::ArrayXi segment = SegmentOf(v.size(), selection);
-  const Index share = 1 + selection.count() / kBins;
-  // the most samples of a bin: its share of all, and of its segment where one is known
-  const auto most = [&](Index first) {
-    if (segment.size() == 0 || segment[first] < 0) return share;
-    const Segment& one = selection.segments[static_cast<size_t>(segment[first])];
-    return std::min(share, (one.end - one.begin + parts - 1) / parts);
-  };
-  // samples of one segment are alike, else those of one direction or at about one speed
-  const auto together = [&](Index first, Index other) {
-    if (segment.size() > 0) return segment[first] == segment[other];
-    if (measurements.acceleration) return v[first] * v[other] > 0;
-    return std::abs(v[other] - v[first]) <= kOneSpeed * std::abs(v[first]);
-  };
-
-  // each kept sample joins the bin before it or begins one of its own
-  Bins bins;
-  bins.begin.reserve(static_cast<size_t>(v.size()));
-  bins.end.reserve(static_cast<size_t>(v.size()));
-  Index first = -1, end = -1, longest = 0;  // of the present bin
-  for (Index i = 0; i < v.size(); ++i) {
-    if (!selection.keep[i]) continue;
-    if (end == i && i - first < longest && together(first, i)) {
-      end = i + 1;
-      continue;
-    }
-    if (first >= 0) bins.end.push_back(end);
-    bins.begin.push_back(i);
-    first = i;
-    end = i + 1;
-    longest = most(i);
-  }
-  if (first >= 0) bins.end.push_back(end);
-
-  // where they stand
+/// What bins know besides their samples.
+void Describe(const Measurements& measurements, Bins& bins) {
   const auto m = static_cast<Index>(bins.begin.size());
   const Eigen::VectorXd& t = measurements.time;
   const double duration = t[t.size() - 1] - t[0];
@@ -88,8 +47,56 @@ Bins Gather(const Measurements& measurements, const Selection& selection, Index 
     bins.weight[c] = static_cast<double>(bins.end[i] - bins.begin[i]);
     bins.time[c] = (0.5 * (t[bins.begin[i]] + t[bins.end[i] - 1]) - t[0]) / duration;
   }
-  bins.velocity = bins.Means(v);
-  if (segment.size() > 0) Place(segment, selection, bins);
+  bins.velocity = bins.Means(measurements.velocity);
+}
+
+/// Neighbours that belong together, as many of them as `parts` of a segment leave, and no more than a 400th
+/// of all. parts: 1 or more.
+Bins Gather(const Measurements& measurements, const Selection& selection, Index parts) {
+  const Eigen::VectorXd& v = measurements.velocity;
+  const std::vector<Segment>& segments = selection.segments;
+  const Index share = 1 + selection.count() / kBins;
+  // where no segments are known, samples of one direction, or at about one speed, are alike
+  const auto alike = [&](Index first, Index other) {
+    if (measurements.acceleration) return v[first] * v[other] > 0;
+    return std::abs(v[other] - v[first]) <= kOneSpeed * std::abs(v[first]);
+  };
+
+  // each kept sample begins a bin, which those behind it join as long as they belong to it
+  Bins bins;
+  bins.begin.reserve(static_cast<size_t>(v.size()));
+  bins.end.reserve(static_cast<size_t>(v.size()));
+  std::vector<double> holds, phases;
+  const bool* keep = selection.keep.data();
+  Index next = 0;
+  for (Index i = 0; i < v.size();) {
+    if (!keep[i]) {
+      ++i;
+      continue;
+    }
+    // at most its share of all samples, and of its segment
+    const Index first = i;
+    const auto [end, index] = StretchAt(first, v.size(), segments, next);
+    const Segment& one =
+        segments.empty() ? Segment{} : segments[static_cast<size_t>(std::max(index, Index{0}))];
+    const Index most =
+        index < 0 ? share : std::min(share, (one.end - one.begin + parts - 1) / parts);
+    const Index last = std::min(first + most, end);
+    ++i;
+    if (segments.empty()) {
+      while (i < last && keep[i] && alike(first, i)) ++i;
+    } else {
+      while (i < last && keep[i]) ++i;
+    }
+    bins.begin.push_back(first);
+    bins.end.push_back(i);
+    if (segments.empty()) continue;
+    holds.push_back(static_cast<double>(index));
+    phases.push_back(PhaseOf(first, i, one));
+  }
+  bins.hold = Eigen::Map<const Eigen::VectorXd>(holds.data(), static_cast<Index>(holds.size()));
+  bins.phase = Eigen::Map<const Eigen::VectorXd>(phases.data(), static_cast<Index>(phases.size()));
+  Describe(measurements, bins);
   return bins;
 }
 
@@ -101,11 +108,19 @@ void WriteMeans(const Bins& bins, const Eigen::Ref<const Eigen::MatrixXd>& all, 
   const double* values = all.data() + column * stride;
   for (Index c = 0; c < bins.size(); ++c) {
     const Index begin = bins.begin[static_cast<size_t>(c)], end = bins.end[static_cast<size_t>(c)];
-    double sums[C] = {};
-    for (Index n = begin; n < end; ++n) {
-      for (int k = 0; k < C; ++k) sums[k] += values[n + k * stride];
+    // two rows at a time
+    double sums[C] = {}, others[C] = {};
+    Index n = begin;
+    for (; n + 1 < end; n += 2) {
+      for (int k = 0; k < C; ++k) {
+        sums[k] += values[n + k * stride];
+        others[k] += values[n + 1 + k * stride];
+      }
     }
-    for (int k = 0; k < C; ++k) means(c, column + k) = sums[k] / static_cast<double>(end - begin);
+    for (int k = 0; k < C; ++k) {
+      if (n < end) sums[k] += values[n + k * stride];
+      means(c, column + k) = (sums[k] + others[k]) / static_cast<double>(end - begin);
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "models/foundation/four.h"
 #include "models/recording/measurements.h"
 #include "models/recording/selection.h"
 
@@ -26,35 +27,33 @@ struct Bins {
   Eigen::MatrixXd Means(const Eigen::Ref<const Eigen::MatrixXd>& all) const;
 };
 
-/// Means over bins of rows that are made one after the other, a sample at a time from the first on. C: columns,
-/// known so that a row stays in registers.
-template <int C>
-class BinMeans {
- public:
-  using Row = Eigen::Matrix<double, 1, C>;
-
-  explicit BinMeans(const Bins& bins) : bins_(bins), means_(bins.size(), C) {}
-
-  /// row: of sample n; looked at where a bin holds the sample
-  void Add(Eigen::Index n, const Row& row) {
-    if (bin_ == bins_.begin.size() || n < bins_.begin[bin_]) return;
-    sums_ += row;
-    if (n + 1 < bins_.end[bin_]) return;
-    means_.row(static_cast<Eigen::Index>(bin_)) =
-        sums_ / static_cast<double>(bins_.end[bin_] - bins_.begin[bin_]);
-    sums_.setZero();
-    ++bin_;
+/// Means over each bin of rows that are made one after the other: row(n, numbers) makes that of sample n and is called for
+/// each sample from the first on. Returns [m x 4 F]. Part of a function for each processor (four.h).
+template <std::size_t F, typename MakeRow>
+inline Eigen::MatrixXd MeansOfRows(const Bins& bins, MakeRow&& row) {
+  Eigen::MatrixXd means(bins.size(), 4 * F);
+  Eigen::Index n = 0;
+  for (Eigen::Index stretch = 0; stretch < 2 * bins.size(); ++stretch) {
+    // the samples before a bin, and then its own
+    const auto bin = static_cast<std::size_t>(stretch / 2);
+    const bool own = stretch % 2 == 1;
+    const Eigen::Index first = n, end = own ? bins.end[bin] : bins.begin[bin];
+    Fours<F> sums{};
+    for (; n < end; ++n) {
+      Fours<F> numbers;
+      row(n, numbers);
+      for (std::size_t k = 0; k < F; ++k) sums[k] += numbers[k];
+    }
+    if (!own) continue;
+    const auto count = static_cast<double>(end - first);
+    for (std::size_t k = 0; k < F; ++k) {
+      for (Eigen::Index i = 0; i < 4; ++i) {
+        means(stretch / 2, 4 * static_cast<Eigen::Index>(k) + i) = sums[k][i] / count;
+      }
+    }
   }
-
-  /// Once all samples were added. [m x C]
-  const Eigen::MatrixXd& means() const { return means_; }
-
- private:
-  const Bins& bins_;
-  size_t bin_ = 0;
-  Row sums_ = Row::Zero();
-  Eigen::MatrixXd means_;
-};
+  return means;
+}
 
 Bins MakeBins(const Measurements& measurements, const Selection& selection);
 

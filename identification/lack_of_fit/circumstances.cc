@@ -15,16 +15,21 @@ namespace {
 
 constexpr int kMemories = 6;  // time constants that are tried
 
-/// Means over bins of the measured losses filtered with three time constants that span those of a recording. [m x 3]
+/// Means over bins of what filters make of a loss. [m x 4 F]
+template <std::size_t F>
+inline Eigen::MatrixXd Filtered(const ThermalFilter& filter, const Fours<F>& times,
+                                const Eigen::VectorXd& loss, double initial, const Bins& bins) {
+  return MeansOfRows<F>(bins, filter.Together(times, loss, initial));
+}
+
+/// The measured losses filtered with three time constants that span those of a recording. [m x 3]
+WARMJOINT_FOR_EACH_PROCESSOR
 Eigen::MatrixXd Energies(const FittedModel& model, const Measurements& m, const Bins& bins,
                          const ThermalFilter& filter) {
   const double duration = m.time[m.size() - 1] - m.time[0];
   const Eigen::VectorXd loss = model.torque.cwiseProduct(m.velocity).cwiseAbs();
-  const std::array times{duration / 40, duration / 12, duration / 3};
-  BinMeans<times.size()> means(bins);
-  filter.ForEach(times, loss, 0,
-                 [&](Eigen::Index n, const auto& energies) { means.Add(n, energies); });
-  return means.means();
+  const Fours<1> times{Four{duration / 40, duration / 12, duration / 3, duration}};
+  return Filtered(filter, times, loss, 0, bins).leftCols(3);
 }
 
 /// Median duration of the segments; 0 where there are none.
@@ -49,16 +54,34 @@ std::vector<double> MemoryTimes(double hold, double duration) {
 }
 
 /// Means over bins of |v| behind filters of first order, which begin at the first speed, less |v|. [m x times]
+WARMJOINT_FOR_EACH_PROCESSOR
 Eigen::MatrixXd LateSpeeds(const Measurements& m, const std::vector<double>& times,
                            const Bins& bins, const ThermalFilter& filter) {
   if (times.empty()) return Eigen::MatrixXd(bins.size(), 0);
   const Eigen::VectorXd speed = m.velocity.cwiseAbs();
-  std::array<double, kMemories> all;
-  std::ranges::copy(times, all.begin());
-  BinMeans<kMemories> means(bins);
-  filter.ForEach(all, speed, speed[0],
-                 [&](Eigen::Index n, const auto& late) { means.Add(n, late); });
-  return means.means().colwise() - bins.Means(speed).col(0);
+  static_assert(kMemories <= 8);
+  Fours<2> all;
+  for (int i = 0; i < 8; ++i) all[i / 4][i % 4] = times[std::min(i, kMemories - 1)];
+  const Eigen::MatrixXd late = Filtered(filter, all, speed, speed[0], bins);
+  return late.leftCols(kMemories).colwise() - bins.Means(speed).col(0);
+}
+
+/// dF/dc of a friction c E v beside the fit's, with its heat. [m x 1]
+WARMJOINT_FOR_EACH_PROCESSOR
+Eigen::MatrixXd Slopes(const FittedModel& model, const Measurements& m, const Bins& bins) {
+  const auto level = [&](Eigen::Index n, double v) {
+    return Sign(m.velocity[n]) * v * model.energy[n];
+  };
+  const Eigen::VectorXd& of_losses = m.loss_velocity ? *m.loss_velocity : m.velocity;
+  return WithHeat<1>(
+             model, m.velocity, bins,
+             [&](Eigen::Index n, Fours<1>& g) {
+               g[0] = Four{level(n, m.velocity[n]), 0, 0, 0};
+             },
+             [&](Eigen::Index n, Fours<1>& g) {
+               g[0] = Four{level(n, of_losses[n]), 0, 0, 0};
+             })
+      .leftCols(1);
 }
 
 }  // namespace
@@ -66,17 +89,14 @@ Eigen::MatrixXd LateSpeeds(const Measurements& m, const std::vector<double>& tim
 Circumstances CircumstancesOf(const FittedModel& model, const Measurements& m, const Bins& bins) {
   const Eigen::MatrixXd none(bins.size(), 0);
   Circumstances known;
+  known.torque = bins.Means(model.torque);
+  known.residual = bins.Means(model.residual);
   const ThermalFilter filter(m.time, m.starts);
   known.energies = Energies(model, m, bins, filter);
   known.slopes = known.initial = known.loads = known.temperatures = none;
 
   // a slope that warms, with the heat that it makes itself
-  if (model.thermal) {
-    const Eigen::VectorXd slope = m.velocity.cwiseProduct(model.energy);
-    const Eigen::VectorXd at_losses =
-        m.loss_velocity.value_or(m.velocity).cwiseProduct(model.energy);
-    known.slopes = WithHeat<1>(model, bins, slope, at_losses);
-  }
+  if (model.thermal) known.slopes = Slopes(model, m, bins);
 
   // the start where it is taken to be known, load and temperature where they are logged
   if (model.by_initial_energy) known.initial = bins.Means(*model.by_initial_energy);

@@ -11,6 +11,8 @@ namespace warmjoint::inline identification {
 
 /// Means over each bin; [m x 0] where something is not known or not asked.
 struct Circumstances {
+  Eigen::VectorXd torque;        // [m] tau less gravity, inertia and what a lag adds, N.m or N
+  Eigen::VectorXd residual;      // [m] that less F, N.m or N
   Eigen::MatrixXd energies;      // [m x 3] measured losses, filtered; N.m or N per unit of gain
   Eigen::MatrixXd slopes;        // [m x 1] v E, E of the fit, with its heat, where it knows warming
   Eigen::MatrixXd initial;       // [m x 1] dF/dE(0), where E(0) is taken to be known

@@ -38,7 +38,8 @@ std::vector<const LackOfFitTest*> Rows(Turn turn) {
 /// Why nothing can be examined; empty where it can.
 std::string Obstacle(const std::optional<FittedModel>& model, const Bins& bins) {
   if (!model) return "the fit gives no friction";
-  if (!model->residual.allFinite() || !model->derivatives.allFinite()) {
+  // 0 times a number is 0, and NaN of what is none
+  if ((0 * model->residual.array()).sum() != 0 || (0 * model->derivatives.array()).sum() != 0) {
     return "the residual is not finite";
   }
   if (bins.size() < kFewestBins) {
@@ -209,8 +210,8 @@ Examination ExamineResidual(const Fit& fit, const Inference& inference, const Me
   Measure(*model, bins, derivatives, p, examination);
   LearnHeat(*model, bins, p, derivatives, examination);
   const ForceMoves moves(bins, derivatives);
-  LearnAssumptions(fit, *model, bins, p, derivatives, moves, examination);
   const Circumstances known = CircumstancesOf(*model, m, bins);
+  LearnAssumptions(fit, *model, bins, known, p, derivatives, moves, examination);
   LearnLeftOpen(*model, m, bins, known, p, moves, examination);
   LearnOtherUnits(fit, inference, m.joint, examination);
 

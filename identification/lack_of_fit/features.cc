@@ -144,12 +144,15 @@ Features OfStep(const Bins& bins, const Circumstances&, const GrowingFit& fit) {
 
 Features OfHoldParity(const Bins& bins, const Circumstances&, const GrowingFit&) {
   if (bins.hold.size() == 0) return {MatrixXd(bins.size(), 0)};
-  const ArrayXd passed = bins.hold.array() + bins.phase.array();
+  // half a turn with each segment, which changes the sign of its waves
+  const Distinct phases(bins.phase);
+  const MatrixXd waves = Waves(kPi * phases.values());
   MatrixXd parity(bins.size(), 3);
   for (Index i = 0; i < bins.size(); ++i) {
-    parity(i, 0) = static_cast<Index>(bins.hold[i]) % 2 == 0 ? 1 : -1;
+    const double sign = static_cast<Index>(bins.hold[i]) % 2 == 0 ? 1 : -1;
+    parity(i, 0) = sign;
+    parity.row(i).tail<2>() = sign * waves.row(phases.place[static_cast<size_t>(i)]);
   }
-  parity.rightCols(2) = Waves(kPi * passed);
   return {BothWays(bins, parity)};
 }
 

@@ -1,7 +1,6 @@
 #include "identification/lack_of_fit/left_open.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 
@@ -97,35 +96,35 @@ Possible OpenFactors::Interval(Index i, const Possible& possible) const {
 constexpr int kCourses = 1 + kFadings;  // of a drift
 
 /// Forces against the motion with the heat that they make, over bins: d(t) of the courses of a drift, 1 and v^2.
-/// [m x (kCourses + 2)]
-MatrixXd Heating(const FittedModel& model, const Measurements& m, const Bins& bins) {
-  // courses that die away, each the square of the one before it
-  const ArrayXd t = (m.time.array() - m.time[0]) / (m.time[m.size() - 1] - m.time[0]);
-  const ArrayXd slowest = (-t / kSlowest).exp();
-  std::array<double, kFadings> scale;  // so that they end at 1
-  double end = std::exp(-1 / kSlowest);
-  for (double& one : scale) {
-    one = 1 / (1 - end);
-    end *= end;
-  }
-  Forces<kCourses + 2> forces(m.size(), kCourses + 2);
-  for (Index n = 0; n < m.size(); ++n) {
-    const double v = m.velocity[n], sign = Sign(v);
-    auto force = forces.row(n);
-    force[0] = sign * t[n];
-    double faded = slowest[n];
-    for (int i = 0; i < kFadings; ++i, faded *= faded) {
-      force[1 + i] = sign * (1 - faded) * scale[static_cast<size_t>(i)];
-    }
-    force[kCourses] = sign;
-    force[kCourses + 1] = v * std::abs(v);
-  }
+/// t: [N] share of the log; slowest: [N] what the slowest course has not done by then. [m x 8], those and zeros
+WARMJOINT_FOR_EACH_PROCESSOR
+MatrixXd HeatingAlong(const FittedModel& model, const Measurements& m, const Bins& bins,
+                      const ArrayXd& t, const ArrayXd& slowest) {
+  // courses that die away, each the square of the one before it, so that they end at 1
+  static_assert(kFadings == 3);
+  const double end = slowest[m.size() - 1], second_end = end * end;
+  const Four scale{1, 1 / (1 - end), 1 / (1 - second_end), 1 / (1 - second_end * second_end)};
+  const auto levels = [&](Index n, Fours<2>& g) {
+    const double first = slowest[n], second = first * first, third = second * second;
+    const double v = m.velocity[n];
+    g[0] = scale * Four{t[n], 1 - first, 1 - second, 1 - third};
+    g[1] = Four{1, v * v, 0, 0};
+  };
 
   // where the log tells the speed of the losses, that of v^2 is theirs
-  if (!m.loss_velocity) return WithHeat(model, bins, forces, forces);
-  Forces<kCourses + 2> at_losses = forces;
-  at_losses.col(kCourses + 1) = m.loss_velocity->cwiseProduct(m.loss_velocity->cwiseAbs());
-  return WithHeat(model, bins, forces, at_losses);
+  if (!m.loss_velocity) {
+    return WithHeat<2>(model, m.velocity, bins, levels, [](Index, Fours<2>&) {});
+  }
+  return WithHeat<2>(model, m.velocity, bins, levels, [&](Index n, Fours<2>& g) {
+    const double v = (*m.loss_velocity)[n];
+    g[1] = Four{1, Sign(m.velocity[n]) * v * std::abs(v), 0, 0};
+  });
+}
+
+/// The same. [m x (kCourses + 2)]
+MatrixXd Heating(const FittedModel& model, const Measurements& m, const Bins& bins) {
+  const ArrayXd t = (m.time.array() - m.time[0]) / (m.time[m.size() - 1] - m.time[0]);
+  return HeatingAlong(model, m, bins, t, (-t / kSlowest).exp()).leftCols(kCourses + 2);
 }
 
 /// s v^2, without heat. [m x 1]
@@ -153,14 +152,13 @@ void LearnLeftOpen(const FittedModel& model, const Measurements& m, const Bins& 
                    Examination& examination) {
   // all forces: the start, curves, what follows the speed late, drifts that are 0 at first, and a sensor's gain
   const MatrixXd heating = Heating(model, m, bins);
-  const VectorXd residual = bins.Means(model.residual);
-  const VectorXd force = bins.Means(model.torque) - residual;
+  const VectorXd force = known.torque - known.residual;
   const Index starts = known.initial.cols(), late = known.late_speeds.cols();
   const Index curve = starts, memory = curve + 2, drift = memory + late, gain = drift + kCourses;
   MatrixXd forces(bins.size(), gain + 1);
   forces << known.initial, heating.col(kCourses + 1), Curve(m, bins), known.late_speeds,
       heating.leftCols(kCourses), force.cwiseProduct(bins.time);
-  const OpenFactors open(fit, residual, forces);
+  const OpenFactors open(fit, known.residual, forces);
   const MatrixXd moves = fit.By(forces).topRows(p);
 
   // a start that was not cold

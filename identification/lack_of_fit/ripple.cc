@@ -45,16 +45,19 @@ class BinnedResidual {
         counts_(MatrixXd::Zero(bins_, 2)),
         taken_(MatrixXd::Zero(bins_, 2)) {
     // each kept sample into its bin, by direction and by part of the recording
-    const auto n = static_cast<double>(selection.count());
-    samples_.reserve(static_cast<size_t>(n));
+    const Index n = selection.count();
+    samples_.resize(static_cast<size_t>(n));
     double sums[2] = {0, 0};
+    double* counts[2] = {counts_.col(0).data(), counts_.col(1).data()};
+    auto next = samples_.begin();
     for (Index i = 0; i < residual.size(); ++i) {
       if (!selection.keep[i]) continue;
       const auto bin = static_cast<int>(Bin(axis.phase[i]));
-      const auto part = static_cast<int>(static_cast<double>(samples_.size()) / n * kParts);
+      const auto before = static_cast<double>(next - samples_.begin());
+      const auto part = static_cast<int>(before / static_cast<double>(n) * kParts);
       const int d = velocity[i] < 0;
-      samples_.push_back({residual[i], bin, part, d});
-      counts_(bin, d) += 1;
+      *next++ = {residual[i], bin, part, d};
+      ++counts[d][bin];
       sums[d] += residual[i];
     }
 
@@ -74,7 +77,8 @@ class BinnedResidual {
   /// Sums over each bin, N.m or N. [bins x 2] forwards, backwards
   MatrixXd Totals() const {
     MatrixXd totals = MatrixXd::Zero(bins_, 2);
-    for (const Sample& sample : samples_) totals(sample.bin, sample.direction) += sample.value;
+    double* total[2] = {totals.col(0).data(), totals.col(1).data()};
+    for (const Sample& sample : samples_) total[sample.direction][sample.bin] += sample.value;
     return totals;
   }
 

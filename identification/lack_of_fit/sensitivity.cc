@@ -73,13 +73,13 @@ void LearnHeat(const FittedModel& model, const Bins& bins, Index p,
   examination.heat_deviation = std::sqrt(variance * fit.cofactor(q, q));
 }
 
-void LearnAssumptions(const Fit& fit, const FittedModel& model, const Bins& bins, Index p,
-                      const Eigen::MatrixXd& derivatives, const ForceMoves& moves,
-                      Examination& examination) {
+void LearnAssumptions(const Fit& fit, const FittedModel& model, const Bins& bins,
+                      const Circumstances& known, Index p, const Eigen::MatrixXd& derivatives,
+                      const ForceMoves& moves, Examination& examination) {
   // a start that was not cold
-  if (model.by_initial_energy) {
+  if (known.initial.cols() > 0) {
     const double energy = kWarmStart * model.energy.cwiseAbs().maxCoeff();
-    examination.by_start = moves.By(energy * bins.Means(*model.by_initial_energy)).topRows(p);
+    examination.by_start = moves.By(energy * known.initial).topRows(p);
   }
 
   // friction that drifts for another reason than its losses
@@ -88,8 +88,7 @@ void LearnAssumptions(const Fit& fit, const FittedModel& model, const Bins& bins
   examination.by_drift = by_drifts.cwiseAbs().rowwise().maxCoeff();
 
   // a torque sensor that swallows what is small
-  const Eigen::VectorXd torque = bins.Means(model.torque);
-  examination.dead_band = torque.cwiseAbs().minCoeff();
+  examination.dead_band = known.torque.cwiseAbs().minCoeff();
   const Eigen::VectorXd swallowed = -examination.dead_band * bins.velocity.array().sign();
   examination.by_dead_band = moves.By(swallowed).topRows(p);
 

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include "identification/lack_of_fit/bins.h"
+#include "identification/lack_of_fit/circumstances.h"
 #include "identification/lack_of_fit/examine.h"
 #include "identification/lack_of_fit/fitted_model.h"
 
@@ -42,7 +43,8 @@ void LearnHeat(const FittedModel& model, const Bins& bins, Eigen::Index p,
                const Eigen::MatrixXd& derivatives, Examination& examination);
 
 /// Fills the moves by start, slow drift and gaps. derivatives: DerivativesOver; moves: by them.
-void LearnAssumptions(const Fit& fit, const FittedModel& model, const Bins& bins, Eigen::Index p,
+void LearnAssumptions(const Fit& fit, const FittedModel& model, const Bins& bins,
+                      const Circumstances& known, Eigen::Index p,
                       const Eigen::MatrixXd& derivatives, const ForceMoves& moves,
                       Examination& examination);
 

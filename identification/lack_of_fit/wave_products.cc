@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "identification/lack_of_fit/column_products.h"
+
 namespace warmjoint::inline identification {
 namespace {
 
@@ -77,7 +79,7 @@ MatrixXd WaveProducts(const Eigen::VectorXd& values, const Eigen::VectorXd& time
   const MatrixXd centred = Turning(centre, Sum(Sum(last, last), one), centres);
 
   // cosines and sines of centres, with those of steps, and by themselves
-  const MatrixXd products = centred.transpose() * aside;
+  const MatrixXd products = ProductsBetween(centred, aside);
   const Eigen::RowVectorXd alone = centred.colwise().sum();
 
   // each frequency from its centre and its steps

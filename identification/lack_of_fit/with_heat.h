@@ -7,34 +7,41 @@
 #include "identification/forward/closed_loop_kernel.h"
 #include "identification/lack_of_fit/bins.h"
 #include "identification/lack_of_fit/fitted_model.h"
+#include "models/friction/sign.h"
 
 namespace warmjoint::inline identification {
 
-/// Forces of C kinds, a sample after the other, [N x C] N.m or N.
-template <int C>
-using Forces = Eigen::Matrix<double, Eigen::Dynamic, C, C == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
-
-/// dF/dc at c = 0 of a friction that holds c f beside the fit's: f itself, and what its losses change of E
-/// (closed_loop.h); f where no warming was estimated. forces: f; at_losses: the same at the velocity of the losses
-/// where that is another. Returns means over bins, [m x C].
-template <int C>
-Eigen::MatrixXd WithHeat(const FittedModel& model, const Bins& bins, const Forces<C>& forces,
-                         const Forces<C>& at_losses) {
-  if (!model.thermal) return bins.Means(forces);
+/// dF/dc at c = 0 of frictions that hold c s g beside the fit's, s = sign(v): s g itself, and what its losses change of E
+/// (closed_loop.h); s g alone where no warming was estimated. levels(n, g): makes g of sample n, 4 F numbers in N.m or N;
+/// at_losses(n, g): makes of it the same at the velocity of the losses. Returns means over bins, [m x 4 F]. Part of a
+/// function for each processor (four.h).
+template <std::size_t F, typename Levels, typename AtLosses>
+inline Eigen::MatrixXd WithHeat(const FittedModel& model, const Eigen::VectorXd& velocity,
+                                const Bins& bins, const Levels& levels, const AtLosses& at_losses) {
+  if (!model.thermal) {
+    return MeansOfRows<F>(bins, [&](Eigen::Index n, Fours<F>& row) {
+      levels(n, row);
+      for (Four& four : row) four *= static_cast<double>(Sign(velocity[n]));
+    });
+  }
   // by a force's own factor the loop is linear: its derivative is the same wherever the others are
   const ClosedLoop& loop = *model.loop;
-  BinMeans<C> means(bins);
-  Eigen::Matrix<double, 1, C> S = Eigen::Matrix<double, 1, C>::Zero();  // dE/dc
+  Eigen::MatrixXd means;
   WithHolds(loop.intervals(), *model.thermal, [&](const auto& hold_after) {
-    for (Eigen::Index n = 0; n < forces.rows(); ++n) {
-      // at rest there is neither force nor loss
+    Fours<F> S{};  // dE/dc
+    means = MeansOfRows<F>(bins, [&](Eigen::Index n, Fours<F>& row) {
+      Fours<F> g;
+      levels(n, g);
       const double direction = loop.direction()[n];
-      means.Add(n, std::abs(direction) * forces.row(n) + direction * S);
+      for (std::size_t k = 0; k < F; ++k) row[k] = direction * (g[k] + S[k]);
+      // one step of Eq. (22); at rest nothing is lost
+      at_losses(n, g);
       const auto [feedback, lambda] = FedBack(hold_after[n], loop.speed()[n]);
-      S = lambda * S + (feedback * direction) * at_losses.row(n);
-    }
+      const double gain = feedback * std::abs(direction);
+      for (std::size_t k = 0; k < F; ++k) S[k] = lambda * S[k] + gain * g[k];
+    });
   });
-  return means.means();
+  return means;
 }
 
 }  // namespace warmjoint::inline identification

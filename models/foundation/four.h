@@ -1,6 +1,7 @@
 // Four numbers side by side, and functions made for processors that take them at once.
 #pragma once
 
+#include <array>
 #include <cstdlib>  // tells whether the C library is glibc
 #include <cstring>
 
@@ -8,6 +9,10 @@ namespace warmjoint::inline models {
 
 /// One register of AVX, two of SSE2. Handed by reference: by value each processor would have a calling convention of its own.
 using Four = double __attribute__((vector_size(32)));
+
+/// Several of them: 4 F numbers side by side.
+template <std::size_t F>
+using Fours = std::array<Four, F>;
 
 /// Reads four numbers from anywhere.
 inline void Load(const double* from, Four& four) { std::memcpy(&four, from, sizeof(Four)); }

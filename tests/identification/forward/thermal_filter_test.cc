@@ -125,12 +125,18 @@ TEST(ThermalFilter, FiltersWithSeveralTimeConstantsAtOnce) {
       loss[i] = 1 + i % 7;
     }
     const ThermalFilter filter(time, {25});
-    const std::array taus{0.8, 3.0, 20.0};
-    Eigen::MatrixXd all(40, 3);
-    filter.ForEach(taus, loss, 0.4, [&](Eigen::Index i, const auto& row) { all.row(i) = row; });
-    for (int k = 0; k < 3; ++k) {
+    const Fours<2> taus{Four{0.8, 3, 20, 50}, Four{0.1, 0.2, 0.3, 700}};
+    Eigen::MatrixXd all(40, 8);
+    auto write = filter.Together(taus, loss, 0.4);
+    for (Eigen::Index i = 0; i < 40; ++i) {
+      Fours<2> energies;
+      write(i, energies);
+      for (Eigen::Index k = 0; k < 8; ++k) all(i, k) = energies[static_cast<size_t>(k / 4)][k % 4];
+    }
+    for (Eigen::Index k = 0; k < 8; ++k) {
       // the same recursion
-      EXPECT_EQ(all.col(k), filter.Energy({1, taus[static_cast<size_t>(k)]}, loss, 0.4)) << jitter;
+      const double tau = taus[static_cast<size_t>(k / 4)][k % 4];
+      EXPECT_EQ(all.col(k), filter.Energy({1, tau}, loss, 0.4)) << jitter;
     }
   }
 }
