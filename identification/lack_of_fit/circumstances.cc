@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "identification/forward/thermal_filter.h"
-#include "identification/lack_of_fit/with_heat.h"
 #include "identification/linear/rigid_part.h"
 #include "models/foundation/robust_noise.h"
 
@@ -66,24 +65,6 @@ Eigen::MatrixXd LateSpeeds(const Measurements& m, const std::vector<double>& tim
   return late.leftCols(kMemories).colwise() - bins.Means(speed).col(0);
 }
 
-/// dF/dc of a friction c E v beside the fit's, with its heat. [m x 1]
-WARMJOINT_FOR_EACH_PROCESSOR
-Eigen::MatrixXd Slopes(const FittedModel& model, const Measurements& m, const Bins& bins) {
-  const auto level = [&](Eigen::Index n, double v) {
-    return Sign(m.velocity[n]) * v * model.energy[n];
-  };
-  const Eigen::VectorXd& of_losses = m.loss_velocity ? *m.loss_velocity : m.velocity;
-  return WithHeat<1>(
-             model, m.velocity, bins,
-             [&](Eigen::Index n, Fours<1>& g) {
-               g[0] = Four{level(n, m.velocity[n]), 0, 0, 0};
-             },
-             [&](Eigen::Index n, Fours<1>& g) {
-               g[0] = Four{level(n, of_losses[n]), 0, 0, 0};
-             })
-      .leftCols(1);
-}
-
 }  // namespace
 
 Circumstances CircumstancesOf(const FittedModel& model, const Measurements& m, const Bins& bins) {
@@ -95,8 +76,9 @@ Circumstances CircumstancesOf(const FittedModel& model, const Measurements& m, c
   known.energies = Energies(model, m, bins, filter);
   known.slopes = known.initial = known.loads = known.temperatures = none;
 
-  // a slope that warms, with the heat that it makes itself
-  if (model.thermal) known.slopes = Slopes(model, m, bins);
+  // forces with the heat that they make themselves, a slope that warms among them
+  known.heating = HeatingForcesOf(model, m, bins);
+  if (model.thermal) known.slopes = known.heating.slope;
 
   // the start where it is taken to be known, load and temperature where they are logged
   if (model.by_initial_energy) known.initial = bins.Means(*model.by_initial_energy);

@@ -6,6 +6,7 @@
 
 #include "identification/lack_of_fit/bins.h"
 #include "identification/lack_of_fit/fitted_model.h"
+#include "identification/lack_of_fit/heating_forces.h"
 
 namespace warmjoint::inline identification {
 
@@ -13,6 +14,7 @@ namespace warmjoint::inline identification {
 struct Circumstances {
   Eigen::VectorXd torque;        // [m] tau less gravity, inertia and what a lag adds, N.m or N
   Eigen::VectorXd residual;      // [m] that less F, N.m or N
+  HeatingForces heating;         // forces that the fit leaves out
   Eigen::MatrixXd energies;      // [m x 3] measured losses, filtered; N.m or N per unit of gain
   Eigen::MatrixXd slopes;        // [m x 1] v E, E of the fit, with its heat, where it knows warming
   Eigen::MatrixXd initial;       // [m x 1] dF/dE(0), where E(0) is taken to be known

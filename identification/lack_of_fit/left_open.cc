@@ -7,24 +7,17 @@
 #include "identification/lack_of_fit/error_level.h"
 #include "identification/lack_of_fit/sensitivity.h"
 #include "identification/lack_of_fit/table.h"
-#include "identification/lack_of_fit/with_heat.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/uncertainty/tails.h"
 #include "identification/uncertainty/uncertainty.h"
-#include "models/friction/sign.h"
 
 namespace warmjoint::inline identification {
 namespace {
 
-using Eigen::ArrayXd;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// why: a drift that takes half the log to die away is still nearly even, one of an eighth is over before the
-// warming is; between them by halves
-constexpr double kSlowest = 1.0 / 2;  // of the log: the longest time constant of a drift
-constexpr int kFadings = 3;           // time constants, each half as long as the one before
 constexpr double kTold = 1e-6;  // of a column beside the fit, below which the log tells nothing
 
 /// Values between which a factor may lie at all.
@@ -93,40 +86,6 @@ Possible OpenFactors::Interval(Index i, const Possible& possible) const {
   return {within(factor - reach), within(factor + reach)};
 }
 
-constexpr int kCourses = 1 + kFadings;  // of a drift
-
-/// Forces against the motion with the heat that they make, over bins: d(t) of the courses of a drift, 1 and v^2.
-/// t: [N] share of the log; slowest: [N] what the slowest course has not done by then. [m x 8], those and zeros
-WARMJOINT_FOR_EACH_PROCESSOR
-MatrixXd HeatingAlong(const FittedModel& model, const Measurements& m, const Bins& bins,
-                      const ArrayXd& t, const ArrayXd& slowest) {
-  // courses that die away, each the square of the one before it, so that they end at 1
-  static_assert(kFadings == 3);
-  const double end = slowest[m.size() - 1], second_end = end * end;
-  const Four scale{1, 1 / (1 - end), 1 / (1 - second_end), 1 / (1 - second_end * second_end)};
-  const auto levels = [&](Index n, Fours<2>& g) {
-    const double first = slowest[n], second = first * first, third = second * second;
-    const double v = m.velocity[n];
-    g[0] = scale * Four{t[n], 1 - first, 1 - second, 1 - third};
-    g[1] = Four{1, v * v, 0, 0};
-  };
-
-  // where the log tells the speed of the losses, that of v^2 is theirs
-  if (!m.loss_velocity) {
-    return WithHeat<2>(model, m.velocity, bins, levels, [](Index, Fours<2>&) {});
-  }
-  return WithHeat<2>(model, m.velocity, bins, levels, [&](Index n, Fours<2>& g) {
-    const double v = (*m.loss_velocity)[n];
-    g[1] = Four{1, Sign(m.velocity[n]) * v * std::abs(v), 0, 0};
-  });
-}
-
-/// The same. [m x (kCourses + 2)]
-MatrixXd Heating(const FittedModel& model, const Measurements& m, const Bins& bins) {
-  const ArrayXd t = (m.time.array() - m.time[0]) / (m.time[m.size() - 1] - m.time[0]);
-  return HeatingAlong(model, m, bins, t, (-t / kSlowest).exp()).leftCols(kCourses + 2);
-}
-
 /// s v^2, without heat. [m x 1]
 MatrixXd Curve(const Measurements& m, const Bins& bins) {
   return bins.Means(m.velocity.cwiseProduct(m.velocity.cwiseAbs()));
@@ -151,13 +110,13 @@ void LearnLeftOpen(const FittedModel& model, const Measurements& m, const Bins& 
                    const Circumstances& known, Index p, const ForceMoves& fit,
                    Examination& examination) {
   // all forces: the start, curves, what follows the speed late, drifts that are 0 at first, and a sensor's gain
-  const MatrixXd heating = Heating(model, m, bins);
+  const HeatingForces& heating = known.heating;
   const VectorXd force = known.torque - known.residual;
   const Index starts = known.initial.cols(), late = known.late_speeds.cols();
   const Index curve = starts, memory = curve + 2, drift = memory + late, gain = drift + kCourses;
   MatrixXd forces(bins.size(), gain + 1);
-  forces << known.initial, heating.col(kCourses + 1), Curve(m, bins), known.late_speeds,
-      heating.leftCols(kCourses), force.cwiseProduct(bins.time);
+  forces << known.initial, heating.bend, Curve(m, bins), known.late_speeds, heating.drifts,
+      force.cwiseProduct(bins.time);
   const OpenFactors open(fit, known.residual, forces);
   const MatrixXd moves = fit.By(forces).topRows(p);
 
@@ -182,7 +141,7 @@ void LearnLeftOpen(const FittedModel& model, const Measurements& m, const Bins& 
   const MatrixXd from_first = moves.rightCols(kCourses + 1);
   // and from the last, where the force of the end is taken off
   MatrixXd ends(bins.size(), 2);
-  ends << heating.col(kCourses), force;
+  ends << heating.level, force;
   const MatrixXd at_end = fit.By(ends).topRows(p);
   MatrixXd until_last = from_first;
   until_last.leftCols(kCourses).colwise() -= at_end.col(0);

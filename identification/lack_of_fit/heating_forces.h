@@ -1,0 +1,25 @@
+// Forces that a fit leaves out, with the heat that they make.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "identification/lack_of_fit/bins.h"
+#include "identification/lack_of_fit/fitted_model.h"
+
+namespace warmjoint::inline identification {
+
+/// Courses that a drift of the friction may take: evenly, and dying away with three time constants.
+inline constexpr Eigen::Index kCourses = 4;
+
+/// dF/dc of forces c f beside the fit's with what their losses change of E (with_heat.h), means over bins. s: sign(v).
+struct HeatingForces {
+  Eigen::MatrixXd drifts;  // [m x kCourses] of s d(t), 0 at first and 1 at the end
+  Eigen::VectorXd level;   // [m] of s
+  Eigen::VectorXd bend;    // [m] of s v^2
+  Eigen::VectorXd slope;   // [m] of v E, E of the fit
+};
+
+HeatingForces HeatingForcesOf(const FittedModel& model, const Measurements& measurements,
+                              const Bins& bins);
+
+}  // namespace warmjoint::inline identification
