@@ -77,6 +77,8 @@ OwnBasis AskedFeatures::Beside(size_t i, double distinct) const {
   // a mix of the features, and of the fit's basis, which takes off what they share with it
   const MatrixXd mix = MixOfDistinct(beside, distinct);
   OwnBasis own;
+  // nothing stands out
+  if (mix.cols() == 0) return own;
   own.columns.resize(static_cast<size_t>(rank_ + q));
   std::iota(own.columns.begin(), own.columns.begin() + rank_, Index{1});
   std::iota(own.columns.begin() + rank_, own.columns.end(), first);

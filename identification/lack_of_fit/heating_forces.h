@@ -8,7 +8,8 @@
 
 namespace warmjoint::inline identification {
 
-/// Courses that a drift of the friction may take: evenly, and dying away with three time constants.
+/// Courses that a drift of the friction may take: evenly, and dying away with three time constants; why: these span what
+/// is neither even nor over before the warming (heating_forces.cc).
 inline constexpr Eigen::Index kCourses = 4;
 
 /// dF/dc of forces c f beside the fit's with what their losses change of E (with_heat.h), means over bins. s: sign(v).
