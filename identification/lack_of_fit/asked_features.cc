@@ -29,7 +29,7 @@ double WriteWeighed(const double* values, const double* roots, Index m, double* 
     Store(weighed, to + i);
     squares += weighed * weighed;
   }
-  double sum = (squares[0] + squares[1]) + (squares[2] + squares[3]);
+  double sum = SumOf(squares);
   for (; i < m; ++i) {
     to[i] = values[i] * roots[i];
     sum += to[i] * to[i];

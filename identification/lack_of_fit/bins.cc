@@ -29,10 +29,12 @@ Stretch StretchAt(Index sample, Index samples, const std::vector<Segment>& segme
   return {at(next).end, next};
 }
 
+Index Length(const Segment& segment) { return segment.end - segment.begin; }
+
 /// Where the samples of a bin of a segment stand in it, from 0 to 1.
 double PhaseOf(Index begin, Index end, const Segment& one) {
   const double middle = 0.5 * static_cast<double>(begin + end);
-  return (middle - static_cast<double>(one.begin)) / static_cast<double>(one.end - one.begin);
+  return (middle - static_cast<double>(one.begin)) / static_cast<double>(Length(one));
 }
 
 /// What bins know besides their samples.
@@ -55,6 +57,7 @@ void Describe(const Measurements& measurements, Bins& bins) {
 Bins Gather(const Measurements& measurements, const Selection& selection, Index parts) {
   const Eigen::VectorXd& v = measurements.velocity;
   const std::vector<Segment>& segments = selection.segments;
+  const auto at = [&](Index i) -> const Segment& { return segments[static_cast<size_t>(i)]; };
   const Index share = 1 + selection.count() / kBins;
   // where no segments are known, samples of one direction, or at about one speed, are alike
   const auto alike = [&](Index first, Index other) {
@@ -77,10 +80,7 @@ Bins Gather(const Measurements& measurements, const Selection& selection, Index 
     // at most its share of all samples, and of its segment
     const Index first = i;
     const auto [end, index] = StretchAt(first, v.size(), segments, next);
-    const Segment& one =
-        segments.empty() ? Segment{} : segments[static_cast<size_t>(std::max(index, Index{0}))];
-    const Index most =
-        index < 0 ? share : std::min(share, (one.end - one.begin + parts - 1) / parts);
+    const Index most = index < 0 ? share : std::min(share, (Length(at(index)) + parts - 1) / parts);
     const Index last = std::min(first + most, end);
     ++i;
     if (segments.empty()) {
@@ -92,7 +92,7 @@ Bins Gather(const Measurements& measurements, const Selection& selection, Index 
     bins.end.push_back(i);
     if (segments.empty()) continue;
     holds.push_back(static_cast<double>(index));
-    phases.push_back(PhaseOf(first, i, one));
+    phases.push_back(PhaseOf(first, i, at(std::max(index, Index{0}))));
   }
   bins.hold = Eigen::Map<const Eigen::VectorXd>(holds.data(), static_cast<Index>(holds.size()));
   bins.phase = Eigen::Map<const Eigen::VectorXd>(phases.data(), static_cast<Index>(phases.size()));
@@ -108,19 +108,11 @@ void WriteMeans(const Bins& bins, const Eigen::Ref<const Eigen::MatrixXd>& all, 
   const double* values = all.data() + column * stride;
   for (Index c = 0; c < bins.size(); ++c) {
     const Index begin = bins.begin[static_cast<size_t>(c)], end = bins.end[static_cast<size_t>(c)];
-    // two rows at a time
-    double sums[C] = {}, others[C] = {};
-    Index n = begin;
-    for (; n + 1 < end; n += 2) {
-      for (int k = 0; k < C; ++k) {
-        sums[k] += values[n + k * stride];
-        others[k] += values[n + 1 + k * stride];
-      }
+    double sums[C] = {};
+    for (Index n = begin; n < end; ++n) {
+      for (int k = 0; k < C; ++k) sums[k] += values[n + k * stride];
     }
-    for (int k = 0; k < C; ++k) {
-      if (n < end) sums[k] += values[n + k * stride];
-      means(c, column + k) = (sums[k] + others[k]) / static_cast<double>(end - begin);
-    }
+    for (int k = 0; k < C; ++k) means(c, column + k) = sums[k] / static_cast<double>(end - begin);
   }
 }
 

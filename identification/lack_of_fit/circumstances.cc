@@ -7,6 +7,7 @@
 
 #include "identification/forward/thermal_filter.h"
 #include "identification/linear/rigid_part.h"
+#include "models/foundation/four.h"
 #include "models/foundation/robust_noise.h"
 
 namespace warmjoint::inline identification {
@@ -14,21 +15,14 @@ namespace {
 
 constexpr int kMemories = 6;  // time constants that are tried
 
-/// Means over bins of what filters make of a loss. [m x 4 F]
-template <std::size_t F>
-inline Eigen::MatrixXd Filtered(const ThermalFilter& filter, const Fours<F>& times,
-                                const Eigen::VectorXd& loss, double initial, const Bins& bins) {
-  return MeansOfRows<F>(bins, filter.Together(times, loss, initial));
-}
-
-/// The measured losses filtered with three time constants that span those of a recording. [m x 3]
+/// Means over bins of the measured losses filtered with three time constants that span those of a recording. [m x 3]
 WARMJOINT_FOR_EACH_PROCESSOR
 Eigen::MatrixXd Energies(const FittedModel& model, const Measurements& m, const Bins& bins,
                          const ThermalFilter& filter) {
   const double duration = m.time[m.size() - 1] - m.time[0];
   const Eigen::VectorXd loss = model.torque.cwiseProduct(m.velocity).cwiseAbs();
   const Fours<1> times{Four{duration / 40, duration / 12, duration / 3, duration}};
-  return Filtered(filter, times, loss, 0, bins).leftCols(3);
+  return MeansOfRows<1>(bins, filter.Together(times, loss, 0)).leftCols(3);
 }
 
 /// Median duration of the segments; 0 where there are none.
@@ -61,7 +55,7 @@ Eigen::MatrixXd LateSpeeds(const Measurements& m, const std::vector<double>& tim
   static_assert(kMemories <= 8);
   Fours<2> all;
   for (int i = 0; i < 8; ++i) all[i / 4][i % 4] = times[std::min(i, kMemories - 1)];
-  const Eigen::MatrixXd late = Filtered(filter, all, speed, speed[0], bins);
+  const Eigen::MatrixXd late = MeansOfRows<2>(bins, filter.Together(all, speed, speed[0]));
   return late.leftCols(kMemories).colwise() - bins.Means(speed).col(0);
 }
 
@@ -74,11 +68,10 @@ Circumstances CircumstancesOf(const FittedModel& model, const Measurements& m, c
   known.residual = bins.Means(model.residual);
   const ThermalFilter filter(m.time, m.starts);
   known.energies = Energies(model, m, bins, filter);
-  known.slopes = known.initial = known.loads = known.temperatures = none;
+  known.initial = known.loads = known.temperatures = none;
 
   // forces with the heat that they make themselves, a slope that warms among them
   known.heating = HeatingForcesOf(model, m, bins);
-  if (model.thermal) known.slopes = known.heating.slope;
 
   // the start where it is taken to be known, load and temperature where they are logged
   if (model.by_initial_energy) known.initial = bins.Means(*model.by_initial_energy);

@@ -16,7 +16,6 @@ struct Circumstances {
   Eigen::VectorXd residual;      // [m] that less F, N.m or N
   HeatingForces heating;         // forces that the fit leaves out
   Eigen::MatrixXd energies;      // [m x 3] measured losses, filtered; N.m or N per unit of gain
-  Eigen::MatrixXd slopes;        // [m x 1] v E, E of the fit, with its heat, where it knows warming
   Eigen::MatrixXd initial;       // [m x 1] dF/dE(0), where E(0) is taken to be known
   Eigen::MatrixXd loads;         // [m x 2] L, |L|; N.m or N
   Eigen::MatrixXd temperatures;  // [m x 1] degC

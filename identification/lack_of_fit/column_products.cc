@@ -32,8 +32,21 @@ inline void Keep(Index first, Index last, Bits& keep) {
   keep &= ~from_last;
 }
 
-/// The sum of four numbers.
-inline double Sum(const Four& four) { return (four[0] + four[2]) + (four[1] + four[3]); }
+/// Adds the products of four rows from `first` on, of those that count. left: A columns; right: B columns.
+template <int A, int B>
+inline void AddProducts(const double* const (&left)[A], const double* const (&right)[B],
+                        Index first, const Bits& keep, Four (&sums)[A][B]) {
+  Four of_left[A];
+  for (int a = 0; a < A; ++a) {
+    Load(left[a] + first, of_left[a]);
+    of_left[a] = reinterpret_cast<Four>(reinterpret_cast<Bits>(of_left[a]) & keep);
+  }
+  for (int b = 0; b < B; ++b) {
+    Four of_right;
+    Load(right[b] + first, of_right);
+    for (int a = 0; a < A; ++a) sums[a][b] += of_left[a] * of_right;
+  }
+}
 
 /// The products of A columns from the i-th on with B columns from the j-th on, over each part. Of 4 rows or more.
 template <int A, int B>
@@ -53,35 +66,17 @@ inline void WriteBlock(const Task& task, Index i, Index j) {
     // four rows at a time, whose sums stay in registers
     const Index end = task.ends[part];
     Four sums[A][B] = {};
-    for (; row + 4 <= end; row += 4) {
-      Four of_left[A];
-      for (int a = 0; a < A; ++a) Load(left[a] + row, of_left[a]);
-      for (int b = 0; b < B; ++b) {
-        Four of_right;
-        Load(right[b] + row, of_right);
-        for (int a = 0; a < A; ++a) sums[a][b] += of_left[a] * of_right;
-      }
-    }
-
+    for (; row + 4 <= end; row += 4) AddProducts(left, right, row, Bits{-1, -1, -1, -1}, sums);
     // and those that are left, among four that are there
     if (row < end) {
       const Index first = std::max(end - 4, Index{0});
       Bits keep;
       Keep(row - first, end - first, keep);
+      AddProducts(left, right, first, keep, sums);
       row = end;
-      Four of_left[A];
-      for (int a = 0; a < A; ++a) {
-        Load(left[a] + first, of_left[a]);
-        of_left[a] = reinterpret_cast<Four>(reinterpret_cast<Bits>(of_left[a]) & keep);
-      }
-      for (int b = 0; b < B; ++b) {
-        Four of_right;
-        Load(right[b] + first, of_right);
-        for (int a = 0; a < A; ++a) sums[a][b] += of_left[a] * of_right;
-      }
     }
     for (int a = 0; a < A; ++a) {
-      for (int b = 0; b < B; ++b) products[a][b][part] = Sum(sums[a][b]);
+      for (int b = 0; b < B; ++b) products[a][b][part] = SumOf(sums[a][b]);
     }
   }
 }

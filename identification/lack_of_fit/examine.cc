@@ -38,8 +38,7 @@ std::vector<const LackOfFitTest*> Rows(Turn turn) {
 /// Why nothing can be examined; empty where it can.
 std::string Obstacle(const std::optional<FittedModel>& model, const Bins& bins) {
   if (!model) return "the fit gives no friction";
-  // 0 times a number is 0, and NaN of what is none
-  if ((0 * model->residual.array()).sum() != 0 || (0 * model->derivatives.array()).sum() != 0) {
+  if (!AllFinite(model->residual) || !AllFinite(model->derivatives)) {
     return "the residual is not finite";
   }
   if (bins.size() < kFewestBins) {

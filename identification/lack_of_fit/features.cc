@@ -79,7 +79,7 @@ Features OfEnergy(const Bins& bins, const Circumstances& known, const GrowingFit
 }
 
 Features OfSpeedByEnergy(const Bins&, const Circumstances& known, const GrowingFit&) {
-  return {known.slopes};
+  return {known.heating.slope};
 }
 
 Features OfInitialEnergy(const Bins&, const Circumstances& known, const GrowingFit&) {
@@ -107,7 +107,7 @@ Features OfTime(const Bins& bins, const Circumstances&, const GrowingFit&) {
 
 Features OfSpeedMemory(const Bins& bins, const Circumstances& known, const GrowingFit& fit) {
   // without a warming in the fit its heat, which follows the speed late, too, would look like that
-  if (known.past.empty() || known.slopes.cols() == 0) return {MatrixXd(bins.size(), 0)};
+  if (known.past.empty() || known.heating.slope.cols() == 0) return {MatrixXd(bins.size(), 0)};
   const MatrixXd& all = known.late_speeds;
   // the time constant that explains most beside the fit
   Index best = 0;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "identification/lack_of_fit/with_heat.h"
+#include "models/foundation/four.h"
 #include "models/friction/sign.h"
 
 namespace warmjoint::inline identification {
@@ -49,7 +50,8 @@ HeatingForces HeatingForcesOf(const FittedModel& model, const Measurements& m, c
   const double share = 1 / (m.time[m.size() - 1] - m.time[0]);
   const ArrayXd t = (m.time.array() - m.time[0]) * share;
   const MatrixXd all = Along(model, m, bins, t, (t * (-1 / kSlowest)).exp());
-  return {all.leftCols(kCourses), all.col(kCourses), all.col(kCourses + 1), all.col(kCourses + 2)};
+  return {all.leftCols(kCourses), all.col(kCourses), all.col(kCourses + 1),
+          all.middleCols(kCourses + 2, model.thermal ? 1 : 0)};
 }
 
 }  // namespace warmjoint::inline identification

@@ -17,7 +17,7 @@ struct HeatingForces {
   Eigen::MatrixXd drifts;  // [m x kCourses] of s d(t), 0 at first and 1 at the end
   Eigen::VectorXd level;   // [m] of s
   Eigen::VectorXd bend;    // [m] of s v^2
-  Eigen::VectorXd slope;   // [m] of v E, E of the fit
+  Eigen::MatrixXd slope;   // [m x 1] of v E, E of the fit; [m x 0] where it knows no warming
 };
 
 HeatingForces HeatingForcesOf(const FittedModel& model, const Measurements& measurements,

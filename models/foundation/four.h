@@ -20,6 +20,9 @@ inline void Load(const double* from, Four& four) { std::memcpy(&four, from, size
 /// Writes four numbers to anywhere.
 inline void Store(const Four& four, double* to) { std::memcpy(to, &four, sizeof(Four)); }
 
+/// The sum of four numbers, always in the same order.
+inline double SumOf(const Four& four) { return (four[0] + four[1]) + (four[2] + four[3]); }
+
 }  // namespace warmjoint::inline models
 
 // A function that is compiled twice, with all that it calls: for any x86-64 processor, and for those with AVX (since

@@ -116,7 +116,7 @@ EIGEN_ALWAYS_INLINE double PreparedMap::FromTable(const ActiveKernels& kernels, 
     table_.Quad((row + i) / 4, spot, rows);
     sum += weights * rows;
   }
-  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+  return SumOf(sum);
 }
 
 WARMJOINT_FOR_EACH_PROCESSOR
@@ -188,7 +188,7 @@ bool PreparedMap::EvaluateTwo(const MapPoint<double>& point, double& value) cons
     table_.Quad(static_cast<size_t>((kernels.first + i) / 4), spot, rows);
     sum += weights * rows;
   }
-  value = factor * ((sum[0] + sum[1]) + (sum[2] + sum[3]));
+  value = factor * SumOf(sum);
   return true;
 }
 
