@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #include "identification/forward/closed_loop_kernel.h"
+#include "models/foundation/four.h"
 #include "models/friction/sign.h"
 
 namespace warmjoint::inline identification {
@@ -85,6 +86,7 @@ LoopResponse ClosedLoop::Simulate(const Eigen::VectorXd& parameters, const Therm
   return response;
 }
 
+WARMJOINT_FOR_EACH_PROCESSOR
 Eigen::MatrixXd ClosedLoop::Jacobian(const Eigen::VectorXd& parameters, const Thermal& thermal,
                                      double initial_energy, const Eigen::VectorXd& jumps) const {
   const Eigen::Index d = levels_.cols(), all = d + 3 + static_cast<Eigen::Index>(jumps_.size());

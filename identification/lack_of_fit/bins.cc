@@ -70,23 +70,25 @@ Bins Gather(const Measurements& measurements, const Selection& selection, Index 
   bins.begin.reserve(static_cast<size_t>(v.size()));
   bins.end.reserve(static_cast<size_t>(v.size()));
   std::vector<double> holds, phases;
-  const bool* keep = selection.keep.data();
-  Index next = 0;
+  const bool *keep = selection.keep.data(), *all_end = keep + v.size();
+  Index next = 0, kept_until = 0;
   for (Index i = 0; i < v.size();) {
-    if (!keep[i]) {
-      ++i;
-      continue;
+    // the next run of kept samples
+    if (i >= kept_until) {
+      const bool* kept = std::find(keep + i, all_end, true);
+      i = kept - keep;
+      kept_until = std::find(kept, all_end, false) - keep;
+      if (kept == all_end) break;
     }
     // at most its share of all samples, and of its segment
     const Index first = i;
     const auto [end, index] = StretchAt(first, v.size(), segments, next);
     const Index most = index < 0 ? share : std::min(share, (Length(at(index)) + parts - 1) / parts);
-    const Index last = std::min(first + most, end);
-    ++i;
+    const Index last = std::min({first + most, end, kept_until});
+    i = last;
     if (segments.empty()) {
-      while (i < last && keep[i] && alike(first, i)) ++i;
-    } else {
-      while (i < last && keep[i]) ++i;
+      i = first + 1;
+      while (i < last && alike(first, i)) ++i;
     }
     bins.begin.push_back(first);
     bins.end.push_back(i);

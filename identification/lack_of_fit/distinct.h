@@ -13,19 +13,17 @@ struct Distinct {
   std::vector<Eigen::Index> place;  // [m] of each, in `numbers`
 
   explicit Distinct(const Eigen::VectorXd& all) {
-    place.reserve(static_cast<size_t>(all.size()));
-    std::unordered_map<double, Eigen::Index> places;
-    for (const double number : all) {
+    place.resize(static_cast<size_t>(all.size()));
+    std::unordered_map<double, size_t> places;
+    size_t next = 0;
+    for (Eigen::Index i = 0; i < all.size(); ++i) {
       // numbers that repeat mostly do so in the same order
-      const auto next = static_cast<size_t>(place.empty() ? 0 : place.back() + 1);
-      if (next < numbers.size() && numbers[next] == number) {
-        place.push_back(static_cast<Eigen::Index>(next));
-        continue;
+      if (next >= numbers.size() || numbers[next] != all[i]) {
+        const auto [at, is_new] = places.try_emplace(all[i], numbers.size());
+        if (is_new) numbers.push_back(all[i]);
+        next = at->second;
       }
-      const auto count = static_cast<Eigen::Index>(numbers.size());
-      const auto [at, is_new] = places.try_emplace(number, count);
-      if (is_new) numbers.push_back(number);
-      place.push_back(at->second);
+      place[static_cast<size_t>(i)] = static_cast<Eigen::Index>(next++);
     }
   }
 

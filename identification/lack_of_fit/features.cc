@@ -18,10 +18,10 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kPi = std::numbers::pi;
-constexpr int kPlaces = 32;            // parts that steps lie between
-constexpr double kFewestCycles = 2.5;  // why: the drift goes to two cycles
-constexpr double kBinsACycle = 4;      // why: means over a quarter of a cycle keep 0.9 of it
-constexpr double kCyclesApart = 0.5;   // why: a wave midway between two that are tried keeps 0.81
+constexpr int kPlaces = 32;           // parts that steps lie between
+constexpr Index kFirstCycles = 5;     // steps of kCyclesApart; why: the drift goes to two cycles
+constexpr double kBinsACycle = 4;     // why: means over a quarter of a cycle keep 0.9 of it
+constexpr double kCyclesApart = 0.5;  // why: a wave midway between two that are tried keeps 0.81
 
 ArrayXd SignOf(const Bins& bins) { return bins.velocity.array().sign(); }
 
@@ -54,7 +54,7 @@ double StrongestCycles(const Bins& bins, const GrowingFit& fit, const Frequencie
   const VectorXd explained = SquaresOf(bins, left, 1, cycles) + SquaresOf(bins, left, -1, cycles);
   Index strongest = 0;
   explained.maxCoeff(&strongest);
-  return cycles.first + cycles.step * static_cast<double>(strongest);
+  return cycles.At(strongest);
 }
 
 }  // namespace
@@ -169,9 +169,9 @@ Features OfPeriod(const Bins& bins, const Circumstances& known, const GrowingFit
   // no more cycles than the bins resolve, or than one a hold
   const double most = std::min(static_cast<double>(bins.size()) / kBinsACycle,
                                known.hold > 0 ? known.duration / known.hold : kInfinity);
-  if (most < kFewestCycles) return {MatrixXd(bins.size(), 0)};
-  const auto count = static_cast<Index>((most - kFewestCycles) / kCyclesApart) + 1;
-  const double cycles = StrongestCycles(bins, fit, {kFewestCycles, kCyclesApart, count});
+  const Index count = static_cast<Index>(most / kCyclesApart) - kFirstCycles + 1;
+  if (count < 1) return {MatrixXd(bins.size(), 0)};
+  const double cycles = StrongestCycles(bins, fit, {kCyclesApart, kFirstCycles, count});
   return {BothWays(bins, Waves(2 * kPi * cycles * bins.time.array())), static_cast<int>(count),
           known.duration / cycles};
 }

@@ -10,6 +10,7 @@
 #include "identification/linear/rigid_part.h"
 #include "identification/warming/estimated_start.h"
 #include "identification/warming/gaps.h"
+#include "models/foundation/robust_noise.h"
 #include "models/recording/course_of.h"
 
 namespace warmjoint::inline identification {
@@ -115,7 +116,7 @@ Eigen::MatrixXd AddWarming(const Fit& fit, const Inference& inference, const Mea
 
   // how far the jumps may be, and what losses held over each step leave out
   model.jump_spread = JumpSpread(gaps, model.energy.cwiseAbs().maxCoeff(), thermal.time_constant);
-  if (StepMatters(fit, inference, m)) {
+  if (StepMatters(fit, inference, m.velocity, model.step)) {
     model.held_loss = ForceOfHeldLoss(fit.friction, m, fit.Start());
   }
   return all.rightCols(jumps);
@@ -132,6 +133,7 @@ std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& infere
   // what the fit leaves of the torque
   FittedModel model;
   model.selection = selection;
+  if (m.size() > 1) model.step = MedianStep(m.time);
   model.has_bristle = law.pre_sliding == PreSliding::bristle;
   model.torque = m.torque;
   if (fit.gravity) TakeOff(*fit.gravity, m.position, model);

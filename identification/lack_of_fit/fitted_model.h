@@ -13,6 +13,7 @@ namespace warmjoint::inline identification {
 
 struct FittedModel {
   Selection selection;          // samples that took part
+  double step = 0;              // of the log, median, s
   Eigen::VectorXd torque;       // [N] tau less gravity, inertia and what a lag adds, N.m or N
   Eigen::VectorXd residual;     // [N] that less F, N.m or N
   Eigen::MatrixXd derivatives;  // [N x (p + J)] dF/dx at the estimate; dF/db of the jumps b that

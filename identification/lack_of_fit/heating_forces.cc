@@ -1,5 +1,6 @@
 #include "identification/lack_of_fit/heating_forces.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "identification/lack_of_fit/with_heat.h"
@@ -16,6 +17,22 @@ using Eigen::MatrixXd;
 // why: a drift that takes half the log to die away is still nearly even, one of an eighth is over before the
 // warming is; between them by halves
 constexpr double kSlowest = 1.0 / 2;  // of the log: the longest time constant of a drift
+
+/// exp(-rate t). t: [N] share of the log, which begins at 0
+ArrayXd Decay(const FittedModel& model, const ArrayXd& t, double rate) {
+  const bool even = model.loop && model.loop->intervals().length.size() == 1;
+  if (!even) return (-rate * t).exp();
+
+  // of an even clock by products: what is known of it, later by as many steps, twice as much each time
+  const Index n = t.size();
+  const double step = rate * t[n - 1] / static_cast<double>(n - 1);
+  ArrayXd decay = ArrayXd::Ones(n);
+  for (Index known = 1; known < n; known *= 2) {
+    const Index more = std::min(known, n - known);
+    decay.segment(known, more) = std::exp(-step * static_cast<double>(known)) * decay.head(more);
+  }
+  return decay;
+}
 
 /// t: [N] share of the log; slowest: [N] what the slowest drift has left to do by then. [m x 8], drifts, level, bend, slope
 /// and zeros
@@ -49,7 +66,7 @@ MatrixXd Along(const FittedModel& model, const Measurements& m, const Bins& bins
 HeatingForces HeatingForcesOf(const FittedModel& model, const Measurements& m, const Bins& bins) {
   const double share = 1 / (m.time[m.size() - 1] - m.time[0]);
   const ArrayXd t = (m.time.array() - m.time[0]) * share;
-  const MatrixXd all = Along(model, m, bins, t, (t * (-1 / kSlowest)).exp());
+  const MatrixXd all = Along(model, m, bins, t, Decay(model, t, 1 / kSlowest));
   return {all.leftCols(kCourses), all.col(kCourses), all.col(kCourses + 1),
           all.middleCols(kCourses + 2, model.thermal ? 1 : 0)};
 }

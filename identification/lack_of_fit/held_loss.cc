@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "models/foundation/robust_noise.h"
 #include "models/recording/course_of.h"
 
 namespace warmjoint::inline identification {
@@ -50,14 +49,15 @@ JointCourse Finer(const JointCourse& course, double gear) {
 
 }  // namespace
 
-bool StepMatters(const Fit& fit, const Inference& inference, const Measurements& measurements) {
-  if (!fit.friction.thermal || measurements.size() < 2) return false;
+bool StepMatters(const Fit& fit, const Inference& inference, const Eigen::VectorXd& velocity,
+                 double step) {
+  if (!fit.friction.thermal) return false;
   const auto tau = fit.RowOf(Role::heat, 1);
   if (!tau || !inference.parameters[*tau].std) return false;
   // by how much tau comes out too large, h |k v|/2
   const double gain = fit.friction.thermal->gain;
-  const double power = std::abs(gain) * measurements.velocity.cwiseAbs().mean();
-  return 0.5 * MedianStep(measurements.time) * power > kMatters * *inference.parameters[*tau].std;
+  const double power = std::abs(gain) * velocity.cwiseAbs().mean();
+  return 0.5 * step * power > kMatters * *inference.parameters[*tau].std;
 }
 
 Eigen::VectorXd ForceOfHeldLoss(const FrictionDescription& friction,

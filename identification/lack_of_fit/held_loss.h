@@ -11,8 +11,9 @@ namespace warmjoint::inline identification {
 
 /// Whether the step h of a log matters to its warming: (22) holds W over a step, in which E and
 /// with it W changes, so that tau comes out too large by h |k v|/2 (to first order in h/tau); where
-/// that is more than a quarter of the standard deviation of tau.
-bool StepMatters(const Fit& fit, const Inference& inference, const Measurements& measurements);
+/// that is more than a quarter of the standard deviation of tau. velocity: [N], rad/s or m/s; step: h, s.
+bool StepMatters(const Fit& fit, const Inference& inference, const Eigen::VectorXd& velocity,
+                 double step);
 
 /// The force of a friction whose losses follow its heat all the time, less its force by (22): 8/7
 /// of what (22) with an eighth of each step makes of it. Constant speed over each step.

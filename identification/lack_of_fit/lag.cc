@@ -140,10 +140,9 @@ Finding TestLag(const FittedModel& model, const Measurements& measurements, Vect
   const Selection all{Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(followers.size(), true), {}};
   GrowingFit fit(followers.Column(&Follower::kept), Means(followers, selection, residual),
                  Means(followers, selection, model.derivatives), all);
-  const double step = MedianStep(measurements.time);
   VectorXd holds = Eigen::Map<const VectorXd>(followers.holds.data(),
                                               static_cast<Index>(followers.holds.size()));
-  const VectorXd lags = TimeConstants(step, MedianInPlace(holds));
+  const VectorXd lags = TimeConstants(model.step, MedianInPlace(holds));
   const SharedColumns decays = Decays(followers, lags);
   Index best = 0;
   fit.ExplainedBy(decays).maxCoeff(&best);
@@ -160,7 +159,7 @@ Finding TestLag(const FittedModel& model, const Measurements& measurements, Vect
   if (!level.Rejects(finding.p)) return finding;
   finding.rejected = true;
   // the area under what is left, summed over the samples
-  finding.lag = share * step / (1 - std::exp(-step / lags[best]));
+  finding.lag = share * model.step / (1 - std::exp(-model.step / lags[best]));
 
   // taken off the residual
   fit.Take(decay);

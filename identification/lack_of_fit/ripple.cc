@@ -50,15 +50,16 @@ class BinnedResidual {
     double sums[2] = {0, 0};
     double* counts[2] = {counts_.col(0).data(), counts_.col(1).data()};
     auto next = samples_.begin();
+    int part = 0;
     for (Index i = 0; i < residual.size(); ++i) {
       if (!selection.keep[i]) continue;
       const auto bin = static_cast<int>(Bin(axis.phase[i]));
-      const auto before = static_cast<double>(next - samples_.begin());
-      const auto part = static_cast<int>(before / static_cast<double>(n) * kParts);
+      while ((next - samples_.begin()) * kParts >= (part + 1) * n) ++part;
       const int d = velocity[i] < 0;
       *next++ = {residual[i], bin, part, d};
       ++counts[d][bin];
-      sums[d] += residual[i];
+      sums[0] += d ? 0 : residual[i];
+      sums[1] += d ? residual[i] : 0;
     }
 
     // a level of each direction is no ripple
@@ -196,11 +197,12 @@ std::optional<AngleAxis> MotorAxis(const Measurements& m) {
 
 /// The travel of the kept samples, down to periods of which half of the samples see two a period or more: at speeds that
 /// differ, faster ones tell them, too.
-std::optional<AngleAxis> PositionAxis(const Measurements& m, const Selection& selection) {
+std::optional<AngleAxis> PositionAxis(const FittedModel& model, const Measurements& m) {
+  const Selection& selection = model.selection;
   const VectorXd kept = Kept(m.position, selection);
   VectorXd speeds = Kept(m.velocity, selection).cwiseAbs();
   const double lower = kept.minCoeff(), travel = kept.maxCoeff() - lower;
-  const double finest = 2 * MedianInPlace(speeds) * MedianStep(m.time);
+  const double finest = 2 * MedianInPlace(speeds) * model.step;
   if (!(travel > 0) || !std::isfinite(travel) || !(finest > 0)) return std::nullopt;
 
   // no more cycles than the speed and the number of samples let one see
@@ -246,7 +248,7 @@ Finding TestAxis(const AngleAxis& axis, const VectorXd& velocity, const Selectio
 std::vector<Finding> TestRipple(const FittedModel& model, const Measurements& m, VectorXd& residual,
                                 ErrorLevel& level) {
   std::vector<Finding> findings;
-  for (const auto& axis : {MotorAxis(m), PositionAxis(m, model.selection)}) {
+  for (const auto& axis : {MotorAxis(m), PositionAxis(model, m)}) {
     if (!axis) continue;
     Finding finding = TestAxis(*axis, m.velocity, model.selection, residual, level);
     if (finding.test) findings.push_back(std::move(finding));

@@ -69,13 +69,16 @@ MatrixXd EvenWaves(double first, double step, Index count) {
 MatrixXd WaveProducts(const Eigen::VectorXd& values, const Eigen::VectorXd& times,
                       const Frequencies& frequencies) {
   // waves of up to kAside steps, and of the centres, each times its value
-  const auto& [first, step, count] = frequencies;
+  const auto& [step, first, count] = frequencies;
   const Index centres = (count + kApart - 1) / kApart;
-  const ArrayXd once = 2 * std::numbers::pi * times.array();
-  const MatrixXd one = Waves(step * once);
+  const MatrixXd one = Waves(2 * std::numbers::pi * step * times.array());
   const MatrixXd aside = Turning(one, one, kAside);
   const auto last = aside.rightCols(2);
-  const MatrixXd centre = values.asDiagonal() * Waves((first + kAside * step) * once);
+  // the first centre lies kAside steps above the first frequency
+  MatrixXd centre = values.asDiagonal() * last;
+  for (Index below = first; below > 0; below -= kAside) {
+    centre = Sum(centre, aside.middleCols(2 * std::min(below, kAside) - 2, 2));
+  }
   const MatrixXd centred = Turning(centre, Sum(Sum(last, last), one), centres);
 
   // cosines and sines of centres, with those of steps, and by themselves

@@ -5,10 +5,13 @@
 
 namespace warmjoint::inline identification {
 
-/// Frequencies first, first + step, ...
+/// Multiples of a step: first step, (first + 1) step, ...
 struct Frequencies {
-  double first = 0, step = 1;  // cycles in a time of 1
+  double step = 1;         // cycles in a time of 1
+  Eigen::Index first = 1;  // the lowest multiple, 0 or above
   Eigen::Index count = 0;
+
+  double At(Eigen::Index k) const { return step * static_cast<double>(first + k); }
 };
 
 /// Sums of value cos(2 pi f t) and of value sin(2 pi f t). A frequency is one of few centres and a few steps more or

@@ -48,11 +48,17 @@ double Resolution(const Eigen::VectorXd& x) {
     largest = std::max(largest, step);
   }
 
+  if (!(largest > rounding)) return 0;
+
   // every step a multiple of the smallest, and more than one kind of step
-  const Eigen::ArrayXd multiples = steps / smallest;
-  const bool all_whole = ((multiples - multiples.round()).abs() <= 0.05).all();
-  const bool varied = multiples.minCoeff() < multiples.maxCoeff() - 0.5;
-  return largest > rounding && all_whole && varied ? smallest : 0;
+  double fewest = kUnknown, most = 0;
+  for (const double step : steps) {
+    const double multiple = step / smallest;
+    if (!(std::abs(multiple - std::round(multiple)) <= 0.05)) return 0;
+    fewest = std::min(fewest, multiple);
+    most = std::max(most, multiple);
+  }
+  return fewest < most - 0.5 ? smallest : 0;
 }
 
 }  // namespace warmjoint::inline models

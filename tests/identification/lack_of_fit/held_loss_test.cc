@@ -7,6 +7,7 @@
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/prepare.h"
 #include "identification/read_options.h"
+#include "models/foundation/robust_noise.h"
 #include "tests/support/judging.h"
 
 namespace warmjoint {
@@ -53,7 +54,7 @@ TEST(HeldLoss, MattersWhereTheTimeConstantIsKnownFinerThanTheStep) {
     const Options options = ReadOptions(identifier.options, {}, {});
     const IdentifierInput input{Prepare(log), options, {}};
     const Fit fit = identifier.fit(input);
-    return StepMatters(fit, Infer(fit), input.measurements);
+    return StepMatters(fit, Infer(fit), log.velocity, MedianStep(log.time));
   };
   EXPECT_TRUE(matters(m));
   EXPECT_FALSE(matters(slow));

@@ -101,6 +101,7 @@ TEST(TestLag, TakesWhatItFindsOffTheResidual) {
   const Measurements m = Late(RecordHour(test::Cold(), 1, 0.1), 0.4);
   FittedModel model;
   model.selection = SelectConstantSpeed(m);
+  model.step = 1;
   model.torque = m.torque;
   const Eigen::ArrayXd speed = m.velocity.array();
   model.residual = m.torque - (5 * speed + 15 * speed.sign()).matrix();

@@ -19,15 +19,18 @@ TEST(WaveProducts, AreSumsAtEachFrequency) {
   const VectorXd values = VectorXd::NullaryExpr(70, [&] { return random.Normal(); });
   const VectorXd times = VectorXd::NullaryExpr(70, [&] { return random.Uniform(); });
   // fewer than one centre reaches, one more, and many
-  for (const Index count : {1, 17, 18, 200}) {
-    const MatrixXd products = WaveProducts(values, times, {2.5, 0.5, count});
-    ASSERT_EQ(products.rows(), count);
-    for (Index k = 0; k < count; ++k) {
-      const Eigen::ArrayXd angle =
-          2 * std::numbers::pi * (2.5 + 0.5 * static_cast<double>(k)) * times.array();
-      // rounding of 70 products, of waves that some 30 turns made
-      EXPECT_NEAR(products(k, 0), (values.array() * angle.cos()).sum(), 1e-12) << count;
-      EXPECT_NEAR(products(k, 1), (values.array() * angle.sin()).sum(), 1e-12) << count;
+  // from none, less than as many steps as a centre reaches, as many, and more
+  for (const Index first : {0, 5, 8, 20}) {
+    for (const Index count : {1, 17, 18, 200}) {
+      const Frequencies frequencies{0.5, first, count};
+      const MatrixXd products = WaveProducts(values, times, frequencies);
+      ASSERT_EQ(products.rows(), count);
+      for (Index k = 0; k < count; ++k) {
+        const Eigen::ArrayXd angle = 2 * std::numbers::pi * frequencies.At(k) * times.array();
+        // rounding of 70 products, of waves that some 30 turns made
+        EXPECT_NEAR(products(k, 0), (values.array() * angle.cos()).sum(), 1e-12) << count;
+        EXPECT_NEAR(products(k, 1), (values.array() * angle.sin()).sum(), 1e-12) << count;
+      }
     }
   }
   EXPECT_EQ(WaveProducts(VectorXd(), VectorXd(), {1, 1, 3}), MatrixXd::Zero(3, 2));
