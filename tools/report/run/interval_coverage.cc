@@ -109,11 +109,13 @@ std::optional<Figure> IntervalCoverage(const RunView& run) {
   plot.series.push_back({"95 %", Hue::text, LevelLine{95}});
   std::vector<std::string> names;
   for (std::size_t i : columns) names.push_back(SymbolOf(rows.front().parameters[i].name));
-  // the axis begins below the lowest interval
+  // the axis begins below the lowest interval, and ends so far above 100 that marks there stand whole, but before a number
+  // that no share can have
   plot.x = CategoryAxis("parameter", names);
+  const double lower = std::max(-2.0, drawer.lowest - 4);
   plot.y = {"intervals that hold the truth (%)",
-            std::max(-2.0, drawer.lowest - 4),  // marks at 0 and 100 stand whole
-            102,
+            lower,
+            100 + std::min(1.9, 0.07 * (100 - lower)),
             Scale::linear,
             {}};
 
