@@ -9,7 +9,7 @@ namespace {
 
 /// Complains of the first number in `values` that is not finite.
 std::optional<std::string> NotFinite(const char* name, const Eigen::VectorXd& values) {
-  if (AllFinite(values)) return std::nullopt;
+  if (values.allFinite()) return std::nullopt;
   for (Eigen::Index i = 0; i < values.size(); ++i) {
     if (std::isfinite(values[i])) continue;
     return fmt::format("{} is {} at sample {}; remove or repair that sample", name, values[i], i);

@@ -28,12 +28,6 @@ typename Columns::PlainObject Kept(const Eigen::MatrixBase<Columns>& all,
   return kept;
 }
 
-/// Whether all numbers are finite, without a look at each: 0 times a number is 0, and NaN of what is none.
-template <typename Numbers>
-bool AllFinite(const Eigen::MatrixBase<Numbers>& numbers) {
-  return (0 * numbers.array()).sum() == 0;
-}
-
 /// Why nothing can be fitted to these data: a number that is not finite, too few kept samples for
 /// `parameters`, or a constant torque. Empty where the data can be used.
 std::optional<std::string> Unusable(const IdentifierInput& input, int parameters);

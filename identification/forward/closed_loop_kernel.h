@@ -108,7 +108,7 @@ void RunWithSensitivities(const ClosedLoop& loop, const double* parameters, doub
 template <typename Run>
 void WithHolds(const Intervals& intervals, const Thermal& thermal, Run&& run) {
   const std::vector<IntervalHold> holds = Holds(intervals, thermal);
-  if (holds.size() == 1) {
+  if (intervals.even()) {
     run(EvenHold{holds[0]});
   } else {
     run(UnevenHold{holds, intervals.which});

@@ -38,7 +38,7 @@ std::vector<const LackOfFitTest*> Rows(Turn turn) {
 /// Why nothing can be examined; empty where it can.
 std::string Obstacle(const std::optional<FittedModel>& model, const Bins& bins) {
   if (!model) return "the fit gives no friction";
-  if (!AllFinite(model->residual) || !AllFinite(model->derivatives)) {
+  if (!model->residual.allFinite() || !model->derivatives.allFinite()) {
     return "the residual is not finite";
   }
   if (bins.size() < kFewestBins) {

@@ -18,14 +18,14 @@ using Eigen::MatrixXd;
 // warming is; between them by halves
 constexpr double kSlowest = 1.0 / 2;  // of the log: the longest time constant of a drift
 
-/// exp(-rate t). t: [N] share of the log, which begins at 0
+/// exp(-rate t). t: [N] share of the log, from 0 to 1
 ArrayXd Decay(const FittedModel& model, const ArrayXd& t, double rate) {
-  const bool even = model.loop && model.loop->intervals().length.size() == 1;
+  const bool even = model.loop && model.loop->intervals().even();
   if (!even) return (-rate * t).exp();
 
   // of an even clock by products: what is known of it, later by as many steps, twice as much each time
   const Index n = t.size();
-  const double step = rate * t[n - 1] / static_cast<double>(n - 1);
+  const double step = rate / static_cast<double>(n - 1);
   ArrayXd decay = ArrayXd::Ones(n);
   for (Index known = 1; known < n; known *= 2) {
     const Index more = std::min(known, n - known);

@@ -41,13 +41,12 @@ double Resolution(const Eigen::VectorXd& x) {
   const Eigen::ArrayXd steps = (x.tail(x.size() - 1) - x.head(x.size() - 1)).cwiseAbs();
   const double rounding = 1e-12 * x.cwiseAbs().maxCoeff();
 
-  // the smallest step that is not rounding, and the largest
+  // the smallest step that is not rounding, and the largest, which is none either
   double smallest = kUnknown, largest = 0;
   for (const double step : steps) {
     if (step > rounding) smallest = std::min(smallest, step);
     largest = std::max(largest, step);
   }
-
   if (!(largest > rounding)) return 0;
 
   // every step a multiple of the smallest, and more than one kind of step

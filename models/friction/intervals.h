@@ -13,6 +13,8 @@ struct Intervals {
   std::vector<double> length;  // [m] distinct intervals, s, ascending; infinite before a cold start
   std::vector<int> which;      // [N] index into `length` of the interval that follows each sample
   double typical = 0;          // median, s
+
+  bool even() const { return length.size() == 1; }
 };
 
 /// time: [N] s, strictly increasing, N >= 2. The last sample's interval is the typical one.

@@ -18,9 +18,9 @@ TEST(WaveProducts, AreSumsAtEachFrequency) {
   RandomStream random({1, 0}, Stream::test);
   const VectorXd values = VectorXd::NullaryExpr(70, [&] { return random.Normal(); });
   const VectorXd times = VectorXd::NullaryExpr(70, [&] { return random.Uniform(); });
-  // fewer than one centre reaches, one more, and many
   // from none, less than as many steps as a centre reaches, as many, and more
   for (const Index first : {0, 5, 8, 20}) {
+    // fewer than one centre reaches, one more, and many
     for (const Index count : {1, 17, 18, 200}) {
       const Frequencies frequencies{0.5, first, count};
       const MatrixXd products = WaveProducts(values, times, frequencies);
