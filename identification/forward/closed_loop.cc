@@ -21,6 +21,30 @@ void WithLoopSize(const ClosedLoop& loop, Run&& run) {
   }
 }
 
+/// dF/d(p, k, log tau, E0, jumps): [N x (d + 3 + J)]
+WARMJOINT_FOR_EACH_PROCESSOR
+Eigen::MatrixXd ForceSlopes(const ClosedLoop& loop, const Eigen::VectorXd& parameters,
+                            const Thermal& thermal, double initial_energy,
+                            const Eigen::VectorXd& jumps) {
+  const Eigen::Index d = loop.levels().cols();
+  const Eigen::Index all = d + 3 + static_cast<Eigen::Index>(loop.jumps().size());
+  Eigen::MatrixXd slopes(loop.size(), all);
+  WithLoopSize(loop, [&]<int D>(std::integral_constant<int, D>) {
+    const Eigen::Index own = LoopSize<D>(d).value(), count = D == Eigen::Dynamic ? all : D + 3;
+    // levels become torques by the direction of motion
+    const Eigen::VectorXd& direction = loop.direction();
+    const auto write = [&](Eigen::Index n, double, const double* g, const double* S) {
+      for (Eigen::Index i = 0; i < own; ++i) slopes(n, i) = direction[n] * (g[i] + S[i]);
+      for (Eigen::Index i = own; i < count; ++i) slopes(n, i) = direction[n] * S[i];
+    };
+    WithHolds(loop.intervals(), thermal, [&](const auto& hold) {
+      RunWithSensitivities<D>(loop, parameters.data(), thermal.gain, initial_energy, jumps.data(),
+                              hold, write);
+    });
+  });
+  return slopes;
+}
+
 }  // namespace
 
 ClosedLoop::ClosedLoop(const Eigen::VectorXd& time, const Eigen::VectorXd& velocity,
@@ -86,26 +110,12 @@ LoopResponse ClosedLoop::Simulate(const Eigen::VectorXd& parameters, const Therm
   return response;
 }
 
-WARMJOINT_FOR_EACH_PROCESSOR
 Eigen::MatrixXd ClosedLoop::Jacobian(const Eigen::VectorXd& parameters, const Thermal& thermal,
                                      double initial_energy, const Eigen::VectorXd& jumps) const {
-  const Eigen::Index d = levels_.cols(), all = d + 3 + static_cast<Eigen::Index>(jumps_.size());
-  Eigen::MatrixXd jacobian(size(), all);
-  WithLoopSize(*this, [&]<int D>(std::integral_constant<int, D>) {
-    const Eigen::Index own = LoopSize<D>(d).value(), count = D == Eigen::Dynamic ? all : D + 3;
-    // levels become torques by the direction of motion
-    const auto write = [&](Eigen::Index n, double, const double* g, const double* S) {
-      for (Eigen::Index i = 0; i < own; ++i) jacobian(n, i) = direction_[n] * (g[i] + S[i]);
-      for (Eigen::Index i = own; i < count; ++i) jacobian(n, i) = direction_[n] * S[i];
-    };
-    WithHolds(intervals_, thermal, [&](const auto& hold) {
-      RunWithSensitivities<D>(*this, parameters.data(), thermal.gain, initial_energy, jumps.data(),
-                              hold, write);
-    });
-  });
+  Eigen::MatrixXd jacobian = ForceSlopes(*this, parameters, thermal, initial_energy, jumps);
 
   // from log(tau) to tau
-  jacobian.col(d + 1) /= thermal.time_constant;
+  jacobian.col(levels_.cols() + 1) /= thermal.time_constant;
   return jacobian;
 }
 
