@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "models/foundation/robust_noise.h"
+#include "identification/preparation/share_acceleration.h"
 #include "models/recording/sampling.h"
 
 namespace warmjoint::inline identification {
@@ -13,15 +13,13 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr int kPasses = 3;          // lines and changes of speed, in turn
-constexpr Index kBeside = 10;       // samples of a segment that must follow a change beside it
-constexpr Index kHiddenShare = 6;   // of a segment at each end, as a divisor
-constexpr double kStraight = 2;     // deviations of the positions
-constexpr double kHarmless = 2e-4;  // of the way of a segment: the path may be off by as much
-constexpr double kCertain = 4;      // standard errors
-constexpr size_t kFewestRamps = 5;  // that tell the acceleration of others
-constexpr double kOneAcceleration = 0.1;  // median deviation, of the acceleration
-constexpr double kShareOfEnd = 0.15;      // of a bent segment, whose end a line follows
+constexpr int kPasses = 3;            // lines and changes of speed, in turn
+constexpr Index kBeside = 10;         // samples of a segment that must follow a change beside it
+constexpr Index kHiddenShare = 6;     // of a segment at each end, as a divisor
+constexpr double kStraight = 2;       // deviations of the positions
+constexpr double kHarmless = 2e-4;    // of the way of a segment: the path may be off by as much
+constexpr double kCertain = 4;        // standard errors
+constexpr double kShareOfEnd = 0.15;  // of a bent segment, whose end a line follows
 constexpr double kMostOfEnd = 0.45;
 constexpr Index kFewestOfEnd = 6;  // samples
 
@@ -54,7 +52,7 @@ class PlateauSearch {
       FitLines();
       for (size_t i = 0; i + 1 < found_.plateaus.size(); ++i) found_.changes[i] = FindChange(i);
     }
-    ShareAcceleration();
+    ShareAcceleration(found_.time, found_.changes);
     for (size_t i = 0; i + 1 < found_.plateaus.size(); ++i) {
       if (found_.changes[i]) Extend(i);
     }
@@ -197,32 +195,6 @@ class PlateauSearch {
     PositionNoise noise = found_.noise;
     noise.reach = std::max(noise.reach, kHarmless * std::min(WayOf(one), WayOf(next)));
     return FindSpeedChange(found_.time, found_.position, *before, *behind, first, last, noise);
-  }
-
-  /// Gives the changes of speed whose ramp no sample shows the acceleration of those that samples do
-  /// show, where that is one: a drive has one limit. A ramp that would reach past a sample would
-  /// have shown.
-  void ShareAcceleration() {
-    std::vector<double> shown;
-    for (const auto& change : found_.changes) {
-      if (change && change->duration > 0) shown.push_back(change->Leap() / change->duration);
-    }
-    if (shown.size() < kFewestRamps) return;
-    using Column = Eigen::Map<const VectorXd>;
-    VectorXd all = Column(shown.data(), static_cast<Index>(shown.size()));
-    const double acceleration = MedianInPlace(all);
-    all = (all.array() - acceleration).abs();
-    if (MedianInPlace(all) > kOneAcceleration * acceleration) return;
-
-    for (auto& change : found_.changes) {
-      if (!change || change->duration > 0) continue;
-      const double* begin = found_.time.data();
-      const auto behind = std::upper_bound(begin, begin + count_, change->time) - begin;
-      if (behind == 0 || behind == count_) continue;
-      const double nearest =
-          std::min(found_.time[behind] - change->time, change->time - found_.time[behind - 1]);
-      change->duration = std::min(change->Leap() / acceleration, 2 * nearest);
-    }
   }
 
   /// Lets the plateaus beside a change of speed reach to its margins, or shrink to them.

@@ -8,6 +8,7 @@
 #include "models/robots/robot_folder.h"
 #include "sim/plant/disturb_log.h"
 #include "sim/plant/drive_bandwidth.h"
+#include "sim/plant/motion_reach.h"
 #include "sim/plant/sampling.h"
 #include "sim/plant/single_joint_model.h"
 #include "sim/plant/speed_watch.h"
@@ -103,12 +104,13 @@ class MujocoPlant : public Plant {
 
   /// The pieces at constant speed, of motions that stay within the joint's limits.
   std::vector<MotionSegment> CheckedPlan(RandomStream& motion, double start) const {
+    const JointRoom room{scenario_, joint_.limits};
     if (!corners_.empty()) {
-      CheckReach(corners_, start);
+      CheckReach(room, corners_, start);
       return HoldsBetween(corners_);
     }
     const auto plan = PlanMotion(scenario_.motion, scenario_.duration, joint_.limits, motion);
-    CheckReach(plan, start);
+    CheckReach(room, plan, start);
     return plan;
   }
 
@@ -149,33 +151,6 @@ class MujocoPlant : public Plant {
     const Controller& controller = scenario_.controller;
     if (controller.acceleration != 0) return controller.acceleration;
     return change * bandwidth_ / kRampTimes;
-  }
-
-  /// Refuses motions that leave the joint's limits.
-  void CheckReach(const std::vector<MotionSegment>& plan, double position) const {
-    // ends of segments are the extremes of a motion at constant speeds
-    for (const MotionSegment& segment : plan) {
-      position += segment.velocity * segment.duration;
-      CheckPosition(position);
-    }
-  }
-  void CheckReach(const std::vector<VelocityCorner>& corners, double position) const {
-    for (size_t i = 1; i < corners.size() && corners[i].time <= scenario_.duration; ++i) {
-      const double mean = (corners[i - 1].velocity + corners[i].velocity) / 2;
-      position += (corners[i].time - corners[i - 1].time) * mean;
-      CheckPosition(position);
-    }
-    const VelocityCorner& last = corners.back();
-    CheckPosition(position + std::max(scenario_.duration - last.time, 0.0) * last.velocity);
-  }
-  void CheckPosition(double position) const {
-    const auto [lower, upper] = joint_.limits;
-    const double slack = 1e-9 * std::max(1.0, upper - lower);
-    if (position >= lower - slack && position <= upper + slack) return;
-    Refuse({scenario_.name},
-           "the motion takes joint '{}' to {:.4g}, beyond its limits {:.4g} to "
-           "{:.4g}; let it travel between limits, or hold speeds for less time",
-           scenario_.joint, position, lower, upper);
   }
 
   Recording Empty() const {

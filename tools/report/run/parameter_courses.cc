@@ -34,10 +34,19 @@ const RunRow* LongestCourse(const RunView& run) {
 
 constexpr Eigen::Index kMostLines = 12;  // realizations that get a line each
 
+/// Which part of the realizations a band holds, and how it looks.
+struct Share {
+  double outer;  // of them on each side of it
+  const char* label;
+  double opacity;  // alone, as in the legend
+};
+constexpr Share kShares[] = {{0.1, "middle 80 %", 0.15}, {0.25, "middle half", 0.5}};
+
 /// Where the middle 80 % and the middle half of the realizations run.
 void AddBands(Plot& plot, const Eigen::VectorXd& iteration, const Eigen::MatrixXd& values) {
-  for (const auto& [outer, label] : {std::pair(0.1, "middle 80 %"), {0.25, "middle half"}}) {
-    Band band{iteration, Eigen::VectorXd(iteration.size()), Eigen::VectorXd(iteration.size()), 0.3};
+  for (const auto& [outer, label, opacity] : kShares) {
+    Band band{iteration, Eigen::VectorXd(iteration.size()), Eigen::VectorXd(iteration.size()),
+              opacity};
     for (Eigen::Index k = 0; k < iteration.size(); ++k) {
       const std::vector<double> sorted = SortedFinite(values.col(k));
       band.lower[k] = sorted.empty() ? std::nan("") : Quantile(sorted, outer);
