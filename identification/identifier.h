@@ -86,7 +86,12 @@ struct Identifier {
   /// Mathematics that fails gives a refusal, a status and a sentence; it does not throw.
   Fit (*fit)(const IdentifierInput& input);
   Regime regime = Regime::steady;
+  std::string earlier_name{};  // by which it is still found; or empty
 
+  /// Whether that is its name, or was.
+  bool IsCalled(std::string_view asked) const {
+    return asked == name || (!asked.empty() && asked == earlier_name);
+  }
   /// Whether the table of options has a row of that name.
   bool Has(std::string_view option) const {
     return std::ranges::find(options, option, &OptionInfo::name) != options.end();

@@ -56,7 +56,7 @@ Scenario VariantScenario(const Suite& suite, int variant);
 ///     variants:
 ///       one-speed: {motion.speeds: [0.5]}
 ///   identifiers:
-///     - {name: energy-em, label: energy-em-50, options: {iterations: 50},
+///     - {name: energy-als, label: energy-als-50, options: {iterations: 50},
 ///        claim: {source: "paper, Fig. 6", npe_continuous: 0.05}}
 ///     - {name: mine, command: "python3 mine.py {recording} {estimate}"}      with --allow-commands;
 ///                                  files that it names stand relative to the suite file

@@ -1,7 +1,9 @@
 #include "identification/identifiers/identifier_list.h"
 
+#include <algorithm>
+
 #include "identification/identifiers/auto.h"
-#include "identification/identifiers/energy_em.h"
+#include "identification/identifiers/energy_als.h"
 #include "identification/identifiers/energy_map.h"
 #include "identification/identifiers/energy_ml_with_maps.h"
 #include "identification/identifiers/kalman.h"
@@ -22,19 +24,33 @@ namespace warmjoint::inline identification {
 const std::vector<Identifier>& Identifiers() {
   static const std::vector<Identifier> identifiers{
       NominalLs(), PositionRidge(),    MotorRidge(), EnergyMap(), LoadMap(),         LpvEnergy(),
-      EnergyEm(),  EnergyMlWithMaps(), Rls(),        Kalman(),    StribeckByCeres(), LuGreByCeres(),
+      EnergyAls(), EnergyMlWithMaps(), Rls(),        Kalman(),    StribeckByCeres(), LuGreByCeres(),
       Auto(),
   };
   return identifiers;
 }
 
+namespace {
+
+/// nullptr where there is none.
+const Identifier* Find(const std::string& name) {
+  const auto called = [&](const Identifier& one) { return one.IsCalled(name); };
+  const auto found = std::ranges::find_if(Identifiers(), called);
+  return found == Identifiers().end() ? nullptr : &*found;
+}
+
+}  // namespace
+
 const Identifier& FindIdentifier(const std::string& name) {
+  if (const Identifier* found = Find(name)) return *found;
   std::vector<std::string> known;
-  for (const Identifier& identifier : Identifiers()) {
-    if (identifier.name == name) return identifier;
-    known.push_back(identifier.name);
-  }
+  for (const Identifier& identifier : Identifiers()) known.push_back(identifier.name);
   Refuse({}, "there is no identifier '{}'{}", Excerpt(name), Suggestion(name, known));
+}
+
+std::string CurrentName(const std::string& name) {
+  const Identifier* found = Find(name);
+  return found ? found->name : name;
 }
 
 }  // namespace warmjoint::inline identification

@@ -12,7 +12,10 @@ namespace warmjoint::inline identification {
 /// identifier_list.cc.
 const std::vector<Identifier>& Identifiers();
 
-/// The identifier of that name. Throws BadInput with the nearest name.
+/// The identifier that is called so, or was. Throws BadInput with the nearest name.
 const Identifier& FindIdentifier(const std::string& name);
+
+/// What an identifier is called now; `name` itself where the list has none that is or was called so.
+std::string CurrentName(const std::string& name);
 
 }  // namespace warmjoint::inline identification

@@ -37,7 +37,7 @@ STATEMENTS = [
 
 
 def make(attack):
-    attack.file("t.yaml", suite("[{name: nominal-ls}, {name: energy-em, options: {iterations: 3}}]"))
+    attack.file("t.yaml", suite("[{name: nominal-ls}, {name: energy-als, options: {iterations: 3}}]"))
     for i in (1, 2):
         attack.run(["run", "t.yaml", "-o", f"S{i}", "--shard", f"{i}/2"])
     attack.run(["merge", "S1", "S2", "-o", "GOOD"])

@@ -100,7 +100,7 @@ double RunSeconds(const Suite& suite, int jobs) {
 
 /// Ratio of the wall times on one and on two threads, taken in turn.
 void TwoCores(benchmark::State& state) {
-  const Suite suite = SuiteWith("energy-em", 300);
+  const Suite suite = SuiteWith("energy-als", 300);
   for (auto _ : state) {
     const double one = RunSeconds(suite, 1);
     state.counters["one_over_two"] = one / RunSeconds(suite, 2);

@@ -48,9 +48,9 @@ BENCHMARK_CAPTURE(Judge, energy_ml, "energy-ml")->Unit(benchmark::kMicrosecond);
 
 BENCHMARK_CAPTURE(Identify, nominal_ls, "nominal-ls", {})->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(Identify, energy_ml, "energy-ml", {})->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(Identify, energy_em_50, "energy-em", {{"iterations", "50"}})
+BENCHMARK_CAPTURE(Identify, energy_als_50, "energy-als", {{"iterations", "50"}})
     ->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(Identify, energy_em_500, "energy-em", {{"iterations", "500"}})
+BENCHMARK_CAPTURE(Identify, energy_als_500, "energy-als", {{"iterations", "500"}})
     ->Unit(benchmark::kMicrosecond);
 
 }  // namespace

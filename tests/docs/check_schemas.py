@@ -48,7 +48,7 @@ seed: 3
 ESTIMATES = [
     (["--identifier", "energy-ml"], "ok"),
     (["--identifier", "energy-ml", "--gravity", "sincos"], "ok"),
-    (["--identifier", "energy-em", "--set", "iterations=5"], "not_converged"),
+    (["--identifier", "energy-als", "--set", "iterations=5"], "not_converged"),
     (["--identifier", "nominal-ls"], "inadequate_model"),
     (["--identifier", "position-ridge", "--set", "kernels=10", "--force"], None),
     (["--identifier", "energy-ml", "--set", "position=map", "--set", "kernels=10"], None),

@@ -189,7 +189,7 @@ TEST_P(Contract, RecoversTheTruthOfRichData) {
   for (const EstimatedParameter& parameter : estimate.parameters) {
     const double truth = TruthOf(parameter.name);
     if (std::isnan(truth)) continue;
-    // 2 %: twice what the noise of 0.1 N.m leaves of tau, the least certain one; energy-em stops
+    // 2 %: twice what the noise of 0.1 N.m leaves of tau, the least certain one; energy-als stops
     // within 1 % of its fixed point
     EXPECT_NEAR(parameter.value, truth, 0.02 * std::abs(truth)) << parameter.name;
     EXPECT_LT(parameter.std.value_or(0), 0.01 * std::abs(truth)) << parameter.name;
@@ -401,17 +401,29 @@ INSTANTIATE_TEST_SUITE_P(Identifiers, Contract, ::testing::ValuesIn(Identifiers(
 
 TEST(Identifiers, HaveDistinctNames) {
   std::set<std::string> names;
-  for (const Identifier& identifier : Identifiers()) names.insert(identifier.name);
-  EXPECT_EQ(names.size(), Identifiers().size());
+  size_t count = 0;
+  for (const Identifier& identifier : Identifiers()) {
+    // what it was called is no name of another
+    for (const std::string& name : {identifier.name, identifier.earlier_name}) {
+      if (name.empty()) continue;
+      names.insert(name);
+      ++count;
+    }
+  }
+  EXPECT_EQ(names.size(), count);
 }
 
 TEST(Identifiers, AreFoundByNameOrRefusedWithTheNearest) {
-  EXPECT_EQ(FindIdentifier("energy-em").name, "energy-em");
+  EXPECT_EQ(FindIdentifier("energy-als").name, "energy-als");
+  EXPECT_EQ(FindIdentifier("energy-em").name, "energy-als") << "its earlier name";
+  EXPECT_EQ(CurrentName("energy-em"), "energy-als");
+  EXPECT_EQ(CurrentName("mine"), "mine");
+  EXPECT_THROW(FindIdentifier(""), BadInput);
   try {
-    FindIdentifier("energy-me");
+    FindIdentifier("energy-asl");
     FAIL() << "found";
   } catch (const BadInput& refusal) {
-    EXPECT_THAT(refusal.what(), HasSubstr("did you mean 'energy-em'?"));
+    EXPECT_THAT(refusal.what(), HasSubstr("did you mean 'energy-als'?"));
   }
 }
 

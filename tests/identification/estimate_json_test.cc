@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 
 Estimate Example() {
   Estimate estimate;
-  estimate.identifier = "energy-em";
+  estimate.identifier = "energy-als";
   estimate.status = Status::not_converged;
   estimate.message = "The parameters still move.";
   estimate.parameters = {{"coulomb", 15.1, "N.m", 0.2, {{14.7, 15.5}}},
@@ -40,7 +40,7 @@ std::string Refusal(const json& object) {
 
 TEST(EstimateJson, HoldsTheKeysOfTheContract) {
   const json object = EstimateToJson(Example());
-  EXPECT_EQ(object["identifier"], "energy-em");
+  EXPECT_EQ(object["identifier"], "energy-als");
   EXPECT_EQ(object["status"], "not_converged");
   EXPECT_EQ(object["parameters"]["coulomb"],
             json({{"value", 15.1}, {"unit", "N.m"}, {"std", 0.2}, {"interval95", {14.7, 15.5}}}));

@@ -58,9 +58,9 @@ TEST(SeveralRecordings, EnergyMlHoldsTheTruthInItsIntervals) {
   }
 }
 
-TEST(SeveralRecordings, EnergyEmStartsColdWithEach) {
+TEST(SeveralRecordings, EnergyAlsStartsColdWithEach) {
   // as one recording the joint would be some 3 N.m too cold at each start
-  const Estimate estimate = Identify("energy-em", Mornings(0.1));
+  const Estimate estimate = Identify("energy-als", Mornings(0.1));
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
   // its own 1 % to the fixed point, and the noise
   EXPECT_NEAR(estimate.Find("thermal_time_constant")->value, 600, 0.02 * 600);

@@ -25,7 +25,7 @@ scenario:
   duration: 100
 )";
 constexpr char kIdentifiers[] = R"(identifiers:
-  - {name: energy-em, label: em-50, options: {iterations: 50, gain_range: "-9:0"},
+  - {name: energy-als, label: em-50, options: {iterations: 50, gain_range: "-9:0"},
      claim: {source: "paper, Fig. 6", npe_continuous: 0.05}}
   - {name: nominal-ls}
 )";
@@ -81,7 +81,7 @@ TEST_F(SuiteFile, IsReadWhole) {
   EXPECT_EQ(suite.scenario.duration, 100);
   EXPECT_EQ(suite.variants(), 1);
   ASSERT_EQ(suite.identifiers.size(), 2);
-  const SuiteIdentifier expected{"energy-em",
+  const SuiteIdentifier expected{"energy-als",
                                  "em-50",
                                  {{"iterations", "50"}, {"gain_range", "-9:0"}},
                                  Claim{"paper, Fig. 6", {{"npe_continuous", 0.05}}}};

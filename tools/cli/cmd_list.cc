@@ -27,7 +27,8 @@ nlohmann::ordered_json Members(const Family& family, const std::string& name) {
   // one by its name; what is none is refused with the nearest
   std::vector<std::string> names;
   for (nlohmann::ordered_json& member : family.members()) {
-    if (member["name"] == name) return nlohmann::ordered_json::array({std::move(member)});
+    if (member["name"] == name || member.value("earlier_name", "") == name)
+      return nlohmann::ordered_json::array({std::move(member)});
     names.push_back(member["name"]);
   }
   Refuse({"warmjoint list " + family.name}, "there is no '{}'{}", Excerpt(name),

@@ -21,8 +21,10 @@ ordered_json IdentifiersJson() {
                          {"allowed", option.allowed},
                          {"meaning", option.meaning}});
     }
-    all.push_back(
-        {{"name", identifier.name}, {"summary", identifier.summary}, {"options", options}});
+    ordered_json& one = all.emplace_back(ordered_json{{"name", identifier.name}});
+    if (!identifier.earlier_name.empty()) one["earlier_name"] = identifier.earlier_name;
+    one["summary"] = identifier.summary;
+    one["options"] = std::move(options);
   }
   return all;
 }
@@ -36,8 +38,10 @@ std::vector<std::string> IdentifierNames() {
 namespace {
 
 std::string Head(const ordered_json& identifier) {
-  return fmt::format("{}\n    {}\n", identifier["name"].get<std::string>(),
-                     identifier["summary"].get<std::string>());
+  const std::string earlier = identifier.value("earlier_name", "");
+  return fmt::format("{}\n    {}{}\n", identifier["name"].get<std::string>(),
+                     identifier["summary"].get<std::string>(),
+                     earlier.empty() ? "" : "; its earlier name is " + earlier);
 }
 
 /// "one of coulomb, asymmetric", "number > 0", "text".

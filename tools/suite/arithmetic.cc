@@ -36,7 +36,7 @@ ladder:
     engine: {plant: mujoco, robot: rotary, joint: hinge, duration: 20, controller.bandwidth: 20}
 identifiers:
   - name: energy-ml
-  - {name: energy-em, options: {iterations: 10}}
+  - {name: energy-als, options: {iterations: 10}}
 )";
 
 /// Collects the bits of numbers.

@@ -30,7 +30,7 @@ void Add(const std::string& name, const std::vector<SuiteIdentifier>& suite, Com
   // a name may stand for several identifiers of the suite
   bool in_suite = false;
   for (const SuiteIdentifier& one : suite) {
-    if (one.label != name && one.name != name) continue;
+    if (one.label != name && CurrentName(one.name) != CurrentName(name)) continue;
     in_suite = true;
     if (!Contains(chosen, one.label)) chosen.push_back(one);
   }

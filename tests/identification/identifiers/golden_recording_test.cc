@@ -65,7 +65,7 @@ TEST(GoldenRecording, OfTheStribeckEffectIsRecovered) {
 
 TEST(GoldenRecording, IsRecoveredByTheAlternatingMethodAndTheFilter) {
   const Measurements m = GoldenLog("viscous_coulomb");
-  const Estimate alternating = Identify("energy-em", m, {{"iterations", "500"}});
+  const Estimate alternating = Identify("energy-als", m, {{"iterations", "500"}});
   EXPECT_EQ(alternating.status, Status::ok) << alternating.FullMessage();
   // it stops where an iteration changes little; its error shrinks by a few per cent in each
   EXPECT_LT(LargestError("viscous_coulomb", alternating), 1e-3);

@@ -44,7 +44,7 @@ void ExpectSameFriction(const Estimate& with, const Estimate& without) {
   for (const EstimatedParameter& parameter : without.parameters) {
     const EstimatedParameter* other = with.Find(parameter.name);
     ASSERT_TRUE(other) << parameter.name;
-    // intervals of both together; without any, twice the 1 % within which energy-em stops
+    // intervals of both together; without any, twice the 1 % within which energy-als stops
     double tolerance = 0.02 * std::abs(parameter.value);
     if (parameter.std) tolerance = 1.96 * std::hypot(*parameter.std, *other->std);
     EXPECT_NEAR(other->value, parameter.value, tolerance) << parameter.name;

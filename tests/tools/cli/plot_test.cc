@@ -23,7 +23,7 @@ using testing::UnorderedElementsAre;
 std::string SuiteText() {
   return TableOneSuite(6,
                        "  - {name: energy-ml}\n"
-                       "  - {name: energy-em, options: {iterations: 20}}\n"
+                       "  - {name: energy-als, options: {iterations: 20}}\n"
                        "  - {name: nominal-ls}\n");
 }
 

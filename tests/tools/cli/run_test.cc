@@ -22,7 +22,7 @@ using testing::Not;
 std::string SuiteText() {
   return TableOneSuite(40,
                        "  - {name: nominal-ls}\n"
-                       "  - {name: energy-em, label: em, options: {iterations: 20},\n"
+                       "  - {name: energy-als, label: em, options: {iterations: 20},\n"
                        "     claim: {source: us, rmse: 0.5}}\n");
 }
 
@@ -101,7 +101,7 @@ TEST_F(Run, AnEditedCopyOfTheSuiteIsNotBelieved) {
   ASSERT_EQ(RunWarmjoint(Command("run", {"--realizations", "2"})).status, 0);
   const std::string copy = Directory("run") + "/suite.yaml";
   std::string text = ReadWholeFile(copy);
-  text.resize(text.find("  - name: \"energy-em\""));
+  text.resize(text.find("  - name: \"energy-als\""));
   WriteWholeFile(copy, text);
   const ProgramAnswer answer = RunWarmjoint({"compare", Directory("run"), "--format", "json"});
   EXPECT_EQ(nlohmann::json::parse(answer.out).at("rows").size(), 2u);

@@ -136,7 +136,7 @@ TEST_F(OnTerminal, RefusalsAreWrappedThereAndOneLineInAPipe) {
 TEST_F(OnTerminal, ProgressOfARunStaysOnOneLine) {
   WriteWholeFile(scratch_.path() / "little.yaml",
                  TableOneSuite(30,
-                               "  - {name: energy-em, options: {iterations: 60}}\n"
+                               "  - {name: energy-als, options: {iterations: 60}}\n"
                                "  - {name: energy-ml}\n  - {name: nominal-ls}\n"));
   const ProgramAnswer shown = On(40, {"run", "little.yaml", "-o", "run", "--jobs", "1"});
   EXPECT_EQ(shown.status, 0);

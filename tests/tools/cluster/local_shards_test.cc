@@ -27,7 +27,7 @@ class LocalShards : public testing::Test {
   void SetUp() override {
     WriteWholeFile(suite_, TableOneSuite(40,
                                          "  - {name: nominal-ls}\n"
-                                         "  - {name: energy-em, options: {iterations: 20}}\n"));
+                                         "  - {name: energy-als, options: {iterations: 20}}\n"));
     // what tasks keep on the machine's own disk
     std::filesystem::create_directory(scratch_.path() / "tmp");
     setenv("TMPDIR", (scratch_.path() / "tmp").c_str(), 1);

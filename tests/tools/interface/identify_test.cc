@@ -118,7 +118,7 @@ TEST(Identify, TellsWarmingAsTheCommand) {
   const ScratchDirectory scratch;
   const std::string log = scratch.path() / "log.csv", file = scratch.path() / "estimate.json";
   WriteRecording(SimulateText(TableOneYaml(3600)).recording, log);
-  for (const std::string identifier : {"energy-ml", "energy-em", "kalman"}) {
+  for (const std::string identifier : {"energy-ml", "energy-als", "kalman"}) {
     const int status =
         RunWarmjoint({"identify", log, "--identifier", identifier, "-o", file}).status;
     IdentifySettings settings;

@@ -56,7 +56,7 @@ inline Course ExampleCourse() {
   return course;
 }
 
-/// energy-ml, and an energy-em of which 12 runs failed.
+/// energy-ml, and an energy-als of which 12 runs failed.
 inline RunView ExampleRun() {
   RandomStream random({11, 0}, Stream::test);
   RunView run;
@@ -68,7 +68,7 @@ inline RunView ExampleRun() {
   run.bound_npe = 0.012;
   run.noise = 0.5;
   run.rows = {ExampleRow("energy-ml", "energy-ml", 0.011, random),
-              ExampleRow("energy-em, 50 iterations", "energy-em", 0.2, random)};
+              ExampleRow("energy-als, 50 iterations", "energy-als", 0.2, random)};
   RunRow& em = run.rows[1];
   em.failures["not_converged"] = 12;
   em.npe.head(12).setConstant(std::nan(""));

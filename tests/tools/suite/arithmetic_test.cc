@@ -24,7 +24,7 @@ TEST(Arithmetic, MasksAreAddedToWhatIsThere) {
 TEST(Arithmetic, ARunHasTheSameBytesOnACpuWithoutFusedMultiplyAdds) {
   const ScratchDirectory scratch;
   const std::string suite = scratch.path() / "little.yaml";
-  WriteWholeFile(suite, TableOneSuite(4, "  - {name: energy-ml}\n  - {name: energy-em}\n"));
+  WriteWholeFile(suite, TableOneSuite(4, "  - {name: energy-ml}\n  - {name: energy-als}\n"));
   std::vector<std::string> bytes;
   for (const char* tunables : {"", "glibc.cpu.hwcaps=-FMA", "glibc.cpu.hwcaps=-AVX2,-FMA,-AVX"}) {
     setenv("GLIBC_TUNABLES", tunables, 1);

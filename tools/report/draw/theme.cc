@@ -1,6 +1,9 @@
 #include "tools/report/draw/theme.h"
 
+#include <string_view>
 #include <utility>
+
+#include "identification/identifiers/identifier_list.h"
 
 namespace warmjoint::report {
 
@@ -60,10 +63,11 @@ const Theme& PaperTheme() {
   return theme;
 }
 
-Hue IdentifierHue(std::string_view identifier) {
+Hue IdentifierHue(const std::string& of) {
+  const std::string identifier = CurrentName(of);
   // identifiers of this project have colours of their own
   static constexpr std::pair<std::string_view, Hue> kKnown[] = {
-      {"nominal-ls", Hue::grey},      {"energy-em", Hue::vermilion},
+      {"nominal-ls", Hue::grey},      {"energy-als", Hue::vermilion},
       {"energy-ml", Hue::blue},       {"rls", Hue::green},
       {"motor-ridge", Hue::purple},   {"kalman", Hue::sky},
       {"position-ridge", Hue::orange}};

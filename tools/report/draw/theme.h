@@ -1,6 +1,7 @@
 // Colours and sizes of all pictures.
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "tools/report/gl/image.h"
@@ -30,7 +31,7 @@ const Theme& DarkTheme();
 const Theme& PaperTheme();
 
 /// The hue of an identifier, the same in every figure: fixed for those that come with the program.
-Hue IdentifierHue(std::string_view identifier);
+Hue IdentifierHue(const std::string& identifier);
 
 /// Sizes in points.
 namespace size {

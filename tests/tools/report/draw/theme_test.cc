@@ -11,10 +11,17 @@ namespace {
 
 TEST(IdentifierHue, TellsTheMethodsOfThePaperAndTheirRivalsApart) {
   std::map<Hue, std::string> taken;
-  for (const char* name :
-       {"nominal-ls", "energy-em", "energy-ml", "rls", "kalman", "motor-ridge", "position-ridge"}) {
+  for (const char* name : {"nominal-ls", "energy-als", "energy-ml", "rls", "kalman", "motor-ridge",
+                           "position-ridge"}) {
     const auto [entry, is_new] = taken.emplace(IdentifierHue(name), name);
     EXPECT_TRUE(is_new) << name << " looks like " << entry->second;
+  }
+}
+
+TEST(IdentifierHue, StaysWhereAnIdentifierGotAnotherName) {
+  for (const Identifier& identifier : Identifiers()) {
+    if (identifier.earlier_name.empty()) continue;
+    EXPECT_EQ(IdentifierHue(identifier.earlier_name), IdentifierHue(identifier.name));
   }
 }
 

@@ -24,8 +24,8 @@ ErrorByIteration Example() {
   data.noise = 0.5;
   data.identifiers = {
       {"nominal-ls", "nominal-ls", Falling(1, 1.2, 1.2), Falling(1, 0.9, 0.9)},
-      {"energy-em 50", "energy-em", Falling(50, 1, 0.2), Falling(50, 0.8, 0.55)},
-      {"energy-em 500", "energy-em", Falling(500, 1, 0.01), Falling(500, 0.8, 0.5)},
+      {"energy-als 50", "energy-als", Falling(50, 1, 0.2), Falling(50, 0.8, 0.55)},
+      {"energy-als 500", "energy-als", Falling(500, 1, 0.01), Falling(500, 0.8, 0.5)},
   };
   return data;
 }
@@ -34,8 +34,8 @@ TEST(ErrorByIteration, DrawsMediansInTheIdentifiersColours) {
   const Drawn drawn = DrawTidy(MakeErrorByIteration(Example()));
   ASSERT_EQ(drawn.plots.size(), 2u);
   const DrawnPlot& npe = PlotNamed(drawn, "Normalised parameter error");
-  const DrawnSeries& em = SeriesNamed(npe, "energy-em 500");
-  EXPECT_EQ(em.colour, LightTheme().Colour(IdentifierHue("energy-em")));
+  const DrawnSeries& em = SeriesNamed(npe, "energy-als 500");
+  EXPECT_EQ(em.colour, LightTheme().Colour(IdentifierHue("energy-als")));
   EXPECT_EQ(em.x, std::pair(1.0, 500.0));
   EXPECT_NEAR(em.y.first, 1, 1e-12) << "per cent";
   EXPECT_NEAR(em.y.second, 100, 1e-12);
@@ -44,13 +44,13 @@ TEST(ErrorByIteration, DrawsMediansInTheIdentifiersColours) {
 
   const DrawnPlot& rmse = PlotNamed(drawn, "Root mean square error of the fit");
   EXPECT_EQ(SeriesNamed(rmse, "noise").y, std::pair(0.5, 0.5));
-  EXPECT_EQ(SeriesNamed(rmse, "energy-em 50").y, std::pair(0.55, 0.8));
+  EXPECT_EQ(SeriesNamed(rmse, "energy-als 50").y, std::pair(0.55, 0.8));
 }
 
 TEST(ErrorByIteration, ShowsTheQuartilesAsABandOfTheSameColour) {
   const Drawn drawn = DrawTidy(MakeErrorByIteration(Example()));
   const DrawnPlot& npe = PlotNamed(drawn, "Normalised parameter error");
-  // the band of energy-em 500 stands alone at its end: median 1 %, quartiles 0.8 and 1.2 %
+  // the band of energy-als 500 stands alone at its end: median 1 %, quartiles 0.8 and 1.2 %
   const DrawnSeries* band = nullptr;
   for (const DrawnSeries& series : npe.series) {
     if (series.label.empty() && std::abs(series.y.first - 0.8) < 1e-9) band = &series;
@@ -62,8 +62,8 @@ TEST(ErrorByIteration, ShowsTheQuartilesAsABandOfTheSameColour) {
 
 TEST(ErrorByIteration, SaysInItsAltTextWhatOneSees) {
   EXPECT_EQ(MakeErrorByIteration(Example()).finding,
-            "Median NPE after the last iteration: nominal-ls 120 %, energy-em 50 20.0 %, "
-            "energy-em 500 1.00 %, median at the Cramér-Rao bound 1.20 %.");
+            "Median NPE after the last iteration: nominal-ls 120 %, energy-als 50 20.0 %, "
+            "energy-als 500 1.00 %, median at the Cramér-Rao bound 1.20 %.");
 }
 
 TEST(ErrorByIteration, DrawsWithoutAnyThatIterates) {

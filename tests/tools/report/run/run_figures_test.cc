@@ -63,8 +63,8 @@ TEST(NpeBoxes, NameAnIdentifierThatNeverAnswered) {
   RunView run = ExampleRun();
   run.rows[1].npe.setConstant(std::nan(""));
   const Figure figure = *NpeBoxes(run);
-  EXPECT_TRUE(Writes(DrawLight(figure), "energy-em"));
-  EXPECT_THAT(figure.finding, HasSubstr("energy-em, 50 iterations none"));
+  EXPECT_TRUE(Writes(DrawLight(figure), "energy-als"));
+  EXPECT_THAT(figure.finding, HasSubstr("energy-als, 50 iterations none"));
 }
 
 TEST(NpeBoxes, CentreTheFailuresUnderTheIdentifier) {
@@ -125,7 +125,7 @@ TEST(ParameterCourses, ShowWhereMostRealizationsRunAndTheTruth) {
   const DrawnSeries& band = SeriesNamed(plot, "middle 80 %");
   EXPECT_NEAR(band.y.second, 5 * (1 + 1.4 * std::exp(-0.05)), 0.02);
   EXPECT_EQ(SeriesNamed(plot, "truth").y, std::pair(5.0, 5.0));
-  EXPECT_EQ(SeriesNamed(plot, "median").colour, LightTheme().Colour(IdentifierHue("energy-em")));
+  EXPECT_EQ(SeriesNamed(plot, "median").colour, LightTheme().Colour(IdentifierHue("energy-als")));
   EXPECT_EQ(drawn.plots.size(), 1u) << "thermal_pole is no parameter of the continuous truth";
 
   // few have a line each

@@ -1,4 +1,4 @@
-#include "identification/identifiers/energy_em.h"
+#include "identification/identifiers/energy_als.h"
 
 #include <gmock/gmock.h>
 
@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 using Given = std::map<std::string, std::string>;
 
 Estimate Identify(const Measurements& measurements, const Given& given = {}, StartKey key = {}) {
-  const Identifier identifier = EnergyEm();
+  const Identifier identifier = EnergyAls();
   const Options options = ReadOptions(identifier.options, given, {});
   return IdentifyUnjudged(identifier, {Prepare(measurements), options, key});
 }
@@ -27,7 +27,7 @@ Measurements TableOneRecording(std::uint64_t seed, Eigen::Index rest = 0, double
                               seed);
 }
 
-TEST(EnergyEm, ReproducesTheGoldenFixedPoint) {
+TEST(EnergyAls, ReproducesTheGoldenFixedPoint) {
   const nlohmann::json& golden = test::Golden().at("dataset").at("joint_open");
   const Estimate estimate = Identify(test::GoldenRecording(), {{"iterations", "1000"},
                                                                {"start", "options"},
@@ -47,7 +47,7 @@ TEST(EnergyEm, ReproducesTheGoldenFixedPoint) {
   check("thermal_pole", "te");
 }
 
-TEST(EnergyEm, RecoversNoiseFreeTruth) {
+TEST(EnergyAls, RecoversNoiseFreeTruth) {
   const Estimate estimate = Identify(TableOneRecording(1, 0, 0), {{"iterations", "2000"}});
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
   // 0.974^2000 of the first error is below rounding; 1e-6 for iterative optimisers
@@ -58,7 +58,7 @@ TEST(EnergyEm, RecoversNoiseFreeTruth) {
   EXPECT_LT(estimate.metrics->rmse, 1e-6);
 }
 
-TEST(EnergyEm, SaysThatFiftyIterationsAreTooFewForSteadyMotion) {
+TEST(EnergyAls, SaysThatFiftyIterationsAreTooFewForSteadyMotion) {
   const Estimate estimate = Identify(TableOneRecording(2), {{"start", "random"}}, StartKey{{7, 2}});
   EXPECT_EQ(estimate.status, Status::not_converged);
   EXPECT_THAT(estimate.message, HasSubstr("stopped after 50 iterations"));
@@ -68,7 +68,7 @@ TEST(EnergyEm, SaysThatFiftyIterationsAreTooFewForSteadyMotion) {
   EXPECT_FALSE(estimate.friction);
 }
 
-TEST(EnergyEm, ExtrapolatesItsDistanceToTheEnd) {
+TEST(EnergyAls, ExtrapolatesItsDistanceToTheEnd) {
   // the message's distance after 100 iterations is what 1000 more then move, to its two digits
   const Measurements recording = TableOneRecording(3);
   const Given start{{"start", "options"}, {"start_gain", "-1"}, {"start_time_constant", "300"}};
@@ -88,7 +88,7 @@ TEST(EnergyEm, ExtrapolatesItsDistanceToTheEnd) {
   EXPECT_NEAR(claimed, largest, 0.3 * largest);
 }
 
-TEST(EnergyEm, ConvergesInFiftyIterationsWhereRestsLetTheJointCool) {
+TEST(EnergyAls, ConvergesInFiftyIterationsWhereRestsLetTheJointCool) {
   int near = 0;
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const Estimate estimate =
@@ -102,7 +102,7 @@ TEST(EnergyEm, ConvergesInFiftyIterationsWhereRestsLetTheJointCool) {
   EXPECT_GE(near, 8);
 }
 
-TEST(EnergyEm, TracesTheStartAndEveryIteration) {
+TEST(EnergyAls, TracesTheStartAndEveryIteration) {
   const Estimate estimate = Identify(TableOneRecording(4), {{"iterations", "20"}});
   ASSERT_EQ(estimate.trace.size(), 21u);
   EXPECT_EQ(estimate.trace.front().iteration, 0);
@@ -114,7 +114,7 @@ TEST(EnergyEm, TracesTheStartAndEveryIteration) {
   }
 }
 
-TEST(EnergyEm, DrawsItsStartFromItsKeyAlone) {
+TEST(EnergyAls, DrawsItsStartFromItsKeyAlone) {
   const Measurements recording = TableOneRecording(5);
   const Given given{{"start", "random"}, {"iterations", "1"}};
   const auto first = Identify(recording, given, {7, 1}).trace[0].parameters;
@@ -122,7 +122,7 @@ TEST(EnergyEm, DrawsItsStartFromItsKeyAlone) {
   EXPECT_NE(Identify(recording, given, StartKey{{7, 2}}).trace[0].parameters, first);
 }
 
-TEST(EnergyEm, GivesNoNumbersForOneSpeedAlone) {
+TEST(EnergyAls, GivesNoNumbersForOneSpeedAlone) {
   Eigen::VectorXd velocity = Eigen::VectorXd::Constant(3600, 0.5);
   for (Eigen::Index i = 0; i < 3600; ++i) velocity[i] = i / 20 % 2 ? 0.5 : -0.5;
   const Estimate estimate = Identify(test::RecordFriction(test::TableOne(), 1, velocity, 0.5, 1));
@@ -132,7 +132,7 @@ TEST(EnergyEm, GivesNoNumbersForOneSpeedAlone) {
   EXPECT_FALSE(estimate.metrics);
 }
 
-TEST(EnergyEm, GivesNoNumbersForARecordTooShortToShowTheTimeConstant) {
+TEST(EnergyAls, GivesNoNumbersForARecordTooShortToShowTheTimeConstant) {
   // friction only ramps: its curvature over 60 s of tau = 6e4 s drowns in the noise
   FrictionDescription friction = test::TableOne();
   friction.thermal = Thermal{-300, 60000};
@@ -143,7 +143,7 @@ TEST(EnergyEm, GivesNoNumbersForARecordTooShortToShowTheTimeConstant) {
   EXPECT_NE(estimate.status, Status::ok) << estimate.message;
 }
 
-TEST(EnergyEm, RefusesAFitThatFeedsItself) {
+TEST(EnergyAls, RefusesAFitThatFeedsItself) {
   // the level falls by 8 N.m, below what is needed at slow speeds: there the torque turns around
   const Eigen::VectorXd velocity = test::AlternatingSpeeds(1200, 7);
   Measurements m = test::Record(1, velocity, velocity);
@@ -158,7 +158,7 @@ TEST(EnergyEm, RefusesAFitThatFeedsItself) {
   EXPECT_TRUE(estimate.parameters.empty());
 }
 
-TEST(EnergyEm, FitsAMapOverPositionBesideTheLaw) {
+TEST(EnergyAls, FitsAMapOverPositionBesideTheLaw) {
   FrictionDescription truth{
       "viscous_coulomb", {{"viscous", 0.0527}, {"coulomb", 0.48}}, Thermal{-0.194, 180}, 0, 1};
   truth.maps = {test::PositionLevel(1.5, 0.06)};
@@ -183,7 +183,7 @@ TEST(EnergyEm, FitsAMapOverPositionBesideTheLaw) {
   EXPECT_NEAR(rmse, 0.01, 0.01 * 0.1);
 }
 
-TEST(EnergyEm, RefusesAMapBesideGravity) {
+TEST(EnergyAls, RefusesAMapBesideGravity) {
   const Estimate estimate =
       Identify(TableOneRecording(1), {{"position", "map"}, {"gravity", "sincos"}});
   EXPECT_EQ(estimate.status, Status::bad_data);

@@ -1,11 +1,11 @@
-// Identifier `energy-em`: Algorithm 1 of the paper.
+// Identifier `energy-als`: Algorithm 1 of the paper, which are alternating least squares.
 #pragma once
 
 #include "identification/identifier.h"
 
 namespace warmjoint::inline identification {
 
-/// Block-coordinate descent on |tau - Fn(v) - sign(v) E|^2 with E = H W, W = |tau v| (19):
+/// Alternating least squares, a block-coordinate descent on |tau - Fn(v) - sign(v) E|^2 with E = H W, W = |tau v| (19):
 ///   0. E from the start H0, Fn by (24); then repeat
 ///   1. E by (23)   2. H(z) of (22) to that E by output error   3. E = H W   4. Fn by (24).
 /// It converges linearly, at the squared largest canonical correlation of its two blocks: about
@@ -14,6 +14,6 @@ namespace warmjoint::inline identification {
 /// by more than the option `tolerance`.
 /// It gives no intervals: W is formed of the noisy torque, so the residual understates the errors
 /// (on Table I such intervals would hold the time constant in 72 % of the runs instead of 95 %).
-Identifier EnergyEm();
+Identifier EnergyAls();
 
 }  // namespace warmjoint::inline identification

@@ -1,4 +1,4 @@
-#include "identification/identifiers/energy_em.h"
+#include "identification/identifiers/energy_als.h"
 
 #include <fmt/format.h>
 
@@ -17,7 +17,7 @@
 namespace warmjoint::inline identification {
 namespace {
 
-constexpr const char* kName = "energy-em";
+constexpr const char* kName = "energy-als";
 constexpr double kSingular = 1e-6;  // of the joint Jacobian; short of it the intervals tell
 
 /// Where the loop starts: from the options, from (25) corrected, or drawn at random.
@@ -240,7 +240,7 @@ Fit FitInTurn(const IdentifierInput& input) {
 
 }  // namespace
 
-Identifier EnergyEm() {
+Identifier EnergyAls() {
   std::vector<OptionInfo> options{
       LawOption(),
       {"iterations", "50", "integer >= 0", "iterations of the loop"},
@@ -257,8 +257,14 @@ Identifier EnergyEm() {
   for (OptionInfo& option : PositionPartOptions("none|map", "a map over position beside the law")) {
     options.push_back(std::move(option));
   }
-  return {kName, "Algorithm 1: energy filter and nominal law fitted in turn, a trace per iteration",
-          options, &FitInTurn};
+  return {
+      kName,
+      "alternating least squares (Algorithm 1): energy filter and nominal law fitted in turn, a "
+      "trace per iteration",
+      options,
+      &FitInTurn,
+      Regime::steady,
+      "energy-em"};
 }
 
 }  // namespace warmjoint::inline identification
