@@ -88,7 +88,7 @@ struct Refusal {
   Status status = Status::not_identifiable;
   std::string message;
   /// The friction about which a fit did not come to rest: the report adds what the log lacks to show it.
-  std::optional<FrictionKind> unsettled{};
+  std::optional<FrictionKind> unconverged{};
 };
 
 /// E at the last sample of a log that has one stage of heat.

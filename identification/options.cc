@@ -1,6 +1,7 @@
 #include "identification/options.h"
 
-#include <cassert>
+#include <stdexcept>
+#include <string>
 
 #include "models/foundation/parse_number.h"
 
@@ -18,7 +19,11 @@ std::optional<std::pair<double, double>> ParseRange(std::string_view text) {
 
 const std::string& Options::Text(std::string_view name) const {
   const auto found = values_.find(name);
-  assert(found != values_.end() && "an identifier asks for an option that its table lacks");
+  // a bug of the identifier, in every build: there is no text to go on with
+  if (found == values_.end()) {
+    throw std::logic_error("an identifier asks for the option '" + std::string(name) +
+                           "', which its table of options lacks");
+  }
   return found->second;
 }
 

@@ -171,9 +171,9 @@ Fit Conclude(const IdentifierInput& input, const NominalPart& part, const BlockD
   Fit fit = ModelOf(input, part, last);
   // gravity may push, friction itself must brake
   const Eigen::VectorXd fitted = descent.Fitted(last);
-  const Eigen::VectorXd pull = part.moving.keep.cast<double>().matrix().cwiseProduct(
+  const Eigen::VectorXd gravity_torque = part.moving.keep.cast<double>().matrix().cwiseProduct(
       part.gravity.columns * last.nominal.tail(part.gravity.count()));
-  fit.refusal = WhyRefused(input.measurements, last, fitted - pull);
+  fit.refusal = WhyRefused(input.measurements, last, fitted - gravity_torque);
   if (fit.refusal) return fit;
 
   // both blocks together

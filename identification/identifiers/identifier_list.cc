@@ -23,8 +23,9 @@ namespace warmjoint::inline identification {
 
 const std::vector<Identifier>& Identifiers() {
   static const std::vector<Identifier> identifiers{
-      NominalLs(), PositionRidge(),    MotorRidge(), EnergyMap(), LoadMap(),         LpvEnergy(),
-      EnergyAls(), EnergyMlWithMaps(), Rls(),        Kalman(),    StribeckByCeres(), LuGreByCeres(),
+      NominalLs(), PositionRidge(), MotorRidge(),         EnergyMap(),
+      LoadMap(),   LpvEnergy(),     EnergyAls(),          EnergyMlWithMaps(),
+      Rls(),       Kalman(),        StribeckIdentifier(), LuGreIdentifier(),
       Auto(),
   };
   return identifiers;

@@ -17,12 +17,12 @@ namespace warmjoint::inline identification {
 namespace {
 
 constexpr const char* kName = "lugre";
-constexpr size_t kRefined = 3;          // starts
-constexpr int kPasses = 3;              // of weighing the samples
-constexpr double kNotable = 0.02;       // of the torque's rms
-constexpr double kMissed = 2;           // rms around turns over that at constant speeds
-constexpr double kVagueBristle = 0.5;   // standard deviation of a logarithm: a factor of e
-constexpr double kNothingKnown = 2.35;  // the same: a factor of 100
+constexpr size_t kRefined = 3;             // starts
+constexpr int kPasses = 3;                 // of weighing the samples
+constexpr double kNotable = 0.02;          // of the torque's rms
+constexpr double kMissed = 2;              // rms around turns over that at constant speeds
+constexpr double kImpreciseBristle = 0.5;  // standard deviation of a logarithm: a factor of e
+constexpr double kNothingKnown = 2.35;     // the same: a factor of 100
 
 /// x up to ln vs of the Stribeck curve, were presliding over after `distance`, rad or m; nothing where
 /// the samples do not show one. A start, so that ks is kept within 1 and 3 kc.
@@ -72,10 +72,10 @@ LugreFit FitFrom(const LugreProblem& problem, const std::vector<LugrePoint>& sca
 }
 
 /// Why bristle_stiffness cannot be told, or bristle_damping; nothing where they can.
-std::optional<std::string> VagueBristle(const Measurements& m, const LugreProblem& problem,
-                                        const LugreAnswer& answer) {
+std::optional<std::string> UnidentifiableBristle(const Measurements& m, const LugreProblem& problem,
+                                                 const LugreAnswer& answer) {
   const double stiffness = answer.Deviation(problem.log_stiffness());
-  if (!(stiffness < kVagueBristle)) {
+  if (!(stiffness < kImpreciseBristle)) {
     return fmt::format(
         "bristle_stiffness and bristle_damping cannot be estimated: the samples around reversals "
         "{}; reverse slowly and over small distances, so that several samples fall between "
@@ -89,7 +89,7 @@ std::optional<std::string> VagueBristle(const Measurements& m, const LugreProble
   if (problem.IsConstant(problem.damping())) return std::nullopt;
   const Eigen::VectorXd& x = answer.fit.solution.x;
   const double damping = x[problem.damping()], deviation = answer.Deviation(problem.damping());
-  if (deviation < kVagueBristle * std::abs(damping)) return std::nullopt;
+  if (deviation < kImpreciseBristle * std::abs(damping)) return std::nullopt;
   return fmt::format(
       "bristle_damping cannot be estimated: it is {:.3g} with a standard error of {:.3g} {}; "
       "reverse faster within the {:.2g} {} that the bristle bends, sampled in steps well below "
@@ -116,7 +116,8 @@ std::optional<std::string> UnknownStribeck(const IdentifierInput& input,
         problem.law->fall_words, std::sqrt(std::max(explained, 0.0)), std::sqrt(kVisibleWarming),
         SlowSpeeds(input.measurements, SteadySamples(input, 0)));
   }
-  return VagueStribeck(*problem.law, evidence, input.measurements, SteadySamples(input, 0));
+  return UnidentifiableStribeck(*problem.law, evidence, input.measurements,
+                                SteadySamples(input, 0));
 }
 
 /// Law and, where it is estimated, inertia at a point: the model and its table.
@@ -151,7 +152,7 @@ std::vector<Iterate> Trace(const LugreProblem& problem, const std::vector<LugreP
 /// Why there is no fit to trust; nothing where there is.
 std::optional<Refusal> WhyRefused(const IdentifierInput& input, const LugreProblem& problem,
                                   const LugreAnswer& answer) {
-  auto why = VagueBristle(input.measurements, problem, answer);
+  auto why = UnidentifiableBristle(input.measurements, problem, answer);
   if (!why) why = UnknownStribeck(input, problem, answer);
   if (why) return Refusal{Status::not_identifiable, *why};
   if (answer.fit.converged) return std::nullopt;
@@ -248,7 +249,7 @@ Fit FitLugre(const IdentifierInput& given) {
 
 }  // namespace
 
-Identifier LuGreByCeres() {
+Identifier LuGreIdentifier() {
   return {kName,
           "the LuGre law by least squares over turns and constant speeds; needs no start",
           {{"law", std::string(LuGre::name), LawWords(BristleFallingLaws{}),

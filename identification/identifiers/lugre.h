@@ -20,6 +20,6 @@ namespace warmjoint::inline identification {
 /// what leaving out every other sample changes (Richardson). inadequate_model where friction rises
 /// from rest, or turns leave twice as much as constant speeds and 2 % of the torque. The trace
 /// holds the grid.
-Identifier LuGreByCeres();
+Identifier LuGreIdentifier();
 
 }  // namespace warmjoint::inline identification

@@ -60,11 +60,11 @@ struct ColdRows {
 };
 
 /// A known warming is taken off the torque, and off gravity, which makes no heat. columns: [N x d],
-/// the last `pulls` of them gravity's.
-ColdRows Cold(const std::optional<MeasuredHeat>& heat, Eigen::MatrixXd columns, Eigen::Index pulls,
-              const Eigen::VectorXd& torque) {
+/// the last `gravity_columns` of them gravity's.
+ColdRows Cold(const std::optional<MeasuredHeat>& heat, Eigen::MatrixXd columns,
+              Eigen::Index gravity_columns, const Eigen::VectorXd& torque) {
   if (!heat) return {std::move(columns), torque};
-  columns.rightCols(pulls) = heat->TakenOff(columns.rightCols(pulls));
+  columns.rightCols(gravity_columns) = heat->TakenOff(columns.rightCols(gravity_columns));
   return {std::move(columns), heat->TakenOff(torque)};
 }
 

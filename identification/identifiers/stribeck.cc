@@ -67,15 +67,16 @@ std::string Unseen(const IdentifierInput& input, const FallingLaw& law, double e
 }
 
 /// Why the warming cannot be told; nothing where it can, or is not asked for.
-std::optional<std::string> VagueWarming(const StribeckProblem& problem, const StribeckFit& fit,
-                                        const Uncertainty& known, double cold_squares) {
+std::optional<std::string> UnidentifiableHeat(const StribeckProblem& problem,
+                                              const StribeckFit& fit, const Uncertainty& known,
+                                              double cold_squares) {
   if (problem.warming == FittedWarming::none) return std::nullopt;
   const Eigen::VectorXd& time = problem.measurements.time;
   const double total = time[time.size() - 1] - time[0];
   // what the warming explains, in variances of the noise
   const Eigen::Index n = fit.fitted.size();
   const double variance = fit.solution.squares / static_cast<double>(n - fit.solution.x.size());
-  return UnknownWarming(
+  return UnidentifiableWarming(
       {(cold_squares - fit.solution.squares) / variance, known.Deviation(Gain(problem) + 1),
        std::exp(fit.solution.x[Gain(problem) + 1]), 2 * problem.intervals.typical, 5 * total});
 }
@@ -194,8 +195,8 @@ void Conclude(const IdentifierInput& input, const StribeckProblem& problem, cons
   const StribeckEvidence evidence = EvidenceOf(
       problem.law, best.solution.x, known.covariance.topLeftCorner(LogVs(problem), LogVs(problem)),
       known.Deviation(LogVs(problem)));
-  auto why = VagueStribeck(problem.law, evidence, input.measurements, input.selection);
-  if (!why) why = VagueWarming(problem, best, known, rivals.cold);
+  auto why = UnidentifiableStribeck(problem.law, evidence, input.measurements, input.selection);
+  if (!why) why = UnidentifiableHeat(problem, best, known, rivals.cold);
   if (why) {
     fit.refusal = Refusal{Status::not_identifiable, *why};
     return;
@@ -246,7 +247,7 @@ Fit FitStribeck(const IdentifierInput& input) {
 
 }  // namespace
 
-Identifier StribeckByCeres() {
+Identifier StribeckIdentifier() {
   return {kName,
           "the Stribeck law by least squares, with or without warming; needs no start",
           {{"law", std::string(Stribeck::name), LawWords(SteadyFallingLaws{}),

@@ -14,6 +14,6 @@ namespace warmjoint::inline identification {
 /// stribeck_velocity explain no more than chance does; where vs is not known to a factor of e, or
 /// ks - kc not to a half of itself, which is so when slow speeds are missing. inadequate_model
 /// where friction rises from rest instead of falling. The trace holds the scan, by its vs.
-Identifier StribeckByCeres();
+Identifier StribeckIdentifier();
 
 }  // namespace warmjoint::inline identification

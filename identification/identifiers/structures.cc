@@ -107,7 +107,7 @@ std::vector<Structure> WarmStructures(const std::string& gravity) {
 }
 
 Structure StribeckStructure(const std::string& warming) {
-  return {StribeckByCeres(), {{"warming", warming}}};
+  return {StribeckIdentifier(), {{"warming", warming}}};
 }
 
 Structure TwoLevelStribeckStructure(const std::string& warming) {

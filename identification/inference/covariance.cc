@@ -41,7 +41,8 @@ Uncertainty OfWhitened(const Fit& fit, const Whitening& whitening) {
   known.noise = whitening.noise();
   const auto samples = static_cast<double>(whitening.size());
   const auto count = static_cast<double>(fit.errors.cofactor.rows());
-  known.freedom = std::min(known.freedom, std::max(samples / known.noise.redundancy - count, 1.0));
+  known.freedom =
+      std::min(known.freedom, std::max(samples / known.noise.variance_inflation - count, 1.0));
   return known;
 }
 
@@ -67,7 +68,7 @@ Uncertainty CovarianceOf(const Fit& fit) {
 double FreedomOfWeights(const Eigen::VectorXd& weights, const NoiseModel& noise, Eigen::Index d) {
   const double sum = weights.sum();
   const double effective = sum * sum / weights.squaredNorm();
-  return std::max(effective / noise.redundancy - static_cast<double>(d), 1.0);
+  return std::max(effective / noise.variance_inflation - static_cast<double>(d), 1.0);
 }
 
 }  // namespace warmjoint::inline identification

@@ -43,11 +43,16 @@ struct LackOfFitTest {
   std::string (*quantity)(const Finding& finding, const Measurements& measurements) = nullptr;
   /// The law, identifier or recording that helps; names only what is there.
   std::string (*remedy)(const Advice& advice) = nullptr;
+  // for those who never saw warmjoint: what it asks of the residual, and what helps where the answer is yes
+  std::string_view question, advice;
 };
 
 /// All rows. Of those over bins the ones that come first are made first where the rows are too few
 /// for all.
 const std::vector<LackOfFitTest>& LackOfFitTests();
+
+/// The row of that name; nullptr where there is none.
+const LackOfFitTest* FindLackOfFitTest(std::string_view name);
 
 /// The rows of tests that look at samples.
 const LackOfFitTest& LagTest();

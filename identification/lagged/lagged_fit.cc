@@ -31,7 +31,7 @@ NoiseModel Autoregressive(double correlation, double variance) {
   noise.variance = variance;
   noise.innovation = variance * (1 - correlation * correlation);
   noise.correlation = correlation;
-  noise.redundancy = (1 + correlation * correlation) / (1 - correlation * correlation);
+  noise.variance_inflation = (1 + correlation * correlation) / (1 - correlation * correlation);
   return noise;
 }
 

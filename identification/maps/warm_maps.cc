@@ -142,7 +142,7 @@ std::optional<WarmMaps> FitWarmMaps(const IdentifierInput& input, const MapTask&
 Fit AsFit(const IdentifierInput& input, const WarmMaps& warm) {
   const std::string& name = warm.task.identifier;
   const Measurements& m = input.measurements;
-  if (auto why = UnseenWarming(warm.visible, kContext)) {
+  if (auto why = InsignificantWarming(warm.visible, kContext)) {
     return Refused(name, Status::not_identifiable, *why);
   }
   if (!warm.converged) {
@@ -163,7 +163,7 @@ Fit AsFit(const IdentifierInput& input, const WarmMaps& warm) {
   // the warming; the friction predicts its own energy from here on
   const double log_deviation = known.Deviation(warm.fit.x.size() + 1);
   const double time_constant = warm.warming.thermal().time_constant;
-  if (auto why = UnknownWarming({warm.visible, log_deviation, time_constant}, kContext)) {
+  if (auto why = UnidentifiableWarming({warm.visible, log_deviation, time_constant}, kContext)) {
     return Refused(name, Status::not_identifiable, *why);
   }
   AddHeat(warm, known, m, fit);

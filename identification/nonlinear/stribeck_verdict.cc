@@ -11,8 +11,8 @@
 namespace warmjoint::inline identification {
 namespace {
 
-constexpr double kVagueLogVs = 0.5;  // standard deviation: 95 % within a factor of e
-constexpr double kVagueFall = 0.5;   // standard deviation of ks - kc over itself
+constexpr double kImpreciseLogVs = 0.5;  // standard deviation: 95 % within a factor of e
+constexpr double kImpreciseFall = 0.5;   // standard deviation of ks - kc over itself
 
 }  // namespace
 
@@ -50,11 +50,12 @@ StribeckEvidence EvidenceOf(const FallingLaw& law, const Eigen::VectorXd& x,
   return {law.FallAt(x), std::sqrt(law.fall.dot(covariance * law.fall)), log_deviation};
 }
 
-std::optional<std::string> VagueStribeck(const FallingLaw& law, const StribeckEvidence& evidence,
-                                         const Measurements& measurements,
-                                         const Selection& selection) {
-  if (evidence.log_deviation < kVagueLogVs &&
-      evidence.fall_deviation < kVagueFall * std::abs(evidence.fall)) {
+std::optional<std::string> UnidentifiableStribeck(const FallingLaw& law,
+                                                  const StribeckEvidence& evidence,
+                                                  const Measurements& measurements,
+                                                  const Selection& selection) {
+  if (evidence.log_deviation < kImpreciseLogVs &&
+      evidence.fall_deviation < kImpreciseFall * std::abs(evidence.fall)) {
     return std::nullopt;
   }
   return fmt::format(

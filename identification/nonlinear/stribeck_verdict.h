@@ -36,8 +36,9 @@ StribeckEvidence EvidenceOf(const FallingLaw& law, const Eigen::VectorXd& x,
 
 /// Why ks and stribeck_velocity cannot be told apart: vs is not known to a factor of e, or
 /// ks - kc not to a half of itself. Nothing where they can.
-std::optional<std::string> VagueStribeck(const FallingLaw& law, const StribeckEvidence& evidence,
-                                         const Measurements& measurements,
-                                         const Selection& selection);
+std::optional<std::string> UnidentifiableStribeck(const FallingLaw& law,
+                                                  const StribeckEvidence& evidence,
+                                                  const Measurements& measurements,
+                                                  const Selection& selection);
 
 }  // namespace warmjoint::inline identification

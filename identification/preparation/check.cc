@@ -103,7 +103,7 @@ RecordingCheck CheckRecording(const Measurements& measurements) {
   return CheckRecording(Prepare(measurements));
 }
 
-std::string WhyUnsettled(const Measurements& measurements, FrictionKind kind) {
+std::string WhyNotConverged(const Measurements& measurements, FrictionKind kind) {
   for (const Excitation& one : CheckRecording(measurements).excitation) {
     if (one.kind == kind && !one.sufficient) return one.reason;
   }

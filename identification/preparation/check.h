@@ -71,6 +71,6 @@ std::vector<Excitation> JudgeExcitation(const Measurements& measurements,
 
 /// What `check` finds that the recording lacks to show friction of that kind, with its remedy; where it
 /// lacks nothing, a doubt about the torque column.
-std::string WhyUnsettled(const Measurements& measurements, FrictionKind kind);
+std::string WhyNotConverged(const Measurements& measurements, FrictionKind kind);
 
 }  // namespace warmjoint::inline identification

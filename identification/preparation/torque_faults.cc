@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "identification/preparation/log_faults.h"
-#include "identification/preparation/torque_texture.h"
+#include "identification/preparation/torque_noise_statistics.h"
 #include "models/foundation/robust_noise.h"
 
 namespace warmjoint::inline identification {
@@ -92,7 +92,7 @@ std::optional<std::string> ClippedTorque(const Measurements& measurements,
     }
     // a torque of few values, or without noise, piles up by itself
     if (!TakesManyValues(measurements, selection) ||
-        !MeasureTexture(measurements, selection).IsNoisy()) {
+        !MeasureTorqueNoise(measurements, selection).IsNoisy()) {
       return std::nullopt;
     }
     return fmt::format(
@@ -108,16 +108,16 @@ std::optional<std::string> ClippedTorque(const Measurements& measurements,
 std::optional<std::string> StuckTorque(const Measurements& measurements,
                                        const Selection& selection) {
   // a torque of coarse steps often repeats its last value
-  const TorqueTexture texture = MeasureTexture(measurements, selection);
-  if (texture.equal > kFewEqual) return std::nullopt;
+  const TorqueNoiseStatistics noise = MeasureTorqueNoise(measurements, selection);
+  if (noise.equal > kFewEqual) return std::nullopt;
   const double highest = measurements.torque.maxCoeff(), lowest = measurements.torque.minCoeff();
   Index runs = 0;
   ConstantRun longest;
-  for (const ConstantRun& run : texture.long_runs) {
+  for (const ConstantRun& run : noise.long_runs) {
     const double value = measurements.torque[run.begin];
     if (value != 0 && (value == highest || value == lowest)) continue;  // clipped
     // without noise only a change of speed shows that the value should have changed
-    if (!texture.IsNoisy() && !SpansSpeeds(measurements, run)) continue;
+    if (!noise.IsNoisy() && !SpansSpeeds(measurements, run)) continue;
     ++runs;
     if (run.kept > longest.kept) longest = run;
   }
@@ -128,7 +128,7 @@ std::optional<std::string> StuckTorque(const Measurements& measurements,
       "out or repair the log",
       runs, runs == 1 ? "" : "s", measurements.torque[longest.begin], measurements.torque_unit,
       longest.kept, measurements.time[longest.begin], measurements.time[longest.end - 1], kLongRun,
-      100 * texture.equal);
+      100 * noise.equal);
 }
 
 std::optional<std::string> DroppedTorque(const Measurements& measurements,

@@ -94,8 +94,8 @@ Estimate ReportFit(const Fit& fit, const Inference& inference, const Measurement
   estimate.status = inference.status;
   estimate.message = inference.message;
   if (const auto& refusal = fit.refusal;
-      refusal && refusal->unsettled && inference.status == refusal->status) {
-    estimate.message += "; " + WhyUnsettled(measurements, *refusal->unsettled);
+      refusal && refusal->unconverged && inference.status == refusal->status) {
+    estimate.message += "; " + WhyNotConverged(measurements, *refusal->unconverged);
   }
   estimate.warnings = inference.warnings;
   estimate.diagnostics = inference.diagnostics;

@@ -80,7 +80,7 @@ class Autocovariance {
 };
 
 /// sum over all lags of the squared autocorrelation, from the model's own recursion.
-double Redundancy(const NoiseModel& noise, const Eigen::VectorXd& covariances) {
+double VarianceInflation(const NoiseModel& noise, const Eigen::VectorXd& covariances) {
   const Eigen::Index p = noise.order();
   const Eigen::VectorXd backwards = noise.coefficients.reverse();
   std::vector<double> r(covariances.begin(), covariances.begin() + p + 1);
@@ -183,7 +183,7 @@ NoiseModel FitNoise(const Eigen::VectorXd& residual, const Selection& selection)
   }
   // what users of the model need
   best.correlation = covariances[1] / best.variance;
-  best.redundancy = best.order() > 0 ? Redundancy(best, covariances) : 1;
+  best.variance_inflation = best.order() > 0 ? VarianceInflation(best, covariances) : 1;
   return best;
 }
 

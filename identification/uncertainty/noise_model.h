@@ -17,7 +17,7 @@ struct NoiseModel {
   double correlation = 0;        // of neighbouring samples, -1 to 1
   /// Samples of white noise that tell a variance as well as one sample of e does: at least 1.
   /// sum over all lags of the squared autocorrelation.
-  double redundancy = 1;
+  double variance_inflation = 1;
 
   Eigen::Index order() const { return coefficients.size(); }
 };

@@ -67,7 +67,7 @@ Uncertainty JudgePenalised(
   }
   result.covariance = std::move(by_noise);
   // independent samples less effective parameters
-  result.freedom = std::max(n / noise.redundancy - hat.trace(), 1.0);
+  result.freedom = std::max(n / noise.variance_inflation - hat.trace(), 1.0);
   return result;
 }
 

@@ -35,7 +35,7 @@ double Unevenness(const Eigen::VectorXd& residual, const Eigen::MatrixXd& known,
   for (const auto& column : known.colwise()) {
     most = std::max(most, std::abs(Correlation(squares, column)));
   }
-  return most * std::sqrt(static_cast<double>(residual.size()) / noise.redundancy);
+  return most * std::sqrt(static_cast<double>(residual.size()) / noise.variance_inflation);
 }
 
 /// The line through |r|, as a share of the residual's rms. [n]
@@ -98,7 +98,7 @@ Uncertainty JudgeUncertainty(const std::function<Eigen::MatrixXd()>& jacobian,
   }
   const Eigen::MatrixXd scatter = ScatterThrough(result.noise, rows, selection);
   const double taken = std::min((cofactor * scatter).trace() / result.noise.variance, 0.5 * n);
-  result.freedom = std::max(n / result.noise.redundancy - d, 1.0);
+  result.freedom = std::max(n / result.noise.variance_inflation - d, 1.0);
   result.covariance = n / (n - taken) * spread(scatter);
   return result;
 }

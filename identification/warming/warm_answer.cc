@@ -22,19 +22,19 @@ namespace {
 /// Why the warm-up cannot be told; nothing where it can. variance: of the noise; cofactor: of x;
 /// nominal_squares: of the fit without warming; reach: of 95 % intervals in deviations, as a multiple
 /// of that of a known variance.
-std::optional<std::string> UntoldWarming(const WarmFit& fit, const WarmStart& scanned,
-                                         double variance, double nominal_squares,
-                                         const Eigen::MatrixXd& cofactor, double reach) {
+std::optional<std::string> WhyNotIdentifiable(const WarmFit& fit, const WarmStart& scanned,
+                                              double variance, double nominal_squares,
+                                              const Eigen::MatrixXd& cofactor, double reach) {
   // squares that the warming explains, in variances of the noise
   const double explained = (nominal_squares - fit.solution.squares) / variance;
   if (!fit.converged) {
-    if (auto why = UnseenWarming(explained)) return why;
+    if (auto why = InsignificantWarming(explained)) return why;
     return RunawayWarming(fit.thermal().time_constant, scanned.longest / kScannedBeyond);
   }
   const Eigen::Index i = fit.law_parameters + 1;
-  return UnknownWarming({explained, reach * std::sqrt(variance * cofactor(i, i)),
-                         fit.thermal().time_constant, scanned.shortest, scanned.longest,
-                         scanned.longest / kScannedBeyond});
+  return UnidentifiableWarming({explained, reach * std::sqrt(variance * cofactor(i, i)),
+                                fit.thermal().time_constant, scanned.shortest, scanned.longest,
+                                scanned.longest / kScannedBeyond});
 }
 
 /// The table of parameters in the order of x: law, heat, E(0), jumps, gravity.
@@ -91,8 +91,8 @@ std::optional<Refusal> WhyRefused(const char* name, const WarmTask& task, const 
   const double reach = StudentQuantile(FewestFreedom(task.input.selection, p), kIntervalLevel) /
                        StudentQuantile(kInfinity, kIntervalLevel);
   // no warming to see, no end of the iterations, or a friction that feeds itself
-  if (auto why = UntoldWarming(warm, task.scanned, variance, nominal_squares, Cofactor(warm.normal),
-                               reach)) {
+  if (auto why = WhyNotIdentifiable(warm, task.scanned, variance, nominal_squares,
+                                    Cofactor(warm.normal), reach)) {
     return Refusal{Status::not_identifiable, *why};
   }
   if (!warm.converged) {

@@ -44,9 +44,9 @@ WarmStart Scan(const WarmCourse& course, const Eigen::VectorXd& level) {
   // gravity of the fit without warming is taken off, and what that lacks scanned with the law
   const ClosedLoop together = ClosedLoop::Along(course.input.measurements, course.task.columns);
   const Eigen::VectorXd weight = course.nominal.solution.tail(gravity.count());
-  const Eigen::VectorXd pull = gravity.columns * weight;
-  WarmStart start =
-      ScanTimeConstant(together, level - course.loop.direction().cwiseProduct(pull), course.kept);
+  const Eigen::VectorXd gravity_torque = gravity.columns * weight;
+  WarmStart start = ScanTimeConstant(
+      together, level - course.loop.direction().cwiseProduct(gravity_torque), course.kept);
   start.parameters.tail(gravity.count()) += weight;
   return start;
 }

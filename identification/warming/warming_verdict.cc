@@ -25,7 +25,7 @@ std::string WhatIsKnown(const WarmingEvidence& evidence) {
 
 }  // namespace
 
-std::optional<std::string> UnseenWarming(double explained, const WarmingContext& context) {
+std::optional<std::string> InsignificantWarming(double explained, const WarmingContext& context) {
   if (explained > kVisibleWarming) return std::nullopt;
   return fmt::format(
       "no warm-up can be seen{}: thermal_gain and thermal_time_constant explain {:.3g} times the "
@@ -35,13 +35,13 @@ std::optional<std::string> UnseenWarming(double explained, const WarmingContext&
       context.beside, std::max(explained, 0.0), kVisibleWarming, context.instead);
 }
 
-std::optional<std::string> UnknownWarming(const WarmingEvidence& evidence,
-                                          const WarmingContext& context) {
-  if (auto why = UnseenWarming(evidence.explained, context)) return why;
+std::optional<std::string> UnidentifiableWarming(const WarmingEvidence& evidence,
+                                                 const WarmingContext& context) {
+  if (auto why = InsignificantWarming(evidence.explained, context)) return why;
   // a time constant that may be longer than the log must be known better
   const double tau = evidence.time_constant;
   const bool beyond = tau * std::exp(1.96 * evidence.log_deviation) > evidence.duration;
-  if (evidence.log_deviation < (beyond ? kVagueLongLogTau : kVagueLogTau) &&
+  if (evidence.log_deviation < (beyond ? kImpreciseLongLogTau : kImpreciseLogTau) &&
       tau >= evidence.shortest / 4 && tau <= evidence.longest * 4) {
     return std::nullopt;
   }

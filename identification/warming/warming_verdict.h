@@ -14,12 +14,12 @@ namespace warmjoint::inline identification {
 inline constexpr double kVisibleWarming = 20;
 
 /// Standard deviation of ln(tau) from which tau counts as unknown: 95 % within a factor of e.
-inline constexpr double kVagueLogTau = 0.5;
+inline constexpr double kImpreciseLogTau = 0.5;
 
 /// The same where the interval of tau reaches beyond the recording. Then 1/tau = 0, a joint that
 /// never settles, has to be excluded, by 4 deviations: whatever passes a weaker test there is what
 /// chance made to look short, and its gain with it, which is known by k/tau alone.
-inline constexpr double kVagueLongLogTau = 0.25;
+inline constexpr double kImpreciseLongLogTau = 0.25;
 
 /// What a fit says of its warm-up.
 struct WarmingEvidence {
@@ -38,14 +38,15 @@ struct WarmingContext {
 };
 
 /// Why the warm-up cannot be seen at all: one sentence; nothing where it can.
-std::optional<std::string> UnseenWarming(double explained, const WarmingContext& context = {});
+std::optional<std::string> InsignificantWarming(double explained,
+                                                const WarmingContext& context = {});
 
 /// Why a fit whose tau ran away cannot be told: nothing of tau beyond the recording is known, and
 /// of the gain by k/tau alone; nothing where it did not.
 std::optional<std::string> RunawayWarming(double time_constant, double duration);
 
 /// Why thermal gain and time constant cannot be told; nothing where they can.
-std::optional<std::string> UnknownWarming(const WarmingEvidence& evidence,
-                                          const WarmingContext& context = {});
+std::optional<std::string> UnidentifiableWarming(const WarmingEvidence& evidence,
+                                                 const WarmingContext& context = {});
 
 }  // namespace warmjoint::inline identification

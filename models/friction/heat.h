@@ -25,6 +25,11 @@ struct Heat {
   DiscreteThermal second{0, 1};
   double ambient_gain = 0;  // (1 - te1) kT, N.m/K or N/K
 
+  /// Whether the loss alone heats one stage, whatever else happens: First is then ThermalStep by the
+  /// numbers of `first`, which the plugin takes for many joints at once, and Second leaves E2 as it
+  /// is. A number that First or Second reads besides has to make this false.
+  bool IsOneStage() const { return ambient_gain == 0 && second.gain == 0 && second.pole == 1; }
+
   double First(double energy, const Heating& by) const {
     return ThermalStep(first.gain, first.pole, energy, by.loss) + ambient_gain * by.ambient_rise;
   }

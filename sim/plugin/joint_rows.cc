@@ -6,16 +6,6 @@
 #include "sim/plugin/check_joint.h"
 
 namespace warmjoint::inline sim {
-namespace {
-
-bool HasSecondStage(const JointFriction& friction) {
-  const std::vector<StateMember>& state = friction.state();
-  return std::any_of(state.begin(), state.end(), [](const StateMember& member) {
-    return member.value == &FrictionState::second_energy;
-  });
-}
-
-}  // namespace
 
 JointRows::JointRows(const mjModel* m, const std::vector<BoundJoint>& joints) {
   // joints that the inertia matrix couples, apart from those with a bristle of their own
@@ -59,24 +49,19 @@ void JointRows::ReadNumbers(const mjModel* m, const std::vector<BoundJoint>& joi
   // the numbers of each joint's friction, as they are now
   for (size_t i = 0; i < joints.size(); ++i) {
     const JointFriction& friction = joints[i].friction;
-    const Heat& heat = friction.heat();
     Of(i, kUpperAtRest) = friction.OwnLevelAtRest(1);
     Of(i, kLowerAtRest) = friction.OwnLevelAtRest(-1);
     Of(i, kViscous) = friction.viscous();
     Of(i, kPerEnergy) = friction.viscous_per_energy();
-    Of(i, kPole) = heat.first.pole;
-    Of(i, kGain) = heat.first.gain;
-    Of(i, kAmbientGain) = heat.ambient_gain;
-    Of(i, kSecondPole) = heat.second.pole;
-    Of(i, kSecondGain) = heat.second.gain;
+    Of(i, kPole) = friction.heat().first.pole;
+    Of(i, kGain) = friction.heat().first.gain;
   }
 
   // what no joint has need not be worked out
-  slopes_change_ = has_ambient_ = has_second_stage_ = false;
+  slopes_change_ = false, have_one_stage_ = true;
   for (size_t i = 0; i < joints.size(); ++i) {
     slopes_change_ = slopes_change_ || Of(i, kPerEnergy) != 0;
-    has_ambient_ = has_ambient_ || Of(i, kAmbientGain) != 0;
-    has_second_stage_ = has_second_stage_ || HasSecondStage(joints[i].friction);
+    have_one_stage_ = have_one_stage_ && joints[i].friction.heat().IsOneStage();
   }
   SetSlopes();
   const double damping = m->opt.integrator == mjINT_RK4 ? kDampingOfStages : 1;
@@ -158,25 +143,20 @@ bool JointRows::Complete() {
     const Two loss = viscous * v + row[kSliding] * (f * v).abs();
     row[kLoss] = loss;
     row[kForce] = viscous + f;
-    row[kNextFirst] = row[kPole] * row[kFirst] + row[kGain] * loss;
+    row[kNextFirst] = ThermalStep<Two>(row[kGain], row[kPole], row[kFirst], loss);
     least = least.min(WhereNegative(-v.abs(), f.abs() + row[kAbsent], Two::Ones()));
   }
-  if (has_ambient_) StepAmbient();
-  if (has_second_stage_) StepSecondStages();
+  if (!have_one_stage_) StepHeats();
   return least[0] != 0 && least[1] != 0;
 }
 
-void JointRows::StepAmbient() {
-  double* const end = numbers_.data() + numbers_.size();
-  for (RowPair row{numbers_.data()}; row.numbers != end; row.numbers += 2 * kColumns) {
-    row[kNextFirst] += row[kAmbientGain] * row[kRise];
-  }
-}
-
-void JointRows::StepSecondStages() {
-  double* const end = numbers_.data() + numbers_.size();
-  for (RowPair row{numbers_.data()}; row.numbers != end; row.numbers += 2 * kColumns) {
-    row[kNextSecond] = row[kSecondPole] * row[kSecond] + row[kSecondGain] * row[kLoss];
+/// The heat of joints that more than the loss changes, or that have two stages.
+void JointRows::StepHeats() {
+  for (size_t i = 0; i < states_.at().size(); ++i) {
+    const Heat& heat = joints_[i].friction.heat();
+    const Heating by{Of(i, kLoss), Of(i, kRise), Of(i, kSpeed)};
+    Of(i, kNextFirst) = heat.First(Of(i, kFirst), by);
+    Of(i, kNextSecond) = heat.Second(Of(i, kSecond), by);
   }
 }
 

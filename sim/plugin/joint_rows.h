@@ -84,8 +84,7 @@ class JointRows : private LevelSource {
   void SetLevels();
   void SetSlopes();
   bool Complete();
-  void StepAmbient();
-  void StepSecondStages();
+  void StepHeats();
   void StepAlone(const mjModel* m);
   void Take(size_t joint, const FrictionStep& step);
   void TakeDeficits();
@@ -96,8 +95,8 @@ class JointRows : private LevelSource {
   std::vector<size_t> alone_;     // joints with a bristle of their own
   std::vector<size_t> joint_at_;  // of each row
 
-  // whether any joint has a slope that heat changes, an ambient, or a second stage of heat
-  bool slopes_change_ = false, has_ambient_ = false, has_second_stage_ = false;
+  bool slopes_change_ = false;  // of any joint, by its heat
+  bool have_one_stage_ = true;  // all joints (Heat)
 
   // of one step
   const mjData* d_ = nullptr;

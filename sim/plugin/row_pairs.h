@@ -34,7 +34,7 @@ enum Column : int {
   // numbers of the joint's friction (JointFriction)
   kUpperAtRest,  // the law's own levels, N.m or N
   kLowerAtRest,
-  kPole,  // of the heat's first stage
+  kPole,  // of the heat's first stage (Heat)
   kGain,
   kInertia,  // of the bristle at the reference pose, kg.m^2 or kg, and 1 over it
   kPerInertia,
@@ -60,10 +60,7 @@ enum Column : int {
   // what few joints have: kv and b, where heat changes the slope, an ambient, and a second stage
   kViscous,
   kPerEnergy,
-  kAmbientGain,
-  kRise,  // of the ambient, K
-  kSecondPole,
-  kSecondGain,
+  kRise,        // of the ambient, K
   kNextSecond,  // E2'
   kColumns,
 };

@@ -33,7 +33,7 @@ enum class Verdict { judged, unjudged };
 Estimate AnswerTo(const Measurements& m, const Selection& selection,
                   const std::map<std::string, std::string>& given = {},
                   Verdict verdict = Verdict::judged) {
-  const Identifier identifier = LuGreByCeres();
+  const Identifier identifier = LuGreIdentifier();
   const Options options = ReadOptions(identifier.options, given, {});
   const IdentifierInput input{Prepare(m, selection), options, {}};
   return verdict == Verdict::judged ? IdentifyAndJudge(identifier, input)
@@ -148,7 +148,7 @@ TEST(Lugre, AgreesWithStribeckWhereTheJointSlidesSteadily) {
   const Estimate estimate = AnswerTo(m, SelectMoving(m));
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
 
-  const Identifier stribeck = StribeckByCeres();
+  const Identifier stribeck = StribeckIdentifier();
   const Options options = ReadOptions(stribeck.options, {}, {});
   const Selection moving = SelectMoving(m);
   const Selection steady =

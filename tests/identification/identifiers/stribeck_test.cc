@@ -19,7 +19,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 Estimate AnswerTo(const Measurements& m, const std::map<std::string, std::string>& given = {}) {
-  const Identifier identifier = StribeckByCeres();
+  const Identifier identifier = StribeckIdentifier();
   const Options options = ReadOptions(identifier.options, given, {});
   return IdentifyUnjudged(identifier, {Prepare(m), options, {}});
 }

@@ -123,10 +123,10 @@ TEST(Unsettled, SaysWhatTheRecordingLacks) {
   const auto record = [](Eigen::Index n) {
     return test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(n, 1), 0.5, 1);
   };
-  EXPECT_THAT(WhyUnsettled(record(60), FrictionKind::warm_up), HasSubstr("the log lasts 59 s"));
-  EXPECT_THAT(WhyUnsettled(record(60), FrictionKind::stribeck),
+  EXPECT_THAT(WhyNotConverged(record(60), FrictionKind::warm_up), HasSubstr("the log lasts 59 s"));
+  EXPECT_THAT(WhyNotConverged(record(60), FrictionKind::stribeck),
               HasSubstr("the slowest below 1/20 of the fastest"));
-  EXPECT_THAT(WhyUnsettled(record(3600), FrictionKind::warm_up),
+  EXPECT_THAT(WhyNotConverged(record(3600), FrictionKind::warm_up),
               HasSubstr("does the torque column"));
 }
 

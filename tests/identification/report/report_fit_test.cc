@@ -15,7 +15,7 @@ TEST(ReportFit, SaysWhatTheRecordingLacksForAFitThatDidNotComeToRest) {
   const Fit fit = Refused("kalman", {Status::not_converged, "it ran away", FrictionKind::warm_up});
   const Estimate estimate = ReportFit(fit, Infer(fit), m);
   EXPECT_EQ(estimate.status, Status::not_converged);
-  EXPECT_EQ(estimate.message, "it ran away; " + WhyUnsettled(m, FrictionKind::warm_up));
+  EXPECT_EQ(estimate.message, "it ran away; " + WhyNotConverged(m, FrictionKind::warm_up));
 }
 
 }  // namespace

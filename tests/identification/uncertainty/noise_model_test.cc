@@ -45,7 +45,7 @@ TEST(NoiseModel, FindsTheColourOfAutoregressiveNoiseAcrossGaps) {
     EXPECT_NEAR(noise.correlation, 0.9, 4 * 0.0044) << gap;
     EXPECT_NEAR(noise.coefficients[0], -0.9, 0.05) << gap;
     // (1 + 0.81) / (1 - 0.81), within what four deviations of the pole make of it
-    EXPECT_NEAR(noise.redundancy, 9.5, 2.5) << gap;
+    EXPECT_NEAR(noise.variance_inflation, 9.5, 2.5) << gap;
   }
 }
 

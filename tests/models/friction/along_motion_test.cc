@@ -273,7 +273,7 @@ TEST(AlongMotion, BendsBristlesAsThePluginStepsThem) {
       EXPECT_GT(p.bristle[59], p.bristle[2] + 1) << L::name << " bends on the way";
     }
   });
-  EXPECT_EQ(laws, 3);
+  EXPECT_GE(laws, 3) << "dahl, lugre, asymmetric_lugre";
 }
 
 TEST(AlongMotion, FollowsFinelySteppedBristlesThatWarm) {

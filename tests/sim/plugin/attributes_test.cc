@@ -156,15 +156,6 @@ TEST(PluginActuator, RefusesTheWrongNumberOfStates) {
   EXPECT_THAT(ErrorOf(kGood, R"(actlimited="true" actrange="-1 1")"), HasSubstr("actrange"));
 }
 
-TEST(PluginReadme, HasTheTableOfTheCode) {
-  const std::string readme = ReadWholeFile(test::SourceFolder() / "sim/plugin/README.md");
-  std::string table = "| attribute | unit | allowed | meaning |\n|---|---|---|---|\n";
-  for (const PluginAttribute& a : PluginAttributes()) {
-    table += fmt::format("| {} | {} | {} | {} |\n", a.name, a.unit, a.bound, a.meaning);
-  }
-  EXPECT_THAT(readme, HasSubstr(table)) << "write this table into sim/plugin/README.md:\n" << table;
-}
-
 TEST(PluginReadme, HasAModelThatRuns) {
   const std::string readme = ReadWholeFile(test::SourceFolder() / "sim/plugin/README.md");
   const size_t begin = readme.find("```xml\n") + 7;

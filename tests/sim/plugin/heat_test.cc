@@ -1,10 +1,15 @@
 // Heat of surroundings and of two stages in the engine, and friction that feeds itself.
 #include <gmock/gmock.h>
 
+#include <array>
 #include <cmath>
+#include <vector>
 
+#include "models/foundation/bad_input.h"
+#include "models/friction/check_friction.h"
+#include "sim/plugin/bound_joints.h"
 #include "sim/plugin/friction_instance.h"
-#include "tests/sim/plugin/friction_models.h"
+#include "tests/sim/plugin/two_forms.h"
 #include "tests/sim/plugin/warnings.h"
 
 namespace warmjoint {
@@ -88,6 +93,73 @@ TEST(PluginHeat, StartsWarmInBothStagesFromAKeyframe) {
   d->qvel[0] = 1;
   mj_forward(m.get(), d.get());
   EXPECT_DOUBLE_EQ(d->actuator_force[0], -(10 - 4 - 3));
+}
+
+/// Friction with each number beside the law and the first stage by itself, and with all of them.
+std::vector<FrictionDescription> HeatedInEveryWay() {
+  FrictionDescription plain = FrictionsOfEveryLaw()[1];
+  for (const FrictionOption& option : FrictionOptions()) plain.*option.value = 0;
+  std::vector<FrictionDescription> all{plain};
+  FrictionDescription rich = plain;
+  rich.second_thermal = Thermal{-0.01, 0.5};
+  for (const FrictionOption& option : FrictionOptions()) {
+    // of the sign that is allowed beside the gain
+    FrictionDescription one = plain;
+    for (const double value : {0.02, -0.02}) {
+      one.*option.value = value;
+      try {
+        CheckFriction(one, {"a test"});
+        break;
+      } catch (const BadInput&) {
+      }
+    }
+    all.push_back(one);
+    rich.*option.value = one.*option.value;
+  }
+  all.push_back(rich);
+  return all;
+}
+
+/// Steps an arm, from where it slides to where it is held, and holds its energies to Heat.
+void ExpectHeat(const FrictionDescription& friction, Form form) {
+  std::string xml = ArmXml(friction, form, "implicitfast");
+  xml.insert(xml.rfind("</mujoco>"),
+             R"(<sensor><plugin name="s" plugin="warmjoint.friction" instance="arm"/></sensor>)");
+  const Model m = MustCompile(xml);
+  const Data d(mj_makeData(m.get()));
+  JointFriction joint(friction);
+  joint.SetTimestep(m->opt.timestep);
+  const size_t count = joint.state().size();
+
+  const mjtNum* states =
+      form == Form::actuator ? d->act : d->plugin_state + m->plugin_stateadr[0] + kFrictionReports;
+  const auto energies = [&](size_t k) { return joint.Load(states + count * k); };
+  int held = 0, slid = 0;
+  for (int i = 0; i < 1500; ++i) {
+    // what the step that follows is to make of both stages
+    mj_forward(m.get(), d.get());
+    std::array<std::array<double, 2>, kArmJoints> next;
+    for (size_t k = 0; k < kArmJoints; ++k) {
+      const mjtNum* sensed = d->sensordata + kSensed * k;
+      const FrictionState now = energies(k);
+      const Heating by{sensed[3], 0, d->qvel[k]};
+      next[k] = {joint.heat().First(now.energy, by), joint.heat().Second(now.second_energy, by)};
+      ++(sensed[4] == 0 ? slid : held);
+    }
+    DriveArm(m.get(), d.get(), 1);
+    for (size_t k = 0; k < kArmJoints; ++k) {
+      EXPECT_DOUBLE_EQ(energies(k).energy, next[k][0]) << i << " of joint " << k;
+      EXPECT_DOUBLE_EQ(energies(k).second_energy, next[k][1]) << i << " of joint " << k;
+    }
+  }
+  EXPECT_GT(held, 10);
+  EXPECT_GT(slid, 10);
+}
+
+TEST(PluginHeat, IsThatOfHeatWhateverNumbersShapeIt) {
+  for (const FrictionDescription& friction : HeatedInEveryWay()) {
+    for (const Form form : {Form::actuator, Form::passive}) ExpectHeat(friction, form);
+  }
 }
 
 TEST(PluginReport, TellsOnceWhereFrictionWouldFeedItself) {

@@ -18,7 +18,7 @@ struct ConstantRun {
 };
 
 /// What neighbouring samples, both kept, say of the torque. Long runs do not count in the shares.
-struct TorqueTexture {
+struct TorqueNoiseStatistics {
   double equal = 0;  // share of the neighbours that differ by 1e-6 of the largest |torque| at most
   double turning = 0;  // share of the samples above or below both neighbours; 2/3 in white noise
   std::vector<ConstantRun> long_runs;  // that keep kLongRun samples or more
@@ -27,6 +27,7 @@ struct TorqueTexture {
   bool IsNoisy() const { return turning > 0.2; }
 };
 
-TorqueTexture MeasureTexture(const Measurements& measurements, const Selection& selection);
+TorqueNoiseStatistics MeasureTorqueNoise(const Measurements& measurements,
+                                         const Selection& selection);
 
 }  // namespace warmjoint::inline identification

@@ -1,4 +1,4 @@
-#include "identification/preparation/torque_texture.h"
+#include "identification/preparation/torque_noise_statistics.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,18 +27,19 @@ double Share(Index part, Index whole) {
 
 }  // namespace
 
-TorqueTexture MeasureTexture(const Measurements& measurements, const Selection& selection) {
+TorqueNoiseStatistics MeasureTorqueNoise(const Measurements& measurements,
+                                         const Selection& selection) {
   const Eigen::VectorXd& torque = measurements.torque;
-  TorqueTexture texture;
-  texture.long_runs = LongRuns(torque, selection);
+  TorqueNoiseStatistics noise;
+  noise.long_runs = LongRuns(torque, selection);
 
   // shares of equal steps and of turning points among kept neighbours
   const double rounding = 1e-6 * torque.cwiseAbs().maxCoeff();
-  auto run = texture.long_runs.begin();
+  auto run = noise.long_runs.begin();
   Index pairs = 0, equal = 0, triples = 0, turning = 0;
   for (Index i = 1; i + 1 < torque.size(); ++i) {
     // long runs are judged by themselves
-    if (run != texture.long_runs.end() && i >= run->begin) {
+    if (run != noise.long_runs.end() && i >= run->begin) {
       i = run->end;
       ++run;
       continue;
@@ -53,9 +54,9 @@ TorqueTexture MeasureTexture(const Measurements& measurements, const Selection& 
     ++triples;
     turning += before * step < 0 && std::min(std::abs(before), std::abs(step)) > rounding;
   }
-  texture.equal = Share(equal, pairs);
-  texture.turning = Share(turning, triples);
-  return texture;
+  noise.equal = Share(equal, pairs);
+  noise.turning = Share(turning, triples);
+  return noise;
 }
 
 }  // namespace warmjoint::inline identification
