@@ -1,6 +1,7 @@
 // Heat of surroundings and of two stages in the engine, and friction that feeds itself.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -137,7 +138,7 @@ void ExpectHeat(const FrictionDescription& friction, Form form) {
   int held = 0, slid = 0;
   for (int i = 0; i < 1500; ++i) {
     // at last exactly at rest, as no engine leaves a joint
-    if (i > 1200) mju_zero(d->qvel, m->nv);
+    if (i > 1200) std::fill_n(d->qvel, m->nv, 0.0);
     // what the step that follows is to make of both stages
     mj_forward(m.get(), d.get());
     std::array<std::array<double, 2>, kArmJoints> next;
