@@ -5,7 +5,8 @@
 
 namespace warmjoint::inline identification {
 
-/// Alternating least squares, a block-coordinate descent on |tau - Fn(v) - sign(v) E|^2 with E = H W, W = |tau v| (19):
+/// Alternating least squares, a block-coordinate descent on |tau - Fn(v) - sign(v) E|^2 with
+/// E = H W, W = |tau v| (19):
 ///   0. E from the start H0, Fn by (24); then repeat
 ///   1. E by (23)   2. H(z) of (22) to that E by output error   3. E = H W   4. Fn by (24).
 /// It converges linearly, at the squared largest canonical correlation of its two blocks: about

@@ -31,26 +31,21 @@ const std::vector<Identifier>& Identifiers() {
   return identifiers;
 }
 
-namespace {
-
-/// nullptr where there is none.
-const Identifier* Find(const std::string& name) {
+const Identifier* LookUpIdentifier(const std::string& name) {
   const auto called = [&](const Identifier& one) { return one.IsCalled(name); };
   const auto found = std::ranges::find_if(Identifiers(), called);
   return found == Identifiers().end() ? nullptr : &*found;
 }
 
-}  // namespace
-
 const Identifier& FindIdentifier(const std::string& name) {
-  if (const Identifier* found = Find(name)) return *found;
+  if (const Identifier* found = LookUpIdentifier(name)) return *found;
   std::vector<std::string> known;
   for (const Identifier& identifier : Identifiers()) known.push_back(identifier.name);
   Refuse({}, "there is no identifier '{}'{}", Excerpt(name), Suggestion(name, known));
 }
 
 std::string CurrentName(const std::string& name) {
-  const Identifier* found = Find(name);
+  const Identifier* found = LookUpIdentifier(name);
   return found ? found->name : name;
 }
 

@@ -15,6 +15,9 @@ const std::vector<Identifier>& Identifiers();
 /// The identifier that is called so, or was. Throws BadInput with the nearest name.
 const Identifier& FindIdentifier(const std::string& name);
 
+/// The same; nullptr where there is none.
+const Identifier* LookUpIdentifier(const std::string& name);
+
 /// What an identifier is called now; `name` itself where the list has none that is or was called so.
 std::string CurrentName(const std::string& name);
 

@@ -17,11 +17,12 @@ std::string Extension(const std::string& path) {
 
 using Reader = Measurements (*)(const std::string& path, const CsvLayout& layout);
 
-/// A format of recordings; any other extension is CSV.
+/// A format of recordings.
 struct Format {
   std::string_view extension;
   Reader read;        // of files that this program wrote
   Reader read_apart;  // of anybody's: in a process of its own where a library reads it
+  void (*write)(const Measurements& measurements, const std::string& path);  // or none
 };
 
 constexpr Reader kHdf5Apart = [](const std::string& path, const CsvLayout& layout) {
@@ -32,14 +33,16 @@ constexpr Reader kMatlabApart = [](const std::string& path, const CsvLayout& lay
 };
 
 constexpr Format kFormats[] = {
-    {".h5", ReadHdf5, kHdf5Apart},
-    {".hdf5", ReadHdf5, kHdf5Apart},
-    {".mat", kMatlabApart, kMatlabApart},
+    {".csv", ReadCsv, ReadCsv, WriteCsv},
+    {".h5", ReadHdf5, kHdf5Apart, WriteHdf5},
+    {".hdf5", ReadHdf5, kHdf5Apart, WriteHdf5},
+    {".mat", kMatlabApart, kMatlabApart, nullptr},
 };
 
+/// By the extension; any other is read as CSV, and not written.
 Format FormatOf(const std::string& path) {
   const auto found = std::ranges::find(kFormats, Extension(path), &Format::extension);
-  return found == std::end(kFormats) ? Format{".csv", ReadCsv, ReadCsv} : *found;
+  return found == std::end(kFormats) ? Format{"", ReadCsv, ReadCsv, nullptr} : *found;
 }
 
 /// Refuses what tools/convert makes readable.
@@ -64,11 +67,9 @@ Measurements ReadForeignRecording(const std::string& path, const CsvLayout& layo
 }
 
 void WriteRecording(const Measurements& measurements, const std::string& path) {
-  // the extension tells the format
-  const std::string extension = Extension(path);
-  if (extension == ".h5" || extension == ".hdf5") return WriteHdf5(measurements, path);
-  if (extension == ".csv") return WriteCsv(measurements, path);
-  Refuse({path}, "recordings are written as .csv or .h5, not '{}'; choose one of them", extension);
+  if (const auto write = FormatOf(path).write) return write(measurements, path);
+  Refuse({path}, "recordings are written as .csv or .h5, not '{}'; choose one of them",
+         Extension(path));
 }
 
 }  // namespace warmjoint::inline models

@@ -21,10 +21,8 @@ struct Maker {
 
 /// Nothing where the identifier is none of ours.
 std::optional<Maker> MakerOf(const Estimate& estimate) {
-  const auto& all = Identifiers();
-  const auto found = std::ranges::find_if(
-      all, [&](const Identifier& one) { return one.IsCalled(estimate.identifier); });
-  if (found == all.end()) return std::nullopt;
+  const Identifier* found = LookUpIdentifier(estimate.identifier);
+  if (!found) return std::nullopt;
   return Maker{*found, ReadOptions(found->options, estimate.options, {"options of the estimate"})};
 }
 

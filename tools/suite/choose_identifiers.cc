@@ -28,9 +28,10 @@ void Add(const std::string& name, const std::vector<SuiteIdentifier>& suite, Com
     return;
   }
   // a name may stand for several identifiers of the suite
+  const std::string current = CurrentName(name);
   bool in_suite = false;
   for (const SuiteIdentifier& one : suite) {
-    if (one.label != name && CurrentName(one.name) != CurrentName(name)) continue;
+    if (one.label != name && CurrentName(one.name) != current) continue;
     in_suite = true;
     if (!Contains(chosen, one.label)) chosen.push_back(one);
   }

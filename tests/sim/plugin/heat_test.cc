@@ -123,10 +123,7 @@ std::vector<FrictionDescription> HeatedInEveryWay() {
 
 /// Steps an arm that slides, is held and stands still, and holds its energies to Heat.
 void ExpectHeat(const FrictionDescription& friction, Form form) {
-  std::string xml = ArmXml(friction, form, "implicitfast");
-  xml.insert(xml.rfind("</mujoco>"),
-             R"(<sensor><plugin name="s" plugin="warmjoint.friction" instance="arm"/></sensor>)");
-  const Model m = MustCompile(xml);
+  const Model m = MustCompile(SensedArmXml(friction, form));
   const Data d(mj_makeData(m.get()));
   JointFriction joint(friction);
   joint.SetTimestep(m->opt.timestep);

@@ -10,11 +10,7 @@ namespace {
 using namespace test;
 
 std::string Sensed(Form form, const std::string& object = "") {
-  std::string xml = ArmXml(FrictionsOfEveryLaw()[1], form, "implicitfast");
-  return xml.insert(xml.rfind("</mujoco>"),
-                    fmt::format(R"(<sensor><plugin name="s" plugin="warmjoint.friction"
-                                     instance="arm" {}/></sensor>)",
-                                object));
+  return SensedArmXml(FrictionsOfEveryLaw()[1], form, object);
 }
 
 TEST(PluginSensors, ReadWhatTheFrictionDoes) {

@@ -98,6 +98,16 @@ inline std::string ArmXml(const FrictionDescription& friction, Form form,
                      EscapeXml(joints.dump()), more, integrator, bodies, ends, motors, frictions);
 }
 
+/// The same, whose friction has the sensor "s". object: attributes of an object that it names, or none.
+inline std::string SensedArmXml(const FrictionDescription& friction, Form form,
+                                const std::string& object = "") {
+  std::string xml = ArmXml(friction, form, "implicitfast");
+  return xml.insert(xml.rfind("</mujoco>"),
+                    fmt::format(R"(<sensor><plugin name="s" plugin="warmjoint.friction"
+                                     instance="arm" {}/></sensor>)",
+                                object));
+}
+
 /// Drives the arm so that its joints slide, turn and stick.
 inline void DriveArm(const mjModel* m, mjData* d, int steps) {
   for (int i = 0; i < steps; ++i) {
