@@ -1,0 +1,101 @@
+"""Small inputs in the shapes that people have, through the program: what each must give stands in table.json.
+
+usage: inputs_test.py WARMJOINT INPUTS [KIND...]
+
+INPUTS is the folder shared/findings/inputs; what the table makes itself (made.py) needs NumPy alone. A row has
+  run       arguments of the program; {inputs} the folder of inputs, {made} that of made.py, {out} one of the row's own
+  exit      its status (default 0)
+  says      regular expressions that its output must match, on what is named: a column, a factor, an option
+  silent    regular expressions that it must not match
+  status    of {out}/estimate.json, where `run` writes it
+  holds     {parameter: truth}: its interval holds the truth
+  near      {parameter: [truth, tolerance]}: its value
+  narrower  {parameter: width}: its interval is no wider, in the parameter's unit
+"""
+
+import json
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+
+SKIPPED = 77  # ctest's status for a test that was not made
+HERE = pathlib.Path(__file__).resolve().parent
+NEVER = re.compile(r"internal error|\b-?nan\b|\b-?inf\b", re.IGNORECASE)  # in what the program says
+
+
+def faults(row, program, places):
+    """What a row must give and does not: a list of sentences."""
+    with tempfile.TemporaryDirectory() as folder:
+        places = {**places, "out": folder}
+        arguments = [word.format(**places) for word in shlex.split(row["run"])]
+        done = subprocess.run([program, *arguments], capture_output=True, text=True, timeout=100)
+        said = done.stdout + done.stderr
+        found = []
+        if done.returncode != row.get("exit", 0):
+            found.append(f"status {done.returncode}, not {row.get('exit', 0)}")
+        found += [f"does not say {words!r}" for words in row.get("says", []) if not re.search(words, said)]
+        found += [f"says {words!r}" for words in row.get("silent", []) if re.search(words, said)]
+        if NEVER.search(said):
+            found.append(f"says {NEVER.search(said).group()!r}")
+        estimate = pathlib.Path(folder, "estimate.json")
+        if estimate.exists():
+            found += faults_of_estimate(row, json.loads(estimate.read_text()))
+        elif {"status", "holds", "near", "narrower"} & row.keys():
+            found.append("wrote no estimate.json")
+        return [*found, f"it said:\n{said}"] if found else []
+
+
+def faults_of_estimate(row, estimate):
+    """The same of an estimate file's content."""
+    found, parameters = [], estimate["parameters"]
+    if "status" in row and estimate["status"] != row["status"]:
+        found.append(f"status {estimate['status']}, not {row['status']}: {estimate['message']}")
+    if estimate["status"] == "ok" and not estimate.get("friction"):
+        found.append("is ok and holds no friction")
+    for name in {*row.get("holds", {}), *row.get("near", {}), *row.get("narrower", {})} - parameters.keys():
+        return [*found, f"has no parameter {name}"]
+    for name, truth in row.get("holds", {}).items():
+        interval = parameters[name].get("interval95")
+        if not interval or not interval[0] <= truth <= interval[1]:
+            found.append(f"{name} {interval} does not hold {truth}")
+    for name, (truth, tolerance) in row.get("near", {}).items():
+        if not abs(parameters[name]["value"] - truth) <= tolerance:
+            found.append(f"{name} {parameters[name]['value']} is not {truth} +- {tolerance}")
+    for name, width in row.get("narrower", {}).items():
+        interval = parameters[name].get("interval95")
+        if not interval or not interval[1] - interval[0] <= width:
+            found.append(f"{name} {interval} is wider than {width}")
+    return found
+
+
+def main():
+    program, inputs, kinds = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3:]
+    try:
+        import made
+    except ImportError as error:
+        print(f"not made: {error}")
+        return SKIPPED
+    table = json.loads((HERE / "table.json").read_text())
+    failed, done, skipped = 0, 0, 0
+    with tempfile.TemporaryDirectory() as folder:
+        made.write(pathlib.Path(folder))
+        for kind, rows in table.items():
+            for row in rows if not kinds or kind in kinds else []:
+                if "{inputs}" in row["run"] and not inputs.is_dir():
+                    skipped += 1
+                    continue
+                done += 1
+                found = faults(row, program, {"inputs": inputs, "made": folder})
+                failed += bool(found)
+                if found:
+                    print(f"{kind}: warmjoint {row['run']}\n  " + "\n  ".join(found))
+    print(f"{done} rows, {failed} failed, {skipped} without {inputs}; set WARMJOINT_SHARED" if skipped
+          else f"{done} rows, {failed} failed")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
