@@ -1,9 +1,9 @@
 """Small inputs in the shapes that people have, through the program: what each must give stands in table.json.
 
-usage: inputs_test.py WARMJOINT INPUTS [KIND...]
+usage: inputs_test.py WARMJOINT SHARED [KIND...]
 
-INPUTS is the folder shared/findings/inputs; what the table makes itself (made.py) needs NumPy alone. A row has
-  run       arguments of the program; {inputs} the folder of inputs, {made} that of made.py, {out} one of the row's own
+SHARED (or the variable WARMJOINT_SHARED) holds findings/inputs; what the table makes itself (made.py) needs NumPy alone. A row has
+  run       arguments of the program; {inputs} the folder of inputs, {shared} SHARED, {made} that of made.py, {out} one of the row's own
   exit      its status (default 0)
   says      regular expressions that its output must match, on what is named: a column, a factor, an option
   silent    regular expressions that it must not match
@@ -14,6 +14,7 @@ INPUTS is the folder shared/findings/inputs; what the table makes itself (made.p
 """
 
 import json
+import os
 import pathlib
 import re
 import shlex
@@ -72,7 +73,9 @@ def faults_of_estimate(row, estimate):
 
 
 def main():
-    program, inputs, kinds = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3:]
+    program, kinds = sys.argv[1], sys.argv[3:]
+    shared = pathlib.Path(os.environ.get("WARMJOINT_SHARED") or sys.argv[2])
+    inputs = shared / "findings/inputs"
     try:
         import made
     except ImportError as error:
@@ -84,11 +87,11 @@ def main():
         made.write(pathlib.Path(folder))
         for kind, rows in table.items():
             for row in rows if not kinds or kind in kinds else []:
-                if "{inputs}" in row["run"] and not inputs.is_dir():
+                if re.search("{inputs}|{shared}", row["run"]) and not inputs.is_dir():
                     skipped += 1
                     continue
                 done += 1
-                found = faults(row, program, {"inputs": inputs, "made": folder})
+                found = faults(row, program, {"inputs": inputs, "shared": shared, "made": folder})
                 failed += bool(found)
                 if found:
                     print(f"{kind}: warmjoint {row['run']}\n  " + "\n  ".join(found))
