@@ -11,10 +11,12 @@
 
 namespace warmjoint::inline identification {
 
-/// The rows of `all` that the selection keeps. all: [N] or [N x d]; returns [n] or [n x d].
+/// The rows of `given` that the selection keeps. given: [N] or [N x d], an expression is evaluated once; returns
+/// [n] or [n x d].
 template <typename Columns>
-typename Columns::PlainObject Kept(const Eigen::MatrixBase<Columns>& all,
+typename Columns::PlainObject Kept(const Eigen::MatrixBase<Columns>& given,
                                    const Selection& selection) {
+  const auto& all = given.eval();
   const Eigen::Index count = selection.count();
   if (count == all.rows()) return all;
 

@@ -3,8 +3,8 @@
 
 namespace warmjoint::inline identification {
 
-/// Lack of fit from which a model is refused, as a share of the friction's rms, where nobody says
-/// otherwise (`--relevance`).
-inline constexpr double kDefaultRelevance = 0.02;
+/// Change of the friction (law and heat, rms) by what a model leaves out from which it is refused, as a share,
+/// where nobody says otherwise (`--relevance`).
+inline constexpr double kDefaultRelevance = 0.1;
 
 }  // namespace warmjoint::inline identification

@@ -155,7 +155,7 @@ Fit FitChosen(const IdentifierInput& input) {
   Tournament& tournament = *trials.tournament;
 
   // what cannot be chosen goes first, the rest is held out block by block
-  tournament.DropHopeless();
+  tournament.DropOutdone();
   const Structure* only = tournament.OnlyOne();
   std::vector<Contender> contenders;
   if (!only) contenders = tournament.Compare(blocks);

@@ -11,9 +11,12 @@ namespace {
 
 constexpr const char* kName = "motor-ridge";
 
-Fit FitMotorMaps(const IdentifierInput& input) {
+Fit FitMotorMaps(const IdentifierInput& given) {
+  const RigidPart rigid = PrepareRigid(given);
+  if (rigid.why) return Refused(kName, {rigid.status, *rigid.why});
+  const IdentifierInput input = rigid.Of(given);
   MapBeginning begin =
-      BeginMaps(input, kName, {MapQuantity::position, MapQuantity::motor_position});
+      BeginMaps(input, kName, {MapQuantity::position, MapQuantity::motor_position}, rigid);
   if (begin.refusal) return Refused(kName, *begin.refusal);
   MapTask& task = begin.task;
 
@@ -48,6 +51,8 @@ Identifier MotorRidge() {
                      "kernels over speed for each direction, beside those over the turn"});
   options.push_back({"arm_kernels", "20", "integer >= 0 <= 128",
                      "kernels over the joint's position for each direction; 0: no such map"});
+  options.push_back(GravityOption());
+  options.push_back(MotionOption());
   return {kName,
           "a nominal law and maps over the motor's angle and the joint's, without warming; tells "
           "the ripple's multiples of the motor's turn",

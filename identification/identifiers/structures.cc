@@ -136,7 +136,7 @@ std::vector<Structure> MapStructures(const IdentifierInput& input, const std::st
     structures.push_back(shaped(warm.With("position", "map"), kernels.position));
     // ripple of the motor, where its angle is known
     if (!knows_motor) continue;
-    if (kind == "none") structures.push_back(shaped({MotorRidge(), {}}, kernels.motor));
+    structures.push_back(shaped({MotorRidge(), given}, kernels.motor));
     structures.push_back(shaped(warm.With("position", "motor"), kernels.motor));
   }
   return structures;

@@ -25,8 +25,6 @@ namespace {
 constexpr Eigen::Index kRows = 3000;    // on which structures are compared
 constexpr double kHopeless = 4;         // of the mean squared error of another
 constexpr double kFewParameters = 0.1;  // of the rows
-constexpr double kBeyondDoubt =
-    3.5;  // standard errors: by chance once in a thousand logs, of two values
 
 Trial Try(const Structure& structure, const IdentifierInput& input) {
   Trial trial{structure, structure.Quick().Fitted(input)};
@@ -138,23 +136,24 @@ bool Tournament::MayHaveTwoLevels(const std::string& warming) const {
   return cold && cold->told.status == Status::ok;
 }
 
-void Tournament::DropHopeless() {
-  // maps that hold gravity which another structure tells apart
-  for (Trial& one : trials_) {
-    for (const Trial& other : trials_) {
-      if (!one.dropped.empty() || !other.dropped.empty() || !HidesGravity(one, other)) continue;
-      one.dropped =
-          fmt::format("takes gravity into its map, which {} tells apart", other.structure.Name());
-    }
+void Tournament::DropOutdone() {
+  // the best by BIC first: whatever outdoes one stands before it
+  std::vector<Trial*> order;
+  for (Trial& trial : trials_) {
+    if (trial.outdone) trial.dropped.clear();
+    trial.outdone = false;
+    if (trial.dropped.empty()) order.push_back(&trial);
   }
+  std::ranges::stable_sort(order, {}, [&](const Trial* one) { return BicOf(*one); });
 
-  // then what is outdone by any that stood until here, dropped meanwhile or not
-  std::vector<bool> standing;
-  for (const Trial& trial : trials_) standing.push_back(trial.dropped.empty());
-  for (size_t i = 0; i < trials_.size(); ++i) {
-    for (size_t j = 0; j < trials_.size() && standing[i] && trials_[i].dropped.empty(); ++j) {
-      if (j != i && standing[j]) trials_[i].dropped = WhyOutdone(trials_[i], trials_[j]);
+  // dropped only by those that stand themselves
+  std::vector<const Trial*> standing;
+  for (Trial* one : order) {
+    for (const Trial* other : standing) {
+      if (one->dropped.empty()) one->dropped = WhyOutdone(*one, *other);
     }
+    one->outdone = !one->dropped.empty();
+    if (!one->outdone) standing.push_back(one);
   }
 }
 
@@ -164,17 +163,27 @@ const Structure* Tournament::OnlyOne() const {
   return &std::ranges::find_if(trials_, stands)->structure;
 }
 
+bool Tournament::HoldOut(Trial& trial, const std::vector<Eigen::Index>& bounds) {
+  if (trial.errors) return true;
+  quick_.Tell(fmt::format("comparing on {} held-out blocks: {}", bounds.size() - 1,
+                          trial.structure.Name()));
+  trial.errors = trial.structure.ErrorsOn(quick_, bounds);
+  if (trial.errors && trial.errors->allFinite()) return true;
+  trial.dropped = "fails without one of the blocks";
+  return false;
+}
+
 std::vector<Contender> Tournament::Compare(int blocks) {
   const std::vector<Eigen::Index> bounds = CutIntoBlocks(quick_.selection, blocks);
+  // one that fails outdoes nobody: those that it dropped stand again
+  const auto fails = [&](Trial& trial) { return trial.dropped.empty() && !HoldOut(trial, bounds); };
+  while (std::ranges::any_of(trials_, fails)) DropOutdone();
+
   std::vector<Contender> contenders;
   standing_.clear();
   for (size_t i = 0; i < trials_.size(); ++i) {
-    Trial& trial = trials_[i];
+    const Trial& trial = trials_[i];
     if (!trial.dropped.empty()) continue;
-    quick_.Tell(fmt::format("comparing on {} held-out blocks: {}", blocks, trial.structure.Name()));
-    trial.errors = trial.structure.ErrorsOn(quick_, bounds);
-    if (!trial.errors) trial.dropped = "fails without one of the blocks";
-    if (!trial.errors || !trial.errors->allFinite()) continue;
     standing_.push_back(i);
     contenders.push_back(
         {trial.structure.Name(), *trial.errors, trial.MeanSquare(), trial.Parameters()});
@@ -214,25 +223,6 @@ bool Tournament::Pushes(const Fit& fit) const {
   const double mean = residual.mean();
   const double square = residual.squaredNorm() / static_cast<double>(residual.size());
   return Bic(square - mean * mean, 1, rows_) < Bic(square, 0, rows_);
-}
-
-bool Tournament::HidesGravity(const Trial& one, const Trial& other) const {
-  // the same structure, one with a map and no gravity, the other with gravity
-  const auto same = [&](const char* option) {
-    return one.structure.Given(option, "") == other.structure.Given(option, "");
-  };
-  const bool alike = one.structure.identifier.name == other.structure.identifier.name &&
-                     same("law") && same("position") && !one.fit.friction.maps.empty();
-  if (!alike || one.fit.gravity || !other.fit.gravity) return false;
-
-  // beyond the reach of its own interval
-  const Inference told = Infer(other.fit);
-  for (size_t i = 0; i < other.fit.parameters.size(); ++i) {
-    const KnownParameter& known = told.parameters[i];
-    const bool weight = other.fit.parameters[i].role == Role::gravity && known.std;
-    if (weight && std::abs(known.value) > kBeyondDoubt * *known.std) return true;
-  }
-  return false;
 }
 
 std::string Tournament::WhyOutdone(const Trial& one, const Trial& other) const {

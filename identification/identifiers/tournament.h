@@ -19,6 +19,7 @@ struct Trial {
   bool gives_friction = false;
   Inference told{};                         // of one that gives no friction: why
   std::string dropped{};                    // why it is no contender; empty for one that is
+  bool outdone = false;                     // by another that stands, which is why
   std::optional<Eigen::VectorXd> errors{};  // on blocks, of a contender
 
   double Parameters() const { return fit.effective_parameters; }
@@ -69,15 +70,15 @@ class Tournament {
   /// more, that two levels fit without it.
   bool MayHaveTwoLevels(const std::string& warming) const;
 
-  /// Drops those that cannot be chosen whatever the blocks say: BIC prefers a simpler one, another leaves
-  /// half of the residual, or its map holds gravity that the same structure with gravity tells apart
-  /// beyond doubt. On this log both predict alike, but a simulator adds gravity of its own.
-  void DropHopeless();
+  /// Drops those that cannot be chosen whatever the blocks say: one that stands itself is simpler and preferred
+  /// by BIC, or leaves half of the residual.
+  void DropOutdone();
 
   /// The structure that stands where it is the only one: there is nothing to compare.
   const Structure* OnlyOne() const;
 
-  /// Errors of those that stand, on blocks that they have not seen.
+  /// Errors of those that stand, on blocks that they have not seen. Where one fails without a block, those that it
+  /// outdid stand again.
   std::vector<Contender> Compare(int blocks);
   /// The structure of the i-th contender of the last comparison.
   const Structure& Contending(size_t i) const { return trials_[standing_[i]].structure; }
@@ -90,6 +91,8 @@ class Tournament {
 
  private:
   const Trial* BestTrial() const;
+  /// Finds the errors of a trial on blocks between bounds; false, and why, where it fails without one.
+  bool HoldOut(Trial& trial, const std::vector<Eigen::Index>& bounds);
   /// Whether a linear law can be told with warming.
   bool MayWarm() const;
   double BicOf(const Trial& one) const { return Bic(one.MeanSquare(), one.Parameters(), rows_); }
@@ -97,8 +100,6 @@ class Tournament {
   const Trial* Find(const Structure& structure) const;
   /// Whether the residual has a mean, which BIC would give a parameter.
   bool Pushes(const Fit& fit) const;
-  /// Whether gravity stands in the map of one that the other, the same with gravity, tells apart.
-  bool HidesGravity(const Trial& one, const Trial& other) const;
   /// Why one cannot be chosen beside another; empty where it can.
   std::string WhyOutdone(const Trial& one, const Trial& other) const;
 

@@ -94,8 +94,20 @@ void TestWithin(const FittedModel& model, const Measurements& m, const Bins& bin
   TestInTurn(Turn::last, bins, derivatives, known, rest, level, table);
 }
 
-/// Sums up how what was found moves the parameters.
-void SumMoves(Index p, Examination& examination) {
+/// How far a finding changes the friction, as the row of its test has it.
+double HarmOf(const Finding& finding, const FrictionChange& change,
+              const Examination& examination) {
+  const double effect = examination.Rms(finding) / examination.friction;
+  const Harm harm = finding.test->harm;
+  if (harm == Harm::of_effect || finding.moves.size() == 0) return effect;
+  const double moved = change.By(finding.moves);
+  if (harm == Harm::of_moves) return moved;
+  return std::max(effect, moved);
+}
+
+/// Sums up how what was found moves the parameters, and how far that changes the friction.
+void SumMoves(const FittedModel& model, const Bins& bins, const Eigen::MatrixXd& derivatives,
+              Index p, Examination& examination) {
   examination.moves.setZero(p);
   // findings count as independent of each other: their variances add up
   Eigen::VectorXd variance = Eigen::VectorXd::Zero(p);
@@ -105,6 +117,12 @@ void SumMoves(Index p, Examination& examination) {
     variance += finding.move_deviations.head(p).cwiseAbs2();
   }
   examination.move_deviations = variance.cwiseSqrt();
+  if (examination.Found().empty()) return;
+
+  const FrictionChange change(model, bins, derivatives, examination.friction);
+  for (Finding& finding : examination.findings) {
+    if (finding.rejected) finding.harm = HarmOf(finding, change, examination);
+  }
 }
 
 /// What hints move parameters by, with 95 % of it. They may be one and the same thing seen twice: the largest of them
@@ -146,17 +164,15 @@ void TakeOffRounding(const FittedModel& model, const Measurements& m, const Bins
   examination.by_rounding = moves.By(bins.Means(rounding)).topRows(p);
 }
 
-/// What sizes are measured by.
-void Measure(const FittedModel& model, const Bins& bins, const Eigen::MatrixXd& derivatives,
-             Index p, Examination& examination) {
+/// What sizes are measured by: the friction of law and heat, without what a map may hold of gravity.
+void Measure(const FittedModel& model, const Bins& bins, Examination& examination) {
   examination.rows = model.rows;
   examination.samples = bins.weight.sum();
+  Eigen::VectorXd friction = model.torque - model.residual;
+  if (model.maps) friction -= *model.maps;
   examination.friction =
-      std::sqrt(Kept(model.torque, model.selection).squaredNorm() / examination.samples);
+      std::sqrt(Kept(friction, model.selection).squaredNorm() / examination.samples);
   examination.squares = Kept(model.residual, model.selection).squaredNorm();
-  examination.reach =
-      (bins.weight.cwiseSqrt().asDiagonal() * derivatives.leftCols(p)).colwise().norm() /
-      std::sqrt(examination.samples);
 }
 
 }  // namespace
@@ -206,7 +222,7 @@ Examination ExamineResidual(const Fit& fit, const Inference& inference, const Me
   // what parameters, assumptions and heat within the steps can do
   const Eigen::MatrixXd derivatives = DerivativesOver(bins, *model);
   const Index p = model->derivatives.cols() - model->jump_spread.size();
-  Measure(*model, bins, derivatives, p, examination);
+  Measure(*model, bins, examination);
   LearnHeat(*model, bins, p, derivatives, examination);
   const ForceMoves moves(bins, derivatives);
   const Circumstances known = CircumstancesOf(*model, m, bins);
@@ -223,7 +239,7 @@ Examination ExamineResidual(const Fit& fit, const Inference& inference, const Me
   TestWithin(*model, m, bins, derivatives, known, rest, level, table);
 
   // what all of that does to the parameters
-  SumMoves(p, examination);
+  SumMoves(*model, bins, derivatives, p, examination);
   LearnHints(p, examination);
   HideMeans(bins, moves, p, examination);
   return examination;

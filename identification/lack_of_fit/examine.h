@@ -23,7 +23,6 @@ struct Examination {
   /// [p] most that a hint moves each: what a test by itself would reject at the error level, and the log, where
   /// as many are made, does not. Empty where there is none.
   Eigen::VectorXd by_hints;
-  Eigen::VectorXd reach;     // [p] force of each parameter's unit, rms over the kept samples
   Eigen::VectorXd by_start;  // [p] change of each had the joint been a tenth as warm at the start
                              // as it ever gets; empty where its start is no matter
   Eigen::VectorXd by_drift;  // [p] largest change of each by a slow drift of a hundredth of the
@@ -51,7 +50,7 @@ struct Examination {
   double heat_share = 0;    // of that, as the residual tells: 1 where they did, 0 where they were
                             // held (22)
   double heat_deviation = 0;  // standard deviation of the share
-  double friction = 0;        // rms of the kept torque, N.m or N
+  double friction = 0;        // rms of law and heat over the kept samples, N.m or N
   double samples = 0;
   double squares = 0;  // of the residual
 

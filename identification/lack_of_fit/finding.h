@@ -28,6 +28,8 @@ struct Finding {
   double alike = 0;       // share of an angle's part that acts alike in both directions
   Eigen::VectorXd moves;  // [p] change of the fit's parameters when the features join it; or empty
   Eigen::VectorXd move_deviations;  // [p] standard deviations of `moves`
+  double harm =
+      0;  // of one that was rejected: how far it changes the friction, as a share of its rms (HarmOf)
 };
 
 /// Parts of a recording that count as independent of each other: noise may be coloured within them.

@@ -148,10 +148,12 @@ std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& infere
   // and how its parameters could change that
   model.rows = RowsOf(fit, {Role::law, Role::heat, Role::start, Role::gravity});
   if (fit.inertia) model.rows.push_back(*fit.RowOf(Role::inertia));
-  model.derivatives = NominalDerivatives(law, values, m.velocity);
+  model.cold = NominalDerivatives(law, values, m.velocity);
+  model.derivatives = model.cold;
   const bool knows_warming = fit.friction.thermal && !fit.Values(Role::heat).empty();
   Eigen::MatrixXd by_jumps(m.size(), 0);
   if (knows_warming) by_jumps = AddWarming(fit, inference, m, model);
+  model.of_friction = model.derivatives.cols();
   if (fit.gravity) AddGravity(*fit.gravity, m.position, model);
   if (fit.inertia) model.derivatives = Beside(model.derivatives, *m.acceleration);
   if (by_jumps.cols() > 0) model.derivatives = Beside(model.derivatives, by_jumps);

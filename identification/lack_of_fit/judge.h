@@ -8,12 +8,12 @@
 namespace warmjoint::inline identification {
 
 /// Judges a fit by the table of tests for lack of fit (table.h), made at one error level for the log
-/// (error_level.h). What they find is relevant where together it amounts to the share
-/// `judging.relevance` of the friction, rms over the kept samples, or where a parameter would move
-/// beyond its interval by that share of the friction, were it part of the model. Then the inference is void,
-/// inadequate_model, and the message names what the residual depends on and what to try. Of less
-/// the inference warns, and intervals reach as far as the parameters would move were it part of the
-/// model; none is given of warming beside lack of fit over time or energy, since nobody can tell
+/// (error_level.h). What they find is relevant where one finding changes the friction of law and heat by
+/// more than the share `judging.relevance` of its rms over the kept samples (Harm), or where all together
+/// amount to a quarter of it. Then the inference is void, inadequate_model, and the message names what the
+/// residual depends on and what to try. Of less the inference warns, and intervals reach as far as the
+/// parameters would move were it part of the model; none is given of warming beside lack of fit over time or
+/// energy, since nobody can tell
 /// how much of that the warming took up. Where a start that is taken to be cold matters, a warning
 /// says how much. Noise that is coloured is no lack of fit: the intervals account for it.
 /// Fills diagnostics and assumptions; of an inference that is not ok, nothing else.

@@ -12,8 +12,8 @@ enum class StartBelief {
 };
 
 struct Judging {
-  /// Lack of fit from which a model is refused: its rms as a share of the friction's. Smaller lack
-  /// of fit widens the intervals by what it moves. 0 < relevance <= 1.
+  /// Change of the friction of law and heat by what was found (Harm), rms as a share of the friction's, from
+  /// which a model is refused. A smaller one widens the intervals. 0 < relevance <= 1.
   double relevance = kDefaultRelevance;
   StartBelief start = StartBelief::cold;
 };

@@ -1,5 +1,6 @@
 #include "identification/lack_of_fit/sensitivity.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -44,6 +45,19 @@ ForceMoves::ForceMoves(const Bins& bins, const Eigen::MatrixXd& derivatives)
 Eigen::MatrixXd ForceMoves::By(const Eigen::MatrixXd& forces) const {
   const Eigen::MatrixXd shared = basis_.transpose() * (root_.asDiagonal() * forces);
   return -mix_ * shared;
+}
+
+FrictionChange::FrictionChange(const FittedModel& model, const Bins& bins,
+                               const Eigen::MatrixXd& derivatives, double friction)
+    : root_(bins.weight.cwiseSqrt() / (friction * std::sqrt(bins.weight.sum()))),
+      warm_(derivatives.leftCols(model.of_friction)),
+      cold_(bins.Means(model.cold)) {}
+
+double FrictionChange::By(const Eigen::VectorXd& changes) const {
+  const Eigen::VectorXd along = warm_ * changes.head(warm_.cols());
+  const Eigen::VectorXd cold = cold_ * changes.head(cold_.cols());
+  const auto share = [&](const Eigen::VectorXd& force) { return root_.cwiseProduct(force).norm(); };
+  return std::max({share(along), share(cold), share(along - cold)});
 }
 
 Eigen::MatrixXd DerivativesOver(const Bins& bins, const FittedModel& model) {

@@ -33,6 +33,24 @@ class ForceMoves {
   Eigen::MatrixXd mix_;  // [p x r] basis = root J mix
 };
 
+/// How far changes of a fit's parameters change the friction of law and heat.
+class FrictionChange {
+ public:
+  /// derivatives: DerivativesOver; friction: rms of law and heat over the kept samples, N.m or N.
+  FrictionChange(const FittedModel& model, const Bins& bins, const Eigen::MatrixXd& derivatives,
+                 double friction);
+
+  /// The largest of three, rms over the kept samples as a share of the friction's: the change along
+  /// the log J d, that of the cold curve dFn/dp d, and that of what heat takes off it, the
+  /// difference of both. d: [p]
+  double By(const Eigen::VectorXd& changes) const;
+
+ private:
+  Eigen::VectorXd root_;  // [m] of the weights, over the friction's rms and the root of the samples
+  Eigen::MatrixXd warm_;  // [m x q] dF/dx by law, heat and start
+  Eigen::MatrixXd cold_;  // [m x d] dFn/dp
+};
+
 /// Of the parameters, of the jumps at gaps, and of heat within the steps where that matters (held_loss.h), over
 /// bins. [m x (p + ...)]
 Eigen::MatrixXd DerivativesOver(const Bins& bins, const FittedModel& model);

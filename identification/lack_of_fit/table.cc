@@ -86,66 +86,69 @@ constexpr std::string_view kNoHolds = "no segments of constant speed are known";
 const std::vector<LackOfFitTest>& LackOfFitTests() {
   using enum Turn;
   using enum Warming;
+  using enum Harm;
   static const std::vector<LackOfFitTest> tests{
-      {"direction", kHeldByTheFit, first, apart, OfDirection, Say<kDirection>, AgainstDirection,
-       "Do forward and backward motion leave different residuals?",
+      {"direction", kHeldByTheFit, first, apart, of_effect, OfDirection, Say<kDirection>,
+       AgainstDirection, "Do forward and backward motion leave different residuals?",
        "Friction differs by direction: try --set law=asymmetric, with stribeck or lugre --set "
        "law=asymmetric_stribeck or asymmetric_lugre. If gravity or a load acts, try --gravity "
        "sincos or --gravity paired."},
-      {"speed", kHeldByTheFit, first, apart, OfSpeed, Say<kSpeed>, AgainstSpeed,
+      {"speed", kHeldByTheFit, first, apart, of_effect, OfSpeed, Say<kSpeed>, AgainstSpeed,
        "Does the residual depend on the speed?",
        "The law over speed is too simple: try --identifier stribeck, and record five speeds or "
        "more, the slowest below a twentieth of the fastest."},
-      {"energy", kHeldByTheFit, first, takes_part, OfEnergy, Say<kEnergy>, AgainstWarming,
+      {"energy", kHeldByTheFit, first, takes_part, of_moves, OfEnergy, Say<kEnergy>, AgainstWarming,
        "Does it depend on how warm the joint is?",
        "Warming is not followed: try --identifier energy-ml, on a log that begins cold and lasts "
        "until the torque settles."},
-      {"initial_energy", "E(0) is estimated, or the fit knows no warming", first, apart,
+      {"initial_energy", "E(0) is estimated, or the fit knows no warming", first, apart, of_moves,
        OfInitialEnergy, Say<kStart>, AgainstStart, "Was the joint warm when the log began?",
        "The joint seems warm at the start: try --start estimated, or let it cool down for an hour "
        "before you record."},
-      {"load", "the log has no column load", first, apart, OfLoad, Say<kLoad>, AgainstLoad,
-       "Does it depend on the load?", "Friction depends on the load: record one load at a time."},
-      {"temperature", "the log has no column temperature", first, apart, OfTemperature,
+      {"load", "the log has no column load", first, apart, of_moves, OfLoad, Say<kLoad>,
+       AgainstLoad, "Does it depend on the load?",
+       "Friction depends on the load: record one load at a time."},
+      {"temperature", "the log has no column temperature", first, apart, of_effect, OfTemperature,
        Say<kTemperature>, AgainstTemperature, "Does it depend on the measured temperature?",
        "The surroundings warm the joint: record at a steady temperature."},
-      {"time", kHeldByTheFit, first, takes_part, OfTime, Say<kTime>, AgainstWarming,
+      {"time", kHeldByTheFit, first, takes_part, of_moves, OfTime, Say<kTime>, AgainstWarming,
        "Does it drift over time?",
        "Friction drifts: try a model that warms (--identifier energy-ml), or record for longer."},
-      {"speed_by_energy", "the fit knows no warming", first, apart, OfSpeedByEnergy,
+      {"speed_by_energy", "the fit knows no warming", first, apart, of_moves, OfSpeedByEnergy,
        Say<kSpeedByEnergy>, AgainstWarmingSlope, "Does the slope over speed change with warmth?",
        "The slope changes as the joint warms: try --identifier lpv-energy."},
       {"speed_memory", "the fit knows no warming, or the segments are too long for the log", first,
-       apart, OfSpeedMemory, Memory, AgainstMemory, "Does friction follow the speed late?",
+       apart, of_moves, OfSpeedMemory, Memory, AgainstMemory,
+       "Does friction follow the speed late?",
        "Friction still depends on the speed of a while ago: hold each speed for longer, so that it "
        "settles."},
-      {"step", kHeldByTheFit, first, takes_part, OfStep, Say<kStep>, AgainstStep,
+      {"step", kHeldByTheFit, first, takes_part, of_moves, OfStep, Say<kStep>, AgainstStep,
        "Does it jump at some moment?",
        "Something changed in the middle of the log (load, controller, grease): record again, or "
        "cut the log there."},
-      {"lag", "too few samples follow a change of speed", sample, apart, nullptr, Lag, AgainstLag,
-       "Does the torque lag behind changes of speed?",
+      {"lag", "too few samples follow a change of speed", sample, apart, of_either_twice, nullptr,
+       Lag, AgainstLag, "Does the torque lag behind changes of speed?",
        "The torque column is filtered or delayed: raise --trim, so that samples after each change "
        "of speed are left out."},
-      {"position_by_energy", "the fit has no map beside a warming", sample, apart, nullptr,
-       Say<kFading>, AgainstFading, "Does the pattern over position change with warmth?",
+      {"position_by_energy", "the fit has no map beside a warming", sample, apart, of_moves,
+       nullptr, Say<kFading>, AgainstFading, "Does the pattern over position change with warmth?",
        "The pattern over position fades or grows as the joint warms: let the map depend on "
        "energy."},
-      {"position", "the travel is too short for the speed", sample, apart, nullptr, Position,
-       AgainstPosition, "Does it repeat over position?",
+      {"position", "the travel is too short for the speed", sample, apart, of_effect, nullptr,
+       Position, AgainstPosition, "Does it repeat over position?",
        "Friction varies over position: try --identifier position-ridge, with motion over the whole "
        "travel."},
       {"motor_angle", "the log has neither a gear nor the column motor_position", sample, apart,
-       nullptr, MotorAngle, AgainstMotorAngle, "Does it repeat over the motor's angle?",
+       of_effect, nullptr, MotorAngle, AgainstMotorAngle, "Does it repeat over the motor's angle?",
        "The motor or the gear ripples: give --gear or a column motor_position and try --identifier "
        "motor-ridge."},
-      {"hold_parity", kNoHolds, hold, apart, OfHoldParity, Say<kParity>, AgainstHolds,
+      {"hold_parity", kNoHolds, hold, apart, of_either, OfHoldParity, Say<kParity>, AgainstHolds,
        "Is every other hold of constant speed different?",
        "Holds alternate: look whether the two directions have the same load."},
-      {"hold_phase", kNoHolds, hold, apart, OfHoldPhase, Say<kPhase>, AgainstHolds,
+      {"hold_phase", kNoHolds, hold, apart, of_either, OfHoldPhase, Say<kPhase>, AgainstHolds,
        "Does it change within each hold of constant speed?",
        "Torque settles within each hold: raise --trim, or hold each speed for longer."},
-      {"periodic", "the log is too short", last, apart, OfPeriod, Period, AgainstPeriod,
+      {"periodic", "the log is too short", last, apart, of_moves, OfPeriod, Period, AgainstPeriod,
        "Does it repeat in time?",
        "Something repeats in time: look for a controller that swings, or another joint that "
        "moves."}};

@@ -26,6 +26,11 @@ enum class Turn { first, sample, hold, last };
 /// What a fitted warming may have taken up of that which a test looks for.
 enum class Warming { apart, takes_part };
 
+/// What of a finding counts as a change of the friction: how it moves law and heat (FrictionChange), its own
+/// size, where that is friction or where moves do not show it, or the larger; twice where moves understate it, as of
+/// a lag.
+enum class Harm { of_moves, of_effect, of_either, of_either_twice };
+
 /// Why a test is not made whose features the fit takes up whole.
 inline constexpr std::string_view kHeldByTheFit = "the fit holds it, or the motion never shows it";
 
@@ -35,6 +40,7 @@ struct LackOfFitTest {
   std::string_view absent;  // why it is not made where there are no features
   Turn turn = Turn::first;
   Warming warming = Warming::apart;
+  Harm harm = Harm::of_moves;
   /// Features over the bins, the best of several candidates beside the fit; of a test that looks
   /// at samples (lag.h, fading.h, ripple.h): none.
   Features (*features)(const Bins& bins, const Circumstances& known,

@@ -17,10 +17,14 @@
 #include "identification/maps/imitated_columns.h"
 #include "identification/maps/make_bands.h"
 #include "identification/physical_bounds.h"
+#include "identification/relevance.h"
 #include "models/friction/sign.h"
 
 namespace warmjoint::inline identification {
 namespace {
+
+constexpr double kBeyondDoubt =
+    3.5;  // standard errors; why: by chance once in a thousand logs, of two values
 
 /// Why the law alone cannot be fitted, or the data not used; nothing where all is well.
 std::optional<Refusal> RefuseForMaps(const IdentifierInput& input, const Law& law,
@@ -183,6 +187,47 @@ MapTask Settled(MapTask task, const MapWeights& fit) {
 
 namespace {
 
+/// The task with gravity, and with a constant that a level for each direction would explain as well.
+MapTask WithGravity(const MapTask& task, const MapWeights& fit, const Eigen::VectorXd& position) {
+  MapTask with = Settled(task, fit);
+  // maps that need hold no gravity any more have weights of another size
+  with.settings.strength = 0;
+  Eigen::MatrixXd columns = GravityColumns(GravityKind::sincos, {}, position);
+  with.rigid.columns =
+      Beside(Beside(columns, Eigen::VectorXd::Ones(position.size())), task.rigid.columns);
+  return with;
+}
+
+/// Whether maps over the angle of a joint have taken up gravity: what they hold of g1 sin p + g2 cos p is relevant
+/// beside the friction of the law, and a fit that has both tells that gravity apart from them beyond doubt.
+bool HoldsGravity(const IdentifierInput& input, const MapTask& task, const MapFit& maps) {
+  const Measurements& m = input.measurements;
+  const bool asks = m.joint == JointKind::rotary && task.rigid.gravity_count() == 0 &&
+                    m.position.allFinite() && input.selection.count() > 2 * maps.free + 6;
+  if (!asks) return false;
+
+  // what the maps hold of it, beside law and constant
+  const MapTask with = WithGravity(task, maps, m.position);
+  const Eigen::MatrixXd gravity = Kept(with.rigid.columns.leftCols(3), input.selection);
+  const Law& law = *FindLaw(task.settings.law);
+  const Eigen::MatrixXd columns = Kept(LawColumns(law, m.velocity), input.selection);
+  const Eigen::VectorXd of_law = columns * maps.x.head(columns.cols());
+  const Eigen::VectorXd of_maps =
+      EvaluateMaps(maps.maps, Kept(PointsOf(m, task.energy), input.selection));
+  const LeastSquares held = SolveLeastSquares(Beside(gravity, columns), of_maps);
+  if (!held.mixed.empty()) return false;
+  const double size = (gravity.leftCols(2) * held.solution.head(2)).norm();
+  if (size < kDefaultRelevance * of_law.norm()) return false;
+
+  // and whether it is gravity that a fit with both needs
+  const std::optional<MapChoice> choice = ChooseAndFit(input, with);
+  if (!choice) return false;
+  const Uncertainty known = JudgeMaps(choice->problem, choice->fit);
+  const Eigen::Index first = task.law_count();
+  return std::abs(choice->fit.x[first]) > kBeyondDoubt * known.Deviation(first) ||
+         std::abs(choice->fit.x[first + 1]) > kBeyondDoubt * known.Deviation(first + 1);
+}
+
 /// All but errors and bands.
 Fit ModelOf(const IdentifierInput& input, const MapTask& task, const MapFit& maps) {
   const Measurements& m = input.measurements;
@@ -206,6 +251,12 @@ Fit ModelOf(const IdentifierInput& input, const MapTask& task, const MapFit& map
       "law {} and {} on {} samples; prior of strength {:.3g} on their weights leaves {:.1f} "
       "effective parameters",
       law.name, ShapeOf(maps.maps), fit.torque.size(), maps.strength, maps.effective);
+  if (HoldsGravity(input, task, maps)) {
+    fit.voided = {Status::inadequate_model,
+                  "the map holds what acts alike in both directions, as gravity does, which is no "
+                  "friction; add "
+                  "--gravity sincos"};
+  }
   // places without data
   const std::vector<std::string> holes = NameHoles(maps.maps, maps.unseen, m.joint);
   if (!holes.empty()) {

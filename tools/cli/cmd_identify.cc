@@ -242,8 +242,9 @@ Command AddIdentifyCommand(CLI::App& program) {
             {{"warm", "unknown"}, {"hot", "unknown"}});
   AddFollowOptions(*parser, arguments->follow);
   parser
-      ->add_option("--relevance", arguments->settings.relevance,
-                   "lack of fit, as a share of the friction, from which a model is refused")
+      ->add_option(
+          "--relevance", arguments->settings.relevance,
+          "change of the friction by lack of fit, as a share, from which a model is refused")
       ->type_name("NUMBER")
       ->capture_default_str();
   parser->add_option("--set", arguments->set, "option of the identifier, as law=asymmetric")

@@ -40,7 +40,7 @@ struct IdentifySettings {
   std::string gravity = "none";                  // none, sincos or paired
   std::string start = "cold";                    // cold, unknown or estimated
   double relevance =
-      0.02;              // lack of fit, as a share of the friction, from which a model is refused
+      0.1;  // change of the friction by lack of fit, a share, from which a model is refused
   double holdout = 0.3;  // share of the recording's end for figures on unseen data; 0: none
   std::optional<PreparedLog> holdout_log{};  // another recording for them, instead
   VoidNumbers void_numbers = VoidNumbers::withhold;

@@ -1,0 +1,102 @@
+"""Real logs of shared/data through `identify`: status, Fit, and whether the halves of each log agree. Printed, not tested.
+
+usage: real_logs.py WARMJOINT SHARED [IDENTIFIER]...        default: auto nominal-ls
+
+A half is every sample before or after the middle of the log. For each parameter of law and heat that has a 95 % interval in both halves, z is
+the difference over the root of the sum of squares of both standard errors (half an interval over 1.96). Beside it stands
+least squares by NumPy: viscous and asymmetric Coulomb friction, gravity and inertia, the first 70 % predicting the last 30 %.
+"""
+
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import numpy as np
+
+UR10E = "--map time=t_s,position=q,velocity=qd,torque=i_A --unit torque=A"
+NIST = ("--map time=timestamp,position=actual_q_0,velocity=actual_qd_0,torque=actual_current_0 "
+        "--unit position=deg --unit torque=A --motion any")
+# name: file, arguments of the program, columns and units of least squares (time, position, velocity, torque)
+LOGS = {
+    **{f"UR10e {j}": (f"ur10e_joints/joint{j}.csv", UR10E, ("t_s", "q", "qd", "i_A"), 1) for j in range(1, 6)},
+    "EMPS": ("emps/DATA_EMPS.csv", "--map time=t_s,position=q_m,torque=force_N --joint linear",
+             ("t_s", "q_m", None, "force_N"), 1),
+    "NIST 1": ("nist_ur5/robot.csv", NIST,
+               ("timestamp", "actual_q_0", "actual_qd_0", "actual_current_0"), np.pi / 180),
+    "xArm6": ("xarm6_thermal/j3_48deg_s.csv",
+              "--map time=t,position=q_deg,velocity=v_deg,torque=i,temperature=temp --unit position=deg,velocity=deg/s,torque=A,"
+              "temperature=degC", None, 1),
+}
+FRICTION = ("viscous", "coulomb", "coulomb_positive", "coulomb_negative", "thermal_gain", "thermal_time_constant")
+
+
+def least_squares(path, columns, to_radians):
+    """Fit in per cent of least squares on the last 30 % of the moving samples."""
+    table = np.genfromtxt(path, delimiter=",", names=True)
+    t, q, tau = table[columns[0]], table[columns[1]] * to_radians, table[columns[3]]
+    v = table[columns[2]] if columns[2] else np.gradient(q, t)
+    half = max(1, round(0.02 / np.median(np.diff(t))))  # samples of a 40 ms mean, as a low-pass
+    smooth = lambda x: np.convolve(x, np.ones(2 * half + 1) / (2 * half + 1), "same")
+    v, tau = smooth(v), smooth(tau)
+    rows = np.column_stack([v, v > 0, -(v < 0).astype(float), np.sin(q), np.cos(q), np.gradient(v, t)])
+    moving = np.abs(v) > 0.02 * np.abs(v).max()
+    rows, tau = rows[moving], tau[moving]
+    n = round(0.7 * len(tau))
+    x = np.linalg.lstsq(rows[:n], tau[:n], rcond=None)[0]
+    rest = tau[n:]
+    return 100 * (1 - np.linalg.norm(rest - rows[n:] @ x) / np.linalg.norm(rest - rest.mean()))
+
+
+def identify(program, path, arguments, identifier, folder):
+    """The content of estimate.json, or the refusal to read."""
+    out = pathlib.Path(folder, "estimate.json")
+    out.unlink(missing_ok=True)
+    done = subprocess.run([program, "identify", path, *arguments.split(), "--identifier", identifier, "-o", out],
+                          capture_output=True, text=True)
+    return json.loads(out.read_text()) if out.exists() else {"status": "bad input", "message": done.stderr}
+
+
+def halves(path, folder):
+    """Two files: the first and the second half of a log."""
+    header, *rows = pathlib.Path(path).read_text().splitlines()
+    for i, part in enumerate((rows[:len(rows) // 2], rows[len(rows) // 2:])):
+        half = pathlib.Path(folder, f"half{i}.csv")
+        half.write_text("\n".join([header, *part]) + "\n")
+        yield half
+
+
+def distances(one, other):
+    """{parameter: z} of those of the friction that have an interval in both."""
+    known = lambda estimate: {n: p for n, p in (estimate.get("parameters") or {}).items()
+                              if n in FRICTION and p.get("interval95")}
+    a, b = known(one), known(other)
+    error = lambda p: (p["interval95"][1] - p["interval95"][0]) / 3.92
+    return {n: (a[n]["value"] - b[n]["value"]) / np.hypot(error(a[n]), error(b[n])) for n in a.keys() & b.keys()}
+
+
+def main():
+    program, shared = sys.argv[1], pathlib.Path(sys.argv[2])
+    everything = []
+    with tempfile.TemporaryDirectory() as folder:
+        for identifier in sys.argv[3:] or ["auto", "nominal-ls"]:
+            for name, (file, arguments, columns, unit) in LOGS.items():
+                path = shared / "data" / file
+                whole = identify(program, path, arguments, identifier, folder)
+                parts = [identify(program, half, arguments, identifier, folder) for half in halves(path, folder)]
+                z = distances(*parts) if all(part["status"] == "ok" for part in parts) else {}
+                everything += z.values()
+                fit = (whole.get("metrics") or {}).get("fit")
+                ls = f"{least_squares(path, columns, unit):.1f} %" if columns else "-"
+                print(f"{name:8} {identifier:12} {whole['status']:16} Fit {fit if fit is None else round(fit, 1)} %, "
+                      f"least squares held out {ls}; halves {parts[0]['status']}, {parts[1]['status']}:",
+                      ", ".join(f"{n} z {value:.1f}" for n, value in z.items()))
+                print("   ", whole["message"].replace("\n", "\n    "))
+    size = np.abs(everything)
+    if len(size):
+        print(f"{len(size)} pairs: |z| <= 2 in {100 * np.mean(size <= 2):.0f} %, worst {size.max():.1f}")
+
+
+if __name__ == "__main__":
+    main()
