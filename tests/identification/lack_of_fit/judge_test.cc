@@ -103,7 +103,7 @@ TEST(Judge, FindsTheRippleOfTheMotor) {
 TEST(Judge, FindsRippleAlongTheJoint) {
   const auto ripple = [](std::uint64_t seed) {
     Measurements m = Travel(seed);
-    m.torque.array() += (20 * m.position.array()).sin();
+    m.torque.array() += 4 * (20 * m.position.array()).sin();
     return m;
   };
   const Estimate estimate = Answer("nominal-ls", ripple(1));
@@ -127,12 +127,29 @@ TEST(Judge, FindsTheStribeckCurve) {
 
 TEST(Judge, FindsThatDirectionsDiffer) {
   Measurements m = RecordHour(Cold(), 1);
-  m.torque.array() += 1.5;
+  m.torque.array() += 3;
   const Estimate estimate = Answer("nominal-ls", m);
   EXPECT_EQ(estimate.status, kInadequate);
   EXPECT_THAT(estimate.FullMessage(), HasSubstr("depends on direction"));
   EXPECT_THAT(estimate.FullMessage(), HasSubstr("law=asymmetric"));
   EXPECT_EQ(Answer("nominal-ls", m, {{"law", "asymmetric"}}).status, Status::ok);
+}
+
+TEST(Judge, MeasuresHarmBesideTheFrictionAlone) {
+  // a curve over speed beside 17 N.m of friction, and beside gravity that is six times as large
+  for (const double gravity : {0.0, 100.0}) {
+    for (const double curve : {2.0, 20.0}) {
+      Measurements m = Travel(1);
+      m.torque.array() += gravity * m.position.array().sin();
+      for (Eigen::Index i = 0; i < m.size(); ++i) {
+        m.torque[i] +=
+            std::copysign(curve * std::exp(-std::pow(m.velocity[i] / 0.3, 2)), m.velocity[i]);
+      }
+      const Estimate estimate = Answer("nominal-ls", m, {{"gravity", "sincos"}});
+      EXPECT_TRUE(Asked(estimate, "speed").rejected) << gravity << " " << curve;
+      EXPECT_EQ(estimate.status, curve > 10 ? kInadequate : Status::ok) << estimate.message;
+    }
+  }
 }
 
 TEST(Judge, LetsTheRightModelPass) {
