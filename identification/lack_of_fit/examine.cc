@@ -99,7 +99,8 @@ double HarmOf(const Finding& finding, const FrictionChange& change,
               const Examination& examination) {
   const double effect = examination.Rms(finding) / examination.friction;
   const Harm harm = finding.test->harm;
-  if (harm == Harm::of_effect || finding.moves.size() == 0) return effect;
+  const bool by_size = harm == Harm::of_effect || harm == Harm::of_direction;
+  if (by_size || finding.moves.size() == 0) return effect;
   const double moved = change.By(finding.moves);
   if (harm == Harm::of_moves) return moved;
   return std::max(effect, moved);
@@ -136,14 +137,15 @@ void LearnHints(Index p, Examination& examination) {
 }
 
 /// What returns with every hold and vanishes somewhere in it has a mean over the hold that is no farther from 0
-/// than its values are from each other. The mean looks like friction, or like an offset.
+/// than its values are from each other. The mean looks like friction, or like an offset. Of two directions that
+/// differ either may be the one without what disturbs, by as much as their mean is off.
 void HideMeans(const Bins& bins, const ForceMoves& moves, Index p, Examination& examination) {
   // how far apart the values lie of all that returns with the holds
   double range = 0;
   for (const Finding& finding : examination.findings) {
-    if (finding.rejected && finding.test->turn == Turn::hold) {
-      range += kRange * examination.Rms(finding);
-    }
+    if (!finding.rejected) continue;
+    if (finding.test->turn == Turn::hold) range += kRange * examination.Rms(finding);
+    if (finding.test->harm == Harm::of_direction) range += examination.Rms(finding);
   }
   if (range == 0) return;
 

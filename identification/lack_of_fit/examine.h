@@ -17,7 +17,7 @@ struct Examination {
   std::vector<size_t> rows;         // [p] of the fit's table that `moves` are about
   Eigen::VectorXd moves;            // [p] change of each once what was found joins the fit
   Eigen::VectorXd move_deviations;  // [p]
-  /// [p] most that those among them that return with every hold move each by their means over a hold, which
+  /// [p] most that those among them that return with every hold, or differ by direction, move each by means, which
   /// nobody sees; empty where there are none.
   Eigen::VectorXd by_hidden;
   /// [p] most that a hint moves each: what a test by itself would reject at the error level, and the log, where

@@ -88,7 +88,7 @@ const std::vector<LackOfFitTest>& LackOfFitTests() {
   using enum Warming;
   using enum Harm;
   static const std::vector<LackOfFitTest> tests{
-      {"direction", kHeldByTheFit, first, apart, of_effect, OfDirection, Say<kDirection>,
+      {"direction", kHeldByTheFit, first, apart, of_direction, OfDirection, Say<kDirection>,
        AgainstDirection, "Do forward and backward motion leave different residuals?",
        "Friction differs by direction: try --set law=asymmetric, with stribeck or lugre --set "
        "law=asymmetric_stribeck or asymmetric_lugre. If gravity or a load acts, try --gravity "

@@ -28,8 +28,8 @@ enum class Warming { apart, takes_part };
 
 /// What of a finding counts as a change of the friction: how it moves law and heat (FrictionChange), its own
 /// size, where that is friction or where moves do not show it, or the larger; twice where moves understate it, as of
-/// a lag.
-enum class Harm { of_moves, of_effect, of_either, of_either_twice };
+/// a lag. Of a direction its own size, by which the friction of either direction is off.
+enum class Harm { of_moves, of_effect, of_direction, of_either, of_either_twice };
 
 /// Why a test is not made whose features the fit takes up whole.
 inline constexpr std::string_view kHeldByTheFit = "the fit holds it, or the motion never shows it";
