@@ -3,11 +3,15 @@
 namespace warmjoint::inline identification {
 
 std::vector<std::string> FindFaults(const Measurements& measurements, const Selection& selection) {
+  const SampleFlags absurd = AbsurdTorque(measurements, selection);
+  Selection left = selection;
+  left.keep = left.keep && !absurd;
   std::vector<std::string> faults;
-  for (const auto find : {&WrappedPosition, &VelocityAgainstPosition, &TorqueSign, &ClippedTorque,
-                          &StuckTorque, &DroppedTorque, &AbsurdTorque}) {
-    if (auto fault = find(measurements, selection)) faults.push_back(*std::move(fault));
+  for (const auto find : {&WrappedPosition, &VelocityAgainstPosition, &TorqueDirections,
+                          &ClippedTorque, &StuckTorque, &DroppedTorque}) {
+    if (auto fault = find(measurements, left)) faults.push_back(*std::move(fault));
   }
+  if (absurd.any()) faults.push_back(DescribeAbsurd(measurements, absurd));
   return faults;
 }
 

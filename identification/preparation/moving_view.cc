@@ -146,7 +146,11 @@ LogView ViewMotion(const Measurements& measurements, MotionSource source) {
 }
 
 const LogView& MovingView(const PreparedLog& log) {
-  return log.found().moving.Get([&] { return ViewMotion(log.taken().measurements, log.source()); });
+  return log.found().moving.Get([&] {
+    LogView view = ViewMotion(log.taken().measurements, log.source());
+    log.LeaveOut(view);
+    return view;
+  });
 }
 
 bool HoldsSpeeds(const PreparedLog& log) {

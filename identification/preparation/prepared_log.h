@@ -51,8 +51,13 @@ class PreparedLog {
   struct Found {
     MadeOnce<LogView> moving;
     MadeOnce<bool> holds_speeds;
+    MadeOnce<std::shared_ptr<const PreparedLog>>
+        without_absurd;  // or none, where no sample is absurd
   };
   Found& found() const { return *found_; }
+
+  /// Leaves those out of a view of the log that were left out of the log itself.
+  void LeaveOut(LogView& view) const;
 
   /// What was done to the velocity, if anything.
   const std::optional<VelocityNoise>& velocity_noise() const { return log_->velocity_noise; }
@@ -69,6 +74,10 @@ class PreparedLog {
   /// The samples before a time (s), with all that was done to them.
   PreparedLog Before(double time) const;
 
+  /// The log without samples of absurd torque (log_faults.h), which is no fault any more; made once. For a
+  /// loss that bounds the pull of a sample.
+  const PreparedLog& WithoutAbsurd() const;
+
  private:
   struct Log {
     LogView taken;
@@ -78,6 +87,7 @@ class PreparedLog {
     double unseen = 0;
     std::vector<std::string> faults;
     std::vector<std::string> warnings;
+    std::vector<double> left_out{};  // times of samples, s
   };
 
   struct Maker;
