@@ -11,7 +11,10 @@ std::vector<std::string> FindFaults(const Measurements& measurements, const Sele
                           &ClippedTorque, &StuckTorque, &DroppedTorque}) {
     if (auto fault = find(measurements, left)) faults.push_back(*std::move(fault));
   }
-  if (absurd.any()) faults.push_back(DescribeAbsurd(measurements, absurd));
+  if (!absurd.any()) return faults;
+  faults.push_back(DescribeAbsurd(measurements, absurd) +
+                   "; cut that out, or take a loss that leaves it out (--set loss=huber, of "
+                   "energy-ml and nominal-ls)");
   return faults;
 }
 

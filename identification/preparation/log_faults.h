@@ -16,9 +16,10 @@ std::vector<std::string> FindFaults(const Measurements& measurements, const Sele
 
 // The kinds, each nothing where the log is free of it.
 
-/// Velocity that contradicts position and time along the stretches of all that moves (stretches.h), eight or more: the
-/// median of integral(v dt) / dp lies more than 2 % from 1, and more than four standard errors; or that of one direction
-/// lies 10 % off, where the other does not. What a filter, a delay, long steps and a coarse column take off is allowed.
+/// Velocity that contradicts position and time along the stretches of all that moves (stretches.h),
+/// eight or more: integral(v dt) / dp lies more than 2 % from 1, and more than four standard errors;
+/// or that of one direction 10 %, where the other does not; or that of three stretches in a row by half from the others.
+/// What a filter, a delay, long steps and a coarse column take off is allowed.
 std::optional<std::string> VelocityAgainstPosition(const Measurements& measurements,
                                                    const Selection& selection);
 
@@ -53,12 +54,12 @@ std::optional<std::string> DroppedTorque(const Measurements& measurements,
 
 using SampleFlags = Eigen::Array<bool, Eigen::Dynamic, 1>;
 
-/// Samples with absurd torque, [N]: above 10 times what is typical of what moves at that speed, three in a row, or in one
-/// moving sample of a hundred, or above 50 times; where the speed changes, 5 times as far, and beyond what is typical of that
-/// acceleration. Typical: the median over eight bins, of which a quarter of the log owns fewer than half.
+/// Samples with absurd torque, [N]: above 10 times what is typical of that speed, where three in a row or one in a hundred
+/// are, or above 50 times; in a log that holds no speeds, twice as far. Typical: the median over
+/// eight bins of speed, of which a quarter of the log owns fewer than half.
 SampleFlags AbsurdTorque(const Measurements& measurements, const Selection& selection);
 
-/// How many, when, and the worst, as a fault.
+/// How many, when, and the worst.
 std::string DescribeAbsurd(const Measurements& measurements, const SampleFlags& absurd);
 
 }  // namespace warmjoint::inline identification

@@ -153,13 +153,15 @@ const LogView& MovingView(const PreparedLog& log) {
   });
 }
 
-bool HoldsSpeeds(const PreparedLog& log) {
+bool HoldsSpeeds(const Measurements& m, const Selection& selection) {
   constexpr double fewest = 0.1;  // of the samples that move clearly
-  return log.found().holds_speeds.Get([&] {
-    const auto& [m, selection] = log.taken();
-    const auto moving = static_cast<double>((m.velocity.array().abs() > ClearSpeed(m)).count());
-    return static_cast<double>(selection.count()) >= fewest * moving;
-  });
+  const auto moving = static_cast<double>((m.velocity.array().abs() > ClearSpeed(m)).count());
+  return static_cast<double>(selection.count()) >= fewest * moving;
+}
+
+bool HoldsSpeeds(const PreparedLog& log) {
+  return log.found().holds_speeds.Get(
+      [&] { return HoldsSpeeds(log.taken().measurements, log.taken().selection); });
 }
 
 }  // namespace warmjoint::inline identification

@@ -41,11 +41,11 @@ const PreparedLog& PreparedLog::WithoutAbsurd() const {
     const auto& [measurements, selection] = log_->taken;
     const SampleFlags absurd = AbsurdTorque(measurements, selection);
     if (!log_->left_out.empty() || !absurd.any()) return nullptr;
-    // the fault becomes a warning
+    // the fault, which is named last, becomes a warning
     Log without = *log_;
-    const std::string fault = DescribeAbsurd(measurements, absurd);
-    std::erase(without.faults, fault);
-    without.warnings.push_back(fmt::format("left out for loss=huber: {}", fault));
+    without.faults.pop_back();
+    without.absurd = fmt::format("{}, and left out", DescribeAbsurd(measurements, absurd));
+    without.warnings.push_back(*without.absurd);
     for (Eigen::Index i = 0; i < absurd.size(); ++i) {
       if (absurd[i]) without.left_out.push_back(measurements.time[i]);
     }

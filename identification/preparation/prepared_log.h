@@ -71,6 +71,9 @@ class PreparedLog {
   /// What a reader of the numbers must know of what was done, each one sentence.
   const std::vector<std::string>& warnings() const { return log_->warnings; }
 
+  /// What WithoutAbsurd left out, one sentence.
+  const std::optional<std::string>& absurd() const { return log_->absurd; }
+
   /// The samples before a time (s), with all that was done to them.
   PreparedLog Before(double time) const;
 
@@ -88,6 +91,7 @@ class PreparedLog {
     std::vector<std::string> faults;
     std::vector<std::string> warnings;
     std::vector<double> left_out{};  // times of samples, s
+    std::optional<std::string> absurd{};
   };
 
   struct Maker;

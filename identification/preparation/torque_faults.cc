@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -35,17 +34,15 @@ constexpr Index kDrops = 5;
 constexpr Index kRarer = 4;      // times rarer is what else is near 0
 constexpr double kNear0 = 0.25;  // of the mean of |torque|
 
-// AbsurdTorque
-constexpr double kFar =
-    10;  // times the typical torque; why: breakaway and heavy tails stay below in 99.9 %
+// AbsurdTorque, times the typical one
+constexpr double kFar = 10;  // why: breakaway and heavy tails stay below in 99.9 %
 constexpr double kAbsurd =
-    50;  // the same for a single sample; why: tails of 3 degrees of freedom reach it once in a million
-constexpr double kTransient = 5;  // times further where the speed changes; why: inertia
-constexpr double kMany =
-    0.01;                   // of the moving samples; why: noise puts a tenth of that beyond kFar
-constexpr Index kRun = 3;   // samples in a row, which noise does not put there
+    50;  // of one sample; why: tails of 3 degrees of freedom go there once in a million
+constexpr double kTransient = 2;  // times further where nothing holds a speed; why: inertia
+constexpr double kMany = 0.01;    // of the samples; why: noise puts a tenth of that beyond kFar
+constexpr Index kRun = 3;         // samples in a row; why: noise puts none there
 constexpr Index kBins = 8;  // of speed; why: a quarter of the log owns fewer than half of them
-constexpr Index kSameStretch = 10;  // samples between two that belong together
+constexpr Index kSameStretch = 10;  // samples; why: fewer between two make them no other event
 
 /// Kept samples whose torque, times `sign`, lies farthest on that side.
 struct Pile {
@@ -205,27 +202,24 @@ std::optional<std::string> DroppedTorque(const Measurements& measurements,
 }
 
 SampleFlags AbsurdTorque(const Measurements& m, const Selection& selection) {
-  // speed and size of torque of all that moves; a torque of 0 is one of a motor that is off
-  std::vector<Index> moving;
+  // what a fit takes; a torque of 0 is one of a motor that is off
+  const bool holds = HoldsSpeeds(m, selection);
   const double clear = ClearSpeed(m);
+  std::vector<Index> taken;
   for (Index i = 0; i < m.size(); ++i) {
-    const bool moves = selection.keep[i] || std::abs(m.velocity[i]) > clear;
-    if (moves && m.torque[i] != 0) moving.push_back(i);
+    const bool is_taken = holds ? selection.keep[i] : std::abs(m.velocity[i]) > clear;
+    if (is_taken && m.torque[i] != 0) taken.push_back(i);
   }
-  const VectorXd speed = m.velocity(moving).cwiseAbs(), size = m.torque(moving).cwiseAbs();
-  const VectorXd typical = TypicalOver(speed, size);
+  const VectorXd speed = m.velocity(taken).cwiseAbs(), size = m.torque(taken).cwiseAbs();
 
   // how many times the typical torque each has
   VectorXd times = VectorXd::Zero(m.size());
-  for (size_t k = 0; k < moving.size(); ++k) {
-    const auto at = static_cast<Index>(k);
-    times[moving[k]] = size[at] / typical[at] / (selection.keep[moving[k]] ? 1 : kTransient);
-  }
+  times(taken) = size.cwiseQuotient(TypicalOver(speed, size)) / (holds ? 1 : kTransient);
 
   // far off for good, or with others
   SampleFlags absurd = SampleFlags::Constant(m.size(), false);
   const auto far = (times.array() > kFar).count();
-  const bool many = static_cast<double>(far) >= kMany * static_cast<double>(moving.size());
+  const bool many = static_cast<double>(far) >= kMany * static_cast<double>(taken.size());
   for (Index begin = 0, end = 0; begin < m.size(); begin = end + 1) {
     for (end = begin; end < m.size() && times[end] > kFar; ++end) {
       absurd[end] = many || times[end] > kAbsurd;
@@ -236,36 +230,26 @@ SampleFlags AbsurdTorque(const Measurements& m, const Selection& selection) {
 }
 
 std::string DescribeAbsurd(const Measurements& m, const SampleFlags& absurd) {
-  constexpr size_t most = 4;  // stretches named
-  std::vector<std::string> stretches;
-  size_t others = 0;
-  Index worst = 0;
+  constexpr int most = 4;  // stretches named
+  std::string times;
+  int stretches = 0;
   for (Index begin = 0, end = 0; begin < m.size(); begin = end) {
     end = begin + 1;
     if (!absurd[begin]) continue;
     // a stretch goes on over a few that are not absurd
     Index last = begin;
-    for (; end < m.size() && end - last <= kSameStretch; ++end) {
-      if (absurd[end]) last = end;
-    }
-    for (Index i = begin; i <= last; ++i) {
-      if (!absurd[worst] || (absurd[i] && std::abs(m.torque[i]) > std::abs(m.torque[worst])))
-        worst = i;
-    }
-    if (stretches.size() == most)
-      ++others;
-    else
-      stretches.push_back(last == begin
-                              ? fmt::format("{:.6g}", m.time[begin])
-                              : fmt::format("{:.6g} to {:.6g}", m.time[begin], m.time[last]));
+    for (; end < m.size() && end - last <= kSameStretch; ++end) last = absurd[end] ? end : last;
+    if (++stretches > most) continue;
+    times +=
+        fmt::format("{}{:.6g} to {:.6g} s", times.empty() ? "" : ", ", m.time[begin], m.time[last]);
   }
+  Index worst = 0;
+  (absurd.cast<double>() * m.torque.array().abs()).maxCoeff(&worst);
   return fmt::format(
-      "torque is far out of range in {} of {} samples, the worst {:.4g} {} at {:.6g} s: more than "
-      "{} times what is typical "
-      "of its speed, at {} s{}; leave that out of the log, or let loss=huber do so (--set "
-      "loss=huber)",
-      absurd.count(), m.size(), m.torque[worst], m.torque_unit, m.time[worst], kFar,
-      fmt::join(stretches, ", "), others > 0 ? fmt::format(" and {} stretches more", others) : "");
+      "torque is far out of range in {} of {} samples, in {} stretch{} ({}{}), the worst {:.4g} {} "
+      "at {:.6g} s: more than {} times what is typical of its speed",
+      absurd.count(), m.size(), stretches, stretches == 1 ? "" : "es", times,
+      stretches > most ? ", ..." : "", m.torque[worst], m.torque_unit, m.time[worst], kFar);
 }
 
 }  // namespace warmjoint::inline identification

@@ -12,14 +12,18 @@
 namespace warmjoint::inline identification {
 namespace {
 
+using Eigen::ArrayXd;
 using Eigen::Index;
 using Eigen::VectorXd;
+using Flags = Eigen::Array<bool, Eigen::Dynamic, 1>;
 
 constexpr double kTolerance = 0.02;  // of the factor; why: viscous moves by as much, --relevance
 constexpr double kOneDirection =
     0.1;  // why: an offset of the column moves them apart, and friction by less than that
-constexpr double kCertain = 4;        // standard errors of the median; why: 1 in 16 000 by chance
-constexpr std::size_t kFewest = 8;    // stretches; why: a median of fewer has no known error
+constexpr double kCertain = 4;      // standard errors of the median; why: 1 in 16 000 by chance
+constexpr std::size_t kFewest = 8;  // stretches; why: a median of fewer has no known error
+constexpr double kOther = 0.5;   // of a factor; why: stale positions and lags at turns stay within
+constexpr std::size_t kRow = 3;  // stretches; why: a turn spoils one or two
 constexpr double kSameFactor = 0.03;  // between a factor and that of a unit
 constexpr double kNormal = 0.6745;    // why: median |z| of a standard normal
 
@@ -29,17 +33,26 @@ struct Factor {
   double error = 0;                  // standard error
   double allowed = 0;                // by which a right column may be off
   double told = 0, by_position = 0;  // median velocities, rad/s or m/s
-  std::size_t count = 0;             // stretches
+  std::vector<Stretch> others;       // three or more in a row that tell another factor
 
   bool IsOff(double tolerance) const {
     const double off = std::abs(times - 1);
-    return count >= kFewest && off > tolerance + allowed && off > kCertain * error;
+    return off > tolerance + allowed && off > kCertain * error;
   }
 };
 
-double MedianOf(const Eigen::ArrayXd& values) {
+double MedianOf(const ArrayXd& values) {
   VectorXd copy = values;
   return copy.size() == 0 ? 0 : MedianInPlace(copy);
+}
+
+/// Those of `values` where `takes` holds.
+ArrayXd Where(const Flags& takes, const ArrayXd& values) {
+  ArrayXd taken(takes.count());
+  for (Index i = 0, k = 0; i < values.size(); ++i) {
+    if (takes[i]) taken[k++] = values[i];
+  }
+  return taken;
 }
 
 double Integral(const Measurements& m, const Stretch& one) {
@@ -50,39 +63,65 @@ double Integral(const Measurements& m, const Stretch& one) {
   return integral;
 }
 
+/// Stretches in a row, kRow or more, where `is_other` holds.
+std::vector<Stretch> InARow(const std::vector<Stretch>& stretches, const Flags& is_other) {
+  std::vector<Stretch> rows;
+  for (size_t begin = 0, end = 0; begin < stretches.size(); begin = end + 1) {
+    for (end = begin; end < stretches.size() && is_other[static_cast<Index>(end)];) ++end;
+    if (end < begin + kRow) continue;
+    rows.insert(rows.end(), &stretches[begin], &stretches[end]);
+  }
+  return rows;
+}
+
+/// By how much of its way a stretch may begin and end with positions that are held for several samples.
+double Staleness(const Measurements& m, const std::vector<Stretch>& stretches) {
+  double steps = 0, moved = 0;
+  for (const Stretch& one : stretches) {
+    for (Index i = one.first; i < one.last; ++i) moved += m.position[i + 1] != m.position[i];
+    steps += static_cast<double>(one.last - one.first);
+  }
+  const double held = steps / moved - 1;  // samples
+  return held * static_cast<double>(stretches.size()) / steps;
+}
+
 /// A column that lags by c has ratio = times + c bend, bend = change of velocity / change of
 /// position: `times` from the half of the stretches with the least bend, c from the others. A filter
 /// with that c passes (c bend)^2 less, a delay half of it, and trapezoids of a step h are
-/// (h bend)^2 / 12 off; a column in coarse steps may err by one, as far as the ratios scatter by it.
+/// (h bend)^2 / 12 off; a column in coarse steps may err by one, as far as the
+/// ratios scatter by it.
 Factor FactorOf(const Measurements& m, const std::vector<Stretch>& stretches) {
   const auto n = static_cast<Index>(stretches.size());
-  Eigen::ArrayXd ratio(n), bend(n), told(n), by_position(n);
+  ArrayXd integral(n), way(n), bend(n), duration(n);
   for (Index k = 0; k < n; ++k) {
     const Stretch& one = stretches[static_cast<size_t>(k)];
-    const double integral = Integral(m, one);
-    ratio[k] = integral / one.way;
+    integral[k] = Integral(m, one);
+    way[k] = one.way;
+    duration[k] = one.duration;
     bend[k] = (m.velocity[one.last] - m.velocity[one.first]) / one.way;
-    told[k] = integral / one.duration;
-    by_position[k] = one.way / one.duration;
   }
 
   // the factor where the velocity changes least, and its scatter there
+  const ArrayXd ratio = integral / way;
   const double typical = MedianOf(bend.abs());
-  std::vector<Index> straight, bent;
-  for (Index k = 0; k < n; ++k) {
-    if (std::abs(bend[k]) <= typical) straight.push_back(k);
-    if (std::abs(bend[k]) >= typical && bend[k] != 0) bent.push_back(k);
-  }
-  Factor factor{MedianOf(ratio(straight)), 0, 0, 0, MedianOf(by_position), stretches.size()};
-  const double scatter = MedianOf((ratio(straight) - factor.times).abs()) / kNormal;
-  factor.told = factor.by_position + MedianOf(told - by_position);
+  const ArrayXd straight = Where(bend.abs() <= typical, ratio);
+  Factor factor;
+  factor.times = MedianOf(straight);
+  const double scatter = MedianOf((straight - factor.times).abs()) / kNormal;
   factor.error = std::sqrt(std::numbers::pi / 2 / static_cast<double>(straight.size())) * scatter;
+  factor.by_position = MedianOf(way / duration);
+  factor.told = factor.by_position + MedianOf((integral - way) / duration);
+  const ArrayXd off = (integral - factor.times * way).abs(),
+                own = std::abs(factor.times) * way.abs();
+  factor.others = InARow(stretches, off > kOther * own && off > MedianOf(own));
 
   // what a lag, long steps and a coarse column take off a right one
-  const double lag = MedianOf((ratio(bent) - factor.times) / bend(bent)), step = MedianStep(m.time);
-  const double coarse = MedianOf(Resolution(m.velocity) / by_position.abs());
-  factor.allowed =
-      (lag * lag + step * step / 12) * typical * typical + std::min(coarse, kCertain * scatter);
+  const Flags bent = bend.abs() >= typical && bend != 0;
+  const double lag = MedianOf(Where(bent, (ratio - factor.times) / bend));
+  const double step = MedianStep(m.time);
+  const double coarse = MedianOf(Resolution(m.velocity) * duration / way.abs());
+  factor.allowed = (lag * lag + step * step / 12) * typical * typical +
+                   std::min(coarse, kCertain * scatter) + Staleness(m, stretches);
   return factor;
 }
 
@@ -125,30 +164,46 @@ std::optional<std::string> VelocityAgainstPosition(const Measurements& measureme
   if (all.size() < kFewest) return std::nullopt;
   std::vector<Stretch> forwards, backwards;
   for (const Stretch& one : all) (one.way > 0 ? forwards : backwards).push_back(one);
+  const std::string_view unit = kVelocityUnit.For(measurements.joint);
+  constexpr const char* remedy =
+      "leave the velocity out (--map velocity=), and the positions tell it";
+
   // one direction may be spoilt by itself
-  const Factor ahead = FactorOf(measurements, forwards), back = FactorOf(measurements, backwards);
-  const Factor& off = ahead.IsOff(kOneDirection) ? ahead : back;
-  const bool is_mirrored = std::abs(ahead.times + back.times) < kOneDirection * std::abs(off.times);
-  if (std::min(ahead.count, back.count) >= kFewest && off.IsOff(kOneDirection) &&
-      (is_mirrored || !ahead.IsOff(kOneDirection) || !back.IsOff(kOneDirection))) {
-    const std::string_view unit = kVelocityUnit.For(measurements.joint);
-    return fmt::format(
-        "velocity is right in one direction alone: in the other, {:.0f} % of what moves, it is "
-        "{:.4g} {} where the positions change by {:.4g} {} (medians of {} stretches), so that it "
-        "{}; "
-        "leave the velocity out (--map velocity=), and the positions tell it",
-        100 * static_cast<double>(off.count) / static_cast<double>(all.size()), off.told, unit,
-        off.by_position, unit, off.count,
-        is_mirrored ? "lost its sign" : "holds words read as unsigned, or its zero is off");
+  if (std::min(forwards.size(), backwards.size()) >= kFewest) {
+    const Factor ahead = FactorOf(measurements, forwards), back = FactorOf(measurements, backwards);
+    const bool is_ahead = ahead.IsOff(kOneDirection);
+    const Factor& off = is_ahead ? ahead : back;
+    const bool lost = std::abs(ahead.times + back.times) < kOneDirection * std::abs(off.times);
+    if (off.IsOff(kOneDirection) && (lost || is_ahead != back.IsOff(kOneDirection))) {
+      const auto count = (is_ahead ? forwards : backwards).size();
+      return fmt::format(
+          "velocity is right in one direction alone: in the other, {:.0f} % of what moves, it is "
+          "{:.4g} {} where the positions change by {:.4g} {} (medians of {} stretches), so that it "
+          "{}; {}",
+          100 * static_cast<double>(count) / static_cast<double>(all.size()), off.told, unit,
+          off.by_position, unit, count,
+          lost ? "lost its sign" : "holds words read as unsigned, or its zero is off", remedy);
+    }
   }
 
+  // both by the same factor, or a part of the log
   const Factor both = FactorOf(measurements, all);
-  if (!both.IsOff(kTolerance)) return std::nullopt;
+  if (both.IsOff(kTolerance)) {
+    return fmt::format(
+        "velocity is {:.4g} times the change of position over time (along {} stretches, at least "
+        "{:.0f} % apart), so that one of the two is off: {}? Else {}",
+        both.times, all.size(), 100 * kTolerance, Suspect(measurements, both.times), remedy);
+  }
+  if (both.others.empty()) return std::nullopt;
+  const Stretch &first = both.others.front(), &last = both.others.back();
   return fmt::format(
-      "velocity is {:.4g} times the change of position over time (median of {} stretches, at least "
-      "{:.0f} % apart), so that one of the two is off: {}? Else leave the velocity out "
-      "(--map velocity=), and the positions tell it",
-      both.times, both.count, 100 * kTolerance, Suspect(measurements, both.times));
+      "velocity and position contradict each other in {:.2g} % of what moves, between {:.6g} and "
+      "{:.6g} s: at first velocity "
+      "is {:.4g} times the change of position, elsewhere {:.4g} times; leave that part of the log "
+      "out",
+      100 * static_cast<double>(both.others.size()) / static_cast<double>(all.size()),
+      measurements.time[first.first], measurements.time[last.last],
+      Integral(measurements, first) / first.way, both.times);
 }
 
 }  // namespace warmjoint::inline identification
