@@ -40,7 +40,7 @@ const PreparedLog& PreparedLog::WithoutAbsurd() const {
   const auto& made = found_->without_absurd.Get([&]() -> std::shared_ptr<const PreparedLog> {
     const auto& [measurements, selection] = log_->taken;
     const SampleFlags absurd = AbsurdTorque(measurements, selection);
-    if (!log_->left_out.empty() || !absurd.any()) return nullptr;
+    if (log_->faults.empty() || !absurd.any()) return nullptr;
     // the fault, which is named last, becomes a warning
     Log without = *log_;
     without.faults.pop_back();

@@ -195,15 +195,14 @@ std::optional<std::string> VelocityAgainstPosition(const Measurements& measureme
         both.times, all.size(), 100 * kTolerance, Suspect(measurements, both.times), remedy);
   }
   if (both.others.empty()) return std::nullopt;
-  const Stretch &first = both.others.front(), &last = both.others.back();
+  const Stretch& typical = both.others[both.others.size() / 2];
   return fmt::format(
       "velocity and position contradict each other in {:.2g} % of what moves, between {:.6g} and "
-      "{:.6g} s: at first velocity "
-      "is {:.4g} times the change of position, elsewhere {:.4g} times; leave that part of the log "
-      "out",
+      "{:.6g} s: velocity is {:.4g} times the change of position there, elsewhere {:.4g} times; "
+      "leave that part of the log out",
       100 * static_cast<double>(both.others.size()) / static_cast<double>(all.size()),
-      measurements.time[first.first], measurements.time[last.last],
-      Integral(measurements, first) / first.way, both.times);
+      measurements.time[both.others.front().first], measurements.time[both.others.back().last],
+      Integral(measurements, typical) / typical.way, both.times);
 }
 
 }  // namespace warmjoint::inline identification
