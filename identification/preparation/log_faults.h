@@ -5,14 +5,17 @@
 #include <string>
 #include <vector>
 
+#include "identification/preparation/log_view.h"
 #include "models/recording/measurements.h"
 #include "models/recording/selection.h"
 
 namespace warmjoint::inline identification {
 
 /// The faults of a log, each one sentence: what, how many, where, the bound, the remedy. Looks at
-/// the kept samples, without those of absurd torque, which are named last.
-std::vector<std::string> FindFaults(const Measurements& measurements, const Selection& selection);
+/// the kept samples, without those of absurd torque, which are named last; a velocity made of the
+/// positions is not held against them.
+std::vector<std::string> FindFaults(const Measurements& measurements, const Selection& selection,
+                                    MotionSource source = MotionSource::velocity);
 
 // The kinds, each nothing where the log is free of it.
 

@@ -78,15 +78,16 @@ std::vector<Stretch> FindStretches(const Measurements& m) {
   const double clear = kDeviations * MeasurePositionNoise(m.position).deviation;
   const std::vector<Index> breaks = Breaks(m);
   std::vector<Stretch> longest;
-  Index most = 0;  // samples
+  double most = 0;  // way of all, rad or m
   for (Index count = kFewSamples; count == kFewSamples || count * kEnoughStretches <= m.size();
        count *= 2) {
     std::vector<Stretch> stretches = StretchesOf(m, count, clear, breaks);
     LeaveOutCreeping(stretches);
-    const Index samples = count * static_cast<Index>(stretches.size());
-    if (static_cast<double>(samples) < kNearlyAll * static_cast<double>(most)) continue;
+    double way = 0;
+    for (const Stretch& one : stretches) way += std::abs(one.way);
+    if (way < kNearlyAll * most) continue;
     longest = std::move(stretches);
-    most = std::max(most, samples);
+    most = std::max(most, way);
   }
   return longest;
 }

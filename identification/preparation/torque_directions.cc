@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "identification/preparation/log_faults.h"
+#include "identification/preparation/moving_view.h"
 #include "identification/preparation/stretches.h"
 #include "models/foundation/robust_noise.h"
 
@@ -94,7 +95,7 @@ double PowerOfTwo(double step, double difference, double mean) {
 
 }  // namespace
 
-std::optional<std::string> TorqueDirections(const Measurements& m, const Selection&) {
+std::optional<std::string> TorqueDirections(const Measurements& m, const Selection& selection) {
   const Cells cells = FindCells(m);
   const auto n = static_cast<Index>(cells.size());
   if (n < kFewestCells) return std::nullopt;
@@ -129,9 +130,10 @@ std::optional<std::string> TorqueDirections(const Measurements& m, const Selecti
         "motion: the torque column has the opposite sign (--scale torque=-1 turns it)",
         100 * against, n);
   }
+  // without holds inertia makes differences of either sign
+  const bool by_chance = with < 1 - kHalf && against < 1 - kHalf && HoldsSpeeds(m, selection);
   const bool alike = std::abs(difference) < kAlike * std::abs(mean);
-  if (!one_sign || !alike || !(grows || (with < 1 - kHalf && against < 1 - kHalf)))
-    return std::nullopt;
+  if (!one_sign || !alike || !(grows || by_chance)) return std::nullopt;
   return fmt::format(
       "torque lost its sign: it has one sign, and both directions agree in size at the same place "
       "and speed ({:.4g} {} in the median of {}, {:.2g} {} apart); log it with its sign",

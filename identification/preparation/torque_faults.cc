@@ -35,11 +35,11 @@ constexpr Index kRarer = 4;      // times rarer is what else is near 0
 constexpr double kNear0 = 0.25;  // of the mean of |torque|
 
 // AbsurdTorque, times the typical one
-constexpr double kFar = 10;  // why: breakaway and heavy tails stay below in 99.9 %
+constexpr double kFarOff = 10;  // why: breakaway and heavy tails stay below in 99.9 %
 constexpr double kAbsurd =
     50;  // of one sample; why: tails of 3 degrees of freedom go there once in a million
 constexpr double kTransient = 2;  // times further where nothing holds a speed; why: inertia
-constexpr double kMany = 0.01;    // of the samples; why: noise puts a tenth of that beyond kFar
+constexpr double kMany = 0.01;    // of the samples; why: noise puts a tenth of that beyond kFarOff
 constexpr Index kRun = 3;         // samples in a row; why: noise puts none there
 constexpr Index kBins = 8;  // of speed; why: a quarter of the log owns fewer than half of them
 constexpr Index kSameStretch = 10;  // samples; why: fewer between two make them no other event
@@ -218,10 +218,10 @@ SampleFlags AbsurdTorque(const Measurements& m, const Selection& selection) {
 
   // far off for good, or with others
   SampleFlags absurd = SampleFlags::Constant(m.size(), false);
-  const auto far = (times.array() > kFar).count();
+  const auto far = (times.array() > kFarOff).count();
   const bool many = static_cast<double>(far) >= kMany * static_cast<double>(taken.size());
   for (Index begin = 0, end = 0; begin < m.size(); begin = end + 1) {
-    for (end = begin; end < m.size() && times[end] > kFar; ++end) {
+    for (end = begin; end < m.size() && times[end] > kFarOff; ++end) {
       absurd[end] = many || times[end] > kAbsurd;
     }
     if (end - begin >= kRun) absurd.segment(begin, end - begin).setConstant(true);
@@ -249,7 +249,7 @@ std::string DescribeAbsurd(const Measurements& m, const SampleFlags& absurd) {
       "torque is far out of range in {} of {} samples, in {} stretch{} ({}{}), the worst {:.4g} {} "
       "at {:.6g} s: more than {} times what is typical of its speed",
       absurd.count(), m.size(), stretches, stretches == 1 ? "" : "es", times,
-      stretches > most ? ", ..." : "", m.torque[worst], m.torque_unit, m.time[worst], kFar);
+      stretches > most ? ", ..." : "", m.torque[worst], m.torque_unit, m.time[worst], kFarOff);
 }
 
 }  // namespace warmjoint::inline identification

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <vector>
 
 #include "identification/preparation/log_faults.h"
 #include "identification/preparation/stretches.h"
@@ -22,8 +24,10 @@ constexpr double kOneDirection =
     0.1;  // why: an offset of the column moves them apart, and friction by less than that
 constexpr double kCertain = 4;      // standard errors of the median; why: 1 in 16 000 by chance
 constexpr std::size_t kFewest = 8;  // stretches; why: a median of fewer has no known error
-constexpr double kOther = 0.5;   // of a factor; why: stale positions and lags at turns stay within
-constexpr std::size_t kRow = 3;  // stretches; why: a turn spoils one or two
+constexpr double kOther = 0.5;  // of a factor; why: stale positions and lags at turns stay within
+constexpr double kMostWay =
+    3;  // why: fast stretches know a factor best, but a few that are wrong must not decide
+constexpr std::size_t kRow = 3;       // stretches; why: a turn spoils one or two
 constexpr double kSameFactor = 0.03;  // between a factor and that of a unit
 constexpr double kNormal = 0.6745;    // why: median |z| of a standard normal
 
@@ -36,14 +40,29 @@ struct Factor {
   std::vector<Stretch> others;       // three or more in a row that tell another factor
 
   bool IsOff(double tolerance) const {
+    // of a factor far from 1 the inverse is better known
     const double off = std::abs(times - 1);
-    return off > tolerance + allowed && off > kCertain * error;
+    return off > tolerance + allowed && std::max(off, std::abs(times) * off) > kCertain * error;
   }
 };
 
 double MedianOf(const ArrayXd& values) {
   VectorXd copy = values;
   return copy.size() == 0 ? 0 : MedianInPlace(copy);
+}
+
+/// The value below which half of the way lies; a way counts no more than kMostWay times the median one.
+double MedianByWay(const ArrayXd& values, const ArrayXd& way) {
+  const ArrayXd weight = way.min(kMostWay * MedianOf(way));
+  std::vector<Index> order(static_cast<size_t>(values.size()));
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::sort(order, {}, [&](Index k) { return values[k]; });
+  double until = 0;
+  for (const Index k : order) {
+    until += weight[k];
+    if (until >= weight.sum() / 2) return values[k];
+  }
+  return 0;
 }
 
 /// Those of `values` where `takes` holds.
@@ -61,6 +80,14 @@ double Integral(const Measurements& m, const Stretch& one) {
     integral += 0.5 * (m.velocity[i] + m.velocity[i - 1]) * (m.time[i] - m.time[i - 1]);
   }
   return integral;
+}
+
+/// What a jump of speed within a step may make of it: half of the largest change of velocity times the step.
+double Jump(const Measurements& m, const Stretch& one) {
+  const Index n = one.last - one.first;
+  const auto velocity = m.velocity.segment(one.first, n + 1);
+  return 0.5 * (velocity.tail(n) - velocity.head(n)).cwiseAbs().maxCoeff() * one.duration /
+         static_cast<double>(n);
 }
 
 /// Stretches in a row, kRow or more, where `is_other` holds.
@@ -92,21 +119,23 @@ double Staleness(const Measurements& m, const std::vector<Stretch>& stretches) {
 /// ratios scatter by it.
 Factor FactorOf(const Measurements& m, const std::vector<Stretch>& stretches) {
   const auto n = static_cast<Index>(stretches.size());
-  ArrayXd integral(n), way(n), bend(n), duration(n);
+  ArrayXd integral(n), way(n), bend(n), duration(n), jump(n);
   for (Index k = 0; k < n; ++k) {
     const Stretch& one = stretches[static_cast<size_t>(k)];
     integral[k] = Integral(m, one);
     way[k] = one.way;
     duration[k] = one.duration;
+    jump[k] = Jump(m, one) / std::abs(one.way);
     bend[k] = (m.velocity[one.last] - m.velocity[one.first]) / one.way;
   }
 
   // the factor where the velocity changes least, and its scatter there
   const ArrayXd ratio = integral / way;
   const double typical = MedianOf(bend.abs());
-  const ArrayXd straight = Where(bend.abs() <= typical, ratio);
+  const Flags least = bend.abs() <= typical;
+  const ArrayXd straight = Where(least, ratio);
   Factor factor;
-  factor.times = MedianOf(straight);
+  factor.times = MedianByWay(straight, Where(least, way.abs()));
   const double scatter = MedianOf((straight - factor.times).abs()) / kNormal;
   factor.error = std::sqrt(std::numbers::pi / 2 / static_cast<double>(straight.size())) * scatter;
   factor.by_position = MedianOf(way / duration);
@@ -121,7 +150,7 @@ Factor FactorOf(const Measurements& m, const std::vector<Stretch>& stretches) {
   const double step = MedianStep(m.time);
   const double coarse = MedianOf(Resolution(m.velocity) * duration / way.abs());
   factor.allowed = (lag * lag + step * step / 12) * typical * typical +
-                   std::min(coarse, kCertain * scatter) + Staleness(m, stretches);
+                   std::min(coarse, kCertain * scatter) + MedianOf(jump) + Staleness(m, stretches);
   return factor;
 }
 
@@ -160,7 +189,10 @@ std::string Suspect(const Measurements& m, double times) {
 
 std::optional<std::string> VelocityAgainstPosition(const Measurements& measurements,
                                                    const Selection&) {
-  const std::vector<Stretch> all = FindStretches(measurements);
+  // a column in coarse steps does not know speeds of a step or two
+  std::vector<Stretch> all = FindStretches(measurements);
+  const double least = 2 * Resolution(measurements.velocity);
+  std::erase_if(all, [&](const Stretch& one) { return std::abs(one.way) < least * one.duration; });
   if (all.size() < kFewest) return std::nullopt;
   std::vector<Stretch> forwards, backwards;
   for (const Stretch& one : all) (one.way > 0 ? forwards : backwards).push_back(one);
