@@ -19,8 +19,9 @@ using Eigen::VectorXd;
 
 constexpr double kPlaces = 32;         // why: gravity changes by a few percent from one to the next
 constexpr double kSpeedsAnOctave = 2;  // why: viscous friction changes by less than a half within
-constexpr std::size_t kFewestSamples = 5;  // of each direction in a cell
-constexpr Index kFewestCells = 8;          // why: three quarters of fewer happen by chance
+constexpr std::size_t kFewestSamples =
+    5;  // of each direction in a cell; why: a median of fewer is an outlier
+constexpr Index kFewestCells = 8;  // why: three quarters of fewer happen by chance
 constexpr double kAgainst =
     0.9;  // of the cells; why: nothing but a sign makes friction push in so many
 constexpr double kHalf = 0.25;  // of the cells; why: half of them by chance, give or take a quarter

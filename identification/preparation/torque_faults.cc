@@ -230,7 +230,7 @@ SampleFlags AbsurdTorque(const Measurements& m, const Selection& selection) {
 }
 
 std::string DescribeAbsurd(const Measurements& m, const SampleFlags& absurd) {
-  constexpr int most = 4;  // stretches named
+  constexpr int most = 4;  // stretches named; why: more fill a screen
   std::string times;
   int stretches = 0;
   for (Index begin = 0, end = 0; begin < m.size(); begin = end) {

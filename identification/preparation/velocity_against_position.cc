@@ -28,7 +28,7 @@ constexpr double kOther = 0.5;  // of a factor; why: stale positions and lags at
 constexpr double kMostWay =
     3;  // why: fast stretches know a factor best, but a few that are wrong must not decide
 constexpr std::size_t kRow = 3;       // stretches; why: a turn spoils one or two
-constexpr double kSameFactor = 0.03;  // between a factor and that of a unit
+constexpr double kSameFactor = 0.03;  // between a ratio and the factor of a unit
 constexpr double kNormal = 0.6745;    // why: median |z| of a standard normal
 
 /// Velocity over change of position along stretches.
