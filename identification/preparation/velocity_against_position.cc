@@ -82,12 +82,14 @@ double Integral(const Measurements& m, const Stretch& one) {
   return integral;
 }
 
-/// What a jump of speed within a step may make of it: half of the largest change of velocity times the step.
-double Jump(const Measurements& m, const Stretch& one) {
+/// What a jump of speed within a step may make of a ratio, half of the largest change of velocity times the step over
+/// the way, and stamps that jitter, the spread of the steps over the duration.
+double Unsure(const Measurements& m, const Stretch& one) {
   const Index n = one.last - one.first;
-  const auto velocity = m.velocity.segment(one.first, n + 1);
-  return 0.5 * (velocity.tail(n) - velocity.head(n)).cwiseAbs().maxCoeff() * one.duration /
-         static_cast<double>(n);
+  const VectorXd steps = m.time.segment(one.first + 1, n) - m.time.segment(one.first, n);
+  const VectorXd changes = m.velocity.segment(one.first + 1, n) - m.velocity.segment(one.first, n);
+  const double jump = 0.5 * changes.cwiseAbs().maxCoeff() * one.duration / static_cast<double>(n);
+  return jump / std::abs(one.way) + (steps.maxCoeff() - steps.minCoeff()) / one.duration;
 }
 
 /// Stretches in a row, kRow or more, where `is_other` holds.
@@ -119,13 +121,13 @@ double Staleness(const Measurements& m, const std::vector<Stretch>& stretches) {
 /// ratios scatter by it.
 Factor FactorOf(const Measurements& m, const std::vector<Stretch>& stretches) {
   const auto n = static_cast<Index>(stretches.size());
-  ArrayXd integral(n), way(n), bend(n), duration(n), jump(n);
+  ArrayXd integral(n), way(n), bend(n), duration(n), unsure(n);
   for (Index k = 0; k < n; ++k) {
     const Stretch& one = stretches[static_cast<size_t>(k)];
     integral[k] = Integral(m, one);
     way[k] = one.way;
     duration[k] = one.duration;
-    jump[k] = Jump(m, one) / std::abs(one.way);
+    unsure[k] = Unsure(m, one);
     bend[k] = (m.velocity[one.last] - m.velocity[one.first]) / one.way;
   }
 
@@ -150,7 +152,8 @@ Factor FactorOf(const Measurements& m, const std::vector<Stretch>& stretches) {
   const double step = MedianStep(m.time);
   const double coarse = MedianOf(Resolution(m.velocity) * duration / way.abs());
   factor.allowed = (lag * lag + step * step / 12) * typical * typical +
-                   std::min(coarse, kCertain * scatter) + MedianOf(jump) + Staleness(m, stretches);
+                   std::min(coarse, kCertain * scatter) + MedianOf(unsure) +
+                   Staleness(m, stretches);
   return factor;
 }
 
