@@ -39,6 +39,7 @@ Estimate ReportAnswer(const Identifier& identifier, const IdentifierInput& given
   // how the samples were prepared, of fits at constant speed
   const bool steady = identifier.regime == Regime::steady && !input.measurements.acceleration;
   if (steady && input.log.faults().empty()) TellPreparation(input.log, estimate);
+  if (!steady && input.log.absurd()) estimate.warnings.push_back(*input.log.absurd());
   return estimate;
 }
 

@@ -40,8 +40,8 @@ SeenLag LookForLag(const LaggedRows& rows, const Eigen::VectorXd& torque,
   const double freedom = seen.runs - 1;
   const double deviation =
       std::sqrt((y - seen.share * x).squaredNorm() / freedom / x.squaredNorm());
-  seen.p = std::min(1.0, kLagsTried * PValueOfStudent(seen.share / deviation, freedom));
-  if (!std::isfinite(seen.p)) seen.p = 1;
+  const double t = seen.share / deviation;
+  seen.p = std::isnan(t) ? 1 : std::min(1.0, kLagsTried * PValueOfStudent(t, freedom));
   return seen;
 }
 

@@ -5,22 +5,24 @@
 #include <string>
 #include <vector>
 
+#include "identification/preparation/log_view.h"
 #include "models/recording/measurements.h"
 #include "models/recording/selection.h"
 
 namespace warmjoint::inline identification {
 
 /// The faults of a log, each one sentence: what, how many, where, the bound, the remedy. Looks at
-/// the kept samples. One pass or two over the samples for each kind of fault.
-std::vector<std::string> FindFaults(const Measurements& measurements, const Selection& selection);
+/// the kept samples, without those of absurd torque, which are named last; a velocity made of the
+/// positions is not held against them.
+std::vector<std::string> FindFaults(const Measurements& measurements, const Selection& selection,
+                                    MotionSource source = MotionSource::velocity);
 
 // The kinds, each nothing where the log is free of it.
 
-/// Velocity that contradicts position and time: the median over the segments of dp / integral(v dt)
-/// (trapezoids) lies more than 2 % from 1, and more than four standard errors of that median. A
-/// segment counts where its positions stray from a straight line by less than 0.3 % of its way
-/// (rms), so that neither noise nor resolution matters; three are needed, and a third of all
-/// segments.
+/// Velocity that contradicts position and time along the stretches of all that moves (stretches.h),
+/// eight or more: integral(v dt) / dp lies more than 2 % from 1, and more than four standard errors;
+/// or that of one direction 10 %, where the other does not; or that of three stretches in a row by half from the others.
+/// What a filter, a delay, long steps and a coarse column take off is allowed.
 std::optional<std::string> VelocityAgainstPosition(const Measurements& measurements,
                                                    const Selection& selection);
 
@@ -30,9 +32,11 @@ std::optional<std::string> VelocityAgainstPosition(const Measurements& measureme
 std::optional<std::string> WrappedPosition(const Measurements& measurements,
                                            const Selection& selection);
 
-/// Torque against the motion in more than 95 % of the kept samples of nine segments in ten, five
-/// segments or more: friction resists, so the sign of one column is wrong.
-std::optional<std::string> TorqueSign(const Measurements& measurements, const Selection& selection);
+/// Torque of the two directions at the same places and speeds, in eight such cells or more: less forwards than backwards
+/// in nine cells of ten, where friction resists, so that the sign of one column is wrong; or of one sign throughout, while
+/// the directions agree in size, or differ by a power of two of its steps.
+std::optional<std::string> TorqueDirections(const Measurements& measurements,
+                                            const Selection& selection);
 
 /// Torque that stops at a largest or smallest value: ten samples have it, 0.5 % of all, and five
 /// times as many as have the value next to it. Torque must be noisy and take 50 values or more:
@@ -51,8 +55,14 @@ std::optional<std::string> StuckTorque(const Measurements& measurements,
 std::optional<std::string> DroppedTorque(const Measurements& measurements,
                                          const Selection& selection);
 
-/// Torque above 50 times the 99 % quantile of |torque|.
-std::optional<std::string> AbsurdTorque(const Measurements& measurements,
-                                        const Selection& selection);
+using SampleFlags = Eigen::Array<bool, Eigen::Dynamic, 1>;
+
+/// Samples with absurd torque, [N]: above 10 times what is typical of that speed, where three in a row or one in a hundred
+/// are, or above 50 times; in a log that holds no speeds, twice as far. Typical: the median over
+/// eight bins of speed, of which a quarter of the log owns fewer than half.
+SampleFlags AbsurdTorque(const Measurements& measurements, const Selection& selection);
+
+/// How many, when, and the worst.
+std::string DescribeAbsurd(const Measurements& measurements, const SampleFlags& absurd);
 
 }  // namespace warmjoint::inline identification

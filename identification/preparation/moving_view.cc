@@ -146,16 +146,22 @@ LogView ViewMotion(const Measurements& measurements, MotionSource source) {
 }
 
 const LogView& MovingView(const PreparedLog& log) {
-  return log.found().moving.Get([&] { return ViewMotion(log.taken().measurements, log.source()); });
+  return log.found().moving.Get([&] {
+    LogView view = ViewMotion(log.taken().measurements, log.source());
+    log.LeaveOut(view);
+    return view;
+  });
+}
+
+bool HoldsSpeeds(const Measurements& m, const Selection& selection) {
+  constexpr double fewest = 0.1;  // of the samples that move clearly
+  const auto moving = static_cast<double>((m.velocity.array().abs() > ClearSpeed(m)).count());
+  return static_cast<double>(selection.count()) >= fewest * moving;
 }
 
 bool HoldsSpeeds(const PreparedLog& log) {
-  constexpr double fewest = 0.1;  // of the samples that move clearly
-  return log.found().holds_speeds.Get([&] {
-    const auto& [m, selection] = log.taken();
-    const auto moving = static_cast<double>((m.velocity.array().abs() > ClearSpeed(m)).count());
-    return static_cast<double>(selection.count()) >= fewest * moving;
-  });
+  return log.found().holds_speeds.Get(
+      [&] { return HoldsSpeeds(log.taken().measurements, log.taken().selection); });
 }
 
 }  // namespace warmjoint::inline identification

@@ -23,6 +23,7 @@ const LogView& MovingView(const PreparedLog& log);
 
 /// Whether constant speeds are what a log shows of friction: a tenth or more of what moves clearly moves
 /// at a constant speed.
+bool HoldsSpeeds(const Measurements& measurements, const Selection& selection);
 bool HoldsSpeeds(const PreparedLog& log);
 
 }  // namespace warmjoint::inline identification

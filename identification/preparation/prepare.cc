@@ -158,7 +158,7 @@ struct PreparedLog::Maker {
     log.taken.selection = std::move(found.selection);
     log.steady = {std::move(motion.measurements), std::move(motion.selection)};
     log.unseen = motion.unseen;
-    log.faults = FindFaults(taken, log.taken.selection);
+    log.faults = FindFaults(taken, log.taken.selection, MotionSource::positions);
     return log;
   }
 

@@ -51,8 +51,13 @@ class PreparedLog {
   struct Found {
     MadeOnce<LogView> moving;
     MadeOnce<bool> holds_speeds;
+    MadeOnce<std::shared_ptr<const PreparedLog>>
+        without_absurd;  // or none, where no sample is absurd
   };
   Found& found() const { return *found_; }
+
+  /// Leaves those out of a view of the log that were left out of the log itself.
+  void LeaveOut(LogView& view) const;
 
   /// What was done to the velocity, if anything.
   const std::optional<VelocityNoise>& velocity_noise() const { return log_->velocity_noise; }
@@ -66,8 +71,15 @@ class PreparedLog {
   /// What a reader of the numbers must know of what was done, each one sentence.
   const std::vector<std::string>& warnings() const { return log_->warnings; }
 
+  /// What WithoutAbsurd left out, one sentence.
+  const std::optional<std::string>& absurd() const { return log_->absurd; }
+
   /// The samples before a time (s), with all that was done to them.
   PreparedLog Before(double time) const;
+
+  /// The log without samples of absurd torque (log_faults.h), which is no fault any more; made once. For a
+  /// loss that bounds the pull of a sample.
+  const PreparedLog& WithoutAbsurd() const;
 
  private:
   struct Log {
@@ -78,6 +90,8 @@ class PreparedLog {
     double unseen = 0;
     std::vector<std::string> faults;
     std::vector<std::string> warnings;
+    std::vector<double> left_out{};  // times of samples, s
+    std::optional<std::string> absurd{};
   };
 
   struct Maker;

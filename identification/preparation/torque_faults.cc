@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <vector>
 
 #include "identification/preparation/log_faults.h"
+#include "identification/preparation/moving_view.h"
 #include "identification/preparation/torque_noise_statistics.h"
 #include "models/foundation/robust_noise.h"
 
@@ -12,6 +15,7 @@ namespace warmjoint::inline identification {
 namespace {
 
 using Eigen::Index;
+using Eigen::VectorXd;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -30,9 +34,15 @@ constexpr Index kDrops = 5;
 constexpr Index kRarer = 4;      // times rarer is what else is near 0
 constexpr double kNear0 = 0.25;  // of the mean of |torque|
 
-// AbsurdTorque
-constexpr double kAbsurd = 50;  // times the quantile
-constexpr double kMost = 0.99;
+// AbsurdTorque, times the typical one
+constexpr double kFarOff = 10;  // why: breakaway and heavy tails stay below in 99.9 %
+constexpr double kAbsurd =
+    50;  // of one sample; why: tails of 3 degrees of freedom go there once in a million
+constexpr double kTransient = 2;  // times further where nothing holds a speed; why: inertia
+constexpr double kMany = 0.01;    // of the samples; why: noise puts a tenth of that beyond kFarOff
+constexpr Index kRun = 3;         // samples in a row; why: noise puts none there
+constexpr Index kBins = 8;  // of speed; why: a quarter of the log owns fewer than half of them
+constexpr Index kSameStretch = 10;  // samples; why: fewer between two make them no other event
 
 /// Kept samples whose torque, times `sign`, lies farthest on that side.
 struct Pile {
@@ -76,6 +86,28 @@ bool SpansSpeeds(const Measurements& m, const ConstantRun& run) {
   const auto velocity = m.velocity.segment(run.begin, run.end - run.begin);
   const double largest = velocity.cwiseAbs().maxCoeff();
   return velocity.maxCoeff() - velocity.minCoeff() > kOtherSpeed * largest;
+}
+
+/// Typical |torque| at each x: that of the median bin of x, times x over that of the bin where x is more, as friction grows
+/// no faster than speed, and the torque of inertia as acceleration does. x: [n], 0 or more; size: [n] |torque|. Returns [n]
+VectorXd TypicalOver(const VectorXd& x, const VectorXd& size) {
+  std::vector<Index> order(static_cast<size_t>(x.size()));
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::sort(order, {}, [&](Index i) { return x[i]; });
+  // median x and size of bins of equally many samples
+  const Index bins = std::min(kBins, x.size());
+  VectorXd at(bins), typical(bins);
+  for (Index b = 0; b < bins; ++b) {
+    const Index first = b * x.size() / bins, count = (b + 1) * x.size() / bins - first;
+    VectorXd sizes(count);
+    for (Index k = 0; k < count; ++k) sizes[k] = size[order[static_cast<size_t>(first + k)]];
+    typical[b] = MedianInPlace(sizes);
+    at[b] = std::max(x[order[static_cast<size_t>(first + count / 2)]], 1e-9 * x.maxCoeff());
+  }
+  return x.unaryExpr([&](double value) {
+    VectorXd scaled = typical.array() * (value / at.array()).max(1.0);
+    return MedianInPlace(scaled);
+  });
 }
 
 }  // namespace
@@ -169,40 +201,55 @@ std::optional<std::string> DroppedTorque(const Measurements& measurements,
       drops, measurements.time[first], kDrops);
 }
 
-std::optional<std::string> AbsurdTorque(const Measurements& measurements,
-                                        const Selection& selection) {
-  const Eigen::VectorXd& torque = measurements.torque;
-  // mean and largest size of what is kept
-  double sum = 0, largest = 0;
-  for (Index i = 0; i < torque.size(); ++i) {
-    const double size = selection.keep[i] ? std::abs(torque[i]) : 0;
-    sum += size;
-    largest = std::max(largest, size);
+SampleFlags AbsurdTorque(const Measurements& m, const Selection& selection) {
+  // what a fit takes; a torque of 0 is one of a motor that is off
+  const bool holds = HoldsSpeeds(m, selection);
+  const double clear = ClearSpeed(m);
+  std::vector<Index> taken;
+  for (Index i = 0; i < m.size(); ++i) {
+    const bool is_taken = holds ? selection.keep[i] : std::abs(m.velocity[i]) > clear;
+    if (is_taken && m.torque[i] != 0) taken.push_back(i);
   }
+  const VectorXd speed = m.velocity(taken).cwiseAbs(), size = m.torque(taken).cwiseAbs();
 
-  // mean <= quantile + 0.01 largest: below that many means nothing exceeds kAbsurd quantiles
-  const auto count = static_cast<double>(selection.count());
-  if (largest * (1 / kAbsurd + 1 - kMost) * count <= sum) return std::nullopt;
-  // the quantile that almost all samples stay below, and those far beyond it
-  Eigen::VectorXd sizes(selection.count());
-  for (Index i = 0, k = 0; i < torque.size(); ++i) {
-    if (selection.keep[i]) sizes[k++] = std::abs(torque[i]);
+  // how many times the typical torque each has
+  VectorXd times = VectorXd::Zero(m.size());
+  times(taken) = size.cwiseQuotient(TypicalOver(speed, size)) / (holds ? 1 : kTransient);
+
+  // far off for good, or with others
+  SampleFlags absurd = SampleFlags::Constant(m.size(), false);
+  const auto far = (times.array() > kFarOff).count();
+  const bool many = static_cast<double>(far) >= kMany * static_cast<double>(taken.size());
+  for (Index begin = 0, end = 0; begin < m.size(); begin = end + 1) {
+    for (end = begin; end < m.size() && times[end] > kFarOff; ++end) {
+      absurd[end] = many || times[end] > kAbsurd;
+    }
+    if (end - begin >= kRun) absurd.segment(begin, end - begin).setConstant(true);
   }
-  const double quantile = QuantileInPlace(sizes, kMost);
-  if (quantile == 0 || largest <= kAbsurd * quantile) return std::nullopt;
-  // how many are far beyond it, and the worst
-  Index absurd = 0, worst = -1;
-  for (Index i = 0; i < torque.size(); ++i) {
-    if (!selection.keep[i] || std::abs(torque[i]) <= kAbsurd * quantile) continue;
-    ++absurd;
-    if (std::abs(torque[i]) == largest) worst = i;
+  return absurd;
+}
+
+std::string DescribeAbsurd(const Measurements& m, const SampleFlags& absurd) {
+  constexpr int most = 4;  // stretches named; why: more fill a screen
+  std::string times;
+  int stretches = 0;
+  for (Index begin = 0, end = 0; begin < m.size(); begin = end) {
+    end = begin + 1;
+    if (!absurd[begin]) continue;
+    // a stretch goes on over a few that are not absurd
+    Index last = begin;
+    for (; end < m.size() && end - last <= kSameStretch; ++end) last = absurd[end] ? end : last;
+    if (++stretches > most) continue;
+    times +=
+        fmt::format("{}{:.6g} to {:.6g} s", times.empty() ? "" : ", ", m.time[begin], m.time[last]);
   }
+  Index worst = 0;
+  (absurd.cast<double>() * m.torque.array().abs()).maxCoeff(&worst);
   return fmt::format(
-      "torque is far out of range in {} sample{}, the worst {:.4g} {} at {:.6g} s: more than {} "
-      "times the 99 % quantile of its size, {:.4g} {}; leave {} out",
-      absurd, absurd == 1 ? "" : "s", torque[worst], measurements.torque_unit,
-      measurements.time[worst], kAbsurd, quantile, measurements.torque_unit,
-      absurd == 1 ? "it" : "them");
+      "torque is far out of range in {} of {} samples, in {} stretch{} ({}{}), the worst {:.4g} {} "
+      "at {:.6g} s: more than {} times what is typical of its speed",
+      absurd.count(), m.size(), stretches, stretches == 1 ? "" : "es", times,
+      stretches > most ? ", ..." : "", m.torque[worst], m.torque_unit, m.time[worst], kFarOff);
 }
 
 }  // namespace warmjoint::inline identification

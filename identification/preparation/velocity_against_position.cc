@@ -3,71 +3,158 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <vector>
 
 #include "identification/preparation/log_faults.h"
+#include "identification/preparation/stretches.h"
 #include "models/foundation/robust_noise.h"
 #include "models/recording/units.h"
 
 namespace warmjoint::inline identification {
 namespace {
 
+using Eigen::ArrayXd;
 using Eigen::Index;
+using Eigen::VectorXd;
+using Flags = Eigen::Array<bool, Eigen::Dynamic, 1>;
 
-constexpr double kTolerance = 0.02;   // of the ratio; why: viscous moves by as much, --relevance
-constexpr double kCertain = 4;        // standard errors of the median
-constexpr double kStraight = 0.003;   // of the way of a segment, rms
-constexpr std::size_t kFewest = 3;    // segments
-constexpr double kShare = 1.0 / 3;    // of the segments that can be judged
+constexpr double kTolerance = 0.02;  // of the factor; why: viscous moves by as much, --relevance
+constexpr double kOneDirection =
+    0.1;  // why: an offset of the column moves them apart, and friction by less than that
+constexpr double kCertain = 4;      // standard errors of the median; why: 1 in 16 000 by chance
+constexpr std::size_t kFewest = 8;  // stretches; why: a median of fewer has no known error
+constexpr double kOther = 0.5;  // of a factor; why: stale positions and lags at turns stay within
+constexpr double kMostWay =
+    3;  // why: fast stretches know a factor best, but a few that are wrong must not decide
+constexpr std::size_t kRow = 3;       // stretches; why: a turn spoils one or two
 constexpr double kSameFactor = 0.03;  // between a ratio and the factor of a unit
+constexpr double kNormal = 0.6745;    // why: median |z| of a standard normal
 
-/// Whether a recording starts within the segment.
-bool HoldsAStart(const Measurements& m, const Segment& segment) {
-  return std::ranges::any_of(
-      m.starts, [&](Index start) { return start > segment.begin && start < segment.end; });
+/// Velocity over change of position along stretches.
+struct Factor {
+  double times = 1;                  // where the velocity does not change
+  double error = 0;                  // standard error
+  double allowed = 0;                // by which a right column may be off
+  double told = 0, by_position = 0;  // median velocities, rad/s or m/s
+  std::vector<Stretch> others;       // three or more in a row that tell another factor
+
+  bool IsOff(double tolerance) const {
+    // of a factor far from 1 the inverse is better known
+    const double off = std::abs(times - 1);
+    return off > tolerance + allowed && std::max(off, std::abs(times) * off) > kCertain * error;
+  }
+};
+
+double MedianOf(const ArrayXd& values) {
+  VectorXd copy = values;
+  return copy.size() == 0 ? 0 : MedianInPlace(copy);
 }
 
-/// dp / integral(v dt) of a segment; nothing where the positions do not lie on a straight line.
-std::optional<double> RatioOf(const Measurements& m, const Segment& segment) {
-  const Index first = segment.begin, last = segment.end - 1;
-  const double duration = m.time[last] - m.time[first];
-  const double way = m.position[last] - m.position[first];
-  // the way by the velocities, and how far the positions stray from a straight line
-  double integral = 0, strays = 0;
-  for (Index i = first + 1; i <= last; ++i) {
+/// The value below which half of the way lies; a way counts no more than kMostWay times the median one.
+double MedianByWay(const ArrayXd& values, const ArrayXd& way) {
+  const ArrayXd weight = way.min(kMostWay * MedianOf(way));
+  std::vector<Index> order(static_cast<size_t>(values.size()));
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::sort(order, {}, [&](Index k) { return values[k]; });
+  double until = 0;
+  for (const Index k : order) {
+    until += weight[k];
+    if (until >= weight.sum() / 2) return values[k];
+  }
+  return 0;
+}
+
+/// Those of `values` where `takes` holds.
+ArrayXd Where(const Flags& takes, const ArrayXd& values) {
+  ArrayXd taken(takes.count());
+  for (Index i = 0, k = 0; i < values.size(); ++i) {
+    if (takes[i]) taken[k++] = values[i];
+  }
+  return taken;
+}
+
+double Integral(const Measurements& m, const Stretch& one) {
+  double integral = 0;
+  for (Index i = one.first + 1; i <= one.last; ++i) {
     integral += 0.5 * (m.velocity[i] + m.velocity[i - 1]) * (m.time[i] - m.time[i - 1]);
-    const double line = m.position[first] + way * (m.time[i] - m.time[first]) / duration;
-    strays += (m.position[i] - line) * (m.position[i] - line);
   }
-  const double rms = std::sqrt(strays / static_cast<double>(last - first));
-  if (!(rms < kStraight * std::abs(way)) || integral == 0) return std::nullopt;
-  return way / integral;
+  return integral;
 }
 
-/// Whether a sensor that starts its turn again may hide turns between two samples.
-bool MayHideTurns(const Measurements& m, const Segment& segment, double step, double travel) {
-  constexpr double turn = 2 * std::numbers::pi, slack = 1e-3 * turn;  // rad
-  return m.joint == JointKind::rotary && travel <= turn + slack &&
-         std::abs(segment.velocity) * step > turn / 2;
+/// What a jump of speed within a step may make of a ratio, half of the largest change of velocity times the step over
+/// the way, and stamps that jitter, the spread of the steps over the duration.
+double Unsure(const Measurements& m, const Stretch& one) {
+  const Index n = one.last - one.first;
+  const VectorXd steps = m.time.segment(one.first + 1, n) - m.time.segment(one.first, n);
+  const VectorXd changes = m.velocity.segment(one.first + 1, n) - m.velocity.segment(one.first, n);
+  const double jump = 0.5 * changes.cwiseAbs().maxCoeff() * one.duration / static_cast<double>(n);
+  return jump / std::abs(one.way) + (steps.maxCoeff() - steps.minCoeff()) / one.duration;
 }
 
-Eigen::VectorXd Ratios(const Measurements& m, const Selection& selection) {
-  std::vector<double> ratios;
-  double judged = 0;  // segments, straight or not
-  if (selection.segments.size() < kFewest) return {};
-  const double travel = m.position.maxCoeff() - m.position.minCoeff();
-  for (const Segment& segment : selection.segments) {
-    // a start of another recording, or turns between two samples, make no fair comparison
-    if (segment.end - segment.begin < 2 || HoldsAStart(m, segment)) continue;
-    const double step = (m.time[segment.end - 1] - m.time[segment.begin]) /
-                        static_cast<double>(segment.end - 1 - segment.begin);
-    if (MayHideTurns(m, segment, step, travel)) continue;
-    ++judged;
-    if (const auto ratio = RatioOf(m, segment)) ratios.push_back(*ratio);
+/// Stretches in a row, kRow or more, where `is_other` holds.
+std::vector<Stretch> InARow(const std::vector<Stretch>& stretches, const Flags& is_other) {
+  std::vector<Stretch> rows;
+  for (size_t begin = 0, end = 0; begin < stretches.size(); begin = end + 1) {
+    for (end = begin; end < stretches.size() && is_other[static_cast<Index>(end)];) ++end;
+    if (end < begin + kRow) continue;
+    rows.insert(rows.end(), &stretches[begin], &stretches[end]);
+  }
+  return rows;
+}
+
+/// By how much of its way a stretch may begin and end with positions that are held for several samples.
+double Staleness(const Measurements& m, const std::vector<Stretch>& stretches) {
+  double steps = 0, moved = 0;
+  for (const Stretch& one : stretches) {
+    for (Index i = one.first; i < one.last; ++i) moved += m.position[i + 1] != m.position[i];
+    steps += static_cast<double>(one.last - one.first);
+  }
+  const double held = steps / moved - 1;  // samples
+  return held * static_cast<double>(stretches.size()) / steps;
+}
+
+/// A column that lags by c has ratio = times + c bend, bend = change of velocity / change of
+/// position: `times` from the half of the stretches with the least bend, c from the others. A filter
+/// with that c passes (c bend)^2 less, a delay half of it, and trapezoids of a step h are
+/// (h bend)^2 / 12 off; a column in coarse steps may err by one, as far as the
+/// ratios scatter by it.
+Factor FactorOf(const Measurements& m, const std::vector<Stretch>& stretches) {
+  const auto n = static_cast<Index>(stretches.size());
+  ArrayXd integral(n), way(n), bend(n), duration(n), unsure(n);
+  for (Index k = 0; k < n; ++k) {
+    const Stretch& one = stretches[static_cast<size_t>(k)];
+    integral[k] = Integral(m, one);
+    way[k] = one.way;
+    duration[k] = one.duration;
+    unsure[k] = Unsure(m, one);
+    bend[k] = (m.velocity[one.last] - m.velocity[one.first]) / one.way;
   }
 
-  // a few segments whose positions happen to be straight tell nothing of the others
-  if (static_cast<double>(ratios.size()) < kShare * judged) return {};
-  return Eigen::Map<const Eigen::VectorXd>(ratios.data(), static_cast<Index>(ratios.size()));
+  // the factor where the velocity changes least, and its scatter there
+  const ArrayXd ratio = integral / way;
+  const double typical = MedianOf(bend.abs());
+  const Flags least = bend.abs() <= typical;
+  const ArrayXd straight = Where(least, ratio);
+  Factor factor;
+  factor.times = MedianByWay(straight, Where(least, way.abs()));
+  const double scatter = MedianOf((straight - factor.times).abs()) / kNormal;
+  factor.error = std::sqrt(std::numbers::pi / 2 / static_cast<double>(straight.size())) * scatter;
+  factor.by_position = MedianOf(way / duration);
+  factor.told = factor.by_position + MedianOf((integral - way) / duration);
+  const ArrayXd off = (integral - factor.times * way).abs(),
+                own = std::abs(factor.times) * way.abs();
+  factor.others = InARow(stretches, off > kOther * own && off > MedianOf(own));
+
+  // what a lag, long steps and a coarse column take off a right one
+  const Flags bent = bend.abs() >= typical && bend != 0;
+  const double lag = MedianOf(Where(bent, (ratio - factor.times) / bend));
+  const double step = MedianStep(m.time);
+  const double coarse = MedianOf(Resolution(m.velocity) * duration / way.abs());
+  factor.allowed = (lag * lag + step * step / 12) * typical * typical +
+                   std::min(coarse, kCertain * scatter) + MedianOf(unsure) +
+                   Staleness(m, stretches);
+  return factor;
 }
 
 /// The unit that explains a velocity of `times` the change of position over time, as a question.
@@ -75,7 +162,7 @@ std::string Suspect(const Measurements& m, double times) {
   const auto is_near = [&](double factor) {
     return std::abs(std::abs(times) / factor - 1) < kSameFactor;
   };
-  if (is_near(1)) return "has it the wrong sign";
+  if (is_near(1)) return "has it the wrong sign (--scale velocity=-1)";
   const bool rotary = m.joint == JointKind::rotary;
   // velocity, position or time may be in another unit of the table
   for (const Unit& unit : Units()) {
@@ -91,30 +178,66 @@ std::string Suspect(const Measurements& m, double times) {
       return fmt::format("is time in {} (--unit time={})", name, name);
     }
   }
-  if (m.gear != 1 && is_near(std::abs(m.gear))) return "is it that of the motor";
-  return "are the units right (--unit velocity=..., position=..., time=...)";
+  const std::string scale = fmt::format("--scale velocity={:.4g}", 1 / times);
+  if (m.gear != 1 && is_near(std::abs(m.gear)))
+    return fmt::format("is it that of the motor ({})", scale);
+  return fmt::format(
+      "are the units right (--unit velocity=..., position=..., time=...), or is the velocity "
+      "scaled ({}) or the clock "
+      "(--scale time={:.4g})",
+      scale, times);
 }
 
 }  // namespace
 
 std::optional<std::string> VelocityAgainstPosition(const Measurements& measurements,
-                                                   const Selection& selection) {
-  Eigen::VectorXd ratios = Ratios(measurements, selection);
-  if (ratios.size() < static_cast<Index>(kFewest)) return std::nullopt;
-  const double ratio = MedianInPlace(ratios);
-  if (std::abs(ratio - 1) <= kTolerance) return std::nullopt;
+                                                   const Selection&) {
+  // a column in coarse steps does not know speeds of a step or two
+  std::vector<Stretch> all = FindStretches(measurements);
+  const double least = 2 * Resolution(measurements.velocity);
+  std::erase_if(all, [&](const Stretch& one) { return std::abs(one.way) < least * one.duration; });
+  if (all.size() < kFewest) return std::nullopt;
+  std::vector<Stretch> forwards, backwards;
+  for (const Stretch& one : all) (one.way > 0 ? forwards : backwards).push_back(one);
+  const std::string_view unit = kVelocityUnit.For(measurements.joint);
+  constexpr const char* remedy =
+      "leave the velocity out (--map velocity=), and the positions tell it";
 
-  // of a median: sqrt(pi/2) of that of a mean; median |z| = 0.6745
-  const auto n = static_cast<double>(ratios.size());
-  Eigen::VectorXd strays = (ratios.array() - ratio).abs();
-  const double error = std::sqrt(std::numbers::pi / 2 / n) * MedianInPlace(strays) / 0.6745;
-  if (std::abs(ratio - 1) <= kCertain * error) return std::nullopt;
-  const double times = 1 / ratio;
+  // one direction may be spoilt by itself
+  if (std::min(forwards.size(), backwards.size()) >= kFewest) {
+    const Factor ahead = FactorOf(measurements, forwards), back = FactorOf(measurements, backwards);
+    const bool is_ahead = ahead.IsOff(kOneDirection);
+    const Factor& off = is_ahead ? ahead : back;
+    const bool lost = std::abs(ahead.times + back.times) < kOneDirection * std::abs(off.times);
+    if (off.IsOff(kOneDirection) && (lost || is_ahead != back.IsOff(kOneDirection))) {
+      const auto count = (is_ahead ? forwards : backwards).size();
+      return fmt::format(
+          "velocity is right in one direction alone: in the other, {:.0f} % of what moves, it is "
+          "{:.4g} {} where the positions change by {:.4g} {} (medians of {} stretches), so that it "
+          "{}; {}",
+          100 * static_cast<double>(count) / static_cast<double>(all.size()), off.told, unit,
+          off.by_position, unit, count,
+          lost ? "lost its sign" : "holds words read as unsigned, or its zero is off", remedy);
+    }
+  }
+
+  // both by the same factor, or a part of the log
+  const Factor both = FactorOf(measurements, all);
+  if (both.IsOff(kTolerance)) {
+    return fmt::format(
+        "velocity is {:.4g} times the change of position over time (along {} stretches, at least "
+        "{:.0f} % apart), so that one of the two is off: {}? Else {}",
+        both.times, all.size(), 100 * kTolerance, Suspect(measurements, both.times), remedy);
+  }
+  if (both.others.empty()) return std::nullopt;
+  const Stretch& typical = both.others[both.others.size() / 2];
   return fmt::format(
-      "velocity is {:.4g} times the change of position over time (median of {} segments, at least "
-      "{:.0f} % apart), so that one of the two is off: {}? Else leave the velocity out "
-      "(--map velocity=), and the positions tell it",
-      times, ratios.size(), 100 * kTolerance, Suspect(measurements, times));
+      "velocity and position contradict each other in {:.2g} % of what moves, between {:.6g} and "
+      "{:.6g} s: velocity is {:.4g} times the change of position there, elsewhere {:.4g} times; "
+      "leave that part of the log out",
+      100 * static_cast<double>(both.others.size()) / static_cast<double>(all.size()),
+      measurements.time[both.others.front().first], measurements.time[both.others.back().last],
+      Integral(measurements, typical) / typical.way, both.times);
 }
 
 }  // namespace warmjoint::inline identification

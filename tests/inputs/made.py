@@ -9,6 +9,65 @@ def write_csv(path, **columns):
                header=",".join(columns))
 
 
+def holds(seed, inertia=0, tails=False, breakaway=0):
+    """100 s at 50 Hz of a joint with viscous 0.8 and Coulomb 4.5 N.m, two speeds forwards and backwards for 3 s each, with short ramps."""
+    rng = np.random.default_rng(seed)
+    time = np.arange(5000) * 0.02
+    speeds = np.repeat(rng.uniform(0.05, 1, 17), 2) * np.tile([1, -1], 17)
+    velocity = np.convolve(np.repeat(speeds, 150)[:5000], np.ones(6) / 6, "same")
+    noise = rng.standard_t(3, 5000) if tails else 0.1 * rng.standard_normal(5000)
+    torque = (0.8 * velocity + (4.5 + breakaway * np.exp(-np.abs(velocity) / 0.05)) * np.sign(velocity)
+              + inertia * np.gradient(velocity, time) + noise)
+    return {"time": time, "position": np.cumsum(velocity) * 0.02 - 0.01 * velocity, "velocity": velocity, "torque": torque}
+
+
+def moving(seed):
+    """The same joint with 0.3 kg.m^2, which never holds a speed: 60 s at 100 Hz."""
+    rng = np.random.default_rng(seed)
+    time = np.arange(6000) * 0.01
+    phases = 2 * np.pi * np.outer(np.arange(1, 6), time) / 10
+    sines, cosines = rng.standard_normal((2, 5)) / 4
+    velocity = sines @ np.sin(phases) + cosines @ np.cos(phases)
+    rates = 2 * np.pi * np.arange(1, 6) / 10
+    position = -(sines / rates) @ np.cos(phases) + (cosines / rates) @ np.sin(phases)
+    acceleration = (sines * rates) @ np.cos(phases) - (cosines * rates) @ np.sin(phases)
+    torque = 0.8 * velocity + 4.5 * np.sign(velocity) + 0.3 * acceleration + 0.1 * rng.standard_normal(6000)
+    return {"time": time, "position": position, "velocity": velocity, "torque": torque}
+
+
+def make_columns(folder):
+    """A log without holds; the same with a velocity that is 0.08 s late; one in degrees for a while."""
+    log = moving(1)
+    write_csv(folder / "moving.csv", **log)
+    late = {name: column[8:] for name, column in log.items()}
+    write_csv(folder / "moving_late.csv", **{**late, "velocity": log["velocity"][:-8]})
+    log["velocity"][2000:3500] *= 57.29578
+    write_csv(folder / "part_in_degrees.csv", **log)
+
+
+def make_torque_signs(folder):
+    """A torque whose sign was lost, and one that has one sign since the joint bears a weight."""
+    log = holds(2)
+    write_csv(folder / "lost_torque_sign.csv", **{**log, "torque": np.abs(log["torque"])})
+    weight = 12 * np.cos(0.3 * log["position"])
+    write_csv(folder / "weight.csv", **{**log, "position": 0.3 * log["position"], "velocity": 0.3 * log["velocity"],
+                                        "torque": log["torque"] - 0.56 * log["velocity"] + weight})
+
+
+def make_absurd(folder):
+    """A quarter of a log that is absurd, one sample in a hundred, and clean logs with large torques."""
+    log = holds(3)
+    torque = log["torque"].copy()
+    torque[1500:2750] = 500
+    write_csv(folder / "absurd_quarter.csv", **{**log, "torque": torque})
+    torque = log["torque"].copy()
+    torque[::100] *= 1e4
+    write_csv(folder / "absurd_scattered.csv", **{**log, "torque": torque})
+    write_csv(folder / "heavy_tails.csv", **holds(4, tails=True))
+    write_csv(folder / "breakaway.csv", **holds(5, breakaway=20))
+    write_csv(folder / "inertia.csv", **holds(6, inertia=5))
+
+
 def write(folder):
     """All of them, into a folder."""
     for name, make in list(globals().items()):

@@ -1,0 +1,95 @@
+#include "identification/preparation/stretches.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "identification/preparation/position_noise.h"
+#include "models/recording/sampling.h"
+
+namespace warmjoint::inline identification {
+namespace {
+
+using Eigen::Index;
+
+constexpr Index kFewSamples = 4;  // samples; why 4: a middle, and neighbours to each side of it
+constexpr Index kEnoughStretches =
+    32;  // stretches in a log; why: a median of them is known to a fifth of their spread
+constexpr double kDeviations = 20;  // why 20: the noise of both ends is 7 % of the way
+constexpr double kOneSided =
+    0.25;  // of the way; why: at half that speed a joint has not turned round
+constexpr double kOfTheTypical = 0.01;  // of a way; why: less is a creep at rest
+constexpr double kNearlyAll = 0.8;  // why: longer stretches lose what lies around turning points
+
+/// For each sample how often the log was broken until there: by gaps, starts, and steps within which a sensor that
+/// starts its turn again may hide turns. [N]
+std::vector<Index> Breaks(const Measurements& m) {
+  constexpr double turn = 2 * std::numbers::pi, slack = 1e-3 * turn;  // rad
+  const double longest = LongestStep(m.time);
+  const bool one_turn =
+      m.joint == JointKind::rotary && m.position.maxCoeff() - m.position.minCoeff() <= turn + slack;
+  std::vector<Index> breaks(static_cast<size_t>(m.size()), 0);
+  for (Index i = 1; i < m.size(); ++i) {
+    const double step = m.time[i] - m.time[i - 1];
+    const bool is_hidden = one_turn && std::abs(m.velocity[i]) * step > turn / 2;
+    const bool is_broken = step > longest || is_hidden || std::ranges::binary_search(m.starts, i);
+    breaks[static_cast<size_t>(i)] = breaks[static_cast<size_t>(i - 1)] + is_broken;
+  }
+  return breaks;
+}
+
+/// All of `count` samples that show a way of `clear` (rad or m) or more.
+std::vector<Stretch> StretchesOf(const Measurements& m, Index count, double clear,
+                                 const std::vector<Index>& breaks) {
+  std::vector<Stretch> stretches;
+  for (Index first = 0; first + count < m.size(); first += count) {
+    const Index middle = first + count / 2, last = first + count;
+    const double way = m.position[last] - m.position[first];
+    const double share = (m.position[middle] - m.position[first]) / way;
+    const bool is_whole = breaks[static_cast<size_t>(first)] == breaks[static_cast<size_t>(last)];
+    if (!is_whole || !(std::abs(way) >= clear && share > kOneSided && share < 1 - kOneSided))
+      continue;
+    stretches.push_back({first, middle, last, way, m.time[last] - m.time[first]});
+  }
+  return stretches;
+}
+
+/// Leaves out what goes much less far than is typical.
+void LeaveOutCreeping(std::vector<Stretch>& stretches) {
+  const auto way = [](const Stretch& one) { return std::abs(one.way); };
+  std::ranges::sort(stretches, {}, way);
+  double all = 0, until = 0;
+  for (const Stretch& one : stretches) all += way(one);
+  // half of all that was moved was moved in ways up to the typical one
+  const auto typical = std::ranges::find_if(stretches, [&](const Stretch& one) {
+    until += way(one);
+    return until >= all / 2;
+  });
+  if (typical == stretches.end()) return;
+  const double least = kOfTheTypical * way(*typical);
+  std::erase_if(stretches, [&](const Stretch& one) { return way(one) < least; });
+  std::ranges::sort(stretches, {}, &Stretch::first);
+}
+
+}  // namespace
+
+std::vector<Stretch> FindStretches(const Measurements& m) {
+  const double clear = kDeviations * MeasurePositionNoise(m.position).deviation;
+  const std::vector<Index> breaks = Breaks(m);
+  std::vector<Stretch> longest;
+  double most = 0;  // way of all, rad or m
+  for (Index count = kFewSamples; count == kFewSamples || count * kEnoughStretches <= m.size();
+       count *= 2) {
+    std::vector<Stretch> stretches = StretchesOf(m, count, clear, breaks);
+    LeaveOutCreeping(stretches);
+    double way = 0;
+    for (const Stretch& one : stretches) way += std::abs(one.way);
+    if (way < kNearlyAll * most) continue;
+    longest = std::move(stretches);
+    most = std::max(most, way);
+  }
+  return longest;
+}
+
+}  // namespace warmjoint::inline identification

@@ -1,0 +1,24 @@
+// Stretches of a log over which its positions show a way in one direction.
+#pragma once
+
+#include <vector>
+
+#include "models/recording/measurements.h"
+
+namespace warmjoint::inline identification {
+
+/// Samples first to last, both included.
+struct Stretch {
+  Eigen::Index first = 0, middle = 0, last = 0;
+  double way = 0;       // change of position, rad or m
+  double duration = 0;  // s
+};
+
+/// Stretches of equally many samples that do not overlap, chosen by the positions alone, with holds
+/// or without: a quarter to three quarters of the way lie before the middle, the way is 20
+/// deviations of the position's noise or more, and 1 % or more of the typical one (the median, each way weighted by
+/// itself, so that rests say nothing). Of 4, 8, 16, ... samples the longest is taken that shows four fifths of
+/// the way that the best shows. None spans a gap, a start, or turns that a sensor may hide between samples.
+std::vector<Stretch> FindStretches(const Measurements& measurements);
+
+}  // namespace warmjoint::inline identification
