@@ -11,6 +11,7 @@
 #include "models/friction/joint_friction.h"
 #include "sim/model/mujoco_handles.h"
 #include "sim/plugin/check_joint.h"
+#include "sim/plugin/stiff_drives.h"
 
 namespace warmjoint::inline sim {
 namespace {
@@ -18,6 +19,10 @@ namespace {
 /// What an armature may be, kg.m^2 or kg, and how short a step, s, before there is no remedy.
 constexpr double kLargestArmature = 1e9;
 constexpr double kShortestTimestep = 1e-9;
+
+/// A give that is small beside the backlash of a robot's gears, rad or m.
+constexpr double kSmallGive = 0.005;
+constexpr double kSmallLinearGive = 0.0005;
 
 /// One joint with its friction, on a copy of the model whose inertia and step may be tried out.
 class Trial {
@@ -125,6 +130,63 @@ void RefuseLightJoints(const mjModel* model, const std::vector<FrictionForJoint>
   const char* link = armatures.empty() || !shorter_helps ? "" : ", or ";
   Refuse(place, "{} of its joints cannot carry their friction; give {}{}{}. The first: {}",
          reasons.size(), by_armature, link, by_timestep, reasons.front());
+}
+
+namespace {
+
+/// Of the joint that gives way most, and the armatures for those that give way by more than a little.
+std::string NoticeOfGive(const mjModel* m, const std::vector<FrictionForJoint>& frictions,
+                         const std::vector<double>& drives) {
+  std::vector<std::string> armatures;
+  std::string worst;
+  double most = 0;
+  for (const FrictionForJoint& friction : frictions) {
+    const int joint = mj_name2id(m, mjOBJ_JOINT, friction.joint.c_str()),
+              dof = m->jnt_dofadr[joint];
+    const BristleShape bristles = BristlesOf(1, drives[m->dof_treeid[dof]]);
+    const double give = WindUp(m, joint, JointFriction(friction.friction), bristles);
+    // in units of a small give, so that hinges and slides compare
+    const bool slides = m->jnt_type[joint] == mjJNT_SLIDE;
+    const double share = give / (slides ? kSmallLinearGive : kSmallGive);
+    if (share > most) {
+      most = share;
+      worst = fmt::format("'{}' by {:.2g} {}", friction.joint, 1000 * give, slides ? "mm" : "mrad");
+    }
+    if (share <= 1) continue;
+    const double armature = m->dof_armature[dof] + EffectiveInertia(m, dof) * (share - 1);
+    armatures.push_back(fmt::format("--armature {}={}", friction.joint,
+                                    TwoDigits(armature, [](double x) { return std::ceil(x); })));
+  }
+  if (most == 0) return "";
+  return fmt::format("joints give way elastically before they slide, most of all {}{}{}", worst,
+                     armatures.empty() ? "" : "; for at most 5 mrad (0.5 mm) give ",
+                     fmt::join(armatures, " "));
+}
+
+/// Of the first joint that drives may shake.
+std::string NoticeOfDrive(const mjModel* m, const std::vector<FrictionForJoint>& frictions,
+                          const std::vector<double>& drives) {
+  for (const FrictionForJoint& friction : frictions) {
+    const int joint = mj_name2id(m, mjOBJ_JOINT, friction.joint.c_str());
+    const double drive = drives[m->dof_treeid[m->jnt_dofadr[joint]]];
+    try {
+      CheckDrive(m, joint, JointFriction(friction.friction), 1, drive, {JointName(m, joint)});
+    } catch (const BadInput& refused) {
+      return refused.what();
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+std::vector<std::string> NoticesOfHolding(const mjModel* m,
+                                          const std::vector<FrictionForJoint>& frictions) {
+  const std::vector<double> drives = StiffestDrives(m, m->opt.integrator);
+  std::vector<std::string> notices{NoticeOfGive(m, frictions, drives),
+                                   NoticeOfDrive(m, frictions, drives)};
+  std::erase(notices, "");
+  return notices;
 }
 
 }  // namespace warmjoint::inline sim

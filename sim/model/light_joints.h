@@ -3,6 +3,7 @@
 
 #include <mujoco/mujoco.h>
 
+#include <string>
 #include <vector>
 
 #include "models/foundation/bad_input.h"
@@ -18,5 +19,11 @@ namespace warmjoint::inline sim {
 /// own joint at the reference pose, and lowers that of no other.
 void RefuseLightJoints(const mjModel* m, const std::vector<FrictionForJoint>& frictions,
                        const Place& place);
+
+/// What a user should know of how joints hold, one sentence each: the joint that gives way most before
+/// it slides, with the armatures that bring all to 5 mrad (0.5 mm), and drives beside which friction
+/// may not let a joint rest (CheckDrive). m: as above.
+std::vector<std::string> NoticesOfHolding(const mjModel* m,
+                                          const std::vector<FrictionForJoint>& frictions);
 
 }  // namespace warmjoint::inline sim

@@ -13,21 +13,29 @@
 #include "sim/plugin/joint_names.h"
 #include "sim/plugin/plugin_instances.h"
 #include "sim/plugin/prepared_joints.h"
+#include "sim/plugin/stiff_drives.h"
 
 namespace warmjoint::inline sim {
 namespace {
 
-/// others: the other instances on each kinematic tree.
+/// What else acts on each kinematic tree.
+struct Beside {
+  OtherInstances others;
+  std::vector<double> drives;  // StiffestDrives
+};
+
 BoundJoint BindJoint(const mjModel* m, int joint, const PreparedJoint& prepared,
-                     const OtherInstances& others) {
+                     const Beside& beside) {
   // where the engine keeps its numbers, and with whom it shares its tree
   BoundJoint bound{.friction = prepared.friction};
   bound.joint = joint;
   bound.dof = m->jnt_dofadr[joint];
   bound.position = m->jnt_qposadr[joint];
-  if (const auto found = others.find(m->dof_treeid[bound.dof]); found != others.end()) {
+  const int tree = m->dof_treeid[bound.dof];
+  if (const auto found = beside.others.find(tree); found != beside.others.end()) {
     bound.instances += static_cast<int>(found->second.size());
   }
+  bound.drive = beside.drives[tree];
   bound.initial_energy = prepared.initial_energy;
   bound.needs_load = NeedsLoad(prepared.description);
   bound.needs_ambient = prepared.description.level_per_temperature != 0;
@@ -108,14 +116,14 @@ void BoundJoints::BindActuators(const mjModel* m) {
   // the instance's joints in the order of its actuators
   const auto prepared = PrepareInstance(m, instance_, {InstanceName(m, instance_)});
   FrictionOfActuators frictions(m, instance_, *prepared);
-  const OtherInstances others = FindOthers(m, instance_);
+  const Beside beside{FindOthers(m, instance_), StiffestDrives(m, m->opt.integrator)};
   for (int i = 0; i < m->nactuator; ++i) {
     if (m->actuator_plugin[i] != instance_) continue;
     const PreparedJoint& friction = frictions.Of(i);
 
     // refuse what the engine would accept and friction cannot
     CheckActuator(m, i, friction.friction);
-    BoundJoint bound = BindJoint(m, m->actuator_trnid[2 * i], friction, others);
+    BoundJoint bound = BindJoint(m, m->actuator_trnid[2 * i], friction, beside);
     CheckJoint(m, bound.joint, bound.friction, BristlesOf(bound.instances), {ActuatorName(m, i)});
     if (bound.needs_ambient && m->actuator_ctrlnum[i] == 0) {
       Refuse({ActuatorName(m, i)}, "has no control, which would be the ambient temperature's rise");
@@ -135,17 +143,22 @@ void BoundJoints::BindPassive(const mjModel* m, int states) {
   // in the order of joints, each with its states behind those of the reports
   const std::string name = InstanceName(m, instance_);
   const auto prepared = PrepareInstance(m, instance_, {name});
-  const OtherInstances others = FindOthers(m, instance_);
+  const Beside beside{FindOthers(m, instance_), StiffestDrives(m, m->opt.integrator)};
   int state = m->plugin_stateadr[instance_] + states;
   for (const auto& [joint, friction] : FindPassive(m, instance_, *prepared)) {
     const Place place{fmt::format("{}: {}", name, JointName(m, joint))};
     RefuseSecond(m, instance_, joint);
-    BoundJoint bound = BindJoint(m, joint, *friction, others);
+    BoundJoint bound = BindJoint(m, joint, *friction, beside);
     CheckJoint(m, joint, bound.friction, BristlesOf(bound.instances), place);
     bound.state = state;
     state += static_cast<int>(bound.friction.state().size());
     joints_.push_back(std::move(bound));
   }
+}
+
+void BoundJoints::ReadDrives(const mjModel* m) {
+  const std::vector<double> drives = StiffestDrives(m, m->opt.integrator);
+  for (BoundJoint& joint : joints_) joint.drive = drives[m->dof_treeid[joint.dof]];
 }
 
 void BoundJoints::BindSensors(const mjModel* m) {

@@ -9,6 +9,7 @@
 
 #include "models/friction/joint_friction.h"
 #include "sim/plugin/attribute_watch.h"
+#include "sim/plugin/bristle_shape.h"
 #include "sim/plugin/prepared_joints.h"
 
 namespace warmjoint::inline sim {
@@ -23,10 +24,13 @@ struct BoundJoint {
   int control = -1;   // in ctrl; -1 where it has none
   int output = -1;    // in actuator_force; -1 in the passive form
   int instances = 1;  // on its kinematic tree
+  double drive = 0;   // the tree's StiffestDrives
   bool needs_load = false;
   bool needs_ambient = false;
   JointFriction friction;                  // without a timestep
   std::array<double, 2> initial_energy{};  // {E1, E2} at a reset, N.m or N
+
+  BristleShape bristles() const { return BristlesOf(instances, drive); }
 };
 
 /// An array of the model that holds a number of each joint: <numeric name="INSTANCE/NUMBER">.
@@ -62,6 +66,9 @@ class BoundJoints {
   const std::vector<BoundJoint>& joints() const { return joints_; }
   /// The model's sensors that read the instance.
   const std::vector<int>& sensors() const { return sensors_; }
+
+  /// Sets what the model's drives add to its step, which its timestep and integrator change.
+  void ReadDrives(const mjModel* m);
 
   /// Sets the joints' numbers to those of the model's arrays; whether any is new. A number out of
   /// its bounds, or one that a joint's friction does not have, leaves that as it is.

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/plugin/bristle_shape.h"
-
 namespace warmjoint::inline sim {
 namespace {
 
@@ -36,12 +34,11 @@ BristleTree::BristleTree(const mjModel* m, int tree, const std::vector<CoupledJo
   search_ = SearchTree(inertia_.size());
 }
 
-void BristleTree::Shape(double h, double slope, double damping) {
+void BristleTree::Shape(double h, double slope, const BristleShape& shape) {
   // the slope damps already
   slope = std::min(slope, kMostSlope);
-  const BristleShape shape = BristlesOf(joints_.front().instances);
   impulse_ = shape.stiffness * (1 - slope) / h;
-  damping_ = std::max(0.0, damping * shape.damping - slope) / h;
+  damping_ = std::max(0.0, shape.damping - slope) / h;
 }
 
 void BristleTree::Step(const mjData* d, const LevelSource& levels, Rows rows, size_t first) {

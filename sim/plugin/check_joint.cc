@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "models/friction/bristle.h"
+#include "sim/plugin/stiff_drives.h"
 
 namespace warmjoint::inline sim {
 namespace {
@@ -92,6 +93,36 @@ void CheckJoint(const mjModel* m, int joint, const JointFriction& friction,
   } else {
     CheckWindUp(friction, bristles, inertia, m->opt.timestep, kind, place);
   }
+}
+
+void CheckDrive(const mjModel* m, int joint, const JointFriction& friction, int instances,
+                double drive, const Place& place) {
+  if (drive == 0) return;
+  // the friction's own slope over speed is explicit, too
+  const int dof = m->jnt_dofadr[joint];
+  const double h = m->opt.timestep;
+  const double slope = friction.SteepestSlope() * h / EffectiveInertia(m, dof);
+  const auto [stiffness, damping] = BristlesOf(instances, drive);
+  const double bristles = stiffness * (1 - slope) + 2 * std::max(0.0, damping - slope);
+  const double added = drive + 2 * slope;
+  if (added + std::min<double>(instances, kLargestCoupling) * bristles < 4) return;
+
+  const bool implicit_helps =
+      StiffestDrives(m, mjINT_IMPLICITFAST)[m->dof_treeid[dof]] <= kStiffestDrive;
+  Refuse(place,
+         "servos and springs are too stiff for timestep {}: with their h^2 stiffness + 2 h damping "
+         "over the inertia at {:.3g}, above {}, the joint may shake instead of resting; take {}a "
+         "timestep of at most {:.3g} s (attach --timestep) or more armature (--armature)",
+         h, added, kStiffestDrive,
+         implicit_helps ? "the integrator implicitfast (attach --integrator implicitfast), " : "",
+         RoundDown(h * kStiffestDrive / added));
+}
+
+double WindUp(const mjModel* m, int joint, const JointFriction& friction,
+              const BristleShape& bristles) {
+  const double inertia = EffectiveInertia(m, m->jnt_dofadr[joint]), h = m->opt.timestep;
+  if (friction.own_bristle() || inertia == 0) return 0;
+  return friction.HoldingLevel() * h * h / (bristles.stiffness * inertia);
 }
 
 }  // namespace warmjoint::inline sim

@@ -37,8 +37,19 @@ inline double EffectiveInertia(const mjModel* m, const mjData* d, int dof) {
 
 /// Throws BadInput, from `place` and with the remedy, unless the joint is a hinge or slide whose
 /// effective inertia at the reference pose lets the model's step carry the friction. bristles: those
-/// of a law that leaves them to the step.
+/// of a law that leaves them to the step, as they are without drives.
 void CheckJoint(const mjModel* m, int joint, const JointFriction& friction,
                 const BristleShape& bristles, const Place& place);
+
+/// Throws BadInput, from `place` and with the remedies, where drives leave the bristles of a joint
+/// nothing of what the step carries, so that it may shake instead of resting. instances, drive: of
+/// BristlesOf.
+void CheckDrive(const mjModel* m, int joint, const JointFriction& friction, int instances,
+                double drive, const Place& place);
+
+/// How far a joint gives way elastically before it slides, at the reference pose, rad or m; 0 where
+/// the bristle is its law's own.
+double WindUp(const mjModel* m, int joint, const JointFriction& friction,
+              const BristleShape& bristles);
 
 }  // namespace warmjoint::inline sim
