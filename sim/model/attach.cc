@@ -55,18 +55,6 @@ void NoteNameless(mjSpec& spec, const std::vector<FrictionForJoint>& frictions,
       nameless));
 }
 
-/// The servos of a joint whose damping follows its inertia, which their second bias above 0 says.
-std::vector<std::string> ServosByDampingRatio(mjSpec& spec, const std::string& joint) {
-  std::vector<std::string> servos;
-  for (mjsElement* element : SpecElements(spec, mjOBJ_ACTUATOR)) {
-    const mjsActuator* actuator = mjs_asActuator(element);
-    const bool follows = actuator->biastype == mjBIAS_AFFINE && actuator->biasprm[2] > 0;
-    if (!follows || mjs_getString(actuator->target) != joint) continue;
-    servos.push_back(mjs_getString(mjs_getName(element)));
-  }
-  return servos;
-}
-
 /// Armatures, integrator and step as the options have them.
 void Change(mjSpec& spec, const AttachOptions& options, const Place& place,
             std::vector<std::string>& notices) {
@@ -76,15 +64,18 @@ void Change(mjSpec& spec, const AttachOptions& options, const Place& place,
       double& armature = FindJoint(spec, joint, place)->armature;
       if (armature == value) continue;
       armature = value;
-      for (std::string& servo : ServosByDampingRatio(spec, joint))
-        servos.push_back(std::move(servo));
+      // a second bias above 0 is MuJoCo's sign of a damping ratio
+      for (mjsElement* element : SpecElements(spec, mjOBJ_ACTUATOR)) {
+        const mjsActuator& servo = *mjs_asActuator(element);
+        const bool follows = servo.biastype == mjBIAS_AFFINE && servo.biasprm[2] > 0;
+        if (!follows || mjs_getString(servo.target) != joint) continue;
+        servos.push_back(mjs_getString(mjs_getName(element)));
+      }
     }
   }
   if (!servos.empty()) {
-    notices.push_back(
-        fmt::format("{}: MuJoCo works out their kv from dampratio, and --armature changes it; give "
-                    "kv to keep it",
-                    fmt::join(servos, ", ")));
+    notices.push_back(fmt::format("{}: --armature changes their kv, which follows from dampratio",
+                                  fmt::join(servos, ", ")));
   }
   if (options.integrator) spec.option.integrator = *options.integrator;
   if (options.timestep) spec.option.timestep = *options.timestep;

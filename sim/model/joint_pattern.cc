@@ -27,20 +27,11 @@ std::regex ReadPattern(const std::string& pattern, const Place& place) {
   }
 }
 
-/// Refuses a model of which no joint has a name.
-void RefuseNameless(mjSpec& spec, const Place& place) {
-  const int nameless = NamelessJoints(spec);
-  if (nameless == 0 || !SpecNames(spec, mjOBJ_JOINT).empty()) return;
-  Refuse(place, "none of its {} hinges and slides has a name; give name=\"...\" to each <joint>",
-         nameless);
-}
-
 }  // namespace
 
 mjsJoint* FindJoint(mjSpec& spec, const std::string& joint, const Place& place) {
   mjsElement* found = mjs_findElement(&spec, mjOBJ_JOINT, joint.c_str());
   if (found) return mjs_asJoint(found);
-  RefuseNameless(spec, place);
   Refuse(place, "there is no joint '{}'{}", Excerpt(joint),
          Suggestion(joint, SpecNames(spec, mjOBJ_JOINT)));
 }
@@ -62,9 +53,10 @@ std::vector<std::string> MatchJoints(mjSpec& spec, const std::string& pattern, c
     if (!name.empty() && std::regex_match(name, expression)) joints.push_back(std::move(name));
   }
   if (!joints.empty()) return joints;
-  RefuseNameless(spec, place);
+  const std::vector<std::string> names = SpecNames(spec, mjOBJ_JOINT);
+  if (names.empty()) Refuse(place, "none of its {} joints has a name", NamelessJoints(spec));
   Refuse(place, "no hinge or slide joint matches the pattern '{}'; there are {}", Excerpt(pattern),
-         ExcerptOfList(SpecNames(spec, mjOBJ_JOINT)));
+         ExcerptOfList(names));
 }
 
 int NamelessJoints(mjSpec& spec) {

@@ -13,16 +13,15 @@ namespace warmjoint::inline sim {
 
 /// Refuses, from `place` and with one remedy for all, joints whose inertia cannot carry their
 /// friction at the model's step: the armature to set on each of them (`attach --armature`), and the
-/// step that would do for all (`--timestep`). Both are found by asking the plugin's own check and
-/// are rounded to two digits to the safe side, so that either is accepted.
+/// step that would do for all (`--timestep`). Both are rounded to two digits to the safe side, so that
+/// either is accepted.
 /// m: the model without the friction. An armature a adds exactly a to the effective inertia of its
 /// own joint at the reference pose, and lowers that of no other.
 void RefuseLightJoints(const mjModel* m, const std::vector<FrictionForJoint>& frictions,
                        const Place& place);
 
-/// What a user should know of how joints hold, one sentence each: the joint that gives way most before
-/// it slides, with the armatures that bring all to 5 mrad (0.5 mm), and drives beside which friction
-/// may not let a joint rest (CheckDrive). m: as above.
+/// How joints hold, one sentence each: which gives way most before it slides, with the armatures that
+/// bring all to 5 mrad (0.5 mm), and drives beside which a joint may not rest (CheckDrive). m: as above.
 std::vector<std::string> NoticesOfHolding(const mjModel* m,
                                           const std::vector<FrictionForJoint>& frictions);
 

@@ -39,21 +39,14 @@ bool IsUrdf(const std::string& text) {
 
 /// Refuses what xacro has to write out first; its own output may still declare its namespace.
 void RefuseXacro(const std::string& text, const std::filesystem::path& path) {
-  const auto refuse = [&](const XmlTag& tag, std::string_view what) {
-    Refuse({path.string(), tag.line},
-           "<{}> holds {}, which xacro must write out first: xacro {} > robot.urdf", tag.name, what,
-           path.string());
-  };
-  XmlTagReader reader(text);
   bool declared = false;
+  XmlTagReader reader(text);
   while (const auto tag = reader.Next()) {
     declared = declared || tag->Attribute("xmlns:xacro");
-    if (tag->name.starts_with("xacro:")) refuse(*tag, "a macro");
-    for (const char* expression : {"${", "$("}) {
-      if (declared && tag->attributes.find(expression) != std::string_view::npos) {
-        refuse(*tag, expression);
-      }
-    }
+    const bool holds = std::regex_search(std::string(tag->attributes), std::regex("[$][{(]"));
+    if (!tag->name.starts_with("xacro:") && !(declared && holds)) continue;
+    Refuse({path.string(), tag->line}, "<{}> is written in xacro; run: xacro {} > robot.urdf",
+           tag->name, path.string());
   }
 }
 
@@ -151,9 +144,9 @@ ModelPtr CompileModel(mjSpec& spec, const Place& place) {
   const std::string message = Flatten(mjs_getError(&spec));
   const std::string refusal = PluginRefusal(message);
   if (!refusal.empty()) Refuse(place, "{}", refusal);
-  const bool inertial = message.find("inertia must") != std::string::npos;
+  const bool inertia = message.find("inertia must") != std::string::npos;
   Refuse(place, "MuJoCo cannot compile it: {}{}", message,
-         inertial
+         inertia
              ? "; <compiler balanceinertia=\"true\" boundmass=\"0.01\" boundinertia=\"0.0001\"/> "
                "in <mujoco>, which a URDF may hold in <robot>, makes inertias valid"
              : "");

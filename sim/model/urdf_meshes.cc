@@ -73,9 +73,7 @@ class MeshSorter {
         packages_lacking_.insert(package);
         return LeaveOut(element, name, lost_);
       }
-      const fs::path target = known->second / file.substr(std::min(end + 1, file.size()));
-      RefuseLacking(target, package);
-      PointTo(*mesh, target);
+      PointTo(*mesh, known->second / file.substr(std::min(end + 1, file.size())), package);
     }
     // file:///FOLDER/FILE is the path that begins with the last of its slashes
     if (file.starts_with(kFile)) {
@@ -109,16 +107,15 @@ class MeshSorter {
   }
 
  private:
-  /// A file that its package lacks is a folder given wrong.
-  void RefuseLacking(const fs::path& file, const std::string& package) {
+  /// package: that the file was looked for in; empty where in none.
+  void PointTo(mjsMesh& mesh, const fs::path& file, const std::string& package = "") {
     const fs::path absolute = fs::weakly_canonical(fs::absolute(file));
-    if (!MujocoReads(absolute) || fs::exists(absolute)) return;
-    Refuse(place_, "package {} is {}, which has no file {}; give its folder by --package {}=FOLDER",
-           package, packages_.at(package).string(), absolute.string(), package);
-  }
-
-  void PointTo(mjsMesh& mesh, const fs::path& file) {
-    const fs::path absolute = fs::weakly_canonical(fs::absolute(file));
+    // a file that its package lacks is a folder given wrong
+    if (!package.empty() && MujocoReads(absolute) && !fs::exists(absolute)) {
+      Refuse(place_,
+             "package {} is {}, which has no file {}; give its folder by --package {}=FOLDER",
+             package, packages_.at(package).string(), absolute.string(), package);
+    }
     const fs::path relative = absolute.lexically_relative(fs::weakly_canonical(folder_));
     mjs_setString(mesh.file, relative.empty() ? absolute.c_str() : relative.c_str());
   }

@@ -18,24 +18,17 @@
 namespace warmjoint::inline sim {
 namespace {
 
-/// What else acts on each kinematic tree.
-struct Beside {
-  OtherInstances others;
-  std::vector<double> drives;  // StiffestDrives
-};
-
+/// others: the other instances on each kinematic tree.
 BoundJoint BindJoint(const mjModel* m, int joint, const PreparedJoint& prepared,
-                     const Beside& beside) {
+                     const OtherInstances& others) {
   // where the engine keeps its numbers, and with whom it shares its tree
   BoundJoint bound{.friction = prepared.friction};
   bound.joint = joint;
   bound.dof = m->jnt_dofadr[joint];
   bound.position = m->jnt_qposadr[joint];
-  const int tree = m->dof_treeid[bound.dof];
-  if (const auto found = beside.others.find(tree); found != beside.others.end()) {
+  if (const auto found = others.find(m->dof_treeid[bound.dof]); found != others.end()) {
     bound.instances += static_cast<int>(found->second.size());
   }
-  bound.drive = beside.drives[tree];
   bound.initial_energy = prepared.initial_energy;
   bound.needs_load = NeedsLoad(prepared.description);
   bound.needs_ambient = prepared.description.level_per_temperature != 0;
@@ -108,6 +101,7 @@ BoundJoints::BoundJoints(const mjModel* m, int instance, int states)
   } else {
     BindActuators(m);
   }
+  ReadDrives(m);
   BindSensors(m);
   BindNumbers(m);
 }
@@ -116,14 +110,14 @@ void BoundJoints::BindActuators(const mjModel* m) {
   // the instance's joints in the order of its actuators
   const auto prepared = PrepareInstance(m, instance_, {InstanceName(m, instance_)});
   FrictionOfActuators frictions(m, instance_, *prepared);
-  const Beside beside{FindOthers(m, instance_), StiffestDrives(m, m->opt.integrator)};
+  const OtherInstances others = FindOthers(m, instance_);
   for (int i = 0; i < m->nactuator; ++i) {
     if (m->actuator_plugin[i] != instance_) continue;
     const PreparedJoint& friction = frictions.Of(i);
 
     // refuse what the engine would accept and friction cannot
     CheckActuator(m, i, friction.friction);
-    BoundJoint bound = BindJoint(m, m->actuator_trnid[2 * i], friction, beside);
+    BoundJoint bound = BindJoint(m, m->actuator_trnid[2 * i], friction, others);
     CheckJoint(m, bound.joint, bound.friction, BristlesOf(bound.instances), {ActuatorName(m, i)});
     if (bound.needs_ambient && m->actuator_ctrlnum[i] == 0) {
       Refuse({ActuatorName(m, i)}, "has no control, which would be the ambient temperature's rise");
@@ -143,12 +137,12 @@ void BoundJoints::BindPassive(const mjModel* m, int states) {
   // in the order of joints, each with its states behind those of the reports
   const std::string name = InstanceName(m, instance_);
   const auto prepared = PrepareInstance(m, instance_, {name});
-  const Beside beside{FindOthers(m, instance_), StiffestDrives(m, m->opt.integrator)};
+  const OtherInstances others = FindOthers(m, instance_);
   int state = m->plugin_stateadr[instance_] + states;
   for (const auto& [joint, friction] : FindPassive(m, instance_, *prepared)) {
     const Place place{fmt::format("{}: {}", name, JointName(m, joint))};
     RefuseSecond(m, instance_, joint);
-    BoundJoint bound = BindJoint(m, joint, *friction, beside);
+    BoundJoint bound = BindJoint(m, joint, *friction, others);
     CheckJoint(m, joint, bound.friction, BristlesOf(bound.instances), place);
     bound.state = state;
     state += static_cast<int>(bound.friction.state().size());

@@ -9,7 +9,6 @@
 
 #include "models/friction/joint_friction.h"
 #include "sim/plugin/attribute_watch.h"
-#include "sim/plugin/bristle_shape.h"
 #include "sim/plugin/prepared_joints.h"
 
 namespace warmjoint::inline sim {
@@ -29,8 +28,6 @@ struct BoundJoint {
   bool needs_ambient = false;
   JointFriction friction;                  // without a timestep
   std::array<double, 2> initial_energy{};  // {E1, E2} at a reset, N.m or N
-
-  BristleShape bristles() const { return BristlesOf(instances, drive); }
 };
 
 /// An array of the model that holds a number of each joint: <numeric name="INSTANCE/NUMBER">.

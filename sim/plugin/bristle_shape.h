@@ -30,21 +30,18 @@ inline BristleShape BristlesOf(int instances) {
   return {1.2 / instances, 1.2 / instances};
 }
 
-/// A step carries A + 2 B, eigenvalues counted, and K + 2 C of drives below 4 together. Why 3.9: held
-/// modes then keep |1 + z| > 0.1 / 2 from a root z = -1, and frictions that share a tree have 3.6.
+/// Of A + 2 B, times those eigenvalues, and K + 2 C of drives the step carries less than 4.
 inline constexpr double kCarried = 3.9;
 
-/// K + 2 C of drives (StiffestDrives) beside which bristles still hold; frictionloss lets a joint rest
-/// up to there, too.
+/// K + 2 C (StiffestDrives) beside which bristles still hold; frictionloss lets joints rest to there.
 inline constexpr double kStiffestDrive = 3;
 
-/// Of so many instances beside drives that add K + 2 C = `drive`: as above where the step carries both,
-/// else as stiff as it carries with A = 2 B, which rests within a few hundred steps up to kStiffestDrive.
+/// Beside drives of that K + 2 C: as above where the step carries both, else softer, with A = 2 B at last.
 inline BristleShape BristlesOf(int instances, double drive) {
   const BristleShape own = BristlesOf(instances);
   const double left = kCarried - std::min(drive, kStiffestDrive);
   const double carried = left / std::min<double>(instances, kLargestCoupling);
-  if (drive == 0 || own.stiffness + 2 * own.damping <= carried) return own;
+  if (drive <= 0 || own.stiffness + 2 * own.damping <= carried) return own;
   const double stiffness = std::min(own.stiffness, carried / 2);
   return {stiffness, (carried - stiffness) / 2};
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/plugin/bristle_shape.h"
+
 namespace warmjoint::inline sim {
 namespace {
 
@@ -34,11 +36,13 @@ BristleTree::BristleTree(const mjModel* m, int tree, const std::vector<CoupledJo
   search_ = SearchTree(inertia_.size());
 }
 
-void BristleTree::Shape(double h, double slope, const BristleShape& shape) {
-  // the slope damps already
+void BristleTree::Shape(double h, double slope, double damping, double drive) {
+  // the slope damps already, and beside drives the step must carry it, too
   slope = std::min(slope, kMostSlope);
+  const double beside = drive == 0 ? 0 : drive + 2 * slope;
+  const BristleShape shape = BristlesOf(joints_.front().instances, beside);
   impulse_ = shape.stiffness * (1 - slope) / h;
-  damping_ = std::max(0.0, shape.damping - slope) / h;
+  damping_ = std::max(0.0, damping * shape.damping - slope) / h;
 }
 
 void BristleTree::Step(const mjData* d, const LevelSource& levels, Rows rows, size_t first) {

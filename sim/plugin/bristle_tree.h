@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "sim/plugin/asked_levels.h"
-#include "sim/plugin/bristle_shape.h"
 #include "sim/plugin/few_held.h"
 #include "sim/plugin/inertia_block.h"
 #include "sim/plugin/row_pairs.h"
@@ -18,6 +17,7 @@ namespace warmjoint::inline sim {
 struct CoupledJoint {
   int dof = 0;              // of the model
   double inertia = 1;       // at the reference pose, kg.m^2 or kg
+  int instances = 1;        // on its kinematic tree, of the same kind as this one
   bool asks_level = false;  // for each side that a step needs, since it costs much
 };
 
@@ -33,8 +33,9 @@ class BristleTree {
   int first_dof() const { return inertia_.first(); }
   const std::vector<CoupledJoint>& joints() const { return joints_; }
 
-  /// Sets what follows from the step h, s. slope: of friction over speed, at most, in units of M/h.
-  void Shape(double h, double slope, const BristleShape& shape);
+  /// Sets what follows from the step h, s. slope: of friction over speed, at most, in units of M/h;
+  /// damping: of the bristles, beside that of BristlesOf; drive: the tree's StiffestDrives.
+  void Shape(double h, double slope, double damping, double drive);
 
   /// Finds friction, sliding and the next load from v, load and levels. first: row of its first.
   void Step(const mjData* d, const LevelSource& levels, Rows rows, size_t first);

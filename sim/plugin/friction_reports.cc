@@ -19,7 +19,7 @@ void WarnOfNumbers(const mjModel* m, mjData* d, int instance,
     try {
       const Place place{JointName(m, joint.joint)};
       CheckJoint(m, joint.joint, joint.friction, BristlesOf(joint.instances), place);
-      CheckDrive(m, joint.joint, joint.friction, joint.instances, joint.drive, place);
+      CheckDrive(m, joint.joint, joint.drive, place);
     } catch (const BadInput& refusal) {
       reported = 1;
       mju_warning("%s: at %g s the model is beyond what its step bears: %s", kFrictionPlugin,

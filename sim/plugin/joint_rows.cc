@@ -17,7 +17,8 @@ JointRows::JointRows(const mjModel* m, const std::vector<BoundJoint>& joints) {
     // before the compiler knows the inertia, nothing is held
     is_coupled[i] = !joint.friction.own_bristle() && inertia > 0;
     if (!is_coupled[i]) continue;
-    coupled.push_back({joint.dof, inertia, !joint.friction.level_follows_heat_alone()});
+    coupled.push_back(
+        {joint.dof, inertia, joint.instances, !joint.friction.level_follows_heat_alone()});
   }
   bristles_ = CoupledBristles(m, coupled);
 
@@ -67,12 +68,9 @@ void JointRows::ReadNumbers(const mjModel* m, const std::vector<BoundJoint>& joi
   const auto of = [&](int dof) -> const BoundJoint& {
     return joints[joint_at_[bristles_.RowOf(dof)]];
   };
-  const auto shape = [&](int dof) {
-    const auto [stiffness, of_bristles] = of(dof).bristles();
-    return BristleShape{stiffness, damping * of_bristles};
-  };
   bristles_.SetTimestep(
-      m->opt.timestep, [&](int dof) { return of(dof).friction.SteepestSlope(); }, shape);
+      m->opt.timestep, damping, [&](int dof) { return of(dof).friction.SteepestSlope(); },
+      [&](int dof) { return of(dof).drive; });
 }
 
 void JointRows::Step(const mjModel* m, const mjtNum* load) {
