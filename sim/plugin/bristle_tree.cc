@@ -57,7 +57,7 @@ void BristleTree::Step(const mjData* d, const LevelSource& levels, Rows rows, si
   }
   Multiply(d, rows);
   if (complete_ && Hold(rows)) return;
-  search_.Find(inertia_, d, rows, levels_, rows_of_joints_, force_.data(), {impulse_, damping_});
+  search_.Find(inertia_, d, rows, levels_, rows_of_joints_, force_.data(), damping_);
 }
 
 /// Moves the bristles, and counts the joints that are so slow that theirs could stop them. That guess

@@ -97,7 +97,8 @@ void CheckJoint(const mjModel* m, int joint, const JointFriction& friction,
 }
 
 void CheckDrive(const mjModel* m, int joint, double drive, const Place& place) {
-  if (drive <= kStiffestDrive) return;
+  // beside stiffer ones bristles no longer soften
+  if (drive + kCarried - kStiffestDrive < 4) return;
   const double h = m->opt.timestep;
   const int tree = m->dof_treeid[m->jnt_dofadr[joint]];
   const bool implicit_helps = StiffestDrives(m, mjINT_IMPLICITFAST)[tree] <= kStiffestDrive;
