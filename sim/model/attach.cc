@@ -2,6 +2,7 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <map>
 
 #include "models/foundation/atomic_file.h"
@@ -42,20 +43,39 @@ std::vector<FrictionForJoint> Expand(mjSpec& spec, const std::vector<FrictionFor
 }
 
 /// Tells of joints that a pattern passed over, since they have no name.
-void NoteNameless(mjSpec& spec, size_t named, size_t given, std::vector<std::string>& notices) {
+void NoteNameless(mjSpec& spec, const std::vector<FrictionForJoint>& frictions,
+                  std::vector<std::string>& notices) {
   const int nameless = NamelessJoints(spec);
-  if (nameless == 0 || named == given) return;
+  const auto is_pattern = [&](const FrictionForJoint& friction) {
+    return !mjs_findElement(&spec, mjOBJ_JOINT, friction.joint.c_str());
+  };
+  if (nameless == 0 || std::none_of(frictions.begin(), frictions.end(), is_pattern)) return;
   notices.push_back(fmt::format(
       "{} of the model's hinges and slides have no name and so no friction; name them to give it",
       nameless));
 }
 
 /// Armatures, integrator and step as the options have them.
-void Change(mjSpec& spec, const AttachOptions& options, const Place& place) {
+void Change(mjSpec& spec, const AttachOptions& options, const Place& place,
+            std::vector<std::string>& notices) {
+  std::vector<std::string> servos;
   for (const auto& [pattern, value] : options.armatures) {
     for (const std::string& joint : MatchJoints(spec, pattern, place)) {
-      FindJoint(spec, joint, place)->armature = value;
+      double& armature = FindJoint(spec, joint, place)->armature;
+      if (armature == value) continue;
+      armature = value;
+      // a second bias above 0 is MuJoCo's sign of a damping ratio
+      for (mjsElement* element : SpecElements(spec, mjOBJ_ACTUATOR)) {
+        const mjsActuator& servo = *mjs_asActuator(element);
+        const bool follows = servo.biastype == mjBIAS_AFFINE && servo.biasprm[2] > 0;
+        if (!follows || mjs_getString(servo.target) != joint) continue;
+        servos.push_back(mjs_getString(mjs_getName(element)));
+      }
     }
+  }
+  if (!servos.empty()) {
+    notices.push_back(fmt::format("{}: --armature changes their kv, which follows from dampratio",
+                                  fmt::join(servos, ", ")));
   }
   if (options.integrator) spec.option.integrator = *options.integrator;
   if (options.timestep) spec.option.timestep = *options.timestep;
@@ -129,10 +149,10 @@ Attached AttachFriction(const fs::path& model, const std::vector<FrictionForJoin
   ParsedModel parsed = ParseModel(model, options.packages);
   mjSpec& spec = *parsed.spec;
   const std::vector<FrictionForJoint> each = Expand(spec, frictions, place);
-  NoteNameless(spec, frictions.size(), each.size(), parsed.notices);
+  NoteNameless(spec, frictions, parsed.notices);
 
   // what changes of it besides friction
-  Change(spec, options, place);
+  Change(spec, options, place, parsed.notices);
   for (std::string& notice : MakeRoom(spec, each, options.form, place)) {
     parsed.notices.push_back(std::move(notice));
   }
@@ -142,6 +162,9 @@ Attached AttachFriction(const fs::path& model, const std::vector<FrictionForJoin
   const ModelPtr before = CompileModel(spec, place);
   RefuseSecond(before.get(), each, place);
   RefuseLightJoints(before.get(), each, place);
+  for (std::string& notice : NoticesOfHolding(before.get(), each)) {
+    parsed.notices.push_back(std::move(notice));
+  }
   AddFriction(spec, each, place, options.form);
   CompileModel(spec, place);
 

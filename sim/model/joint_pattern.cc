@@ -53,8 +53,10 @@ std::vector<std::string> MatchJoints(mjSpec& spec, const std::string& pattern, c
     if (!name.empty() && std::regex_match(name, expression)) joints.push_back(std::move(name));
   }
   if (!joints.empty()) return joints;
+  const std::vector<std::string> names = SpecNames(spec, mjOBJ_JOINT);
+  if (names.empty()) Refuse(place, "none of its {} joints has a name", NamelessJoints(spec));
   Refuse(place, "no hinge or slide joint matches the pattern '{}'; there are {}", Excerpt(pattern),
-         ExcerptOfList(SpecNames(spec, mjOBJ_JOINT)));
+         ExcerptOfList(names));
 }
 
 int NamelessJoints(mjSpec& spec) {

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "models/foundation/atomic_file.h"
+#include "models/foundation/xml_tags.h"
 #include "sim/model/check_repeats.h"
 #include "sim/model/plugin_libraries.h"
 #include "sim/model/spec_elements.h"
@@ -31,7 +32,23 @@ int LineOf(const std::string& message) {
 }
 
 /// The root element of a URDF is <robot>, of an MJCF <mujoco>; the former may hold the latter.
-bool IsUrdf(const std::string& text) { return text.find("<robot") < text.find("<mujoco"); }
+bool IsUrdf(const std::string& text) {
+  const auto root = XmlTagReader(text).Next();
+  return root && root->name == "robot";
+}
+
+/// Refuses what xacro has to write out first; its own output may still declare its namespace.
+void RefuseXacro(const std::string& text, const std::filesystem::path& path) {
+  bool declared = false;
+  XmlTagReader reader(text);
+  while (const auto tag = reader.Next()) {
+    declared = declared || tag->Attribute("xmlns:xacro");
+    const bool holds = std::regex_search(std::string(tag->attributes), std::regex("[$][{(]"));
+    if (!tag->name.starts_with("xacro:") && !(declared && holds)) continue;
+    Refuse({path.string(), tag->line}, "<{}> is written in xacro; run: xacro {} > robot.urdf",
+           tag->name, path.string());
+  }
+}
 
 /// Mass of a body and of all that is fixed to it, kg.
 double FixedMass(mjsBody* body) {
@@ -45,13 +62,16 @@ double FixedMass(mjsBody* body) {
 }
 
 void CheckInertials(mjSpec& spec, const Place& place) {
+  // a smallest mass and inertia of all bodies, as <compiler> may ask for
+  if (spec.compiler.boundmass > 0 && spec.compiler.boundinertia > 0) return;
   // a body with a joint, and all that is fixed to it, must have a mass
   for (mjsElement* element : SpecElements(spec, mjOBJ_BODY)) {
     mjsBody* body = mjs_asBody(element);
     if (!mjs_firstChild(body, mjOBJ_JOINT, 0) || FixedMass(body) > 0) continue;
     Refuse(place,
            "link '{}' moves but neither it nor a link fixed to it has a mass; give it an "
-           "<inertial> with mass and inertia",
+           "<inertial> with mass and inertia, or all links a least one by "
+           "<mujoco><compiler boundmass=\"0.01\" boundinertia=\"0.0001\"/></mujoco> in <robot>",
            mjs_getString(mjs_getName(element)));
   }
 }
@@ -99,6 +119,7 @@ ParsedModel ParseModel(const std::filesystem::path& path, const PackageFolders& 
   const std::string text = ReadWholeFile(path);
   CheckRepeats(text, path);
   const bool urdf = IsUrdf(text);
+  if (urdf) RefuseXacro(text, path);
   ModelFolder() = std::filesystem::absolute(path).parent_path();
 
   // plugins of MuJoCo's own are loaded where the model asks for one
@@ -123,7 +144,12 @@ ModelPtr CompileModel(mjSpec& spec, const Place& place) {
   const std::string message = Flatten(mjs_getError(&spec));
   const std::string refusal = PluginRefusal(message);
   if (!refusal.empty()) Refuse(place, "{}", refusal);
-  Refuse(place, "MuJoCo cannot compile it: {}", message);
+  const bool inertia = message.find("inertia must") != std::string::npos;
+  Refuse(place, "MuJoCo cannot compile it: {}{}", message,
+         inertia
+             ? "; <compiler balanceinertia=\"true\" boundmass=\"0.01\" boundinertia=\"0.0001\"/> "
+               "in <mujoco>, which a URDF may hold in <robot>, makes inertias valid"
+             : "");
 }
 
 LoadedModel LoadModel(const std::filesystem::path& path) {

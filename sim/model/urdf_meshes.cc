@@ -7,6 +7,7 @@
 #include <set>
 
 #include "models/foundation/excerpt.h"
+#include "models/foundation/xml_tags.h"
 #include "sim/model/spec_elements.h"
 
 namespace warmjoint::inline sim {
@@ -15,6 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kPackage = "package://";
+constexpr std::string_view kFile = "file:";
 
 std::string NameOf(mjsElement* element) { return mjs_getString(mjs_getName(element)); }
 
@@ -73,6 +75,11 @@ class MeshSorter {
       }
       PointTo(*mesh, known->second / file.substr(std::min(end + 1, file.size())), package);
     }
+    // file:///FOLDER/FILE is the path that begins with the last of its slashes
+    if (file.starts_with(kFile)) {
+      const size_t begin = file.find_first_not_of('/', kFile.size());
+      PointTo(*mesh, "/" + file.substr(std::min(begin, file.size())));
+    }
 
     // what MuJoCo cannot read is left out, and what is only seen where its file is lacking
     if (!MujocoReads(file)) return LeaveOut(element, name, foreign_);
@@ -100,10 +107,11 @@ class MeshSorter {
   }
 
  private:
-  void PointTo(mjsMesh& mesh, const fs::path& file, const std::string& package) {
+  /// package: that the file was looked for in; empty where in none.
+  void PointTo(mjsMesh& mesh, const fs::path& file, const std::string& package = "") {
     const fs::path absolute = fs::weakly_canonical(fs::absolute(file));
     // a file that its package lacks is a folder given wrong
-    if (MujocoReads(absolute) && !fs::exists(absolute)) {
+    if (!package.empty() && MujocoReads(absolute) && !fs::exists(absolute)) {
       Refuse(place_,
              "package {} is {}, which has no file {}; give its folder by --package {}=FOLDER",
              package, packages_.at(package).string(), absolute.string(), package);
@@ -130,19 +138,25 @@ class MeshSorter {
 
 std::string KeepVisuals(std::string urdf) {
   constexpr std::string_view setting = " discardvisual=\"false\"";
-  constexpr size_t none = std::string::npos;
-  if (urdf.find("discardvisual") != none) return urdf;
-
-  // into the settings that the URDF has for MuJoCo, or into new ones at its end
-  const size_t extension = urdf.find("<mujoco");
-  const size_t compiler = extension == none ? none : urdf.find("<compiler", extension);
-  if (compiler != none)
-    return urdf.insert(compiler + std::string_view("<compiler").size(), setting);
   const std::string element = fmt::format("<compiler{}/>", setting);
-  const size_t start = extension == none ? none : urdf.find('>', extension);
-  if (start != none && urdf[start - 1] != '/') return urdf.insert(start + 1, element);
-  const size_t end = urdf.rfind("</robot");
-  return end == none ? urdf : urdf.insert(end, fmt::format("<mujoco>{}</mujoco>", element));
+  size_t mujoco = 0;  // where the content of <mujoco> begins, if there is any
+  XmlTagReader reader(urdf);
+  while (const auto tag = reader.Next()) {
+    // into the settings that the URDF has for MuJoCo, or into new ones at its end
+    const auto end = static_cast<size_t>(tag->attributes.data() - urdf.data());
+    const bool closes = tag->kind == XmlTag::Kind::closes;
+    if (tag->name == "compiler") {
+      return tag->Attribute("discardvisual") ? urdf : urdf.insert(end, setting);
+    }
+    if (tag->name == "mujoco" && tag->kind == XmlTag::Kind::opens) {
+      mujoco = end + tag->attributes.size() + 1;
+    }
+    if (tag->name != "robot" || !closes) continue;
+    if (mujoco != 0) return urdf.insert(mujoco, element);
+    const size_t start = end - std::string_view("</robot").size();
+    return urdf.insert(start, fmt::format("<mujoco>{}</mujoco>", element));
+  }
+  return urdf;
 }
 
 std::vector<std::string> ResolveMeshes(mjSpec& spec, const PackageFolders& packages,

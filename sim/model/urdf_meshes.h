@@ -19,7 +19,8 @@ using PackageFolders = std::map<std::string, std::filesystem::path>;
 /// what to do with that (`discardvisual`); by default MuJoCo leaves it out of a URDF.
 std::string KeepVisuals(std::string urdf);
 
-/// Points the meshes of a URDF that was read to their files, seen from the URDF's folder. Left out,
+/// Points the meshes of a URDF that was read to their files, named by a path, by `file://` or by
+/// `package://`, seen from the URDF's folder. Left out,
 /// with their shapes, are those of packages that `packages` does not hold, those whose format
 /// MuJoCo cannot read (it reads stl, obj and msh), and those that are only to be seen and have no
 /// file. Returns a sentence for each of these three. Throws BadInput from `place` for a file that

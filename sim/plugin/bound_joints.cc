@@ -13,6 +13,7 @@
 #include "sim/plugin/joint_names.h"
 #include "sim/plugin/plugin_instances.h"
 #include "sim/plugin/prepared_joints.h"
+#include "sim/plugin/stiff_drives.h"
 
 namespace warmjoint::inline sim {
 namespace {
@@ -100,6 +101,7 @@ BoundJoints::BoundJoints(const mjModel* m, int instance, int states)
   } else {
     BindActuators(m);
   }
+  ReadDrives(m);
   BindSensors(m);
   BindNumbers(m);
 }
@@ -146,6 +148,11 @@ void BoundJoints::BindPassive(const mjModel* m, int states) {
     state += static_cast<int>(bound.friction.state().size());
     joints_.push_back(std::move(bound));
   }
+}
+
+void BoundJoints::ReadDrives(const mjModel* m) {
+  const std::vector<double> drives = StiffestDrives(m, m->opt.integrator);
+  for (BoundJoint& joint : joints_) joint.drive = drives[m->dof_treeid[joint.dof]];
 }
 
 void BoundJoints::BindSensors(const mjModel* m) {

@@ -23,6 +23,7 @@ struct BoundJoint {
   int control = -1;   // in ctrl; -1 where it has none
   int output = -1;    // in actuator_force; -1 in the passive form
   int instances = 1;  // on its kinematic tree
+  double drive = 0;   // the tree's StiffestDrives
   bool needs_load = false;
   bool needs_ambient = false;
   JointFriction friction;                  // without a timestep
@@ -62,6 +63,9 @@ class BoundJoints {
   const std::vector<BoundJoint>& joints() const { return joints_; }
   /// The model's sensors that read the instance.
   const std::vector<int>& sensors() const { return sensors_; }
+
+  /// Sets what the model's drives add to its step, which its timestep and integrator change.
+  void ReadDrives(const mjModel* m);
 
   /// Sets the joints' numbers to those of the model's arrays; whether any is new. A number out of
   /// its bounds, or one that a joint's friction does not have, leaves that as it is.

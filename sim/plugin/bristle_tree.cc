@@ -36,10 +36,11 @@ BristleTree::BristleTree(const mjModel* m, int tree, const std::vector<CoupledJo
   search_ = SearchTree(inertia_.size());
 }
 
-void BristleTree::Shape(double h, double slope, double damping) {
-  // the slope damps already
+void BristleTree::Shape(double h, double slope, double damping, double drive) {
+  // the slope damps already, and beside drives the step must carry it, too
   slope = std::min(slope, kMostSlope);
-  const BristleShape shape = BristlesOf(joints_.front().instances);
+  const double beside = drive == 0 ? 0 : drive + 2 * slope;
+  const BristleShape shape = BristlesOf(joints_.front().instances, beside);
   impulse_ = shape.stiffness * (1 - slope) / h;
   damping_ = std::max(0.0, damping * shape.damping - slope) / h;
 }
@@ -56,7 +57,7 @@ void BristleTree::Step(const mjData* d, const LevelSource& levels, Rows rows, si
   }
   Multiply(d, rows);
   if (complete_ && Hold(rows)) return;
-  search_.Find(inertia_, d, rows, levels_, rows_of_joints_, force_.data(), {impulse_, damping_});
+  search_.Find(inertia_, d, rows, levels_, rows_of_joints_, force_.data(), damping_);
 }
 
 /// Moves the bristles, and counts the joints that are so slow that theirs could stop them. That guess

@@ -34,8 +34,8 @@ class BristleTree {
   const std::vector<CoupledJoint>& joints() const { return joints_; }
 
   /// Sets what follows from the step h, s. slope: of friction over speed, at most, in units of M/h;
-  /// damping: of the bristles, beside that of BristlesOf.
-  void Shape(double h, double slope, double damping);
+  /// damping: of the bristles, beside that of BristlesOf; drive: the tree's StiffestDrives.
+  void Shape(double h, double slope, double damping, double drive);
 
   /// Finds friction, sliding and the next load from v, load and levels. first: row of its first.
   void Step(const mjData* d, const LevelSource& levels, Rows rows, size_t first);

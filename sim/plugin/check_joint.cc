@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "models/friction/bristle.h"
+#include "sim/plugin/stiff_drives.h"
 
 namespace warmjoint::inline sim {
 namespace {
@@ -23,47 +24,40 @@ double RoundDown(double value) {
 
 /// An explicit slope of force over speed c is well damped up to c h = M / 2, also where coupled
 /// joints feel lighter than M, and diverges above 2 M.
-void CheckSlope(const JointFriction& friction, double inertia, double h, const Place& place) {
+Asked ForSlope(const JointFriction& friction, double inertia, double h) {
   const double slope = friction.SteepestSlope();
-  const double needed = 2 * slope * h;
-  if (needed <= inertia) return;
-  Refuse(place,
-         "friction rises by up to {:.4g} over speed on an effective inertia of {:.3g} at timestep "
-         "{}; the step would be "
-         "unstable: add an armature of {:.3g} or take a timestep of at most {:.3g} s",
-         slope, inertia, h, RoundUp(needed - inertia), RoundDown(inertia / (2 * slope)));
+  return {2 * slope * h, inertia / (2 * slope),
+          fmt::format("friction rises by up to {:.4g} over speed on an effective inertia of {:.3g} "
+                      "at timestep {}; the step would be unstable",
+                      slope, inertia, h)};
 }
 
 /// How far the bristle winds up before it slides: level h^2 / (A M).
-void CheckWindUp(const JointFriction& friction, const BristleShape& bristles, double inertia,
-                 double h, JointKind kind, const Place& place) {
+Asked ForWindUp(const JointFriction& friction, const BristleShape& bristles, double inertia,
+                double h, JointKind kind) {
   const double level = friction.HoldingLevel();
   const double allowed = kind == JointKind::rotary ? kLargestWindUp : kLargestLinearWindUp;
   const double needed = level * h * h / (bristles.stiffness * allowed);
-  if (needed <= inertia) return;
-  Refuse(place,
-         "friction holds up to {:.3g} on an effective inertia of {:.3g} at timestep {}; it would "
-         "give way by {:.3g} {} before it slides, at most {} are allowed: add an armature of "
-         "{:.3g} or take a timestep of at most {:.3g} s",
-         level, inertia, h, level * h * h / (bristles.stiffness * inertia), kPositionUnit.For(kind),
-         allowed, RoundUp(needed - inertia), RoundDown(h * std::sqrt(inertia / needed)));
+  return {
+      needed, h * std::sqrt(inertia / needed),
+      fmt::format("friction holds up to {:.3g} on an effective inertia of {:.3g} at timestep {}; "
+                  "it would give way by {:.3g} {} before it slides, at most {} are allowed",
+                  level, inertia, h, allowed * needed / inertia, kPositionUnit.For(kind), allowed)};
 }
 
 /// An explicit step carries a law's own bristle while (stiffness + 2 damping) in units of M/h^2 and
 /// M/h is at most that of MakeBristle.
-void CheckBristle(const Bristle& bristle, double inertia, double h, const Place& place) {
+Asked ForBristle(const Bristle& bristle, double inertia, double h) {
   constexpr double carried = kBristleStiffness + 2 * kBristleDamping;
-  const double needed = h * (bristle.stiffness * h + 2 * bristle.damping) / carried;
-  if (needed <= inertia) return;
   // largest step: stiffness h^2 + 2 damping h = carried M
   const double b = bristle.damping;
   const double longest =
       carried * inertia / (b + std::sqrt(b * b + carried * inertia * bristle.stiffness));
-  Refuse(place,
-         "bristle_stiffness is {} and bristle_damping {} on an effective inertia of {:.3g} at "
-         "timestep {}; the step would be unstable: add an armature of {:.3g}, take a timestep of "
-         "at most {:.3g} s, or soften the bristle",
-         bristle.stiffness, b, inertia, h, RoundUp(needed - inertia), RoundDown(longest));
+  return {
+      h * (bristle.stiffness * h + 2 * b) / carried, longest,
+      fmt::format("bristle_stiffness is {} and bristle_damping {} on an effective inertia of "
+                  "{:.3g} at timestep {}; the step would be unstable unless the bristle is softer",
+                  bristle.stiffness, b, inertia, h)};
 }
 
 }  // namespace
@@ -72,6 +66,16 @@ std::string JointName(const mjModel* m, int joint) {
   const char* name = mj_id2name(m, mjOBJ_JOINT, joint);
   if (name && name[0]) return fmt::format("joint '{}'", name);
   return fmt::format("joint {}", joint);
+}
+
+std::array<Asked, 2> AskedOf(const mjModel* m, int joint, const JointFriction& friction,
+                             const BristleShape& bristles) {
+  const double inertia = EffectiveInertia(m, m->jnt_dofadr[joint]), h = m->opt.timestep;
+  const bool slides = m->jnt_type[joint] == mjJNT_SLIDE;
+  const JointKind kind = slides ? JointKind::linear : JointKind::rotary;
+  return {ForSlope(friction, inertia, h), friction.own_bristle()
+                                              ? ForBristle(*friction.own_bristle(), inertia, h)
+                                              : ForWindUp(friction, bristles, inertia, h, kind)};
 }
 
 void CheckJoint(const mjModel* m, int joint, const JointFriction& friction,
@@ -85,13 +89,27 @@ void CheckJoint(const mjModel* m, int joint, const JointFriction& friction,
   // the compiler asks once before it knows the inertia, and again after
   const double inertia = EffectiveInertia(m, m->jnt_dofadr[joint]);
   if (inertia == 0) return;
-  const JointKind kind = type == mjJNT_SLIDE ? JointKind::linear : JointKind::rotary;
-  CheckSlope(friction, inertia, m->opt.timestep, place);
-  if (friction.own_bristle()) {
-    CheckBristle(*friction.own_bristle(), inertia, m->opt.timestep, place);
-  } else {
-    CheckWindUp(friction, bristles, inertia, m->opt.timestep, kind, place);
+  for (const Asked& asked : AskedOf(m, joint, friction, bristles)) {
+    if (asked.inertia <= inertia) continue;
+    Refuse(place, "{}: add an armature of {:.3g} or take a timestep of at most {:.3g} s", asked.why,
+           RoundUp(asked.inertia - inertia), RoundDown(asked.timestep));
   }
+}
+
+void CheckDrive(const mjModel* m, int joint, double drive, const Place& place) {
+  // beside stiffer ones bristles no longer soften
+  if (drive + kCarried - kStiffestDrive < 4) return;
+  const double h = m->opt.timestep;
+  const int tree = m->dof_treeid[m->jnt_dofadr[joint]];
+  const bool implicit_helps = StiffestDrives(m, mjINT_IMPLICITFAST)[tree] <= kStiffestDrive;
+  Refuse(
+      place,
+      "servos are too stiff for timestep {}: their h^2 kp + 2 h kv over the inertia is up to "
+      "{:.3g}, above {}, so that the joint may shake instead of resting; take {}a timestep of at "
+      "most {:.3g} s (attach --timestep) or more armature (--armature)",
+      h, drive, kStiffestDrive,
+      implicit_helps ? "the integrator implicitfast (attach --integrator implicitfast), " : "",
+      RoundDown(h * kStiffestDrive / drive));
 }
 
 }  // namespace warmjoint::inline sim

@@ -4,6 +4,7 @@
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include "models/foundation/bad_input.h"
@@ -35,10 +36,25 @@ inline double EffectiveInertia(const mjModel* m, const mjData* d, int dof) {
   return inverse > 0 ? 1 / inverse : 0;
 }
 
+/// What the step asks of a joint's inertia so that it carries the friction.
+struct Asked {
+  double inertia;   // at least, kg.m^2 or kg
+  double timestep;  // s, or else at most this step
+  std::string why;
+};
+
+/// For the slope over speed, and for the bristle.
+std::array<Asked, 2> AskedOf(const mjModel* m, int joint, const JointFriction& friction,
+                             const BristleShape& bristles);
+
 /// Throws BadInput, from `place` and with the remedy, unless the joint is a hinge or slide whose
 /// effective inertia at the reference pose lets the model's step carry the friction. bristles: those
-/// of a law that leaves them to the step.
+/// of a law that leaves them to the step, as they are without drives.
 void CheckJoint(const mjModel* m, int joint, const JointFriction& friction,
                 const BristleShape& bristles, const Place& place);
+
+/// Throws BadInput, from `place` and with the remedies, where the drives of a joint's tree
+/// (StiffestDrives) leave bristles nothing of what the step carries.
+void CheckDrive(const mjModel* m, int joint, double drive, const Place& place);
 
 }  // namespace warmjoint::inline sim

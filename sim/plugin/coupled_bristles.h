@@ -35,15 +35,15 @@ class CoupledBristles {
   size_t RowOf(int dof) const;
 
   /// Sets the step, s. damping: beside that of BristlesOf, for the integrator; slope(dof): of friction
-  /// over speed at most, N.m.s/rad or N.s/m.
-  template <typename Slope>
-  void SetTimestep(double h, double damping, const Slope& slope) {
+  /// over speed at most, N.m.s/rad or N.s/m; drive(dof): its tree's StiffestDrives.
+  template <typename Slope, typename Drive>
+  void SetTimestep(double h, double damping, const Slope& slope, const Drive& drive) {
     for (auto& [tree, first] : trees_) {
       double steepest = 0;
       for (const CoupledJoint& joint : tree.joints()) {
         steepest = std::max(steepest, slope(joint.dof) * h / joint.inertia);
       }
-      tree.Shape(h, steepest, damping);
+      tree.Shape(h, steepest, damping, drive(tree.joints().front().dof));
     }
   }
 

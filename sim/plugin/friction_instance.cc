@@ -37,6 +37,8 @@ void FrictionInstance::Bind(const mjModel* m) {
 /// Takes over what may be set between two steps.
 void FrictionInstance::TakeNumbers(const mjModel* m) {
   const bool same = timestep_ == m->opt.timestep && integrator_ == m->opt.integrator;
+  if (!same) [[unlikely]]
+    bound_.ReadDrives(m);
   if (bound_.ReadNumbers(m) || !same) [[unlikely]]
     ReadNumbers(m);
 }
@@ -68,7 +70,9 @@ void FrictionInstance::Rebind(const mjModel* m) {
   const size_t own = bound_.passive() ? rows_.next().size() : 0;
   mark_ = entries == kFrictionEntries + static_cast<int>(own) ? entries - 1 : -1;
   ReadNumbers(m);
-  checked_ = true;
+  // binding has checked all but the drives
+  checked_ = std::all_of(joints.begin(), joints.end(),
+                         [](const BoundJoint& joint) { return joint.drive == 0; });
   stepped_ = false;
 }
 

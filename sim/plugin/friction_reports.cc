@@ -17,11 +17,12 @@ void WarnOfNumbers(const mjModel* m, mjData* d, int instance,
   if (reported != 0) return;
   for (const BoundJoint& joint : joints) {
     try {
-      CheckJoint(m, joint.joint, joint.friction, BristlesOf(joint.instances),
-                 {JointName(m, joint.joint)});
+      const Place place{JointName(m, joint.joint)};
+      CheckJoint(m, joint.joint, joint.friction, BristlesOf(joint.instances), place);
+      CheckDrive(m, joint.joint, joint.drive, place);
     } catch (const BadInput& refusal) {
       reported = 1;
-      mju_warning("%s: what was set at %g s is beyond what the step bears: %s", kFrictionPlugin,
+      mju_warning("%s: at %g s the model is beyond what its step bears: %s", kFrictionPlugin,
                   d->time, refusal.what());
       return;
     }

@@ -33,7 +33,7 @@ enum FrictionReport : int {
 inline constexpr int kFrictionEntries = kFrictionReports + 1;
 
 /// Warns, once until a reset, of a joint whose step or numbers a program set after loading to what
-/// the step does not bear; they are taken as they are.
+/// the step does not bear, or that drives may shake (CheckDrive); they are taken as they are.
 void WarnOfNumbers(const mjModel* m, mjData* d, int instance,
                    const std::vector<BoundJoint>& joints);
 

@@ -65,9 +65,12 @@ void JointRows::ReadNumbers(const mjModel* m, const std::vector<BoundJoint>& joi
   }
   SetSlopes();
   const double damping = m->opt.integrator == mjINT_RK4 ? kDampingOfStages : 1;
-  bristles_.SetTimestep(m->opt.timestep, damping, [&](int dof) {
-    return joints[joint_at_[bristles_.RowOf(dof)]].friction.SteepestSlope();
-  });
+  const auto of = [&](int dof) -> const BoundJoint& {
+    return joints[joint_at_[bristles_.RowOf(dof)]];
+  };
+  bristles_.SetTimestep(
+      m->opt.timestep, damping, [&](int dof) { return of(dof).friction.SteepestSlope(); },
+      [&](int dof) { return of(dof).drive; });
 }
 
 void JointRows::Step(const mjModel* m, const mjtNum* load) {

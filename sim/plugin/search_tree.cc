@@ -4,38 +4,27 @@ namespace warmjoint::inline sim {
 
 using Course = BoxProjection::Course;
 
-/// Begins with what is fast, and what would be beyond its level if all were held.
-void SearchTree::Guess(const InertiaBlock& inertia, const mjData* d, Rows rows, const Two* force,
-                       double impulse) {
-  const double* inverse = d->qLDiagInv + inertia.first();
-  for (int i = 0; i < inertia.size(); ++i) {
-    const Row row = rows.row(i);
+/// Takes over levels and forces, and what each row did at the last step.
+void SearchTree::Take(Rows rows, const Two* force) {
+  for (size_t i = 0; i < last_.size(); ++i) {
+    const Row row = rows.row(static_cast<int>(i));
     const double upper = box_.upper[i] = row[kUpper], lower = box_.lower[i] = row[kLower];
-    const double elastic = box_.aim[i] = force[i][0], push = impulse * row[kSpeed];
-    Course& course = box_.course[i] = Course::within;
-    if (upper == 0 && lower == 0) {
-      course = Course::free;
-    } else if (push > inverse[i] * upper) {
-      course = Course::at_upper;
-    } else if (-push > inverse[i] * lower) {
-      course = Course::at_lower;
-    } else if (elastic > upper) {
-      course = Course::at_upper;
-    } else if (-elastic > lower) {
-      course = Course::at_lower;
-    }
+    box_.aim[i] = force[i][0];
+    const bool free = upper == 0 && lower == 0;
+    box_.course[i] = free ? Course::free : last_[i] == Course::free ? Course::within : last_[i];
   }
 }
 
 void SearchTree::Find(InertiaBlock& inertia, const mjData* d, Rows rows, AskedLevels& levels,
-                      const std::vector<int>& joints, const Two* force, const PerSpeed& per_speed) {
+                      const std::vector<int>& joints, const Two* force, double damping) {
   for (const int i : levels.asking()) {
     levels.Of(i, 1);
     levels.Of(i, -1);
   }
-  Guess(inertia, d, rows, force, per_speed.impulse);
+  Take(rows, force);
   box_.Start(inertia, d);
   box_.Find(inertia, d);
+  last_ = box_.course;
   for (const int i : joints) {
     const Row row = rows.row(i);
     row[kLoad] = (row[kStretch] - box_.slip[i]) * row[kInertia];
@@ -45,7 +34,7 @@ void SearchTree::Find(InertiaBlock& inertia, const mjData* d, Rows rows, AskedLe
 
   // then the damper, from where the bristles are now
   for (int i = 0; i < inertia.size(); ++i) {
-    box_.aim[i] = box_.force[i] + per_speed.damping * force[i][1];
+    box_.aim[i] = box_.force[i] + damping * force[i][1];
   }
   box_.Find(inertia, d);
   for (const int i : joints) rows.row(i)[kFriction] = box_.force[i];

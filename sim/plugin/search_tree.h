@@ -12,27 +12,23 @@
 
 namespace warmjoint::inline sim {
 
-/// Both projections of CoupledBristles by a search for what slides.
+/// Both projections of CoupledBristles by a search for what slides. It begins with what has slid at the
+/// last step, and its answer follows from what it ends with alone.
 class SearchTree {
  public:
   SearchTree() = default;
-  explicit SearchTree(int size) : box_(size) {}
-
-  /// What bristles add to an acceleration for each unit of speed: A/h and B/h.
-  struct PerSpeed {
-    double impulse, damping;
-  };
+  explicit SearchTree(int size) : box_(size), last_(box_.course) {}
 
   /// Finds kFriction, kLoad and kSliding of the joints' rows. force: {p where everything is held, M v} of
-  /// each row; joints: rows with friction.
+  /// each row; joints: rows with friction; damping: B/h.
   void Find(InertiaBlock& inertia, const mjData* d, Rows rows, AskedLevels& levels,
-            const std::vector<int>& joints, const Two* force, const PerSpeed& per_speed);
+            const std::vector<int>& joints, const Two* force, double damping);
 
  private:
-  void Guess(const InertiaBlock& inertia, const mjData* d, Rows rows, const Two* force,
-             double impulse);
+  void Take(Rows rows, const Two* force);
 
   BoxProjection box_;
+  std::vector<BoxProjection::Course> last_;  // at the end of a step's first projection
 };
 
 }  // namespace warmjoint::inline sim

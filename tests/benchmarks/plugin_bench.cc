@@ -1,11 +1,14 @@
-// What friction costs in a step of MuJoCo: two 6-axis arms with six motors, one thread, ratios of one
-// run to the arm without friction.
+// What friction costs in a step of MuJoCo: robots with a motor on each joint, one thread, ratios of one
+// run to the robot without friction.
 //
 //   serial arm: six hinges in a row, damping 2 N.m.s/rad, steps of 2 ms
 //   industrial arm: models/robots/irb140_like, the same damping, steps of 1 ms
+//   humanoid: a free base with 23 hinges on two legs, two arms and a head, the same damping, steps of 2 ms
 //
 // "sliding" is under drives that keep the speed of all joints, "turning" under torques that swing so widely that now the
-// one, now the other joint comes to a stop, "held" at rest under gravity.
+// one, now the other joint comes to a stop, "mixed" under constant torques after a push, with a low level, so that joints
+// fall, swing and stop, "some held" with heavy joints of which two (the humanoid: three) stay held while the others coast, and
+// "held" at rest under gravity (the humanoid: without).
 // Each round runs all variants in turn; the ratio is the median over rounds of the thread's time to that
 // of the arm without friction in the same round, so that a busy machine disturbs both alike.
 // "idle plugin" is one that does nothing: what the engine itself charges for a plugin in that form.
@@ -29,14 +32,26 @@ namespace {
 
 constexpr int kSteps = 400;     // of a round
 constexpr double kDamping = 2;  // N.m.s/rad, of every joint
-constexpr int kNoslip[] = {0, 3, 20};
+constexpr int kNoslip[] = {0, 3};
 
 using Change = std::function<void(mjSpec&, const std::vector<std::string>&)>;
 
-enum class Arm { serial, industrial };
+enum class Arm { serial, industrial, humanoid };
+enum class Drive { sliding, turning, mixed, some_held, held };
 
-/// Friction's level on every joint, N.m: what holds the arm at rest under gravity.
-double LevelOf(Arm arm) { return arm == Arm::serial ? 30 : 80; }
+/// A robot in a regime.
+struct Regime {
+  Arm arm;
+  mjtIntegrator integrator;
+  Drive drive;
+
+  /// Friction's level on every joint, N.m: what holds the robot at rest under gravity, or lets it swing.
+  double level() const {
+    if (arm == Arm::humanoid) return 5;
+    if (drive == Drive::mixed) return 3;
+    return arm == Arm::serial ? 30 : 80;
+  }
+};
 
 /// Six hinges in a row, with the axes of an industrial arm.
 SpecPtr SerialArm() {
@@ -53,6 +68,34 @@ SpecPtr SerialArm() {
   SpecPtr spec(
       mj_parseXMLString(("<mujoco><worldbody>" + bodies + ends + "</worldbody></mujoco>").c_str(),
                         nullptr, error, sizeof(error)));
+  if (!spec) Refuse({"bench"}, "{}", error);
+  spec->option.timestep = 0.002;
+  return spec;
+}
+
+/// Hinges in a row below a body, each on a link of its own.
+std::string Limb(const std::string& name, const std::string& place, int joints) {
+  std::string bodies, ends;
+  const char* axes[] = {"0 0 1", "1 0 0", "0 1 0"};
+  for (int i = 0; i < joints; ++i) {
+    bodies += fmt::format(
+        R"(<body pos="{}"><joint name="{}{}" axis="{}" armature="0.05"/>
+           <geom type="capsule" fromto="0 0 0 0 0 -0.12" size="0.04" mass="{}"/>)",
+        i == 0 ? place : "0 0 -0.12", name, i, axes[i % 3], 2 - 0.25 * i);
+    ends += "</body>";
+  }
+  return bodies + ends;
+}
+
+SpecPtr Humanoid() {
+  const std::string text =
+      R"(<mujoco><option gravity="0 0 0"/><worldbody><body><freejoint name="base"/>
+         <geom type="box" size="0.1 0.15 0.3" mass="15"/>)" +
+      Limb("left_leg", "0 0.1 -0.3", 6) + Limb("right_leg", "0 -0.1 -0.3", 6) +
+      Limb("left_arm", "0 0.2 0.3", 5) + Limb("right_arm", "0 -0.2 0.3", 5) +
+      Limb("head", "0 0 0.3", 1) + "</body></worldbody></mujoco>";
+  char error[1000] = "";
+  SpecPtr spec(mj_parseXMLString(text.c_str(), nullptr, error, sizeof(error)));
   if (!spec) Refuse({"bench"}, "{}", error);
   spec->option.timestep = 0.002;
   return spec;
@@ -75,43 +118,47 @@ mjsActuator* AddActuator(mjSpec& spec, const std::string& joint) {
   return actuator;
 }
 
-/// The arm with six motors and no contacts, changed, compiled.
-ModelPtr MakeArm(Arm arm, mjtIntegrator integrator, int noslip, const Change& change) {
-  const SpecPtr spec = arm == Arm::serial ? SerialArm() : IndustrialArm();
+/// Its hinges with motors and no contacts, changed, compiled.
+ModelPtr MakeArm(const Regime& regime, int noslip, const Change& change) {
+  const SpecPtr spec = regime.arm == Arm::serial       ? SerialArm()
+                       : regime.arm == Arm::industrial ? IndustrialArm()
+                                                       : Humanoid();
+  std::vector<std::string> joints;
   for (mjsElement* element : SpecElements(*spec, mjOBJ_JOINT)) {
     mjsJoint* joint = mjs_asJoint(element);
+    if (joint->type != mjJNT_HINGE) continue;
+    joints.push_back(mjs_getString(mjs_getName(element)));
+    if (regime.drive == Drive::some_held) joint->armature = 200;
     ClearOwnFriction(*joint);
     joint->damping[0] = kDamping;
     joint->limited = mjLIMITED_FALSE;
     joint->actfrclimited = mjLIMITED_FALSE;
   }
-  spec->option.integrator = integrator;
+  spec->option.integrator = regime.integrator;
   spec->option.noslip_iterations = noslip;
   spec->option.disableflags |= mjDSBL_CONTACT;
-  const auto joints = SpecNames(*spec, mjOBJ_JOINT);
   for (const std::string& joint : joints) mjs_setToMotor(AddActuator(*spec, joint));
   change(*spec, joints);
   return CompileModel(*spec, {"bench"});
 }
 
-FrictionDescription Simple(Arm arm) {
+FrictionDescription Simple(double level) {
   FrictionDescription friction;
   friction.law = "asymmetric";
-  friction.parameters = {{"viscous", 0.5},
-                         {"coulomb_positive", LevelOf(arm)},
-                         {"coulomb_negative", 1.1 * LevelOf(arm)}};
+  friction.parameters = {
+      {"viscous", 0.5}, {"coulomb_positive", level}, {"coulomb_negative", 1.1 * level}};
   friction.thermal = Thermal{-0.001, 300};
   friction.gear = 100;
   return friction;
 }
 
 /// The simple one with Stribeck's level and a map of 36 motor angles times 6 speeds.
-FrictionDescription Full(Arm arm) {
-  FrictionDescription friction = Simple(arm);
+FrictionDescription Full(double level) {
+  FrictionDescription friction = Simple(level);
   friction.law = "stribeck";
   friction.parameters = {{"viscous", 0.5},
-                         {"coulomb", LevelOf(arm)},
-                         {"static", 1.3 * LevelOf(arm)},
+                         {"coulomb", level},
+                         {"static", 1.3 * level},
                          {"stribeck_velocity", 0.05},
                          {"stribeck_exponent", 2}};
   FrictionMap map{{{MapQuantity::motor_position, CircleAxis(6.283185307179586, 36)},
@@ -179,9 +226,9 @@ void WithMotors(mjSpec& spec, const std::vector<std::string>& joints) {
 }
 
 Change WithFrictionLoss(double level) {
-  return [level](mjSpec& spec, const std::vector<std::string>&) {
-    for (mjsElement* element : SpecElements(spec, mjOBJ_JOINT)) {
-      mjs_asJoint(element)->frictionloss = level;
+  return [level](mjSpec& spec, const std::vector<std::string>& joints) {
+    for (const std::string& joint : joints) {
+      mjs_asJoint(mjs_findElement(&spec, mjOBJ_JOINT, joint.c_str()))->frictionloss = level;
     }
   };
 }
@@ -213,36 +260,54 @@ double ThreadSeconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-enum class Drive { sliding, turning, held };
-
 const char* Name(Drive drive) {
-  constexpr const char* kNames[] = {"sliding", "turning", "held"};
+  constexpr const char* kNames[] = {"sliding", "turning", "mixed", "some held", "held"};
   return kNames[static_cast<int>(drive)];
+}
+
+/// Where a round begins, for the regimes that do not go on from one to the next.
+void Begin(Variant& variant, const Regime& regime) {
+  const mjModel* m = variant.model.get();
+  mjData* d = variant.data.get();
+  if (regime.drive != Drive::some_held && !(regime.drive == Drive::mixed && d->time == 0)) return;
+  mj_resetData(m, d);
+  const int held = regime.arm == Arm::humanoid ? 3 : 2;
+  for (int i = 0; i < m->njnt; ++i) {
+    const bool stays = regime.drive == Drive::some_held && i >= 2 && i < 2 + held;
+    if (m->jnt_type[i] == mjJNT_HINGE && !stays) d->qvel[m->jnt_dofadr[i]] = 1;
+  }
 }
 
 constexpr double kSpeed = 2;       // rad/s, of joints that slide
 constexpr double kFirmness = 0.1;  // of drives: share of a lack of speed that one step makes up
 
-/// Torques of the motors, N.m. level: of friction, where there is one, N.m
-void Control(Variant& variant, Drive drive, double level) {
+/// Torques of the motors, N.m.
+void Control(Variant& variant, const Regime& regime) {
   const mjModel* m = variant.model.get();
   mjData* d = variant.data.get();
-  for (int j = 0; j < m->nv; ++j) {
+  const double level = regime.level();
+  const Drive drive = regime.drive;
+  const int others = regime.arm == Arm::humanoid ? 6 : 0;  // degrees of freedom before the hinges
+  for (int j = others; j < m->nv; ++j) {
     const double firm = kFirmness / (m->dof_invweight0[j] * m->opt.timestep);
     const double swing = 6 * level / (1 + 0.3 * j) * std::sin((2 + j) * d->time);
     const double keeps =
         d->qfrc_bias[j] + firm * (kSpeed - d->qvel[j]) + (variant.has_friction ? level : 0);
-    d->ctrl[j] = drive == Drive::sliding ? keeps : drive == Drive::turning ? swing : 0;
+    d->ctrl[j - others] = drive == Drive::sliding   ? keeps
+                          : drive == Drive::turning ? swing
+                          : drive == Drive::mixed   ? 8
+                                                    : 0;
   }
 }
 
 /// One round.
-void Run(Variant& variant, Drive drive, double level) {
+void Run(Variant& variant, const Regime& regime) {
   const mjModel* m = variant.model.get();
   mjData* d = variant.data.get();
+  Begin(variant, regime);
   const double begin = ThreadSeconds();
   for (int i = 0; i < kSteps; ++i) {
-    Control(variant, drive, level);
+    Control(variant, regime);
     mj_step(m, d);
   }
   variant.times.push_back(ThreadSeconds() - begin);
@@ -255,45 +320,44 @@ double Median(std::vector<double> values) {
 }
 
 /// only: part of the names of those that are made beside the arm without friction; empty: all.
-std::vector<Variant> MakeVariants(Arm arm, mjtIntegrator integrator, int noslip,
-                                  const std::string& only) {
+std::vector<Variant> MakeVariants(const Regime& regime, int noslip, const std::string& only) {
   std::vector<Variant> variants;
   const auto add = [&](const std::string& name, const Change& change, bool has_friction) {
     if (!variants.empty() && name.find(only) == std::string::npos) return;
-    ModelPtr model = MakeArm(arm, integrator, noslip, change);
+    ModelPtr model = MakeArm(regime, noslip, change);
     DataPtr data(mj_makeData(model.get()));
     variants.push_back({name, std::move(model), std::move(data), has_friction});
   };
   const auto nothing = [](mjSpec&, const auto&) {};
   add("no friction", nothing, false);
   add("no friction, again", nothing, false);
-  add("six more motors", WithMotors, false);
-  add("frictionloss", WithFrictionLoss(LevelOf(arm)), true);
-  add("dcmotor LuGre", WithDcMotors(LevelOf(arm)), true);
+  add("as many motors more", WithMotors, false);
+  const double level = regime.level();
+  add("frictionloss", WithFrictionLoss(level), true);
+  add("dcmotor LuGre", WithDcMotors(level), true);
   add("idle plugin, passive", WithIdlePassive, false);
-  add("passive, simple", WithFriction(Simple(arm), FrictionForm::passive), true);
-  add("passive, full", WithFriction(Full(arm), FrictionForm::passive), true);
-  add("idle plugin, six actuators of two states", WithIdleActuators, false);
-  add("actuator, simple", WithFriction(Simple(arm), FrictionForm::actuator), true);
-  add("actuator, full", WithFriction(Full(arm), FrictionForm::actuator), true);
+  add("passive, simple", WithFriction(Simple(level), FrictionForm::passive), true);
+  add("passive, full", WithFriction(Full(level), FrictionForm::passive), true);
+  add("idle plugin, actuators of two states", WithIdleActuators, false);
+  add("actuator, simple", WithFriction(Simple(level), FrictionForm::actuator), true);
+  add("actuator, full", WithFriction(Full(level), FrictionForm::actuator), true);
   return variants;
 }
 
-void Compare(const std::string& title, Arm arm, mjtIntegrator integrator, Drive drive, int rounds,
-             const std::string& only) {
+void Compare(const std::string& title, const Regime& regime, int rounds, const std::string& only) {
   std::vector<std::vector<Variant>> columns;
   for (const int noslip : kNoslip) {
-    columns.push_back(MakeVariants(arm, integrator, noslip, only));
+    columns.push_back(MakeVariants(regime, noslip, only));
   }
   for (int round = 0; round < rounds; ++round) {
     for (std::vector<Variant>& variants : columns) {
       for (Variant& variant : variants) {
-        Run(variant, drive, LevelOf(arm));
+        Run(variant, regime);
         variant.ratios.push_back(variant.times.back() / variants.front().times.back());
       }
     }
   }
-  fmt::print("\n{:<44} {:>8} {:>9} {:>9} {:>9} {:>12}\n", title, "us/step", "noslip 0", "3", "20",
+  fmt::print("\n{:<44} {:>8} {:>9} {:>9} {:>12}\n", title, "us/step", "noslip 0", "3",
              "speed rad/s");
   for (size_t i = 0; i < columns.front().size(); ++i) {
     const Variant& variant = columns.front()[i];
@@ -316,15 +380,16 @@ int main(int argc, char** argv) {
   using namespace warmjoint;
   const int rounds = argc > 1 ? std::max(1, std::atoi(argv[1])) : 200;
   const std::string only = argc > 2 ? argv[2] : "", titles = argc > 3 ? argv[3] : "";
-  for (const Arm arm : {Arm::serial, Arm::industrial}) {
+  constexpr const char* kArms[] = {"serial arm", "industrial arm", "humanoid"};
+  for (const Arm arm : {Arm::serial, Arm::industrial, Arm::humanoid}) {
     for (const mjtIntegrator integrator : {mjINT_IMPLICITFAST, mjINT_EULER}) {
-      const std::string name =
-          fmt::format("{} arm, {}", arm == Arm::serial ? "serial" : "industrial",
-                      integrator == mjINT_EULER ? "Euler" : "implicitfast");
-      for (const Drive drive : {Drive::sliding, Drive::turning, Drive::held}) {
-        const std::string title = fmt::format("{}, {}", name, Name(drive));
+      for (const Drive drive :
+           {Drive::sliding, Drive::turning, Drive::mixed, Drive::some_held, Drive::held}) {
+        const std::string title =
+            fmt::format("{}, {}, {}", kArms[static_cast<int>(arm)],
+                        integrator == mjINT_EULER ? "Euler" : "implicitfast", Name(drive));
         if (title.find(titles) == std::string::npos) continue;
-        Compare(title, arm, integrator, drive, rounds, only);
+        Compare(title, {arm, integrator, drive}, rounds, only);
       }
     }
   }

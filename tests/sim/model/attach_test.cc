@@ -61,7 +61,8 @@ TEST_F(Attach, PutsFrictionOnTheNamedJointsAlone) {
 TEST_F(Attach, ReplacesTheFrictionOfTheModelOnThoseJoints) {
   const Attached attached =
       AttachFriction(two_joints_.path(), {{"shoulder", LightFriction()}}, out_);
-  EXPECT_THAT(attached.notices, ElementsAre(AllOf(HasSubstr("shoulder"), HasSubstr("damping"))));
+  EXPECT_THAT(attached.notices, ElementsAre(AllOf(HasSubstr("shoulder"), HasSubstr("damping")),
+                                            HasSubstr("'shoulder' by 0.029 mrad")));
   const LoadedModel result = LoadModel(out_);
   EXPECT_EQ(result.model->dof_damping[0], 0);
   EXPECT_EQ(result.model->dof_frictionloss[0], 0);

@@ -118,7 +118,8 @@ class CoupledBristlesOfATree : public testing::Test {
   void MakeBristles(bool asks) {
     for (CoupledJoint& joint : joints) joint.asks_level = (joint.dof % 2 == 0) == asks;
     bristles = CoupledBristles(m.get(), joints);
-    bristles.SetTimestep(kStep, 1, [](int) { return 0.0; });
+    const auto none = [](int) { return 0.0; };
+    bristles.SetTimestep(kStep, 1, none, none);
     numbers.assign(NumbersOf(bristles.size()), 0);
     for (const CoupledJoint& joint : joints) {
       RowOf(joint.dof)[kInertia] = joint.inertia;

@@ -1,4 +1,5 @@
 // How stiff joints hold and how soon they rest: a link, and robots without armature.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -14,6 +15,7 @@
 #include "sim/plugin/friction_instance.h"
 #include "tests/sim/plugin/friction_models.h"
 #include "tests/sim/plugin/friction_robots.h"
+#include "tests/sim/plugin/warnings.h"
 #include "tests/support/shared_data.h"
 
 namespace warmjoint {
@@ -45,6 +47,98 @@ TEST(PluginStiffness, GivesWayByLessThanAMilliradAtNineTenthsOfTheLevel) {
     // stable, and softer
     EXPECT_NEAR(Give(0.005, integrator), 225 * 0.005 * 0.005, 1e-9);
   }
+}
+
+/// The greatest speed in the last tenth of two seconds after a release from a pose, rad/s.
+double SpeedLeft(const mjModel* m, const std::vector<double>& pose) {
+  const test::Data d(mj_makeData(m));
+  std::copy(pose.begin(), pose.end(), d->qpos);
+  double fastest = 0;
+  while (d->time < 2) {
+    mj_step(m, d.get());
+    for (int i = 0; d->time > 1.8 && i < m->nv; ++i) {
+      fastest = std::max(fastest, std::abs(d->qvel[i]));
+    }
+  }
+  return fastest;
+}
+
+/// A hinge of 0.001 kg.m^2 at 2 ms whose servo adds K = kp h^2/M and C = kv h/M to a step, with friction
+/// of a twentieth of what the servo gives at 0.1 rad.
+test::Model Servo(double k, double c, const char* integrator) {
+  const double stiffness = k * 0.001 / 4e-6, damping = c * 0.001 / 0.002;
+  const std::string level = fmt::format("{}", 0.005 * stiffness);
+  std::string sections = test::FrictionSection({{"law", "coulomb"}, {"coulomb", level}});
+  sections.insert(sections.find("<plugin"),
+                  fmt::format(R"(<general joint="hinge" gainprm="{0}" biastype="affine"
+                                   biasprm="0 -{0} -{1}"/>)",
+                              stiffness, damping));
+  return test::MustCompile(test::OneBodyXml(
+      R"(<joint name="hinge" axis="0 0 1"/>
+         <inertial pos="0 0 0" mass="1" diaginertia="0.001 0.001 0.001"/>)",
+      sections, fmt::format(R"(timestep="0.002" integrator="{}" gravity="0 0 0")", integrator)));
+}
+
+TEST(PluginStiffness, RestsBesideServosAsStiffAsFrictionlossBears) {
+  for (const char* integrator : {"Euler", "implicit", "implicitfast", "discrete", "RK4"}) {
+    for (const double k : {1.0, 1.5, 1.6, 1.7, 2.0, 2.3, 2.6, 3.0}) {
+      const test::Model m = Servo(k, 0, integrator);
+      for (const double from : {0.1, 0.077, 0.03}) {
+        EXPECT_LT(SpeedLeft(m.get(), {from}), 1e-6) << integrator << ", K " << k;
+      }
+    }
+  }
+  // explicit damping counts twice, and damping that the integrator takes implicitly carries stiffness
+  EXPECT_LT(SpeedLeft(Servo(0.31, 1.1, "Euler").get(), {0.1}), 1e-6);
+  EXPECT_LT(SpeedLeft(Servo(2, 0.5, "Euler").get(), {0.1}), 1e-6);
+  EXPECT_LT(SpeedLeft(Servo(4, 0.5, "implicitfast").get(), {0.1}), 1e-6);
+}
+
+/// A finger of three hinges under servos of that stiffness, N.m/rad, at 2 ms.
+test::Model Finger(double stiffness, FrictionForm form) {
+  char error[300] = "";
+  const SpecPtr spec(mj_parseXMLString(
+      fmt::format(
+          R"(<mujoco><option timestep="0.002"/><default><joint axis="0 1 0" armature="2e-4"/>
+        <geom type="capsule" fromto="0 0 0 0.05 0 0" size="0.01" mass="0.04"/>
+        <position kp="{}"/></default><worldbody><body>
+        <joint name="a" axis="0 0 1"/><geom/><body pos="0.05 0 0"><joint name="b"/><geom/>
+        <body pos="0.05 0 0"><joint name="c"/><geom/></body></body></body></worldbody>
+        <actuator><position joint="a"/><position joint="b"/><position joint="c"/></actuator></mujoco>)",
+          stiffness)
+          .c_str(),
+      nullptr, error, sizeof(error)));
+  FrictionDescription friction;
+  friction.law = "coulomb";
+  friction.parameters = {{"coulomb", 0.005 * stiffness}};
+  AddFriction(*spec, {{"a", friction}, {"b", friction}, {"c", friction}}, {"finger"}, form);
+  return CompileModel(*spec, {"finger"});
+}
+
+TEST(PluginStiffness, RestsBesideServosOfCoupledJoints) {
+  RandomStream random({11, 0}, Stream::test);
+  for (const FrictionForm form : {FrictionForm::actuator, FrictionForm::passive}) {
+    // K of the stiffest mode 1.9, 2.3 and 2.7
+    for (const double stiffness : {100, 120, 140}) {
+      const test::Model m = Finger(stiffness, form);
+      for (int run = 0; run < 5; ++run) {
+        std::vector<double> pose(3);
+        for (double& q : pose) q = random.Uniform(-0.3, 0.3);
+        EXPECT_LT(SpeedLeft(m.get(), pose), 1e-6) << stiffness;
+      }
+    }
+  }
+}
+
+TEST(PluginStiffness, WarnsOfServosThatLeaveBristlesNothing) {
+  const test::Model m = Servo(5, 0, "Euler");
+  const test::Data d(mj_makeData(m.get()));
+  const test::Warnings warnings;
+  mj_step(m.get(), d.get());
+  const std::string once = test::Warnings::text();
+  EXPECT_THAT(once, testing::HasSubstr("--timestep"));
+  mj_step(m.get(), d.get());
+  EXPECT_EQ(test::Warnings::text(), once);
 }
 
 /// A robot whose joints hold what lets their bristles give way by 20 mrad (2 mm), without gravity.
