@@ -4,6 +4,9 @@
 
 #include <cmath>
 
+#include "identification/preparation/moving_view.h"
+#include "models/foundation/robust_noise.h"
+
 namespace warmjoint::inline identification {
 namespace {
 
@@ -29,9 +32,17 @@ std::optional<std::string> Unusable(const IdentifierInput& input, int parameters
   // more samples than parameters, of those that take part
   const auto count = input.selection.count();
   if (count <= parameters) {
+    const auto moving = (m.velocity.array().abs() > ClearSpeed(m)).count();
+    if (m.acceleration && moving > parameters) {
+      return fmt::format(
+          "motion of any kind can use {} of {} samples that move, too few for {} parameters: at "
+          "{:.3g} Hz the others lie beside a change of speed; log faster, or use --motion constant "
+          "where speeds are held",
+          count, moving, parameters, 1 / MedianStep(m.time));
+    }
     if (m.acceleration) {
       return fmt::format("{} of {} samples move clearly, too few for {} parameters; record longer",
-                         count, m.size(), parameters);
+                         moving, m.size(), parameters);
     }
     return fmt::format(
         "{} of {} samples move at a constant speed, too few for {} parameters; record longer, or "

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "identification/preparation/position_noise.h"
 #include "identification/preparation/prepare.h"
 #include "identification/preparation/velocity_scale.h"
 #include "models/recording/sampling.h"
@@ -94,6 +95,9 @@ RecordingCheck CheckRecording(const PreparedLog& log) {
   // what was measured, and what that lets the user identify
   check.sampling = CheckSampling(measurements.time, scale.step);
   check.motion = CheckMotion(measurements, scale, selection);
+  if (log.source() == MotionSource::positions) {
+    check.motion.position_resolution = MeasurePositionNoise(measurements.position).resolution;
+  }
   check.faults = log.faults();
   check.excitation = JudgeExcitation(measurements, check.sampling, check.motion);
   return check;

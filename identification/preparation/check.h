@@ -38,6 +38,7 @@ struct MotionCheck {
   double lower = 0, upper = 0;     // rad or m, travel
   double speed_noise = 0;          // rad/s or m/s, around constant speeds
   double speed_resolution = 0;     // rad/s or m/s; 0: not quantised
+  double position_resolution = 0;  // rad or m, of positions that tell the speed; 0: not quantised
 };
 
 /// Whether friction of one kind can be identified, and why (not).

@@ -86,11 +86,16 @@ std::string CheckToText(const RecordingCheck& check) {
   text += TurnsLine(check);
   text += DirectionLine(check.motion, 1, speed_unit);
   text += DirectionLine(check.motion, -1, speed_unit);
-  // how well the velocity is known
-  text += fmt::format("noise       {:.2g} {} around constant speeds", check.motion.speed_noise,
-                      speed_unit);
-  if (check.motion.speed_resolution > 0) {
-    text += fmt::format("; velocity comes in steps of {:.3g}", check.motion.speed_resolution);
+  // how well the velocity is known; noise says nothing of one that was smoothed from rounded positions
+  if (check.motion.position_resolution > 0) {
+    text += fmt::format("resolution  the position comes in steps of {:.3g} {}",
+                        check.motion.position_resolution, kPositionUnit.For(check.joint));
+  } else {
+    text += fmt::format("noise       {:.2g} {} around constant speeds", check.motion.speed_noise,
+                        speed_unit);
+    if (check.motion.speed_resolution > 0) {
+      text += fmt::format("; velocity comes in steps of {:.3g}", check.motion.speed_resolution);
+    }
   }
   text += "\n";
   // faults, then each kind of friction with the reason for the verdict
@@ -136,7 +141,8 @@ json CheckToJson(const RecordingCheck& check) {
             {"levels", levels},
             {"travel", {motion.lower, motion.upper}},
             {"speed_noise", motion.speed_noise},
-            {"speed_resolution", motion.speed_resolution}}},
+            {"speed_resolution", motion.speed_resolution},
+            {"position_resolution", motion.position_resolution}}},
           {"faults", check.faults},
           {"excitation", excitation}};
 }

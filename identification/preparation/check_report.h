@@ -14,7 +14,8 @@ std::string CheckToText(const RecordingCheck& check);
 
 /// {source, joint, torque_unit, notes[], sampling{samples, duration, step, rate, jitter, gaps,
 /// longest_gap}, motion{constant_share, rest_share, segments, levels[{velocity, segments,
-/// samples}], travel[2], speed_noise, speed_resolution}, faults[], excitation[{what, sufficient,
+/// samples}], travel[2], speed_noise, speed_resolution,
+/// position_resolution}, faults[], excitation[{what, sufficient,
 /// reason}]}, SI.
 nlohmann::json CheckToJson(const RecordingCheck& check);
 

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "identification/preparation/position_noise.h"
 #include "models/foundation/butterworth.h"
 #include "models/foundation/robust_noise.h"
 #include "models/recording/sampling.h"
@@ -97,7 +98,7 @@ double ChooseCutoff(const Eigen::VectorXd& time, const Eigen::VectorXd& position
   const double speed = std::sqrt(slope.squaredNorm() / static_cast<double>(slope.size()));
 
   // white noise, or the rounding to steps of the encoder
-  const double noise = std::max(WhiteNoise(position), Resolution(position) / std::sqrt(12.0));
+  const double noise = std::max(WhiteNoise(position), StepOfPosition(position) / std::sqrt(12.0));
   if (noise == 0) return highest;
   // below a cutoff f white noise leaves the velocity a variance of (2 pi noise)^2 2 f^3 / (3 rate)
   const double ratio = accepted_noise * speed / (2 * std::numbers::pi * noise);

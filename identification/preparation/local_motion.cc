@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "identification/preparation/position_noise.h"
-#include "models/foundation/robust_noise.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -22,8 +21,7 @@ constexpr double kByChance = 1e-3;   // of good windows, taken for bent; why: RE
 constexpr double kJump = 0.1;        // of the acceleration's rms; why: README.md
 constexpr double kBeyondMedian = 4;  // of the change over two samples; why: README.md
 constexpr double kDeviations = 5;    // of the noise; why: README.md
-constexpr double kNearCorner = 2;  // noise of the acceleration there, by that of the widest windows
-constexpr double kEven = 1e-3;     // of the step by which evenly sampled times may differ
+constexpr double kEven = 1e-3;       // of the step by which evenly sampled times may differ
 
 /// What is fitted: a series, and which derivative of it is the acceleration.
 struct Series {
@@ -113,9 +111,9 @@ Scale ScaleOf(const Measurements& m, const std::vector<SampleRange>& pieces, con
   return scale;
 }
 
-/// Root mean square of the acceleration where it is known, less the noise's part.
-double RmsOf(const Scale& scale, double noise) {
-  const auto known = scale.squares.array().isFinite();
+/// Root mean square of the acceleration where it is known and the joint moves, less the noise's part.
+double RmsOf(const Scale& scale, const SampleMask& moving, double noise) {
+  const SampleMask known = scale.squares.array().isFinite() && moving;
   const auto count = static_cast<double>(std::max<Index>(known.count(), 1));
   const double mean = known.select(scale.acceleration.array().square(), 0).sum() / count;
   return std::sqrt(std::max(0.0, mean - noise * noise));
@@ -146,9 +144,14 @@ VectorXd ChangesOf(const LocalMotion& motion, const std::vector<SampleRange>& pi
 
 }  // namespace
 
-KnownSamples AwayFromCorners(const KnownSamples& known, const VectorXd& changes, double rms,
-                             double noise) {
-  VectorXd ordered = changes;
+SampleMask InMotion(const VectorXd& velocity) {
+  const double rms = std::sqrt(velocity.squaredNorm() / static_cast<double>(velocity.size()));
+  return velocity.array().abs() >= kClear * rms;
+}
+
+KnownSamples AwayFromCorners(const KnownSamples& known, const VectorXd& changes,
+                             const SampleMask& moving, double rms, double noise) {
+  VectorXd ordered = Chosen(changes, moving);
   // a change beyond what smooth motion and noise make is a corner
   const double most =
       std::max({kJump * rms, kBeyondMedian * MedianInPlace(ordered), kDeviations * noise});
@@ -176,12 +179,14 @@ double StepOfVelocity(const VectorXd& velocity) {
 }
 
 double NoiseOfVelocity(const VectorXd& velocity) {
-  return std::max(WhiteNoise(velocity), StepOfVelocity(velocity) / std::sqrt(12.0));
+  return std::max(WhiteNoise(velocity, InMotion(velocity)),
+                  StepOfVelocity(velocity) / std::sqrt(12.0));
 }
 
 LocalMotion FollowLocally(const Measurements& m, const std::vector<SampleRange>& pieces,
                           MotionSource source) {
   const Series series = SeriesOf(m, pieces, source);
+  const SampleMask moving = InMotion(m.velocity);
 
   // wider windows until noise no longer matters
   std::vector<Scale> scales;
@@ -190,7 +195,7 @@ LocalMotion FollowLocally(const Measurements& m, const std::vector<SampleRange>&
     if (2 * half_width < series.Degree(half_width) + 1) continue;
     scales.push_back(ScaleOf(m, pieces, series, half_width));
     const double noise = series.noise * scales.back().gain;
-    rms = RmsOf(scales.back(), noise);
+    rms = RmsOf(scales.back(), moving, noise);
     if (noise <= kAcceptedNoise * rms) break;
   }
 
@@ -212,7 +217,7 @@ LocalMotion FollowLocally(const Measurements& m, const std::vector<SampleRange>&
     }
   }
   // through few samples a polynomial bends from one slope to the other within the noise
-  motion.known = AwayFromCorners(motion.known, ChangesOf(motion, pieces), rms,
+  motion.known = AwayFromCorners(motion.known, ChangesOf(motion, pieces), moving, rms,
                                  series.noise * scales.back().gain);
   return motion;
 }

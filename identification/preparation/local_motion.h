@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "identification/preparation/log_view.h"
+#include "models/foundation/robust_noise.h"
 #include "models/recording/measurements.h"
 #include "models/recording/recordings_of.h"
 
@@ -13,8 +14,11 @@ namespace warmjoint::inline identification {
 /// Noise of an acceleration that is accepted, as a share of the acceleration's root mean square.
 inline constexpr double kAcceptedNoise = 0.05;
 
+/// Speed from which on a sample moves clearly.
+inline constexpr double kClear = 0.05;  // of the velocity's root mean square; why: README.md
+
 /// Which samples of a log are known. [N]
-using KnownSamples = Eigen::Array<bool, Eigen::Dynamic, 1>;
+using KnownSamples = SampleMask;
 
 struct LocalMotion {
   Eigen::VectorXd velocity;      // [N] rad/s or m/s
@@ -23,18 +27,23 @@ struct LocalMotion {
   KnownSamples known;
 };
 
+/// Samples that move, faster than 5 % of the velocity's root mean square. What is said of a
+/// motion (its noise, its acceleration, how much that changes) is said of these: a rest, whose velocity many drives
+/// log as zeros, would make it small. velocity: [N] rad/s or m/s
+SampleMask InMotion(const Eigen::VectorXd& velocity);
+
 /// What of `known` lies at no corner of the velocity: where the acceleration changes from one side of a sample to the
-/// other by no more than a tenth of its root mean square, four times the median change, or five times the noise of a
-/// change; and so at the neighbours, whose acceleration spans it.
+/// other by no more than a tenth of its root mean square, four times the median change of what is `moving`, or five
+/// times the noise of a change; and so at the neighbours, whose acceleration spans it.
 /// changes: [N] rad/s^2 or m/s^2, as are rms, of the acceleration, and noise, of a change.
-KnownSamples AwayFromCorners(const KnownSamples& known, const Eigen::VectorXd& changes, double rms,
-                             double noise);
+KnownSamples AwayFromCorners(const KnownSamples& known, const Eigen::VectorXd& changes,
+                             const SampleMask& moving, double rms, double noise);
 
 /// Step of a quantised velocity, rad/s or m/s; 0 where it is not quantised. Ramps of one slope between
 /// constant speeds change by one step, too, but sample after sample.
 double StepOfVelocity(const Eigen::VectorXd& velocity);
 
-/// Standard deviation of the velocity's samples, rounding included, rad/s or m/s.
+/// Standard deviation of the velocity's samples in motion, rounding included, rad/s or m/s.
 double NoiseOfVelocity(const Eigen::VectorXd& velocity);
 
 /// Polynomials by least squares (Savitzky and Golay 1964) through the 2 w + 1 samples around each: of

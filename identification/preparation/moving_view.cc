@@ -17,7 +17,6 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double kClear = 0.05;    // of the velocity's root mean square; why: README.md
 constexpr double kDeviations = 5;  // of the noise; why 5: by chance 1 in 2 million
 constexpr Index kReach = 2;        // samples to each side of a difference; why 2: fourth order
 constexpr double kGain =
@@ -98,22 +97,26 @@ std::optional<LocalMotion> ByDifferences(const Measurements& m,
                                          const std::vector<SampleRange>& pieces) {
   LocalMotion motion{m.velocity, Differences(m, pieces), {}};
   // noise of the acceleration, against what of its rms is motion
+  const SampleMask moving = InMotion(m.velocity);
   const double noise = NoiseOfVelocity(m.velocity), step = MedianStep(m.time);
-  const double left = kGain * noise / step, rms = RootMeanSquare(motion.acceleration);
+  const double left = kGain * noise / step,
+               rms = RootMeanSquare(Chosen(motion.acceleration, moving));
   if (left * left > kAcceptedNoise * kAcceptedNoise * (rms * rms - left * left)) {
     return std::nullopt;
   }
   // samples beside a jump of the acceleration are not known
-  motion.known = AwayFromCorners(KnownSamples::Constant(m.size(), true), Jumps(m, pieces), rms,
-                                 noise * std::sqrt(6.0) / step);
+  motion.known = AwayFromCorners(KnownSamples::Constant(m.size(), true), Jumps(m, pieces), moving,
+                                 rms, noise * std::sqrt(6.0) / step);
   return motion;
 }
 
 }  // namespace
 
 double ClearSpeed(const Measurements& m) {
-  const double noise = WhiteNoise(m.velocity), resolution = StepOfVelocity(m.velocity);
-  return std::max({kClear * RootMeanSquare(m.velocity), kDeviations * noise, 1.5 * resolution});
+  const SampleMask moving = InMotion(m.velocity);
+  const double noise = WhiteNoise(m.velocity, moving), resolution = StepOfVelocity(m.velocity);
+  return std::max(
+      {kClear * RootMeanSquare(Chosen(m.velocity, moving)), kDeviations * noise, 1.5 * resolution});
 }
 
 LogView ViewMotion(const Measurements& measurements, MotionSource source) {

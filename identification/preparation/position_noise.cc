@@ -11,14 +11,17 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
+constexpr double kMisfit = 0.05;     // why: of ten steps of any size, 1e-10 are multiples by chance
+constexpr double kLastBits = 1e-12;  // why: of the largest position, some bits of a double
 constexpr double kNormalMedian = 0.6745;  // why: of |z|, z a standard normal variable
 
-/// Standard deviation of the noise that third differences show.
-double ThirdDifferenceNoise(const VectorXd& x) {
+/// Standard deviation of the noise that third differences show, those that are 0 counted or not.
+double ThirdDifferenceNoise(const VectorXd& x, bool with_zeros) {
   const Index n = x.size() - 3;
   if (n < 1) return 0;
   VectorXd third = x.tail(n) - 3 * x.segment(2, n) + 3 * x.segment(1, n) - x.head(n);
   third = third.cwiseAbs();
+  if (!with_zeros && (third.array() > 0).any()) third = Chosen(third, third.array() > 0);
 
   // 1^2 + 3^2 + 3^2 + 1^2 = 20
   return MedianInPlace(third) / (kNormalMedian * std::sqrt(20.0));
@@ -26,11 +29,41 @@ double ThirdDifferenceNoise(const VectorXd& x) {
 
 }  // namespace
 
+double StepOfPosition(const VectorXd& position) {
+  const Index n = position.size() - 1;
+  if (n < 1) return 0;
+  VectorXd steps = (position.tail(n) - position.head(n)).cwiseAbs();
+  std::sort(steps.begin(), steps.end());
+  // what is not the rounding of numbers, the smallest first
+  const double rounding = kLastBits * position.cwiseAbs().maxCoeff();
+  const double* const end = steps.data() + n;
+  const double* const begin = std::upper_bound<const double*>(steps.data(), end, rounding);
+
+  double divisor = begin == end ? 0 : *begin;
+  for (double left = divisor; left > 0;) {
+    // by what each step misses a multiple, of a divisor that larger steps tell more finely
+    left = 0;
+    for (const double* step = begin; step < end; ++step) {
+      const double multiple = std::round(*step / divisor);
+      const double beyond = std::abs(*step - multiple * divisor);
+      if (beyond <= kMisfit * divisor) {
+        divisor = *step / multiple;
+      } else if (left == 0 || beyond < left) {
+        left = beyond;
+      }
+    }
+    // the divisor of the least of that is one of all
+    if (left > 0) divisor = left > rounding ? left : 0;
+    if (divisor == 0) return 0;
+  }
+  return steps[n - 1] - steps[0] > 0.5 * divisor ? divisor : 0;
+}
+
 PositionNoise MeasurePositionNoise(const VectorXd& position) {
   PositionNoise noise;
   const double floor = 1e-9 * (position.maxCoeff() - position.minCoeff());
-  const double spread = ThirdDifferenceNoise(position);
-  noise.resolution = Resolution(position);
+  noise.resolution = StepOfPosition(position);
+  const double spread = ThirdDifferenceNoise(position, noise.resolution > 0);
   // rounding to steps leaves a deviation of step / sqrt(12); little more is taken for rounding alone
   const double rounding = noise.resolution / std::sqrt(12.0);
   const bool is_rounding = spread <= 1.7 * rounding;
@@ -41,7 +74,7 @@ PositionNoise MeasurePositionNoise(const VectorXd& position) {
 
 RelativePosition FromFirst(const VectorXd& position) {
   const VectorXd moved = position.array() - position[0];
-  const double smallest = Resolution(moved);
+  const double smallest = StepOfPosition(moved);
   if (smallest == 0) return {moved, 1};
 
   // the resolution from the longest way, where the rounding of numbers matters least

@@ -12,8 +12,13 @@ struct PositionNoise {
   double reach = 0;       // how far a position may lie from where the joint was, rad or m
 };
 
+/// Step of a quantised position: the common divisor of its changes by Euclid's algorithm, of which each is a multiple to
+/// 5 %. In a fine rounding of what moves fast, no change is a single step. 0 where there is none, or all are the same
+/// multiple. position: [N] rad or m, within one recording.
+double StepOfPosition(const Eigen::VectorXd& position);
+
 /// deviation s: median of |third differences| / (0.6745 sqrt(20)), which the way at a constant speed
-/// and most ramps do not touch. Where s <= 1.7 q / sqrt(12), q the resolution, rounding is all the
+/// and most ramps do not touch; but for those that are 0 where q is: some drives log one position all through a rest. Where s <= 1.7 q / sqrt(12), q the resolution, rounding is all the
 /// noise there is: a line through the middle of all counts passes within q / 2 of each, reach is
 /// 0.51 q and the deviation q / sqrt(12). Else reach is 4.5 s: one sample in 150,000 lies further
 /// off by chance. Both are at least 1e-9 of the range, for numbers that are rounded in a file.

@@ -177,10 +177,31 @@ struct PreparedLog::Maker {
     return log;
   }
 
+  /// A log whose velocity column comes in steps so coarse that the positions show it, from the positions. Nothing where
+  /// these have faults.
+  static std::optional<Log> WithoutCoarseColumn(const Measurements& measurements,
+                                                const Selection& selection,
+                                                const HoldOptions& holds) {
+    const std::optional<double> step = CoarseStep(measurements, selection);
+    if (!step) return {};
+    Measurements positions = measurements;
+    positions.velocity.resize(0);
+    Log log = OfPositions(std::move(positions), holds);
+    if (!log.faults.empty()) return {};
+    log.warnings.push_back(fmt::format(
+        "the velocity column comes in steps of {:.3g} {}, and the positions tell the speeds more "
+        "finely: the velocity is taken from the positions, and the column is not used",
+        *step, kVelocityUnit.For(measurements.joint)));
+    return log;
+  }
+
   /// A log whose velocity column is held against its positions: these replace it where they contradict it, and tell
   /// the ways between its segments where they know more of these.
   static Log OfColumnAndPositions(Measurements measurements, const HoldOptions& holds) {
     ConstantSpeed found = FindConstantSpeed(measurements);
+    if (auto log = WithoutCoarseColumn(measurements, found.selection, holds)) {
+      return std::move(*log);
+    }
     const OtherTelling other = TellByPositions(measurements, found);
     const auto contradiction = PathContradiction(measurements, found.selection, other.paths);
     if (contradiction) {

@@ -4,12 +4,14 @@
 #include <cmath>
 #include <vector>
 
+#include "models/foundation/robust_noise.h"
+
 namespace warmjoint::inline identification {
 namespace {
 
 using Eigen::Index;
 
-constexpr double kHarmless = 1e-3;  // attenuation
+constexpr double kHarmless = 1e-3;  // attenuation, or error of a speed
 constexpr double kCertain = 4;      // standard errors; why 4: by chance 1 in 16 000
 constexpr double kRounding = 1e-6;  // of the mean speed: less is no noise
 
@@ -123,10 +125,17 @@ struct Velocity {
   double value = 0, error = 0;
 };
 
+/// As the velocities tell it, and as the positions do.
+struct TwoVelocities {
+  Velocity mean, slope;
+
+  TwoVelocities(const Steady& one, const Pooled& pooled)
+      : mean{one.velocity.mean, pooled.velocity_noise / std::sqrt(one.times.count)},
+        slope{one.position.slope, std::sqrt(2.0) * pooled.position_noise / one.times.duration} {}
+};
+
 Velocity BestVelocity(const Steady& one, const Pooled& pooled) {
-  const Velocity mean{one.velocity.mean, pooled.velocity_noise / std::sqrt(one.times.count)};
-  const Velocity slope{one.position.slope,
-                       std::sqrt(2.0) * pooled.position_noise / one.times.duration};
+  const auto [mean, slope] = TwoVelocities(one, pooled);
   const bool agrees =
       std::abs(slope.value - mean.value) <= kCertain * std::hypot(mean.error, slope.error);
   return agrees && slope.error < mean.error ? slope : mean;
@@ -164,6 +173,27 @@ std::optional<SegmentVelocity> TakeSegmentVelocity(const Measurements& measureme
   // what the errors that remain take off a slope
   taken.noise.left = pooled.Attenuation(errors);
   return taken;
+}
+
+std::optional<double> CoarseStep(const Measurements& measurements, const Selection& selection) {
+  const double step = Resolution(measurements.velocity);
+  if (step == 0) return std::nullopt;
+  const std::vector<Steady> all = SteadySegments(measurements, selection);
+  if (all.empty()) return std::nullopt;
+  const Pooled pooled = Pool(all);
+
+  // mean squares of the differences and of their standard errors
+  double differences = 0, errors = 0;
+  for (const Steady& one : all) {
+    const auto [mean, slope] = TwoVelocities(one, pooled);
+    const double share = one.times.count / pooled.count;
+    differences += share * std::pow(mean.value - slope.value, 2);
+    errors += share * (std::pow(mean.error, 2) + std::pow(slope.error, 2));
+  }
+  const double difference = std::sqrt(differences);
+  const bool shows = difference > kCertain * std::sqrt(errors);
+  const bool matters = difference > kHarmless * pooled.mean_speed;
+  return shows && matters && difference <= step ? std::optional(step) : std::nullopt;
 }
 
 }  // namespace warmjoint::inline identification

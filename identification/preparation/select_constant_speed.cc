@@ -161,11 +161,26 @@ bool TurnsRound(const Segment& before, const Segment& run, const Segment& after)
          kReversal * Length(run) <= std::min(Length(before), Length(after));
 }
 
-std::vector<Segment> WithoutReversals(const std::vector<Segment>& runs) {
+/// Whether a run is a start or an end of a much longer hold that rings: no further from it than the run lasts, with a
+/// band that touches that of the hold. The torque is far from settled where the speed is within some per cent.
+bool Rings(const Segment& run, const Segment& hold, const VelocityScale& scale) {
+  const Index apart = std::max(hold.begin - run.end, run.begin - hold.end);
+  const double touching = scale.Band(run.velocity) + scale.Band(hold.velocity);
+  return kReversal * Length(run) <= Length(hold) && apart <= Length(run) &&
+         std::abs(run.velocity - hold.velocity) <= touching;
+}
+
+/// Drops what only leads from one hold to the next.
+std::vector<Segment> WithoutTransitions(const std::vector<Segment>& runs,
+                                        const VelocityScale& scale) {
   std::vector<Segment> lasting;
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    const bool has_both = i > 0 && i + 1 < runs.size();
-    if (!has_both || !TurnsRound(runs[i - 1], runs[i], runs[i + 1])) lasting.push_back(runs[i]);
+    const Segment* before = i > 0 ? &runs[i - 1] : nullptr;
+    const Segment* after = i + 1 < runs.size() ? &runs[i + 1] : nullptr;
+    const bool turns = before && after && TurnsRound(*before, runs[i], *after);
+    const bool rings =
+        (before && Rings(runs[i], *before, scale)) || (after && Rings(runs[i], *after, scale));
+    if (!turns && !rings) lasting.push_back(runs[i]);
   }
   return lasting;
 }
@@ -193,7 +208,7 @@ std::vector<Segment> SteadyRuns(const Measurements& measurements, const Velocity
     if (Length(run) < kShortest || Drifts(run, v, scale)) continue;
     steady.push_back(run);
   }
-  return WithoutReversals(WithoutTurningPoints(steady, v.size()));
+  return WithoutTransitions(WithoutTurningPoints(steady, v.size()), scale);
 }
 
 /// One recording: all samples of the log.

@@ -25,21 +25,34 @@ double MedianStep(const Eigen::VectorXd& time) {
 }
 
 double WhiteNoise(const Eigen::VectorXd& x) {
+  return WhiteNoise(x, SampleMask::Constant(x.size(), true));
+}
+
+double WhiteNoise(const Eigen::VectorXd& x, const SampleMask& use) {
   const Eigen::Index n = x.size() - 4;
-  if (n < 1) return 0;
+  if (n < 1 || !use.segment(2, n).any()) return 0;
   // fourth differences, of which smooth motion leaves next to nothing
   Eigen::VectorXd differences =
       x.head(n) - 4 * x.segment(1, n) + 6 * x.segment(2, n) - 4 * x.segment(3, n) + x.tail(n);
-  differences = differences.cwiseAbs();
+  differences = Chosen(differences.cwiseAbs(), use.segment(2, n));
 
   // 1^2 + 4^2 + 6^2 + 4^2 + 1^2 = 70; the median of |z| of a standard normal is 0.6745
   return MedianInPlace(differences) / (0.6745 * std::sqrt(70.0));
 }
 
+Eigen::VectorXd Chosen(const Eigen::VectorXd& x, const SampleMask& use) {
+  Eigen::VectorXd chosen(use.count());
+  for (Eigen::Index i = 0, next = 0; i < x.size(); ++i) {
+    if (use[i]) chosen[next++] = x[i];
+  }
+  return chosen;
+}
+
 double Resolution(const Eigen::VectorXd& x) {
   if (x.size() < 2) return 0;
   const Eigen::ArrayXd steps = (x.tail(x.size() - 1) - x.head(x.size() - 1)).cwiseAbs();
-  const double rounding = 1e-12 * x.cwiseAbs().maxCoeff();
+  // why 1e-9: differences over time stamps of hours at 1 kHz are exact to 2e-10 of the largest
+  const double rounding = 1e-9 * x.cwiseAbs().maxCoeff();
 
   // the smallest step that is not rounding, and the largest, which is none either
   double smallest = kUnknown, largest = 0;

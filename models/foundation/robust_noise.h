@@ -10,6 +10,15 @@ namespace warmjoint::inline models {
 /// not count. x: [N]; 0 for fewer than five samples.
 double WhiteNoise(const Eigen::VectorXd& x);
 
+/// Which samples of a signal count. [N]
+using SampleMask = Eigen::Array<bool, Eigen::Dynamic, 1>;
+
+/// The same over the differences in whose middle a sample of `use` stands: a signal that rests shows no noise.
+double WhiteNoise(const Eigen::VectorXd& x, const SampleMask& use);
+
+/// What of x `use` has, in its order. x: [N]
+Eigen::VectorXd Chosen(const Eigen::VectorXd& x, const SampleMask& use);
+
 /// Step of a quantised signal: the smallest difference between neighbours, where all differences
 /// are multiples of it (to 5 % of it) and not all the same multiple; 0 for signals that are not
 /// quantised, or too finely to tell. x: [N].

@@ -189,6 +189,9 @@ class MujocoPlant : public Plant {
     mjtNum* const state = d->act + joint_.friction_state;
     d->qpos[0] = start - reference.run_up();
     SetEnergy(state);
+    // a log that its filter delays begins with the energy of the scenario, too
+    const double cutoff = scenario_.sampling.cutoff;
+    const long late = cutoff > 0 ? std::lround(kSensorFilterDelay / cutoff / h) : 0;
 
     const Eigen::Index n = truth.velocity.size();
     Eigen::VectorXd positions(n);
@@ -196,7 +199,7 @@ class MujocoPlant : public Plant {
     SpeedWatch speed;
     double half_step_before = reference.Velocity(static_cast<double>(-run_up) * h - 0.5 * h);
     for (long step = -run_up; sample < n || !log.Full(); ++step) {
-      if (step == 0) SetEnergy(state);
+      if (step == -std::min(late, run_up)) SetEnergy(state);
       const double time = static_cast<double>(step) * h;
       const double wanted = reference.Velocity(time);
       d->ctrl[joint_.friction_control] = scenario_.disturbances.ambient_temperature.RiseAt(time);

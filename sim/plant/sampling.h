@@ -14,6 +14,9 @@ namespace warmjoint::inline sim {
 /// Order of the causal Butterworth low-pass on the sensor readings.
 inline constexpr int kSensorFilterOrder = 4;
 
+/// How long that delays what changes slowly, times its cutoff: 2 (cos 22.5 deg + cos 67.5 deg) / (2 pi).
+inline constexpr double kSensorFilterDelay = 0.4159;
+
 /// Number of sensor readings, from t = 0 on, behind `stored` samples.
 Eigen::Index SensorReadings(const Sampling& sampling, Eigen::Index stored);
 
