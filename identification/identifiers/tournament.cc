@@ -29,7 +29,7 @@ constexpr double kBeyondDoubt =
     3.5;  // standard errors: by chance once in a thousand logs, of two values
 
 Trial Try(const Structure& structure, const IdentifierInput& input) {
-  Trial trial{structure, structure.Quick().Fitted(input)};
+  Trial trial{structure, AtBounds(structure.Quick().Fitted(input), input.measurements)};
   trial.gives_friction = GivesFriction(trial.fit);
   // the shape that was chosen for a map stays with the structure
   if (!trial.fit.friction.maps.empty()) {
