@@ -56,8 +56,8 @@ struct Estimate {
   std::optional<FrictionDescription> friction;
   std::optional<GravityModel> gravity;  // what the fit took for gravity beside friction
   std::vector<MapBand> bands;           // one for each of the friction's maps
-  /// Beside maps, in place of parameters of the law that only the prior tells: friction at the lowest,
-  /// the median and the highest speed.
+  /// Beside maps, in place of parameters of the law that only the prior tells: friction at a low, the
+  /// median and a high speed of each direction.
   std::vector<FrictionAtSpeed> at_speeds;
   std::optional<ParameterCovariance> covariance;  // of the values with intervals, by noise alone
   std::vector<Diagnostic> diagnostics;            // of the verdict; empty where there is none

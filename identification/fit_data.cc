@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "identification/preparation/moving_view.h"
 #include "models/foundation/robust_noise.h"
 
 namespace warmjoint::inline identification {
 namespace {
+
+constexpr double kLargest = 1e75;  // why: its fourth power, a squared power, is a double
 
 /// Complains of the first number in `values` that is not finite.
 std::optional<std::string> NotFinite(const char* name, const Eigen::VectorXd& values) {
@@ -28,6 +31,14 @@ std::optional<std::string> Unusable(const IdentifierInput& input, int parameters
   if (auto why = NotFinite("time", m.time)) return why;
   if (auto why = NotFinite("velocity", m.velocity)) return why;
   if (auto why = NotFinite("torque", m.torque)) return why;
+
+  // numbers whose squares and products stay within those that doubles hold
+  for (const auto& [name, column] : {std::pair("velocity", &m.velocity), {"torque", &m.torque}}) {
+    const double largest = column->size() > 0 ? column->cwiseAbs().maxCoeff() : 0;
+    if (largest == 0 || (largest < kLargest && largest > 1 / kLargest)) continue;
+    return fmt::format("{} is {:.3g} at most, too {} to square; check its unit", name, largest,
+                       largest < 1 ? "small" : "large");
+  }
 
   // more samples than parameters, of those that take part
   const auto count = input.selection.count();

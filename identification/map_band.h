@@ -16,10 +16,9 @@ struct MapBand {
   std::vector<std::array<double, 2>> interval95;  // [g]
 };
 
-/// What law and maps brake with at one speed: the mean over the places and directions of the kept
-/// samples.
+/// What law and maps brake with at one speed: the mean over the places where kept samples moved so.
 struct FrictionAtSpeed {
-  double speed = 0;
+  double speed = 0;  // below 0: backwards
   double value = 0;
   double std = 0;
   std::array<double, 2> interval95{};

@@ -3,12 +3,45 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
+
 #include "identification/lack_of_fit/judge.h"
+#include "identification/preparation/moving_view.h"
 #include "identification/report/report_fit.h"
 #include "identification/report/tell_preparation.h"
 #include "identification/seen_samples.h"
 
 namespace warmjoint::inline identification {
+namespace {
+
+constexpr Eigen::Index kFewest = 30;  // why 30: of fewer, colour and structure of noise stay unseen
+constexpr double kLeastShare = 0.05;  // why: the rest, 19 times as much, may be another motion
+constexpr double kWorse = 10.8;  // why: chi-squared of one degree of freedom, once in a thousand
+
+/// Voids an answer that is worthless whatever the tests let pass: it rests on next to nothing of the log, or one
+/// number, the mean of the torque, follows it better beyond chance.
+void JudgeFloor(const Fit& fit, const Measurements& m, Inference& judged) {
+  const auto used = static_cast<double>(fit.torque.size());
+  const auto moving = static_cast<double>((m.velocity.array().abs() > ClearSpeed(m)).count());
+  if (used < kFewest || used < kLeastShare * moving) {
+    judged.Void(
+        Status::not_identifiable,
+        fmt::format("the fit rests on {} of {} samples that move, and takes {} and {:.0f} % of "
+                    "them: record longer, or use the others (--motion {})",
+                    used, moving, kFewest, 100 * kLeastShare, m.acceleration ? "constant" : "any"));
+    return;
+  }
+  const double left = fit.residual().squaredNorm();
+  const double by_mean = (fit.torque.array() - fit.torque.mean()).square().sum();
+  if (left - by_mean <= kWorse * judged.known.noise.variance_inflation * left / used) return;
+  judged.Void(
+      Status::inadequate_model,
+      fmt::format("the torque's mean follows it better than the friction does (Fit {:.3g} %): "
+                  "is there gravity (--gravity sincos), or a wrong sign or unit?",
+                  100 * (1 - std::sqrt(left / by_mean))));
+}
+
+}  // namespace
 
 Answer FitAndJudge(const Identifier& identifier, const IdentifierInput& given,
                    const Judging& judging) {
@@ -16,7 +49,7 @@ Answer FitAndJudge(const Identifier& identifier, const IdentifierInput& given,
 
   // fit, then infer
   Answer answer;
-  answer.fit = identifier.fit(input);
+  answer.fit = AtBounds(identifier.fit(input), input.measurements);
   answer.inferred = Infer(answer.fit);
 
   // judge
@@ -24,6 +57,9 @@ Answer FitAndJudge(const Identifier& identifier, const IdentifierInput& given,
   const std::vector<std::string>& faults = input.log.faults();
   if (faults.empty()) {
     JudgeLackOfFit(identifier, input, answer.fit, judging, answer.judged);
+    if (answer.judged.status == Status::ok) {
+      JudgeFloor(answer.fit, input.measurements, answer.judged);
+    }
   } else {
     answer.judged.Void(Status::bad_data, fmt::format("{}", fmt::join(faults, "; and ")));
   }
@@ -50,7 +86,7 @@ Estimate IdentifyAndJudge(const Identifier& identifier, const IdentifierInput& i
 
 Estimate IdentifyUnjudged(const Identifier& identifier, const IdentifierInput& given) {
   const IdentifierInput input = Seen(identifier, given);
-  const Fit fit = identifier.fit(input);
+  const Fit fit = AtBounds(identifier.fit(input), input.measurements);
   return ReportFit(fit, Infer(fit), input.measurements);
 }
 

@@ -17,7 +17,8 @@ struct Answer {
 
 /// Fits and judges: what `identify` and `run` report. A log with faults (preparation/log_faults.h)
 /// makes the inference void, bad_data, and its message names them; else the residual is examined for
-/// structure (lack_of_fit/judge.h), and what the preparation of the log means for the numbers is told.
+/// structure (lack_of_fit/judge.h), and what the preparation of the log means for the numbers is told. No answer is ok that
+/// rests on fewer than 30 samples or a twentieth of those that move, or that the mean of the torque beats beyond chance.
 Answer FitAndJudge(const Identifier& identifier, const IdentifierInput& input,
                    const Judging& judging = {});
 

@@ -1,6 +1,7 @@
 #include "identification/holdout/blocked_hold_out.h"
 
 #include "identification/holdout/evaluate.h"
+#include "identification/inference/inference.h"
 
 namespace warmjoint::inline identification {
 
@@ -31,7 +32,7 @@ std::optional<std::vector<Metrics>> BlockedFigures(const Identifier& identifier,
     Selection block = input.selection;
     block.keep = block.keep && !others.keep;
     const IdentifierInput rest = input.With(others);
-    const Fit fit = identifier.fit(rest);
+    const Fit fit = AtBounds(identifier.fit(rest), rest.measurements);
     const auto metrics = Evaluate(fit, input.measurements, block, fit.Start());
     if (!metrics) return std::nullopt;
     figures.push_back(*metrics);

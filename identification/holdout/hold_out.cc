@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "identification/holdout/evaluate.h"
 #include "identification/inference/inference.h"
 #include "identification/physical_bounds.h"
@@ -36,14 +38,18 @@ std::string WhyNone(const Fit& fit, Eigen::Index asked) {
 std::optional<FirstPart> FitFirstPart(const Identifier& identifier, const IdentifierInput& given,
                                       double fraction, const Fit& all_data) {
   const IdentifierInput input = Seen(identifier, given);
-  const Eigen::VectorXd& time = input.measurements.time;
-  // a share of the time, however many samples lie in it
-  const double split = time[0] + (1 - fraction) * (time[time.size() - 1] - time[0]);
-  if ((time.array() < split).count() < 2) return std::nullopt;
+  const auto& keep = input.selection.keep;
+  // a share of the samples that take part, however long they last
+  const auto first = std::llround((1 - fraction) * static_cast<double>(keep.count()));
+  if (first < 2 || first >= keep.count()) return std::nullopt;
+  Eigen::Index end = 0;
+  for (Eigen::Index seen = 0; seen < first || !keep[end]; ++end) seen += keep[end];
+  const double split = input.measurements.time[end];
   // what lies before, seen as the identifier saw the whole log
   const IdentifierInput before{input.log.Before(split), input.options, input.start};
   const IdentifierInput seen = SeenAs(input, identifier, before);
-  return FirstPart{split, all_data.structure ? all_data.structure(seen) : identifier.fit(seen)};
+  Fit fit = all_data.structure ? all_data.structure(seen) : identifier.fit(seen);
+  return FirstPart{split, AtBounds(std::move(fit), seen.measurements)};
 }
 
 std::optional<Metrics> HoldOut(const Identifier& identifier, const IdentifierInput& given,
@@ -69,7 +75,7 @@ std::string WhyNoHoldOut(const Identifier& identifier, const IdentifierInput& gi
                          double fraction, const Fit& all_data) {
   const std::string part = fmt::format("the first {:.3g} % of the log", 100 * (1 - fraction));
   const auto first = FitFirstPart(identifier, given, fraction, all_data);
-  if (!first) return fmt::format("{} hold fewer than two samples", part);
+  if (!first) return fmt::format("{}, or the rest, hold fewer than two samples", part);
 
   // a fit without friction predicts nothing
   const Inference inferred = Infer(first->fit);

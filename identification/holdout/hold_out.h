@@ -15,7 +15,7 @@ struct FirstPart {
   Fit fit;
 };
 
-/// Fits the first 1 - fraction of the recording's time, 0 < fraction < 1; where the fit of all samples chose
+/// Fits the first 1 - fraction of the samples that take part, 0 < fraction < 1; where the fit of all samples chose
 /// a structure (Fit::structure), that one. Nothing where fewer than two samples are left.
 std::optional<FirstPart> FitFirstPart(const Identifier& identifier, const IdentifierInput& input,
                                       double fraction, const Fit& all_data);

@@ -66,9 +66,11 @@ std::optional<Refusal> WhyRefused(const KalmanTrack& track, const Fit& fit, cons
   const auto [shortest, longest] = TimeConstantRange(track);
   const double vague =
       joint.rank == p ? std::sqrt(variance * joint.cofactor(p - 1, p - 1)) : kInfinity;
-  if (auto why = UnidentifiableWarming({(nominal_squares - squares) / variance, vague,
-                                        ending.thermal.time_constant, shortest, longest,
-                                        m.time[m.size() - 1] - m.time[0]})) {
+  if (auto why = UnidentifiableWarming(
+          {ExplainedVariances(nominal_squares, squares, static_cast<double>(fit.torque.size() - p),
+                              fit.torque),
+           vague, ending.thermal.time_constant, shortest, longest,
+           m.time[m.size() - 1] - m.time[0]})) {
     return Refusal{Status::not_identifiable, *why};
   }
   if (response.feeds_itself) {

@@ -54,7 +54,8 @@ double SquaresWithout(const StribeckProblem& problem) {
 /// The drop of |e|^2 / s^2 that the level at rest and stribeck_velocity bring.
 double Explained(const IdentifierInput& input, double without, const StribeckPoint& point) {
   const auto freedom = static_cast<double>(input.selection.count() - point.x.size());
-  return (without - point.squares) / (point.squares / freedom);
+  return ExplainedVariances(without, point.squares, freedom,
+                            Kept(input.measurements.torque, input.selection));
 }
 
 /// Why they cannot be seen: one sentence.
@@ -74,11 +75,12 @@ std::optional<std::string> UnidentifiableHeat(const StribeckProblem& problem,
   const Eigen::VectorXd& time = problem.measurements.time;
   const double total = time[time.size() - 1] - time[0];
   // what the warming explains, in variances of the noise
-  const Eigen::Index n = fit.fitted.size();
-  const double variance = fit.solution.squares / static_cast<double>(n - fit.solution.x.size());
+  const auto freedom = static_cast<double>(fit.fitted.size() - fit.solution.x.size());
   return UnidentifiableWarming(
-      {(cold_squares - fit.solution.squares) / variance, known.Deviation(Gain(problem) + 1),
-       std::exp(fit.solution.x[Gain(problem) + 1]), 2 * problem.intervals.typical, 5 * total});
+      {ExplainedVariances(cold_squares, fit.solution.squares, freedom,
+                          Kept(problem.measurements.torque, problem.selection)),
+       known.Deviation(Gain(problem) + 1), std::exp(fit.solution.x[Gain(problem) + 1]),
+       2 * problem.intervals.typical, 5 * total});
 }
 
 /// The law's values at x. [l + 2]

@@ -1,6 +1,7 @@
 // Structures that are tried on one log and compared on parts of it that they have not seen.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,9 +24,10 @@ struct Trial {
   std::optional<Eigen::VectorXd> errors{};  // on blocks, of a contender
 
   double Parameters() const { return fit.effective_parameters; }
-  /// (N.m)^2 or N^2
+  /// (N.m)^2 or N^2; of exact fits that of rounding, by which none is better than another.
   double MeanSquare() const {
-    return fit.residual().squaredNorm() / static_cast<double>(fit.torque.size());
+    return std::max(fit.residual().squaredNorm() / static_cast<double>(fit.torque.size()),
+                    RoundingVariance(fit.torque));
   }
 };
 

@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 
+#include "identification/fit_data.h"
 #include "identification/linear/against_curve.h"
 #include "identification/physical_bounds.h"
 #include "models/friction/parameter_rows.h"
+#include "models/recording/course_of.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -107,9 +111,9 @@ void JudgeBounds(const Fit& fit, Inference& inference) {
   const std::string& law = fit.friction.law;
   const std::vector<Excess> excesses = FindExcesses(fit, inference);
 
-  // beyond doubt; that friction rises from rest has words of its own
+  // what could not be held at its bound; that friction rises from rest has words of its own
   const auto sure = std::ranges::find_if(
-      excesses, [](const Excess& excess) { return excess.beyond && !IsRise(excess.parameter); });
+      excesses, [](const Excess& excess) { return !IsRise(excess.parameter); });
   if (sure != excesses.end()) {
     inference.Void(Status::inadequate_model,
                    fmt::format("{}: law {} does not describe these data; {}", Words(*sure), law,
@@ -126,15 +130,66 @@ void JudgeBounds(const Fit& fit, Inference& inference) {
     return;
   }
 
-  // perhaps by chance
-  for (const Excess& excess : excesses) {
-    inference.warnings.push_back(
-        fmt::format("{}: no friction is given; record longer{}", Words(excess),
-                    excess.parameter.part == LawPart::slope
-                        ? fmt::format(", or try --identifier {} --set law=coulomb", Linear(fit))
-                        : ""));
+  inference.gives_friction = true;
+}
+
+namespace {
+
+/// F + G + M a by the friction and what stands beside it. [N] N.m or N
+Eigen::VectorXd TorqueOf(const Fit& fit, const Measurements& m) {
+  Eigen::VectorXd torque = PredictFriction(fit.friction, m, fit.Start()).force;
+  if (fit.gravity) torque += fit.gravity->Torque(m.position);
+  if (fit.inertia && m.acceleration) torque += *fit.inertia * *m.acceleration;
+  return torque;
+}
+
+/// Moves the table by changes of x, [p], and the model by it.
+void Move(const Eigen::VectorXd& moves, Fit& fit) {
+  Eigen::Index column = 0, gravity = 0;
+  for (FitParameter& row : fit.parameters) {
+    if (!row.estimated) continue;
+    const double move = moves[column++], before = row.value;
+    const bool heat = row.role == Role::heat, tau = row.coordinate == Coordinate::logarithm;
+    row.value = tau ? before * std::exp(move) : before + move;
+    // exactly at the bound
+    if (row.role == Role::law) row.value = std::clamp(row.value, row.lower, row.upper);
+    row.moved = row.value - before;
+    if (row.role == Role::law) fit.friction.parameters[row.name] = row.value;
+    if (heat) (tau ? fit.friction.thermal->time_constant : fit.friction.thermal->gain) = row.value;
+    if (row.role == Role::start) fit.initial_energy = row.value;
+    if (row.role == Role::gravity) fit.gravity->values[gravity++] = row.value;
+    if (row.role == Role::inertia) fit.inertia = row.value;
   }
-  inference.gives_friction = excesses.empty();
+}
+
+}  // namespace
+
+void HoldAtBounds(const Inference& told, const Measurements& measurements, Fit& fit) {
+  // free gravity and maps have weights beside the table, which would have to follow
+  const bool free = fit.gravity && fit.gravity->kind == GravityKind::paired;
+  if (free || !fit.friction.maps.empty()) return;
+  std::vector<Eigen::Index> held;
+  std::vector<double> gaps;
+  Eigen::Index column = -1;
+  for (size_t i = 0; i < fit.parameters.size(); ++i) {
+    const FitParameter& row = fit.parameters[i];
+    column += row.estimated;
+    const auto excess = row.role == Role::law ? FindExcess(row, told.parameters[i]) : std::nullopt;
+    if (!excess) continue;
+    if (excess->beyond || !excess->known.interval95) return;
+    held.push_back(column);
+    gaps.push_back(excess->bound - row.value);
+    fit.warnings.push_back(
+        fmt::format("{}: noise may do that, so it is set to {}", Words(*excess), excess->bound));
+  }
+
+  // the others as the covariance has them with these held
+  const Eigen::MatrixXd& covariance = told.known.covariance;
+  const Eigen::Map<const Eigen::VectorXd> gap(gaps.data(), static_cast<Eigen::Index>(gaps.size()));
+  const Eigen::VectorXd before = TorqueOf(fit, measurements);
+  Move(covariance(Eigen::all, held) * covariance(held, held).eval().ldlt().solve(gap), fit);
+  fit.fitted += Kept(TorqueOf(fit, measurements) - before, fit.used);
+  fit.end_energy = nullptr;
 }
 
 }  // namespace warmjoint::inline identification

@@ -5,9 +5,14 @@
 
 namespace warmjoint::inline identification {
 
-/// Voids an inference some law parameter of which lies outside of its bound with the whole of its
-/// interval, or whose static level is below its Coulomb level. Where only the value lies outside, no
-/// friction is given and a warning says so; else the friction may be used.
+/// Voids an inference some law parameter of which lies outside of its bound, or whose static level is below
+/// its Coulomb level; else the friction may be used.
 void JudgeBounds(const Fit& fit, Inference& inference);
+
+/// Sets law parameters that lie outside of a bound within their intervals to it: what is beyond is noise. The others are
+/// fitted again with these held, x += V_h (V_hh)^-1 (b - x_h), V the covariance of x, and the model follows. A fit stays
+/// as it is where one lies beyond with its whole interval, or beside maps (MapSystem holds their laws) and free gravity.
+/// told: of the fit, whatever its bounds; measurements: of the fit.
+void HoldAtBounds(const Inference& told, const Measurements& measurements, Fit& fit);
 
 }  // namespace warmjoint::inline identification

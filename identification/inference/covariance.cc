@@ -24,6 +24,14 @@ Uncertainty OfWeighted(const Eigen::MatrixXd& jacobian, const ErrorModel& errors
 Uncertainty OfSquares(const Fit& fit, const Eigen::VectorXd& residual,
                       const std::function<Eigen::MatrixXd()>& rows) {
   const ErrorModel& errors = fit.errors;
+  // an exact log: its numbers are as sure as the rounding of doubles lets them be
+  if (IsRounding(residual.squaredNorm(), fit.torque)) {
+    Uncertainty exact;
+    exact.noise.variance = exact.noise.innovation = RoundingVariance(fit.torque);
+    exact.covariance = exact.noise.variance * errors.cofactor;
+    exact.freedom = std::max(static_cast<double>(residual.size() - errors.cofactor.rows()), 1.0);
+    return exact;
+  }
   Uncertainty known =
       JudgeUncertainty(rows, errors.cofactor, residual, fit.used, fit.fitted, errors.prior);
   const bool has_prior = errors.prior.size() > 0 && !errors.prior.isZero();

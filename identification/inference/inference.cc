@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "identification/inference/bounds.h"
 #include "identification/inference/covariance.h"
 #include "identification/inference/hold_structure.h"
 #include "identification/linear/robust.h"
+#include "identification/physical_bounds.h"
 #include "identification/uncertainty/tails.h"
 
 namespace warmjoint::inline identification {
@@ -30,6 +32,17 @@ KnownParameter Known(const FitParameter& parameter, double deviation, double qua
   return {value, std::abs(value) * relative, {{ends.first, ends.second}}, 0};
 }
 
+/// The same about the fit's own value, where it was moved; of one that was set to a bound from that on.
+KnownParameter KnownWithin(FitParameter row, double deviation, double quantile) {
+  const double value = row.value;
+  row.value -= row.moved;
+  KnownParameter known = Known(row, deviation, quantile);
+  known.value = value;
+  if (row.role != Role::law || (value != row.lower && value != row.upper)) return known;
+  for (double& end : *known.interval95) end = std::clamp(end, row.lower, row.upper);
+  return known;
+}
+
 /// One for each row of the table; those that were given, or that noise does not tell, have none.
 std::vector<KnownParameter> Intervals(const Fit& fit, const Inference& inference) {
   const Uncertainty& known = inference.known;
@@ -41,7 +54,7 @@ std::vector<KnownParameter> Intervals(const Fit& fit, const Inference& inference
       const double quantile = StudentQuantile(known.Freedom(column), kIntervalLevel);
       const double deviation = known.Deviation(column++);
       const bool tells = parameter.has_interval && inference.without_intervals.empty();
-      if (tells) one = Known(parameter, deviation, quantile);
+      if (tells) one = KnownWithin(parameter, deviation, quantile);
     }
     all.push_back(one);
   }
@@ -80,7 +93,10 @@ void Inference::Widen(size_t parameter, double move) {
   (*one.interval95)[1] += std::abs(move);
 }
 
-Inference Infer(const Fit& fit) {
+namespace {
+
+/// Whatever the bounds.
+Inference Unjudged(const Fit& fit) {
   Inference inference;
   if (fit.refusal) {
     inference.status = fit.refusal->status;
@@ -100,14 +116,28 @@ Inference Infer(const Fit& fit) {
   inference.parameters = Intervals(fit, inference);
   inference.message = MessageOf(fit, inference);
   inference.warnings.insert(inference.warnings.end(), fit.warnings.begin(), fit.warnings.end());
+  return inference;
+}
 
-  // and whether they make a friction
+}  // namespace
+
+Inference Infer(const Fit& fit) {
+  Inference inference = Unjudged(fit);
+  if (inference.status != Status::ok) return inference;
+  // whether the numbers make a friction
   if (fit.voided) {
     inference.Void(fit.voided->status, fit.voided->message);
   } else {
     JudgeBounds(fit, inference);
   }
   return inference;
+}
+
+Fit AtBounds(Fit fit, const Measurements& measurements) {
+  if (fit.refusal || fit.voided || !LeavesBounds(fit.parameters)) return fit;
+  const Inference told = Unjudged(fit);
+  if (told.status == Status::ok) HoldAtBounds(told, measurements, fit);
+  return fit;
 }
 
 }  // namespace warmjoint::inline identification

@@ -9,6 +9,7 @@
 
 #include "identification/diagnostic.h"
 #include "identification/fit.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
 
@@ -43,8 +44,12 @@ struct Inference {
   void Widen(size_t parameter, double move);
 };
 
-/// Covariance, intervals with Student's quantile, and physical bounds: a value that lies outside of
-/// one with its whole interval voids the fit, one that may do so by chance gives no friction.
+/// Covariance, intervals with Student's quantile, and physical bounds (bounds.h). The interval of a row that is held
+/// at its bound is that of the fit without it, from the bound on; those of the others are, too.
 Inference Infer(const Fit& fit);
+
+/// The fit with what noise puts beyond a bound set to it (bounds.h); the fit itself where there is nothing to set, or
+/// the whole interval lies beyond. measurements: of the fit.
+Fit AtBounds(Fit fit, const Measurements& measurements);
 
 }  // namespace warmjoint::inline identification

@@ -41,6 +41,10 @@ std::string Obstacle(const std::optional<FittedModel>& model, const Bins& bins) 
   if (!model->residual.allFinite() || !model->derivatives.allFinite()) {
     return "the residual is not finite";
   }
+  if (IsRounding(Kept(model->residual, model->selection).squaredNorm(),
+                 Kept(model->torque, model->selection))) {
+    return "the fit is exact: the residual is the rounding of its numbers";
+  }
   if (bins.size() < kFewestBins) {
     return std::to_string(bins.size()) + " samples or segments are too few to examine";
   }
@@ -160,6 +164,13 @@ void TakeOffRounding(const FittedModel& model, const Measurements& m, const Bins
                      const ForceMoves& moves, Index p, Eigen::VectorXd& rest,
                      Examination& examination) {
   const double variance = examination.squares / examination.samples;
+  if (const double step = HidingStep(m.torque, variance); step > 0) {
+    // any error within half a step, at each bin the worst
+    rest -= rest.cwiseMin(step / 2).cwiseMax(-step / 2);
+    const Eigen::MatrixXd each = Eigen::MatrixXd::Identity(bins.size(), bins.size());
+    examination.by_steps = step / 2 * moves.By(each).topRows(p).cwiseAbs().rowwise().sum();
+    return;
+  }
   const Eigen::VectorXd rounding = MeanRounding(m.torque, model.residual, variance);
   if (rounding.size() == 0) return;
   rest -= rounding;

@@ -45,10 +45,11 @@ struct Examination {
   Eigen::VectorXd
       by_rounding;  // [p] change of each once what the torque's steps do is taken off (rounding.h); empty where
                     // noise evens them out
-  Eigen::VectorXd by_heat;  // [p] change of each had the losses followed the heat within the steps
-                            // of the log; empty where that is no matter
-  double heat_share = 0;    // of that, as the residual tells: 1 where they did, 0 where they were
-                            // held (22)
+  Eigen::VectorXd by_steps;  // [p] most that steps hide of each; empty where they hide nothing
+  Eigen::VectorXd by_heat;   // [p] change of each had the losses followed the heat within the steps
+                             // of the log; empty where that is no matter
+  double heat_share = 0;     // of that, as the residual tells: 1 where they did, 0 where they were
+                             // held (22)
   double heat_deviation = 0;  // standard deviation of the share
   double friction = 0;        // rms of law and heat over the kept samples, N.m or N
   double samples = 0;

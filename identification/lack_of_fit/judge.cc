@@ -128,18 +128,22 @@ Index FarthestBeyond(const Eigen::VectorXd& by, const Examination& examination,
   return worst;
 }
 
-/// Takes back what the steps of the torque do to the parameters.
+/// Takes back what the steps of the torque do to the parameters, or lets intervals hold what they hide.
 void CorrectRounding(const Examination& examination, const Fit& fit, const Measurements& m,
                      Inference& inference) {
-  const Index worst = FarthestBeyond(examination.by_rounding, examination, inference);
-  Shift(examination, examination.by_rounding, inference);
+  const bool hides = examination.by_steps.size() > 0;
+  const Eigen::VectorXd& by = hides ? examination.by_steps : examination.by_rounding;
+  const Index worst = FarthestBeyond(by, examination, inference);
+  hides ? Widen(examination, by, inference) : Shift(examination, by, inference);
   if (worst < 0) return;
   const FitParameter& parameter = fit.parameters[examination.rows[static_cast<size_t>(worst)]];
   inference.warnings.push_back(fmt::format(
-      "the torque comes in steps of {:.3g} {}, which its noise does not even out: the numbers "
-      "given are free of what they do, {} changed by {:.2g} {}; log the torque in finer steps",
-      Resolution(m.torque), m.torque_unit, parameter.name, examination.by_rounding[worst],
-      parameter.unit));
+      "the torque comes in steps of {:.3g} {}, which its noise does not even out: {} {} by {:.2g} "
+      "{}; log the torque in finer steps",
+      Resolution(m.torque), m.torque_unit,
+      hides ? "intervals were widened to cover what they hide, that of"
+            : "the numbers given are free of what they do,",
+      parameter.name + (hides ? "" : " changed"), by[worst], parameter.unit));
 }
 
 /// What the start does to the numbers: intervals that hold a warm one too, or a warning of how far
@@ -278,7 +282,8 @@ void JudgeLackOfFit(const Identifier& identifier, const IdentifierInput& input, 
   WeighStart(examination, identifier, input, fit, judging, inference);
   FollowHeat(examination, fit, m, inference);
   WidenByGaps(examination, m, inference);
-  if (examination.by_rounding.size() > 0) CorrectRounding(examination, fit, m, inference);
+  if (examination.by_rounding.size() + examination.by_steps.size() > 0)
+    CorrectRounding(examination, fit, m, inference);
   if (!examination.Found().empty()) {
     WeighFindings(examination, identifier, input, fit, judging, inference);
   }

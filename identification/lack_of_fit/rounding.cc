@@ -10,19 +10,29 @@ namespace warmjoint::inline identification {
 namespace {
 
 constexpr double kEven = 1e-6;  // of a step: an error that is no matter
+constexpr double kTells = 0.2;  // of a step: noise that tells the torque within; why: rounding.h
 constexpr int kMostWaves = 50;  // then the next is below 1 % of a step
 
+/// The residual's, in steps, without the part that the steps themselves make.
+double NoiseInSteps(double variance, double step) {
+  return std::sqrt(std::max(variance - step * step / 12, 0.0)) / step;
+}
+
 }  // namespace
+
+double HidingStep(const Eigen::VectorXd& torque, double variance) {
+  const double step = Resolution(torque);
+  return step > 0 && NoiseInSteps(variance, step) < kTells ? step : 0;
+}
 
 Eigen::VectorXd MeanRounding(const Eigen::VectorXd& torque, const Eigen::VectorXd& residual,
                              double variance) {
   using std::numbers::pi;
   const double step = Resolution(torque);
   if (step == 0) return {};
-  // the noise in steps, without the part that the steps themselves make
-  const double noise = std::sqrt(std::max(variance - step * step / 12, 0.0)) / step;
+  const double noise = NoiseInSteps(variance, step);
   const auto size = [&](int k) { return std::exp(-2 * std::pow(pi * k * noise, 2)) / (pi * k); };
-  if (size(1) < kEven) return {};
+  if (size(1) < kEven || noise < kTells) return {};
 
   // where each torque lies between two steps, counted from one that was logged
   const Eigen::ArrayXd place = (torque - residual).array() / step - torque[0] / step;

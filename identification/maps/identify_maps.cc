@@ -73,6 +73,11 @@ void AddLaw(const Law& law, const MapFit& maps, const Measurements& measurements
     parameter.has_interval = false;
     imitated.push_back(parameter.name);
   }
+  for (const FitParameter& row : fit.parameters) {
+    if (!row.has_interval || row.value != row.lower) continue;
+    fit.warnings.push_back(fmt::format("noise puts {} beyond its bound {}, so it is set to that",
+                                       row.name, row.lower));
+  }
   if (imitated.empty()) return;
   fit.warnings.push_back(fmt::format(
       "the data cannot separate {} from the map; use total friction (at the speeds given, and "
@@ -108,7 +113,20 @@ void AddBands(const IdentifierInput& input, const MapTask& task, const MapFit& m
   fit.bands = MakeBands(law, maps, known, finer.points, twice ? &*twice : nullptr);
   const bool shares = std::ranges::any_of(
       fit.parameters, [](const FitParameter& one) { return !one.has_interval; });
-  if (shares) fit.at_speeds = FrictionAtSpeeds(law, maps, known, finer.points);
+  std::vector<FrictionAtSpeed> at_speeds = FrictionAtSpeeds(law, maps, known, finer.points);
+  // beyond doubt below 0 in the mean of its places
+  const auto drives = std::ranges::find_if(
+      at_speeds, [](const FrictionAtSpeed& one) { return one.interval95[1] < 0; });
+  if (drives != at_speeds.end()) {
+    fit.voided = Refusal{
+        Status::inadequate_model,
+        fmt::format(
+            "the friction drives the joint: at {:.3g} {} it is {:.3g} {}; does the torque hold "
+            "gravity (--gravity sincos), or is its sign reversed (--scale torque=-1)?",
+            drives->speed, kVelocityUnit.For(input.measurements.joint), drives->value,
+            input.measurements.torque_unit)};
+  }
+  if (shares) fit.at_speeds = std::move(at_speeds);
 }
 
 }  // namespace

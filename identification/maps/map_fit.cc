@@ -77,10 +77,6 @@ std::optional<MapFit> FitMaps(const MapProblem& problem, NormalEquations normal,
   return fit ? std::optional(fits.Complete(std::move(*fit))) : std::nullopt;
 }
 
-std::optional<MapWeights> FitWeights(const MapProblem& problem, double strength) {
-  return RepeatedFit(problem, NormalOf(problem), strength).Fit();
-}
-
 std::vector<FrictionMap> WithWeights(std::vector<FrictionMap> maps,
                                      const Eigen::VectorXd& weights) {
   const double* weight = weights.data();

@@ -54,9 +54,6 @@ std::optional<MapFit> FitMaps(const MapProblem& problem, double strength);
 /// The same of normal equations that are made already: NormalOf(problem).
 std::optional<MapFit> FitMaps(const MapProblem& problem, NormalEquations normal, double strength);
 
-/// FitMaps without how sure it is, which costs several times as much.
-std::optional<MapWeights> FitWeights(const MapProblem& problem, double strength);
-
 /// FitMaps to one torque after the other on the same rows.
 class RepeatedFit {
  public:

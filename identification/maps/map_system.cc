@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "identification/maps/holes.h"
 #include "identification/maps/imitated_columns.h"
@@ -65,43 +66,63 @@ MapSystem::MapSystem(const std::vector<FrictionMap>& maps, const Eigen::MatrixXd
                    : std::make_shared<const Conditioned>(gram_, Deviating(gram, free, shared_));
 }
 
-std::optional<Conditions> MapSystem::Bounded(const NormalEquations& normal) const {
-  Conditions conditions = deviating_->conditions();
+MapSystem::Bounds MapSystem::Bounded(const NormalEquations& normal) const {
+  Bounds bounds{deviating_->conditions(), {}};
+  auto& [rows, values] = bounds.conditions;
   const Eigen::VectorXd after = deviating_->Solve(normal.product);
   Eigen::VectorXd x;
-  bool bounded = false;
-  // every bound of a shared column that the fit would cross
-  for (size_t i = 0; i < shared_.size(); ++i) {
-    const Eigen::Index j = shared_[i], d = after.size();
-    const double bound = lower_[static_cast<size_t>(j)];
-    if (after[j] >= bound) continue;
+  // every bound of a column that the fit would cross
+  for (size_t j = 0; j < lower_.size(); ++j) {
+    const auto at = static_cast<Eigen::Index>(j);
+    if (after[at] >= lower_[j]) continue;
 
     // a bound costs nothing where the fit without conditions is on its other side, or as far off as noise puts it
     if (x.size() == 0) x = plain_->Solve(normal.product);
     const double noise = std::max(normal.Squares(x), 0.0) / static_cast<double>(normal.rows);
-    const double below = std::max(0.0, bound - x[j]);
-    const double variance = noise * plain_->Solve(Eigen::VectorXd::Unit(d, j))[j];
-    if (below * below > kNoChance * variance) continue;
-    conditions.rows.row(static_cast<Eigen::Index>(i)) = Eigen::RowVectorXd::Unit(d, j);
-    conditions.values[static_cast<Eigen::Index>(i)] = bound;
-    bounded = true;
+    const double below = std::max(0.0, lower_[j] - x[at]);
+    const double variance = noise * plain_->Solve(Eigen::VectorXd::Unit(after.size(), at))[at];
+    const auto shared = std::ranges::find(shared_, at);
+    // within its interval, where the data tell one
+    const double reach =
+        shared != shared_.end()
+            ? std::sqrt(kNoChance)
+            : StudentQuantile(std::numeric_limits<double>::infinity(), kIntervalLevel);
+    if (below > reach * std::sqrt(variance)) continue;
+    bounds.columns.push_back(at);
+    Eigen::Index row = shared - shared_.begin();
+    if (shared == shared_.end()) {
+      row = rows.rows();
+      rows.conservativeResize(row + 1, after.size());
+      values.conservativeResize(row + 1);
+    }
+    rows.row(row) = Eigen::RowVectorXd::Unit(after.size(), at);
+    values[row] = lower_[j];
   }
-  return bounded ? std::optional(conditions) : std::nullopt;
+  return bounds;
+}
+
+Eigen::MatrixXd MapSystem::Inverse() const {
+  const auto& [rows, values] = latest_->conditions();
+  const auto shared = static_cast<Eigen::Index>(shared_.size());
+  if (rows.rows() == shared) return latest_->Inverse();
+  return Conditioned(gram_, {rows.topRows(shared), values.head(shared)}).Inverse();
 }
 
 std::optional<Eigen::VectorXd> MapSystem::Solve(const NormalEquations& normal) {
   if (!std::isfinite(normal.squares) || !plain_->works() || !deviating_->works()) {
     return std::nullopt;
   }
-  const std::optional<Conditions> bounded = Bounded(normal);
+  const Bounds bounds = Bounded(normal);
   // the factors of the latest bounds serve again as long as the same ones hold
-  if (!bounded) {
+  if (bounds.columns.empty()) {
     latest_ = deviating_;
-  } else if (!latest_ || latest_->conditions() != *bounded) {
-    latest_ = std::make_shared<const Conditioned>(gram_, *bounded);
+  } else if (!latest_ || latest_->conditions() != bounds.conditions) {
+    latest_ = std::make_shared<const Conditioned>(gram_, bounds.conditions);
   }
   if (!latest_->works()) return std::nullopt;
-  const Eigen::VectorXd x = latest_->Solve(normal.product);
+  Eigen::VectorXd x = latest_->Solve(normal.product);
+  // at the bound, not beside it by rounding
+  for (const Eigen::Index j : bounds.columns) x[j] = lower_[static_cast<size_t>(j)];
   return x.allFinite() ? std::optional(x) : std::nullopt;
 }
 

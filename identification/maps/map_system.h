@@ -57,12 +57,18 @@ class MapSystem {
   /// singular to rounding or overflows.
   std::optional<Eigen::VectorXd> Solve(const NormalEquations& normal);
 
-  /// [d x d] (A^T A + s P)^-1 under the conditions of the latest x.
-  Eigen::MatrixXd Inverse() const { return latest_->Inverse(); }
+  /// [d x d] (A^T A + s P)^-1 under the conditions of the latest x, but for the bounds of columns that the
+  /// data tell: how sure these are is a matter of the fit without.
+  Eigen::MatrixXd Inverse() const;
 
  private:
-  /// The conditions of `deviating_`, but with the bounds that hold for this torque; nothing where none does.
-  std::optional<Conditions> Bounded(const NormalEquations& normal) const;
+  /// The conditions of `deviating_`, but with the bounds that hold for this torque, those of columns that the maps
+  /// cannot be last; and these columns.
+  struct Bounds {
+    Conditions conditions;
+    std::vector<Eigen::Index> columns;
+  };
+  Bounds Bounded(const NormalEquations& normal) const;
 
   Eigen::MatrixXd gram_;                          // [d x d] with the prior
   std::vector<double> lower_;                     // [p] or empty

@@ -34,13 +34,13 @@ bool AtRest(const Thermal& a, const Thermal& b) {
 /// What warming takes of the residual, in variances of the noise, round after round.
 class Visibility {
  public:
-  /// cold: squares without warming, of so many samples.
-  Visibility(double cold, Eigen::Index samples)
-      : cold_(cold), samples_(static_cast<double>(samples)) {}
+  /// cold: squares without warming; torque: [n] to which was fitted, N.m or N
+  Visibility(double cold, Eigen::VectorXd torque)
+      : cold_(cold), torque_(std::move(torque)), samples_(static_cast<double>(torque_.size())) {}
 
   /// squares: what is left; freedom: samples less parameters.
   double Of(double squares, double freedom) const {
-    return (cold_ - squares) / squares * std::max(freedom, 1.0);
+    return ExplainedVariances(cold_, squares, freedom, torque_);
   }
   /// After a round that leaves so many squares.
   void Follow(double squares) {
@@ -57,7 +57,9 @@ class Visibility {
   }
 
  private:
-  double cold_, samples_;
+  double cold_;
+  Eigen::VectorXd torque_;
+  double samples_;
   double latest_ = 0, last_ = 0, before_last_ = 0;
 };
 
@@ -105,7 +107,7 @@ std::optional<WarmMaps> FitWarmMaps(const IdentifierInput& input, const MapTask&
   MapBlock block(input, task);
   if (!block.ChooseBeside({})) return std::nullopt;
   WarmingBlock warming(input, task, initial);
-  Visibility visibility(block.Squares(), input.selection.count());
+  Visibility visibility(block.Squares(), Kept(input.measurements.torque, input.selection));
 
   // what the rounds carry on
   WarmMaps warm;

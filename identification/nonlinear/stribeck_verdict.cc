@@ -58,11 +58,16 @@ std::optional<std::string> UnidentifiableStribeck(const FallingLaw& law,
       evidence.fall_deviation < kImpreciseFall * std::abs(evidence.fall)) {
     return std::nullopt;
   }
+  // errors without a bound have no size to tell
+  const double factor = std::exp(1.96 * evidence.log_deviation);
+  if (!std::isfinite(factor) || !std::isfinite(evidence.fall_deviation)) {
+    return NoFall(law, measurements, selection).message;
+  }
   return fmt::format(
       "{} and stribeck_velocity cannot be told apart: stribeck_velocity is known to a factor of "
       "{:.3g} only, {} to {:.3g}; {}",
-      law.rest(), std::exp(1.96 * evidence.log_deviation), law.fall_words,
-      1.96 * evidence.fall_deviation, SlowSpeeds(measurements, selection));
+      law.rest(), factor, law.fall_words, 1.96 * evidence.fall_deviation,
+      SlowSpeeds(measurements, selection));
 }
 
 }  // namespace warmjoint::inline identification

@@ -45,7 +45,8 @@ std::optional<std::string> ClippedTorque(const Measurements& measurements,
                                          const Selection& selection);
 
 /// Torque that stays at one value for 20 moving samples or more, although elsewhere less than one
-/// step in twenty is 0 and torque is noisy, or the speed changes meanwhile.
+/// step in twenty is 0 and torque is noisy, or the speed changes meanwhile; of one that comes in steps without noise, the
+/// direction.
 std::optional<std::string> StuckTorque(const Measurements& measurements,
                                        const Selection& selection);
 

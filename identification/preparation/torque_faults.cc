@@ -81,9 +81,10 @@ bool TakesManyValues(const Measurements& m, const Selection& selection) {
   return values.size() >= kDistinct;
 }
 
-/// Whether the speeds of a run differ.
-bool SpansSpeeds(const Measurements& m, const ConstantRun& run) {
+/// Whether the speeds of a run differ by as much as a torque of that step must show: of one in steps, the direction.
+bool SpansSpeeds(const Measurements& m, const ConstantRun& run, double step) {
   const auto velocity = m.velocity.segment(run.begin, run.end - run.begin);
+  if (step > 0) return velocity.maxCoeff() > 0 && velocity.minCoeff() < 0;
   const double largest = velocity.cwiseAbs().maxCoeff();
   return velocity.maxCoeff() - velocity.minCoeff() > kOtherSpeed * largest;
 }
@@ -143,13 +144,14 @@ std::optional<std::string> StuckTorque(const Measurements& measurements,
   const TorqueNoiseStatistics noise = MeasureTorqueNoise(measurements, selection);
   if (noise.equal > kFewEqual) return std::nullopt;
   const double highest = measurements.torque.maxCoeff(), lowest = measurements.torque.minCoeff();
+  const double step = Resolution(measurements.torque);
   Index runs = 0;
   ConstantRun longest;
   for (const ConstantRun& run : noise.long_runs) {
     const double value = measurements.torque[run.begin];
     if (value != 0 && (value == highest || value == lowest)) continue;  // clipped
     // without noise only a change of speed shows that the value should have changed
-    if (!noise.IsNoisy() && !SpansSpeeds(measurements, run)) continue;
+    if (!noise.IsNoisy() && !SpansSpeeds(measurements, run, step)) continue;
     ++runs;
     if (run.kept > longest.kept) longest = run;
   }

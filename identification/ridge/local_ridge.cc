@@ -1,10 +1,8 @@
 #include "identification/ridge/local_ridge.h"
 
 #include <Eigen/Cholesky>
-#include <atomic>
 #include <cmath>
 #include <limits>
-#include <thread>
 
 namespace warmjoint::inline identification {
 
@@ -37,28 +35,6 @@ std::optional<Eigen::VectorXd> LocalRidge::Solve(double strength) {
 double HeldOutPart::Squares(double strength) {
   const std::optional<Eigen::VectorXd> x = ridge_.Solve(strength);
   return x ? part_.Squares(*x) : std::numeric_limits<double>::infinity();
-}
-
-Eigen::VectorXd CrossValidate(const std::vector<NormalEquations>& parts, Eigen::Index free,
-                              const std::vector<double>& strengths, int threads) {
-  NormalEquations all = parts.front();
-  for (size_t i = 1; i < parts.size(); ++i) all = all.Plus(parts[i]);
-
-  // each thread takes the next part
-  Eigen::MatrixXd squares(strengths.size(), parts.size());
-  std::atomic<size_t> next = 0;
-  const auto work = [&] {
-    for (size_t i = next++; i < parts.size(); i = next++) {
-      HeldOutPart part(parts[i], all, free);
-      for (size_t k = 0; k < strengths.size(); ++k) squares(k, i) = part.Squares(strengths[k]);
-    }
-  };
-  // the calling thread works, too
-  std::vector<std::jthread> helpers;
-  for (int i = 1; i < threads; ++i) helpers.emplace_back(work);
-  work();
-  helpers.clear();
-  return squares.rowwise().sum() / static_cast<double>(all.rows);
 }
 
 }  // namespace warmjoint::inline identification

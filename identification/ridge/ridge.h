@@ -55,13 +55,6 @@ class Ridge {
   double log_free_determinant_ = 0;
 };
 
-/// Mean squared errors of held-out parts for each strength. parts: normal equations of contiguous
-/// segments of a recording; every part is predicted from all the others. Kernels that never meet
-/// cost nothing (local_ridge.h). An error is infinite where the strength is too small to solve.
-/// threads: parts that are worked on at once; the result does not depend on it.
-Eigen::VectorXd CrossValidate(const std::vector<NormalEquations>& parts, Eigen::Index free,
-                              const std::vector<double>& strengths, int threads = 1);
-
 /// The prior's and the noise's precision that make the data most likely (MacKay 1992), with a flat
 /// prior on the free columns: alpha = gamma / |w|^2, beta = (n - free - gamma) / |r|^2,
 /// gamma = sum s/(s + alpha/beta).

@@ -3,7 +3,8 @@
 // p-values are probabilities, under chance alone, of a statistic at least as far out as the one
 // given: of F upwards, of normal and Student's t to both sides. A z-score is always the number of
 // standard deviations that a normal variable exceeds to either side with that probability:
-// p = 4.6e-4, one in 2150, is z = 3.5.
+// p = 4.6e-4, one in 2150, is z = 3.5. A statistic that is no number, 0/0 where two things are equal to the
+// last digit, shows nothing: its p is 1.
 #pragma once
 
 namespace warmjoint::inline identification {
@@ -30,9 +31,5 @@ double StudentQuantile(double freedom, double level);
 /// P(F >= f) of Fisher's F; 0 to 1. f >= 0, may be infinite; m, n > 0: degrees of freedom of
 /// numerator and denominator.
 double PValueOfF(double f, double m, double n);
-
-/// ZOf(PValueOfF(f, m, n)), and where that probability is too small for a double, by the first term
-/// of its tail, so that it grows with f without end as long as n does not bound it.
-double ZOfF(double f, double m, double n);
 
 }  // namespace warmjoint::inline identification

@@ -4,6 +4,7 @@
 
 #include <Eigen/QR>
 #include <algorithm>
+#include <limits>
 
 namespace warmjoint::inline identification {
 namespace {
@@ -101,6 +102,21 @@ Uncertainty JudgeUncertainty(const std::function<Eigen::MatrixXd()>& jacobian,
   result.freedom = std::max(n / result.noise.variance_inflation - d, 1.0);
   result.covariance = n / (n - taken) * spread(scatter);
   return result;
+}
+
+double RoundingVariance(const Eigen::VectorXd& torque) {
+  if (torque.size() == 0) return 0;
+  const double last = std::numeric_limits<double>::epsilon() * torque.cwiseAbs().maxCoeff();
+  return static_cast<double>(torque.size()) * last * last;
+}
+
+bool IsRounding(double squares, const Eigen::VectorXd& torque) {
+  return squares <= static_cast<double>(torque.size()) * RoundingVariance(torque);
+}
+
+double ExplainedVariances(double without, double with, double freedom,
+                          const Eigen::VectorXd& torque) {
+  return IsRounding(without, torque) ? 0 : (without - with) / with * std::max(freedom, 1.0);
 }
 
 std::string ColourOf(const NoiseModel& noise) {

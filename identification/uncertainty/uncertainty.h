@@ -46,6 +46,19 @@ Uncertainty JudgeUncertainty(const std::function<Eigen::MatrixXd()>& jacobian,
                              const Selection& selection, const Eigen::VectorXd& fitted = {},
                              const Eigen::VectorXd& prior = {});
 
+/// Variance that the rounding of doubles leaves in the residual of an exact torque: sums over n samples carry errors of
+/// some sqrt(n) units in the last digit of the largest (Higham, Accuracy and Stability, 2002, 3.1). What is below is no
+/// noise and no structure. torque: [n] N.m or N
+double RoundingVariance(const Eigen::VectorXd& torque);
+
+/// Whether squares over the samples of a torque are no more than that.
+bool IsRounding(double squares, const Eigen::VectorXd& torque);
+
+/// Drop of the squares by something that a fit has and another has not, in variances of the noise that is left with it;
+/// 0 where rounding was all that there was to explain. freedom: samples less parameters
+double ExplainedVariances(double without, double with, double freedom,
+                          const Eigen::VectorXd& torque);
+
 /// A half sentence on the colour of the noise, "" for white: "; noise is coloured (correlation 0.90
 /// between neighbours), which the intervals account for".
 std::string ColourOf(const NoiseModel& noise);

@@ -20,13 +20,11 @@ namespace warmjoint::inline identification {
 namespace {
 
 /// Why the warm-up cannot be told; nothing where it can. variance: of the noise; cofactor: of x;
-/// nominal_squares: of the fit without warming; reach: of 95 % intervals in deviations, as a multiple
+/// explained: by the warming, in variances of the noise; reach: of 95 % intervals in deviations, as a multiple
 /// of that of a known variance.
 std::optional<std::string> WhyNotIdentifiable(const WarmFit& fit, const WarmStart& scanned,
-                                              double variance, double nominal_squares,
+                                              double variance, double explained,
                                               const Eigen::MatrixXd& cofactor, double reach) {
-  // squares that the warming explains, in variances of the noise
-  const double explained = (nominal_squares - fit.solution.squares) / variance;
   if (!fit.converged) {
     if (auto why = InsignificantWarming(explained)) return why;
     return RunawayWarming(fit.thermal().time_constant, scanned.longest / kScannedBeyond);
@@ -88,11 +86,14 @@ std::optional<Refusal> WhyRefused(const char* name, const WarmTask& task, const 
   // variance of the noise, and how much wider few segments make an interval
   const double variance = warm.solution.squares / static_cast<double>(n - warm.solution.x.size());
   const auto p = warm.solution.x.size();
+  const double explained =
+      ExplainedVariances(nominal_squares, warm.solution.squares, static_cast<double>(n - p),
+                         Kept(m.torque, task.input.selection));
   const double reach = StudentQuantile(FewestFreedom(task.input.selection, p), kIntervalLevel) /
                        StudentQuantile(kInfinity, kIntervalLevel);
   // no warming to see, no end of the iterations, or a friction that feeds itself
-  if (auto why = WhyNotIdentifiable(warm, task.scanned, variance, nominal_squares,
-                                    Cofactor(warm.normal), reach)) {
+  if (auto why = WhyNotIdentifiable(warm, task.scanned, variance, explained, Cofactor(warm.normal),
+                                    reach)) {
     return Refusal{Status::not_identifiable, *why};
   }
   if (!warm.converged) {

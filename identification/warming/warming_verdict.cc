@@ -32,7 +32,7 @@ std::optional<std::string> InsignificantWarming(double explained, const WarmingC
       "noise variance, below {:.3g}; {} fits without warming, and a drift that it shows here is "
       "not "
       "of the losses; to see a warm-up, record from cold until friction settles",
-      context.beside, std::max(explained, 0.0), kVisibleWarming, context.instead);
+      context.beside, explained > 0 ? explained : 0.0, kVisibleWarming, context.instead);
 }
 
 std::optional<std::string> UnidentifiableWarming(const WarmingEvidence& evidence,

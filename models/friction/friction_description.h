@@ -28,6 +28,7 @@ struct FrictionDescription {
   double level_per_temperature = 0;         // of the temperature form, N.m/K or N/K; 0: none
   double viscous_per_energy = 0;            // b of Eq. (27), s/rad or s/m
   double load_gain = 0;                     // c, level for each unit of |load|, dimensionless
+  std::string torque_unit{};  // "A" of a friction in amperes, which MuJoCo cannot use; else empty
 };
 
 /// What beside a law's own parameters shapes friction and is a number: its name and bounds, and

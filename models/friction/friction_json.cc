@@ -13,6 +13,8 @@ namespace {
 
 using nlohmann::json;
 
+constexpr const char* kTorqueUnitKey = "torque_unit";
+
 const std::string kGain(kGainName), kTimeConstant(kTimeConstantName);
 
 double NumberMember(const json& object, const std::string& key, const Place& place) {
@@ -55,13 +57,15 @@ json FrictionToJson(const FrictionDescription& friction) {
   for (const FrictionOption& option : FrictionOptions()) {
     if (friction.*option.value != 0) result[std::string(option.info.name)] = friction.*option.value;
   }
+  if (!friction.torque_unit.empty()) result[kTorqueUnitKey] = friction.torque_unit;
   for (const FrictionMap& map : friction.maps) result["maps"].push_back(MapToJson(map));
   return result;
 }
 
 FrictionDescription FrictionFromJson(const json& object, const Place& place) {
   // no key but these, and the law in any case
-  std::vector<std::string> known{"law", "parameters", "thermal", "gear", "maps"};
+  std::vector<std::string> known{"law",  "parameters", "thermal",
+                                 "gear", "maps",       std::string(kTorqueUnitKey)};
   for (const FrictionOption& option : FrictionOptions()) known.emplace_back(option.info.name);
   RefuseUnknownKeys(object, "friction", known, place);
   if (!object.contains("law") || !object["law"].is_string()) {
@@ -81,6 +85,11 @@ FrictionDescription FrictionFromJson(const json& object, const Place& place) {
   }
   if (object.contains("thermal")) ReadThermal(object["thermal"], friction, place);
   // what stands beside the law
+  if (object.contains(kTorqueUnitKey)) {
+    if (object[kTorqueUnitKey] != "A")
+      Refuse(place, "friction's torque_unit must be \"A\", or absent");
+    friction.torque_unit = "A";
+  }
   if (object.contains("gear")) friction.gear = NumberMember(object, "gear", place);
   for (const FrictionOption& option : FrictionOptions()) {
     const std::string name(option.info.name);
@@ -99,7 +108,13 @@ FrictionDescription FrictionFromJson(const json& object, const Place& place) {
 FrictionDescription ReadFrictionFile(const std::string& path) {
   const json object = ReadJsonFile(path);
   // an estimate holds its friction under that name; else the file is one
-  return FrictionFromJson(object.contains("friction") ? object["friction"] : object, {path});
+  FrictionDescription friction =
+      FrictionFromJson(object.contains("friction") ? object["friction"] : object, {path});
+  if (friction.torque_unit.empty()) return friction;
+  Refuse({path},
+         "its friction is in {}, and a simulator needs torque: identify again with "
+         "--torque-constant, the torque of the joint for each ampere",
+         friction.torque_unit);
 }
 
 }  // namespace warmjoint::inline models

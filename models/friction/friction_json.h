@@ -10,7 +10,7 @@
 namespace warmjoint::inline models {
 
 /// {law, parameters{}, thermal{thermal_gain, thermal_time_constant, ambient, second{thermal_gain,
-/// thermal_time_constant}}, gear, level_per_temperature, viscous_per_energy, load_gain, maps[]};
+/// thermal_time_constant}}, gear, level_per_temperature, viscous_per_energy, load_gain, torque_unit, maps[]};
 /// what is at its default is left out.
 nlohmann::json FrictionToJson(const FrictionDescription& friction);
 
@@ -18,7 +18,7 @@ nlohmann::json FrictionToJson(const FrictionDescription& friction);
 FrictionDescription FrictionFromJson(const nlohmann::json& json, const Place& place);
 
 /// Reads a friction file: an object with a `friction` member (as in estimate.json) or that member
-/// by itself. Throws BadInput.
+/// by itself. Throws BadInput, of a friction in amperes too.
 FrictionDescription ReadFrictionFile(const std::string& path);
 
 }  // namespace warmjoint::inline models

@@ -13,6 +13,7 @@
 
 #include "identification/linear/linear_laws.h"
 #include "identification/ridge/local_rows.h"
+#include "tests/support/cross_validate.h"
 
 namespace warmjoint {
 namespace {
@@ -79,7 +80,7 @@ Eigen::VectorXd Ours(const Problem& problem, int threads) {
     parts[fold] = LocalNormal(problem.maps, problem.points, problem.free, problem.y, Begin(n, fold),
                               Begin(n, fold + 1));
   });
-  return CrossValidate(parts, 2, problem.strengths, threads);
+  return test::CrossValidate(parts, 2, problem.strengths, threads);
 }
 
 /// All rows, dense.

@@ -3,14 +3,19 @@
 usage: inputs_test.py WARMJOINT SHARED [KIND...]
 
 SHARED (or the variable WARMJOINT_SHARED) holds findings/inputs; what the table makes itself (made.py) needs NumPy alone. A row has
-  run       arguments of the program; {inputs} the folder of inputs, {shared} SHARED, {made} that of made.py, {out} one of the row's own
-  exit      its status (default 0)
+  run       arguments of the program; {inputs} the folder of inputs, {shared} SHARED, {made} that of made.py, {out} one of the row's own;
+            with {identifier} the row stands once for each identifier that the program lists
+  then      arguments of a second run, which must end with 0; what it says counts, too
+  exit      its status (default 0), or a list of those that may be
   says      regular expressions that its output must match, on what is named: a column, a factor, an option
   silent    regular expressions that it must not match
   status    of {out}/estimate.json, where `run` writes it
   holds     {parameter: truth}: its interval holds the truth
   near      {parameter: [truth, tolerance]}: its value
   narrower  {parameter: width}: its interval is no wider, in the parameter's unit
+  has       members of the estimate that are not null
+  at_speeds [[speed, truth]]: the interval of the row nearest to the speed, below 0 backwards, holds the truth
+  lines     {file: lines that it has}
 """
 
 import json
@@ -35,8 +40,18 @@ def faults(row, program, places):
         done = subprocess.run([program, *arguments], capture_output=True, text=True, timeout=100)
         said = done.stdout + done.stderr
         found = []
-        if done.returncode != row.get("exit", 0):
-            found.append(f"status {done.returncode}, not {row.get('exit', 0)}")
+        if "then" in row:
+            again = [word.format(**places) for word in shlex.split(row["then"])]
+            then = subprocess.run([program, *again], capture_output=True, text=True, timeout=100)
+            said += then.stdout + then.stderr
+            found += [f"then status {then.returncode}"] * (then.returncode != 0)
+        for name, lines in row.get("lines", {}).items():
+            path = pathlib.Path(name.format(**places))
+            has = len(path.read_text().splitlines()) if path.exists() else 0
+            found += [f"{name} has {has} lines, not {lines}"] * (has != lines)
+        may_be = row.get("exit", 0)
+        if done.returncode not in (may_be if isinstance(may_be, list) else [may_be]):
+            found.append(f"status {done.returncode}, not {may_be}")
         found += [f"does not say {words!r}" for words in row.get("says", []) if not re.search(words, said)]
         found += [f"says {words!r}" for words in row.get("silent", []) if re.search(words, said)]
         if NEVER.search(said):
@@ -56,6 +71,12 @@ def faults_of_estimate(row, estimate):
         found.append(f"status {estimate['status']}, not {row['status']}: {estimate['message']}")
     if estimate["status"] == "ok" and not estimate.get("friction"):
         found.append("is ok and holds no friction")
+    found += [f"{name} is null" for name in row.get("has", []) if not estimate.get(name)]
+    for speed, truth in row.get("at_speeds", []):
+        rows = estimate.get("friction_at_speeds") or [{"speed": 1e9, "interval95": [0, 0]}]
+        at = min(rows, key=lambda one: abs(one["speed"] - speed))
+        if not at["interval95"][0] <= truth <= at["interval95"][1]:
+            found.append(f"friction at {at['speed']} {at['interval95']} does not hold {truth}")
     for name in {*row.get("holds", {}), *row.get("near", {}), *row.get("narrower", {})} - parameters.keys():
         return [*found, f"has no parameter {name}"]
     for name, truth in row.get("holds", {}).items():
@@ -72,6 +93,15 @@ def faults_of_estimate(row, estimate):
     return found
 
 
+def each_identifier(rows, program):
+    """The rows, one with {identifier} in it once for each."""
+    listed = subprocess.run([program, "list", "identifiers", "--format", "json"], capture_output=True, check=True)
+    names = [one["name"] for one in json.loads(listed.stdout)]
+    for row in rows:
+        for name in names if "{identifier}" in row["run"] else [""]:
+            yield {**row, "run": row["run"].replace("{identifier}", name)}
+
+
 def main():
     program, kinds = sys.argv[1], sys.argv[3:]
     shared = pathlib.Path(os.environ.get("WARMJOINT_SHARED") or sys.argv[2])
@@ -86,7 +116,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         made.write(pathlib.Path(folder))
         for kind, rows in table.items():
-            for row in rows if not kinds or kind in kinds else []:
+            for row in each_identifier(rows, program) if not kinds or kind in kinds else []:
                 if re.search("{inputs}|{shared}", row["run"]) and not inputs.is_dir():
                     skipped += 1
                     continue

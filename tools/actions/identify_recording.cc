@@ -164,13 +164,14 @@ Identified IdentifyLog(const IdentifyTask& task, const PreparedLog& log,
   return identified;
 }
 
-std::string TakeBackAmperes(const Measurements& measurements, Estimate& estimate) {
+std::string MarkAmperes(const Measurements& measurements, Estimate& estimate) {
   const std::string_view unit = kTorqueUnit.For(measurements.joint);
   if (!estimate.friction || measurements.torque_unit == unit) return "";
-  estimate.friction.reset();
+  estimate.friction->torque_unit = measurements.torque_unit;
   return fmt::format(
-      "no `friction` is written for MuJoCo: parameters are in {}; --torque-constant K, in {}/A "
-      "at the joint, makes torque of the current",
+      "friction is in {}, of use to predict, but not to MuJoCo: --torque-constant K, in {}/A at "
+      "the "
+      "joint, makes torque of the current",
       measurements.torque_unit, unit);
 }
 

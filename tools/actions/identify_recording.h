@@ -63,9 +63,9 @@ struct Identified {
 Identified IdentifyLog(const IdentifyTask& task, const PreparedLog& log,
                        const HoldOutSource& holdout, const Narrator& narrator = {});
 
-/// MuJoCo knows torques and forces: takes a friction in amperes back and returns what to tell of
+/// MuJoCo knows torques and forces: marks a friction in amperes as such and returns what to tell of
 /// it; an empty text where nothing was done.
-std::string TakeBackAmperes(const Measurements& measurements, Estimate& estimate);
+std::string MarkAmperes(const Measurements& measurements, Estimate& estimate);
 
 /// The text of an estimate file. source: what its members `recording` and `project` say; none without
 /// it. target: the file, from whose folder they are named. follows: its member of that name.

@@ -26,8 +26,8 @@ StoredModel ReadStoredModel(const std::string& file) {
   const Estimate estimate = EstimateFromJson(object, {file});
   // an estimate without friction predicts nothing
   if (!estimate.friction) {
-    Refuse({file}, "is {} and holds no friction; identify again with --force to use it anyway",
-           StatusName(estimate.status));
+    Refuse({file}, "is {} and holds no friction; identify again{}", StatusName(estimate.status),
+           estimate.status == Status::ok ? "" : " with --force to use it anyway");
   }
   stored.identifier = estimate.identifier;
   stored.status = estimate.status;
@@ -40,16 +40,35 @@ StoredModel ReadStoredModel(const std::string& file) {
   return stored;
 }
 
+RecordingArguments AsIdentified(const StoredModel& stored, RecordingArguments recording) {
+  const FrictionDescription& friction = stored.model.friction;
+  if (recording.gear == RecordingArguments{}.gear) recording.gear = friction.gear;
+  const bool told =
+      recording.torque_constant != 0 || ReadPairs(recording.unit, "--unit").contains("torque");
+  if (!friction.torque_unit.empty() && !told) {
+    recording.unit.push_back("torque=" + friction.torque_unit);
+  }
+  return recording;
+}
+
 Predicted PredictLog(const StoredModel& stored, const PreparedLog& log, const CourseStart& start) {
   // with an inertia any motion can be compared, else constant speeds only
   const LogView& view = stored.model.inertia ? MovingView(log) : log.steady();
   const Measurements& m = view.measurements;
-  const std::string_view unit = kTorqueUnit.For(m.joint);
+  const std::string& amperes = stored.model.friction.torque_unit;
+  const std::string_view unit = amperes.empty() ? kTorqueUnit.For(m.joint) : amperes;
   if (m.torque_unit != unit) {
-    Refuse({m.source}, "has a torque in {} and friction is in {}; give --torque-constant",
-           m.torque_unit, unit);
+    Refuse({m.source}, "has a torque in {} and friction is in {}; give {}", m.torque_unit, unit,
+           amperes.empty() ? "--torque-constant" : "--unit torque=A");
   }
-  Predicted predicted{m, PredictTorque(stored.model, m, view.selection, start), {}};
+  Predicted predicted{m, PredictTorque(stored.model, m, view.selection, start), {}, {}};
+  // samples put in between those that were logged are no rows of the log
+  const Eigen::VectorXd& logged = log.taken().measurements.time;
+  for (Eigen::Index i = 0, n = 0; i < m.size() && n < logged.size(); ++i) {
+    if (m.time[i] != logged[n]) continue;
+    predicted.logged.push_back(i);
+    ++n;
+  }
   // samples that all parts of the model know
   const Selection& known = predicted.torque.known;
   if (known.count() == 0) {
@@ -81,7 +100,7 @@ std::string PredictedToCsv(const Predicted& predicted) {
   const Measurements& m = predicted.measurements;
   const TorquePrediction& torque = predicted.torque;
   std::string csv = "time,position,velocity,torque,predicted,residual,energy,compared\n";
-  for (Eigen::Index i = 0; i < m.size(); ++i) {
+  for (const Eigen::Index i : predicted.logged) {
     csv += fmt::format("{},{},{},{},{},{},{},{:d}\n", m.time[i], m.position[i], m.velocity[i],
                        m.torque[i], torque.torque[i], m.torque[i] - torque.torque[i],
                        torque.friction.energy[i], torque.known.keep[i]);

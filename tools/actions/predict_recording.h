@@ -3,11 +3,13 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include "identification/estimate.h"
 #include "identification/holdout/predict_torque.h"
 #include "identification/preparation/prepared_log.h"
 #include "models/friction/course_start.h"
+#include "tools/actions/recording_source.h"
 
 namespace warmjoint::inline tools {
 
@@ -21,10 +23,16 @@ struct StoredModel {
 /// Of estimate.json, or of a friction file. Throws BadInput from `file` where it holds no friction.
 StoredModel ReadStoredModel(const std::string& file);
 
+/// How to read a recording that the model is held against: with the model's own gear, and with a torque in amperes where
+/// the model's is, as far as nothing else is said.
+RecordingArguments AsIdentified(const StoredModel& stored, RecordingArguments recording);
+
 /// What the model predicts, and how well.
 struct Predicted {
   Measurements measurements;  // of the log as the model sees it
   TorquePrediction torque;
+  std::vector<Eigen::Index>
+      logged;       // samples that are rows of the log: preparation may put others in
   Metrics metrics;  // over the samples that take part; its parameters count 0, since none is fitted
 };
 
@@ -35,7 +43,7 @@ Predicted PredictLog(const StoredModel& stored, const PreparedLog& log, const Co
 /// {identifier, status, metrics{n, rmse, mae, fit}, state_end{energy, second_energy}}
 nlohmann::json PredictedToJson(const StoredModel& stored, const Predicted& predicted);
 
-/// time, position, velocity, torque, predicted, residual, energy, compared (1 or 0): a row a sample,
+/// time, position, velocity, torque, predicted, residual, energy, compared (1 or 0): a row for each of the log,
 /// SI.
 std::string PredictedToCsv(const Predicted& predicted);
 

@@ -57,9 +57,10 @@ void WriteOutputs(const IdentifyArguments& arguments, const Estimate& estimate,
 
   // a model for MuJoCo needs a friction that can be trusted
   if (arguments.mjcf.empty()) return;
-  if (!estimate.friction) {
-    activity.Aside(
-        [&] { Say(stderr, "{} is not written: there is no friction to trust\n", arguments.mjcf); });
+  if (!estimate.friction || !estimate.friction->torque_unit.empty()) {
+    activity.Aside([&] {
+      Say(stderr, "{} is not written: there is no friction that MuJoCo can use\n", arguments.mjcf);
+    });
     return;
   }
   WriteWholeFile(arguments.mjcf, MinimalModel(*estimate.friction, measurements.joint));
@@ -89,10 +90,10 @@ void CheckOutputs(const IdentifyArguments& arguments) {
 ExitStatus Deliver(const IdentifyArguments& arguments, const Identified& identified,
                    const PreparedLog& log, Activity& activity) {
   const Measurements& measurements = log.taken().measurements;
-  // friction in amperes is no use to MuJoCo and is left out of what is written
+  // friction in amperes is no use to MuJoCo, and says so where it is written
   const auto& [estimate, shown] = identified;
   Estimate written = estimate;
-  const std::string notice = TakeBackAmperes(measurements, written);
+  const std::string notice = MarkAmperes(measurements, written);
   if (!notice.empty()) activity.Aside([&] { SayNotice("{}\n", notice); });
 
   // files and picture first, so that words follow what is there

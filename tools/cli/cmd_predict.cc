@@ -92,7 +92,7 @@ std::string PredictedToText(const PredictArguments& arguments, const StoredModel
   return text;
 }
 
-ExitStatus Predict(const PredictArguments& arguments) {
+ExitStatus Predict(PredictArguments arguments) {
   // what is read must not be written over, and all that can be refused is first
   std::vector<std::filesystem::path> inputs(arguments.recording.recordings.begin(),
                                             arguments.recording.recordings.end());
@@ -105,6 +105,7 @@ ExitStatus Predict(const PredictArguments& arguments) {
   Activity activity("reading the recording");
   // the estimate, the log, and the heat between them
   const StoredModel stored = ReadStoredModel(arguments.estimate);
+  arguments.recording = AsIdentified(stored, std::move(arguments.recording));
   const PreparedLog log = ReadAndPrepare(arguments.recording);
   const Begin begin = BeginOf(arguments, stored, log.taken().measurements);
   // what the friction says of the log, and what the log says of it

@@ -70,7 +70,7 @@ Estimate Identify(const PreparedLog& log, const IdentifySettings& settings) {
     const tools::IdentifyTask task = tools::CheckSettings(asked, measurements.joint);
     identification::Estimate found =
         tools::IdentifyLog(task, prepared, ToHoldOut(settings)).estimate;
-    tools::TakeBackAmperes(measurements, found);
+    tools::MarkAmperes(measurements, found);
 
     // as a value that remembers its files, and with what it began
     Estimate estimate = FromEstimate(found);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "identification/fit_parameters.h"
 #include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
@@ -46,9 +48,10 @@ TEST(HoldOut, FitsOnTheFirstPartAndEvaluatesOnTheRest) {
   const Trial fit{kKnowing, Recording(1, 0)};
   const auto metrics = HoldOut(fit.identifier, fit.input(), 0.25);
   ASSERT_TRUE(metrics);
-  // 999 s: training ends before 749.25 s
-  EXPECT_EQ(shown, 750);
-  EXPECT_EQ(metrics->n, fit.selection.keep.tail(250).count());
+  // three quarters of the samples that move, whatever rests lie between
+  const Eigen::Index kept = fit.selection.count(), first = std::llround(0.75 * kept);
+  EXPECT_EQ(fit.selection.keep.head(shown).count(), first);
+  EXPECT_EQ(metrics->n, kept - first);
   EXPECT_EQ(metrics->parameters, 4);
 }
 
@@ -101,9 +104,17 @@ TEST(HoldOut, IsAbsentWhereThereIsNoFrictionToTest) {
   EXPECT_FALSE(HoldOut(fit.identifier, fit.input(), 0.25));
 }
 
-TEST(HoldOut, IsAbsentWhereTheRestKeepsNoSample) {
+TEST(HoldOut, TakesItsShareOfALogThatEndsWithARest) {
   Trial fit{kKnowing, Recording(6, 0)};
   fit.selection.keep.tail(400) = false;
+  const auto metrics = HoldOut(fit.identifier, fit.input(), 0.25);
+  ASSERT_TRUE(metrics);
+  EXPECT_NEAR(metrics->n, 0.25 * static_cast<double>(fit.selection.count()), 1);
+}
+
+TEST(HoldOut, IsAbsentWhereNothingIsKept) {
+  Trial fit{kKnowing, Recording(6, 0)};
+  fit.selection.keep = false;
   EXPECT_FALSE(HoldOut(fit.identifier, fit.input(), 0.25));
 }
 

@@ -7,6 +7,7 @@
 
 #include "identification/ridge/local_ridge.h"
 #include "models/foundation/random_stream.h"
+#include "tests/support/cross_validate.h"
 
 namespace warmjoint {
 namespace {
@@ -47,7 +48,7 @@ TEST(SearchStrengths, FindsTheLeastErrorOfAll) {
     const auto parts = Parts(noise, 3);
     const NormalEquations all = Sum(parts);
     const std::vector<double> strengths = Strengths(all, 1);
-    const Eigen::VectorXd errors = CrossValidate(parts, 1, strengths);
+    const Eigen::VectorXd errors = test::CrossValidate(parts, 1, strengths);
     Eigen::Index best = 0;
     errors.minCoeff(&best);
     const auto trials = SearchStrengths(parts, all, 1, {});

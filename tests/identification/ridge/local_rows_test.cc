@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 
 #include "identification/ridge/local_ridge.h"
+#include "tests/support/cross_validate.h"
 #include "tests/support/maps_of_every_kind.h"
 
 namespace warmjoint {
@@ -63,7 +64,8 @@ TEST_P(LocalRows, CrossValidateAlikeOnAnyNumberOfThreads) {
     parts.push_back(LocalNormal(maps_, points_, free_, y_, 300 * i, 300 * (i + 1)));
   }
   const std::vector<double> strengths{0.01, 1, 100};
-  EXPECT_EQ(CrossValidate(parts, 1, strengths, 1), CrossValidate(parts, 1, strengths, 4));
+  EXPECT_EQ(test::CrossValidate(parts, 1, strengths, 1),
+            test::CrossValidate(parts, 1, strengths, 4));
 }
 
 INSTANTIATE_TEST_SUITE_P(Kernels, LocalRows,

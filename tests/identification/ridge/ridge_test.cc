@@ -7,6 +7,7 @@
 #include "identification/ridge/local_rows.h"
 #include "models/friction/evaluate_map.h"
 #include "models/friction/gaussian_axis.h"
+#include "tests/support/cross_validate.h"
 #include "tests/support/vectors.h"
 
 namespace warmjoint {
@@ -59,7 +60,7 @@ TEST_F(GoldenRidge, ReproducesCrossValidationOfContiguousParts) {
   std::vector<NormalEquations> parts;
   for (int part = 0; part < 5; ++part) parts.push_back(Normal(8 * part, 8));
   const Eigen::VectorXd expected = test::ToVector(golden_.at("cv5_contiguous_mse"));
-  const Eigen::VectorXd errors = CrossValidate(parts, 2, golden_.at("lambdas"));
+  const Eigen::VectorXd errors = test::CrossValidate(parts, 2, golden_.at("lambdas"));
   for (int i = 0; i < 4; ++i) EXPECT_NEAR(errors[i], expected[i], kLinear * expected[i]);
 }
 

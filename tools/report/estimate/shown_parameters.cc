@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "models/friction/law.h"
 
@@ -22,7 +23,8 @@ bool IsShared(const Estimate& estimate, const EstimatedParameter& one) {
 std::vector<EstimatedParameter> AtSpeeds(const Estimate& estimate) {
   std::vector<EstimatedParameter> rows;
   for (const FrictionAtSpeed& one : estimate.at_speeds) {
-    std::string name = fmt::format("friction at {:.3g}", one.speed);
+    std::string name = fmt::format("friction {} at {:.3g}",
+                                   one.speed < 0 ? "backwards" : "forwards", std::abs(one.speed));
     if (!one.speed_unit.empty()) name += " " + one.speed_unit;
     rows.push_back({std::move(name), one.value, one.unit, one.std, one.interval95});
   }

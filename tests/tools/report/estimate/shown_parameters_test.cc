@@ -29,7 +29,7 @@ TEST(ShownParameters, HaveFrictionAtSpeedsInPlaceOfWhatAMapShares) {
   ASSERT_EQ(shown.size(), 3u);
   EXPECT_EQ(shown[0].name, "viscous");
   EXPECT_EQ(shown[1].name, "thermal_gain");
-  EXPECT_EQ(shown[2].name, "friction at 0.3 rad/s");
+  EXPECT_EQ(shown[2].name, "friction forwards at 0.3 rad/s");
   EXPECT_EQ(shown[2].unit, "N.m");
   EXPECT_EQ(shown[2].value, 3.6);
   ASSERT_TRUE(shown[2].interval95);
@@ -39,7 +39,7 @@ TEST(ShownParameters, HaveFrictionAtSpeedsInPlaceOfWhatAMapShares) {
 TEST(ShownParameters, NameTheSpeedWithoutAUnitThatTheFileDoesNotTell) {
   Estimate estimate = WithSharedLevel();
   estimate.at_speeds = {{0.25, 3.5, 0.05, {3.4, 3.6}}};
-  EXPECT_EQ(ShownParameters(estimate).back().name, "friction at 0.25");
+  EXPECT_EQ(ShownParameters(estimate).back().name, "friction forwards at 0.25");
 }
 
 }  // namespace
