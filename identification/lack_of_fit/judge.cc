@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "identification/lack_of_fit/report_findings.h"
+#include "identification/lack_of_fit/rounding.h"
 #include "identification/lack_of_fit/table.h"
 #include "identification/lack_of_fit/words.h"
 #include "identification/uncertainty/between_ends.h"
@@ -140,7 +141,7 @@ void CorrectRounding(const Examination& examination, const Fit& fit, const Measu
   inference.warnings.push_back(fmt::format(
       "the torque comes in steps of {:.3g} {}, which its noise does not even out: {} {} by {:.2g} "
       "{}; log the torque in finer steps",
-      Resolution(m.torque), m.torque_unit,
+      StepOf(m.torque), m.torque_unit,
       hides ? "intervals were widened to cover what they hide, that of"
             : "the numbers given are free of what they do,",
       parameter.name + (hides ? "" : " changed"), by[worst], parameter.unit));

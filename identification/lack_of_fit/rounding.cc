@@ -9,9 +9,10 @@
 namespace warmjoint::inline identification {
 namespace {
 
-constexpr double kEven = 1e-6;  // of a step: an error that is no matter
-constexpr double kTells = 0.2;  // of a step: noise that tells the torque within; why: rounding.h
-constexpr int kMostWaves = 50;  // then the next is below 1 % of a step
+constexpr double kEven = 1e-6;   // of a step: an error that is no matter
+constexpr double kTells = 0.14;  // of a step: noise that tells the torque within; why: rounding.h
+constexpr int kFewestSteps = 3;  // why: whole multiples of one, to 5 %, by chance in 1 of 100
+constexpr int kMostWaves = 50;   // then the next is below 1 % of a step
 
 /// The residual's, in steps, without the part that the steps themselves make.
 double NoiseInSteps(double variance, double step) {
@@ -20,8 +21,17 @@ double NoiseInSteps(double variance, double step) {
 
 }  // namespace
 
+double StepOf(const Eigen::VectorXd& torque) {
+  if (const double step = Resolution(torque); step > 0) return step;
+  Eigen::VectorXd sizes = torque.cwiseAbs();
+  std::ranges::sort(sizes);
+  const Eigen::Index steps =
+      (sizes.tail(sizes.size() - 1).array() > sizes.head(sizes.size() - 1).array()).count();
+  return steps < kFewestSteps ? 0 : Resolution(sizes);
+}
+
 double HidingStep(const Eigen::VectorXd& torque, double variance) {
-  const double step = Resolution(torque);
+  const double step = StepOf(torque);
   return step > 0 && NoiseInSteps(variance, step) < kTells ? step : 0;
 }
 
@@ -32,7 +42,7 @@ Eigen::VectorXd MeanRounding(const Eigen::VectorXd& torque, const Eigen::VectorX
   if (step == 0) return {};
   const double noise = NoiseInSteps(variance, step);
   const auto size = [&](int k) { return std::exp(-2 * std::pow(pi * k * noise, 2)) / (pi * k); };
-  if (size(1) < kEven || noise < kTells) return {};
+  if (size(1) < kEven) return {};
 
   // where each torque lies between two steps, counted from one that was logged
   const Eigen::ArrayXd place = (torque - residual).array() / step - torque[0] / step;

@@ -11,14 +11,18 @@ namespace warmjoint::inline identification {
 ///
 /// the Fourier series of the sawtooth round(x) - x, each wave as much smaller as noise evens it out (Widrow and Kollar,
 /// Quantization Noise, 2008). It depends on f alone, so that it does not vanish in a mean over many samples where
-/// f keeps its value. s^2 is the residual's variance less q^2/12. Empty where the log has no steps, where noise evens
-/// them out to 1e-6 of q (q below 1.1 s), or where they hide f. torque: as it was logged, [N] N.m or N; residual: [N] of it; variance: of the
+/// f keeps its value. s^2 is the residual's variance less q^2/12. Empty where the log has no steps, or where noise evens
+/// them out to 1e-6 of q (q below 1.1 s). torque: as it was logged, [N] N.m or N; residual: [N] of it; variance: of the
 /// residual; returns [N].
 Eigen::VectorXd MeanRounding(const Eigen::VectorXd& torque, const Eigen::VectorXd& residual,
                              double variance);
 
-/// q of steps that hide the torque within them: below s = q/5 the mean of what is logged follows less than a fifth of f
-/// in the middle of a step, by 2 q/(s sqrt(2 pi)) exp(-q^2 / 8 s^2), and the error may be anything up to q/2. Else 0.
+/// q of a torque in steps, of neighbours (robust_noise.h) or, where the direction changes with each, of four or more sizes
+/// |torque|; 0 where there are none. [N] N.m or N
+double StepOf(const Eigen::VectorXd& torque);
+
+/// q of steps that hide the torque within them, else 0: below s = 0.14 q the mean of what is logged follows less than a
+/// hundredth of f in the middle of a step, 2 q/(s sqrt(2 pi)) exp(-q^2 / 8 s^2), and the error may be anything up to q/2.
 double HidingStep(const Eigen::VectorXd& torque, double variance);
 
 }  // namespace warmjoint::inline identification

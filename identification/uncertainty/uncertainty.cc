@@ -106,8 +106,9 @@ Uncertainty JudgeUncertainty(const std::function<Eigen::MatrixXd()>& jacobian,
 
 double RoundingVariance(const Eigen::VectorXd& torque) {
   if (torque.size() == 0) return 0;
-  const double last = std::numeric_limits<double>::epsilon() * torque.cwiseAbs().maxCoeff();
-  return static_cast<double>(torque.size()) * last * last;
+  const double error = static_cast<double>(torque.size()) * std::numeric_limits<double>::epsilon() *
+                       torque.cwiseAbs().maxCoeff();
+  return error * error;
 }
 
 bool IsRounding(double squares, const Eigen::VectorXd& torque) {

@@ -90,6 +90,14 @@ def make_degenerate(folder):
     write_csv(folder / "degenerate_two_samples.csv", time=t[:2], position=q[:2], velocity=v[:2], torque=noisy[:2])
 
 
+def make_coarse(folder):
+    """A torque without noise in coarse steps."""
+    t, q, v = holds((0.1, 0.5, 0.9, 1.4, 2))
+    for step in 0.25, 0.4:
+        torque = step * np.round((0.8 * v + 4.5 * np.sign(v)) / step)
+        write_csv(folder / f"coarse_{step}.csv", time=t, position=q, velocity=v, torque=torque)
+
+
 def make_cool_down(folder):
     """Ends with as long a rest as it moved."""
     t, q, v = speeds_in_turn()

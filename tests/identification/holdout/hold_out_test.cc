@@ -49,7 +49,8 @@ TEST(HoldOut, FitsOnTheFirstPartAndEvaluatesOnTheRest) {
   const auto metrics = HoldOut(fit.identifier, fit.input(), 0.25);
   ASSERT_TRUE(metrics);
   // three quarters of the samples that move, whatever rests lie between
-  const Eigen::Index kept = fit.selection.count(), first = std::llround(0.75 * kept);
+  const Eigen::Index kept = fit.selection.count(),
+                     first = std::llround(0.75 * static_cast<double>(kept));
   EXPECT_EQ(fit.selection.keep.head(shown).count(), first);
   EXPECT_EQ(metrics->n, kept - first);
   EXPECT_EQ(metrics->parameters, 4);
