@@ -92,7 +92,7 @@ def make_degenerate(folder):
 
 def make_coarse(folder):
     """A torque without noise in coarse steps."""
-    t, q, v = holds((0.1, 0.5, 0.9, 1.4, 2))
+    t, q, v = speeds_in_turn((0.1, 0.5, 0.9, 1.4, 2))
     for step in 0.25, 0.4:
         torque = step * np.round((0.8 * v + 4.5 * np.sign(v)) / step)
         write_csv(folder / f"coarse_{step}.csv", time=t, position=q, velocity=v, torque=torque)
