@@ -15,7 +15,7 @@ namespace warmjoint::test {
 /// cost nothing (local_ridge.h). An error is infinite where the strength is too small to solve.
 /// threads: parts that are worked on at once; the result does not depend on it.
 inline Eigen::VectorXd CrossValidate(const std::vector<NormalEquations>& parts, Eigen::Index free,
-                              const std::vector<double>& strengths, int threads = 1) {
+                                     const std::vector<double>& strengths, int threads = 1) {
   NormalEquations all = parts.front();
   for (size_t i = 1; i < parts.size(); ++i) all = all.Plus(parts[i]);
 

@@ -145,11 +145,12 @@ TEST(AtBounds, HoldsWhatNoisePutsBeyond) {
     if (viscous.value > 0) continue;
     ++held;
 
-    // the other is that of the law without the parameter, and the fitted torque, too
+    // the other is that of the law without the parameter, but for what colour and unevenness of the noise seem to tell;
+    // the fitted torque, too
     const Options alone = ReadOptions(identifier.options, {{"law", "coulomb"}}, {});
     const Estimate other = IdentifyUnjudged(identifier, {log, alone, {}});
-    EXPECT_NEAR(coulomb.value, other.Find("coulomb")->value, 1e-9);
-    EXPECT_NEAR(estimate.metrics->rmse, other.metrics->rmse, 1e-9);
+    EXPECT_NEAR(coulomb.value, other.Find("coulomb")->value, 0.2 * *coulomb.std);
+    EXPECT_NEAR(estimate.metrics->rmse, other.metrics->rmse, 1e-4 * other.metrics->rmse);
   }
   // binomial: 190 +- 3 x 10, 10 + 3 x 3.1, and 95 % of 390 less 3 x 4.3
   EXPECT_NEAR(held, 190, 30);
