@@ -105,16 +105,21 @@ FrictionDescription FrictionFromJson(const json& object, const Place& place) {
   return friction;
 }
 
+void RefuseAmperes(const FrictionDescription& friction, const Place& place) {
+  if (friction.torque_unit.empty()) return;
+  Refuse(place,
+         "its friction is in {}, and a simulator needs torque: identify again with "
+         "--torque-constant, the torque of the joint for each ampere",
+         friction.torque_unit);
+}
+
 FrictionDescription ReadFrictionFile(const std::string& path) {
   const json object = ReadJsonFile(path);
   // an estimate holds its friction under that name; else the file is one
   FrictionDescription friction =
       FrictionFromJson(object.contains("friction") ? object["friction"] : object, {path});
-  if (friction.torque_unit.empty()) return friction;
-  Refuse({path},
-         "its friction is in {}, and a simulator needs torque: identify again with "
-         "--torque-constant, the torque of the joint for each ampere",
-         friction.torque_unit);
+  RefuseAmperes(friction, {path});
+  return friction;
 }
 
 }  // namespace warmjoint::inline models

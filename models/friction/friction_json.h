@@ -17,6 +17,9 @@ nlohmann::json FrictionToJson(const FrictionDescription& friction);
 /// The inverse; checked. Unknown keys, missing parameters and wrong types throw BadInput.
 FrictionDescription FrictionFromJson(const nlohmann::json& json, const Place& place);
 
+/// Throws BadInput where a friction is in amperes, which no simulator can use.
+void RefuseAmperes(const FrictionDescription& friction, const Place& place);
+
 /// Reads a friction file: an object with a `friction` member (as in estimate.json) or that member
 /// by itself. Throws BadInput, of a friction in amperes too.
 FrictionDescription ReadFrictionFile(const std::string& path);

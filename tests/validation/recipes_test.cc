@@ -53,7 +53,8 @@ TEST(Recipes, AStaubliTx40InAmperes) {
   EXPECT_EQ(parameters.at("coulomb").at("unit"), "A");
   EXPECT_GT(parameters.at("viscous").at("value").get<double>(), 0);
   EXPECT_GT(parameters.at("coulomb").at("value").get<double>(), 0);
-  EXPECT_EQ(estimate.at("friction").at("torque_unit"), "A") << "MuJoCo knows no amperes";
+  const auto& friction = estimate.at("friction");
+  EXPECT_TRUE(friction.is_null() || friction.at("torque_unit") == "A") << "MuJoCo knows no amperes";
 }
 
 TEST(Recipes, AnXl330IsToldToMoveSteadily) {

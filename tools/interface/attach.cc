@@ -1,6 +1,7 @@
 #include <warmjoint/attach.h>
 
 #include "models/foundation/atomic_file.h"
+#include "models/friction/friction_json.h"
 #include "models/robots/robot_folder.h"
 #include "sim/model/minimal_model.h"
 #include "tools/actions/attach_settings.h"
@@ -11,8 +12,18 @@
 
 namespace warmjoint::api {
 
+namespace {
+
+models::FrictionDescription ForMuJoCo(const Friction& friction) {
+  models::FrictionDescription made = ToDescription(friction);
+  models::RefuseAmperes(made, {"friction"});
+  return made;
+}
+
+}  // namespace
+
 std::string MinimalModel(const Friction& friction, JointKind joint) {
-  return Guarded([&] { return sim::MinimalModel(ToDescription(friction), ToKind(joint)); });
+  return Guarded([&] { return sim::MinimalModel(ForMuJoCo(friction), ToKind(joint)); });
 }
 
 void WriteMinimalModel(const Friction& friction, JointKind joint,
@@ -44,7 +55,7 @@ Attached Attach(const std::filesystem::path& model, const std::vector<JointFrict
     // each friction is checked as it is converted
     std::vector<sim::FrictionForJoint> given;
     for (const JointFriction& one : frictions) {
-      given.push_back({one.joint, ToDescription(one.friction), one.initial_energy});
+      given.push_back({one.joint, ForMuJoCo(one.friction), one.initial_energy});
     }
     const sim::Attached done = sim::AttachFriction(file, given, out, options);
     return Attached{done.joints, done.notices};

@@ -179,9 +179,7 @@ Estimate FromEstimate(const identification::Estimate& estimate) {
   made.covariance = FromCovariance(estimate.covariance);
 
   // the model: friction, gravity, and what law and maps are together
-  if (estimate.friction && estimate.friction->torque_unit.empty()) {
-    made.friction = FromDescription(*estimate.friction);
-  }
+  if (estimate.friction) made.friction = FromDescription(*estimate.friction);
   if (estimate.gravity) {
     made.gravity = {std::string(identification::GravityName(estimate.gravity->kind)),
                     estimate.gravity->knots, FromEigen(estimate.gravity->values)};

@@ -87,6 +87,7 @@ models::FrictionDescription ToDescription(const Friction& friction) {
   made.level_per_temperature = friction.level_per_temperature;
   made.viscous_per_energy = friction.viscous_per_energy;
   made.load_gain = friction.load_gain;
+  made.torque_unit = friction.torque_unit;
   for (const FrictionMap& map : friction.maps) made.maps.push_back(ToMap(map));
 
   // what is left out has a default; what remains must make sense together
@@ -109,6 +110,7 @@ Friction FromDescription(const models::FrictionDescription& friction) {
   made.level_per_temperature = friction.level_per_temperature;
   made.viscous_per_energy = friction.viscous_per_energy;
   made.load_gain = friction.load_gain;
+  made.torque_unit = friction.torque_unit;
   for (const models::FrictionMap& map : friction.maps) made.maps.push_back(FromMap(map));
   return made;
 }

@@ -63,7 +63,7 @@ std::vector<IdentifierInfo> Identifiers() {
 
 Estimate Identify(const PreparedLog& log, const IdentifySettings& settings) {
   return Guarded([&] {
-    // as the command does: checked, identified, and without a friction in amperes
+    // as the command does: checked, identified, and with a friction in amperes marked
     const identification::PreparedLog& prepared = log.state().log;
     const models::Measurements& measurements = prepared.taken().measurements;
     const tools::IdentifySettings asked = ToSettings(settings, measurements);

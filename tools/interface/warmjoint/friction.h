@@ -49,6 +49,7 @@ struct Friction {
   double level_per_temperature = 0;         // N.m/K or N/K; 0: none
   double viscous_per_energy = 0;            // b, s/rad or s/m
   double load_gain = 0;                     // c, dimensionless
+  std::string torque_unit{};  // "A" of one in amperes, which MuJoCo cannot use; else empty
   std::vector<FrictionMap> maps{};
 };
 
