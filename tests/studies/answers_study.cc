@@ -4,8 +4,7 @@
 //
 // A line for each identifier of each log, "variant realization identifier status", and behind it for each
 // number "name value lower upper", with nan where there is no interval: segments of constant speed, samples in
-// them, parameters, friction at speeds, bands of maps. What changes an answer changes a line: tools/constants
-// compares them.
+// them, parameters, friction at speeds, bands of maps. What changes an answer changes a line.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
