@@ -7,7 +7,7 @@
 namespace warmjoint::inline identification {
 
 /// The difference d of the whitened fit from the plain one tells how far structure in the residual moves
-/// the parameters, about. Where J d stays below 2 % of the friction, as `--relevance` has it by
+/// the parameters, about. Where J d stays below a tenth of the friction, as `--relevance` has it by
 /// default, d joins the errors as one more of them, covariance + d d^T, and a warning says so; beyond
 /// it no number gets an interval. fit: with held_structure; inference: with the covariance by noise.
 void HoldStructure(const Fit& fit, Inference& inference);

@@ -24,10 +24,10 @@ constexpr double kSureMove = 3;  // deviations from which a move is there; why 3
 // a constant torque taken for friction, 26 % (a study of 1,320 simulated and 35 real fits)
 constexpr double kTogether = 0.25;
 
-/// Whether something changes that the warming may have taken up in part.
-bool Drifts(const Examination& examination) {
-  return std::ranges::any_of(examination.findings, [](const Finding& finding) {
-    return finding.rejected && finding.test->warming == Warming::takes_part;
+/// Whether something was found that may stand in the warming in that way.
+bool Finds(const Examination& examination, Warming warming) {
+  return std::ranges::any_of(examination.findings, [=](const Finding& finding) {
+    return finding.rejected && finding.test->warming == warming;
   });
 }
 
@@ -243,7 +243,8 @@ void WeighFindings(const Examination& examination, const Identifier& identifier,
 
   // small: the intervals hold it
   const double most = (*std::ranges::max_element(found, {}, &Finding::harm))->harm;
-  const bool unknown = Drifts(examination) && fit.RowOf(Role::heat);
+  const bool drifts = Finds(examination, Warming::takes_part);
+  const bool unknown = drifts && fit.RowOf(Role::heat);
   inference.warnings.push_back(fmt::format(
       "{}: it changes the friction by {:.2g} % at most; intervals were widened to cover this{}; {}",
       depends, 100 * most,
@@ -251,9 +252,13 @@ void WeighFindings(const Examination& examination, const Identifier& identifier,
               : "",
       remedy));
   // nobody knows how much of a drift the warming took up
-  if (Drifts(examination)) {
+  if (drifts) {
     DropWarming(fit, inference);
     Widen(examination, examination.by_open_drift, inference);
+  }
+  // nor how much of a warm start
+  if (Finds(examination, Warming::starts) && examination.by_open_start.size() > 0) {
+    Widen(examination, examination.by_open_start, inference);
   }
   // intervals reach as far as the findings move the parameters, with 95 % of that
   Eigen::VectorXd reach = examination.moves.cwiseAbs() + kNormal95 * examination.move_deviations;

@@ -101,7 +101,7 @@ const std::vector<LackOfFitTest>& LackOfFitTests() {
        "Does it depend on how warm the joint is?",
        "Warming is not followed: try --identifier energy-ml, on a log that begins cold and lasts "
        "until the torque settles."},
-      {"initial_energy", "E(0) is estimated, or the fit knows no warming", first, apart, of_moves,
+      {"initial_energy", "E(0) is estimated, or the fit knows no warming", first, starts, of_moves,
        OfInitialEnergy, Say<kStart>, AgainstStart, "Was the joint warm when the log began?",
        "The joint seems warm at the start: try --start estimated, or let it cool down for an hour "
        "before you record."},

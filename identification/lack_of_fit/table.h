@@ -23,8 +23,8 @@ struct Advice {
 /// constant speed, at samples and then at bins within them, then at what stays.
 enum class Turn { first, sample, hold, last };
 
-/// What a fitted warming may have taken up of that which a test looks for.
-enum class Warming { apart, takes_part };
+/// What a fitted warming may have taken up of that which a test looks for; `starts`: that the log began warm.
+enum class Warming { apart, takes_part, starts };
 
 /// What of a finding counts as a change of the friction: how it moves law and heat (FrictionChange), its own
 /// size, where that is friction or where moves do not show it, or the larger; twice where moves understate it, as of

@@ -11,6 +11,8 @@ namespace {
 
 using Eigen::Index;
 
+constexpr double kOtherUnit =
+    0.5;  // of the speed; why: a wrong unit or sign is off by more, a speed cut down to whole steps by less
 constexpr double kHarmless = 1e-3;  // attenuation, or error of a speed
 constexpr double kCertain = 4;      // standard errors; why 4: by chance 1 in 16 000
 constexpr double kRounding = 1e-6;  // of the mean speed: less is no noise
@@ -193,7 +195,8 @@ std::optional<double> CoarseStep(const Measurements& measurements, const Selecti
   const double difference = std::sqrt(differences);
   const bool shows = difference > kCertain * std::sqrt(errors);
   const bool matters = difference > kHarmless * pooled.mean_speed;
-  return shows && matters && difference <= step ? std::optional(step) : std::nullopt;
+  const double rounding = std::min(step, kOtherUnit * pooled.mean_speed);
+  return shows && matters && difference <= rounding ? std::optional(step) : std::nullopt;
 }
 
 }  // namespace warmjoint::inline identification

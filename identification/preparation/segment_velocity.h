@@ -30,7 +30,7 @@ std::optional<SegmentVelocity> TakeSegmentVelocity(const Measurements& measureme
 
 /// Step q of a quantised velocity whose rounding the positions show: the mean velocities of the segments differ from the
 /// slopes of their positions, in root mean square, by more than four of their standard errors (those above), by more
-/// than 0.1 % of the mean speed, which moves a viscous torque by as much, and by q at most. Averaging does not lower
+/// than 0.1 % of the mean speed, which moves a viscous torque by as much, and by q and half of that speed at most. Averaging does not lower
 /// such an error, since a constant speed is rounded in one way throughout. rad/s or m/s; nothing for other velocities.
 std::optional<double> CoarseStep(const Measurements& measurements, const Selection& selection);
 

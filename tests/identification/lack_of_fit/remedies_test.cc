@@ -33,11 +33,14 @@ struct Step {
   }
 };
 
+/// Refuses what changes the friction by a fiftieth, so that there is advice to follow.
+constexpr Judging kStrict{.relevance = 0.02};
+
 Step Take(const std::string& name, const Options_& given, const Measurements& m) {
   const Identifier& identifier = FindIdentifier(name);
   const Options options = ReadOptions(identifier.options, given, {});
   const IdentifierInput input{Prepare(m), options, {}};
-  Step step{name, given, IdentifyAndJudge(identifier, input), 0};
+  Step step{name, given, IdentifyAndJudge(identifier, input, kStrict), 0};
   const auto held = HoldOut(identifier, input, 0.3);
   step.held_out = held ? held->rmse : kInfinity;
   return step;
@@ -254,7 +257,7 @@ TEST(Remedies, AgainstMoreRippleThanAMapFollows) {
   const FrictionDescription friction = test::Cold();
   const Measurements wide = WithRipple(test::RecordHour(friction, 1));
   ASSERT_GT(wide.position.maxCoeff() - wide.position.minCoeff(), 60 * 1.3);
-  const Estimate estimate = test::Answer("nominal-ls", wide);
+  const Estimate estimate = Take("nominal-ls", {}, wide).estimate;
   EXPECT_EQ(estimate.status, Status::inadequate_model);
   EXPECT_TRUE(test::Asked(estimate, "position").rejected);
   EXPECT_THAT(estimate.message, ::testing::HasSubstr("record it within 55 rad"));

@@ -332,8 +332,8 @@ TEST(Identify, ReadsAForeignLogOfALinearAxis) {
       RunWarmjoint({"identify", test::SharedFolder() / "data/emps/DATA_EMPS.csv", "--map",
                     "time=t_s,position=q_m,torque=force_N", "--joint", "linear", "--identifier",
                     "nominal-ls", "--set", "law=asymmetric", "--force", "-o", output});
-  // the slope of its friction differs between the directions, which law (3) cannot follow
-  ASSERT_EQ(answer.status, 3) << answer.err;
+  // the slope of its friction differs between the directions, which law (3) cannot follow, by little
+  ASSERT_EQ(answer.status, 0) << answer.err;
   EXPECT_THAT(answer.out, HasSubstr("depends on direction"));
   const auto estimate = nlohmann::json::parse(ReadWholeFile(output));
 

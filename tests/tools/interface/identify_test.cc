@@ -186,11 +186,13 @@ TEST(Identify, ShowsVoidNumbersWhereAskedAsTheCommand) {
   const std::string log = scratch.path() / "log.csv", file = scratch.path() / "estimate.json";
   // a level that drifts by a third, of which nominal-ls knows nothing
   WriteRecordingFile(log, 480, SeveralSpeeds, [](int i) { return -0.01 * i; });
-  ASSERT_EQ(
-      RunWarmjoint({"identify", log, "--identifier", "nominal-ls", "--force", "-o", file}).status,
-      3);
+  ASSERT_EQ(RunWarmjoint({"identify", log, "--identifier", "nominal-ls", "--relevance", "0.01",
+                          "--force", "-o", file})
+                .status,
+            3);
   IdentifySettings settings;
   settings.identifier = "nominal-ls";
+  settings.relevance = 0.01;
   EXPECT_TRUE(Identify(ReadRecording(log), settings).parameters.front().interval95 == std::nullopt);
   settings.void_numbers = VoidNumbers::show;
   const Estimate shown = Identify(ReadRecording(log), settings);
