@@ -118,7 +118,7 @@ const std::vector<LackOfFitTest>& LackOfFitTests() {
        Say<kSpeedByEnergy>, AgainstWarmingSlope, "Does the slope over speed change with warmth?",
        "The slope changes as the joint warms: try --identifier lpv-energy."},
       {"speed_memory", "the fit knows no warming, or the segments are too long for the log", first,
-       apart, of_moves, OfSpeedMemory, Memory, AgainstMemory,
+       takes_part, of_moves, OfSpeedMemory, Memory, AgainstMemory,
        "Does friction follow the speed late?",
        "Friction still depends on the speed of a while ago: hold each speed for longer, so that it "
        "settles."},
