@@ -210,11 +210,11 @@ double Counted(const Finding& finding) {
 }
 
 /// Why what was found is too much to live with, and what helps; nothing where it is not.
-std::optional<std::string> TooMuch(const Examination& examination, const Finding& blamed,
+std::optional<std::string> TooMuch(const Examination& examination, const Finding& worst,
                                    const Judging& judging, const Measurements& m) {
-  if (Counted(blamed) > judging.relevance) {
+  if (Counted(worst) > judging.relevance) {
     return fmt::format("modelling {} would change the friction by {:.2g} % (--relevance {:.3g})",
-                       blamed.test->quantity(blamed, m), 100 * blamed.harm, judging.relevance);
+                       worst.test->quantity(worst, m), 100 * worst.harm, judging.relevance);
   }
   double explained = 0;
   for (const Finding* finding : examination.Found()) explained += finding->explained;
@@ -229,25 +229,23 @@ std::optional<std::string> TooMuch(const Examination& examination, const Finding
 void WeighFindings(const Examination& examination, const Identifier& identifier,
                    const IdentifierInput& input, const Fit& fit, const Judging& judging,
                    Inference& inference) {
-  // what helps: against the largest of those that change the friction too much, or of all
+  // what helps against the largest, and which changes the friction most
   const std::vector<const Finding*> found = examination.Found();
-  const auto harms = [&](const Finding* one) { return Counted(*one) > judging.relevance; };
-  const auto first = std::ranges::find_if(found, harms);
-  const Finding& blamed = first == found.end() ? *found.front() : **first;
-  const std::string remedy = blamed.test->remedy({blamed, identifier, input, fit});
+  const std::string remedy = found[0]->test->remedy({*found[0], identifier, input, fit});
+  const Finding& worst =
+      **std::ranges::max_element(found, {}, [](const Finding* one) { return Counted(*one); });
   const std::string depends = Depends(examination, input.measurements);
-  if (const auto why = TooMuch(examination, blamed, judging, input.measurements)) {
+  if (const auto why = TooMuch(examination, worst, judging, input.measurements)) {
     inference.Void(Status::inadequate_model, fmt::format("{}; {}; {}", depends, *why, remedy));
     return;
   }
 
   // small: the intervals hold it
-  const double most = (*std::ranges::max_element(found, {}, &Finding::harm))->harm;
   const bool drifts = Finds(examination, Warming::takes_part);
   const bool unknown = drifts && fit.RowOf(Role::heat);
   inference.warnings.push_back(fmt::format(
       "{}: it changes the friction by {:.2g} % at most; intervals were widened to cover this{}; {}",
-      depends, 100 * most,
+      depends, 100 * worst.harm,
       unknown ? ", and the parameters of warming have none, since they may have absorbed part of it"
               : "",
       remedy));
