@@ -20,6 +20,14 @@ constexpr int kRounds = 5;       // why: from the edge of kAlike to the middle o
 constexpr double kSlow = 0.05, kFast = 0.95;  // why: a tenth of the samples lies about either
 constexpr int kVelocity = static_cast<int>(MapQuantity::velocity);
 
+/// Mean velocity of a group of points, rad/s or m/s. Summed here: Eigen 3.4 sums a view of some rows of a column of a
+/// matrix by rows over other elements.
+double MeanVelocity(const std::vector<Index>& group, const MapPoints& kept) {
+  double sum = 0;
+  for (const Index i : group) sum += kept(i, kVelocity);
+  return sum / static_cast<double>(group.size());
+}
+
 /// Those of some points about a speed that the joint held, from one of the speeds on to where they gather.
 std::vector<Index> Gather(double speed, const std::vector<Index>& way, const MapPoints& kept) {
   std::vector<Index> group;
@@ -28,7 +36,7 @@ std::vector<Index> Gather(double speed, const std::vector<Index>& way, const Map
     for (const Index i : way) {
       if (std::abs(std::log(std::abs(kept(i, kVelocity)) / speed)) <= kAlike) group.push_back(i);
     }
-    speed = std::abs(kept(group, kVelocity).mean());
+    speed = std::abs(MeanVelocity(group, kept));
   }
   return group;
 }
@@ -66,7 +74,7 @@ std::vector<FrictionAtSpeed> FrictionAtSpeeds(const Law& law, const MapFit& fit,
       if (way.empty()) continue;
       Eigen::VectorXd speeds = kept(way, kVelocity).cwiseAbs();
       const std::vector<Index> group = Gather(QuantileInPlace(speeds, quantile), way, kept);
-      const double speed = kept(group, kVelocity).mean();
+      const double speed = MeanVelocity(group, kept);
       // a joint that knows one speed has one figure
       if (latest > 0 && !(std::log(std::abs(speed) / latest) > kAlike)) continue;
       latest = std::abs(speed);
