@@ -5,7 +5,7 @@
 
 #include "models/foundation/atomic_file.h"
 #include "sim/plant/plant.h"
-#include "tools/board/write_tables.h"
+#include "tools/board/format_board.h"
 #include "tools/suite/describe_run.h"
 #include "tools/suite/memory_of_work.h"
 #include "tools/suite/prepare_identifiers.h"
@@ -45,7 +45,6 @@ RunTask PrepareRun(const RunArguments& arguments) {
 }
 
 RunEnding EndRun(RunStore& store) {
-  store.Settle();
   WriteTables(store);
   return EndingOf(store);
 }

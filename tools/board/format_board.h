@@ -46,7 +46,9 @@ std::string BoardsToCsv(const std::vector<NamedBoard>& boards);
 /// One row for each identifier, all numbers in full.
 std::string BoardToCsv(const Leaderboard& board);
 
-/// As BoardToCsv, with the variant in the first column: all of them together, then each.
-std::string SummaryToCsv(const Leaderboard& board);
+/// Writes the tables of a run that people read: RUN/results.csv, a row for each result (ExportResults),
+/// and RUN/summary.csv, the leaderboard as BoardToCsv with the variant in the first column: all of them
+/// together, then each of a ladder. Wall times stay out of both, so that equal results are equal bytes.
+void WriteTables(const RunStore& store);
 
 }  // namespace warmjoint::inline tools

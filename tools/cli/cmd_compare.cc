@@ -4,10 +4,8 @@
 #include <memory>
 
 #include "tools/board/format_board.h"
-#include "tools/board/read_board.h"
 #include "tools/cli/command.h"
 #include "tools/parser/choice.h"
-#include "tools/store/stored_suite.h"
 #include "tools/terminal/say.h"
 
 namespace warmjoint::inline tools {

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "models/foundation/bad_input.h"
-#include "tools/board/write_tables.h"
+#include "tools/board/format_board.h"
 #include "tools/cli/command.h"
 #include "tools/cli/tell_run.h"
 #include "tools/cluster/gather.h"
@@ -51,8 +51,7 @@ ExitStatus Merge(const MergeArguments& arguments) {
   }
 
   // shards that overlap are refused here: each realization has one place
-  const MergedRun merged =
-      MergeRuns(arguments.shards, arguments.output, {Overlap::refused, Access::read, &WriteTables});
+  const MergedRun merged = MergeRuns(arguments.shards, arguments.output, &WriteTables);
   Say(stdout, "{}: {} shards, {} of {} realizations\n", arguments.output, arguments.shards.size(),
       merged.units - merged.missing.size(), merged.units);
   // what is missing is no failure, but then the whole says nothing yet

@@ -21,8 +21,6 @@
 #include "tools/report/page/run_page.h"
 #include "tools/report/run/extremes.h"
 #include "tools/report/run/run_figures.h"
-#include "tools/store/stored_suite.h"
-#include "tools/suite/arithmetic.h"
 #include "tools/terminal/activity.h"
 #include "tools/terminal/shell_words.h"
 
@@ -92,10 +90,10 @@ Page RunReport(const ReportArguments& arguments, Activity& activity) {
   const RunStore store = RunStore::OpenToRead(arguments.source);
   const fs::path beside = fs::path(arguments.source) / "report.html";
   const fs::path target = arguments.output.empty() ? beside : fs::path(arguments.output);
-  ClaimOutput(target, {store.results_file(), store.timings_file(), store.suite_file()});
+  ClaimOutput(target, {store.results_file(), store.suite_file()});
   TellOfEditedSuite(store);
   // all that the run itself gives
-  report::RunPage page{report::ReadRunView(store), StoredSuite(store), store.ReadDescription(), {}};
+  report::RunPage page{report::ReadRunView(store), store.suite(), store.description(), {}};
   for (const report::RunFigure& figure : report::RunFigures()) {
     if (auto made = figure.make(page.view)) page.figures.push_back(*std::move(made));
   }
@@ -167,7 +165,6 @@ void RefuseOptionsOfRecordings(const CLI::App& parser, const std::string& source
 }
 
 ExitStatus Report(const ReportArguments& arguments) {
-  SettleArithmetic();
   Activity activity("reading " + arguments.source);
   // a run by its directory, a log by its file
   if (!fs::exists(arguments.source)) {

@@ -12,7 +12,6 @@
 #include "tools/cli/tell_run.h"
 #include "tools/cli/tell_wall.h"
 #include "tools/cli/whole_number.h"
-#include "tools/suite/arithmetic.h"
 #include "tools/suite/engine.h"
 #include "tools/suite/interrupt.h"
 #include "tools/terminal/say.h"
@@ -23,7 +22,6 @@ namespace {
 constexpr std::uint64_t kLargestSeed = std::numeric_limits<std::uint64_t>::max();
 
 ExitStatus Run(RunArguments arguments) {
-  SettleArithmetic();
   // a suite by its name or file, in shards or here
   arguments.suite = FindSuite(arguments.suite);
   if (arguments.in_shards()) return RunInShards(arguments);
@@ -37,7 +35,7 @@ ExitStatus Run(RunArguments arguments) {
   CatchInterrupts();
   const RunOutcome outcome =
       RunSuite(task.suite, task.identifiers, {task.jobs, task.shard, arguments.keep}, store);
-  TellNotFollowing(outcome.following, task.description);
+  TellNotFollowing(outcome.following, task.suite);
   if (outcome.interrupted) {
     Say(stderr, "interrupted: {} of {} realizations are kept; the same command goes on\n",
         outcome.finished, outcome.total);

@@ -22,8 +22,7 @@
 #include "tools/cli/take_project.h"
 #include "tools/cli/whole_number.h"
 #include "tools/parser/choice.h"
-#include "tools/store/stored_suite.h"
-#include "tools/suite/arithmetic.h"
+#include "tools/store/run_store.h"
 #include "tools/suite/following_tally.h"
 #include "tools/suite/memory_of_work.h"
 #include "tools/terminal/progress_line.h"
@@ -56,15 +55,18 @@ Scenario ScenarioOfRun(const SimulateArguments& arguments) {
   // the suite that the run stored, not a file that may have changed
   const RunStore store = RunStore::OpenToRead(arguments.from);
   TellOfEditedSuite(store);
-  const Suite suite = StoredSuite(store);
+  const Suite& suite = store.suite();
   if (arguments.realization.value_or(0) >= static_cast<std::uint64_t>(suite.realizations)) {
     Refuse({"--realization"}, "is {}; {} has 0 to {}", *arguments.realization, arguments.from,
            suite.realizations - 1);
   }
 
   // the variant by its name; a run without a ladder has one scenario
-  const std::vector<std::string> names = store.ReadDescription().variants;
-  if (names.empty() && arguments.variant.empty()) return VariantScenario(suite, 0);
+  if (!suite.ladder && arguments.variant.empty()) return VariantScenario(suite, 0);
+  std::vector<std::string> names;
+  for (int i = 0; suite.ladder && i < suite.variants(); ++i) {
+    names.push_back(suite.ladder->variants[static_cast<std::size_t>(i)].name);
+  }
   const auto named = std::find(names.begin(), names.end(), arguments.variant);
   if (named == names.end()) {
     Refuse({"--variant"}, "there is no variant '{}' of {}{}", Excerpt(arguments.variant),
@@ -106,7 +108,6 @@ Recording Carried(Plant& plant, const Scenario& scenario, std::uint64_t realizat
 }
 
 ExitStatus Simulate(const SimulateArguments& arguments) {
-  SettleArithmetic();
   // the motion of a log, if one is to be repeated
   std::optional<Measurements> log;
   if (!arguments.motion.recordings.empty())

@@ -6,7 +6,6 @@
 #include "tools/cli/command.h"
 #include "tools/cli/whole_number.h"
 #include "tools/cluster/task.h"
-#include "tools/suite/arithmetic.h"
 #include "tools/suite/interrupt.h"
 
 namespace warmjoint::inline tools {
@@ -18,8 +17,7 @@ struct TaskArguments {
 };
 
 ExitStatus RunOneTask(const TaskArguments& arguments) {
-  // the same bits on every machine, and an end after the realizations in hand
-  SettleArithmetic();
+  // an end after the realizations in hand
   CatchInterrupts();
   const auto say = [&](const char* words) {
     fmt::print("shard {} of {}: {}\n", arguments.shard, arguments.run, words);

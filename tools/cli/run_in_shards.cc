@@ -22,7 +22,7 @@
 #include "tools/cluster/submissions.h"
 #include "tools/cluster/task.h"
 #include "tools/cluster/wait_for_jobs.h"
-#include "tools/store/directory_lock.h"
+#include "tools/store/folders.h"
 #include "tools/suite/describe_run.h"
 #include "tools/suite/interrupt.h"
 #include "tools/suite/prepare_identifiers.h"
@@ -67,7 +67,7 @@ Plan MakePlan(const RunArguments& arguments, const Suite& suite) {
 
   // a timed probe tells how long a shard is
   const Probe probe = ProbeSuite(suite, identifiers);
-  TellNotFollowing(probe.following, description);
+  TellNotFollowing(probe.following, suite);
   plan.probe_seconds = probe.seconds;
   const int count = arguments.shards
                         ? static_cast<int>(*arguments.shards)
@@ -113,7 +113,7 @@ Plan TakeOrMakePlan(const fs::path& run, const RunArguments& arguments) {
   const Suite suite = ResolveSuite(arguments);
   if (HasPlan(run)) {
     Plan plan = ReadPlan(run);
-    RefuseDifferentRun({plan.suite_yaml, {}, {}, {}}, {SuiteToYaml(suite), {}, {}, {}},
+    RefuseDifferentRun({plan.suite_yaml, {}}, {SuiteToYaml(suite), {}},
                        {run.string()});
     TellOtherPlan(plan, arguments, run);
     return plan;

@@ -23,8 +23,8 @@ ExitStatus TellEnding(const std::filesystem::path& directory, const RunEnding& e
   return done ? ExitStatus::done : ExitStatus::no_answer;
 }
 
-void TellNotFollowing(const FollowingTally& following, const RunDescription& description) {
-  const std::string words = following.Words(description.variants);
+void TellNotFollowing(const FollowingTally& following, const Suite& suite) {
+  const std::string words = following.Words(suite);
   if (!words.empty()) SayNotice("notice: {}\n", words);
 }
 

@@ -17,6 +17,6 @@ ExitStatus TellEnding(const std::filesystem::path& directory, const RunEnding& e
                       RunPart part);
 
 /// Says on stderr in how many realizations the simulated joint did not follow its motion, if in any.
-void TellNotFollowing(const FollowingTally& following, const RunDescription& description);
+void TellNotFollowing(const FollowingTally& following, const Suite& suite);
 
 }  // namespace warmjoint::inline tools

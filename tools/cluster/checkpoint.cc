@@ -7,7 +7,7 @@
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
-#include "tools/store/open_database.h"
+#include "tools/store/database.h"
 
 namespace warmjoint::inline tools {
 namespace fs = std::filesystem;
@@ -29,7 +29,7 @@ void TakeSnapshot(const fs::path& database, const fs::path& copy) {
 Tally TallyOf(const fs::path& results, const PlannedShard& shard) {
   return Guarded(results, [&] {
     // finished realizations of the shard's own range: a store may hold more after a split
-    const SQLite::Database database = ReopenFrozen(results);
+    const SQLite::Database database = OpenDatabase(results);
     Tally tally;
     SQLite::Statement count(database,
                             "SELECT count(*) FROM realization WHERE realization >= ? AND"

@@ -4,13 +4,11 @@
 
 #include "models/foundation/bad_input.h"
 #include "models/foundation/output_failed.h"
-#include "tools/board/write_tables.h"
+#include "tools/board/format_board.h"
 #include "tools/cluster/checkpoint.h"
 #include "tools/cluster/run_layout.h"
 #include "tools/cluster/run_status.h"
-#include "tools/store/directory_lock.h"
-#include "tools/store/shards_of.h"
-#include "tools/store/temporary_folder.h"
+#include "tools/store/folders.h"
 
 namespace warmjoint::inline tools {
 namespace fs = std::filesystem;
@@ -40,12 +38,10 @@ MergedRun MergePlanned(const fs::path& run, const Plan& plan) {
   // made on this machine's own disk, by the rules of a merge of equal overlaps
   const TemporaryFolder folder("merge");
   const fs::path whole = folder.path() / "run";
-  const MergedRun merged =
-      MergeRuns(ShardsOf(run), whole, {Overlap::equal, Access::frozen, &WriteTables});
+  const MergedRun merged = MergeRuns(ShardsOf(run), whole, &WriteTables);
 
   // results.sqlite last: a run that has it is whole
-  for (const char* name :
-       {"suite.yaml", "timings.sqlite", "results.csv", "summary.csv", "results.sqlite"}) {
+  for (const char* name : {"suite.yaml", "results.csv", "summary.csv", "results.sqlite"}) {
     PutFile(whole / name, run / name);
   }
   return merged;

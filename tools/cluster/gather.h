@@ -8,7 +8,7 @@
 
 namespace warmjoint::inline tools {
 
-/// Puts the shards of RUN together as RUN itself: results.sqlite, results.csv, timings.sqlite and
+/// Puts the shards of RUN together as RUN itself: results.sqlite, results.csv and
 /// suite.yaml, with the bytes of a run on one machine. They are made on this machine's own disk and take
 /// their names when they are whole. Throws BadInput where shards are missing, naming them.
 MergedRun MergePlanned(const std::filesystem::path& run, const Plan& plan);

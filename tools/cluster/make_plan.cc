@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "models/foundation/atomic_file.h"
-#include "tools/store/sha256.h"
+#include "models/foundation/sha256.h"
 #include "tools/suite/run_realization.h"
 
 namespace warmjoint::inline tools {

@@ -12,7 +12,7 @@
 #include "tools/cluster/shard_state.h"
 #include "tools/cluster/slurm.h"
 #include "tools/cluster/submissions.h"
-#include "tools/store/directory_lock.h"
+#include "tools/store/folders.h"
 #include "tools/store/run_store.h"
 
 namespace warmjoint::inline tools {
@@ -23,7 +23,7 @@ namespace {
 int FirstOpen(const fs::path& folder, const PlannedShard& shard, int variants) {
   // a shard without results is open from its first realization on
   if (!fs::exists(folder / "results.sqlite")) return shard.first;
-  const std::set<Unit> finished = RunStore::OpenToRead(folder, Access::frozen).Finished();
+  const std::set<Unit> finished = RunStore::OpenToRead(folder).Finished();
   for (int realization = shard.first; realization < shard.end; ++realization) {
     for (int variant = 0; variant < variants; ++variant) {
       if (!finished.contains({variant, realization})) return realization;

@@ -162,7 +162,6 @@ class Task {
     if (!folder_.HasStore()) return std::nullopt;
     const fs::path results = folder_.path() / "results.snapshot";
     try {
-      TakeSnapshot(folder_.store() / "timings.sqlite", folder_.path() / "timings.snapshot");
       TakeSnapshot(folder_.store() / "results.sqlite", results);
       return TallyOf(results, shard_);
     } catch (const BadInput& damage) {
@@ -171,13 +170,12 @@ class Task {
     }
   }
 
-  /// Copies what is finished into the run, timings first. Whether there was a sound store to copy.
+  /// Copies what is finished into the run. Whether there was a sound store to copy.
   bool Publish() {
     const std::optional<Tally> tally = Snapshot();
     if (!tally) return false;
     const bool more = tally->finished > state_.finished;
     if (more || !fs::exists(published_ / "results.sqlite")) {
-      PutFile(folder_.path() / "timings.snapshot", published_ / "timings.sqlite");
       PutFile(folder_.path() / "results.snapshot", published_ / "results.sqlite");
     }
     // how far the shard is

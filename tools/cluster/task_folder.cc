@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "models/foundation/bad_input.h"
-#include "tools/store/directory_lock.h"
+#include "tools/store/folders.h"
 
 namespace warmjoint::inline tools {
 namespace fs = std::filesystem;
@@ -82,10 +82,8 @@ void TaskFolder::FetchStore(const fs::path& shard_folder) const {
   if (!fs::exists(shard_folder / "results.sqlite")) return;
   fs::create_directories(store());
 
-  // the results and the times, without the suite, which the child writes
-  for (const char* name : {"results.sqlite", "timings.sqlite"}) {
-    if (fs::exists(shard_folder / name)) fs::copy_file(shard_folder / name, store() / name);
-  }
+  // the results without the suite, which the child writes
+  fs::copy_file(shard_folder / "results.sqlite", store() / "results.sqlite");
 }
 
 void TaskFolder::Remove() const {

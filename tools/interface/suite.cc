@@ -5,7 +5,6 @@
 #include "scenarios/parse_suite.h"
 #include "tools/actions/run_task.h"
 #include "tools/board/format_board.h"
-#include "tools/board/read_board.h"
 #include "tools/interface/guarded.h"
 #include "tools/suite/engine.h"
 
@@ -97,7 +96,7 @@ RunSummary RunSuite(const std::filesystem::path& suite, const std::filesystem::p
     const tools::RunOutcome outcome = tools::RunSuite(task.suite, task.identifiers, options, store);
     tools::RunEnding ending = tools::EndRun(store);
     return RunSummary{outcome.finished, ending.results, ending.failed(), std::move(ending.silent),
-                      outcome.following.Words(task.description.variants)};
+                      outcome.following.Words(task.suite)};
   });
 }
 

@@ -1,5 +1,7 @@
 #include "tools/suite/run_realization.h"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <cmath>
 #include <optional>
@@ -7,6 +9,8 @@
 #include "identification/preparation/prepare.h"
 #include "models/foundation/output_failed.h"
 #include "models/foundation/robust_noise.h"
+#include "models/recording/hdf5.h"
+#include "sim/truth/truth_json.h"
 #include "tools/suite/start_key.h"
 #include "tools/suite/trace_table.h"
 
@@ -80,6 +84,15 @@ std::vector<Result> AllFailed(size_t identifiers, const std::string& message) {
 }
 
 }  // namespace
+
+void RecordingKeeper::Keep(const Recording& recording, Unit unit) const {
+  if (folder_.empty()) return;
+  const std::filesystem::path folder = folder_ / fmt::format("variant-{}", unit.variant);
+  std::filesystem::create_directories(folder);
+  const std::string stem = folder / fmt::format("realization-{}", unit.realization);
+  WriteHdf5(recording.measurements, stem + ".h5");
+  WriteTruth(recording.truth, stem + ".truth.json");
+}
 
 Bench MakeBench(const Scenario& scenario) { return {scenario, MakePlant(scenario)}; }
 

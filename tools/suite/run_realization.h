@@ -1,13 +1,15 @@
 // One realization from plant to scores.
 #pragma once
 
+#include <filesystem>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"
+#include "sim/truth/simulated_recording.h"
 #include "tools/store/result.h"
-#include "tools/suite/keep_recording.h"
 #include "tools/suite/prepared_identifier.h"
 
 namespace warmjoint::inline tools {
@@ -20,6 +22,19 @@ struct Bench {
 
 /// Throws BadInput where the plant cannot do the scenario.
 Bench MakeBench(const Scenario& scenario);
+
+/// Keeps recordings in a folder, or nowhere.
+class RecordingKeeper {
+ public:
+  /// folder: made when it is needed; empty: nothing is kept.
+  explicit RecordingKeeper(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  /// Writes variant-V/realization-R.h5 and beside it realization-R.truth.json.
+  void Keep(const Recording& recording, Unit unit) const;
+
+ private:
+  std::filesystem::path folder_;
+};
 
 /// A unit that was carried out.
 struct Carried {

@@ -50,7 +50,7 @@ class LocalShards : public testing::Test {
   /// Expects every file of a run, timings apart, to be that of the run in one piece.
   void ExpectWhole(const std::string& name) const {
     ASSERT_EQ(RunWarmjoint(Command("whole", {})).status, 0);
-    for (const char* file : {"/results.sqlite", "/results.csv", "/suite.yaml"}) {
+    for (const char* file : {"/results.csv", "/summary.csv", "/suite.yaml"}) {
       EXPECT_EQ(ReadWholeFile(Path(name) + file), ReadWholeFile(Path("whole") + file)) << file;
     }
   }
@@ -140,11 +140,11 @@ TEST_F(LocalShards, AMachineThatCalculatesOtherwiseRefuses) {
   ASSERT_EQ(
       RunWarmjoint(Command("run", {"--local-shards", "1", "--shards", "2", "--dry-run"})).status,
       0);
-  Edit("run", "\"arithmetic\": \"", "\"arithmetic\": \"f");
+  Edit("run", "\"mujoco\": \"", "\"mujoco\": \"f");
   const ProgramAnswer task = RunWarmjoint({"task", Path("run"), "1"});
   EXPECT_EQ(task.status, 2);
-  EXPECT_THAT(task.err, HasSubstr("made where arithmetic is f"));
-  EXPECT_THAT(Status("run")["last_words"].dump(), HasSubstr("made where arithmetic is f"));
+  EXPECT_THAT(task.err, HasSubstr("made where mujoco is f"));
+  EXPECT_THAT(Status("run")["last_words"].dump(), HasSubstr("made where mujoco is f"));
   EXPECT_THAT(Status("run")["shards"]["done"], IsEmpty());
 }
 
@@ -170,7 +170,7 @@ TEST_F(LocalShards, ADamagedStoreOfTheMachineGivesWayToTheRunsCopy) {
   // what a killed task left: a store that is no database any more
   const TaskFolder left(ReadPlan(Path("run")), 1);
   std::filesystem::create_directories(left.store());
-  for (const char* name : {"suite.yaml", "results.sqlite", "timings.sqlite"}) {
+  for (const char* name : {"suite.yaml", "results.sqlite"}) {
     WriteWholeFile(left.store() / name, std::string(8192, 'x'));
   }
   const ProgramAnswer task = RunWarmjoint({"task", Path("run"), "1"});

@@ -1,4 +1,4 @@
-#include "tools/store/sha256.h"
+#include "models/foundation/sha256.h"
 
 #include <gtest/gtest.h>
 

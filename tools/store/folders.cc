@@ -1,12 +1,15 @@
-#include "tools/store/directory_lock.h"
+#include "tools/store/folders.h"
 
 #include <fcntl.h>
+#include <stdlib.h>
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstring>
 
 #include "models/foundation/bad_input.h"
+#include "models/foundation/output_failed.h"
 
 namespace warmjoint::inline tools {
 
@@ -22,5 +25,16 @@ DirectoryLock::DirectoryLock(const std::filesystem::path& directory) {
 }
 
 DirectoryLock::~DirectoryLock() { close(file_); }
+
+TemporaryFolder::TemporaryFolder(const std::string& what) {
+  std::string pattern = std::filesystem::temp_directory_path() / ("warmjoint-" + what + "-XXXXXX");
+  if (!mkdtemp(pattern.data())) FailOutput(pattern, errno);
+  path_ = pattern;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
 
 }  // namespace warmjoint::inline tools
