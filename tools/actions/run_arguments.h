@@ -28,11 +28,9 @@ struct RunArguments {
   // of a run in shards
   bool slurm = false;
   std::optional<std::uint64_t> local_shards;  // processes on this machine
-  std::optional<std::uint64_t> shards;        // chosen by a probe where not given
-  std::vector<std::string> sbatch;            // key=value
-  std::optional<std::uint64_t> array_parallelism;
+  std::optional<std::uint64_t> shards;
+  std::vector<std::string> sbatch;  // key=value
   bool dry_run = false;
-  bool wait = false;
 
   bool in_shards() const { return slurm || local_shards; }
 };

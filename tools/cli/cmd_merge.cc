@@ -7,7 +7,7 @@
 #include "tools/board/format_board.h"
 #include "tools/cli/command.h"
 #include "tools/cli/tell_run.h"
-#include "tools/cluster/gather.h"
+#include "tools/cluster/shards.h"
 #include "tools/store/merge_runs.h"
 #include "tools/terminal/say.h"
 
@@ -38,8 +38,7 @@ void TellMissing(const std::set<Unit>& missing) {
 
 /// A run that was planned as shards becomes whole in its own directory.
 ExitStatus MergeInPlace(const std::filesystem::path& given) {
-  const std::filesystem::path run = std::filesystem::absolute(given).lexically_normal();
-  MergePlanned(run, ReadPlan(run));
+  MergePlanned(ReadPlan(given));
   return TellEnding(given, EndingOf(RunStore::OpenToRead(given)), RunPart::whole);
 }
 

@@ -12,6 +12,7 @@
 #include "tools/cli/tell_run.h"
 #include "tools/cli/tell_wall.h"
 #include "tools/cli/whole_number.h"
+#include "tools/cluster/plan.h"
 #include "tools/suite/engine.h"
 #include "tools/suite/interrupt.h"
 #include "tools/terminal/say.h"
@@ -28,6 +29,7 @@ ExitStatus Run(RunArguments arguments) {
   RefuseShardOptions(arguments);
 
   const RunTask task = PrepareRun(arguments);
+  if (HasPlan(arguments.output)) return RunPlannedShard(arguments, task);
   RunStore store = RunStore::CreateOrResume(arguments.output, task.description);
   // who brought commands along is told what keeps them apart
   TellWall(task.suite.identifiers, {arguments.suite, arguments.output});
@@ -75,10 +77,7 @@ Command AddRunCommand(CLI::App& program) {
       ->type_name("IDENTIFIER");
 
   // which part of it, and what commands may do
-  parser
-      ->add_option("--shard", arguments->shard,
-                   "part i of n, or realizations a to b - 1, to be merged later: i/n or "
-                   "a:b")
+  parser->add_option("--shard", arguments->shard, "part i of n, to be merged later: i/n")
       ->type_name("TEXT")
       ->capture_default_str();
   parser->add_flag("--allow-commands", arguments->allow_commands,

@@ -24,10 +24,10 @@ constexpr std::chrono::milliseconds kBatchTime{200};
 /// the leaderboard compares the variants.
 std::vector<Unit> UnitsOf(const Suite& suite, const Shard& shard) {
   std::vector<Unit> units;
-  for (int realization = 0; realization < suite.realizations; ++realization) {
+  const int end = shard.End(suite.realizations);
+  for (int realization = shard.First(suite.realizations); realization < end; ++realization) {
     for (int variant = 0; variant < suite.variants(); ++variant) {
-      const Unit unit{variant, realization};
-      if (shard.Holds(unit)) units.push_back(unit);
+      units.push_back({variant, realization});
     }
   }
   return units;

@@ -40,8 +40,8 @@ void RequireMemoryFor(const Suite& suite, const Shard& shard, int jobs, const st
     if (Samples(variant) > Samples(largest)) largest = variant;
   }
   // as many units at once as there are threads, or fewer where there is less to do
-  const int realizations = std::max(0, std::min(shard.end, suite.realizations) - shard.first);
-  const double units = static_cast<double>(realizations) * suite.variants() / shard.count;
+  const int realizations = shard.End(suite.realizations) - shard.First(suite.realizations);
+  const double units = static_cast<double>(realizations) * suite.variants();
   const double at_once = std::clamp(static_cast<double>(jobs), 1.0, std::max(1.0, units));
   RequireMemory(
       at_once * kIdentified * Samples(largest),
