@@ -137,6 +137,13 @@ void RethrowStoreError(const fs::path& path, const SQLite::Exception& error) {
     case SQLITE_IOERR:
       FailOutput(path.string(), EIO);
     case SQLITE_READONLY:
+      if (fs::exists(path.string() + "-journal")) {
+        Refuse(
+            place,
+            "a killed run left a batch that is to be undone, and you may not write there; let its "
+            "owner read it, or go on with `warmjoint run`");
+      }
+      FailOutput(path.string(), EACCES);
     case SQLITE_PERM:
       FailOutput(path.string(), EACCES);
     case SQLITE_BUSY:

@@ -51,10 +51,10 @@ class FinishedQueue {
     changed_.notify_one();
   }
 
-  /// All that finished within `patience`, or at once when the last worker leaves.
-  std::vector<Realization> Take(std::chrono::milliseconds patience) {
+  /// All that finished within `longest`, or at once when the last worker leaves.
+  std::vector<Realization> Take(std::chrono::milliseconds longest) {
     std::unique_lock lock(mutex_);
-    changed_.wait_for(lock, patience, [this] { return workers_ == 0; });
+    changed_.wait_for(lock, longest, [this] { return workers_ == 0; });
     return std::exchange(finished_, {});
   }
 
@@ -116,9 +116,9 @@ void RunUnits(Work& work) {
       Bench& bench = benches[static_cast<size_t>(unit.variant)];
       if (!bench.plant) bench = MakeBench(VariantScenario(work.suite, unit.variant));
       // simulated and identified; the results wait for the thread that stores
-      Carried carried = RunRealization(bench, work.identifiers, unit, keeper);
-      work.Count(unit, carried.following);
-      work.queue.Put(std::move(carried.realization));
+      RealizationResult done = RunRealization(bench, work.identifiers, unit, keeper);
+      work.Count(unit, done.following);
+      work.queue.Put(std::move(done.realization));
     }
   } catch (...) {
     // an error in one thread ends the work of all

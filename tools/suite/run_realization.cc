@@ -96,11 +96,12 @@ void RecordingKeeper::Keep(const Recording& recording, Unit unit) const {
 
 Bench MakeBench(const Scenario& scenario) { return {scenario, MakePlant(scenario)}; }
 
-Carried RunRealization(const Bench& bench, const std::vector<PreparedIdentifier>& identifiers,
-                       Unit unit, const RecordingKeeper& keeper) {
+RealizationResult RunRealization(const Bench& bench,
+                                 const std::vector<PreparedIdentifier>& identifiers, Unit unit,
+                                 const RecordingKeeper& keeper) {
   const auto realized = static_cast<std::uint64_t>(unit.realization);
-  Carried carried;
-  Realization& realization = carried.realization;
+  RealizationResult done;
+  Realization& realization = done.realization;
   realization.unit = unit;
   const Stopwatch watch;
   std::optional<Recording> recording;
@@ -113,7 +114,7 @@ Carried RunRealization(const Bench& bench, const std::vector<PreparedIdentifier>
   realization.simulation_seconds = watch.Seconds();
 
   if (recording) {
-    carried.following = recording->following;
+    done.following = recording->following;
     // all identifiers see the same log, and draw starts from the same key
     const PreparedLog log = Prepare(recording->measurements);
     const StartKey start = StartKeyOf(bench.scenario.seed, realized);
@@ -130,7 +131,7 @@ Carried RunRealization(const Bench& bench, const std::vector<PreparedIdentifier>
     realization.results[i].realization = unit.realization;
     realization.results[i].identifier = static_cast<int>(i);
   }
-  return carried;
+  return done;
 }
 
 }  // namespace warmjoint::inline tools

@@ -36,8 +36,8 @@ class RecordingKeeper {
   std::filesystem::path folder_;
 };
 
-/// A unit that was carried out.
-struct Carried {
+/// A unit that was simulated and identified.
+struct RealizationResult {
   Realization realization;
   Following following;  // of the simulated joint
 };
@@ -45,7 +45,8 @@ struct Carried {
 /// Simulates a unit on its variant's bench, keeps the recording where wanted, and scores every
 /// identifier on it. Never throws for what happens in a plant or an identifier: it becomes the
 /// status and message of the results concerned.
-Carried RunRealization(const Bench& bench, const std::vector<PreparedIdentifier>& identifiers,
-                       Unit unit, const RecordingKeeper& keeper);
+RealizationResult RunRealization(const Bench& bench,
+                                 const std::vector<PreparedIdentifier>& identifiers, Unit unit,
+                                 const RecordingKeeper& keeper);
 
 }  // namespace warmjoint::inline tools
