@@ -47,7 +47,7 @@ class Run : public testing::Test {
   std::string suite_ = scratch_.path() / "little.yaml";
 };
 
-/// Every file of a run by its path in there, timings apart.
+/// Every file of a run by its path in there, the database apart.
 std::map<std::string, std::string> FilesOf(const std::filesystem::path& directory) {
   std::map<std::string, std::string> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(directory)) {

