@@ -21,7 +21,7 @@ std::vector<NamedBoard> ReadBoards(const std::vector<std::string>& runs) {
   // an edited copy of a suite is told of, and the stored one counts
   for (const std::string& run : runs) {
     const RunStore store = RunStore::OpenToRead(run);
-    TellOfEditedSuite(store);
+    NoticeEditedSuite(store);
     boards.push_back({run, ReadBoard(store)});
   }
   return boards;

@@ -6,7 +6,7 @@
 #include "models/foundation/bad_input.h"
 #include "tools/board/format_board.h"
 #include "tools/cli/command.h"
-#include "tools/cli/tell_run.h"
+#include "tools/cli/end_of_run.h"
 #include "tools/cluster/shards.h"
 #include "tools/store/merge_runs.h"
 #include "tools/terminal/say.h"
@@ -20,7 +20,7 @@ struct MergeArguments {
 };
 
 /// Says which realizations no shard holds.
-void TellMissing(const std::set<Unit>& missing) {
+void NoticeMissing(const std::set<Unit>& missing) {
   // a few of them show where the hole is
   constexpr std::size_t most = 10;
   std::vector<std::string> shown;
@@ -39,7 +39,7 @@ void TellMissing(const std::set<Unit>& missing) {
 /// A run that was planned as shards becomes whole in its own directory.
 ExitStatus MergeInPlace(const std::filesystem::path& given) {
   MergePlanned(ReadPlan(given));
-  return TellEnding(given, EndingOf(RunStore::OpenToRead(given)), RunPart::whole);
+  return PrintEnding(given, EndingOf(RunStore::OpenToRead(given)), RunPart::whole);
 }
 
 ExitStatus Merge(const MergeArguments& arguments) {
@@ -54,9 +54,9 @@ ExitStatus Merge(const MergeArguments& arguments) {
   Say(stdout, "{}: {} shards, {} of {} realizations\n", arguments.output, arguments.shards.size(),
       merged.units - merged.missing.size(), merged.units);
   // what is missing is no failure, but then the whole says nothing yet
-  if (!merged.missing.empty()) TellMissing(merged.missing);
-  return TellEnding(arguments.output, EndingOf(RunStore::OpenToRead(arguments.output)),
-                    merged.missing.empty() ? RunPart::whole : RunPart::shard);
+  if (!merged.missing.empty()) NoticeMissing(merged.missing);
+  return PrintEnding(arguments.output, EndingOf(RunStore::OpenToRead(arguments.output)),
+                     merged.missing.empty() ? RunPart::whole : RunPart::shard);
 }
 
 }  // namespace

@@ -91,7 +91,7 @@ Page RunReport(const ReportArguments& arguments, Activity& activity) {
   const fs::path beside = fs::path(arguments.source) / "report.html";
   const fs::path target = arguments.output.empty() ? beside : fs::path(arguments.output);
   ClaimOutput(target, {store.results_file(), store.suite_file()});
-  TellOfEditedSuite(store);
+  NoticeEditedSuite(store);
   // all that the run itself gives
   report::RunPage page{report::ReadRunView(store), store.suite(), store.description(), {}};
   for (const report::RunFigure& figure : report::RunFigures()) {

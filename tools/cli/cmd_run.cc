@@ -7,9 +7,9 @@
 #include "scenarios/parse_suite.h"
 #include "tools/actions/run_task.h"
 #include "tools/cli/command.h"
+#include "tools/cli/end_of_run.h"
 #include "tools/cli/run_in_shards.h"
 #include "tools/cli/suite_names.h"
-#include "tools/cli/tell_run.h"
 #include "tools/cli/tell_wall.h"
 #include "tools/cli/whole_number.h"
 #include "tools/cluster/plan.h"
@@ -37,15 +37,15 @@ ExitStatus Run(RunArguments arguments) {
   CatchInterrupts();
   const RunOutcome outcome =
       RunSuite(task.suite, task.identifiers, {task.jobs, task.shard, arguments.keep}, store);
-  TellNotFollowing(outcome.following, task.suite);
+  NoticeNotFollowing(outcome.following, task.suite);
   if (outcome.interrupted) {
     Say(stderr, "interrupted: {} of {} realizations are kept; the same command goes on\n",
         outcome.finished, outcome.total);
     return ExitStatus::interrupted;
   }
   // tables and words of a run that is over; a shard says little by itself
-  return TellEnding(store.directory(), EndRun(store),
-                    task.shard.IsWhole() ? RunPart::whole : RunPart::shard);
+  return PrintEnding(store.directory(), EndRun(store),
+                     task.shard.IsWhole() ? RunPart::whole : RunPart::shard);
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ Scenario ScenarioOfRun(const SimulateArguments& arguments) {
 
   // the suite that the run stored, not a file that may have changed
   const RunStore store = RunStore::OpenToRead(arguments.from);
-  TellOfEditedSuite(store);
+  NoticeEditedSuite(store);
   const Suite& suite = store.suite();
   if (arguments.realization.value_or(0) >= static_cast<std::uint64_t>(suite.realizations)) {
     Refuse({"--realization"}, "is {}; {} has 0 to {}", *arguments.realization, arguments.from,

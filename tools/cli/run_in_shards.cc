@@ -7,7 +7,7 @@
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "scenarios/suite.h"
-#include "tools/cli/tell_run.h"
+#include "tools/cli/end_of_run.h"
 #include "tools/cli/tell_wall.h"
 #include "tools/cli/whole_number.h"
 #include "tools/cluster/run_status.h"
@@ -79,7 +79,7 @@ Plan TakeOrMakePlan(const fs::path& run, const RunArguments& arguments) {
 ExitStatus Conclude(const Plan& plan) {
   // a job of the cluster may have merged them
   if (!plan.IsMerged()) MergePlanned(plan);
-  return TellEnding(plan.run, EndingOf(RunStore::OpenToRead(plan.run)), RunPart::whole);
+  return PrintEnding(plan.run, EndingOf(RunStore::OpenToRead(plan.run)), RunPart::whole);
 }
 
 ExitStatus RunHere(const Plan& plan, const RunArguments& arguments) {
@@ -189,7 +189,7 @@ ExitStatus RunPlannedShard(const RunArguments& arguments, const RunTask& task) {
     CatchInterrupts();
     const RunOutcome outcome =
         RunSuite(task.suite, task.identifiers, {task.jobs, task.shard}, store);
-    TellNotFollowing(outcome.following, task.suite);
+    NoticeNotFollowing(outcome.following, task.suite);
     if (outcome.interrupted) {
       say("interrupted; it begins anew with the same command");
       return ExitStatus::interrupted;

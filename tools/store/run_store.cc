@@ -154,7 +154,7 @@ std::vector<fs::path> ShardsOf(const fs::path& run) {
   return shards;
 }
 
-void TellOfEditedSuite(const RunStore& store) {
+void NoticeEditedSuite(const RunStore& store) {
   // nobody minds a file that is gone: the database has the suite
   if (!fs::exists(store.suite_file())) return;
   if (ReadWholeFile(store.suite_file()) == store.description().suite_yaml) return;

@@ -87,6 +87,6 @@ class RunStore {
 std::vector<std::filesystem::path> ShardsOf(const std::filesystem::path& run);
 
 /// Says on stderr where RUN/suite.yaml is not the stored suite any more.
-void TellOfEditedSuite(const RunStore& store);
+void NoticeEditedSuite(const RunStore& store);
 
 }  // namespace warmjoint::inline tools

@@ -1,4 +1,4 @@
-#include "tools/cli/tell_run.h"
+#include "tools/cli/end_of_run.h"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 
 namespace warmjoint::inline tools {
 
-ExitStatus TellEnding(const std::filesystem::path& directory, const RunEnding& ending,
-                      RunPart part) {
+ExitStatus PrintEnding(const std::filesystem::path& directory, const RunEnding& ending,
+                       RunPart part) {
   // how many results there are, and of which kind
   Say(stdout, "{}: {}; see: warmjoint compare {}\n", directory.string(), CountsInWords(ending),
       directory.string());
@@ -23,7 +23,7 @@ ExitStatus TellEnding(const std::filesystem::path& directory, const RunEnding& e
   return done ? ExitStatus::done : ExitStatus::no_answer;
 }
 
-void TellNotFollowing(const FollowingTally& following, const Suite& suite) {
+void NoticeNotFollowing(const FollowingTally& following, const Suite& suite) {
   const std::string words = following.Words(suite);
   if (!words.empty()) SayNotice("notice: {}\n", words);
 }
