@@ -154,7 +154,7 @@ std::vector<RecordingDifference> DifferencesOf(const std::vector<CheckedFile>& f
   return differences;
 }
 
-std::string CheckedTogetherToText(const std::vector<CheckedFile>& files, int width) {
+std::string CheckedTogetherToText(const std::vector<CheckedFile>& files) {
   Table table{
       {"file", "samples", "rate Hz", "duration s", "segments", "speeds +/-", "faults", "verdict"},
       {}};
@@ -175,7 +175,7 @@ std::string CheckedTogetherToText(const std::vector<CheckedFile>& files, int wid
     row[5] = fmt::format("{}/{}", ahead, levels.size() - static_cast<size_t>(ahead));
     row[6] = std::to_string(file.check->faults.size());
   }
-  std::string text = TableToText(table, 1, width) + "\n";
+  std::string text = TableToText(table, 1) + "\n";
 
   // below the table what the recordings do not share
   const std::vector<RecordingDifference> differences = DifferencesOf(files);

@@ -41,8 +41,8 @@ struct RecordingDifference {
 std::vector<RecordingDifference> DifferencesOf(const std::vector<CheckedFile>& files);
 
 /// A table of file, samples, rate, duration, segments, speeds, faults and verdict, and a line for each
-/// difference. width: of the page
-std::string CheckedTogetherToText(const std::vector<CheckedFile>& files, int width);
+/// difference.
+std::string CheckedTogetherToText(const std::vector<CheckedFile>& files);
 
 /// {recordings[as CheckToJson, and verdict; of an unreadable one source, verdict and reason],
 /// differences[{what, values[{value, files[]}]}]}

@@ -24,8 +24,8 @@ struct BoardFormat {
 /// All formats: a new one is its own file and one line in format_board.cc.
 const std::vector<BoardFormat>& BoardFormats();
 
-/// For the terminal: the answer first, then the tables, `width` columns wide.
-std::string BoardToText(const Leaderboard& board, int width);
+/// For the terminal: the answer first, then the tables.
+std::string BoardToText(const Leaderboard& board);
 
 /// The same for documents.
 std::string BoardToMarkdown(const Leaderboard& board);
@@ -34,7 +34,7 @@ std::string BoardToMarkdown(const Leaderboard& board);
 std::string BoardToJson(const Leaderboard& board);
 
 /// All runs in one table, then each of them.
-std::string BoardsToText(const std::vector<NamedBoard>& boards, int width);
+std::string BoardsToText(const std::vector<NamedBoard>& boards);
 std::string BoardsToMarkdown(const std::vector<NamedBoard>& boards);
 
 /// {"runs": [{"run": directory, and what BoardToJson has}]}.

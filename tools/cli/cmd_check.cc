@@ -14,10 +14,10 @@
 #include "tools/cli/command.h"
 #include "tools/cli/recording_options.h"
 #include "tools/cli/take_project.h"
-#include "tools/parser/choice.h"
+#include "tools/cli/typed_options.h"
 #include "tools/report/draw/draw_figure.h"
 #include "tools/report/figures/log_figure.h"
-#include "tools/terminal/activity.h"
+#include "tools/terminal/progress_line.h"
 #include "tools/terminal/say.h"
 
 namespace warmjoint::inline tools {
@@ -65,9 +65,9 @@ CheckedFile CheckOne(const RecordingArguments& arguments, const std::string& pat
 }
 
 /// Of one recording its check; of several a table, what differs, and each by itself.
-std::string Text(const std::vector<CheckedFile>& files, int width) {
+std::string Text(const std::vector<CheckedFile>& files) {
   if (files.size() == 1) return CheckToText(*files.front().check);
-  std::string text = CheckedTogetherToText(files, width);
+  std::string text = CheckedTogetherToText(files);
   for (const CheckedFile& file : files) {
     text += "\n" + (file.check ? CheckToText(*file.check)
                                : fmt::format("recording   {}\n", file.unreadable));
@@ -115,7 +115,7 @@ ExitStatus Check(const CheckArguments& arguments) {
     if (arguments.format == "json") {
       fmt::print(words, "{}\n", Json(files).dump(2));
     } else {
-      SayText(words, Text(files, PageOf(words).width));
+      Say(words, "{}", Text(files));
     }
     if (!arguments.plot.empty() && !files.front().check) {
       Say(stderr, "{}: is not drawn, since {} cannot be read; give one that can be read first\n",

@@ -6,7 +6,7 @@
 #include "tools/board/format_board.h"
 #include "tools/board/read_board.h"
 #include "tools/cli/command.h"
-#include "tools/parser/choice.h"
+#include "tools/cli/typed_options.h"
 #include "tools/store/stored_suite.h"
 #include "tools/terminal/say.h"
 
@@ -34,14 +34,7 @@ ExitStatus Compare(const CompareArguments& arguments) {
   // the format that was asked for; several runs stand in one table
   for (const BoardFormat& format : BoardFormats()) {
     if (format.name != arguments.format) continue;
-    const std::string text =
-        boards.size() == 1 ? format.write(boards[0].board) : format.join(boards);
-    // for people, wrapped where they read it; for programs, as it is
-    if (format.name == "text") {
-      SayText(stdout, text);
-    } else {
-      fmt::print("{}", text);
-    }
+    fmt::print("{}", boards.size() == 1 ? format.write(boards[0].board) : format.join(boards));
   }
   return ExitStatus::done;
 }

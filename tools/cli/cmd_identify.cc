@@ -20,10 +20,10 @@
 #include "tools/cli/recording_options.h"
 #include "tools/cli/take_project.h"
 #include "tools/cli/tell_wall.h"
-#include "tools/parser/choice.h"
+#include "tools/cli/typed_options.h"
 #include "tools/report/draw/page_setting.h"
 #include "tools/report/figures/fit_page.h"
-#include "tools/terminal/activity.h"
+#include "tools/terminal/progress_line.h"
 #include "tools/terminal/say.h"
 
 namespace warmjoint::inline tools {
@@ -113,7 +113,7 @@ ExitStatus Deliver(const IdentifyArguments& arguments, const Identified& identif
           EstimateFile(written, arguments.recording, arguments.output, arguments.settings.follows));
     } else {
       const Detail detail = arguments.explain ? Detail::full : Detail::brief;
-      SayText(words, EstimateToText(estimate, measurements, PageOf(words), detail));
+      Say(words, "{}", EstimateToText(estimate, measurements, PageOf(words), detail));
     }
   });
   return estimate.status == Status::ok ? ExitStatus::done : ExitStatus::nothing_trustworthy;

@@ -19,7 +19,7 @@
 #include "tools/report/estimate/overlay.h"
 #include "tools/report/gl/film.h"
 #include "tools/report/page/contact_sheet.h"
-#include "tools/terminal/activity.h"
+#include "tools/terminal/progress_line.h"
 #include "tools/terminal/say.h"
 
 namespace warmjoint::inline tools {

@@ -14,8 +14,8 @@
 #include "tools/cli/follow_options.h"
 #include "tools/cli/recording_options.h"
 #include "tools/cli/take_project.h"
-#include "tools/parser/choice.h"
-#include "tools/terminal/activity.h"
+#include "tools/cli/typed_options.h"
+#include "tools/terminal/progress_line.h"
 #include "tools/terminal/say.h"
 #include "tools/terminal/table.h"
 
@@ -72,7 +72,7 @@ void CheckStart(const PredictArguments& arguments) {
 }
 
 std::string PredictedToText(const PredictArguments& arguments, const StoredModel& stored,
-                            const Predicted& predicted, const Begin& begin, int width) {
+                            const Predicted& predicted, const Begin& begin) {
   // how far prediction and record are apart
   const Metrics& metrics = predicted.metrics;
   const std::string& unit = predicted.measurements.torque_unit;
@@ -83,7 +83,7 @@ std::string PredictedToText(const PredictArguments& arguments, const StoredModel
         std::isfinite(metrics.fit) ? fmt::format("{:.2f}", metrics.fit) : "-"}}};
   std::string text = fmt::format("{} of {} ({})\n\n", stored.identifier, arguments.estimate,
                                  StatusName(stored.status)) +
-                     TableToText(table, 1, width);
+                     TableToText(table, 1);
   // how warm the joint has become
   if (stored.model.friction.thermal) {
     text += fmt::format("\nE at the end: {:.4g} {} (begun {})\n",
@@ -123,7 +123,7 @@ ExitStatus Predict(PredictArguments arguments) {
       if (begin.follows) told["follows"] = CarriedHeatToJson(*begin.follows);
       fmt::print(words, "{}\n", told.dump(2));
     } else {
-      SayText(words, PredictedToText(arguments, stored, predicted, begin, PageOf(words).width));
+      Say(words, "{}", PredictedToText(arguments, stored, predicted, begin));
     }
   });
   return ExitStatus::done;

@@ -23,7 +23,7 @@
 #include "tools/report/run/run_figures.h"
 #include "tools/store/stored_suite.h"
 #include "tools/suite/arithmetic.h"
-#include "tools/terminal/activity.h"
+#include "tools/terminal/progress_line.h"
 #include "tools/terminal/shell_words.h"
 
 namespace warmjoint::inline tools {

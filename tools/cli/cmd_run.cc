@@ -11,7 +11,7 @@
 #include "tools/cli/suite_names.h"
 #include "tools/cli/tell_run.h"
 #include "tools/cli/tell_wall.h"
-#include "tools/cli/whole_number.h"
+#include "tools/cli/typed_options.h"
 #include "tools/suite/arithmetic.h"
 #include "tools/suite/engine.h"
 #include "tools/suite/interrupt.h"

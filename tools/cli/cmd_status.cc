@@ -7,12 +7,11 @@
 
 #include "models/foundation/bad_input.h"
 #include "tools/cli/command.h"
-#include "tools/cli/whole_number.h"
+#include "tools/cli/typed_options.h"
 #include "tools/cluster/resubmit.h"
 #include "tools/cluster/run_layout.h"
 #include "tools/cluster/run_status.h"
 #include "tools/cluster/slurm.h"
-#include "tools/parser/choice.h"
 
 namespace warmjoint::inline tools {
 namespace fs = std::filesystem;

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "tools/cli/command.h"
-#include "tools/cli/whole_number.h"
+#include "tools/cli/typed_options.h"
 #include "tools/cluster/task.h"
 #include "tools/suite/arithmetic.h"
 #include "tools/suite/interrupt.h"

@@ -9,7 +9,6 @@ std::vector<Command> AddCommands(CLI::App& program) {
       AddAttachCommand(program),  AddRunCommand(program),      AddTaskCommand(program),
       AddStatusCommand(program),  AddCancelCommand(program),   AddMergeCommand(program),
       AddCompareCommand(program), AddPlotCommand(program),     AddReportCommand(program),
-      AddHelpCommand(program),    AddManCommand(program),      AddCompletionCommand(program),
   };
 }
 

@@ -42,8 +42,5 @@ Command AddStatusCommand(CLI::App& program);
 Command AddCancelCommand(CLI::App& program);
 Command AddMergeCommand(CLI::App& program);
 Command AddCompareCommand(CLI::App& program);
-Command AddHelpCommand(CLI::App& program);
-Command AddManCommand(CLI::App& program);
-Command AddCompletionCommand(CLI::App& program);
 
 }  // namespace warmjoint::inline tools

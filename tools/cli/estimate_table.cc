@@ -76,7 +76,7 @@ Table DiagnosticTable(const Estimate& estimate) {
 }
 
 /// How the heat goes with the log's temperature.
-std::string TemperatureText(const Estimate& estimate, int width) {
+std::string TemperatureText(const Estimate& estimate) {
   // these stand beside the fit, which has not used them
   if (estimate.temperature.empty()) return "";
   Table table{{"temperature beside E", "value", "unit", "95 % interval"}, {}};
@@ -86,7 +86,7 @@ std::string TemperatureText(const Estimate& estimate, int width) {
                                                        (*one.interval95)[1])
                                          : "-"});
   }
-  return "\n" + TableToText(table, 1, width) +
+  return "\n" + TableToText(table, 1) +
          "the fit has not used the temperature; both may follow something else\n";
 }
 
@@ -119,10 +119,10 @@ std::string AssumptionsText(const Estimate& estimate) {
 }
 
 /// Every test for lack of fit and every assumption.
-std::string Explanation(const Estimate& estimate, int width) {
+std::string Explanation(const Estimate& estimate) {
   const Table tests = DiagnosticTable(estimate);
   std::string text;
-  if (!tests.rows.empty()) text = "\n" + TableToText(tests, tests.header.size(), width);
+  if (!tests.rows.empty()) text = "\n" + TableToText(tests, tests.header.size());
   return text + AssumptionsText(estimate);
 }
 
@@ -146,7 +146,7 @@ std::string EstimateToText(const Estimate& estimate, const Measurements& measure
   text += RemarksText(estimate, detail);
   // numbers, void or not
   if (!estimate.parameters.empty())
-    text += fmt::format("\n{}", TableToText(ParameterTable(estimate), 1, page.width));
+    text += fmt::format("\n{}", TableToText(ParameterTable(estimate), 1));
 
   const std::string& unit = measurements.torque_unit;
   if (estimate.gravity && estimate.gravity->kind == GravityKind::paired) {
@@ -159,16 +159,16 @@ std::string EstimateToText(const Estimate& estimate, const Measurements& measure
               {}};
   AddMetrics(table, "all data", estimate.metrics);
   AddMetrics(table, "held out", estimate.holdout);
-  if (!table.rows.empty()) text += fmt::format("\n{}", TableToText(table, 1, page.width));
+  if (!table.rows.empty()) text += fmt::format("\n{}", TableToText(table, 1));
   if (!estimate.without_holdout.empty()) {
     text += fmt::format("\nno held-out figures: {}\n", Printable(estimate.without_holdout));
   }
-  text += TemperatureText(estimate, page.width);
+  text += TemperatureText(estimate);
   // all that the verdict rests on
   if (detail == Detail::full && estimate.choice) {
-    text += "\n" + TableToText(TrialTable(*estimate.choice, unit), 1, page.width);
+    text += "\n" + TableToText(TrialTable(*estimate.choice, unit), 1);
   }
-  if (detail == Detail::full) text += Explanation(estimate, page.width);
+  if (detail == Detail::full) text += Explanation(estimate);
   return text;
 }
 

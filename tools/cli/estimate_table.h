@@ -5,7 +5,7 @@
 
 #include "identification/estimate.h"
 #include "models/recording/measurements.h"
-#include "tools/terminal/page.h"
+#include "tools/terminal/say.h"
 
 namespace warmjoint::inline tools {
 

@@ -9,7 +9,7 @@
 #include "identification/linear/rigid_part.h"
 #include "models/foundation/excerpt.h"
 #include "tools/actions/compare_identifiers.h"
-#include "tools/terminal/activity.h"
+#include "tools/terminal/progress_line.h"
 #include "tools/terminal/say.h"
 #include "tools/terminal/table.h"
 
@@ -33,8 +33,8 @@ IdentifySettings SettingsOfOne(const IdentifyArguments& arguments, const std::st
 }
 
 /// A table of several identifiers.
-std::string ComparedToText(const std::vector<ComparedIdentifier>& compared, const std::string& unit,
-                           int width) {
+std::string ComparedToText(const std::vector<ComparedIdentifier>& compared,
+                           const std::string& unit) {
   Table table{{"identifier", "verdict", fmt::format("held-out RMSE {}", unit), "Fit %",
                fmt::format("above the best {}", unit)},
               {}};
@@ -51,7 +51,7 @@ std::string ComparedToText(const std::vector<ComparedIdentifier>& compared, cons
   return fmt::format(
       "{} blocks of time, each held out from a fit to the others; differences are "
       "paired over the blocks, with their standard error\n\n{}",
-      kComparedBlocks, TableToText(table, 2, width));
+      kComparedBlocks, TableToText(table, 2));
 }
 
 }  // namespace
@@ -85,8 +85,7 @@ ExitStatus IdentifySeveral(const IdentifyArguments& arguments) {
     if (arguments.format == "json") {
       fmt::print("{}\n", ComparedToJson(compared).dump(2));
     } else {
-      SayText(stdout,
-              ComparedToText(compared, log.taken().measurements.torque_unit, PageOf(stdout).width));
+      Say(stdout, "{}", ComparedToText(compared, log.taken().measurements.torque_unit));
     }
   });
 

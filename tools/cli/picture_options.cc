@@ -9,7 +9,7 @@
 
 #include "models/foundation/bad_input.h"
 #include "models/foundation/parse_number.h"
-#include "tools/parser/choice.h"
+#include "tools/cli/typed_options.h"
 
 namespace warmjoint::inline tools {
 namespace {

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "tools/cli/take_project.h"
-#include "tools/parser/choice.h"
+#include "tools/cli/typed_options.h"
 
 namespace warmjoint::inline tools {
 

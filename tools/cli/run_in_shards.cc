@@ -9,7 +9,7 @@
 #include "models/foundation/bad_input.h"
 #include "scenarios/suite.h"
 #include "tools/cli/tell_run.h"
-#include "tools/cli/whole_number.h"
+#include "tools/cli/typed_options.h"
 #include "tools/cluster/batch_script.h"
 #include "tools/cluster/draw_id.h"
 #include "tools/cluster/gather.h"

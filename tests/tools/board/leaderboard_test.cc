@@ -115,7 +115,7 @@ TEST(Leaderboard, NamesParametersThatCountAsZero) {
   const auto row = std::find_if(board.rows.begin(), board.rows.end(),
                                 [](const LeaderboardRow& one) { return one.identifier == "a"; });
   EXPECT_THAT(row->not_estimated, ElementsAre("coulomb"));
-  EXPECT_THAT(BoardToText(board, 80), HasSubstr("a does not estimate coulomb, which count as 0"));
+  EXPECT_THAT(BoardToText(board), HasSubstr("a does not estimate coulomb, which count as 0"));
 }
 
 TEST(Leaderboard, JsonHasTheKeysOfTheContract) {
@@ -150,7 +150,7 @@ TEST(Leaderboard, JsonSaysNullForWhatDoesNotExist) {
 
 TEST(Leaderboard, TextAnswersFirst) {
   const std::string text =
-      BoardToText(MakeLeaderboard(TwoIdentifiers(), AFailsTwiceAndBIsOftenWorse()), 80);
+      BoardToText(MakeLeaderboard(TwoIdentifiers(), AFailsTwiceAndBIsOftenWorse()));
   EXPECT_THAT(text, HasSubstr("little: Who is best?\nb is best: its median NPE is 7.50 %"));
   EXPECT_THAT(text, HasSubstr("2 of 4"));
   EXPECT_THAT(text, HasSubstr("Cramer-Rao bound"));
@@ -169,11 +169,11 @@ TEST(Leaderboard, TextOfSuitesReachesNoTerminalAndNoPageAsItIs) {
   Leaderboard board = MakeLeaderboard(TwoIdentifiers(), AFailsTwiceAndBIsOftenWorse());
   board.question = "Which \x1B[31m\u202E <b>?";
   board.rows[0].identifier = "b\x1B]0;x\x07";
-  EXPECT_THAT(BoardToText(board, 80), HasSubstr(R"(little: Which \x1B[31m\u202E <b>?)"));
+  EXPECT_THAT(BoardToText(board), HasSubstr(R"(little: Which \x1B[31m\u202E <b>?)"));
   const std::string markdown = BoardToMarkdown(board);
   EXPECT_THAT(markdown, HasSubstr(R"(Which \x1B[31m\u202E &lt;b>?)"));
   for (const std::string& text :
-       {BoardToText(board, 80), markdown, BoardsToText({{"run\x1B", board}}, 80),
+       {BoardToText(board), markdown, BoardsToText({{"run\x1B", board}}),
         BoardsToMarkdown({{"run\x1B", board}})}) {
     EXPECT_EQ(text.find_first_of("\x1B\x07"), std::string::npos) << text;
   }
