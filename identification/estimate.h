@@ -65,9 +65,6 @@ struct Estimate {
   /// The heat at the end of the log, at its last stamp, `time`: a row for each stage, `energy`,
   /// `second_energy`; empty where nothing warms or the friction cannot be trusted.
   std::vector<EstimatedParameter> state_end;
-  /// How E goes with the log's temperature (report/heat_beside_temperature.h); empty where the log has
-  /// none, or nothing warms.
-  std::vector<EstimatedParameter> temperature;
   std::optional<StructureChoice> choice;  // of identifiers that choose a structure
 
   /// The parameter of that name, or nullptr.

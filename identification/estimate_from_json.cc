@@ -255,9 +255,6 @@ void TakeWhatOnlySomeHave(const Members& member, const Place& place, Estimate& e
   for (const auto& [name, value] : member("state_end").items()) {
     estimate.state_end.push_back(ToParameter(name, value, place));
   }
-  for (const auto& [name, value] : member("temperature").items()) {
-    estimate.temperature.push_back(ToParameter(name, value, place));
-  }
   if (!member("without_holdout").is_null()) {
     estimate.without_holdout = ToText(member("without_holdout"), "without_holdout", place);
   }

@@ -141,9 +141,6 @@ json EstimateToJson(const Estimate& estimate) {
   for (const EstimatedParameter& one : estimate.state_end) {
     result["state_end"][one.name] = ParameterToJson(one);
   }
-  for (const EstimatedParameter& one : estimate.temperature) {
-    result["temperature"][one.name] = ParameterToJson(one);
-  }
   if (!estimate.without_holdout.empty()) result["without_holdout"] = estimate.without_holdout;
   if (estimate.choice) result["choice"] = ChoiceToJson(*estimate.choice);
   return result;

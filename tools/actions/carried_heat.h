@@ -1,4 +1,4 @@
-// The heat that one recording leaves to the next one of the same joint.
+// The heat with which a joint begins: given, settled, or left by an earlier recording.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -8,6 +8,7 @@
 
 #include "identification/estimate.h"
 #include "models/foundation/bad_input.h"
+#include "models/friction/friction_description.h"
 #include "models/recording/measurements.h"
 
 namespace warmjoint::inline tools {
@@ -38,6 +39,27 @@ struct CarriedHeat {
   std::vector<double> energy;  // of each stage, N.m or N
   std::vector<double> std;     // the deviations by E and by tau added up, as if one error made both
 };
+
+/// E1 and E2, N.m or N, for `initial` (--initial) and the friction of one file:
+///   cold            empty
+///   end             `state_end` of that estimate.json: the heat at the end of its recording
+///   settled:SPEED   what sliding at SPEED, rad/s or m/s, settles at (SettledEnergy)
+/// Throws BadInput for another text, a file without `state_end`, and a speed at which the losses
+/// grow for ever.
+std::vector<double> InitialEnergy(const std::string& initial, const FrictionDescription& friction,
+                                  const std::string& file);
+
+/// An earlier recording of the same joint, --follows and --pause.
+struct EarlierRecording {
+  std::string file;             // the recording, or its estimate.json; empty: there is none
+  std::optional<double> pause;  // s of rest since its end; without one the stamps of both tell it
+
+  bool is_given() const { return !file.empty(); }
+};
+
+/// Throws BadInput for a pause without a file, and for several recordings, of which each but the first
+/// begins cold.
+void CheckEarlier(const EarlierRecording& earlier, size_t recordings);
 
 /// Whether a file is an estimate.json (or another JSON document), not a recording.
 bool IsJsonFile(const std::string& file);

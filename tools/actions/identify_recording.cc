@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "identification/estimate_from_json.h"
 #include "identification/estimate_to_json.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
@@ -13,6 +14,7 @@
 #include "identification/warming/expected_start.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
+#include "models/foundation/read_json.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -40,23 +42,12 @@ void AddStart(const IdentifySettings& settings, const Identifier& identifier,
   if (!TellsStart(identifier)) {
     Refuse({option}, "{} cannot estimate E(0); use one of: {}", identifier.name, Able(TellsStart));
   }
-  if (!settings.follows) {
-    given[kStartOption] = "estimated";
-    return;
-  }
   // only one option may say how warm the joint is at the start
-  if (settings.start != "cold" || given.contains(kStartOption)) {
+  if (settings.follows && (settings.start != "cold" || given.contains(kStartOption))) {
     Refuse({option}, "says how warm the joint is at the start, and so does {}; leave one of them",
            settings.start != "cold" ? "--start" : "--set initial_energy");
   }
-  if (settings.follows->energy.size() > 1) {
-    Refuse({option}, "{} holds two stages of warming, and {} fits one", settings.follows->file,
-           identifier.name);
-  }
-  // heat of the recording before is expected with the doubt that it has
-  given[kStartOption] = "expected";
-  given["expected_energy"] = fmt::format("{}", settings.follows->energy[0]);
-  given["expected_energy_std"] = fmt::format("{}", settings.follows->std[0]);
+  given[kStartOption] = settings.follows ? "expected" : "estimated";
 }
 
 /// --motion as an option of the identifier.
@@ -137,6 +128,16 @@ IdentifyTask CheckSettings(const IdentifySettings& settings, JointKind joint) {
   return {identifier, std::move(options), JudgingOf(settings), settings.void_numbers};
 }
 
+void BeginWith(const CarriedHeat& heat, IdentifyTask& task) {
+  if (heat.energy.size() > 1) {
+    Refuse({"--follows"}, "{} holds two stages of warming, and {} fits one", heat.file,
+           task.identifier.name);
+  }
+  // expected with the doubt that it has
+  task.options =
+      task.options.With("expected_energy", heat.energy[0]).With("expected_energy_std", heat.std[0]);
+}
+
 HoldOutSource HoldOutShare(double fraction) {
   if (!(fraction >= 0 && fraction < 1)) {
     Refuse({"--holdout"}, "is {}; it must be at least 0 and below 1, or a file", fraction);
@@ -162,6 +163,26 @@ Identified IdentifyLog(const IdentifyTask& task, const PreparedLog& log,
   shown.holdout = estimate.holdout;
   shown.without_holdout = estimate.without_holdout;
   return identified;
+}
+
+CarriedHeat HeatBefore(const EarlierRecording& earlier, const RecordingArguments& recording,
+                       const IdentifySettings& settings, const Measurements& next) {
+  const std::string& file = earlier.file;
+  // an estimate file says which heat its log left
+  if (IsJsonFile(file)) {
+    const Estimate estimate = EstimateFromJson(ReadJsonFile(file), {file});
+    return CarryOver(HeatLeftBy(estimate, file), earlier.pause, next);
+  }
+
+  // a recording is identified first, from a cold start and without held-out figures
+  RecordingArguments before = recording;
+  before.recordings = {file};
+  IdentifySettings cold = settings;
+  cold.follows = false;
+  const PreparedLog log = ReadAndPrepare(before);
+  const IdentifyTask task = CheckSettings(cold, JointOf(before));
+  const Estimate estimate = IdentifyLog(task, log, {0, std::nullopt}).estimate;
+  return CarryOver(HeatLeftBy(estimate, file), earlier.pause, next);
 }
 
 std::string MarkAmperes(const Measurements& measurements, Estimate& estimate) {

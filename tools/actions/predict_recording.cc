@@ -13,6 +13,44 @@
 #include "models/friction/friction_json.h"
 
 namespace warmjoint::inline tools {
+namespace {
+
+/// The samples that a model is compared with: all that move, where it has an inertia.
+const LogView& ViewOf(const StoredModel& stored, const PreparedLog& log) {
+  return stored.model.inertia ? MovingView(log) : log.steady();
+}
+
+/// What a recording leaves, as a model has it that knows no errors.
+LeftHeat HeatAtEnd(const StoredModel& stored, const PreparedLog& log, const std::string& file) {
+  const auto& [m, selection] = ViewOf(stored, log);
+  const FrictionDescription& friction = stored.model.friction;
+  const FrictionState end = PredictTorque(stored.model, m, selection, {}).friction.end;
+  // each stage has its own heat and cools by its own time constant
+  LeftHeat left{file, m.time[m.size() - 1], m.torque_unit, {}};
+  left.stages.push_back({end.energy, 0, friction.thermal->time_constant, 0});
+  if (friction.second_thermal) {
+    left.stages.push_back({end.second_energy, 0, friction.second_thermal->time_constant, 0});
+  }
+  return left;
+}
+
+CarriedHeat HeatBefore(const StoredModel& stored, const EarlierRecording& earlier,
+                       const RecordingArguments& recording, const Measurements& next) {
+  const std::string& file = earlier.file;
+  if (!stored.model.friction.thermal) {
+    Refuse({"--follows"}, "is for a friction that warms, and the estimate knows no warming");
+  }
+  // an estimate says itself which heat its log left
+  if (IsJsonFile(file)) {
+    const Estimate estimate = EstimateFromJson(ReadJsonFile(file), {file});
+    return CarryOver(HeatLeftBy(estimate, file), earlier.pause, next);
+  }
+  RecordingArguments before = recording;
+  before.recordings = {file};
+  return CarryOver(HeatAtEnd(stored, ReadAndPrepare(before), file), earlier.pause, next);
+}
+
+}  // namespace
 
 StoredModel ReadStoredModel(const std::string& file) {
   const nlohmann::json object = ReadJsonFile(file);
@@ -51,9 +89,22 @@ RecordingArguments AsIdentified(const StoredModel& stored, RecordingArguments re
   return recording;
 }
 
+WarmStart StartOf(const StoredModel& stored, const std::string& file, const std::string& initial,
+                  const EarlierRecording& earlier, const RecordingArguments& recording,
+                  const Measurements& next) {
+  WarmStart begin;
+  if (earlier.is_given()) begin.follows = HeatBefore(stored, earlier, recording, next);
+  const std::vector<double> energies =
+      begin.follows ? begin.follows->energy : InitialEnergy(initial, stored.model.friction, file);
+  // E1 and E2; without warming there is none
+  if (!energies.empty()) begin.start.energy = energies[0];
+  if (energies.size() > 1) begin.start.second_energy = energies[1];
+  return begin;
+}
+
 Predicted PredictLog(const StoredModel& stored, const PreparedLog& log, const CourseStart& start) {
   // with an inertia any motion can be compared, else constant speeds only
-  const LogView& view = stored.model.inertia ? MovingView(log) : log.steady();
+  const LogView& view = ViewOf(stored, log);
   const Measurements& m = view.measurements;
   const std::string& amperes = stored.model.friction.torque_unit;
   const std::string_view unit = amperes.empty() ? kTorqueUnit.For(m.joint) : amperes;

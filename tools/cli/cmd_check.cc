@@ -9,16 +9,15 @@
 #include "identification/preparation/check_report.h"
 #include "identification/preparation/prepare.h"
 #include "models/foundation/atomic_file.h"
-#include "tools/actions/check_together.h"
 #include "tools/actions/outputs.h"
 #include "tools/cli/command.h"
 #include "tools/cli/recording_options.h"
-#include "tools/cli/take_project.h"
 #include "tools/cli/typed_options.h"
 #include "tools/report/draw/draw_figure.h"
 #include "tools/report/figures/log_figure.h"
 #include "tools/terminal/progress_line.h"
 #include "tools/terminal/say.h"
+#include "tools/terminal/table.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -46,7 +45,14 @@ void Draw(const PreparedLog& log, const std::string& file, const report::PageSet
   WriteWholeFile(file, report::EncodeFigure(figure, setting).bytes);
 }
 
-/// Reads, prepares and checks one of the recordings. One of several that cannot be read is told as
+/// One recording, or why it could not be read.
+struct CheckedFile {
+  std::string file;
+  std::optional<RecordingCheck> check;
+  std::string unreadable;
+};
+
+/// Reads, prepares and checks one of the recordings. One of several that cannot be read is reported as
 /// such; one alone throws.
 CheckedFile CheckOne(const RecordingArguments& arguments, const std::string& path,
                      std::optional<PreparedLog>& log) {
@@ -54,20 +60,53 @@ CheckedFile CheckOne(const RecordingArguments& arguments, const std::string& pat
   // read alone, so that a refusal is its own
   one.recordings = {path};
   try {
-    Measurements recording = std::move(ReadRecordings(one).front());
-    std::vector<std::string> columns = OptionalColumns(recording);
-    log = Prepare(std::move(recording), arguments.holds);
-    return {path, CheckRecording(*log), {}, std::move(columns)};
+    log = ReadAndPrepare(one);
+    return {path, CheckRecording(*log), {}};
   } catch (const BadInput& refusal) {
     if (arguments.recordings.size() == 1) throw;
-    return {path, std::nullopt, refusal.what(), {}};
+    return {path, std::nullopt, refusal.what()};
   }
 }
 
-/// Of one recording its check; of several a table, what differs, and each by itself.
+/// In a word.
+std::string VerdictOn(const CheckedFile& file) {
+  if (!file.check) return "unreadable";
+  if (!file.check->faults.empty()) return "faults";
+  const bool any = std::ranges::any_of(file.check->excitation, &Excitation::sufficient);
+  return any ? "ok" : "no friction";
+}
+
+/// A row for each of several recordings, with what may differ between them.
+std::string TableOf(const std::vector<CheckedFile>& files) {
+  Table table{{"file", "samples", "rate Hz", "duration s", "segments", "from", "to", "torque in",
+               "faults", "verdict"},
+              {}};
+  for (const CheckedFile& file : files) {
+    // dashes where it cannot be read
+    std::vector<std::string>& row = table.rows.emplace_back();
+    row = {file.file, "-", "-", "-", "-", "-", "-", "-", "-", VerdictOn(file)};
+    if (!file.check) continue;
+    const SamplingCheck& sampling = file.check->sampling;
+    const MotionCheck& motion = file.check->motion;
+    const std::string_view unit = kPositionUnit.For(file.check->joint);
+    row = {file.file,
+           std::to_string(sampling.samples),
+           fmt::format("{:.4g}", sampling.rate),
+           fmt::format("{:.4g}", sampling.duration),
+           std::to_string(motion.segments),
+           fmt::format("{:.4g} {}", motion.lower, unit),
+           fmt::format("{:.4g} {}", motion.upper, unit),
+           file.check->torque_unit,
+           std::to_string(file.check->faults.size()),
+           VerdictOn(file)};
+  }
+  return TableToText(table, 1);
+}
+
+/// Of one recording its check; of several a table, and each by itself.
 std::string Text(const std::vector<CheckedFile>& files) {
   if (files.size() == 1) return CheckToText(*files.front().check);
-  std::string text = CheckedTogetherToText(files);
+  std::string text = TableOf(files);
   for (const CheckedFile& file : files) {
     text += "\n" + (file.check ? CheckToText(*file.check)
                                : fmt::format("recording   {}\n", file.unreadable));
@@ -75,8 +114,18 @@ std::string Text(const std::vector<CheckedFile>& files) {
   return text;
 }
 
+/// As CheckToJson of one; of several {recordings[the same, and verdict; of an unreadable one source, reason,
+/// verdict]}.
 nlohmann::json Json(const std::vector<CheckedFile>& files) {
-  return files.size() == 1 ? CheckToJson(*files.front().check) : CheckedTogetherToJson(files);
+  if (files.size() == 1) return CheckToJson(*files.front().check);
+  nlohmann::json recordings = nlohmann::json::array();
+  for (const CheckedFile& file : files) {
+    nlohmann::json& row = recordings.emplace_back(
+        file.check ? CheckToJson(*file.check)
+                   : nlohmann::json{{"source", file.file}, {"reason", file.unreadable}});
+    row["verdict"] = VerdictOn(file);
+  }
+  return {{"recordings", recordings}};
 }
 
 ExitStatus Check(const CheckArguments& arguments) {

@@ -6,14 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "models/foundation/atomic_file.h"
-#include "models/friction/course_start.h"
-#include "tools/actions/initial_energy.h"
 #include "tools/actions/outputs.h"
 #include "tools/actions/predict_recording.h"
 #include "tools/cli/command.h"
-#include "tools/cli/follow_options.h"
 #include "tools/cli/recording_options.h"
-#include "tools/cli/take_project.h"
 #include "tools/cli/typed_options.h"
 #include "tools/terminal/progress_line.h"
 #include "tools/terminal/say.h"
@@ -26,53 +22,22 @@ struct PredictArguments {
   std::string estimate;
   RecordingArguments recording;
   std::string initial = "cold";
-  FollowArguments follow;
+  EarlierRecording earlier;
   std::string output;
   std::string format = "text";
 };
 
-/// With which heat the recording begins.
-struct Begin {
-  CourseStart start;
-  std::string words;  // "cold"
-  std::optional<CarriedHeat> follows;
-};
-
-CourseStart StartWith(const std::vector<double>& energies) {
-  // E1 and E2; without warming there is none
-  CourseStart start;
-  if (!energies.empty()) start.energy = energies[0];
-  if (energies.size() > 1) start.second_energy = energies[1];
-  return start;
-}
-
-Begin BeginOf(const PredictArguments& arguments, const StoredModel& stored,
-              const Measurements& next) {
-  // as --initial has it
-  if (!arguments.follow.are_given()) {
-    return {StartWith(InitialEnergy(arguments.initial, stored.model.friction, arguments.estimate)),
-            arguments.initial, std::nullopt};
-  }
-
-  // as an earlier recording left it
-  const CarriedHeat carried = HeatBefore(arguments.follow, arguments.recording, stored, next);
-  return {
-      StartWith(carried.energy),
-      fmt::format("at {:.4g}, {:.6g} s after {}", carried.energy[0], carried.pause, carried.file),
-      carried};
-}
-
 /// Refuses what cannot be had together, before any time is spent.
 void CheckStart(const PredictArguments& arguments) {
-  // both tell the same heat
-  CheckFollow(arguments.follow, arguments.recording);
-  if (!arguments.follow.are_given() || arguments.initial == "cold") return;
+  // both say how warm the joint is
+  CheckEarlier(arguments.earlier, arguments.recording.recordings.size());
+  if (!arguments.earlier.is_given() || arguments.initial == "cold") return;
   Refuse({"--follows"},
          "says how warm the joint is at the start, and so does --initial; leave one");
 }
 
 std::string PredictedToText(const PredictArguments& arguments, const StoredModel& stored,
-                            const Predicted& predicted, const Begin& begin) {
+                            const Predicted& predicted, const WarmStart& begin) {
   // how far prediction and record are apart
   const Metrics& metrics = predicted.metrics;
   const std::string& unit = predicted.measurements.torque_unit;
@@ -86,8 +51,12 @@ std::string PredictedToText(const PredictArguments& arguments, const StoredModel
                      TableToText(table, 1);
   // how warm the joint has become
   if (stored.model.friction.thermal) {
+    const std::string words =
+        begin.follows ? fmt::format("at {:.4g}, {:.6g} s after {}", begin.follows->energy[0],
+                                    begin.follows->pause, begin.follows->file)
+                      : arguments.initial;
     text += fmt::format("\nE at the end: {:.4g} {} (begun {})\n",
-                        predicted.torque.friction.energy.tail<1>()[0], unit, begin.words);
+                        predicted.torque.friction.energy.tail<1>()[0], unit, words);
   }
   return text;
 }
@@ -97,7 +66,7 @@ ExitStatus Predict(PredictArguments arguments) {
   std::vector<std::filesystem::path> inputs(arguments.recording.recordings.begin(),
                                             arguments.recording.recordings.end());
   inputs.emplace_back(arguments.estimate);
-  inputs.emplace_back(arguments.follow.file);
+  inputs.emplace_back(arguments.earlier.file);
   CheckStart(arguments);
   KeepApart({arguments.output}, inputs);
   if (!arguments.output.empty()) AtomicFile{arguments.output};
@@ -107,7 +76,8 @@ ExitStatus Predict(PredictArguments arguments) {
   const StoredModel stored = ReadStoredModel(arguments.estimate);
   arguments.recording = AsIdentified(stored, std::move(arguments.recording));
   const PreparedLog log = ReadAndPrepare(arguments.recording);
-  const Begin begin = BeginOf(arguments, stored, log.taken().measurements);
+  const WarmStart begin = StartOf(stored, arguments.estimate, arguments.initial, arguments.earlier,
+                                  arguments.recording, log.taken().measurements);
   // what the friction says of the log, and what the log says of it
   const Predicted predicted = PredictLog(stored, log, begin.start);
   if (!arguments.output.empty()) WriteWholeFile(arguments.output, PredictedToCsv(predicted));
@@ -150,7 +120,7 @@ Command AddPredictCommand(CLI::App& program) {
                    "recording; settled:SPEED, that of sliding at SPEED for long")
       ->type_name("cold|end|settled:SPEED")
       ->capture_default_str();
-  AddFollowOptions(*parser, arguments->follow);
+  AddFollowOptions(*parser, arguments->earlier);
 
   // what is written and printed
   parser

@@ -10,13 +10,12 @@
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "models/foundation/read_json.h"
-#include "tools/actions/fit_again.h"
 #include "tools/actions/identify_recording.h"
 #include "tools/actions/outputs.h"
 #include "tools/actions/replay_unit.h"
 #include "tools/cli/command.h"
 #include "tools/cli/recording_options.h"
-#include "tools/cli/take_project.h"
+#include "tools/report/estimate/estimate_view.h"
 #include "tools/report/page/log_page.h"
 #include "tools/report/page/run_page.h"
 #include "tools/report/run/extremes.h"
@@ -151,7 +150,7 @@ std::string EstimateReport(const ReportArguments& arguments) {
   const PreparedLog log = ReadAndPrepare(recording);
   // of a refused estimate the fit is made again, so that the page can show it
   return LogReport(
-      log, WithFitAgain(estimate, log),
+      log, report::WithFitAgain(estimate, log),
       {JoinCommand({"warmjoint", "report", arguments.source, "-o", arguments.output})});
 }
 

@@ -7,19 +7,19 @@
 #include <optional>
 
 #include "identification/preparation/prepare.h"
+#include "identification/preparation/select.h"
 #include "models/foundation/atomic_directory.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
 #include "scenarios/read_scenario.h"
 #include "scenarios/suite.h"
 #include "scenarios/write_scenario.h"
+#include "scenarios/yaml_motion.h"
+#include "sim/plant/motion_of.h"
 #include "sim/plant/plant.h"
 #include "tools/actions/outputs.h"
-#include "tools/actions/simulated_files.h"
 #include "tools/cli/command.h"
 #include "tools/cli/recording_options.h"
-#include "tools/cli/repeat_motion.h"
-#include "tools/cli/take_project.h"
 #include "tools/cli/typed_options.h"
 #include "tools/store/stored_suite.h"
 #include "tools/suite/arithmetic.h"
@@ -72,14 +72,18 @@ Scenario ScenarioOfRun(const SimulateArguments& arguments) {
   return VariantScenario(suite, static_cast<int>(named - names.begin()));
 }
 
-/// log: whose motion is carried out, if any.
-Scenario ResolveScenario(const SimulateArguments& arguments,
-                         const std::optional<Measurements>& log) {
+/// Of a scenario file, with the motion of --motion, or of a run.
+Scenario ResolveScenario(const SimulateArguments& arguments) {
   if (!arguments.from.empty()) return ScenarioOfRun(arguments);
   if (arguments.scenario.empty()) Refuse({"simulate"}, "give SCENARIO, or --from RUN");
-  // the log's motion first, so that --set can still change it
+  // a log's motion first, for as long as it lasts, so that --set can still change it
   Settings settings;
-  if (log) settings = MotionSettings(*log);
+  if (!arguments.motion.recordings.empty()) {
+    const Measurements log = Prepare(ReadRecording(arguments.motion)).taken().measurements;
+    const Motion motion = MotionOf(log, SelectConstantSpeed(log));
+    settings = {{"motion", MotionToYaml(motion, "")},
+                {"duration", fmt::format("{}", log.time[log.size() - 1] - log.time[0])}};
+  }
   for (const auto& [key, value] : ReadPairs(arguments.set, "--set")) {
     settings.push_back({key, value});
   }
@@ -106,12 +110,8 @@ Recording Carried(Plant& plant, const Scenario& scenario, std::uint64_t realizat
 
 ExitStatus Simulate(const SimulateArguments& arguments) {
   SettleArithmetic();
-  // the motion of a log, if one is to be repeated
-  std::optional<Measurements> log;
-  if (!arguments.motion.recordings.empty())
-    log = Prepare(ReadRecording(arguments.motion)).taken().measurements;
   // what cannot be simulated is refused before its outputs are made
-  const Scenario scenario = ResolveScenario(arguments, log);
+  const Scenario scenario = ResolveScenario(arguments);
   RequireMemoryFor(scenario, arguments.from.empty() ? arguments.scenario : arguments.from);
   const std::unique_ptr<Plant> plant = MakePlant(scenario);
   std::vector<std::filesystem::path> outputs, inputs{arguments.scenario};
@@ -132,8 +132,6 @@ ExitStatus Simulate(const SimulateArguments& arguments) {
   if (!recording.following.Follows()) {
     SayNotice("notice: {}\n", NotFollowingInWords(recording.following));
   }
-  // the log's own torque beside the simulated one
-  if (log) fmt::print("{}", CompareTorque(*log, recording.measurements));
   return ExitStatus::done;
 }
 
@@ -151,8 +149,7 @@ Command AddSimulateCommand(CLI::App& program) {
   parser->add_option("--variant", arguments->variant, "of the run's ladder")->type_name("TEXT");
   parser
       ->add_option("--motion", arguments->motion.recordings,
-                   "CSV or HDF5 file whose motion is replayed; its torque is compared with the "
-                   "simulated one")
+                   "CSV or HDF5 file whose motion is replayed")
       ->type_name("RECORDING")
       ->expected(1);
   AddLayoutOptions(*parser, arguments->motion);

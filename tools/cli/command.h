@@ -1,4 +1,4 @@
-// Subcommands of the program, and their one list.
+// The command line as a whole, its subcommands, and their one list.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -23,6 +23,10 @@ struct Command {
   CLI::App* parser;
   std::function<ExitStatus()> run;
 };
+
+/// Reads the command line and runs its subcommand. Throws BadInput for arguments that cannot be
+/// used, with the nearest known option or subcommand.
+ExitStatus RunProgram(int argc, const char* const* argv);
 
 /// Adds all subcommands to the program's command line.
 std::vector<Command> AddCommands(CLI::App& program);

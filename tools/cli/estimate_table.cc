@@ -2,6 +2,7 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -73,21 +74,6 @@ Table DiagnosticTable(const Estimate& estimate) {
                           one.reason});
   }
   return table;
-}
-
-/// How the heat goes with the log's temperature.
-std::string TemperatureText(const Estimate& estimate) {
-  // these stand beside the fit, which has not used them
-  if (estimate.temperature.empty()) return "";
-  Table table{{"temperature beside E", "value", "unit", "95 % interval"}, {}};
-  for (const EstimatedParameter& one : estimate.temperature) {
-    table.rows.push_back({one.name, fmt::format("{:.4g}", one.value), one.unit,
-                          one.interval95 ? fmt::format("{:.4g} .. {:.4g}", (*one.interval95)[0],
-                                                       (*one.interval95)[1])
-                                         : "-"});
-  }
-  return "\n" + TableToText(table, 1) +
-         "the fit has not used the temperature; both may follow something else\n";
 }
 
 /// The structures that were tried.
@@ -163,13 +149,42 @@ std::string EstimateToText(const Estimate& estimate, const Measurements& measure
   if (!estimate.without_holdout.empty()) {
     text += fmt::format("\nno held-out figures: {}\n", Printable(estimate.without_holdout));
   }
-  text += TemperatureText(estimate);
   // all that the verdict rests on
   if (detail == Detail::full && estimate.choice) {
     text += "\n" + TableToText(TrialTable(*estimate.choice, unit), 1);
   }
   if (detail == Detail::full) text += Explanation(estimate);
   return text;
+}
+
+std::string EstimatesToText(const std::vector<EstimateRow>& rows, const std::string& unit) {
+  Table table{{"identifier", "verdict", "RMSE " + unit, "held-out RMSE"}, {}};
+  // a column for each parameter that one of them has
+  std::vector<std::string> names;
+  for (const EstimateRow& row : rows) {
+    if (!row.estimate) continue;
+    for (const EstimatedParameter& one : ShownParameters(*row.estimate)) {
+      if (std::ranges::find(names, one.name) != names.end()) continue;
+      names.push_back(one.name);
+      table.header.push_back(one.unit == "1" ? one.name : one.name + " " + one.unit);
+    }
+  }
+
+  // what one does not have is a dash
+  for (const auto& [name, status, estimate] : rows) {
+    std::vector<std::string>& cells =
+        table.rows.emplace_back(std::vector<std::string>(table.header.size(), "-"));
+    cells[0] = name;
+    cells[1] = estimate ? std::string(StatusName(estimate->status)) : status;
+    if (!estimate) continue;
+    if (estimate->metrics) cells[2] = fmt::format("{:.4g}", estimate->metrics->rmse);
+    if (estimate->holdout) cells[3] = fmt::format("{:.4g}", estimate->holdout->rmse);
+    for (const EstimatedParameter& one : ShownParameters(*estimate)) {
+      const auto column = std::ranges::find(names, one.name) - names.begin();
+      cells[4 + static_cast<size_t>(column)] = fmt::format("{:.4g}", one.value);
+    }
+  }
+  return TableToText(table, 2);
 }
 
 }  // namespace warmjoint::inline tools

@@ -14,7 +14,7 @@
 #include "models/foundation/keep_memory.h"
 #include "models/foundation/output_failed.h"
 #include "models/foundation/printable.h"
-#include "tools/cli/program.h"
+#include "tools/cli/command.h"
 #include "tools/terminal/say.h"
 
 namespace {

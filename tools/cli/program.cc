@@ -1,5 +1,3 @@
-#include "tools/cli/program.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
+#include "tools/cli/command.h"
 #include "tools/terminal/say.h"
 
 namespace warmjoint::inline tools {

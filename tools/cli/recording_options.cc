@@ -1,11 +1,96 @@
 #include "tools/cli/recording_options.h"
 
-#include <limits>
+#include <fmt/ranges.h>
 
-#include "tools/cli/take_project.h"
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <optional>
+
+#include "models/foundation/atomic_file.h"
+#include "models/foundation/excerpt.h"
+#include "scenarios/yaml_value.h"
 #include "tools/cli/typed_options.h"
+#include "tools/terminal/say.h"
 
 namespace warmjoint::inline tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The project file beside the recordings; empty where there is none.
+fs::path ProjectFileOf(const std::vector<std::string>& recordings) {
+  // all recordings beside the same file, or all beside none
+  std::optional<fs::path> found;
+  for (const std::string& recording : recordings) {
+    const fs::path file = fs::path(recording).parent_path() / kProjectFile;
+    std::error_code ignored;
+    const bool here = fs::exists(file, ignored);
+    if (here && !fs::is_regular_file(file, ignored)) {
+      Refuse({file.string()}, "is not a regular file; give --no-project to leave it out");
+    }
+    // links to one file are one file
+    const fs::path one = here ? fs::weakly_canonical(file, ignored) : fs::path();
+    if (found && *found != one) {
+      Refuse(
+          {recording},
+          "does not lie beside the project file of the other recordings, which may be of another "
+          "joint; give --no-project, and the options that describe them");
+    }
+    found = one;
+  }
+  if (!found || found->empty()) return {};
+  // by the name under which the first recording stands, not by one behind links
+  return fs::path(recordings.front()).parent_path() / kProjectFile;
+}
+
+/// Whether an option stands on the command line.
+bool IsGiven(const CLI::App& parser, const std::string& option) {
+  const CLI::Option* found = parser.get_option_no_throw(option);
+  return found && found->count() > 0;
+}
+
+/// What the project adds to the command line.
+class Taking {
+ public:
+  explicit Taking(const CLI::App& parser) : parser_(parser) {}
+
+  /// Adds the pairs whose column the command line does not name, and leaves these alone in `from`.
+  void Pairs(const char* name, std::vector<std::string>& from, std::vector<std::string>& into) {
+    // what the command line says of a column goes over the file
+    const auto given = ReadPairs(into, std::string("--") + name);
+    std::erase_if(from, [&](const std::string& pair) {
+      return given.contains(pair.substr(0, pair.find('=')));
+    });
+    if (from.empty()) return;
+    into.insert(into.end(), from.begin(), from.end());
+    Note(name, fmt::format("{}", fmt::join(from, ",")));
+  }
+
+  /// Takes a value that the command line does not give, and empties `from` where it does.
+  template <typename T>
+  void Value(const char* name, std::optional<T>& from, T& into) {
+    // keys of the file are called as the options, with underscores
+    std::string option = std::string("--") + name;
+    std::replace(option.begin(), option.end(), '_', '-');
+    if (IsGiven(parser_, option)) from.reset();
+    if (!from) return;
+    into = *from;
+    Note(name, fmt::format("{}", *from));
+  }
+
+  const std::string& words() const { return words_; }
+
+ private:
+  void Note(const char* name, const std::string& text) {
+    words_ += fmt::format("{}{} {}", words_.empty() ? "" : "; ", name, Excerpt(text));
+  }
+
+  const CLI::App& parser_;
+  std::string words_;
+};
+
+}  // namespace
 
 void AddRecordingOptions(CLI::App& parser, RecordingArguments& arguments) {
   parser
@@ -35,19 +120,12 @@ void AddLayoutOptions(CLI::App& parser, RecordingArguments& arguments) {
       ->delimiter(',')
       ->take_all();
 
-  // sensors that wrap, and a temperature that is set beside the answer
+  // sensors that wrap
   parser
       .add_option(
           "--wrap", arguments.wrap,
           "range after which the position starts again, in its unit; a turn is undone anyway")
       ->type_name("NUMBER");
-  parser
-      .add_option_function<std::string>(
-          "--temperature",
-          [&arguments](const std::string& name) { arguments.map.push_back("temperature=" + name); },
-          "column with a temperature, as --map temperature=NAME: the answer is set beside it; one "
-          "whose name ends in degC, or as temp_K, is found")
-      ->type_name("NAME");
 
   // the joint and its drive
   AddChoice(
@@ -62,7 +140,7 @@ void AddLayoutOptions(CLI::App& parser, RecordingArguments& arguments) {
           "torque of the joint for each ampere, N.m/A or N/A with the gear in it; makes N.m "
           "or N of --unit torque=A")
       ->type_name("NUMBER");
-  AddProjectOption(parser);
+  parser.add_flag("--no-project")->description("leave out the warmjoint.yaml beside the recording");
 }
 
 void AddHoldOptions(CLI::App& parser, HoldOptions& holds) {
@@ -72,6 +150,46 @@ void AddHoldOptions(CLI::App& parser, HoldOptions& holds) {
             "s to leave out at each end of a constant speed");
   AddNumber(parser, "--shortest-hold", holds.shortest, seconds,
             "s; a constant speed that lasts less is left out");
+}
+
+void AddFollowOptions(CLI::App& parser, EarlierRecording& earlier) {
+  parser
+      .add_option("--follows", earlier.file,
+                  "recording before this one, or its estimate.json: the heat that it left is "
+                  "there at the start, less what cooled in the pause between")
+      ->type_name("FILE");
+  parser
+      .add_option("--pause", earlier.pause,
+                  "s of rest between the end of --follows and the start of the recording; where "
+                  "their stamps share a clock, these tell it")
+      ->type_name("SECONDS");
+}
+
+void TakeProject(const CLI::App& parser, RecordingArguments& arguments) {
+  if (IsGiven(parser, "--no-project")) return;
+  // no option and no file: nothing to take
+  const fs::path file = ProjectFileOf(arguments.recordings);
+  if (file.empty()) return;
+
+  Project project = ParseProject(ReadWholeFile(file, kLargestDocument), file);
+  Taking taking(parser);
+  // by column
+  taking.Pairs("map", project.map, arguments.map);
+  taking.Pairs("unit", project.unit, arguments.unit);
+  taking.Pairs("scale", project.scale, arguments.scale);
+
+  // as a whole
+  taking.Value("wrap", project.wrap, arguments.wrap);
+  taking.Value("joint", project.joint, arguments.joint);
+  taking.Value("gear", project.gear, arguments.gear);
+  taking.Value("trim", project.trim, arguments.holds.trim);
+  taking.Value("shortest_hold", project.shortest_hold, arguments.holds.shortest);
+
+  // it is remembered with the estimate, and told
+  arguments.project = TakenProject{file, project};
+  SayNotice("{}: {}\n", file.string(),
+            taking.words().empty() ? "sets nothing that the command line does not"
+                                   : taking.words() + " (--no-project leaves it out)");
 }
 
 }  // namespace warmjoint::inline tools

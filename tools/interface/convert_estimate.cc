@@ -152,9 +152,8 @@ identification::Estimate ToEstimate(const Estimate& estimate) {
     made.assumptions.push_back({one.name, one.meaning, one.moves});
   }
 
-  // the state at the end, what a temperature says, and the choice of a structure
+  // the state at the end, and the choice of a structure
   made.state_end = Parameters<identification::EstimatedParameter>(estimate.state_end);
-  made.temperature = Parameters<identification::EstimatedParameter>(estimate.temperature);
   made.without_holdout = estimate.without_holdout;
   if (estimate.choice) made.choice = Choice<identification::StructureChoice>(*estimate.choice);
   return made;
@@ -202,9 +201,8 @@ Estimate FromEstimate(const identification::Estimate& estimate) {
     made.assumptions.push_back({one.name, one.meaning, one.moves});
   }
 
-  // the state at the end, what a temperature says, and the choice of a structure
+  // the state at the end, and the choice of a structure
   made.state_end = Parameters<Parameter>(estimate.state_end);
-  made.temperature = Parameters<Parameter>(estimate.temperature);
   made.without_holdout = estimate.without_holdout;
   if (estimate.choice) made.choice = Choice<StructureChoice>(*estimate.choice);
   return made;

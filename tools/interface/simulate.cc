@@ -7,7 +7,7 @@
 #include "scenarios/write_scenario.h"
 #include "sim/plant/plant.h"
 #include "sim/truth/truth_json.h"
-#include "tools/actions/simulated_files.h"
+#include "tools/actions/outputs.h"
 #include "tools/interface/convert_friction.h"
 #include "tools/interface/convert_numbers.h"
 #include "tools/interface/convert_recording.h"

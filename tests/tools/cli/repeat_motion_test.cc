@@ -10,9 +10,7 @@
 namespace warmjoint {
 namespace {
 
-using ::testing::HasSubstr;
-
-TEST(RepeatMotion, CarriesARecordingOutAgainAndComparesItsTorque) {
+TEST(RepeatMotion, CarriesARecordingOutAgain) {
   const ScratchDirectory scratch;
   const std::string log = scratch.path() / "log.csv", scenario = scratch.path() / "again.yaml";
   WriteRecordingFile(log, 480,
@@ -24,8 +22,6 @@ TEST(RepeatMotion, CarriesARecordingOutAgainAndComparesItsTorque) {
   const std::string folder = scratch.path() / "again";
   const ProgramAnswer answer = RunWarmjoint({"simulate", scenario, "--motion", log, "-o", folder});
   ASSERT_EQ(answer.status, 0) << answer.err;
-  EXPECT_THAT(answer.out, HasSubstr("simulated against recorded torque at"));
-  EXPECT_THAT(answer.out, HasSubstr("RMSE"));
 
   // what was done can be done again without the recording
   const Scenario written = ReadScenario(folder + "/scenario.yaml");

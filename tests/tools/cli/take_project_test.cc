@@ -1,5 +1,3 @@
-#include "tools/cli/take_project.h"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,6 +8,7 @@
 #include "models/foundation/atomic_file.h"
 #include "tests/tools/cli/run_program.h"
 #include "tests/tools/scratch_directory.h"
+#include "tools/cli/recording_options.h"
 
 namespace warmjoint {
 namespace {

@@ -75,7 +75,6 @@ FitView WithoutFit(const Measurements& measurements, const Selection& selection,
   view.position = measurements.position;
   view.velocity = measurements.velocity;
   view.torque = measurements.torque;
-  if (measurements.temperature) view.temperature = *measurements.temperature;
   // less the torque of inertia and gravity, what is left is friction
   TakeRigidOff(estimate, measurements, view);
   view.motor_angle = MotorAngle(measurements);

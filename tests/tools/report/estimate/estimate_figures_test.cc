@@ -40,13 +40,9 @@ void AddTrace(Estimate& estimate, int iterations) {
 EstimateView ExampleView() {
   MappedRecording mapped;
   AddTrace(mapped.estimate, 8);
-  mapped.estimate.temperature = {{"correlation", -0.9, "1", {}, {{-0.95, -0.8}}},
-                                 {"per_energy", -0.2, "K/(N.m)", {}, {{-0.3, -0.1}}},
-                                 {"lag", 30, "s", {}, {}}};
   EstimateView view{mapped.estimate, mapped.measurements, std::nullopt};
   view.fit = mapped.View();
   view.fit->estimate = view.estimate;
-  view.fit->temperature = 25 - 0.2 * view.fit->energy.array();
   view.held_out = view.fit;
   return view;
 }
