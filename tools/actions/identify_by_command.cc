@@ -53,6 +53,7 @@ CommandTask CheckCommand(const IdentifySettings& settings) {
   const std::pair<const char*, bool> ours[]{
       {"--gravity", settings.gravity != "none"},
       {"--start", settings.start == "estimated"},
+      {"--follows", settings.follows},
       {"--force", settings.void_numbers == VoidNumbers::show}};
   for (const auto& [option, is_given] : ours) {
     if (is_given) Refuse({option}, "is for identifiers of the list; leave it out with a command");

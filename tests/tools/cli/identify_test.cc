@@ -297,6 +297,7 @@ TEST(Identify, TriesACommandOnOneRecordingAndJudgesIt) {
   const ProgramAnswer bad = identify("bad.sh"), crash = identify("none.sh");
   const ProgramAnswer slow = identify("good.sh", {"--set", "time_limit=0.0001"});
   const ProgramAnswer ours = identify("good.sh", {"--gravity", "sincos"});
+  const ProgramAnswer follows = identify("good.sh", {"--follows", "log.csv"});
   const ProgramAnswer word = identify("good.sh", {"--set", "time_limi=1"});
   const ProgramAnswer bare = RunWarmjoint({"identify", "log.csv", "--identifier", "mine=good.sh"});
   // beside one of the list: a row for each, also of one that gives no answer
@@ -328,6 +329,8 @@ TEST(Identify, TriesACommandOnOneRecordingAndJudgesIt) {
   EXPECT_THAT(slow.err, HasSubstr("(timeout)"));
   EXPECT_EQ(ours.status, 2);
   EXPECT_THAT(ours.err, HasSubstr("--gravity: is for identifiers of the list"));
+  EXPECT_EQ(follows.status, 2);
+  EXPECT_THAT(follows.err, HasSubstr("--follows: is for identifiers of the list"));
   EXPECT_EQ(word.status, 2);
   EXPECT_THAT(word.err, HasSubstr("did you mean 'time_limit'"));
   EXPECT_EQ(bare.status, 2);
