@@ -172,9 +172,8 @@ TEST(Leaderboard, TextOfSuitesReachesNoTerminalAndNoPageAsItIs) {
   EXPECT_THAT(BoardToText(board), HasSubstr(R"(little: Which \x1B[31m\u202E <b>?)"));
   const std::string markdown = BoardToMarkdown(board);
   EXPECT_THAT(markdown, HasSubstr(R"(Which \x1B[31m\u202E &lt;b>?)"));
-  for (const std::string& text :
-       {BoardToText(board), markdown, BoardsToText({{"run\x1B", board}}),
-        BoardsToMarkdown({{"run\x1B", board}})}) {
+  for (const std::string& text : {BoardToText(board), markdown, BoardsToText({{"run\x1B", board}}),
+                                  BoardsToMarkdown({{"run\x1B", board}})}) {
     EXPECT_EQ(text.find_first_of("\x1B\x07"), std::string::npos) << text;
   }
 }
