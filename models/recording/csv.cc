@@ -22,7 +22,7 @@ Measurements ParseCsv(std::string_view text, const std::string& name, const CsvL
   return AssembleMeasurements(csv.ReadColumns(indices), sources, layout);
 }
 
-void WriteCsv(const Measurements& measurements, const std::string& path) {
+std::string RecordingToCsv(const Measurements& measurements) {
   // the columns that are there
   std::vector<std::string> names;
   std::vector<const Eigen::VectorXd*> columns;
@@ -42,7 +42,11 @@ void WriteCsv(const Measurements& measurements, const std::string& path) {
     }
     text.push_back('\n');
   }
-  WriteWholeFile(path, {text.data(), text.size()});
+  return fmt::to_string(text);
+}
+
+void WriteCsv(const Measurements& measurements, const std::string& path) {
+  WriteWholeFile(path, RecordingToCsv(measurements));
 }
 
 }  // namespace warmjoint::inline models

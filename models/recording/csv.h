@@ -32,7 +32,10 @@ Measurements ReadCsv(const std::string& path, const CsvLayout& layout = {});
 /// The same for text in memory; `name` stands for the file in messages.
 Measurements ParseCsv(std::string_view text, const std::string& name, const CsvLayout& layout = {});
 
-/// Writes the columns that are present, SI, numbers that read back bit for bit.
+/// The text of a file with the columns that are present, SI, numbers that read back bit for bit.
+std::string RecordingToCsv(const Measurements& measurements);
+
+/// Writes that text.
 void WriteCsv(const Measurements& measurements, const std::string& path);
 
 }  // namespace warmjoint::inline models

@@ -80,15 +80,19 @@ Measurements ReadHdf5Apart(const std::string& path, const CsvLayout& layout, dou
                          layout);
 }
 
-void WriteHdf5(const Measurements& measurements, const std::string& path) {
+std::string RecordingToHdf5(const Measurements& measurements) {
   static std::mutex one_at_a_time;
   const std::lock_guard lock(one_at_a_time);
   H5::Exception::dontPrint();
   try {
-    WriteWholeFile(path, Image(measurements));
+    return Image(measurements);
   } catch (const H5::Exception& error) {
-    Refuse({path}, "cannot be written as HDF5: {}", error.getDetailMsg());
+    Refuse({"recording"}, "cannot be written as HDF5: {}", error.getDetailMsg());
   }
+}
+
+void WriteHdf5(const Measurements& measurements, const std::string& path) {
+  WriteWholeFile(path, RecordingToHdf5(measurements));
 }
 
 }  // namespace warmjoint::inline models

@@ -21,8 +21,11 @@ Measurements ReadHdf5(const std::string& path, const CsvLayout& layout = {});
 Measurements ReadHdf5Apart(const std::string& path, const CsvLayout& layout = {},
                            double patience = 30);
 
-/// Writes the columns that are present, SI, with those attributes. Safe to call from many threads, which
-/// wait for each other: the library serves one at a time.
+/// The bytes of a file with the columns that are present, SI, with those attributes. Safe to call from many threads,
+/// which wait for each other: the library serves one at a time.
+std::string RecordingToHdf5(const Measurements& measurements);
+
+/// Writes these bytes.
 void WriteHdf5(const Measurements& measurements, const std::string& path);
 
 }  // namespace warmjoint::inline models

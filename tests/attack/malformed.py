@@ -118,7 +118,6 @@ def suites(attack):
         "unknown": good.replace("nominal-ls", "nominal_ls"), "label": good.replace("{name: energy-ml}", "{name: nominal-ls}"),
         "option": good.replace("{name: energy-ml}", "{name: energy-ml, options: {nope: 1}}"), "question": good.replace("question", "qestion"),
         "command": suite('[{name: external, options: {command: "touch x {recording} {estimate}"}}]'),
-        "shell": suite('[{name: external, options: {command: "touch x {recording} {estimate}", shell: "yes"}}]'),
         "no estimate": suite('[{name: external, options: {command: "true"}}]'),
         "seed": good + "seed: -1\n", "seed twice": good.replace("  duration", "  seed: 4\n  duration"),
         "ladder": good + "ladder: {variable: nope, values: [1]}\n", "ladder text": good + "ladder: {variable: noise.torque, values: [x]}\n",

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scenarios/suite.h"
+#include "tools/suite/sandbox.h"
 
 namespace warmjoint::inline tools {
 
@@ -23,7 +24,7 @@ struct RunArguments {
   std::string shard = "1/1";
   bool keep = false;
   bool allow_commands = false;
-  bool shell = false;
+  Confinement confinement = Confinement::sandbox;  // of commands
 
   // of a run in shards
   bool slurm = false;

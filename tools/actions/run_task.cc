@@ -29,7 +29,8 @@ void RefuseEditedCopy(const RunArguments& arguments, const RunDescription& descr
 RunTask PrepareRun(const RunArguments& arguments) {
   RunTask task;
   task.suite = ResolveSuite(arguments);
-  task.identifiers = PrepareIdentifiers(task.suite.identifiers, {arguments.suite});
+  task.identifiers =
+      PrepareIdentifiers(task.suite.identifiers, {arguments.suite}, arguments.confinement);
   task.shard = ReadShard(arguments.shard);
   // a thread for each core where nothing else is said
   const std::uint64_t cores = std::max(1u, std::thread::hardware_concurrency());

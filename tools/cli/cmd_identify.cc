@@ -19,7 +19,6 @@
 #include "tools/cli/identify_several.h"
 #include "tools/cli/recording_options.h"
 #include "tools/cli/take_project.h"
-#include "tools/cli/tell_wall.h"
 #include "tools/parser/choice.h"
 #include "tools/report/draw/page_setting.h"
 #include "tools/report/figures/fit_page.h"
@@ -125,9 +124,10 @@ ExitStatus AskCommand(const IdentifyArguments& arguments) {
   if (arguments.follow.are_given()) {
     Refuse({"--follows"}, "is for identifiers of the list: a command learns nothing of it");
   }
-  const CommandTask task = CheckCommand(SettingsOf(arguments, arguments.identifiers.front()));
+  const CheckedCommand task =
+      CheckCommand(SettingsOf(arguments, arguments.identifiers.front()), arguments.confinement);
   CheckOutputs(arguments);
-  TellWall({task.command}, {});
+  ReportConfinement({task.command}, {}, arguments.confinement);
 
   // the same log and the same judgement as for an identifier of the list
   Activity activity("reading the recording");
@@ -251,6 +251,11 @@ Command AddIdentifyCommand(CLI::App& program) {
   parser->add_option("--set", arguments->set, "option of the identifier, as law=asymmetric")
       ->type_name("KEY=VALUE")
       ->take_all();
+
+  parser->add_flag_callback(
+      "--unconfined", [arguments] { arguments->confinement = Confinement::none; },
+      "run a command of your own without the sandbox: where the kernel has none, or they need a "
+      "GPU");
 
   AddOutputOptions(*parser, *arguments);
   // the project file counts before anything is read

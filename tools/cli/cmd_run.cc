@@ -10,7 +10,6 @@
 #include "tools/cli/run_in_shards.h"
 #include "tools/cli/suite_names.h"
 #include "tools/cli/tell_run.h"
-#include "tools/cli/tell_wall.h"
 #include "tools/cli/whole_number.h"
 #include "tools/suite/arithmetic.h"
 #include "tools/suite/engine.h"
@@ -31,8 +30,8 @@ ExitStatus Run(RunArguments arguments) {
 
   const RunTask task = PrepareRun(arguments);
   RunStore store = RunStore::CreateOrResume(arguments.output, task.description);
-  // who brought commands along is told what keeps them apart
-  TellWall(task.suite.identifiers, {arguments.suite, arguments.output});
+  ReportConfinement(task.suite.identifiers, {arguments.suite, arguments.output},
+                    arguments.confinement);
   // interrupts end the run after the realizations in hand
   CatchInterrupts();
   const RunOutcome outcome =
@@ -85,8 +84,10 @@ Command AddRunCommand(CLI::App& program) {
       ->capture_default_str();
   parser->add_flag("--allow-commands", arguments->allow_commands,
                    "run the commands that the suite names as identifiers");
-  parser->add_flag("--shell", arguments->shell,
-                   "give commands of identifiers to /bin/sh, instead of as lists of arguments");
+  parser->add_flag_callback(
+      "--unconfined", [arguments] { arguments->confinement = Confinement::none; },
+      "run commands of identifiers without the sandbox: where the kernel has none, or they need a "
+      "GPU");
   parser->add_flag("--keep-recordings", arguments->keep, "recordings (HDF5) into RUN/recordings");
   AddShardOptions(*parser, *arguments);
   return {parser, [arguments] { return Run(*arguments); }};

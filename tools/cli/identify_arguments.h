@@ -7,6 +7,7 @@
 #include "tools/actions/identify_recording.h"
 #include "tools/cli/follow_options.h"
 #include "tools/cli/recording_options.h"
+#include "tools/suite/sandbox.h"
 
 namespace warmjoint::inline tools {
 
@@ -23,6 +24,7 @@ struct IdentifyArguments {
   std::string format = "text";
   bool explain = false;
   bool force = false;
+  Confinement confinement = Confinement::sandbox;  // of a command
 };
 
 /// The settings with --set and --force, of one identifier.

@@ -36,7 +36,7 @@ namespace {
 constexpr std::uint64_t kMostShards = 1'000'000;
 
 Consent ConsentOf(const RunArguments& arguments, const Suite& suite) {
-  if (arguments.shell) return Consent::shell;
+  if (arguments.confinement == Confinement::none) return Consent::unconfined;
   // what the command line named was agreed to by naming it
   for (const SuiteIdentifier& identifier : suite.identifiers) {
     if (identifier.name == kExternal) return Consent::commands;
@@ -47,7 +47,7 @@ Consent ConsentOf(const RunArguments& arguments, const Suite& suite) {
 Plan MakePlan(const RunArguments& arguments, const Suite& suite) {
   // identifiers are checked now, not first by a task
   const std::vector<PreparedIdentifier> identifiers =
-      PrepareIdentifiers(suite.identifiers, {arguments.suite});
+      PrepareIdentifiers(suite.identifiers, {arguments.suite}, arguments.confinement);
   Plan plan;
   plan.id = DrawId();
 

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 // where json finds it: not in the namespace of this file alone
 NLOHMANN_JSON_SERIALIZE_ENUM(Consent, {{Consent::none, "none"},
                                        {Consent::commands, "commands"},
-                                       {Consent::shell, "shell"}})
+                                       {Consent::unconfined, "unconfined"}})
 
 namespace {
 
@@ -29,10 +29,10 @@ std::string Shown(const json& value) { return Excerpt(value.dump()); }
 
 Consent ReadConsent(const json& value, const Place& place) {
   // a word, or its number, which plans may hold, too
-  for (const Consent consent : {Consent::none, Consent::commands, Consent::shell}) {
+  for (const Consent consent : {Consent::none, Consent::commands, Consent::unconfined}) {
     if (value == json(consent) || value == static_cast<int>(consent)) return consent;
   }
-  Refuse(place, R"('consent' is {}; it must be "none", "commands" or "shell")", Shown(value));
+  Refuse(place, R"('consent' is {}; it must be "none", "commands" or "unconfined")", Shown(value));
 }
 
 json ToJson(const PinnedFile& file) { return {{"path", file.path}, {"sha256", file.sha256}}; }

@@ -23,7 +23,7 @@ struct PinnedFile {
 };
 
 /// What a suite from elsewhere may do on the machines that carry it out, as the person agreed to.
-enum class Consent { none, commands, shell };
+enum class Consent { none, commands, unconfined };
 
 struct Plan {
   std::string id;          // drawn; keeps what this plan leaves on machines apart from other plans'

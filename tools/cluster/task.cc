@@ -106,7 +106,7 @@ class Task {
                                      std::to_string(plan_.jobs)};
     // what the person agreed to goes along
     if (plan_.consent != Consent::none) command.emplace_back("--allow-commands");
-    if (plan_.consent == Consent::shell) command.emplace_back("--shell");
+    if (plan_.consent == Consent::unconfined) command.emplace_back("--unconfined");
     return command;
   }
 

@@ -32,6 +32,7 @@ tools::RunArguments ToArguments(const std::filesystem::path& suite,
   arguments.seed = settings.seed;
   arguments.identifiers = settings.identifiers;
   arguments.allow_commands = settings.allow_commands;
+  if (settings.unconfined) arguments.confinement = tools::Confinement::none;
   arguments.keep = settings.keep_recordings;
   return arguments;
 }

@@ -19,6 +19,7 @@ struct RunSettings {
   std::optional<std::uint64_t> seed{};     // instead of the suite's
   std::vector<std::string> identifiers{};  // only these; empty: the suite's
   bool allow_commands = false;             // run the commands that the suite names as identifiers
+  bool unconfined = false;                 // run them without a sandbox
   bool keep_recordings = false;            // HDF5 files into DIRECTORY/recordings
   std::function<void(int finished, int total)>
       watch{};  // is told of progress; what it throws ends the run, resumably

@@ -1,5 +1,5 @@
 // Which identifiers a run takes, by what is typed.
-#include "tools/suite/choose_identifiers.h"
+#include "tools/suite/prepare_identifiers.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -22,8 +22,7 @@ const std::vector<SuiteIdentifier>& OfSuite() {
 std::vector<std::string> Labels(const std::vector<std::string>& names,
                                 const std::vector<SuiteIdentifier>& suite = OfSuite()) {
   std::vector<std::string> labels;
-  for (const SuiteIdentifier& one : ChooseIdentifiers(suite, names, CommandForm::words))
-    labels.push_back(one.label);
+  for (const SuiteIdentifier& one : ChooseIdentifiers(suite, names)) labels.push_back(one.label);
   return labels;
 }
 
@@ -44,7 +43,7 @@ TEST(ChooseIdentifiers, KnowsAnEarlierNameOnEitherSide) {
   EXPECT_THAT(Labels({"energy-als"}, {{"energy-em", "old", {}, {}}}), ElementsAre("old"));
 
   // one that the suite lacks is that of the list, by its name of now
-  const auto chosen = ChooseIdentifiers({}, {"energy-em"}, CommandForm::words);
+  const auto chosen = ChooseIdentifiers({}, {"energy-em"});
   ASSERT_EQ(chosen.size(), 1u);
   EXPECT_EQ(chosen[0].name, "energy-als");
   EXPECT_EQ(chosen[0].label, "energy-em") << "as it was asked for";
