@@ -7,7 +7,6 @@
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
 #include "models/foundation/parse_number.h"
-#include "models/foundation/utf8.h"
 
 namespace warmjoint::inline scenarios {
 namespace {

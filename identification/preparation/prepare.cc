@@ -13,7 +13,7 @@
 #include "identification/preparation/split_at_switches.h"
 #include "identification/preparation/take_ways.h"
 #include "models/foundation/bad_input.h"
-#include "models/recording/recordings_of.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
 namespace {

@@ -5,7 +5,7 @@
 #include "identification/preparation/plateaus.h"
 #include "identification/preparation/select.h"
 #include "models/foundation/robust_noise.h"
-#include "models/recording/recordings_of.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
 namespace {

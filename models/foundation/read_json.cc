@@ -7,7 +7,6 @@
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/json_turn.h"
-#include "models/foundation/utf8.h"
 
 namespace warmjoint::inline models {
 namespace {

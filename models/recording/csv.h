@@ -35,7 +35,4 @@ Measurements ParseCsv(std::string_view text, const std::string& name, const CsvL
 /// The text of a file with the columns that are present, SI, numbers that read back bit for bit.
 std::string RecordingToCsv(const Measurements& measurements);
 
-/// Writes that text.
-void WriteCsv(const Measurements& measurements, const std::string& path);
-
 }  // namespace warmjoint::inline models

@@ -9,8 +9,7 @@
 
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
-#include "models/recording/file_content.h"
-#include "models/recording/read_apart.h"
+#include "models/recording/assemble.h"
 #include "models/recording/recording_columns.h"
 
 namespace warmjoint::inline models {
@@ -183,9 +182,8 @@ Eigen::VectorXd ReadVector(mat_t* file, const Found& found) {
   return values;
 }
 
-/// Vectors of real numbers, at the top or in structs of one element, and what the file says of joint, gear
-/// and units. Throws BadInput, also where the layout's columns are not there or have more than kMostSamples.
-/// One thread at a time.
+}  // namespace
+
 FileContent ReadMatlabContent(const std::string& path, const CsvLayout& layout) {
   const MatlabFile file(Mat_Open(path.c_str(), MAT_ACC_RDONLY));
   if (!file) {
@@ -209,19 +207,8 @@ FileContent ReadMatlabContent(const std::string& path, const CsvLayout& layout) 
     if (column.values.size() == 0) {
       Refuse({path}, "{} cannot be read; the file is damaged", Excerpt(column.name));
     }
-    if (static_cast<unsigned long long>(column.values.size()) > kMostSamples) {
-      Refuse({path}, "{} has {} samples; {} at most are read", Excerpt(column.name),
-             column.values.size(), kMostSamples);
-    }
   }
   return content;
-}
-
-}  // namespace
-
-Measurements ReadMatlabApart(const std::string& path, const CsvLayout& layout, double patience) {
-  return AssembleContent(ReadApart({"a MATLAB file", &ReadMatlabContent}, path, layout, patience),
-                         path, layout);
 }
 
 }  // namespace warmjoint::inline models

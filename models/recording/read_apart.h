@@ -3,14 +3,14 @@
 
 #include <string>
 
-#include "models/recording/file_content.h"
+#include "models/recording/assemble.h"
 
 namespace warmjoint::inline models {
 
 /// A format that a library reads.
 struct FileFormat {
-  const char* name;  // in messages
-  FileContent (*read)(const std::string& path, const CsvLayout& layout);
+  const char* name = "";  // in messages
+  FileContent (*read)(const std::string& path, const CsvLayout& layout) = nullptr;
 };
 
 /// Reads in a child process with limits on memory (8 GiB besides what this process has) and time

@@ -177,9 +177,6 @@ def models(attack):
     body = '<body><joint name="j" type="hinge"/><geom size="0.1" mass="9"/></body>'
     texts = {
         "empty": "", "text": "hello", "open": "<mujoco>", "binary": bytes(range(256)), "deep": "<mujoco>" + "<body>" * 100_000,
-        "replicate": f'<mujoco><worldbody><replicate count="100000000">{body}</replicate></worldbody></mujoco>',
-        "replicates": "<mujoco><worldbody>" + '<replicate count="100">' * 5 + body + "</replicate>" * 5 + "</worldbody></mujoco>",
-        "flexcomp": '<mujoco><worldbody><flexcomp name="f" count="1000 1000 1000"/></worldbody></mujoco>',
         "itself": '<mujoco><include file="m.xml"/></mujoco>', "texture": '<mujoco><asset><texture builtin="flat" width="100000" height="100000"/></asset></mujoco>',
         "no joint": "<mujoco><worldbody/></mujoco>", "urdf": "<robot name='r'/>", "urdf deep": "<robot name='r'>" + "<a>" * 100_000,
         "urdf massless": "<robot name='r'><link name='a'/><link name='b'/><joint name='j' type='continuous'><parent link='a'/><child link='b'/></joint></robot>",

@@ -95,7 +95,7 @@ TEST(RoundTrip, OfTheEmpsAxis) {
   layout.column = {{"time", "t_s"}, {"position", "q_m"}, {"torque", "force_N"}};
   layout.joint = JointKind::linear;
   const Measurements log =
-      Prepare(ReadRecording(test::SharedFolder() / "data" / "emps" / "DATA_EMPS.csv", layout))
+      Prepare(ReadRecordingFile(test::SharedFolder() / "data" / "emps" / "DATA_EMPS.csv", layout))
           .taken()
           .measurements;
 

@@ -190,7 +190,7 @@ std::vector<Measurements> ReadRecordings(const RecordingArguments& arguments) {
   const CsvLayout layout = LayoutOf(arguments);
   std::vector<Measurements> recordings;
   for (const std::string& path : arguments.recordings) {
-    recordings.push_back(ReadForeignRecording(path, layout));
+    recordings.push_back(ReadRecordingFile(path, layout));
     if (arguments.torque_constant != 0) {
       TakeTorqueConstant(arguments.torque_constant, recordings.back());
     }

@@ -7,7 +7,6 @@
 #include "sim/plant/plant.h"
 #include "tools/board/write_tables.h"
 #include "tools/suite/describe_run.h"
-#include "tools/suite/memory_of_work.h"
 #include "tools/suite/prepare_identifiers.h"
 
 namespace warmjoint::inline tools {
@@ -24,6 +23,20 @@ void RefuseEditedCopy(const RunArguments& arguments, const RunDescription& descr
          "file, or another -o");
 }
 
+/// Refuses more results than a run can keep count of.
+void RefuseTooMany(const Suite& suite, const Shard& shard, const Place& place) {
+  constexpr double most = 1e8;  // some 10 GB of memory while the run goes on
+  const int realizations = std::max(0, std::min(shard.end, suite.realizations) - shard.first);
+  const double results = static_cast<double>(realizations) * suite.variants() *
+                         static_cast<double>(suite.identifiers.size()) / shard.count;
+  if (results <= most) return;
+  Refuse(place,
+         "asks for {:g} results ({} realizations of {} variants by {} identifiers, in {} shards); "
+         "{:g} at most: give fewer realizations, or more shards",
+         results, suite.realizations, suite.variants(), suite.identifiers.size(), shard.count,
+         most);
+}
+
 }  // namespace
 
 RunTask PrepareRun(const RunArguments& arguments) {
@@ -35,7 +48,7 @@ RunTask PrepareRun(const RunArguments& arguments) {
   // a thread for each core where nothing else is said
   const std::uint64_t cores = std::max(1u, std::thread::hardware_concurrency());
   task.jobs = static_cast<int>(arguments.jobs.value_or(cores));
-  RequireMemoryFor(task.suite, task.shard, task.jobs, arguments.suite);
+  RefuseTooMany(task.suite, task.shard, {arguments.suite});
   // a variant that cannot be simulated is found before the run begins
   for (int i = 0; i < task.suite.variants(); ++i) MakePlant(VariantScenario(task.suite, i));
 

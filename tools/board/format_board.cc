@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "models/foundation/printable.h"
+#include "models/foundation/excerpt.h"
 #include "tools/board/board_tables.h"
 #include "tools/terminal/page.h"
 

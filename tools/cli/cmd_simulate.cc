@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "identification/preparation/prepare.h"
-#include "models/foundation/atomic_directory.h"
+#include "models/foundation/atomic_file.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
 #include "scenarios/read_scenario.h"
@@ -25,7 +25,6 @@
 #include "tools/store/stored_suite.h"
 #include "tools/suite/arithmetic.h"
 #include "tools/suite/following_tally.h"
-#include "tools/suite/memory_of_work.h"
 #include "tools/terminal/progress_line.h"
 #include "tools/terminal/say.h"
 
@@ -113,7 +112,6 @@ ExitStatus Simulate(const SimulateArguments& arguments) {
     log = Prepare(ReadRecording(arguments.motion)).taken().measurements;
   // what cannot be simulated is refused before its outputs are made
   const Scenario scenario = ResolveScenario(arguments, log);
-  RequireMemoryFor(scenario, arguments.from.empty() ? arguments.scenario : arguments.from);
   const std::unique_ptr<Plant> plant = MakePlant(scenario);
   std::vector<std::filesystem::path> outputs, inputs{arguments.scenario};
   for (const std::string& file : SimulatedFiles()) {

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "models/foundation/printable.h"
+#include "models/foundation/excerpt.h"
 #include "tools/report/estimate/remarks.h"
 #include "tools/report/estimate/shown_parameters.h"
 #include "tools/terminal/table.h"

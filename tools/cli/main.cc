@@ -11,9 +11,9 @@
 #include <system_error>
 
 #include "models/foundation/bad_input.h"
+#include "models/foundation/excerpt.h"
 #include "models/foundation/keep_memory.h"
 #include "models/foundation/output_failed.h"
-#include "models/foundation/printable.h"
 #include "tools/cli/program.h"
 #include "tools/terminal/page.h"
 #include "tools/terminal/wrap.h"

@@ -1,6 +1,6 @@
 #include "tools/store/merge_runs.h"
 
-#include "models/foundation/atomic_directory.h"
+#include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "tools/store/stored_suite.h"
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "models/recording/hdf5.h"
+#include "models/recording/read_recording.h"
 #include "sim/truth/truth_json.h"
 
 namespace warmjoint::inline tools {
@@ -14,7 +14,7 @@ void RecordingKeeper::Keep(const Recording& recording, Unit unit) const {
   const std::filesystem::path folder = folder_ / fmt::format("variant-{}", unit.variant);
   std::filesystem::create_directories(folder);
   const std::string stem = folder / fmt::format("realization-{}", unit.realization);
-  WriteHdf5(recording.measurements, stem + ".h5");
+  WriteRecording(recording.measurements, stem + ".h5");
   WriteTruth(recording.truth, stem + ".truth.json");
 }
 

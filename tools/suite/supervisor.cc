@@ -1,6 +1,7 @@
 #include "tools/suite/supervisor.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -101,26 +102,12 @@ void Limit(int resource, rlim_t value) {
   _exit(status);
 }
 
-/// "/proc/PID/task/PID/children", made without a library that may hold locks.
-struct ChildrenPath {
-  explicit ChildrenPath(pid_t pid) {
-    char digits[12] = {};
-    char* first = digits + 11;
-    for (pid_t rest = pid; rest > 0; rest /= 10) *--first = static_cast<char>('0' + rest % 10);
-    for (const char* part : {"/proc/", const_cast<const char*>(first), "/task/",
-                             const_cast<const char*>(first), "/children"}) {
-      while (*part) text[size++] = *part++;
-    }
-  }
-
-  char text[64] = {};
-  int size = 0;
-};
-
 /// Calls work(pid) for each child of a process that has one thread.
 template <typename Work>
 void ForEachChild(pid_t parent, Work work) {
-  const int file = open(ChildrenPath(parent).text, O_RDONLY | O_CLOEXEC);
+  char path[64] = {};
+  fmt::format_to_n(path, sizeof path - 1, "/proc/{0}/task/{0}/children", parent);
+  const int file = open(path, O_RDONLY | O_CLOEXEC);
   if (file < 0) return;
   char block[512];
   pid_t pid = 0;

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "models/foundation/printable.h"
+#include "models/foundation/excerpt.h"
 #include "tools/terminal/wrap.h"
 
 namespace warmjoint::inline tools {

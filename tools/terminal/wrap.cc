@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "models/foundation/utf8.h"
+#include "models/foundation/excerpt.h"
 
 namespace warmjoint::inline tools {
 namespace {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "tests/models/recording/temporary_file.h"
 
@@ -217,12 +218,12 @@ TEST(ReadCsv, RefusesAConstantTorque) {
               HasSubstr("torque is 7 N.m in all 3 samples"));
 }
 
-TEST(WriteCsv, ReadsBackBitForBit) {
+TEST(RecordingToCsv, ReadsBackBitForBit) {
   Measurements log = Read(kPlain);
   log.velocity = Eigen::Vector3d(1.0 / 3, std::nextafter(1, 2), -4e-320);
   log.temperature = Eigen::Vector3d(20, 20.1, 1e30);
   const TemporaryFile file("copy.csv");
-  WriteCsv(log, file.path());
+  WriteWholeFile(file.path(), RecordingToCsv(log));
   const Measurements copy = ReadCsv(file.path());
   EXPECT_EQ(copy.time, log.time);
   EXPECT_EQ(copy.velocity, log.velocity);

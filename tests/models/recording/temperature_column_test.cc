@@ -1,5 +1,3 @@
-#include "models/recording/temperature_column.h"
-
 #include <gmock/gmock.h>
 
 #include "models/foundation/bad_input.h"
@@ -15,17 +13,16 @@ Measurements Read(const std::string& name, const CsvLayout& layout = {}) {
 }
 
 TEST(TemperatureColumn, IsKnownByItsUnit) {
-  for (const char* name : {"motor_degC", "case [degC]", "T (degC)", "oil/degC"}) {
-    EXPECT_EQ(TemperatureUnitIn(name), "degC") << name;
+  for (const char* name : {"motor_degC", "case [degC]", "T (degC)", "oil/degC", "temp_K", "T_K",
+                           "t [K]", "Temperature (K)"}) {
+    EXPECT_TRUE(Read(name).temperature) << name;
   }
-  for (const char* name : {"temp_K", "T_K", "t [K]", "Temperature (K)"}) {
-    EXPECT_EQ(TemperatureUnitIn(name), "K") << name;
+  for (const char* name : {"gain_K", "K", "degC", "torques", "", "T_", "BREAK"}) {
+    EXPECT_FALSE(Read(name).temperature) << name;
   }
-  for (const char* name : {"gain_K", "K", "degC", "torque", "", "T_", "BREAK"}) {
-    EXPECT_FALSE(TemperatureUnitIn(name)) << name;
-  }
-  EXPECT_FALSE(FindTemperature({"a_degC", "b_degC"}));
-  EXPECT_EQ(FindTemperature({"time", "b_degC"}), 1u);
+  const char* two =
+      "time,position,velocity,torque,a_degC,b_degC\n0,0,1,10,3,3\n1,1,1,1,1,2\n2,2,1,1,1,1\n";
+  EXPECT_FALSE(ParseCsv(two, "log.csv").temperature);
 }
 
 TEST(TemperatureColumn, IsReadInItsUnit) {

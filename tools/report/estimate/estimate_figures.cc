@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "tools/report/draw/ticks.h"
+#include "tools/report/figures/axes.h"
 #include "tools/report/figures/envelope.h"
 #include "tools/report/figures/fit_page.h"
 #include "tools/report/figures/fit_panels.h"
@@ -13,7 +14,6 @@
 #include "tools/report/figures/log_figure.h"
 #include "tools/report/figures/motor_angle.h"
 #include "tools/report/figures/predicted.h"
-#include "tools/report/figures/single_plot.h"
 #include "tools/report/figures/temperature.h"
 
 namespace warmjoint::report {

@@ -11,7 +11,7 @@
 #include "identification/warming/estimated_start.h"
 #include "models/foundation/low_pass.h"
 #include "models/recording/course_of.h"
-#include "models/recording/motor_angle.h"
+#include "models/recording/measurements.h"
 #include "tools/report/draw/ticks.h"
 #include "tools/report/figures/friction_spread.h"
 

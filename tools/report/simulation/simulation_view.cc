@@ -54,7 +54,7 @@ SimulationView ReadSimulationView(const std::filesystem::path& directory) {
   const bool hdf5 = std::filesystem::exists(directory / "recording.h5");
   Recording recording;
   recording.measurements =
-      ReadForeignRecording(directory / (hdf5 ? "recording.h5" : "recording.csv"), layout);
+      ReadRecordingFile(directory / (hdf5 ? "recording.h5" : "recording.csv"), layout);
   recording.truth = ReadTruth(directory / "truth.json");
   // the truth of another simulation does not fit the recording
   if (recording.truth.velocity.size() != recording.measurements.size()) {
