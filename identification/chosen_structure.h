@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "models/foundation/field.h"
+
 namespace warmjoint::inline identification {
 
 /// A structure that was tried.
@@ -13,6 +15,14 @@ struct StructureTrial {
   std::optional<double> rmse;  // on held-out blocks, N.m or N; none where it was dropped before
   double parameters = 0;       // effective number; 0 where nothing was fitted
   std::string dropped;         // why it was no contender; empty for one that was
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("name", &name, {.needed = "name it"});
+    a->Field("rmse", &rmse, {.unit = "N.m", .at_default = AtDefault::null});
+    a->Field("parameters", &parameters);
+    a->Field("dropped", &dropped, {.at_default = AtDefault::null});
+  }
 };
 
 /// Which of several structures was chosen, and why.
@@ -21,6 +31,14 @@ struct StructureChoice {
   std::string reason;  // one clause
   int blocks = 0;      // of time that were held out in turn
   std::vector<StructureTrial> trials;
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("chosen", &chosen, {.needed = "name a structure"});
+    a->Field("reason", &reason);
+    a->Field("blocks", &blocks);
+    a->Field("trials", &trials);
+  }
 };
 
 }  // namespace warmjoint::inline identification

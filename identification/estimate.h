@@ -15,6 +15,8 @@
 #include "identification/map_band.h"
 #include "identification/metrics.h"
 #include "identification/status.h"
+#include "models/foundation/node.h"
+#include "models/foundation/parameter_covariance.h"
 #include "models/friction/friction_description.h"
 
 namespace warmjoint::inline identification {
@@ -25,6 +27,15 @@ struct EstimatedParameter {
   std::string unit;
   std::optional<double> std;  // standard deviation
   std::optional<std::array<double, 2>> interval95;
+
+  /// Without its name, by which a file has it.
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("value", &value, {.needed = kGiveNumber});
+    a->Field("unit", &unit, {.needed = "give it as text"});
+    a->Field("std", &std, {.at_default = AtDefault::null});
+    a->Field("interval95", &interval95, {.at_default = AtDefault::null});
+  }
 };
 
 /// State of an iterative identifier after one iteration.
@@ -32,12 +43,13 @@ struct TraceEntry {
   int iteration = 0;
   std::vector<std::pair<std::string, double>> parameters;
   double rmse = 0;  // over the kept samples, N.m or N
-};
 
-/// Covariance of some of an estimate's values.
-struct ParameterCovariance {
-  std::vector<std::string> parameters;  // [p] names
-  Eigen::MatrixXd matrix;               // [p x p] in products of their units
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("iteration", &iteration, {.needed = kGiveNumber});
+    a->Field("rmse", &rmse, {.unit = "N.m", .needed = kGiveNumber});
+    a->Field("parameters", &parameters, {.needed = "give their values by name"});
+  }
 };
 
 struct Estimate {
@@ -65,9 +77,6 @@ struct Estimate {
   /// The heat at the end of the log, at its last stamp, `time`: a row for each stage, `energy`,
   /// `second_energy`; empty where nothing warms or the friction cannot be trusted.
   std::vector<EstimatedParameter> state_end;
-  /// How E goes with the log's temperature (report/heat_beside_temperature.h); empty where the log has
-  /// none, or nothing warms.
-  std::vector<EstimatedParameter> temperature;
   std::optional<StructureChoice> choice;  // of identifiers that choose a structure
 
   /// The parameter of that name, or nullptr.
@@ -75,6 +84,50 @@ struct Estimate {
 
   /// The message and the warnings behind it, with semicolons between them.
   std::string FullMessage() const;
+
+  template <class A>
+  void Serialize(A* a) {
+    constexpr FieldInfo or_null{.at_default = AtDefault::null};
+    constexpr FieldInfo left_out{.at_default = AtDefault::left_out};
+    // who answers, and how sure; the message ends in the warnings
+    a->Field("identifier", &identifier, {.needed = "name it"});
+    a->Field("options", &options, left_out);
+    a->Field("status", &status, {.needed = "say ok, or what failed"});
+    std::string full = FullMessage();
+    a->Field("message", &full, {.needed = "give it as text"});
+    a->Field("warnings", &warnings, left_out);
+    TakeMessage(full);
+
+    // numbers, and how well they fit
+    a->Named("parameters", &parameters, {.needed = "give them by name"});
+    a->Field("metrics", &metrics, or_null);
+    a->Field("holdout", &holdout, or_null);
+    a->Field("without_holdout", &without_holdout, left_out);
+    a->Field("trace", &trace);
+    a->Field("friction", &friction, or_null);
+    a->Field("gravity", &gravity, or_null);
+    a->Field("friction_at_speeds", &at_speeds, left_out);
+    a->Field("bands", &bands, left_out);
+    a->Field("covariance", &covariance, or_null);
+
+    // what the verdict said, and what only some have
+    a->Field("diagnostics", &diagnostics, left_out);
+    a->Field("assumptions", &assumptions, left_out);
+    a->Named("state_end", &state_end, left_out);
+    a->Field("choice", &choice);
+  }
+
+ private:
+  /// Takes the message without the warnings at its end.
+  void TakeMessage(const std::string& full);
 };
+
+/// The estimate as a file has it; what is no finite number is null.
+Tree EstimateToTree(const Estimate& estimate);
+nlohmann::json EstimateToJson(const Estimate& estimate);
+
+/// The inverse; null numbers become NaN, and keys that nobody knows are left alone. Throws BadInput for a missing member, a
+/// wrong type, an unknown status.
+Estimate EstimateFrom(const Node& node);
 
 }  // namespace warmjoint::inline identification

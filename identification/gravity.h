@@ -2,9 +2,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <numbers>
+#include <span>
 #include <string_view>
 #include <vector>
+
+#include "models/foundation/node.h"
 
 namespace warmjoint::inline identification {
 
@@ -14,8 +18,12 @@ namespace warmjoint::inline identification {
 ///   constant  g1: what `paired` is for a linear joint, whose weight does not depend on p
 enum class GravityKind { sincos, paired, constant };
 
-/// "sincos", "paired" or "constant".
-std::string_view GravityName(GravityKind kind);
+inline std::span<const Word<GravityKind>> WordsOf(GravityKind) {
+  static constexpr std::array words{Word{"sincos", GravityKind::sincos},
+                                    Word{"paired", GravityKind::paired},
+                                    Word{"constant", GravityKind::constant}};
+  return words;
+}
 
 inline constexpr int kGravityKnots = 64;  // on a turn; a line misses g sin p by g (2 pi/64)^2/8
 inline constexpr double kKnotSpacing = 2 * std::numbers::pi / kGravityKnots;  // rad
@@ -32,6 +40,10 @@ struct GravityModel {
   /// G at positions that are covered. position: [N] rad or m; returns [N] N.m or N.
   Eigen::VectorXd Torque(const Eigen::VectorXd& position) const;
 };
+
+/// {kind, sine, cosine}, {kind, position[] (rad), torque[]} or {kind, offset}; N.m or N. Throws BadInput.
+void ReadValue(const Node& node, GravityModel* value, const FieldInfo& info);
+Tree WriteValue(const GravityModel& value);
 
 /// dG/dg at each position, one column for each value. A position beside the knots has zeros.
 /// position: [N] rad or m; returns [N x m].

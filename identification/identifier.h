@@ -11,7 +11,7 @@
 #include "identification/fit.h"
 #include "identification/options.h"
 #include "identification/preparation/prepared_log.h"
-#include "models/foundation/start_stream.h"
+#include "models/foundation/random_stream.h"
 
 namespace warmjoint::inline identification {
 

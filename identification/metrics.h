@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include "models/foundation/field.h"
+
 namespace warmjoint::inline identification {
 
 /// Agreement of a fit with the samples that it kept. y: measured, yhat: fitted, e = y - yhat.
@@ -14,6 +16,17 @@ struct Metrics {
   double mae = 0;                   // mean(|e|), N.m or N
   double fit = 0;                   // 100 (1 - |e| / |y - mean(y)|), %
   double fpe = 0;                   // V (1 + d/n)/(1 - d/n), V = mean(e^2)
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("n", &n, {.needed = kGiveNumber});
+    a->Field("parameters", &parameters, {.needed = kGiveNumber});
+    a->Field("effective_parameters", &effective_parameters, {.needed = kGiveNumber});
+    a->Field("rmse", &rmse, {.unit = "N.m", .needed = kGiveNumber});
+    a->Field("mae", &mae, {.unit = "N.m", .needed = kGiveNumber});
+    a->Field("fit", &fit, {.unit = "%", .needed = kGiveNumber});
+    a->Field("fpe", &fpe, {.unit = "(N.m)^2", .needed = kGiveNumber});
+  }
 };
 
 /// Metrics of a fit. measured, fitted: [n] N.m or N.

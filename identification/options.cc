@@ -1,5 +1,7 @@
 #include "identification/options.h"
 
+#include <fmt/format.h>
+
 #include <stdexcept>
 #include <string>
 
@@ -27,7 +29,19 @@ const std::string& Options::Text(std::string_view name) const {
   return found->second;
 }
 
-double Options::Number(std::string_view name) const { return ParseNumber(Text(name)).value(); }
+double Options::Number(std::string_view name) const {
+  const auto number = numbers_.find(name);
+  return number != numbers_.end() ? number->second : ParseNumber(Text(name)).value();
+}
+
+Options Options::With(std::string_view name, double number) const {
+  Options options = *this;
+  options.numbers_.insert_or_assign(std::string(name), number);
+  // its text is for reports alone
+  std::string text = fmt::format("{}", number);
+  if (text != Text(name)) options.changed_.insert_or_assign(std::string(name), std::move(text));
+  return options;
+}
 
 int Options::Integer(std::string_view name) const {
   return static_cast<int>(ParseInteger(Text(name)).value());

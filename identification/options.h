@@ -39,11 +39,15 @@ class Options {
   /// "lower:upper", for example "-9:0"; lower <= upper.
   std::pair<double, double> Range(std::string_view name) const;
 
+  /// The same with a number, within its bounds, for an option that was left at its default.
+  Options With(std::string_view name, double number) const;
+
   /// What is not at its default, by name.
   const std::map<std::string, std::string>& changed() const { return changed_; }
 
  private:
   Values values_;
+  std::map<std::string, double, std::less<>> numbers_;  // that With gave
   std::map<std::string, std::string> changed_;
 };
 

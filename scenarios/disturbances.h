@@ -4,6 +4,7 @@
 #include <optional>
 #include <string_view>
 
+#include "models/foundation/field.h"
 #include "models/friction/thermal.h"
 #include "scenarios/hidden_forces.h"
 #include "scenarios/sensor_faults.h"
@@ -16,6 +17,13 @@ struct Outliers {
   double size = 0;       // standard deviation of what is added to them, N.m or N
   double one_sided = 0;  // 1: what is added is never negative
 
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("fraction", &fraction, {.bounds = {.at_least = 0, .below = 1}, .needed = kGiveNumber});
+    a->Field("size", &size, {.unit = "N.m", .bounds = {.at_least = 0}, .needed = kGiveNumber});
+    a->Field("one_sided", &one_sided, {.bounds = {.at_least = 0, .at_most = 1}});
+  }
+
   bool operator==(const Outliers&) const = default;
 };
 
@@ -24,6 +32,14 @@ struct Outliers {
 struct ColouredNoise {
   double deviation = 0;         // standard deviation, N.m or N
   double correlation_time = 1;  // s
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("deviation", &deviation,
+             {.unit = "N.m", .bounds = {.at_least = 0}, .needed = kGiveNumber});
+    a->Field("correlation_time", &correlation_time,
+             {.unit = "s", .bounds = {.above = 0}, .needed = kGiveNumber});
+  }
 
   bool operator==(const ColouredNoise&) const = default;
 };
@@ -34,6 +50,12 @@ struct UnevenNoise {
   double of_torque = 0;
   double of_speed = 0;  // N.m.s/rad or N.s/m
 
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("of_torque", &of_torque, {.bounds = {.at_least = 0}});
+    a->Field("of_speed", &of_speed, {.unit = "N.m.s/rad", .bounds = {.at_least = 0}});
+  }
+
   bool operator==(const UnevenNoise&) const = default;
 };
 
@@ -43,6 +65,12 @@ struct PeriodicTorque {
   double amplitude = 0;  // N.m or N
   double period = 1;     // s
 
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("amplitude", &amplitude, {.unit = "N.m", .needed = kGiveNumber});
+    a->Field("period", &period, {.unit = "s", .bounds = {.above = 0}, .needed = kGiveNumber});
+  }
+
   bool operator==(const PeriodicTorque&) const = default;
 };
 
@@ -50,6 +78,12 @@ struct PeriodicTorque {
 struct Gravity {
   double sine = 0;    // N.m or N
   double cosine = 0;  // N.m or N
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("sine", &sine, {.unit = "N.m"});
+    a->Field("cosine", &cosine, {.unit = "N.m"});
+  }
 
   bool operator==(const Gravity&) const = default;
 };
@@ -59,6 +93,12 @@ struct Gravity {
 struct AmbientDrift {
   double amplitude = 0;  // N.m or N
   double period = 1;     // s
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("amplitude", &amplitude, {.unit = "N.m", .needed = kGiveNumber});
+    a->Field("period", &period, {.unit = "s", .bounds = {.above = 0}, .needed = kGiveNumber});
+  }
 
   bool operator==(const AmbientDrift&) const = default;
 };
@@ -72,6 +112,12 @@ struct AmbientTemperature {
   /// Ts - T0 at t (s), K.
   double RiseAt(double t) const;
 
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("amplitude", &amplitude, {.unit = "K", .needed = kGiveNumber});
+    a->Field("period", &period, {.unit = "s", .bounds = {.above = 0}, .needed = kGiveNumber});
+  }
+
   bool operator==(const AmbientTemperature&) const = default;
 };
 
@@ -82,6 +128,13 @@ struct LoadChange {
   double gain = 0;    // growth of the level for each unit of load, dimensionless
   double period = 1;  // s
 
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("load", &load, {.unit = "N.m", .needed = kGiveNumber});
+    a->Field("gain", &gain, {.bounds = {.at_least = 0}, .needed = kGiveNumber});
+    a->Field("period", &period, {.unit = "s", .bounds = {.above = 0}, .needed = kGiveNumber});
+  }
+
   bool operator==(const LoadChange&) const = default;
 };
 
@@ -90,6 +143,12 @@ struct LoadChange {
 struct TorqueLag {
   double time_constant = 0;  // s; 0: none
 
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("time_constant", &time_constant,
+             {.unit = "s", .bounds = {.at_least = 0}, .needed = kGiveNumber});
+  }
+
   bool operator==(const TorqueLag&) const = default;
 };
 
@@ -97,12 +156,23 @@ struct TorqueLag {
 struct VelocityFilter {
   double time_constant = 0;  // s; 0: none
 
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("time_constant", &time_constant,
+             {.unit = "s", .bounds = {.at_least = 0}, .needed = kGiveNumber});
+  }
+
   bool operator==(const VelocityFilter&) const = default;
 };
 
 /// The logged position is that of some samples ago.
 struct StalePosition {
-  double samples = 0;  // a whole number
+  int samples = 0;
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("samples", &samples, {.bounds = {.at_least = 0}, .needed = kGiveNumber});
+  }
 
   bool operator==(const StalePosition&) const = default;
 };
@@ -111,12 +181,23 @@ struct StalePosition {
 struct Encoder {
   double resolution = 0;  // rad or m; 0: none
 
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("resolution", &resolution,
+             {.unit = "rad", .bounds = {.at_least = 0}, .needed = kGiveNumber});
+  }
+
   bool operator==(const Encoder&) const = default;
 };
 
 /// Every other hold of a speed has a higher level, as a load that nobody logs makes it.
 struct HoldParity {
   double level = 0;  // N.m or N against the motion, in the second, fourth, ... hold
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("level", &level, {.unit = "N.m", .needed = kGiveNumber});
+  }
 
   bool operator==(const HoldParity&) const = default;
 };
@@ -126,6 +207,12 @@ struct StepInTime {
   double level = 0;  // N.m or N against the motion, from then on
   double time = 0;   // s
 
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("level", &level, {.unit = "N.m", .needed = kGiveNumber});
+    a->Field("time", &time, {.unit = "s", .bounds = {.at_least = 0}, .needed = kGiveNumber});
+  }
+
   bool operator==(const StepInTime&) const = default;
 };
 
@@ -133,6 +220,13 @@ struct StepInTime {
 struct RunIn {
   double level = 0;          // N.m or N
   double time_constant = 1;  // s
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("level", &level, {.unit = "N.m", .needed = kGiveNumber});
+    a->Field("time_constant", &time_constant,
+             {.unit = "s", .bounds = {.above = 0}, .needed = kGiveNumber});
+  }
 
   bool operator==(const RunIn&) const = default;
 };
@@ -157,6 +251,30 @@ struct Disturbances {
   SensorFaults faults;
   bool without_velocity = false;       // the log has no velocity column
   std::optional<Thermal> second_heat;  // a second energy state fed by the same W; ideal plant only
+
+  template <class A>
+  void Serialize(A* a) {
+    constexpr FieldInfo absent{.at_default = AtDefault::left_out};
+    a->Field("outliers", &outliers, absent);
+    a->Field("coloured_noise", &coloured_noise, absent);
+    a->Field("uneven_noise", &uneven_noise, absent);
+    a->Field("periodic_torque", &periodic_torque, absent);
+    a->Field("gravity", &gravity, absent);
+    a->Field("ambient_drift", &ambient_drift, absent);
+    a->Field("ambient_temperature", &ambient_temperature, absent);
+    a->Field("load_change", &load_change, absent);
+    a->Field("torque_lag", &torque_lag, absent);
+    a->Field("velocity_filter", &velocity_filter, absent);
+    a->Field("stale_position", &stale_position, absent);
+    a->Field("encoder", &encoder, absent);
+    a->Field("hold_parity", &hold_parity, absent);
+    a->Field("step_in_time", &step_in_time, absent);
+    a->Field("run_in", &run_in, absent);
+    a->Flag("without_velocity", &without_velocity);
+    a->Field("second_heat", &second_heat);
+    hidden.Serialize(a);
+    faults.Serialize(a);
+  }
 
   bool operator==(const Disturbances&) const;
 };

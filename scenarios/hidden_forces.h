@@ -1,12 +1,20 @@
 // Forces of a joint that no model of an identifier holds. All zero: none.
 #pragma once
 
+#include "models/foundation/field.h"
+
 namespace warmjoint::inline scenarios {
 
 /// Behind each change of direction the friction lacks a level until the joint has gone some way, as with play in a gear.
 struct Backlash {
   double level = 0;  // N.m or N
   double way = 0;    // rad or m
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("level", &level, {.unit = "N.m", .needed = kGiveNumber});
+    a->Field("way", &way, {.unit = "rad", .bounds = {.at_least = 0}, .needed = kGiveNumber});
+  }
 
   bool operator==(const Backlash&) const = default;
 };
@@ -15,6 +23,12 @@ struct Backlash {
 struct Hysteresis {
   double level = 0;  // N.m or N
   double way = 1;    // rad or m
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("level", &level, {.unit = "N.m", .needed = kGiveNumber});
+    a->Field("way", &way, {.unit = "rad", .bounds = {.above = 0}, .needed = kGiveNumber});
+  }
 
   bool operator==(const Hysteresis&) const = default;
 };
@@ -25,12 +39,24 @@ struct Memory {
   double slope = 0;          // N.m.s/rad or N.s/m
   double time_constant = 1;  // s
 
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("slope", &slope, {.unit = "N.m.s/rad", .needed = kGiveNumber});
+    a->Field("time_constant", &time_constant,
+             {.unit = "s", .bounds = {.above = 0}, .needed = kGiveNumber});
+  }
+
   bool operator==(const Memory&) const = default;
 };
 
 /// Friction that grows with the square of the speed: coefficient v |v|.
 struct QuadraticDrag {
   double coefficient = 0;  // N.m.s^2/rad^2 or N.s^2/m^2
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("coefficient", &coefficient, {.unit = "N.m.s^2/rad^2", .needed = kGiveNumber});
+  }
 
   bool operator==(const QuadraticDrag&) const = default;
 };
@@ -40,6 +66,12 @@ struct Ripple {
   double amplitude = 0;  // N.m or N
   double period = 1;     // rad or m
 
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("amplitude", &amplitude, {.unit = "N.m", .needed = kGiveNumber});
+    a->Field("period", &period, {.unit = "rad", .bounds = {.above = 0}, .needed = kGiveNumber});
+  }
+
   bool operator==(const Ripple&) const = default;
 };
 
@@ -47,12 +79,23 @@ struct Ripple {
 struct Spring {
   double stiffness = 0;  // N.m/rad or N/m
 
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("stiffness", &stiffness, {.unit = "N.m/rad", .needed = kGiveNumber});
+  }
+
   bool operator==(const Spring&) const = default;
 };
 
 /// The torque that accelerates a mass: inertia dv/dt; between the samples where speeds are held.
 struct Inertia {
   double inertia = 0;  // kg.m^2 or kg
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("inertia", &inertia,
+             {.unit = "kg.m^2", .bounds = {.at_least = 0}, .needed = kGiveNumber});
+  }
 
   bool operator==(const Inertia&) const = default;
 };
@@ -65,6 +108,18 @@ struct HiddenForces {
   Ripple ripple;
   Spring spring;
   Inertia inertia;
+
+  template <class A>
+  void Serialize(A* a) {
+    constexpr FieldInfo absent{.at_default = AtDefault::left_out};
+    a->Field("backlash", &backlash, absent);
+    a->Field("hysteresis", &hysteresis, absent);
+    a->Field("memory", &memory, absent);
+    a->Field("quadratic_drag", &quadratic_drag, absent);
+    a->Field("ripple", &ripple, absent);
+    a->Field("spring", &spring, absent);
+    a->Field("inertia", &inertia, absent);
+  }
 
   bool operator==(const HiddenForces&) const = default;
 };

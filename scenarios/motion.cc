@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "models/foundation/bad_input.h"
 
@@ -162,6 +163,48 @@ double StartPosition(const Motion& motion, std::pair<double, double> joint_limit
 }
 
 bool Motion::operator==(const Motion&) const = default;
+
+bool Motion::CornersAscend() const {
+  const auto not_after = [](const VelocityCorner& a, const VelocityCorner& b) {
+    return b.time <= a.time;
+  };
+  return std::ranges::adjacent_find(corners, not_after) == corners.end();
+}
+
+void ReadValue(const Node& node, Speeds* value, const FieldInfo&) {
+  // drawn anew for each segment, or a list
+  if (IsDistribution(node)) {
+    ReadValue(node, &value->draws.emplace(), {.bounds = {.at_least = 0}});
+    return;
+  }
+  for (const Node& speed : node.List(
+           "a list of speeds, for example [0.1, 1], or a distribution as {uniform: [0.1, 1]}")) {
+    value->list.push_back(speed.Number({.above = 0}));
+  }
+}
+
+Tree WriteValue(const Speeds& value) {
+  if (value.draws) return WriteValue(*value.draws);
+  return value.list.empty() ? Tree() : Tree(value.list);
+}
+
+void ReadValue(const Node& node, Travel* value, const FieldInfo&) {
+  value->joint_limits = node.IsScalar() && node.Text() == "joint_limits";
+  if (!value->joint_limits) value->limits = node.Interval();
+}
+
+Tree WriteValue(const Travel& value) {
+  if (value.joint_limits) return "joint_limits";
+  return value.limits ? Tree{value.limits->first, value.limits->second} : Tree();
+}
+
+void ReadValue(const Node& node, VelocityCorner* value, const FieldInfo&) {
+  const std::vector<Node> pair = node.List("[time, velocity]");
+  if (pair.size() != 2) node.RefuseValue("[time, velocity]");
+  *value = {pair[0].Number({.at_least = 0}), pair[1].Number()};
+}
+
+Tree WriteValue(const VelocityCorner& value) { return {value.time, value.velocity}; }
 
 std::vector<MotionSegment> PlanMotion(const Motion& motion, double duration,
                                       std::pair<double, double> joint_limits,

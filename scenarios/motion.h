@@ -1,11 +1,14 @@
 // Piecewise constant-velocity motion: the plan that a plant carries out.
 #pragma once
 
+#include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "models/foundation/node.h"
 #include "models/foundation/random_stream.h"
 #include "scenarios/distribution.h"
 
@@ -20,10 +23,27 @@ namespace warmjoint::inline scenarios {
 ///     sign must change with each segment: then only the speeds are shuffled.
 enum class SegmentOrder { alternating, shuffled, in_order };
 
+inline std::span<const Word<SegmentOrder>> WordsOf(SegmentOrder) {
+  static constexpr std::array words{Word{"alternating", SegmentOrder::alternating},
+                                    Word{"shuffled", SegmentOrder::shuffled},
+                                    Word{"in_order", SegmentOrder::in_order}};
+  return words;
+}
+
 /// Work and break times that interrupt the motion; it goes on after a break where it stopped.
 struct Rests {
   double run = 0;   // s of motion before each rest
   double rest = 0;  // s of rest
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("run", &run,
+             {.unit = "s",
+              .bounds = {.above = 0},
+              .needed = "give the seconds of motion before a rest"});
+    a->Field("rest", &rest,
+             {.unit = "s", .bounds = {.above = 0}, .needed = "give the seconds of a rest"});
+  }
 
   bool operator==(const Rests&) const = default;
 };
@@ -41,9 +61,24 @@ struct VelocityCorner {
 /// Fourier excitation: the velocity is a sum of cosines and sines of a period and its harmonics, their
 /// coefficients drawn for each realization; 0 at time 0, its largest value is `speed`.
 struct FourierMotion {
-  double period = 0;     // s
-  double harmonics = 0;  // a whole number, 1 or more
-  double speed = 0;      // rad/s or m/s
+  double period = 0;  // s
+  int harmonics = 0;  // 1 to 1000
+  double speed = 0;   // rad/s or m/s
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("period", &period,
+             {.unit = "s",
+              .bounds = {.above = 0},
+              .needed = "give the seconds after which it repeats itself"});
+    a->Field("harmonics", &harmonics,
+             {.bounds = {.at_least = 1, .at_most = 1000},
+              .needed = "give the number of harmonics, as 5"});
+    a->Field("speed", &speed,
+             {.unit = "rad/s",
+              .bounds = {.above = 0},
+              .needed = "give the largest speed, rad/s or m/s"});
+  }
 
   bool operator==(const FourierMotion&) const = default;
 };
@@ -56,8 +91,42 @@ struct MovesBetween {
   double acceleration = 0;            // rad/s^2 or m/s^2
   double pause = 0;                   // s
 
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("between", &between, {.unit = "rad", .needed = "give [lower, upper], rad or m"});
+    a->Field("speed", &speed,
+             {.unit = "rad/s",
+              .bounds = {.above = 0},
+              .needed = "give the largest speed, rad/s or m/s"});
+    a->Field("acceleration", &acceleration,
+             {.unit = "rad/s^2",
+              .bounds = {.above = 0},
+              .needed = "give that of the ramps, rad/s^2 or m/s^2"});
+    a->Field("pause", &pause, {.unit = "s", .bounds = {.at_least = 0}});
+  }
+
   bool operator==(const MovesBetween&) const = default;
 };
+
+/// Speeds as a file has them: a list, or a distribution.
+struct Speeds {
+  std::vector<double> list;           // rad/s or m/s, positive
+  std::optional<Distribution> draws;  // instead of the list
+};
+void ReadValue(const Node& node, Speeds* value, const FieldInfo& info);
+Tree WriteValue(const Speeds& value);
+
+/// What a motion travels between as a file has it: two limits, or the words joint_limits.
+struct Travel {
+  std::optional<std::pair<double, double>> limits;  // rad or m
+  bool joint_limits = false;
+};
+void ReadValue(const Node& node, Travel* value, const FieldInfo& info);
+Tree WriteValue(const Travel& value);
+
+/// [time, velocity].
+void ReadValue(const Node& node, VelocityCorner* value, const FieldInfo& info);
+Tree WriteValue(const VelocityCorner& value);
 
 /// Piecewise constant velocity: a speed for each segment, held for a time or until a joint limit;
 /// or phases of such motions; or a velocity that is given by its corners, as a recorded one is.
@@ -75,6 +144,17 @@ struct Motion {
   std::optional<FourierMotion> fourier;  // instead of all above but start
   std::optional<MovesBetween> moves;     // instead of all above
 
+  /// Speeds that are held or between limits, without phases.
+  bool steady() const { return !speed_list.empty() || speed_draws; }
+  /// Whether the corners follow each other in time.
+  bool CornersAscend() const;
+
+  template <class A>
+  void Serialize(A* a);
+  /// The members of a motion that holds speeds.
+  template <class A>
+  void SerializeHeld(A* a);
+
   bool operator==(const Motion&) const;
 };
 
@@ -84,8 +164,70 @@ struct MotionPhase {
   double duration = 0;           // s
   std::optional<Motion> motion;  // none: a rest
 
+  template <class A>
+  void Serialize(A* a);
+
   bool operator==(const MotionPhase&) const = default;
 };
+
+template <class A>
+void Motion::SerializeHeld(A* a) {
+  constexpr auto left_out = AtDefault::left_out;
+  Speeds speeds{speed_list, speed_draws};
+  a->Field("speeds", &speeds, {.unit = "rad/s"});
+  speed_list = speeds.list;
+  speed_draws = speeds.draws;
+  a->Field("hold", &hold, {.unit = "s", .bounds = {.above = 0}, .at_default = left_out});
+  a->Field("order", &order, {.at_default = left_out});
+  a->Field("rests", &rests);
+}
+
+template <class A>
+void Motion::Serialize(A* a) {
+  constexpr auto left_out = AtDefault::left_out;
+  SerializeHeld(a);
+  Travel ends{travel, travel_between_joint_limits};
+  a->Field("travel", &ends, {.unit = "rad"});
+  travel = ends.limits;
+  travel_between_joint_limits = ends.joint_limits;
+
+  // other kinds of motion, each by a key of its own
+  a->Field("phases", &phases, {.at_default = left_out});
+  a->Field("corners", &corners, {.at_default = left_out});
+  a->Field("fourier", &fourier);
+  a->Field("moves", &moves);
+  a->Field("start", &start, {.unit = "rad", .at_default = left_out});
+
+  // one kind, with its own keys alone
+  const int kinds = steady() + !phases.empty() + !corners.empty() + bool(fourier) + bool(moves);
+  a->Check(kinds == 1, "", "a map with one of speeds, phases, corners, fourier and moves");
+  const int ends_given = (hold > 0) + bool(travel) + travel_between_joint_limits;
+  a->Check(!steady() || ends_given == 1, "",
+           "a map with one of hold: seconds, and travel: [lower, upper] or joint_limits");
+  a->Check(steady() || (ends_given == 0 && !rests), "",
+           "a map in which hold, travel and rests stand beside speeds alone");
+  a->Check(start == 0 || !corners.empty() || fourier, "start",
+           "absent but for corners and fourier");
+  a->Check(CornersAscend(), "corners", "a list of [time, velocity] whose times ascend");
+}
+
+template <class A>
+void MotionPhase::Serialize(A* a) {
+  // {rest: s}, or a motion with its duration
+  std::optional<double> rest, lasts;
+  (motion ? lasts : rest) = duration;
+  if (duration == 0) rest.reset();
+  a->Field("rest", &rest, {.unit = "s", .bounds = {.above = 0}});
+  a->Field("duration", &lasts, {.unit = "s", .bounds = {.above = 0}});
+  Motion held = motion.value_or(Motion{});
+  held.SerializeHeld(a);
+  a->Check(rest.has_value() != lasts.has_value(), "", "a map with one of rest and duration, s");
+  a->Check(!rest || (!held.steady() && held.hold == 0), "", "a rest without speeds and hold");
+  a->Check(!lasts || (held.steady() && held.hold > 0), "", "a map with speeds and hold");
+  duration = rest ? *rest : lasts.value_or(0);
+  motion.reset();
+  if (lasts) motion = held;
+}
 
 /// One piece of the plan.
 struct MotionSegment {

@@ -2,10 +2,10 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "models/foundation/excerpt.h"
-#include "models/foundation/matrix_json.h"
+#include "models/foundation/parameter_covariance.h"
+#include "models/foundation/serialize.h"
 #include "models/friction/check_friction.h"
 
 namespace warmjoint::inline scenarios {
@@ -13,7 +13,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-using nlohmann::json;
 
 /// Draws outside of the physical bounds in a row after which an estimate counts as beyond them.
 constexpr int kMostDraws = 1000;
@@ -56,64 +55,49 @@ void CheckCovariance(const MatrixXd& covariance, const Place& place) {
 
 }  // namespace
 
-Posterior PosteriorFromJson(const json& object, const FrictionDescription& friction,
-                            const Place& place) {
-  if (!object.is_object() || object.size() != 2 || !object.contains("parameters") ||
-      !object.contains("covariance") || !object["parameters"].is_array()) {
-    Refuse(place, "a posterior has the keys parameters, a list of names, and covariance, a matrix");
-  }
-
-  // names of the friction's own parameters
-  Posterior posterior;
+Posterior PosteriorFrom(const Node& node, const FrictionDescription& friction) {
+  const auto posterior = ReadAs<Posterior>(node);
+  // names of the friction's own parameters, and a covariance that is one
   FrictionDescription known = friction;
-  for (const json& name : object["parameters"]) {
-    if (!name.is_string()) Refuse(place, "the parameters of a posterior are names");
-    posterior.parameters.push_back(name.get<std::string>());
-    if (!Find(known, posterior.parameters.back())) {
-      Refuse(place, "the friction has no parameter '{}'", Excerpt(posterior.parameters.back()));
+  for (const std::string& name : posterior.parameters) {
+    if (!Find(known, name)) {
+      Refuse(node.place(), "the friction has no parameter '{}'", Excerpt(name));
     }
   }
-  // their covariance, which must be one
-  posterior.covariance =
-      SquareFromJson(object["covariance"], posterior.parameters.size(), "covariance", place);
-  CheckCovariance(posterior.covariance, place);
+  CheckCovariance(posterior.covariance, node.place());
   return posterior;
 }
 
-json PosteriorToJson(const Posterior& posterior) {
-  return {{"parameters", posterior.parameters}, {"covariance", MatrixToJson(posterior.covariance)}};
-}
+Tree PosteriorToTree(const Posterior& posterior) { return WriteFields(posterior); }
 
-Posterior PosteriorOfEstimate(const json& estimate, const FrictionDescription& friction,
-                              const Place& place) {
-  const json covariance = estimate.value("covariance", json());
-  if (!covariance.is_object() || !covariance.contains("parameters") ||
-      !covariance["parameters"].is_array()) {
-    Refuse(place,
+Posterior PosteriorOfEstimate(const Node& estimate, const FrictionDescription& friction) {
+  const auto node = estimate.Find("covariance");
+  if (!node) {
+    Refuse(estimate.place(),
            "the estimate has no covariance to draw from: it was refused, or its identifier "
            "gives no intervals. Leave `draw` out to take its numbers as they are");
   }
   // the matrix of all that was estimated
-  const json& names = covariance["parameters"];
-  const MatrixXd whole =
-      SquareFromJson(covariance.value("matrix", json()), names.size(), "covariance.matrix", place);
+  const auto covariance = ReadAs<ParameterCovariance>(*node);
+  const std::vector<std::string>& names = covariance.parameters;
+  const MatrixXd& whole = covariance.matrix;
 
   // rows and columns of what the friction has
   Posterior posterior;
   FrictionDescription known = friction;
   std::vector<Index> kept;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    if (!names[i].is_string() || !Find(known, names[i].get<std::string>())) continue;
-    posterior.parameters.push_back(names[i].get<std::string>());
+    if (!Find(known, names[i])) continue;
+    posterior.parameters.push_back(names[i]);
     kept.push_back(static_cast<Index>(i));
   }
   if (kept.empty()) {
-    Refuse(place,
+    Refuse(estimate.place(),
            "the estimate's covariance holds no parameter of its friction; leave `draw` out to take "
            "its numbers as they are");
   }
   posterior.covariance = whole(kept, kept);
-  CheckCovariance(posterior.covariance, place);
+  CheckCovariance(posterior.covariance, estimate.place());
   return posterior;
 }
 

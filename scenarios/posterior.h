@@ -2,12 +2,12 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <nlohmann/json_fwd.hpp>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "models/foundation/bad_input.h"
+#include "models/foundation/node.h"
 #include "models/foundation/random_stream.h"
 #include "models/friction/friction_description.h"
 
@@ -19,23 +19,29 @@ struct Posterior {
       parameters;              // [p] names of the law's, thermal_gain, thermal_time_constant
   Eigen::MatrixXd covariance;  // [p x p] in products of their units
 
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("parameters", &parameters, {.needed = "name some of the friction's"});
+    a->Field("covariance", &covariance, {.needed = "give a matrix with a row for each parameter"});
+    a->Check(covariance.rows() == covariance.cols() && covariance.rows() == std::ssize(parameters),
+             "covariance", "a matrix with a row and a column for each parameter");
+  }
+
   bool operator==(const Posterior& other) const {
     return parameters == other.parameters && covariance == other.covariance;
   }
 };
 
-/// {parameters[], covariance[][]}. Throws BadInput from `place` for a parameter that `friction` does not
+/// {parameters[], covariance[][]}. Throws BadInput for a parameter that `friction` does not
 /// have, and for a matrix that is no covariance: not square, not symmetric, or with a negative variance
 /// in some direction.
-Posterior PosteriorFromJson(const nlohmann::json& object, const FrictionDescription& friction,
-                            const Place& place);
-nlohmann::json PosteriorToJson(const Posterior& posterior);
+Posterior PosteriorFrom(const Node& node, const FrictionDescription& friction);
+Tree PosteriorToTree(const Posterior& posterior);
 
 /// What estimate.json says of its friction's parameters: the rows and columns of its covariance that are
-/// the friction's; gravity, inertia and the start are integrated out. Throws BadInput from `place` where
-/// the estimate has no covariance.
-Posterior PosteriorOfEstimate(const nlohmann::json& estimate, const FrictionDescription& friction,
-                              const Place& place);
+/// the friction's; gravity, inertia and the start are integrated out. Throws BadInput where the estimate
+/// has no covariance.
+Posterior PosteriorOfEstimate(const Node& estimate, const FrictionDescription& friction);
 
 /// A friction drawn from the normal distribution about `friction`, given that its parameters are within
 /// their physical bounds: draws outside of them are repeated. Throws BadInput from `place` where 1000

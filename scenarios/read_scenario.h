@@ -44,9 +44,9 @@
 
 #include <string>
 
+#include "models/foundation/node.h"
 #include "scenarios/scenario.h"
 #include "scenarios/setting.h"
-#include "scenarios/yaml_value.h"
 
 namespace warmjoint::inline scenarios {
 
@@ -54,10 +54,21 @@ namespace warmjoint::inline scenarios {
 /// values throw BadInput with file:line, the value, the bound and the nearest known key.
 Scenario ReadScenario(const std::string& path, const Settings& settings = {});
 
+/// The same of a text; file: what refusals name, and where relative paths start.
+Scenario ParseScenario(const std::string& text, const std::string& file,
+                       const Settings& settings = {});
+
 /// The same for a value that is part of a larger file. name: of the scenario where it gives none.
-Scenario ReadScenarioValue(const YamlValue& value, const std::string& name);
+Scenario ScenarioFrom(const Node& node, const std::string& name);
 
 /// The scenario with settings applied to it, checked like a file.
 Scenario WithSettings(const Scenario& scenario, const Settings& settings);
+
+/// The whole scenario, defaults written out; reading it gives the same scenario bit for bit.
+std::string ScenarioToYaml(const Scenario& scenario);
+Tree ScenarioToTree(const Scenario& scenario);
+
+/// A motion and a duration, s, as settings of a scenario.
+Settings MotionSettings(const Motion& motion, double duration);
 
 }  // namespace warmjoint::inline scenarios

@@ -1,6 +1,6 @@
 #include "scenarios/realize.h"
 
-#include "scenarios/yaml_friction.h"
+#include "scenarios/truth_draws.h"
 
 namespace warmjoint::inline scenarios {
 

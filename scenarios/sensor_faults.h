@@ -1,12 +1,20 @@
 // Faults of sensors, clocks and files that spoil a log. All at their defaults: none.
 #pragma once
 
+#include "models/foundation/field.h"
+
 namespace warmjoint::inline scenarios {
 
 /// The torque sensor drifts: its offset and its gain change evenly in time.
 struct SensorDrift {
   double offset = 0;  // N.m or N in an hour
   double gain = 0;    // share in an hour
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("offset", &offset, {.unit = "N.m"});
+    a->Field("gain", &gain);
+  }
 
   bool operator==(const SensorDrift&) const = default;
 };
@@ -16,6 +24,12 @@ struct GainStep {
   double factor = 1;
   double time = 0;  // s
 
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("factor", &factor, {.needed = kGiveNumber});
+    a->Field("time", &time, {.unit = "s", .bounds = {.at_least = 0}, .needed = kGiveNumber});
+  }
+
   bool operator==(const GainStep&) const = default;
 };
 
@@ -23,6 +37,12 @@ struct GainStep {
 struct Clock {
   double factor = 1;
   double jitter = 0;  // s
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("factor", &factor, {.bounds = {.above = 0}});
+    a->Field("jitter", &jitter, {.unit = "s", .bounds = {.at_least = 0}});
+  }
 
   bool operator==(const Clock&) const = default;
 };
@@ -33,6 +53,13 @@ struct ColumnScale {
   double velocity = 1;
   double torque = 1;
 
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("position", &position);
+    a->Field("velocity", &velocity);
+    a->Field("torque", &torque);
+  }
+
   bool operator==(const ColumnScale&) const = default;
 };
 
@@ -41,12 +68,24 @@ struct Stuck {
   double time = 0;      // s
   double duration = 0;  // s
 
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("time", &time, {.unit = "s", .bounds = {.at_least = 0}, .needed = kGiveNumber});
+    a->Field("duration", &duration,
+             {.unit = "s", .bounds = {.at_least = 0}, .needed = kGiveNumber});
+  }
+
   bool operator==(const Stuck&) const = default;
 };
 
 /// The torque cannot leave -level to level.
 struct Clipped {
   double level = 0;  // N.m or N; 0: it can
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("level", &level, {.unit = "N.m", .bounds = {.at_least = 0}, .needed = kGiveNumber});
+  }
 
   bool operator==(const Clipped&) const = default;
 };
@@ -55,6 +94,11 @@ struct Clipped {
 struct DeadBand {
   double level = 0;  // N.m or N
 
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("level", &level, {.unit = "N.m", .bounds = {.at_least = 0}, .needed = kGiveNumber});
+  }
+
   bool operator==(const DeadBand&) const = default;
 };
 
@@ -62,12 +106,23 @@ struct DeadBand {
 struct TorqueResolution {
   double resolution = 0;  // N.m or N
 
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("resolution", &resolution,
+             {.unit = "N.m", .bounds = {.at_least = 0}, .needed = kGiveNumber});
+  }
+
   bool operator==(const TorqueResolution&) const = default;
 };
 
 /// The logged torque is that of some samples ago.
 struct LateTorque {
-  double samples = 0;  // a whole number
+  int samples = 0;
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("samples", &samples, {.bounds = {.at_least = 0}, .needed = kGiveNumber});
+  }
 
   bool operator==(const LateTorque&) const = default;
 };
@@ -75,6 +130,11 @@ struct LateTorque {
 /// The log begins later than the motion: what came before is not in it.
 struct CutStart {
   double time = 0;  // s
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("time", &time, {.unit = "s", .bounds = {.at_least = 0}, .needed = kGiveNumber});
+  }
 
   bool operator==(const CutStart&) const = default;
 };
@@ -84,12 +144,24 @@ struct Gap {
   double time = 0;      // s
   double duration = 0;  // s
 
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("time", &time, {.unit = "s", .bounds = {.at_least = 0}, .needed = kGiveNumber});
+    a->Field("duration", &duration,
+             {.unit = "s", .bounds = {.at_least = 0}, .needed = kGiveNumber});
+  }
+
   bool operator==(const Gap&) const = default;
 };
 
 /// Single samples that the log lacks, at random; the first and the last are there.
 struct LostSamples {
   double fraction = 0;  // of the samples, below 1
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("fraction", &fraction, {.bounds = {.at_least = 0, .below = 1}, .needed = kGiveNumber});
+  }
 
   bool operator==(const LostSamples&) const = default;
 };
@@ -112,6 +184,30 @@ struct SensorFaults {
   bool reversed_torque = false;  // the column runs from the end of the log to its beginning
   bool swapped_columns = false;  // torque under the name of velocity, and the other way round
   bool without_load = false;     // a load that acts and is not logged
+
+  template <class A>
+  void Serialize(A* a) {
+    constexpr FieldInfo absent{.at_default = AtDefault::left_out};
+    a->Field("sensor_drift", &sensor_drift, absent);
+    a->Field("gain_step", &gain_step, absent);
+    a->Field("clock", &clock, absent);
+    a->Field("column_scale", &column_scale, absent);
+    a->Field("stuck_position", &stuck_position, absent);
+    a->Field("stuck_velocity", &stuck_velocity, absent);
+    a->Field("stuck_torque", &stuck_torque, absent);
+    a->Field("clipped", &clipped, absent);
+    a->Field("dead_band", &dead_band, absent);
+    a->Field("torque_resolution", &torque_resolution, absent);
+    a->Field("late_torque", &late_torque, absent);
+    a->Field("cut_start", &cut_start, absent);
+    a->Field("gap", &gap, absent);
+    a->Field("lost_samples", &lost_samples, absent);
+    a->Flag("restarted_clock", &restarted_clock);
+    a->Flag("unsigned_torque", &unsigned_torque);
+    a->Flag("reversed_torque", &reversed_torque);
+    a->Flag("swapped_columns", &swapped_columns);
+    a->Flag("without_load", &without_load);
+  }
 
   bool operator==(const SensorFaults&) const = default;
 };

@@ -25,6 +25,18 @@ struct Ladder {
   std::string unit;      // of the variable, for tables and axes
   std::vector<Variant> variants;
 };
+void ReadValue(const Node& node, Ladder* value, const FieldInfo& info);
+Tree WriteValue(const Ladder& value);
+
+/// The scenario of a suite, which has no name and seed of its own.
+struct SuiteScenario {
+  Scenario scenario;
+};
+void ReadValue(const Node& node, SuiteScenario* value, const FieldInfo& info);
+Tree WriteValue(const SuiteScenario& value);
+
+/// Most realizations of a variant: their list takes 80 MB.
+inline constexpr int kMostRealizations = 10'000'000;
 
 struct Suite {
   std::string name;
@@ -36,6 +48,25 @@ struct Suite {
 
   /// Number of groups: that of the ladder's variants, 1 without a ladder.
   int variants() const { return ladder ? static_cast<int>(ladder->variants.size()) : 1; }
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("name", &name);
+    a->Field("question", &question, {.needed = "say in a sentence what the suite asks"});
+    a->Field("realizations", &realizations,
+             {.bounds = {.at_least = 1, .at_most = kMostRealizations}});
+    // one seed and one name for all of it
+    std::uint64_t seed = scenario.seed;
+    a->Field("seed", &seed);
+    SuiteScenario realized{scenario};
+    a->Field("scenario", &realized, {.needed = "give the scenario to realize"});
+    scenario = realized.scenario;
+    scenario.name = name;
+    scenario.seed = seed;
+    // what varies, and who answers
+    a->Field("ladder", &ladder);
+    a->Field("identifiers", &identifiers, {.needed = "list at least one identifier"});
+  }
 };
 
 /// The scenario of one group, with the suite's seed. variant: from 0. Without a ladder it is the
@@ -62,6 +93,9 @@ Scenario VariantScenario(const Suite& suite, int variant);
 ///                                  files that it names stand relative to the suite file
 /// Throws BadInput as ReadScenario does; every variant is checked.
 Suite ReadSuite(const std::string& path);
+
+/// The same of a text; file: what refusals name, and where relative paths start.
+Suite ParseSuite(const std::string& text, const std::string& file);
 
 /// The whole suite, defaults written out; ReadSuite of it gives the same suite.
 std::string SuiteToYaml(const Suite& suite);

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "models/foundation/field.h"
+
 namespace warmjoint::inline scenarios {
 
 /// Figures that a claim can name: relative errors (0.05 is 5 %), N.m or N, N.m or N, %, (N.m)^2.
@@ -16,6 +18,17 @@ inline constexpr std::array<const char*, 6> kClaimFigures{
 struct Claim {
   std::string source;                     // for example "paper, Fig. 6"
   std::map<std::string, double> figures;  // by their names in kClaimFigures
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("source", &source, {.needed = "say who claims it"});
+    for (const char* name : kClaimFigures) {
+      std::optional<double> figure;
+      if (const auto found = figures.find(name); found != figures.end()) figure = found->second;
+      a->Field(name, &figure, {.bounds = {.at_least = 0}});
+      if (figure) figures[name] = *figure;
+    }
+  }
 
   bool operator==(const Claim&) const = default;
 };
@@ -30,6 +43,23 @@ struct SuiteIdentifier {
   std::string label;                           // row of the leaderboard; the name where not given
   std::map<std::string, std::string> options;  // as --set of `identify`
   std::optional<Claim> claim;
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("name", &name, {.needed = "name an identifier (`list identifiers`)"});
+    if (label.empty()) label = name;
+    a->Field("label", &label);
+    a->Field("options", &options, {.at_default = AtDefault::left_out});
+    a->Field("claim", &claim);
+    // a command of the user's stands in the place of an identifier of the list
+    std::string command;
+    a->Field("command", &command, {.at_default = AtDefault::left_out});
+    a->Check(command.empty() || !options.contains("command"), "command",
+             "absent: it stands in options too");
+    if (command.empty()) return;
+    name = kExternal;
+    options["command"] = command;
+  }
 
   bool operator==(const SuiteIdentifier&) const = default;
 };

@@ -5,6 +5,9 @@
 #include <optional>
 #include <string>
 
+#include "models/foundation/node.h"
+#include "models/foundation/random_stream.h"
+#include "models/friction/friction_description.h"
 #include "scenarios/distribution.h"
 #include "scenarios/posterior.h"
 
@@ -20,5 +23,41 @@ struct TruthDraws {
   bool empty() const { return numbers.empty() && !posterior; }
   bool operator==(const TruthDraws&) const = default;
 };
+
+/// A friction, its numbers that are drawn at their middles, as the key `friction` has it: as in a friction file, where any
+/// number may be a distribution; the path of one; {estimate: FILE}, and with `draw: posterior` what the estimate leaves open.
+struct DrawnFriction {
+  FrictionDescription friction;
+  TruthDraws draws;
+};
+void ReadValue(const Node& node, DrawnFriction* value, const FieldInfo& info);
+Tree WriteValue(const DrawnFriction& value);
+
+/// The truth of a scenario, at the middles of what is drawn.
+struct DrawnTruth {
+  FrictionDescription friction;
+  double initial_energy = 0;  // N.m or N
+  TruthDraws draws;
+
+  template <class A>
+  void Serialize(A* a) {
+    constexpr const char* energy_key = "initial_energy";
+    const auto drawn = draws.numbers.find(energy_key);
+    Distribution energy =
+        drawn == draws.numbers.end() ? Distribution{.a = initial_energy} : drawn->second;
+    draws.numbers.erase(energy_key);
+    DrawnFriction whole{friction, draws};
+    a->Field("friction", &whole, {.needed = "give the true law and its parameters"});
+    a->Field(energy_key, &energy, {.unit = "N.m"});
+    friction = whole.friction;
+    draws = whole.draws;
+    initial_energy = energy.a;
+    if (energy.kind != Distribution::Kind::fixed) draws.numbers[energy_key] = energy;
+  }
+};
+
+/// A friction of its draws. Throws BadInput from `place` where the posterior gives none within physical bounds.
+FrictionDescription DrawFriction(const FrictionDescription& friction, const TruthDraws& draws,
+                                 RandomStream& random, const Place& place);
 
 }  // namespace warmjoint::inline scenarios

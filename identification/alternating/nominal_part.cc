@@ -3,7 +3,7 @@
 #include "identification/fit_data.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/maps/position_maps.h"
-#include "models/recording/without_rest.h"
+#include "models/recording/selection.h"
 
 namespace warmjoint::inline identification {
 namespace {

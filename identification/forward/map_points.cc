@@ -1,6 +1,6 @@
 #include "identification/forward/map_points.h"
 
-#include "models/recording/motor_angle.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
 

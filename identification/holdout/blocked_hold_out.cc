@@ -20,10 +20,10 @@ std::vector<Eigen::Index> CutIntoBlocks(const Selection& selection, int blocks) 
   return bounds;
 }
 
-std::optional<std::vector<Metrics>> BlockedFigures(const Identifier& identifier,
-                                                   const IdentifierInput& input,
-                                                   const std::vector<Eigen::Index>& bounds) {
-  std::vector<Metrics> figures;
+std::optional<Eigen::VectorXd> BlockedErrors(const Identifier& identifier,
+                                             const IdentifierInput& input,
+                                             const std::vector<Eigen::Index>& bounds) {
+  Eigen::VectorXd errors(static_cast<Eigen::Index>(bounds.size()) - 1);
   for (size_t b = 0; b + 1 < bounds.size(); ++b) {
     // fit to all but the block, evaluate on the block alone
     const Eigen::Index length = bounds[b + 1] - bounds[b];
@@ -35,19 +35,7 @@ std::optional<std::vector<Metrics>> BlockedFigures(const Identifier& identifier,
     const Fit fit = AtBounds(identifier.fit(rest), rest.measurements);
     const auto metrics = Evaluate(fit, input.measurements, block, fit.Start());
     if (!metrics) return std::nullopt;
-    figures.push_back(*metrics);
-  }
-  return figures;
-}
-
-std::optional<Eigen::VectorXd> BlockedErrors(const Identifier& identifier,
-                                             const IdentifierInput& input,
-                                             const std::vector<Eigen::Index>& bounds) {
-  const auto figures = BlockedFigures(identifier, input, bounds);
-  if (!figures) return std::nullopt;
-  Eigen::VectorXd errors(static_cast<Eigen::Index>(figures->size()));
-  for (size_t b = 0; b < figures->size(); ++b) {
-    errors[static_cast<Eigen::Index>(b)] = (*figures)[b].rmse * (*figures)[b].rmse;
+    errors[static_cast<Eigen::Index>(b)] = metrics->rmse * metrics->rmse;
   }
   return errors;
 }

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "identification/identifier.h"
-#include "identification/metrics.h"
 
 namespace warmjoint::inline identification {
 
@@ -14,15 +13,9 @@ namespace warmjoint::inline identification {
 /// Returns the first sample of each, and N: [blocks + 1].
 std::vector<Eigen::Index> CutIntoBlocks(const Selection& selection, int blocks);
 
-/// Figures on each block of a fit to all the others. The samples of the
+/// Mean squared error on each block of a fit to all the others, (N.m)^2 or N^2. The samples of the
 /// block are left out of the fit alone: they still warm the joint, in fit and prediction. Nothing
 /// where a fit gives no friction. bounds: of CutIntoBlocks; returns [blocks].
-std::optional<std::vector<Metrics>> BlockedFigures(const Identifier& identifier,
-                                                   const IdentifierInput& input,
-                                                   const std::vector<Eigen::Index>& bounds);
-
-/// Mean squared error on each block of a fit to all the others, (N.m)^2 or N^2: of BlockedFigures.
-/// Returns [blocks].
 std::optional<Eigen::VectorXd> BlockedErrors(const Identifier& identifier,
                                              const IdentifierInput& input,
                                              const std::vector<Eigen::Index>& bounds);

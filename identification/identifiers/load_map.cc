@@ -20,7 +20,7 @@ std::vector<std::vector<FrictionMap>> Shapes(const Options& options, const MapSe
   for (const double width : settings.widths) {
     FrictionMap map{{}, settings.kernels, {}, MapFactor::direction};
     for (const MapQuantity quantity : quantities) {
-      const std::string option = fmt::format("{}_kernels", MapQuantityName(quantity));
+      const std::string option = fmt::format("{}_kernels", NameOf(quantity));
       map.axes.push_back(RangeAxis(quantity, points, options.Integer(option), width));
     }
     shapes.push_back({map});

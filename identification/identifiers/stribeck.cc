@@ -17,7 +17,7 @@
 #include "identification/warming/warm_fit.h"
 #include "identification/warming/warming_verdict.h"
 #include "models/recording/course_of.h"
-#include "models/recording/without_rest.h"
+#include "models/recording/selection.h"
 
 namespace warmjoint::inline identification {
 namespace {

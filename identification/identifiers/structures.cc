@@ -15,7 +15,7 @@
 #include "identification/read_options.h"
 #include "identification/warming/expected_start.h"
 #include "models/friction/asymmetric_stribeck.h"
-#include "models/recording/motor_angle.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
 

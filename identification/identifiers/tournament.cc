@@ -17,7 +17,7 @@
 #include "identification/read_options.h"
 #include "models/friction/coulomb.h"
 #include "models/recording/course_of.h"
-#include "models/recording/motor_angle.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
 namespace {

@@ -12,7 +12,7 @@
 #include "identification/lack_of_fit/significance.h"
 #include "identification/lack_of_fit/wave_products.h"
 #include "models/foundation/robust_noise.h"
-#include "models/recording/motor_angle.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
 namespace {

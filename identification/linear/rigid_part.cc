@@ -169,7 +169,7 @@ std::string IndistinctColumns(const std::vector<Eigen::Index>& mixed, const Law&
   // what is mixed, in words
   std::vector<std::string> parts;
   if (!names.empty()) parts.push_back(fmt::format("{}", fmt::join(names, ", ")));
-  if (lifts) parts.push_back(fmt::format("gravity ({})", GravityName(gravity.kind)));
+  if (lifts) parts.push_back(fmt::format("gravity ({})", NameOf(gravity.kind)));
   if (moves_mass) parts.emplace_back("inertia");
 
   // and what motion would tell them apart

@@ -73,8 +73,7 @@ std::string LineOf(const FrictionMap& map, size_t line, JointKind joint) {
                                   : fmt::format(" {}", way)) +
               words;
     } else {
-      words = fmt::format(" at {} {:.3g} {}", MapQuantityName(over), centre, UnitOf(over, joint)) +
-              words;
+      words = fmt::format(" at {} {:.3g} {}", NameOf(over), centre, UnitOf(over, joint)) + words;
     }
   }
   return words;
@@ -100,9 +99,9 @@ void AddHoles(const FrictionMap& map, size_t first, size_t line, const std::vect
     }
     // from half a cell below its first kernel to half a cell above its last
     const double lower = centres[i] - half, upper = centres[end] + half;
-    holes.push_back({upper - lower,
-                     fmt::format("{} {:.3g} to {:.3g} {}{}", MapQuantityName(axis.quantity), lower,
-                                 upper, UnitOf(axis.quantity, joint), LineOf(map, line, joint))});
+    holes.push_back(
+        {upper - lower, fmt::format("{} {:.3g} to {:.3g} {}{}", NameOf(axis.quantity), lower, upper,
+                                    UnitOf(axis.quantity, joint), LineOf(map, line, joint))});
     i = end;
   }
 }

@@ -55,7 +55,7 @@ std::string ShapeOf(const std::vector<FrictionMap>& maps) {
   for (const FrictionMap& map : maps) {
     std::vector<std::string> axes;
     for (const MapAxis& axis : map.axes) {
-      axes.push_back(fmt::format("{} {}", axis.kernels.size(), MapQuantityName(axis.quantity)));
+      axes.push_back(fmt::format("{} {}", axis.kernels.size(), NameOf(axis.quantity)));
     }
     shapes.push_back(fmt::format("{} kernels", fmt::join(axes, " x ")));
   }

@@ -63,7 +63,7 @@ MapPoints Places(const FrictionMap& map, double speed, const MapPoints& kept, Ma
     band.points.push_back(std::move(centre));
   }
   // quantities along the axes, for the reader of the band
-  for (const MapAxis& axis : map.axes) band.quantities.emplace_back(MapQuantityName(axis.quantity));
+  for (const MapAxis& axis : map.axes) band.quantities.emplace_back(NameOf(axis.quantity));
   return places;
 }
 

@@ -76,7 +76,7 @@ MapAxis TurnAxis(MapQuantity angle, int count, double width) {
 
 std::optional<std::string> CannotCarry(MapQuantity quantity, const MapPoints& points) {
   const Eigen::VectorXd x = Column(quantity, points);
-  const std::string_view name = MapQuantityName(quantity);
+  const std::string_view name = NameOf(quantity);
   if (!x.allFinite()) {
     return fmt::format("{} is not a finite number at some sample; repair or remove it", name);
   }

@@ -6,7 +6,7 @@
 
 #include "identification/maps/motor_harmonics.h"
 #include "identification/maps/position_maps.h"
-#include "models/recording/motor_angle.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
 

@@ -178,7 +178,7 @@ Fit AsFit(const IdentifierInput& input, const WarmMaps& warm) {
         name, Status::inadequate_model,
         WouldFeedItself(m.time[at],
                         AgainstPushing("energy-ml", fit.friction.law,
-                                       fit.gravity ? GravityName(fit.gravity->kind) : "none")));
+                                       fit.gravity ? NameOf(fit.gravity->kind) : "none")));
   }
   return fit;
 }

@@ -6,7 +6,7 @@
 #include "identification/linear/linear_laws.h"
 #include "identification/warming/further_passes.h"
 #include "identification/warming/scan_time_constant.h"
-#include "models/recording/without_rest.h"
+#include "models/recording/selection.h"
 
 namespace warmjoint::inline identification {
 namespace {

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "models/recording/measurements.h"
-#include "models/recording/recordings_of.h"
 
 namespace warmjoint::inline identification {
 

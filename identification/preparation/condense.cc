@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-#include "models/recording/motor_angle.h"
+#include "models/recording/measurements.h"
 #include "models/recording/sampling.h"
 
 namespace warmjoint::inline identification {

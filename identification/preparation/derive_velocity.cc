@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "identification/preparation/position_noise.h"
-#include "models/foundation/butterworth.h"
+#include "models/foundation/low_pass.h"
 #include "models/foundation/robust_noise.h"
 #include "models/recording/sampling.h"
 

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "identification/preparation/check.h"
-#include "models/recording/motor_angle.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
 namespace {

@@ -7,7 +7,6 @@
 #include "identification/preparation/log_view.h"
 #include "models/foundation/robust_noise.h"
 #include "models/recording/measurements.h"
-#include "models/recording/recordings_of.h"
 
 namespace warmjoint::inline identification {
 

@@ -8,7 +8,7 @@
 #include "identification/preparation/insert_samples.h"
 #include "identification/preparation/monotone_path.h"
 #include "identification/preparation/position_plateaus.h"
-#include "models/recording/recordings_of.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
 namespace {

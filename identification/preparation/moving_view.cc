@@ -8,7 +8,7 @@
 #include "identification/preparation/between_samples.h"
 #include "identification/preparation/local_motion.h"
 #include "models/foundation/robust_noise.h"
-#include "models/recording/recordings_of.h"
+#include "models/recording/measurements.h"
 #include "models/recording/sampling.h"
 
 namespace warmjoint::inline identification {

@@ -8,7 +8,6 @@
 #include "identification/preparation/position_noise.h"
 #include "identification/preparation/speed_change.h"
 #include "models/recording/measurements.h"
-#include "models/recording/recordings_of.h"
 #include "models/recording/selection.h"
 
 namespace warmjoint::inline identification {

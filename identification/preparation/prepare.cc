@@ -13,7 +13,7 @@
 #include "identification/preparation/split_at_switches.h"
 #include "identification/preparation/take_ways.h"
 #include "models/foundation/bad_input.h"
-#include "models/recording/recordings_of.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -145,7 +145,7 @@ struct PreparedLog::Maker {
   }
 
   /// A log whose positions tell the velocity.
-  static Log OfPositions(Measurements measurements, const HoldOptions& holds) {
+  static Log OfPositions(Measurements measurements, const PrepareSettings& holds) {
     measurements.notes.emplace_back(
         "velocity computed from the positions, one value for each segment");
     Log log{{std::move(measurements), {}}, MotionSource::positions, {}, {}, 0, {}, {}};
@@ -165,7 +165,8 @@ struct PreparedLog::Maker {
   /// A log whose positions contradict its velocity column, from the positions. Nothing where these by themselves tell
   /// other speeds.
   static std::optional<Log> WithoutColumn(const Measurements& measurements,
-                                          const Selection& selection, const HoldOptions& holds) {
+                                          const Selection& selection,
+                                          const PrepareSettings& holds) {
     Measurements positions = measurements;
     positions.velocity.resize(0);
     Log log = OfPositions(std::move(positions), holds);
@@ -181,7 +182,7 @@ struct PreparedLog::Maker {
   /// these have faults.
   static std::optional<Log> WithoutCoarseColumn(const Measurements& measurements,
                                                 const Selection& selection,
-                                                const HoldOptions& holds) {
+                                                const PrepareSettings& holds) {
     const std::optional<double> step = CoarseStep(measurements, selection);
     if (!step) return {};
     Measurements positions = measurements;
@@ -197,7 +198,7 @@ struct PreparedLog::Maker {
 
   /// A log whose velocity column is held against its positions: these replace it where they contradict it, and tell
   /// the ways between its segments where they know more of these.
-  static Log OfColumnAndPositions(Measurements measurements, const HoldOptions& holds) {
+  static Log OfColumnAndPositions(Measurements measurements, const PrepareSettings& holds) {
     ConstantSpeed found = FindConstantSpeed(measurements);
     if (auto log = WithoutCoarseColumn(measurements, found.selection, holds)) {
       return std::move(*log);
@@ -236,7 +237,7 @@ struct PreparedLog::Maker {
   }
 };
 
-PreparedLog Prepare(Measurements measurements, const HoldOptions& holds) {
+PreparedLog Prepare(Measurements measurements, const PrepareSettings& holds) {
   const bool has_velocity = measurements.velocity.size() > 0;
   const auto make =
       has_velocity ? &PreparedLog::Maker::OfColumnAndPositions : &PreparedLog::Maker::OfPositions;

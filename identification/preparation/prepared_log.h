@@ -12,7 +12,7 @@
 
 namespace warmjoint::inline identification {
 
-struct HoldOptions;
+struct PrepareSettings;
 
 /// What is made when it is first asked for, by whichever thread is first.
 template <typename T>
@@ -96,7 +96,7 @@ class PreparedLog {
 
   struct Maker;
   explicit PreparedLog(Log log) : log_(std::make_shared<const Log>(std::move(log))) {}
-  friend PreparedLog Prepare(Measurements measurements, const HoldOptions& holds);
+  friend PreparedLog Prepare(Measurements measurements, const PrepareSettings& holds);
   friend PreparedLog Prepare(Measurements measurements, Selection known);
 
   std::shared_ptr<const Log> log_;

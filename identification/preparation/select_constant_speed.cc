@@ -5,7 +5,7 @@
 #include "identification/preparation/plateaus.h"
 #include "identification/preparation/select.h"
 #include "models/foundation/robust_noise.h"
-#include "models/recording/recordings_of.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -240,7 +240,7 @@ ConstantSpeed FindInRecording(const Measurements& measurements) {
 
 }  // namespace
 
-void TakeOptions(const HoldOptions& holds, const Eigen::VectorXd& time, Selection& selection) {
+void TakeOptions(const PrepareSettings& holds, const Eigen::VectorXd& time, Selection& selection) {
   constexpr double rounding = 1e-9;  // s, of time stamps
   std::vector<Segment> left;
   for (const Segment& segment : selection.segments) {
@@ -249,7 +249,7 @@ void TakeOptions(const HoldOptions& holds, const Eigen::VectorXd& time, Selectio
     const double lasts = time[behind] - time[segment.begin];
     Segment kept = segment;
     // a short segment is left out whole, others lose `trim` seconds at each end
-    if (lasts < holds.shortest - rounding) {
+    if (lasts < holds.shortest_hold - rounding) {
       kept.end = kept.begin;
     } else if (holds.trim > 0) {
       while (kept.begin < kept.end &&

@@ -6,7 +6,6 @@
 #include "identification/preparation/check.h"
 #include "identification/report/discrete_pair.h"
 #include "identification/report/end_state.h"
-#include "identification/report/heat_beside_temperature.h"
 #include "models/foundation/robust_noise.h"
 #include "models/friction/joint_kind.h"
 #include "models/friction/thermal.h"
@@ -118,7 +117,6 @@ Estimate ReportFit(const Fit& fit, const Inference& inference, const Measurement
   // and what can be used elsewhere
   estimate.friction = FrictionOf(fit, inference);
   estimate.state_end = EndState(fit, inference, *estimate.friction, measurements);
-  estimate.temperature = HeatBesideTemperature(fit, inference, *estimate.friction, measurements);
   if (inference.gives_bands) {
     estimate.bands = fit.bands;
     estimate.at_speeds = fit.at_speeds;

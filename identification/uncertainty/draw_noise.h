@@ -2,7 +2,7 @@
 #pragma once
 
 #include "identification/uncertainty/noise_model.h"
-#include "models/foundation/start_stream.h"
+#include "models/foundation/random_stream.h"
 
 namespace warmjoint::inline identification {
 

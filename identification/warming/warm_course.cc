@@ -10,7 +10,7 @@
 #include "identification/warming/expected_start.h"
 #include "identification/warming/further_passes.h"
 #include "identification/warming/warm_answer.h"
-#include "models/recording/without_rest.h"
+#include "models/recording/selection.h"
 
 namespace warmjoint::inline identification {
 

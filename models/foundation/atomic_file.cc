@@ -5,11 +5,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <array>
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <system_error>
-#include <utility>
 
 #include "models/foundation/bad_input.h"
 #include "models/foundation/output_failed.h"
@@ -18,28 +17,27 @@ namespace warmjoint::inline models {
 namespace fs = std::filesystem;
 namespace {
 
-std::string Words(int error) { return std::generic_category().message(error); }
+constexpr std::string_view kPart = ".warmjoint.part.", kDrawn = "XXXXXX";
 
-/// The mode that a new file gets: what the user's mask leaves of rw-rw-rw-.
-mode_t NewFileMode() {
-  static const mode_t mask = [] {
-    const mode_t old = umask(077);
-    umask(old);
-    return old;
-  }();
-  return 0666 & ~mask;
+/// The name of something under construction, for mkstemp and mkdtemp to draw.
+std::string Pattern(const fs::path& folder, const std::string& extension) {
+  return folder / (std::string(kPart) + std::string(kDrawn) + extension);
 }
 
-const char* KindOf(mode_t mode) {
-  if (S_ISDIR(mode)) return "a folder";
-  if (S_ISFIFO(mode)) return "a pipe";
-  if (S_ISCHR(mode) || S_ISBLK(mode)) return "a device";
-  return "no regular file";
+/// What is under construction cannot be made in a folder. A full disk says nothing against the name.
+[[noreturn]] void RefuseFolder(const std::string& name, const fs::path& folder, int error) {
+  if (error == ENOSPC || error == EDQUOT || error == EMFILE || error == ENFILE || error == EIO) {
+    FailOutput(name, error);
+  }
+  Refuse({name}, "its folder '{}' cannot be written to ({}); choose another, or make it first",
+         folder.string(), std::generic_category().message(error));
 }
 
-/// Whether the system lacks what another place or time may have, rather than the name being wrong.
-bool LacksRoom(int error) {
-  return error == ENOSPC || error == EDQUOT || error == EMFILE || error == ENFILE || error == EIO;
+/// The permissions in `wanted` that the user's mask leaves to new files.
+mode_t Permitted(mode_t wanted) {
+  const mode_t mask = umask(077);
+  umask(mask);
+  return wanted & ~mask;
 }
 
 void WriteAll(int file, std::string_view bytes, const std::string& name) {
@@ -52,98 +50,69 @@ void WriteAll(int file, std::string_view bytes, const std::string& name) {
   }
 }
 
-/// Standard output gets the bytes of a file, after what was printed before.
-void CopyToStandardOutput(const fs::path& from) {
-  if (std::fflush(stdout) != 0) FailOutput("standard output", errno);
-  const int file = open(from.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) FailOutput("standard output", errno);
-  std::array<char, 65536> block;
-  // the file is closed whatever becomes of standard output
-  try {
-    for (ssize_t n; (n = read(file, block.data(), block.size())) != 0;) {
-      if (n < 0 && errno == EINTR) continue;
-      if (n < 0) FailOutput("standard output", errno);
-      WriteAll(STDOUT_FILENO, {block.data(), static_cast<std::size_t>(n)}, "standard output");
-    }
-  } catch (...) {
-    close(file);
-    throw;
+void RefuseForeignContents(const fs::path& target, const std::vector<std::string>& replaceable) {
+  if (!fs::exists(target)) return;
+  if (!fs::is_directory(target)) Refuse({target.string()}, "is a file; give a directory");
+  // nothing may be lost but what may be replaced
+  for (const auto& entry : fs::directory_iterator(target)) {
+    const std::string name = entry.path().filename();
+    if (std::find(replaceable.begin(), replaceable.end(), name) != replaceable.end()) continue;
+    Refuse({target.string()}, "holds '{}', which would be lost; choose a new or empty directory",
+           name);
   }
-  close(file);
 }
 
-void SyncFolder(const fs::path& folder) {
-  const int file = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (file < 0) return;
-  fsync(file);  // not every file system can; the file itself is safe
-  close(file);
-}
+/// An open file, closed at the end of its life.
+class InputFile {
+ public:
+  explicit InputFile(const fs::path& path)
+      : file_(IsStandardInput(path) ? fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0)
+                                    : open(path.c_str(), O_RDONLY | O_NOCTTY | O_CLOEXEC)) {}
+  ~InputFile() {
+    if (file_ >= 0) close(file_);
+  }
+  InputFile(const InputFile&) = delete;
+  InputFile& operator=(const InputFile&) = delete;
+
+  int get() const { return file_; }
+
+ private:
+  int file_;
+};
 
 }  // namespace
 
 bool IsStandardOutput(const fs::path& target) { return target == "-" || target == "/dev/stdout"; }
 
 bool IsUnderConstruction(const fs::path& path) {
-  constexpr std::string_view begin = ".warmjoint.part.", drawn = "XXXXXX";
   const std::string name = path.filename();
-  return name.starts_with(begin) && name.size() >= begin.size() + drawn.size();
+  return name.starts_with(kPart) && name.size() >= kPart.size() + kDrawn.size();
 }
 
 AtomicFile::AtomicFile(const fs::path& target) : name_(target.string()) {
   if (target.empty()) Refuse({"output"}, "its name is empty; give the name of a file");
-  if (IsStandardOutput(target)) {
-    // beside the user, so that relative names in it are right; elsewhere where that cannot be
-    const fs::path here = access(".", W_OK) == 0 ? fs::path(".") : fs::temp_directory_path();
-    MakeTemporary(here);
-  } else {
-    TakeOver(target);
-  }
-}
-
-void AtomicFile::TakeOver(const fs::path& target) {
-  const fs::path named = target.has_parent_path() ? target.parent_path() : fs::path(".");
-  if (!fs::is_directory(named)) {
-    Refuse({name_}, "its folder '{}' does not exist; create it first", named.string());
-  }
-
-  // what is there already, through links as the kernel allows them
+  // for standard output beside the user, so that relative names in the file are right
+  fs::path folder = access(".", W_OK) == 0 ? fs::path(".") : fs::temp_directory_path();
   struct stat old {};
-  const bool exists = stat(target.c_str(), &old) == 0;
-  if (!exists && errno != ENOENT) Refuse({name_}, "cannot be written: {}", Words(errno));
-  if (!exists && fs::is_symlink(fs::symlink_status(target))) {
-    Refuse({name_}, "is a link to '{}', which does not exist; name the file itself",
-           fs::read_symlink(target).string());
+  bool exists = false;
+  if (!IsStandardOutput(target)) {
+    std::error_code error;
+    target_ = fs::weakly_canonical(fs::absolute(target), error);
+    if (error) Refuse({name_}, "cannot be written: {}", error.message());
+    exists = stat(target_.c_str(), &old) == 0;
+    if (exists && !S_ISREG(old.st_mode)) {
+      Refuse({name_}, "is no regular file; give one, a new name, or - for standard output");
+    }
+    folder = target_.parent_path();
   }
-  if (exists && !S_ISREG(old.st_mode)) {
-    Refuse({name_}, "is {}; outputs go to regular files and new names, or to - (standard output)",
-           KindOf(old.st_mode));
-  }
-  target_ = exists ? fs::canonical(target) : target;
 
   // beside the target, so that it can take its name in one step
-  MakeTemporary(exists ? target_.parent_path() : named);
-  if (!exists) {
-    fchmod(file_, NewFileMode());
-    return;
-  }
-  // only root may give files away; for others the owner is right already or cannot be kept
-  const bool kept = fchown(file_, old.st_uid, old.st_gid) == 0;
-  fchmod(file_, old.st_mode & (kept ? 07777 : 0777));
-}
-
-void AtomicFile::MakeTemporary(const fs::path& folder) {
-  // a drawn name with the extension that the file is to have
   const std::string extension = target_.extension().string();
-  std::string pattern = folder / (".warmjoint.part.XXXXXX" + extension);
+  std::string pattern = Pattern(folder, extension);
   file_ = mkostemps(pattern.data(), static_cast<int>(extension.size()), O_CLOEXEC);
-  if (file_ >= 0) {
-    temporary_ = pattern;
-    return;
-  }
-  // a full disk says nothing against the name
-  if (LacksRoom(errno)) FailOutput(name_, errno);
-  Refuse({name_}, "its folder '{}' cannot be written to ({}); choose another", folder.string(),
-         Words(errno));
+  if (file_ < 0) RefuseFolder(name_, folder, errno);
+  temporary_ = pattern;
+  fchmod(file_, exists ? old.st_mode & 07777 : Permitted(0666));
 }
 
 AtomicFile::~AtomicFile() {
@@ -155,21 +124,95 @@ AtomicFile::~AtomicFile() {
 void AtomicFile::Write(std::string_view bytes) { WriteAll(file_, bytes, name_); }
 
 void AtomicFile::Commit() {
-  if (target_.empty()) return CopyToStandardOutput(temporary_);
+  if (target_.empty()) {
+    // after what was printed before
+    if (std::fflush(stdout) != 0) FailOutput("standard output", errno);
+    return WriteAll(STDOUT_FILENO, ReadWholeFile(temporary_), "standard output");
+  }
   // on the disk before it gets its name, so that no one finds half a file under it
-  if (fsync(file_) != 0) FailOutput(name_, errno);
-  const int closed = close(std::exchange(file_, -1));
-  if (closed != 0) FailOutput(name_, errno);
-  if (rename(temporary_.c_str(), target_.c_str()) != 0) FailOutput(name_, errno);
+  if (fsync(file_) != 0 || rename(temporary_.c_str(), target_.c_str()) != 0) {
+    FailOutput(name_, errno);
+  }
   temporary_.clear();
-  // the name, too, survives a loss of power
-  SyncFolder(target_.has_parent_path() ? target_.parent_path() : fs::path("."));
+}
+
+AtomicDirectory::AtomicDirectory(const fs::path& target,
+                                 const std::vector<std::string>& replaceable) {
+  if (target.empty()) Refuse({"output"}, "its name is empty; give the name of a directory");
+  if (target == "-") Refuse({"-"}, "several files do not fit standard output; give a directory");
+  target_ = fs::absolute(target).lexically_normal();
+  // "out/" names the directory out
+  if (!target_.has_filename()) target_ = target_.parent_path();
+  if (fs::is_directory(target_)) target_ = fs::canonical(target_);
+  RefuseForeignContents(target_, replaceable);
+
+  std::string pattern = Pattern(target_.parent_path(), "");
+  if (!mkdtemp(pattern.data())) RefuseFolder(target_.string(), target_.parent_path(), errno);
+  temporary_ = pattern;
+}
+
+AtomicDirectory::~AtomicDirectory() {
+  std::error_code ignored;
+  fs::remove_all(temporary_, ignored);
+}
+
+void AtomicDirectory::Commit() {
+  // mkdtemp lets the user alone in; the finished directory is as open as any that he makes
+  struct stat old {};
+  const bool exists = stat(target_.c_str(), &old) == 0;
+  const mode_t mode = exists ? old.st_mode & 07777 : Permitted(0777);
+
+  // an older directory changes places with the new one in one step; the destructor removes it
+  const unsigned flags = exists ? RENAME_EXCHANGE : 0;
+  if (chmod(temporary_.c_str(), mode) != 0 ||
+      renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), flags) != 0) {
+    FailOutput(target_.string(), errno);
+  }
 }
 
 void WriteWholeFile(const fs::path& target, std::string_view text) {
   AtomicFile file(target);
   file.Write(text);
   file.Commit();
+}
+
+bool IsStandardInput(const fs::path& path) { return path == "-"; }
+
+std::string InputName(const fs::path& path) {
+  return IsStandardInput(path) ? "standard input" : path.string();
+}
+
+std::string ReadWholeFile(const fs::path& path, std::size_t most) {
+  if (path.empty()) Refuse({"input"}, "the name of a file is empty; give one");
+  const Place place{InputName(path)};
+  const InputFile file(path);
+  const auto refuse = [&] {
+    Refuse(place, "cannot be read ({}); does it exist?", std::generic_category().message(errno));
+  };
+  struct stat status {};
+  if (file.get() < 0 || fstat(file.get(), &status) != 0) refuse();
+  if (!S_ISREG(status.st_mode) && !S_ISFIFO(status.st_mode) && !S_ISSOCK(status.st_mode)) {
+    Refuse(place, "is {}; give a file, or send one through a pipe",
+           S_ISDIR(status.st_mode) ? "a folder"
+           : isatty(file.get())    ? "a terminal"
+                                   : "a device");
+  }
+
+  // pipes tell no size, and files may grow: there is always room for one byte more
+  std::string text(std::min(static_cast<std::size_t>(status.st_size), most) + 1, '\0');
+  std::size_t filled = 0;
+  for (;;) {
+    if (filled == text.size()) text.resize(filled + filled / 2 + 4096);
+    const ssize_t n = read(file.get(), text.data() + filled, text.size() - filled);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) refuse();
+    if (n == 0) break;
+    filled += static_cast<std::size_t>(n);
+    if (filled <= most) continue;
+    Refuse(place, "has more than the {} MiB that are read at most; cut it", most >> 20);
+  }
+  text.resize(filled);
+  return text;
 }
 
 }  // namespace warmjoint::inline models

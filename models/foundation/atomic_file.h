@@ -1,21 +1,22 @@
-// Files that appear whole or not at all.
+// Files and directories that appear whole or not at all, and files read as a whole.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace warmjoint::inline models {
 
 /// A file under construction: write to it, then Commit() renames it onto the target. Without Commit
 /// the destructor removes it, so a failure leaves nothing half-written behind.
 ///
-/// The target is a new name or a regular file, whose mode and owner are kept; a link to a regular
-/// file is followed. "-" and /dev/stdout are standard output, which gets the bytes at Commit.
+/// The target is a new name or a regular file, whose mode is kept; links are followed. "-" and
+/// /dev/stdout are standard output, which gets the bytes at Commit.
 class AtomicFile {
  public:
-  /// Throws BadInput for a target of another kind (device, pipe, folder, dangling link) or whose
-  /// folder does not exist or cannot be written to; OutputFailed where the system has no room.
+  /// Throws BadInput for a target that is no regular file or whose folder cannot be written to;
+  /// OutputFailed where the system has no room.
   explicit AtomicFile(const std::filesystem::path& target);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
@@ -32,13 +33,32 @@ class AtomicFile {
   void Commit();
 
  private:
-  void MakeTemporary(const std::filesystem::path& folder);
-  void TakeOver(const std::filesystem::path& target);
-
   std::string name_;              // of the target, as it was given
-  std::filesystem::path target_;  // links followed; empty: standard output
+  std::filesystem::path target_;  // absolute, links followed; empty: standard output
   std::filesystem::path temporary_;
   int file_ = -1;
+};
+
+/// A directory under construction: fill temporary(), then Commit() puts it in the target's place.
+/// Without Commit the destructor removes it, so a failure leaves nothing half-written behind.
+class AtomicDirectory {
+ public:
+  /// Throws BadInput when the target exists and holds anything but files named in `replaceable`, or
+  /// its parent folder does not exist or cannot be written to; OutputFailed where there is no room.
+  AtomicDirectory(const std::filesystem::path& target, const std::vector<std::string>& replaceable);
+  ~AtomicDirectory();
+  AtomicDirectory(const AtomicDirectory&) = delete;
+  AtomicDirectory& operator=(const AtomicDirectory&) = delete;
+
+  /// Where to write to: a fresh directory beside the target, whose name is drawn.
+  const std::filesystem::path& temporary() const { return temporary_; }
+
+  /// Puts the finished directory in place, instead of an older one. Throws OutputFailed.
+  void Commit();
+
+ private:
+  std::filesystem::path target_;
+  std::filesystem::path temporary_;
 };
 
 /// Whether an output's name stands for standard output: "-" or /dev/stdout.
@@ -60,9 +80,8 @@ bool IsStandardInput(const std::filesystem::path& path);
 /// An input as messages name it: its path, or "standard input".
 std::string InputName(const std::filesystem::path& path);
 
-/// The whole of a text file, regular or a pipe, or of standard input. Throws BadInput naming the file when
-/// it cannot be read, is a device, has more than `most` bytes, or is a pipe that nobody writes to;
-/// standard input is waited for.
+/// The whole of a file, of a pipe, or of standard input. Throws BadInput naming the file when it cannot be read, is no file
+/// or pipe, or has more than `most` bytes.
 std::string ReadWholeFile(const std::filesystem::path& path, std::size_t most = kLargestFile);
 
 }  // namespace warmjoint::inline models

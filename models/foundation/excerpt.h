@@ -1,11 +1,33 @@
-// What messages show of text that came from outside and may be of any length and content.
+// Text from outside: its characters of UTF-8, and what messages and terminals show of it.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace warmjoint::inline models {
+
+/// A character: its code and its number of bytes; 0 bytes for what is no UTF-8.
+struct Character {
+  char32_t code = 0;
+  std::size_t length = 0;
+};
+
+/// The first character of a text that is not empty.
+Character FirstCharacter(std::string_view text);
+
+/// Position of the first byte that is no UTF-8, or of a zero byte.
+std::optional<std::size_t> FirstBrokenByte(std::string_view text);
+
+/// The text on one line that no terminal acts on: control characters (C0, DEL, C1), marks of writing
+/// direction and line separators become their codes, as \x1B and \u202E; so do bytes that are no
+/// UTF-8, as \xCF.
+std::string Printable(std::string_view text);
+
+/// The same of each line of a text that keeps its line ends.
+std::string PrintableLines(std::string_view text);
 
 /// Characters that messages show of a value, and of what another library says of its input.
 inline constexpr std::size_t kLongestValue = 60;

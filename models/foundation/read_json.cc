@@ -7,7 +7,6 @@
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/json_turn.h"
-#include "models/foundation/utf8.h"
 
 namespace warmjoint::inline models {
 namespace {
@@ -50,18 +49,20 @@ std::string_view Quoted(std::string_view message) {
 
 }  // namespace
 
-nlohmann::json ReadJsonFile(const std::filesystem::path& path) {
-  return ParseJson(ReadWholeFile(path, kLargestJson), path.string());
+template <typename Json>
+Json ReadJsonFile(const std::filesystem::path& path) {
+  return ParseJson<Json>(ReadWholeFile(path, kLargestJson), path.string());
 }
 
-nlohmann::json ParseJson(const std::string& text, const std::string& file) {
+template <typename Json>
+Json ParseJson(const std::string& text, const std::string& file) {
   if (const auto broken = FirstBrokenByte(text)) {
     Refuse(PlaceOf(text, *broken, file), "byte {} is not UTF-8, as JSON must be", *broken + 1);
   }
   CheckDepth(text, file);
   try {
     const auto turn = JsonTurn();
-    return nlohmann::json::parse(text);
+    return Json::parse(text);
   } catch (const nlohmann::json::parse_error& error) {
     Refuse(PlaceOf(text, error.byte, file), "is not JSON: {}",
            Excerpt(error.what(), kLongestComplaint));
@@ -73,5 +74,10 @@ nlohmann::json ParseJson(const std::string& text, const std::string& file) {
            Excerpt(number));
   }
 }
+
+template nlohmann::json ReadJsonFile(const std::filesystem::path&);
+template nlohmann::ordered_json ReadJsonFile(const std::filesystem::path&);
+template nlohmann::json ParseJson(const std::string&, const std::string&);
+template nlohmann::ordered_json ParseJson(const std::string&, const std::string&);
 
 }  // namespace warmjoint::inline models

@@ -13,11 +13,14 @@ namespace warmjoint::inline models {
 inline constexpr std::size_t kLargestJson = std::size_t{512} << 20;
 inline constexpr int kDeepestJson = 64;
 
-/// The whole of a JSON file. Throws BadInput naming the file, and for what is no JSON the line.
-nlohmann::json ReadJsonFile(const std::filesystem::path& path);
+/// The whole of a JSON file. Throws BadInput naming the file, and for what is no JSON the line. Json: nlohmann::json, or
+/// nlohmann::ordered_json, whose keys keep their order.
+template <typename Json = nlohmann::json>
+Json ReadJsonFile(const std::filesystem::path& path);
 
 /// The same from a text, whose refusals name `file`. Refused besides what is no JSON: bytes that are
 /// no UTF-8, numbers that no double holds, more levels than kDeepestJson.
-nlohmann::json ParseJson(const std::string& text, const std::string& file);
+template <typename Json = nlohmann::json>
+Json ParseJson(const std::string& text, const std::string& file);
 
 }  // namespace warmjoint::inline models

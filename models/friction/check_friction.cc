@@ -20,7 +20,7 @@ void CheckPositive(double value, std::string_view axis, const char* what, const 
 }
 
 void CheckAxis(const MapAxis& axis, const Place& place) {
-  const std::string_view name = MapQuantityName(axis.quantity);
+  const std::string_view name = NameOf(axis.quantity);
   const GaussianAxis& kernels = axis.kernels;
   // few enough kernels, of a positive width
   if (kernels.size() < 1 || kernels.size() > kMostMapCentres) {

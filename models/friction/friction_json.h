@@ -3,19 +3,28 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
-#include "models/foundation/bad_input.h"
+#include "models/foundation/node.h"
 #include "models/friction/friction_description.h"
 
 namespace warmjoint::inline models {
 
-/// {law, parameters{}, thermal{thermal_gain, thermal_time_constant, ambient, second{thermal_gain,
-/// thermal_time_constant}}, gear, level_per_temperature, viscous_per_energy, load_gain, torque_unit, maps[]};
+/// {law, parameters{}, gear, thermal{thermal_gain, thermal_time_constant, ambient, second{thermal_gain,
+/// thermal_time_constant}}, level_per_temperature, viscous_per_energy, load_gain, torque_unit, maps[]};
 /// what is at its default is left out.
+Tree FrictionToTree(const FrictionDescription& friction);
 nlohmann::json FrictionToJson(const FrictionDescription& friction);
 
 /// The inverse; checked. Unknown keys, missing parameters and wrong types throw BadInput.
-FrictionDescription FrictionFromJson(const nlohmann::json& json, const Place& place);
+FrictionDescription FrictionFrom(const Node& node);
+void ReadValue(const Node& node, FrictionDescription* value, const FieldInfo& info);
+
+/// A list of maps, each {axes[{quantity, centres[], width, period, sides}], kernels, factor, weights[]}.
+Tree MapsToTree(const std::vector<FrictionMap>& maps);
+
+/// The inverse; checked. Throws BadInput.
+std::vector<FrictionMap> MapsFrom(const Node& node);
 
 /// Throws BadInput where a friction is in amperes, which no simulator can use.
 void RefuseAmperes(const FrictionDescription& friction, const Place& place);

@@ -1,35 +1,23 @@
 #include "models/friction/friction_map.h"
 
 #include <algorithm>
+#include <array>
 
 namespace warmjoint::inline models {
 
-std::string_view MapQuantityName(MapQuantity quantity) {
-  switch (quantity) {
-    case MapQuantity::position:
-      return "position";
-    case MapQuantity::motor_position:
-      return "motor_position";
-    case MapQuantity::velocity:
-      return "velocity";
-    case MapQuantity::energy:
-      return "energy";
-    case MapQuantity::load:
-      return "load";
-  }
-  return "";
+std::span<const Word<MapQuantity>> WordsOf(MapQuantity) {
+  static constexpr std::array words{
+      Word{"position", MapQuantity::position}, Word{"motor_position", MapQuantity::motor_position},
+      Word{"velocity", MapQuantity::velocity}, Word{"energy", MapQuantity::energy},
+      Word{"load", MapQuantity::load}};
+  return words;
 }
 
-std::string_view MapFactorName(MapFactor factor) {
-  switch (factor) {
-    case MapFactor::one:
-      return "one";
-    case MapFactor::direction:
-      return "direction";
-    case MapFactor::velocity:
-      return "velocity";
-  }
-  return "";
+std::span<const Word<MapFactor>> WordsOf(MapFactor) {
+  static constexpr std::array words{Word{"one", MapFactor::one},
+                                    Word{"direction", MapFactor::direction},
+                                    Word{"velocity", MapFactor::velocity}};
+  return words;
 }
 
 size_t FrictionMap::size() const {

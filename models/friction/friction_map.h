@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -12,8 +13,7 @@ namespace warmjoint::inline models {
 /// What a map can depend on.
 enum class MapQuantity { position, motor_position, velocity, energy, load };
 
-/// "position", "motor_position", ...
-std::string_view MapQuantityName(MapQuantity quantity);
+std::span<const Word<MapQuantity>> WordsOf(MapQuantity);
 
 /// Where a joint is: one value for each MapQuantity, in its order: rad or m, rad, rad/s or m/s,
 /// N.m or N, N.m or N.
@@ -23,14 +23,19 @@ using MapPoint = std::array<T, 5>;
 struct MapAxis {
   MapQuantity quantity = MapQuantity::position;
   GaussianAxis kernels;
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("quantity", &quantity, {.needed = "name what the map depends on"});
+    kernels.Serialize(a);
+  }
 };
 
 /// What the kernels are multiplied by: 1, sign(v) (a level that acts against the motion) or v
 /// (viscous friction). With `velocity` a map over energy is kv(E) v of Eq. (27).
 enum class MapFactor { one, direction, velocity };
 
-/// "one", "direction", "velocity".
-std::string_view MapFactorName(MapFactor factor);
+std::span<const Word<MapFactor>> WordsOf(MapFactor);
 
 inline constexpr size_t kMostMapAxes = 4;
 inline constexpr size_t kMostMapCentres = 128;  // of one axis
@@ -48,6 +53,14 @@ struct FrictionMap {
 
   /// Number of kernels that the axes span.
   size_t size() const;
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("axes", &axes, {.needed = "give a list"});
+    a->Field("kernels", &kernels);
+    a->Field("factor", &factor);
+    a->Field("weights", &weights, {.unit = "N.m", .needed = "give a number for each kernel"});
+  }
 };
 
 /// The map's axis over that quantity, or nullptr.

@@ -1,11 +1,21 @@
 // Rotary and linear joints: which units go with which.
 #pragma once
 
+#include <array>
+#include <span>
 #include <string_view>
+
+#include "models/foundation/field.h"
 
 namespace warmjoint::inline models {
 
 enum class JointKind { rotary, linear };
+
+inline std::span<const Word<JointKind>> WordsOf(JointKind) {
+  static constexpr std::array words{Word{"rotary", JointKind::rotary},
+                                    Word{"linear", JointKind::linear}};
+  return words;
+}
 
 /// A unit for each kind of joint, for example {"N.m", "N"}.
 struct JointUnit {

@@ -27,6 +27,17 @@ struct Thermal {
                     600,
                     "time constant of warming and cooling"},
   };
+
+  template <class A>
+  void Serialize(A* a) {
+    const auto& [k, tau] = parameters;
+    a->Field(k.name, &gain, {.unit = k.unit.rotary, .meaning = k.meaning, .needed = kGiveNumber});
+    a->Field(tau.name, &time_constant,
+             {.unit = tau.unit.rotary,
+              .bounds = {.above = 0},
+              .meaning = tau.meaning,
+              .needed = kGiveNumber});
+  }
 };
 
 /// In size, N.m/W or N/W; joints show some 1 N.m/W, and a larger number is one that slipped.

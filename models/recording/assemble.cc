@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -63,18 +64,18 @@ void CheckTorque(const RawColumns& raw, const Measurements& measurements) {
 void CheckCourse(const RawColumns& raw, const Measurements& measurements) {
   const Eigen::Index n = measurements.size();
   if (n < 3) Refuse({raw.file}, "has {} samples; at least 3 are needed", n);
+  if (n > kMostSamples) {
+    Refuse({raw.file}, "has {} samples; {} at most are read: cut it, or lower its rate", n,
+           kMostSamples);
+  }
   CheckTime(raw, measurements.time);
   CheckTorque(raw, measurements);
 }
 
 /// The factor on a column, 1 where none is given.
-double ScaleOf(const std::string& column, const CsvLayout& layout) {
+double ScaleOf(const std::string& column, const ReadSettings& layout) {
   const auto given = layout.scale.find(column);
-  if (given == layout.scale.end()) return 1;
-  const std::optional<double> factor = ParseNumber(given->second);
-  if (factor && std::isfinite(*factor) && *factor != 0) return *factor;
-  Refuse({"--scale"}, "{}={}: the factor must be a finite number other than 0", column,
-         Excerpt(given->second));
+  return given == layout.scale.end() ? 1 : given->second;
 }
 
 /// Position without the jumps of a sensor that starts its turn, or its range, again. range: rad or
@@ -97,8 +98,9 @@ void Unwrap(double range, Measurements& measurements) {
 }  // namespace
 
 Measurements AssembleMeasurements(RawColumns raw, const std::vector<ColumnSource>& sources,
-                                  const CsvLayout& layout) {
+                                  const ReadSettings& layout) {
   // what is known beside the columns
+  CheckReadSettings(layout);
   Measurements measurements;
   measurements.joint = layout.joint;
   measurements.gear = layout.gear;
@@ -138,6 +140,44 @@ void CheckSamples(const Measurements& measurements) {
     if (values) CheckValues(raw, column.name, *values);
   }
   CheckCourse(raw, measurements);
+}
+
+std::vector<std::string> NamesOf(const FileContent& content) {
+  std::vector<std::string> names;
+  for (const FileColumn& column : content.columns) names.push_back(column.name);
+  return names;
+}
+
+ReadSettings WithAttributes(ReadSettings layout, const FileContent& content) {
+  // what the file says of itself, where nobody says otherwise
+  if (content.joint == "linear") layout.joint = JointKind::linear;
+  if (layout.gear == 1 && content.gear) layout.gear = *content.gear;
+  for (const RecordingColumn& column : RecordingColumns()) {
+    const auto mapped = layout.map.find(column.name);
+    const std::string theirs = mapped == layout.map.end() ? column.name : mapped->second;
+    const auto found = std::find_if(content.columns.begin(), content.columns.end(),
+                                    [&](const FileColumn& one) { return one.name == theirs; });
+    if (found != content.columns.end() && !found->unit.empty()) {
+      layout.unit.emplace(column.name, found->unit);
+    }
+  }
+  return layout;
+}
+
+Measurements AssembleContent(const FileContent& content, const std::string& path,
+                             const ReadSettings& given) {
+  const ReadSettings layout = WithAttributes(given, content);
+  const std::vector<ColumnSource> sources = FindColumns(NamesOf(content), layout, {path});
+  // the columns that are asked for, all of one length
+  RawColumns raw{path, {}, {}};
+  for (const ColumnSource& source : sources) {
+    raw.values.push_back(content.columns[source.index].values);
+    if (raw.values.back().size() == raw.values.front().size()) continue;
+    Refuse({path}, "{} has {} samples where {} has {}; all columns must be of one length",
+           content.columns[source.index].name, raw.values.back().size(),
+           content.columns[sources.front().index].name, raw.values.front().size());
+  }
+  return AssembleMeasurements(std::move(raw), sources, layout);
 }
 
 }  // namespace warmjoint::inline models

@@ -1,6 +1,8 @@
 // From the columns of a file to checked measurements.
 #pragma once
 
+#include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,10 +27,33 @@ struct RawColumns {
 /// velocity that the file lacks stays empty. Throws BadInput for fewer than three samples, a value
 /// that is not finite, time that does not increase and a torque that never changes.
 Measurements AssembleMeasurements(RawColumns raw, const std::vector<ColumnSource>& sources,
-                                  const CsvLayout& layout);
+                                  const ReadSettings& layout);
 
 /// Throws BadInput for what no log may hold: fewer than three samples, a value that is not finite, time
 /// that does not increase from sample to sample, a torque that never changes.
 void CheckSamples(const Measurements& measurements);
+
+/// A one-dimensional array of numbers with a name.
+struct FileColumn {
+  std::string name;
+  std::string unit;        // as the file says; empty where it does not
+  Eigen::VectorXd values;  // [N]; empty where the layout does not ask for it
+};
+
+struct FileContent {
+  std::string joint;           // "rotary" or "linear"; empty where the file does not say
+  std::optional<double> gear;  // the same
+  std::vector<FileColumn> columns;
+};
+
+/// The layout, completed by what the file says of itself.
+ReadSettings WithAttributes(ReadSettings layout, const FileContent& content);
+
+/// The names of the columns, as FindColumns takes them.
+std::vector<std::string> NamesOf(const FileContent& content);
+
+/// The recording. Throws BadInput as ReadCsv does, and for columns of different lengths.
+Measurements AssembleContent(const FileContent& content, const std::string& path,
+                             const ReadSettings& layout);
 
 }  // namespace warmjoint::inline models

@@ -9,8 +9,7 @@
 
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
-#include "models/recording/file_content.h"
-#include "models/recording/read_apart.h"
+#include "models/recording/assemble.h"
 #include "models/recording/recording_columns.h"
 
 namespace warmjoint::inline models {
@@ -183,10 +182,9 @@ Eigen::VectorXd ReadVector(mat_t* file, const Found& found) {
   return values;
 }
 
-/// Vectors of real numbers, at the top or in structs of one element, and what the file says of joint, gear
-/// and units. Throws BadInput, also where the layout's columns are not there or have more than kMostSamples.
-/// One thread at a time.
-FileContent ReadMatlabContent(const std::string& path, const CsvLayout& layout) {
+}  // namespace
+
+FileContent ReadMatlabContent(const std::string& path, const ReadSettings& layout) {
   const MatlabFile file(Mat_Open(path.c_str(), MAT_ACC_RDONLY));
   if (!file) {
     Refuse({path}, "cannot be read as a MATLAB file: it is damaged, or of another format");
@@ -202,26 +200,15 @@ FileContent ReadMatlabContent(const std::string& path, const CsvLayout& layout) 
   ReadAttributes(file.get(), content);
 
   // the columns that are asked for
-  const CsvLayout completed = WithAttributes(layout, content);
+  const ReadSettings completed = WithAttributes(layout, content);
   for (const ColumnSource& source : FindColumns(NamesOf(content), completed, {path})) {
     FileColumn& column = content.columns[source.index];
     column.values = ReadVector(file.get(), contents.found[source.index]);
     if (column.values.size() == 0) {
       Refuse({path}, "{} cannot be read; the file is damaged", Excerpt(column.name));
     }
-    if (static_cast<unsigned long long>(column.values.size()) > kMostSamples) {
-      Refuse({path}, "{} has {} samples; {} at most are read", Excerpt(column.name),
-             column.values.size(), kMostSamples);
-    }
   }
   return content;
-}
-
-}  // namespace
-
-Measurements ReadMatlabApart(const std::string& path, const CsvLayout& layout, double patience) {
-  return AssembleContent(ReadApart({"a MATLAB file", &ReadMatlabContent}, path, layout, patience),
-                         path, layout);
 }
 
 }  // namespace warmjoint::inline models

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,9 @@
 #include "models/recording/sampling.h"
 
 namespace warmjoint::inline models {
+
+/// Most samples of a recording, read or simulated: 14 h at 1 kHz, and some 15 GB while it is identified.
+inline constexpr Eigen::Index kMostSamples = 50'000'000;
 
 /// The log of one joint: N samples in order of time. SI (rad or m, s) whatever the file had.
 struct Measurements {
@@ -57,5 +61,33 @@ void ForEachColumn(Log& log, Use&& use) {
 
 /// The first n samples.
 Measurements FirstSamples(Measurements log, Eigen::Index n);
+
+/// Whether the motor's angle is told apart from the joint's: logged, or turned by a gear. A gear of
+/// -1 turns the motor against the joint by the same angle, which tells nothing new.
+inline bool KnowsMotorAngle(const Measurements& measurements) {
+  return measurements.motor_position || std::abs(measurements.gear) != 1;
+}
+
+/// The logged motor position, else gear times the joint's. [N] rad
+inline Eigen::VectorXd MotorPosition(const Measurements& measurements) {
+  return measurements.motor_position.value_or(measurements.gear * measurements.position);
+}
+
+/// Samples first, ..., first + count - 1 of a log.
+struct SampleRange {
+  Eigen::Index first = 0, count = 0;
+};
+
+/// The samples of each recording, in order: all of them where the log is one.
+inline std::vector<SampleRange> RecordingsOf(const Measurements& log) {
+  std::vector<SampleRange> recordings;
+  Eigen::Index first = 0;
+  for (const Eigen::Index start : log.starts) {
+    recordings.push_back({first, start - first});
+    first = start;
+  }
+  recordings.push_back({first, log.size() - first});
+  return recordings;
+}
 
 }  // namespace warmjoint::inline models

@@ -140,7 +140,7 @@ void Limit(int resource, rlim_t value) {
 
 /// The child's whole life: reads within its limits, answers, and ends without its parent's farewells.
 [[noreturn]] void ReadInChild(const FileFormat& format, const std::string& path,
-                              const CsvLayout& layout, double seconds, int out) {
+                              const ReadSettings& layout, double seconds, int out) {
   // limits on memory and time, and no core file
   Limit(RLIMIT_AS, OwnMemory() + kMemory);
   Limit(RLIMIT_CPU, static_cast<rlim_t>(std::ceil(seconds)));
@@ -190,7 +190,7 @@ bool ReadAll(int in, double seconds, std::string& bytes) {
 
 }  // namespace
 
-FileContent ReadApart(const FileFormat& format, const std::string& path, const CsvLayout& layout,
+FileContent ReadApart(const FileFormat& format, const std::string& path, const ReadSettings& layout,
                       double patience) {
   // larger files may take longer
   std::error_code absent;

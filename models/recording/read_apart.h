@@ -3,19 +3,19 @@
 
 #include <string>
 
-#include "models/recording/file_content.h"
+#include "models/recording/assemble.h"
 
 namespace warmjoint::inline models {
 
 /// A format that a library reads.
 struct FileFormat {
-  const char* name;  // in messages
-  FileContent (*read)(const std::string& path, const CsvLayout& layout);
+  const char* name = "";  // in messages
+  FileContent (*read)(const std::string& path, const ReadSettings& layout) = nullptr;
 };
 
 /// Reads in a child process with limits on memory (8 GiB besides what this process has) and time
 /// (patience, s, and 1 s for each 10 MB of the file): crash and hang become BadInput.
-FileContent ReadApart(const FileFormat& format, const std::string& path, const CsvLayout& layout,
+FileContent ReadApart(const FileFormat& format, const std::string& path, const ReadSettings& layout,
                       double patience);
 
 }  // namespace warmjoint::inline models

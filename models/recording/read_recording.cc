@@ -4,45 +4,37 @@
 #include <filesystem>
 #include <string_view>
 
+#include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "models/recording/hdf5.h"
 #include "models/recording/matlab.h"
+#include "models/recording/read_apart.h"
 
 namespace warmjoint::inline models {
 namespace {
+
+/// A format of recordings.
+struct Format {
+  std::string_view extension;
+  FileFormat library;                                      // that reads it; CSV needs none
+  std::string (*write)(const Measurements& measurements);  // its bytes; none: it is not written
+};
+
+constexpr Format kFormats[] = {
+    {".csv", {}, RecordingToCsv},
+    {".h5", {"HDF5", ReadHdf5Content}, RecordingToHdf5},
+    {".hdf5", {"HDF5", ReadHdf5Content}, RecordingToHdf5},
+    {".mat", {"a MATLAB file", ReadMatlabContent}, nullptr},
+};
 
 std::string Extension(const std::string& path) {
   return std::filesystem::path(path).extension().string();
 }
 
-using Reader = Measurements (*)(const std::string& path, const CsvLayout& layout);
-
-/// A format of recordings.
-struct Format {
-  std::string_view extension;
-  Reader read;        // of files that this program wrote
-  Reader read_apart;  // of anybody's: in a process of its own where a library reads it
-  void (*write)(const Measurements& measurements, const std::string& path);  // or none
-};
-
-constexpr Reader kHdf5Apart = [](const std::string& path, const CsvLayout& layout) {
-  return ReadHdf5Apart(path, layout);
-};
-constexpr Reader kMatlabApart = [](const std::string& path, const CsvLayout& layout) {
-  return ReadMatlabApart(path, layout);
-};
-
-constexpr Format kFormats[] = {
-    {".csv", ReadCsv, ReadCsv, WriteCsv},
-    {".h5", ReadHdf5, kHdf5Apart, WriteHdf5},
-    {".hdf5", ReadHdf5, kHdf5Apart, WriteHdf5},
-    {".mat", kMatlabApart, kMatlabApart, nullptr},
-};
-
 /// By the extension; any other is read as CSV, and not written.
 Format FormatOf(const std::string& path) {
   const auto found = std::ranges::find(kFormats, Extension(path), &Format::extension);
-  return found == std::end(kFormats) ? Format{"", ReadCsv, ReadCsv, nullptr} : *found;
+  return found == std::end(kFormats) ? Format{} : *found;
 }
 
 /// Refuses what tools/convert makes readable.
@@ -57,17 +49,16 @@ void RefuseUnreadable(const std::string& path) {
 
 }  // namespace
 
-Measurements ReadRecording(const std::string& path, const CsvLayout& layout) {
-  return FormatOf(path).read(path, layout);
-}
-
-Measurements ReadForeignRecording(const std::string& path, const CsvLayout& layout) {
+Measurements ReadRecordingFile(const std::string& path, const ReadSettings& layout,
+                               double patience) {
   RefuseUnreadable(path);
-  return FormatOf(path).read_apart(path, layout);
+  const FileFormat library = FormatOf(path).library;
+  if (!library.read) return ReadCsv(path, layout);
+  return AssembleContent(ReadApart(library, path, layout, patience), path, layout);
 }
 
 void WriteRecording(const Measurements& measurements, const std::string& path) {
-  if (const auto write = FormatOf(path).write) return write(measurements, path);
+  if (const auto write = FormatOf(path).write) return WriteWholeFile(path, write(measurements));
   Refuse({path}, "recordings are written as .csv or .h5, not '{}'; choose one of them",
          Extension(path));
 }

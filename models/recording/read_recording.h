@@ -8,12 +8,12 @@
 
 namespace warmjoint::inline models {
 
-/// Reads .h5 and .hdf5 as HDF5, anything else as CSV. Throws BadInput as ReadCsv does.
-Measurements ReadRecording(const std::string& path, const CsvLayout& layout = {});
-
-/// The same for files from anywhere, and .mat as MATLAB files: HDF5 and MATLAB files are read in a child
-/// process (read_apart.h).
-Measurements ReadForeignRecording(const std::string& path, const CsvLayout& layout = {});
+/// Reads .h5 and .hdf5 as HDF5, .mat as MATLAB files, anything else as CSV, as ReadCsv does; attributes of a file count
+/// where the layout has its defaults. Libraries for HDF5 and MATLAB work in a child process with limits on memory and time
+/// (read_apart.h): their crash or hang is BadInput. For a process with one thread, as programs are at first. patience: s of
+/// computing for a small file; large ones get more.
+Measurements ReadRecordingFile(const std::string& path, const ReadSettings& layout = {},
+                               double patience = 30);
 
 /// Writes .h5 and .hdf5 as HDF5, .csv as CSV. Throws BadInput for other names.
 void WriteRecording(const Measurements& measurements, const std::string& path);

@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <cctype>
+#include <optional>
+#include <string_view>
 
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
 #include "models/foundation/parse_number.h"
-#include "models/recording/temperature_column.h"
 
 namespace warmjoint::inline models {
 namespace {
@@ -38,14 +39,14 @@ std::vector<std::string> OurNames() {
   return names;
 }
 
-void CheckNames(const std::map<std::string, std::string>& given, std::string_view option,
-                const Place& place) {
+template <typename Columns>
+void CheckNames(const Columns& given, std::string_view option, const Place& place) {
   // a column of ours on the left, theirs on the right
   const std::vector<std::string> known = OurNames();
   for (const auto& [ours, theirs] : given) {
     if (std::find(known.begin(), known.end(), ours) != known.end()) continue;
     Refuse(place, "{} {}={}: recordings have no column '{}'{}", option, Excerpt(ours),
-           Excerpt(theirs), Excerpt(ours), Suggestion(ours, known));
+           Excerpt(fmt::format("{}", theirs)), Excerpt(ours), Suggestion(ours, known));
   }
 }
 
@@ -94,6 +95,43 @@ std::size_t IndexOf(const std::string& theirs, const std::vector<std::string>& n
     Refuse(place, "has column '{}' twice; rename one", Excerpt(theirs));
   }
   return static_cast<std::size_t>(found - names.begin());
+}
+
+/// The unit that a column's name ends in where that is one of temperature: "degC" of motor_degC and of
+/// "case [degC]", "K" of temp_K, not of gain_K; nothing of other names.
+std::optional<std::string> TemperatureUnitIn(const std::string& name) {
+  // brackets and blanks behind a unit are no part of it
+  constexpr std::string_view separators = "_ [(/.-";
+  std::string_view text = name;
+  while (!text.empty() && std::string_view("]) ").find(text.back()) != std::string_view::npos) {
+    text.remove_suffix(1);
+  }
+
+  // the unit must stand by itself, behind a separator
+  for (const Unit& unit : Units()) {
+    if (unit.base != "degC" || !text.ends_with(unit.name)) continue;
+    const std::string_view before = text.substr(0, text.size() - unit.name.size());
+    if (before.empty() || separators.find(before.back()) == std::string_view::npos) continue;
+    // K may be anything: the rest must speak of a temperature
+    std::string lower(before);
+    std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return std::tolower(c); });
+    const bool speaks = lower.find("temp") != std::string::npos || lower.substr(0, 2) == "t_" ||
+                        lower.substr(0, 2) == "t ";
+    if (unit.name != "K" || speaks) return std::string(unit.name);
+  }
+  return std::nullopt;
+}
+
+/// The one column whose name ends in a unit of temperature; nothing where there is none, or several.
+std::optional<std::size_t> FindTemperature(const std::vector<std::string>& names) {
+  std::optional<std::size_t> found;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (!TemperatureUnitIn(names[i])) continue;
+    // of two candidates neither is taken
+    if (found) return std::nullopt;
+    found = i;
+  }
+  return found;
 }
 
 }  // namespace
@@ -149,9 +187,9 @@ std::string UnitOf(const RecordingColumn& column, const Measurements& measuremen
 }
 
 std::vector<ColumnSource> FindColumns(const std::vector<std::string>& names,
-                                      const CsvLayout& layout, const Place& place) {
+                                      const ReadSettings& layout, const Place& place) {
   // options that name no column of ours are mistakes, whatever the file holds
-  CheckNames(layout.column, "--map", place);
+  CheckNames(layout.map, "--map", place);
   CheckNames(layout.unit, "--unit", place);
   CheckNames(layout.scale, "--scale", place);
 
@@ -159,8 +197,8 @@ std::vector<ColumnSource> FindColumns(const std::vector<std::string>& names,
   std::vector<const RecordingColumn*> missing;
   for (const RecordingColumn& column : RecordingColumns()) {
     // an empty name leaves an optional column out
-    const auto mapped = layout.column.find(column.name);
-    const bool is_mapped = mapped != layout.column.end();
+    const auto mapped = layout.map.find(column.name);
+    const bool is_mapped = mapped != layout.map.end();
     const std::string theirs = is_mapped ? mapped->second : column.name;
     std::size_t index = theirs.empty() ? names.size() : IndexOf(theirs, names, place);
     const bool is_temperature = column.name == kTemperature;

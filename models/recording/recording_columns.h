@@ -47,6 +47,6 @@ struct ColumnSource {
 /// and units in the layout. A temperature that nothing names is found by its unit
 /// (temperature_column.h). place: of the header.
 std::vector<ColumnSource> FindColumns(const std::vector<std::string>& names,
-                                      const CsvLayout& layout, const Place& place);
+                                      const ReadSettings& layout, const Place& place);
 
 }  // namespace warmjoint::inline models

@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "models/friction/friction_json.h"
-#include "models/friction/friction_map_json.h"
 #include "models/friction/joint_friction.h"
 #include "models/friction/thermal.h"
 #include "sim/model/escape_xml.h"
@@ -53,9 +52,7 @@ std::string InlineConfigs(const FrictionForJoint& of) {
 
   // maps and the first heat
   if (!friction.maps.empty()) {
-    json maps = json::array();
-    for (const FrictionMap& map : friction.maps) maps.push_back(MapToJson(map));
-    configs += Config("maps", maps.dump());
+    configs += Config("maps", MapsToTree(friction.maps).dump());
   }
   if (!of.initial_energy.empty()) {
     configs += Config("initial_energy", EnergyToJson(of.initial_energy).dump());

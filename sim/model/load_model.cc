@@ -6,7 +6,6 @@
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/xml_tags.h"
-#include "sim/model/check_repeats.h"
 #include "sim/model/plugin_libraries.h"
 #include "sim/model/spec_elements.h"
 #include "sim/plugin/model_folder.h"
@@ -15,6 +14,9 @@
 
 namespace warmjoint::inline sim {
 namespace {
+
+constexpr std::size_t kLargestModel = std::size_t{64} << 20;  // bytes of XML
+constexpr double kLargestTexture = 1 << 30;                   // bytes
 
 /// One line of text.
 std::string Flatten(std::string_view message) {
@@ -114,10 +116,9 @@ std::string PluginRefusal(const std::string& message) {
 }  // namespace
 
 ParsedModel ParseModel(const std::filesystem::path& path, const PackageFolders& packages) {
-  // the plugin is known before a model asks for it, and what could fill the memory refused
+  // the plugin is known before a model asks for it
   RegisterFrictionPlugin();
-  const std::string text = ReadWholeFile(path);
-  CheckRepeats(text, path);
+  const std::string text = ReadWholeFile(path, kLargestModel);
   const bool urdf = IsUrdf(text);
   if (urdf) RefuseXacro(text, path);
   ModelFolder() = std::filesystem::absolute(path).parent_path();
@@ -138,6 +139,14 @@ ParsedModel ParseModel(const std::filesystem::path& path, const PackageFolders& 
 }
 
 ModelPtr CompileModel(mjSpec& spec, const Place& place) {
+  // textures that the compiler makes, three bytes a pixel
+  for (mjsElement* element : SpecElements(spec, mjOBJ_TEXTURE)) {
+    const mjsTexture* texture = mjs_asTexture(element);
+    const double bytes = 3.0 * texture->width * texture->height;
+    if (bytes <= kLargestTexture) continue;
+    Refuse(place, "width and height of a <texture> make {:.1f} GiB; 1 GiB at most",
+           bytes / kLargestTexture);
+  }
   ModelPtr model(mj_compile(&spec, nullptr));
   if (model) return model;
   // what our plugin refused says more than MuJoCo's message around it

@@ -1,4 +1,5 @@
 #include "models/foundation/bad_input.h"
+#include "models/recording/measurements.h"
 #include "scenarios/realize.h"
 #include "sim/plant/ideal_plant.h"
 #include "sim/plant/mujoco_plant.h"
@@ -8,6 +9,13 @@ namespace warmjoint::inline sim {
 namespace {
 
 std::unique_ptr<Plant> MakeFixedPlant(const Scenario& scenario) {
+  const double samples = scenario.duration * scenario.sampling.rate;
+  if (samples > static_cast<double>(kMostSamples)) {
+    Refuse({scenario.name},
+           "duration {:g} s at sampling.rate {:g} Hz makes {:g} samples; {} at most: shorten "
+           "duration or lower sampling.rate",
+           scenario.duration, scenario.sampling.rate, samples, kMostSamples);
+  }
   switch (scenario.plant) {
     case PlantKind::ideal:
       return MakeIdealPlant(scenario);

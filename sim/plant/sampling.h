@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "models/foundation/butterworth.h"
+#include "models/foundation/low_pass.h"
 #include "models/foundation/random_stream.h"
 #include "models/recording/measurements.h"
 #include "scenarios/scenario.h"

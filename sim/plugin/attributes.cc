@@ -11,7 +11,6 @@
 #include "models/foundation/parse_number.h"
 #include "models/friction/check_friction.h"
 #include "models/friction/friction_json.h"
-#include "models/friction/friction_map_json.h"
 #include "models/friction/law.h"
 #include "models/friction/thermal.h"
 #include "sim/plugin/model_folder.h"
@@ -129,12 +128,9 @@ std::optional<Thermal> ReadThermal(std::string_view prefix, const AttributeReade
 }
 
 std::vector<FrictionMap> ReadMaps(const std::string& text, const Place& place) {
-  using nlohmann::json;
-  const json list = json::parse(text, nullptr, false);
+  Tree list = Tree::parse(text, nullptr, false);
   if (!list.is_array()) Refuse(place, "maps must be a JSON list");
-  std::vector<FrictionMap> maps;
-  for (const json& map : list) maps.push_back(MapFromJson(map, place));
-  return maps;
+  return MapsFrom(Node(Tree{{"maps", std::move(list)}}, place.file).Require("maps", ""));
 }
 
 /// The object of joints; of a name given twice JSON would keep the last alone.
@@ -164,7 +160,7 @@ FrictionOfJoints ReadJoints(const AttributeReader& read, const Place& place) {
   // each friction is checked as one of a file is
   FrictionOfJoints joints;
   for (const auto& [name, friction] : object.items()) {
-    joints[name] = FrictionFromJson(friction, {fmt::format("{}: joints: {}", place.file, name)});
+    joints[name] = FrictionFrom({Tree(friction), fmt::format("{}: joints: {}", place.file, name)});
   }
   return joints;
 }

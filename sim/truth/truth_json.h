@@ -1,10 +1,9 @@
 // Truth as JSON: the truth.json beside a simulated recording.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "models/foundation/bad_input.h"
+#include "models/foundation/node.h"
 #include "sim/truth/truth.h"
 
 namespace warmjoint::inline sim {
@@ -12,11 +11,11 @@ namespace warmjoint::inline sim {
 /// {friction{}, initial_energy, torque_noise, plant, velocity[N], force[N], loss[N], energy[N]},
 /// SI; where the noise is coloured also coloured_noise and correlation_time. Numbers read back bit
 /// for bit.
-nlohmann::json TruthToJson(const Truth& truth);
+Tree TruthToTree(const Truth& truth);
 
 /// The inverse. Missing or unknown keys, arrays of unlike lengths and wrong types throw BadInput
-/// from `place`.
-Truth TruthFromJson(const nlohmann::json& json, const Place& place);
+/// with their place.
+Truth TruthFrom(const Node& node);
 
 /// Writes truth.json as a whole. Throws BadInput where the file cannot be written.
 void WriteTruth(const Truth& truth, const std::string& path);

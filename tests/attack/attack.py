@@ -75,7 +75,7 @@ class Attack:
             return self.fault(name, f"status {answer.returncode}, not one of {statuses}: {error[:300]!r}")
         if answer.returncode != 2:
             return self.clear(before)
-        lines = [line for line in error.splitlines() if not line.startswith(("notice: ", "wall: ", "warning: "))]
+        lines = [line for line in error.splitlines() if not line.startswith(("notice: ", "sandbox: ", "warning: "))]
         if len(lines) != 1 or not lines[0].startswith("error: ") or not error.endswith("\n"):
             self.fault(name, f"not one line: {error[:300]!r}")
         elif len(lines[0]) > 5000 or re.search(r"[\x00-\x08\x0b-\x1f\x7f\x80-\x9f\u202a-\u202e\u2066-\u2069]", lines[0]):

@@ -7,6 +7,7 @@ be those of a run without the other, the other's rows must say what it did, and 
 import csv
 import json
 import os
+import shlex
 import sys
 import time
 
@@ -52,7 +53,7 @@ CASES = {
     "read only": ("mkdir d; : > d/f; chmod 0 d; exit 4", "crashed"), "signal the program": ("kill -9 $PPID; kill -TERM -1; sleep 9; exit 4", "timeout"),
     "cheat by the suite": ("cat $OLDPWD/t.yaml @WORK/t.yaml > {E}", "crashed"), "cheat by the run": ("cat @WORK/R/suite.yaml > {E}", "crashed"),
     "cheat by the store": ("cp @WORK/R/results.sqlite {E}", "crashed"), "cheat by processes": ("cat /proc/[0-9]*/cmdline > {E}", "crashed"),
-    "spoil the others": ("for f in @TMP/warmjoint_*/*/recording.csv; do : > $f; done; exit 4", "crashed"),
+    "spoil the others": ("for f in @TMP/warmjoint_*/recording.csv; do : > $f; done; exit 4", "crashed"),
     "spoil the store": (": > @WORK/R/results.sqlite; exit 4", "crashed"), "spoil the suite": ("rm -rf @WORK/R; exit 4", "crashed"),
 }
 
@@ -73,12 +74,12 @@ def honest_only(attack):
 def judge(attack, name, line, wanted, honest):
     attack.count += 1
     line = line.replace("{E}", "estimate.json").replace("@WORK", str(attack.work)).replace("@TMP", str(attack.temporary))
-    command = json.dumps(f"{line} # {{recording}} {{estimate}}")
-    external = f"{{name: external, label: other, options: {{command: {command}, shell: 'yes', time_limit: 2}}}}"
+    command = json.dumps("/bin/sh -c " + shlex.quote(f"{line} # {{recording}} {{estimate}}"))
+    external = f"{{name: external, label: other, options: {{command: {command}, time_limit: 2}}}}"
     attack.file("t.yaml", suite(f"[{{name: nominal-ls}}, {external}]", 2))
     before = time.monotonic()
     try:
-        answer = attack.run(["run", "t.yaml", "-o", "R", "--jobs", "2", "--allow-commands", "--shell"], 90)
+        answer = attack.run(["run", "t.yaml", "-o", "R", "--jobs", "2", "--allow-commands"], 90)
     except Exception as error:
         return attack.fault(name, str(error))
     if answer.returncode not in (0, 5):

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Kills, signals and full disks: whatever ends a run, the same command goes on, and every file of the run directory but its
-timings becomes what an undisturbed run makes. kills.py WARMJOINT [KILLS SIGNALS DISKS]      default: 100 30 10
+database becomes what an undisturbed run makes. kills.py WARMJOINT [KILLS SIGNALS DISKS]      default: 100 30 10
 
 The suite has an identifier from outside, none of whose processes and directories may outlive the run. The undisturbed run is
 made on 1, 2 and 8 threads, in three shards that are merged, and in a run that is killed ten times. Full disks are small file
@@ -27,7 +27,7 @@ echo '{{"status": "ok", "parameters": {{"viscous": {{"value": 5, "unit": "N.m.s/
 
 def files_of(folder):
     return sorted(str(path.relative_to(folder)) for path in folder.rglob("*")
-                  if path.is_file() and not path.name.startswith(("timings.sqlite", ".lock")))
+                  if path.is_file() and not path.name.startswith(("results.sqlite", ".lock")))
 
 
 def differences(attack, folder, other):

@@ -118,7 +118,6 @@ def suites(attack):
         "unknown": good.replace("nominal-ls", "nominal_ls"), "label": good.replace("{name: energy-ml}", "{name: nominal-ls}"),
         "option": good.replace("{name: energy-ml}", "{name: energy-ml, options: {nope: 1}}"), "question": good.replace("question", "qestion"),
         "command": suite('[{name: external, options: {command: "touch x {recording} {estimate}"}}]'),
-        "shell": suite('[{name: external, options: {command: "touch x {recording} {estimate}", shell: "yes"}}]'),
         "no estimate": suite('[{name: external, options: {command: "true"}}]'),
         "seed": good + "seed: -1\n", "seed twice": good.replace("  duration", "  seed: 4\n  duration"),
         "ladder": good + "ladder: {variable: nope, values: [1]}\n", "ladder text": good + "ladder: {variable: noise.torque, values: [x]}\n",
@@ -178,9 +177,6 @@ def models(attack):
     body = '<body><joint name="j" type="hinge"/><geom size="0.1" mass="9"/></body>'
     texts = {
         "empty": "", "text": "hello", "open": "<mujoco>", "binary": bytes(range(256)), "deep": "<mujoco>" + "<body>" * 100_000,
-        "replicate": f'<mujoco><worldbody><replicate count="100000000">{body}</replicate></worldbody></mujoco>',
-        "replicates": "<mujoco><worldbody>" + '<replicate count="100">' * 5 + body + "</replicate>" * 5 + "</worldbody></mujoco>",
-        "flexcomp": '<mujoco><worldbody><flexcomp name="f" count="1000 1000 1000"/></worldbody></mujoco>',
         "itself": '<mujoco><include file="m.xml"/></mujoco>', "texture": '<mujoco><asset><texture builtin="flat" width="100000" height="100000"/></asset></mujoco>',
         "no joint": "<mujoco><worldbody/></mujoco>", "urdf": "<robot name='r'/>", "urdf deep": "<robot name='r'>" + "<a>" * 100_000,
         "urdf massless": "<robot name='r'><link name='a'/><link name='b'/><joint name='j' type='continuous'><parent link='a'/><child link='b'/></joint></robot>",

@@ -2,7 +2,7 @@
 """Some 250 stores that were changed after their run, in rows, schema and bytes. stores.py WARMJOINT
 
 Each is read by compare and taken further by merge or run. Nothing may crash or hang, every refusal is one line that names the
-store, results that were changed are never shown, and what a command refuses it leaves as it was."""
+store, and what a command refuses it leaves as it was. A value that was edited is not noticed."""
 
 import os
 import shutil
@@ -12,13 +12,12 @@ import sys
 from attack import Attack, suite
 
 TABLES = {
-    "suite": ["yaml"], "version": ["name", "value"], "identifier": ["position", "label"], "variant": ["position", "name"],
-    "realization": ["variant", "realization", "digest"],
-    "result": ["variant", "realization", "identifier", "status", "message", "n", "parameters", "effective_parameters", "rmse",
-               "mae", "fit", "fpe", "npe_continuous", "npe_discrete", "bound_npe_continuous", "bound_npe_discrete"],
+    "suite": ["yaml"], "version": ["name", "value"], "realization": ["variant", "realization", "seconds"],
+    "result": ["variant", "realization", "identifier", "status", "message", "seconds", "n", "parameters", "effective_parameters",
+               "rmse", "mae", "fit", "fpe", "npe_continuous", "npe_discrete", "bound_npe_continuous", "bound_npe_discrete"],
     "parameter": ["variant", "realization", "identifier", "discrete", "position", "name", "truth", "estimate", "estimated",
                   "covered", "bound"],
-    "trace": ["columns", "float32", "digest"],
+    "trace": ["columns", "float32"],
 }
 VALUES = ["NULL", "-1", "1000", "2147483648", "-9223372036854775808", "0.5", "1e308", "9e999", "''", "'x'", "x'00ff'",
           "'&a [*a]'", "char(27) || '[31m'", "zeroblob(100000)", "'=1+1'"]
@@ -30,9 +29,7 @@ STATEMENTS = [
     "CREATE TABLE more(a)", "CREATE INDEX i ON result(rmse)", "PRAGMA user_version = 1", "PRAGMA user_version = 99",
     "PRAGMA application_id = 7", "PRAGMA journal_mode = WAL", "PRAGMA writable_schema = 1; UPDATE sqlite_schema SET sql = 'x'",
     "DELETE FROM parameter WHERE realization = 1", "DELETE FROM realization WHERE realization = 1",
-    "INSERT INTO realization VALUES (0, 500, 'x')", "INSERT INTO identifier VALUES (7, 'more')",
-    "UPDATE parameter SET estimate = truth", "UPDATE result SET rmse = rmse / 2", "UPDATE result SET status = 'ok', message = ''",
-    "UPDATE identifier SET position = 1 - position", "UPDATE realization SET realization = realization + 10",
+    "INSERT INTO realization VALUES (0, 500, 1)", "UPDATE realization SET realization = realization + 10",
 ]
 
 
@@ -61,16 +58,11 @@ def tampered(attack, statement):
         database.close()
 
 
-def hidden(statement):
-    """Whether the statement changes what results are: then nothing of them may be shown."""
-    return any(statement.startswith(f"UPDATE {table} ") for table in ("result", "parameter", "realization", "identifier"))
-
-
-def judge(attack, name, statuses):
+def judge(attack, name):
     listing = sorted(os.listdir(attack.work / "R"))
-    attack.expect(f"compare: {name}", ["compare", "R"], statuses, "R")
+    attack.expect(f"compare: {name}", ["compare", "R"], (0, 2), "R")
     attack.count -= 2  # one attack, seen by three commands
-    attack.expect(f"merge: {name}", ["merge", "R", "-o", "M"], statuses, "R")
+    attack.expect(f"merge: {name}", ["merge", "R", "-o", "M"], (0, 2, 5), "R")
     attack.expect(f"run: {name}", ["run", "t.yaml", "-o", "R"], (0, 2, 5), "R")
     if sorted(os.listdir(attack.work / "R")) != listing:
         attack.fault(name, f"the run left {os.listdir(attack.work / 'R')}")
@@ -82,30 +74,28 @@ def rows(attack):
             for value in VALUES:
                 statement = f"UPDATE {table} SET {column} = {value}"
                 if tampered(attack, statement):
-                    judge(attack, statement, (2,) if hidden(statement) else (0, 2))
+                    judge(attack, statement)
     for statement in STATEMENTS:
         if tampered(attack, statement):
-            judge(attack, statement, (2,) if hidden(statement) else (0, 2))
+            judge(attack, statement)
 
 
 def bytes_of_files(attack):
     good = (attack.work / "GOOD" / "results.sqlite").read_bytes()
-    for name in ("results.sqlite", "timings.sqlite"):
-        whole = (attack.work / "GOOD" / name).read_bytes()
-        for size in (0, 1, 15, 16, 100, 1000, 4096, 5000, len(whole) - 1):
-            tampered(attack, "")
-            (attack.work / "R" / name).write_bytes(whole[:size])
-            judge(attack, f"{name} cut to {size}", (0, 2))
-        for text in (b"hello", bytes(100_000), whole[::-1], b"SQLite format 3\x00" + bytes(5000)):
-            tampered(attack, "")
-            (attack.work / "R" / name).write_bytes(text)
-            judge(attack, f"{name} is {text[:8]!r}", (0, 2))
+    for size in (0, 1, 15, 16, 100, 1000, 4096, 5000, len(good) - 1):
+        tampered(attack, "")
+        (attack.work / "R" / "results.sqlite").write_bytes(good[:size])
+        judge(attack, f"cut to {size}")
+    for text in (b"hello", bytes(100_000), good[::-1], b"SQLite format 3\x00" + bytes(5000)):
+        tampered(attack, "")
+        (attack.work / "R" / "results.sqlite").write_bytes(text)
+        judge(attack, f"it is {text[:8]!r}")
     for i in range(30):
         # a page's bytes turned round, at places spread over the file
         at = (i * 7919) % len(good)
         tampered(attack, "")
         (attack.work / "R" / "results.sqlite").write_bytes(good[:at] + bytes(255 - b for b in good[at:at + 8]) + good[at + 8:])
-        judge(attack, f"bytes at {at}", (0, 2))
+        judge(attack, f"bytes at {at}")
 
 
 def main():

@@ -15,13 +15,14 @@ int main(int argc, char** argv) {
   const RunStore small = RunStore::OpenToRead(argv[1]);
   const int realizations = std::atoi(argv[2]), shards = std::atoi(argv[3]);
   std::vector<Realization> real;
-  small.ForEachUnit([&](std::vector<Result> results) {
-    const Unit unit{results.front().variant, results.front().realization};
-    for (Result& result : results) result.trace = small.ReadTrace(unit, result.identifier);
-    real.push_back({unit, 0.001, std::move(results)});
+  small.ForEachResult([&](Result result) {
+    const Unit unit{result.variant, result.realization};
+    result.trace = small.ReadTrace(unit, result.identifier);
+    if (real.empty() || real.back().unit != unit) real.push_back({unit, 0.001, {}});
+    real.back().results.push_back(std::move(result));
   });
 
-  RunDescription description = small.ReadDescription();
+  RunDescription description = small.description();
   const std::string count = "realizations: ";
   const std::size_t at = description.suite_yaml.find(count) + count.size();
   description.suite_yaml.replace(at, description.suite_yaml.find('\n', at) - at,

@@ -37,7 +37,7 @@ def copy_sources(root, build, target):
 
 def environment(build):
     values = dict(os.environ, WARMJOINT_BUILT="1", NO_COLOR="1")
-    # the system's Python, which the wall around identifiers of others lets through, before others
+    # the system's Python, which the sandbox of identifiers of others lets through, before others
     values["PATH"] = f"{build}:/usr/bin:/bin:{values['PATH']}"
     return values
 

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "identification/answer/identify.h"
-#include "identification/estimate_to_json.h"
+#include "identification/estimate.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "identification/gravity_json.h"
+#include "models/foundation/serialize.h"
 
 namespace warmjoint {
 namespace {
@@ -66,8 +66,8 @@ TEST(Gravity, ComesBackFromJson) {
        {GravityModel{GravityKind::sincos, {}, Eigen::Vector2d(3, -2)}, WholeTurn(),
         GravityModel{GravityKind::paired, {2, 3, 63}, Eigen::Vector3d(1, 2, 3)},
         GravityModel{GravityKind::constant, {}, Eigen::VectorXd::Constant(1, 7)}}) {
-    const GravityModel back =
-        GravityFromJson(nlohmann::json::parse(GravityToJson(gravity).dump()), {"estimate.json"});
+    GravityModel back;
+    ReadValue(ParseJsonNode(WriteValue(gravity).dump(), "estimate.json"), &back, {});
     EXPECT_EQ(back.kind, gravity.kind);
     EXPECT_EQ(back.knots, gravity.knots);
     EXPECT_EQ(back.values, gravity.values);
@@ -76,14 +76,16 @@ TEST(Gravity, ComesBackFromJson) {
 
 TEST(Gravity, RefusesJsonThatIsNone) {
   const auto refuses = [](const char* text, const char* message) {
-    EXPECT_THAT([&] { GravityFromJson(nlohmann::json::parse(text), {"estimate.json"}); },
+    GravityModel gravity;
+    EXPECT_THAT([&] { ReadValue(ParseJsonNode(text, "estimate.json"), &gravity, {}); },
                 ThrowsMessage<BadInput>(HasSubstr(message)));
   };
-  refuses("3", "no kind ''");
+  refuses("3", "must be a map");
   refuses(R"({"kind": "sincoss", "sine": 1, "cosine": 2})", "did you mean 'sincos'?");
-  refuses(R"({"kind": "sincos", "sine": 1})", "cosine must be a number");
-  refuses(R"({"kind": "paired", "position": [0], "torque": [1, 2]})", "1 positions and 2 torques");
-  refuses(R"({"kind": "paired", "position": [], "torque": []})", "no positions");
+  refuses(R"({"kind": "sincos", "sine": 1})", "'cosine' is missing");
+  refuses(R"({"kind": "paired", "position": [0], "torque": [1, 2]})",
+          "torque is a list of 2; it must be as long as position");
+  refuses(R"({"kind": "paired", "position": [], "torque": []})", "with one at least");
   refuses(R"({"kind": "paired", "position": [0.05], "torque": [1]})", "0.05 is not a knot");
 }
 

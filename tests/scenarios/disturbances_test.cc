@@ -21,7 +21,7 @@ TEST(Disturbances, DifferWhereAnyOfThemDoes) {
       [](Disturbances& d) { d.load_change.load = 0.1; },
       [](Disturbances& d) { d.torque_lag.time_constant = 0.1; },
       [](Disturbances& d) { d.velocity_filter.time_constant = 0.1; },
-      [](Disturbances& d) { d.stale_position.samples = 0.1; },
+      [](Disturbances& d) { d.stale_position.samples = 1; },
       [](Disturbances& d) { d.encoder.resolution = 0.1; },
       [](Disturbances& d) { d.hold_parity.level = 0.1; },
       [](Disturbances& d) { d.step_in_time.level = 0.1; },

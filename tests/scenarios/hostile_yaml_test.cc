@@ -3,9 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "models/foundation/bad_input.h"
-#include "scenarios/parse_suite.h"
 #include "scenarios/read_scenario.h"
-#include "scenarios/write_scenario.h"
+#include "scenarios/suite.h"
 
 namespace warmjoint {
 namespace {
@@ -17,7 +16,7 @@ const std::string kRest =
 const std::string kFriction = "friction: {law: coulomb, parameters: {coulomb: 1}}\n";
 
 Scenario Read(const std::string& text, const Settings& settings = {}) {
-  return ReadScenarioValue(YamlValue::Parse(text, "s.yaml", settings), "s");
+  return ParseScenario(text, "s.yaml", settings);
 }
 
 /// What refuses the scenario, and, where it can be read, its motion.

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "scenarios/motion.h"
-#include "scenarios/yaml_motion.h"
+#include "scenarios/read_scenario.h"
 
 namespace warmjoint {
 namespace {
@@ -14,7 +14,10 @@ std::vector<VelocityCorner> Plan(const Motion& motion, double duration,
   return PlanCorners(motion, duration, random);
 }
 
-Motion Read(const std::string& yaml) { return ReadMotion(YamlValue::Parse(yaml, "motion")); }
+const std::string kRest =
+    "duration: 10\nfriction: {law: coulomb, parameters: {coulomb: 1}}\nmotion:\n  ";
+
+Motion Read(const std::string& yaml) { return ParseScenario(kRest + yaml, "motion").motion; }
 
 TEST(PlanCorners, FourierBeginsAtRestAndReachesItsSpeed) {
   const Motion motion = Read("fourier: {period: 10, harmonics: 5, speed: 1.5}");
@@ -54,10 +57,10 @@ TEST(PlanCorners, MovesStayBetweenTheirLimitsAndPause) {
 }
 
 TEST(PlanCorners, ReadsBackWhatItWrites) {
-  for (const char* yaml : {"fourier: {period: 10, harmonics: 5, speed: 1.5}\nstart: 0.2",
+  for (const char* yaml : {"fourier: {period: 10, harmonics: 5, speed: 1.5}\n  start: 0.2",
                            "moves: {between: [-1, 2], speed: 1, acceleration: 4, pause: 0.5}"}) {
-    const Motion motion = Read(yaml);
-    EXPECT_EQ(Read(MotionToYaml(motion, "")), motion) << yaml;
+    const Scenario scenario = ParseScenario(kRest + yaml, "motion");
+    EXPECT_EQ(ParseScenario(ScenarioToYaml(scenario), "again").motion, scenario.motion) << yaml;
   }
 }
 

@@ -9,7 +9,6 @@
 
 #include "scenarios/read_scenario.h"
 #include "scenarios/realize.h"
-#include "scenarios/write_scenario.h"
 #include "tests/support/table1.h"
 #include "tests/tools/scratch_directory.h"
 
@@ -26,7 +25,7 @@ const json kPosterior = {{"parameters", {"coulomb", "thermal_time_constant"}},
 FrictionDescription Friction() { return test::Table1().friction; }
 
 TEST(Posterior, DrawsWithItsMeansAndCovariance) {
-  const Posterior posterior = PosteriorFromJson(kPosterior, Friction(), {"here"});
+  const Posterior posterior = PosteriorFrom({Tree(kPosterior), "here"}, Friction());
   RandomStream random({1, 0}, Stream::test);
   const int n = 4000;
   Eigen::MatrixXd drawn(n, 2);
@@ -51,7 +50,7 @@ TEST(Posterior, DrawsWithItsMeansAndCovariance) {
 TEST(Posterior, KeepsWithinPhysicalBounds) {
   // a time constant known to 600 +- 600 is never drawn below 0
   const json wide = {{"parameters", {"thermal_time_constant"}}, {"covariance", {{360000}}}};
-  const Posterior posterior = PosteriorFromJson(wide, Friction(), {"here"});
+  const Posterior posterior = PosteriorFrom({Tree(wide), "here"}, Friction());
   RandomStream random({2, 0}, Stream::test);
   for (int i = 0; i < 200; ++i) {
     EXPECT_GT(Draw(posterior, Friction(), random, {"here"}).thermal->time_constant, 0);
@@ -60,8 +59,8 @@ TEST(Posterior, KeepsWithinPhysicalBounds) {
 
 TEST(Posterior, RefusesWhatIsNoCovarianceOfTheFriction) {
   const auto read = [](const json& parameters, const json& covariance) {
-    return PosteriorFromJson({{"parameters", parameters}, {"covariance", covariance}}, Friction(),
-                             {"here"});
+    return PosteriorFrom(
+        {Tree(json{{"parameters", parameters}, {"covariance", covariance}}), "here"}, Friction());
   };
   EXPECT_THROW(read({"stribeck_velocity"}, {{1}}), BadInput);
   EXPECT_THROW(read({"viscous"}, {{-1}}), BadInput);
@@ -76,10 +75,11 @@ TEST(Posterior, OfAnEstimateTakesWhatIsFriction) {
   const json estimate = {{"covariance",
                           {{"parameters", {"gravity_sin", "viscous", "coulomb"}},
                            {"matrix", {{9, 1, 1}, {1, 0.01, -0.02}, {1, -0.02, 0.25}}}}}};
-  const Posterior posterior = PosteriorOfEstimate(estimate, Friction(), {"here"});
+  const Posterior posterior = PosteriorOfEstimate({Tree(estimate), "here"}, Friction());
   EXPECT_THAT(posterior.parameters, ElementsAre("viscous", "coulomb"));
   EXPECT_EQ(posterior.covariance, (Eigen::Matrix2d() << 0.01, -0.02, -0.02, 0.25).finished());
-  EXPECT_THROW(PosteriorOfEstimate({{"covariance", nullptr}}, Friction(), {"here"}), BadInput);
+  EXPECT_THROW(PosteriorOfEstimate({Tree(json{{"covariance", nullptr}}), "here"}, Friction()),
+               BadInput);
 }
 
 /// A scenario whose friction is that of an estimate file with 5 and 15 +- 1, drawn as `draw` says.
@@ -104,8 +104,7 @@ TEST(Posterior, AScenarioDrawsWhatItsEstimateLeavesOpen) {
   EXPECT_EQ(Realize(scenario, 0).friction.parameters.at("viscous"), 5);
 
   // the scenario stands alone without the estimate, and draws the same
-  const Scenario back =
-      ReadScenarioValue(YamlValue::Parse(ScenarioToYaml(scenario), "again.yaml"), "again");
+  const Scenario back = ParseScenario(ScenarioToYaml(scenario), "again.yaml");
   EXPECT_EQ(Realize(back, 0).friction.parameters.at("coulomb"), first);
 }
 

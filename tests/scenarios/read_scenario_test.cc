@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <fstream>
 
-#include "scenarios/write_scenario.h"
 #include "tests/support/table1.h"
 
 namespace warmjoint {
@@ -34,7 +33,7 @@ std::vector<std::string> Lines() {
 Scenario Read(const std::vector<std::string>& lines, const Settings& settings = {}) {
   std::string text;
   for (const std::string& line : lines) text += line + "\n";
-  return ReadScenarioValue(YamlValue::Parse(text, "table1.yaml", settings), "table1");
+  return ParseScenario(text, "table1.yaml", settings);
 }
 
 std::string Refusal(const std::vector<std::string>& lines, const Settings& settings = {}) {
@@ -85,7 +84,7 @@ TEST(ReadScenario, RefusesWrongTypes) {
   EXPECT_THAT(RefusalOf(11, "duration: an hour"), HasSubstr("duration is 'an hour'"));
   EXPECT_THAT(RefusalOf(7, "  speeds: 0.5"), HasSubstr("a list of speeds"));
   EXPECT_THAT(RefusalOf(4, "  parameters: {viscous: much, coulomb: 15}"),
-              HasSubstr("viscous is \"much\"; it must be a number"));
+              HasSubstr("table1.yaml:4: friction.parameters.viscous is 'much'"));
 }
 
 TEST(ReadScenario, RefusesMotionsThatCannotBe) {
@@ -93,12 +92,13 @@ TEST(ReadScenario, RefusesMotionsThatCannotBe) {
   EXPECT_THAT(RefusalOf(7, "  speeds: [0.1, -1]"), HasSubstr("motion.speeds.1 is '-1'"));
   EXPECT_THAT(RefusalOf(7, "  speeds: {uniform: [1, 0.1]}"),
               HasSubstr("the lower end must be below the upper"));
-  EXPECT_THAT(RefusalOf(7, "  order: shuffled"), HasSubstr("'motion.speeds' is missing"));
-  EXPECT_THAT(RefusalOf(8, "  order: shuffled"), HasSubstr("neither hold nor travel"));
+  EXPECT_THAT(RefusalOf(7, "  order: shuffled"), HasSubstr("one of speeds, phases"));
+  EXPECT_THAT(RefusalOf(8, "  order: shuffled"), HasSubstr("one of hold: seconds, and travel"));
   EXPECT_THAT(RefusalOf(8, "  {hold: 20, travel: [0, 1]}"), HasSubstr("is not YAML"));
   EXPECT_THAT(RefusalOf(8, "  travel: [1, 0]"), HasSubstr("the lower end must be below the upper"));
   EXPECT_THAT(RefusalOf(8, "  travel: limits"), HasSubstr("motion.travel is 'limits'"));
-  EXPECT_THAT(Refusal(Lines(), {{"motion.travel", "[0, 1]"}}), HasSubstr("stands beside"));
+  EXPECT_THAT(Refusal(Lines(), {{"motion.travel", "[0, 1]"}}),
+              HasSubstr("one of hold: seconds, and travel"));
   EXPECT_THAT(RefusalOf(8, "  hold: 20\n  order: random"), HasSubstr("motion.order is 'random'"));
   EXPECT_THAT(RefusalOf(8, "  hold: 20\n  rests: {run: 5}"),
               HasSubstr("'motion.rests.rest' is missing"));
@@ -109,12 +109,13 @@ TEST(ReadScenario, RefusesPhasesThatCannotBe) {
     return Refusal(Lines(), {{"motion", "{phases: " + phases + "}"}});
   };
   EXPECT_EQ(refusal("[{duration: 5, speeds: [1], hold: 1}, {rest: 3}]"), "(accepted)");
-  EXPECT_THAT(refusal("[]"), HasSubstr("motion.phases is a list of 0"));
+  EXPECT_THAT(refusal("[]"), HasSubstr("one of speeds, phases"));
   EXPECT_THAT(refusal("[{rest: 0}]"), HasSubstr("motion.phases.0.rest is '0'"));
-  EXPECT_THAT(refusal("[{speeds: [1], hold: 1}]"), HasSubstr("'motion.phases.0.duration' is"));
+  EXPECT_THAT(refusal("[{speeds: [1], hold: 1}]"), HasSubstr("one of rest and duration"));
   EXPECT_THAT(refusal("[{duration: 5, speeds: [1], travel: [0, 1]}]"),
               HasSubstr("unknown key 'motion.phases.0.travel'"));
-  EXPECT_THAT(refusal("[{rest: 3}], hold: 5"), HasSubstr("unknown key 'motion.hold'"));
+  EXPECT_THAT(refusal("[{rest: 3}], hold: 5"),
+              HasSubstr("hold, travel and rests stand beside speeds alone"));
 }
 
 TEST(ReadScenario, RefusesCornersThatCannotBe) {
@@ -122,18 +123,18 @@ TEST(ReadScenario, RefusesCornersThatCannotBe) {
     return Refusal(Lines(), {{"motion", "{corners: " + motion + "}"}});
   };
   EXPECT_EQ(refusal("[[0, 0], [1, -0.5]], start: 2"), "(accepted)");
-  EXPECT_THAT(refusal("[]"), HasSubstr("motion.corners is a list of 0"));
+  EXPECT_THAT(refusal("[]"), HasSubstr("one of speeds, phases"));
   EXPECT_THAT(refusal("[[0, 0, 1]]"), HasSubstr("[time, velocity]"));
   EXPECT_THAT(refusal("[[-1, 0]]"), HasSubstr("motion.corners.0.0 is '-1'"));
-  EXPECT_THAT(refusal("[[0, 0], [0, 1]]"), HasSubstr("times must ascend"));
-  EXPECT_THAT(refusal("[[0, 0]], speeds: [1]"), HasSubstr("unknown key 'motion.speeds'"));
+  EXPECT_THAT(refusal("[[0, 0], [0, 1]]"), HasSubstr("whose times ascend"));
+  EXPECT_THAT(refusal("[[0, 0]], speeds: [1], hold: 1"), HasSubstr("one of speeds, phases"));
 }
 
 TEST(ReadScenario, RefusesSamplingThatCannotBe) {
   EXPECT_THAT(RefusalOf(10, "sampling: {rate: 20, sensor_rate: 10}"),
-              HasSubstr("table1.yaml:10: sampling.rate is 20 Hz; it must be at most the 10 Hz"));
+              HasSubstr("table1.yaml:10: sampling.rate is '20'; it must be at most sensor_rate"));
   EXPECT_THAT(RefusalOf(10, "sampling: {sensor_rate: 250, cutoff: 125}"),
-              HasSubstr("below half the sensor_rate of 250 Hz"));
+              HasSubstr("below half the sensor_rate"));
 }
 
 TEST(ReadScenario, RefusesDisturbancesThatCannotBe) {
@@ -147,8 +148,8 @@ TEST(ReadScenario, RefusesDisturbancesThatCannotBe) {
   EXPECT_THAT(refusal("{gravity: {sine: 5, cosine: 0}}", "mujoco"),
               HasSubstr("disturbances.gravity is known to the ideal plant alone"));
   EXPECT_EQ(refusal("{outliers: {fraction: 0.1, size: 5}}", "mujoco"), "(accepted)");
-  EXPECT_THAT(refusal("{outliers: {fraction: 1, size: 5}}"), HasSubstr("it must be below 1"));
-  EXPECT_THAT(refusal("{lost_samples: {fraction: 1.5}}"), HasSubstr("it must be below 1"));
+  EXPECT_THAT(refusal("{outliers: {fraction: 1, size: 5}}"), HasSubstr("below 1"));
+  EXPECT_THAT(refusal("{lost_samples: {fraction: 1.5}}"), HasSubstr("below 1"));
   EXPECT_THAT(refusal("{outliers: {fraction: 0.1}}"),
               HasSubstr("'disturbances.outliers.size' is missing"));
   EXPECT_THAT(refusal("{coloured_noise: {deviation: -1, correlation_time: 1}}"),

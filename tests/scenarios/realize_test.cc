@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "scenarios/read_scenario.h"
-#include "scenarios/write_scenario.h"
 #include "tests/support/table1.h"
 
 namespace warmjoint {

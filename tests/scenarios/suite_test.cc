@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "models/foundation/bad_input.h"
-#include "scenarios/write_scenario.h"
+#include "scenarios/read_scenario.h"
 #include "tests/support/folders.h"
 
 namespace warmjoint {
@@ -69,7 +69,7 @@ TEST_F(SuiteFile, NamesACommandAsAnIdentifier) {
   EXPECT_EQ(mine.options.at("time_limit"), "5");
   EXPECT_THAT(Refusal(kScenario + std::string("identifiers:\n  - {name: mine, command: a,\n"
                                               "     options: {command: b}}\n")),
-              HasSubstr(":9: identifiers.0.command stands in options too"));
+              HasSubstr(":9: identifiers.0.command is 'a'; it must be absent"));
 }
 
 TEST_F(SuiteFile, IsReadWhole) {

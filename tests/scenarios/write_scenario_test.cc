@@ -1,5 +1,3 @@
-#include "scenarios/write_scenario.h"
-
 #include <gtest/gtest.h>
 
 #include "scenarios/read_scenario.h"
@@ -42,7 +40,7 @@ Scenario Unusual() {
 }
 
 Scenario ReadBack(const Scenario& scenario) {
-  return ReadScenarioValue(YamlValue::Parse(ScenarioToYaml(scenario), "written"), "unnamed");
+  return ParseScenario(ScenarioToYaml(scenario), "written");
 }
 
 TEST(WriteScenario, ReadsBackBitForBit) {

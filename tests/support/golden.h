@@ -51,7 +51,7 @@ inline GoldenMotion ReadGoldenMotion(const std::string& name) {
     return golden.contains(key) ? ToVector(golden.at(key)) : Eigen::VectorXd();
   };
   GoldenMotion motion;
-  motion.friction = FrictionFromJson(golden.at("friction"), {name});
+  motion.friction = FrictionFrom({Tree(golden.at("friction")), name});
   JointCourse& course = motion.course;
   course.velocity = column("velocity");
   course.step = golden.at("step");

@@ -22,10 +22,10 @@ constexpr const char* kFile = "data/emps/DATA_EMPS.csv";
 
 /// The log; a turn of its screw is 10 mm.
 Measurements Emps() {
-  CsvLayout layout;
-  layout.column = {{"time", "t_s"}, {"position", "q_m"}, {"torque", "force_N"}};
+  ReadSettings layout;
+  layout.map = {{"time", "t_s"}, {"position", "q_m"}, {"torque", "force_N"}};
   layout.joint = JointKind::linear;
-  Measurements m = ReadRecording((test::SharedFolder() / kFile).string(), layout);
+  Measurements m = ReadRecordingFile((test::SharedFolder() / kFile).string(), layout);
   m.gear = 2 * std::numbers::pi / 0.010;
   return m;
 }

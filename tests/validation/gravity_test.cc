@@ -77,11 +77,11 @@ TEST(Gravity, OfAPendulumIsTakenOffBothWays) {
 
 TEST(Gravity, OfTheEmpsAxisIsItsPublishedOffset) {
   WARMJOINT_NEED_SHARED("data/emps/DATA_EMPS.csv");
-  CsvLayout layout;
-  layout.column = {{"time", "t_s"}, {"position", "q_m"}, {"torque", "force_N"}};
+  ReadSettings layout;
+  layout.map = {{"time", "t_s"}, {"position", "q_m"}, {"torque", "force_N"}};
   layout.joint = JointKind::linear;
   const Measurements log =
-      ReadRecording(test::SharedFolder() / "data" / "emps" / "DATA_EMPS.csv", layout);
+      ReadRecordingFile(test::SharedFolder() / "data" / "emps" / "DATA_EMPS.csv", layout);
   const Identifier& identifier = FindIdentifier("nominal-ls");
   const Options options = ReadOptions(identifier.options, {{"gravity", "paired"}}, {});
   const Estimate estimate = IdentifyUnjudged(identifier, {Prepare(log), options, {}});

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
@@ -16,7 +15,6 @@
 #include "sim/plant/plant.h"
 #include "tests/support/shared_data.h"
 #include "tests/tools/scratch_directory.h"
-#include "tools/cli/repeat_motion.h"
 
 namespace warmjoint {
 namespace {
@@ -86,16 +84,15 @@ TEST(RoundTrip, OfAJointThatWarmsUp) {
   ASSERT_EQ(first.status, Status::ok) << first.message;
   const Recording again = Again(log, first, "rotary", "hinge", scratch.path(), 0.2);
   ExpectSameFriction(first, Identify(again.measurements, "energy-ml", law));
-  std::printf("%s", CompareTorque(log, again.measurements).c_str());
 }
 
 TEST(RoundTrip, OfTheEmpsAxis) {
   WARMJOINT_NEED_SHARED("data/emps/DATA_EMPS.csv");
-  CsvLayout layout;
-  layout.column = {{"time", "t_s"}, {"position", "q_m"}, {"torque", "force_N"}};
+  ReadSettings layout;
+  layout.map = {{"time", "t_s"}, {"position", "q_m"}, {"torque", "force_N"}};
   layout.joint = JointKind::linear;
   const Measurements log =
-      Prepare(ReadRecording(test::SharedFolder() / "data" / "emps" / "DATA_EMPS.csv", layout))
+      Prepare(ReadRecordingFile(test::SharedFolder() / "data" / "emps" / "DATA_EMPS.csv", layout))
           .taken()
           .measurements;
 
@@ -105,7 +102,6 @@ TEST(RoundTrip, OfTheEmpsAxis) {
   ASSERT_EQ(first.status, Status::ok) << first.message;
   const Recording again = Again(log, first, "linear_axis", "carriage", scratch.path(), 1);
   ExpectSameFriction(first, Identify(again.measurements, "nominal-ls", law));
-  std::printf("%s", CompareTorque(log, again.measurements).c_str());
 }
 
 }  // namespace

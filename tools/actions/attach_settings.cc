@@ -10,7 +10,7 @@
 #include "models/foundation/nearest_name.h"
 #include "models/foundation/read_json.h"
 #include "models/friction/friction_json.h"
-#include "tools/actions/initial_energy.h"
+#include "tools/actions/carried_heat.h"
 
 namespace warmjoint::inline tools {
 namespace {

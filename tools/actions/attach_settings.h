@@ -28,7 +28,7 @@ std::vector<std::string> IntegratorNames();
 AttachOptions CheckedOptions(const AttachSettings& settings);
 
 /// The friction in `file` for the joints that `joint` names, with the heat that `initial` asks for
-/// (initial_energy.h). Refuses an estimate without friction. Adds to `warnings` what the estimate's
+/// (InitialEnergy). Refuses an estimate without friction. Adds to `warnings` what the estimate's
 /// own verdict says against its friction: identify --force writes such ones.
 FrictionForJoint ReadFrictionForJoint(const std::string& joint, const std::string& file,
                                       const std::string& initial,

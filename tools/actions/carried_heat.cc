@@ -13,8 +13,12 @@
 #include "identification/uncertainty/tails.h"
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
+#include "models/foundation/excerpt.h"
+#include "models/foundation/json_members.h"
+#include "models/foundation/parse_number.h"
+#include "models/foundation/read_json.h"
+#include "models/friction/settled_energy.h"
 #include "models/friction/thermal.h"
-#include "tools/actions/read_member.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -49,7 +53,74 @@ double PauseByStamps(const LeftHeat& left, const Measurements& next) {
          next.source, next.time[0], left.file, *left.stamp, remedy);
 }
 
+constexpr std::string_view kSettled = "settled:";
+
+/// The heat at the end of a recording: {energy, second_energy} of state_end.
+std::vector<double> EndEnergy(const FrictionDescription& friction, const std::string& file) {
+  if (!friction.thermal) return {};
+  const nlohmann::json object = ReadJsonFile(file);
+  const Place place{file};
+  // only estimates of a warming joint tell the heat at the end
+  if (!object.is_object() || !object.contains("state_end") || !object["state_end"].is_object()) {
+    Refuse(place,
+           "has no state_end, the heat at the end of its recording; identify again, or give "
+           "--initial cold or settled:SPEED");
+  }
+  const nlohmann::json& end = object["state_end"];
+  std::vector<double> energies;
+  // heat of each stage
+  const auto add = [&](const char* key) {
+    if (!end.contains(key)) Refuse(place, "state_end has no {}; identify again", key);
+    // a number, or an object of its value, standard error and interval
+    const nlohmann::json& given = end[key];
+    const bool whole = given.is_object() && given.contains("value");
+    const nlohmann::json& value = whole ? given["value"] : given;
+    energies.push_back(NumberFrom(value, fmt::format("state_end.{}", key), place));
+  };
+  add("energy");
+  if (friction.second_thermal) add("second_energy");
+  return energies;
+}
+
+std::vector<double> Settled(const std::string& text, const FrictionDescription& friction,
+                            const std::string& file) {
+  // the heat that the joint settles at when it moves at this speed for ever
+  const auto speed = ParseNumber(text);
+  if (!speed || !std::isfinite(*speed)) {
+    Refuse({"--initial"}, "is settled:{}; the speed must be a number, rad/s or m/s, as settled:0.5",
+           Excerpt(text));
+  }
+  // too fast, and the heat grows without end
+  const auto energies = SettledEnergy(friction, *speed);
+  if (energies) return *energies;
+  Refuse({file},
+         "its friction never settles at {} rad/s or m/s: thermal_gain times the speed must stay "
+         "below 1; give a smaller speed to --initial",
+         *speed);
+}
+
 }  // namespace
+
+std::vector<double> InitialEnergy(const std::string& initial, const FrictionDescription& friction,
+                                  const std::string& file) {
+  if (initial == "cold") return {};
+  if (initial == "end") return EndEnergy(friction, file);
+  if (initial.starts_with(kSettled)) {
+    return Settled(initial.substr(kSettled.size()), friction, file);
+  }
+  Refuse({"--initial"}, "is '{}'; it must be cold, end or settled:SPEED", Excerpt(initial));
+}
+
+void CheckEarlier(const EarlierRecording& earlier, size_t recordings) {
+  // each option alone makes no sense
+  if (earlier.pause && !earlier.is_given()) {
+    Refuse({"--pause"}, "is the time since an earlier recording; name that with --follows");
+  }
+  if (earlier.is_given() && recordings > 1) {
+    Refuse({"--follows"}, "is for one recording, and {} are given, which begin cold each",
+           recordings);
+  }
+}
 
 bool IsJsonFile(const std::string& file) {
   if (IsStandardInput(file)) return false;
@@ -133,34 +204,6 @@ std::string Describe(const CarriedHeat& carried) {
       "E(0) is expected at {} {}, which {} left, after a pause of {:.6g} s ({}) at rest", energies,
       carried.unit, carried.file, carried.pause,
       carried.pause_from == "stamps" ? "by the stamps" : "given");
-}
-
-nlohmann::json CarriedHeatToJson(const CarriedHeat& carried) {
-  nlohmann::json json{
-      {"file", carried.file}, {"pause", carried.pause}, {"pause_from", carried.pause_from}};
-  for (size_t i = 0; i < carried.energy.size(); ++i) {
-    json[kStages[i]] = {
-        {"value", carried.energy[i]}, {"unit", carried.unit}, {"std", carried.std[i]}};
-  }
-  return json;
-}
-
-CarriedHeat CarriedHeatFromJson(const nlohmann::json& json, const Place& place) {
-  return ReadMember("follows", place, "", [&] {
-    CarriedHeat carried;
-    json.at("file").get_to(carried.file);
-    json.at("pause").get_to(carried.pause);
-    json.at("pause_from").get_to(carried.pause_from);
-    // the first stage is always there, a second one where there were two
-    for (const char* stage : kStages) {
-      if (!carried.energy.empty() && !json.contains(stage)) break;
-      const nlohmann::json& one = json.at(stage);
-      one.at("unit").get_to(carried.unit);
-      carried.energy.push_back(one.at("value"));
-      carried.std.push_back(one.at("std"));
-    }
-    return carried;
-  });
 }
 
 }  // namespace warmjoint::inline tools

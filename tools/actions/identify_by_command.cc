@@ -4,28 +4,15 @@
 
 #include <utility>
 
-#include "identification/fit_data.h"
-#include "identification/metrics.h"
 #include "identification/warming/estimated_start.h"
-#include "models/recording/course_of.h"
 #include "tools/suite/external_identifier.h"
 
 namespace warmjoint::inline tools {
 namespace {
 
-/// Figures of an estimate's friction on samples that it has not seen; nothing where there is none.
-std::optional<Metrics> Figures(const Estimate& estimate, const LogView& log, const Selection& test,
-                               const CourseStart& start) {
-  if (!estimate.friction || test.count() == 0) return std::nullopt;
-  const Measurements& all = log.measurements;
-  const Eigen::VectorXd force =
-      PredictFriction(*estimate.friction, all, start, BristleStart::torque).force;
-  const auto parameters = static_cast<int>(estimate.parameters.size());
-  return ComputeMetrics(Kept(all.torque, test), Kept(force, test), parameters, parameters);
-}
-
-/// The same of a second answer, to the part of the log before the held-out share.
-std::optional<Metrics> HoldOut(const CommandTask& task, const PreparedLog& log, double fraction) {
+/// Figures of a second answer, to the part of the log before the held-out share.
+std::optional<Metrics> HoldOut(const CheckedCommand& task, const PreparedLog& log,
+                               double fraction) {
   const LogView& view = log.taken();
   const Eigen::VectorXd& time = view.measurements.time;
   // the last part of the log's time is held out
@@ -39,7 +26,7 @@ std::optional<Metrics> HoldOut(const CommandTask& task, const PreparedLog& log, 
   test.keep.head(n) = false;
   try {
     const Estimate before = task.ask(log.Before(split), {});
-    return Figures(before, view, test, StartOf(before, view.measurements));
+    return FrictionMetrics(before, view.measurements, test, StartOf(before, view.measurements));
   } catch (const NoAnswer&) {
     // part of a log may be too little for it; what it says of all of it stands
     return std::nullopt;
@@ -48,25 +35,26 @@ std::optional<Metrics> HoldOut(const CommandTask& task, const PreparedLog& log, 
 
 }  // namespace
 
-CommandTask CheckCommand(const IdentifySettings& settings) {
+CheckedCommand CheckCommand(const IdentifySettings& settings, Confinement confinement) {
   // options that mean nothing to a command
   const std::pair<const char*, bool> ours[]{
       {"--gravity", settings.gravity != "none"},
       {"--start", settings.start == "estimated"},
+      {"--follows", settings.follows},
       {"--force", settings.void_numbers == VoidNumbers::show}};
   for (const auto& [option, is_given] : ours) {
     if (is_given) Refuse({option}, "is for identifiers of the list; leave it out with a command");
   }
   // what --set gives goes over the command's own options
-  SuiteIdentifier command = ReadExternal(settings.identifier, CommandForm::words);
+  SuiteIdentifier command = ReadExternal(settings.identifier);
   for (const auto& [name, value] : settings.options) {
     command.options.insert_or_assign(name, value);
   }
-  PreparedIdentifier ask = PrepareExternal(command, {"--set"}, JudgingOf(settings));
+  PreparedIdentifier ask = PrepareExternal(command, {"--set"}, JudgingOf(settings), confinement);
   return {std::move(command), std::move(ask)};
 }
 
-Estimate IdentifyByCommand(const CommandTask& task, const PreparedLog& log,
+Estimate IdentifyByCommand(const CheckedCommand& task, const PreparedLog& log,
                            const HoldOutSource& holdout) {
   Estimate estimate = task.ask(log, {});
   // held-out figures need samples to test on and an answer to be tested
@@ -76,8 +64,8 @@ Estimate IdentifyByCommand(const CommandTask& task, const PreparedLog& log,
     return estimate;
   }
   // on another recording, or on the last part of this one
-  estimate.holdout = holdout.other ? Figures(estimate, holdout.other->taken(),
-                                             holdout.other->taken().selection, {})
+  estimate.holdout = holdout.other ? FrictionMetrics(estimate, holdout.other->taken().measurements,
+                                                     holdout.other->taken().selection, {})
                                    : HoldOut(task, log, holdout.fraction);
   if (!estimate.holdout) {
     estimate.without_holdout =

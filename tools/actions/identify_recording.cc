@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "identification/estimate_to_json.h"
+#include "identification/estimate.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/linear/rigid_part.h"
@@ -13,6 +13,8 @@
 #include "identification/warming/expected_start.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
+#include "models/foundation/read_json.h"
+#include "models/foundation/serialize.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -40,23 +42,12 @@ void AddStart(const IdentifySettings& settings, const Identifier& identifier,
   if (!TellsStart(identifier)) {
     Refuse({option}, "{} cannot estimate E(0); use one of: {}", identifier.name, Able(TellsStart));
   }
-  if (!settings.follows) {
-    given[kStartOption] = "estimated";
-    return;
-  }
   // only one option may say how warm the joint is at the start
-  if (settings.start != "cold" || given.contains(kStartOption)) {
+  if (settings.follows && (settings.start != "cold" || given.contains(kStartOption))) {
     Refuse({option}, "says how warm the joint is at the start, and so does {}; leave one of them",
            settings.start != "cold" ? "--start" : "--set initial_energy");
   }
-  if (settings.follows->energy.size() > 1) {
-    Refuse({option}, "{} holds two stages of warming, and {} fits one", settings.follows->file,
-           identifier.name);
-  }
-  // heat of the recording before is expected with the doubt that it has
-  given[kStartOption] = "expected";
-  given["expected_energy"] = fmt::format("{}", settings.follows->energy[0]);
-  given["expected_energy_std"] = fmt::format("{}", settings.follows->std[0]);
+  given[kStartOption] = settings.follows ? "expected" : "estimated";
 }
 
 /// --motion as an option of the identifier.
@@ -137,6 +128,16 @@ IdentifyTask CheckSettings(const IdentifySettings& settings, JointKind joint) {
   return {identifier, std::move(options), JudgingOf(settings), settings.void_numbers};
 }
 
+void BeginWith(const CarriedHeat& heat, IdentifyTask& task) {
+  if (heat.energy.size() > 1) {
+    Refuse({"--follows"}, "{} holds two stages of warming, and {} fits one", heat.file,
+           task.identifier.name);
+  }
+  // expected with the doubt that it has
+  task.options =
+      task.options.With("expected_energy", heat.energy[0]).With("expected_energy_std", heat.std[0]);
+}
+
 HoldOutSource HoldOutShare(double fraction) {
   if (!(fraction >= 0 && fraction < 1)) {
     Refuse({"--holdout"}, "is {}; it must be at least 0 and below 1, or a file", fraction);
@@ -164,6 +165,26 @@ Identified IdentifyLog(const IdentifyTask& task, const PreparedLog& log,
   return identified;
 }
 
+CarriedHeat HeatBefore(const EarlierRecording& earlier, const RecordingSource& recording,
+                       const IdentifySettings& settings, const Measurements& next) {
+  const std::string& file = earlier.file;
+  // an estimate file says which heat its log left
+  if (IsJsonFile(file)) {
+    const Estimate estimate = EstimateFrom(ReadJsonNode(file));
+    return CarryOver(HeatLeftBy(estimate, file), earlier.pause, next);
+  }
+
+  // a recording is identified first, from a cold start and without held-out figures
+  RecordingSource before = recording;
+  before.files = {file};
+  IdentifySettings cold = settings;
+  cold.follows = false;
+  const PreparedLog log = ReadAndPrepare(before);
+  const IdentifyTask task = CheckSettings(cold, before.read.joint);
+  const Estimate estimate = IdentifyLog(task, log, {0, std::nullopt}).estimate;
+  return CarryOver(HeatLeftBy(estimate, file), earlier.pause, next);
+}
+
 std::string MarkAmperes(const Measurements& measurements, Estimate& estimate) {
   const std::string_view unit = kTorqueUnit.For(measurements.joint);
   if (!estimate.friction || measurements.torque_unit == unit) return "";
@@ -175,13 +196,12 @@ std::string MarkAmperes(const Measurements& measurements, Estimate& estimate) {
       measurements.torque_unit, unit);
 }
 
-std::string EstimateFile(const Estimate& estimate, const std::optional<RecordingArguments>& source,
+std::string EstimateFile(const Estimate& estimate, const std::optional<RecordingSource>& source,
                          const std::filesystem::path& target,
                          const std::optional<CarriedHeat>& follows) {
-  nlohmann::json file = EstimateToJson(estimate);
-  if (source) file["recording"] = RecordingToJson(*source, target);
-  if (follows) file["follows"] = CarriedHeatToJson(*follows);
-  if (source && source->project) file["project"] = TakenProjectToJson(*source->project, target);
+  Tree file = EstimateToTree(estimate);
+  if (follows) file["follows"] = WriteFields(*follows);
+  if (source) AddRecording(*source, target, file);
   return file.dump(2) + "\n";
 }
 

@@ -23,8 +23,8 @@ struct IdentifySettings {
   double relevance = Judging{}.relevance;
   std::map<std::string, std::string> options;  // of the identifier, as --set
   VoidNumbers void_numbers = VoidNumbers::withhold;
-  std::string motion = "chosen";         // chosen, constant or any
-  std::optional<CarriedHeat> follows{};  // what an earlier recording left of its heat
+  std::string motion = "chosen";  // chosen, constant or any
+  bool follows = false;  // an earlier recording, whose heat is known once it is read (BeginWith)
 };
 
 /// Settings that were checked and looked up.
@@ -41,6 +41,10 @@ Judging JudgingOf(const IdentifySettings& settings);
 /// Throws BadInput for names, words and numbers that cannot be used, and for what the identifier or
 /// the kind of joint does not allow.
 IdentifyTask CheckSettings(const IdentifySettings& settings, JointKind joint);
+
+/// Lets the fit expect the heat that an earlier recording left. task: of settings with `follows`. Throws BadInput for
+/// heat of two stages, of which identifiers fit one.
+void BeginWith(const CarriedHeat& heat, IdentifyTask& task);
 
 /// Samples for figures on unseen data: a share of the recording's end, 0 for none, or another one.
 struct HoldOutSource {
@@ -63,13 +67,18 @@ struct Identified {
 Identified IdentifyLog(const IdentifyTask& task, const PreparedLog& log,
                        const HoldOutSource& holdout, const Narrator& narrator = {});
 
+/// The heat with which `next` begins. Of an estimate.json its state_end; of a recording, read as `recording` says, that
+/// of its own estimate by the same settings, from a cold start. Throws BadInput.
+CarriedHeat HeatBefore(const EarlierRecording& earlier, const RecordingSource& recording,
+                       const IdentifySettings& settings, const Measurements& next);
+
 /// MuJoCo knows torques and forces: marks a friction in amperes as such and returns what to tell of
 /// it; an empty text where nothing was done.
 std::string MarkAmperes(const Measurements& measurements, Estimate& estimate);
 
 /// The text of an estimate file. source: what its members `recording` and `project` say; none without
 /// it. target: the file, from whose folder they are named. follows: its member of that name.
-std::string EstimateFile(const Estimate& estimate, const std::optional<RecordingArguments>& source,
+std::string EstimateFile(const Estimate& estimate, const std::optional<RecordingSource>& source,
                          const std::filesystem::path& target = {},
                          const std::optional<CarriedHeat>& follows = {});
 

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "identification/estimate_from_json.h"
+#include "identification/estimate.h"
 #include "identification/find_parameter.h"
 #include "identification/fit_data.h"
 #include "identification/metrics.h"
@@ -13,6 +13,44 @@
 #include "models/friction/friction_json.h"
 
 namespace warmjoint::inline tools {
+namespace {
+
+/// The samples that a model is compared with: all that move, where it has an inertia.
+const LogView& ViewOf(const StoredModel& stored, const PreparedLog& log) {
+  return stored.model.inertia ? MovingView(log) : log.steady();
+}
+
+/// What a recording leaves, as a model has it that knows no errors.
+LeftHeat HeatAtEnd(const StoredModel& stored, const PreparedLog& log, const std::string& file) {
+  const auto& [m, selection] = ViewOf(stored, log);
+  const FrictionDescription& friction = stored.model.friction;
+  const FrictionState end = PredictTorque(stored.model, m, selection, {}).friction.end;
+  // each stage has its own heat and cools by its own time constant
+  LeftHeat left{file, m.time[m.size() - 1], m.torque_unit, {}};
+  left.stages.push_back({end.energy, 0, friction.thermal->time_constant, 0});
+  if (friction.second_thermal) {
+    left.stages.push_back({end.second_energy, 0, friction.second_thermal->time_constant, 0});
+  }
+  return left;
+}
+
+CarriedHeat HeatBefore(const StoredModel& stored, const EarlierRecording& earlier,
+                       const RecordingSource& recording, const Measurements& next) {
+  const std::string& file = earlier.file;
+  if (!stored.model.friction.thermal) {
+    Refuse({"--follows"}, "is for a friction that warms, and the estimate knows no warming");
+  }
+  // an estimate says itself which heat its log left
+  if (IsJsonFile(file)) {
+    const Estimate estimate = EstimateFrom(ReadJsonNode(file));
+    return CarryOver(HeatLeftBy(estimate, file), earlier.pause, next);
+  }
+  RecordingSource before = recording;
+  before.files = {file};
+  return CarryOver(HeatAtEnd(stored, ReadAndPrepare(before), file), earlier.pause, next);
+}
+
+}  // namespace
 
 StoredModel ReadStoredModel(const std::string& file) {
   const nlohmann::json object = ReadJsonFile(file);
@@ -23,7 +61,7 @@ StoredModel ReadStoredModel(const std::string& file) {
     stored.model.friction = ReadFrictionFile(file);
     return stored;
   }
-  const Estimate estimate = EstimateFromJson(object, {file});
+  const Estimate estimate = EstimateFrom({Tree(object), file});
   // an estimate without friction predicts nothing
   if (!estimate.friction) {
     Refuse({file}, "is {} and holds no friction; identify again{}", StatusName(estimate.status),
@@ -40,20 +78,31 @@ StoredModel ReadStoredModel(const std::string& file) {
   return stored;
 }
 
-RecordingArguments AsIdentified(const StoredModel& stored, RecordingArguments recording) {
+RecordingSource AsIdentified(const StoredModel& stored, RecordingSource recording) {
   const FrictionDescription& friction = stored.model.friction;
-  if (recording.gear == RecordingArguments{}.gear) recording.gear = friction.gear;
-  const bool told =
-      recording.torque_constant != 0 || ReadPairs(recording.unit, "--unit").contains("torque");
-  if (!friction.torque_unit.empty() && !told) {
-    recording.unit.push_back("torque=" + friction.torque_unit);
-  }
+  if (recording.read.gear == ReadSettings{}.gear) recording.read.gear = friction.gear;
+  const ReadSettings& read = recording.read;
+  const bool told = read.torque_constant != 0 || read.unit.contains("torque");
+  if (!friction.torque_unit.empty() && !told) recording.read.unit["torque"] = friction.torque_unit;
   return recording;
+}
+
+WarmStart StartOf(const StoredModel& stored, const std::string& file, const std::string& initial,
+                  const EarlierRecording& earlier, const RecordingSource& recording,
+                  const Measurements& next) {
+  WarmStart begin;
+  if (earlier.is_given()) begin.follows = HeatBefore(stored, earlier, recording, next);
+  const std::vector<double> energies =
+      begin.follows ? begin.follows->energy : InitialEnergy(initial, stored.model.friction, file);
+  // E1 and E2; without warming there is none
+  if (!energies.empty()) begin.start.energy = energies[0];
+  if (energies.size() > 1) begin.start.second_energy = energies[1];
+  return begin;
 }
 
 Predicted PredictLog(const StoredModel& stored, const PreparedLog& log, const CourseStart& start) {
   // with an inertia any motion can be compared, else constant speeds only
-  const LogView& view = stored.model.inertia ? MovingView(log) : log.steady();
+  const LogView& view = ViewOf(stored, log);
   const Measurements& m = view.measurements;
   const std::string& amperes = stored.model.friction.torque_unit;
   const std::string_view unit = amperes.empty() ? kTorqueUnit.For(m.joint) : amperes;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "identification/holdout/predict_torque.h"
 #include "identification/preparation/prepared_log.h"
 #include "models/friction/course_start.h"
+#include "tools/actions/carried_heat.h"
 #include "tools/actions/recording_source.h"
 
 namespace warmjoint::inline tools {
@@ -25,7 +27,20 @@ StoredModel ReadStoredModel(const std::string& file);
 
 /// How to read a recording that the model is held against: with the model's own gear, and with a torque in amperes where
 /// the model's is, as far as nothing else is said.
-RecordingArguments AsIdentified(const StoredModel& stored, RecordingArguments recording);
+RecordingSource AsIdentified(const StoredModel& stored, RecordingSource recording);
+
+/// How warm the joint is at the first sample.
+struct WarmStart {
+  CourseStart start;
+  std::optional<CarriedHeat> follows;  // where an earlier recording says so
+};
+
+/// As `initial` says (InitialEnergy), or, where there is an earlier recording, with the heat that it left: of an
+/// estimate.json its state_end; of a recording, read as `recording` says, what the model makes of its motion from a
+/// cold start. file: of the model. Throws BadInput.
+WarmStart StartOf(const StoredModel& stored, const std::string& file, const std::string& initial,
+                  const EarlierRecording& earlier, const RecordingSource& recording,
+                  const Measurements& next);
 
 /// What the model predicts, and how well.
 struct Predicted {

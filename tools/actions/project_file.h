@@ -10,32 +10,41 @@
 //   shortest_hold: 1                                       s, as --shortest-hold
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
-#include <vector>
+
+#include "models/recording/read_settings.h"
 
 namespace warmjoint::inline tools {
 
 /// Its name.
 inline constexpr const char* kProjectFile = "warmjoint.yaml";
 
-/// What a project file says, each entry as the command line has it; what it leaves out is empty.
+/// What a project file says; what it leaves out is empty.
 struct Project {
-  std::vector<std::string> map, unit, scale;  // "torque=force_N"
-  std::optional<std::string> joint;
+  ColumnTexts map, unit;
+  ColumnNumbers scale;
+  std::optional<JointKind> joint;
   std::optional<double> gear, wrap, trim, shortest_hold;
+
+  template <class A>
+  void Serialize(A* a) {
+    constexpr FieldInfo left_out{.at_default = AtDefault::left_out};
+    a->Field("map", &map, left_out);
+    a->Field("unit", &unit, left_out);
+    a->Field("scale", &scale, left_out);
+    a->Field("joint", &joint);
+    a->Field("gear", &gear);
+    a->Check(!gear || *gear != 0, "gear", "a number other than 0");
+    a->Field("wrap", &wrap, {.bounds = {.above = 0}});
+    a->Field("trim", &trim, {.unit = "s", .bounds = {.at_least = 0}});
+    a->Field("shortest_hold", &shortest_hold, {.unit = "s", .bounds = {.at_least = 0}});
+  }
 };
 
 /// Reads the text of a project file. Throws BadInput with `file` and line for what is no YAML, a key or
 /// column that there is not (with the nearest), a value out of its bounds, and for a command or an
 /// identifier: a file that lies beside a log from elsewhere must not choose what runs.
 Project ParseProject(const std::string& text, const std::string& file);
-
-/// {map[], unit[], scale[], joint, gear, wrap, trim, shortest_hold}, without what is empty.
-nlohmann::json ProjectToJson(const Project& project);
-
-/// The inverse. Throws nlohmann::json::exception where a member has another type.
-Project ProjectFromJson(const nlohmann::json& json);
 
 }  // namespace warmjoint::inline tools

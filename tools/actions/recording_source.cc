@@ -2,26 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "identification/preparation/prepare.h"
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/excerpt.h"
+#include "models/foundation/serialize.h"
 #include "models/recording/join_recordings.h"
 #include "models/recording/read_recording.h"
-#include "tools/actions/read_member.h"
 
 namespace warmjoint::inline tools {
 namespace fs = std::filesystem;
 namespace {
-
-/// The same for pairs in any order.
-std::vector<std::string> Sorted(std::vector<std::string> pairs) {
-  std::sort(pairs.begin(), pairs.end());
-  return pairs;
-}
 
 /// A file as it is called from the folder of another one; as it is where it is no file of a folder.
 std::string SeenFrom(const fs::path& file, const fs::path& other) {
@@ -78,121 +70,70 @@ std::map<std::string, std::string> ReadPairs(const std::vector<std::string>& pai
   return map;
 }
 
-JointKind JointOf(const RecordingArguments& arguments) {
-  return arguments.joint == "linear" ? JointKind::linear : JointKind::rotary;
-}
-
-std::vector<std::string> WordsOf(const RecordingArguments& arguments) {
-  std::vector<std::string> words = arguments.recordings;
-  const auto add = [&](const char* option, const std::string& value) {
-    words.insert(words.end(), {option, value});
+std::vector<std::string> WordsOf(const RecordingSource& source) {
+  std::vector<std::string> words = source.files;
+  const auto add = [&](const char* option, const auto& value) {
+    words.insert(words.end(), {option, fmt::format("{}", value)});
   };
-  for (const std::string& pair : arguments.map) add("--map", pair);
-  for (const std::string& pair : arguments.unit) add("--unit", pair);
-  for (const std::string& pair : arguments.scale) add("--scale", pair);
+  const auto& [map, unit, scale, wrap, joint, gear, constant] = source.read;
+  for (const auto& [column, text] : map) add("--map", column + "=" + text);
+  for (const auto& [column, text] : unit) add("--unit", column + "=" + text);
+  for (const auto& [column, factor] : scale) add("--scale", fmt::format("{}={}", column, factor));
   // what is as usual needs no words
-  const RecordingArguments usual;
-  if (arguments.wrap != usual.wrap) add("--wrap", fmt::format("{}", arguments.wrap));
-  if (arguments.joint != usual.joint) add("--joint", arguments.joint);
-  if (arguments.gear != usual.gear) add("--gear", fmt::format("{}", arguments.gear));
-  const auto& [trim, shortest] = arguments.holds;
-  if (trim != usual.holds.trim) add("--trim", fmt::format("{}", trim));
-  if (shortest != usual.holds.shortest) add("--shortest-hold", fmt::format("{}", shortest));
+  const ReadSettings usual;
+  if (wrap != usual.wrap) add("--wrap", wrap);
+  if (joint != usual.joint) add("--joint", NameOf(joint));
+  if (gear != usual.gear) add("--gear", gear);
+  if (constant != usual.torque_constant) add("--torque-constant", constant);
+  if (source.prepare.trim != 0) add("--trim", source.prepare.trim);
+  if (source.prepare.shortest_hold != 0) add("--shortest-hold", source.prepare.shortest_hold);
   return words;
 }
 
-nlohmann::json RecordingToJson(const RecordingArguments& arguments, const fs::path& estimate) {
-  std::vector<std::string> files;
-  for (const std::string& file : arguments.recordings) files.push_back(SeenFrom(file, estimate));
-  nlohmann::json json{{"files", files},
-                      {"map", Sorted(arguments.map)},
-                      {"unit", Sorted(arguments.unit)},
-                      {"joint", arguments.joint},
-                      {"gear", arguments.gear}};
-
-  // what is rarely asked for stands there only where it is
-  if (!arguments.scale.empty()) json["scale"] = Sorted(arguments.scale);
-  if (arguments.wrap != 0) json["wrap"] = arguments.wrap;
-  if (arguments.torque_constant != 0) json["torque_constant"] = arguments.torque_constant;
-  if (arguments.holds.trim != 0) json["trim"] = arguments.holds.trim;
-  if (arguments.holds.shortest != 0) json["shortest_hold"] = arguments.holds.shortest;
-  return json;
+void AddRecording(const RecordingSource& source, const fs::path& target, Tree& estimate) {
+  RecordingSource seen = source;
+  for (std::string& file : seen.files) file = SeenFrom(file, target);
+  estimate["recording"] = WriteFields(seen);
+  if (!seen.project) return;
+  seen.project->file = SeenFrom(seen.project->file, target);
+  estimate["project"] = WriteFields(*seen.project);
 }
 
-nlohmann::json TakenProjectToJson(const TakenProject& project, const fs::path& estimate) {
-  return {{"file", SeenFrom(project.file, estimate)}, {"values", ProjectToJson(project.values)}};
-}
-
-TakenProject TakenProjectFromJson(const nlohmann::json& json, const Place& place) {
-  return ReadMember("project", place, "", [&] {
-    return TakenProject{Found(json.at("file").get<std::string>(), place.file),
-                        ProjectFromJson(json.at("values"))};
-  });
-}
-
-RecordingArguments RecordingFromJson(const nlohmann::json& json, const Place& place) {
-  RecordingArguments arguments = ReadMember("recording", place, ": give --recording", [&] {
-    RecordingArguments read;
-    json.at("files").get_to(read.recordings);
-    json.at("map").get_to(read.map);
-    json.at("unit").get_to(read.unit);
-    json.at("joint").get_to(read.joint);
-    json.at("gear").get_to(read.gear);
-    // what is rarely asked for may be absent
-    read.scale = json.value("scale", read.scale);
-    read.wrap = json.value("wrap", 0.0);
-    read.torque_constant = json.value("torque_constant", 0.0);
-    read.holds = {json.value("trim", 0.0), json.value("shortest_hold", 0.0)};
-    return read;
-  });
+std::optional<RecordingSource> RecordingIn(const Node& estimate) {
+  const auto recording = estimate.Find("recording");
+  if (!recording) return std::nullopt;
+  RecordingSource source = ReadAs<RecordingSource>(recording->With(UnknownKeys::ignored));
   // files are named as they are seen from the estimate
-  for (std::string& file : arguments.recordings) {
+  for (std::string& file : source.files) {
     if (IsStandardInput(file)) {
-      Refuse(place, "its recording was read from standard input; give it with --recording");
+      Refuse(recording->place(),
+             "its recording was read from standard input; give it with --recording");
     }
-    file = Found(file, place.file);
+    file = Found(file, estimate.file());
   }
-  return arguments;
+  if (const auto project = estimate.Find("project")) {
+    source.project = ReadAs<TakenProject>(project->With(UnknownKeys::ignored));
+    source.project->file = Found(source.project->file, estimate.file());
+  }
+  return source;
 }
 
-Measurements ReadRecording(const RecordingArguments& arguments) {
-  return JoinRecordings(ReadRecordings(arguments));
+Measurements ReadRecording(const RecordingSource& source) {
+  return JoinRecordings(ReadRecordings(source));
 }
 
-PreparedLog ReadAndPrepare(const RecordingArguments& arguments) {
-  return Prepare(ReadRecording(arguments), arguments.holds);
+PreparedLog ReadAndPrepare(const RecordingSource& source) {
+  return Prepare(ReadRecording(source), source.prepare);
 }
 
-CsvLayout LayoutOf(const RecordingArguments& arguments) {
+std::vector<Measurements> ReadRecordings(const RecordingSource& source) {
   // numbers that cannot be meant are refused before anything is read
-  if (!std::isfinite(arguments.gear) || arguments.gear == 0) {
-    Refuse({"--gear"}, "is {}; it must be a finite number other than 0", arguments.gear);
-  }
-  if (!std::isfinite(arguments.wrap) || arguments.wrap < 0) {
-    Refuse({"--wrap"}, "is {}; it must be a finite number above 0", arguments.wrap);
-  }
-  if (!std::isfinite(arguments.torque_constant)) {
-    Refuse({"--torque-constant"}, "is {}; it must be a finite number, N.m/A or N/A at the joint",
-           arguments.torque_constant);
-  }
-  // columns, units and factors, and what joint they are of
-  CsvLayout layout;
-  layout.scale = ReadPairs(arguments.scale, "--scale");
-  layout.wrap = arguments.wrap;
-  layout.column = ReadPairs(arguments.map, "--map");
-  layout.unit = ReadPairs(arguments.unit, "--unit");
-  layout.joint = JointOf(arguments);
-  layout.gear = arguments.gear;
-  return layout;
-}
-
-std::vector<Measurements> ReadRecordings(const RecordingArguments& arguments) {
-  const CsvLayout layout = LayoutOf(arguments);
+  CheckReadSettings(source.read);
   std::vector<Measurements> recordings;
-  for (const std::string& path : arguments.recordings) {
-    recordings.push_back(ReadForeignRecording(path, layout));
-    if (arguments.torque_constant != 0) {
-      TakeTorqueConstant(arguments.torque_constant, recordings.back());
+  for (const std::string& path : source.files) {
+    recordings.push_back(ReadRecordingFile(path, source.read));
+    if (source.read.torque_constant != 0) {
+      TakeTorqueConstant(source.read.torque_constant, recordings.back());
     }
   }
   return recordings;

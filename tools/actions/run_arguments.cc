@@ -4,8 +4,8 @@
 
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
-#include "tools/suite/choose_identifiers.h"
 #include "tools/suite/external_identifier.h"
+#include "tools/suite/prepare_identifiers.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -16,16 +16,10 @@ void RefuseCommand(const SuiteIdentifier& identifier, const RunArguments& argume
   const auto command = identifier.options.find("command");
   if (identifier.name != kExternal || command == identifier.options.end()) return;
   // commands of a suite run only where the user trusts them
-  if (!arguments.allow_commands) {
-    Refuse({arguments.suite},
-           "identifier {} runs the command '{}'; where you trust it, give --allow-commands",
-           Excerpt(identifier.label), Excerpt(command->second, kLongestComplaint));
-  }
-  if (NeedsShell(identifier) && !arguments.shell) {
-    Refuse({arguments.suite},
-           "identifier {} gives the line '{}' to a shell; where you trust it, give --shell",
-           Excerpt(identifier.label), Excerpt(command->second, kLongestComplaint));
-  }
+  if (arguments.allow_commands) return;
+  Refuse({arguments.suite},
+         "identifier {} runs the command '{}'; where you trust it, give --allow-commands",
+         Excerpt(identifier.label), Excerpt(command->second, kLongestComplaint));
 }
 
 }  // namespace
@@ -40,8 +34,7 @@ Suite ResolveSuite(const RunArguments& arguments) {
     identifier = WithFilesOfSuite(std::move(identifier), arguments.suite);
   }
   const std::vector<SuiteIdentifier> own = suite.identifiers;
-  suite.identifiers = ChooseIdentifiers(own, arguments.identifiers,
-                                        arguments.shell ? CommandForm::shell : CommandForm::words);
+  suite.identifiers = ChooseIdentifiers(own, arguments.identifiers);
   for (const SuiteIdentifier& identifier : suite.identifiers) {
     // what the command line itself names was agreed to by naming it
     const bool brought = std::find(own.begin(), own.end(), identifier) != own.end();

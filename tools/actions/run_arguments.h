@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scenarios/suite.h"
+#include "tools/suite/sandbox.h"
 
 namespace warmjoint::inline tools {
 
@@ -23,16 +24,14 @@ struct RunArguments {
   std::string shard = "1/1";
   bool keep = false;
   bool allow_commands = false;
-  bool shell = false;
+  Confinement confinement = Confinement::sandbox;  // of commands
 
   // of a run in shards
   bool slurm = false;
   std::optional<std::uint64_t> local_shards;  // processes on this machine
-  std::optional<std::uint64_t> shards;        // chosen by a probe where not given
-  std::vector<std::string> sbatch;            // key=value
-  std::optional<std::uint64_t> array_parallelism;
+  std::optional<std::uint64_t> shards;
+  std::vector<std::string> sbatch;  // key=value
   bool dry_run = false;
-  bool wait = false;
 
   bool in_shards() const { return slurm || local_shards; }
 };

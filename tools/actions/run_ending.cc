@@ -2,41 +2,48 @@
 
 #include <fmt/format.h>
 
-#include <map>
 #include <set>
 
+#include "tools/store/database.h"
+
 namespace warmjoint::inline tools {
+namespace {
+
+/// What an identifier said first.
+std::string FirstWords(const RunStore& store, int identifier) {
+  return Guarded(store.results_file(), [&] {
+    SQLite::Statement first(store.database(),
+                            "SELECT status || ': ' || message FROM result WHERE identifier = ? "
+                            "ORDER BY variant, realization LIMIT 1");
+    first.bind(1, identifier);
+    return first.executeStep() ? first.getColumn(0).getString() : "";
+  });
+}
+
+}  // namespace
 
 RunEnding EndingOf(const RunStore& store) {
   static const std::set<std::string> unanswered{"crashed", "timeout", "bad_answer"};
   RunEnding ending;
+  std::set<int> all, answered;
+  for (const StatusCount& count : store.CountStatuses()) {
+    // no answer, no log to answer on, or an answer that the tests refuse
+    const bool silent = unanswered.contains(count.status);
+    const bool absent = count.status == "not_simulated";
+    ending.results += count.results;
+    if (silent) ending.unanswered += count.results;
+    if (absent) ending.not_simulated += count.results;
+    if (!silent && !absent && count.status != "ok") ending.refused += count.results;
+    // a refusal is an answer, silence is none
+    all.insert(count.identifier);
+    if (!silent && !absent) answered.insert(count.identifier);
+  }
 
-  // by position of the identifier: who answered, and the first reason of each not to
-  std::set<int> answered;
-  std::map<int, std::string> first;
-  store.ForEachUnit([&](const std::vector<Result>& unit) {
-    for (const Result& result : unit) {
-      ++ending.results;
-      // no answer, no log to answer on, or an answer that the tests refuse
-      const bool silent = unanswered.contains(result.status);
-      const bool absent = result.status == "not_simulated";
-      ending.unanswered += silent;
-      ending.not_simulated += absent;
-      ending.refused += !silent && !absent && result.status != "ok";
-      // a refusal is an answer, silence is none
-      if (silent || absent) {
-        first.emplace(result.identifier, result.status + ": " + result.message);
-      } else {
-        answered.insert(result.identifier);
-      }
-    }
-  });
-
-  const std::vector<std::string> labels = store.ReadDescription().identifiers;
   // identifiers that never answered, each with its first reason
-  for (const auto& [identifier, reason] : first) {
-    if (answered.contains(identifier)) continue;
-    ending.silent.emplace_back(labels[static_cast<std::size_t>(identifier)], reason);
+  for (std::size_t i = 0; i < store.suite().identifiers.size(); ++i) {
+    const auto identifier = static_cast<int>(i);
+    if (!all.contains(identifier) || answered.contains(identifier)) continue;
+    ending.silent.emplace_back(store.suite().identifiers[i].label, FirstWords(store, identifier));
   }
   return ending;
 }

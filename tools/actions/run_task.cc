@@ -5,9 +5,8 @@
 
 #include "models/foundation/atomic_file.h"
 #include "sim/plant/plant.h"
-#include "tools/board/write_tables.h"
+#include "tools/board/format_board.h"
 #include "tools/suite/describe_run.h"
-#include "tools/suite/memory_of_work.h"
 #include "tools/suite/prepare_identifiers.h"
 
 namespace warmjoint::inline tools {
@@ -24,17 +23,32 @@ void RefuseEditedCopy(const RunArguments& arguments, const RunDescription& descr
          "file, or another -o");
 }
 
+/// Refuses more results than a run can keep count of.
+void RefuseTooMany(const Suite& suite, const Shard& shard, const Place& place) {
+  constexpr double most = 1e8;  // some 10 GB of memory while the run goes on
+  const int realizations = shard.End(suite.realizations) - shard.First(suite.realizations);
+  const double results = static_cast<double>(realizations) * suite.variants() *
+                         static_cast<double>(suite.identifiers.size());
+  if (results <= most) return;
+  Refuse(place,
+         "asks for {:g} results ({} realizations of {} variants by {} identifiers, in {} shards); "
+         "{:g} at most: give fewer realizations, or more shards",
+         results, suite.realizations, suite.variants(), suite.identifiers.size(), shard.count,
+         most);
+}
+
 }  // namespace
 
 RunTask PrepareRun(const RunArguments& arguments) {
   RunTask task;
   task.suite = ResolveSuite(arguments);
-  task.identifiers = PrepareIdentifiers(task.suite.identifiers, {arguments.suite});
+  task.identifiers =
+      PrepareIdentifiers(task.suite.identifiers, {arguments.suite}, arguments.confinement);
   task.shard = ReadShard(arguments.shard);
   // a thread for each core where nothing else is said
   const std::uint64_t cores = std::max(1u, std::thread::hardware_concurrency());
   task.jobs = static_cast<int>(arguments.jobs.value_or(cores));
-  RequireMemoryFor(task.suite, task.shard, task.jobs, arguments.suite);
+  RefuseTooMany(task.suite, task.shard, {arguments.suite});
   // a variant that cannot be simulated is found before the run begins
   for (int i = 0; i < task.suite.variants(); ++i) MakePlant(VariantScenario(task.suite, i));
 
@@ -45,7 +59,6 @@ RunTask PrepareRun(const RunArguments& arguments) {
 }
 
 RunEnding EndRun(RunStore& store) {
-  store.Settle();
   WriteTables(store);
   return EndingOf(store);
 }

@@ -23,7 +23,7 @@ struct RunTask {
 /// Everything that can be refused is, before anything is written. Throws BadInput.
 RunTask PrepareRun(const RunArguments& arguments);
 
-/// Settles the store, writes results.csv and sums up.
+/// Writes results.csv and summary.csv, and sums up.
 RunEnding EndRun(RunStore& store);
 
 }  // namespace warmjoint::inline tools

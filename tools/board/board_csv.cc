@@ -1,8 +1,9 @@
-// `compare --format csv`.
+// `compare --format csv`, and the tables that a run leaves.
 #include <fmt/format.h>
 
 #include <cmath>
 
+#include "models/foundation/atomic_file.h"
 #include "tools/board/format_board.h"
 #include "tools/store/export_csv.h"
 
@@ -37,14 +38,6 @@ std::string Header() {
   return header + ",seconds_median\n";
 }
 
-}  // namespace
-
-std::string BoardToCsv(const Leaderboard& board) {
-  std::string csv = Header();
-  for (const LeaderboardRow& row : board.rows) csv += Row(row);
-  return csv;
-}
-
 std::string SummaryToCsv(const Leaderboard& board) {
   // wall times differ from run to run
   const auto timeless = [](LeaderboardRow row) {
@@ -55,9 +48,18 @@ std::string SummaryToCsv(const Leaderboard& board) {
   std::string csv = "variant," + Header();
   for (const LeaderboardRow& row : board.rows) csv += "all," + timeless(row);
   for (const Leaderboard& group : board.groups) {
-    for (const LeaderboardRow& row : group.rows)
+    for (const LeaderboardRow& row : group.rows) {
       csv += CsvCell(group.variant) + "," + timeless(row);
+    }
   }
+  return csv;
+}
+
+}  // namespace
+
+std::string BoardToCsv(const Leaderboard& board) {
+  std::string csv = Header();
+  for (const LeaderboardRow& row : board.rows) csv += Row(row);
   return csv;
 }
 
@@ -67,6 +69,11 @@ std::string BoardsToCsv(const std::vector<NamedBoard>& boards) {
     for (const LeaderboardRow& row : named.board.rows) csv += CsvCell(named.run) + "," + Row(row);
   }
   return csv;
+}
+
+void WriteTables(const RunStore& store) {
+  ExportResults(store);
+  WriteWholeFile(store.directory() / "summary.csv", SummaryToCsv(ReadBoard(store)));
 }
 
 }  // namespace warmjoint::inline tools

@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "models/foundation/printable.h"
+#include "models/foundation/excerpt.h"
 #include "tools/board/board_tables.h"
-#include "tools/terminal/page.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -44,10 +43,7 @@ std::string Harmless(const std::string& markdown) {
 
 const std::vector<BoardFormat>& BoardFormats() {
   static const std::vector<BoardFormat> formats{
-      {"text", [](const Leaderboard& board) { return BoardToText(board, PageOf(stdout).width); },
-       [](const std::vector<NamedBoard>& boards) {
-         return BoardsToText(boards, PageOf(stdout).width);
-       }},
+      {"text", BoardToText, BoardsToText},
       {"markdown", BoardToMarkdown, BoardsToMarkdown},
       {"json", BoardToJson, BoardsToJson},
       {"csv", BoardToCsv, BoardsToCsv},
@@ -55,21 +51,21 @@ const std::vector<BoardFormat>& BoardFormats() {
   return formats;
 }
 
-std::string BoardToText(const Leaderboard& board, int width) {
+std::string BoardToText(const Leaderboard& board) {
   // the verdict first, then who is how good
   std::string text =
       fmt::format("{}: {}\n{}\n{}\n\n", board.suite, board.question, Verdict(board), Head(board));
-  text += TableToText(RankingTable(board), 2, width) + "\n";
+  text += TableToText(RankingTable(board), 2) + "\n";
   // variants beside each other, where there are some
   const Table groups = GroupTable(board);
   if (!groups.rows.empty()) {
-    text += fmt::format("Median NPE by group:\n{}\n", TableToText(groups, 1, width));
+    text += fmt::format("Median NPE by group:\n{}\n", TableToText(groups, 1));
   }
 
   // how well torques agree, how well each parameter is known, and what remains to be said
-  text += TableToText(AgreementTable(board), 1, width) + "\n";
+  text += TableToText(AgreementTable(board), 1) + "\n";
   const Table parameters = ParameterTable(board);
-  if (!parameters.rows.empty()) text += TableToText(parameters, 2, width) + "\n";
+  if (!parameters.rows.empty()) text += TableToText(parameters, 2) + "\n";
   for (const std::string& note : Notes(board)) text += fmt::format("* {}\n", note);
   return PrintableLines(text);
 }
@@ -93,10 +89,9 @@ std::string BoardToMarkdown(const Leaderboard& board) {
   return Harmless(text);
 }
 
-std::string BoardsToText(const std::vector<NamedBoard>& boards, int width) {
-  std::string text = PrintableLines(TableToText(SideBySide(boards), 2, width));
-  for (const NamedBoard& named : boards)
-    text += fmt::format("\n{}", BoardToText(named.board, width));
+std::string BoardsToText(const std::vector<NamedBoard>& boards) {
+  std::string text = PrintableLines(TableToText(SideBySide(boards), 2));
+  for (const NamedBoard& named : boards) text += fmt::format("\n{}", BoardToText(named.board));
   return text;
 }
 

@@ -24,8 +24,8 @@ struct BoardFormat {
 /// All formats: a new one is its own file and one line in format_board.cc.
 const std::vector<BoardFormat>& BoardFormats();
 
-/// For the terminal: the answer first, then the tables, `width` columns wide.
-std::string BoardToText(const Leaderboard& board, int width);
+/// For the terminal: the answer first, then the tables.
+std::string BoardToText(const Leaderboard& board);
 
 /// The same for documents.
 std::string BoardToMarkdown(const Leaderboard& board);
@@ -34,7 +34,7 @@ std::string BoardToMarkdown(const Leaderboard& board);
 std::string BoardToJson(const Leaderboard& board);
 
 /// All runs in one table, then each of them.
-std::string BoardsToText(const std::vector<NamedBoard>& boards, int width);
+std::string BoardsToText(const std::vector<NamedBoard>& boards);
 std::string BoardsToMarkdown(const std::vector<NamedBoard>& boards);
 
 /// {"runs": [{"run": directory, and what BoardToJson has}]}.
@@ -46,7 +46,9 @@ std::string BoardsToCsv(const std::vector<NamedBoard>& boards);
 /// One row for each identifier, all numbers in full.
 std::string BoardToCsv(const Leaderboard& board);
 
-/// As BoardToCsv, with the variant in the first column: all of them together, then each.
-std::string SummaryToCsv(const Leaderboard& board);
+/// Writes the tables of a run that people read: RUN/results.csv, a row for each result (ExportResults),
+/// and RUN/summary.csv, the leaderboard as BoardToCsv with the variant in the first column: all of them
+/// together, then each of a ladder. Wall times stay out of both, so that equal results are equal bytes.
+void WriteTables(const RunStore& store);
 
 }  // namespace warmjoint::inline tools

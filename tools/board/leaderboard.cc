@@ -1,134 +1,258 @@
+// The leaderboard by questions to the run's database.
 #include "tools/board/leaderboard.h"
 
+#include <SQLiteCpp/VariadicBind.h>
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "tools/board/board_builder.h"
-#include "tools/board/paired_difference.h"
-#include "tools/board/sum_up.h"
+#include "tools/store/database.h"
 
 namespace warmjoint::inline tools {
 namespace {
 
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+/// Realizations of the variants first .. last.
+struct Group {
+  int first = 0;
+  int last = 0;
+};
+
+/// A figure of each result, and where its summary goes.
+struct Figure {
+  const char* column;
+  Summary LeaderboardRow::*summary;
+};
+
+constexpr std::array<Figure, 7> kFigures{{{"npe_continuous", &LeaderboardRow::npe_continuous},
+                                          {"npe_discrete", &LeaderboardRow::npe_discrete},
+                                          {"rmse", &LeaderboardRow::rmse},
+                                          {"fit", &LeaderboardRow::fit},
+                                          {"fpe", &LeaderboardRow::fpe},
+                                          {"mae", &LeaderboardRow::mae},
+                                          {"seconds", &LeaderboardRow::seconds}}};
+
+double Number(const SQLite::Column& column) {
+  return column.isNull() ? kUnknown : column.getDouble();
+}
+
+/// Puts questions on one group of a store.
+class Questions {
+ public:
+  Questions(const RunStore& store, Group group) : store_(store), group_(group) {}
+
+  /// The query's ?1 and ?2 are the group's variants, the following ones `more`.
+  template <typename... More>
+  SQLite::Statement Ask(const std::string& query, const More&... more) const {
+    SQLite::Statement statement(store_.database(), query);
+    SQLite::bind(statement, group_.first, group_.last, more...);
+    return statement;
+  }
+
+ private:
+  const RunStore& store_;
+  Group group_;
+};
+
+/// Failures by status, and the message of the first one.
+void AddFailures(const Questions& questions, int identifier, LeaderboardRow& row) {
+  SQLite::Statement counts = questions.Ask(
+      "SELECT status, count(*) FROM result WHERE variant BETWEEN ?1 AND ?2 AND identifier = ?3 AND "
+      "status <> 'ok' GROUP BY status",
+      identifier);
+  while (counts.executeStep()) {
+    row.failures[counts.getColumn(0).getString()] = counts.getColumn(1).getInt();
+  }
+  SQLite::Statement first = questions.Ask(
+      "SELECT message FROM result WHERE variant BETWEEN ?1 AND ?2 AND identifier = ?3 AND status "
+      "<> "
+      "'ok' AND message <> '' ORDER BY variant, realization LIMIT 1",
+      identifier);
+  if (first.executeStep()) row.failure_example = first.getColumn(0).getString();
+}
+
+/// Medians and quartiles of all figures. A run without an NPE counts for the rank as infinitely wrong,
+/// so that nobody wins by answering the easy ones alone.
+void AddFigures(const Questions& questions, int identifier, LeaderboardRow& row) {
+  std::string columns;
+  for (const Figure& figure : kFigures) columns += fmt::format(", {}", figure.column);
+  SQLite::Statement results = questions.Ask(
+      "SELECT variant" + columns +
+          " FROM result WHERE variant BETWEEN ?1 AND ?2 AND identifier = ?3 ORDER BY variant, "
+          "realization",
+      identifier);
+  std::array<std::vector<double>, kFigures.size()> numbers;
+  for (; results.executeStep(); ++row.runs) {
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      numbers[i].push_back(Number(results.getColumn(static_cast<int>(i) + 1)));
+    }
+  }
+  std::vector<double> ranked = numbers.front();
+  std::replace_if(
+      ranked.begin(), ranked.end(), [](double npe) { return std::isnan(npe); }, kInfinite);
+  row.rank_npe = Summarise(std::move(ranked)).median;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    row.*kFigures[i].summary = Summarise(std::move(numbers[i]));
+  }
+}
+
+/// One continuous parameter of the truth in all results.
+struct ParameterErrors {
+  std::string name;
+  int intervals = 0;                 // 95 % intervals that were given
+  int covered = 0;                   // of them, those that hold the truth
+  std::vector<double> error, bound;  // of what was estimated
+};
+
+/// Coverage of the intervals, and rms errors over the Cramer-Rao bound. Truths of a ladder may have other
+/// parameters: each goes by its name.
+void AddParameters(const Questions& questions, int identifier, LeaderboardRow& row) {
+  SQLite::Statement one = questions.Ask(
+      "SELECT name, covered, estimated, estimate - truth, bound FROM parameter WHERE variant "
+      "BETWEEN "
+      "?1 AND ?2 AND identifier = ?3 AND discrete = 0 ORDER BY variant, realization, position",
+      identifier);
+  std::vector<ParameterErrors> all;
+  while (one.executeStep()) {
+    const std::string name = one.getColumn(0).getString();
+    auto errors = std::find_if(all.begin(), all.end(),
+                               [&](const ParameterErrors& known) { return known.name == name; });
+    if (errors == all.end()) errors = all.insert(all.end(), {name, 0, 0, {}, {}});
+    errors->intervals += !one.getColumn(1).isNull();
+    errors->covered += one.getColumn(1).getInt() != 0;
+    if (one.getColumn(2).getInt() == 0) continue;
+    errors->error.push_back(Number(one.getColumn(3)));
+    errors->bound.push_back(Number(one.getColumn(4)));
+  }
+  for (const ParameterErrors& errors : all) {
+    ParameterRow parameter{errors.name, {}, 0};
+    if (errors.intervals > 0) {
+      parameter.coverage95 = static_cast<double>(errors.covered) / errors.intervals;
+    }
+    parameter.efficiency = RootMeanSquareOf(errors.error) / RootMeanSquareOf(errors.bound);
+    row.parameters.push_back(std::move(parameter));
+    if (errors.error.empty()) row.not_estimated.push_back(errors.name);
+  }
+}
+
+/// By pairs of the same realization; two that fail alike do not differ.
+Difference Behind(const Questions& questions, int identifier, int best) {
+  SQLite::Statement pair = questions.Ask(
+      "SELECT a.npe_continuous, b.npe_continuous FROM result AS a JOIN result AS b USING (variant, "
+      "realization) WHERE variant BETWEEN ?1 AND ?2 AND a.identifier = ?3 AND b.identifier = ?4",
+      identifier, best);
+  const auto ranked = [&](int column) {
+    return pair.getColumn(column).isNull() ? kInfinite : pair.getColumn(column).getDouble();
+  };
+  std::vector<double> differences;
+  while (pair.executeStep()) {
+    const double a = ranked(0), b = ranked(1);
+    differences.push_back(a == b ? 0 : a - b);
+  }
+  return MedianDifference(std::move(differences));
+}
+
 /// Best first; NaN, which an identifier without any run has, last.
 bool Better(const LeaderboardRow& a, const LeaderboardRow& b) {
   const auto key = [](const LeaderboardRow& row) {
-    const double rank =
-        std::isnan(row.rank_npe) ? std::numeric_limits<double>::infinity() : row.rank_npe;
-    const double rms = std::isnan(row.npe_continuous.rms) ? std::numeric_limits<double>::infinity()
-                                                          : row.npe_continuous.rms;
-    return std::pair(rank, rms);
+    const double rms = row.npe_continuous.rms;
+    return std::pair(std::isnan(row.rank_npe) ? kInfinite : row.rank_npe,
+                     std::isnan(rms) ? kInfinite : rms);
   };
   return key(a) < key(b);
 }
 
 /// Rows, best first, each with its distance from the best.
-std::vector<LeaderboardRow> Rank(const Suite& suite,
-                                 const std::vector<IdentifierColumns>& columns) {
-  std::vector<LeaderboardRow> rows;
-  std::vector<std::size_t> order(columns.size());
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    rows.push_back(columns[i].SumUp(suite.identifiers[i]));
-    order[i] = i;
+std::vector<LeaderboardRow> Rank(const Questions& questions, const Suite& suite) {
+  std::vector<std::pair<LeaderboardRow, int>> rows;
+  for (const SuiteIdentifier& identifier : suite.identifiers) {
+    const auto position = static_cast<int>(rows.size());
+    LeaderboardRow& row = rows.emplace_back(LeaderboardRow{}, position).first;
+    row.identifier = identifier.label;
+    row.claim = identifier.claim;
+    AddFailures(questions, position, row);
+    AddFigures(questions, position, row);
+    AddParameters(questions, position, row);
   }
   // ranks by error, and suite order where two are equal
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return Better(rows[a], rows[b]); });
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const auto& a, const auto& b) { return Better(a.first, b.first); });
 
   // all others are compared with the best one, realization by realization
   std::vector<LeaderboardRow> ranked;
-  for (const std::size_t i : order) {
-    // columns are in the order of units
-    if (!ranked.empty()) {
-      rows[i].behind = PairedDifference(columns[i].RankedNpe(), columns[order[0]].RankedNpe());
-    }
-    ranked.push_back(std::move(rows[i]));
+  for (auto& [row, position] : rows) {
+    if (!ranked.empty()) row.behind = Behind(questions, position, rows.front().second);
+    ranked.push_back(std::move(row));
   }
   return ranked;
 }
 
-Leaderboard SumUpBoard(const Suite& suite, const GroupColumns& group) {
+/// Root mean squares of the NPE at the Cramer-Rao bound, once a unit: by the first result that knows it.
+void AddBounds(const Questions& questions, Leaderboard& board) {
+  SQLite::Statement unit = questions.Ask(
+      "SELECT bound_npe_continuous, bound_npe_discrete, min(identifier) FROM result WHERE variant "
+      "BETWEEN ?1 AND ?2 AND coalesce(bound_npe_continuous, bound_npe_discrete) IS NOT NULL GROUP "
+      "BY "
+      "variant, realization ORDER BY variant, realization");
+  std::vector<double> continuous, discrete;
+  while (unit.executeStep()) {
+    continuous.push_back(Number(unit.getColumn(0)));
+    discrete.push_back(Number(unit.getColumn(1)));
+  }
+  board.bound_npe_continuous = RootMeanSquareOf(continuous);
+  board.bound_npe_discrete = RootMeanSquareOf(discrete);
+}
+
+Leaderboard SumUp(const RunStore& store, Group group) {
   // the suite, and how well it could be done
+  const Suite& suite = store.suite();
+  const Questions questions(store, group);
   Leaderboard board;
   board.suite = suite.name;
   board.question = suite.question;
   board.joint = suite.scenario.joint_kind;
-  board.finished = group.units;
-  board.bound_npe_continuous = group.bound_continuous.Root();
-  board.bound_npe_discrete = group.bound_discrete.Root();
-  board.rows = Rank(suite, group.identifiers);
+  board.realizations = suite.realizations * (group.last - group.first + 1);
+  SQLite::Statement units =
+      questions.Ask("SELECT count(*) FROM realization WHERE variant BETWEEN ?1 AND ?2");
+  units.executeStep();
+  board.finished = units.getColumn(0).getInt();
+  AddBounds(questions, board);
+  board.rows = Rank(questions, suite);
   return board;
 }
 
 }  // namespace
 
-GroupColumns::GroupColumns(const Suite& suite, const std::shared_ptr<NumberFile>& file) {
-  for (std::size_t i = 0; i < suite.identifiers.size(); ++i) identifiers.emplace_back(file);
+int LeaderboardRow::failed() const {
+  int count = 0;
+  for (const auto& [status, runs_of_it] : failures) count += runs_of_it;
+  return count;
 }
 
-BoardBuilder::BoardBuilder(Suite suite) : suite_(std::move(suite)) {
-  for (int i = 0; i < suite_.variants(); ++i) groups_.emplace_back(suite_, file_);
-}
+Leaderboard ReadBoard(const RunStore& store) {
+  return Guarded(store.results_file(), [&] {
+    // all variants together, however they are parted
+    const Suite& suite = store.suite();
+    Leaderboard board = SumUp(store, {0, suite.variants() - 1});
+    if (!suite.ladder) return board;
 
-void BoardBuilder::Add(std::span<const Result> unit) {
-  if (unit.empty()) return;
-  GroupColumns& group = groups_.at(static_cast<std::size_t>(unit.front().variant));
-  ++group.units;
-  bool bounded = false;
-  for (const Result& result : unit) {
-    group.identifiers.at(static_cast<std::size_t>(result.identifier)).Add(result);
-    // the bounds depend on truth and recording alone
-    if (!result.score || std::exchange(bounded, true)) continue;
-    group.bound_continuous.Add(result.score->bound_npe_continuous);
-    group.bound_discrete.Add(result.score->bound_npe_discrete);
-  }
-}
-
-GroupColumns BoardBuilder::All() const {
-  GroupColumns all(suite_, file_);
-  for (const GroupColumns& group : groups_) all.Add(group);
-  return all;
-}
-
-Leaderboard BoardBuilder::Finish() const {
-  // all groups as one, however they are parted
-  Leaderboard board = SumUpBoard(suite_, groups_.size() == 1 ? groups_.front() : All());
-  board.realizations = suite_.realizations * suite_.variants();
-  if (!suite_.ladder) return board;
-
-  // a board for each rung of the ladder
-  board.variable = suite_.ladder->variable;
-  if (!suite_.ladder->unit.empty()) board.variable += " " + suite_.ladder->unit;
-  for (std::size_t i = 0; i < groups_.size(); ++i) {
-    Leaderboard group = SumUpBoard(suite_, groups_[i]);
-    group.realizations = suite_.realizations;
-    group.variant = suite_.ladder->variants[i].name;
-    group.value = suite_.ladder->variants[i].value;
-    board.groups.push_back(std::move(group));
-  }
-  return board;
-}
-
-void GroupColumns::Add(const GroupColumns& other) {
-  units += other.units;
-  bound_continuous.Add(other.bound_continuous);
-  bound_discrete.Add(other.bound_discrete);
-  for (std::size_t i = 0; i < identifiers.size(); ++i) identifiers[i].Add(other.identifiers[i]);
-}
-
-Leaderboard MakeLeaderboard(const Suite& suite, const std::vector<Result>& results) {
-  BoardBuilder builder(suite);
-  // results of one unit stand beside each other
-  for (auto begin = results.begin(); begin != results.end();) {
-    const auto end = std::find_if(begin, results.end(), [&](const Result& result) {
-      return result.variant != begin->variant || result.realization != begin->realization;
-    });
-    builder.Add({begin, end});
-    begin = end;
-  }
-  return builder.Finish();
+    // a board for each rung of the ladder
+    board.variable = suite.ladder->variable;
+    if (!suite.ladder->unit.empty()) board.variable += " " + suite.ladder->unit;
+    for (int i = 0; i < suite.variants(); ++i) {
+      const Variant& variant = suite.ladder->variants[static_cast<std::size_t>(i)];
+      board.groups.push_back(SumUp(store, {i, i}));
+      board.groups.back().variant = variant.name;
+      board.groups.back().value = variant.value;
+    }
+    return board;
+  });
 }
 
 }  // namespace warmjoint::inline tools

@@ -9,7 +9,7 @@
 #include "models/friction/joint_kind.h"
 #include "scenarios/suite.h"
 #include "tools/board/statistics.h"
-#include "tools/store/result.h"
+#include "tools/store/run_store.h"
 
 namespace warmjoint::inline tools {
 
@@ -18,14 +18,6 @@ struct ParameterRow {
   std::string name;
   std::optional<double> coverage95;  // share of intervals that hold the truth; empty without any
   double efficiency = 0;             // rms error / rms Cramer-Rao bound; 1 is best, NaN unknown
-};
-
-/// How far a row is behind the best one, by pairs of the same realization.
-struct Difference {
-  double median = 0;  // of NPE - NPE of the best; infinite where mostly this one alone fails
-  double lower = 0;   // 95 % interval of that median, bootstrap
-  double upper = 0;
-  bool tie() const { return lower <= 0 && upper >= 0; }
 };
 
 /// One identifier over all realizations. Summaries run over the realizations that it answered.
@@ -62,7 +54,8 @@ struct Leaderboard {
   std::string variable;         // what the ladder climbs, with its unit
 };
 
-/// Sums up the results of a suite over all its variants, and for each of them.
-Leaderboard MakeLeaderboard(const Suite& suite, const std::vector<Result>& results);
+/// Sums up what the store holds over all variants of its suite, and for each of them. Memory: some 70
+/// bytes for each result of one identifier at a time. Throws BadInput where the database is damaged.
+Leaderboard ReadBoard(const RunStore& store);
 
 }  // namespace warmjoint::inline tools

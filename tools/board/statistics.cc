@@ -1,104 +1,75 @@
 #include "tools/board/statistics.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
+#include <boost/math/special_functions/beta.hpp>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 
 namespace warmjoint::inline tools {
 namespace {
 
-/// Numbers that are sorted in memory, 512 KiB of them.
-constexpr std::size_t kHeld = 65536;
-
-/// Bits of a key by which numbers are told apart in one pass.
-constexpr int kDigit = 16;
-
-/// A key that orders as the numbers do (IEEE 754): negative ones have all bits flipped.
-std::uint64_t KeyOf(double value) {
-  const auto bits = std::bit_cast<std::uint64_t>(value);
-  return bits >> 63 ? ~bits : bits | std::uint64_t{1} << 63;
+/// The numbers in ascending order, NaN left out.
+void KeepSorted(std::vector<double>& values) {
+  std::erase_if(values, [](double value) { return std::isnan(value); });
+  std::sort(values.begin(), values.end());
 }
 
-/// The quantile of `count` numbers of which at(i) is the one at place i in ascending order.
-template <typename At>
-double QuantileBy(const At& at, std::size_t count, double share) {
-  // between two neighbours in proportion; no difference of infinities is taken
-  if (count == 0) return std::numeric_limits<double>::quiet_NaN();
-  const double position = share * static_cast<double>(count - 1);
-  const auto below = static_cast<std::size_t>(position);
-  const double beyond = position - static_cast<double>(below);
-  const double lower = at(below);
-  if (beyond == 0) return lower;
-  const double upper = at(below + 1);
-  return lower == upper ? lower : lower + beyond * (upper - lower);  // may be infinite
+/// The k from 1 to n for which the median of a resample of n is at most the k-th smallest with
+/// probability `level` or more for the first time.
+std::size_t BootstrapRank(std::size_t n, double level) {
+  const auto middle = static_cast<double>((n + 1) / 2), count = static_cast<double>(n);
+  const auto reaches = [&](std::size_t k) {
+    return boost::math::ibeta(middle, count - middle + 1, static_cast<double>(k) / count) >= level;
+  };
+  // the probability grows with k and is 1 at n
+  std::size_t below = 0, reached = n;
+  while (reached - below > 1) {
+    const std::size_t k = below + (reached - below) / 2;
+    (reaches(k) ? reached : below) = k;
+  }
+  return reached;
 }
 
 }  // namespace
 
-Ascending::Ascending(const NumberColumn& column) : column_(column) {
-  column.ForEach([&](double value) { size_ += !std::isnan(value); });
-  if (size_ > kHeld) return;
-  column.ForEach([&](double value) {
-    if (!std::isnan(value)) sorted_.push_back(value);
-  });
-  std::sort(sorted_.begin(), sorted_.end());
-}
-
-double Ascending::operator[](std::size_t position) const {
-  if (size_ <= kHeld) return sorted_[position];
-
-  // radix selection: of the numbers whose key begins with `prefix`, the one at `position` is looked for
-  std::uint64_t prefix = 0;
-  std::size_t among = size_;
-  for (int left = 64; left > 0; left -= kDigit) {
-    const auto fits = [&](std::uint64_t key) { return left == 64 || key >> left == prefix; };
-    // few enough: they are sorted
-    if (among <= kHeld) {
-      std::vector<double> few;
-      column_.ForEach([&](double value) {
-        if (!std::isnan(value) && fits(KeyOf(value))) few.push_back(value);
-      });
-      const auto place = few.begin() + static_cast<std::ptrdiff_t>(position);
-      std::nth_element(few.begin(), place, few.end());
-      return *place;
-    }
-    // the next digit is that at which the count reaches the position
-    std::vector<std::size_t> counts(std::size_t{1} << kDigit);
-    column_.ForEach([&](double value) {
-      const std::uint64_t key = KeyOf(value);
-      if (!std::isnan(value) && fits(key)) ++counts[(key >> (left - kDigit)) & (counts.size() - 1)];
-    });
-    std::size_t digit = 0;
-    while (position >= counts[digit]) position -= counts[digit++];
-    among = counts[digit];
-    prefix = prefix << kDigit | digit;
-  }
-
-  // all that are left are equal
-  const std::uint64_t bits = prefix >> 63 ? prefix & ~(std::uint64_t{1} << 63) : ~prefix;
-  return std::bit_cast<double>(bits);
-}
-
-double Ascending::Quantile(double share) const {
-  return QuantileBy([&](std::size_t i) { return (*this)[i]; }, size_, share);
-}
-
 double Quantile(const std::vector<double>& sorted, double share) {
-  return QuantileBy([&](std::size_t i) { return sorted[i]; }, sorted.size(), share);
+  // between two neighbours in proportion; no difference of infinities is taken
+  if (sorted.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const double position = share * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(position);
+  const double beyond = position - static_cast<double>(below);
+  const double lower = sorted[below];
+  if (beyond == 0) return lower;
+  const double upper = sorted[below + 1];
+  return lower == upper ? lower : lower + beyond * (upper - lower);  // may be infinite
 }
 
-Summary Summarise(const NumberColumn& values) {
-  // NaN is what a run does not know: neither place nor square
-  const Ascending ascending(values);
-  double squares = 0;
-  values.ForEach([&](double value) {
-    if (!std::isnan(value)) squares += value * value;
-  });
-  return {ascending.Quantile(0.5), ascending.Quantile(0.25), ascending.Quantile(0.75),
-          std::sqrt(squares / static_cast<double>(ascending.size()))};
+double RootMeanSquareOf(const std::vector<double>& values) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (const double value : values) {
+    if (std::isnan(value)) continue;
+    sum += value * value;
+    ++count;
+  }
+  return std::sqrt(sum / static_cast<double>(count));
+}
+
+Summary Summarise(std::vector<double> values) {
+  const double rms = RootMeanSquareOf(values);
+  KeepSorted(values);
+  return {Quantile(values, 0.5), Quantile(values, 0.25), Quantile(values, 0.75), rms};
+}
+
+Difference MedianDifference(std::vector<double> differences) {
+  KeepSorted(differences);
+  const double median = Quantile(differences, 0.5);
+  if (differences.empty()) return {median, median, median};
+  // ends of the interval as a bootstrap of the median has them
+  const auto end = [&](double level) {
+    return differences[BootstrapRank(differences.size(), level) - 1];
+  };
+  return {median, end(0.025), end(0.975)};
 }
 
 }  // namespace warmjoint::inline tools

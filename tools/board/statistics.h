@@ -1,10 +1,7 @@
 // Summaries of samples.
 #pragma once
 
-#include <cstddef>
 #include <vector>
-
-#include "tools/board/number_column.h"
 
 namespace warmjoint::inline tools {
 
@@ -16,31 +13,30 @@ struct Summary {
   double rms;
 };
 
-/// The numbers of a column in ascending order, NaN left out. Memory does not grow with the column: of a
-/// long one, each look at a position reads it up to four times.
-class Ascending {
- public:
-  explicit Ascending(const NumberColumn& column);
-
-  std::size_t size() const { return size_; }
-
-  /// The number at `position`, from 0; exact.
-  double operator[](std::size_t position) const;
-
-  /// The quantile at `share` in [0, 1], linear between neighbours; NaN of none.
-  double Quantile(double share) const;
-
- private:
-  const NumberColumn& column_;
-  std::size_t size_ = 0;
-  std::vector<double> sorted_;  // all of them where they are few
-};
-
 /// The quantile of `sorted` (ascending) at `share` in [0, 1], linear between neighbours; NaN where
 /// it is empty.
 double Quantile(const std::vector<double>& sorted, double share);
 
+/// Root of the mean square of `values`; NaN among them are left out.
+double RootMeanSquareOf(const std::vector<double>& values);
+
 /// Summary of the numbers in `values`; NaN among them are left out.
-Summary Summarise(const NumberColumn& values);
+Summary Summarise(std::vector<double> values);
+
+/// How far a row is behind the best one, by pairs of the same realization.
+struct Difference {
+  double median = 0;  // of NPE - NPE of the best; infinite where mostly this one alone fails
+  double lower = 0;   // 95 % interval of that median, bootstrap
+  double upper = 0;
+  bool tie() const { return lower <= 0 && upper >= 0; }
+};
+
+/// The median of `differences`, which are of pairs, and its 95 % interval: that of the percentile
+/// bootstrap (Efron 1979) with infinitely many resamples, which is known in closed form. Of n
+/// differences drawn from n with replacement, the median (the lower one of two) is at most the k-th
+/// smallest where m or more of them come from the first k, with probability I_{k/n}(m, n - m + 1),
+/// m = (n + 1) / 2 rounded down, I the regularized incomplete beta function (Maritz and Jarrett 1978).
+/// NaN of none.
+Difference MedianDifference(std::vector<double> differences);
 
 }  // namespace warmjoint::inline tools

@@ -11,7 +11,7 @@
 #include "tools/actions/attach_settings.h"
 #include "tools/actions/outputs.h"
 #include "tools/cli/command.h"
-#include "tools/parser/choice.h"
+#include "tools/cli/typed_options.h"
 #include "tools/terminal/say.h"
 
 namespace warmjoint::inline tools {

@@ -9,22 +9,21 @@
 #include "identification/preparation/check_report.h"
 #include "identification/preparation/prepare.h"
 #include "models/foundation/atomic_file.h"
-#include "tools/actions/check_together.h"
 #include "tools/actions/outputs.h"
 #include "tools/cli/command.h"
 #include "tools/cli/recording_options.h"
-#include "tools/cli/take_project.h"
-#include "tools/parser/choice.h"
+#include "tools/cli/typed_options.h"
 #include "tools/report/draw/draw_figure.h"
 #include "tools/report/figures/log_figure.h"
-#include "tools/terminal/activity.h"
+#include "tools/terminal/progress_line.h"
 #include "tools/terminal/say.h"
+#include "tools/terminal/table.h"
 
 namespace warmjoint::inline tools {
 namespace {
 
 struct CheckArguments {
-  RecordingArguments recording;
+  RecordingSource recording;
   std::string format = "text";
   std::string segments;
   std::string plot;
@@ -46,28 +45,68 @@ void Draw(const PreparedLog& log, const std::string& file, const report::PageSet
   WriteWholeFile(file, report::EncodeFigure(figure, setting).bytes);
 }
 
-/// Reads, prepares and checks one of the recordings. One of several that cannot be read is told as
+/// One recording, or why it could not be read.
+struct CheckedFile {
+  std::string file;
+  std::optional<RecordingCheck> check;
+  std::string unreadable;
+};
+
+/// Reads, prepares and checks one of the recordings. One of several that cannot be read is reported as
 /// such; one alone throws.
-CheckedFile CheckOne(const RecordingArguments& arguments, const std::string& path,
+CheckedFile CheckOne(const RecordingSource& arguments, const std::string& path,
                      std::optional<PreparedLog>& log) {
-  RecordingArguments one = arguments;
+  RecordingSource one = arguments;
   // read alone, so that a refusal is its own
-  one.recordings = {path};
+  one.files = {path};
   try {
-    Measurements recording = std::move(ReadRecordings(one).front());
-    std::vector<std::string> columns = OptionalColumns(recording);
-    log = Prepare(std::move(recording), arguments.holds);
-    return {path, CheckRecording(*log), {}, std::move(columns)};
+    log = ReadAndPrepare(one);
+    return {path, CheckRecording(*log), {}};
   } catch (const BadInput& refusal) {
-    if (arguments.recordings.size() == 1) throw;
-    return {path, std::nullopt, refusal.what(), {}};
+    if (arguments.files.size() == 1) throw;
+    return {path, std::nullopt, refusal.what()};
   }
 }
 
-/// Of one recording its check; of several a table, what differs, and each by itself.
-std::string Text(const std::vector<CheckedFile>& files, int width) {
+/// In a word.
+std::string VerdictOn(const CheckedFile& file) {
+  if (!file.check) return "unreadable";
+  if (!file.check->faults.empty()) return "faults";
+  const bool any = std::ranges::any_of(file.check->excitation, &Excitation::sufficient);
+  return any ? "ok" : "no friction";
+}
+
+/// A row for each of several recordings, with what may differ between them.
+std::string TableOf(const std::vector<CheckedFile>& files) {
+  Table table{{"file", "samples", "rate Hz", "duration s", "segments", "from", "to", "torque in",
+               "faults", "verdict"},
+              {}};
+  for (const CheckedFile& file : files) {
+    // dashes where it cannot be read
+    std::vector<std::string>& row = table.rows.emplace_back();
+    row = {file.file, "-", "-", "-", "-", "-", "-", "-", "-", VerdictOn(file)};
+    if (!file.check) continue;
+    const SamplingCheck& sampling = file.check->sampling;
+    const MotionCheck& motion = file.check->motion;
+    const std::string_view unit = kPositionUnit.For(file.check->joint);
+    row = {file.file,
+           std::to_string(sampling.samples),
+           fmt::format("{:.4g}", sampling.rate),
+           fmt::format("{:.4g}", sampling.duration),
+           std::to_string(motion.segments),
+           fmt::format("{:.4g} {}", motion.lower, unit),
+           fmt::format("{:.4g} {}", motion.upper, unit),
+           file.check->torque_unit,
+           std::to_string(file.check->faults.size()),
+           VerdictOn(file)};
+  }
+  return TableToText(table, 1);
+}
+
+/// Of one recording its check; of several a table, and each by itself.
+std::string Text(const std::vector<CheckedFile>& files) {
   if (files.size() == 1) return CheckToText(*files.front().check);
-  std::string text = CheckedTogetherToText(files, width);
+  std::string text = TableOf(files);
   for (const CheckedFile& file : files) {
     text += "\n" + (file.check ? CheckToText(*file.check)
                                : fmt::format("recording   {}\n", file.unreadable));
@@ -75,8 +114,18 @@ std::string Text(const std::vector<CheckedFile>& files, int width) {
   return text;
 }
 
+/// As CheckToJson of one; of several {recordings[the same, and verdict; of an unreadable one source, reason,
+/// verdict]}.
 nlohmann::json Json(const std::vector<CheckedFile>& files) {
-  return files.size() == 1 ? CheckToJson(*files.front().check) : CheckedTogetherToJson(files);
+  if (files.size() == 1) return CheckToJson(*files.front().check);
+  nlohmann::json recordings = nlohmann::json::array();
+  for (const CheckedFile& file : files) {
+    nlohmann::json& row = recordings.emplace_back(
+        file.check ? CheckToJson(*file.check)
+                   : nlohmann::json{{"source", file.file}, {"reason", file.unreadable}});
+    row["verdict"] = VerdictOn(file);
+  }
+  return {{"recordings", recordings}};
 }
 
 ExitStatus Check(const CheckArguments& arguments) {
@@ -88,17 +137,16 @@ ExitStatus Check(const CheckArguments& arguments) {
     AtomicFile{arguments.plot};
   }
   if (!arguments.segments.empty()) AtomicFile{arguments.segments};
-  KeepApart(outputs,
-            {arguments.recording.recordings.begin(), arguments.recording.recordings.end()});
+  KeepApart(outputs, {arguments.recording.files.begin(), arguments.recording.files.end()});
 
   // options that make no layout are refused for all of them at once
-  LayoutOf(arguments.recording);
+  CheckReadSettings(arguments.recording.read);
 
   // each recording by itself, so that one cannot spoil the others
   std::vector<CheckedFile> files;
   std::string segments = "recording,begin,end,velocity,samples\n";
   Activity activity("reading the recording");
-  for (const std::string& path : arguments.recording.recordings) {
+  for (const std::string& path : arguments.recording.files) {
     activity.Is("checking " + path);
     std::optional<PreparedLog> log;
     files.push_back(CheckOne(arguments.recording, path, log));
@@ -115,7 +163,7 @@ ExitStatus Check(const CheckArguments& arguments) {
     if (arguments.format == "json") {
       fmt::print(words, "{}\n", Json(files).dump(2));
     } else {
-      SayText(words, Text(files, PageOf(words).width));
+      Say(words, "{}", Text(files));
     }
     if (!arguments.plot.empty() && !files.front().check) {
       Say(stderr, "{}: is not drawn, since {} cannot be read; give one that can be read first\n",
@@ -137,7 +185,7 @@ Command AddCheckCommand(CLI::App& program) {
       program.add_subcommand("check", "What a log holds, and what can be identified from it");
   // how recordings are read, then what is made of them
   AddRecordingOptions(*parser, arguments->recording);
-  AddHoldOptions(*parser, arguments->recording.holds);
+  AddHoldOptions(*parser, arguments->recording.prepare);
   parser
       ->add_option("--segments", arguments->segments,
                    "the constant speeds that are kept, as CSV: begin and end in s, velocity in SI")

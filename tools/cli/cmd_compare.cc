@@ -4,10 +4,8 @@
 #include <memory>
 
 #include "tools/board/format_board.h"
-#include "tools/board/read_board.h"
 #include "tools/cli/command.h"
-#include "tools/parser/choice.h"
-#include "tools/store/stored_suite.h"
+#include "tools/cli/typed_options.h"
 #include "tools/terminal/say.h"
 
 namespace warmjoint::inline tools {
@@ -23,7 +21,7 @@ std::vector<NamedBoard> ReadBoards(const std::vector<std::string>& runs) {
   // an edited copy of a suite is told of, and the stored one counts
   for (const std::string& run : runs) {
     const RunStore store = RunStore::OpenToRead(run);
-    TellOfEditedSuite(store);
+    NoticeEditedSuite(store);
     boards.push_back({run, ReadBoard(store)});
   }
   return boards;
@@ -34,14 +32,7 @@ ExitStatus Compare(const CompareArguments& arguments) {
   // the format that was asked for; several runs stand in one table
   for (const BoardFormat& format : BoardFormats()) {
     if (format.name != arguments.format) continue;
-    const std::string text =
-        boards.size() == 1 ? format.write(boards[0].board) : format.join(boards);
-    // for people, wrapped where they read it; for programs, as it is
-    if (format.name == "text") {
-      SayText(stdout, text);
-    } else {
-      fmt::print("{}", text);
-    }
+    fmt::print("{}", boards.size() == 1 ? format.write(boards[0].board) : format.join(boards));
   }
   return ExitStatus::done;
 }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "identification/estimate.h"
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/parse_number.h"
 #include "sim/model/minimal_model.h"
@@ -14,46 +15,133 @@
 #include "tools/actions/outputs.h"
 #include "tools/cli/command.h"
 #include "tools/cli/estimate_table.h"
-#include "tools/cli/follow_options.h"
-#include "tools/cli/identify_arguments.h"
-#include "tools/cli/identify_several.h"
 #include "tools/cli/recording_options.h"
-#include "tools/cli/take_project.h"
-#include "tools/cli/tell_wall.h"
-#include "tools/parser/choice.h"
+#include "tools/cli/typed_options.h"
 #include "tools/report/draw/page_setting.h"
 #include "tools/report/figures/fit_page.h"
-#include "tools/terminal/activity.h"
+#include "tools/suite/external_identifier.h"
+#include "tools/terminal/progress_line.h"
 #include "tools/terminal/say.h"
 
 namespace warmjoint::inline tools {
 namespace {
+
+struct IdentifyArguments {
+  RecordingSource recording;
+  IdentifySettings settings;
+  EarlierRecording earlier;
+  std::vector<std::string> identifiers{IdentifySettings{}.identifier};
+  std::string holdout = "0.3";
+  std::vector<std::string> set;
+  std::string output;
+  std::string mjcf;
+  std::string plot;
+  std::string format = "text";
+  bool explain = false;
+  bool force = false;
+  Confinement confinement = Confinement::sandbox;  // of commands
+};
+
+/// One of --identifier with all that can be refused checked: of the list, or a command.
+struct Asked {
+  std::string name;
+  std::optional<IdentifyTask> task;
+  std::optional<CheckedCommand> command;
+};
+
+/// What came of it; without an estimate the status and message of a command that gave no answer.
+struct Answered {
+  std::string name;
+  std::optional<Identified> identified;
+  std::string status;
+  std::string message;
+};
+
+IdentifySettings SettingsOf(const IdentifyArguments& arguments, const std::string& identifier) {
+  // the settings that all identifiers share, and what is this one's
+  IdentifySettings settings = arguments.settings;
+  settings.identifier = identifier;
+  settings.options = ReadPairs(arguments.set, "--set");
+  settings.follows = arguments.earlier.is_given();
+  if (arguments.force) settings.void_numbers = VoidNumbers::show;
+  return settings;
+}
+
+Asked CheckIdentifier(const IdentifyArguments& arguments, const std::string& identifier) {
+  const IdentifySettings settings = SettingsOf(arguments, identifier);
+  if (identifier.find('=') == std::string::npos) {
+    return {identifier, CheckSettings(settings, arguments.recording.read.joint), std::nullopt};
+  }
+  CheckedCommand command = CheckCommand(settings, arguments.confinement);
+  return {command.command.label, std::nullopt, std::move(command)};
+}
 
 /// What --holdout asks for.
 HoldOutSource ReadHoldOut(const IdentifyArguments& arguments) {
   // a number is a share; what is none names another recording
   const std::optional<double> fraction = ParseNumber(arguments.holdout);
   if (!fraction) {
-    RecordingArguments other = arguments.recording;
-    other.recordings = {arguments.holdout};
+    RecordingSource other = arguments.recording;
+    other.files = {arguments.holdout};
     return {0, ReadAndPrepare(other)};
   }
   return HoldOutShare(*fraction);
 }
 
-/// Refuses outputs that cannot be written before any time is spent.
-void CheckOutput(const std::string& path) {
-  if (!path.empty()) AtomicFile{path};
+std::vector<std::filesystem::path> OutputsOf(const IdentifyArguments& arguments) {
+  return {arguments.output, arguments.mjcf, arguments.plot};
 }
 
-/// measurements: of the log that the estimate tells of.
-void WriteOutputs(const IdentifyArguments& arguments, const Estimate& estimate,
-                  const Measurements& measurements, Activity& activity) {
-  // the estimate, where it is asked for
-  if (!arguments.output.empty()) {
-    WriteWholeFile(arguments.output, EstimateFile(estimate, arguments.recording, arguments.output,
-                                                  arguments.settings.follows));
+/// Refuses outputs that are inputs too, or cannot be written, before any time is spent.
+void CheckOutputs(const IdentifyArguments& arguments) {
+  // several identifiers give a table and no files
+  const std::pair<const char*, const std::string&> of_one[]{{"--output", arguments.output},
+                                                            {"--mjcf", arguments.mjcf},
+                                                            {"--plot", arguments.plot},
+                                                            {"--follows", arguments.earlier.file}};
+  for (const auto& [option, value] : of_one) {
+    if (arguments.identifiers.size() == 1 || value.empty()) continue;
+    Refuse({option}, "is for one identifier, and {} are given", arguments.identifiers.size());
   }
+
+  // the recording, and what else is read, must not be written over
+  std::vector<std::filesystem::path> inputs(arguments.recording.files.begin(),
+                                            arguments.recording.files.end());
+  inputs.emplace_back(arguments.holdout);
+  inputs.emplace_back(arguments.earlier.file);
+  KeepApart(OutputsOf(arguments), inputs);
+
+  // every output can be opened, and its name stands for a format that there is
+  for (const std::filesystem::path& path : OutputsOf(arguments)) {
+    if (!path.empty()) AtomicFile{path};
+  }
+  if (!arguments.plot.empty()) report::FormatOf(arguments.plot);
+}
+
+/// Fits and judges, or asks the command.
+Answered Answer(const Asked& asked, const PreparedLog& log, const HoldOutSource& holdout,
+                Activity& activity) {
+  if (asked.task) {
+    const std::string fitting =
+        fmt::format("fitting {} to {} samples", asked.name, log.taken().measurements.size());
+    activity.Is(fitting);
+    const auto listen = [&](const std::string& words) { activity.Is(fitting + ", " + words); };
+    return {asked.name, IdentifyLog(*asked.task, log, holdout, listen), "", ""};
+  }
+  activity.Is("waiting for " + asked.name);
+  try {
+    const Estimate estimate = IdentifyByCommand(*asked.command, log, holdout);
+    return {asked.name, Identified{estimate, estimate}, "", ""};
+  } catch (const NoAnswer& failure) {
+    return {asked.name, std::nullopt, failure.status, failure.what()};
+  }
+}
+
+/// measurements: of the log that was identified.
+void WriteOutputs(const IdentifyArguments& arguments, const Estimate& estimate,
+                  const std::string& file, const Measurements& measurements, Activity& activity) {
+  // the estimate, where it is asked for
+  if (!arguments.output.empty()) WriteWholeFile(arguments.output, file);
 
   // a model for MuJoCo needs a friction that can be trusted
   if (arguments.mjcf.empty()) return;
@@ -66,29 +154,9 @@ void WriteOutputs(const IdentifyArguments& arguments, const Estimate& estimate,
   WriteWholeFile(arguments.mjcf, MinimalModel(*estimate.friction, measurements.joint));
 }
 
-std::vector<std::filesystem::path> OutputsOf(const IdentifyArguments& arguments) {
-  return {arguments.output, arguments.mjcf, arguments.plot};
-}
-
-/// Refuses outputs that are inputs too, or cannot be written, before any time is spent.
-void CheckOutputs(const IdentifyArguments& arguments) {
-  // the recording, and what else is read, must not be written over
-  std::vector<std::filesystem::path> inputs(arguments.recording.recordings.begin(),
-                                            arguments.recording.recordings.end());
-  inputs.emplace_back(arguments.holdout);
-  inputs.emplace_back(arguments.follow.file);
-  KeepApart(OutputsOf(arguments), inputs);
-
-  // every output can be opened, and its name tells a format that there is
-  CheckOutput(arguments.output);
-  CheckOutput(arguments.mjcf);
-  CheckOutput(arguments.plot);
-  if (!arguments.plot.empty()) report::FormatOf(arguments.plot);
-}
-
 /// Writes, draws and prints an estimate of the log.
-ExitStatus Deliver(const IdentifyArguments& arguments, const Identified& identified,
-                   const PreparedLog& log, Activity& activity) {
+void Deliver(const IdentifyArguments& arguments, const Identified& identified,
+             const std::optional<CarriedHeat>& heat, const PreparedLog& log, Activity& activity) {
   const Measurements& measurements = log.taken().measurements;
   // friction in amperes is no use to MuJoCo, and says so where it is written
   const auto& [estimate, shown] = identified;
@@ -97,7 +165,8 @@ ExitStatus Deliver(const IdentifyArguments& arguments, const Identified& identif
   if (!notice.empty()) activity.Aside([&] { SayNotice("{}\n", notice); });
 
   // files and picture first, so that words follow what is there
-  WriteOutputs(arguments, written, measurements, activity);
+  const std::string file = EstimateFile(written, arguments.recording, arguments.output, heat);
+  WriteOutputs(arguments, written, file, measurements, activity);
   if (!arguments.plot.empty()) {
     activity.Is("drawing " + arguments.plot);
     report::WriteFitPage(log, shown, arguments.plot);
@@ -107,84 +176,80 @@ ExitStatus Deliver(const IdentifyArguments& arguments, const Identified& identif
   std::FILE* const words = WordsBeside(OutputsOf(arguments));
   activity.Aside([&] {
     if (arguments.format == "json") {
-      if (IsStandardOutput(arguments.output)) return;  // there it is already
-      fmt::print(
-          words, "{}",
-          EstimateFile(written, arguments.recording, arguments.output, arguments.settings.follows));
+      // on standard output it is there already
+      if (!IsStandardOutput(arguments.output)) fmt::print(words, "{}", file);
     } else {
       const Detail detail = arguments.explain ? Detail::full : Detail::brief;
-      SayText(words, EstimateToText(estimate, measurements, PageOf(words), detail));
+      Say(words, "{}", EstimateToText(estimate, measurements, PageOf(words), detail));
     }
   });
-  return estimate.status == Status::ok ? ExitStatus::done : ExitStatus::nothing_trustworthy;
 }
 
-/// A command of the user's in the place of an identifier.
-ExitStatus AskCommand(const IdentifyArguments& arguments) {
-  // all that can be refused is, before the command is started
-  if (arguments.follow.are_given()) {
-    Refuse({"--follows"}, "is for identifiers of the list: a command learns nothing of it");
+/// Several answers on one log: a table, or a list of what estimate.json holds.
+void PrintSeveral(const IdentifyArguments& arguments, const std::vector<Answered>& answers,
+                  const std::string& unit) {
+  if (arguments.format != "json") {
+    std::vector<EstimateRow> rows;
+    for (const Answered& one : answers) {
+      rows.push_back({one.name, one.status, one.identified ? &one.identified->estimate : nullptr});
+      if (!one.message.empty()) Say(stderr, "{}: {}\n", one.name, one.message);
+    }
+    Say(stdout, "{}", EstimatesToText(rows, unit));
+    return;
   }
-  const CommandTask task = CheckCommand(SettingsOf(arguments, arguments.identifiers.front()));
-  CheckOutputs(arguments);
-  TellWall({task.command}, {});
-
-  // the same log and the same judgement as for an identifier of the list
-  Activity activity("reading the recording");
-  const HoldOutSource holdout = ReadHoldOut(arguments);
-  const PreparedLog log = ReadAndPrepare(arguments.recording);
-  try {
-    activity.Is("waiting for " + task.command.label);
-    const Estimate estimate = IdentifyByCommand(task, log, holdout);
-    return Deliver(arguments, {estimate, estimate}, log, activity);
-  } catch (const NoAnswer& failure) {
-    // without an answer there is nothing that can be trusted
-    activity.Aside([&] {
-      Say(stderr, "{} gave no answer ({}): {}\n", task.command.label, failure.status,
-          failure.what());
-    });
-    return ExitStatus::nothing_trustworthy;
+  nlohmann::json estimates = nlohmann::json::array();
+  for (const Answered& one : answers) {
+    estimates.push_back(one.identified ? EstimateToJson(one.identified->estimate)
+                                       : nlohmann::json{{"identifier", one.name},
+                                                        {"status", one.status},
+                                                        {"message", one.message}});
   }
+  fmt::print("{}\n", estimates.dump(2));
 }
 
-/// Adds the heat that an earlier recording left, and tells it.
-void TakeFollowed(const PreparedLog& log, Activity& activity, IdentifyArguments& arguments) {
-  // read and, where it has no estimate yet, identified by the same settings
-  if (!arguments.follow.are_given()) return;
-  activity.Is("following " + arguments.follow.file);
-  arguments.settings.follows =
-      HeatBefore(arguments.follow, arguments.recording,
-                 SettingsOf(arguments, arguments.identifiers.front()), log.taken().measurements);
-  activity.Aside([&] { SayNotice("{}\n", Describe(*arguments.settings.follows)); });
-}
-
-ExitStatus Identify(IdentifyArguments arguments) {
-  CheckFollow(arguments.follow, arguments.recording);
-  if (arguments.identifiers.size() > 1) return IdentifySeveral(arguments);
-  const std::string& identifier = arguments.identifiers.front();
-  if (identifier.find('=') != std::string::npos) return AskCommand(arguments);
-
+ExitStatus Identify(const IdentifyArguments& arguments) {
   // everything that can be refused is, before any time is spent
-  IdentifySettings asked = SettingsOf(arguments, identifier);
-  // a stand-in for the heat, which reading will tell
-  if (arguments.follow.are_given()) asked.follows = CarriedHeat{{}, 0, {}, {}, {0}, {0}};
-  CheckSettings(asked, JointOf(arguments.recording));
+  CheckEarlier(arguments.earlier, arguments.recording.files.size());
+  std::vector<Asked> asked;
+  std::vector<SuiteIdentifier> commands;
+  for (const std::string& identifier : arguments.identifiers) {
+    asked.push_back(CheckIdentifier(arguments, identifier));
+    if (asked.back().command) commands.push_back(asked.back().command->command);
+  }
   CheckOutputs(arguments);
+  ReportConfinement(commands, {}, arguments.confinement);
 
   // what is held out, the log, and the heat that an earlier recording left
   Activity activity("reading the recording");
   const HoldOutSource holdout = ReadHoldOut(arguments);
   const PreparedLog log = ReadAndPrepare(arguments.recording);
-  TakeFollowed(log, activity, arguments);
+  std::optional<CarriedHeat> heat;
+  if (arguments.earlier.is_given()) {
+    activity.Is("following " + arguments.earlier.file);
+    heat =
+        HeatBefore(arguments.earlier, arguments.recording,
+                   SettingsOf(arguments, arguments.identifiers.front()), log.taken().measurements);
+    activity.Aside([&] { SayNotice("{}\n", Describe(*heat)); });
+    BeginWith(*heat, *asked.front().task);
+  }
 
-  // now with the heat that was carried over
-  const IdentifyTask task =
-      CheckSettings(SettingsOf(arguments, identifier), JointOf(arguments.recording));
-  const std::string fitting = fmt::format("fitting {} to {} samples", task.identifier.name,
-                                          log.taken().measurements.size());
-  activity.Is(fitting);
-  const auto tell = [&](const std::string& words) { activity.Is(fitting + ", " + words); };
-  return Deliver(arguments, IdentifyLog(task, log, holdout, tell), log, activity);
+  // one answer that can be trusted is enough
+  std::vector<Answered> answers;
+  for (const Asked& one : asked) answers.push_back(Answer(one, log, holdout, activity));
+  const bool any_ok = std::ranges::any_of(answers, [](const Answered& one) {
+    return one.identified && one.identified->estimate.status == Status::ok;
+  });
+  const Answered& first = answers.front();
+  if (answers.size() > 1) {
+    activity.Aside([&] { PrintSeveral(arguments, answers, log.taken().measurements.torque_unit); });
+  } else if (first.identified) {
+    Deliver(arguments, *first.identified, heat, log, activity);
+  } else {
+    activity.Aside([&] {
+      Say(stderr, "{} gave no answer ({}): {}\n", first.name, first.status, first.message);
+    });
+  }
+  return any_ok ? ExitStatus::done : ExitStatus::nothing_trustworthy;
 }
 
 /// What is written, and how much is said.
@@ -212,14 +277,15 @@ Command AddIdentifyCommand(CLI::App& program) {
   CLI::App* parser = program.add_subcommand("identify", "Friction from a log of one joint");
   // how the recording is read
   AddRecordingOptions(*parser, arguments->recording);
-  AddHoldOptions(*parser, arguments->recording.holds);
+  AddHoldOptions(*parser, arguments->recording.prepare);
 
   // which identifier, and what it is told
   parser
-      ->add_option("--identifier", arguments->identifiers,
-                   "see: warmjoint list identifiers; or a command of your own, as "
-                   "'mine=python3 mine.py {recording} {estimate}'; given several times: a table of "
-                   "their errors on held-out blocks")
+      ->add_option(
+          "--identifier", arguments->identifiers,
+          "see: warmjoint list identifiers; or a command of your own, as "
+          "'mine=python3 mine.py {recording} {estimate}'; given several times: a table with "
+          "a row for each")
       ->take_all()
       ->type_name("IDENTIFIER")
       ->capture_default_str();
@@ -241,7 +307,7 @@ Command AddIdentifyCommand(CLI::App& program) {
             "cold: intervals hold for a joint that was cold at the start; unknown: they reach as "
             "far as a slightly warm start moves them; estimated: E(0) is fitted",
             {{"warm", "unknown"}, {"hot", "unknown"}});
-  AddFollowOptions(*parser, arguments->follow);
+  AddFollowOptions(*parser, arguments->earlier);
   parser
       ->add_option(
           "--relevance", arguments->settings.relevance,
@@ -251,6 +317,11 @@ Command AddIdentifyCommand(CLI::App& program) {
   parser->add_option("--set", arguments->set, "option of the identifier, as law=asymmetric")
       ->type_name("KEY=VALUE")
       ->take_all();
+
+  parser->add_flag_callback(
+      "--unconfined", [arguments] { arguments->confinement = Confinement::none; },
+      "run a command of your own without the sandbox: where the kernel has none, or they need a "
+      "GPU");
 
   AddOutputOptions(*parser, *arguments);
   // the project file counts before anything is read

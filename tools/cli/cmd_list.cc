@@ -9,8 +9,7 @@
 #include "models/foundation/nearest_name.h"
 #include "tools/cli/command.h"
 #include "tools/cli/families.h"
-#include "tools/parser/choice.h"
-#include "tools/terminal/page.h"
+#include "tools/cli/typed_options.h"
 
 namespace warmjoint::inline tools {
 namespace {
@@ -43,11 +42,10 @@ std::vector<std::string> Names(const Family& family, const std::string& name) {
 
 std::string Text(const Family& family, const ListArguments& arguments) {
   // all in short, or one in full
-  const int width = PageOf(stdout).width;
   std::string text;
   for (const nlohmann::ordered_json& member : Members(family, arguments.member)) {
     if (!text.empty()) text += "\n";
-    text += arguments.member.empty() ? family.line(member, width) : family.page(member, width);
+    text += arguments.member.empty() ? family.line(member) : family.page(member);
   }
   return text;
 }

@@ -4,10 +4,10 @@
 #include <memory>
 
 #include "models/foundation/bad_input.h"
-#include "tools/board/write_tables.h"
+#include "tools/board/format_board.h"
 #include "tools/cli/command.h"
-#include "tools/cli/tell_run.h"
-#include "tools/cluster/gather.h"
+#include "tools/cli/end_of_run.h"
+#include "tools/cluster/shards.h"
 #include "tools/store/merge_runs.h"
 #include "tools/terminal/say.h"
 
@@ -20,7 +20,7 @@ struct MergeArguments {
 };
 
 /// Says which realizations no shard holds.
-void TellMissing(const std::set<Unit>& missing) {
+void NoticeMissing(const std::set<Unit>& missing) {
   // a few of them show where the hole is
   constexpr std::size_t most = 10;
   std::vector<std::string> shown;
@@ -38,9 +38,8 @@ void TellMissing(const std::set<Unit>& missing) {
 
 /// A run that was planned as shards becomes whole in its own directory.
 ExitStatus MergeInPlace(const std::filesystem::path& given) {
-  const std::filesystem::path run = std::filesystem::absolute(given).lexically_normal();
-  MergePlanned(run, ReadPlan(run));
-  return TellEnding(given, EndingOf(RunStore::OpenToRead(given)), RunPart::whole);
+  MergePlanned(ReadPlan(given));
+  return PrintEnding(given, EndingOf(RunStore::OpenToRead(given)), RunPart::whole);
 }
 
 ExitStatus Merge(const MergeArguments& arguments) {
@@ -51,14 +50,13 @@ ExitStatus Merge(const MergeArguments& arguments) {
   }
 
   // shards that overlap are refused here: each realization has one place
-  const MergedRun merged =
-      MergeRuns(arguments.shards, arguments.output, {Overlap::refused, Access::read, &WriteTables});
+  const MergedRun merged = MergeRuns(arguments.shards, arguments.output, &WriteTables);
   Say(stdout, "{}: {} shards, {} of {} realizations\n", arguments.output, arguments.shards.size(),
       merged.units - merged.missing.size(), merged.units);
   // what is missing is no failure, but then the whole says nothing yet
-  if (!merged.missing.empty()) TellMissing(merged.missing);
-  return TellEnding(arguments.output, EndingOf(RunStore::OpenToRead(arguments.output)),
-                    merged.missing.empty() ? RunPart::whole : RunPart::shard);
+  if (!merged.missing.empty()) NoticeMissing(merged.missing);
+  return PrintEnding(arguments.output, EndingOf(RunStore::OpenToRead(arguments.output)),
+                     merged.missing.empty() ? RunPart::whole : RunPart::shard);
 }
 
 }  // namespace

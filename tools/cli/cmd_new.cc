@@ -10,7 +10,7 @@
 #include "models/foundation/excerpt.h"
 #include "models/robots/robot_folder.h"
 #include "tools/cli/command.h"
-#include "tools/parser/choice.h"
+#include "tools/cli/typed_options.h"
 #include "tools/terminal/say.h"
 #include "tools/terminal/shell_words.h"
 

@@ -10,16 +10,13 @@
 #include "models/foundation/bad_input.h"
 #include "tools/actions/outputs.h"
 #include "tools/cli/command.h"
-#include "tools/cli/picture_options.h"
-#include "tools/cli/plot_sources.h"
-#include "tools/cli/take_project.h"
+#include "tools/cli/pictures.h"
+#include "tools/cli/recording_options.h"
 #include "tools/report/draw/draw_figure.h"
 #include "tools/report/draw/figure_data.h"
 #include "tools/report/draw/layout.h"
 #include "tools/report/estimate/overlay.h"
-#include "tools/report/gl/film.h"
-#include "tools/report/page/contact_sheet.h"
-#include "tools/terminal/activity.h"
+#include "tools/terminal/progress_line.h"
 #include "tools/terminal/say.h"
 
 namespace warmjoint::inline tools {
@@ -27,85 +24,46 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kFrameSeconds = 0.125;
-
 struct PlotArguments {
   std::vector<std::string> sources;
-  RecordingArguments recording;
+  RecordingSource recording;
   PictureArguments pictures;
   bool data = false;
   std::string output;
-  std::string sheet;
 };
 
-/// Draws figures into files and remembers the first of each kind for the contact sheet.
+/// Draws figures into files and prints what each shows.
 class Album {
  public:
   Album(const report::PageSetting& setting, Activity& activity)
       : setting_(setting), activity_(activity) {}
 
-  void Draw(const report::Figure& figure, const fs::path& folder) {
+  /// recordings: that must not be written over by the numbers of --data.
+  void Draw(const report::Figure& figure, const fs::path& folder, bool with_data,
+            const std::vector<fs::path>& recordings) {
     // the file is called as the figure
-    const fs::path path = PathOf(figure.name, setting_.format, folder);
+    const fs::path path =
+        folder / fmt::format("{}.{}", figure.name, report::NameOf(setting_.format));
     activity_.Is("drawing " + path.string());
     const report::PictureFile file = report::EncodeFigure(figure, setting_);
     WriteWholeFile(path, file.bytes);
-    Tell(path, file.caption);
+    Print(path, file.caption);
 
-    // the contact sheet shows the first of each kind
-    const bool is_new = std::none_of(pages_.begin(), pages_.end(),
-                                     [&](const auto& page) { return page.name == figure.name; });
-    if (is_new) pages_.push_back(figure);
-  }
-
-  /// The numbers that a figure shows. recordings: that must not be written over.
-  void WriteData(const report::Figure& figure, const fs::path& folder,
-                 const std::vector<fs::path>& recordings) {
-    const fs::path path = folder / (figure.name + ".csv");
-    KeepApart({path}, recordings);
-    WriteWholeFile(path, report::FigureCsv(figure));
-    Tell(path, "the series of " + figure.name);
-  }
-
-  void DrawFilm(const std::vector<report::Figure>& film, const fs::path& folder) {
-    // only PNG knows frames, and not every source moves
-    if (film.empty() || setting_.format != report::FileFormat::png) return;
-    std::vector<report::Image> frames;
-    for (const report::Figure& frame : film) {
-      activity_.Is(fmt::format("drawing frame {} of {}", frames.size() + 1, film.size()));
-      frames.push_back(report::Shrink(report::DrawFigure(frame).image, report::kPixelsPerPoint));
-    }
-
-    // all frames in one file
-    const fs::path path = PathOf(film.front().name, report::FileFormat::png, folder);
-    WriteWholeFile(path, report::EncodeFilm(frames, kFrameSeconds, film.front().title));
-    Tell(path, fmt::format("{}, {} frames", film.front().title, frames.size()));
-  }
-
-  void WriteSheet(const fs::path& path) {
-    if (pages_.empty()) return;
-    // a picture like the others, but as high as it needs to be
-    const report::Figure sheet = report::MakeContactSheet(pages_);
-    report::PageSetting setting = setting_;
-    setting.format = report::FormatOf(path.string());
-    setting.height = 0;
-    WriteWholeFile(path, report::EncodeFigure(sheet, setting).bytes);
-    Tell(path, sheet.finding);
+    // the numbers that it shows
+    if (!with_data) return;
+    const fs::path data = folder / (figure.name + ".csv");
+    KeepApart({data}, recordings);
+    WriteWholeFile(data, report::FigureCsv(figure));
+    Print(data, "the series of " + figure.name);
   }
 
  private:
-  static fs::path PathOf(const std::string& name, report::FileFormat format,
-                         const fs::path& folder) {
-    return folder / fmt::format("{}.{}", name, report::NameOf(format));
-  }
-
-  void Tell(const fs::path& path, const std::string& finding) {
+  void Print(const fs::path& path, const std::string& finding) {
     activity_.Aside([&] { Say(stdout, "{}: {}\n", path.string(), finding); });
   }
 
   const report::PageSetting& setting_;
   Activity& activity_;
-  std::vector<report::Figure> pages_;
 };
 
 /// The folder of each source: DIR for one, DIR/NAME for several.
@@ -141,12 +99,8 @@ void TellLeftOut(const std::string& source, const SourcePictures& pictures) {
 
 ExitStatus PlotSources(const PlotArguments& arguments) {
   const std::vector<fs::path> folders = FoldersOf(arguments);
-  // refused before the pictures are drawn; the sheet is written once all of them are
+  // refused before the pictures are drawn
   const report::PageSetting setting = SettingOf(arguments.pictures);
-  if (!arguments.sheet.empty()) {
-    report::FormatOf(arguments.sheet);
-    AtomicFile(arguments.sheet);
-  }
   Activity activity("preparing to draw");
   Album album(setting, activity);
   std::vector<report::NamedEstimate> estimates;
@@ -154,9 +108,8 @@ ExitStatus PlotSources(const PlotArguments& arguments) {
   for (std::size_t i = 0; i < folders.size(); ++i) {
     activity.Is("reading " + arguments.sources[i]);
     SourcePictures pictures = PicturesOf(arguments.sources[i], arguments.recording);
-    // without --figure the whole family with its film, and word of what it lacks
+    // without --figure the whole family, and word of what it lacks
     const bool all = arguments.pictures.figures.empty();
-    if (!all) pictures.film.clear();
     if (all) activity.Aside([&] { TellLeftOut(arguments.sources[i], pictures); });
     const std::vector<report::Figure> figures =
         Chosen(arguments.pictures, arguments.sources[i], pictures);
@@ -170,17 +123,14 @@ ExitStatus PlotSources(const PlotArguments& arguments) {
     }
     for (const report::Figure& figure : figures) {
       try {
-        album.Draw(figure, folders[i]);
+        album.Draw(figure, folders[i], arguments.data, pictures.recordings);
       } catch (const report::TooSmall& refusal) {
         // one that was not asked for by name is no reason to lose the others
         if (!all) throw;
         activity.Aside(
             [&] { SayNotice("{}: left out: {}\n", arguments.sources[i], refusal.what()); });
-        continue;
       }
-      if (arguments.data) album.WriteData(figure, folders[i], pictures.recordings);
     }
-    album.DrawFilm(pictures.film, folders[i]);
     recordings.insert(recordings.end(), pictures.recordings.begin(), pictures.recordings.end());
     if (pictures.estimate) {
       const std::string name = fs::path(arguments.sources[i]).stem().string();
@@ -191,10 +141,8 @@ ExitStatus PlotSources(const PlotArguments& arguments) {
   // several estimates in one figure
   const bool all_figures = arguments.pictures.figures.empty();
   if (const auto overlay = report::MakeOverlay(estimates); overlay && all_figures) {
-    album.Draw(*overlay, arguments.output);
-    if (arguments.data) album.WriteData(*overlay, arguments.output, recordings);
+    album.Draw(*overlay, arguments.output, arguments.data, recordings);
   }
-  if (!arguments.sheet.empty()) album.WriteSheet(arguments.sheet);
   return ExitStatus::done;
 }
 
@@ -216,19 +164,15 @@ Command AddPlotCommand(CLI::App& program) {
 
   // whose data is shown
   parser
-      ->add_option("--recording", arguments->recording.recordings,
+      ->add_option("--recording", arguments->recording.files,
                    "data of an estimate, instead of the files that it remembers")
       ->type_name("RECORDING");
-  AddLayoutOptions(*parser, arguments->recording);
+  AddLayoutOptions(*parser, arguments->recording.read);
 
   // how it looks
   AddPictureOptions(*parser, arguments->pictures);
   parser->add_flag("--data", arguments->data,
                    "also the series of each picture, before thinning, as NAME.csv");
-  parser
-      ->add_option("--sheet", arguments->sheet,
-                   "contact sheet: the first plot of the first figure of each kind")
-      ->type_name("FILE");
   return {parser, [arguments, parser] {
             TakeProject(*parser, arguments->recording);
             return PlotSources(*arguments);

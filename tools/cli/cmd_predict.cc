@@ -6,16 +6,13 @@
 #include <nlohmann/json.hpp>
 
 #include "models/foundation/atomic_file.h"
-#include "models/friction/course_start.h"
-#include "tools/actions/initial_energy.h"
+#include "models/foundation/serialize.h"
 #include "tools/actions/outputs.h"
 #include "tools/actions/predict_recording.h"
 #include "tools/cli/command.h"
-#include "tools/cli/follow_options.h"
 #include "tools/cli/recording_options.h"
-#include "tools/cli/take_project.h"
-#include "tools/parser/choice.h"
-#include "tools/terminal/activity.h"
+#include "tools/cli/typed_options.h"
+#include "tools/terminal/progress_line.h"
 #include "tools/terminal/say.h"
 #include "tools/terminal/table.h"
 
@@ -24,55 +21,24 @@ namespace {
 
 struct PredictArguments {
   std::string estimate;
-  RecordingArguments recording;
+  RecordingSource recording;
   std::string initial = "cold";
-  FollowArguments follow;
+  EarlierRecording earlier;
   std::string output;
   std::string format = "text";
 };
 
-/// With which heat the recording begins.
-struct Begin {
-  CourseStart start;
-  std::string words;  // "cold"
-  std::optional<CarriedHeat> follows;
-};
-
-CourseStart StartWith(const std::vector<double>& energies) {
-  // E1 and E2; without warming there is none
-  CourseStart start;
-  if (!energies.empty()) start.energy = energies[0];
-  if (energies.size() > 1) start.second_energy = energies[1];
-  return start;
-}
-
-Begin BeginOf(const PredictArguments& arguments, const StoredModel& stored,
-              const Measurements& next) {
-  // as --initial has it
-  if (!arguments.follow.are_given()) {
-    return {StartWith(InitialEnergy(arguments.initial, stored.model.friction, arguments.estimate)),
-            arguments.initial, std::nullopt};
-  }
-
-  // as an earlier recording left it
-  const CarriedHeat carried = HeatBefore(arguments.follow, arguments.recording, stored, next);
-  return {
-      StartWith(carried.energy),
-      fmt::format("at {:.4g}, {:.6g} s after {}", carried.energy[0], carried.pause, carried.file),
-      carried};
-}
-
 /// Refuses what cannot be had together, before any time is spent.
 void CheckStart(const PredictArguments& arguments) {
-  // both tell the same heat
-  CheckFollow(arguments.follow, arguments.recording);
-  if (!arguments.follow.are_given() || arguments.initial == "cold") return;
+  // both say how warm the joint is
+  CheckEarlier(arguments.earlier, arguments.recording.files.size());
+  if (!arguments.earlier.is_given() || arguments.initial == "cold") return;
   Refuse({"--follows"},
          "says how warm the joint is at the start, and so does --initial; leave one");
 }
 
 std::string PredictedToText(const PredictArguments& arguments, const StoredModel& stored,
-                            const Predicted& predicted, const Begin& begin, int width) {
+                            const Predicted& predicted, const WarmStart& begin) {
   // how far prediction and record are apart
   const Metrics& metrics = predicted.metrics;
   const std::string& unit = predicted.measurements.torque_unit;
@@ -83,21 +49,25 @@ std::string PredictedToText(const PredictArguments& arguments, const StoredModel
         std::isfinite(metrics.fit) ? fmt::format("{:.2f}", metrics.fit) : "-"}}};
   std::string text = fmt::format("{} of {} ({})\n\n", stored.identifier, arguments.estimate,
                                  StatusName(stored.status)) +
-                     TableToText(table, 1, width);
+                     TableToText(table, 1);
   // how warm the joint has become
   if (stored.model.friction.thermal) {
+    const std::string words =
+        begin.follows ? fmt::format("at {:.4g}, {:.6g} s after {}", begin.follows->energy[0],
+                                    begin.follows->pause, begin.follows->file)
+                      : arguments.initial;
     text += fmt::format("\nE at the end: {:.4g} {} (begun {})\n",
-                        predicted.torque.friction.energy.tail<1>()[0], unit, begin.words);
+                        predicted.torque.friction.energy.tail<1>()[0], unit, words);
   }
   return text;
 }
 
 ExitStatus Predict(PredictArguments arguments) {
   // what is read must not be written over, and all that can be refused is first
-  std::vector<std::filesystem::path> inputs(arguments.recording.recordings.begin(),
-                                            arguments.recording.recordings.end());
+  std::vector<std::filesystem::path> inputs(arguments.recording.files.begin(),
+                                            arguments.recording.files.end());
   inputs.emplace_back(arguments.estimate);
-  inputs.emplace_back(arguments.follow.file);
+  inputs.emplace_back(arguments.earlier.file);
   CheckStart(arguments);
   KeepApart({arguments.output}, inputs);
   if (!arguments.output.empty()) AtomicFile{arguments.output};
@@ -107,7 +77,8 @@ ExitStatus Predict(PredictArguments arguments) {
   const StoredModel stored = ReadStoredModel(arguments.estimate);
   arguments.recording = AsIdentified(stored, std::move(arguments.recording));
   const PreparedLog log = ReadAndPrepare(arguments.recording);
-  const Begin begin = BeginOf(arguments, stored, log.taken().measurements);
+  const WarmStart begin = StartOf(stored, arguments.estimate, arguments.initial, arguments.earlier,
+                                  arguments.recording, log.taken().measurements);
   // what the friction says of the log, and what the log says of it
   const Predicted predicted = PredictLog(stored, log, begin.start);
   if (!arguments.output.empty()) WriteWholeFile(arguments.output, PredictedToCsv(predicted));
@@ -120,10 +91,10 @@ ExitStatus Predict(PredictArguments arguments) {
     }
     if (arguments.format == "json") {
       nlohmann::json told = PredictedToJson(stored, predicted);
-      if (begin.follows) told["follows"] = CarriedHeatToJson(*begin.follows);
+      if (begin.follows) told["follows"] = WriteFields(*begin.follows);
       fmt::print(words, "{}\n", told.dump(2));
     } else {
-      SayText(words, PredictedToText(arguments, stored, predicted, begin, PageOf(words).width));
+      Say(words, "{}", PredictedToText(arguments, stored, predicted, begin));
     }
   });
   return ExitStatus::done;
@@ -141,7 +112,7 @@ Command AddPredictCommand(CLI::App& program) {
       ->type_name("ESTIMATE")
       ->required();
   AddRecordingOptions(*parser, arguments->recording);
-  AddHoldOptions(*parser, arguments->recording.holds);
+  AddHoldOptions(*parser, arguments->recording.prepare);
 
   // with which heat it begins
   parser
@@ -150,7 +121,7 @@ Command AddPredictCommand(CLI::App& program) {
                    "recording; settled:SPEED, that of sliding at SPEED for long")
       ->type_name("cold|end|settled:SPEED")
       ->capture_default_str();
-  AddFollowOptions(*parser, arguments->follow);
+  AddFollowOptions(*parser, arguments->earlier);
 
   // what is written and printed
   parser

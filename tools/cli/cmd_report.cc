@@ -6,24 +6,21 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "identification/estimate_from_json.h"
+#include "identification/estimate.h"
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "models/foundation/read_json.h"
-#include "tools/actions/fit_again.h"
 #include "tools/actions/identify_recording.h"
 #include "tools/actions/outputs.h"
 #include "tools/actions/replay_unit.h"
 #include "tools/cli/command.h"
 #include "tools/cli/recording_options.h"
-#include "tools/cli/take_project.h"
+#include "tools/report/estimate/estimate_view.h"
 #include "tools/report/page/log_page.h"
 #include "tools/report/page/run_page.h"
 #include "tools/report/run/extremes.h"
 #include "tools/report/run/run_figures.h"
-#include "tools/store/stored_suite.h"
-#include "tools/suite/arithmetic.h"
-#include "tools/terminal/activity.h"
+#include "tools/terminal/progress_line.h"
 #include "tools/terminal/shell_words.h"
 
 namespace warmjoint::inline tools {
@@ -34,7 +31,7 @@ namespace fs = std::filesystem;
 struct ReportArguments {
   std::string source;
   std::string output;
-  RecordingArguments recording;
+  RecordingSource recording;
   IdentifySettings settings;
   std::vector<std::string> set;
 };
@@ -92,10 +89,10 @@ Page RunReport(const ReportArguments& arguments, Activity& activity) {
   const RunStore store = RunStore::OpenToRead(arguments.source);
   const fs::path beside = fs::path(arguments.source) / "report.html";
   const fs::path target = arguments.output.empty() ? beside : fs::path(arguments.output);
-  ClaimOutput(target, {store.results_file(), store.timings_file(), store.suite_file()});
-  TellOfEditedSuite(store);
+  ClaimOutput(target, {store.results_file(), store.suite_file()});
+  NoticeEditedSuite(store);
   // all that the run itself gives
-  report::RunPage page{report::ReadRunView(store), StoredSuite(store), store.ReadDescription(), {}};
+  report::RunPage page{report::ReadRunView(store), store.suite(), store.description(), {}};
   for (const report::RunFigure& figure : report::RunFigures()) {
     if (auto made = figure.make(page.view)) page.figures.push_back(*std::move(made));
   }
@@ -118,11 +115,11 @@ bool IsRecording(const fs::path& source) {
 
 /// Of a log that is identified here, so that the page can show a void fit, too.
 std::string RecordingReport(const ReportArguments& arguments, Activity& activity) {
-  const RecordingArguments& recording = arguments.recording;
+  const RecordingSource& recording = arguments.recording;
   // identified as `identify` would
   IdentifySettings settings = arguments.settings;
   settings.options = ReadPairs(arguments.set, "--set");
-  const IdentifyTask task = CheckSettings(settings, JointOf(recording));
+  const IdentifyTask task = CheckSettings(settings, recording.read.joint);
   const PreparedLog log = ReadAndPrepare(recording);
   activity.Is(fmt::format("fitting {} to {} samples", task.identifier.name,
                           log.taken().measurements.size()));
@@ -142,16 +139,16 @@ std::string RecordingReport(const ReportArguments& arguments, Activity& activity
 /// Of an estimate file, with the recording that it remembers.
 std::string EstimateReport(const ReportArguments& arguments) {
   // the estimate, and the recording that it remembers
-  const nlohmann::json file = ReadJsonFile(arguments.source);
-  const Estimate estimate = EstimateFromJson(file, {arguments.source});
-  if (!file.contains("recording")) {
+  const Node file = ReadJsonNode(arguments.source);
+  const Estimate estimate = EstimateFrom(file);
+  const std::optional<RecordingSource> recording = RecordingIn(file);
+  if (!recording) {
     Refuse({arguments.source}, "names no recording; give the report the recording itself");
   }
-  const RecordingArguments recording = RecordingFromJson(file["recording"], {arguments.source});
-  const PreparedLog log = ReadAndPrepare(recording);
+  const PreparedLog log = ReadAndPrepare(*recording);
   // of a refused estimate the fit is made again, so that the page can show it
   return LogReport(
-      log, WithFitAgain(estimate, log),
+      log, report::WithFitAgain(estimate, log),
       {JoinCommand({"warmjoint", "report", arguments.source, "-o", arguments.output})});
 }
 
@@ -167,7 +164,6 @@ void RefuseOptionsOfRecordings(const CLI::App& parser, const std::string& source
 }
 
 ExitStatus Report(const ReportArguments& arguments) {
-  SettleArithmetic();
   Activity activity("reading " + arguments.source);
   // a run by its directory, a log by its file
   if (!fs::exists(arguments.source)) {
@@ -215,11 +211,11 @@ Command AddReportCommand(CLI::App& program) {
   parser->add_option("--set", arguments->set, "option of the identifier, as law=asymmetric")
       ->type_name("KEY=VALUE")
       ->take_all();
-  AddLayoutOptions(*parser, arguments->recording);
-  AddHoldOptions(*parser, arguments->recording.holds);
+  AddLayoutOptions(*parser, arguments->recording.read);
+  AddHoldOptions(*parser, arguments->recording.prepare);
   return {parser, [arguments, parser] {
             if (IsRecording(arguments->source)) {
-              arguments->recording.recordings = {arguments->source};
+              arguments->recording.files = {arguments->source};
               TakeProject(*parser, arguments->recording);
             } else {
               RefuseOptionsOfRecordings(*parser, arguments->source);

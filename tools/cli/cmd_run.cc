@@ -4,15 +4,14 @@
 #include <limits>
 #include <memory>
 
-#include "scenarios/parse_suite.h"
+#include "scenarios/suite.h"
 #include "tools/actions/run_task.h"
 #include "tools/cli/command.h"
+#include "tools/cli/end_of_run.h"
 #include "tools/cli/run_in_shards.h"
 #include "tools/cli/suite_names.h"
-#include "tools/cli/tell_run.h"
-#include "tools/cli/tell_wall.h"
-#include "tools/cli/whole_number.h"
-#include "tools/suite/arithmetic.h"
+#include "tools/cli/typed_options.h"
+#include "tools/cluster/plan.h"
 #include "tools/suite/engine.h"
 #include "tools/suite/interrupt.h"
 #include "tools/terminal/say.h"
@@ -23,29 +22,29 @@ namespace {
 constexpr std::uint64_t kLargestSeed = std::numeric_limits<std::uint64_t>::max();
 
 ExitStatus Run(RunArguments arguments) {
-  SettleArithmetic();
   // a suite by its name or file, in shards or here
   arguments.suite = FindSuite(arguments.suite);
   if (arguments.in_shards()) return RunInShards(arguments);
   RefuseShardOptions(arguments);
 
   const RunTask task = PrepareRun(arguments);
+  if (HasPlan(arguments.output)) return RunPlannedShard(arguments, task);
   RunStore store = RunStore::CreateOrResume(arguments.output, task.description);
-  // who brought commands along is told what keeps them apart
-  TellWall(task.suite.identifiers, {arguments.suite, arguments.output});
+  ReportConfinement(task.suite.identifiers, {arguments.suite, arguments.output},
+                    arguments.confinement);
   // interrupts end the run after the realizations in hand
   CatchInterrupts();
   const RunOutcome outcome =
       RunSuite(task.suite, task.identifiers, {task.jobs, task.shard, arguments.keep}, store);
-  TellNotFollowing(outcome.following, task.description);
+  NoticeNotFollowing(outcome.following, task.suite);
   if (outcome.interrupted) {
     Say(stderr, "interrupted: {} of {} realizations are kept; the same command goes on\n",
         outcome.finished, outcome.total);
     return ExitStatus::interrupted;
   }
   // tables and words of a run that is over; a shard says little by itself
-  return TellEnding(store.directory(), EndRun(store),
-                    task.shard.IsWhole() ? RunPart::whole : RunPart::shard);
+  return PrintEnding(store.directory(), EndRun(store),
+                     task.shard.IsWhole() ? RunPart::whole : RunPart::shard);
 }
 
 }  // namespace
@@ -77,16 +76,15 @@ Command AddRunCommand(CLI::App& program) {
       ->type_name("IDENTIFIER");
 
   // which part of it, and what commands may do
-  parser
-      ->add_option("--shard", arguments->shard,
-                   "part i of n, or realizations a to b - 1, to be merged later: i/n or "
-                   "a:b")
+  parser->add_option("--shard", arguments->shard, "part i of n, to be merged later: i/n")
       ->type_name("TEXT")
       ->capture_default_str();
   parser->add_flag("--allow-commands", arguments->allow_commands,
                    "run the commands that the suite names as identifiers");
-  parser->add_flag("--shell", arguments->shell,
-                   "give commands of identifiers to /bin/sh, instead of as lists of arguments");
+  parser->add_flag_callback(
+      "--unconfined", [arguments] { arguments->confinement = Confinement::none; },
+      "run commands of identifiers without the sandbox: where the kernel has none, or they need a "
+      "GPU");
   parser->add_flag("--keep-recordings", arguments->keep, "recordings (HDF5) into RUN/recordings");
   AddShardOptions(*parser, *arguments);
   return {parser, [arguments] { return Run(*arguments); }};

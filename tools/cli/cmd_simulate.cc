@@ -7,25 +7,20 @@
 #include <optional>
 
 #include "identification/preparation/prepare.h"
-#include "models/foundation/atomic_directory.h"
+#include "identification/preparation/select.h"
+#include "models/foundation/atomic_file.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
 #include "scenarios/read_scenario.h"
 #include "scenarios/suite.h"
-#include "scenarios/write_scenario.h"
+#include "sim/plant/motion_of.h"
 #include "sim/plant/plant.h"
 #include "tools/actions/outputs.h"
-#include "tools/actions/simulated_files.h"
 #include "tools/cli/command.h"
 #include "tools/cli/recording_options.h"
-#include "tools/cli/repeat_motion.h"
-#include "tools/cli/take_project.h"
-#include "tools/cli/whole_number.h"
-#include "tools/parser/choice.h"
-#include "tools/store/stored_suite.h"
-#include "tools/suite/arithmetic.h"
+#include "tools/cli/typed_options.h"
+#include "tools/store/run_store.h"
 #include "tools/suite/following_tally.h"
-#include "tools/suite/memory_of_work.h"
 #include "tools/terminal/progress_line.h"
 #include "tools/terminal/say.h"
 
@@ -34,9 +29,9 @@ namespace {
 
 struct SimulateArguments {
   std::string scenario;
-  std::string from;           // run directory to replay a realization of
-  std::string variant;        // of the run's ladder
-  RecordingArguments motion;  // recording to carry out again
+  std::string from;        // run directory to replay a realization of
+  std::string variant;     // of the run's ladder
+  RecordingSource motion;  // recording to carry out again
   std::vector<std::string> set;
   std::optional<std::uint64_t> seed;
   std::optional<std::uint64_t> realization;
@@ -48,23 +43,26 @@ struct SimulateArguments {
 Scenario ScenarioOfRun(const SimulateArguments& arguments) {
   // the run as it was, or it is no replay
   const bool changed = !arguments.scenario.empty() || !arguments.set.empty() || arguments.seed ||
-                       !arguments.motion.recordings.empty();
+                       !arguments.motion.files.empty();
   if (changed) {
     Refuse({"--from"}, "replays a run as it was: leave out SCENARIO, --set, --seed and --motion");
   }
 
   // the suite that the run stored, not a file that may have changed
   const RunStore store = RunStore::OpenToRead(arguments.from);
-  TellOfEditedSuite(store);
-  const Suite suite = StoredSuite(store);
+  NoticeEditedSuite(store);
+  const Suite& suite = store.suite();
   if (arguments.realization.value_or(0) >= static_cast<std::uint64_t>(suite.realizations)) {
     Refuse({"--realization"}, "is {}; {} has 0 to {}", *arguments.realization, arguments.from,
            suite.realizations - 1);
   }
 
   // the variant by its name; a run without a ladder has one scenario
-  const std::vector<std::string> names = store.ReadDescription().variants;
-  if (names.empty() && arguments.variant.empty()) return VariantScenario(suite, 0);
+  if (!suite.ladder && arguments.variant.empty()) return VariantScenario(suite, 0);
+  std::vector<std::string> names;
+  for (int i = 0; suite.ladder && i < suite.variants(); ++i) {
+    names.push_back(suite.ladder->variants[static_cast<std::size_t>(i)].name);
+  }
   const auto named = std::find(names.begin(), names.end(), arguments.variant);
   if (named == names.end()) {
     Refuse({"--variant"}, "there is no variant '{}' of {}{}", Excerpt(arguments.variant),
@@ -73,14 +71,17 @@ Scenario ScenarioOfRun(const SimulateArguments& arguments) {
   return VariantScenario(suite, static_cast<int>(named - names.begin()));
 }
 
-/// log: whose motion is carried out, if any.
-Scenario ResolveScenario(const SimulateArguments& arguments,
-                         const std::optional<Measurements>& log) {
+/// Of a scenario file, with the motion of --motion, or of a run.
+Scenario ResolveScenario(const SimulateArguments& arguments) {
   if (!arguments.from.empty()) return ScenarioOfRun(arguments);
   if (arguments.scenario.empty()) Refuse({"simulate"}, "give SCENARIO, or --from RUN");
-  // the log's motion first, so that --set can still change it
+  // a log's motion first, for as long as it lasts, so that --set can still change it
   Settings settings;
-  if (log) settings = MotionSettings(*log);
+  if (!arguments.motion.files.empty()) {
+    const Measurements log = Prepare(ReadRecording(arguments.motion)).taken().measurements;
+    const Motion motion = MotionOf(log, SelectConstantSpeed(log));
+    settings = MotionSettings(motion, log.time[log.size() - 1] - log.time[0]);
+  }
   for (const auto& [key, value] : ReadPairs(arguments.set, "--set")) {
     settings.push_back({key, value});
   }
@@ -106,21 +107,15 @@ Recording Carried(Plant& plant, const Scenario& scenario, std::uint64_t realizat
 }
 
 ExitStatus Simulate(const SimulateArguments& arguments) {
-  SettleArithmetic();
-  // the motion of a log, if one is to be repeated
-  std::optional<Measurements> log;
-  if (!arguments.motion.recordings.empty())
-    log = Prepare(ReadRecording(arguments.motion)).taken().measurements;
   // what cannot be simulated is refused before its outputs are made
-  const Scenario scenario = ResolveScenario(arguments, log);
-  RequireMemoryFor(scenario, arguments.from.empty() ? arguments.scenario : arguments.from);
+  const Scenario scenario = ResolveScenario(arguments);
   const std::unique_ptr<Plant> plant = MakePlant(scenario);
   std::vector<std::filesystem::path> outputs, inputs{arguments.scenario};
   for (const std::string& file : SimulatedFiles()) {
     outputs.push_back(std::filesystem::path(arguments.output) / file);
   }
   // none of its inputs is written over
-  for (const std::string& input : arguments.motion.recordings) inputs.emplace_back(input);
+  for (const std::string& input : arguments.motion.files) inputs.emplace_back(input);
   KeepApart(outputs, inputs);
   AtomicDirectory directory(arguments.output, SimulatedFiles());
 
@@ -133,8 +128,6 @@ ExitStatus Simulate(const SimulateArguments& arguments) {
   if (!recording.following.Follows()) {
     SayNotice("notice: {}\n", NotFollowingInWords(recording.following));
   }
-  // the log's own torque beside the simulated one
-  if (log) fmt::print("{}", CompareTorque(*log, recording.measurements));
   return ExitStatus::done;
 }
 
@@ -151,12 +144,10 @@ Command AddSimulateCommand(CLI::App& program) {
       ->type_name("RUN");
   parser->add_option("--variant", arguments->variant, "of the run's ladder")->type_name("TEXT");
   parser
-      ->add_option("--motion", arguments->motion.recordings,
-                   "CSV or HDF5 file whose motion is replayed; its torque is compared with the "
-                   "simulated one")
+      ->add_option("--motion", arguments->motion.files, "CSV or HDF5 file whose motion is replayed")
       ->type_name("RECORDING")
       ->expected(1);
-  AddLayoutOptions(*parser, arguments->motion);
+  AddLayoutOptions(*parser, arguments->motion.read);
 
   // what changes of it
   parser->add_option("--set", arguments->set, "another value for a key, as noise.torque=0.1")

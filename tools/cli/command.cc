@@ -4,12 +4,11 @@ namespace warmjoint::inline tools {
 
 std::vector<Command> AddCommands(CLI::App& program) {
   return {
-      AddListCommand(program),    AddNewCommand(program),      AddSimulateCommand(program),
-      AddCheckCommand(program),   AddIdentifyCommand(program), AddPredictCommand(program),
-      AddAttachCommand(program),  AddRunCommand(program),      AddTaskCommand(program),
-      AddStatusCommand(program),  AddCancelCommand(program),   AddMergeCommand(program),
-      AddCompareCommand(program), AddPlotCommand(program),     AddReportCommand(program),
-      AddHelpCommand(program),    AddManCommand(program),      AddCompletionCommand(program),
+      AddListCommand(program),   AddNewCommand(program),      AddSimulateCommand(program),
+      AddCheckCommand(program),  AddIdentifyCommand(program), AddPredictCommand(program),
+      AddAttachCommand(program), AddRunCommand(program),      AddStatusCommand(program),
+      AddMergeCommand(program),  AddCompareCommand(program),  AddPlotCommand(program),
+      AddReportCommand(program),
   };
 }
 

@@ -1,4 +1,4 @@
-// Subcommands of the program, and their one list.
+// The command line as a whole, its subcommands, and their one list.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -24,6 +24,10 @@ struct Command {
   std::function<ExitStatus()> run;
 };
 
+/// Reads the command line and runs its subcommand. Throws BadInput for arguments that cannot be
+/// used, with the nearest known option or subcommand.
+ExitStatus RunProgram(int argc, const char* const* argv);
+
 /// Adds all subcommands to the program's command line.
 std::vector<Command> AddCommands(CLI::App& program);
 
@@ -37,13 +41,8 @@ Command AddPlotCommand(CLI::App& program);
 Command AddReportCommand(CLI::App& program);
 Command AddAttachCommand(CLI::App& program);
 Command AddRunCommand(CLI::App& program);
-Command AddTaskCommand(CLI::App& program);
 Command AddStatusCommand(CLI::App& program);
-Command AddCancelCommand(CLI::App& program);
 Command AddMergeCommand(CLI::App& program);
 Command AddCompareCommand(CLI::App& program);
-Command AddHelpCommand(CLI::App& program);
-Command AddManCommand(CLI::App& program);
-Command AddCompletionCommand(CLI::App& program);
 
 }  // namespace warmjoint::inline tools

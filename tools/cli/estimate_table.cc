@@ -2,10 +2,11 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "models/foundation/printable.h"
+#include "models/foundation/excerpt.h"
 #include "tools/report/estimate/remarks.h"
 #include "tools/report/estimate/shown_parameters.h"
 #include "tools/terminal/table.h"
@@ -75,21 +76,6 @@ Table DiagnosticTable(const Estimate& estimate) {
   return table;
 }
 
-/// How the heat goes with the log's temperature.
-std::string TemperatureText(const Estimate& estimate, int width) {
-  // these stand beside the fit, which has not used them
-  if (estimate.temperature.empty()) return "";
-  Table table{{"temperature beside E", "value", "unit", "95 % interval"}, {}};
-  for (const EstimatedParameter& one : estimate.temperature) {
-    table.rows.push_back({one.name, fmt::format("{:.4g}", one.value), one.unit,
-                          one.interval95 ? fmt::format("{:.4g} .. {:.4g}", (*one.interval95)[0],
-                                                       (*one.interval95)[1])
-                                         : "-"});
-  }
-  return "\n" + TableToText(table, 1, width) +
-         "the fit has not used the temperature; both may follow something else\n";
-}
-
 /// The structures that were tried.
 Table TrialTable(const StructureChoice& choice, const std::string& unit) {
   Table table{{"structure", "parameters", fmt::format("held-out RMSE {}", unit), "remark"}, {}};
@@ -119,10 +105,10 @@ std::string AssumptionsText(const Estimate& estimate) {
 }
 
 /// Every test for lack of fit and every assumption.
-std::string Explanation(const Estimate& estimate, int width) {
+std::string Explanation(const Estimate& estimate) {
   const Table tests = DiagnosticTable(estimate);
   std::string text;
-  if (!tests.rows.empty()) text = "\n" + TableToText(tests, tests.header.size(), width);
+  if (!tests.rows.empty()) text = "\n" + TableToText(tests, tests.header.size());
   return text + AssumptionsText(estimate);
 }
 
@@ -146,7 +132,7 @@ std::string EstimateToText(const Estimate& estimate, const Measurements& measure
   text += RemarksText(estimate, detail);
   // numbers, void or not
   if (!estimate.parameters.empty())
-    text += fmt::format("\n{}", TableToText(ParameterTable(estimate), 1, page.width));
+    text += fmt::format("\n{}", TableToText(ParameterTable(estimate), 1));
 
   const std::string& unit = measurements.torque_unit;
   if (estimate.gravity && estimate.gravity->kind == GravityKind::paired) {
@@ -159,17 +145,46 @@ std::string EstimateToText(const Estimate& estimate, const Measurements& measure
               {}};
   AddMetrics(table, "all data", estimate.metrics);
   AddMetrics(table, "held out", estimate.holdout);
-  if (!table.rows.empty()) text += fmt::format("\n{}", TableToText(table, 1, page.width));
+  if (!table.rows.empty()) text += fmt::format("\n{}", TableToText(table, 1));
   if (!estimate.without_holdout.empty()) {
     text += fmt::format("\nno held-out figures: {}\n", Printable(estimate.without_holdout));
   }
-  text += TemperatureText(estimate, page.width);
   // all that the verdict rests on
   if (detail == Detail::full && estimate.choice) {
-    text += "\n" + TableToText(TrialTable(*estimate.choice, unit), 1, page.width);
+    text += "\n" + TableToText(TrialTable(*estimate.choice, unit), 1);
   }
-  if (detail == Detail::full) text += Explanation(estimate, page.width);
+  if (detail == Detail::full) text += Explanation(estimate);
   return text;
+}
+
+std::string EstimatesToText(const std::vector<EstimateRow>& rows, const std::string& unit) {
+  Table table{{"identifier", "verdict", "RMSE " + unit, "held-out RMSE"}, {}};
+  // a column for each parameter that one of them has
+  std::vector<std::string> names;
+  for (const EstimateRow& row : rows) {
+    if (!row.estimate) continue;
+    for (const EstimatedParameter& one : ShownParameters(*row.estimate)) {
+      if (std::ranges::find(names, one.name) != names.end()) continue;
+      names.push_back(one.name);
+      table.header.push_back(one.unit == "1" ? one.name : one.name + " " + one.unit);
+    }
+  }
+
+  // what one does not have is a dash
+  for (const auto& [name, status, estimate] : rows) {
+    std::vector<std::string>& cells =
+        table.rows.emplace_back(std::vector<std::string>(table.header.size(), "-"));
+    cells[0] = name;
+    cells[1] = estimate ? std::string(StatusName(estimate->status)) : status;
+    if (!estimate) continue;
+    if (estimate->metrics) cells[2] = fmt::format("{:.4g}", estimate->metrics->rmse);
+    if (estimate->holdout) cells[3] = fmt::format("{:.4g}", estimate->holdout->rmse);
+    for (const EstimatedParameter& one : ShownParameters(*estimate)) {
+      const auto column = std::ranges::find(names, one.name) - names.begin();
+      cells[4 + static_cast<size_t>(column)] = fmt::format("{:.4g}", one.value);
+    }
+  }
+  return TableToText(table, 2);
 }
 
 }  // namespace warmjoint::inline tools

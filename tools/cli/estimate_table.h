@@ -1,11 +1,12 @@
-// An estimate for people.
+// Estimates for people.
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "identification/estimate.h"
 #include "models/recording/measurements.h"
-#include "tools/terminal/page.h"
+#include "tools/terminal/say.h"
 
 namespace warmjoint::inline tools {
 
@@ -17,5 +18,16 @@ enum class Detail { brief, full };
 /// them, with every test for lack of fit and every assumption.
 std::string EstimateToText(const Estimate& estimate, const Measurements& measurements,
                            const Page& page, Detail detail);
+
+/// One of several identifiers on a log. status: of one that gave no estimate.
+struct EstimateRow {
+  std::string name;
+  std::string status;
+  const Estimate* estimate = nullptr;
+};
+
+/// A table with a row for each: verdict, RMSE on all data and on the part held out, and a column for each parameter.
+/// unit: of the torque.
+std::string EstimatesToText(const std::vector<EstimateRow>& rows, const std::string& unit);
 
 }  // namespace warmjoint::inline tools

@@ -11,12 +11,11 @@
 #include <system_error>
 
 #include "models/foundation/bad_input.h"
+#include "models/foundation/excerpt.h"
 #include "models/foundation/keep_memory.h"
 #include "models/foundation/output_failed.h"
-#include "models/foundation/printable.h"
-#include "tools/cli/program.h"
-#include "tools/terminal/page.h"
-#include "tools/terminal/wrap.h"
+#include "tools/cli/command.h"
+#include "tools/terminal/say.h"
 
 namespace {
 
@@ -31,14 +30,11 @@ void HoldStandardFiles() {
   }
 }
 
-/// One line on stderr, whatever the message holds, on a terminal as many as it needs; where that is full
-/// too there is nobody to tell.
-void Tell(const char* kind, const std::string& message) {
-  const warmjoint::Page page = warmjoint::PageOf(stderr);
-  const std::string line =
-      fmt::format("{}: {}\n", warmjoint::Paint(kind, warmjoint::Colour::red, page),
-                  warmjoint::Printable(message));
-  std::fputs(page.terminal ? warmjoint::Wrap(line, page.width).c_str() : line.c_str(), stderr);
+/// One line on stderr, whatever the message holds; where that is full too, nothing can be said.
+void Complain(const char* kind, const std::string& message) {
+  const std::string painted =
+      warmjoint::Paint(kind, warmjoint::Colour::red, warmjoint::PageOf(stderr));
+  std::fputs(fmt::format("{}: {}\n", painted, warmjoint::Printable(message)).c_str(), stderr);
 }
 
 ExitStatus Run(int argc, char** argv) {
@@ -46,24 +42,24 @@ ExitStatus Run(int argc, char** argv) {
     // every failure has its words and its exit status
     return warmjoint::RunProgram(argc, argv);
   } catch (const warmjoint::BadInput& error) {
-    Tell("error", error.what());
+    Complain("error", error.what());
     return ExitStatus::bad_input;
   } catch (const warmjoint::OutputFailed& error) {
-    Tell("error", error.what());
+    Complain("error", error.what());
     return ExitStatus::output_failed;
   } catch (const std::filesystem::filesystem_error& error) {
     // a name that the system takes for none, or a folder that cannot be entered
-    Tell("error",
-         fmt::format("{}: cannot be used: {}", error.path1().string(), error.code().message()));
+    Complain("error",
+             fmt::format("{}: cannot be used: {}", error.path1().string(), error.code().message()));
     const bool full = error.code() == std::errc::no_space_on_device;
     return full ? ExitStatus::output_failed : ExitStatus::bad_input;
   } catch (const std::bad_alloc&) {
-    Tell("error", "this takes more memory than there is; give less data or a smaller task");
+    Complain("error", "this takes more memory than there is; give less data or a smaller task");
     return ExitStatus::bad_input;
   } catch (const std::exception& error) {
     // a stream that failed is told of at the end; all else is a mistake of ours
     if (!std::ferror(stdout) && !std::ferror(stderr)) {
-      Tell("internal error", error.what());
+      Complain("internal error", error.what());
       return ExitStatus::internal_error;
     }
   }
@@ -83,8 +79,8 @@ int main(int argc, char** argv) {
   // what was printed counts once it is out
   const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) || std::ferror(stderr);
   if (lost && (status == ExitStatus::done || status == ExitStatus::nothing_trustworthy)) {
-    Tell("error", fmt::format("standard output: output could not be written: {}",
-                              std::generic_category().message(errno)));
+    Complain("error", fmt::format("standard output: output could not be written: {}",
+                                  std::generic_category().message(errno)));
     status = ExitStatus::output_failed;
   }
   return static_cast<int>(status);

@@ -1,54 +1,61 @@
-#include "tools/cli/program.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "models/foundation/bad_input.h"
-#include "tools/cli/refuse_arguments.h"
-#include "tools/parser/exit_statuses.h"
-#include "tools/parser/help.h"
-#include "tools/terminal/page.h"
-#include "tools/terminal/quiet.h"
+#include "models/foundation/excerpt.h"
+#include "models/foundation/nearest_name.h"
+#include "tools/cli/command.h"
+#include "tools/terminal/say.h"
 
 namespace warmjoint::inline tools {
 namespace {
 
 constexpr const char* kHelp =
-    "Friction of robot joints that warm up: puts it into MuJoCo, recovers it from logs of "
-    "position, "
-    "velocity and torque, and tells against known truth which identifier to trust.";
+    "Friction of robot joints that warm up: puts it into MuJoCo, recovers it from logs of\n"
+    "position, velocity and torque, and shows against known truth which identifier to trust.";
 
-std::string Footer() {
-  std::string footer = "`warmjoint COMMAND --help` explains each command.\n\nExit status:";
-  // all statuses in one sentence
-  const char* separator = " ";
-  for (const ExitMeaning& one : ExitMeanings()) {
-    footer += fmt::format("{}{} {}", separator, one.status, one.meaning);
-    separator = ", ";
-  }
-  return footer + ".";
-}
+constexpr const char* kFooter =
+    "`warmjoint COMMAND --help` explains each command.\n\n"
+    "Exit status: 0 done, 1 internal error, 2 bad input, 3 identified nothing trustworthy,\n"
+    "4 output could not be written, 5 an identifier answered in no realization of a run,\n"
+    "130 interrupted.";
 
 void AddQuiet(CLI::App& parser) {
   parser.add_flag_callback("-q,--quiet", BeQuiet,
                            "no progress and no notices; results, warnings and errors stay");
 }
 
-/// Help of the program or of a subcommand.
-std::string HelpOf(const CLI::App* parser) {
-  const CLI::App* program = parser->get_parent();
-  return HelpText(ReadTree(*parser), program ? program->get_name() : "", PageOf(stdout).width);
+/// Throws BadInput for arguments that the parser refused.
+[[noreturn]] void RefuseArguments(const CLI::App& program, const CLI::ParseError& error) {
+  // what stands before the command is the program's own
+  const std::vector<CLI::App*> chosen = program.get_subcommands();
+  const bool is_own = chosen.empty() || !program.remaining().empty();
+  const CLI::App& parser = is_own ? program : *chosen.front();
+  const std::string name = is_own ? "warmjoint" : "warmjoint " + parser.get_name();
+  const std::vector<std::string> left = parser.remaining();
+  if (left.empty()) {
+    Refuse({name}, "{}; see {} --help", Excerpt(error.what(), kLongestComplaint), name);
+  }
+
+  // an option or a word that nothing took, with the nearest that there is
+  const std::string word = left.front().substr(0, left.front().find('='));
+  std::vector<std::string> known;
+  for (const CLI::Option* option : parser.get_options()) {
+    const bool is_long = word.starts_with('-') && !option->get_lnames().empty();
+    if (is_long) known.push_back("--" + option->get_lnames().front());
+  }
+  for (const CLI::App* command : parser.get_subcommands({})) {
+    if (!word.starts_with('-')) known.push_back(command->get_name());
+  }
+  Refuse({name}, "there is no '{}' here{}; see {} --help", Excerpt(word), Suggestion(word, known),
+         name);
 }
 
 }  // namespace
 
 ExitStatus RunProgram(int argc, const char* const* argv) {
-  // help comes from the tree of the parser, as man pages and completion do
   CLI::App program{kHelp, "warmjoint"};
-  program.formatter_fn([](const CLI::App* parser, const std::string&, CLI::AppFormatMode) {
-    return HelpOf(parser);
-  });
   program.set_help_flag("-h,--help", "this help");
   program.set_version_flag("-V,--version", "warmjoint " WARMJOINT_VERSION, "the program's version");
 
@@ -57,7 +64,7 @@ ExitStatus RunProgram(int argc, const char* const* argv) {
   const std::vector<Command> commands = AddCommands(program);
   AddQuiet(program);
   for (const Command& command : commands) AddQuiet(*command.parser);
-  program.footer(Footer());  // behind the subcommands, which would take it over
+  program.footer(kFooter);  // behind the subcommands, which would take it over
 
   try {
     program.parse(argc, argv);

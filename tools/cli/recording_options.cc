@@ -1,77 +1,215 @@
 #include "tools/cli/recording_options.h"
 
-#include <limits>
+#include <fmt/ranges.h>
 
-#include "tools/cli/take_project.h"
-#include "tools/parser/choice.h"
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <optional>
+
+#include "models/foundation/atomic_file.h"
+#include "models/foundation/excerpt.h"
+#include "models/foundation/parse_number.h"
+#include "scenarios/yaml.h"
+#include "tools/cli/typed_options.h"
+#include "tools/terminal/say.h"
 
 namespace warmjoint::inline tools {
+namespace {
 
-void AddRecordingOptions(CLI::App& parser, RecordingArguments& arguments) {
+namespace fs = std::filesystem;
+
+/// The project file beside the recordings; empty where there is none.
+fs::path ProjectFileOf(const std::vector<std::string>& recordings) {
+  // all recordings beside the same file, or all beside none
+  std::optional<fs::path> found;
+  for (const std::string& recording : recordings) {
+    const fs::path file = fs::path(recording).parent_path() / kProjectFile;
+    std::error_code ignored;
+    const bool here = fs::exists(file, ignored);
+    if (here && !fs::is_regular_file(file, ignored)) {
+      Refuse({file.string()}, "is not a regular file; give --no-project to leave it out");
+    }
+    // links to one file are one file
+    const fs::path one = here ? fs::weakly_canonical(file, ignored) : fs::path();
+    if (found && *found != one) {
+      Refuse(
+          {recording},
+          "does not lie beside the project file of the other recordings, which may be of another "
+          "joint; give --no-project, and the options that describe them");
+    }
+    found = one;
+  }
+  if (!found || found->empty()) return {};
+  // by the name under which the first recording stands, not by one behind links
+  return fs::path(recordings.front()).parent_path() / kProjectFile;
+}
+
+/// Whether an option stands on the command line.
+bool IsGiven(const CLI::App& parser, const std::string& option) {
+  const CLI::Option* found = parser.get_option_no_throw(option);
+  return found && found->count() > 0;
+}
+
+/// What the project adds to the command line.
+class Taking {
+ public:
+  explicit Taking(const CLI::App& parser) : parser_(parser) {}
+
+  /// Adds what is said of columns that the command line does not name, and leaves that alone in `from`.
+  template <typename T>
+  void Pairs(const char* name, T& from, T& into) {
+    std::erase_if(from, [&](const auto& entry) { return into.contains(entry.first); });
+    std::vector<std::string> words;
+    for (const auto& [column, value] : from) {
+      into[column] = value;
+      words.push_back(fmt::format("{}={}", column, value));
+    }
+    if (!words.empty()) Note(name, fmt::format("{}", fmt::join(words, ",")));
+  }
+
+  /// Takes a value that the command line does not give, and empties `from` where it does.
+  template <typename T>
+  void Value(const char* name, std::optional<T>& from, T& into) {
+    // keys of the file are called as the options, with underscores
+    std::string option = std::string("--") + name;
+    std::replace(option.begin(), option.end(), '_', '-');
+    if (IsGiven(parser_, option)) from.reset();
+    if (!from) return;
+    into = *from;
+    if constexpr (std::is_enum_v<T>) {
+      Note(name, std::string(NameOf(*from)));
+    } else {
+      Note(name, fmt::format("{}", *from));
+    }
+  }
+
+  const std::string& words() const { return words_; }
+
+ private:
+  void Note(const char* name, const std::string& text) {
+    words_ += fmt::format("{}{} {}", words_.empty() ? "" : "; ", name, Excerpt(text));
+  }
+
+  const CLI::App& parser_;
+  std::string words_;
+};
+
+/// Adds an option for pairs column=value, as --map torque=force_N,time=t_s.
+CLI::Option* AddPairs(CLI::App& parser, const char* name, const char* description,
+                      const std::function<void(const std::string&, const std::string&)>& take) {
+  const auto read = [name, take](const std::vector<std::string>& pairs) {
+    for (const auto& [column, value] : ReadPairs(pairs, name)) take(column, value);
+  };
+  return parser.add_option_function<std::vector<std::string>>(name, read, description)
+      ->delimiter(',')
+      ->take_all();
+}
+
+}  // namespace
+
+void AddRecordingOptions(CLI::App& parser, RecordingSource& source) {
   parser
       .add_option(
-          "RECORDING", arguments.recordings,
+          "RECORDING", source.files,
           "CSV or HDF5 file, or - for a CSV on standard input; several of one joint, each from a "
           "cold start")
       ->type_name("RECORDING")
       ->required();
-  AddLayoutOptions(parser, arguments);
+  AddLayoutOptions(parser, source.read);
 }
 
-void AddLayoutOptions(CLI::App& parser, RecordingArguments& arguments) {
+void AddLayoutOptions(CLI::App& parser, ReadSettings& settings) {
   // columns: their names, units and factors
-  parser.add_option("--map", arguments.map, "columns of the file, as torque=force_N,time=t_s")
-      ->type_name("COLUMN=NAME")
-      ->delimiter(',')
-      ->take_all();
-  parser.add_option("--unit", arguments.unit, "units of the file, as position=deg,time=ms")
-      ->type_name("COLUMN=UNIT")
-      ->delimiter(',')
-      ->take_all();
-  parser
-      .add_option("--scale", arguments.scale,
-                  "factors on the columns of the file, as torque=-1,velocity=0.5")
-      ->type_name("COLUMN=NUMBER")
-      ->delimiter(',')
-      ->take_all();
+  AddPairs(parser, "--map", "columns of the file, as torque=force_N,time=t_s",
+           [&settings](const auto& column, const auto& text) { settings.map[column] = text; })
+      ->type_name("COLUMN=NAME");
+  AddPairs(parser, "--unit", "units of the file, as position=deg,time=ms",
+           [&settings](const auto& column, const auto& text) { settings.unit[column] = text; })
+      ->type_name("COLUMN=UNIT");
+  const auto scale = [&settings](const std::string& column, const std::string& text) {
+    const std::optional<double> factor = ParseFinite(text);
+    if (factor && *factor != 0) settings.scale[column] = *factor;
+    if (factor && *factor != 0) return;
+    Refuse({"--scale"}, "{}={}: the factor must be a finite number other than 0", Excerpt(column),
+           Excerpt(text));
+  };
+  AddPairs(parser, "--scale", "factors on the columns of the file, as torque=-1,velocity=0.5",
+           scale)
+      ->type_name("COLUMN=NUMBER");
 
-  // sensors that wrap, and a temperature that is set beside the answer
+  // sensors that wrap
   parser
       .add_option(
-          "--wrap", arguments.wrap,
+          "--wrap", settings.wrap,
           "range after which the position starts again, in its unit; a turn is undone anyway")
       ->type_name("NUMBER");
-  parser
-      .add_option_function<std::string>(
-          "--temperature",
-          [&arguments](const std::string& name) { arguments.map.push_back("temperature=" + name); },
-          "column with a temperature, as --map temperature=NAME: the answer is set beside it; one "
-          "whose name ends in degC, or as temp_K, is found")
-      ->type_name("NAME");
 
   // the joint and its drive
   AddChoice(
-      parser, "--joint", arguments.joint, {"rotary", "linear"}, "kind of the joint",
+      parser, "--joint", settings.joint, "kind of the joint",
       {{"prismatic", "linear"}, {"revolute", "rotary"}, {"hinge", "rotary"}, {"slide", "linear"}});
-  parser.add_option("--gear", arguments.gear, "motor turns for each joint turn")
+  parser.add_option("--gear", settings.gear, "motor turns for each joint turn")
       ->type_name("NUMBER")
       ->capture_default_str();
   parser
       .add_option(
-          "--torque-constant", arguments.torque_constant,
+          "--torque-constant", settings.torque_constant,
           "torque of the joint for each ampere, N.m/A or N/A with the gear in it; makes N.m "
           "or N of --unit torque=A")
       ->type_name("NUMBER");
-  AddProjectOption(parser);
+  parser.add_flag("--no-project")->description("leave out the warmjoint.yaml beside the recording");
 }
 
-void AddHoldOptions(CLI::App& parser, HoldOptions& holds) {
+void AddHoldOptions(CLI::App& parser, PrepareSettings& holds) {
   // both in seconds, at least 0
-  const Bounds seconds{0, std::numeric_limits<double>::infinity(), "of 0 or more, s"};
+  const NumberRange seconds{0, std::numeric_limits<double>::infinity(), "of 0 or more, s"};
   AddNumber(parser, "--trim", holds.trim, seconds,
             "s to leave out at each end of a constant speed");
-  AddNumber(parser, "--shortest-hold", holds.shortest, seconds,
+  AddNumber(parser, "--shortest-hold", holds.shortest_hold, seconds,
             "s; a constant speed that lasts less is left out");
+}
+
+void AddFollowOptions(CLI::App& parser, EarlierRecording& earlier) {
+  parser
+      .add_option("--follows", earlier.file,
+                  "recording before this one, or its estimate.json: the heat that it left is "
+                  "there at the start, less what cooled in the pause between")
+      ->type_name("FILE");
+  parser
+      .add_option("--pause", earlier.pause,
+                  "s of rest between the end of --follows and the start of the recording; where "
+                  "their stamps share a clock, these tell it")
+      ->type_name("SECONDS");
+}
+
+void TakeProject(const CLI::App& parser, RecordingSource& arguments) {
+  if (IsGiven(parser, "--no-project")) return;
+  // no option and no file: nothing to take
+  const fs::path file = ProjectFileOf(arguments.files);
+  if (file.empty()) return;
+
+  Project project = ParseProject(ReadWholeFile(file, kLargestDocument), file);
+  Taking taking(parser);
+  // by column
+  ReadSettings& read = arguments.read;
+  taking.Pairs("map", project.map, read.map);
+  taking.Pairs("unit", project.unit, read.unit);
+  taking.Pairs("scale", project.scale, read.scale);
+
+  // as a whole
+  taking.Value("wrap", project.wrap, read.wrap);
+  taking.Value("joint", project.joint, read.joint);
+  taking.Value("gear", project.gear, read.gear);
+  taking.Value("trim", project.trim, arguments.prepare.trim);
+  taking.Value("shortest_hold", project.shortest_hold, arguments.prepare.shortest_hold);
+
+  // it is remembered with the estimate, and told
+  arguments.project = TakenProject{file.string(), project};
+  SayNotice("{}: {}\n", file.string(),
+            taking.words().empty() ? "sets nothing that the command line does not"
+                                   : taking.words() + " (--no-project leaves it out)");
 }
 
 }  // namespace warmjoint::inline tools

@@ -3,17 +3,28 @@
 
 #include <CLI/CLI.hpp>
 
+#include "tools/actions/carried_heat.h"
 #include "tools/actions/recording_source.h"
 
 namespace warmjoint::inline tools {
 
 /// Adds RECORDING... and the options of AddLayoutOptions.
-void AddRecordingOptions(CLI::App& parser, RecordingArguments& arguments);
+void AddRecordingOptions(CLI::App& parser, RecordingSource& source);
 
-/// Adds --map, --unit, --scale, --wrap, --temperature, --joint, --gear, --torque-constant and --no-project.
-void AddLayoutOptions(CLI::App& parser, RecordingArguments& arguments);
+/// Adds --map, --unit, --scale, --wrap, --joint, --gear, --torque-constant and --no-project.
+void AddLayoutOptions(CLI::App& parser, ReadSettings& settings);
 
 /// Adds --trim and --shortest-hold.
-void AddHoldOptions(CLI::App& parser, HoldOptions& holds);
+void AddHoldOptions(CLI::App& parser, PrepareSettings& holds);
+
+/// Adds --follows and --pause.
+void AddFollowOptions(CLI::App& parser, EarlierRecording& earlier);
+
+/// Takes what the project file (project_file.h) beside the recordings says where the command line does not
+/// say it itself: single columns of map, unit and scale, and whole values of the others. Tells on
+/// stderr, in a line, what it took, and puts it into arguments.project. Does nothing with --no-project,
+/// or where no file is. parser: the subcommand's, after parsing. Throws BadInput as ParseProject does,
+/// and for recordings that lie beside different files.
+void TakeProject(const CLI::App& parser, RecordingSource& arguments);
 
 }  // namespace warmjoint::inline tools

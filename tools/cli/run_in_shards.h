@@ -1,9 +1,9 @@
-// warmjoint run --slurm, --local-shards: a suite as many tasks.
+// warmjoint run --slurm, --local-shards: a suite in shards.
 #pragma once
 
 #include <CLI/CLI.hpp>
 
-#include "tools/actions/run_arguments.h"
+#include "tools/actions/run_task.h"
 #include "tools/cli/command.h"
 
 namespace warmjoint::inline tools {
@@ -16,5 +16,9 @@ void RefuseShardOptions(const RunArguments& arguments);
 
 /// Plans the run, or takes the plan that is there, and submits it or carries it out.
 ExitStatus RunInShards(const RunArguments& arguments);
+
+/// One shard of a planned run, as its tasks do it: on this machine's own disk (TMPDIR), and into RUN once
+/// it is finished. One that is interrupted or killed leaves nothing and begins anew.
+ExitStatus RunPlannedShard(const RunArguments& arguments, const RunTask& task);
 
 }  // namespace warmjoint::inline tools

@@ -1,55 +1,53 @@
-// How a run is parted and what each part is: plan.json, which people may read and edit.
+// A run in shards: how it is parted, and where its files lie.
 #pragma once
 
 #include <filesystem>
 #include <string>
-#include <utility>
 #include <vector>
+
+#include "scenarios/suite.h"
 
 namespace warmjoint::inline tools {
 
-/// Realizations first .. end - 1 of a suite, in all its variants; none where both are equal.
-struct PlannedShard {
-  int first = 0;
-  int end = 0;
-
-  int size() const { return end - first; }
-};
-
-/// A file that has to be the same wherever a shard is computed.
-struct PinnedFile {
-  std::string path;
-  std::string sha256;  // empty: there is none
-};
-
-/// What a suite from elsewhere may do on the machines that carry it out, as the person agreed to.
-enum class Consent { none, commands, shell };
-
+/// RUN/slurm holds the plan: plan.json (the number of shards), suite.yaml (fully resolved), array.sbatch
+/// and log. RUN/shards/NUMBER/results.sqlite is a finished shard.
 struct Plan {
-  std::string id;          // drawn; keeps what this plan leaves on machines apart from other plans'
-  std::string suite_yaml;  // fully resolved
-  std::string directory;   // where relative names in the suite start
-  std::vector<std::pair<std::string, std::string>> versions;  // of all that computes, by name
-  PinnedFile program, plugin;
-  Consent consent = Consent::none;
-  int jobs = 1;                    // threads of a task
-  double probe_seconds = 0;        // for one realization in all variants, on one thread
-  double checkpoint_seconds = 30;  // longest time between copies of a task's results into the run
-  int restarts = 5;                // in a row that finish no realization; after them a shard failed
-  int array_parallelism = 0;       // tasks at a time; 0: as many as the cluster starts
-  std::vector<std::string> sbatch;  // key=value, handed on
-  std::vector<PlannedShard> shards;
+  std::filesystem::path run;  // absolute
+  std::string suite_yaml;
+  Suite suite;
+  int shards = 1;
+
+  std::filesystem::path folder() const { return run / "slurm"; }
+  std::filesystem::path suite_file() const { return folder() / "suite.yaml"; }
+  std::filesystem::path script() const { return folder() / "array.sbatch"; }
+
+  /// Where the results of a shard come to lie. number: from 1.
+  std::filesystem::path Results(int number) const;
+  bool IsDone(int number) const { return std::filesystem::exists(Results(number)); }
+  bool IsMerged() const { return std::filesystem::exists(run / "results.sqlite"); }
+
+  /// Units (realizations of all variants) of a shard.
+  int Units(int number) const;
+  /// Numbers of the shards without results.
+  std::vector<int> Open() const;
 };
-
-/// Writes RUN/slurm/plan.json.
-void WritePlan(const std::filesystem::path& run, const Plan& plan);
-
-/// Throws BadInput where there is none, and for entries that are unknown, missing or out of bounds.
-Plan ReadPlan(const std::filesystem::path& run);
 
 bool HasPlan(const std::filesystem::path& run);
 
-/// Throws BadInput that tells what makes a plan.
-void RefuseWithoutPlan(const std::filesystem::path& run);
+/// Throws BadInput where there is none.
+Plan ReadPlan(const std::filesystem::path& run);
+
+/// Writes suite.yaml and plan.json, of which the last makes the directory a planned run.
+void WritePlan(const Plan& plan);
+
+/// Shards of a suite where nobody says otherwise: 1000 realizations of one variant for each thread.
+int DefaultShards(const Suite& suite, int jobs);
+
+/// The command of shard `number`, which may be a shell's variable. more: what else `run` is told.
+std::vector<std::string> ShardCommand(const Plan& plan, const std::string& number,
+                                      const std::vector<std::string>& more);
+
+/// "1-3, 7" of 1, 2, 3, 7. comma: what parts them.
+std::string Ranges(const std::vector<int>& ascending, const char* comma = ", ");
 
 }  // namespace warmjoint::inline tools

@@ -24,8 +24,9 @@ endforeach()
 if(WARMJOINT_PROGRAM)
   set_target_properties(warmjoint PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
   install(TARGETS warmjoint RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
-  # manual pages and completion
-  install(DIRECTORY ${PROJECT_BINARY_DIR}/share/ DESTINATION ${CMAKE_INSTALL_DATADIR} COMPONENT program)
+  # completion, where bash looks for it
+  install(FILES ${PROJECT_SOURCE_DIR}/tools/cli/completion.bash RENAME warmjoint
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
 endif()
 set_target_properties(warmjoint_friction PROPERTIES INSTALL_RPATH "$ORIGIN")
 install(TARGETS warmjoint_friction LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT program)

@@ -3,8 +3,7 @@
 #include <array>
 
 #include "models/foundation/bad_input.h"
-#include "models/foundation/excerpt.h"
-#include "models/foundation/nearest_name.h"
+#include "models/foundation/serialize.h"
 #include "tools/interface/convert_friction.h"
 #include "tools/interface/convert_numbers.h"
 
@@ -34,15 +33,8 @@ identification::Status ToStatus(Status status) {
 }
 
 identification::GravityKind GravityKindOf(const std::string& name) {
-  // a name that is none is refused with the nearest one
-  using identification::GravityKind;
-  std::vector<std::string> known;
-  for (const GravityKind kind : {GravityKind::sincos, GravityKind::paired, GravityKind::constant}) {
-    if (identification::GravityName(kind) == name) return kind;
-    known.emplace_back(identification::GravityName(kind));
-  }
-  models::Refuse({"gravity"}, "is of kind '{}'{}", models::Excerpt(name),
-                 models::Suggestion(name, known));
+  return models::ChoiceOf<identification::GravityKind>(
+      models::Node({{"kind", name}}, "gravity").Require("kind", ""));
 }
 
 std::optional<identification::Metrics> ToMetrics(const std::optional<Metrics>& metrics) {
@@ -52,13 +44,13 @@ std::optional<identification::Metrics> ToMetrics(const std::optional<Metrics>& m
                                  metrics->fpe};
 }
 
-std::optional<identification::ParameterCovariance> ToCovariance(
+std::optional<models::ParameterCovariance> ToCovariance(
     const std::optional<Covariance>& covariance) {
   if (!covariance) return std::nullopt;
   // a square matrix with a row and a column for each parameter
   const std::size_t p = covariance->parameters.size();
   const auto size = static_cast<Eigen::Index>(p);
-  identification::ParameterCovariance made{covariance->parameters, Eigen::MatrixXd(size, size)};
+  models::ParameterCovariance made{covariance->parameters, Eigen::MatrixXd(size, size)};
   if (covariance->matrix.size() != p) {
     models::Refuse({"covariance"}, "has {} parameters and {} rows; give a row for each", p,
                    covariance->matrix.size());
@@ -74,7 +66,7 @@ std::optional<identification::ParameterCovariance> ToCovariance(
 }
 
 std::optional<Covariance> FromCovariance(
-    const std::optional<identification::ParameterCovariance>& covariance) {
+    const std::optional<models::ParameterCovariance>& covariance) {
   if (!covariance) return std::nullopt;
   Covariance made{covariance->parameters, {}};
   for (const auto& row : covariance->matrix.rowwise()) {
@@ -152,9 +144,8 @@ identification::Estimate ToEstimate(const Estimate& estimate) {
     made.assumptions.push_back({one.name, one.meaning, one.moves});
   }
 
-  // the state at the end, what a temperature says, and the choice of a structure
+  // the state at the end, and the choice of a structure
   made.state_end = Parameters<identification::EstimatedParameter>(estimate.state_end);
-  made.temperature = Parameters<identification::EstimatedParameter>(estimate.temperature);
   made.without_holdout = estimate.without_holdout;
   if (estimate.choice) made.choice = Choice<identification::StructureChoice>(*estimate.choice);
   return made;
@@ -181,8 +172,8 @@ Estimate FromEstimate(const identification::Estimate& estimate) {
   // the model: friction, gravity, and what law and maps are together
   if (estimate.friction) made.friction = FromDescription(*estimate.friction);
   if (estimate.gravity) {
-    made.gravity = {std::string(identification::GravityName(estimate.gravity->kind)),
-                    estimate.gravity->knots, FromEigen(estimate.gravity->values)};
+    made.gravity = {std::string(models::NameOf(estimate.gravity->kind)), estimate.gravity->knots,
+                    FromEigen(estimate.gravity->values)};
   }
   for (const identification::MapBand& band : estimate.bands) {
     made.bands.push_back({band.quantities, band.points, band.value, band.std, band.interval95});
@@ -202,9 +193,8 @@ Estimate FromEstimate(const identification::Estimate& estimate) {
     made.assumptions.push_back({one.name, one.meaning, one.moves});
   }
 
-  // the state at the end, what a temperature says, and the choice of a structure
+  // the state at the end, and the choice of a structure
   made.state_end = Parameters<Parameter>(estimate.state_end);
-  made.temperature = Parameters<Parameter>(estimate.temperature);
   made.without_holdout = estimate.without_holdout;
   if (estimate.choice) made.choice = Choice<StructureChoice>(*estimate.choice);
   return made;

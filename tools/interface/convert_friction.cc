@@ -1,32 +1,15 @@
 #include "tools/interface/convert_friction.h"
 
-#include <array>
-
-#include "models/foundation/excerpt.h"
-#include "models/foundation/nearest_name.h"
+#include "models/foundation/serialize.h"
 #include "models/friction/check_friction.h"
 
 namespace warmjoint::api {
 namespace {
 
-constexpr std::array kQuantities{models::MapQuantity::position, models::MapQuantity::motor_position,
-                                 models::MapQuantity::velocity, models::MapQuantity::energy,
-                                 models::MapQuantity::load};
-constexpr std::array kFactors{models::MapFactor::one, models::MapFactor::direction,
-                              models::MapFactor::velocity};
-
-/// The one of `all` that has that name.
-template <typename Choice, std::size_t n>
-Choice Named(const std::string& given, const std::array<Choice, n>& all,
-             std::string_view (*name_of)(Choice), const char* what) {
-  // the names that were no match are what the refusal suggests from
-  std::vector<std::string> known;
-  for (const Choice one : all) {
-    if (name_of(one) == given) return one;
-    known.emplace_back(name_of(one));
-  }
-  models::Refuse({"friction"}, "{} of a map is '{}'{}", what, models::Excerpt(given),
-                 models::Suggestion(given, known));
+/// The choice of that name.
+template <typename Choice>
+Choice Named(const std::string& given, const char* what) {
+  return models::ChoiceOf<Choice>(models::Node({{what, given}}, "friction").Require(what, ""));
 }
 
 std::optional<models::Thermal> ToThermal(const std::optional<Thermal>& thermal) {
@@ -44,13 +27,13 @@ models::FrictionMap ToMap(const FrictionMap& map) {
   // each axis with its kernels
   for (const MapAxis& axis : map.axes) {
     const auto sides = axis.sides_apart ? models::Sides::apart : models::Sides::together;
-    made.axes.push_back({Named(axis.quantity, kQuantities, &models::MapQuantityName, "quantity"),
+    made.axes.push_back({Named<models::MapQuantity>(axis.quantity, "quantity"),
                          {axis.centres, axis.width, axis.period, sides}});
   }
 
   // what the kernels are multiplied by
   made.kernels = map.normalised ? models::KernelKind::normalised : models::KernelKind::plain;
-  made.factor = Named(map.factor, kFactors, &models::MapFactorName, "factor");
+  made.factor = Named<models::MapFactor>(map.factor, "factor");
   made.weights = map.weights;
   return made;
 }
@@ -60,13 +43,13 @@ FrictionMap FromMap(const models::FrictionMap& map) {
   // each axis with its kernels
   for (const models::MapAxis& axis : map.axes) {
     const models::GaussianAxis& kernels = axis.kernels;
-    made.axes.push_back({std::string(models::MapQuantityName(axis.quantity)), kernels.centres,
-                         kernels.width, kernels.period, kernels.sides == models::Sides::apart});
+    made.axes.push_back({std::string(models::NameOf(axis.quantity)), kernels.centres, kernels.width,
+                         kernels.period, kernels.sides == models::Sides::apart});
   }
 
   // what the kernels are multiplied by
   made.normalised = map.kernels == models::KernelKind::normalised;
-  made.factor = models::MapFactorName(map.factor);
+  made.factor = models::NameOf(map.factor);
   made.weights = map.weights;
   return made;
 }

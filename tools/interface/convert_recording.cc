@@ -4,19 +4,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "models/foundation/parse_number.h"
-#include "models/foundation/read_json.h"
+#include "models/foundation/serialize.h"
 #include "models/recording/assemble.h"
 #include "tools/interface/convert_numbers.h"
 
 namespace warmjoint::api {
 namespace {
-
-std::vector<std::string> Pairs(const std::map<std::string, std::string>& map) {
-  std::vector<std::string> pairs;
-  for (const auto& [key, value] : map) pairs.push_back(key + "=" + value);
-  return pairs;
-}
 
 /// A column of N samples.
 Eigen::VectorXd Column(const std::vector<double>& values, const char* name,
@@ -87,9 +80,9 @@ models::Measurements ToMeasurements(const Recording& recording) {
 
   // samples and gear are checked as those of a file are
   models::CheckSamples(log);
-  tools::RecordingArguments arguments;
-  arguments.gear = recording.gear;
-  tools::LayoutOf(arguments);
+  models::ReadSettings settings;
+  settings.gear = recording.gear;
+  models::CheckReadSettings(settings);
   return log;
 }
 
@@ -114,54 +107,49 @@ Recording FromMeasurements(const models::Measurements& log) {
   return recording;
 }
 
-tools::RecordingArguments ToArguments(const Origin& origin) {
-  tools::RecordingArguments arguments;
-  // pairs as the command line takes them
-  arguments.recordings = origin.files;
-  arguments.map = Pairs(origin.read.map);
-  arguments.unit = Pairs(origin.read.unit);
-  for (const auto& [column, factor] : origin.read.scale) {
-    arguments.scale.push_back(fmt::format("{}={}", column, factor));
-  }
+tools::RecordingSource ToSource(const Origin& origin) {
+  tools::RecordingSource source;
+  // which files, and which of their columns
+  const ReadSettings& read = origin.read;
+  source.files = origin.files;
+  source.read.map = models::ColumnTexts(read.map.begin(), read.map.end());
+  source.read.unit = models::ColumnTexts(read.unit.begin(), read.unit.end());
+  source.read.scale = models::ColumnNumbers(read.scale.begin(), read.scale.end());
 
   // the joint, its sensors, and what is asked of constant speeds
-  arguments.joint = origin.read.joint == JointKind::linear ? "linear" : "rotary";
-  arguments.gear = origin.read.gear;
-  arguments.wrap = origin.read.wrap;
-  arguments.torque_constant = origin.read.torque_constant;
-  arguments.holds = {origin.prepare.trim, origin.prepare.shortest_hold};
+  source.read.joint = ToKind(read.joint);
+  source.read.gear = read.gear;
+  source.read.wrap = read.wrap;
+  source.read.torque_constant = read.torque_constant;
+  source.prepare = {origin.prepare.trim, origin.prepare.shortest_hold};
 
   // what a project file has set of these
   if (!origin.project_file.empty()) {
-    const auto values = models::ParseJson(origin.project, "Origin::project");
-    arguments.project = tools::TakenProjectFromJson(
-        {{"file", origin.project_file}, {"values", values}}, {"Origin::project"});
+    const models::Node values = models::ParseJsonNode(origin.project, "Origin::project");
+    source.project =
+        tools::TakenProject{origin.project_file, models::ReadAs<tools::Project>(values)};
   }
-  return arguments;
+  return source;
 }
 
-Origin FromArguments(const tools::RecordingArguments& arguments, const models::Place& place) {
+Origin FromSource(const tools::RecordingSource& source) {
   Origin origin;
   // which files, and which of their columns
-  origin.files = arguments.recordings;
-  origin.read.map = tools::ReadPairs(arguments.map, "--map");
-  origin.read.unit = tools::ReadPairs(arguments.unit, "--unit");
-  // factors stand there as texts
-  for (const auto& [column, text] : tools::ReadPairs(arguments.scale, "--scale")) {
-    const std::optional<double> factor = models::ParseNumber(text);
-    if (!factor) models::Refuse(place, "recording.scale of {} is not a number", column);
-    origin.read.scale[column] = *factor;
-  }
+  const models::ReadSettings& read = source.read;
+  origin.files = source.files;
+  origin.read.map = read.map;
+  origin.read.unit = read.unit;
+  origin.read.scale = read.scale;
 
   // the joint, its sensors, and what is asked of constant speeds
-  origin.read.joint = FromKind(tools::JointOf(arguments));
-  origin.read.gear = arguments.gear;
-  origin.read.wrap = arguments.wrap;
-  origin.read.torque_constant = arguments.torque_constant;
-  origin.prepare = {arguments.holds.trim, arguments.holds.shortest};
-  if (arguments.project) {
-    origin.project_file = arguments.project->file.string();
-    origin.project = tools::ProjectToJson(arguments.project->values).dump();
+  origin.read.joint = FromKind(read.joint);
+  origin.read.gear = read.gear;
+  origin.read.wrap = read.wrap;
+  origin.read.torque_constant = read.torque_constant;
+  origin.prepare = {source.prepare.trim, source.prepare.shortest_hold};
+  if (source.project) {
+    origin.project_file = source.project->file;
+    origin.project = models::WriteFields(source.project->values).dump();
   }
   return origin;
 }

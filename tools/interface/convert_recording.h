@@ -19,11 +19,9 @@ models::Measurements ToMeasurements(const Recording& recording);
 /// origin stays empty.
 Recording FromMeasurements(const models::Measurements& measurements);
 
-/// What the command line would say of files that were read so. Throws models::BadInput for a project that is no JSON.
-tools::RecordingArguments ToArguments(const Origin& origin);
-
-/// The inverse. Throws models::BadInput from `place` for a scale that is no number.
-Origin FromArguments(const tools::RecordingArguments& arguments, const models::Place& place);
+/// Throws models::BadInput for a project that is no JSON.
+tools::RecordingSource ToSource(const Origin& origin);
+Origin FromSource(const tools::RecordingSource& source);
 
 /// What a prepared log of the interface holds.
 struct PreparedLog::State {

@@ -1,12 +1,12 @@
+#include "identification/estimate.h"
+
 #include <warmjoint/estimate.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "identification/estimate_from_json.h"
-#include "identification/estimate_to_json.h"
 #include "models/foundation/atomic_file.h"
-#include "models/foundation/read_json.h"
+#include "models/foundation/serialize.h"
 #include "tools/actions/identify_recording.h"
 #include "tools/interface/convert_estimate.h"
 #include "tools/interface/convert_recording.h"
@@ -15,25 +15,20 @@
 namespace warmjoint::api {
 namespace {
 
-Estimate FromJson(const nlohmann::json& json, const models::Place& place) {
-  Estimate estimate = FromEstimate(identification::EstimateFromJson(json, place));
+Estimate From(const models::Node& file) {
+  Estimate estimate = FromEstimate(identification::EstimateFrom(file));
   // the files that it tells of, where it tells of files, and the heat with which it began
-  const auto holds = [&](const char* name) { return json.contains(name) && !json[name].is_null(); };
-  if (holds("recording")) {
-    tools::RecordingArguments arguments = tools::RecordingFromJson(json["recording"], place);
-    if (holds("project")) arguments.project = tools::TakenProjectFromJson(json["project"], place);
-    estimate.recording = FromArguments(arguments, place);
-  }
-  if (holds("follows")) {
-    estimate.follows = FromCarried(tools::CarriedHeatFromJson(json["follows"], place));
+  if (const auto source = tools::RecordingIn(file)) estimate.recording = FromSource(*source);
+  if (const auto heat = file.Find("follows")) {
+    estimate.follows = FromCarried(models::ReadAs<tools::CarriedHeat>(*heat));
   }
   return estimate;
 }
 
 /// target: the file, from whose folder its recordings are named.
 std::string TextOf(const Estimate& estimate, const std::filesystem::path& target = {}) {
-  std::optional<tools::RecordingArguments> source;
-  if (estimate.recording) source = ToArguments(*estimate.recording);
+  std::optional<tools::RecordingSource> source;
+  if (estimate.recording) source = ToSource(*estimate.recording);
   std::optional<tools::CarriedHeat> follows;
   if (estimate.follows) follows = ToCarried(*estimate.follows);
   return tools::EstimateFile(ToEstimate(estimate), source, target, follows);
@@ -58,11 +53,11 @@ std::string EstimateToJson(const Estimate& estimate) {
 }
 
 Estimate EstimateFromJson(const std::string& text, const std::string& name) {
-  return Guarded([&] { return FromJson(models::ParseJson(text, name), {name}); });
+  return Guarded([&] { return From(models::ParseJsonNode(text, name)); });
 }
 
 Estimate ReadEstimate(const std::filesystem::path& file) {
-  return Guarded([&] { return FromJson(models::ReadJsonFile(file), {file.string()}); });
+  return Guarded([&] { return From(models::ReadJsonNode(file)); });
 }
 
 void WriteEstimate(const Estimate& estimate, const std::filesystem::path& file) {

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "models/foundation/read_json.h"
 #include "models/friction/along_motion.h"
 #include "models/friction/check_friction.h"
 #include "models/friction/friction_json.h"
@@ -108,13 +107,12 @@ Friction ReadFriction(const std::filesystem::path& file) {
 }
 
 Friction FrictionFromJson(const std::string& text, const std::string& name) {
-  return Guarded([&] {
-    return FromDescription(models::FrictionFromJson(models::ParseJson(text, name), {name}));
-  });
+  return Guarded(
+      [&] { return FromDescription(models::FrictionFrom(models::ParseJsonNode(text, name))); });
 }
 
 std::string FrictionToJson(const Friction& friction) {
-  return Guarded([&] { return models::FrictionToJson(ToDescription(friction)).dump(2) + "\n"; });
+  return Guarded([&] { return models::FrictionToTree(ToDescription(friction)).dump(2) + "\n"; });
 }
 
 std::optional<std::vector<double>> SettledEnergy(const Friction& friction, double velocity) {

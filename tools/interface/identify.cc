@@ -11,33 +11,35 @@
 namespace warmjoint::api {
 namespace {
 
-/// next: the recording that is to be identified.
-tools::IdentifySettings ToSettings(const IdentifySettings& settings,
-                                   const models::Measurements& next) {
-  // the heat that an earlier recording left, less what cooled since
-  std::optional<tools::CarriedHeat> follows;
-  if (settings.follows) {
-    const tools::LeftHeat left =
-        tools::HeatLeftBy(ToEstimate(*settings.follows), "IdentifySettings::follows");
-    follows = tools::CarryOver(left, settings.pause, next);
-    // called by the recording that left it, where that was a file
-    const std::optional<Origin>& origin = settings.follows->recording;
-    if (origin && !origin->files.empty()) follows->file = origin->files.front();
-  } else if (settings.pause) {
+/// The heat that an earlier recording left, less what cooled until `next` begins; none where none is given.
+std::optional<tools::CarriedHeat> HeatBefore(const IdentifySettings& settings,
+                                             const models::Measurements& next) {
+  if (!settings.follows) return std::nullopt;
+  const tools::LeftHeat left =
+      tools::HeatLeftBy(ToEstimate(*settings.follows), "IdentifySettings::follows");
+  tools::CarriedHeat heat = tools::CarryOver(left, settings.pause, next);
+  // called by the recording that left it, where that was a file
+  const std::optional<Origin>& origin = settings.follows->recording;
+  if (origin && !origin->files.empty()) heat.file = origin->files.front();
+  return heat;
+}
+
+tools::IdentifySettings ToSettings(const IdentifySettings& settings) {
+  if (settings.pause && !settings.follows) {
     models::Refuse({"pause"},
                    "is the time since an earlier recording; give that one's estimate as follows");
   }
-
-  // all else under the same names
-  return {settings.identifier,
-          settings.gravity,
-          settings.start,
-          settings.relevance,
-          settings.options,
-          settings.void_numbers == VoidNumbers::show ? tools::VoidNumbers::show
-                                                     : tools::VoidNumbers::withhold,
-          settings.motion,
-          follows};
+  // all under the same names
+  tools::IdentifySettings made;
+  made.identifier = settings.identifier;
+  made.gravity = settings.gravity;
+  made.start = settings.start;
+  made.relevance = settings.relevance;
+  made.options = settings.options;
+  if (settings.void_numbers == VoidNumbers::show) made.void_numbers = tools::VoidNumbers::show;
+  made.motion = settings.motion;
+  made.follows = settings.follows.has_value();
+  return made;
 }
 
 tools::HoldOutSource ToHoldOut(const IdentifySettings& settings) {
@@ -66,8 +68,9 @@ Estimate Identify(const PreparedLog& log, const IdentifySettings& settings) {
     // as the command does: checked, identified, and with a friction in amperes marked
     const identification::PreparedLog& prepared = log.state().log;
     const models::Measurements& measurements = prepared.taken().measurements;
-    const tools::IdentifySettings asked = ToSettings(settings, measurements);
-    const tools::IdentifyTask task = tools::CheckSettings(asked, measurements.joint);
+    tools::IdentifyTask task = tools::CheckSettings(ToSettings(settings), measurements.joint);
+    const std::optional<tools::CarriedHeat> heat = HeatBefore(settings, measurements);
+    if (heat) tools::BeginWith(*heat, task);
     identification::Estimate found =
         tools::IdentifyLog(task, prepared, ToHoldOut(settings)).estimate;
     tools::MarkAmperes(measurements, found);
@@ -75,7 +78,7 @@ Estimate Identify(const PreparedLog& log, const IdentifySettings& settings) {
     // as a value that remembers its files, and with what it began
     Estimate estimate = FromEstimate(found);
     estimate.recording = log.state().origin;
-    if (asked.follows) estimate.follows = FromCarried(*asked.follows);
+    if (heat) estimate.follows = FromCarried(*heat);
     return estimate;
   });
 }

@@ -27,7 +27,7 @@ void RefuseLengths(const std::map<std::string, std::vector<double>>& columns,
   }
 }
 
-identification::HoldOptions ToHolds(const PrepareSettings& settings) {
+identification::PrepareSettings ToHolds(const PrepareSettings& settings) {
   // seconds that are finite and not below 0
   const auto require = [](double seconds, const char* option) {
     if (std::isfinite(seconds) && seconds >= 0) return;
@@ -42,7 +42,7 @@ identification::HoldOptions ToHolds(const PrepareSettings& settings) {
 std::shared_ptr<const PreparedLog::State> Prepared(const Recording& recording,
                                                    const PrepareSettings& settings) {
   // settings are refused before any time is spent
-  const identification::HoldOptions holds = ToHolds(settings);
+  const identification::PrepareSettings holds = ToHolds(settings);
   identification::PreparedLog log = identification::Prepare(ToMeasurements(recording), holds);
 
   // what is asked for often is computed once
@@ -100,7 +100,7 @@ Recording ReadRecordings(const std::vector<std::filesystem::path>& files,
     Origin origin;
     for (const std::filesystem::path& file : files) origin.files.push_back(file.string());
     origin.read = settings;
-    Recording recording = FromMeasurements(tools::ReadRecording(ToArguments(origin)));
+    Recording recording = FromMeasurements(tools::ReadRecording(ToSource(origin)));
     recording.origin = std::move(origin);
     return recording;
   });
@@ -113,7 +113,7 @@ Recording MakeRecording(const std::map<std::string, std::vector<double>>& column
     RefuseLengths(columns, name);
     std::vector<std::string> names;
     for (const auto& [column, values] : columns) names.push_back(column);
-    const models::CsvLayout layout = tools::LayoutOf(ToArguments({{}, settings, {}}));
+    const models::ReadSettings layout = ToSource({{}, settings, {}}).read;
     const auto sources = models::FindColumns(names, layout, {name});
 
     // and become SI as those of a file do

@@ -1,20 +1,18 @@
 #include <warmjoint/simulate.h>
 
-#include "models/foundation/atomic_directory.h"
+#include "models/foundation/atomic_file.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
 #include "scenarios/read_scenario.h"
-#include "scenarios/write_scenario.h"
 #include "sim/plant/plant.h"
 #include "sim/truth/truth_json.h"
-#include "tools/actions/simulated_files.h"
+#include "tools/actions/outputs.h"
 #include "tools/interface/convert_friction.h"
 #include "tools/interface/convert_numbers.h"
 #include "tools/interface/convert_recording.h"
 #include "tools/interface/convert_truth.h"
 #include "tools/interface/guarded.h"
 #include "tools/suite/following_tally.h"
-#include "tools/suite/memory_of_work.h"
 
 namespace warmjoint::api {
 namespace {
@@ -25,12 +23,8 @@ scenarios::Settings ToSettings(const SimulateSettings& settings) {
   return made;
 }
 
-/// file: that the scenario came from.
-Simulation CarryOut(scenarios::Scenario scenario, const SimulateSettings& settings,
-                    const std::string& file) {
-  // what needs more memory than there is is refused before it is simulated
+Simulation CarryOut(scenarios::Scenario scenario, const SimulateSettings& settings) {
   if (settings.seed) scenario.seed = *settings.seed;
-  tools::RequireMemoryFor(scenario, file);
   const sim::Recording made = sim::MakePlant(scenario)->Run(settings.realization, settings.watch);
   return {FromMeasurements(made.measurements), FromTruth(made.truth),
           scenarios::ScenarioToYaml(scenario),
@@ -60,16 +54,14 @@ Truth FromTruth(const sim::Truth& truth) {
 }
 
 Simulation Simulate(const std::filesystem::path& scenario, const SimulateSettings& settings) {
-  return Guarded([&] {
-    return CarryOut(scenarios::ReadScenario(scenario, ToSettings(settings)), settings, scenario);
-  });
+  return Guarded(
+      [&] { return CarryOut(scenarios::ReadScenario(scenario, ToSettings(settings)), settings); });
 }
 
 Simulation SimulateText(const std::string& scenario, const SimulateSettings& settings,
                         const std::string& name) {
   return Guarded([&] {
-    const auto value = scenarios::YamlValue::Parse(scenario, name, ToSettings(settings));
-    return CarryOut(scenarios::ReadScenarioValue(value, name), settings, name);
+    return CarryOut(scenarios::ParseScenario(scenario, name, ToSettings(settings)), settings);
   });
 }
 

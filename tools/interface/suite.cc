@@ -1,11 +1,11 @@
+#include "scenarios/suite.h"
+
 #include <warmjoint/suite.h>
 
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
-#include "scenarios/parse_suite.h"
 #include "tools/actions/run_task.h"
 #include "tools/board/format_board.h"
-#include "tools/board/read_board.h"
 #include "tools/interface/guarded.h"
 #include "tools/suite/engine.h"
 
@@ -32,6 +32,7 @@ tools::RunArguments ToArguments(const std::filesystem::path& suite,
   arguments.seed = settings.seed;
   arguments.identifiers = settings.identifiers;
   arguments.allow_commands = settings.allow_commands;
+  if (settings.unconfined) arguments.confinement = tools::Confinement::none;
   arguments.keep = settings.keep_recordings;
   return arguments;
 }
@@ -97,7 +98,7 @@ RunSummary RunSuite(const std::filesystem::path& suite, const std::filesystem::p
     const tools::RunOutcome outcome = tools::RunSuite(task.suite, task.identifiers, options, store);
     tools::RunEnding ending = tools::EndRun(store);
     return RunSummary{outcome.finished, ending.results, ending.failed(), std::move(ending.silent),
-                      outcome.following.Words(task.description.variants)};
+                      outcome.following.Words(task.suite)};
   });
 }
 

@@ -89,9 +89,9 @@ std::vector<std::string> CsvColumns::Names() const {
   return names;
 }
 
-std::string CsvHeader(const std::vector<std::string>& names, const RunDescription& description) {
+std::string CsvHeader(const std::vector<std::string>& names, const Suite& suite) {
   // variants only where there are several, then the figures of every result
-  std::string csv = description.variants.empty() ? "" : "variant,";
+  std::string csv = suite.ladder ? "variant," : "";
   csv +=
       "realization,identifier,status,n,parameters,effective_parameters,rmse,mae,fit,fpe,"
       "npe_continuous,npe_discrete,bound_npe_continuous,bound_npe_discrete";
@@ -104,12 +104,12 @@ std::string CsvHeader(const std::vector<std::string>& names, const RunDescriptio
 }
 
 std::string CsvRow(const Result& result, const std::vector<std::string>& names,
-                   const RunDescription& description) {
-  const std::string& label = description.identifiers[static_cast<size_t>(result.identifier)];
+                   const Suite& suite) {
+  const std::string& label = suite.identifiers[static_cast<size_t>(result.identifier)].label;
   std::string csv;
   // which run it was: variant, realization, identifier
-  if (!description.variants.empty()) {
-    csv += CsvCell(description.variants[static_cast<size_t>(result.variant)]) + ",";
+  if (suite.ladder) {
+    csv += CsvCell(suite.ladder->variants[static_cast<size_t>(result.variant)].name) + ",";
   }
   csv += fmt::format("{},{},{}", result.realization, CsvCell(label), result.status);
   csv += MetricCells(result) + ScoreCells(result);
@@ -117,30 +117,24 @@ std::string CsvRow(const Result& result, const std::vector<std::string>& names,
   return csv + fmt::format(",{}\n", CsvCell(result.message));
 }
 
-std::size_t ExportResults(const RunStore& store) {
-  const RunDescription description = store.ReadDescription();
+void ExportResults(const RunStore& store) {
   // a first pass tells which columns there are
   CsvColumns columns;
-  store.ForEachUnit([&](const std::vector<Result>& unit) {
-    for (const Result& result : unit) columns.Add(result);
-  });
+  store.ForEachResult([&](const Result& result) { columns.Add(result); });
 
   // a second one writes them block by block, so that large runs need little memory
   AtomicFile file(store.directory() / "results.csv");
   const std::vector<std::string> names = columns.Names();
   constexpr std::size_t block = 1 << 20;  // bytes
-  std::string text = CsvHeader(names, description);
-  std::size_t count = 0;
-  store.ForEachUnit([&](const std::vector<Result>& unit) {
-    for (const Result& result : unit) text += CsvRow(result, names, description);
-    count += unit.size();
+  std::string text = CsvHeader(names, store.suite());
+  store.ForEachResult([&](const Result& result) {
+    text += CsvRow(result, names, store.suite());
     if (text.size() < block) return;
     file.Write(text);
     text.clear();
   });
   file.Write(text);
   file.Commit();
-  return count;
 }
 
 }  // namespace warmjoint::inline tools

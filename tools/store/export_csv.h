@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "tools/store/result.h"
-#include "tools/store/run_description.h"
 #include "tools/store/run_store.h"
 
 namespace warmjoint::inline tools {
@@ -26,16 +25,15 @@ class CsvColumns {
 };
 
 /// The first line. names: CsvColumns::Names. The column variant is there when the suite has a ladder.
-std::string CsvHeader(const std::vector<std::string>& names, const RunDescription& description);
+std::string CsvHeader(const std::vector<std::string>& names, const Suite& suite);
 
 /// One result as a line; numbers read back bit for bit, empty where unknown. Columns: status, metrics, NPE
 /// and their bounds; then for each parameter its estimate, truth, Cramer-Rao bound and whether the 95 %
-/// interval covered the truth (1 or 0). description: names by position.
-std::string CsvRow(const Result& result, const std::vector<std::string>& names,
-                   const RunDescription& description);
+/// interval covered the truth (1 or 0).
+std::string CsvRow(const Result& result, const std::vector<std::string>& names, const Suite& suite);
 
 /// Writes RUN/results.csv from all that the store holds, a row for each (variant, realization,
-/// identifier) in that order; returns their number. Memory does not grow with the run.
-std::size_t ExportResults(const RunStore& store);
+/// identifier) in that order. Memory does not grow with the run.
+void ExportResults(const RunStore& store);
 
 }  // namespace warmjoint::inline tools

@@ -5,48 +5,41 @@
 #include <algorithm>
 #include <map>
 
-#include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
-#include "scenarios/yaml_value.h"
+#include "scenarios/yaml.h"
 
 namespace warmjoint::inline tools {
 namespace {
 
-/// Every scalar below `node` by its dotted path.
-void Flatten(const YAML::Node& node, const std::string& path,
-             std::map<std::string, std::string>& scalars) {
+/// Values of a YAML document by their dotted paths.
+using Scalars = std::map<std::string, std::string>;
+
+void Flatten(const Tree& tree, const std::string& path, Scalars& scalars) {
   const std::string prefix = path.empty() ? "" : path + ".";
-  if (node.IsMap()) {
-    for (const auto& entry : node) {
-      Flatten(entry.second, prefix + entry.first.as<std::string>(), scalars);
-    }
-  } else if (node.IsSequence()) {
-    for (size_t i = 0; i < node.size(); ++i) Flatten(node[i], prefix + std::to_string(i), scalars);
-  } else {
-    scalars[path] = node.IsNull() ? "nothing" : node.as<std::string>();
+  if (!tree.is_structured()) scalars[path] = tree.is_null() ? "nothing" : tree.get<std::string>();
+  for (const auto& [name, value] : tree.items()) {
+    if (tree.is_structured()) Flatten(value, prefix + name, scalars);
   }
 }
 
-std::string ValueOrNothing(const std::map<std::string, std::string>& scalars,
-                           const std::string& path) {
+Scalars ScalarsOf(const std::string& yaml, const char* what) {
+  Scalars scalars;
+  Flatten(ParseYaml(yaml, what).tree(), "", scalars);
+  return scalars;
+}
+
+std::string ValueOrNothing(const Scalars& scalars, const std::string& path) {
   const auto found = scalars.find(path);
   return found == scalars.end() ? "nothing" : found->second;
 }
 
-}  // namespace
-
-std::vector<std::string> SuiteDifferences(const std::string& stored, const std::string& asked) {
-  // both suites as lists of paths with their values
-  std::map<std::string, std::string> before, after;
-  Flatten(YamlValue::Parse(stored, "the stored suite").node(), "", before);
-  Flatten(YamlValue::Parse(asked, "the suite").node(), "", after);
-
+/// What differs, one "path: old in the directory, new asked" each.
+std::vector<std::string> Differences(const Scalars& before, const Scalars& after) {
   // paths of either suite, since both may lack some
-  std::map<std::string, std::string> paths = before;
+  Scalars paths = before;
   paths.insert(after.begin(), after.end());
   std::vector<std::string> differences;
   for (const auto& [path, value] : paths) {
-    // what only one of them has counts as nothing in the other
     const std::string old_value = ValueOrNothing(before, path);
     const std::string new_value = ValueOrNothing(after, path);
     if (old_value == new_value) continue;
@@ -56,41 +49,33 @@ std::vector<std::string> SuiteDifferences(const std::string& stored, const std::
   return differences;
 }
 
-namespace {
-
-void RefuseDifferentVersions(const RunDescription& stored, const RunDescription& asked,
-                             const Place& place) {
-  if (stored.versions == asked.versions) return;
-  // the versions that are stored, since those asked for are this program's own
-  std::string made;
-  for (const auto& [name, value] : stored.versions) made += fmt::format(" {} {}", name, value);
-  Refuse(place, "was made with{}, which does not mix with this; run in another directory", made);
-}
-
-/// Refuses a suite of another name, which says more than all that differs.
-void RefuseDifferentSuite(const std::string& stored, const std::string& asked, const Place& place) {
-  std::map<std::string, std::string> before, after;
-  Flatten(YamlValue::Parse(stored, "the stored suite").node(), "", before);
-  Flatten(YamlValue::Parse(asked, "the suite").node(), "", after);
-  if (before["name"] == after["name"]) return;
-  Refuse(place, "was made by suite {}, and this is {}; choose another directory",
-         Excerpt(before["name"]), Excerpt(after["name"]));
-}
-
 }  // namespace
 
 void RefuseDifferentRun(const RunDescription& stored, const RunDescription& asked,
                         const Place& place) {
-  // results of other versions do not mix
-  RefuseDifferentVersions(stored, asked, place);
-  std::vector<std::string> differences;
+  // results of other versions do not mix; the versions asked for are this program's own
+  if (stored.versions != asked.versions) {
+    std::string made;
+    for (const auto& [name, value] : stored.versions) made += fmt::format(" {} {}", name, value);
+    Refuse(place, "was made with{}, which does not mix with this; run in another directory", made);
+  }
+  Scalars before;
   try {
-    differences = SuiteDifferences(stored.suite_yaml, asked.suite_yaml);
+    before = ScalarsOf(stored.suite_yaml, "the stored suite");
   } catch (const BadInput& unreadable) {
     Refuse(place, "holds no suite that can be read ({})", unreadable.what());
   }
+  const Scalars after = ScalarsOf(asked.suite_yaml, "the suite");
+  std::vector<std::string> differences = Differences(before, after);
   if (differences.empty()) return;
-  RefuseDifferentSuite(stored.suite_yaml, asked.suite_yaml, place);
+
+  // another name says more than all that differs
+  const std::string old_name = ValueOrNothing(before, "name");
+  const std::string new_name = ValueOrNothing(after, "name");
+  if (old_name != new_name) {
+    Refuse(place, "was made by suite {}, and this is {}; choose another directory",
+           Excerpt(old_name), Excerpt(new_name));
+  }
   // two differences say enough
   const size_t shown = std::min<size_t>(differences.size(), 2);
   const std::string more =

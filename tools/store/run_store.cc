@@ -1,23 +1,18 @@
 #include "tools/store/run_store.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "models/foundation/atomic_file.h"
-#include "tools/store/check_rows.h"
-#include "tools/store/copy_rows.h"
-#include "tools/store/digest.h"
-#include "tools/store/schema.h"
-#include "tools/store/shards_of.h"
+#include "scenarios/suite.h"
+#include "tools/store/database.h"
+#include "tools/terminal/say.h"
 
 namespace warmjoint::inline tools {
 namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kResultsFile = "results.sqlite";
-constexpr const char* kTimingsFile = "timings.sqlite";
-
-std::optional<SQLite::Database> OpenTimings(const fs::path& path, Access access) {
-  if (access != Access::write && !fs::exists(path)) return std::nullopt;
-  return OpenDatabase(path, access);
-}
 
 /// Removes what a killed process was writing; the directory's lock is held.
 void RemoveLeftovers(const fs::path& directory) {
@@ -48,36 +43,55 @@ void MakeRunDirectory(const fs::path& directory) {
   }
 }
 
+/// Refuses a result that the suite has no place for: from here on every number is an index into its lists.
+void RefuseMisplaced(const SQLite::Database& database, const Suite& suite, const fs::path& file) {
+  SQLite::Statement row(
+      database,
+      "SELECT variant, realization, identifier FROM result WHERE NOT (variant >= 0 "
+      "AND variant < ? AND realization >= 0 AND realization < ? AND identifier >= "
+      "0 AND identifier < ?) LIMIT 1");
+  row.bind(1, suite.variants());
+  row.bind(2, suite.realizations);
+  row.bind(3, static_cast<int>(suite.identifiers.size()));
+  if (!row.executeStep()) return;
+  Refuse({file.string()},
+         "holds a result of variant {}, realization {}, identifier {}, which its suite does not "
+         "have; run the suite anew in another directory",
+         row.getColumn(0).getInt64(), row.getColumn(1).getInt64(), row.getColumn(2).getInt64());
+}
+
+/// Refuses a realization that the attached shard and the run both hold.
+void RefuseOverlap(const SQLite::Database& database, const fs::path& shard) {
+  SQLite::Statement both(database,
+                         "SELECT realization FROM shard.realization JOIN main.realization USING "
+                         "(variant, realization) LIMIT 1");
+  if (!both.executeStep()) return;
+  Refuse({shard.string()},
+         "holds realization {}, which another shard holds as well; merge each "
+         "shard once",
+         both.getColumn(0).getInt());
+}
+
 }  // namespace
 
-RunStore::RunStore(fs::path directory, Access access)
+RunStore::RunStore(fs::path directory, SQLite::Database database)
     : directory_(std::move(directory)),
-      lock_(access == Access::write ? std::make_unique<DirectoryLock>(directory_) : nullptr),
-      results_(OpenDatabase(results_file(), access)),
-      timings_(OpenTimings(timings_file(), access)) {}
+      database_(std::move(database)),
+      description_(ReadDescription(database_, results_file())),
+      suite_(ParseSuite(description_.suite_yaml, results_file())) {
+  Guarded(results_file(), [&] { RefuseMisplaced(database_, suite_, results_file()); });
+}
 
 fs::path RunStore::results_file() const { return directory_ / kResultsFile; }
 
-fs::path RunStore::timings_file() const { return directory_ / kTimingsFile; }
-
 RunStore RunStore::CreateOrResume(const fs::path& directory, const RunDescription& description) {
+  // nobody else writes to it from here on
   MakeRunDirectory(directory);
-  RunStore store(directory, Access::write);
+  auto lock = std::make_unique<DirectoryLock>(directory);
   RemoveLeftovers(directory);
-  Guarded(directory, [&] {
-    // a new run begins; an old one goes on where it is the same
-    if (IsEmpty(store.results_)) {
-      CreateResultTables(store.results_, description);
-    } else {
-      CheckSchema(store.results_, {store.results_file().string()});
-      RefuseDifferentRun(store.ReadDescription(), description, {directory.string()});
-      CheckRows(store.results_, description, {store.results_file().string()});
-    }
-    // timings may be lost without harm to the run
-    if (IsEmpty(*store.timings_)) CreateTimingTables(*store.timings_);
-    CheckTimingSchema(*store.timings_, {store.timings_file().string()});
-  });
-  store.plan_ = DigestOfPlan(description);
+  RunStore store(directory, MakeDatabase(directory / kResultsFile, description));
+  store.lock_ = std::move(lock);
+  RefuseDifferentRun(store.description_, description, {directory.string()});
 
   // the suite as a file is for people: it is written anew from the database's where it differs
   const bool same =
@@ -86,79 +100,66 @@ RunStore RunStore::CreateOrResume(const fs::path& directory, const RunDescriptio
   return store;
 }
 
-RunStore RunStore::OpenToRead(const fs::path& directory, Access access) {
-  const Place place{directory.string()};
+RunStore RunStore::OpenToRead(const fs::path& directory) {
   // tasks of an array leave shards, which are read as one run
   if (!fs::exists(directory / kResultsFile)) {
     const std::vector<fs::path> shards = ShardsOf(directory);
     if (!shards.empty()) return OpenShards(shards);
-    Refuse(place, "is no run directory ({} is missing); give the -o of `warmjoint run`",
-           kResultsFile);
+    Refuse({directory.string()},
+           "is no run directory ({} is missing); give the -o of `warmjoint run`", kResultsFile);
   }
-  RunStore store(directory, access);
-  // tables that were changed after the run are refused
-  Guarded(directory, [&] {
-    if (IsEmpty(store.results_)) Refuse(place, "holds no results yet; run the suite again");
-    CheckSchema(store.results_, {store.results_file().string()});
-    CheckRows(store.results_, store.ReadDescription(), {store.results_file().string()});
-    if (store.timings_) CheckTimingSchema(*store.timings_, {store.timings_file().string()});
-  });
-  return store;
+  return RunStore(directory, OpenDatabase(directory / kResultsFile));
 }
 
 RunStore RunStore::OpenShards(const std::vector<fs::path>& shards) {
-  // copies, since tasks put newer files in their place meanwhile
-  auto folder = std::make_shared<TemporaryFolder>("shards");
-  std::vector<fs::path> copies;
-  for (const fs::path& shard : shards) {
-    copies.push_back(folder->path() / shard.filename());
-    fs::create_directory(copies.back());
-    for (const char* name : {kTimingsFile, kResultsFile}) {
-      if (fs::exists(shard / name)) fs::copy_file(shard / name, copies.back() / name);
-    }
-  }
   // all shards have to be of one run
-  const RunDescription description = OpenToRead(copies.front()).ReadDescription();
-  for (std::size_t i = 0; i < copies.size(); ++i) {
-    RefuseDifferentRun(description, OpenToRead(copies[i]).ReadDescription(), {shards[i].string()});
+  const RunDescription description = OpenToRead(shards.front()).description();
+  for (const fs::path& shard : shards) {
+    RefuseDifferentRun(description, OpenToRead(shard).description(), {shard.string()});
   }
   // their rows in one store, which owns the folder that it lies in
+  auto folder = std::make_shared<TemporaryFolder>("shards");
   RunStore whole = CreateOrResume(folder->path() / "run", description);
-  whole.Gather(copies, Overlap::equal);
+  whole.Gather(shards);
   whole.folder_ = std::move(folder);
   return whole;
 }
 
-RunDescription RunStore::ReadDescription() const { return ReadStoredDescription(results_); }
-
-void RunStore::Settle() { WriteAnew({SourceOf(results_file())}, Overlap::refused); }
-
-void RunStore::Gather(const std::vector<fs::path>& shards, Overlap overlap) {
-  std::vector<RowSource> results, timings;
+void RunStore::Gather(const std::vector<fs::path>& shards) {
   for (const fs::path& shard : shards) {
-    // results are all that a shard must have
-    results.push_back(SourceOf(shard / kResultsFile));
-    if (!fs::exists(shard / kTimingsFile)) continue;
-    timings.push_back({shard / kTimingsFile, results.back().first});
+    Guarded(shard / kResultsFile, [&] {
+      SQLite::Statement attach(database_, "ATTACH ? AS shard");
+      attach.bind(1, (shard / kResultsFile).string());
+      attach.exec();
+      // the rows of a shard are in as a whole or not at all
+      SQLite::Transaction transaction(database_);
+      RefuseOverlap(database_, shard);
+      for (const std::string& table : RowTables()) {
+        database_.exec("INSERT INTO main." + table + " SELECT * FROM shard." + table);
+      }
+      transaction.commit();
+      database_.exec("DETACH shard");
+    });
   }
-  Guarded(timings_file(), [&] { CopyTimings(*timings_, timings); });
-  WriteAnew(results, overlap);
 }
 
-void RunStore::WriteAnew(const std::vector<RowSource>& sources, Overlap overlap) {
-  const RunDescription description = ReadDescription();
-  AtomicFile file(results_file());
-  Guarded(results_file(), [&] {
-    SQLite::Database fresh = OpenDatabase(file.temporary(), Access::write);
-    // nobody else sees it before it is whole, and Commit() puts it on disk
-    fresh.exec("PRAGMA journal_mode = MEMORY; PRAGMA synchronous = OFF");
-    CreateResultTables(fresh, description);
-    CopyResults(fresh, sources, overlap);
-  });
-  // closed while the file is replaced
-  results_ = SQLite::Database(":memory:");
-  file.Commit();
-  results_ = OpenDatabase(results_file(), Access::write);
+std::vector<fs::path> ShardsOf(const fs::path& run) {
+  // folders in which a task has put results
+  std::vector<fs::path> shards;
+  if (!fs::is_directory(run / "shards")) return shards;
+  for (const auto& entry : fs::directory_iterator(run / "shards")) {
+    if (fs::exists(entry.path() / kResultsFile)) shards.push_back(entry.path());
+  }
+  std::sort(shards.begin(), shards.end());
+  return shards;
+}
+
+void NoticeEditedSuite(const RunStore& store) {
+  // nobody minds a file that is gone: the database has the suite
+  if (!fs::exists(store.suite_file())) return;
+  if (ReadWholeFile(store.suite_file()) == store.description().suite_yaml) return;
+  SayNotice("notice: {} was edited; the suite that the run stored is taken\n",
+            store.suite_file().string());
 }
 
 }  // namespace warmjoint::inline tools

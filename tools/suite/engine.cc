@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <atomic>
+#include <condition_variable>
+#include <exception>
+#include <map>
 #include <mutex>
 #include <thread>
 #include <utility>
 
 #include "sim/plant/plant.h"
-#include "tools/suite/finished_queue.h"
 #include "tools/suite/interrupt.h"
 #include "tools/suite/progress.h"
 #include "tools/suite/run_realization.h"
@@ -22,13 +24,62 @@ constexpr std::chrono::milliseconds kBatchTime{200};
 /// the leaderboard compares the variants.
 std::vector<Unit> UnitsOf(const Suite& suite, const Shard& shard) {
   std::vector<Unit> units;
-  for (int realization = 0; realization < suite.realizations; ++realization) {
+  const int end = shard.End(suite.realizations);
+  for (int realization = shard.First(suite.realizations); realization < end; ++realization) {
     for (int variant = 0; variant < suite.variants(); ++variant) {
-      const Unit unit{variant, realization};
-      if (shard.Holds(unit)) units.push_back(unit);
+      units.push_back({variant, realization});
     }
   }
   return units;
+}
+
+/// Finished realizations on their way from the workers to the one writer: workers put, the writer takes. A worker that dies hands its exception over.
+class FinishedQueue {
+ public:
+  explicit FinishedQueue(int workers) : workers_(workers) {}
+
+  void Put(Realization realization) {
+    const std::lock_guard lock(mutex_);
+    finished_.push_back(std::move(realization));
+  }
+
+  /// A worker has ended; error: what ended it, or nullptr.
+  void Leave(std::exception_ptr error) {
+    const std::lock_guard lock(mutex_);
+    --workers_;
+    if (error) error_ = error;
+    changed_.notify_one();
+  }
+
+  /// All that finished within `longest`, or at once when the last worker leaves.
+  std::vector<Realization> Take(std::chrono::milliseconds longest) {
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, longest, [this] { return workers_ == 0; });
+    return std::exchange(finished_, {});
+  }
+
+  /// Whether all workers have left and everything was taken. Throws what ended a worker.
+  bool Done() {
+    const std::lock_guard lock(mutex_);
+    if (workers_ == 0 && error_) std::rethrow_exception(error_);
+    return workers_ == 0 && finished_.empty();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<Realization> finished_;
+  std::exception_ptr error_;
+  int workers_;
+};
+
+/// Failures that the store holds, by their status.
+std::map<std::string, int> FailuresIn(const RunStore& store) {
+  std::map<std::string, int> failures;
+  for (const StatusCount& count : store.CountStatuses()) {
+    if (count.status != "ok") failures[count.status] += static_cast<int>(count.results);
+  }
+  return failures;
 }
 
 /// What the workers share.
@@ -51,7 +102,7 @@ struct Work {
   }
 };
 
-void Labour(Work& work) {
+void RunUnits(Work& work) {
   std::exception_ptr error;
   try {
     // plants are made once for each variant and thread
@@ -65,9 +116,9 @@ void Labour(Work& work) {
       Bench& bench = benches[static_cast<size_t>(unit.variant)];
       if (!bench.plant) bench = MakeBench(VariantScenario(work.suite, unit.variant));
       // simulated and identified; the results wait for the thread that stores
-      Carried carried = RunRealization(bench, work.identifiers, unit, keeper);
-      work.Count(unit, carried.following);
-      work.queue.Put(std::move(carried.realization));
+      RealizationResult done = RunRealization(bench, work.identifiers, unit, keeper);
+      work.Count(unit, done.following);
+      work.queue.Put(std::move(done.realization));
     }
   } catch (...) {
     // an error in one thread ends the work of all
@@ -122,7 +173,7 @@ RunOutcome RunSuite(const Suite& suite, const std::vector<PreparedIdentifier>& i
   const std::filesystem::path recordings =
       options.keep_recordings ? store.directory() / "recordings" : "";
   Work work{suite, identifiers, units, recordings, 0, false, FinishedQueue(workers)};
-  Progress progress(total, already, store.CountStatuses());
+  Progress progress(total, already, FailuresIn(store));
   // who watches is told numbers, everybody else reads lines
   int told = already;
   const auto tell = [&](const std::vector<Realization>& batch) {
@@ -132,7 +183,7 @@ RunOutcome RunSuite(const Suite& suite, const std::vector<PreparedIdentifier>& i
 
   // declared last, so that the threads are joined before anything they use goes
   std::vector<std::jthread> threads;
-  for (int i = 0; i < workers; ++i) threads.emplace_back(Labour, std::ref(work));
+  for (int i = 0; i < workers; ++i) threads.emplace_back(RunUnits, std::ref(work));
   const int finished = already + Store(work, store, tell);
   return {finished, total, Interrupted() && finished < total, work.following};
 }

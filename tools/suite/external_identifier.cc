@@ -2,63 +2,157 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "identification/answer/judge_estimate.h"
-#include "identification/estimate_from_json.h"
+#include "identification/estimate.h"
 #include "identification/find_parameter.h"
 #include "identification/fit_data.h"
 #include "identification/metrics.h"
 #include "identification/options.h"
 #include "identification/read_options.h"
 #include "identification/warming/estimated_start.h"
-#include "models/foundation/atomic_file.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/read_json.h"
 #include "models/foundation/robust_noise.h"
 #include "models/friction/thermal.h"
 #include "models/recording/course_of.h"
+#include "models/recording/csv.h"
 #include "models/recording/hdf5.h"
-#include "models/recording/read_recording.h"
-#include "tools/suite/interpreter.h"
 #include "tools/suite/run_command.h"
-#include "tools/suite/working_directory.h"
+#include "tools/terminal/say.h"
 #include "tools/terminal/shell_words.h"
 
 namespace warmjoint::inline tools {
+namespace fs = std::filesystem;
 namespace {
 
-namespace fs = std::filesystem;
+constexpr const char* kCsv = "{recording}";
+constexpr const char* kHdf5 = "{recording.h5}";
+constexpr const char* kEstimate = "{estimate}";
 
-void WriteMeasurements(const Measurements& measurements, const std::string& command,
-                       const fs::path& directory) {
-  if (Mentions(command, "{recording}")) {
-    WriteRecording(measurements, directory / "recording.csv");
-  }
-  if (Mentions(command, "{recording.h5}")) {
-    WriteHdf5(measurements, directory / "recording.h5");
-  }
+const std::vector<OptionInfo>& ExternalOptions() {
+  static const std::vector<OptionInfo> options{
+      {"command", "", "text", "program and arguments with {recording} and {estimate}"},
+      {"time_limit", "60", "number > 0 <= 1000000", "s for each realization"},
+      {"memory", "4096", "number > 0 <= 1048576", "MiB of each process"},
+      {"reads", "", "text", "files and folders that it may read besides its own, parted by :"},
+      {"beside", "yes", "no|yes", "whether it reads what lies beside the first file it names"},
+  };
+  return options;
 }
 
-/// The text of the answer. Nothing of the command runs any more, so that what lies there stays.
-std::string AnswerText(const fs::path& file) {
-  constexpr std::size_t most = std::size_t{16} << 20;  // bytes
-  const fs::file_status status = fs::symlink_status(file);
-  // only a plain file of bounded size is an answer
-  if (!fs::exists(status)) throw NoAnswer("bad_answer", "wrote no estimate");
-  if (!fs::is_regular_file(status)) {
-    throw NoAnswer("bad_answer", "the estimate is not a regular file");
+bool Mentions(const std::string& command, const std::string& text) {
+  return command.find(text) != std::string::npos;
+}
+
+/// Whether `folder` is, or holds, `path`.
+bool IsAround(const fs::path& folder, const fs::path& path) {
+  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first ==
+         folder.end();
+}
+
+/// The files that a command names.
+std::vector<fs::path> FilesOf(const std::vector<std::string>& words) {
+  std::vector<fs::path> files;
+  std::error_code ignored;
+  for (const std::string& word : words) {
+    if (fs::path(word).is_absolute() && fs::is_regular_file(word, ignored)) {
+      files.emplace_back(word);
+    }
   }
-  if (fs::file_size(file) > most) {
-    throw NoAnswer("bad_answer", fmt::format("the estimate has more than {} MiB", most >> 20));
+  return files;
+}
+
+/// Whether a word of a command names a file, seen from `folder`. The first one is a program: without a folder in it, it is
+/// looked for in PATH first, as a shell does.
+bool NamesFile(const std::string& word, bool is_program, const fs::path& folder) {
+  std::error_code ignored;
+  if (word.empty() || !fs::is_regular_file(folder / word, ignored)) return false;
+  return !is_program || Mentions(word, "/") || FindProgram(word) == word;
+}
+
+/// The entry with the files of its command made absolute, before it runs elsewhere.
+SuiteIdentifier WithFilesFrom(const fs::path& folder, SuiteIdentifier identifier,
+                              const Place& place) {
+  std::string& command = identifier.options.at("command");
+  std::vector<std::string> words = SplitCommand(command, place);
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (NamesFile(words[i], i == 0, folder)) words[i] = fs::absolute(folder / words[i]);
   }
-  return ReadWholeFile(file, most);
+  command = JoinCommand(words);
+  return identifier;
+}
+
+/// A command with its options read.
+struct Command {
+  std::string label;
+  std::string text;
+  CommandTask task;  // without the log
+  Judging judging;
+};
+
+/// The command for a log: its placeholders filled in, and the files that they stand for.
+CommandTask TaskFor(const Command& command, const Measurements& measurements) {
+  CommandTask task = command.task;
+  for (std::string& word : task.arguments) {
+    word = Replaced(word, kCsv, "recording.csv");
+    word = Replaced(word, kHdf5, "recording.h5");
+    word = Replaced(word, kEstimate, task.answer);
+  }
+  if (Mentions(command.text, kCsv)) {
+    task.files.push_back({"recording.csv", RecordingToCsv(measurements)});
+  }
+  if (Mentions(command.text, kHdf5)) {
+    task.files.push_back({"recording.h5", RecordingToHdf5(measurements)});
+  }
+  return task;
+}
+
+/// What helps a command that was kept from starting a program.
+std::string RemedyFor(const Command& command, const CommandEnd& end) {
+  constexpr int not_executable = 126;  // as shells have it
+  if (end.status != not_executable || command.task.confinement == Confinement::none) return "";
+  return "; the sandbox kept it from a program: name the interpreter by its full path, or its "
+         "folder "
+         "in the option reads";
+}
+
+/// Throws for a command that ended in another way than with an answer.
+void RequireAnswer(const Command& command, const CommandEnd& end) {
+  const CommandLimits& limits = command.task.limits;
+  switch (end.ending) {
+    case CommandEnding::timeout:
+      throw NoAnswer("timeout", fmt::format("took longer than {} s", limits.seconds));
+    case CommandEnding::processes:
+      throw NoAnswer("crashed", fmt::format("had more than {} processes", limits.processes));
+    case CommandEnding::output:
+      throw NoAnswer("crashed", fmt::format("printed more than {} MiB", limits.output >> 20));
+    case CommandEnding::by_itself:
+      break;
+  }
+  if (end.status != 0) {
+    throw NoAnswer("crashed", fmt::format("exit status {}: {}{}", end.status,
+                                          Excerpt(end.last_output, kLongestComplaint),
+                                          RemedyFor(command, end)));
+  }
+  switch (end.kind) {
+    case AnswerKind::absent:
+      throw NoAnswer("bad_answer", "wrote no estimate");
+    case AnswerKind::no_file:
+      throw NoAnswer("bad_answer", "the estimate is not a regular file");
+    case AnswerKind::too_large:
+      throw NoAnswer("bad_answer",
+                     fmt::format("the estimate has more than {} MiB", limits.answer >> 20));
+    case AnswerKind::whole:
+      break;
+  }
 }
 
 /// The estimate that the command wrote. Members that only our own identifiers have may be left out.
-Estimate ReadAnswer(const fs::path& file, const std::string& label) {
-  const std::string text = AnswerText(file);
+Estimate ReadAnswer(const std::string& text, const std::string& label) {
   try {
     nlohmann::json json = ParseJson(text, "estimate.json");
     if (!json.is_object()) throw NoAnswer("bad_answer", "the estimate is not a JSON object");
@@ -70,7 +164,7 @@ Estimate ReadAnswer(const fs::path& file, const std::string& label) {
                                 {"trace", nlohmann::json::array()},
                                 {"friction", nullptr}};
     for (const auto& [key, value] : absent.items()) json.emplace(key, value);
-    return EstimateFromJson(json, {"estimate.json"});
+    return EstimateFrom({Tree(json), "estimate.json"});
   } catch (const nlohmann::json::exception& error) {
     throw NoAnswer("bad_answer", Excerpt(error.what(), kLongestComplaint));
   } catch (const BadInput& error) {
@@ -94,98 +188,137 @@ void AddDiscretePair(Estimate& estimate, const Measurements& measurements) {
   estimate.parameters.push_back({std::string(kPoleName), pair.pole, "1", {}, {}});
 }
 
-/// Figures of an estimate that brings a friction but none of its own.
-void AddMetrics(Estimate& estimate, const Measurements& measurements, const Selection& selection) {
-  if (estimate.metrics || !estimate.friction || selection.count() == 0) return;
-  const Eigen::VectorXd force =
-      PredictFriction(*estimate.friction, measurements, StartOf(estimate, measurements),
-                      BristleStart::torque)
-          .force;
-  const auto parameters = static_cast<int>(estimate.parameters.size());
-  estimate.metrics = ComputeMetrics(Kept(measurements.torque, selection), Kept(force, selection),
-                                    parameters, parameters);
-}
-
-/// A command with its options read.
-struct Command {
-  std::string label;
-  std::string text;
-  std::vector<std::string> words;  // with placeholders
-  std::vector<fs::path> readable;  // besides its own directory
-  CommandLimits limits;
-  Judging judging;
-};
-
-/// The command for one directory, its placeholders filled in.
-std::vector<std::string> Filled(std::vector<std::string> words) {
-  for (std::string& word : words) {
-    word = Replaced(word, "{recording}", "recording.csv");
-    word = Replaced(word, "{recording.h5}", "recording.h5");
-    word = Replaced(word, "{estimate}", "estimate.json");
-  }
-  return words;
-}
-
-/// What helps a command that found a program and was kept from starting it.
-std::string RemedyFor(const CommandEnd& end) {
-  constexpr int not_executable = 126;  // as shells have it
-  if (end.status != not_executable || BestWall() == WallKind::none) return "";
-  return "; the wall kept it from a program: name the interpreter by its full path, or its folder "
-         "in the option reads";
-}
-
-/// What the command answers of the log. Its directory lives no longer than it does.
-Estimate Answer(const Command& command, const Measurements& measurements) {
-  // the command works in a directory of its own, behind a wall
-  const WorkingDirectory directory;
-  WriteMeasurements(measurements, command.text, directory.path());
-  const Wall wall(command.readable, directory.path());
-  const CommandEnd end = RunCommand(Filled(command.words), directory.path(), wall, command.limits);
-  // ends without an answer, each with its reason
-  if (end.timed_out) {
-    throw NoAnswer("timeout", fmt::format("took longer than {} s", command.limits.seconds));
-  }
-  if (end.crowded) {
-    throw NoAnswer("crashed", fmt::format("had more than {} processes", command.limits.processes));
-  }
-  if (end.status != 0) {
-    // the directory's name is drawn anew each time; results are not
-    const std::string last = Replaced(end.last_output, directory.path(), ".");
-    throw NoAnswer("crashed", fmt::format("exit status {}: {}{}", end.status,
-                                          Excerpt(last, kLongestComplaint), RemedyFor(end)));
-  }
-  return ReadAnswer(directory.path() / "estimate.json", command.label);
-}
-
 Estimate Ask(const Command& command, const PreparedLog& log) {
   const auto& [measurements, selection] = log.taken();
-  Estimate estimate = Answer(command, measurements);
+  const CommandEnd end = RunCommand(TaskFor(command, measurements));
+  RequireAnswer(command, end);
+  Estimate estimate = ReadAnswer(end.answer, command.label);
+  // what our own identifiers tell, too
   AddDiscretePair(estimate, measurements);
-  AddMetrics(estimate, measurements, selection);
+  if (!estimate.metrics) {
+    estimate.metrics =
+        FrictionMetrics(estimate, measurements, selection, StartOf(estimate, measurements));
+  }
   JudgeEstimate(log, command.judging, estimate);
   return estimate;
 }
 
 }  // namespace
 
+SuiteIdentifier ReadExternal(const std::string& argument) {
+  const size_t equals = argument.find('=');
+  const std::string label = argument.substr(0, equals);
+  const Place place{"--identifier " + Excerpt(label)};
+  if (label.empty()) Refuse({"--identifier"}, "'{}' lacks its name before '='", Excerpt(argument));
+  // without both files the command has nothing to read or nothing to write
+  const std::string command = argument.substr(equals + 1);
+  if (!Mentions(command, kEstimate)) {
+    Refuse(place, "the command lacks {{estimate}}, the file that it has to write");
+  }
+  if (!Mentions(command, kCsv) && !Mentions(command, kHdf5)) {
+    Refuse(place, "the command lacks {{recording}} or {{recording.h5}}, the file that it gets");
+  }
+  return WithFilesFrom("", {kExternal, label, {{"command", command}}, {}}, place);
+}
+
+SuiteIdentifier WithFilesOfSuite(SuiteIdentifier identifier, const fs::path& suite) {
+  if (identifier.name != kExternal || !identifier.options.contains("command")) return identifier;
+  const Place place{suite.string()};
+  const std::string given = identifier.options.at("command");
+  // files of the command are meant from the folder of the suite
+  identifier = WithFilesFrom(suite.parent_path(), std::move(identifier), place);
+  const std::string& command = identifier.options.at("command");
+  // the folder of the suite is not shown: it may hold the truth
+  const std::vector<fs::path> files = FilesOf(SplitCommand(command, place));
+  if (command == given || files.empty()) return identifier;
+  const fs::path beside = files.front().lexically_normal().parent_path();
+  if (IsAround(beside, (fs::current_path() / suite).lexically_normal())) {
+    identifier.options["beside"] = "no";
+  }
+  return identifier;
+}
+
+std::vector<fs::path> ReadableBy(const SuiteIdentifier& identifier) {
+  const Options options = ReadOptions(ExternalOptions(), identifier.options, {identifier.label});
+  const Place place{Excerpt(identifier.label)};
+  const std::vector<std::string> words = SplitCommand(options.Text("command"), place);
+  if (words.empty()) Refuse(place, "its command is empty");
+
+  // what it names, and what lies beside a script unless that is around the folder of the run
+  std::vector<fs::path> readable = FilesOf(words);
+  if (!readable.empty() && options.Text("beside") == "yes") {
+    const fs::path beside = readable.front().parent_path();
+    if (!IsAround(beside, fs::current_path())) readable.push_back(beside);
+  }
+  // the program, and the libraries of its environment where it is an interpreter of venv, Conda or pyenv
+  const fs::path program = FindProgram(words.front());
+  std::error_code ignored;
+  for (const fs::path& path : {program, fs::weakly_canonical(program, ignored)}) {
+    if (!path.is_absolute()) continue;
+    readable.push_back(path);
+    if (path.parent_path().filename() != "bin") continue;
+    for (const char* part : {"lib", "lib64", "pyvenv.cfg"}) {
+      readable.push_back(path.parent_path().parent_path() / part);
+    }
+  }
+  // what the suite allows besides
+  std::istringstream paths(options.Text("reads"));
+  for (std::string path; std::getline(paths, path, ':');) {
+    if (!path.empty()) readable.push_back(fs::absolute(path));
+  }
+  return readable;
+}
+
+void ReportConfinement(const std::vector<SuiteIdentifier>& identifiers,
+                       const std::vector<fs::path>& secrets, Confinement confinement) {
+  const auto is_command = [](const SuiteIdentifier& one) { return one.name == kExternal; };
+  if (std::ranges::none_of(identifiers, is_command)) return;
+  // that there is no sandbox is a warning, which --quiet keeps
+  const std::string words = DescribeSandbox(confinement);
+  if (confinement == Confinement::none) return Say(stderr, "{}\n", words);
+  SayNotice("{}\n", words);
+  for (const SuiteIdentifier& identifier : identifiers) {
+    for (const fs::path& secret : secrets) {
+      if (!is_command(identifier) || SandboxHides(secret, ReadableBy(identifier))) continue;
+      Say(stderr, "warning: {} can read {}, which lies in a folder that it may read; move it\n",
+          identifier.label, secret.string());
+    }
+  }
+}
+
+std::optional<Metrics> FrictionMetrics(const Estimate& estimate, const Measurements& measurements,
+                                       const Selection& selection, const CourseStart& start) {
+  if (!estimate.friction || selection.count() == 0) return std::nullopt;
+  const Eigen::VectorXd force =
+      PredictFriction(*estimate.friction, measurements, start, BristleStart::torque).force;
+  const auto parameters = static_cast<int>(estimate.parameters.size());
+  return ComputeMetrics(Kept(measurements.torque, selection), Kept(force, selection), parameters,
+                        parameters);
+}
+
 PreparedIdentifier PrepareExternal(const SuiteIdentifier& identifier, const Place& place,
-                                   const Judging& judging) {
+                                   const Judging& judging, Confinement confinement) {
   const Options options = ReadOptions(ExternalOptions(), identifier.options, place);
-  Command command{identifier.label, options.Text("command"), {}, {}, {}, judging};
+  Command command{identifier.label, options.Text("command"), {}, judging};
   // a command that is not told where to write cannot answer
-  if (!Mentions(command.text, "{estimate}")) {
+  if (!Mentions(command.text, kEstimate)) {
     Refuse(place, "the command of {} lacks {{estimate}}, the file that it has to write",
            Excerpt(identifier.label));
   }
-  // its words, or a line for a shell where the suite asks for one
-  const std::vector<std::string> words = SplitCommand(command.text, place);
-  command.readable = ReadableBy(identifier);
-  command.words = words;
-  command.words.front() = FindInterpreter(words.front());
-  if (options.Text("shell") == "yes") command.words = {"/bin/sh", "-c", command.text};
-  // how long it may take, and with how much memory
-  command.limits.seconds = options.Number("time_limit");
-  command.limits.memory =
+  if (confinement == Confinement::sandbox && LandlockVersion() == 0) {
+    Refuse(place,
+           "{} is a command, and this kernel has no Landlock to keep it from your files; where you "
+           "trust it, give --unconfined",
+           Excerpt(identifier.label));
+  }
+  // what it may read, how long it may take, and with how much memory
+  CommandTask& task = command.task;
+  task.readable = ReadableBy(identifier);
+  task.arguments = SplitCommand(command.text, place);
+  task.answer = "estimate.json";
+  task.confinement = confinement;
+  task.limits.seconds = options.Number("time_limit");
+  task.limits.memory =
       static_cast<std::size_t>(options.Number("memory") * static_cast<double>(1 << 20));
   return [command](const PreparedLog& log, StartKey) { return Ask(command, log); };
 }

@@ -1,19 +1,53 @@
 // Identifiers in any language: a command that reads a recording and writes an estimate.
 #pragma once
 
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "identification/lack_of_fit/judging.h"
+#include "identification/metrics.h"
 #include "models/foundation/bad_input.h"
-#include "tools/suite/external_command.h"
+#include "models/friction/course_start.h"
+#include "models/recording/selection.h"
+#include "scenarios/suite_identifier.h"
 #include "tools/suite/prepared_identifier.h"
+#include "tools/suite/sandbox.h"
 
 namespace warmjoint::inline tools {
 
-/// Runs the command in a fresh directory that holds the measurements alone, behind a wall that shows
-/// no other of this program's files (wall.h), under limits (run_command.h): {recording} stands for
-/// recording.csv, {recording.h5} for HDF5, {estimate} for the estimate.json to write. A command
-/// that fails, takes too long or writes something else throws NoAnswer: crashed, timeout,
-/// bad_answer. The answer is judged like those of our own identifiers (judge_estimate.h).
+/// The suite's entry for an argument name=command. Files that the command names relative to the current directory are
+/// made absolute, for it runs in one of its own. Throws BadInput where the name or a placeholder is missing.
+SuiteIdentifier ReadExternal(const std::string& argument);
+
+/// A suite's entry with the files that its command names made absolute, seen from the suite's folder; other entries as
+/// they are. Where its first file then lies in a folder around the suite, which tells the truth, it gets `beside: no`.
+/// suite: the file, for messages as well.
+SuiteIdentifier WithFilesOfSuite(SuiteIdentifier identifier, const std::filesystem::path& suite);
+
+/// Files and folders, besides the system's, that the command may read: those that it names, the folder of the first
+/// unless the current folder lies in there, its interpreter's libraries, and those of the option `reads`.
+std::vector<std::filesystem::path> ReadableBy(const SuiteIdentifier& identifier);
+
+/// Says on stderr, where there are commands among the identifiers, what they can reach, and warns of each of `secrets`
+/// that one of them can read.
+void ReportConfinement(const std::vector<SuiteIdentifier>& identifiers,
+                       const std::vector<std::filesystem::path>& secrets, Confinement confinement);
+
+/// Figures of an estimate's friction, started as it says, along a log; none where it has no friction or the selection
+/// keeps no sample.
+std::optional<Metrics> FrictionMetrics(const Estimate& estimate, const Measurements& measurements,
+                                       const Selection& selection, const CourseStart& start);
+
+/// Runs the command for each log in a fresh directory that holds the measurements alone, in a sandbox, under limits
+/// (run_command.h): {recording} stands for recording.csv, {recording.h5} for HDF5, {estimate} for the estimate.json to
+/// write. Its options: command, time_limit (s), memory (MiB of each process), reads (files and folders), beside
+/// (whether it reads the folder of the first file that it names). A command that fails, takes too long or writes
+/// something else throws NoAnswer: crashed, timeout, bad_answer. The answer is judged like those of our own identifiers
+/// (judge_estimate.h). Throws BadInput from `place` for wrong options, and where the kernel has no sandbox.
 PreparedIdentifier PrepareExternal(const SuiteIdentifier& identifier, const Place& place,
-                                   const Judging& judging = {});
+                                   const Judging& judging = {},
+                                   Confinement confinement = Confinement::sandbox);
 
 }  // namespace warmjoint::inline tools

@@ -26,10 +26,11 @@ void FollowingTally::Add(Unit unit, const Following& following) {
   worst_unit_ = unit;
 }
 
-std::string FollowingTally::Words(const std::vector<std::string>& variants) const {
+std::string FollowingTally::Words(const Suite& suite) const {
   if (astray_ == 0) return "";
   const auto variant = static_cast<std::size_t>(worst_unit_.variant);
-  const std::string rung = variants.empty() ? "" : " of " + Excerpt(variants[variant]);
+  const std::string rung =
+      suite.ladder ? " of " + Excerpt(suite.ladder->variants[variant].name) : "";
   return fmt::format(
       "in {} of {} simulated realizations the joint did not follow its motion. In "
       "realization {}{} {}",

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
+#include "scenarios/suite.h"
 #include "sim/truth/simulated_recording.h"
 #include "tools/store/result.h"
 
@@ -19,8 +19,7 @@ class FollowingTally {
   void Add(Unit unit, const Following& following);
 
   /// What is to be said of them, with the worst; empty where every joint followed.
-  /// variants: names of the suite's rungs, empty without a ladder.
-  std::string Words(const std::vector<std::string>& variants) const;
+  std::string Words(const Suite& suite) const;
 
  private:
   int realizations_ = 0;

@@ -1,19 +1,66 @@
 #include "tools/suite/prepare_identifiers.h"
 
+#include <algorithm>
+
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/read_options.h"
+#include "models/foundation/excerpt.h"
 #include "tools/suite/external_identifier.h"
 
 namespace warmjoint::inline tools {
+namespace {
+
+bool Contains(const std::vector<SuiteIdentifier>& identifiers, const std::string& label) {
+  return std::any_of(identifiers.begin(), identifiers.end(),
+                     [&](const SuiteIdentifier& one) { return one.label == label; });
+}
+
+/// Adds what one name stands for.
+void Add(const std::string& name, const std::vector<SuiteIdentifier>& suite,
+         std::vector<SuiteIdentifier>& chosen) {
+  // a command from outside brings its own name
+  if (name.find('=') != std::string::npos) {
+    const SuiteIdentifier external = ReadExternal(name);
+    if (Contains(chosen, external.label)) {
+      Refuse({"--identifier"}, "there is a '{}' already; give yours another name",
+             Excerpt(external.label));
+    }
+    chosen.push_back(external);
+    return;
+  }
+  // a name may stand for several identifiers of the suite
+  const std::string current = CurrentName(name);
+  bool in_suite = false;
+  for (const SuiteIdentifier& one : suite) {
+    if (one.label != name && CurrentName(one.name) != current) continue;
+    in_suite = true;
+    if (!Contains(chosen, one.label)) chosen.push_back(one);
+  }
+  // any other is one of the list, with its usual options
+  if (!in_suite && !Contains(chosen, name)) {
+    chosen.push_back({FindIdentifier(name).name, name, {}, {}});
+  }
+}
+
+}  // namespace
+
+std::vector<SuiteIdentifier> ChooseIdentifiers(const std::vector<SuiteIdentifier>& suite,
+                                               const std::vector<std::string>& names) {
+  const auto adds = [](const std::string& name) { return name.starts_with('+'); };
+  std::vector<SuiteIdentifier> chosen;
+  if (std::all_of(names.begin(), names.end(), adds)) chosen = suite;
+  for (const std::string& name : names) Add(adds(name) ? name.substr(1) : name, suite, chosen);
+  return chosen;
+}
 
 std::vector<PreparedIdentifier> PrepareIdentifiers(const std::vector<SuiteIdentifier>& identifiers,
-                                                   const Place& place) {
+                                                   const Place& place, Confinement confinement) {
   std::vector<PreparedIdentifier> prepared;
   for (const SuiteIdentifier& one : identifiers) {
     // a command from outside has its own way to answer
     if (one.name == kExternal) {
-      prepared.push_back(PrepareExternal(one, place));
+      prepared.push_back(PrepareExternal(one, place, {}, confinement));
       continue;
     }
     // options are checked before anything runs

@@ -1,17 +1,26 @@
-// The identifiers of a suite, made ready to run.
+// Which identifiers a run takes, made ready to run.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "models/foundation/bad_input.h"
 #include "scenarios/suite_identifier.h"
 #include "tools/suite/prepared_identifier.h"
+#include "tools/suite/sandbox.h"
 
 namespace warmjoint::inline tools {
 
-/// The suite's identifiers in its order. Throws BadInput from `place` for unknown names and
-/// options.
+/// The suite's identifiers whose label or name is among `names`, in the order of `names`; all of them
+/// where each name begins with '+' or there is none. +NAME adds to them. A name that the suite lacks is
+/// taken from the list of identifiers with its default options; name=command becomes an external
+/// one. Throws BadInput for a name that neither has, and for a command under a label that is taken.
+std::vector<SuiteIdentifier> ChooseIdentifiers(const std::vector<SuiteIdentifier>& suite,
+                                               const std::vector<std::string>& names);
+
+/// The identifiers in their order. Throws BadInput from `place` for unknown names and options.
 std::vector<PreparedIdentifier> PrepareIdentifiers(const std::vector<SuiteIdentifier>& identifiers,
-                                                   const Place& place);
+                                                   const Place& place,
+                                                   Confinement confinement = Confinement::sandbox);
 
 }  // namespace warmjoint::inline tools

@@ -7,7 +7,7 @@
 
 #include "identification/estimate.h"
 #include "identification/preparation/prepared_log.h"
-#include "models/foundation/start_stream.h"
+#include "models/foundation/random_stream.h"
 
 namespace warmjoint::inline tools {
 

@@ -12,11 +12,9 @@ namespace warmjoint::inline tools {
 /// Realizations with their rate, failures so far and time left, as ProgressLine shows them. One thread at a time.
 class Progress {
  public:
-  /// total: of things to do; already: of them done before, with so many results of each status.
-  Progress(int total, int already, std::map<std::string, int> statuses = {})
-      : total_(total), already_(already), failures_(std::move(statuses)) {
-    failures_.erase("ok");
-  }
+  /// total: of things to do; already: of them done before, with so many failures of each status.
+  Progress(int total, int already, std::map<std::string, int> failures = {})
+      : total_(total), already_(already), failures_(std::move(failures)) {}
 
   /// Counts finished things, 0 too: time may have come for a line.
   void Add(int finished);

@@ -1,55 +1,79 @@
 #include "tools/suite/run_command.h"
 
-#include <fcntl.h>
-#include <poll.h>
-#include <signal.h>
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
-#include <stdexcept>
+#include <new>
+#include <random>
 #include <string_view>
 #include <system_error>
-#include <utility>
 
-#include "tools/suite/command_keeper.h"
+#include "models/foundation/output_failed.h"
+#include "tools/suite/supervisor.h"
 #include "tools/terminal/exec_words.h"
+#include "tools/terminal/shell_words.h"
 
 namespace warmjoint::inline tools {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::size_t kTail = 4096;  // bytes of output that are kept
+[[noreturn]] void Fail(const char* what) {
+  throw std::system_error(errno, std::generic_category(), what);
+}
 
-/// Both ends of a pipe, closed at the end of its life.
-class Pipe {
+/// A file in memory, closed at the end of its life.
+class MemoryFile {
  public:
-  Pipe() {
-    if (pipe2(ends_.data(), O_CLOEXEC) != 0) {
-      throw std::system_error(errno, std::generic_category(), "no pipe for a command");
-    }
+  MemoryFile() : file_(memfd_create("command", MFD_CLOEXEC)) {
+    if (file_ < 0) Fail("no file for a command");
   }
-  ~Pipe() { CloseBoth(); }
-  Pipe(const Pipe&) = delete;
-  Pipe& operator=(const Pipe&) = delete;
+  ~MemoryFile() { close(file_); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
 
-  int out() const { return ends_[0]; }
-  int in() const { return ends_[1]; }
-  void CloseIn() { Close(ends_[1]); }
+  int descriptor() const { return file_; }
+
+  /// Its last bytes.
+  std::string Tail(std::size_t most) const {
+    struct stat status {};
+    fstat(file_, &status);
+    const auto size = static_cast<std::size_t>(status.st_size);
+    std::string tail(std::min(most, size), '\0');
+    const ssize_t n =
+        pread(file_, tail.data(), tail.size(), static_cast<off_t>(size - tail.size()));
+    tail.resize(static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
+    return tail;
+  }
 
  private:
-  static void Close(int& end) {
-    if (end >= 0) close(std::exchange(end, -1));
-  }
-  void CloseBoth() {
-    Close(ends_[0]);
-    Close(ends_[1]);
-  }
+  int file_;
+};
 
-  std::array<int, 2> ends_{-1, -1};
+/// A verdict in memory that a forked process shares.
+class SharedVerdict {
+ public:
+  SharedVerdict()
+      : memory_(mmap(nullptr, sizeof(Verdict), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS,
+                     -1, 0)) {
+    if (memory_ == MAP_FAILED) Fail("no memory for a command");
+    // where the supervisor itself is killed, this stands
+    new (memory_) Verdict{.status = SIGKILL};
+  }
+  ~SharedVerdict() { munmap(memory_, sizeof(Verdict)); }
+  SharedVerdict(const SharedVerdict&) = delete;
+  SharedVerdict& operator=(const SharedVerdict&) = delete;
+
+  Verdict* get() const { return static_cast<Verdict*>(memory_); }
+
+ private:
+  void* memory_;
 };
 
 /// Whether a command of others gets this variable of ours: where programs and libraries are found
@@ -64,11 +88,11 @@ bool IsPassedOn(std::string_view variable) {
          std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
 
-std::vector<std::string> Environment(const fs::path& directory) {
+std::vector<std::string> Environment(const std::string& directory) {
   std::vector<std::string> environment{"OMP_NUM_THREADS=1", "OPENBLAS_NUM_THREADS=1",
                                        "MKL_NUM_THREADS=1"};
   for (const char* name : {"HOME", "TMPDIR", "PWD"}) {
-    environment.push_back(std::string(name) + "=" + directory.string());
+    environment.push_back(std::string(name) + "=" + directory);
   }
   for (char** variable = environ; *variable; ++variable) {
     if (IsPassedOn(*variable)) environment.emplace_back(*variable);
@@ -76,43 +100,10 @@ std::vector<std::string> Environment(const fs::path& directory) {
   return environment;
 }
 
-/// Adds what can be read at once to a tail of bounded size; false at the end, and where there is
-/// nothing to be read from a file that does not block.
-bool ReadSome(int file, std::string& tail) {
-  std::array<char, 65536> block;
-  const ssize_t n = read(file, block.data(), block.size());
-  if (n < 0) return errno == EINTR;
-  tail.append(block.data(), static_cast<std::size_t>(n));
-  if (tail.size() > kTail) tail.erase(0, tail.size() - kTail);
-  return n > 0;
-}
-
-/// Takes the output until the keeper's verdict comes; what a command writes never stops it.
-KeeperVerdict Await(const Pipe& output, const Pipe& verdict, std::string& tail) {
-  KeeperVerdict end;
-  end.status = SIGKILL;  // as waitpid has it: of a keeper that was killed itself
-  bool writing = true;
-  for (;;) {
-    // whatever comes first, words of the command or the verdict on it
-    std::array<pollfd, 2> files{pollfd{verdict.out(), POLLIN, 0},
-                                pollfd{writing ? output.out() : -1, POLLIN, 0}};
-    if (poll(files.data(), files.size(), -1) < 0) {
-      if (errno == EINTR) continue;
-      break;
-    }
-    if (files[1].revents != 0) writing = ReadSome(output.out(), tail);
-    if (files[0].revents == 0) continue;
-    // the verdict comes last
-    KeeperVerdict told;
-    if (read(verdict.out(), &told, sizeof told) == sizeof told) end = told;
-    break;
-  }
-
-  // all that wrote is dead: what is in the pipe is all there is
-  fcntl(output.out(), F_SETFL, O_NONBLOCK);
-  constexpr int kMostReads = 64;  // more than a pipe holds
-  for (int i = 0; writing && i < kMostReads; ++i) writing = ReadSome(output.out(), tail);
-  return end;
+/// Within the system's folder for temporary files, a name that nobody else draws.
+std::string DrawDirectory() {
+  std::random_device random;
+  return fs::temp_directory_path() / fmt::format("warmjoint_{:08x}{:08x}", random(), random());
 }
 
 std::string LastLine(const std::string& text) {
@@ -138,35 +129,47 @@ std::string FindProgram(const std::string& name) {
   return name;
 }
 
-CommandEnd RunCommand(const std::vector<std::string>& arguments, const fs::path& directory,
-                      const Wall& wall, const CommandLimits& limits) {
+CommandEnd RunCommand(const CommandTask& task) {
   // all that needs memory, before the fork
-  std::vector<std::string> words = wall.Around(arguments);
+  std::vector<std::string> words = task.arguments;
   words.front() = FindProgram(words.front());
+  const std::string directory = DrawDirectory();
   std::vector<std::string> environment = Environment(directory);
   std::vector<std::string> removal{"/bin/rm", "-rf", "--one-file-system", directory};
   const std::vector<char*> argv = ExecWords(words), envp = ExecWords(environment),
                            remove = ExecWords(removal);
-  Pipe output, verdict;
-  const std::string folder = directory;
-  const KeeperTask task{argv.data(), envp.data(), folder.c_str(), remove.data(),
-                        &wall,       limits,      output.in(),    verdict.in()};
-  // a keeper in between starts the command, watches and ends it
-  const pid_t parent = getpid();
-  const pid_t keeper = fork();
-  if (keeper == 0) KeepCommand(task, parent);
-  if (keeper < 0)
-    throw std::system_error(errno, std::generic_category(), "no process for a command");
-  // nothing here can write any more, so that reading ends when all others have ended
-  output.CloseIn();
-  verdict.CloseIn();
+  const MemoryFile output, answer;
+  const SharedVerdict verdict;
+  const Sandbox sandbox =
+      task.confinement == Confinement::sandbox ? Sandbox(task.readable) : Sandbox();
+  const Supervision supervision{.task = task,
+                                .sandbox = sandbox,
+                                .arguments = argv.data(),
+                                .environment = envp.data(),
+                                .removal = remove.data(),
+                                .directory = directory.c_str(),
+                                .output = output.descriptor(),
+                                .answer = answer.descriptor(),
+                                .verdict = verdict.get()};
 
-  std::string tail;
-  const KeeperVerdict end = Await(output, verdict, tail);
-  waitpid(keeper, nullptr, 0);
-  // an end by a signal as a shell counts it
-  const int status = WIFEXITED(end.status) ? WEXITSTATUS(end.status) : 128 + WTERMSIG(end.status);
-  return {end.timed_out, end.crowded, status, LastLine(tail)};
+  // the supervisor starts the command, watches and ends it
+  const pid_t parent = getpid();
+  const pid_t supervisor = fork();
+  if (supervisor == 0) Supervise(supervision, parent);
+  if (supervisor < 0) Fail("no process for a command");
+  while (waitpid(supervisor, nullptr, 0) < 0 && errno == EINTR) continue;
+  const Verdict& told = *verdict.get();
+  if (told.error != 0) FailOutput(directory, told.error);
+
+  // an end by a signal as a shell counts it; the directory's name is drawn anew each time, results are not
+  constexpr std::size_t kTail = 4096;
+  CommandEnd end;
+  end.ending = told.ending;
+  end.status = WIFEXITED(told.status) ? WEXITSTATUS(told.status) : 128 + WTERMSIG(told.status);
+  end.last_output = Replaced(LastLine(output.Tail(kTail)), directory, ".");
+  end.kind = told.answer;
+  if (told.answer == AnswerKind::whole) end.answer = answer.Tail(task.limits.answer);
+  return end;
 }
 
 }  // namespace warmjoint::inline tools

@@ -1,40 +1,62 @@
-// Commands of others, kept on a short leash.
+// Commands of others: each in a directory of its own, in a sandbox, under limits.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "tools/suite/wall.h"
+#include "tools/suite/sandbox.h"
 
 namespace warmjoint::inline tools {
 
 /// What a command may use.
 struct CommandLimits {
-  double seconds = 60;                        // of wall time, and of each process's computing
-  std::size_t memory = std::size_t{4} << 30;  // bytes of address space of each process
-  std::size_t file = std::size_t{256} << 20;  // bytes of each file that it writes
-  int processes = 64;                         // at a time, threads not counted
+  double seconds = 60;                         // of wall time, and of each process's computing
+  std::size_t memory = std::size_t{4} << 30;   // bytes of address space of each process
+  std::size_t file = std::size_t{256} << 20;   // bytes of each file that it writes
+  std::size_t output = std::size_t{64} << 20;  // bytes on standard output and error together
+  std::size_t answer = std::size_t{16} << 20;  // bytes of its answer
+  int processes = 64;                          // at a time, threads not counted
+};
+
+/// A file that the command finds in its directory.
+struct CommandFile {
+  std::string name, content;
+};
+
+struct CommandTask {
+  std::vector<std::string> arguments;  // the first is the program
+  std::vector<CommandFile> files;
+  std::string answer;                           // name of the file that it is to write
+  std::vector<std::filesystem::path> readable;  // by the sandbox, besides its directory
+  Confinement confinement = Confinement::sandbox;
+  CommandLimits limits;
+};
+
+/// What ended a command: itself, a limit, or that it could not be started.
+enum class CommandEnding { by_itself, timeout, processes, output };
+
+/// What lies under the name of the answer.
+enum class AnswerKind { absent, no_file, too_large, whole };
+
+/// How a command ended, and what it left.
+struct CommandEnd {
+  CommandEnding ending = CommandEnding::by_itself;
+  int status = 0;  // exit status; 128 + signal where one ended it; 126 and 127 as shells have them
+  std::string
+      last_output;  // last line that it wrote, 4 KiB of it at most; its directory in it is "."
+  AnswerKind kind = AnswerKind::absent;
+  std::string answer;  // where it is whole
 };
 
 /// The file of a program: as it is where it names a folder, else the first in PATH that can be run.
 std::string FindProgram(const std::string& name);
 
-/// How a command ended.
-struct CommandEnd {
-  bool timed_out = false;
-  bool crowded = false;     // ended for its many processes
-  int status = 0;           // exit status; 128 + signal where one ended it
-  std::string last_output;  // last line that it wrote, 4 KiB of it at most
-};
-
-/// Runs `arguments` in `directory` behind `wall`, in a session of its own, with standard input empty
-/// and a short list of environment variables; numerical libraries get one thread. However it ends,
-/// by itself, by a limit or with this process, killed or not: none of the processes that it
-/// started lives on, and where this process is killed the directory goes too. Throws
-/// runtime_error where no process can be made. Safe on many threads.
-CommandEnd RunCommand(const std::vector<std::string>& arguments,
-                      const std::filesystem::path& directory, const Wall& wall,
-                      const CommandLimits& limits);
+/// Runs a command in a fresh directory with nothing but `files`, in a session of its own, with standard input empty and a
+/// short list of environment variables; numerical libraries get one thread. However it ends, by itself, by a limit or with
+/// this process, killed or not: none of the processes that it started lives on, and its directory goes. Throws system_error
+/// where no process can be made, OutputFailed where the directory cannot be filled. Safe on many threads.
+CommandEnd RunCommand(const CommandTask& task);
 
 }  // namespace warmjoint::inline tools

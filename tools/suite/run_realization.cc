@@ -1,5 +1,7 @@
 #include "tools/suite/run_realization.h"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <cmath>
 #include <optional>
@@ -7,6 +9,8 @@
 #include "identification/preparation/prepare.h"
 #include "models/foundation/output_failed.h"
 #include "models/foundation/robust_noise.h"
+#include "models/recording/read_recording.h"
+#include "sim/truth/truth_json.h"
 #include "tools/suite/start_key.h"
 #include "tools/suite/trace_table.h"
 
@@ -81,13 +85,23 @@ std::vector<Result> AllFailed(size_t identifiers, const std::string& message) {
 
 }  // namespace
 
+void RecordingKeeper::Keep(const Recording& recording, Unit unit) const {
+  if (folder_.empty()) return;
+  const std::filesystem::path folder = folder_ / fmt::format("variant-{}", unit.variant);
+  std::filesystem::create_directories(folder);
+  const std::string stem = folder / fmt::format("realization-{}", unit.realization);
+  WriteRecording(recording.measurements, stem + ".h5");
+  WriteTruth(recording.truth, stem + ".truth.json");
+}
+
 Bench MakeBench(const Scenario& scenario) { return {scenario, MakePlant(scenario)}; }
 
-Carried RunRealization(const Bench& bench, const std::vector<PreparedIdentifier>& identifiers,
-                       Unit unit, const RecordingKeeper& keeper) {
+RealizationResult RunRealization(const Bench& bench,
+                                 const std::vector<PreparedIdentifier>& identifiers, Unit unit,
+                                 const RecordingKeeper& keeper) {
   const auto realized = static_cast<std::uint64_t>(unit.realization);
-  Carried carried;
-  Realization& realization = carried.realization;
+  RealizationResult done;
+  Realization& realization = done.realization;
   realization.unit = unit;
   const Stopwatch watch;
   std::optional<Recording> recording;
@@ -100,7 +114,7 @@ Carried RunRealization(const Bench& bench, const std::vector<PreparedIdentifier>
   realization.simulation_seconds = watch.Seconds();
 
   if (recording) {
-    carried.following = recording->following;
+    done.following = recording->following;
     // all identifiers see the same log, and draw starts from the same key
     const PreparedLog log = Prepare(recording->measurements);
     const StartKey start = StartKeyOf(bench.scenario.seed, realized);
@@ -117,7 +131,7 @@ Carried RunRealization(const Bench& bench, const std::vector<PreparedIdentifier>
     realization.results[i].realization = unit.realization;
     realization.results[i].identifier = static_cast<int>(i);
   }
-  return carried;
+  return done;
 }
 
 }  // namespace warmjoint::inline tools

@@ -1,32 +1,29 @@
 // A part of a run, for one of several machines.
 #pragma once
 
-#include <limits>
+#include <cstdint>
 #include <string>
-
-#include "tools/store/result.h"
 
 namespace warmjoint::inline tools {
 
-/// Every count-th realization from `index` on, of those from `first` up to `end` (all variants of each).
-/// The default is the whole.
-struct Shard {
-  int index = 1;  // from 1
-  int count = 1;
-  int first = 0;
-  int end = std::numeric_limits<int>::max();  // one beyond the last
+inline constexpr int kMostShards = 1'000'000;
 
-  bool Holds(Unit unit) const {
-    return first <= unit.realization && unit.realization < end &&
-           unit.realization % count == index - 1;
+/// Part `index` (from 1) of `count`: a block of realizations, in all variants; the blocks follow one
+/// another, and their sizes differ by 1 at most. The default is the whole.
+struct Shard {
+  int index = 1;
+  int count = 1;
+
+  /// Its first realization, and one beyond its last.
+  int First(int realizations) const { return Shard{index - 1, count}.End(realizations); }
+  int End(int realizations) const {
+    return static_cast<int>(std::int64_t{index} * realizations / count);
   }
-  bool IsWhole() const {
-    return count == 1 && first == 0 && end == std::numeric_limits<int>::max();
-  }
+
+  bool IsWhole() const { return count == 1; }
 };
 
-/// Reads "i/n", 1 <= i <= n: every n-th realization, so that shards are alike; or "a:b", a <= b:
-/// realizations a to b - 1. Throws BadInput for anything else.
+/// Reads "i/n", 1 <= i <= n. Throws BadInput for anything else.
 Shard ReadShard(const std::string& text);
 
 }  // namespace warmjoint::inline tools

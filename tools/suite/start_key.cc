@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "tools/store/sha256.h"
+#include "models/foundation/sha256.h"
 
 namespace warmjoint::inline tools {
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "models/foundation/start_stream.h"
+#include "models/foundation/random_stream.h"
 
 namespace warmjoint::inline tools {
 

@@ -1,15 +1,19 @@
-// One line on stderr that tells how far a long job is.
+// One line on stderr on how far a long job is.
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
 #include <string>
+#include <thread>
 
-#include "tools/terminal/page.h"
+#include "tools/terminal/say.h"
 
 namespace warmjoint::inline tools {
 
 /// On a terminal one line, cut to its width, drawn anew at most ten times a second and gone at the end; into a pipe or
-/// a file a line every ten seconds, so that a log tells that the job lives. One thread at a time.
+/// a file a line every ten seconds, so that a log shows that the job lives. One thread at a time.
 class ProgressLine {
  public:
   ProgressLine();
@@ -36,5 +40,30 @@ class ProgressLine {
 
 /// "45 s", "3 min 20 s", "2 h 5 min".
 std::string DurationInWords(double seconds);
+
+/// What a command does now, for work that counts no steps: from the first second on a ProgressLine such as
+/// "fitting energy-ml, 12 s", drawn by a thread of its own. While it lives, an interrupt ends the program as
+/// ever, after one line that says so.
+class Activity {
+ public:
+  explicit Activity(std::string words);
+  ~Activity();
+  Activity(const Activity&) = delete;
+  Activity& operator=(const Activity&) = delete;
+
+  /// What is done from here on.
+  void Is(std::string words);
+
+  /// Prints other words while the line is out of the way.
+  void Aside(const std::function<void()>& print);
+
+ private:
+  void (*earlier_)(int) = nullptr;  // what an interrupt did before
+  std::mutex mutex_;
+  std::condition_variable_any changed_;
+  std::string words_;
+  ProgressLine line_;
+  std::jthread thread_;  // last: it uses all of the above
+};
 
 }  // namespace warmjoint::inline tools

@@ -1,30 +1,45 @@
-// Words for people: wrapped on a terminal, one line each in a pipe or a file.
+// Words for people: what their stream shows, and which of them are wanted.
 #pragma once
 
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <string>
 #include <string_view>
 #include <utility>
 
-#include "tools/terminal/quiet.h"
-
 namespace warmjoint::inline tools {
 
-/// Prints the text, on a terminal wrapped to its width. Into a pipe or a file it goes as it is, so that
-/// one message stays one line. Throws std::system_error where it cannot be written.
-void SayText(std::FILE* stream, std::string_view text);
+/// A stream as its reader sees it.
+struct Page {
+  int width = 80;         // columns of the terminal
+  bool terminal = false;  // else a pipe or a file
+  bool colour = false;
+};
 
-/// The same of a formatted text. Nothing that a program reads (JSON, CSV) goes this way.
+/// Colour needs a terminal that is not "dumb" by TERM; NO_COLOR, set and not empty, forbids it.
+Page PageOf(std::FILE* stream);
+
+enum class Colour { green, yellow, red };
+
+/// The word in bold and colour where the page takes it, else as it is.
+std::string Paint(std::string_view word, Colour colour, const Page& page);
+
+/// From here on no progress and no notices (--quiet). Results, warnings and errors are printed as ever.
+void BeQuiet();
+
+bool IsQuiet();
+
+/// Prints a formatted text. Throws std::system_error where it cannot be written.
 template <typename... Args>
 void Say(std::FILE* stream, fmt::format_string<Args...> format, Args&&... args) {
-  SayText(stream, fmt::format(format, std::forward<Args>(args)...));
+  fmt::print(stream, format, std::forward<Args>(args)...);
 }
 
 /// What is good to know and asks for nothing: on stderr, unless --quiet.
 template <typename... Args>
 void SayNotice(fmt::format_string<Args...> format, Args&&... args) {
-  if (!IsQuiet()) SayText(stderr, fmt::format(format, std::forward<Args>(args)...));
+  if (!IsQuiet()) fmt::print(stderr, format, std::forward<Args>(args)...);
 }
 
 }  // namespace warmjoint::inline tools

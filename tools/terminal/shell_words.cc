@@ -24,13 +24,14 @@ bool IsPlain(const std::string& word) {
   return !word.empty() && is_plain && !is_several;
 }
 
-}  // namespace
-
 bool IsBlank(char c) { return kBlanks.find(c) != std::string_view::npos; }
 
+/// The word as a shell reads it back: in quotes where it needs them.
 std::string ShellQuoted(const std::string& word) {
   return IsPlain(word) ? word : "'" + Replaced(word, "'", R"('\'')") + "'";
 }
+
+}  // namespace
 
 std::string Replaced(std::string text, const std::string& from, const std::string& to) {
   // the search goes on behind what was put in

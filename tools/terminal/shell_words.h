@@ -8,12 +8,6 @@
 
 namespace warmjoint::inline tools {
 
-/// Whether a character parts words.
-bool IsBlank(char c);
-
-/// The word as a shell reads it back: in quotes where it needs them.
-std::string ShellQuoted(const std::string& word);
-
 /// The words of a command: blanks part them, '...' and "..." hold them together, a backslash takes the
 /// next character as it is. Nothing is expanded. Throws BadInput from `place` for a quote without
 /// its end.

@@ -13,8 +13,8 @@ namespace {
 using namespace warmjoint;
 using fuzz::Require;
 
-CsvLayout LayoutOf(std::string_view bytes) {
-  CsvLayout layout;
+ReadSettings LayoutOf(std::string_view bytes) {
+  ReadSettings layout;
   std::istringstream words{std::string(fuzz::TakeLine(bytes))};
   std::string word;
   if (!(words >> word) || word != "#:") return layout;
@@ -23,7 +23,7 @@ CsvLayout LayoutOf(std::string_view bytes) {
     if (word == "linear") {
       layout.joint = JointKind::linear;
     } else if (mark != std::string::npos) {
-      auto& pairs = word[mark] == '=' ? layout.column : layout.unit;
+      auto& pairs = word[mark] == '=' ? layout.map : layout.unit;
       pairs[word.substr(0, mark)] = word.substr(mark + 1);
     } else if (const auto gear = ParseNumber(word); gear && std::isfinite(*gear) && *gear != 0) {
       layout.gear = *gear;

@@ -3,8 +3,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "identification/estimate_from_json.h"
-#include "identification/estimate_to_json.h"
 #include "models/foundation/read_json.h"
 #include "tests/fuzz/fuzz.h"
 
@@ -14,10 +12,10 @@ using namespace warmjoint;
 
 void Read(std::string_view bytes) {
   const Place place{"fuzz.json"};
-  const Estimate estimate = EstimateFromJson(ParseJson(std::string(bytes), place.file), place);
+  const Estimate estimate = EstimateFrom(ParseJsonNode(std::string(bytes), place.file));
   const auto written = EstimateToJson(estimate);
   const std::string text = written.dump();
-  const auto again = EstimateToJson(EstimateFromJson(ParseJson(text, place.file), place));
+  const auto again = EstimateToJson(EstimateFrom(ParseJsonNode(text, place.file)));
   fuzz::Require(again.dump() == text);
 
   // what gravity does over some turns

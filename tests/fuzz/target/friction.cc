@@ -13,7 +13,7 @@ namespace {
 using namespace warmjoint;
 
 FrictionDescription Parsed(const std::string& text) {
-  return FrictionFromJson(ParseJson(text, "fuzz.json"), {"fuzz.json"});
+  return FrictionFrom(ParseJsonNode(text, "fuzz.json"));
 }
 
 void Read(std::string_view bytes) {

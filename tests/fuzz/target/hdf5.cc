@@ -1,6 +1,5 @@
 // Recordings as HDF5. The library crashes and hangs on damaged files; what may not happen is that this process does.
-#include "models/recording/hdf5.h"
-
+#include "models/recording/read_recording.h"
 #include "tests/fuzz/fuzz.h"
 
 namespace {
@@ -13,7 +12,7 @@ constexpr double kPatience =
 
 void Read(std::string_view bytes) {
   const fuzz::ScratchFile file(bytes);
-  const Measurements log = ReadHdf5Apart(file.path().string(), {}, kPatience);
+  const Measurements log = ReadRecordingFile(file.path().string(), {}, kPatience);
   const Eigen::Index n = log.size();
   Require(n >= 3 && log.position.size() == n);
   Require(log.velocity.size() == n || log.velocity.size() == 0);

@@ -1,6 +1,5 @@
 // Recordings as MATLAB files. As with HDF5, the library works in a child; what may not happen is that this process crashes.
-#include "models/recording/matlab.h"
-
+#include "models/recording/read_recording.h"
 #include "tests/fuzz/fuzz.h"
 
 namespace {
@@ -12,7 +11,7 @@ constexpr double kPatience = 0.25;  // s
 
 void Read(std::string_view bytes) {
   const fuzz::ScratchFile file(bytes);
-  const Measurements log = ReadMatlabApart(file.path().string(), {}, kPatience);
+  const Measurements log = ReadRecordingFile(file.path().string(), {}, kPatience);
   const Eigen::Index n = log.size();
   Require(n >= 3 && log.position.size() == n);
   Require(log.position.allFinite() && log.torque.allFinite());

@@ -4,7 +4,8 @@
 
 #include "identification/identifiers/identifier_list.h"
 #include "identification/read_options.h"
-#include "models/foundation/read_json.h"
+#include "models/foundation/serialize.h"
+#include "models/recording/csv.h"
 #include "tests/fuzz/fuzz.h"
 #include "tools/actions/project_file.h"
 #include "tools/actions/recording_source.h"
@@ -17,25 +18,22 @@ using namespace warmjoint;
 /// A project file gives what the command line takes.
 void ReadProject(std::string_view bytes) {
   const Project project = ParseProject(std::string(bytes), "fuzz.yaml");
-  for (const auto* pairs : {&project.map, &project.unit, &project.scale}) {
-    for (const auto& [column, value] : ReadPairs(*pairs, "--map")) fuzz::Require(!column.empty());
-  }
+  for (const auto& [column, value] : project.map) fuzz::Require(!column.empty());
   fuzz::Require(!project.gear || (std::isfinite(*project.gear) && *project.gear != 0));
   fuzz::Require(!project.wrap || *project.wrap > 0);
-  fuzz::Require(!TakenProjectToJson({"fuzz.yaml", project}).dump().empty());
+  fuzz::Require(!WriteFields(TakenProject{"fuzz.yaml", project}).dump().empty());
 }
 
 /// What an estimate file keeps of its recording is read back as it was written.
 void ReadKept(std::string_view bytes) {
   const Place place{"fuzz.json"};
-  const RecordingArguments arguments =
-      RecordingFromJson(ParseJson(std::string(bytes), place.file), place);
-  LayoutOf(arguments);
-  const nlohmann::json written = RecordingToJson(arguments);
-  fuzz::Require(RecordingToJson(RecordingFromJson(written, place)) == written);
+  const auto source = ReadAs<RecordingSource>(ParseJsonNode(std::string(bytes), place.file));
+  CheckReadSettings(source.read);
+  const Tree written = WriteFields(source);
+  fuzz::Require(WriteFields(ReadAs<RecordingSource>(Node(written, place.file))) == written);
 
   // typed for a shell, it is read back word for word
-  const std::vector<std::string> words = WordsOf(arguments);
+  const std::vector<std::string> words = WordsOf(source);
   fuzz::Require(SplitCommand(JoinCommand(words), place) == words);
 }
 
@@ -43,20 +41,18 @@ void Read(std::string_view bytes) {
   const std::string name(fuzz::TakeLine(bytes));
   if (name == "project") return ReadProject(bytes);
   if (name == "recording") return ReadKept(bytes);
-  std::vector<std::string> set;
-  RecordingArguments arguments;
+  std::vector<std::string> set, map, unit;
   while (!bytes.empty()) {
     std::string_view line = fuzz::TakeLine(bytes);
-    auto& pairs = line.starts_with("--map ")     ? arguments.map
-                  : line.starts_with("--unit ")  ? arguments.unit
-                  : line.starts_with("--scale ") ? arguments.scale
-                                                 : set;
+    auto& pairs = line.starts_with("--map ") ? map : line.starts_with("--unit ") ? unit : set;
     if (&pairs != &set) line.remove_prefix(line.find(' ') + 1);
     pairs.emplace_back(line);
   }
 
   // how a file is laid out, tried on a small one
-  const CsvLayout layout = LayoutOf(arguments);
+  ReadSettings layout;
+  for (const auto& [column, theirs] : ReadPairs(map, "--map")) layout.map[column] = theirs;
+  for (const auto& [column, text] : ReadPairs(unit, "--unit")) layout.unit[column] = text;
   ParseCsv("time,position,velocity,torque\n0,0,1,1\n1,1,1,2\n2,2,1,1\n", "fuzz.csv", layout);
 
   // what an identifier is told

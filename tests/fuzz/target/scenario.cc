@@ -2,16 +2,13 @@
 #include "models/foundation/random_stream.h"
 #include "scenarios/read_scenario.h"
 #include "scenarios/realize.h"
-#include "scenarios/write_scenario.h"
 #include "tests/fuzz/fuzz.h"
 
 namespace {
 
 using namespace warmjoint;
 
-Scenario Parsed(std::string_view yaml) {
-  return ReadScenarioValue(YamlValue::Parse(std::string(yaml), "fuzz.yaml"), "fuzz");
-}
+Scenario Parsed(std::string_view yaml) { return ParseScenario(std::string(yaml), "fuzz.yaml"); }
 
 void Read(std::string_view bytes) {
   const Scenario scenario = Parsed(bytes);

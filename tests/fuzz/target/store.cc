@@ -7,10 +7,10 @@
 #include <fstream>
 
 #include "models/foundation/atomic_file.h"
-#include "scenarios/parse_suite.h"
+#include "scenarios/suite.h"
 #include "tests/fuzz/fuzz.h"
+#include "tools/board/leaderboard.h"
 #include "tools/store/run_store.h"
-#include "tools/store/stored_suite.h"
 
 namespace {
 
@@ -46,16 +46,6 @@ class Run {
     fs::remove_all(folder_, ignored);
   }
 
-  /// The suite of a store; parsed where the store tells of another one than this run's, since the parser has a target
-  /// of its own.
-  Suite SuiteOf(const RunStore& store) const {
-    const RunDescription description = store.ReadDescription();
-    const bool mine = description.suite_yaml == description_.suite_yaml &&
-                      description.identifiers == description_.identifiers &&
-                      description.variants == description_.variants;
-    return mine ? suite_ : StoredSuite(store);
-  }
-
   fs::path folder() const { return folder_ / "run"; }
   fs::path results() const { return folder() / "results.sqlite"; }
   const std::string& bytes() const { return bytes_; }
@@ -80,9 +70,8 @@ class Run {
 
   fs::path folder_;
   std::string bytes_;
-  const Suite suite_ = ParseSuite(kSuite, "little.yaml");
-  const RunDescription description_{
-      SuiteToYaml(suite_), {"nominal-ls", "energy-ml"}, {"0.1", "0.2"}, {{"warmjoint", "0.1.0"}}};
+  const RunDescription description_{SuiteToYaml(ParseSuite(kSuite, "little.yaml")),
+                                    {{"warmjoint", "0.1.0"}}};
 };
 
 /// Lets statements change rows and tables, and nothing outside the file.
@@ -116,18 +105,17 @@ void Read(std::string_view bytes) {
 
   // everything that a reader asks a store for
   const RunStore store = RunStore::OpenToRead(run.folder());
-  const RunDescription description = store.ReadDescription();
-  const Suite suite = run.SuiteOf(store);
-  for (const Result& result : store.ReadResults()) {
+  const Suite& suite = store.suite();
+  store.ForEachResult([&](const Result& result) {
     const Unit unit{result.variant, result.realization};
     fuzz::Require(0 <= result.variant && result.variant < suite.variants());
     fuzz::Require(0 <= result.realization && result.realization < suite.realizations);
     fuzz::Require(result.identifier >= 0 &&
-                  static_cast<std::size_t>(result.identifier) < description.identifiers.size());
+                  static_cast<std::size_t>(result.identifier) < suite.identifiers.size());
     const TraceTable trace = store.ReadTrace(unit, result.identifier);
     fuzz::Require(trace.rows() * trace.columns.size() == trace.values.size());
-  }
-  store.ReadSimulationSeconds();
+  });
+  ReadBoard(store);
 }
 
 }  // namespace

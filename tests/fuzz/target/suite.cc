@@ -1,5 +1,6 @@
 // Suites as YAML, and as they are written again.
-#include "scenarios/parse_suite.h"
+#include "scenarios/suite.h"
+
 #include "tests/fuzz/fuzz.h"
 
 namespace {

@@ -9,21 +9,19 @@ namespace {
 
 using namespace warmjoint;
 
-Truth Parsed(const std::string& text) {
-  return TruthFromJson(ParseJson(text, "truth.json"), {"truth.json"});
-}
+Truth Parsed(const std::string& text) { return TruthFrom(ParseJsonNode(text, "truth.json")); }
 
 void Read(std::string_view bytes) {
   const Truth truth = Parsed(std::string(bytes));
   const Eigen::Index n = truth.velocity.size();
   fuzz::Require(truth.force.size() == n && truth.loss.size() == n && truth.energy.size() == n);
-  const std::string written = TruthToJson(truth).dump();
-  fuzz::Require(TruthToJson(Parsed(written)).dump() == written);
+  const std::string written = TruthToTree(truth).dump();
+  fuzz::Require(TruthToTree(Parsed(written)).dump() == written);
 
   // and from file to file
   const fuzz::ScratchFile file("");
   WriteTruth(truth, file.path());
-  fuzz::Require(TruthToJson(ReadTruth(file.path())).dump() == written);
+  fuzz::Require(TruthToTree(ReadTruth(file.path())).dump() == written);
 }
 
 }  // namespace

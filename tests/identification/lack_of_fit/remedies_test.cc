@@ -138,7 +138,7 @@ TEST(Remedies, AgainstFrictionThatFollowsLate) {
   // eight time constants a hold, three of which are left out at each end
   const Identifier& identifier = FindIdentifier("energy-ml");
   const Options options = ReadOptions(identifier.options, {}, {});
-  const PreparedLog log = Prepare(FollowingLate(10800, 480, 1), HoldOptions{.trim = 180});
+  const PreparedLog log = Prepare(FollowingLate(10800, 480, 1), PrepareSettings{.trim = 180});
   const Estimate patient = IdentifyAndJudge(identifier, {log, options, {}});
   ASSERT_EQ(patient.status, Status::ok) << patient.message;
   for (const auto& [name, truth] : {std::pair{"viscous", 5.0}, {"coulomb", 15.0}}) {

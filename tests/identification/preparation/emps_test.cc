@@ -21,9 +21,9 @@ class Emps : public testing::Test {
     WARMJOINT_NEED_SHARED("data/emps/DATA_EMPS.csv");
     const std::string path = test::SharedFolder() / "data/emps/DATA_EMPS.csv";
 
-    CsvLayout layout;
+    ReadSettings layout;
     layout.joint = JointKind::linear;
-    layout.column = {{"time", "t_s"}, {"position", "q_m"}, {"torque", "force_N"}};
+    layout.map = {{"time", "t_s"}, {"position", "q_m"}, {"torque", "force_N"}};
     log_ = Prepare(ReadCsv(path, layout)).taken().measurements;
   }
 

@@ -100,7 +100,7 @@ TEST(PathAgainstVelocity, BelievesTheVelocityWhereThePositionIsStuckForAWhile) {
   EXPECT_EQ(prepared.taken().measurements.velocity, log.velocity);
 }
 
-TEST(HoldOptions, LeaveOutEndsAndShortHolds) {
+TEST(PrepareSettings, LeaveOutEndsAndShortHolds) {
   const Measurements log = Ramped();
   const Selection all = Prepare(log).taken().selection;
   const Selection trimmed = Prepare(log, {.trim = 0.5}).taken().selection;
@@ -110,7 +110,7 @@ TEST(HoldOptions, LeaveOutEndsAndShortHolds) {
     EXPECT_EQ(trimmed.segments[i].end, all.segments[i].end - 10);
   }
   EXPECT_EQ(trimmed.count(), all.count() - 20 * static_cast<Index>(all.segments.size()));
-  EXPECT_EQ(Prepare(log, {.shortest = 100}).taken().selection.count(), 0);
+  EXPECT_EQ(Prepare(log, {.shortest_hold = 100}).taken().selection.count(), 0);
 }
 
 TEST(PathAgainstVelocity, PositionsTellMoreWhereTheirNoiseIsLessThanWhatSamplesHide) {

@@ -21,7 +21,7 @@ json Example() {
 
 std::string RefusalOf(const json& object) {
   try {
-    FrictionFromJson(object, {"robot.json"});
+    FrictionFrom({Tree(object), "robot.json"});
   } catch (const BadInput& refusal) {
     return refusal.what();
   }
@@ -29,7 +29,7 @@ std::string RefusalOf(const json& object) {
 }
 
 TEST(FrictionJson, SurvivesARoundTrip) {
-  EXPECT_EQ(FrictionToJson(FrictionFromJson(Example(), {"robot.json"})), Example());
+  EXPECT_EQ(FrictionToJson(FrictionFrom({Tree(Example()), "robot.json"})), Example());
 }
 
 TEST(FrictionJson, IsReadFromAnEstimateOrByItself) {
@@ -69,7 +69,7 @@ TEST(FrictionJson, TakesDefaultsForWhatMayBeLeftOut) {
   json object = Example();
   object["law"] = "stribeck";
   object["parameters"].update({{"static", 16.0}, {"stribeck_velocity", 0.1}});
-  EXPECT_EQ(FrictionFromJson(object, {"robot.json"}).parameters.at("stribeck_exponent"), 2);
+  EXPECT_EQ(FrictionFrom({Tree(object), "robot.json"}).parameters.at("stribeck_exponent"), 2);
 }
 
 TEST(FrictionJson, RefusesALevelAtRestBelowThatOfSliding) {
@@ -99,7 +99,7 @@ TEST(FrictionJson, SurvivesARoundTripWithAllItsParts) {
                      {"kernels", "plain"},
                      {"factor", "direction"},
                      {"weights", {0.5, 0.25}}}};
-  EXPECT_EQ(FrictionToJson(FrictionFromJson(object, {"robot.json"})), object);
+  EXPECT_EQ(FrictionToJson(FrictionFrom({Tree(object), "robot.json"})), object);
 }
 
 TEST(FrictionJson, RefusesPartsThatMakeNoSenseTogether) {
@@ -147,7 +147,8 @@ TEST(FrictionJson, RefusesImpossibleValues) {
   EXPECT_THAT(RefusalOf(object), HasSubstr("lacks its parameter coulomb"));
   object = Example();
   object["thermal"]["thermal_time_constant"] = 0;
-  EXPECT_THAT(RefusalOf(object), HasSubstr("must be positive"));
+  EXPECT_THAT(RefusalOf(object),
+              HasSubstr("thermal.thermal_time_constant is '0'; it must be a number above 0"));
   object = Example();
   object["law"] = "stribeck";
   object["parameters"].update({{"static", 14.0}, {"stribeck_velocity", 0.1}});
@@ -156,11 +157,11 @@ TEST(FrictionJson, RefusesImpossibleValues) {
   EXPECT_THAT(RefusalOf(object), HasSubstr("stribeck_exponent is 11"));
   object = Example();
   object["thermal"]["thermal_gain"] = "much";
-  EXPECT_THAT(RefusalOf(object), HasSubstr("thermal_gain is \"much\"; it must be a number"));
+  EXPECT_THAT(RefusalOf(object), HasSubstr("thermal.thermal_gain is 'much'"));
   object = Example();
   object["gear"] = 0;
   EXPECT_THAT(RefusalOf(object), HasSubstr("gear is 0"));
-  EXPECT_THAT(RefusalOf(json::array()), HasSubstr("must be an object"));
+  EXPECT_THAT(RefusalOf(json::array()), HasSubstr("must be a map"));
 }
 
 }  // namespace

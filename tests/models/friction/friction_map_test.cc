@@ -8,7 +8,6 @@
 #include "models/friction/evaluate_map.h"
 #include "models/friction/friction_description.h"
 #include "models/friction/friction_json.h"
-#include "models/friction/friction_map_json.h"
 #include "tests/support/shared_data.h"
 
 namespace warmjoint {
@@ -63,7 +62,7 @@ TEST(FrictionMap, IsMultipliedByItsFactor) {
     EXPECT_NEAR(at(MapFactor::direction, v), 2 * Sign(v), 1e-15);
     EXPECT_NEAR(at(MapFactor::velocity, v), 2 * v, 1e-14);
   }
-  const FrictionMap back = MapFromJson(MapToJson(map), {"friction.json"});
+  const FrictionMap back = MapsFrom({MapsToTree({map}), "friction.json"}).at(0);
   EXPECT_EQ(back.factor, MapFactor::velocity);
 }
 
@@ -75,7 +74,7 @@ TEST(FrictionMap, ReadsBackWhatItWrites) {
       SmallMap(),
       {{{MapQuantity::motor_position, CircleAxis(turn, 2)}}, KernelKind::plain, {0.1, 0.2}}};
   const nlohmann::json written = FrictionToJson(friction);
-  const FrictionDescription back = FrictionFromJson(written, {"friction.json"});
+  const FrictionDescription back = FrictionFrom({Tree(written), "friction.json"});
   EXPECT_EQ(FrictionToJson(back), written);
   EXPECT_EQ(back.maps[1].axes[0].kernels.period, turn);
   EXPECT_EQ(back.maps[0].axes[1].kernels.sides, Sides::apart);
@@ -83,10 +82,10 @@ TEST(FrictionMap, ReadsBackWhatItWrites) {
 
 TEST(FrictionMap, RefusesWhatDoesNotFit) {
   const auto refusal = [](const std::function<void(nlohmann::json&)>& spoil) -> std::string {
-    nlohmann::json map = MapToJson(SmallMap());
-    spoil(map);
+    nlohmann::json maps = MapsToTree({SmallMap()});
+    spoil(maps[0]);
     try {
-      MapFromJson(map, {"friction.json"});
+      MapsFrom({Tree(maps), "friction.json"});
     } catch (const BadInput& bad) {
       return bad.what();
     }
@@ -97,7 +96,7 @@ TEST(FrictionMap, RefusesWhatDoesNotFit) {
               HasSubstr("friction.json: a map has 7 weights; its axes span 6 kernels"));
   EXPECT_THAT(refusal([](json& j) { j["axes"][0]["width"] = -1; }), HasSubstr("width -1"));
   EXPECT_THAT(refusal([](json& j) { j["axes"][0]["width"] = "wide"; }),
-              HasSubstr("must be a number"));
+              HasSubstr("width is 'wide'"));
   EXPECT_THAT(refusal([](json& j) { j["axes"][0]["period"] = 0; }), HasSubstr("period 0"));
   EXPECT_THAT(refusal([](json& j) { j["axes"][0]["centres"][2] = -5; }), HasSubstr("ascend"));
   EXPECT_THAT(refusal([](json& j) { j["axes"][1]["centres"][1] = 0; }), HasSubstr("a centre at 0"));
@@ -106,7 +105,7 @@ TEST(FrictionMap, RefusesWhatDoesNotFit) {
   EXPECT_THAT(refusal([](json& j) { j["factor"] = "velocty"; }),
               HasSubstr("did you mean 'velocity'"));
   EXPECT_THAT(refusal([](json& j) { j["axis"] = 1; }), HasSubstr("did you mean 'axes'"));
-  EXPECT_THAT(refusal([](json& j) { j.erase("weights"); }), HasSubstr("lacks its weights"));
+  EXPECT_THAT(refusal([](json& j) { j.erase("weights"); }), HasSubstr("weights' is missing"));
   EXPECT_THAT(refusal([](json& j) { j["axes"] = json::array(); }), HasSubstr("0 axes"));
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "tests/models/recording/temporary_file.h"
 
@@ -21,13 +22,13 @@ const char* const kPlain =
     "0.1,0.05,0.5,1.25\n"
     "0.2,0.1,0.5,-1e-3\n";
 
-Measurements Read(const std::string& text, const CsvLayout& layout = {}) {
+Measurements Read(const std::string& text, const ReadSettings& layout = {}) {
   const TemporaryFile file("log.csv", text);
   return ReadCsv(file.path(), layout);
 }
 
 /// The message with which `text` is refused; empty where it is not.
-std::string Refusal(const std::string& text, const CsvLayout& layout = {}) {
+std::string Refusal(const std::string& text, const ReadSettings& layout = {}) {
   const TemporaryFile file("log.csv", text.empty() ? "\n" : text);
   try {
     ReadCsv(file.path(), layout);
@@ -69,8 +70,8 @@ TEST(ReadCsv, UnderstandsTheWaysOfOtherPrograms) {
 }
 
 TEST(ReadCsv, ConvertsToSi) {
-  CsvLayout layout;
-  layout.column = {{"time", "ms"}, {"position", "angle"}, {"velocity", "speed"}, {"torque", "i"}};
+  ReadSettings layout;
+  layout.map = {{"time", "ms"}, {"position", "angle"}, {"velocity", "speed"}, {"torque", "i"}};
   layout.unit = {{"time", "ms"}, {"position", "deg"}, {"velocity", "rpm"}, {"torque", "mA"}};
   layout.gear = 45;
   const Measurements log =
@@ -85,7 +86,7 @@ TEST(ReadCsv, ConvertsToSi) {
 }
 
 TEST(ReadCsv, KnowsLinearJoints) {
-  CsvLayout layout;
+  ReadSettings layout;
   layout.joint = JointKind::linear;
   layout.unit = {{"position", "mm"}};
   const Measurements log = Read(kPlain, layout);
@@ -105,7 +106,7 @@ TEST(ReadCsv, LeavesAMissingVelocityEmpty) {
 TEST(ReadCsv, UnwrapsARotaryPosition) {
   std::string text = "time,position,torque\n";
   for (int i = 0; i < 100; ++i) text += fmt::format("{},{},{}\n", i, (7 * i) % 360, i % 3);
-  CsvLayout layout;
+  ReadSettings layout;
   layout.unit = {{"position", "deg"}};
   const Measurements log = Read(text, layout);
   EXPECT_NEAR(log.position[99], 693 * std::numbers::pi / 180, 1e-12);
@@ -114,23 +115,23 @@ TEST(ReadCsv, UnwrapsARotaryPosition) {
 }
 
 TEST(ReadCsv, MultipliesColumnsByFactors) {
-  CsvLayout layout;
-  layout.scale = {{"torque", "-2"}};
+  ReadSettings layout;
+  layout.scale = {{"torque", -2}};
   layout.unit = {{"position", "deg"}};
   const std::string text = "time,position,torque\n0,180,1\n1,181,2\n2,182,1\n";
   const Measurements log = Read(text, layout);
   EXPECT_EQ(log.torque, Eigen::Vector3d(-2, -4, -2));
   EXPECT_NEAR(log.position[0], std::numbers::pi, 1e-12);
-  layout.scale = {{"torque", "0"}};
+  layout.scale = {{"torque", 0}};
   EXPECT_THAT(Refusal(text, layout), HasSubstr("other than 0"));
-  layout.scale = {{"torq", "2"}};
+  layout.scale = {{"torq", 2}};
   EXPECT_THAT(Refusal(text, layout), HasSubstr("did you mean 'torque'"));
 }
 
 TEST(ReadCsv, UnwrapsAPositionByItsRange) {
   std::string text = "time,position,torque\n";
   for (int i = 0; i < 100; ++i) text += fmt::format("{},{},{}\n", i, (700 * i) % 2500, i % 3);
-  CsvLayout layout;
+  ReadSettings layout;
   layout.unit = {{"position", "mm"}};
   layout.joint = JointKind::linear;
   layout.wrap = 2500;
@@ -155,17 +156,17 @@ TEST(ReadCsv, NamesTheMapThatAMissingColumnNeeds) {
               AllOf(HasSubstr("log.csv:1: has no column 'time'"), HasSubstr("t_s, q_m, q_ref_m"),
                     HasSubstr("--map time=t_s,position=q_m,torque=force_N")));
 
-  CsvLayout layout;
-  layout.column = {{"time", "t_s"}, {"position", "q_n"}, {"torque", "force_N"}};
+  ReadSettings layout;
+  layout.map = {{"time", "t_s"}, {"position", "q_n"}, {"torque", "force_N"}};
   EXPECT_THAT(Refusal(text, layout),
               AllOf(HasSubstr("no column 'q_n' (for position)"), HasSubstr("did you mean 'q_m'?")));
-  layout.column = {{"times", "t_s"}};
+  layout.map = {{"times", "t_s"}};
   EXPECT_THAT(Refusal(text, layout), AllOf(HasSubstr("--map times=t_s"), HasSubstr("'time'?")));
   EXPECT_THAT(Refusal("time,position,torque,torque\n0,0,1,1\n"), HasSubstr("'torque' twice"));
 }
 
 TEST(ReadCsv, RefusesUnknownUnits) {
-  CsvLayout layout;
+  ReadSettings layout;
   layout.unit = {{"position", "degg"}};
   EXPECT_THAT(Refusal(kPlain, layout), HasSubstr("did you mean 'deg'?"));
   layout.unit = {{"positon", "deg"}};
@@ -217,12 +218,12 @@ TEST(ReadCsv, RefusesAConstantTorque) {
               HasSubstr("torque is 7 N.m in all 3 samples"));
 }
 
-TEST(WriteCsv, ReadsBackBitForBit) {
+TEST(RecordingToCsv, ReadsBackBitForBit) {
   Measurements log = Read(kPlain);
   log.velocity = Eigen::Vector3d(1.0 / 3, std::nextafter(1, 2), -4e-320);
   log.temperature = Eigen::Vector3d(20, 20.1, 1e30);
   const TemporaryFile file("copy.csv");
-  WriteCsv(log, file.path());
+  WriteWholeFile(file.path(), RecordingToCsv(log));
   const Measurements copy = ReadCsv(file.path());
   EXPECT_EQ(copy.time, log.time);
   EXPECT_EQ(copy.velocity, log.velocity);

@@ -1,5 +1,3 @@
-#include "models/recording/hdf5.h"
-
 #include <gmock/gmock.h>
 
 #include <filesystem>
@@ -29,9 +27,9 @@ Measurements Example() {
   return log;
 }
 
-std::string Refusal(const std::string& path, const CsvLayout& layout = {}) {
+std::string Refusal(const std::string& path, const ReadSettings& layout = {}) {
   try {
-    ReadHdf5(path, layout);
+    ReadRecordingFile(path, layout);
   } catch (const BadInput& refusal) {
     return refusal.what();
   }
@@ -42,7 +40,7 @@ TEST(Hdf5, ReadsBackBitForBitWithUnitsAndGear) {
   const Measurements log = Example();
   const TemporaryFile file("log.h5");
   WriteRecording(log, file.path());
-  const Measurements copy = ReadRecording(file.path());
+  const Measurements copy = ReadRecordingFile(file.path());
   EXPECT_EQ(copy.joint, JointKind::linear);
   EXPECT_EQ(copy.torque_unit, "A");
   EXPECT_EQ(copy.gear, 2500);
@@ -56,17 +54,17 @@ TEST(Hdf5, ReadsBackBitForBitWithUnitsAndGear) {
 
 TEST(Hdf5, MapsColumnsAsCsvDoes) {
   const TemporaryFile file("log.h5");
-  WriteHdf5(Example(), file.path());
-  CsvLayout layout;
+  WriteRecording(Example(), file.path());
+  ReadSettings layout;
   layout.joint = JointKind::linear;
-  layout.column = {{"torque", "load"}};
+  layout.map = {{"torque", "load"}};
   layout.unit = {{"position", "mm"}};
-  const Measurements log = ReadHdf5(file.path(), layout);
+  const Measurements log = ReadRecordingFile(file.path(), layout);
   EXPECT_EQ(log.torque, *Example().load);
   EXPECT_EQ(log.torque_unit, "N") << "the unit that the mapped column has";
   EXPECT_DOUBLE_EQ(log.position[2], 0.5e-3);
 
-  layout.column = {{"torque", "loads"}};
+  layout.map = {{"torque", "loads"}};
   EXPECT_THAT(Refusal(file.path(), layout), HasSubstr("did you mean 'load'?"));
 }
 
@@ -74,43 +72,28 @@ TEST(Hdf5, RefusesWhatCsvRefuses) {
   Measurements log = Example();
   const TemporaryFile file("log.h5");
   log.time[2] = 0.1;
-  WriteHdf5(log, file.path());
+  WriteRecording(log, file.path());
   EXPECT_THAT(Refusal(file.path()),
               HasSubstr("time 0.1 s of sample 3 is that of the sample before"));
 
   log = Example();
   log.velocity[1] = std::nan("");
-  WriteHdf5(log, file.path());
+  WriteRecording(log, file.path());
   EXPECT_THAT(Refusal(file.path()), HasSubstr("velocity of sample 2 is nan"));
 
   log = Example();
   log.load->conservativeResize(3);
-  WriteHdf5(log, file.path());
+  WriteRecording(log, file.path());
   EXPECT_THAT(Refusal(file.path()), HasSubstr("load has 3 samples where time has 4"));
 }
 
 TEST(Hdf5, EqualRecordingsAreEqualBytesAtAnyTime) {
   const TemporaryFile one("one.h5"), two("two.h5");
-  WriteHdf5(Example(), one.path());
+  WriteRecording(Example(), one.path());
   // the format's times count in seconds
   std::this_thread::sleep_for(std::chrono::milliseconds(1100));
-  WriteHdf5(Example(), two.path());
+  WriteRecording(Example(), two.path());
   EXPECT_EQ(ReadWholeFile(one.path()), ReadWholeFile(two.path()));
-}
-
-TEST(Hdf5, ReadsTheSameInAProcessOfItsOwn) {
-  const TemporaryFile file("log.h5");
-  WriteHdf5(Example(), file.path());
-  const Measurements here = ReadHdf5(file.path()), apart = ReadHdf5Apart(file.path());
-  EXPECT_EQ(apart.time, here.time);
-  EXPECT_EQ(apart.torque, here.torque);
-  EXPECT_EQ(apart.gear, here.gear);
-  EXPECT_EQ(apart.joint, here.joint);
-  CsvLayout layout;
-  layout.column = {{"torque", "loads"}};
-  EXPECT_THAT([&] { ReadHdf5Apart(file.path(), layout); },
-              testing::ThrowsMessage<BadInput>(HasSubstr("did you mean 'load'?")));
-  EXPECT_THROW(ReadHdf5Apart("there/is/none.h5"), BadInput);
 }
 
 TEST(Hdf5, FilesThatCrashTheLibraryAreRefused) {
@@ -121,7 +104,7 @@ TEST(Hdf5, FilesThatCrashTheLibraryAreRefused) {
     const std::string name = entry.path().filename();
     if (!name.starts_with("crash")) continue;
     try {
-      ReadHdf5Apart(entry.path(), {}, 1);
+      ReadRecordingFile(entry.path(), {}, 1);
     } catch (const BadInput& refusal) {
       EXPECT_THAT(refusal.what(), HasSubstr(name));
       ++refused;
@@ -135,11 +118,11 @@ TEST(Hdf5, RefusesOtherFiles) {
   const TemporaryFile file("log.h5", "time,position\n");
   EXPECT_THAT(Refusal(file.path()),
               AllOf(HasSubstr("log.h5"), HasSubstr("cannot be read as HDF5")));
-  EXPECT_THROW(ReadHdf5("there/is/none.h5"), BadInput);
+  EXPECT_THROW(ReadRecordingFile("there/is/none.h5"), BadInput);
 }
 
 TEST(Hdf5, LeavesNothingBehindWhereItCannotWrite) {
-  EXPECT_THROW(WriteHdf5(Example(), "there/is/no/folder.h5"), BadInput);
+  EXPECT_THROW(WriteRecording(Example(), "there/is/no/folder.h5"), BadInput);
   EXPECT_FALSE(std::filesystem::exists("there"));
   EXPECT_THROW(WriteRecording(Example(), "log.xlsx"), BadInput);
 }

@@ -68,9 +68,9 @@ std::vector<matvar_t*> Columns() {
 
 std::vector<double> Values(const Eigen::VectorXd& values) { return {values.begin(), values.end()}; }
 
-std::string Refusal(const std::string& path, const CsvLayout& layout = {}) {
+std::string Refusal(const std::string& path, const ReadSettings& layout = {}) {
   try {
-    ReadForeignRecording(path, layout);
+    ReadRecordingFile(path, layout);
   } catch (const BadInput& refusal) {
     return refusal.what();
   }
@@ -86,7 +86,7 @@ TEST(Matlab, ReadsEveryVersionBitForBit) {
   for (const Form& form : forms) {
     const TemporaryFile file("log.mat");
     Write(file.path(), Columns(), form);
-    const Measurements log = ReadForeignRecording(file.path());
+    const Measurements log = ReadRecordingFile(file.path());
     EXPECT_EQ(Values(log.time), kTime) << form.version;
     EXPECT_EQ(Values(log.position), kPosition);
     EXPECT_EQ(Values(log.torque), kTorque);
@@ -102,7 +102,7 @@ TEST(Matlab, TakesNumbersOfEveryKind) {
            Vector<float>("torque", {-1, 1, -1, 1.5F, 2}, MAT_C_SINGLE, MAT_T_SINGLE),
            Vector<std::uint8_t>("load", {1, 2, 3, 4, 255}, MAT_C_UINT8, MAT_T_UINT8)},
           {version});
-    const Measurements log = ReadForeignRecording(file.path());
+    const Measurements log = ReadRecordingFile(file.path());
     EXPECT_EQ(Values(log.position), (std::vector<double>{0, 3, -5, 2, 1}));
     EXPECT_EQ(Values(log.torque), kTorque);
     EXPECT_EQ(Values(*log.load), (std::vector<double>{1, 2, 3, 4, 255}));
@@ -118,7 +118,7 @@ TEST(Matlab, ReadsStructsAndWhatTheFileSaysOfItself) {
           {Struct("log", fields(), Columns()), Text("joint", "rotary"), Vector("gear", {50.0}),
            Struct("unit", {"position"}, {Text("position", "deg")})},
           {version});
-    const Measurements log = ReadForeignRecording(file.path());
+    const Measurements log = ReadRecordingFile(file.path());
     EXPECT_EQ(Values(log.time), kTime);
     EXPECT_DOUBLE_EQ(log.position[2], 0.5 * std::numbers::pi / 180);
     EXPECT_EQ(log.gear, 50);
@@ -126,9 +126,9 @@ TEST(Matlab, ReadsStructsAndWhatTheFileSaysOfItself) {
     // beside another vector: by struct and field
     Write(file.path(), {Struct("log", fields(), Columns()), Vector("other", kTime)}, {version});
     EXPECT_THAT(Refusal(file.path()), HasSubstr("log.time"));
-    CsvLayout layout;
-    layout.column = {{"time", "log.time"}, {"position", "log.position"}, {"torque", "log.torque"}};
-    EXPECT_EQ(Values(ReadForeignRecording(file.path(), layout).torque), kTorque);
+    ReadSettings layout;
+    layout.map = {{"time", "log.time"}, {"position", "log.position"}, {"torque", "log.torque"}};
+    EXPECT_EQ(Values(ReadRecordingFile(file.path(), layout).torque), kTorque);
   }
 }
 

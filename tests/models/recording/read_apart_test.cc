@@ -14,7 +14,7 @@ namespace warmjoint {
 namespace {
 
 /// A reader that a file took over: it sends its parent a byte now and then, for 5 s.
-FileContent Trickle(const std::string&, const CsvLayout&) {
+FileContent Trickle(const std::string&, const ReadSettings&) {
   for (int i = 0; i < 50; ++i) {
     for (int file = 3; file < 64; ++file) {
       struct stat status {};

@@ -116,5 +116,20 @@ TEST(LoadModel, RefusesAFileThatIsAbsentOrEmpty) {
   EXPECT_THAT([&] { LoadModel(file.path()); }, ThrowsMessage<BadInput>(HasSubstr(file.path())));
 }
 
+TEST(LoadModel, RefusesWhatCannotBeBuilt) {
+  std::string deep;
+  for (int i = 0; i < 100'000; ++i) deep += "<body>";
+  const TemporaryFile nested("deep.xml", "<mujoco><worldbody>" + deep);
+  EXPECT_THROW(LoadModel(nested.path()), BadInput);
+  const TemporaryFile itself("itself.xml", "<mujoco><include file='itself.xml'/></mujoco>");
+  EXPECT_THROW(LoadModel(itself.path()), BadInput);
+  const TemporaryFile texture(
+      "texture.xml",
+      "<mujoco><asset><texture name='t' type='2d' builtin='flat' width='40000' "
+      "height='40000'/></asset></mujoco>");
+  EXPECT_THAT([&] { LoadModel(texture.path()); },
+              ThrowsMessage<BadInput>(HasSubstr("make 4.5 GiB")));
+}
+
 }  // namespace
 }  // namespace warmjoint

@@ -41,7 +41,7 @@ timestep: 0.001
 duration: 20
 seed: 3
 )";
-  return ReadScenarioValue(YamlValue::Parse(yaml, "rich", {}), "rich");
+  return ParseScenario(yaml, "rich");
 }
 
 // the engine holds on a spring of 0.1 M / h^2, M = 0.895 kg.m^2 and h = 1 ms, with levels below

@@ -125,7 +125,7 @@ TEST(PluginMaps, AreRefusedWhereTheyMakeNoSense) {
   const auto error = [&] { return Compile(LinkXml(FrictionSection(config), kNoGravity)).error; };
   EXPECT_THAT(error(), HasSubstr("maps must be a JSON list"));
   config["maps"] = "[{&quot;axes&quot;: []}]";
-  EXPECT_THAT(error(), HasSubstr("a map lacks its weights"));
+  EXPECT_THAT(error(), HasSubstr("'maps.0.weights' is missing"));
 }
 
 TEST(PluginLoad, RaisesTheLevelByTheLoadThatTheJointTransmits) {

@@ -29,7 +29,7 @@ Truth Example() {
 
 std::string Refusal(const nlohmann::json& json) {
   try {
-    TruthFromJson(json, {"truth.json"});
+    TruthFrom({Tree(json), "truth.json"});
   } catch (const BadInput& refusal) {
     return refusal.what();
   }
@@ -52,19 +52,19 @@ TEST(Truth, ReadsBackBitForBit) {
 }
 
 TEST(Truth, RefusesWhatIsNoTruth) {
-  nlohmann::json json = TruthToJson(Example());
+  nlohmann::json json = TruthToTree(Example());
   json.erase("plant");
-  EXPECT_THAT(Refusal(json), HasSubstr("truth.json: lacks 'plant'"));
+  EXPECT_THAT(Refusal(json), HasSubstr("truth.json: 'plant' is missing"));
 
-  json = TruthToJson(Example());
+  json = TruthToTree(Example());
   json["energys"] = json["energy"];
   EXPECT_THAT(Refusal(json), HasSubstr("did you mean 'energy'?"));
 
-  json = TruthToJson(Example());
+  json = TruthToTree(Example());
   json["force"] = {1, 2};
-  EXPECT_THAT(Refusal(json), HasSubstr("force has 2 samples where velocity has 3"));
+  EXPECT_THAT(Refusal(json), HasSubstr("force is a list of 2; it must be as long as velocity"));
   json["force"] = "many";
-  EXPECT_THAT(Refusal(json), HasSubstr("force must be an array of numbers"));
+  EXPECT_THAT(Refusal(json), HasSubstr("force is 'many'"));
 
   const TemporaryFile file("truth.json", "{");
   EXPECT_THROW(ReadTruth(file.path()), BadInput);

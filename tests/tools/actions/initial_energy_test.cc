@@ -1,11 +1,10 @@
 // The heat that a joint starts with: cold, at the end of a recording, settled at a speed.
-#include "tools/actions/initial_energy.h"
-
 #include <gmock/gmock.h>
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "tests/tools/scratch_directory.h"
+#include "tools/actions/carried_heat.h"
 
 namespace warmjoint {
 namespace {

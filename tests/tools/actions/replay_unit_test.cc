@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scenarios/parse_suite.h"
+#include "scenarios/suite.h"
 #include "sim/plant/plant.h"
 #include "tools/suite/prepare_identifiers.h"
 #include "tools/suite/run_realization.h"
@@ -27,7 +27,7 @@ TEST(ReplayUnit, GivesTheAnswerThatTheRunHad) {
   const Unit unit{1, 2};
   const Replayed replayed = ReplayUnit(suite, unit, suite.identifiers[0]);
   const auto identifiers = PrepareIdentifiers({suite.identifiers[0]}, {"little.yaml"});
-  const Carried run =
+  const RealizationResult run =
       RunRealization(MakeBench(VariantScenario(suite, 1)), identifiers, unit, RecordingKeeper{""});
   const Result& result = run.realization.results.at(0);
   ASSERT_EQ(result.status, "ok");

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "tests/tools/scratch_directory.h"
+#include "tests/tools/store/little_suite.h"
 #include "tools/board/board_tables.h"
 #include "tools/board/format_board.h"
 
@@ -39,14 +41,18 @@ Result Failure(int realization, int identifier, const std::string& status) {
   return result;
 }
 
-Suite TwoIdentifiers() {
-  Suite suite;
-  suite.name = "little";
-  suite.question = "Who is best?";
-  suite.realizations = 4;
-  suite.identifiers = {{"a", "a", {}, {}},
-                       {"b", "b", {}, Claim{"someone", {{"npe_continuous", 0.05}}}}};
-  return suite;
+/// The board of a run that holds these results, ordered by unit. more: further entries of the suite.
+Leaderboard BoardOf(const std::vector<Result>& results, const std::string& more = "") {
+  const ScratchDirectory scratch;
+  RunStore store = RunStore::CreateOrResume(scratch.path() / "run", LittleRun(more));
+  std::vector<Realization> units;
+  for (const Result& result : results) {
+    const Unit unit{result.variant, result.realization};
+    if (units.empty() || units.back().unit != unit) units.push_back({unit, 0.1, {}});
+    units.back().results.push_back(result);
+  }
+  store.Write(units);
+  return ReadBoard(store);
 }
 
 std::vector<Result> AFailsTwiceAndBIsOftenWorse() {
@@ -61,7 +67,7 @@ std::vector<Result> AFailsTwiceAndBIsOftenWorse() {
 }
 
 TEST(Leaderboard, SumsUpEachIdentifier) {
-  const Leaderboard board = MakeLeaderboard(TwoIdentifiers(), AFailsTwiceAndBIsOftenWorse());
+  const Leaderboard board = BoardOf(AFailsTwiceAndBIsOftenWorse());
   ASSERT_EQ(board.rows.size(), 2u);
   const LeaderboardRow& b = board.rows[0];
   EXPECT_EQ(b.identifier, "b");
@@ -78,9 +84,6 @@ TEST(Leaderboard, SumsUpEachIdentifier) {
 }
 
 TEST(Leaderboard, VariantsWhoseTruthsHaveOtherParametersAreToldApartByName) {
-  Suite suite = TwoIdentifiers();
-  suite.ladder.emplace();
-  suite.ladder->variants = {{"plain", {}, {}}, {"richer", {}, {}}};
   const auto answer = [](int variant, double estimate) {
     Result result = Answered(0, 0, estimate);
     result.variant = variant;
@@ -88,7 +91,8 @@ TEST(Leaderboard, VariantsWhoseTruthsHaveOtherParametersAreToldApartByName) {
     if (variant == 1) result.score->continuous.insert(result.score->continuous.begin(), more);
     return result;
   };
-  const Leaderboard board = MakeLeaderboard(suite, {answer(0, 11), answer(1, 12)});
+  const Leaderboard board = BoardOf({answer(0, 11), answer(1, 12)},
+                                    "ladder: {variants: {plain: {}, richer: {noise.torque: 1}}}\n");
   const auto& rows = board.rows[0].parameters;
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_EQ(rows[0].name, "coulomb");
@@ -99,7 +103,7 @@ TEST(Leaderboard, VariantsWhoseTruthsHaveOtherParametersAreToldApartByName) {
 }
 
 TEST(Leaderboard, FailuresAreCountedAndCannotWin) {
-  const Leaderboard board = MakeLeaderboard(TwoIdentifiers(), AFailsTwiceAndBIsOftenWorse());
+  const Leaderboard board = BoardOf(AFailsTwiceAndBIsOftenWorse());
   const LeaderboardRow& a = board.rows[1];
   EXPECT_EQ(a.identifier, "a") << "better where it answers, but it fails half of the runs";
   EXPECT_EQ(a.runs, 4);
@@ -111,16 +115,15 @@ TEST(Leaderboard, FailuresAreCountedAndCannotWin) {
 TEST(Leaderboard, NamesParametersThatCountAsZero) {
   Result blind = Answered(0, 0, 0);
   blind.score->continuous[0].estimated = false;
-  const Leaderboard board = MakeLeaderboard(TwoIdentifiers(), {blind});
+  const Leaderboard board = BoardOf({blind});
   const auto row = std::find_if(board.rows.begin(), board.rows.end(),
                                 [](const LeaderboardRow& one) { return one.identifier == "a"; });
   EXPECT_THAT(row->not_estimated, ElementsAre("coulomb"));
-  EXPECT_THAT(BoardToText(board, 80), HasSubstr("a does not estimate coulomb, which count as 0"));
+  EXPECT_THAT(BoardToText(board), HasSubstr("a does not estimate coulomb, which count as 0"));
 }
 
 TEST(Leaderboard, JsonHasTheKeysOfTheContract) {
-  const auto json = nlohmann::json::parse(
-      BoardToJson(MakeLeaderboard(TwoIdentifiers(), AFailsTwiceAndBIsOftenWorse())));
+  const auto json = nlohmann::json::parse(BoardToJson(BoardOf(AFailsTwiceAndBIsOftenWorse())));
   EXPECT_EQ(json.at("suite"), "little");
   EXPECT_EQ(json.at("realizations"), 4);
   const auto& a = json.at("rows").at(1);
@@ -143,14 +146,12 @@ TEST(Leaderboard, JsonHasTheKeysOfTheContract) {
 }
 
 TEST(Leaderboard, JsonSaysNullForWhatDoesNotExist) {
-  const auto json = nlohmann::json::parse(
-      BoardToJson(MakeLeaderboard(TwoIdentifiers(), {Failure(0, 0, "crashed")})));
+  const auto json = nlohmann::json::parse(BoardToJson(BoardOf({Failure(0, 0, "crashed")})));
   EXPECT_TRUE(json.at("rows").at(0).at("npe").at("continuous").at("median").is_null());
 }
 
 TEST(Leaderboard, TextAnswersFirst) {
-  const std::string text =
-      BoardToText(MakeLeaderboard(TwoIdentifiers(), AFailsTwiceAndBIsOftenWorse()), 80);
+  const std::string text = BoardToText(BoardOf(AFailsTwiceAndBIsOftenWorse()));
   EXPECT_THAT(text, HasSubstr("little: Who is best?\nb is best: its median NPE is 7.50 %"));
   EXPECT_THAT(text, HasSubstr("2 of 4"));
   EXPECT_THAT(text, HasSubstr("Cramer-Rao bound"));
@@ -160,21 +161,20 @@ TEST(Leaderboard, TextAnswersFirst) {
 }
 
 TEST(Leaderboard, MarkdownAndCsvHaveARowForEachIdentifier) {
-  const Leaderboard board = MakeLeaderboard(TwoIdentifiers(), AFailsTwiceAndBIsOftenWorse());
+  const Leaderboard board = BoardOf(AFailsTwiceAndBIsOftenWorse());
   EXPECT_THAT(BoardToMarkdown(board), HasSubstr("| 1 | b | 0 | 7.50 % |"));
   EXPECT_THAT(BoardToCsv(board), HasSubstr("\na,4,2,"));
 }
 
 TEST(Leaderboard, TextOfSuitesReachesNoTerminalAndNoPageAsItIs) {
-  Leaderboard board = MakeLeaderboard(TwoIdentifiers(), AFailsTwiceAndBIsOftenWorse());
+  Leaderboard board = BoardOf(AFailsTwiceAndBIsOftenWorse());
   board.question = "Which \x1B[31m\u202E <b>?";
   board.rows[0].identifier = "b\x1B]0;x\x07";
-  EXPECT_THAT(BoardToText(board, 80), HasSubstr(R"(little: Which \x1B[31m\u202E <b>?)"));
+  EXPECT_THAT(BoardToText(board), HasSubstr(R"(little: Which \x1B[31m\u202E <b>?)"));
   const std::string markdown = BoardToMarkdown(board);
   EXPECT_THAT(markdown, HasSubstr(R"(Which \x1B[31m\u202E &lt;b>?)"));
-  for (const std::string& text :
-       {BoardToText(board, 80), markdown, BoardsToText({{"run\x1B", board}}, 80),
-        BoardsToMarkdown({{"run\x1B", board}})}) {
+  for (const std::string& text : {BoardToText(board), markdown, BoardsToText({{"run\x1B", board}}),
+                                  BoardsToMarkdown({{"run\x1B", board}})}) {
     EXPECT_EQ(text.find_first_of("\x1B\x07"), std::string::npos) << text;
   }
 }
@@ -186,7 +186,7 @@ TEST(Leaderboard, FlagsErrorsThatNoDataAllow) {
     results.push_back(Answered(i, 0, 10.001));
     results.push_back(Answered(i, 1, i % 2 ? 10.4 : 9.6));
   }
-  const std::vector<std::string> notes = Notes(MakeLeaderboard(TwoIdentifiers(), results));
+  const std::vector<std::string> notes = Notes(BoardOf(results));
   EXPECT_THAT(notes, testing::Contains(testing::AllOf(testing::StartsWith("a: "),
                                                       HasSubstr("does it know the truth?"))));
   EXPECT_THAT(notes, testing::Not(testing::Contains(testing::AllOf(

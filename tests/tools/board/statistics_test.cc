@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <limits>
+#include <vector>
 
 #include "models/foundation/random_stream.h"
 
@@ -14,14 +14,8 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-NumberColumn Column(std::initializer_list<double> values) {
-  NumberColumn column;
-  for (const double value : values) column.Add(value);
-  return column;
-}
-
 TEST(Statistics, SummariseKnownSamples) {
-  const Summary summary = Summarise(Column({4, 1, 3, 2}));
+  const Summary summary = Summarise(std::vector<double>({4, 1, 3, 2}));
   EXPECT_EQ(summary.median, 2.5);
   EXPECT_EQ(summary.q25, 1.75);
   EXPECT_EQ(summary.q75, 3.25);
@@ -29,11 +23,11 @@ TEST(Statistics, SummariseKnownSamples) {
 }
 
 TEST(Statistics, LeaveOutWhatIsNoNumber) {
-  const Summary summary = Summarise(Column({NAN, 2, NAN}));
+  const Summary summary = Summarise(std::vector<double>({NAN, 2, NAN}));
   EXPECT_EQ(summary.median, 2);
   EXPECT_EQ(summary.rms, 2);
-  EXPECT_TRUE(std::isnan(Summarise(Column({NAN})).median));
-  EXPECT_TRUE(std::isnan(Summarise(Column({})).rms));
+  EXPECT_TRUE(std::isnan(Summarise(std::vector<double>({NAN})).median));
+  EXPECT_TRUE(std::isnan(Summarise(std::vector<double>({})).rms));
 }
 
 TEST(Statistics, QuantilesStandInfinities) {
@@ -41,47 +35,53 @@ TEST(Statistics, QuantilesStandInfinities) {
   EXPECT_EQ(Quantile({1, 2, kInfinite}, 0.5), 2);
 }
 
-/// Numbers of all signs and sizes, with infinities and NaN among them.
-double Mixed(RandomStream& random, int i) {
-  if (i % 101 == 0) return kInfinite;
-  if (i % 103 == 0) return -kInfinite;
-  if (i % 107 == 0) return std::nan("");
-  if (i % 5 == 0) return 0;
-  return random.Normal() * std::exp(5 * random.Normal());
+/// The smallest value that the lower median of a resample does not exceed with probability `level`: all
+/// n^n resamples of the values, counted.
+double ByCounting(std::vector<double> values, double level) {
+  const std::size_t n = values.size();
+  std::vector<double> medians;
+  std::vector<std::size_t> drawn(n, 0);
+  for (bool more = true; more;) {
+    std::vector<double> sample;
+    for (const std::size_t i : drawn) sample.push_back(values[i]);
+    std::sort(sample.begin(), sample.end());
+    medians.push_back(sample[(n - 1) / 2]);
+    // the next one, as an odometer counts
+    std::size_t digit = 0;
+    while (digit < n && ++drawn[digit] == n) drawn[digit++] = 0;
+    more = digit < n;
+  }
+  std::sort(medians.begin(), medians.end());
+  const double count = std::ceil(level * static_cast<double>(medians.size()));
+  return medians[static_cast<std::size_t>(count) - 1];
 }
 
-TEST(Ascending, FindsTheNumbersOfALongColumnThatSortingFinds) {
-  RandomStream random({3, 0}, Stream::test);
-  NumberColumn column;
-  std::vector<double> sorted;
-  for (int i = 0; i < 200000; ++i) {
-    const double value = Mixed(random, i);
-    column.Add(value);
-    if (!std::isnan(value)) sorted.push_back(value);
-  }
-  std::sort(sorted.begin(), sorted.end());
-
-  const Ascending ascending(column);
-  ASSERT_EQ(ascending.size(), sorted.size());
-  for (std::size_t i = 0; i < sorted.size(); i += 13007) EXPECT_EQ(ascending[i], sorted[i]) << i;
-  EXPECT_EQ(ascending[sorted.size() - 1], sorted.back());
-  for (const double share : {0.0, 0.025, 0.25, 0.5, 0.75, 1.0}) {
-    EXPECT_EQ(ascending.Quantile(share), Quantile(sorted, share)) << share;
+TEST(MedianDifference, HasTheIntervalOfAllResamples) {
+  const std::vector<double> values{0.3, -1, 2, 5, 0.7, -4};
+  for (std::size_t n = 1; n <= values.size(); ++n) {
+    const std::vector<double> some(values.begin(), values.begin() + static_cast<long>(n));
+    const Difference difference = MedianDifference(some);
+    EXPECT_EQ(difference.lower, ByCounting(some, 0.025)) << n;
+    EXPECT_EQ(difference.upper, ByCounting(some, 0.975)) << n;
   }
 }
 
-TEST(Ascending, TellsNumbersApartInTheirLastBit) {
-  // more equal ones than are sorted in memory, beside their neighbours
-  const double middle = 1.5, next = std::nextafter(middle, 2), before = std::nextafter(middle, 0);
-  NumberColumn column;
-  for (int i = 0; i < 100000; ++i) column.Add(middle);
-  for (int i = 0; i < 10; ++i) column.Add(next);
-  for (int i = 0; i < 10; ++i) column.Add(before);
-  const Ascending ascending(column);
-  EXPECT_EQ(ascending[9], before);
-  EXPECT_EQ(ascending[10], middle);
-  EXPECT_EQ(ascending[100009], middle);
-  EXPECT_EQ(ascending[100010], next);
+TEST(MedianDifference, OfAMillionHasTheWidthOfTheAsymptoticInterval) {
+  RandomStream random({2, 0}, Stream::test);
+  const int n = 1000000;
+  std::vector<double> values;
+  for (int i = 0; i < n; ++i) values.push_back(random.Normal());
+  const Difference difference = MedianDifference(values);
+  // the median of n normal draws has the standard deviation sqrt(pi / (2 n)); the ends scatter by
+  // some n^(-3/4) about their places, 3 % of the width
+  const double width = 2 * 1.96 * std::sqrt(std::acos(-1) / 2 / n);
+  EXPECT_NEAR(difference.upper - difference.lower, width, 0.1 * width);
+}
+
+TEST(MedianDifference, TakesInfinitiesAndNothing) {
+  EXPECT_EQ(MedianDifference({kInfinite, kInfinite, 0}).median, kInfinite);
+  EXPECT_TRUE(std::isnan(MedianDifference({}).median));
+  EXPECT_TRUE(MedianDifference({0, 0}).tie());
 }
 
 }  // namespace

@@ -29,8 +29,8 @@ TEST(CommandLine, RefusesWhatItDoesNotKnowWithTheNearest) {
   };
   const std::vector<Case> cases{
       {{}, "--help"},
-      {{"idntify", "x.csv"}, "there is no subcommand 'idntify'; did you mean 'identify'?"},
-      {{"run", "x.yaml", "--sed", "3"}, "there is no option '--sed'; did you mean '--seed'?"},
+      {{"idntify", "x.csv"}, "there is no 'idntify' here; did you mean 'identify'?"},
+      {{"run", "x.yaml", "--sed", "3"}, "there is no '--sed' here; did you mean '--seed'?"},
       {{"run", "x.yaml"}, "--output is required"},
       {{"run", "x.yaml", "-o", "r", "--jobs", "0"}, "--jobs"},
       {{"run", "x.yaml", "-o", "r", "--seed", "many"}, "--seed"},

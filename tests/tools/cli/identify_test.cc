@@ -297,12 +297,23 @@ TEST(Identify, TriesACommandOnOneRecordingAndJudgesIt) {
   const ProgramAnswer bad = identify("bad.sh"), crash = identify("none.sh");
   const ProgramAnswer slow = identify("good.sh", {"--set", "time_limit=0.0001"});
   const ProgramAnswer ours = identify("good.sh", {"--gravity", "sincos"});
+  const ProgramAnswer follows = identify("good.sh", {"--follows", "log.csv"});
   const ProgramAnswer word = identify("good.sh", {"--set", "time_limi=1"});
   const ProgramAnswer bare = RunWarmjoint({"identify", "log.csv", "--identifier", "mine=good.sh"});
+  // beside one of the list: a row for each, also of one that gives no answer
+  const std::vector<std::string> several{"--identifier", "nominal-ls", "--identifier",
+                                         "gone=sh none.sh {recording} {estimate}"};
+  const ProgramAnswer table = identify("good.sh", several);
+  auto as_json = several;
+  as_json.insert(as_json.end(), {"--format", "json"});
+  const auto rows = nlohmann::json::parse(identify("good.sh", as_json).out);
+  auto with_file = several;
+  with_file.insert(with_file.end(), {"-o", "estimates.json"});
+  const ProgramAnswer filed = identify("good.sh", with_file);
   std::filesystem::current_path(before);
 
   EXPECT_EQ(good.status, 0) << good.err;
-  EXPECT_THAT(good.err, testing::AnyOf(HasSubstr("wall"), HasSubstr("no wall stands")));
+  EXPECT_THAT(good.err, HasSubstr("sandbox: "));
   const auto estimate = nlohmann::json::parse(ReadWholeFile(scratch.path() / "estimate.json"));
   EXPECT_EQ(estimate.at("identifier"), "mine");
   EXPECT_EQ(estimate.at("metrics").at("n"), 480);
@@ -318,10 +329,23 @@ TEST(Identify, TriesACommandOnOneRecordingAndJudgesIt) {
   EXPECT_THAT(slow.err, HasSubstr("(timeout)"));
   EXPECT_EQ(ours.status, 2);
   EXPECT_THAT(ours.err, HasSubstr("--gravity: is for identifiers of the list"));
+  EXPECT_EQ(follows.status, 2);
+  EXPECT_THAT(follows.err, HasSubstr("--follows: is for identifiers of the list"));
   EXPECT_EQ(word.status, 2);
   EXPECT_THAT(word.err, HasSubstr("did you mean 'time_limit'"));
   EXPECT_EQ(bare.status, 2);
   EXPECT_THAT(bare.err, HasSubstr("lacks {estimate}"));
+
+  EXPECT_EQ(table.status, 0) << table.err;
+  EXPECT_THAT(table.out,
+              testing::ContainsRegex("mine +ok .*\n.*nominal-ls +ok .*\n.*gone +crashed"));
+  EXPECT_THAT(table.out, HasSubstr("coulomb"));
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[0].at("parameters").at("coulomb").at("value"), 15);
+  EXPECT_GT(rows[1].at("holdout").at("rmse").get<double>(), 0);
+  EXPECT_EQ(rows[2].at("status"), "crashed");
+  EXPECT_EQ(filed.status, 2);
+  EXPECT_THAT(filed.err, HasSubstr("--output: is for one identifier"));
 }
 
 TEST(Identify, ReadsAForeignLogOfALinearAxis) {

@@ -46,7 +46,7 @@ TEST_F(New, SuiteCanBeRun) {
 }
 
 TEST_F(New, IdentifierAnswersInPlainPython) {
-  const std::string python = "/usr/bin/python3";  // what the wall around commands lets through
+  const std::string python = "/usr/bin/python3";  // what the sandbox of commands lets through
   if (!std::filesystem::exists(python)) GTEST_SKIP() << python << " is absent";
   ASSERT_EQ(Program({"new", "identifier", "mine"}).status, 0);
   const ProgramAnswer run = Program(

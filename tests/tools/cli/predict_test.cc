@@ -72,25 +72,6 @@ TEST_F(PredictTest, RefusesAHeatThatTheEstimateDoesNotKnow) {
   EXPECT_THAT(answer.err, HasSubstr("cold, end or settled:SPEED"));
 }
 
-TEST_F(PredictTest, SeveralIdentifiersShareTheirHeldOutBlocks) {
-  const std::vector<std::string> command{"identify",   "log.csv",      "--identifier",
-                                         "nominal-ls", "--identifier", "energy-ml",
-                                         "--set",      "law=coulomb"};
-  const ProgramAnswer text = Run(command);
-  EXPECT_THAT(text.out, HasSubstr("held-out RMSE N.m"));
-  auto as_json = command;
-  as_json.insert(as_json.end(), {"--format", "json"});
-  const auto told = nlohmann::json::parse(Run(as_json).out);
-  ASSERT_EQ(told.size(), 2u);
-  EXPECT_EQ(told[0].at("identifier"), "nominal-ls");
-  EXPECT_EQ(told[0].at("blocks").size(), 6u);
-
-  // an output is of one of them
-  auto with_output = command;
-  with_output.insert(with_output.end(), {"-o", "two.json"});
-  EXPECT_EQ(Run(with_output).status, 2);
-}
-
 TEST_F(PredictTest, TorqueConstantMakesTorqueOfACurrent) {
   const std::vector<std::string> amperes{"identify", "log.csv",  "--identifier",      "nominal-ls",
                                          "--unit",   "torque=A", "--torque-constant", "2",

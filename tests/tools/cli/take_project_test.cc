@@ -1,5 +1,3 @@
-#include "tools/cli/take_project.h"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,6 +8,7 @@
 #include "models/foundation/atomic_file.h"
 #include "tests/tools/cli/run_program.h"
 #include "tests/tools/scratch_directory.h"
+#include "tools/cli/recording_options.h"
 
 namespace warmjoint {
 namespace {
@@ -60,7 +59,7 @@ TEST_F(TakesProject, DescribesTheLogForCheckIdentifyAndPlot) {
   const ProgramAnswer check = RunWarmjoint({"check", Path("logs/log.csv"), "--format", "json"});
   EXPECT_EQ(check.status, 0) << check.err;
   EXPECT_TRUE(nlohmann::json::parse(check.out).is_object()) << "its words go to stderr";
-  EXPECT_THAT(check.err, HasSubstr("warmjoint.yaml: map time=t_s,position=q_deg"));
+  EXPECT_THAT(check.err, HasSubstr("warmjoint.yaml: map position=q_deg,time=t_s"));
   EXPECT_THAT(check.err, HasSubstr("gear 100 (--no-project leaves it out)\n"));
 
   const ProgramAnswer identify = Identify();

@@ -42,7 +42,7 @@ Estimate Everything() {
   origin.read.gear = 2;
   origin.prepare = {1, 3};
   origin.project_file = "warmjoint.yaml";
-  origin.project = R"({"gear":2.0,"joint":"linear","map":["torque=force"],"shortest_hold":3.0})";
+  origin.project = R"({"map":["torque=force"],"joint":"linear","gear":2.0,"shortest_hold":3.0})";
   estimate.recording = origin;
   estimate.follows = CarriedHeat{"monday.json", 300, "given", "N", {-2, -0.5}, {0.1, 0.2}};
   return estimate;

@@ -9,13 +9,18 @@
 #include "identification/preparation/select.h"
 #include "models/foundation/bad_input.h"
 #include "tests/tools/scratch_directory.h"
-#include "tools/suite/wall.h"
+#include "tools/terminal/shell_words.h"
 
 namespace warmjoint {
 namespace {
 
+using testing::Contains;
 using testing::HasSubstr;
+using testing::Not;
 using testing::ThrowsMessage;
+
+/// A sandbox wherever the kernel has one.
+const Confinement kConfinement = LandlockVersion() > 0 ? Confinement::sandbox : Confinement::none;
 
 /// Twelve samples at two speeds, about 2 sign v.
 Measurements Log() {
@@ -28,30 +33,75 @@ Measurements Log() {
   return log;
 }
 
-Estimate Ask(const std::string& command, const std::string& limit = "20") {
-  SuiteIdentifier identifier =
-      ReadExternal("theirs=" + command + " # {recording} {estimate}", CommandForm::shell);
-  identifier.options["time_limit"] = limit;
+/// What a line of shell answers; file: its $1.
+Estimate Ask(const std::string& command, const std::string& limit = "20",
+             const std::string& file = "") {
+  const std::string line =
+      JoinCommand({"/bin/sh", "-c", command + " # {recording} {estimate}", "sh", file});
+  const SuiteIdentifier identifier{
+      kExternal, "theirs", {{"command", line}, {"time_limit", limit}}, {}};
   const Measurements log = Log();
-  return PrepareExternal(identifier, {})(Prepare(log), {});
+  return PrepareExternal(identifier, {}, {}, kConfinement)(Prepare(log), {});
 }
 
 /// How the command fails, and why: "status: message".
-std::string Failure(const std::string& command, const std::string& limit = "20") {
+std::string Failure(const std::string& command, const std::string& limit = "20",
+                    const std::string& file = "") {
   try {
-    Ask(command, limit);
+    Ask(command, limit, file);
   } catch (const NoAnswer& failure) {
     return failure.status + ": " + failure.what();
   }
   return "";
 }
 
+/// A command of a suite in a folder with some files.
+class CommandOfASuite : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::filesystem::create_directory(folder_ / "ids");
+    for (const char* name : {"mine.py", "ids/theirs.py", "suite.yaml", "sh", "run it"}) {
+      std::ofstream(folder_ / name) << "";
+    }
+  }
+  SuiteIdentifier Resolved(const std::string& command) const {
+    return WithFilesOfSuite({kExternal, "mine", {{"command", command}}, {}},
+                            folder_ / "suite.yaml");
+  }
+  std::string CommandOf(const std::string& command) const {
+    return Resolved(command).options.at("command");
+  }
+  std::string at(const char* name) const { return (folder_ / name).string(); }
+
+  const ScratchDirectory scratch_;
+  const std::filesystem::path folder_ = scratch_.path();
+};
+
+TEST_F(CommandOfASuite, FindsFilesBesideTheSuite) {
+  EXPECT_EQ(CommandOf("python3 mine.py ids/theirs.py none.py {recording} --config=mine.py"),
+            "python3 " + at("mine.py") + " " + at("ids/theirs.py") +
+                " none.py {recording} --config=mine.py");
+  EXPECT_EQ(CommandOf("'run it'"), "'" + at("run it") + "'") << "which PATH does not have";
+  EXPECT_EQ(CommandOf("sh sh"), "sh " + at("sh")) << "a program of PATH stays one";
+  const std::string once = CommandOf("python3 mine.py");
+  EXPECT_EQ(CommandOf(once), once);
+}
+
+TEST_F(CommandOfASuite, ReadsItsOwnFilesAndNotTheSuite) {
+  EXPECT_THAT(ReadableBy(Resolved("python3 mine.py")), Contains(folder_ / "mine.py"));
+  EXPECT_THAT(ReadableBy(Resolved("python3 mine.py")), Not(Contains(folder_)));
+  EXPECT_THAT(ReadableBy(Resolved("python3 ./mine.py")), Not(Contains(folder_ / ".")));
+  EXPECT_THAT(ReadableBy(Resolved("python3 ids/theirs.py")), Contains(folder_ / "ids"))
+      << "modules in a folder of their own";
+}
+
 TEST(ExternalIdentifier, IsNamedWithItsCommand) {
-  EXPECT_TRUE(IsExternal("me=python me.py {recording} {estimate}"));
-  EXPECT_FALSE(IsExternal("energy-ml"));
-  EXPECT_EQ(ReadExternal("me=run {recording} {estimate}", CommandForm::words).label, "me");
-  EXPECT_THAT([] { ReadExternal("me=run {recording}", CommandForm::words); },
-              ThrowsMessage<BadInput>(HasSubstr("lacks {estimate}")));
+  EXPECT_EQ(ReadExternal("me=run {recording.h5} {estimate}").label, "me");
+  for (const auto& [argument, lacking] : {std::pair{"me=run {recording}", "lacks {estimate}"},
+                                          std::pair{"me=run {estimate}", "lacks {recording}"},
+                                          std::pair{"=run {recording} {estimate}", "lacks its"}}) {
+    EXPECT_THAT([&] { ReadExternal(argument); }, ThrowsMessage<BadInput>(HasSubstr(lacking)));
+  }
 }
 
 TEST(ExternalIdentifier, AnswersWithAnEstimate) {
@@ -108,7 +158,7 @@ TEST(ExternalIdentifier, MessagesAreBoundedAndTellNoDrawnNames) {
   const std::string failure = Failure("head -c 3000000 /dev/zero | tr '\\0' 'x'; exit 3");
   EXPECT_LT(failure.size(), 400u);
   EXPECT_EQ(Failure("ls $PWD/none; exit 3"), Failure("ls $PWD/none; exit 3"));
-  EXPECT_THAT(Failure("ls $PWD/none; exit 3"), testing::Not(HasSubstr("warmjoint_")));
+  EXPECT_THAT(Failure("ls $PWD/none; exit 3"), Not(HasSubstr("warmjoint_")));
 }
 
 TEST(ExternalIdentifier, ReadsFilesThatItNamesAndNoOthers) {
@@ -116,10 +166,34 @@ TEST(ExternalIdentifier, ReadsFilesThatItNamesAndNoOthers) {
   std::ofstream(hidden.path() / "secret") << "truth";
   std::ofstream(scratch.path() / "shown") << "shown";
   const std::string folder = scratch.path();
-  EXPECT_THAT(Failure("cat " + folder + "/shown ; exit 1"), HasSubstr("exit status 1: shown"));
-  if (WallVersion() == 0) GTEST_SKIP() << "this kernel has no Landlock";
+  EXPECT_THAT(Failure("cat $1; exit 1", "20", folder + "/shown"),
+              HasSubstr("exit status 1: shown"));
+  if (LandlockVersion() == 0) GTEST_SKIP() << "this kernel has no Landlock";
   EXPECT_THAT(Failure("cat $(echo " + hidden.path().string() + "/)secret; exit 1"),
               HasSubstr("Permission denied"));
+}
+
+TEST(ExternalIdentifier, AProgramOutOfReachIsToldWithItsRemedy) {
+  if (LandlockVersion() == 0) GTEST_SKIP() << "this kernel has no Landlock";
+  // an interpreter outside of the system's folders, and a script that starts it, as pyenv's
+  const ScratchDirectory elsewhere, shims;
+  const std::string interpreter = elsewhere.path() / "python3";
+  std::filesystem::copy_file("/bin/sh", interpreter);
+  std::ofstream(shims.path() / "python3") << "#!/bin/sh\nexec " + interpreter + " \"$@\"\n";
+  std::filesystem::permissions(shims.path() / "python3", std::filesystem::perms(0755));
+  const auto failure = [](const std::string& program) {
+    const Measurements log = Log();
+    try {
+      PrepareExternal(ReadExternal("a=" + program + " -c 'exit 7' {recording} {estimate}"), {})(
+          Prepare(log), {});
+    } catch (const NoAnswer& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(failure(shims.path() / "python3"),
+              HasSubstr("name the interpreter by its full path"));
+  EXPECT_THAT(failure(interpreter), HasSubstr("exit status 7"));
 }
 
 TEST(ExternalIdentifier, FoldersNamesAreNoCommands) {
@@ -130,16 +204,13 @@ TEST(ExternalIdentifier, FoldersNamesAreNoCommands) {
   std::filesystem::permissions(evil / "id.sh", std::filesystem::perms(0700));
   const auto before = std::filesystem::current_path();
   std::filesystem::current_path(evil);
-  for (const CommandForm form : {CommandForm::words, CommandForm::shell}) {
-    const SuiteIdentifier identifier =
-        ReadExternal("a=./id.sh 'a  b' {recording} {estimate}", form);
-    const Measurements log = Log();
-    try {
-      PrepareExternal(identifier, {})(Prepare(log), {});
-      ADD_FAILURE() << "answered";
-    } catch (const NoAnswer& failure) {
-      EXPECT_STREQ(failure.what(), "wrote no estimate") << "it ran, and to its end";
-    }
+  const SuiteIdentifier identifier = ReadExternal("a=./id.sh 'a  b' {recording} {estimate}");
+  const Measurements log = Log();
+  try {
+    PrepareExternal(identifier, {}, {}, kConfinement)(Prepare(log), {});
+    ADD_FAILURE() << "answered";
+  } catch (const NoAnswer& failure) {
+    EXPECT_STREQ(failure.what(), "wrote no estimate") << "it ran, and to its end";
   }
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(evil), {}), 1) << "P was made";
   std::filesystem::current_path(before);

@@ -17,6 +17,8 @@ TEST(FollowingTally, SaysNothingWhereJointsFollow) {
 }
 
 TEST(FollowingTally, TellsTheWorstInWhateverOrder) {
+  Suite suite;
+  suite.ladder = {"", "", {{"low", {}, {}}, {"high", {}, {}}}};
   FollowingTally forwards, backwards;
   const std::vector<std::pair<Unit, Following>> units{{{0, 0}, {1, 20, 10, 0}},
                                                       {{1, 4}, {0.13, 20, 150, 0}},
@@ -26,8 +28,8 @@ TEST(FollowingTally, TellsTheWorstInWhateverOrder) {
   for (auto one = units.rbegin(); one != units.rend(); ++one) {
     backwards.Add(one->first, one->second);
   }
-  EXPECT_EQ(forwards.Words({"low", "high"}), backwards.Words({"low", "high"}));
-  EXPECT_THAT(forwards.Words({"low", "high"}),
+  EXPECT_EQ(forwards.Words(suite), backwards.Words(suite));
+  EXPECT_THAT(forwards.Words(suite),
               HasSubstr("3 of 4 simulated realizations the joint did not follow its motion. In "
                         "realization 3 of low the joint reached its commanded speed in 13 %"));
 }

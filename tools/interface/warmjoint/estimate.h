@@ -146,7 +146,6 @@ struct Estimate {
       recording{};  // the files that it tells of; none of recordings that were made of vectors
   std::optional<CarriedHeat> follows{};     // with what it began; none without an earlier recording
   std::vector<Parameter> state_end{};       // at the end of the log: time, energy, second_energy
-  std::vector<Parameter> temperature{};     // how the heat goes with the log's temperature
   std::string without_holdout{};            // why `holdout` is none, where it was asked for
   std::optional<StructureChoice> choice{};  // of identifiers that choose a structure
 

@@ -19,6 +19,7 @@ struct RunSettings {
   std::optional<std::uint64_t> seed{};     // instead of the suite's
   std::vector<std::string> identifiers{};  // only these; empty: the suite's
   bool allow_commands = false;             // run the commands that the suite names as identifiers
+  bool unconfined = false;                 // run them without a sandbox
   bool keep_recordings = false;            // HDF5 files into DIRECTORY/recordings
   std::function<void(int finished, int total)>
       watch{};  // is told of progress; what it throws ends the run, resumably
@@ -35,9 +36,8 @@ struct RunSummary {
       not_following{};  // of joints that did not follow their motion in this call: how many, and what cures it
 };
 
-/// Runs a suite into a directory, or goes on where an earlier run stopped. Results are those of `warmjoint run`, bit for
-/// bit where the process was started with glibc's forms with fused multiply-adds masked, as the command line does by
-/// GLIBC_TUNABLES; a directory begun with other arithmetic is refused. Throws BadInput and OutputFailed.
+/// Runs a suite into a directory, or goes on where an earlier run stopped. Results are those of `warmjoint run`,
+/// bit for bit on one kind of machine. Throws BadInput and OutputFailed.
 RunSummary RunSuite(const std::filesystem::path& suite, const std::filesystem::path& directory,
                     const RunSettings& settings = {});
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "models/foundation/bad_input.h"
-#include "models/foundation/printable.h"
+#include "models/foundation/excerpt.h"
 
 namespace warmjoint::report {
 namespace {

@@ -5,7 +5,7 @@
 #include <cctype>
 #include <map>
 
-#include "models/foundation/printable.h"
+#include "models/foundation/excerpt.h"
 #include "tools/report/draw/escape.h"
 
 namespace warmjoint::report {

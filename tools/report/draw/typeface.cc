@@ -7,8 +7,7 @@
 #include <span>
 #include <string_view>
 
-#include "models/foundation/printable.h"
-#include "models/foundation/utf8.h"
+#include "models/foundation/excerpt.h"
 #include "tools/report/draw/fonts.h"
 
 namespace warmjoint::report {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "tools/report/draw/ticks.h"
+#include "tools/report/figures/axes.h"
 #include "tools/report/figures/envelope.h"
 #include "tools/report/figures/fit_page.h"
 #include "tools/report/figures/fit_panels.h"
@@ -13,8 +14,6 @@
 #include "tools/report/figures/log_figure.h"
 #include "tools/report/figures/motor_angle.h"
 #include "tools/report/figures/predicted.h"
-#include "tools/report/figures/single_plot.h"
-#include "tools/report/figures/temperature.h"
 
 namespace warmjoint::report {
 namespace {
@@ -65,10 +64,6 @@ std::optional<Figure> WarmUpOf(const EstimateView& view) {
       fit.torque_unit, SignificantText(WarmestTime(fit) / TimeUnit(fit)), TimeUnitName(fit));
   return SinglePlot({"warm_up", "Change of friction by its own heat", OriginOf(fit), finding},
                     WarmUpCurve(fit));
-}
-
-std::optional<Figure> TemperatureOf(const EstimateView& view) {
-  return view.fit ? MakeTemperature(*view.fit) : std::nullopt;
 }
 
 std::optional<Figure> TraceOf(const EstimateView& view) {
@@ -126,8 +121,6 @@ const std::vector<EstimateFigure>& EstimateFigures() {
       {"hysteresis", "torque over position, back and forth, at first and at last", &HysteresisOf,
        "segments in both directions"},
       {"warm_up", "E over time with its interval", &WarmUpOf, "a fit that warms"},
-      {"temperature", "E beside the measured temperature, over time and one over the other",
-       &TemperatureOf, "a fit that warms and a column temperature"},
       {"trace", "parameters by iteration", &TraceOf, "an identifier that iterates"},
       {"envelope", "the recording's envelope and the first guess", &EnvelopeOf,
        "a fit that warms, of constant speeds"},

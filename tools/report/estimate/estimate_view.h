@@ -25,6 +25,11 @@ EstimateView MakeEstimateView(Estimate estimate);
 /// Beside another recording than the one that was fitted.
 EstimateView MakeEstimateView(Estimate estimate, const PreparedLog& other);
 
+/// An estimate without a friction, as a refused one, with the numbers and the friction of its fit, by the
+/// identifier and the options that it names: to be looked at, not to be used. As it was where it has a
+/// friction, or its identifier is none of ours.
+Estimate WithFitAgain(Estimate estimate, const PreparedLog& log);
+
 /// With its own recording. Where the file holds no friction, that of its fit is made again; where it
 /// holds figures on held-out samples, so is the fit that has not seen them.
 EstimateView ViewOwnRecording(Estimate estimate, const PreparedLog& own);

@@ -42,4 +42,19 @@ Axis AngleAxis(std::string label);
 /// An axis that names categories at 0, 1, 2, ...
 Axis CategoryAxis(std::string label, const std::vector<std::string>& names);
 
+/// Means of y in bins of equal width over x; NaN where a bin has fewer than 8 samples.
+/// x, y: [N]; returns a line of `bins` points in the middles.
+Line BinnedMean(const Eigen::VectorXd& x, const Eigen::VectorXd& y, int bins);
+
+/// What stands around a plot: see Figure.
+struct Caption {
+  std::string name;
+  std::string title;
+  std::string subtitle;
+  std::string finding;
+};
+
+/// A figure of that one plot.
+Figure SinglePlot(const Caption& caption, const Plot& plot);
+
 }  // namespace warmjoint::report

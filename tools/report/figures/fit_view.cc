@@ -11,7 +11,7 @@
 #include "identification/warming/estimated_start.h"
 #include "models/foundation/low_pass.h"
 #include "models/recording/course_of.h"
-#include "models/recording/motor_angle.h"
+#include "models/recording/measurements.h"
 #include "tools/report/draw/ticks.h"
 #include "tools/report/figures/friction_spread.h"
 
@@ -75,7 +75,6 @@ FitView WithoutFit(const Measurements& measurements, const Selection& selection,
   view.position = measurements.position;
   view.velocity = measurements.velocity;
   view.torque = measurements.torque;
-  if (measurements.temperature) view.temperature = *measurements.temperature;
   // less the torque of inertia and gravity, what is left is friction
   TakeRigidOff(estimate, measurements, view);
   view.motor_angle = MotorAngle(measurements);

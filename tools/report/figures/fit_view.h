@@ -27,7 +27,6 @@ struct FitView {
   Eigen::VectorXd torque;    // torque_unit, less `rigid`
   Eigen::VectorXd
       rigid;  // torque_unit, gravity and inertia as far as the estimate has them; else 0
-  Eigen::VectorXd temperature;  // degC; empty where the recording has none
   /// Motor angle, rad, 0 ... 2 pi; empty where neither it nor a gear is known.
   Eigen::VectorXd motor_angle;
   JointCourse course;  // what the forward model reads of the recording

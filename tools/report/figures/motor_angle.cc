@@ -7,7 +7,6 @@
 
 #include "tools/report/draw/ticks.h"
 #include "tools/report/figures/axes.h"
-#include "tools/report/figures/binned_mean.h"
 #include "tools/report/figures/speed_groups.h"
 
 namespace warmjoint::report {

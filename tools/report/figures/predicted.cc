@@ -4,7 +4,6 @@
 
 #include "tools/report/draw/ticks.h"
 #include "tools/report/figures/axes.h"
-#include "tools/report/figures/binned_mean.h"
 
 namespace warmjoint::report {
 namespace {

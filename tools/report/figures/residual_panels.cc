@@ -3,7 +3,6 @@
 
 #include "models/foundation/robust_noise.h"
 #include "tools/report/figures/axes.h"
-#include "tools/report/figures/binned_mean.h"
 #include "tools/report/figures/fit_panels.h"
 
 namespace warmjoint::report {

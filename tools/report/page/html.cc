@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "tools/store/sha256.h"
+#include "models/foundation/sha256.h"
 #include "tools/terminal/shell_words.h"
 
 namespace warmjoint::report {

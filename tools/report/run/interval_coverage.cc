@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "tools/report/figures/axes.h"
-#include "tools/report/figures/single_plot.h"
 #include "tools/report/figures/telling_apart.h"
 #include "tools/report/run/run_figures.h"
 

@@ -6,7 +6,6 @@
 
 #include "tools/report/draw/ticks.h"
 #include "tools/report/figures/axes.h"
-#include "tools/report/figures/single_plot.h"
 #include "tools/report/figures/telling_apart.h"
 #include "tools/report/run/quartiles.h"
 #include "tools/report/run/run_figures.h"

@@ -6,7 +6,6 @@
 #include "tools/board/statistics.h"
 #include "tools/report/draw/ticks.h"
 #include "tools/report/figures/axes.h"
-#include "tools/report/figures/single_plot.h"
 #include "tools/report/run/quartiles.h"
 #include "tools/report/run/run_figures.h"
 #include "tools/terminal/shell_words.h"

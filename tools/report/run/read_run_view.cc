@@ -8,13 +8,11 @@
 #include "models/recording/course_of.h"
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"
-#include "tools/board/board_builder.h"
 #include "tools/report/draw/ticks.h"
 #include "tools/report/figures/friction_spread.h"
 #include "tools/report/run/prime_distance.h"
 #include "tools/report/run/row_builder.h"
 #include "tools/report/run/run_view.h"
-#include "tools/store/stored_suite.h"
 
 namespace warmjoint::report {
 namespace {
@@ -101,8 +99,7 @@ int RunRow::failed() const {
 }
 
 RunView ReadRunView(const RunStore& store, std::int64_t most_drawn) {
-  const Suite suite = StoredSuite(store);
-  BoardBuilder board(suite);
+  const Suite& suite = store.suite();
   RunView view;
   const std::int64_t units = std::int64_t{suite.realizations} * suite.variants();
   // pictures of large runs draw a part of the realizations
@@ -110,17 +107,14 @@ RunView ReadRunView(const RunStore& store, std::int64_t most_drawn) {
   ListingBuilder listing(units * static_cast<std::int64_t>(suite.identifiers.size()));
   std::vector<RowBuilder> rows(suite.identifiers.size());
   // one pass over all that is stored
-  store.ForEachUnit([&](const std::vector<Result>& unit) {
-    board.Add(unit);
-    for (const Result& result : unit) {
-      RowBuilder& row = rows[static_cast<std::size_t>(result.identifier)];
-      row.Count(result);
-      listing.Add(result);
-      if (result.realization % view.drawn_every == 0) row.Draw(result);
-    }
+  store.ForEachResult([&](const Result& result) {
+    RowBuilder& row = rows[static_cast<std::size_t>(result.identifier)];
+    row.Count(result);
+    listing.Add(result);
+    if (result.realization % view.drawn_every == 0) row.Draw(result);
   });
   // a run without a finished realization has nothing to show
-  view.board = board.Finish();
+  view.board = ReadBoard(store);
   view.listing = std::move(listing).Finish();
   if (view.board.finished == 0) {
     Refuse({store.directory().string()},

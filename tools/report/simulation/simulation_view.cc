@@ -48,13 +48,13 @@ bool IsSimulation(const std::filesystem::path& directory) {
 SimulationView ReadSimulationView(const std::filesystem::path& directory) {
   const Scenario scenario = ReadScenario(directory / "scenario.yaml", {});
   // the files are in the units that the scenario says
-  CsvLayout layout;
+  ReadSettings layout;
   layout.joint = scenario.joint_kind;
   layout.gear = scenario.friction.gear;
   const bool hdf5 = std::filesystem::exists(directory / "recording.h5");
   Recording recording;
   recording.measurements =
-      ReadForeignRecording(directory / (hdf5 ? "recording.h5" : "recording.csv"), layout);
+      ReadRecordingFile(directory / (hdf5 ? "recording.h5" : "recording.csv"), layout);
   recording.truth = ReadTruth(directory / "truth.json");
   // the truth of another simulation does not fit the recording
   if (recording.truth.velocity.size() != recording.measurements.size()) {

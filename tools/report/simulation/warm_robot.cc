@@ -70,19 +70,18 @@ Index WarmestSample(const SimulationView& view) {
   return at;
 }
 
-/// Means over the kept samples of each segment that begins before sample `end`, as strokes.
+/// Means over the kept samples of each segment, as strokes.
 /// values: [N]; times in the view's unit.
-Line SegmentMeans(const FitView& fit, const VectorXd& values, Index end) {
+Line SegmentMeans(const FitView& fit, const VectorXd& values) {
   std::vector<double> x, y;
   for (const Segment& segment : fit.selection.segments) {
-    // segments before the end that kept some samples
+    // segments that kept some samples
     const auto keep = fit.selection.keep.segment(segment.begin, segment.end - segment.begin);
-    if (segment.begin >= end || !keep.any()) continue;
+    if (!keep.any()) continue;
     const auto own = values.segment(segment.begin, segment.end - segment.begin).array();
     // their mean as a line from the first sample to the last
     const double mean = keep.select(own, 0).sum() / static_cast<double>(keep.count());
-    const double last = fit.time[std::min(segment.end, end) - 1];
-    for (double time : {fit.time[segment.begin], last, std::nan("")}) {
+    for (double time : {fit.time[segment.begin], fit.time[segment.end - 1], std::nan("")}) {
       x.push_back(time / TimeUnit(fit));
       y.push_back(std::isnan(time) ? time : mean);
     }
@@ -93,8 +92,8 @@ Line SegmentMeans(const FitView& fit, const VectorXd& values, Index end) {
   return {vector(x), vector(y), 2.0};
 }
 
-/// sign(v) torque as it was until sample `end`, and sign(v) F as it were without warming.
-Plot TorquePanel(const SimulationView& view, Index end) {
+/// sign(v) torque as it was, and sign(v) F as it were without warming.
+Plot TorquePanel(const SimulationView& view) {
   const FitView& fit = view.fit;
   const VectorXd direction = fit.velocity.array().sign();
   // the kept torque in the direction of motion
@@ -103,15 +102,13 @@ Plot TorquePanel(const SimulationView& view, Index end) {
   const VectorXd torque = fit.torque.cwiseProduct(direction), measured = kept(torque);
   // less E it is what a joint that stays cold would need
   const VectorXd cold = fit.fitted.cwiseProduct(direction) - fit.energy;
-  const Index shown = fit.selection.keep.head(end).count();
 
   Plot plot;
-  plot.series = {{"measured", Hue::grey, Scatter{time.head(shown), measured.head(shown), 1}},
-                 {"its mean at each speed", Hue::text, SegmentMeans(fit, torque, end)},
-                 {"the mean if it had stayed cold", Hue::blue, SegmentMeans(fit, cold, end)}};
+  plot.series = {{"measured", Hue::grey, Scatter{time, measured, 1}},
+                 {"its mean at each speed", Hue::text, SegmentMeans(fit, torque)},
+                 {"the mean if it had stayed cold", Hue::blue, SegmentMeans(fit, cold)}};
   plot.x = {TimeLabel(fit), 0, fit.time.tail(1)[0] / TimeUnit(fit), Scale::linear, {}};
-  plot.y = LinearAxis(TorqueLabel(fit, "torque · sign(v)"),
-                      {measured, SegmentMeans(fit, cold, fit.time.size()).y});
+  plot.y = LinearAxis(TorqueLabel(fit, "torque · sign(v)"), {measured, SegmentMeans(fit, cold).y});
   return plot;
 }
 
@@ -200,34 +197,9 @@ std::optional<Figure> MakeWarmRobot(const SimulationView& view, GlContext& conte
   // robots above, torque and heat over the same time below
   figure.panels = {{TitleAt(view, 0), Picture{(*images)[0]}, 0, 0},
                    {TitleAt(view, warmest), Picture{(*images)[1]}, 0, 1},
-                   {"", TorquePanel(view, view.fit.time.size()), 1, 0, 1, 2},
+                   {"", TorquePanel(view), 1, 0, 1, 2},
                    {"", HeatStrip(view), 2, 0, 1, 2}};
   return figure;
-}
-
-std::vector<Figure> MakeWarmRobotFilm(const SimulationView& view, GlContext& context, int frames) {
-  if (!HasWarmRobot(view)) return {};
-  // moments spread evenly over the recording
-  std::vector<Index> samples;
-  for (int i = 0; i < frames; ++i) samples.push_back(i * (view.fit.time.size() - 1) / (frames - 1));
-  const auto images = RenderWarmRobot(view, context, samples, 560, 560, LightTheme());
-  std::vector<Figure> film;
-  // each frame has the robot and the torque up to its moment
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    Figure figure;
-    figure.name = "warm_robot_film";
-    figure.title = RobotTitle(view);
-    figure.subtitle = TitleAt(view, samples[i]);
-    figure.finding = figure.subtitle + ".";
-    // small enough for a page, with more room for the torque
-    figure.width = 720;
-    figure.height = 340;
-    figure.columns = {1, 1.4};
-    figure.panels = {{"", Picture{(*images)[i]}, 0, 0},
-                     {"", TorquePanel(view, samples[i] + 1), 0, 1}};
-    film.push_back(figure);
-  }
-  return film;
 }
 
 }  // namespace warmjoint::report

@@ -23,7 +23,4 @@ std::optional<std::vector<Image>> RenderWarmRobot(const SimulationView& view, Gl
 /// Still: cold and warmest robot, the torque as it is and as it were without warming, E.
 std::optional<Figure> MakeWarmRobot(const SimulationView& view, GlContext& context);
 
-/// The frames of a film of the whole recording: robot and torque so far.
-std::vector<Figure> MakeWarmRobotFilm(const SimulationView& view, GlContext& context, int frames);
-
 }  // namespace warmjoint::report

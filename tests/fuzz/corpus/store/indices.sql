@@ -1,2 +1,2 @@
 UPDATE result SET identifier = identifier + 1000
-DELETE FROM identifier
+UPDATE trace SET identifier = -1

@@ -1,3 +1,2 @@
 UPDATE suite SET yaml = '&a [*a]'
-UPDATE variant SET name = 'x'
 UPDATE version SET value = '2'

@@ -10,8 +10,7 @@
 #include <vector>
 
 #include "identification/answer/identify.h"
-#include "identification/estimate_from_json.h"
-#include "identification/estimate_to_json.h"
+#include "identification/estimate.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/prepare.h"
@@ -40,13 +39,9 @@ void AddTrace(Estimate& estimate, int iterations) {
 EstimateView ExampleView() {
   MappedRecording mapped;
   AddTrace(mapped.estimate, 8);
-  mapped.estimate.temperature = {{"correlation", -0.9, "1", {}, {{-0.95, -0.8}}},
-                                 {"per_energy", -0.2, "K/(N.m)", {}, {{-0.3, -0.1}}},
-                                 {"lag", 30, "s", {}, {}}};
   EstimateView view{mapped.estimate, mapped.measurements, std::nullopt};
   view.fit = mapped.View();
   view.fit->estimate = view.estimate;
-  view.fit->temperature = 25 - 0.2 * view.fit->energy.array();
   view.held_out = view.fit;
   return view;
 }
@@ -94,7 +89,7 @@ Estimate Refused(const PreparedLog& log, std::map<std::string, std::string> opti
   Estimate estimate =
       IdentifyAndJudge(identifier, {log, ReadOptions(identifier.options, options, {}), {}});
   EXPECT_NE(estimate.status, Status::ok);
-  return EstimateFromJson(EstimateToJson(estimate), {"estimate.json"});
+  return EstimateFrom({Tree(EstimateToJson(estimate)), "estimate.json"});
 }
 
 TEST(EstimateFigures, ShowTheFitOfARefusedEstimateWithItsOptions) {

@@ -86,7 +86,6 @@ TEST(FitView, OfACurrentSaysAmperesEverywhere) {
   Measurements m =
       test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 1), 0.3, 1);
   m.torque_unit = "A";
-  m.temperature = 25 - 0.2 * PredictFriction(test::TableOne(), m).energy.array();
   const auto [log, estimate] = Identify(m, {});
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
   const FitView view = MakeFitView(log, estimate);

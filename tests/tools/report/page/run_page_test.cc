@@ -8,7 +8,7 @@
 #include <regex>
 
 #include "identification/identifiers/identifier_list.h"
-#include "scenarios/parse_suite.h"
+#include "scenarios/suite.h"
 #include "tests/tools/report/look.h"
 #include "tests/tools/report/run_example.h"
 #include "tools/board/board_tables.h"
@@ -65,7 +65,6 @@ const std::string& ExamplePage() {
     example.suite = ParseSuite(kSuite, "suite.yaml");
     example.without_extremes = "Nothing could be simulated.";
     example.description.suite_yaml = "name: table1\n";
-    example.description.identifiers = {"energy-ml"};
     example.description.versions = {{"warmjoint", "0.1.0"}};
     example.figures = {*NpeBoxes(ExampleRun())};
     return MakeRunPage(example);

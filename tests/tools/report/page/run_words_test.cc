@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "scenarios/parse_suite.h"
+#include "scenarios/suite.h"
 
 namespace warmjoint::report {
 namespace {

@@ -27,8 +27,6 @@ RunView ReadNumbered(std::int64_t most_drawn) {
       "[{name: nominal-ls}]\n"
       "scenario: {friction: {law: viscous_coulomb, parameters: {viscous: 5, coulomb: 15}},"
       " motion: {speeds: [1], hold: 2}, sampling: {rate: 10}, duration: 20}\n",
-      {"nominal-ls"},
-      {},
       {{"warmjoint", "0.1.0"}}};
   RunStore store = RunStore::CreateOrResume(scratch.path() / "run", description);
   std::vector<Realization> all;

@@ -137,18 +137,6 @@ TEST(SimulationView, LeavesOutWhatOnlySeemsToMoveAtAConstantSpeed) {
   EXPECT_FALSE(MakeSimulationView(view.scenario, recording).fit.selection.keep[smeared]);
 }
 
-TEST(WarmRobot, FilmGrowsWithTheRecording) {
-  const SimulationView view = ExampleSimulation();
-  const std::vector<Figure> film = MakeWarmRobotFilm(view, TestContext(), 3);
-  ASSERT_EQ(film.size(), 3u);
-  const auto shown = [](const Figure& figure) {
-    return std::get<Scatter>(std::get<Plot>(figure.panels[1].content).series[0].shape).x.size();
-  };
-  EXPECT_LT(shown(film[0]), shown(film[1]));
-  EXPECT_LT(shown(film[1]), shown(film[2]));
-  DrawLight(film[1]);
-}
-
 TEST(WarmRobot, IsNothingWithoutARobotOrWarming) {
   SimulationView view = ExampleSimulation();
   view.scenario.plant = PlantKind::ideal;

@@ -1,2 +1,0 @@
-UPDATE realization SET digest = ''
-INSERT INTO realization VALUES (0, 1, 'x')

@@ -1,0 +1,1 @@
+INSERT INTO result SELECT variant, realization, 7, status, message, seconds, n, parameters, effective_parameters, rmse, mae, fit, fpe, npe_continuous, npe_discrete, bound_npe_continuous, bound_npe_discrete FROM result

@@ -1,0 +1,245 @@
+#include "tools/cli/pictures.h"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "identification/estimate.h"
+#include "models/foundation/bad_input.h"
+#include "models/foundation/parse_number.h"
+#include "models/foundation/read_json.h"
+#include "tools/cli/typed_options.h"
+#include "tools/report/estimate/estimate_figures.h"
+#include "tools/report/figures/kernels.h"
+#include "tools/report/run/run_figures.h"
+#include "tools/report/simulation/simulation_figures.h"
+#include "tools/report/simulation/warm_robot.h"
+#include "tools/terminal/say.h"
+
+namespace warmjoint::inline tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// All members of a family that have something to show, and what the others lack.
+template <typename View>
+SourcePictures Make(const std::vector<report::NamedFigure<View>>& family, const View& view) {
+  SourcePictures pictures;
+  // who has nothing to draw says what is needed for it
+  for (const auto& one : family) {
+    if (auto figure = one.make(view)) {
+      pictures.figures.push_back(*std::move(figure));
+    } else {
+      pictures.left_out.emplace_back(one.name, one.needs);
+    }
+  }
+  return pictures;
+}
+
+/// The recording that an estimate file remembers; none where it names none, or it has gone.
+RecordingSource OwnRecording(const Node& file) {
+  // a recording that is not named, or has gone, is no reason for no pictures
+  std::optional<RecordingSource> remembered = RecordingIn(file);
+  if (!remembered) {
+    SayNotice("{}: names no recording; give --recording for the pictures that need it\n",
+              file.file());
+    return {};
+  }
+  for (const std::string& recording : remembered->files) {
+    if (fs::exists(recording)) continue;
+    // a warning, which --quiet leaves: it was there when the estimate was made
+    Say(stderr,
+        "{}: its recording {} is not there; give --recording for the pictures that need it\n",
+        file.file(), recording);
+    return {};
+  }
+  return *remembered;
+}
+
+/// The estimate beside the recording that is given, else beside its own, else alone.
+report::EstimateView ViewOf(Estimate estimate, const RecordingSource& given,
+                            const RecordingSource& own) {
+  if (!given.files.empty()) {
+    return report::MakeEstimateView(std::move(estimate), ReadAndPrepare(given));
+  }
+  if (own.files.empty()) return report::MakeEstimateView(std::move(estimate));
+  return report::ViewOwnRecording(std::move(estimate), ReadAndPrepare(own));
+}
+
+SourcePictures PicturesOfEstimate(const fs::path& path, const RecordingSource& given) {
+  const Node file = ReadJsonNode(path);
+  // the estimate with the data that it is shown beside
+  Estimate estimate = EstimateFrom(file);
+  RecordingSource own;
+  if (given.files.empty()) own = OwnRecording(file);
+  report::EstimateView view = ViewOf(std::move(estimate), given, own);
+
+  // what it gives, and itself for the figure of several
+  SourcePictures pictures = Make(report::EstimateFigures(), view);
+  pictures.estimate = std::move(view);
+  const RecordingSource& shown = given.files.empty() ? own : given;
+  pictures.recordings.assign(shown.files.begin(), shown.files.end());
+  return pictures;
+}
+
+SourcePictures PicturesOfSimulation(const fs::path& directory) {
+  const report::SimulationView view = report::ReadSimulationView(directory);
+  // a robot that warms needs OpenGL for its pictures
+  SourcePictures pictures = Make(report::SimulationFigures(), view);
+  pictures.recordings = {directory / "recording.csv"};
+  if (!report::HasWarmRobot(view)) return pictures;
+  const std::unique_ptr<report::GlContext> context = report::MakeGlContext();
+  pictures.figures.push_back(*report::MakeWarmRobot(view, *context));
+  return pictures;
+}
+
+using Names = std::vector<std::string>;
+
+constexpr double kSmallest = 20, kLargest = 2000;  // mm
+
+/// A figure of the paper: ours that repeat it, and what they are drawn of.
+struct PaperFigure {
+  Names names;
+  const char* sources;
+};
+
+const std::map<std::string, PaperFigure>& PaperFigures() {
+  static const std::map<std::string, PaperFigure> figures{
+      {"3", {{"kernels"}, "`kernels`"}},
+      {"4", {{"envelope"}, "an estimate or a simulation of a log that warms"}},
+      {"5", {{"parameters_by_iteration"}, "a run of an identifier that iterates"}},
+      {"6", {{"error_by_iteration"}, "a run of an identifier that iterates"}},
+      {"7", {{"motor_angle"}, "an estimate of a log with a motor angle or a gear"}},
+      {"8", {{"parameters_by_iteration", "trace"}, "a run, or an estimate, that iterates"}},
+      {"9", {{"motor_fit"}, "an estimate with a map over the motor's angle"}},
+      {"10", {{"motor_map"}, "an estimate with a map over the motor's angle"}},
+      {"11", {{"agreement"}, "a run"}},
+      {"12", {{"agreement"}, "a run"}},
+  };
+  return figures;
+}
+
+double Millimetres(const std::string& text, const std::string& size) {
+  // within what can be printed
+  const std::optional<double> number = ParseNumber(text);
+  if (!number || !(*number >= kSmallest && *number <= kLargest)) {
+    Refuse({"--size"},
+           "'{}' is no size; give width x height in mm, {:.0f} to {:.0f} each, as 88x60, or the "
+           "width alone",
+           size, kSmallest, kLargest);
+  }
+  return *number;
+}
+
+Names NamesOf(const std::vector<report::Figure>& figures) {
+  Names names;
+  for (const report::Figure& figure : figures) names.push_back(figure.name);
+  return names;
+}
+
+/// Why a source has no figure of that name.
+std::string Lacking(const std::string& figure, const SourcePictures& pictures) {
+  // a figure of the family that the source cannot give, or none of the family at all
+  for (const auto& [name, need] : pictures.left_out) {
+    if (name == figure) return fmt::format("{} needs {}", figure, need);
+  }
+  return fmt::format("there is no figure '{}'", figure);
+}
+
+}  // namespace
+
+SourcePictures PicturesOf(const std::string& source, const RecordingSource& recording) {
+  // by what stands there, of a file by its kind, of a directory by what it holds
+  if (source == kKernelsSource && !fs::exists(source)) return {{report::MakeKernels()}, {}, {}, {}};
+  if (fs::is_regular_file(source)) return PicturesOfEstimate(source, recording);
+  if (report::IsSimulation(source)) return PicturesOfSimulation(source);
+  return Make(report::RunFigures(), report::ReadRunView(RunStore::OpenToRead(source)));
+}
+
+void AddPictureOptions(CLI::App& parser, PictureArguments& arguments) {
+  // format and style
+  AddChoice(parser, "--format", arguments.format, {"png", "svg", "pdf"}, "of the pictures");
+  Names styles;
+  std::string summary;
+  for (const report::Style& style : report::Styles()) {
+    styles.emplace_back(style.name);
+    summary += fmt::format("{}{}: {}", summary.empty() ? "" : "; ", style.name, style.summary);
+  }
+  AddChoice(parser, "--style", arguments.style, styles, summary);
+
+  // size and resolution
+  parser
+      .add_option("--size", arguments.size,
+                  "width x height of each picture in mm, as 88x60, or its width alone")
+      ->type_name("WxH");
+  AddNumber(parser, "--dpi", arguments.dpi, {30, 1200, "30 to 1200"},
+            "pixels an inch of PNG; the style's where it is not given");
+
+  // titles, and which figures
+  AddChoice(parser, "--title", arguments.title, {"shown", "none"},
+            "of the figures, which papers give in the caption");
+  parser
+      .add_option("--figure", arguments.figures,
+                  "only this one, by its name, or by the number (3 to 12) of the paper's figure "
+                  "that it repeats")
+      ->type_name("NAME|N")
+      ->take_all();
+}
+
+report::PageSetting SettingOf(const PictureArguments& arguments) {
+  report::PageSetting setting;
+  // format, style and resolution by name
+  for (report::FileFormat format :
+       {report::FileFormat::png, report::FileFormat::svg, report::FileFormat::pdf}) {
+    if (report::NameOf(format) == arguments.format) setting.format = format;
+  }
+  setting.style = report::StyleNamed(arguments.style);
+  setting.dpi = arguments.dpi;
+  setting.titled = arguments.title != "none";
+  // one number is the width, and the height follows
+  if (!arguments.size.empty()) {
+    const std::size_t cross = arguments.size.find('x');
+    setting.width = Millimetres(arguments.size.substr(0, cross), arguments.size);
+    if (cross != arguments.size.npos) {
+      setting.height = Millimetres(arguments.size.substr(cross + 1), arguments.size);
+    }
+  }
+  return setting;
+}
+
+std::vector<report::Figure> Chosen(const PictureArguments& arguments, const std::string& source,
+                                   const SourcePictures& pictures) {
+  std::vector<report::Figure> figures = pictures.figures;
+  if (arguments.figures.empty()) return figures;
+  Names wanted;
+  // each by the name of the figure, or by the paper's number for it
+  for (const std::string& figure : arguments.figures) {
+    const auto paper = PaperFigures().find(figure);
+    const Names names = paper == PaperFigures().end() ? Names{figure} : paper->second.names;
+    const Names there = NamesOf(figures);
+    const bool any = std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+      return std::find(there.begin(), there.end(), name) != there.end();
+    });
+    // what cannot be had is refused with what there is
+    if (!any) {
+      const std::string what = paper == PaperFigures().end()
+                                   ? Lacking(figure, pictures)
+                                   : fmt::format("figure {} of the paper ({}) needs {}", figure,
+                                                 fmt::join(names, " or "), paper->second.sources);
+      Refuse({source}, "{}; this source gives: {}", what,
+             there.empty() ? "none" : fmt::format("{}", fmt::join(there, ", ")));
+    }
+    wanted.insert(wanted.end(), names.begin(), names.end());
+  }
+
+  // in the family's own order, each once
+  std::erase_if(figures, [&](const report::Figure& figure) {
+    return std::find(wanted.begin(), wanted.end(), figure.name) == wanted.end();
+  });
+  return figures;
+}
+
+}  // namespace warmjoint::inline tools

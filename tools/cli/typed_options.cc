@@ -1,0 +1,66 @@
+#include "tools/cli/typed_options.h"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "models/foundation/bad_input.h"
+#include "models/foundation/excerpt.h"
+#include "models/foundation/nearest_name.h"
+#include "models/foundation/parse_number.h"
+
+namespace warmjoint::inline tools {
+
+CLI::Option* AddChoice(CLI::App& parser, const std::string& name, const ChoiceTarget& target,
+                       const std::vector<std::string>& choices, const std::string& description,
+                       const std::map<std::string, std::string>& synonyms) {
+  // the parser hands each text over, so that refusals name the nearest choice
+  const auto read = [take = target.take, name, choices, synonyms](const std::string& given) {
+    take(given);
+    if (std::ranges::find(choices, given) != choices.end()) return;
+    const auto synonym = synonyms.find(given);
+    if (synonym != synonyms.end()) {
+      Refuse({name}, "is '{}'; warmjoint says '{}'", given, synonym->second);
+    }
+    Refuse({name}, "is '{}'{}", Excerpt(given), Suggestion(given, choices));
+  };
+  CLI::Option* option = parser.add_option_function<std::string>(name, read, description);
+  option->type_name(fmt::format("{}", fmt::join(choices, "|")));
+  return target.default_value.empty() ? option : option->default_str(target.default_value);
+}
+
+CLI::Option* AddChoice(CLI::App& parser, const std::string& name, std::string& value,
+                       const std::vector<std::string>& choices, const std::string& description,
+                       const std::map<std::string, std::string>& synonyms) {
+  const auto take = [&value](const std::string& given) { value = given; };
+  return AddChoice(parser, name, ChoiceTarget{value, take}, choices, description, synonyms);
+}
+
+CLI::Option* AddNumber(CLI::App& parser, const std::string& name, double& number,
+                       const NumberRange& bounds, const std::string& description) {
+  const auto read = [&number, name, bounds](const std::string& text) {
+    // NaN fails every comparison, and infinity is no finite number
+    const auto given = ParseNumber(text);
+    if (!given || !std::isfinite(*given) || !(*given >= bounds.lowest) || *given > bounds.highest) {
+      Refuse({name}, "is '{}'; it must be a number {}", Excerpt(text), bounds.words);
+    }
+    number = *given;
+  };
+  return parser.add_option_function<std::string>(name, read, description)->type_name("NUMBER");
+}
+
+CLI::Option* AddWholeNumber(CLI::App& parser, const std::string& name,
+                            std::optional<std::uint64_t>& number, std::uint64_t lowest,
+                            std::uint64_t highest, const std::string& description) {
+  // digits alone: a sign is refused, not wrapped round
+  const auto read = [&number, name, lowest, highest](const std::string& text) {
+    number = ParseUnsigned(text);
+    if (number && lowest <= *number && *number <= highest) return;
+    Refuse({name}, "is '{}'; it must be a whole number from {} to {}", Excerpt(text), lowest,
+           highest);
+  };
+  return parser.add_option_function<std::string>(name, read, description)->type_name("INTEGER");
+}
+
+}  // namespace warmjoint::inline tools

@@ -1,0 +1,67 @@
+// Options whose value is one of a list, or a number within bounds.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "models/foundation/field.h"
+
+namespace warmjoint::inline tools {
+
+/// Where a choice goes: its default, and what takes one that is given.
+struct ChoiceTarget {
+  std::string default_value;
+  std::function<void(const std::string& given)> take;
+};
+
+/// Adds an option, or an argument, for one of the choices, which help shows as the form of the value. What is none of
+/// them is refused with the nearest. synonyms: what other fields call a choice, {"prismatic", "linear"}.
+CLI::Option* AddChoice(CLI::App& parser, const std::string& name, const ChoiceTarget& target,
+                       const std::vector<std::string>& choices, const std::string& description,
+                       const std::map<std::string, std::string>& synonyms = {});
+
+/// The same for a text, which holds the default.
+CLI::Option* AddChoice(CLI::App& parser, const std::string& name, std::string& value,
+                       const std::vector<std::string>& choices, const std::string& description,
+                       const std::map<std::string, std::string>& synonyms = {});
+
+/// The same for a choice whose words a file has, too (field.h).
+template <typename E>
+requires std::is_enum_v<E> CLI::Option* AddChoice(
+    CLI::App& parser, const std::string& name, E& value, const std::string& description,
+    const std::map<std::string, std::string>& synonyms = {}) {
+  std::vector<std::string> words;
+  for (const Word<E>& word : WordsOf(value)) words.emplace_back(word.name);
+  const auto take = [&value](const std::string& given) {
+    for (const Word<E>& word : WordsOf(value)) {
+      if (word.name == given) value = word.value;
+    }
+  };
+  return AddChoice(parser, name, ChoiceTarget{std::string(NameOf(value)), take}, words, description,
+                   synonyms);
+}
+
+/// What a number of the command line may be.
+struct NumberRange {
+  double lowest;
+  double highest;     // infinity: none
+  const char* words;  // "of 0 or more, s"
+};
+
+/// Adds an option for a finite number within bounds; other texts are refused with these bounds.
+CLI::Option* AddNumber(CLI::App& parser, const std::string& name, double& number,
+                       const NumberRange& bounds, const std::string& description);
+
+/// Adds an option for a whole number from `lowest` to `highest`. Other texts are refused with the
+/// bounds; a negative number does not wrap round.
+CLI::Option* AddWholeNumber(CLI::App& parser, const std::string& name,
+                            std::optional<std::uint64_t>& number, std::uint64_t lowest,
+                            std::uint64_t highest, const std::string& description);
+
+}  // namespace warmjoint::inline tools
