@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <optional>
+
+#include "models/foundation/serialize.h"
 
 namespace warmjoint::inline identification {
 namespace {

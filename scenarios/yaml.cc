@@ -105,13 +105,13 @@ class TreeMaker {
   int count_ = 0;  // of the values so far
 };
 
-/// Sets one entry, making the maps on the way. path: what is left of the dotted key. Returns the dotted key of the
-/// outermost value that was not there before.
+/// Sets one entry, making the maps on the way. path: what is left of the dotted key.
 void Set(Tree& map, std::string_view path, Tree value, const Place& place) {
   const size_t dot = path.find('.');
   const std::string name(path.substr(0, dot));
   if (name.empty()) Refuse(place, "the key has an empty part; write it as noise.torque");
-  if (!map.is_object() && !map.is_null()) {
+  if (map.is_null()) map = Tree::object();
+  if (!map.is_object()) {
     Refuse(place, "there is no entry '{}' below a value that is no map", Excerpt(path));
   }
   // maps on the way are made where they are missing
