@@ -13,6 +13,7 @@
 #include "tools/cli/typed_options.h"
 #include "tools/cluster/plan.h"
 #include "tools/suite/engine.h"
+#include "tools/suite/external_identifier.h"
 #include "tools/suite/interrupt.h"
 #include "tools/terminal/say.h"
 
