@@ -31,8 +31,6 @@ void Estimate::TakeMessage(const std::string& full) {
 
 Tree EstimateToTree(const Estimate& estimate) { return WriteFields(estimate); }
 
-nlohmann::json EstimateToJson(const Estimate& estimate) { return EstimateToTree(estimate); }
-
 Estimate EstimateFrom(const Node& node) {
   return ReadAs<Estimate>(node.With(UnknownKeys::ignored));
 }

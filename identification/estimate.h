@@ -124,7 +124,6 @@ struct Estimate {
 
 /// The estimate as a file has it; what is no finite number is null.
 Tree EstimateToTree(const Estimate& estimate);
-nlohmann::json EstimateToJson(const Estimate& estimate);
 
 /// The inverse; null numbers become NaN, and keys that nobody knows are left alone. Throws BadInput for a missing member, a
 /// wrong type, an unknown status.

@@ -138,9 +138,9 @@ void Apply(const Setting& setting, Tree& root, Places& places) {
   std::erase_if(places, [&](const auto& one) { return Within(one.first, setting.key); });
   places[setting.key] = place;
   // and so have the maps that it made on the way
-  for (std::size_t dot = setting.key.rfind('.'); dot != std::string::npos;
-       dot = dot == 0 ? std::string::npos : setting.key.rfind('.', dot - 1)) {
-    const std::string outer = setting.key.substr(0, dot);
+  std::string outer = setting.key;
+  for (std::size_t dot; (dot = outer.rfind('.')) != std::string::npos;) {
+    outer.resize(dot);
     const bool has_place = std::ranges::any_of(places, [&](const auto& one) {
       return Within(one.first, outer) && one.first != setting.key;
     });

@@ -77,9 +77,8 @@ std::string DirectionLine(const MotionCheck& motion, int sign, std::string_view 
 std::string CheckToText(const RecordingCheck& check) {
   const std::string_view speed_unit = kVelocityUnit.For(check.joint);
   // what was recorded, and what the motion shows
-  std::string text =
-      fmt::format("recording   {}: {} joint, torque in {}\n", check.source,
-                  check.joint == JointKind::rotary ? "rotary" : "linear", check.torque_unit);
+  std::string text = fmt::format("recording   {}: {} joint, torque in {}\n", check.source,
+                                 NameOf(check.joint), check.torque_unit);
   for (const std::string& note : check.notes) text += fmt::format("            {}\n", note);
   text += SamplingLine(check.sampling);
   text += MotionLine(check.motion, kPositionUnit.For(check.joint));
@@ -123,7 +122,7 @@ json CheckToJson(const RecordingCheck& check) {
         {{"what", each.what}, {"sufficient", each.sufficient}, {"reason", each.reason}});
   }
   return {{"source", check.source},
-          {"joint", check.joint == JointKind::rotary ? "rotary" : "linear"},
+          {"joint", NameOf(check.joint)},
           {"torque_unit", check.torque_unit},
           {"notes", check.notes},
           {"sampling",

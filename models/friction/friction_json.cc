@@ -9,10 +9,6 @@ namespace warmjoint::inline models {
 
 Tree FrictionToTree(const FrictionDescription& friction) { return WriteFields(friction); }
 
-nlohmann::json FrictionToJson(const FrictionDescription& friction) {
-  return FrictionToTree(friction);
-}
-
 FrictionDescription FrictionFrom(const Node& node) {
   FrictionDescription friction;
   ReadFields(node.With(UnknownKeys::refused), &friction);

@@ -14,8 +14,6 @@ namespace warmjoint::inline models {
 /// thermal_time_constant}}, level_per_temperature, viscous_per_energy, load_gain, torque_unit, maps[]};
 /// what is at its default is left out.
 Tree FrictionToTree(const FrictionDescription& friction);
-nlohmann::json FrictionToJson(const FrictionDescription& friction);
-
 /// The inverse; checked. Unknown keys, missing parameters and wrong types throw BadInput.
 FrictionDescription FrictionFrom(const Node& node);
 void ReadValue(const Node& node, FrictionDescription* value, const FieldInfo& info);

@@ -32,7 +32,7 @@ PropList WithoutTimes() {
 void WriteObjects(const Measurements& measurements, H5::H5File& file) {
   // the joint, and each column with its unit
   H5::Group root = file.openGroup("/");
-  WriteAttribute(root, "joint", measurements.joint == JointKind::linear ? "linear" : "rotary");
+  WriteAttribute(root, "joint", std::string(NameOf(measurements.joint)));
   root.createAttribute("gear", H5::PredType::NATIVE_DOUBLE, H5::DataSpace())
       .write(H5::PredType::NATIVE_DOUBLE, &measurements.gear);
 

@@ -83,7 +83,7 @@ std::string InstanceSection(const std::string& instance,
   // friction and first heat of each joint, by its name
   json joints = json::object(), energies = json::object();
   for (const FrictionForJoint& friction : frictions) {
-    joints[friction.joint] = FrictionToJson(friction.friction);
+    joints[friction.joint] = FrictionToTree(friction.friction);
     if (friction.initial_energy.empty()) continue;
     energies[friction.joint] = EnergyToJson(friction.initial_energy);
   }

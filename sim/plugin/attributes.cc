@@ -6,7 +6,6 @@
 #include <set>
 
 #include "models/foundation/excerpt.h"
-#include "models/foundation/json_members.h"
 #include "models/foundation/nearest_name.h"
 #include "models/foundation/parse_number.h"
 #include "models/friction/check_friction.h"
@@ -216,13 +215,17 @@ std::array<double, 2> EnergyFrom(const nlohmann::json& value, const FrictionDesc
   if (!friction.thermal) {
     Refuse(place, "initial_energy needs thermal, which is not given; give it, or leave it out");
   }
-  if (!friction.second_thermal) return {NumberFrom(value, "initial_energy", place), 0};
+  const auto number = [&](const nlohmann::json& one) {
+    return Node({{"initial_energy", Tree(one)}}, place.file)
+        .Require("initial_energy", kGiveNumber)
+        .Number();
+  };
+  if (!friction.second_thermal) return {number(value), 0};
   if (!value.is_array() || value.size() != 2) {
     Refuse(place, "initial_energy is {}; with two stages of warming give a list of two numbers",
            Excerpt(value.dump()));
   }
-  return {NumberFrom(value[0], "initial_energy", place),
-          NumberFrom(value[1], "initial_energy", place)};
+  return {number(value[0]), number(value[1])};
 }
 
 }  // namespace

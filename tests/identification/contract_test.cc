@@ -141,7 +141,7 @@ void ExpectFinite(const Estimate& estimate) {
     EXPECT_TRUE(std::isfinite((*parameter.interval95)[1])) << parameter.name;
   }
   if (estimate.metrics) {
-    for (const auto& [key, value] : EstimateToJson(estimate)["metrics"].items()) {
+    for (const auto& [key, value] : EstimateToTree(estimate)["metrics"].items()) {
       EXPECT_TRUE(value.is_number()) << key;
     }
   }
@@ -274,7 +274,7 @@ TEST_P(Contract, AnswersASelectionThatKeepsNothing) {
 }
 
 TEST_P(Contract, GivesTheSameBitsTwice) {
-  EXPECT_EQ(EstimateToJson(IdentifyRich()).dump(), EstimateToJson(IdentifyRich()).dump());
+  EXPECT_EQ(EstimateToTree(IdentifyRich()).dump(), EstimateToTree(IdentifyRich()).dump());
 }
 
 /// Whether a map goes over one turn of the joint, as a sliding joint's cannot.
@@ -380,7 +380,7 @@ TEST_P(Contract, LearnsFromChangesOfSpeedOnlyWhereItsRegimeIsTransient) {
   Measurements other = log;
   other.torque = selection.keep.select(other.torque, 0);
   const auto answer = [&](const Measurements& m) {
-    return EstimateToJson(Identify(m, selection)).dump();
+    return EstimateToTree(Identify(m, selection)).dump();
   };
   EXPECT_EQ(answer(other) == answer(log), steady);
 }

@@ -37,7 +37,7 @@ std::string Refusal(const json& object) {
 }
 
 TEST(EstimateJson, HoldsTheKeysOfTheContract) {
-  const json object = EstimateToJson(Example());
+  const json object = EstimateToTree(Example());
   EXPECT_EQ(object["identifier"], "energy-als");
   EXPECT_EQ(object["status"], "not_converged");
   EXPECT_EQ(object["parameters"]["coulomb"],
@@ -49,9 +49,9 @@ TEST(EstimateJson, HoldsTheKeysOfTheContract) {
 }
 
 TEST(EstimateJson, ReadsBackBitForBit) {
-  const json object = EstimateToJson(Example());
+  const json object = EstimateToTree(Example());
   const Estimate back = EstimateFrom({Tree(json::parse(object.dump())), "estimate.json"});
-  EXPECT_EQ(EstimateToJson(back), object);
+  EXPECT_EQ(json(EstimateToTree(back)), object);
   EXPECT_EQ(back.Find("viscous")->value, 1.0 / 3);
   EXPECT_FALSE(back.Find("viscous")->std);
   EXPECT_EQ(back.Find("gain"), nullptr);
@@ -59,17 +59,17 @@ TEST(EstimateJson, ReadsBackBitForBit) {
 
 TEST(EstimateJson, KeepsFrictionAtSpeeds) {
   Estimate estimate = Example();
-  EXPECT_FALSE(EstimateToJson(estimate).contains("friction_at_speeds"));
+  EXPECT_FALSE(EstimateToTree(estimate).contains("friction_at_speeds"));
   estimate.at_speeds = {{0.3, 2.15, 0.01, {2.13, 2.17}, "m/s", "N"},
                         {0.8, 2.4, 0.02, {2.36, 2.44}}};
-  const json object = EstimateToJson(estimate);
+  const json object = EstimateToTree(estimate);
   EXPECT_EQ(object["friction_at_speeds"][0], json({{"speed", 0.3},
                                                    {"value", 2.15},
                                                    {"std", 0.01},
                                                    {"interval95", {2.13, 2.17}},
                                                    {"speed_unit", "m/s"},
                                                    {"unit", "N"}}));
-  EXPECT_EQ(EstimateToJson(EstimateFrom({Tree(object), "estimate.json"})), object);
+  EXPECT_EQ(json(EstimateToTree(EstimateFrom({Tree(object), "estimate.json"}))), object);
 
   json wrong = object;
   wrong["friction_at_speeds"][1]["interval95"] = 3;
@@ -78,9 +78,9 @@ TEST(EstimateJson, KeepsFrictionAtSpeeds) {
 
 TEST(EstimateJson, KeepsWarningsApartAndInTheMessage) {
   Estimate estimate = Example();
-  EXPECT_FALSE(EstimateToJson(estimate).contains("warnings"));
+  EXPECT_FALSE(EstimateToTree(estimate).contains("warnings"));
   estimate.warnings = {"the kernels can imitate coulomb; so", "time; is short"};
-  const json object = EstimateToJson(estimate);
+  const json object = EstimateToTree(estimate);
   EXPECT_EQ(object["message"],
             "The parameters still move.; the kernels can imitate coulomb; so; time; is short");
   const Estimate back = EstimateFrom({Tree(object), "estimate.json"});
@@ -103,7 +103,7 @@ TEST(EstimateJson, NeverWritesNanOrInfinityAsANumber) {
   estimate.metrics->fit = -std::numeric_limits<double>::infinity();
   estimate.trace[0].rmse = std::numeric_limits<double>::quiet_NaN();
 
-  const json object = EstimateToJson(estimate);
+  const json object = EstimateToTree(estimate);
   EXPECT_TRUE(object["parameters"]["coulomb"]["value"].is_null());
   EXPECT_TRUE(object["parameters"]["coulomb"]["std"].is_null());
   EXPECT_TRUE(object["metrics"]["fit"].is_null());
@@ -114,7 +114,7 @@ TEST(EstimateJson, NeverWritesNanOrInfinityAsANumber) {
 TEST(EstimateJson, KeepsEveryStatus) {
   for (const char* name :
        {"ok", "not_converged", "not_identifiable", "inadequate_model", "bad_data"}) {
-    json object = EstimateToJson(Example());
+    json object = EstimateToTree(Example());
     object["status"] = name;
     EXPECT_EQ(StatusName(EstimateFrom({Tree(object), "estimate.json"}).status), name);
   }
@@ -124,19 +124,19 @@ TEST(EstimateJson, RefusesABrokenContractWithThePlace) {
   EXPECT_THAT(Refusal(json::array()), HasSubstr("estimate.json: the document is a list of 0"));
   EXPECT_THAT(Refusal({{"identifier", "x"}}), HasSubstr("'status' is missing"));
 
-  json object = EstimateToJson(Example());
+  json object = EstimateToTree(Example());
   object["status"] = "okay";
   EXPECT_THAT(Refusal(object), HasSubstr("status is 'okay'; did you mean 'ok'?"));
 
-  object = EstimateToJson(Example());
+  object = EstimateToTree(Example());
   object["parameters"]["coulomb"]["value"] = "15";
   EXPECT_THAT(Refusal(object), HasSubstr("parameters.coulomb.value is '15'"));
 
-  object = EstimateToJson(Example());
+  object = EstimateToTree(Example());
   object["parameters"]["coulomb"]["interval95"] = {1};
   EXPECT_THAT(Refusal(object), HasSubstr("parameters.coulomb.interval95"));
 
-  object = EstimateToJson(Example());
+  object = EstimateToTree(Example());
   object["metrics"]["n"] = 1.5;
   EXPECT_THAT(Refusal(object), HasSubstr("metrics.n is '1.5'; it must be a whole number"));
 }

@@ -14,7 +14,7 @@
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
-#include "models/foundation/json_members.h"
+#include "models/foundation/node.h"
 #include "models/foundation/parse_number.h"
 #include "models/foundation/read_json.h"
 #include "models/friction/settled_energy.h"
@@ -58,24 +58,21 @@ constexpr std::string_view kSettled = "settled:";
 /// The heat at the end of a recording: {energy, second_energy} of state_end.
 std::vector<double> EndEnergy(const FrictionDescription& friction, const std::string& file) {
   if (!friction.thermal) return {};
-  const nlohmann::json object = ReadJsonFile(file);
   const Place place{file};
   // only estimates of a warming joint tell the heat at the end
-  if (!object.is_object() || !object.contains("state_end") || !object["state_end"].is_object()) {
+  const auto end = ReadJsonNode(file).Find("state_end");
+  if (!end || !end->IsMap()) {
     Refuse(place,
            "has no state_end, the heat at the end of its recording; identify again, or give "
            "--initial cold or settled:SPEED");
   }
-  const nlohmann::json& end = object["state_end"];
   std::vector<double> energies;
   // heat of each stage
   const auto add = [&](const char* key) {
-    if (!end.contains(key)) Refuse(place, "state_end has no {}; identify again", key);
+    const auto given = end->Find(key);
+    if (!given) Refuse(place, "state_end has no {}; identify again", key);
     // a number, or an object of its value, standard error and interval
-    const nlohmann::json& given = end[key];
-    const bool whole = given.is_object() && given.contains("value");
-    const nlohmann::json& value = whole ? given["value"] : given;
-    energies.push_back(NumberFrom(value, fmt::format("state_end.{}", key), place));
+    energies.push_back(given->Find("value").value_or(*given).Number());
   };
   add("energy");
   if (friction.second_thermal) add("second_energy");

@@ -197,12 +197,12 @@ void PrintSeveral(const IdentifyArguments& arguments, const std::vector<Answered
     Say(stdout, "{}", EstimatesToText(rows, unit));
     return;
   }
-  nlohmann::json estimates = nlohmann::json::array();
+  Tree estimates = Tree::array();
   for (const Answered& one : answers) {
-    estimates.push_back(one.identified ? EstimateToJson(one.identified->estimate)
-                                       : nlohmann::json{{"identifier", one.name},
-                                                        {"status", one.status},
-                                                        {"message", one.message}});
+    estimates.push_back(
+        one.identified
+            ? EstimateToTree(one.identified->estimate)
+            : Tree{{"identifier", one.name}, {"status", one.status}, {"message", one.message}});
   }
   fmt::print("{}\n", estimates.dump(2));
 }

@@ -66,15 +66,9 @@ ordered_json PartsJson() {
       "(10)-(16) factor(v) sum_i w_i kappa_i, Gaussian kernels over one to four quantities; the "
       "motor's position is mod(gear position, 2 pi); join any law",
       std::vector<ParameterInfo>{});
-  for (const MapQuantity quantity :
-       {MapQuantity::position, MapQuantity::motor_position, MapQuantity::velocity,
-        MapQuantity::energy, MapQuantity::load}) {
-    maps["quantities"].push_back(NameOf(quantity));
-  }
-  maps["kernels"] = {"normalised", "plain"};
-  for (const MapFactor factor : {MapFactor::one, MapFactor::direction, MapFactor::velocity}) {
-    maps["factors"].push_back(NameOf(factor));
-  }
+  for (const auto& word : WordsOf(MapQuantity())) maps["quantities"].push_back(word.name);
+  for (const auto& word : WordsOf(KernelKind())) maps["kernels"].push_back(word.name);
+  for (const auto& word : WordsOf(MapFactor())) maps["factors"].push_back(word.name);
 
   // each as if it were a law, with its formula
   return {LawJson("thermal", "(20)-(22) F = Fn + sign(v) E, E = k / (1 + s tau) W; joins any law",
@@ -177,7 +171,7 @@ ordered_json RobotsJson() {
     ordered_json joints = ordered_json::array();
     for (const RobotJoint& joint : robot.joints) {
       joints.push_back({{"name", joint.name},
-                        {"kind", joint.kind == JointKind::linear ? "linear" : "rotary"},
+                        {"kind", NameOf(joint.kind)},
                         {"lower", NumberOrNull(joint.limits.first)},
                         {"upper", NumberOrNull(joint.limits.second)},
                         {"effort", joint.effort},

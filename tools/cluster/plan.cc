@@ -8,7 +8,7 @@
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
-#include "models/foundation/json_members.h"
+#include "models/foundation/node.h"
 #include "models/foundation/read_json.h"
 #include "scenarios/suite.h"
 #include "tools/suite/shard.h"
@@ -49,9 +49,9 @@ Plan ReadPlan(const fs::path& given) {
            "`--local-shards`");
   }
   const Place place{PlanFile(plan.run).string()};
-  const nlohmann::json file = ReadJsonFile(place.file);
-  RefuseUnknownKeys(file, "the plan", {"shards"}, place);
-  const double shards = NumberFrom(file.value("shards", nlohmann::json()), "shards", place);
+  const Node file = ReadJsonNode(place.file);
+  file.RequireKeys({"shards"});
+  const double shards = file.Require("shards", kGiveNumber).Number();
   if (!(shards >= 1 && shards <= kMostShards && shards == static_cast<int>(shards))) {
     Refuse(place, "'shards' is {}; it must be a whole number from 1 to {}", shards, kMostShards);
   }

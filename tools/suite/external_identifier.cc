@@ -154,19 +154,12 @@ void RequireAnswer(const Command& command, const CommandEnd& end) {
 /// The estimate that the command wrote. Members that only our own identifiers have may be left out.
 Estimate ReadAnswer(const std::string& text, const std::string& label) {
   try {
-    nlohmann::json json = ParseJson(text, "estimate.json");
-    if (!json.is_object()) throw NoAnswer("bad_answer", "the estimate is not a JSON object");
-    // members that an answer may leave out
-    const nlohmann::json absent{{"identifier", label},
-                                {"message", ""},
-                                {"metrics", nullptr},
-                                {"holdout", nullptr},
-                                {"trace", nlohmann::json::array()},
-                                {"friction", nullptr}};
-    for (const auto& [key, value] : absent.items()) json.emplace(key, value);
-    return EstimateFrom({Tree(json), "estimate.json"});
-  } catch (const nlohmann::json::exception& error) {
-    throw NoAnswer("bad_answer", Excerpt(error.what(), kLongestComplaint));
+    Tree answer = ParseJson<Tree>(text, "estimate.json");
+    if (!answer.is_object()) throw NoAnswer("bad_answer", "the estimate is not a JSON object");
+    // members that our own identifiers have and an answer may leave out
+    answer.emplace("identifier", label);
+    answer.emplace("message", "");
+    return EstimateFrom({std::move(answer), "estimate.json"});
   } catch (const BadInput& error) {
     throw NoAnswer("bad_answer", Excerpt(error.what(), kLongestComplaint));
   }

@@ -13,9 +13,9 @@ using namespace warmjoint;
 void Read(std::string_view bytes) {
   const Place place{"fuzz.json"};
   const Estimate estimate = EstimateFrom(ParseJsonNode(std::string(bytes), place.file));
-  const auto written = EstimateToJson(estimate);
+  const auto written = EstimateToTree(estimate);
   const std::string text = written.dump();
-  const auto again = EstimateToJson(EstimateFrom(ParseJsonNode(text, place.file)));
+  const auto again = EstimateToTree(EstimateFrom(ParseJsonNode(text, place.file)));
   fuzz::Require(again.dump() == text);
 
   // what gravity does over some turns

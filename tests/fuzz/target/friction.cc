@@ -18,8 +18,8 @@ FrictionDescription Parsed(const std::string& text) {
 
 void Read(std::string_view bytes) {
   const FrictionDescription friction = Parsed(std::string(bytes));
-  const std::string written = FrictionToJson(friction).dump();
-  fuzz::Require(FrictionToJson(Parsed(written)).dump() == written);
+  const std::string written = FrictionToTree(friction).dump();
+  fuzz::Require(FrictionToTree(Parsed(written)).dump() == written);
 
   // there and back over some turns
   JointFriction joint(friction);

@@ -73,9 +73,9 @@ TEST(FrictionMap, ReadsBackWhatItWrites) {
   friction.maps = {
       SmallMap(),
       {{{MapQuantity::motor_position, CircleAxis(turn, 2)}}, KernelKind::plain, {0.1, 0.2}}};
-  const nlohmann::json written = FrictionToJson(friction);
-  const FrictionDescription back = FrictionFrom({Tree(written), "friction.json"});
-  EXPECT_EQ(FrictionToJson(back), written);
+  const Tree written = FrictionToTree(friction);
+  const FrictionDescription back = FrictionFrom({written, "friction.json"});
+  EXPECT_EQ(FrictionToTree(back), written);
   EXPECT_EQ(back.maps[1].axes[0].kernels.period, turn);
   EXPECT_EQ(back.maps[0].axes[1].kernels.sides, Sides::apart);
 }

@@ -87,7 +87,7 @@ TEST(PluginMaps, SlideAtTheForceOfTheModel) {
 
 TEST(PluginMaps, AreTheSameFromAFileAndInline) {
   const std::string path = testing::TempDir() + "/rippled.json";
-  WriteWholeFile(path, FrictionToJson(Rippled()).dump());
+  WriteWholeFile(path, FrictionToTree(Rippled()).dump());
   const Model inline_model = MustCompile(LinkXml(InlineXml(Rippled()), kSwing));
   const Model from_file = MustCompile(
       LinkXml(ActuatorXml(fmt::format(R"(<config key="file" value="{}"/>)", path)), kSwing));
@@ -106,7 +106,7 @@ TEST(PluginMaps, AreTheSameFromAFileAndInline) {
 TEST(PluginMaps, AFileLiesBesideTheModelThatThisProgramLoads) {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "beside";
   std::filesystem::create_directories(folder);
-  WriteWholeFile(folder / "rippled.json", FrictionToJson(Rippled()).dump());
+  WriteWholeFile(folder / "rippled.json", FrictionToTree(Rippled()).dump());
   const std::string actuator = ActuatorXml(R"(<config key="file" value="rippled.json"/>)");
   WriteWholeFile(folder / "link.xml", LinkXml(actuator, kSwing));
   const LoadedModel loaded = LoadModel(folder / "link.xml");

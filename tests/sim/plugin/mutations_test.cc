@@ -59,7 +59,7 @@ std::string MutatedArm(const FrictionDescription& friction, Form form, RandomStr
   const std::string begin = R"(key="joints" value=")";
   const size_t from = xml.find(begin) + begin.size(), to = xml.find('"', from);
   nlohmann::json joints;
-  for (int i = 0; i < kArmJoints; ++i) joints[fmt::format("j{}", i)] = FrictionToJson(friction);
+  for (int i = 0; i < kArmJoints; ++i) joints[fmt::format("j{}", i)] = FrictionToTree(friction);
   const bool numbers = random.Uniform(0, 1) < 0.5;
   const std::string text =
       numbers ? MutateNumbers(joints.dump(), random) : Mutate(joints.dump(), random);

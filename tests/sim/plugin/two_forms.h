@@ -73,7 +73,7 @@ inline std::string ArmXml(const FrictionDescription& friction, Form form,
   nlohmann::json joints;
   std::string bodies, motors, frictions, ends;
   for (int i = 0; i < kArmJoints; ++i) {
-    joints[fmt::format("j{}", i)] = FrictionToJson(friction);
+    joints[fmt::format("j{}", i)] = FrictionToTree(friction);
     bodies += fmt::format(
         R"(<body pos="0 0 {}"><joint name="j{}" axis="{}" armature="0.05" damping="0.2"/>
            <geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.03" mass="{}"/>)",

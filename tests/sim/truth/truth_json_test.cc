@@ -41,7 +41,7 @@ TEST(Truth, ReadsBackBitForBit) {
   const TemporaryFile file("truth.json");
   WriteTruth(truth, file.path());
   const Truth copy = ReadTruth(file.path());
-  EXPECT_EQ(FrictionToJson(copy.friction), FrictionToJson(truth.friction));
+  EXPECT_EQ(FrictionToTree(copy.friction), FrictionToTree(truth.friction));
   EXPECT_EQ(copy.initial_energy, truth.initial_energy);
   EXPECT_EQ(copy.torque_noise, truth.torque_noise);
   EXPECT_EQ(copy.plant, "ideal");

@@ -89,7 +89,7 @@ Estimate Refused(const PreparedLog& log, std::map<std::string, std::string> opti
   Estimate estimate =
       IdentifyAndJudge(identifier, {log, ReadOptions(identifier.options, options, {}), {}});
   EXPECT_NE(estimate.status, Status::ok);
-  return EstimateFrom({Tree(EstimateToJson(estimate)), "estimate.json"});
+  return EstimateFrom({EstimateToTree(estimate), "estimate.json"});
 }
 
 TEST(EstimateFigures, ShowTheFitOfARefusedEstimateWithItsOptions) {
