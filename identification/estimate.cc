@@ -1,12 +1,39 @@
 #include "identification/estimate.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
+#include "identification/gravity.h"
+#include "models/foundation/atomic_file.h"
 #include "models/foundation/serialize.h"
 #include "models/friction/friction_json.h"
 
 namespace warmjoint::inline identification {
+namespace fs = std::filesystem;
+namespace {
+
+/// A file as it is called from the folder of another one; as it is where it is no file of a folder.
+std::string SeenFrom(const fs::path& file, const fs::path& other) {
+  std::error_code ignored;
+  if (other.empty() || IsStandardOutput(other) || !fs::is_regular_file(file, ignored)) return file;
+  const fs::path relative = fs::relative(file, fs::absolute(other).parent_path(), ignored);
+  return relative.empty() ? file : relative;
+}
+
+/// Where a file lies that another one names: seen from its folder, or as it is, or beside it; its name where
+/// it is nowhere.
+std::string Found(const fs::path& name, const fs::path& other) {
+  const fs::path folder = other.parent_path();
+  for (const fs::path& path : {folder / name, name, folder / name.filename()}) {
+    std::error_code ignored;
+    if (fs::exists(path, ignored)) return path;
+  }
+  return name;
+}
+
+}  // namespace
 
 const EstimatedParameter* Estimate::Find(std::string_view name) const {
   const auto found = std::ranges::find(parameters, name, &EstimatedParameter::name);
@@ -29,10 +56,62 @@ void Estimate::TakeMessage(const std::string& full) {
   }
 }
 
-Tree EstimateToTree(const Estimate& estimate) { return WriteFields(estimate); }
+Metrics ComputeMetrics(const Eigen::VectorXd& measured, const Eigen::VectorXd& fitted,
+                       int parameters, double effective_parameters) {
+  if (measured.size() != fitted.size() || measured.size() == 0) {
+    Refuse({"metrics"}, "are asked of {} measured and {} fitted values; give as many, at least one",
+           measured.size(), fitted.size());
+  }
+  const double n = static_cast<double>(measured.size());
+  // the residual, and what a constant torque would leave
+  const Eigen::VectorXd error = measured - fitted;
+  const double mean_square = error.squaredNorm() / n;
+  const double spread = (measured.array() - measured.mean()).matrix().norm();
+
+  Metrics metrics;
+  metrics.n = static_cast<int>(measured.size());
+  metrics.parameters = parameters;
+  metrics.effective_parameters = effective_parameters;
+  metrics.rmse = std::sqrt(mean_square);
+  metrics.mae = error.cwiseAbs().mean();
+  // neither a constant torque has a share to explain, nor a fit with no sample to spare an error to predict
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  metrics.fit = spread > 0 ? 100 * (1 - error.norm() / spread) : none;
+  metrics.fpe = parameters < n ? mean_square * (1 + parameters / n) / (1 - parameters / n) : none;
+  return metrics;
+}
+
+Tree EstimateToTree(const Estimate& estimate, const fs::path& target) {
+  if (!estimate.recording) return WriteFields(estimate);
+  Estimate seen = estimate;
+  RecordingSource& source = *seen.recording;
+  for (std::string& file : source.files) file = SeenFrom(file, target);
+  if (source.project) source.project->file = SeenFrom(source.project->file, target);
+  return WriteFields(seen);
+}
 
 Estimate EstimateFrom(const Node& node) {
-  return ReadAs<Estimate>(node.With(UnknownKeys::ignored));
+  Estimate estimate = ReadAs<Estimate>(node.With(UnknownKeys::ignored));
+  if (!estimate.recording) return estimate;
+  // files are named as they are seen from the estimate
+  RecordingSource& source = *estimate.recording;
+  for (std::string& file : source.files) file = Found(file, node.file());
+  if (source.project) source.project->file = Found(source.project->file, node.file());
+  return estimate;
+}
+
+std::string EstimateToJson(const Estimate& estimate) {
+  return EstimateToTree(estimate).dump(2) + "\n";
+}
+
+Estimate EstimateFromJson(const std::string& text, const std::string& name) {
+  return EstimateFrom(ParseJsonNode(text, name));
+}
+
+Estimate ReadEstimate(const fs::path& file) { return EstimateFrom(ReadJsonNode(file)); }
+
+void WriteEstimate(const Estimate& estimate, const fs::path& file) {
+  WriteWholeFile(file, EstimateToTree(estimate, file).dump(2) + "\n");
 }
 
 }  // namespace warmjoint::inline identification

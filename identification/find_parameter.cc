@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "identification/fit_parameters.h"
+#include "models/friction/law.h"
 
 namespace warmjoint::inline identification {
 

@@ -1,9 +1,10 @@
 // The parameters of an estimate by what they are; their names are those of the fit's rows.
 #pragma once
 
-#include "identification/estimate.h"
+#include <warmjoint/estimate.h>
+#include <warmjoint/friction.h>
+
 #include "identification/fit.h"
-#include "models/friction/law.h"
 
 namespace warmjoint::inline identification {
 

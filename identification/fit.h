@@ -1,6 +1,12 @@
 // What an identifier returns: the fitted model as a value, with all that later steps read.
 #pragma once
 
+#include <warmjoint/estimate.h>
+#include <warmjoint/friction.h>
+#include <warmjoint/friction_model.h>
+#include <warmjoint/prepared_log.h>
+#include <warmjoint/recording.h>
+
 #include <Eigen/Core>
 #include <functional>
 #include <memory>
@@ -8,17 +14,9 @@
 #include <string>
 #include <vector>
 
-#include "identification/chosen_structure.h"
-#include "identification/gravity.h"
-#include "identification/map_band.h"
-#include "identification/preparation/friction_kind.h"
-#include "identification/status.h"
 #include "identification/uncertainty/disagreement.h"
 #include "identification/uncertainty/uncertainty.h"
 #include "identification/uncertainty/whitening.h"
-#include "models/friction/course_start.h"
-#include "models/friction/friction_description.h"
-#include "models/recording/selection.h"
 
 namespace warmjoint::inline identification {
 
@@ -109,7 +107,7 @@ struct Fit {
   std::vector<std::string> warnings;
 
   // the model
-  FrictionDescription friction;  // law, warming and maps, whatever their bounds
+  Friction friction;  // law, warming and maps, whatever their bounds
   std::optional<GravityModel> gravity;
   std::optional<double> inertia;  // torque over acceleration, kg.m^2 or kg
   /// [N] M a where the fit made its own a of the velocities, N.m or N; else empty.
@@ -139,7 +137,7 @@ struct Fit {
   std::optional<double> loss_bend;  // where a robust loss bends, N.m or N
   std::vector<MapBand> bands;       // one for each of the friction's maps
   /// In place of parameters of the law that only a prior tells from a map.
-  std::vector<FrictionAtSpeed> at_speeds;
+  std::vector<FrictionAtSpeed> friction_at_speeds;
   std::vector<Iterate> trace;
 
   std::optional<StructureChoice> choice;  // of an identifier that chooses

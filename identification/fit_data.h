@@ -1,13 +1,14 @@
 // What every identifier does first: look at the data, and say what they lack.
 #pragma once
 
+#include <warmjoint/friction.h>
+
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "identification/identifier.h"
-#include "models/friction/law.h"
 
 namespace warmjoint::inline identification {
 

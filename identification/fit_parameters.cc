@@ -121,9 +121,9 @@ void Append(const std::vector<FitParameter>& rows, Fit& fit) {
   fit.parameters.insert(fit.parameters.end(), rows.begin(), rows.end());
 }
 
-FrictionDescription FrictionOf(const Law& law, const Eigen::VectorXd& values,
-                               const Measurements& measurements) {
-  FrictionDescription friction;
+Friction FrictionOf(const Law& law, const Eigen::VectorXd& values,
+                    const Measurements& measurements) {
+  Friction friction;
   friction.law = law.name;
   friction.gear = measurements.gear;
   for (size_t i = 0; i < law.parameters.size(); ++i) {

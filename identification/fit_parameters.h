@@ -1,13 +1,14 @@
 // The rows of a fit's table of parameters: their names, units and bounds, in one place.
 #pragma once
 
+#include <warmjoint/friction.h>
+#include <warmjoint/recording.h>
+
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "identification/fit.h"
-#include "models/friction/law.h"
-#include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
 
@@ -50,7 +51,7 @@ FitParameter TorqueLagParameter(double time_constant, const Measurements& measur
 void Append(const std::vector<FitParameter>& rows, Fit& fit);
 
 /// The law with its values, and nothing else. values: [d]
-FrictionDescription FrictionOf(const Law& law, const Eigen::VectorXd& values,
-                               const Measurements& measurements);
+Friction FrictionOf(const Law& law, const Eigen::VectorXd& values,
+                    const Measurements& measurements);
 
 }  // namespace warmjoint::inline identification

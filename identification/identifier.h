@@ -1,6 +1,8 @@
 // What an identifier is, and what it may look at.
 #pragma once
 
+#include <warmjoint/prepared_log.h>
+
 #include <algorithm>
 #include <functional>
 #include <string>
@@ -10,7 +12,6 @@
 
 #include "identification/fit.h"
 #include "identification/options.h"
-#include "identification/preparation/prepared_log.h"
 #include "models/foundation/random_stream.h"
 
 namespace warmjoint::inline identification {

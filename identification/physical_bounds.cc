@@ -12,7 +12,7 @@ bool LeavesBounds(const std::vector<FitParameter>& parameters) {
   });
 }
 
-std::optional<std::string> RisesFromRest(const FrictionDescription& friction) {
+std::optional<std::string> RisesFromRest(const Friction& friction) {
   const auto at_rest = friction.parameters.find(std::string(kStaticRow.name));
   const auto coulomb = friction.parameters.find(std::string(kCoulombRow.name));
   const auto rise = friction.parameters.find(std::string(kStaticRiseRow.name));

@@ -14,7 +14,7 @@ bool LeavesBounds(const std::vector<FitParameter>& parameters);
 
 /// In words that the level at rest is below that of sliding, of a law that has both; nothing where it is
 /// not.
-std::optional<std::string> RisesFromRest(const FrictionDescription& friction);
+std::optional<std::string> RisesFromRest(const Friction& friction);
 
 /// Whether the fit's friction may be used: nothing refuses it, its values lie inside of their physical
 /// bounds, and its static level is not below its Coulomb level. That of Infer, without its covariance.

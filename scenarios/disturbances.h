@@ -1,11 +1,12 @@
 // What acts on a joint or on its log beside friction and white noise. All zero: nothing.
 #pragma once
 
+#include <warmjoint/field.h>
+#include <warmjoint/friction.h>
+
 #include <optional>
 #include <string_view>
 
-#include "models/foundation/field.h"
-#include "models/friction/thermal.h"
 #include "scenarios/hidden_forces.h"
 #include "scenarios/sensor_faults.h"
 

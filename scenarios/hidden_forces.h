@@ -1,7 +1,7 @@
 // Forces of a joint that no model of an identifier holds. All zero: none.
 #pragma once
 
-#include "models/foundation/field.h"
+#include <warmjoint/field.h>
 
 namespace warmjoint::inline scenarios {
 

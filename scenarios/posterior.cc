@@ -1,10 +1,11 @@
 #include "scenarios/posterior.h"
 
+#include <warmjoint/parameter_covariance.h>
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
 #include "models/foundation/excerpt.h"
-#include "models/foundation/parameter_covariance.h"
 #include "models/foundation/serialize.h"
 #include "models/friction/check_friction.h"
 
@@ -18,7 +19,7 @@ using Eigen::MatrixXd;
 constexpr int kMostDraws = 1000;
 
 /// Where the parameter stands in a friction; nothing where it has none of that name.
-double* Find(FrictionDescription& friction, const std::string& name) {
+double* Find(Friction& friction, const std::string& name) {
   if (const auto found = friction.parameters.find(name); found != friction.parameters.end()) {
     return &found->second;
   }
@@ -55,10 +56,10 @@ void CheckCovariance(const MatrixXd& covariance, const Place& place) {
 
 }  // namespace
 
-Posterior PosteriorFrom(const Node& node, const FrictionDescription& friction) {
+Posterior PosteriorFrom(const Node& node, const Friction& friction) {
   const auto posterior = ReadAs<Posterior>(node);
   // names of the friction's own parameters, and a covariance that is one
-  FrictionDescription known = friction;
+  Friction known = friction;
   for (const std::string& name : posterior.parameters) {
     if (!Find(known, name)) {
       Refuse(node.place(), "the friction has no parameter '{}'", Excerpt(name));
@@ -70,7 +71,7 @@ Posterior PosteriorFrom(const Node& node, const FrictionDescription& friction) {
 
 Tree PosteriorToTree(const Posterior& posterior) { return WriteFields(posterior); }
 
-Posterior PosteriorOfEstimate(const Node& estimate, const FrictionDescription& friction) {
+Posterior PosteriorOfEstimate(const Node& estimate, const Friction& friction) {
   const auto node = estimate.Find("covariance");
   if (!node) {
     Refuse(estimate.place(),
@@ -84,7 +85,7 @@ Posterior PosteriorOfEstimate(const Node& estimate, const FrictionDescription& f
 
   // rows and columns of what the friction has
   Posterior posterior;
-  FrictionDescription known = friction;
+  Friction known = friction;
   std::vector<Index> kept;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (!Find(known, names[i])) continue;
@@ -101,15 +102,15 @@ Posterior PosteriorOfEstimate(const Node& estimate, const FrictionDescription& f
   return posterior;
 }
 
-FrictionDescription Draw(const Posterior& posterior, const FrictionDescription& friction,
-                         RandomStream& random, const Place& place) {
+Friction Draw(const Posterior& posterior, const Friction& friction, RandomStream& random,
+              const Place& place) {
   const MatrixXd root = RootOf(posterior.covariance);
   for (int i = 0; i < kMostDraws; ++i) {
     // one draw of the normal distribution around the estimate
     Eigen::VectorXd normal(root.cols());
     for (double& value : normal) value = random.Normal();
     const Eigen::VectorXd moves = root * normal;
-    FrictionDescription drawn = friction;
+    Friction drawn = friction;
     for (std::size_t k = 0; k < posterior.parameters.size(); ++k) {
       *Find(drawn, posterior.parameters[k]) += moves[static_cast<Index>(k)];
     }

@@ -1,6 +1,8 @@
 // A truth that is drawn as an estimate leaves it open.
 #pragma once
 
+#include <warmjoint/friction.h>
+
 #include <Eigen/Core>
 #include <iterator>
 #include <optional>
@@ -9,7 +11,6 @@
 
 #include "models/foundation/node.h"
 #include "models/foundation/random_stream.h"
-#include "models/friction/friction_description.h"
 
 namespace warmjoint::inline scenarios {
 
@@ -35,18 +36,18 @@ struct Posterior {
 /// {parameters[], covariance[][]}. Throws BadInput for a parameter that `friction` does not
 /// have, and for a matrix that is no covariance: not square, not symmetric, or with a negative variance
 /// in some direction.
-Posterior PosteriorFrom(const Node& node, const FrictionDescription& friction);
+Posterior PosteriorFrom(const Node& node, const Friction& friction);
 Tree PosteriorToTree(const Posterior& posterior);
 
 /// What estimate.json says of its friction's parameters: the rows and columns of its covariance that are
 /// the friction's; gravity, inertia and the start are integrated out. Throws BadInput where the estimate
 /// has no covariance.
-Posterior PosteriorOfEstimate(const Node& estimate, const FrictionDescription& friction);
+Posterior PosteriorOfEstimate(const Node& estimate, const Friction& friction);
 
 /// A friction drawn from the normal distribution about `friction`, given that its parameters are within
 /// their physical bounds: draws outside of them are repeated. Throws BadInput from `place` where 1000
 /// draws are outside.
-FrictionDescription Draw(const Posterior& posterior, const FrictionDescription& friction,
-                         RandomStream& random, const Place& place);
+Friction Draw(const Posterior& posterior, const Friction& friction, RandomStream& random,
+              const Place& place);
 
 }  // namespace warmjoint::inline scenarios

@@ -1,13 +1,14 @@
 // Everything that one simulated run depends on, in one struct with a seed.
 #pragma once
 
+#include <warmjoint/friction.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
 #include <string>
 
-#include "models/friction/friction_description.h"
 #include "scenarios/disturbances.h"
 #include "scenarios/motion.h"
 #include "scenarios/truth_draws.h"
@@ -85,7 +86,7 @@ struct Scenario {
   JointKind joint_kind = JointKind::rotary;
   std::string robot;  // name in models/robots or path of an MJCF or URDF file; mujoco plant only
   std::string joint;  // name of the joint; mujoco plant only
-  FrictionDescription friction;
+  Friction friction;
   double initial_energy = 0;  // E(0), N.m or N
   TruthDraws draws;           // what is drawn of the truth above for each realization
   Motion motion;

@@ -1,7 +1,7 @@
 // Faults of sensors, clocks and files that spoil a log. All at their defaults: none.
 #pragma once
 
-#include "models/foundation/field.h"
+#include <warmjoint/field.h>
 
 namespace warmjoint::inline scenarios {
 

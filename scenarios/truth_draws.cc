@@ -78,7 +78,7 @@ std::string PathIn(const Node& node) {
 void ReadEstimate(const Node& node, const Node& estimate, DrawnFriction& made) {
   node.RequireKeys({"estimate", "draw"});
   const std::string path = PathIn(estimate);
-  made.friction = ReadFrictionFile(path);
+  made.friction = ReadFriction(path);
   if (const auto draw = node.Find("draw")) {
     if (draw->Text() != "posterior") draw->RefuseValue("posterior");
     made.draws.posterior = PosteriorOfEstimate(ReadJsonNode(path), made.friction);
@@ -91,7 +91,7 @@ void ReadValue(const Node& node, DrawnFriction* value, const FieldInfo&) {
   *value = {};
   // a file, an estimate, or the friction itself
   if (node.IsScalar()) {
-    value->friction = ReadFrictionFile(PathIn(node));
+    value->friction = ReadFriction(PathIn(node));
     return;
   }
   if (const auto estimate = node.Find("estimate")) return ReadEstimate(node, *estimate, *value);
@@ -120,8 +120,8 @@ Tree WriteValue(const DrawnFriction& value) {
   return tree;
 }
 
-FrictionDescription DrawFriction(const FrictionDescription& friction, const TruthDraws& draws,
-                                 RandomStream& random, const Place& place) {
+Friction DrawFriction(const Friction& friction, const TruthDraws& draws, RandomStream& random,
+                      const Place& place) {
   if (draws.posterior) return Draw(*draws.posterior, friction, random, place);
   Tree tree = FrictionToTree(friction);
   for (const auto& [key, range] : draws.numbers) {

@@ -1,13 +1,14 @@
 // What is drawn of a truth.
 #pragma once
 
+#include <warmjoint/friction.h>
+
 #include <map>
 #include <optional>
 #include <string>
 
 #include "models/foundation/node.h"
 #include "models/foundation/random_stream.h"
-#include "models/friction/friction_description.h"
 #include "scenarios/distribution.h"
 #include "scenarios/posterior.h"
 
@@ -27,7 +28,7 @@ struct TruthDraws {
 /// A friction, its numbers that are drawn at their middles, as the key `friction` has it: as in a friction file, where any
 /// number may be a distribution; the path of one; {estimate: FILE}, and with `draw: posterior` what the estimate leaves open.
 struct DrawnFriction {
-  FrictionDescription friction;
+  Friction friction;
   TruthDraws draws;
 };
 void ReadValue(const Node& node, DrawnFriction* value, const FieldInfo& info);
@@ -35,7 +36,7 @@ Tree WriteValue(const DrawnFriction& value);
 
 /// The truth of a scenario, at the middles of what is drawn.
 struct DrawnTruth {
-  FrictionDescription friction;
+  Friction friction;
   double initial_energy = 0;  // N.m or N
   TruthDraws draws;
 
@@ -57,7 +58,7 @@ struct DrawnTruth {
 };
 
 /// A friction of its draws. Throws BadInput from `place` where the posterior gives none within physical bounds.
-FrictionDescription DrawFriction(const FrictionDescription& friction, const TruthDraws& draws,
-                                 RandomStream& random, const Place& place);
+Friction DrawFriction(const Friction& friction, const TruthDraws& draws, RandomStream& random,
+                      const Place& place);
 
 }  // namespace warmjoint::inline scenarios

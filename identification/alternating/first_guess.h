@@ -1,12 +1,12 @@
 // First guess of the thermal parameters from the envelope of the torque, Eq. (25).
 #pragma once
 
+#include <warmjoint/friction.h>
+#include <warmjoint/recording.h>
+
 #include <Eigen/Core>
 #include <optional>
 #include <string>
-
-#include "models/friction/thermal.h"
-#include "models/recording/selection.h"
 
 namespace warmjoint::inline identification {
 

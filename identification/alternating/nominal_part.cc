@@ -1,9 +1,11 @@
 #include "identification/alternating/nominal_part.h"
 
+#include <warmjoint/recording.h>
+
 #include "identification/fit_data.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/maps/position_maps.h"
-#include "models/recording/selection.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
 namespace {

@@ -1,10 +1,11 @@
 // Output-error fit of the thermal filter H(z), Eq. (22).
 #pragma once
 
+#include <warmjoint/recording.h>
+
 #include <Eigen/Core>
 
 #include "identification/forward/thermal_filter.h"
-#include "models/recording/selection.h"
 
 namespace warmjoint::inline identification {
 

@@ -1,7 +1,8 @@
 // The way from a prepared log to an answer: fit, infer, judge, report.
 #pragma once
 
-#include "identification/estimate.h"
+#include <warmjoint/estimate.h>
+
 #include "identification/identifier.h"
 #include "identification/inference/inference.h"
 #include "identification/lack_of_fit/judging.h"

@@ -1,9 +1,10 @@
 // The verdict on an estimate that another program made.
 #pragma once
 
-#include "identification/estimate.h"
+#include <warmjoint/estimate.h>
+#include <warmjoint/prepared_log.h>
+
 #include "identification/lack_of_fit/judging.h"
-#include "identification/preparation/prepared_log.h"
 
 namespace warmjoint::inline identification {
 

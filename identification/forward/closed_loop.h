@@ -1,12 +1,13 @@
 // Warm friction over a recorded motion: the loop that Eqs. (19)-(22) close, and its derivatives.
 #pragma once
 
+#include <warmjoint/friction.h>
+#include <warmjoint/recording.h>
+
 #include <Eigen/Core>
 #include <optional>
 
 #include "models/friction/intervals.h"
-#include "models/friction/law.h"
-#include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
 

@@ -1,10 +1,10 @@
 // Where a joint was at each sample, as maps read it.
 #pragma once
 
-#include <Eigen/Core>
+#include <warmjoint/friction.h>
+#include <warmjoint/recording.h>
 
-#include "models/friction/friction_map.h"
-#include "models/recording/measurements.h"
+#include <Eigen/Core>
 
 namespace warmjoint::inline identification {
 

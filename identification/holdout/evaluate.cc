@@ -1,8 +1,9 @@
 #include "identification/holdout/evaluate.h"
 
+#include <warmjoint/estimate.h>
+
 #include "identification/fit_data.h"
 #include "identification/holdout/predict_torque.h"
-#include "identification/metrics.h"
 #include "identification/physical_bounds.h"
 
 namespace warmjoint::inline identification {
@@ -16,7 +17,7 @@ TorqueModel ModelOf(const Fit& fit) {
 std::optional<Metrics> Evaluate(const Fit& fit, const Measurements& measurements, Selection test,
                                 const CourseStart& start) {
   if (!GivesFriction(fit)) return std::nullopt;
-  const FrictionDescription& friction = fit.friction;
+  const Friction& friction = fit.friction;
   const TorquePrediction predicted =
       PredictTorque(ModelOf(fit), measurements, std::move(test), start);
   if (predicted.known.count() == 0) return std::nullopt;

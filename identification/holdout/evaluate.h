@@ -1,12 +1,13 @@
 // Figures of a fit on samples that it has not seen.
 #pragma once
 
+#include <warmjoint/estimate.h>
+#include <warmjoint/friction_model.h>
+
 #include <optional>
 
 #include "identification/fit.h"
 #include "identification/holdout/predict_torque.h"
-#include "identification/metrics.h"
-#include "models/friction/course_start.h"
 
 namespace warmjoint::inline identification {
 

@@ -1,6 +1,7 @@
 #include "identification/holdout/hold_out.h"
 
 #include <fmt/format.h>
+#include <warmjoint/friction_model.h>
 
 #include <cmath>
 
@@ -9,7 +10,6 @@
 #include "identification/physical_bounds.h"
 #include "identification/preparation/moving_view.h"
 #include "identification/seen_samples.h"
-#include "models/friction/course_start.h"
 
 namespace warmjoint::inline identification {
 namespace {

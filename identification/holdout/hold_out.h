@@ -1,11 +1,12 @@
 // Figures on samples that the fit has not seen.
 #pragma once
 
+#include <warmjoint/estimate.h>
+
 #include <optional>
 #include <string>
 
 #include "identification/identifier.h"
-#include "identification/metrics.h"
 
 namespace warmjoint::inline identification {
 

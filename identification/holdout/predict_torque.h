@@ -1,19 +1,19 @@
 // The torque that a model predicts along a log.
 #pragma once
 
+#include <warmjoint/estimate.h>
+#include <warmjoint/friction.h>
+#include <warmjoint/recording.h>
+
 #include <optional>
 
-#include "identification/gravity.h"
 #include "models/friction/along_motion.h"
-#include "models/friction/friction_description.h"
-#include "models/recording/measurements.h"
-#include "models/recording/selection.h"
 
 namespace warmjoint::inline identification {
 
 /// What acts on a joint, as far as a fit knows it: F + G + M a, Eqs. (5) and (20).
 struct TorqueModel {
-  FrictionDescription friction;
+  Friction friction;
   std::optional<GravityModel> gravity;
   std::optional<double> inertia;  // kg.m^2 or kg
   std::optional<double> lag{};    // s, of the torque's way into the log, first order

@@ -1,11 +1,12 @@
 // Whether a log's torque lags, for those who choose among structures.
 #pragma once
 
+#include <warmjoint/friction_model.h>
+
 #include <optional>
 
 #include "identification/holdout/predict_torque.h"
 #include "identification/identifiers/structures.h"
-#include "models/friction/course_start.h"
 
 namespace warmjoint::inline identification {
 

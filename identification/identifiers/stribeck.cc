@@ -1,6 +1,7 @@
 #include "identification/identifiers/stribeck.h"
 
 #include <fmt/format.h>
+#include <warmjoint/recording.h>
 
 #include <cmath>
 
@@ -17,7 +18,6 @@
 #include "identification/warming/warm_fit.h"
 #include "identification/warming/warming_verdict.h"
 #include "models/recording/course_of.h"
-#include "models/recording/selection.h"
 
 namespace warmjoint::inline identification {
 namespace {

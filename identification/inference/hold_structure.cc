@@ -1,11 +1,11 @@
 #include "identification/inference/hold_structure.h"
 
 #include <fmt/format.h>
+#include <warmjoint/estimate.h>
 
 #include <cmath>
 
 #include "identification/fit_data.h"
-#include "identification/relevance.h"
 
 namespace warmjoint::inline identification {
 namespace {

@@ -1,15 +1,16 @@
 // What a fit tells: status, intervals, and what is wrong with it, as data.
 #pragma once
 
+#include <warmjoint/estimate.h>
+#include <warmjoint/recording.h>
+
 #include <Eigen/Core>
 #include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "identification/diagnostic.h"
 #include "identification/fit.h"
-#include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
 

@@ -1,12 +1,12 @@
 // Samples of a fit taken together where the speed stays: what slow structure needs of them.
 #pragma once
 
+#include <warmjoint/recording.h>
+
 #include <Eigen/Core>
 #include <vector>
 
 #include "models/foundation/four.h"
-#include "models/recording/measurements.h"
-#include "models/recording/selection.h"
 
 namespace warmjoint::inline identification {
 

@@ -1,13 +1,14 @@
 // What the residual of a fit still shows: the whole table of tests for lack of fit on one log.
 #pragma once
 
+#include <warmjoint/recording.h>
+
 #include <Eigen/Core>
 #include <string>
 #include <vector>
 
 #include "identification/inference/inference.h"
 #include "identification/lack_of_fit/finding.h"
-#include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
 

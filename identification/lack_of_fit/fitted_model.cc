@@ -5,6 +5,7 @@
 #include <initializer_list>
 
 #include "identification/forward/closed_loop.h"
+#include "identification/gravity.h"
 #include "identification/lack_of_fit/held_loss.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"

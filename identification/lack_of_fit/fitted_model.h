@@ -1,13 +1,14 @@
 // The model that a fit holds, over the recording that it was fitted to.
 #pragma once
 
+#include <warmjoint/recording.h>
+
 #include <Eigen/Core>
 #include <optional>
 #include <vector>
 
 #include "identification/forward/closed_loop.h"
 #include "identification/inference/inference.h"
-#include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
 

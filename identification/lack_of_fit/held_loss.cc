@@ -60,8 +60,8 @@ bool StepMatters(const Fit& fit, const Inference& inference, const Eigen::Vector
   return 0.5 * step * power > kMatters * *inference.parameters[*tau].std;
 }
 
-Eigen::VectorXd ForceOfHeldLoss(const FrictionDescription& friction,
-                                const Measurements& measurements, const CourseStart& start) {
+Eigen::VectorXd ForceOfHeldLoss(const Friction& friction, const Measurements& measurements,
+                                const CourseStart& start) {
   const AlongMotion model(friction);
   const JointCourse course = CourseOf(measurements);
   // E jumps at the same moments of the finer course

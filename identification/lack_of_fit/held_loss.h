@@ -1,11 +1,12 @@
 // What Eq. (22) leaves out: losses that follow the heat within a sampling interval.
 #pragma once
 
+#include <warmjoint/friction_model.h>
+#include <warmjoint/recording.h>
+
 #include <Eigen/Core>
 
 #include "identification/inference/inference.h"
-#include "models/friction/course_start.h"
-#include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
 
@@ -18,7 +19,7 @@ bool StepMatters(const Fit& fit, const Inference& inference, const Eigen::Vector
 /// The force of a friction whose losses follow its heat all the time, less its force by (22): 8/7
 /// of what (22) with an eighth of each step makes of it. Constant speed over each step.
 /// Returns [N] N.m or N.
-Eigen::VectorXd ForceOfHeldLoss(const FrictionDescription& friction,
-                                const Measurements& measurements, const CourseStart& start = {});
+Eigen::VectorXd ForceOfHeldLoss(const Friction& friction, const Measurements& measurements,
+                                const CourseStart& start = {});
 
 }  // namespace warmjoint::inline identification

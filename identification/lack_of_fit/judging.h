@@ -1,7 +1,7 @@
 // How strict a verdict is, and what it takes for granted.
 #pragma once
 
-#include "identification/relevance.h"
+#include <warmjoint/estimate.h>
 
 namespace warmjoint::inline identification {
 

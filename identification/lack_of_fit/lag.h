@@ -1,12 +1,13 @@
 // Torque that follows the velocity late.
 #pragma once
 
+#include <warmjoint/recording.h>
+
 #include <Eigen/Core>
 
 #include "identification/lack_of_fit/error_level.h"
 #include "identification/lack_of_fit/fitted_model.h"
 #include "identification/lack_of_fit/table.h"
-#include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
 

@@ -1,12 +1,13 @@
 // How far off an assumption may be for all that a log tells, and what that does to the parameters.
 #pragma once
 
+#include <warmjoint/recording.h>
+
 #include "identification/lack_of_fit/bins.h"
 #include "identification/lack_of_fit/circumstances.h"
 #include "identification/lack_of_fit/examine.h"
 #include "identification/lack_of_fit/fitted_model.h"
 #include "identification/lack_of_fit/sensitivity.h"
-#include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
 

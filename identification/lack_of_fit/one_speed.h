@@ -1,9 +1,9 @@
 // Whether a log's speeds can tell an angle from time.
 #pragma once
 
-#include <optional>
+#include <warmjoint/recording.h>
 
-#include "models/recording/measurements.h"
+#include <optional>
 
 namespace warmjoint::inline identification {
 

@@ -1,6 +1,7 @@
 #include "identification/lack_of_fit/remedies.h"
 
 #include <fmt/format.h>
+#include <warmjoint/friction.h>
 
 #include <algorithm>
 #include <numbers>
@@ -11,7 +12,6 @@
 #include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/warming/expected_start.h"
-#include "models/friction/law.h"
 #include "models/friction/law_list.h"
 #include "models/friction/parameter_rows.h"
 
@@ -146,7 +146,7 @@ std::string AgainstWarmingSlope(const Advice& advice) {
 
 /// What to try where a law with a curve misses something that turns with the direction.
 std::string AgainstDirectionOfACurve(const Advice& advice) {
-  const FrictionDescription& friction = advice.fit.friction;
+  const Friction& friction = advice.fit.friction;
   if (TellsDirections(friction.law)) {
     const std::string differ =
         "the law has a level for each direction already: they differ in slope, or in how much more "

@@ -1,9 +1,10 @@
 // The findings of an examination as data of an inference: names in place of positions.
 #pragma once
 
+#include <warmjoint/estimate.h>
+
 #include <vector>
 
-#include "identification/diagnostic.h"
 #include "identification/lack_of_fit/examine.h"
 
 namespace warmjoint::inline identification {

@@ -1,11 +1,10 @@
 // Runs of kept samples at one constant speed, each of which begins with what a lag still holds.
 #pragma once
 
+#include <warmjoint/recording.h>
+
 #include <Eigen/Core>
 #include <vector>
-
-#include "models/recording/measurements.h"
-#include "models/recording/selection.h"
 
 namespace warmjoint::inline identification {
 

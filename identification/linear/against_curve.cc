@@ -1,12 +1,12 @@
 #include "identification/linear/against_curve.h"
 
 #include <fmt/format.h>
+#include <warmjoint/friction.h>
 
 #include <algorithm>
 
 #include "models/friction/asymmetric.h"
 #include "models/friction/asymmetric_stribeck.h"
-#include "models/friction/law.h"
 
 namespace warmjoint::inline identification {
 

@@ -1,11 +1,11 @@
 // Laws as columns of a linear regression, Eqs. (7)-(9).
 #pragma once
 
+#include <warmjoint/friction.h>
+#include <warmjoint/recording.h>
+
 #include <Eigen/Core>
 #include <string>
-
-#include "models/friction/law.h"
-#include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
 

@@ -11,6 +11,7 @@
 
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
+#include "identification/gravity.h"
 
 namespace warmjoint::inline identification {
 namespace {

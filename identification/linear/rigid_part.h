@@ -1,12 +1,13 @@
 // Gravity and inertia in a fit: columns that join those of the friction, and what becomes of them.
 #pragma once
 
+#include <warmjoint/estimate.h>
+#include <warmjoint/friction.h>
+
 #include <optional>
 
-#include "identification/gravity.h"
 #include "identification/identifier.h"
 #include "identification/uncertainty/uncertainty.h"
-#include "models/friction/law.h"
 
 namespace warmjoint::inline identification {
 

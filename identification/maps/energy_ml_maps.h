@@ -1,11 +1,12 @@
 // Joint maximum likelihood of law and warming with maps over the joint's or the motor's angle.
 #pragma once
 
+#include <warmjoint/friction.h>
+
 #include <Eigen/Core>
 #include <optional>
 
 #include "identification/identifier.h"
-#include "models/friction/friction_map.h"
 
 namespace warmjoint::inline identification {
 

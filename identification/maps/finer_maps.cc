@@ -1,10 +1,11 @@
 #include "identification/maps/finer_maps.h"
 
+#include <warmjoint/friction.h>
+
 #include <algorithm>
 #include <utility>
 
 #include "identification/uncertainty/draw_noise.h"
-#include "models/friction/gaussian_axis.h"
 
 namespace warmjoint::inline identification {
 namespace {

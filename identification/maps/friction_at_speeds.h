@@ -1,11 +1,12 @@
 // Friction at three speeds of each direction: what law and maps tell together where neither is known alone.
 #pragma once
 
+#include <warmjoint/estimate.h>
+#include <warmjoint/friction.h>
+
 #include <vector>
 
-#include "identification/map_band.h"
 #include "identification/maps/map_fit.h"
-#include "models/friction/law.h"
 
 namespace warmjoint::inline identification {
 

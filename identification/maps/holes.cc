@@ -1,6 +1,7 @@
 #include "identification/maps/holes.h"
 
 #include <fmt/format.h>
+#include <warmjoint/friction.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +10,6 @@
 #include "identification/maps/kernel_lines.h"
 #include "identification/maps/nearest_kernel.h"
 #include "models/foundation/robust_noise.h"
-#include "models/friction/joint_kind.h"
 
 namespace warmjoint::inline identification {
 namespace {

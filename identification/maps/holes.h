@@ -1,13 +1,13 @@
 // Where a map has no data.
 #pragma once
 
+#include <warmjoint/friction.h>
+
 #include <Eigen/Core>
 #include <string>
 #include <vector>
 
 #include "identification/ridge/local_rows.h"
-#include "models/friction/friction_map.h"
-#include "models/friction/joint_kind.h"
 
 namespace warmjoint::inline identification {
 

@@ -1,6 +1,7 @@
 #include "identification/maps/identify_maps.h"
 
 #include <fmt/format.h>
+#include <warmjoint/estimate.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +10,7 @@
 
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
+#include "identification/gravity.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/maps/finer_maps.h"
@@ -17,7 +19,6 @@
 #include "identification/maps/imitated_columns.h"
 #include "identification/maps/make_bands.h"
 #include "identification/physical_bounds.h"
-#include "identification/relevance.h"
 #include "models/friction/sign.h"
 
 namespace warmjoint::inline identification {
@@ -113,11 +114,12 @@ void AddBands(const IdentifierInput& input, const MapTask& task, const MapFit& m
   fit.bands = MakeBands(law, maps, known, finer.points, twice ? &*twice : nullptr);
   const bool shares = std::ranges::any_of(
       fit.parameters, [](const FitParameter& one) { return !one.has_interval; });
-  std::vector<FrictionAtSpeed> at_speeds = FrictionAtSpeeds(law, maps, known, finer.points);
+  std::vector<FrictionAtSpeed> friction_at_speeds =
+      FrictionAtSpeeds(law, maps, known, finer.points);
   // beyond doubt below 0 in the mean of its places
   const auto drives = std::ranges::find_if(
-      at_speeds, [](const FrictionAtSpeed& one) { return one.interval95[1] < 0; });
-  if (drives != at_speeds.end()) {
+      friction_at_speeds, [](const FrictionAtSpeed& one) { return one.interval95[1] < 0; });
+  if (drives != friction_at_speeds.end()) {
     fit.voided = Refusal{
         Status::inadequate_model,
         fmt::format(
@@ -126,7 +128,7 @@ void AddBands(const IdentifierInput& input, const MapTask& task, const MapFit& m
             drives->speed, kVelocityUnit.For(input.measurements.joint), drives->value,
             input.measurements.torque_unit)};
   }
-  if (shares) fit.at_speeds = std::move(at_speeds);
+  if (shares) fit.friction_at_speeds = std::move(friction_at_speeds);
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 // How a map's weights lie along its first axis.
 #pragma once
 
-#include <cstddef>
+#include <warmjoint/friction.h>
 
-#include "models/friction/friction_map.h"
+#include <cstddef>
 
 namespace warmjoint::inline identification {
 

@@ -1,9 +1,10 @@
 // How sure the friction along a map is.
 #pragma once
 
-#include "identification/map_band.h"
+#include <warmjoint/estimate.h>
+#include <warmjoint/friction.h>
+
 #include "identification/maps/finer_maps.h"
-#include "models/friction/law.h"
 
 namespace warmjoint::inline identification {
 

@@ -1,13 +1,14 @@
 // The equations of law and maps, factored once for any torque.
 #pragma once
 
+#include <warmjoint/friction.h>
+
 #include <Eigen/Cholesky>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "identification/ridge/ridge.h"
-#include "models/friction/friction_map.h"
 
 namespace warmjoint::inline identification {
 

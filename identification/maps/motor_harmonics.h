@@ -1,10 +1,10 @@
 // Ripple over the motor's turn as harmonics.
 #pragma once
 
+#include <warmjoint/friction.h>
+
 #include <Eigen/Core>
 #include <vector>
-
-#include "models/friction/friction_map.h"
 
 namespace warmjoint::inline identification {
 

@@ -1,12 +1,14 @@
 #include "identification/maps/warming_block.h"
 
+#include <warmjoint/recording.h>
+
 #include <cmath>
 
 #include "identification/fit_data.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/warming/further_passes.h"
 #include "identification/warming/scan_time_constant.h"
-#include "models/recording/selection.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
 namespace {

@@ -1,10 +1,10 @@
 // Maps whose weights go together from kernel to kernel.
 #pragma once
 
+#include <warmjoint/friction.h>
+
 #include <Eigen/Core>
 #include <vector>
-
-#include "models/friction/friction_map.h"
 
 namespace warmjoint::inline identification {
 

@@ -1,11 +1,12 @@
 // Laws whose level falls with speed, as their fits see them.
 #pragma once
 
+#include <warmjoint/friction.h>
+
 #include <Eigen/Core>
 #include <string>
 #include <string_view>
 
-#include "models/friction/law.h"
 #include "models/friction/law_list.h"
 
 namespace warmjoint::inline identification {

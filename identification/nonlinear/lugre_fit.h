@@ -1,6 +1,8 @@
 // Least squares of a LuGre law over a recorded motion, by Ceres.
 #pragma once
 
+#include <warmjoint/recording.h>
+
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
@@ -9,8 +11,6 @@
 #include <vector>
 
 #include "identification/nonlinear/falling_law.h"
-#include "models/recording/measurements.h"
-#include "models/recording/selection.h"
 
 namespace warmjoint::inline identification {
 

@@ -1,13 +1,13 @@
 // Least squares of a law with the Stribeck effect over a recorded motion, with or without warming, by Ceres.
 #pragma once
 
+#include <warmjoint/recording.h>
+
 #include <Eigen/Core>
 #include <vector>
 
 #include "identification/nonlinear/falling_law.h"
 #include "models/friction/intervals.h"
-#include "models/recording/measurements.h"
-#include "models/recording/selection.h"
 
 namespace warmjoint::inline identification {
 

@@ -1,13 +1,14 @@
 // Passes of a bank of Kalman filters over a stored recording.
 #pragma once
 
+#include <warmjoint/recording.h>
+
 #include <Eigen/Core>
 #include <array>
 #include <vector>
 
 #include "identification/fit.h"
 #include "identification/forward/closed_loop.h"
-#include "models/recording/selection.h"
 
 namespace warmjoint::inline identification {
 

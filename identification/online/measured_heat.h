@@ -1,10 +1,11 @@
 // The heat of measured losses, as a linear filter of the torque, and what noise does through it.
 #pragma once
 
+#include <warmjoint/recording.h>
+
 #include <Eigen/Core>
 
 #include "identification/forward/thermal_filter.h"
-#include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
 

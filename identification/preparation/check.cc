@@ -1,10 +1,11 @@
 #include "identification/preparation/check.h"
 
+#include <warmjoint/prepared_log.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "identification/preparation/position_noise.h"
-#include "identification/preparation/prepare.h"
 #include "identification/preparation/velocity_scale.h"
 #include "models/recording/sampling.h"
 

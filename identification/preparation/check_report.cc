@@ -1,11 +1,11 @@
-#include "identification/preparation/check_report.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+
+#include "identification/preparation/check.h"
 
 namespace warmjoint::inline identification {
 namespace {

@@ -1,9 +1,9 @@
 // A log in fewer rows, for comparing structures.
 #pragma once
 
-#include <vector>
+#include <warmjoint/prepared_log.h>
 
-#include "identification/preparation/log_view.h"
+#include <vector>
 
 namespace warmjoint::inline identification {
 

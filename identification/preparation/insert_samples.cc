@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "models/recording/measurements.h"
+
 namespace warmjoint::inline identification {
 namespace {
 

@@ -1,10 +1,9 @@
 // Samples put into a log between those that were taken.
 #pragma once
 
-#include <vector>
+#include <warmjoint/recording.h>
 
-#include "models/recording/measurements.h"
-#include "models/recording/selection.h"
+#include <vector>
 
 namespace warmjoint::inline identification {
 

@@ -1,10 +1,11 @@
 // Velocity and acceleration of a joint from noisy samples, unsmoothed where its motion bends.
 #pragma once
 
+#include <warmjoint/prepared_log.h>
+
 #include <Eigen/Core>
 #include <vector>
 
-#include "identification/preparation/log_view.h"
 #include "models/foundation/robust_noise.h"
 #include "models/recording/measurements.h"
 

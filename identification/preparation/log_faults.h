@@ -1,13 +1,12 @@
 // What in a log contradicts itself, so that no fit of it can be trusted.
 #pragma once
 
+#include <warmjoint/prepared_log.h>
+#include <warmjoint/recording.h>
+
 #include <optional>
 #include <string>
 #include <vector>
-
-#include "identification/preparation/log_view.h"
-#include "models/recording/measurements.h"
-#include "models/recording/selection.h"
 
 namespace warmjoint::inline identification {
 

@@ -1,8 +1,7 @@
 // The motion of a joint as its positions tell it: one speed for each segment, and the whole path.
 #pragma once
 
-#include "models/recording/measurements.h"
-#include "models/recording/selection.h"
+#include <warmjoint/recording.h>
 
 namespace warmjoint::inline identification {
 

@@ -1,7 +1,7 @@
 // A log whose joint moves in any way: its acceleration, and the samples that show friction.
 #pragma once
 
-#include "identification/preparation/prepared_log.h"
+#include <warmjoint/prepared_log.h>
 
 namespace warmjoint::inline identification {
 

@@ -1,11 +1,10 @@
 // The path that a velocity column tells, against the path of the positions.
 #pragma once
 
+#include <warmjoint/recording.h>
+
 #include <optional>
 #include <vector>
-
-#include "models/recording/measurements.h"
-#include "models/recording/selection.h"
 
 namespace warmjoint::inline identification {
 

@@ -1,10 +1,11 @@
 // Runs of samples around one speed: candidates for constant speed.
 #pragma once
 
+#include <warmjoint/recording.h>
+
 #include <vector>
 
 #include "identification/preparation/velocity_scale.h"
-#include "models/recording/selection.h"
 
 namespace warmjoint::inline identification {
 

@@ -1,6 +1,8 @@
 // Segments at one speed as the positions of a recording tell them, and the changes of speed between them.
 #pragma once
 
+#include <warmjoint/recording.h>
+
 #include <Eigen/Core>
 #include <optional>
 #include <vector>
@@ -8,7 +10,6 @@
 #include "identification/preparation/position_noise.h"
 #include "identification/preparation/speed_change.h"
 #include "models/recording/measurements.h"
-#include "models/recording/selection.h"
 
 namespace warmjoint::inline identification {
 

@@ -1,6 +1,5 @@
-#include "identification/preparation/prepare.h"
-
 #include <fmt/format.h>
+#include <warmjoint/prepared_log.h>
 
 #include <cmath>
 
@@ -10,6 +9,7 @@
 #include "identification/preparation/path_against_velocity.h"
 #include "identification/preparation/position_noise.h"
 #include "identification/preparation/segment_velocity.h"
+#include "identification/preparation/select.h"
 #include "identification/preparation/split_at_switches.h"
 #include "identification/preparation/take_ways.h"
 #include "models/foundation/bad_input.h"

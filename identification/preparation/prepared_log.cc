@@ -1,10 +1,10 @@
-#include "identification/preparation/prepared_log.h"
-
 #include <fmt/format.h>
+#include <warmjoint/prepared_log.h>
 
 #include <algorithm>
 
 #include "identification/preparation/log_faults.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
 namespace {

@@ -1,9 +1,9 @@
 // One velocity for each segment of constant speed, where noise of the samples' would bias a fit.
 #pragma once
 
-#include <optional>
+#include <warmjoint/prepared_log.h>
 
-#include "identification/preparation/log_view.h"
+#include <optional>
 
 namespace warmjoint::inline identification {
 

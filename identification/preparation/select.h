@@ -1,25 +1,10 @@
 // Which samples obey Eq. (6): constant speed, so that torque = gravity + friction.
 #pragma once
 
-#include "models/foundation/field.h"
-#include "models/recording/measurements.h"
-#include "models/recording/selection.h"
+#include <warmjoint/field.h>
+#include <warmjoint/recording.h>
 
 namespace warmjoint::inline identification {
-
-/// What a user asks of the segments that are kept.
-struct PrepareSettings {
-  double trim = 0;           // s to leave out at each end of a segment
-  double shortest_hold = 0;  // s; segments that last less, before they are trimmed, are left out
-
-  template <class A>
-  void Serialize(A* a) {
-    constexpr FieldInfo seconds{
-        .unit = "s", .bounds = {.at_least = 0}, .at_default = AtDefault::left_out};
-    a->Field("trim", &trim, seconds);
-    a->Field("shortest_hold", &shortest_hold, seconds);
-  }
-};
 
 /// Leaves out what the options ask for.
 void TakeOptions(const PrepareSettings& holds, const Eigen::VectorXd& time, Selection& selection);

@@ -1,10 +1,9 @@
 // What a slow log does not show: when, between two samples, the speed changed.
 #pragma once
 
-#include <optional>
+#include <warmjoint/recording.h>
 
-#include "models/recording/measurements.h"
-#include "models/recording/selection.h"
+#include <optional>
 
 namespace warmjoint::inline identification {
 

@@ -1,9 +1,9 @@
 // Stretches of a log over which its positions show a way in one direction.
 #pragma once
 
-#include <vector>
+#include <warmjoint/recording.h>
 
-#include "models/recording/measurements.h"
+#include <vector>
 
 namespace warmjoint::inline identification {
 

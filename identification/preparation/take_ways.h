@@ -1,9 +1,10 @@
 // The speed between segments as the positions tell it, in a log whose velocity column tells that of the segments.
 #pragma once
 
+#include <warmjoint/prepared_log.h>
+
 #include <vector>
 
-#include "identification/preparation/log_view.h"
 #include "identification/preparation/path_against_velocity.h"
 
 namespace warmjoint::inline identification {

@@ -1,10 +1,9 @@
 // How torque differs from one sample to the next: by noise, by steps, or not at all.
 #pragma once
 
-#include <vector>
+#include <warmjoint/recording.h>
 
-#include "models/recording/measurements.h"
-#include "models/recording/selection.h"
+#include <vector>
 
 namespace warmjoint::inline identification {
 

@@ -1,7 +1,7 @@
 // What a velocity signal itself says about its noise, its resolution and its accelerations.
 #pragma once
 
-#include "models/recording/measurements.h"
+#include <warmjoint/recording.h>
 
 namespace warmjoint::inline identification {
 

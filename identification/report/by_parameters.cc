@@ -29,7 +29,7 @@ std::vector<EstimatedRow> RowsThatMatter(const Fit& fit) {
 }
 
 /// Friction and start with one row of the table at another value.
-void Set(const FitParameter& row, size_t jump, double value, FrictionDescription& friction,
+void Set(const FitParameter& row, size_t jump, double value, Friction& friction,
          CourseStart& start) {
   if (row.role == Role::law) friction.parameters[row.name] = value;
   if (row.role == Role::start) start.energy = value;
@@ -49,7 +49,7 @@ double ValueByCoordinate(const FitParameter& row, double value) {
 }  // namespace
 
 Eigen::MatrixXd SlopesByDifferences(const Fit& fit, const Inference& inference,
-                                    const FrictionDescription& friction, const FiguresOf& figures) {
+                                    const Friction& friction, const FiguresOf& figures) {
   const Uncertainty& known = inference.known;
   const Eigen::Index q = figures(friction, fit.Start()).size();
   Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(q, known.covariance.rows());
@@ -64,7 +64,7 @@ Eigen::MatrixXd SlopesByDifferences(const Fit& fit, const Inference& inference,
     if (!(step > 0) || (keeps_its_sign && !(step < std::abs(value)))) continue;
 
     // the figures on both sides
-    FrictionDescription above = friction, below = friction;
+    Friction above = friction, below = friction;
     CourseStart above_start = fit.Start(), below_start = fit.Start();
     Set(row, at.jump, value + step, above, above_start);
     Set(row, at.jump, value - step, below, below_start);

@@ -1,10 +1,11 @@
 // The warming by Eq. (22), beside its gain and time constant.
 #pragma once
 
+#include <warmjoint/estimate.h>
+
 #include <Eigen/Core>
 #include <vector>
 
-#include "identification/estimate.h"
 #include "identification/inference/inference.h"
 
 namespace warmjoint::inline identification {

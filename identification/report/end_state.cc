@@ -21,12 +21,11 @@ bool IsAsFitted(const Fit& fit, const Inference& inference) {
 }  // namespace
 
 std::vector<EstimatedParameter> EndState(const Fit& fit, const Inference& inference,
-                                         const FrictionDescription& friction,
-                                         const Measurements& m) {
+                                         const Friction& friction, const Measurements& m) {
   if (!friction.thermal) return {};
 
   // E of both stages at the end of the log: by the fit's own recursion, or along the motion
-  const auto end_of = [&](const FrictionDescription& one, const CourseStart& start) {
+  const auto end_of = [&](const Friction& one, const CourseStart& start) {
     const FrictionState end = AlongMotion(one).Predict(CourseOf(m), start).end;
     return Eigen::VectorXd(Eigen::Vector2d(end.energy, end.second_energy));
   };

@@ -1,12 +1,13 @@
 // The heat that a joint has at the end of its log.
 #pragma once
 
+#include <warmjoint/estimate.h>
+#include <warmjoint/recording.h>
+
 #include <vector>
 
-#include "identification/estimate.h"
 #include "identification/fit.h"
 #include "identification/inference/inference.h"
-#include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
 
@@ -16,7 +17,7 @@ namespace warmjoint::inline identification {
 /// by the fit's own slopes, or central differences where it has none, and reaches farther by what
 /// the verdict widened them. Empty where nothing warms.
 std::vector<EstimatedParameter> EndState(const Fit& fit, const Inference& inference,
-                                         const FrictionDescription& friction,
+                                         const Friction& friction,
                                          const Measurements& measurements);
 
 }  // namespace warmjoint::inline identification

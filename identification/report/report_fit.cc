@@ -1,13 +1,14 @@
 #include "identification/report/report_fit.h"
 
+#include <warmjoint/estimate.h>
+#include <warmjoint/friction.h>
+
 #include <cmath>
 
-#include "identification/metrics.h"
 #include "identification/preparation/check.h"
 #include "identification/report/discrete_pair.h"
 #include "identification/report/end_state.h"
 #include "models/foundation/robust_noise.h"
-#include "models/friction/joint_kind.h"
 #include "models/friction/thermal.h"
 
 namespace warmjoint::inline identification {
@@ -48,8 +49,8 @@ TraceEntry EntryOf(const Fit& fit, const Iterate& iterate, double h) {
 }
 
 /// The friction with what the verdict moved.
-FrictionDescription FrictionOf(const Fit& fit, const Inference& inference) {
-  FrictionDescription friction = fit.friction;
+Friction FrictionOf(const Fit& fit, const Inference& inference) {
+  Friction friction = fit.friction;
   for (size_t i = 0; i < fit.parameters.size(); ++i) {
     const FitParameter& row = fit.parameters[i];
     if (row.role == Role::law) friction.parameters[row.name] = inference.parameters[i].value;
@@ -119,8 +120,8 @@ Estimate ReportFit(const Fit& fit, const Inference& inference, const Measurement
   estimate.state_end = EndState(fit, inference, *estimate.friction, measurements);
   if (inference.gives_bands) {
     estimate.bands = fit.bands;
-    estimate.at_speeds = fit.at_speeds;
-    for (FrictionAtSpeed& one : estimate.at_speeds) {
+    estimate.friction_at_speeds = fit.friction_at_speeds;
+    for (FrictionAtSpeed& one : estimate.friction_at_speeds) {
       one.speed_unit = kVelocityUnit.For(measurements.joint);
       one.unit = measurements.torque_unit;
     }

@@ -1,9 +1,10 @@
 // The last step: a fit and what is inferred from it, with names, units and sentences.
 #pragma once
 
-#include "identification/estimate.h"
+#include <warmjoint/estimate.h>
+#include <warmjoint/recording.h>
+
 #include "identification/inference/inference.h"
-#include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
 

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "identification/find_parameter.h"
+#include "models/friction/law.h"
 
 namespace warmjoint::inline identification {
 namespace {

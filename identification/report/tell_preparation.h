@@ -1,8 +1,8 @@
 // What the preparation of a log means for an estimate.
 #pragma once
 
-#include "identification/estimate.h"
-#include "identification/preparation/prepared_log.h"
+#include <warmjoint/estimate.h>
+#include <warmjoint/prepared_log.h>
 
 namespace warmjoint::inline identification {
 

@@ -1,11 +1,12 @@
 // Rows of a regression on kernels that are local: grouped, so that few zeros are stored or multiplied.
 #pragma once
 
+#include <warmjoint/friction.h>
+
 #include <Eigen/Core>
 #include <vector>
 
 #include "identification/forward/map_points.h"
-#include "models/friction/friction_map.h"
 
 namespace warmjoint::inline identification {
 

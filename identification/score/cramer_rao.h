@@ -1,11 +1,10 @@
 // The accuracy that no unbiased estimate beats.
 #pragma once
 
-#include <Eigen/Core>
+#include <warmjoint/recording.h>
+#include <warmjoint/simulation.h>
 
-#include "models/recording/measurements.h"
-#include "models/recording/selection.h"
-#include "sim/truth/truth.h"
+#include <Eigen/Core>
 
 namespace warmjoint::inline identification {
 

@@ -1,13 +1,14 @@
-#include "identification/score/score.h"
+#include <warmjoint/score.h>
 
 #include <cmath>
 #include <limits>
 
 #include "identification/find_parameter.h"
+#include "identification/gravity.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/preparation/moving_view.h"
 #include "identification/score/cramer_rao.h"
-#include "identification/score/npe.h"
+#include "models/foundation/bad_input.h"
 #include "models/foundation/robust_noise.h"
 #include "models/friction/thermal.h"
 
@@ -109,6 +110,20 @@ Score ScoreEstimate(const Estimate& estimate, const Measurements& measurements,
   score.bound_npe_continuous = BoundNpe(score.continuous);
   score.bound_npe_discrete = BoundNpe(score.discrete);
   return score;
+}
+
+Score ScoreEstimate(const Estimate& estimate, const PreparedLog& log, const Truth& truth) {
+  const auto& [measurements, selection] = ScoredView(estimate, log);
+  if (measurements.size() != truth.force.size()) {
+    Refuse({measurements.source},
+           "has {} samples and its truth {}; give the truth of this recording", measurements.size(),
+           truth.force.size());
+  }
+  return ScoreEstimate(estimate, measurements, selection, truth);
+}
+
+double NormalisedParameterError(const Eigen::VectorXd& estimate, const Eigen::VectorXd& truth) {
+  return ((estimate - truth).array() / truth.array().abs()).matrix().norm();
 }
 
 }  // namespace warmjoint::inline identification

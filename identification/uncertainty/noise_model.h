@@ -1,10 +1,10 @@
 // The colour of the noise, as the residual of a fit shows it.
 #pragma once
 
+#include <warmjoint/recording.h>
+
 #include <Eigen/Core>
 #include <functional>
-
-#include "models/recording/selection.h"
 
 namespace warmjoint::inline identification {
 

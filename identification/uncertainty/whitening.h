@@ -1,13 +1,14 @@
 // Rows of a least-squares problem whose noise is coloured, made white.
 #pragma once
 
+#include <warmjoint/recording.h>
+
 #include <Eigen/Core>
 #include <memory>
 #include <vector>
 
 #include "identification/uncertainty/noise_model.h"
 #include "identification/uncertainty/row_transform.h"
-#include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
 

@@ -1,9 +1,9 @@
 // What an estimate says of the heat that its recording began with.
 #pragma once
 
-#include "identification/estimate.h"
-#include "models/friction/course_start.h"
-#include "models/recording/measurements.h"
+#include <warmjoint/estimate.h>
+#include <warmjoint/friction_model.h>
+#include <warmjoint/recording.h>
 
 namespace warmjoint::inline identification {
 

@@ -1,13 +1,14 @@
 // What a joint fit of law and warming is refined by, from where it ended.
 #pragma once
 
+#include <warmjoint/recording.h>
+
 #include <memory>
 #include <vector>
 
 #include "identification/uncertainty/whitening.h"
 #include "identification/warming/gaps.h"
 #include "identification/warming/warm_fit.h"
-#include "models/recording/selection.h"
 
 namespace warmjoint::inline identification {
 

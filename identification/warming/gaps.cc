@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "models/friction/thermal.h"
+#include "models/recording/sampling.h"
 
 namespace warmjoint::inline identification {
 namespace {

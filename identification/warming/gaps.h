@@ -1,11 +1,11 @@
 // Gaps of a log while the joint moves: what it loses in them is not known.
 #pragma once
 
+#include <warmjoint/recording.h>
+
 #include <Eigen/Core>
 #include <string>
 #include <vector>
-
-#include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
 

@@ -1,12 +1,13 @@
 // Law and warming of a joint whose torque is logged behind a lag.
 #pragma once
 
+#include <warmjoint/recording.h>
+
 #include <functional>
 #include <memory>
 
 #include "identification/lagged/lagged_rows.h"
 #include "identification/warming/warm_fit.h"
-#include "models/recording/selection.h"
 
 namespace warmjoint::inline identification {
 

@@ -1,9 +1,9 @@
 // Warming where level and slope both follow the heat.
 #pragma once
 
+#include <warmjoint/friction.h>
+
 #include "identification/identifier.h"
-#include "models/friction/law.h"
-#include "models/friction/thermal.h"
 
 namespace warmjoint::inline identification {
 

@@ -1,5 +1,7 @@
 #include "identification/warming/warm_course.h"
 
+#include <warmjoint/recording.h>
+
 #include <cmath>
 #include <tuple>
 #include <utility>
@@ -10,7 +12,7 @@
 #include "identification/warming/expected_start.h"
 #include "identification/warming/further_passes.h"
 #include "identification/warming/warm_answer.h"
-#include "models/recording/selection.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
 

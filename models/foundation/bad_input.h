@@ -2,8 +2,8 @@
 #pragma once
 
 #include <fmt/format.h>
+#include <warmjoint/errors.h>
 
-#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -13,13 +13,6 @@ namespace warmjoint::inline models {
 struct Place {
   std::string file;
   int line = 0;
-};
-
-/// What the user gave cannot be used. The message holds place, name, value, bound and remedy.
-/// Thrown by every room below tools; caught once, in main, which prints it and exits 2.
-class BadInput : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
 };
 
 /// Throws BadInput with "file:line: " before the formatted message.

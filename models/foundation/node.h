@@ -1,6 +1,8 @@
 // A value of a JSON or YAML document that knows where it stands, so that every refusal can say so.
 #pragma once
 
+#include <warmjoint/field.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -13,7 +15,6 @@
 #include <vector>
 
 #include "models/foundation/bad_input.h"
-#include "models/foundation/field.h"
 
 namespace warmjoint::inline models {
 

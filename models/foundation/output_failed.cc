@@ -29,4 +29,9 @@ void FailOutput(const std::string& target, int error) {
                                  std::generic_category().message(error), Remedy(error)));
 }
 
+std::string Version() {
+  return fmt::format("{}.{}.{}", WARMJOINT_VERSION_MAJOR, WARMJOINT_VERSION_MINOR,
+                     WARMJOINT_VERSION_PATCH);
+}
+
 }  // namespace warmjoint::inline models

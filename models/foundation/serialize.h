@@ -19,6 +19,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cmath>
+#include <concepts>
 #include <limits>
 #include <map>
 #include <optional>
@@ -65,6 +66,13 @@ struct FieldNames {
 template <class T>
 concept Described = requires(T value, FieldNames* names) {
   value.Serialize(names);
+};
+
+/// What a file has as "name=value" pairs.
+template <class T>
+concept Paired = requires(T value, const std::string& text) {
+  { value.Take(text, text) } -> std::same_as<bool>;
+  { value.Pairs() } -> std::same_as<std::vector<std::string>>;
 };
 
 /// Reads a struct from a map; members that are not given keep their values. Throws BadInput with place, key, value and
@@ -135,6 +143,27 @@ void ReadValue(const Node& node, E* value, const FieldInfo&) { *value = ChoiceOf
 template <Described T>
 void ReadValue(const Node& node, T* value, const FieldInfo&) {
   ReadFields(node, value);
+}
+/// A map, in which a name without a value has an empty one, or a list of pairs.
+template <Paired T>
+void ReadValue(const Node& node, T* value, const FieldInfo&) {
+  if (node.IsMap()) {
+    for (const std::string& name : node.Keys()) {
+      const auto entry = node.Find(name);
+      if (!value->Take(name, entry ? entry->ScalarText() : "")) {
+        entry.value_or(node).RefuseValue("a finite number");
+      }
+    }
+    return;
+  }
+  for (const Node& entry : node.Entries("a list of column=value")) {
+    const std::string pair = entry.Text();
+    const std::size_t equals = pair.find('=');
+    if (equals == 0 || equals == std::string::npos) entry.RefuseValue("column=value");
+    if (!value->Take(pair.substr(0, equals), pair.substr(equals + 1))) {
+      entry.RefuseValue("a finite number");
+    }
+  }
 }
 template <typename T>
 void ReadValue(const Node& node, std::optional<T>* value, const FieldInfo& info) {
@@ -229,6 +258,10 @@ requires std::is_enum_v<E> Tree WriteValue(E value) { return NameOf(value); }
 template <Described T>
 Tree WriteValue(const T& value) {
   return WriteFields(value);
+}
+template <Paired T>
+Tree WriteValue(const T& value) {
+  return value.Pairs();
 }
 template <typename T>
 Tree WriteValue(const std::optional<T>& value) {

@@ -113,7 +113,7 @@ class LawAlong<L> {
 /// Heat over the interval that follows each sample.
 class HeatAlong {
  public:
-  HeatAlong(const FrictionDescription& friction, const JointCourse& course) {
+  HeatAlong(const Friction& friction, const JointCourse& course) {
     const Index n = course.velocity.size();
     if (!friction.thermal || n < 2) {
       intervals_ = {{1}, std::vector<int>(static_cast<size_t>(n), 0), 1};
@@ -152,8 +152,8 @@ JointPlace PlaceAt(const JointCourse& course, Index i, double energy) {
 }
 
 template <typename L>
-Prediction Run(const FrictionDescription& friction, const JointFriction& joint,
-               const JointCourse& course, const CourseStart& start) {
+Prediction Run(const Friction& friction, const JointFriction& joint, const JointCourse& course,
+               const CourseStart& start) {
   const Index n = course.velocity.size();
   Prediction result{Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n), {}, n, {}};
   LawAlong<L> law(joint, course);
@@ -196,7 +196,7 @@ Prediction Run(const FrictionDescription& friction, const JointFriction& joint,
 }
 
 template <typename... L>
-Prediction RunLaw(LawList<L...>, const FrictionDescription& friction, const JointFriction& joint,
+Prediction RunLaw(LawList<L...>, const Friction& friction, const JointFriction& joint,
                   const JointCourse& course, const CourseStart& start) {
   Prediction result;
   ((friction.law == L::name ? void(result = Run<L>(friction, joint, course, start)) : void()), ...);
@@ -205,8 +205,7 @@ Prediction RunLaw(LawList<L...>, const FrictionDescription& friction, const Join
 
 }  // namespace
 
-AlongMotion::AlongMotion(const FrictionDescription& friction)
-    : friction_(friction), joint_(friction) {}
+AlongMotion::AlongMotion(const Friction& friction) : friction_(friction), joint_(friction) {}
 
 Prediction AlongMotion::Predict(const JointCourse& course, const CourseStart& start) const {
   assert(FitsTogether(course));

@@ -1,10 +1,11 @@
 // Viscous friction with a Coulomb level for each direction of motion, Eq. (3).
 #pragma once
 
+#include <warmjoint/friction.h>
+
 #include <array>
 
 #include "models/friction/parameter_rows.h"
-#include "models/friction/pre_sliding.h"
 #include "models/friction/sign.h"
 
 namespace warmjoint::inline models {

@@ -1,12 +1,13 @@
 // LuGre friction with a Coulomb level for each direction of motion.
 #pragma once
 
+#include <warmjoint/friction.h>
+
 #include <array>
 
 #include "models/friction/asymmetric.h"
 #include "models/friction/bristle_course.h"
 #include "models/friction/parameter_rows.h"
-#include "models/friction/pre_sliding.h"
 #include "models/friction/sliding_force.h"
 #include "models/friction/stribeck.h"
 

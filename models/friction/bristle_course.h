@@ -7,6 +7,7 @@
 
 #include "models/friction/motion_pieces.h"
 #include "models/friction/sign.h"
+#include "models/friction/thermal.h"
 
 namespace warmjoint::inline models {
 

@@ -52,7 +52,7 @@ void CheckValue(const ParameterInfo& info, double value, const Place& place) {
 }
 
 /// A joint at rest cannot bear less than a sliding one.
-void CheckStaticLevel(const FrictionDescription& friction, const Place& place) {
+void CheckStaticLevel(const Friction& friction, const Place& place) {
   // only laws with a level at rest of its own can contradict themselves
   const Law& law = *FindLaw(friction.law);
   const std::optional<size_t> at_rest = PlaceOf(LawPart::rest_level, law);
@@ -77,7 +77,7 @@ void CheckThermal(const Thermal& thermal, const Place& place) {
 }
 
 /// What depends on the heat makes sense only where there is heat.
-void CheckHeat(const FrictionDescription& friction, const Place& place) {
+void CheckHeat(const Friction& friction, const Place& place) {
   // warming must be physical, and the temperature act in its direction
   if (friction.thermal) {
     CheckThermal(*friction.thermal, place);
@@ -106,7 +106,7 @@ void CheckHeat(const FrictionDescription& friction, const Place& place) {
 }
 
 /// Eq. (27): a slope that rises with the loss that it causes has no bound.
-void CheckSlopeOverEnergy(const FrictionDescription& friction, const Place& place) {
+void CheckSlopeOverEnergy(const Friction& friction, const Place& place) {
   const double slope = friction.viscous_per_energy;
   if (slope == 0) return;
   if (!PlaceOf(LawPart::slope, *FindLaw(friction.law))) {
@@ -123,7 +123,7 @@ void CheckSlopeOverEnergy(const FrictionDescription& friction, const Place& plac
   }
 }
 
-void CheckMaps(const FrictionDescription& friction, const Place& place) {
+void CheckMaps(const Friction& friction, const Place& place) {
   double work = 0;
   for (const FrictionMap& map : friction.maps) {
     CheckMap(map, place);
@@ -164,7 +164,7 @@ void CheckMap(const FrictionMap& map, const Place& place) {
   }
 }
 
-void CheckFriction(const FrictionDescription& friction, const Place& place) {
+void CheckFriction(const Friction& friction, const Place& place) {
   const Law* law = FindLaw(friction.law);
   if (!law) {
     Refuse(place, "there is no law '{}'{}", Excerpt(friction.law),
@@ -199,5 +199,7 @@ void CheckFriction(const FrictionDescription& friction, const Place& place) {
   }
   CheckMaps(friction, place);
 }
+
+void CheckFriction(const Friction& friction) { CheckFriction(friction, {"friction"}); }
 
 }  // namespace warmjoint::inline models

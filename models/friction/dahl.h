@@ -1,11 +1,12 @@
 // Dahl friction: Coulomb friction that a spring approaches with travel.
 #pragma once
 
+#include <warmjoint/friction.h>
+
 #include <array>
 
 #include "models/friction/bristle_course.h"
 #include "models/friction/parameter_rows.h"
-#include "models/friction/pre_sliding.h"
 #include "models/friction/sign.h"
 
 namespace warmjoint::inline models {

@@ -1,11 +1,12 @@
 // Values of kernels, and of maps made of them.
 #pragma once
 
+#include <warmjoint/friction.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "models/friction/friction_map.h"
 #include "models/friction/sign.h"
 
 namespace warmjoint::inline models {

@@ -1,11 +1,11 @@
 // Whether the centres of an axis lie on an even grid.
 #pragma once
 
+#include <warmjoint/friction.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "models/friction/gaussian_axis.h"
 
 namespace warmjoint::inline models {
 

@@ -7,10 +7,10 @@
 
 namespace warmjoint::inline models {
 
-Tree FrictionToTree(const FrictionDescription& friction) { return WriteFields(friction); }
+Tree FrictionToTree(const Friction& friction) { return WriteFields(friction); }
 
-FrictionDescription FrictionFrom(const Node& node) {
-  FrictionDescription friction;
+Friction FrictionFrom(const Node& node) {
+  Friction friction;
   ReadFields(node.With(UnknownKeys::refused), &friction);
   // what was left out, then all of it together
   FillDefaults(friction);
@@ -18,9 +18,7 @@ FrictionDescription FrictionFrom(const Node& node) {
   return friction;
 }
 
-void ReadValue(const Node& node, FrictionDescription* value, const FieldInfo&) {
-  *value = FrictionFrom(node);
-}
+void ReadValue(const Node& node, Friction* value, const FieldInfo&) { *value = FrictionFrom(node); }
 
 Tree MapsToTree(const std::vector<FrictionMap>& maps) { return WriteValue(maps); }
 
@@ -31,7 +29,7 @@ std::vector<FrictionMap> MapsFrom(const Node& node) {
   return maps;
 }
 
-void RefuseAmperes(const FrictionDescription& friction, const Place& place) {
+void RefuseAmperes(const Friction& friction, const Place& place) {
   if (friction.torque_unit.empty()) return;
   Refuse(place,
          "its friction is in {}, and a simulator needs torque: identify again with "
@@ -39,10 +37,21 @@ void RefuseAmperes(const FrictionDescription& friction, const Place& place) {
          friction.torque_unit);
 }
 
-FrictionDescription ReadFrictionFile(const std::string& path) {
+std::string FrictionToJson(const Friction& friction) {
+  Friction whole = friction;
+  FillDefaults(whole);
+  CheckFriction(whole);
+  return FrictionToTree(whole).dump(2) + "\n";
+}
+
+Friction FrictionFromJson(const std::string& text, const std::string& name) {
+  return FrictionFrom(ParseJsonNode(text, name));
+}
+
+Friction ReadFriction(const std::filesystem::path& path) {
   const Node file = ReadJsonNode(path);
   // an estimate holds its friction under that name; else the file is one
-  FrictionDescription friction = FrictionFrom(file.Find("friction").value_or(file));
+  Friction friction = FrictionFrom(file.Find("friction").value_or(file));
   RefuseAmperes(friction, {path});
   return friction;
 }

@@ -1,9 +1,10 @@
 // The heat of a joint's own losses and of its surroundings, sampled.
 #pragma once
 
+#include <warmjoint/friction.h>
+
 #include <optional>
 
-#include "models/friction/friction_description.h"
 #include "models/friction/thermal.h"
 
 namespace warmjoint::inline models {
@@ -39,7 +40,7 @@ struct Heat {
 };
 
 /// h: step, s. Without thermal, energies stay as they are.
-inline Heat DiscretiseHeat(const FrictionDescription& friction, double h) {
+inline Heat DiscretiseHeat(const Friction& friction, double h) {
   Heat heat;
   if (!friction.thermal) return heat;
   heat.first = Discretise(*friction.thermal, h);

@@ -39,7 +39,7 @@ std::optional<Bristle> BristleOfLaw(LawList<L...>, std::string_view name, const 
 struct OtherNumber {
   std::string_view prefix;  // before the name of its table
   const ParameterInfo& info;
-  double* (*find)(FrictionDescription& friction);
+  double* (*find)(Friction& friction);
 
   bool IsCalled(std::string_view name) const {
     return name.starts_with(prefix) && name.substr(prefix.size()) == info.name;
@@ -47,12 +47,12 @@ struct OtherNumber {
 };
 
 /// The row of FrictionOptions for a member.
-const ParameterInfo& InfoOf(double FrictionDescription::*member) {
+const ParameterInfo& InfoOf(double Friction::*member) {
   return std::ranges::find(FrictionOptions(), member, &FrictionOption::value)->info;
 }
 
 std::span<const OtherNumber> OtherNumbers() {
-  using Friction = FrictionDescription;
+  using Friction = Friction;
   // numbers that a run may change, where the friction has them
   static const std::array numbers{
       OtherNumber{"", Thermal::parameters[0],
@@ -79,7 +79,7 @@ std::span<const OtherNumber> OtherNumbers() {
 
 }  // namespace
 
-std::vector<StateMember> StateOf(const FrictionDescription& friction) {
+std::vector<StateMember> StateOf(const Friction& friction) {
   // a second stage and the direction of a slide only where the friction knows them
   std::vector<StateMember> members{{"bristle load", &FrictionState::bristle},
                                    {"energy", &FrictionState::energy}};
@@ -92,7 +92,7 @@ std::vector<StateMember> StateOf(const FrictionDescription& friction) {
   return members;
 }
 
-JointFriction::JointFriction(const FrictionDescription& friction)
+JointFriction::JointFriction(const Friction& friction)
     : values_(LawValues(friction)),
       terms_(std::make_shared<const LevelTerms>(friction)),
       has_terms_(!terms_->empty() || friction.load_gain != 0),
@@ -130,7 +130,7 @@ std::optional<size_t> JointFriction::FindNumber(std::string_view name) const {
   for (size_t i = 0; i < OtherNumbers().size(); ++i) {
     const OtherNumber& number = OtherNumbers()[i];
     if (!number.IsCalled(name)) continue;
-    FrictionDescription friction = friction_;
+    Friction friction = friction_;
     if (number.find(friction)) return law_.parameters.size() + i;
   }
   return std::nullopt;

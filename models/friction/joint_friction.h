@@ -1,6 +1,9 @@
 // Friction of one joint from step to step: law, bristle, maps and heat together.
 #pragma once
 
+#include <warmjoint/friction.h>
+#include <warmjoint/friction_model.h>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -8,23 +11,13 @@
 #include <vector>
 
 #include "models/friction/bristle.h"
-#include "models/friction/friction_description.h"
 #include "models/friction/heat.h"
-#include "models/friction/law.h"
 #include "models/friction/level_terms.h"
 
 namespace warmjoint::inline models {
 
 template <typename... L>
 struct LawList;
-
-/// What one joint's friction remembers.
-struct FrictionState {
-  double bristle = 0;        // load that the bristle carries, N.m or N
-  double energy = 0;         // E1, N.m or N
-  double second_energy = 0;  // E2, N.m or N
-  double slip = 0;           // -1, 0 or 1: direction in which a joint that broke away slides
-};
 
 /// One member of the state: its name for people, and where it is.
 struct StateMember {
@@ -34,25 +27,7 @@ struct StateMember {
 
 /// The members of the state that a friction needs, in the order of mjData.act: bristle load and
 /// energy always, second energy for two stages of warming, slip for laws that break away.
-std::vector<StateMember> StateOf(const FrictionDescription& friction);
-
-/// What a joint does during one step.
-struct JointMotion {
-  double position = 0;      // rad or m
-  double velocity = 0;      // rad/s or m/s
-  double inertia = 0;       // effective inertia M, kg.m^2 or kg
-  double load = 0;          // that the joint transmits, N.m or N
-  double ambient_rise = 0;  // Ts - T0, K
-};
-
-/// What one step of friction yields.
-struct FrictionStep {
-  double force = 0;           // F, N.m or N; acts against the motion as -F
-  double loss = 0;            // W, W
-  bool feeds_itself = false;  // the sliding force would push; 0 was used instead
-  bool sliding = false;       // in the direction of the motion
-  FrictionState next;
-};
+std::vector<StateMember> StateOf(const Friction& friction);
 
 /// Slope of the force over speed at heat E, (27): never below 0. N.m.s/rad or N.s/m.
 inline double SlopeAt(double viscous, double per_energy, double energy) {
@@ -67,7 +42,7 @@ inline double SlopeAt(double viscous, double per_energy, double energy) {
 class JointFriction {
  public:
   /// friction: checked (CheckFriction).
-  explicit JointFriction(const FrictionDescription& friction);
+  explicit JointFriction(const Friction& friction);
 
   /// Sets the step, s. Must precede Step; costs exponentials.
   void SetTimestep(double h);
@@ -183,7 +158,7 @@ class JointFriction {
   double per_energy_ = 0;
   double h_ = 0;
 
-  FrictionDescription friction_;  // without its maps
+  Friction friction_;  // without its maps
   Law law_;
   std::vector<StateMember> state_;
   std::optional<Bristle> own_bristle_;

@@ -20,13 +20,13 @@ bool Depends(const FrictionMap& map, MapQuantity quantity) {
 
 }  // namespace
 
-bool NeedsLoad(const FrictionDescription& friction) {
+bool NeedsLoad(const Friction& friction) {
   return friction.load_gain != 0 ||
          std::any_of(friction.maps.begin(), friction.maps.end(),
                      [](const FrictionMap& map) { return Depends(map, MapQuantity::load); });
 }
 
-LevelTerms::LevelTerms(const FrictionDescription& friction) : gear_(friction.gear) {
+LevelTerms::LevelTerms(const Friction& friction) : gear_(friction.gear) {
   for (const FrictionMap& map : friction.maps) maps_.emplace_back(map);
   Survey(friction);
 }
@@ -41,7 +41,7 @@ double LevelTerms::At(int side, double speed, const JointPlace& place) const {
   return side * sum;
 }
 
-void LevelTerms::Survey(const FrictionDescription& friction) {
+void LevelTerms::Survey(const Friction& friction) {
   for (size_t i = 0; i < maps_.size(); ++i) {
     const FrictionMap& map = friction.maps[i];
     const auto samples = [&](MapQuantity quantity) { return SurveySamples(map, quantity); };

@@ -1,24 +1,16 @@
 // What maps add to the level of friction.
 #pragma once
 
-#include <optional>
+#include <warmjoint/friction_model.h>
+
 #include <vector>
 
-#include "models/friction/friction_description.h"
 #include "models/friction/prepared_map.h"
 
 namespace warmjoint::inline models {
 
 /// Whether friction depends on the load that the joint transmits.
-bool NeedsLoad(const FrictionDescription& friction);
-
-/// Where a joint is, besides its direction and speed.
-struct JointPlace {
-  double position = 0;                     // rad or m
-  double energy = 0;                       // E of all stages together, N.m or N
-  double load = 0;                         // that the joint transmits, N.m or N, signed
-  std::optional<double> motor_position{};  // rad; not given: the gear times the position
-};
+bool NeedsLoad(const Friction& friction);
 
 /// The part of the level that maps tell:
 ///   side sum_i map_i(position, motor position, side |v|, E, load)
@@ -27,7 +19,7 @@ struct JointPlace {
 class LevelTerms {
  public:
   /// friction: checked.
-  explicit LevelTerms(const FrictionDescription& friction);
+  explicit LevelTerms(const Friction& friction);
 
   bool empty() const { return maps_.empty(); }
 
@@ -40,7 +32,7 @@ class LevelTerms {
   double LargestAtRest() const { return largest_at_rest_; }
 
  private:
-  void Survey(const FrictionDescription& friction);
+  void Survey(const Friction& friction);
 
   double gear_ = 1;
   std::vector<PreparedMap> maps_;

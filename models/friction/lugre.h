@@ -1,11 +1,12 @@
 // LuGre friction: bristles that bend before they slide, with the Stribeck effect.
 #pragma once
 
+#include <warmjoint/friction.h>
+
 #include <array>
 
 #include "models/friction/bristle_course.h"
 #include "models/friction/parameter_rows.h"
-#include "models/friction/pre_sliding.h"
 #include "models/friction/sliding_force.h"
 #include "models/friction/stribeck.h"
 

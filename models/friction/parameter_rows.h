@@ -1,7 +1,7 @@
 // Rows that the parameter tables of several laws share.
 #pragma once
 
-#include "models/friction/parameter_info.h"
+#include <warmjoint/friction.h>
 
 namespace warmjoint::inline models {
 

@@ -1,11 +1,12 @@
 // One axis of a friction map made ready for being evaluated at every step of an engine.
 #pragma once
 
+#include <warmjoint/friction.h>
+
 #include <algorithm>
 #include <array>
 #include <vector>
 
-#include "models/friction/friction_map.h"
 #include "models/friction/row_table.h"
 
 namespace warmjoint::inline models {

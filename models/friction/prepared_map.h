@@ -1,10 +1,11 @@
 // A friction map made ready for being evaluated at every step of an engine.
 #pragma once
 
+#include <warmjoint/friction.h>
+
 #include <array>
 #include <vector>
 
-#include "models/friction/friction_map.h"
 #include "models/friction/prepared_axis.h"
 #include "models/friction/row_table.h"
 

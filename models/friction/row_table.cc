@@ -1,5 +1,7 @@
 #include "models/friction/row_table.h"
 
+#include <warmjoint/friction.h>
+
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
@@ -8,7 +10,6 @@
 
 #include "models/friction/evaluate_map.h"
 #include "models/friction/even_grid.h"
-#include "models/friction/friction_map.h"
 
 namespace warmjoint::inline models {
 namespace {

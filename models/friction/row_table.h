@@ -1,6 +1,8 @@
 // Weighted sums of one axis's kernels as piecewise polynomials, for maps that an engine evaluates.
 #pragma once
 
+#include <warmjoint/friction.h>
+
 #include <Eigen/Core>
 #include <array>
 #include <cmath>
@@ -8,7 +10,6 @@
 #include <vector>
 
 #include "models/foundation/four.h"
-#include "models/friction/gaussian_axis.h"
 
 namespace warmjoint::inline models {
 

@@ -1,11 +1,12 @@
 // The Stribeck effect: friction falls with speed before viscous friction makes it rise.
 #pragma once
 
+#include <warmjoint/friction.h>
+
 #include <array>
 #include <cmath>
 
 #include "models/friction/parameter_rows.h"
-#include "models/friction/pre_sliding.h"
 #include "models/friction/sliding_force.h"
 
 namespace warmjoint::inline models {

@@ -1,9 +1,9 @@
 // How maps are sampled before a joint moves, and what that costs.
 #pragma once
 
-#include <vector>
+#include <warmjoint/friction.h>
 
-#include "models/friction/friction_map.h"
+#include <vector>
 
 namespace warmjoint::inline models {
 

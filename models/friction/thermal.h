@@ -1,44 +1,14 @@
 // The thermal energy state: friction that its own losses change, Eqs. (19)-(22).
 #pragma once
 
-#include <array>
+#include <warmjoint/friction.h>
+
 #include <cmath>
 #include <string_view>
 
-#include "models/friction/parameter_info.h"
 #include "models/friction/sign.h"
 
 namespace warmjoint::inline models {
-
-/// Parameters of E = k / (1 + s tau) W, Eq. (21): a first-order lag from the power lost, W, to the
-/// change of the friction level, E. k is negative where friction falls as the joint warms.
-struct Thermal {
-  double gain = 0;           // k, N.m/W or N/W
-  double time_constant = 1;  // tau, s
-
-  static constexpr std::array parameters{
-      ParameterInfo{"thermal_gain", "k", kThermalGainUnit, -kInfinity, kInfinity, 0,
-                    "change of the level for each watt lost, once settled"},
-      ParameterInfo{"thermal_time_constant",
-                    "tau",
-                    {"s", "s", 0, 1},
-                    0,
-                    kInfinity,
-                    600,
-                    "time constant of warming and cooling"},
-  };
-
-  template <class A>
-  void Serialize(A* a) {
-    const auto& [k, tau] = parameters;
-    a->Field(k.name, &gain, {.unit = k.unit.rotary, .meaning = k.meaning, .needed = kGiveNumber});
-    a->Field(tau.name, &time_constant,
-             {.unit = tau.unit.rotary,
-              .bounds = {.above = 0},
-              .meaning = tau.meaning,
-              .needed = kGiveNumber});
-  }
-};
 
 /// In size, N.m/W or N/W; joints show some 1 N.m/W, and a larger number is one that slipped.
 inline constexpr double kLargestThermalGain = 1e6;

@@ -1,10 +1,11 @@
 // Viscous and Coulomb friction, Eq. (2).
 #pragma once
 
+#include <warmjoint/friction.h>
+
 #include <array>
 
 #include "models/friction/parameter_rows.h"
-#include "models/friction/pre_sliding.h"
 #include "models/friction/sign.h"
 
 namespace warmjoint::inline models {

@@ -132,16 +132,6 @@ Measurements AssembleMeasurements(RawColumns raw, const std::vector<ColumnSource
   return measurements;
 }
 
-void CheckSamples(const Measurements& measurements) {
-  // without lines of a file, since the samples come from elsewhere
-  const RawColumns raw{measurements.source, {}, {}};
-  for (const RecordingColumn& column : RecordingColumns()) {
-    const Eigen::VectorXd* values = column.get(measurements);
-    if (values) CheckValues(raw, column.name, *values);
-  }
-  CheckCourse(raw, measurements);
-}
-
 std::vector<std::string> NamesOf(const FileContent& content) {
   std::vector<std::string> names;
   for (const FileColumn& column : content.columns) names.push_back(column.name);

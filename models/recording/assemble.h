@@ -29,10 +29,6 @@ struct RawColumns {
 Measurements AssembleMeasurements(RawColumns raw, const std::vector<ColumnSource>& sources,
                                   const ReadSettings& layout);
 
-/// Throws BadInput for what no log may hold: fewer than three samples, a value that is not finite, time
-/// that does not increase from sample to sample, a torque that never changes.
-void CheckSamples(const Measurements& measurements);
-
 /// A one-dimensional array of numbers with a name.
 struct FileColumn {
   std::string name;

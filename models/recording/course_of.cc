@@ -18,7 +18,7 @@ JointCourse CourseOf(const Measurements& measurements, BristleStart bristle) {
   return course;
 }
 
-Prediction PredictFriction(const FrictionDescription& friction, const Measurements& measurements,
+Prediction PredictFriction(const Friction& friction, const Measurements& measurements,
                            const CourseStart& start, BristleStart bristle) {
   return AlongMotion(friction).Predict(CourseOf(measurements, bristle), start);
 }

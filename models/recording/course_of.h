@@ -1,8 +1,9 @@
 // A recording as the forward model reads it.
 #pragma once
 
+#include <warmjoint/recording.h>
+
 #include "models/friction/along_motion.h"
-#include "models/recording/measurements.h"
 
 namespace warmjoint::inline models {
 
@@ -16,7 +17,7 @@ JointCourse CourseOf(const Measurements& measurements,
                      BristleStart bristle = BristleStart::sliding);
 
 /// The friction that a recording's motion gives: AlongMotion over CourseOf.
-Prediction PredictFriction(const FrictionDescription& friction, const Measurements& measurements,
+Prediction PredictFriction(const Friction& friction, const Measurements& measurements,
                            const CourseStart& start = {},
                            BristleStart bristle = BristleStart::sliding);
 

@@ -1,11 +1,10 @@
 // Recordings as CSV: header row, then one row a sample.
 #pragma once
 
+#include <warmjoint/recording.h>
+
 #include <string>
 #include <string_view>
-
-#include "models/recording/measurements.h"
-#include "models/recording/read_settings.h"
 
 namespace warmjoint::inline models {
 

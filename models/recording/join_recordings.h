@@ -1,9 +1,9 @@
 // Several recordings of one joint as one.
 #pragma once
 
-#include <vector>
+#include <warmjoint/recording.h>
 
-#include "models/recording/measurements.h"
+#include <vector>
 
 namespace warmjoint::inline models {
 

@@ -57,7 +57,7 @@ Measurements ReadRecordingFile(const std::string& path, const ReadSettings& layo
   return AssembleContent(ReadApart(library, path, layout, patience), path, layout);
 }
 
-void WriteRecording(const Measurements& measurements, const std::string& path) {
+void WriteRecording(const Measurements& measurements, const std::filesystem::path& path) {
   if (const auto write = FormatOf(path).write) return WriteWholeFile(path, write(measurements));
   Refuse({path}, "recordings are written as .csv or .h5, not '{}'; choose one of them",
          Extension(path));

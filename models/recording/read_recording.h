@@ -1,10 +1,11 @@
 // Recordings in the format that their name tells.
 #pragma once
 
+#include <warmjoint/recording.h>
+
 #include <string>
 
 #include "models/recording/csv.h"
-#include "models/recording/measurements.h"
 
 namespace warmjoint::inline models {
 
@@ -14,8 +15,5 @@ namespace warmjoint::inline models {
 /// computing for a small file; large ones get more.
 Measurements ReadRecordingFile(const std::string& path, const ReadSettings& layout = {},
                                double patience = 30);
-
-/// Writes .h5 and .hdf5 as HDF5, .csv as CSV. Throws BadInput for other names.
-void WriteRecording(const Measurements& measurements, const std::string& path);
 
 }  // namespace warmjoint::inline models

@@ -1,11 +1,12 @@
 // How the columns of a foreign file become ours.
 #pragma once
 
+#include <warmjoint/friction.h>
+
 #include <map>
 #include <string>
 
 #include "models/foundation/node.h"
-#include "models/friction/joint_kind.h"
 
 namespace warmjoint::inline models {
 

@@ -1,11 +1,12 @@
 // The columns of recordings, and their one list: readers, writers and checks run over it.
 #pragma once
 
+#include <warmjoint/recording.h>
+
 #include <string>
 #include <vector>
 
 #include "models/recording/csv.h"
-#include "models/recording/measurements.h"
 #include "models/recording/units.h"
 
 namespace warmjoint::inline models {

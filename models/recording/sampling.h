@@ -1,6 +1,8 @@
 // How the samples of a recording lie in time.
 #pragma once
 
+#include <warmjoint/recording.h>
+
 #include <Eigen/Core>
 #include <vector>
 
@@ -17,12 +19,6 @@ inline constexpr double kGapSteps = 3;
 
 /// The longest step between samples that is no gap, s. time: [N] s, N at least 2.
 inline double LongestStep(const Eigen::VectorXd& time) { return kGapSteps * MedianStep(time); }
-
-/// A time without samples.
-struct LogGap {
-  Eigen::Index behind = 0;  // first sample after it
-  double length = 0;        // s
-};
 
 /// Every step that is longer than LongestStep, in order of time. time: [N] s
 inline std::vector<LogGap> GapsOf(const Eigen::VectorXd& time) {

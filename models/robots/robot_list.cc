@@ -72,7 +72,7 @@ RobotInfo ReadRobot(const std::string& name) {
   robot.mjcf = folder / (name + ".xml");
   robot.urdf = folder / (name + ".urdf");
   CollectJoints(*ReadUrdf(robot.urdf)->getRoot(), robot.joints);
-  robot.friction = ReadFrictionFile(folder / "friction.json");
+  robot.friction = ReadFriction(folder / "friction.json");
   robot.friction_joint = ReadFrictionJoint(folder / "friction.json", robot.joints);
   return robot;
 }

@@ -1,13 +1,12 @@
 // The family of robots: what is known of each folder of models/robots.
 #pragma once
 
+#include <warmjoint/friction.h>
+
 #include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
-
-#include "models/friction/friction_description.h"
-#include "models/friction/joint_kind.h"
 
 namespace warmjoint::inline models {
 
@@ -28,7 +27,7 @@ struct RobotInfo {
   std::filesystem::path urdf;
   std::vector<RobotJoint> joints;  // from the base outwards
   std::string friction_joint;      // whose friction friction.json holds
-  FrictionDescription friction;
+  Friction friction;
 };
 
 /// All robots, sorted by name, read from their folders: a new robot is its folder alone.

@@ -1,6 +1,5 @@
-#include "sim/model/attach.h"
-
 #include <fmt/ranges.h>
+#include <warmjoint/attach.h>
 
 #include <algorithm>
 #include <map>
@@ -8,6 +7,7 @@
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/excerpt.h"
 #include "sim/model/effort_limit.h"
+#include "sim/model/friction_actuator.h"
 #include "sim/model/joint_pattern.h"
 #include "sim/model/light_joints.h"
 #include "sim/model/load_model.h"
@@ -60,6 +60,10 @@ void Change(mjSpec& spec, const AttachOptions& options, const Place& place,
             std::vector<std::string>& notices) {
   std::vector<std::string> servos;
   for (const auto& [pattern, value] : options.armatures) {
+    if (!std::isfinite(value) || value < 0) {
+      Refuse({"--armature"}, "of '{}' is {}; it must be a number of 0 or more, kg.m^2 or kg",
+             Excerpt(pattern), value);
+    }
     for (const std::string& joint : MatchJoints(spec, pattern, place)) {
       double& armature = FindJoint(spec, joint, place)->armature;
       if (armature == value) continue;
@@ -78,7 +82,11 @@ void Change(mjSpec& spec, const AttachOptions& options, const Place& place,
                                   fmt::join(servos, ", ")));
   }
   if (options.integrator) spec.option.integrator = *options.integrator;
-  if (options.timestep) spec.option.timestep = *options.timestep;
+  if (!options.timestep) return;
+  if (!(std::isfinite(*options.timestep) && *options.timestep > 0)) {
+    Refuse({"--timestep"}, "is {}; it must be above 0, s", *options.timestep);
+  }
+  spec.option.timestep = *options.timestep;
 }
 
 /// Takes away what the friction replaces and what would clip it. Returns notices.
@@ -146,6 +154,11 @@ Attached AttachFriction(const fs::path& model, const std::vector<FrictionForJoin
                         const fs::path& out, const AttachOptions& options) {
   // the model, with a friction for each joint that is meant
   const Place place{model.string()};
+  for (const auto& [name, folder] : options.packages) {
+    if (fs::is_directory(folder)) continue;
+    Refuse({"--package"}, "of '{}' is '{}', which is not a folder", Excerpt(name),
+           Excerpt(folder.string()));
+  }
   ParsedModel parsed = ParseModel(model, options.packages);
   mjSpec& spec = *parsed.spec;
   const std::vector<FrictionForJoint> each = Expand(spec, frictions, place);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <mujoco/mujoco.h>
+#include <warmjoint/attach.h>
 
 #include <vector>
 
@@ -9,15 +10,6 @@
 #include "sim/model/friction_sections.h"
 
 namespace warmjoint::inline sim {
-
-/// How friction acts in a model.
-enum class FrictionForm {
-  /// An actuator for each joint: states in mjData.act, a control for the ambient.
-  actuator,
-  /// One instance of the plugin for all joints, to which a body refers: states in
-  /// mjData.plugin_state; actuators, controls and keyframes of the model stay as they are.
-  passive,
-};
 
 /// Throws BadInput from `place` for an unknown joint, one that is neither hinge nor slide, one that
 /// is named twice, and a friction that makes no sense (CheckFriction).

@@ -36,7 +36,7 @@ std::string ThermalConfigs(std::string_view prefix, const std::optional<Thermal>
 }
 
 std::string InlineConfigs(const FrictionForJoint& of) {
-  const FrictionDescription& friction = of.friction;
+  const Friction& friction = of.friction;
   // the law and its warming
   std::string configs = Config("law", friction.law);
   for (const auto& [key, value] : friction.parameters) configs += Config(key, value);

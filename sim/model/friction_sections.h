@@ -1,19 +1,13 @@
 // Friction as MJCF text: the sections that a model needs.
 #pragma once
 
+#include <warmjoint/attach.h>
+#include <warmjoint/friction.h>
+
 #include <string>
 #include <vector>
 
-#include "models/friction/friction_description.h"
-
 namespace warmjoint::inline sim {
-
-/// Friction for one joint of a model.
-struct FrictionForJoint {
-  std::string joint;
-  FrictionDescription friction;
-  std::vector<double> initial_energy{};  // E1, and E2 of a second stage, N.m or N; empty: cold
-};
 
 /// The sections <extension> and <actuator> that put friction onto a joint through the plugin,
 /// attributes inline, as MJCF text. The actuator is named "JOINT_friction".

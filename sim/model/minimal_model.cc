@@ -1,6 +1,5 @@
-#include "sim/model/minimal_model.h"
-
 #include <fmt/format.h>
+#include <warmjoint/attach.h>
 
 #include <algorithm>
 
@@ -10,7 +9,7 @@
 
 namespace warmjoint::inline sim {
 
-std::string MinimalModel(const FrictionDescription& friction, JointKind kind) {
+std::string MinimalModel(const Friction& friction, JointKind kind) {
   CheckFriction(friction, {});
   // heavy enough for any slope at this step
   constexpr double kTimestep = 0.001;  // s

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <mujoco/mujoco.h>
+#include <warmjoint/attach.h>
 
 #include <filesystem>
 #include <map>
@@ -11,9 +12,6 @@
 #include "models/foundation/bad_input.h"
 
 namespace warmjoint::inline sim {
-
-/// The folder of each ROS package by its name: package://NAME/FILE is FOLDER/FILE.
-using PackageFolders = std::map<std::string, std::filesystem::path>;
 
 /// The text of a URDF with MuJoCo told to keep what is only to be seen, unless the text itself says
 /// what to do with that (`discardvisual`); by default MuJoCo leaves it out of a URDF.

@@ -11,7 +11,7 @@ namespace warmjoint::inline sim {
 namespace {
 
 void AddColouredNoise(const ColouredNoise& noise, double rate, RandomStream random,
-                      Recording& recording) {
+                      Simulation& recording) {
   if (noise.deviation == 0) return;
   // an AR(1) process that begins settled: its deviation is the same at each sample
   const double memory = std::exp(-1 / (rate * noise.correlation_time));
@@ -29,7 +29,7 @@ void AddColouredNoise(const ColouredNoise& noise, double rate, RandomStream rand
   recording.truth.correlation_time = noise.correlation_time;
 }
 
-void AddUnevenNoise(const UnevenNoise& noise, RandomStream random, Recording& recording) {
+void AddUnevenNoise(const UnevenNoise& noise, RandomStream random, Simulation& recording) {
   if (noise == UnevenNoise{}) return;
   const Truth& truth = recording.truth;
   // a deviation of each sample, with friction and speed
@@ -59,7 +59,7 @@ void AddOutliers(const Outliers& outliers, RandomStream random, Measurements& lo
 
 }  // namespace
 
-void DisturbLog(const Scenario& scenario, std::uint64_t realization, Recording& recording,
+void DisturbLog(const Scenario& scenario, std::uint64_t realization, Simulation& recording,
                 const Eigen::VectorXd& position, const Eigen::VectorXd& acceleration) {
   const RandomKey key{scenario.seed, realization};
   const Disturbances& disturbances = scenario.disturbances;

@@ -1,8 +1,9 @@
 // Disturbances that show in the log alone.
 #pragma once
 
+#include <warmjoint/simulation.h>
+
 #include "scenarios/scenario.h"
-#include "sim/truth/simulated_recording.h"
 
 namespace warmjoint::inline sim {
 
@@ -11,7 +12,7 @@ namespace warmjoint::inline sim {
 /// files do. Random numbers come from streams of their own, so that they leave all others as they are.
 /// Coloured noise joins Truth.torque_noise; outliers and uneven noise, being no noise of one size, do not.
 /// position, acceleration: the true ones, as of HiddenTorque.
-void DisturbLog(const Scenario& scenario, std::uint64_t realization, Recording& recording,
+void DisturbLog(const Scenario& scenario, std::uint64_t realization, Simulation& recording,
                 const Eigen::VectorXd& position, const Eigen::VectorXd& acceleration = {});
 
 }  // namespace warmjoint::inline sim

@@ -140,7 +140,7 @@ class IdealPlant : public Plant {
   }
 
  private:
-  Recording CarryOut(std::uint64_t realization, const RunWatch&) override {
+  Simulation CarryOut(std::uint64_t realization, const RunWatch&) override {
     // friction along the motion, finer where speeds change by ramps
     const RandomKey key{scenario_.seed, realization};
     const int parts = PartsOfStep(scenario_);
@@ -158,7 +158,7 @@ class IdealPlant : public Plant {
     }
 
     // the log and the truth behind it
-    Recording recording;
+    Simulation recording;
     recording.measurements = Measure(samples, friction.force, key);
     Truth& truth = recording.truth;
     truth.friction = scenario_.friction;
@@ -212,8 +212,8 @@ class IdealPlant : public Plant {
   }
 
   /// The friction that the joint has, disturbances included; the truth is told without them.
-  FrictionDescription FrictionOfPlant() const {
-    FrictionDescription friction = scenario_.friction;
+  Friction FrictionOfPlant() const {
+    Friction friction = scenario_.friction;
     if (scenario_.disturbances.second_heat) {
       friction.second_thermal = scenario_.disturbances.second_heat;
     }

@@ -1,5 +1,6 @@
+#include <warmjoint/recording.h>
+
 #include "models/foundation/bad_input.h"
-#include "models/recording/measurements.h"
 #include "scenarios/realize.h"
 #include "sim/plant/ideal_plant.h"
 #include "sim/plant/mujoco_plant.h"
@@ -36,7 +37,7 @@ class DrawnPlant : public Plant {
   }
 
  private:
-  Recording CarryOut(std::uint64_t realization, const RunWatch& watch) override {
+  Simulation CarryOut(std::uint64_t realization, const RunWatch& watch) override {
     return MakeFixedPlant(Realize(scenario_, realization))->Run(realization, watch);
   }
 

@@ -1,8 +1,8 @@
 // The motion of a recording, to be carried out again.
 #pragma once
 
-#include "models/recording/measurements.h"
-#include "models/recording/selection.h"
+#include <warmjoint/recording.h>
+
 #include "scenarios/motion.h"
 
 namespace warmjoint::inline sim {

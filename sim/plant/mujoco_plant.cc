@@ -81,7 +81,7 @@ class MujocoPlant : public Plant {
   }
 
  private:
-  Recording CarryOut(std::uint64_t realization, const RunWatch& watch) override {
+  Simulation CarryOut(std::uint64_t realization, const RunWatch& watch) override {
     const RandomKey key{scenario_.seed, realization};
     // where it goes, and at which speeds
     const double start = StartPosition(scenario_.motion, joint_.limits);
@@ -92,7 +92,7 @@ class MujocoPlant : public Plant {
     const std::vector<MotionSegment> plan = CheckedPlan(motion, start);
 
     // a drive that this joint can follow, unless the scenario says which
-    Recording recording = Empty();
+    Simulation recording = Empty();
     recording.following = Sufficient(plan);
     bandwidth_ = recording.following.bandwidth;
     SensorLog log(scenario_, key, recording.truth.velocity.size());
@@ -153,11 +153,11 @@ class MujocoPlant : public Plant {
     return change * bandwidth_ / kRampTimes;
   }
 
-  Recording Empty() const {
+  Simulation Empty() const {
     // columns are filled in while the joint moves
     const auto n =
         static_cast<Eigen::Index>(std::llround(scenario_.duration * scenario_.sampling.rate));
-    Recording recording;
+    Simulation recording;
     Measurements& log = recording.measurements;
     log.joint = joint_.kind;
     log.torque_unit = kTorqueUnit.For(joint_.kind);
@@ -176,7 +176,7 @@ class MujocoPlant : public Plant {
   /// Drives the joint along the reference; sensors read and samples are taken before their step. The true position of
   /// each sample, [N] rad or m.
   Eigen::VectorXd Move(VelocityReference reference, double start, SensorLog& log,
-                       Recording& recording, const RunWatch& watch) {
+                       Simulation& recording, const RunWatch& watch) {
     Truth& truth = recording.truth;
     const mjModel* m = joint_.model.get();
     mjData* d = data_.get();

@@ -1,12 +1,13 @@
 // What turns a scenario into a recording.
 #pragma once
 
+#include <warmjoint/simulation.h>
+
 #include <cstdint>
 #include <functional>
 #include <memory>
 
 #include "scenarios/scenario.h"
-#include "sim/truth/simulated_recording.h"
 
 namespace warmjoint::inline sim {
 
@@ -20,12 +21,12 @@ class Plant {
   virtual ~Plant() = default;
   /// One realization: all its random numbers come from (scenario.seed, realization).
   /// Throws BadInput where the scenario asks what the plant cannot do. watch: of runs that take their time.
-  Recording Run(std::uint64_t realization, const RunWatch& watch = {}) {
+  Simulation Run(std::uint64_t realization, const RunWatch& watch = {}) {
     return CarryOut(realization, watch);
   }
 
  private:
-  virtual Recording CarryOut(std::uint64_t realization, const RunWatch& watch) = 0;
+  virtual Simulation CarryOut(std::uint64_t realization, const RunWatch& watch) = 0;
 };
 
 /// The plant that the scenario names, with its model loaded and checked. Throws BadInput.

@@ -1,12 +1,13 @@
 // How a signal gets into the log: sensor noise, low-pass, storage.
 #pragma once
 
+#include <warmjoint/recording.h>
+
 #include <Eigen/Core>
 #include <optional>
 
 #include "models/foundation/low_pass.h"
 #include "models/foundation/random_stream.h"
-#include "models/recording/measurements.h"
 #include "scenarios/scenario.h"
 
 namespace warmjoint::inline sim {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "models/foundation/low_pass.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint::inline sim {
 namespace {
@@ -58,7 +59,7 @@ void SpoilTorque(const SensorFaults& faults, const VectorXd& time, VectorXd& tor
 }
 
 /// Leaves the samples `left` of a recording and its truth.
-void Leave(const std::vector<Index>& left, Recording& recording) {
+void Leave(const std::vector<Index>& left, Simulation& recording) {
   const auto keep = [&](VectorXd& column) {
     if (column.size() > 0) column = column(left).eval();
   };
@@ -70,7 +71,7 @@ void Leave(const std::vector<Index>& left, Recording& recording) {
 }
 
 /// Leaves out the samples from `begin` to before `end`, s.
-void LeaveOut(double begin, double end, Recording& recording) {
+void LeaveOut(double begin, double end, Simulation& recording) {
   const VectorXd& time = recording.measurements.time;
   std::vector<Index> left;
   for (Index i = 0; i < time.size(); ++i) {
@@ -112,7 +113,7 @@ void DisturbMotion(const Disturbances& disturbances, Measurements& log) {
   if (disturbances.without_velocity) log.velocity.resize(0);
 }
 
-void LoseSamples(const LostSamples& lost, RandomStream random, Recording& recording) {
+void LoseSamples(const LostSamples& lost, RandomStream random, Simulation& recording) {
   // the first and the last sample stay, so that the log keeps its length in time
   if (lost.fraction == 0) return;
   const Index last = recording.measurements.size() - 1;
@@ -124,7 +125,7 @@ void LoseSamples(const LostSamples& lost, RandomStream random, Recording& record
   Leave(left, recording);
 }
 
-void SpoilLog(const SensorFaults& faults, Recording& recording) {
+void SpoilLog(const SensorFaults& faults, Simulation& recording) {
   if (faults == SensorFaults{}) return;
   Measurements& log = recording.measurements;
   // each sensor by itself

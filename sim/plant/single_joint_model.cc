@@ -59,7 +59,7 @@ double GravitySlope(const mjModel* m) {
 }  // namespace
 
 SingleJointModel LoadSingleJoint(const std::string& path, const std::string& joint,
-                                 const FrictionDescription& friction, double timestep,
+                                 const Friction& friction, double timestep,
                                  const std::string& asked_by) {
   // the robot with one joint, and friction on it
   const ParsedModel parsed = ParseModel(path);

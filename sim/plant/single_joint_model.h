@@ -1,10 +1,11 @@
 // A robot with one joint free and friction on it.
 #pragma once
 
+#include <warmjoint/friction.h>
+
 #include <string>
 #include <utility>
 
-#include "models/friction/friction_description.h"
 #include "sim/model/mujoco_handles.h"
 
 namespace warmjoint::inline sim {
@@ -28,7 +29,7 @@ struct SingleJointModel {
 /// Throws BadInput for a file that does not load, a joint that the robot lacks (with the nearest
 /// name) or that is neither hinge nor slide, and what the plugin refuses.
 SingleJointModel LoadSingleJoint(const std::string& path, const std::string& joint,
-                                 const FrictionDescription& friction, double timestep,
+                                 const Friction& friction, double timestep,
                                  const std::string& asked_by);
 
 }  // namespace warmjoint::inline sim

@@ -1,5 +1,7 @@
 #include "sim/plugin/attributes.h"
 
+#include <warmjoint/friction.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -10,7 +12,6 @@
 #include "models/foundation/parse_number.h"
 #include "models/friction/check_friction.h"
 #include "models/friction/friction_json.h"
-#include "models/friction/law.h"
 #include "models/friction/thermal.h"
 #include "sim/plugin/model_folder.h"
 
@@ -94,13 +95,12 @@ void RefuseBeside(const std::string& whole, const AttributeReader& read, const P
   }
 }
 
-FrictionDescription ReadFile(const std::string& file, const AttributeReader& read,
-                             const Place& place) {
+Friction ReadFile(const std::string& file, const AttributeReader& read, const Place& place) {
   RefuseBeside("file", read, place);
   const fs::path path = Locate(file, read("folder"));
   // a file that is not found may be looked for in the wrong folder
   try {
-    return ReadFrictionFile(path);
+    return ReadFriction(path);
   } catch (const BadInput& refusal) {
     const bool lost = !path.is_absolute() && !fs::exists(path);
     Refuse(place, "file: {}{}", refusal.what(),
@@ -164,8 +164,8 @@ FrictionOfJoints ReadJoints(const AttributeReader& read, const Place& place) {
   return joints;
 }
 
-FrictionDescription ReadInline(const AttributeReader& read, const Place& place) {
-  FrictionDescription friction;
+Friction ReadInline(const AttributeReader& read, const Place& place) {
+  Friction friction;
   if (read("law").empty()) {
     Refuse(place, "law is missing; give one of {}", fmt::join(LawNames(), ", "));
   }
@@ -210,7 +210,7 @@ FrictionOfJoints ReadAttributes(const AttributeReader& read, const Place& place)
 namespace {
 
 /// The energy of a joint at a reset: a number, or one for each stage.
-std::array<double, 2> EnergyFrom(const nlohmann::json& value, const FrictionDescription& friction,
+std::array<double, 2> EnergyFrom(const nlohmann::json& value, const Friction& friction,
                                  const Place& place) {
   if (!friction.thermal) {
     Refuse(place, "initial_energy needs thermal, which is not given; give it, or leave it out");

@@ -1,6 +1,8 @@
 // Configuration attributes of the plugin `warmjoint.friction`.
 #pragma once
 
+#include <warmjoint/friction.h>
+
 #include <array>
 #include <functional>
 #include <map>
@@ -8,7 +10,6 @@
 #include <vector>
 
 #include "models/foundation/bad_input.h"
-#include "models/friction/friction_description.h"
 
 namespace warmjoint::inline sim {
 
@@ -28,7 +29,7 @@ const std::vector<PluginAttribute>& PluginAttributes();
 using AttributeReader = std::function<std::string(const std::string& name)>;
 
 /// Friction by the name of its joint; under "" that of every joint.
-using FrictionOfJoints = std::map<std::string, FrictionDescription>;
+using FrictionOfJoints = std::map<std::string, Friction>;
 
 /// The friction that the attributes describe, checked. Throws BadInput, from `place`, naming
 /// attribute, value and bound for: no number ("5x"), a value out of bounds, a parameter that the

@@ -17,7 +17,7 @@ namespace warmjoint::inline sim {
 
 /// One joint's friction as it was described, and ready for a timestep.
 struct PreparedJoint {
-  FrictionDescription description;
+  Friction description;
   JointFriction friction;
   std::array<double, 2> initial_energy{};  // {E1, E2} at a reset, N.m or N
 };

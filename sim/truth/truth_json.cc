@@ -13,7 +13,7 @@ Tree TruthToTree(const Truth& truth) { return WriteFields(truth); }
 
 Truth TruthFrom(const Node& node) { return ReadAs<Truth>(node); }
 
-void WriteTruth(const Truth& truth, const std::string& path) {
+void WriteTruth(const Truth& truth, const std::filesystem::path& path) {
   const Tree tree = TruthToTree(truth);
   // one thread at a time: the writer asks for the locale
   const auto written = [&] {
@@ -23,6 +23,6 @@ void WriteTruth(const Truth& truth, const std::string& path) {
   WriteWholeFile(path, written());
 }
 
-Truth ReadTruth(const std::string& path) { return TruthFrom(ReadJsonNode(path)); }
+Truth ReadTruth(const std::filesystem::path& path) { return TruthFrom(ReadJsonNode(path)); }
 
 }  // namespace warmjoint::inline sim

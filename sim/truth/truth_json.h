@@ -1,10 +1,11 @@
 // Truth as JSON: the truth.json beside a simulated recording.
 #pragma once
 
+#include <warmjoint/simulation.h>
+
 #include <string>
 
 #include "models/foundation/node.h"
-#include "sim/truth/truth.h"
 
 namespace warmjoint::inline sim {
 
@@ -16,11 +17,5 @@ Tree TruthToTree(const Truth& truth);
 /// The inverse. Missing or unknown keys, arrays of unlike lengths and wrong types throw BadInput
 /// with their place.
 Truth TruthFrom(const Node& node);
-
-/// Writes truth.json as a whole. Throws BadInput where the file cannot be written.
-void WriteTruth(const Truth& truth, const std::string& path);
-
-/// Reads it. Throws BadInput.
-Truth ReadTruth(const std::string& path);
 
 }  // namespace warmjoint::inline sim

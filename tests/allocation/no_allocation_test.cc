@@ -29,8 +29,8 @@ namespace warmjoint {
 namespace {
 
 /// Friction with all its parts.
-FrictionDescription Full() {
-  FrictionDescription friction;
+Friction Full() {
+  Friction friction;
   friction.law = "stribeck";
   friction.parameters = {{"viscous", 0.4},
                          {"coulomb", 3},

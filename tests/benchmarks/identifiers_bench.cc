@@ -1,10 +1,10 @@
 // Time of one identification of Table I: 3600 samples at 1 s, on one core.
 #include <benchmark/benchmark.h>
+#include <warmjoint/prepared_log.h>
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/lack_of_fit/judge.h"
-#include "identification/preparation/prepare.h"
 #include "identification/read_options.h"
 #include "models/foundation/keep_memory.h"
 #include "tests/support/warm_recording.h"

@@ -142,8 +142,8 @@ ModelPtr MakeArm(const Regime& regime, int noslip, const Change& change) {
   return CompileModel(*spec, {"bench"});
 }
 
-FrictionDescription Simple(double level) {
-  FrictionDescription friction;
+Friction Simple(double level) {
+  Friction friction;
   friction.law = "asymmetric";
   friction.parameters = {
       {"viscous", 0.5}, {"coulomb_positive", level}, {"coulomb_negative", 1.1 * level}};
@@ -153,8 +153,8 @@ FrictionDescription Simple(double level) {
 }
 
 /// The simple one with Stribeck's level and a map of 36 motor angles times 6 speeds.
-FrictionDescription Full(double level) {
-  FrictionDescription friction = Simple(level);
+Friction Full(double level) {
+  Friction friction = Simple(level);
   friction.law = "stribeck";
   friction.parameters = {{"viscous", 0.5},
                          {"coulomb", level},
@@ -173,7 +173,7 @@ FrictionDescription Full(double level) {
   return friction;
 }
 
-Change WithFriction(const FrictionDescription& friction, FrictionForm form) {
+Change WithFriction(const Friction& friction, FrictionForm form) {
   return [friction, form](mjSpec& spec, const std::vector<std::string>& joints) {
     std::vector<FrictionForJoint> frictions;
     for (const std::string& joint : joints) frictions.push_back({joint, friction});

@@ -54,7 +54,7 @@ template <FrictionForm form>
 void AddOurs(mjSpec& spec, const std::vector<Holding>& joints) {
   std::vector<FrictionForJoint> frictions;
   for (const Holding& joint : joints) {
-    FrictionDescription friction;
+    Friction friction;
     friction.law = "coulomb";
     friction.parameters = {{"coulomb", joint.level}};
     frictions.push_back({joint.joint, friction});

@@ -7,7 +7,7 @@ file(RENAME ${OUT}/prefix ${prefix})
 
 # the public headers are all that is installed beside MuJoCo's
 file(GLOB_RECURSE headers RELATIVE ${prefix}/include ${prefix}/include/*)
-list(FILTER headers EXCLUDE REGEX "^(mujoco/.*|warmjoint/[a-z]+\\.h)$")
+list(FILTER headers EXCLUDE REGEX "^(mujoco/.*|warmjoint/[a-z_]+\\.h)$")
 if(headers)
   message(FATAL_ERROR "these are installed and no part of the interface: ${headers}")
 endif()
@@ -16,9 +16,9 @@ execute_process(COMMAND ${CMAKE_COMMAND} -S ${SOURCE} -B ${OUT}/build -G ${GENER
   OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${CMAKE_COMMAND} --build ${OUT}/build COMMAND_ERROR_IS_FATAL ANY)
 
-# who links the library gets its folder of headers, and no folder or option of what it is made of
+# who links the library gets its headers, Eigen's and MuJoCo's, and no folder or option of what else it is made of
 file(READ ${OUT}/build/compile_commands.json commands)
-if(commands MATCHES "eigen|hdf5|-Werror|-std=c\\+\\+")
+if(commands MATCHES "hdf5|nlohmann|-Werror|-Wall")
   message(FATAL_ERROR "the consumer is compiled with more than the interface: ${commands}")
 endif()
 

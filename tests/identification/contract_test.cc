@@ -1,5 +1,6 @@
 // What every identifier of the list owes, whatever its method.
 #include <gmock/gmock.h>
+#include <warmjoint/prepared_log.h>
 
 #include <cctype>
 #include <cmath>
@@ -11,7 +12,6 @@
 #include "identification/answer/identify.h"
 #include "identification/estimate.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
 #include "identification/read_options.h"
 #include "identification/seen_samples.h"
@@ -80,8 +80,8 @@ class Contract : public ::testing::TestWithParam<Identifier> {
     return recording;
   }
   /// The same motions of joints whose friction falls by 5 N.m a rad/s, which no law allows.
-  static Measurements Falling(const FrictionDescription& warm_or_cold) {
-    const auto falling = [](FrictionDescription friction) {
+  static Measurements Falling(const Friction& warm_or_cold) {
+    const auto falling = [](Friction friction) {
       friction.parameters["viscous"] = -5;
       return friction;
     };
@@ -94,7 +94,7 @@ class Contract : public ::testing::TestWithParam<Identifier> {
       return test::RecordFriction(falling(test::StribeckJoint()), 0.1, test::SlowAndFast(7200, 1),
                                   0.1, 1);
     }
-    FrictionDescription friction = falling(warm_or_cold);
+    Friction friction = falling(warm_or_cold);
     friction.parameters["coulomb"] = 30;
     return WithMoreColumns(
         test::RecordFriction(friction, 1, test::AlternatingSpeeds(7200, 1, 600), 0.1, 1));
@@ -105,8 +105,8 @@ class Contract : public ::testing::TestWithParam<Identifier> {
         test::RecordFriction(ColdTableOne(), 1, test::AlternatingSpeeds(7200, 1, 600), 0.1, 1));
     return recording;
   }
-  static FrictionDescription ColdTableOne() {
-    FrictionDescription friction = test::TableOne();
+  static Friction ColdTableOne() {
+    Friction friction = test::TableOne();
     friction.thermal.reset();
     return friction;
   }
@@ -278,7 +278,7 @@ TEST_P(Contract, GivesTheSameBitsTwice) {
 }
 
 /// Whether a map goes over one turn of the joint, as a sliding joint's cannot.
-bool HasTurnOfTheJoint(const std::optional<FrictionDescription>& friction) {
+bool HasTurnOfTheJoint(const std::optional<Friction>& friction) {
   if (!friction) return false;
   return std::ranges::any_of(friction->maps, [](const FrictionMap& map) {
     const MapAxis* axis = FindAxis(map, MapQuantity::position);

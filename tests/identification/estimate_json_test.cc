@@ -22,7 +22,7 @@ Estimate Example() {
   estimate.metrics = Metrics{3600, 4, 3.5, 0.5, 0.4, 93.25, 0.2506};
   estimate.trace = {{0, {{"coulomb", 9.0}, {"viscous", 4.5}}, 1.9},
                     {1, {{"coulomb", 10.0}, {"viscous", 4.75}}, 1.5}};
-  estimate.friction = FrictionDescription{
+  estimate.friction = Friction{
       "viscous_coulomb", {{"viscous", 1.0 / 3}, {"coulomb", 15.1}}, Thermal{-3, 600}, 20, 50};
   return estimate;
 }
@@ -60,8 +60,8 @@ TEST(EstimateJson, ReadsBackBitForBit) {
 TEST(EstimateJson, KeepsFrictionAtSpeeds) {
   Estimate estimate = Example();
   EXPECT_FALSE(EstimateToTree(estimate).contains("friction_at_speeds"));
-  estimate.at_speeds = {{0.3, 2.15, 0.01, {2.13, 2.17}, "m/s", "N"},
-                        {0.8, 2.4, 0.02, {2.36, 2.44}}};
+  estimate.friction_at_speeds = {{0.3, 2.15, 0.01, {2.13, 2.17}, "m/s", "N"},
+                                 {0.8, 2.4, 0.02, {2.36, 2.44}}};
   const json object = EstimateToTree(estimate);
   EXPECT_EQ(object["friction_at_speeds"][0], json({{"speed", 0.3},
                                                    {"value", 2.15},

@@ -1,10 +1,8 @@
-#include "identification/metrics.h"
-
 #include <gtest/gtest.h>
+#include <warmjoint/estimate.h>
 
 #include <cmath>
 
-#include "identification/estimate.h"
 #include "tests/support/vectors.h"
 
 namespace warmjoint {

@@ -1,11 +1,11 @@
 // Several recordings of one joint at once: heat starts again with each.
 #include <gmock/gmock.h>
+#include <warmjoint/prepared_log.h>
 
 #include "identification/answer/identify.h"
 #include "identification/forward/thermal_filter.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
 #include "identification/read_options.h"
 #include "models/recording/join_recordings.h"

@@ -22,17 +22,25 @@ struct Room {
   bool may_use_mujoco = false;
 };
 
+constexpr const char* kScore = "identification/include/warmjoint/score.h";
+
 const std::vector<Room>& Rooms() {
   static const std::vector<Room> rooms{
-      {"models/foundation/", {"models/foundation/"}},
-      {"models/friction/", {"models/foundation/", "models/friction/"}},
-      {"models/recording/", {"models/foundation/", "models/friction/", "models/recording/"}},
+      {"models/include/", {"models/include/"}},
+      {"models/foundation/", {"models/include/", "models/foundation/"}},
+      {"models/friction/", {"models/include/", "models/foundation/", "models/friction/"}},
+      {"models/recording/",
+       {"models/include/", "models/foundation/", "models/friction/", "models/recording/"}},
       {"models/", {"models/"}},
       {"scenarios/", {"models/", "scenarios/"}},
-      {"sim/truth/", {"models/", "sim/truth/"}},
-      {"sim/plugin/", {"models/foundation/", "models/friction/", "sim/plugin/"}, true},
+      {"sim/include/", {"models/include/", "sim/include/"}, true},
+      {"sim/truth/", {"models/", "sim/truth/", "sim/include/"}},
+      {"sim/plugin/",
+       {"models/include/", "models/foundation/", "models/friction/", "sim/plugin/"},
+       true},
       {"sim/", {"models/", "scenarios/", "sim/"}, true},
-      {"identification/score/", {"models/", "sim/truth/", "identification/"}},
+      {kScore, {"models/include/", "sim/include/", "identification/include/"}},
+      {"identification/score/", {"models/", "sim/truth/", "sim/include/", "identification/"}},
       {"identification/", {"models/", "identification/"}},
       {"tools/", {"models/", "scenarios/", "sim/", "identification/", "tools/"}, true},
   };
@@ -62,10 +70,21 @@ std::string Breach(const std::string& file, const std::string& header) {
 
     // identifiers see neither the truth nor the score
     const bool identifies = room.folder == "identification/";
-    const bool secret = StartsWith(header, "identification/score/");
+    const bool secret = StartsWith(header, "identification/score/") || header == kScore;
     return identifies && secret ? "identifiers may not see the score" : "";
   }
   return "stands in no room";
+}
+
+/// A public header as a file of its room; any other as it is.
+std::string InItsRoom(const std::string& header) {
+  for (const std::string room : {"models", "scenarios", "sim", "identification", "tools"}) {
+    const std::string file = room + "/include/" + header;
+    if (StartsWith(header, "warmjoint/") && fs::exists(warmjoint::test::SourceFolder() / file)) {
+      return file;
+    }
+  }
+  return header;
 }
 
 /// Headers in the #include lines of a file.
@@ -75,7 +94,7 @@ std::vector<std::string> IncludesOf(const fs::path& path) {
   const std::regex include(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])");
   for (std::string line; std::getline(stream, line);) {
     std::smatch match;
-    if (std::regex_search(line, match, include)) headers.push_back(match[1]);
+    if (std::regex_search(line, match, include)) headers.push_back(InItsRoom(match[1]));
   }
   return headers;
 }
@@ -99,9 +118,9 @@ TEST(IncludeRules, EveryIncludeGoesDownTheFlow) {
 
 /// Folders of identification in the order in which data flows; "" is its top.
 const std::vector<std::string> kIdentificationOrder{
-    "preparation", "forward",     "uncertainty", "",       "linear",      "lagged",    "inference",
-    "report",      "warming",     "ridge",       "maps",   "alternating", "nonlinear", "online",
-    "holdout",     "identifiers", "lack_of_fit", "answer", "score"};
+    "include",   "preparation", "forward",     "uncertainty", "",       "linear",      "lagged",
+    "inference", "report",      "warming",     "ridge",       "maps",   "alternating", "nonlinear",
+    "online",    "holdout",     "identifiers", "lack_of_fit", "answer", "score"};
 
 /// Place in that order of a file's folder; the number of folders where it is none of them.
 size_t PlaceInIdentification(const std::string& file) {

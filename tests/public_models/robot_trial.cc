@@ -1,13 +1,13 @@
 #include "tests/public_models/robot_trial.h"
 
 #include <unistd.h>
+#include <warmjoint/attach.h>
 
 #include <algorithm>
 #include <cmath>
 #include <regex>
 
 #include "models/friction/thermal.h"
-#include "sim/model/attach.h"
 #include "sim/model/load_model.h"
 #include "sim/plugin/friction_instance.h"
 #include "tests/public_models/compare_models.h"
@@ -47,7 +47,7 @@ std::vector<FrictionForJoint> Frictions(const mjModel* m) {
     const int dof = m->jnt_dofadr[j];
     const double share = std::min(0.15 * largest + 0.01, 250 / m->dof_invweight0[dof]);
     const double level = 1.5 * std::abs(data->qfrc_bias[dof]) + share;
-    FrictionDescription friction;
+    Friction friction;
     friction.law = "asymmetric";
     friction.parameters = {
         {"viscous", 0}, {"coulomb_positive", level}, {"coulomb_negative", 1.1 * level}};

@@ -22,15 +22,15 @@ using testing::ElementsAre;
 const json kPosterior = {{"parameters", {"coulomb", "thermal_time_constant"}},
                          {"covariance", {{0.04, -1.2}, {-1.2, 400}}}};
 
-FrictionDescription Friction() { return test::Table1().friction; }
+Friction TableOneFriction() { return test::Table1().friction; }
 
 TEST(Posterior, DrawsWithItsMeansAndCovariance) {
-  const Posterior posterior = PosteriorFrom({Tree(kPosterior), "here"}, Friction());
+  const Posterior posterior = PosteriorFrom({Tree(kPosterior), "here"}, TableOneFriction());
   RandomStream random({1, 0}, Stream::test);
   const int n = 4000;
   Eigen::MatrixXd drawn(n, 2);
   for (int i = 0; i < n; ++i) {
-    const FrictionDescription one = Draw(posterior, Friction(), random, {"here"});
+    const Friction one = Draw(posterior, TableOneFriction(), random, {"here"});
     EXPECT_EQ(one.parameters.at("viscous"), 5);
     drawn.row(i) << one.parameters.at("coulomb"), one.thermal->time_constant;
   }
@@ -50,17 +50,18 @@ TEST(Posterior, DrawsWithItsMeansAndCovariance) {
 TEST(Posterior, KeepsWithinPhysicalBounds) {
   // a time constant known to 600 +- 600 is never drawn below 0
   const json wide = {{"parameters", {"thermal_time_constant"}}, {"covariance", {{360000}}}};
-  const Posterior posterior = PosteriorFrom({Tree(wide), "here"}, Friction());
+  const Posterior posterior = PosteriorFrom({Tree(wide), "here"}, TableOneFriction());
   RandomStream random({2, 0}, Stream::test);
   for (int i = 0; i < 200; ++i) {
-    EXPECT_GT(Draw(posterior, Friction(), random, {"here"}).thermal->time_constant, 0);
+    EXPECT_GT(Draw(posterior, TableOneFriction(), random, {"here"}).thermal->time_constant, 0);
   }
 }
 
 TEST(Posterior, RefusesWhatIsNoCovarianceOfTheFriction) {
   const auto read = [](const json& parameters, const json& covariance) {
     return PosteriorFrom(
-        {Tree(json{{"parameters", parameters}, {"covariance", covariance}}), "here"}, Friction());
+        {Tree(json{{"parameters", parameters}, {"covariance", covariance}}), "here"},
+        TableOneFriction());
   };
   EXPECT_THROW(read({"stribeck_velocity"}, {{1}}), BadInput);
   EXPECT_THROW(read({"viscous"}, {{-1}}), BadInput);
@@ -75,11 +76,12 @@ TEST(Posterior, OfAnEstimateTakesWhatIsFriction) {
   const json estimate = {{"covariance",
                           {{"parameters", {"gravity_sin", "viscous", "coulomb"}},
                            {"matrix", {{9, 1, 1}, {1, 0.01, -0.02}, {1, -0.02, 0.25}}}}}};
-  const Posterior posterior = PosteriorOfEstimate({Tree(estimate), "here"}, Friction());
+  const Posterior posterior = PosteriorOfEstimate({Tree(estimate), "here"}, TableOneFriction());
   EXPECT_THAT(posterior.parameters, ElementsAre("viscous", "coulomb"));
   EXPECT_EQ(posterior.covariance, (Eigen::Matrix2d() << 0.01, -0.02, -0.02, 0.25).finished());
-  EXPECT_THROW(PosteriorOfEstimate({Tree(json{{"covariance", nullptr}}), "here"}, Friction()),
-               BadInput);
+  EXPECT_THROW(
+      PosteriorOfEstimate({Tree(json{{"covariance", nullptr}}), "here"}, TableOneFriction()),
+      BadInput);
 }
 
 /// A scenario whose friction is that of an estimate file with 5 and 15 +- 1, drawn as `draw` says.

@@ -7,6 +7,7 @@
 // them, parameters, friction at speeds, bands of maps. What changes an answer changes a line.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <warmjoint/prepared_log.h>
 
 #include <array>
 #include <cmath>
@@ -14,7 +15,6 @@
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/preparation/prepare.h"
 #include "identification/read_options.h"
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"
@@ -34,8 +34,8 @@ void Print(const Estimate& estimate) {
   for (const EstimatedParameter& one : estimate.parameters) {
     PrintNumber(one.name, one.value, one.interval95);
   }
-  for (size_t i = 0; i < estimate.at_speeds.size(); ++i) {
-    const FrictionAtSpeed& at = estimate.at_speeds[i];
+  for (size_t i = 0; i < estimate.friction_at_speeds.size(); ++i) {
+    const FrictionAtSpeed& at = estimate.friction_at_speeds[i];
     PrintNumber(fmt::format("speed{}", i), at.value, at.interval95);
   }
   for (size_t map = 0; map < estimate.bands.size(); ++map) {

@@ -7,6 +7,8 @@
 // on the two: of the answers that are ok with intervals, how many it would refuse, and how many of them are
 // confidently wrong. On clean logs what it refuses are false alarms.
 #include <fmt/format.h>
+#include <warmjoint/prepared_log.h>
+#include <warmjoint/score.h>
 
 #include <array>
 #include <cmath>
@@ -16,9 +18,7 @@
 #include "identification/answer/identify.h"
 #include "identification/fit_data.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/preparation/prepare.h"
 #include "identification/read_options.h"
-#include "identification/score/score.h"
 #include "models/foundation/robust_noise.h"
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"
@@ -85,7 +85,7 @@ struct Verdict {
   bool told = false, wrong = false;
 };
 
-Verdict VerdictOf(const Estimate& estimate, const Recording& recording, const PreparedLog& log) {
+Verdict VerdictOf(const Estimate& estimate, const Simulation& recording, const PreparedLog& log) {
   Verdict verdict;
   if (estimate.status != Status::ok) return verdict;
   const LogView& view = ScoredView(estimate, log);
@@ -106,7 +106,7 @@ void Study(const Suite& suite, int variant, int realizations) {
     int told = 0, wrong = 0;
     std::array<int, kBounds.size()> refused{}, refused_wrong{};
     for (int r = 0; r < realizations; ++r) {
-      const Recording recording = plant->Run(static_cast<std::uint64_t>(r));
+      const Simulation recording = plant->Run(static_cast<std::uint64_t>(r));
       const PreparedLog log = Prepare(recording.measurements);
       const IdentifierInput input{log, options, {}};
       const Answer answer = FitAndJudge(identifier, input);

@@ -1,9 +1,9 @@
 // When an answer counts as confidently wrong.
 #pragma once
 
-#include <array>
+#include <warmjoint/score.h>
 
-#include "identification/score/score.h"
+#include <array>
 
 namespace warmjoint {
 

@@ -1,6 +1,8 @@
 // What an ideal test of the torque could see of a model that is wrong.
 #pragma once
 
+#include <warmjoint/prepared_log.h>
+
 #include <Eigen/QR>
 #include <cmath>
 #include <cstdint>
@@ -11,7 +13,6 @@
 #include "identification/identifiers/identifier_list.h"
 #include "identification/inference/inference.h"
 #include "identification/lack_of_fit/fitted_model.h"
-#include "identification/preparation/prepare.h"
 #include "identification/read_options.h"
 #include "identification/seen_samples.h"
 #include "scenarios/suite.h"

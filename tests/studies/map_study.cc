@@ -8,6 +8,7 @@
 // binomial test of one place of each log, the rms error over the standard deviation, and the median half width over the noise, apart for
 // places with data and for holes. Maps count whose first axis is the position; the friction at a place is that without warming.
 #include <fmt/format.h>
+#include <warmjoint/prepared_log.h>
 
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
@@ -22,7 +23,6 @@
 #include "identification/holdout/evaluate.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/maps/holes.h"
-#include "identification/preparation/prepare.h"
 #include "identification/read_options.h"
 #include "identification/seen_samples.h"
 #include "identification/uncertainty/tails.h"
@@ -140,7 +140,7 @@ double WidthOf(const FrictionMap& map) {
 }
 
 /// Law and maps of a friction at places of a band, without warming.
-Eigen::VectorXd ForceAt(FrictionDescription friction, const MapBand& band, Measurements at) {
+Eigen::VectorXd ForceAt(Friction friction, const MapBand& band, Measurements at) {
   const auto size = static_cast<Eigen::Index>(band.points.size());
   friction.thermal.reset();
   friction.second_thermal.reset();
@@ -156,7 +156,7 @@ Eigen::VectorXd ForceAt(FrictionDescription friction, const MapBand& band, Measu
   return PredictFriction(friction, at).force;
 }
 
-void CountBands(const Fit& fit, const Recording& recording, const LogView& view,
+void CountBands(const Fit& fit, const Simulation& recording, const LogView& view,
                 Outcomes& outcomes) {
   const FrictionMap* map = PositionMapOf(fit);
   if (!map || fit.bands.empty() || map->axes.size() < 2) return;
@@ -173,8 +173,8 @@ void CountBands(const Fit& fit, const Recording& recording, const LogView& view,
   outcomes.holes.EndLog();
 }
 
-void Count(const Identifier& identifier, Given given, const Recording& recording,
-           const Recording& unseen, Outcomes& outcomes) {
+void Count(const Identifier& identifier, Given given, const Simulation& recording,
+           const Simulation& unseen, Outcomes& outcomes) {
   const PreparedLog log = Prepare(recording.measurements), other = Prepare(unseen.measurements);
   const Fit fit = FitTo(identifier, log, given);
   ++outcomes.statuses[fit.refusal ? std::string(StatusName(fit.refusal->status)) : "fitted"];
@@ -225,8 +225,8 @@ void Study(const Suite& suite, int variant, int realizations) {
     const Identifier& identifier = FindIdentifier(choice.name);
     Outcomes outcomes;
     for (int r = 0; r < realizations; ++r) {
-      const Recording recording = plant->Run(static_cast<std::uint64_t>(r));
-      const Recording unseen = MovedAnew(scenario, recording.truth, realizations + r);
+      const Simulation recording = plant->Run(static_cast<std::uint64_t>(r));
+      const Simulation unseen = MovedAnew(scenario, recording.truth, realizations + r);
       Count(identifier, choice.options, recording, unseen, outcomes);
     }
     Print(choice.label.empty() ? choice.name : choice.label, outcomes);

@@ -6,7 +6,7 @@
 namespace warmjoint {
 
 /// The joint of a recording, its speeds and noise drawn anew.
-inline Recording MovedAnew(Scenario scenario, const Truth& truth, int realization) {
+inline Simulation MovedAnew(Scenario scenario, const Truth& truth, int realization) {
   scenario.friction = truth.friction;
   scenario.initial_energy = truth.initial_energy;
   scenario.draws = {};

@@ -6,6 +6,7 @@
 // where it is another, how often that one is significantly worse on a log that neither has seen: the same joint, moved anew. Worse: the
 // mean squared errors on 20 blocks of that log, paired, by Student's t, one side, 5 %.
 #include <fmt/format.h>
+#include <warmjoint/prepared_log.h>
 
 #include <cmath>
 #include <map>
@@ -22,7 +23,6 @@
 #include "identification/identifiers/identifier_list.h"
 #include "identification/identifiers/structures.h"
 #include "identification/preparation/moving_view.h"
-#include "identification/preparation/prepare.h"
 #include "identification/read_options.h"
 #include "identification/seen_samples.h"
 #include "identification/uncertainty/tails.h"
@@ -120,7 +120,7 @@ void Study(const Suite& suite, int variant, int realizations) {
   int as_it_is = 0, worse = 0;
   std::map<std::string, int> others;
   for (int r = 0; r < realizations; ++r) {
-    const Recording recording = plant->Run(static_cast<std::uint64_t>(r));
+    const Simulation recording = plant->Run(static_cast<std::uint64_t>(r));
     const PreparedLog log = Prepare(recording.measurements);
     const Compared choice = Choose(log);
     if (choice.chosen == right.Name()) {

@@ -19,6 +19,8 @@
 // Ideal chi2: squares that the fit leaves of the torque without noise, over the noise's variance; median and quartiles
 // over the logs. Behind it the share that is confidently wrong of the logs where it is above 30.
 #include <fmt/format.h>
+#include <warmjoint/prepared_log.h>
+#include <warmjoint/score.h>
 
 #include <algorithm>
 #include <array>
@@ -31,9 +33,7 @@
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/preparation/prepare.h"
 #include "identification/read_options.h"
-#include "identification/score/score.h"
 #include "models/foundation/robust_noise.h"
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"
@@ -135,7 +135,7 @@ struct Outcomes {
   std::vector<double> chi2;             // ideal
   Rate visibly_wrong;  // confidently, of the logs whose ideal chi2 is above kVisible
 
-  void Count(const Estimate& estimate, const Recording& recording, const LogView& view,
+  void Count(const Estimate& estimate, const Simulation& recording, const LogView& view,
              std::optional<double> ideal) {
     ++statuses[std::string(StatusName(estimate.status))];
     const double friction = std::sqrt(recording.truth.force.squaredNorm() /
@@ -218,7 +218,7 @@ void Study(const Suite& suite, int variant, int realizations) {
   const IdealChi2 ideal(scenario);
   std::vector<Outcomes> outcomes(suite.identifiers.size());
   for (int r = 0; r < realizations; ++r) {
-    const Recording recording = plant->Run(static_cast<std::uint64_t>(r));
+    const Simulation recording = plant->Run(static_cast<std::uint64_t>(r));
     const PreparedLog log = Prepare(recording.measurements);
     for (size_t i = 0; i < outcomes.size(); ++i) {
       const SuiteIdentifier& one = suite.identifiers[i];

@@ -1,10 +1,10 @@
 // Axes of every kind that maps have.
 #pragma once
 
+#include <warmjoint/friction.h>
+
 #include <numbers>
 #include <vector>
-
-#include "models/friction/gaussian_axis.h"
 
 namespace warmjoint::test {
 

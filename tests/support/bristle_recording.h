@@ -11,7 +11,7 @@
 namespace warmjoint::test {
 
 /// The joint of slow_recording.h with a bristle that bends by 10 mrad.
-inline FrictionDescription LuGreJoint() {
+inline Friction LuGreJoint() {
   return {"lugre",
           {{"viscous", 5},
            {"coulomb", 15},
@@ -25,8 +25,8 @@ inline FrictionDescription LuGreJoint() {
 }
 
 /// The same with a level of 15 N.m forwards and 12 N.m backwards.
-inline FrictionDescription TwoLevelLuGreJoint() {
-  FrictionDescription friction = TwoLevelStribeckJoint();
+inline Friction TwoLevelLuGreJoint() {
+  Friction friction = TwoLevelStribeckJoint();
   friction.law = "asymmetric_lugre";
   friction.parameters.erase("stribeck_exponent");
   friction.parameters["bristle_stiffness"] = 2000;
@@ -67,7 +67,7 @@ class TurningMotion {
 
 /// What friction, stepped in 0.1 ms from a relaxed bristle, and an inertia (kg.m^2) give along a
 /// motion, with white noise (N.m). rate: Hz.
-inline Measurements RecordBristle(const FrictionDescription& friction,
+inline Measurements RecordBristle(const Friction& friction,
                                   const std::function<double(double)>& motion, double duration,
                                   double rate, double inertia, double noise, std::uint64_t seed) {
   const double h = 1e-4;

@@ -9,8 +9,7 @@ inline constexpr double kInertia = 2, kSine = 5, kCosine = 1.5, kExcitedNoise = 
 inline constexpr double kExcitedStep = 0.02;
 
 /// Three harmonics that never repeat each other, with inertia and gravity in the torque.
-inline Measurements Excited(const FrictionDescription& friction, Eigen::Index n,
-                            std::uint64_t seed) {
+inline Measurements Excited(const Friction& friction, Eigen::Index n, std::uint64_t seed) {
   const Eigen::ArrayXd t =
       kExcitedStep * Eigen::ArrayXd::LinSpaced(n, 0, static_cast<double>(n - 1));
   const auto velocity =

@@ -36,7 +36,7 @@ inline Eigen::VectorXd ToVector(const nlohmann::json& list) {
 
 /// A recording of generate.py, without noise.
 struct GoldenMotion {
-  FrictionDescription friction;
+  Friction friction;
   JointCourse course;       // evenly sampled
   Eigen::VectorXd force;    // [N] N.m
   Eigen::VectorXd energy;   // [N] E of all stages, N.m

@@ -1,6 +1,9 @@
 // Answers of identifiers with their verdicts, over many recordings.
 #pragma once
 
+#include <warmjoint/prepared_log.h>
+#include <warmjoint/recording.h>
+
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -9,8 +12,6 @@
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/preparation/prepare.h"
-#include "identification/preparation/select.h"
 #include "identification/read_options.h"
 #include "tests/support/warm_recording.h"
 
@@ -23,15 +24,14 @@ inline constexpr int kNearlyAll = 190, kFew = 8;
 inline constexpr Status kInadequate = Status::inadequate_model;
 
 /// Table I without warming.
-inline FrictionDescription Cold() {
-  FrictionDescription friction = TableOne();
+inline Friction Cold() {
+  Friction friction = TableOne();
   friction.thermal.reset();
   return friction;
 }
 
 /// Along speeds held for 20 s, an hour at 1 Hz. noise: N.m
-inline Measurements RecordHour(const FrictionDescription& friction, std::uint64_t seed,
-                               double noise = 0.5) {
+inline Measurements RecordHour(const Friction& friction, std::uint64_t seed, double noise = 0.5) {
   return RecordFriction(friction, 1, AlternatingSpeeds(3600, seed), noise, seed);
 }
 

@@ -6,7 +6,7 @@
 namespace warmjoint::test {
 
 /// The joint of Table I, cold, with the Stribeck effect below some 0.1 rad/s.
-inline FrictionDescription StribeckJoint() {
+inline Friction StribeckJoint() {
   return {"stribeck",
           {{"viscous", 5},
            {"coulomb", 15},
@@ -19,7 +19,7 @@ inline FrictionDescription StribeckJoint() {
 }
 
 /// The same with a level of 15 N.m forwards and 12 N.m backwards.
-inline FrictionDescription TwoLevelStribeckJoint() {
+inline Friction TwoLevelStribeckJoint() {
   return {"asymmetric_stribeck",
           {{"viscous", 5},
            {"coulomb_positive", 15},

@@ -1,9 +1,10 @@
 // Vectors and matrices out of the golden numbers, and recordings made of them.
 #pragma once
 
+#include <warmjoint/recording.h>
+
 #include <Eigen/Core>
 
-#include "models/recording/measurements.h"
 #include "tests/support/shared_data.h"
 
 namespace warmjoint::test {

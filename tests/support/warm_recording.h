@@ -10,7 +10,7 @@
 namespace warmjoint::test {
 
 /// Table I of the paper.
-inline FrictionDescription TableOne() {
+inline Friction TableOne() {
   return {"viscous_coulomb", {{"viscous", 5}, {"coulomb", 15}}, Thermal{-3, 600}, 0, 1};
 }
 
@@ -30,7 +30,7 @@ inline Eigen::VectorXd AlternatingSpeeds(Eigen::Index n, std::uint64_t seed,
 
 /// What `friction` gives along a motion, with white noise. step: s; velocity: [N] rad/s;
 /// noise: standard deviation, N.m.
-inline Measurements RecordFriction(const FrictionDescription& friction, double step,
+inline Measurements RecordFriction(const Friction& friction, double step,
                                    const Eigen::VectorXd& velocity, double noise,
                                    std::uint64_t seed) {
   Measurements m = Record(step, velocity, Eigen::VectorXd::Zero(velocity.size()));

@@ -1,5 +1,7 @@
 // Robots of others: friction on one joint of each, a motion at constant speeds, and back.
 #include <gtest/gtest.h>
+#include <warmjoint/prepared_log.h>
+#include <warmjoint/recording.h>
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +9,6 @@
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/preparation/prepare.h"
-#include "identification/preparation/select.h"
 #include "identification/read_options.h"
 #include "sim/model/load_model.h"
 #include "sim/plant/plant.h"
@@ -55,7 +55,7 @@ TEST_P(AnyonesRobot, GivesBackTheFrictionOfAJointUnderGravity) {
   WARMJOINT_NEED_SHARED("robots/" + GetParam().file);
   const Scenario scenario =
       Sweeps(test::SharedFolder() / "robots" / GetParam().file, GetParam().joint);
-  const Recording recording = MakePlant(scenario)->Run(0);
+  const Simulation recording = MakePlant(scenario)->Run(0);
 
   const Identifier& identifier = FindIdentifier("energy-ml");
   const Options options = ReadOptions(identifier.options, {{"gravity", "sincos"}}, {});

@@ -1,5 +1,7 @@
 // A real ball screw, EMPS (Janot, Gautier, Brunot 2019): what its log of 25 s shows beyond a law.
 #include <gmock/gmock.h>
+#include <warmjoint/prepared_log.h>
+#include <warmjoint/recording.h>
 
 #include <iostream>
 #include <numbers>
@@ -7,8 +9,6 @@
 #include "identification/answer/identify.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/preparation/prepare.h"
-#include "identification/preparation/select.h"
 #include "identification/read_options.h"
 #include "models/recording/read_recording.h"
 #include "tests/support/shared_data.h"

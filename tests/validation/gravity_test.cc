@@ -1,12 +1,12 @@
 // Gravity in the engine: a pendulum gives the friction that it gives without gravity.
 #include <gtest/gtest.h>
+#include <warmjoint/prepared_log.h>
+#include <warmjoint/recording.h>
 
 #include <cmath>
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/preparation/prepare.h"
-#include "identification/preparation/select.h"
 #include "identification/read_options.h"
 #include "models/foundation/atomic_file.h"
 #include "models/recording/read_recording.h"
@@ -54,8 +54,8 @@ Estimate Identify(const Measurements& measurements, const std::string& gravity) 
 
 TEST(Gravity, OfAPendulumIsTakenOffBothWays) {
   const ScratchDirectory scratch;
-  const Recording hanging = MakePlant(Sweeps("pendulum"))->Run(0);
-  const Recording weightless = MakePlant(Sweeps(Weightless(scratch.path())))->Run(0);
+  const Simulation hanging = MakePlant(Sweeps("pendulum"))->Run(0);
+  const Simulation weightless = MakePlant(Sweeps(Weightless(scratch.path())))->Run(0);
   const Estimate reference = Identify(weightless.measurements, "none");
   ASSERT_EQ(reference.status, Status::ok) << reference.message;
   EXPECT_NE(Identify(hanging.measurements, "none").status, Status::ok);

@@ -1,10 +1,10 @@
 // The bristle of a joint in the engine, moved by a drive with a controller.
 #include <gtest/gtest.h>
+#include <warmjoint/prepared_log.h>
+#include <warmjoint/recording.h>
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/preparation/prepare.h"
-#include "identification/preparation/select.h"
 #include "identification/read_options.h"
 #include "sim/plant/plant.h"
 

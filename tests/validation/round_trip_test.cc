@@ -1,16 +1,16 @@
 // Identify, attach, carry out the same motion again, identify again: the same friction.
 #include <gtest/gtest.h>
+#include <warmjoint/attach.h>
+#include <warmjoint/prepared_log.h>
 
 #include <cmath>
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
 #include "identification/read_options.h"
 #include "models/recording/read_recording.h"
 #include "models/robots/robot_folder.h"
-#include "sim/model/attach.h"
 #include "sim/plant/motion_of.h"
 #include "sim/plant/plant.h"
 #include "tests/support/shared_data.h"
@@ -27,8 +27,8 @@ Estimate Identify(const Measurements& measurements, const std::string& name,
 }
 
 /// The engine's recording of `log`'s motion on `robot`, which gets the estimated friction.
-Recording Again(const Measurements& log, const Estimate& estimate, const std::string& robot,
-                const std::string& joint, const std::filesystem::path& folder, double noise) {
+Simulation Again(const Measurements& log, const Estimate& estimate, const std::string& robot,
+                 const std::string& joint, const std::filesystem::path& folder, double noise) {
   const std::filesystem::path attached = folder / "attached.xml";
   AttachFriction(FindRobot(robot, "test"), {{joint, *estimate.friction}}, attached);
 
@@ -82,7 +82,7 @@ TEST(RoundTrip, OfAJointThatWarmsUp) {
   const std::map<std::string, std::string> law{{"law", "asymmetric"}};
   const Estimate first = Identify(log, "energy-ml", law);
   ASSERT_EQ(first.status, Status::ok) << first.message;
-  const Recording again = Again(log, first, "rotary", "hinge", scratch.path(), 0.2);
+  const Simulation again = Again(log, first, "rotary", "hinge", scratch.path(), 0.2);
   ExpectSameFriction(first, Identify(again.measurements, "energy-ml", law));
 }
 
@@ -100,7 +100,7 @@ TEST(RoundTrip, OfTheEmpsAxis) {
   const std::map<std::string, std::string> law{{"law", "asymmetric"}};
   const Estimate first = Identify(log, "nominal-ls", law);
   ASSERT_EQ(first.status, Status::ok) << first.message;
-  const Recording again = Again(log, first, "linear_axis", "carriage", scratch.path(), 1);
+  const Simulation again = Again(log, first, "linear_axis", "carriage", scratch.path(), 1);
   ExpectSameFriction(first, Identify(again.measurements, "nominal-ls", law));
 }
 

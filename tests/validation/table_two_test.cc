@@ -1,13 +1,13 @@
 // The paper's Table II on a simulated arm: what maps over position and over heat add to a law.
 #include <gtest/gtest.h>
+#include <warmjoint/prepared_log.h>
+#include <warmjoint/recording.h>
 
 #include <iostream>
 
 #include "identification/answer/identify.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/preparation/prepare.h"
-#include "identification/preparation/select.h"
 #include "identification/read_options.h"
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"
@@ -22,7 +22,7 @@ struct Reached {
   double held_out = kInfinity;  // on the last 30 % of the time, fitted to the rest
 };
 
-Reached Reach(const SuiteIdentifier& entry, const Recording& recording) {
+Reached Reach(const SuiteIdentifier& entry, const Simulation& recording) {
   const Identifier& identifier = FindIdentifier(entry.name);
   const Options options = ReadOptions(identifier.options, entry.options, {});
   const IdentifierInput input{Prepare(recording.measurements), options, {}};
@@ -44,7 +44,7 @@ Reached Reach(const SuiteIdentifier& entry, const Recording& recording) {
 TEST(TableTwo, IsReachedInItsOrderAndAboutItsSize) {
   const Suite suite =
       ReadSuite((test::SourceFolder() / "scenarios/suites/yumi-joint4-map.yaml").string());
-  const Recording recording = MakePlant(suite.scenario)->Run(0);
+  const Simulation recording = MakePlant(suite.scenario)->Run(0);
   std::vector<Reached> reached;
   for (const SuiteIdentifier& entry : suite.identifiers) {
     reached.push_back(Reach(entry, recording));

@@ -1,6 +1,7 @@
 #include "tools/actions/carried_heat.h"
 
 #include <fmt/format.h>
+#include <warmjoint/friction_model.h>
 
 #include <algorithm>
 #include <cctype>
@@ -17,7 +18,6 @@
 #include "models/foundation/node.h"
 #include "models/foundation/parse_number.h"
 #include "models/foundation/read_json.h"
-#include "models/friction/settled_energy.h"
 #include "models/friction/thermal.h"
 
 namespace warmjoint::inline tools {
@@ -56,7 +56,7 @@ double PauseByStamps(const LeftHeat& left, const Measurements& next) {
 constexpr std::string_view kSettled = "settled:";
 
 /// The heat at the end of a recording: {energy, second_energy} of state_end.
-std::vector<double> EndEnergy(const FrictionDescription& friction, const std::string& file) {
+std::vector<double> EndEnergy(const Friction& friction, const std::string& file) {
   if (!friction.thermal) return {};
   const Place place{file};
   // only estimates of a warming joint tell the heat at the end
@@ -79,7 +79,7 @@ std::vector<double> EndEnergy(const FrictionDescription& friction, const std::st
   return energies;
 }
 
-std::vector<double> Settled(const std::string& text, const FrictionDescription& friction,
+std::vector<double> Settled(const std::string& text, const Friction& friction,
                             const std::string& file) {
   // the heat that the joint settles at when it moves at this speed for ever
   const auto speed = ParseNumber(text);
@@ -96,9 +96,23 @@ std::vector<double> Settled(const std::string& text, const FrictionDescription& 
          *speed);
 }
 
+/// What an estimate's verdict says against its friction; empty where there is nothing.
+std::string WarningOf(const std::string& path) {
+  const nlohmann::json object = ReadJsonFile(path);
+  if (!object.is_object() || !object.contains("status") || object["status"] == "ok") return "";
+  const std::string status =
+      object["status"].is_string() ? Excerpt(object["status"].get<std::string>()) : "of no status";
+  // an estimate without numbers cannot become a model
+  if (object.contains("friction") && object["friction"].is_null()) {
+    Refuse({path}, "is {} and holds no friction; identify again with --force to use it anyway",
+           status);
+  }
+  return fmt::format("{} is {}: its friction is void, and so is that of the model", path, status);
+}
+
 }  // namespace
 
-std::vector<double> InitialEnergy(const std::string& initial, const FrictionDescription& friction,
+std::vector<double> InitialEnergy(const std::string& initial, const Friction& friction,
                                   const std::string& file) {
   if (initial == "cold") return {};
   if (initial == "end") return EndEnergy(friction, file);
@@ -201,6 +215,16 @@ std::string Describe(const CarriedHeat& carried) {
       "E(0) is expected at {} {}, which {} left, after a pause of {:.6g} s ({}) at rest", energies,
       carried.unit, carried.file, carried.pause,
       carried.pause_from == "stamps" ? "by the stamps" : "given");
+}
+
+FrictionForJoint ReadFrictionForJoint(const std::string& joint, const std::string& file,
+                                      const std::string& initial,
+                                      std::vector<std::string>& warnings) {
+  std::string warning = WarningOf(file);
+  if (!warning.empty()) warnings.push_back(std::move(warning));
+  FrictionForJoint friction{joint, ReadFriction(file)};
+  friction.initial_energy = InitialEnergy(initial, friction.friction, file);
+  return friction;
 }
 
 }  // namespace warmjoint::inline tools

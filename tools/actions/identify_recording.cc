@@ -170,7 +170,7 @@ CarriedHeat HeatBefore(const EarlierRecording& earlier, const RecordingSource& r
   const std::string& file = earlier.file;
   // an estimate file says which heat its log left
   if (IsJsonFile(file)) {
-    const Estimate estimate = EstimateFrom(ReadJsonNode(file));
+    const Estimate estimate = ReadEstimate(file);
     return CarryOver(HeatLeftBy(estimate, file), earlier.pause, next);
   }
 
@@ -196,13 +196,17 @@ std::string MarkAmperes(const Measurements& measurements, Estimate& estimate) {
       measurements.torque_unit, unit);
 }
 
-std::string EstimateFile(const Estimate& estimate, const std::optional<RecordingSource>& source,
-                         const std::filesystem::path& target,
-                         const std::optional<CarriedHeat>& follows) {
-  Tree file = EstimateToTree(estimate);
-  if (follows) file["follows"] = WriteFields(*follows);
-  if (source) AddRecording(*source, target, file);
-  return file.dump(2) + "\n";
+Estimate Identify(const PreparedLog& log, IdentifySettings settings, const HoldOutSource& holdout,
+                  const std::optional<CarriedHeat>& follows) {
+  const Measurements& measurements = log.taken().measurements;
+  if (holdout.fraction != 0) HoldOutShare(holdout.fraction);
+  settings.follows = follows.has_value();
+  IdentifyTask task = CheckSettings(settings, measurements.joint);
+  if (follows) BeginWith(*follows, task);
+  Estimate estimate = IdentifyLog(task, log, holdout).estimate;
+  MarkAmperes(measurements, estimate);
+  estimate.follows = follows;
+  return estimate;
 }
 
 }  // namespace warmjoint::inline tools

@@ -1,6 +1,8 @@
 // What `identify` does between its arguments and its outputs.
 #pragma once
 
+#include <warmjoint/identify.h>
+
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -11,21 +13,6 @@
 #include "tools/actions/recording_source.h"
 
 namespace warmjoint::inline tools {
-
-/// What becomes of the numbers of a model that the verdict finds inadequate.
-enum class VoidNumbers { withhold, show };
-
-/// What is asked of an identification besides its log, each under the name that it has on the command line.
-struct IdentifySettings {
-  std::string identifier = "energy-ml";
-  std::string gravity = "none";  // none, sincos or paired
-  std::string start = "cold";    // cold, unknown or estimated
-  double relevance = Judging{}.relevance;
-  std::map<std::string, std::string> options;  // of the identifier, as --set
-  VoidNumbers void_numbers = VoidNumbers::withhold;
-  std::string motion = "chosen";  // chosen, constant or any
-  bool follows = false;  // an earlier recording, whose heat is known once it is read (BeginWith)
-};
 
 /// Settings that were checked and looked up.
 struct IdentifyTask {
@@ -45,15 +32,6 @@ IdentifyTask CheckSettings(const IdentifySettings& settings, JointKind joint);
 /// Lets the fit expect the heat that an earlier recording left. task: of settings with `follows`. Throws BadInput for
 /// heat of two stages, of which identifiers fit one.
 void BeginWith(const CarriedHeat& heat, IdentifyTask& task);
-
-/// Samples for figures on unseen data: a share of the recording's end, 0 for none, or another one.
-struct HoldOutSource {
-  double fraction = 0.3;
-  std::optional<PreparedLog> other;
-};
-
-/// Throws BadInput for a share that is not at least 0 and below 1.
-HoldOutSource HoldOutShare(double fraction);
 
 /// What is reported of a log, and what pictures show of it: of a fit that the verdict voids, its
 /// numbers, too.
@@ -75,11 +53,5 @@ CarriedHeat HeatBefore(const EarlierRecording& earlier, const RecordingSource& r
 /// MuJoCo knows torques and forces: marks a friction in amperes as such and returns what to tell of
 /// it; an empty text where nothing was done.
 std::string MarkAmperes(const Measurements& measurements, Estimate& estimate);
-
-/// The text of an estimate file. source: what its members `recording` and `project` say; none without
-/// it. target: the file, from whose folder they are named. follows: its member of that name.
-std::string EstimateFile(const Estimate& estimate, const std::optional<RecordingSource>& source,
-                         const std::filesystem::path& target = {},
-                         const std::optional<CarriedHeat>& follows = {});
 
 }  // namespace warmjoint::inline tools

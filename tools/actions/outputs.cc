@@ -48,7 +48,7 @@ const std::vector<std::string>& SimulatedFiles() {
   return files;
 }
 
-void WriteSimulated(const Recording& recording, const std::string& scenario,
+void WriteSimulated(const Simulation& recording, const std::string& scenario,
                     const std::string& format, const std::filesystem::path& folder) {
   WriteRecording(recording.measurements, folder / ("recording." + format));
   WriteTruth(recording.truth, folder / "truth.json");

@@ -1,12 +1,12 @@
 // What commands write, kept apart from what they read and say.
 #pragma once
 
+#include <warmjoint/simulation.h>
+
 #include <cstdio>
 #include <filesystem>
 #include <string>
 #include <vector>
-
-#include "sim/truth/simulated_recording.h"
 
 namespace warmjoint::inline tools {
 
@@ -22,7 +22,7 @@ void KeepApart(const std::vector<std::filesystem::path>& outputs,
 const std::vector<std::string>& SimulatedFiles();
 
 /// Writes them into `folder`. scenario: its YAML; format: csv or h5. Throws OutputFailed.
-void WriteSimulated(const Recording& recording, const std::string& scenario,
+void WriteSimulated(const Simulation& recording, const std::string& scenario,
                     const std::string& format, const std::filesystem::path& folder);
 
 }  // namespace warmjoint::inline tools

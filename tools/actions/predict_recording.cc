@@ -1,13 +1,13 @@
 #include "tools/actions/predict_recording.h"
 
 #include <fmt/format.h>
+#include <warmjoint/estimate.h>
 
 #include <nlohmann/json.hpp>
 
 #include "identification/estimate.h"
 #include "identification/find_parameter.h"
 #include "identification/fit_data.h"
-#include "identification/metrics.h"
 #include "identification/preparation/moving_view.h"
 #include "models/foundation/read_json.h"
 #include "models/friction/friction_json.h"
@@ -23,7 +23,7 @@ const LogView& ViewOf(const StoredModel& stored, const PreparedLog& log) {
 /// What a recording leaves, as a model has it that knows no errors.
 LeftHeat HeatAtEnd(const StoredModel& stored, const PreparedLog& log, const std::string& file) {
   const auto& [m, selection] = ViewOf(stored, log);
-  const FrictionDescription& friction = stored.model.friction;
+  const Friction& friction = stored.model.friction;
   const FrictionState end = PredictTorque(stored.model, m, selection, {}).friction.end;
   // each stage has its own heat and cools by its own time constant
   LeftHeat left{file, m.time[m.size() - 1], m.torque_unit, {}};
@@ -42,7 +42,7 @@ CarriedHeat HeatBefore(const StoredModel& stored, const EarlierRecording& earlie
   }
   // an estimate says itself which heat its log left
   if (IsJsonFile(file)) {
-    const Estimate estimate = EstimateFrom(ReadJsonNode(file));
+    const Estimate estimate = ReadEstimate(file);
     return CarryOver(HeatLeftBy(estimate, file), earlier.pause, next);
   }
   RecordingSource before = recording;
@@ -58,7 +58,7 @@ StoredModel ReadStoredModel(const std::string& file) {
   // a file of friction alone has no verdict
   if (!object.is_object() || !object.contains("identifier")) {
     stored.identifier = "friction file";
-    stored.model.friction = ReadFrictionFile(file);
+    stored.model.friction = ReadFriction(file);
     return stored;
   }
   const Estimate estimate = EstimateFrom({Tree(object), file});
@@ -79,7 +79,7 @@ StoredModel ReadStoredModel(const std::string& file) {
 }
 
 RecordingSource AsIdentified(const StoredModel& stored, RecordingSource recording) {
-  const FrictionDescription& friction = stored.model.friction;
+  const Friction& friction = stored.model.friction;
   if (recording.read.gear == ReadSettings{}.gear) recording.read.gear = friction.gear;
   const ReadSettings& read = recording.read;
   const bool told = read.torque_constant != 0 || read.unit.contains("torque");

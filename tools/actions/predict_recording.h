@@ -1,15 +1,16 @@
 // A stored estimate on another recording.
 #pragma once
 
+#include <warmjoint/estimate.h>
+#include <warmjoint/friction_model.h>
+#include <warmjoint/prepared_log.h>
+
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "identification/estimate.h"
 #include "identification/holdout/predict_torque.h"
-#include "identification/preparation/prepared_log.h"
-#include "models/friction/course_start.h"
 #include "tools/actions/carried_heat.h"
 #include "tools/actions/recording_source.h"
 

@@ -10,37 +10,14 @@
 //   shortest_hold: 1                                       s, as --shortest-hold
 #pragma once
 
-#include <optional>
-#include <string>
+#include <warmjoint/recording.h>
 
-#include "models/recording/read_settings.h"
+#include <string>
 
 namespace warmjoint::inline tools {
 
 /// Its name.
 inline constexpr const char* kProjectFile = "warmjoint.yaml";
-
-/// What a project file says; what it leaves out is empty.
-struct Project {
-  ColumnTexts map, unit;
-  ColumnNumbers scale;
-  std::optional<JointKind> joint;
-  std::optional<double> gear, wrap, trim, shortest_hold;
-
-  template <class A>
-  void Serialize(A* a) {
-    constexpr FieldInfo left_out{.at_default = AtDefault::left_out};
-    a->Field("map", &map, left_out);
-    a->Field("unit", &unit, left_out);
-    a->Field("scale", &scale, left_out);
-    a->Field("joint", &joint);
-    a->Field("gear", &gear);
-    a->Check(!gear || *gear != 0, "gear", "a number other than 0");
-    a->Field("wrap", &wrap, {.bounds = {.above = 0}});
-    a->Field("trim", &trim, {.unit = "s", .bounds = {.at_least = 0}});
-    a->Field("shortest_hold", &shortest_hold, {.unit = "s", .bounds = {.at_least = 0}});
-  }
-};
 
 /// Reads the text of a project file. Throws BadInput with `file` and line for what is no YAML, a key or
 /// column that there is not (with the nearest), a value out of its bounds, and for a command or an

@@ -1,8 +1,8 @@
 #include "tools/actions/replay_unit.h"
 
 #include <fmt/format.h>
+#include <warmjoint/prepared_log.h>
 
-#include "identification/preparation/prepare.h"
 #include "sim/plant/plant.h"
 #include "tools/suite/prepare_identifiers.h"
 #include "tools/suite/start_key.h"

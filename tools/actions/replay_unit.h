@@ -1,8 +1,9 @@
 // One realization of a run, simulated and identified once more.
 #pragma once
 
-#include "identification/estimate.h"
-#include "identification/preparation/prepared_log.h"
+#include <warmjoint/estimate.h>
+#include <warmjoint/prepared_log.h>
+
 #include "scenarios/suite.h"
 #include "tools/store/result.h"
 

@@ -7,6 +7,7 @@
 #include "sim/plant/plant.h"
 #include "tools/board/format_board.h"
 #include "tools/suite/describe_run.h"
+#include "tools/suite/engine.h"
 #include "tools/suite/prepare_identifiers.h"
 
 namespace warmjoint::inline tools {
@@ -21,6 +22,12 @@ void RefuseEditedCopy(const RunArguments& arguments, const RunDescription& descr
   Refuse({arguments.suite},
          "is the run's own copy, which a run writes anew, and holds more than that; name another "
          "file, or another -o");
+}
+
+void RequireWithin(std::optional<std::uint64_t> given, std::uint64_t most, const char* option) {
+  // what is not given is within any bounds
+  if (!given || (*given >= 1 && *given <= most)) return;
+  Refuse({option}, "is {}; it must be from 1 to {}", *given, most);
 }
 
 /// Refuses more results than a run can keep count of.
@@ -40,6 +47,8 @@ void RefuseTooMany(const Suite& suite, const Shard& shard, const Place& place) {
 }  // namespace
 
 RunTask PrepareRun(const RunArguments& arguments) {
+  RequireWithin(arguments.jobs, kMostJobs, "--jobs");
+  RequireWithin(arguments.realizations, kMostRealizations, "--realizations");
   RunTask task;
   task.suite = ResolveSuite(arguments);
   task.identifiers =
@@ -61,6 +70,19 @@ RunTask PrepareRun(const RunArguments& arguments) {
 RunEnding EndRun(RunStore& store) {
   WriteTables(store);
   return EndingOf(store);
+}
+
+RunEnding Run(const RunArguments& arguments, const std::function<void(int, int)>& watch) {
+  const RunTask task = PrepareRun(arguments);
+  RunStore store = RunStore::CreateOrResume(arguments.output, task.description);
+  // without a listener nothing is said
+  RunOptions options{task.jobs, task.shard, arguments.keep, [](int, int) {}};
+  if (watch) options.watch = watch;
+  const RunOutcome outcome = RunSuite(task.suite, task.identifiers, options, store);
+  RunEnding ending = EndRun(store);
+  ending.realizations = outcome.finished;
+  ending.not_following = outcome.following.Words(task.suite);
+  return ending;
 }
 
 }  // namespace warmjoint::inline tools

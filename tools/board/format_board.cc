@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "models/foundation/excerpt.h"
+#include "models/foundation/nearest_name.h"
 #include "tools/board/board_tables.h"
 
 namespace warmjoint::inline tools {
@@ -99,6 +100,20 @@ std::string BoardsToMarkdown(const std::vector<NamedBoard>& boards) {
   std::string text = Harmless(TableToMarkdown(SideBySide(boards), 2));
   for (const NamedBoard& named : boards) text += fmt::format("\n{}", BoardToMarkdown(named.board));
   return text;
+}
+
+Leaderboard ReadLeaderboard(const std::filesystem::path& directory) {
+  return ReadBoard(RunStore::OpenToRead(directory));
+}
+
+std::string FormatLeaderboard(const std::filesystem::path& directory, const std::string& format) {
+  // the formats are those of `compare`
+  std::vector<std::string> known;
+  for (const BoardFormat& one : BoardFormats()) {
+    known.push_back(one.name);
+    if (one.name == format) return one.write(ReadLeaderboard(directory));
+  }
+  Refuse({"--format"}, "is '{}'{}", Excerpt(format), Suggestion(format, known));
 }
 
 }  // namespace warmjoint::inline tools

@@ -10,6 +10,7 @@
 #include <limits>
 #include <utility>
 
+#include "tools/board/statistics.h"
 #include "tools/store/database.h"
 
 namespace warmjoint::inline tools {

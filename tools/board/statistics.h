@@ -1,17 +1,11 @@
 // Summaries of samples.
 #pragma once
 
+#include <warmjoint/suite.h>
+
 #include <vector>
 
 namespace warmjoint::inline tools {
-
-/// Median, quartiles and root mean square of a sample; NaN of an empty one.
-struct Summary {
-  double median;
-  double q25;
-  double q75;
-  double rms;
-};
 
 /// The quantile of `sorted` (ascending) at `share` in [0, 1], linear between neighbours; NaN where
 /// it is empty.
@@ -22,14 +16,6 @@ double RootMeanSquareOf(const std::vector<double>& values);
 
 /// Summary of the numbers in `values`; NaN among them are left out.
 Summary Summarise(std::vector<double> values);
-
-/// How far a row is behind the best one, by pairs of the same realization.
-struct Difference {
-  double median = 0;  // of NPE - NPE of the best; infinite where mostly this one alone fails
-  double lower = 0;   // 95 % interval of that median, bootstrap
-  double upper = 0;
-  bool tie() const { return lower <= 0 && upper >= 0; }
-};
 
 /// The median of `differences`, which are of pairs, and its 95 % interval: that of the percentile
 /// bootstrap (Efron 1979) with infinitely many resamples, which is known in closed form. Of n

@@ -1,14 +1,15 @@
 // warmjoint attach MODEL: friction onto the joints of any robot.
 #include <fmt/format.h>
+#include <warmjoint/attach.h>
 
 #include <memory>
 #include <utility>
 
+#include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/parse_number.h"
 #include "models/robots/robot_folder.h"
-#include "sim/model/attach.h"
-#include "tools/actions/attach_settings.h"
+#include "tools/actions/carried_heat.h"
 #include "tools/actions/outputs.h"
 #include "tools/cli/command.h"
 #include "tools/cli/typed_options.h"
@@ -17,11 +18,17 @@
 namespace warmjoint::inline tools {
 namespace {
 
+const std::map<std::string, mjtIntegrator> kIntegrators{{"Euler", mjINT_EULER},
+                                                        {"RK4", mjINT_RK4},
+                                                        {"implicit", mjINT_IMPLICIT},
+                                                        {"implicitfast", mjINT_IMPLICITFAST},
+                                                        {"discrete", mjINT_DISCRETE}};
+
 struct AttachArguments {
   std::string model;
   std::vector<std::string> joints;
   std::string initial = "cold";
-  AttachSettings settings;
+  AttachOptions options;
   std::vector<std::string> armatures;
   std::vector<std::string> packages;
   std::string output;
@@ -47,7 +54,7 @@ FrictionForJoint ReadJoint(const std::string& text, const std::string& initial,
 }
 
 /// NAME=VALUE of --armature.
-std::pair<std::string, double> ReadArmature(const std::string& text) {
+ArmatureForJoints ReadArmature(const std::string& text) {
   const auto [joints, value] = ReadPair(text, "--armature", "NAME=VALUE or PATTERN=VALUE");
   const auto armature = ParseNumber(value);
   if (!armature) {
@@ -57,20 +64,20 @@ std::pair<std::string, double> ReadArmature(const std::string& text) {
   return {joints, *armature};
 }
 
-AttachOptions ReadOptions(const AttachArguments& arguments) {
-  // texts of the command line become settings, which are then checked
-  AttachSettings settings = arguments.settings;
+/// The options with the texts of the command line.
+AttachOptions OptionsOf(const AttachArguments& arguments) {
+  AttachOptions options = arguments.options;
   for (const std::string& text : arguments.armatures) {
-    settings.armatures.push_back(ReadArmature(text));
+    options.armatures.push_back(ReadArmature(text));
   }
   for (const std::string& text : arguments.packages) {
-    settings.packages.push_back(ReadPair(text, "--package", "NAME=FOLDER"));
+    options.packages.insert(ReadPair(text, "--package", "NAME=FOLDER"));
   }
-  return CheckedOptions(settings);
+  return options;
 }
 
 ExitStatus Attach(const AttachArguments& arguments) {
-  const AttachOptions options = ReadOptions(arguments);
+  const AttachOptions options = OptionsOf(arguments);
   // each --joint is read at once, and its file is an input that must stay
   std::vector<FrictionForJoint> frictions;
   std::vector<std::string> warnings;
@@ -99,9 +106,13 @@ void AddModelOptions(CLI::App& parser, AttachArguments& arguments) {
                   "NAME=VALUE or PATTERN=VALUE: armature of these joints, kg.m^2 or kg")
       ->type_name("JOINT=NUMBER")
       ->take_all();
-  AddChoice(parser, "--integrator", arguments.settings.integrator, IntegratorNames(),
-            "integrator of the result");
-  parser.add_option("--timestep", arguments.settings.timestep, "step of the result, s")
+  std::vector<std::string> names;
+  for (const auto& [name, unused] : kIntegrators) names.push_back(name);
+  const auto take = [&arguments](const std::string& given) {
+    arguments.options.integrator = kIntegrators.at(given);
+  };
+  AddChoice(parser, "--integrator", ChoiceTarget{"", take}, names, "integrator of the result");
+  parser.add_option("--timestep", arguments.options.timestep, "step of the result, s")
       ->type_name("NUMBER");
   parser
       .add_option("--package", arguments.packages,
@@ -129,8 +140,7 @@ Command AddAttachCommand(CLI::App& program) {
       ->take_all();
 
   // how it acts, and how warm it begins
-  AddChoice(*parser, "--as", arguments->settings.form, {"actuator", "passive"},
-            "how friction acts");
+  AddChoice(*parser, "--as", arguments->options.form, "how friction acts");
   parser
       ->add_option("--initial", arguments->initial,
                    "heat at the start: cold, end (of the estimate's recording) or settled:SPEED")

@@ -1,13 +1,13 @@
 // warmjoint check RECORDING: what a log holds, and what can be identified from it.
 #include <fmt/format.h>
+#include <warmjoint/prepared_log.h>
 
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "identification/preparation/check_report.h"
-#include "identification/preparation/prepare.h"
+#include "identification/preparation/check.h"
 #include "models/foundation/atomic_file.h"
 #include "tools/actions/outputs.h"
 #include "tools/cli/command.h"

@@ -1,5 +1,6 @@
 // warmjoint identify RECORDING: friction from a log.
 #include <fmt/format.h>
+#include <warmjoint/attach.h>
 
 #include <algorithm>
 #include <memory>
@@ -9,7 +10,6 @@
 #include "identification/estimate.h"
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/parse_number.h"
-#include "sim/model/minimal_model.h"
 #include "tools/actions/identify_by_command.h"
 #include "tools/actions/identify_recording.h"
 #include "tools/actions/outputs.h"
@@ -165,7 +165,9 @@ void Deliver(const IdentifyArguments& arguments, const Identified& identified,
   if (!notice.empty()) activity.Aside([&] { SayNotice("{}\n", notice); });
 
   // files and picture first, so that words follow what is there
-  const std::string file = EstimateFile(written, arguments.recording, arguments.output, heat);
+  written.recording = arguments.recording;
+  written.follows = heat;
+  const std::string file = EstimateToTree(written, arguments.output).dump(2) + "\n";
   WriteOutputs(arguments, written, file, measurements, activity);
   if (!arguments.plot.empty()) {
     activity.Is("drawing " + arguments.plot);

@@ -139,9 +139,8 @@ std::string RecordingReport(const ReportArguments& arguments, Activity& activity
 /// Of an estimate file, with the recording that it remembers.
 std::string EstimateReport(const ReportArguments& arguments) {
   // the estimate, and the recording that it remembers
-  const Node file = ReadJsonNode(arguments.source);
-  const Estimate estimate = EstimateFrom(file);
-  const std::optional<RecordingSource> recording = RecordingIn(file);
+  const Estimate estimate = ReadEstimate(arguments.source);
+  const std::optional<RecordingSource> recording = RecordingOf(estimate, arguments.source);
   if (!recording) {
     Refuse({arguments.source}, "names no recording; give the report the recording itself");
   }

@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::uint64_t kLargestSeed = std::numeric_limits<std::uint64_t>::max();
 
-ExitStatus Run(RunArguments arguments) {
+ExitStatus RunCommand(RunArguments arguments) {
   // a suite by its name or file, in shards or here
   arguments.suite = FindSuite(arguments.suite);
   if (arguments.in_shards()) return RunInShards(arguments);
@@ -88,7 +88,7 @@ Command AddRunCommand(CLI::App& program) {
       "GPU");
   parser->add_flag("--keep-recordings", arguments->keep, "recordings (HDF5) into RUN/recordings");
   AddShardOptions(*parser, *arguments);
-  return {parser, [arguments] { return Run(*arguments); }};
+  return {parser, [arguments] { return RunCommand(*arguments); }};
 }
 
 }  // namespace warmjoint::inline tools

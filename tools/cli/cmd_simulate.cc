@@ -1,12 +1,12 @@
 // warmjoint simulate SCENARIO.yaml: one recording and the truth behind it.
 #include <fmt/format.h>
+#include <warmjoint/prepared_log.h>
 
 #include <algorithm>
 #include <limits>
 #include <memory>
 #include <optional>
 
-#include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/excerpt.h"
@@ -92,7 +92,7 @@ Scenario ResolveScenario(const SimulateArguments& arguments) {
 }
 
 /// One realization, with its progress on stderr where it takes its time.
-Recording Carried(Plant& plant, const Scenario& scenario, std::uint64_t realization) {
+Simulation Carried(Plant& plant, const Scenario& scenario, std::uint64_t realization) {
   ProgressLine line;
   return plant.Run(realization, [&](double share) {
     // the rest at the mean speed until now
@@ -119,14 +119,14 @@ ExitStatus Simulate(const SimulateArguments& arguments) {
   KeepApart(outputs, inputs);
   AtomicDirectory directory(arguments.output, SimulatedFiles());
 
-  const Recording recording = Carried(*plant, scenario, arguments.realization.value_or(0));
+  const Simulation recording = Carried(*plant, scenario, arguments.realization.value_or(0));
   WriteSimulated(recording, ScenarioToYaml(scenario), arguments.format, directory.temporary());
   directory.Commit();
   // what came of it, and whether the joint did what it should
   fmt::print("{}: {} samples over {:.6g} s\n", arguments.output, recording.measurements.size(),
              scenario.duration);
   if (!recording.following.Follows()) {
-    SayNotice("notice: {}\n", NotFollowingInWords(recording.following));
+    SayNotice("notice: {}\n", recording.following.Words());
   }
   return ExitStatus::done;
 }

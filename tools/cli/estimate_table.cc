@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "identification/gravity.h"
 #include "models/foundation/excerpt.h"
 #include "tools/report/estimate/remarks.h"
 #include "tools/report/estimate/shown_parameters.h"

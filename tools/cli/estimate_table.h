@@ -1,11 +1,12 @@
 // Estimates for people.
 #pragma once
 
+#include <warmjoint/estimate.h>
+#include <warmjoint/recording.h>
+
 #include <string>
 #include <vector>
 
-#include "identification/estimate.h"
-#include "models/recording/measurements.h"
 #include "tools/terminal/say.h"
 
 namespace warmjoint::inline tools {

@@ -1,14 +1,13 @@
 #include "tools/cli/families.h"
 
 #include <fmt/ranges.h>
+#include <warmjoint/friction.h>
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "identification/identifiers/identifier_list.h"
 #include "models/foundation/number_json.h"
-#include "models/friction/friction_description.h"
-#include "models/friction/law.h"
 #include "models/robots/robot_folder.h"
 #include "models/robots/robot_list.h"
 #include "scenarios/suite.h"

@@ -40,20 +40,19 @@ SourcePictures Make(const std::vector<report::NamedFigure<View>>& family, const 
 }
 
 /// The recording that an estimate file remembers; none where it names none, or it has gone.
-RecordingSource OwnRecording(const Node& file) {
+RecordingSource OwnRecording(const Estimate& estimate, const std::string& file) {
   // a recording that is not named, or has gone, is no reason for no pictures
-  std::optional<RecordingSource> remembered = RecordingIn(file);
+  const std::optional<RecordingSource> remembered = RecordingOf(estimate, file);
   if (!remembered) {
-    SayNotice("{}: names no recording; give --recording for the pictures that need it\n",
-              file.file());
+    SayNotice("{}: names no recording; give --recording for the pictures that need it\n", file);
     return {};
   }
   for (const std::string& recording : remembered->files) {
     if (fs::exists(recording)) continue;
     // a warning, which --quiet leaves: it was there when the estimate was made
     Say(stderr,
-        "{}: its recording {} is not there; give --recording for the pictures that need it\n",
-        file.file(), recording);
+        "{}: its recording {} is not there; give --recording for the pictures that need it\n", file,
+        recording);
     return {};
   }
   return *remembered;
@@ -70,11 +69,10 @@ report::EstimateView ViewOf(Estimate estimate, const RecordingSource& given,
 }
 
 SourcePictures PicturesOfEstimate(const fs::path& path, const RecordingSource& given) {
-  const Node file = ReadJsonNode(path);
   // the estimate with the data that it is shown beside
-  Estimate estimate = EstimateFrom(file);
+  Estimate estimate = ReadEstimate(path);
   RecordingSource own;
-  if (given.files.empty()) own = OwnRecording(file);
+  if (given.files.empty()) own = OwnRecording(estimate, path);
   report::EstimateView view = ViewOf(std::move(estimate), given, own);
 
   // what it gives, and itself for the figure of several

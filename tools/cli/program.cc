@@ -57,7 +57,7 @@ void AddQuiet(CLI::App& parser) {
 ExitStatus RunProgram(int argc, const char* const* argv) {
   CLI::App program{kHelp, "warmjoint"};
   program.set_help_flag("-h,--help", "this help");
-  program.set_version_flag("-V,--version", "warmjoint " WARMJOINT_VERSION, "the program's version");
+  program.set_version_flag("-V,--version", "warmjoint " + Version(), "the program's version");
 
   // all subcommands, each with --quiet
   program.require_subcommand(1);

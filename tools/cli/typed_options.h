@@ -1,6 +1,8 @@
 // Options whose value is one of a list, or a number within bounds.
 #pragma once
 
+#include <warmjoint/field.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <functional>
@@ -9,8 +11,6 @@
 #include <string>
 #include <type_traits>
 #include <vector>
-
-#include "models/foundation/field.h"
 
 namespace warmjoint::inline tools {
 

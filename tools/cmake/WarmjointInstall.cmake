@@ -6,19 +6,20 @@ include(CMakePackageConfigHelpers)
 
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/warmjoint)
 
-# warmjoint::warmjoint and its headers
-set_target_properties(warmjoint_interface PROPERTIES EXPORT_NAME warmjoint)
-install(TARGETS warmjoint_interface EXPORT warmjointTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-  INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/interface/warmjoint DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-  FILES_MATCHING PATTERN "*.h")
-
-# the rooms below it, to be linked: their headers stay here
+# the rooms, whose public headers lie together
 set(rooms models recording robots scenarios truth plugin sim identification score store terminal board actions)
 foreach(room ${rooms})
   set_target_properties(warmjoint_${room} PROPERTIES EXPORT_NAME ${room})
-  install(TARGETS warmjoint_${room} EXPORT warmjointTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(TARGETS warmjoint_${room} EXPORT warmjointTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 endforeach()
+foreach(folder models scenarios sim identification tools)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder}/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+endforeach()
+
+# warmjoint::warmjoint is all of them
+set_target_properties(warmjoint_library PROPERTIES EXPORT_NAME warmjoint)
+install(TARGETS warmjoint_library EXPORT warmjointTargets)
 
 # program and plugin find MuJoCo beside them
 if(WARMJOINT_PROGRAM)

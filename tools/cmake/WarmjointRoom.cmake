@@ -39,5 +39,6 @@ function(warmjoint_room name)
     warmjoint_precompile_as(${name} warmjoint_models)
   endif()
   warmjoint_unity(${name})
-  target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+  target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+    $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>)
 endfunction()

@@ -1,13 +1,13 @@
 // What a run keeps of each realization.
 #pragma once
 
+#include <warmjoint/estimate.h>
+#include <warmjoint/score.h>
+
 #include <compare>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include "identification/estimate.h"
-#include "identification/score/score.h"
 
 namespace warmjoint::inline tools {
 

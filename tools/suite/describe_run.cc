@@ -17,7 +17,7 @@ RunDescription Describe(const Suite& suite) {
       {"eigen",
        fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
       {"mujoco", mj_versionString()},
-      {"warmjoint", WARMJOINT_VERSION},
+      {"warmjoint", Version()},
   };
   return description;
 }

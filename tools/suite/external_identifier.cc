@@ -1,6 +1,7 @@
 #include "tools/suite/external_identifier.h"
 
 #include <fmt/format.h>
+#include <warmjoint/estimate.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -10,7 +11,6 @@
 #include "identification/estimate.h"
 #include "identification/find_parameter.h"
 #include "identification/fit_data.h"
-#include "identification/metrics.h"
 #include "identification/options.h"
 #include "identification/read_options.h"
 #include "identification/warming/estimated_start.h"

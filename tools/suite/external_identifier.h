@@ -1,16 +1,17 @@
 // Identifiers in any language: a command that reads a recording and writes an estimate.
 #pragma once
 
+#include <warmjoint/estimate.h>
+#include <warmjoint/friction_model.h>
+#include <warmjoint/recording.h>
+
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "identification/lack_of_fit/judging.h"
-#include "identification/metrics.h"
 #include "models/foundation/bad_input.h"
-#include "models/friction/course_start.h"
-#include "models/recording/selection.h"
 #include "scenarios/suite_identifier.h"
 #include "tools/suite/prepared_identifier.h"
 #include "tools/suite/sandbox.h"

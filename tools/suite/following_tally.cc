@@ -6,15 +6,6 @@
 
 namespace warmjoint::inline tools {
 
-std::string NotFollowingInWords(const Following& following) {
-  std::string cure = fmt::format("controller.bandwidth to {:g} rad/s", following.sufficient);
-  if (following.timestep != 0) cure += fmt::format(" and timestep to {:g} s", following.timestep);
-  return fmt::format(
-      "the joint reached its commanded speed in {:.0f} % of the time. Its drive of {:g} "
-      "rad/s is too slow for it: set {}",
-      100 * following.share, following.bandwidth, cure);
-}
-
 void FollowingTally::Add(Unit unit, const Following& following) {
   ++realizations_;
   if (following.Follows()) return;
@@ -34,7 +25,7 @@ std::string FollowingTally::Words(const Suite& suite) const {
   return fmt::format(
       "in {} of {} simulated realizations the joint did not follow its motion. In "
       "realization {}{} {}",
-      astray_, realizations_, worst_unit_.realization, rung, NotFollowingInWords(worst_));
+      astray_, realizations_, worst_unit_.realization, rung, worst_.Words());
 }
 
 }  // namespace warmjoint::inline tools

@@ -1,17 +1,14 @@
 // Which realizations of a run hold the motion that was asked for.
 #pragma once
 
+#include <warmjoint/simulation.h>
+
 #include <string>
 
 #include "scenarios/suite.h"
-#include "sim/truth/simulated_recording.h"
 #include "tools/store/result.h"
 
 namespace warmjoint::inline tools {
-
-/// Two sentences on a joint that did not follow its motion: in what share of the time it reached its
-/// commanded speed, and the settings that cure it.
-std::string NotFollowingInWords(const Following& following);
 
 /// Counts the realizations whose joint did not follow.
 class FollowingTally {

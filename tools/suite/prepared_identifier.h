@@ -1,12 +1,13 @@
 // An identifier of a suite, ready to run.
 #pragma once
 
+#include <warmjoint/estimate.h>
+#include <warmjoint/prepared_log.h>
+
 #include <functional>
 #include <stdexcept>
 #include <string>
 
-#include "identification/estimate.h"
-#include "identification/preparation/prepared_log.h"
 #include "models/foundation/random_stream.h"
 
 namespace warmjoint::inline tools {

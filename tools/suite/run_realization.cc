@@ -1,12 +1,12 @@
 #include "tools/suite/run_realization.h"
 
 #include <fmt/format.h>
+#include <warmjoint/prepared_log.h>
 
 #include <chrono>
 #include <cmath>
 #include <optional>
 
-#include "identification/preparation/prepare.h"
 #include "models/foundation/output_failed.h"
 #include "models/foundation/robust_noise.h"
 #include "models/recording/read_recording.h"
@@ -35,7 +35,7 @@ const std::string* NotFinite(const Estimate& estimate) {
   return nullptr;
 }
 
-void Fill(Result& result, const Estimate& estimate, const Recording& recording,
+void Fill(Result& result, const Estimate& estimate, const Simulation& recording,
           const LogView& view) {
   result.status = StatusName(estimate.status);
   result.message = estimate.FullMessage();
@@ -52,7 +52,7 @@ void Fill(Result& result, const Estimate& estimate, const Recording& recording,
       MakeTraceTable(estimate.trace, *result.score, MedianStep(recording.measurements.time));
 }
 
-Result RunIdentifier(const PreparedIdentifier& identify, const Recording& recording,
+Result RunIdentifier(const PreparedIdentifier& identify, const Simulation& recording,
                      const PreparedLog& log, StartKey start) {
   Result result;
   const Stopwatch watch;
@@ -85,7 +85,7 @@ std::vector<Result> AllFailed(size_t identifiers, const std::string& message) {
 
 }  // namespace
 
-void RecordingKeeper::Keep(const Recording& recording, Unit unit) const {
+void RecordingKeeper::Keep(const Simulation& recording, Unit unit) const {
   if (folder_.empty()) return;
   const std::filesystem::path folder = folder_ / fmt::format("variant-{}", unit.variant);
   std::filesystem::create_directories(folder);
@@ -104,7 +104,7 @@ RealizationResult RunRealization(const Bench& bench,
   Realization& realization = done.realization;
   realization.unit = unit;
   const Stopwatch watch;
-  std::optional<Recording> recording;
+  std::optional<Simulation> recording;
   // a log that cannot be simulated is nobody's to identify
   try {
     recording = bench.plant->Run(realized);

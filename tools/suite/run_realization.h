@@ -1,6 +1,8 @@
 // One realization from plant to scores.
 #pragma once
 
+#include <warmjoint/simulation.h>
+
 #include <filesystem>
 #include <memory>
 #include <utility>
@@ -8,7 +10,6 @@
 
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"
-#include "sim/truth/simulated_recording.h"
 #include "tools/store/result.h"
 #include "tools/suite/prepared_identifier.h"
 
@@ -30,7 +31,7 @@ class RecordingKeeper {
   explicit RecordingKeeper(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   /// Writes variant-V/realization-R.h5 and beside it realization-R.truth.json.
-  void Keep(const Recording& recording, Unit unit) const;
+  void Keep(const Simulation& recording, Unit unit) const;
 
  private:
   std::filesystem::path folder_;

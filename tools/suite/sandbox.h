@@ -1,14 +1,13 @@
 // What commands of others can reach: Landlock of the kernel.
 #pragma once
 
+#include <warmjoint/suite.h>
+
 #include <filesystem>
 #include <string>
 #include <vector>
 
 namespace warmjoint::inline tools {
-
-/// Whether commands run within a sandbox, or with all that the user may do.
-enum class Confinement { sandbox, none };
 
 /// Version of the kernel's Landlock: 0 where there is none; from 3 on it keeps files elsewhere from being emptied, from 4
 /// on it closes the network (TCP), from 6 on it stops signals to processes outside.

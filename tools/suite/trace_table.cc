@@ -1,9 +1,10 @@
 #include "tools/suite/trace_table.h"
 
+#include <warmjoint/score.h>
+
 #include <limits>
 #include <map>
 
-#include "identification/score/npe.h"
 #include "models/friction/thermal.h"
 
 namespace warmjoint::inline tools {

@@ -1,10 +1,11 @@
 // The course of an identification against the truth.
 #pragma once
 
+#include <warmjoint/estimate.h>
+#include <warmjoint/score.h>
+
 #include <vector>
 
-#include "identification/estimate.h"
-#include "identification/score/score.h"
 #include "tools/store/result.h"
 
 namespace warmjoint::inline tools {

@@ -2,9 +2,10 @@
 // gives the layout, and is a comment for the reader itself.
 #include "models/recording/csv.h"
 
+#include <warmjoint/prepared_log.h>
+
 #include <sstream>
 
-#include "identification/preparation/check_report.h"
 #include "models/foundation/parse_number.h"
 #include "tests/fuzz/fuzz.h"
 

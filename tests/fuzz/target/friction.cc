@@ -1,9 +1,10 @@
 // Friction as JSON, as it is written again, and as it is stepped.
+#include <warmjoint/friction.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "models/foundation/read_json.h"
-#include "models/friction/friction_description.h"
 #include "models/friction/friction_json.h"
 #include "models/friction/joint_friction.h"
 #include "tests/fuzz/fuzz.h"
@@ -12,12 +13,10 @@ namespace {
 
 using namespace warmjoint;
 
-FrictionDescription Parsed(const std::string& text) {
-  return FrictionFrom(ParseJsonNode(text, "fuzz.json"));
-}
+Friction Parsed(const std::string& text) { return FrictionFrom(ParseJsonNode(text, "fuzz.json")); }
 
 void Read(std::string_view bytes) {
-  const FrictionDescription friction = Parsed(std::string(bytes));
+  const Friction friction = Parsed(std::string(bytes));
   const std::string written = FrictionToTree(friction).dump();
   fuzz::Require(FrictionToTree(Parsed(written)).dump() == written);
 

@@ -42,7 +42,7 @@ TEST(FirstGuess, IsRefusedWhereTheRecordNeverSettles) {
 }
 
 TEST(FirstGuess, IsRefusedWhereNothingWarms) {
-  FrictionDescription friction = test::TableOne();
+  Friction friction = test::TableOne();
   friction.thermal.reset();
   const Eigen::VectorXd velocity = test::AlternatingSpeeds(3600, 3);
   const FirstGuess guess = Guess(test::RecordFriction(friction, 1, velocity, 0.5, 3));

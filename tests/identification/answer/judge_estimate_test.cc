@@ -1,15 +1,15 @@
 #include "identification/answer/judge_estimate.h"
 
 #include <gmock/gmock.h>
+#include <warmjoint/prepared_log.h>
 
-#include "identification/preparation/prepare.h"
 #include "tests/support/judging.h"
 
 namespace warmjoint {
 namespace {
 
 /// An estimate of another program: a friction, and a coulomb with an interval.
-Estimate From(const FrictionDescription& friction, double half_width) {
+Estimate From(const Friction& friction, double half_width) {
   Estimate estimate;
   estimate.identifier = "other";
   estimate.friction = friction;
@@ -40,7 +40,7 @@ TEST(JudgeEstimate, LetsTheTruthPass) {
 
 TEST(JudgeEstimate, FindsNumbersThatTheSameLawWouldBetter) {
   // 12 for 15 N.m: the residual is 3 sign v, which the law itself can follow
-  FrictionDescription low = test::Cold();
+  Friction low = test::Cold();
   low.parameters["coulomb"] = 12;
   Estimate estimate = From(low, 0.1);
   JudgeEstimate(Prepare(test::RecordHour(test::Cold(), 1)), {}, estimate);
@@ -48,7 +48,7 @@ TEST(JudgeEstimate, FindsNumbersThatTheSameLawWouldBetter) {
   EXPECT_FALSE(estimate.friction);
 
   // one per cent is below what matters
-  FrictionDescription close = test::Cold();
+  Friction close = test::Cold();
   close.parameters["coulomb"] = 15.1;
   Estimate passes = From(close, 0.1);
   JudgeEstimate(Prepare(test::RecordHour(test::Cold(), 1)), {}, passes);

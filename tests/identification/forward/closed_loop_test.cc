@@ -151,8 +151,7 @@ TEST(ClosedLoop, IsTheForwardModelWithJumpsAndColdStarts) {
       (Eigen::VectorXd(10) << 0, 1, 1.5, 4, 4.1, 9, 10, 20, 21, 22).finished();
   const Eigen::VectorXd v =
       (Eigen::VectorXd(10) << 0.5, -0.2, -0.8, 0, 0.9, 0.4, -0.7, 0.3, 0.6, -0.6).finished();
-  const FrictionDescription friction{
-      "viscous_coulomb", {{"viscous", 5}, {"coulomb", 15}}, Thermal{-0.8, 7}};
+  const Friction friction{"viscous_coulomb", {{"viscous", 5}, {"coulomb", 15}}, Thermal{-0.8, 7}};
   const ClosedLoop loop =
       ClosedLoop(time, v, LawColumns(*FindLaw("viscous_coulomb"), v), {6}).WithJumps({2, 8});
   const LoopResponse response =
@@ -175,7 +174,7 @@ TEST(ClosedLoop, FollowsTheHeatThatThePluginsKernelSteps) {
   }
   for (const Law& law : Laws()) {
     if (!IsLinear(law)) continue;
-    FrictionDescription friction{std::string(law.name), {}, Thermal{-0.8, 70}};
+    Friction friction{std::string(law.name), {}, Thermal{-0.8, 70}};
     Eigen::VectorXd p(static_cast<Eigen::Index>(law.parameters.size()));
     for (size_t i = 0; i < law.parameters.size(); ++i) {
       p[static_cast<Eigen::Index>(i)] = 5 + 4 * static_cast<double>(i);
@@ -215,7 +214,7 @@ TEST(ClosedLoop, LosesByTheMeansBetweenSamplesAsTheForwardModel) {
   const Thermal thermal{-0.8, 7};
 
   // rounding of seven steps
-  const FrictionDescription friction{
+  const Friction friction{
       "asymmetric",
       {{"viscous", p[0]}, {"coulomb_positive", p[1]}, {"coulomb_negative", p[2]}},
       thermal};

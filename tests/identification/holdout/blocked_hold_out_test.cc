@@ -1,10 +1,10 @@
 #include "identification/holdout/blocked_hold_out.h"
 
 #include <gmock/gmock.h>
+#include <warmjoint/prepared_log.h>
 
 #include "identification/identifiers/energy_ml.h"
 #include "identification/identifiers/nominal_ls.h"
-#include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
 #include "identification/read_options.h"
 #include "tests/support/warm_recording.h"

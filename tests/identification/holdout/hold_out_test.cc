@@ -1,11 +1,11 @@
 #include "identification/holdout/hold_out.h"
 
 #include <gtest/gtest.h>
+#include <warmjoint/prepared_log.h>
 
 #include <cmath>
 
 #include "identification/fit_parameters.h"
-#include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
 #include "identification/read_options.h"
 #include "tests/support/warm_recording.h"

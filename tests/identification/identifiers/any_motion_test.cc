@@ -1,13 +1,13 @@
 // Identifiers on motion that never holds a speed.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <warmjoint/prepared_log.h>
 
 #include <cmath>
 
 #include "identification/answer/identify.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/preparation/prepare.h"
 #include "identification/read_options.h"
 #include "tests/support/excited_recording.h"
 
@@ -34,7 +34,7 @@ void ExpectTold(const Estimate& estimate, const std::string& name, double truth,
 }
 
 TEST(AnyMotion, NominalLawInertiaAndGravityAreToldTogether) {
-  FrictionDescription cold = test::TableOne();
+  Friction cold = test::TableOne();
   cold.thermal.reset();
   const Estimate estimate = AnswerTo("nominal-ls", Excited(cold, 6000, 1));
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
@@ -47,7 +47,7 @@ TEST(AnyMotion, NominalLawInertiaAndGravityAreToldTogether) {
 }
 
 TEST(AnyMotion, WarmingIsToldBesideInertiaAndGravity) {
-  FrictionDescription warm = test::TableOne();
+  Friction warm = test::TableOne();
   warm.thermal->time_constant = 100;
   const Estimate estimate = AnswerTo("energy-ml", Excited(warm, 25000, 2));
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
@@ -62,7 +62,7 @@ TEST(AnyMotion, WarmingIsToldBesideInertiaAndGravity) {
 }
 
 TEST(AnyMotion, AutoTakesItTogetherWithGravity) {
-  FrictionDescription warm = test::TableOne();
+  Friction warm = test::TableOne();
   warm.thermal->time_constant = 100;
   const Estimate estimate = AnswerTo("auto", Excited(warm, 25000, 3), {});
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
@@ -72,7 +72,7 @@ TEST(AnyMotion, AutoTakesItTogetherWithGravity) {
 }
 
 TEST(AnyMotion, GravityThatIsLeftOutIsNamed) {
-  FrictionDescription cold = test::TableOne();
+  Friction cold = test::TableOne();
   cold.thermal.reset();
   const Estimate estimate = AnswerTo("nominal-ls", Excited(cold, 6000, 4), {});
   EXPECT_EQ(estimate.status, Status::inadequate_model);
@@ -80,7 +80,7 @@ TEST(AnyMotion, GravityThatIsLeftOutIsNamed) {
 }
 
 TEST(AnyMotion, HeldOutFiguresAreOfTheSameModel) {
-  FrictionDescription cold = test::TableOne();
+  Friction cold = test::TableOne();
   cold.thermal.reset();
   const Identifier& identifier = FindIdentifier("nominal-ls");
   const Options options = ReadOptions(identifier.options, {{"gravity", "sincos"}}, {});

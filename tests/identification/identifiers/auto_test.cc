@@ -1,10 +1,10 @@
 #include "identification/identifiers/auto.h"
 
 #include <gmock/gmock.h>
+#include <warmjoint/prepared_log.h>
+#include <warmjoint/recording.h>
 
 #include "identification/answer/identify.h"
-#include "identification/preparation/prepare.h"
-#include "identification/preparation/select.h"
 #include "identification/read_options.h"
 #include "models/foundation/low_pass.h"
 #include "models/foundation/random_stream.h"
@@ -25,7 +25,7 @@ Estimate AnswerTo(const Measurements& m) {
 }
 
 /// How many of 10 realizations choose that law, with that warming.
-int Chosen(const FrictionDescription& truth) {
+int Chosen(const Friction& truth) {
   int chosen = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const bool curved = truth.parameters.contains("stribeck_velocity");
@@ -45,7 +45,7 @@ constexpr int kAtLeast = 9;
 TEST(Auto, ChoosesWarmingForTableOne) { EXPECT_GE(Chosen(test::TableOne()), kAtLeast); }
 
 TEST(Auto, ChoosesNoWarmingForAColdJoint) {
-  FrictionDescription cold = test::TableOne();
+  Friction cold = test::TableOne();
   cold.thermal.reset();
   EXPECT_GE(Chosen(cold), kAtLeast);
 }
@@ -63,7 +63,7 @@ TEST(Auto, ChoosesTheStribeckLawWhereSlowSpeedsShowIt) {
 }
 
 TEST(Auto, ChoosesALevelForEachDirectionBesideTheStribeckLaw) {
-  FrictionDescription joint = test::TwoLevelStribeckJoint();
+  Friction joint = test::TwoLevelStribeckJoint();
   EXPECT_GE(Chosen(joint), kAtLeast);
   joint.thermal = Thermal{-3, 600};
   EXPECT_GE(Chosen(joint), kAtLeast);
@@ -71,7 +71,7 @@ TEST(Auto, ChoosesALevelForEachDirectionBesideTheStribeckLaw) {
 
 TEST(Auto, FindsTwoLevelsBesideASmallFall) {
   // the difference of the levels hides the fall from the law with one
-  FrictionDescription joint = test::TwoLevelStribeckJoint();
+  Friction joint = test::TwoLevelStribeckJoint();
   joint.parameters["coulomb_negative"] = 5;
   joint.parameters["static_rise"] = 1;
   const Estimate estimate =
@@ -103,7 +103,7 @@ TEST(Auto, SaysWhyAndListsWhatItTried) {
 }
 
 TEST(Auto, TriesNoWarmingBesideGravityWhereNeitherIsSeen) {
-  const auto tried = [](const FrictionDescription& joint) {
+  const auto tried = [](const Friction& joint) {
     const Estimate estimate =
         AnswerTo(test::RecordFriction(joint, 1, test::AlternatingSpeeds(3600, 1), 0.5, 1));
     for (const StructureTrial& one : estimate.choice->trials) {
@@ -112,7 +112,7 @@ TEST(Auto, TriesNoWarmingBesideGravityWhereNeitherIsSeen) {
     ADD_FAILURE() << "not told";
     return false;
   };
-  FrictionDescription cold = test::TableOne();
+  Friction cold = test::TableOne();
   cold.thermal.reset();
   EXPECT_FALSE(tried(cold));
   EXPECT_TRUE(tried(test::TableOne()));
@@ -139,7 +139,7 @@ TEST(Auto, FindsGravity) {
 
 /// A warming joint with ripple over its position, which carries a weight of so many N.m.
 Estimate OfRippleBesideWeight(double weight) {
-  FrictionDescription joint = test::TableOne();
+  Friction joint = test::TableOne();
   joint.maps = {test::PositionLevel(3, 1.5)};
   Measurements m = test::RecordFriction(joint, 1, test::Travel(6000, 1, 3, {0.15, 0.3, 0.6}), 0, 1);
   m.position.array() -= 3;
@@ -196,7 +196,7 @@ TEST(Auto, FindsALagOfTheTorque) {
 
 TEST(Auto, BeginsAsWarmAsItIsTold) {
   // a joint that has moved for 10 min before the log begins
-  const FrictionDescription truth = test::TableOne();
+  const Friction truth = test::TableOne();
   const Measurements all = test::RecordFriction(truth, 1, test::AlternatingSpeeds(4200, 7), 0.5, 7);
   const double energy = PredictFriction(truth, all).energy[600];
   const Measurements log = test::Without(all, {{-1, 599.5}});

@@ -1,12 +1,12 @@
 #include "identification/identifiers/energy_als.h"
 
 #include <gmock/gmock.h>
+#include <warmjoint/prepared_log.h>
+#include <warmjoint/recording.h>
 
 #include <cmath>
 
 #include "identification/answer/identify.h"
-#include "identification/preparation/prepare.h"
-#include "identification/preparation/select.h"
 #include "identification/read_options.h"
 #include "tests/support/travelling.h"
 
@@ -134,7 +134,7 @@ TEST(EnergyAls, GivesNoNumbersForOneSpeedAlone) {
 
 TEST(EnergyAls, GivesNoNumbersForARecordTooShortToShowTheTimeConstant) {
   // friction only ramps: its curvature over 60 s of tau = 6e4 s drowns in the noise
-  FrictionDescription friction = test::TableOne();
+  Friction friction = test::TableOne();
   friction.thermal = Thermal{-300, 60000};
   const Eigen::VectorXd velocity = test::AlternatingSpeeds(60, 6);
   const Estimate estimate =
@@ -159,7 +159,7 @@ TEST(EnergyAls, RefusesAFitThatFeedsItself) {
 }
 
 TEST(EnergyAls, FitsAMapOverPositionBesideTheLaw) {
-  FrictionDescription truth{
+  Friction truth{
       "viscous_coulomb", {{"viscous", 0.0527}, {"coulomb", 0.48}}, Thermal{-0.194, 180}, 0, 1};
   truth.maps = {test::PositionLevel(1.5, 0.06)};
   const Eigen::VectorXd motion = test::Travel(6000, 0.2, 1.5, {0.3, 0.6, 1, 1.5, 2});

@@ -1,12 +1,12 @@
 #include "identification/identifiers/energy_ml.h"
 
 #include <gmock/gmock.h>
+#include <warmjoint/prepared_log.h>
+#include <warmjoint/recording.h>
 
 #include <cmath>
 
 #include "identification/answer/identify.h"
-#include "identification/preparation/prepare.h"
-#include "identification/preparation/select.h"
 #include "identification/read_options.h"
 #include "models/foundation/random_stream.h"
 #include "models/friction/thermal.h"

@@ -1,11 +1,12 @@
 // Fits of identifiers to one log of Table I, for tests of what they are made of.
 #pragma once
 
+#include <warmjoint/prepared_log.h>
+
 #include <map>
 #include <string>
 
 #include "identification/identifier.h"
-#include "identification/preparation/prepare.h"
 #include "identification/read_options.h"
 #include "tests/support/warm_recording.h"
 

@@ -1,11 +1,11 @@
 // Identifiers against recordings that the project did not make.
 #include <gtest/gtest.h>
+#include <warmjoint/prepared_log.h>
 
 #include <map>
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/preparation/prepare.h"
 #include "identification/read_options.h"
 #include "tests/support/vectors.h"
 
@@ -32,7 +32,7 @@ Estimate Identify(const std::string& name, const Measurements& m,
 
 /// Largest relative error of the law's parameters, k and tau.
 double LargestError(const std::string& law, const Estimate& estimate) {
-  const FrictionDescription truth = test::ReadGoldenMotion(law).friction;
+  const Friction truth = test::ReadGoldenMotion(law).friction;
   std::map<std::string, double> values = truth.parameters;
   values["thermal_gain"] = truth.thermal->gain;
   values["thermal_time_constant"] = truth.thermal->time_constant;

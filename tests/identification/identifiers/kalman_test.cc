@@ -1,14 +1,14 @@
 #include "identification/identifiers/kalman.h"
 
 #include <gmock/gmock.h>
+#include <warmjoint/prepared_log.h>
+#include <warmjoint/recording.h>
 
 #include <cmath>
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/energy_ml.h"
 #include "identification/identifiers/rls.h"
-#include "identification/preparation/prepare.h"
-#include "identification/preparation/select.h"
 #include "identification/read_options.h"
 #include "tests/support/warm_recording.h"
 
@@ -89,7 +89,7 @@ TEST(Kalman, KnowsTheEnergyOnTheWay) {
 }
 
 TEST(Kalman, SaysThatAColdJointShowsNoWarming) {
-  FrictionDescription cold = test::TableOne();
+  Friction cold = test::TableOne();
   cold.thermal.reset();
   const Measurements m = test::RecordFriction(cold, 1, test::AlternatingSpeeds(3600, 5), 0.5, 5);
   const Estimate estimate = AnswerTo(Kalman(), m);

@@ -1,13 +1,13 @@
 #include "identification/identifiers/lugre.h"
 
 #include <gmock/gmock.h>
+#include <warmjoint/prepared_log.h>
 
 #include <cmath>
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/stribeck.h"
 #include "identification/nonlinear/lugre_data.h"
-#include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
 #include "identification/read_options.h"
 #include "models/recording/join_recordings.h"
@@ -24,7 +24,7 @@ constexpr double kInertia = 0.3;  // kg.m^2
 
 /// A minute of a joint with a bristle. rate: Hz; noise: N.m.
 Measurements Minute(std::uint64_t seed, double rate = 100, double noise = 0.5,
-                    const FrictionDescription& joint = test::LuGreJoint()) {
+                    const Friction& joint = test::LuGreJoint()) {
   return test::RecordBristle(joint, test::TurningMotion(60, seed), 60, rate, kInertia, noise, seed);
 }
 
@@ -49,7 +49,7 @@ const std::map<std::string, double> kTruth{{"viscous", 5},
                                            {"inertia", kInertia}};
 
 /// Of 30 realizations, how often each interval holds the truth.
-std::map<std::string, int> CountHeld(const FrictionDescription& joint) {
+std::map<std::string, int> CountHeld(const Friction& joint) {
   std::map<std::string, double> values = joint.parameters;
   values["inertia"] = kInertia;
   std::map<std::string, int> held;
@@ -83,7 +83,7 @@ TEST(Lugre, HoldsTwoLevelsInItsIntervals) {
 
 TEST(Lugre, FindsTheLawExactlyWhereTheTorqueIsItsOwn) {
   // the forward model's torque along the samples as they are
-  for (const FrictionDescription& joint : {test::LuGreJoint(), test::TwoLevelLuGreJoint()}) {
+  for (const Friction& joint : {test::LuGreJoint(), test::TwoLevelLuGreJoint()}) {
     Measurements m = Minute(1);
     m.torque = PredictFriction(joint, m).force;
     const Estimate estimate =
@@ -191,7 +191,7 @@ TEST(Lugre, GivesNoNumbersForTableOne) {
 
 TEST(Lugre, ShowsWarmingInItsResidual) {
   // eight minutes in which the level falls from 15 N.m to about 11
-  FrictionDescription warm = test::LuGreJoint();
+  Friction warm = test::LuGreJoint();
   warm.thermal = Thermal{-3, 100};
   for (const std::uint64_t seed : {1, 2, 3}) {
     const Measurements m =

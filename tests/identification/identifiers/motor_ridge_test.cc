@@ -1,9 +1,9 @@
 #include "identification/identifiers/motor_ridge.h"
 
 #include <gmock/gmock.h>
+#include <warmjoint/prepared_log.h>
 
 #include "identification/answer/identify.h"
-#include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
 #include "identification/read_options.h"
 #include "tests/support/travelling.h"
@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 
 /// 10 min at 20 Hz of a joint with a gear of 100.
 Measurements Geared(std::vector<FrictionMap> maps, double noise) {
-  FrictionDescription friction{"viscous_coulomb", {{"viscous", 0.5}, {"coulomb", 2}}, {}, 0, 100};
+  Friction friction{"viscous_coulomb", {{"viscous", 0.5}, {"coulomb", 2}}, {}, 0, 100};
   friction.maps = std::move(maps);
   Measurements m = test::Record(0.05, test::Travel(12000, 0.05, 1, {0.31, 0.57, 0.83}),
                                 Eigen::VectorXd::Zero(12000));

@@ -1,14 +1,14 @@
 #include "identification/identifiers/nominal_ls.h"
 
 #include <gmock/gmock.h>
+#include <warmjoint/prepared_log.h>
+#include <warmjoint/recording.h>
 
 #include <Eigen/LU>
 #include <cmath>
 #include <limits>
 
 #include "identification/answer/identify.h"
-#include "identification/preparation/prepare.h"
-#include "identification/preparation/select.h"
 #include "identification/read_options.h"
 #include "models/foundation/random_stream.h"
 #include "tests/support/vectors.h"

@@ -1,11 +1,11 @@
 #include "identification/identifiers/rls.h"
 
 #include <gmock/gmock.h>
+#include <warmjoint/prepared_log.h>
+#include <warmjoint/recording.h>
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/nominal_ls.h"
-#include "identification/preparation/prepare.h"
-#include "identification/preparation/select.h"
 #include "identification/read_options.h"
 #include "tests/support/warm_recording.h"
 
@@ -19,7 +19,7 @@ Estimate AnswerTo(const Identifier& identifier, const Measurements& m,
 }
 
 TEST(Rls, IsNominalLsWhereItForgetsNothing) {
-  FrictionDescription friction = test::TableOne();
+  Friction friction = test::TableOne();
   friction.thermal.reset();
   const Measurements m =
       test::RecordFriction(friction, 1, test::AlternatingSpeeds(2000, 1, 300), 0.5, 1);

@@ -1,12 +1,12 @@
 #include "identification/identifiers/stribeck.h"
 
 #include <gmock/gmock.h>
+#include <warmjoint/prepared_log.h>
 
 #include <cmath>
 
 #include "identification/answer/identify.h"
 #include "identification/nonlinear/stribeck_fit.h"
-#include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
 #include "identification/read_options.h"
 #include "models/recording/join_recordings.h"
@@ -30,7 +30,7 @@ const std::map<std::string, double> kTruth{
     {"viscous", 5}, {"coulomb", 15}, {"static", 20}, {"stribeck_velocity", 0.05}};
 
 /// What of a friction is estimated: its law but for the exponent, and its warming.
-std::map<std::string, double> TruthOf(const FrictionDescription& friction) {
+std::map<std::string, double> TruthOf(const Friction& friction) {
   std::map<std::string, double> truth = friction.parameters;
   truth.erase("stribeck_exponent");
   if (!friction.thermal) return truth;
@@ -40,8 +40,7 @@ std::map<std::string, double> TruthOf(const FrictionDescription& friction) {
 }
 
 /// Of 40 realizations, how often each interval holds the truth. n: samples at 0.1 s; noise: N.m.
-std::map<std::string, int> CountHeld(const FrictionDescription& joint, Eigen::Index n,
-                                     double noise) {
+std::map<std::string, int> CountHeld(const Friction& joint, Eigen::Index n, double noise) {
   const std::map<std::string, std::string> given{{"law", joint.law},
                                                  {"warming", joint.thermal ? "estimated" : "none"}};
   std::map<std::string, int> held;
@@ -74,7 +73,7 @@ TEST(Stribeck, HoldsTwoLevelsInItsIntervals) {
 }
 
 TEST(Stribeck, HoldsTwoLevelsAndTheirWarmingInItsIntervals) {
-  FrictionDescription warm = test::TwoLevelStribeckJoint();
+  Friction warm = test::TwoLevelStribeckJoint();
   warm.thermal = Thermal{-3, 60};
   const auto held = CountHeld(warm, 4000, 0.5);
   EXPECT_EQ(held.size(), 7u);
@@ -82,7 +81,7 @@ TEST(Stribeck, HoldsTwoLevelsAndTheirWarmingInItsIntervals) {
 }
 
 TEST(Stribeck, FindsTwoLevelsExactlyWhereThereIsNoNoise) {
-  FrictionDescription joint = test::TwoLevelStribeckJoint();
+  Friction joint = test::TwoLevelStribeckJoint();
   for (const bool warms : {false, true}) {
     if (warms) joint.thermal = Thermal{-3, 60};
     const Estimate estimate =
@@ -107,7 +106,7 @@ TEST(Stribeck, SaysThatOneDirectionCannotTellTwoLevels) {
 }
 
 TEST(Stribeck, FindsTheWarmingToo) {
-  FrictionDescription warm = StribeckJoint();
+  Friction warm = StribeckJoint();
   warm.thermal = Thermal{-3, 60};
   const Measurements m = test::RecordFriction(warm, 0.1, test::SlowAndFast(6000, 3), 0.3, 3);
   const Estimate estimate = AnswerTo(m, {{"warming", "estimated"}});
@@ -125,7 +124,7 @@ TEST(Stribeck, FindsTheWarmingToo) {
 
 TEST(Stribeck, TakesEachOfSeveralRecordingsFromCold) {
   // the same warm-up twice tells what it tells once, a root of two more surely
-  FrictionDescription warm = StribeckJoint();
+  Friction warm = StribeckJoint();
   warm.thermal = Thermal{-3, 60};
   const Measurements once = test::RecordFriction(warm, 0.1, test::SlowAndFast(4000, 3), 0.3, 3);
   const Estimate one = AnswerTo(once, {{"warming", "estimated"}});
@@ -146,8 +145,8 @@ TEST(Stribeck, NamesWhatNeedsSlowSpeedsAndTheMotionThatHelps) {
   // nothing below 0.2 rad/s, four times vs: exp(-16) of the fall is left
   Eigen::VectorXd velocity = test::SlowAndFast(4000, 7);
   for (double& v : velocity) v = std::copysign(std::max(std::abs(v), 0.2), v);
-  const std::map<std::string, FrictionDescription> joints{
-      {"static", StribeckJoint()}, {"static_rise", test::TwoLevelStribeckJoint()}};
+  const std::map<std::string, Friction> joints{{"static", StribeckJoint()},
+                                               {"static_rise", test::TwoLevelStribeckJoint()}};
   for (const auto& [rest, joint] : joints) {
     const Estimate estimate =
         AnswerTo(test::RecordFriction(joint, 0.1, velocity, 0.5, 7), {{"law", joint.law}});
@@ -174,10 +173,10 @@ TEST(Stribeck, RefusesFrictionThatRisesFromRest) {
   EXPECT_FALSE(estimate.friction);
 }
 
-class StribeckFitOf : public testing::TestWithParam<FrictionDescription> {};
+class StribeckFitOf : public testing::TestWithParam<Friction> {};
 
 TEST_P(StribeckFitOf, HasTheJacobianOfFiniteDifferences) {
-  FrictionDescription warm = GetParam();
+  Friction warm = GetParam();
   warm.thermal = Thermal{-3, 60};
   const Measurements m = test::RecordFriction(warm, 0.1, test::SlowAndFast(500, 3), 0.3, 3);
   const Selection selection = SelectMoving(m);
@@ -194,7 +193,7 @@ TEST_P(StribeckFitOf, HasTheJacobianOfFiniteDifferences) {
 
   // the same forces by the model that predicts
   const auto force = [&](const Eigen::VectorXd& x) {
-    FrictionDescription friction = warm;
+    Friction friction = warm;
     for (Eigen::Index i = 0; i < levels; ++i) {
       friction.parameters[std::string(law.law.parameters[static_cast<size_t>(i)].name)] = x[i];
     }

@@ -1,11 +1,11 @@
 #include "identification/inference/bounds.h"
 
 #include <gmock/gmock.h>
+#include <warmjoint/prepared_log.h>
 
 #include "identification/answer/identify.h"
 #include "identification/fit_parameters.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
 #include "identification/read_options.h"
 #include "tests/support/warm_recording.h"
@@ -125,7 +125,7 @@ TEST(JudgeBounds, NeverNamesWhatTheFitHoldsAlready) {
 
 TEST(AtBounds, HoldsWhatNoisePutsBeyond) {
   // without viscous friction half of the values fall below 0, and 2.5 % with their whole interval
-  FrictionDescription friction{"viscous_coulomb", {{"viscous", 0}, {"coulomb", 15}}, {}, 0, 1};
+  Friction friction{"viscous_coulomb", {{"viscous", 0}, {"coulomb", 15}}, {}, 0, 1};
   const Identifier& identifier = FindIdentifier("nominal-ls");
   const Options options = ReadOptions(identifier.options, {}, {});
   int held = 0, voided = 0, covered = 0;

@@ -1,11 +1,11 @@
 // What becomes of answers to logs that contradict themselves.
 #include <gmock/gmock.h>
+#include <warmjoint/prepared_log.h>
 
 #include <numbers>
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
 #include "identification/read_options.h"
 #include "tests/support/judging.h"

@@ -23,7 +23,7 @@ Eigen::MatrixXd Drifts(const Measurements& m) {
 
 /// What HeatingForcesOf makes of the same.
 Eigen::MatrixXd Made(const Measurements& m) {
-  FrictionDescription friction = test::TableOne();
+  Friction friction = test::TableOne();
   friction.thermal->gain = 0;
   FittedModel model;
   model.thermal = friction.thermal;

@@ -1,11 +1,11 @@
 #include "identification/lack_of_fit/held_loss.h"
 
 #include <gmock/gmock.h>
+#include <warmjoint/prepared_log.h>
 
 #include <cmath>
 
 #include "identification/identifiers/identifier_list.h"
-#include "identification/preparation/prepare.h"
 #include "identification/read_options.h"
 #include "models/foundation/robust_noise.h"
 #include "tests/support/judging.h"
@@ -19,7 +19,7 @@ using ::testing::Not;
 
 /// A joint of 30 s at 1 Hz, 20 min. part: steps of the plant in each sample; noise: N.m.
 Measurements Quick(std::uint64_t seed, Index part, double noise) {
-  FrictionDescription friction = test::TableOne();
+  Friction friction = test::TableOne();
   friction.thermal = Thermal{-3, 30};
   const Eigen::VectorXd slow = test::AlternatingSpeeds(1200, seed);
   const Eigen::VectorXd fast = slow.transpose().replicate(part, 1).reshaped();
@@ -33,7 +33,7 @@ Measurements Quick(std::uint64_t seed, Index part, double noise) {
 
 TEST(HeldLoss, IsWhatContinuousHeatAddsAtOneSpeed) {
   // dE/dt = (k |v| (F0 + E) - E)/tau settles with r/tau, r = 1 - k |v|; by (22) with another rate
-  FrictionDescription friction = test::TableOne();
+  Friction friction = test::TableOne();
   friction.thermal = Thermal{-3, 30};
   const Measurements m =
       test::RecordFriction(friction, 1, Eigen::VectorXd::Constant(60, 0.5), 0, 1);

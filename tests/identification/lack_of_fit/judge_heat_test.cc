@@ -72,17 +72,17 @@ TEST(JudgeHeat, GivesNoIntervalOfAWarmingBesideADrift) {
 
 TEST(JudgeHeat, FindsAMapThatFadesWithTheHeat) {
   // 0.06 N.m of ripple over the position when cold, less with every degree; 0.01 N.m of noise
-  FrictionDescription fading{
+  Friction fading{
       "viscous_coulomb", {{"viscous", 0.05}, {"coulomb", 0.5}}, Thermal{-0.2, 180}, 0, 1};
   FrictionMap ripple = test::PositionLevel(1.5, 0.06);
-  FrictionDescription steady = fading;
+  Friction steady = fading;
   steady.maps = {ripple};
   ripple.axes.push_back({MapQuantity::energy, EvenAxis(-0.1, 0, 2)});
   FrictionMap faded = ripple;
   faded.weights.clear();
   for (const double weight : ripple.weights) faded.weights.insert(faded.weights.end(), {0, weight});
   fading.maps = {faded};
-  const auto record = [](const FrictionDescription& friction) {
+  const auto record = [](const Friction& friction) {
     return test::RecordFriction(friction, 0.2, test::Travel(6000, 0.2, 1.5, {0.3, 0.6, 1, 1.5}),
                                 0.01, 1);
   };

@@ -1,10 +1,10 @@
 #include <gmock/gmock.h>
+#include <warmjoint/prepared_log.h>
 
 #include <cmath>
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
 #include "identification/read_options.h"
 #include "models/friction/sign.h"
@@ -27,7 +27,7 @@ using test::kNearlyAll;
 using test::RecordHour;
 
 /// AR(1) noise with the given coefficient and a standard deviation of 0.5 N.m.
-Measurements Coloured(const FrictionDescription& friction, std::uint64_t seed, double a) {
+Measurements Coloured(const Friction& friction, std::uint64_t seed, double a) {
   Measurements m = RecordHour(friction, seed, 0);
   RandomStream random({seed, 0}, Stream::coloured_noise);
   double noise = 0.5 * random.Normal();

@@ -1,5 +1,6 @@
 // Every remedy is tried on a log that provokes it: it must lead on, to a smaller error, and to an end.
 #include <gmock/gmock.h>
+#include <warmjoint/prepared_log.h>
 
 #include <cmath>
 #include <numbers>
@@ -7,9 +8,9 @@
 #include <set>
 
 #include "identification/holdout/hold_out.h"
-#include "identification/preparation/prepare.h"
 #include "identification/read_options.h"
 #include "models/foundation/low_pass.h"
+#include "models/recording/measurements.h"
 #include "tests/support/bristle_recording.h"
 #include "tests/support/judging.h"
 #include "tests/support/travelling.h"
@@ -88,8 +89,8 @@ void ExpectLeadsSomewhere(const std::string& identifier, const Measurements& m,
 }
 
 /// The same to intervals that hold the truth, or within four deviations of it.
-void ExpectLeadsTo(const FrictionDescription& truth, const std::string& identifier,
-                   const Measurements& m, const Options_& given = {}) {
+void ExpectLeadsTo(const Friction& truth, const std::string& identifier, const Measurements& m,
+                   const Options_& given = {}) {
   Estimate end;
   FollowAdvice(identifier, m, given, end);
   if (testing::Test::HasFatalFailure()) return;
@@ -102,7 +103,7 @@ void ExpectLeadsTo(const FrictionDescription& truth, const std::string& identifi
 }
 
 /// Travels over 5 rad at three speeds, h = 0.1 s, 20 min.
-Measurements Travelling(const FrictionDescription& friction, std::uint64_t seed) {
+Measurements Travelling(const Friction& friction, std::uint64_t seed) {
   return test::RecordFriction(friction, 0.1, test::Travel(12000, 0.1, 2.5, {0.2, 0.5, 0.9}), 0.3,
                               seed);
 }
@@ -167,21 +168,21 @@ TEST(Remedies, AgainstSpeed) {
 }
 
 TEST(Remedies, AgainstSpeedOfAJointThatWarms) {
-  FrictionDescription warm = test::StribeckJoint();
+  Friction warm = test::StribeckJoint();
   warm.thermal = Thermal{-3, 600};
   ExpectLeadsSomewhere("stribeck",
                        test::RecordFriction(warm, 1, test::SlowAndFast(3600, 1), 0.3, 1));
 }
 
 TEST(Remedies, AgainstDirectionOfACurve) {
-  const FrictionDescription joint = test::TwoLevelStribeckJoint();
+  const Friction joint = test::TwoLevelStribeckJoint();
   const Measurements m = test::RecordFriction(joint, 1, test::SlowAndFast(3600, 1), 0.3, 1);
   ExpectLeadsTo(joint, "stribeck", m);
   ExpectLeadsTo(joint, "nominal-ls", m);
 }
 
 TEST(Remedies, AgainstDirectionOfACurveThatWarms) {
-  FrictionDescription warm = test::TwoLevelStribeckJoint();
+  Friction warm = test::TwoLevelStribeckJoint();
   warm.thermal = Thermal{-3, 600};
   const Measurements m = test::RecordFriction(warm, 1, test::SlowAndFast(3600, 1), 0.3, 1);
   ExpectLeadsTo(warm, "stribeck", m);
@@ -199,7 +200,7 @@ Measurements OneDirection(Measurements m, int side) {
 }
 
 TEST(Remedies, AgainstASlopeOfEachDirectionOfACurve) {
-  const FrictionDescription joint = test::TwoLevelStribeckJoint();
+  const Friction joint = test::TwoLevelStribeckJoint();
   Measurements m = test::RecordFriction(joint, 1, test::SlowAndFast(3600, 1), 0.3, 1);
   m.torque += 4 * m.velocity.cwiseMax(0);
   const Step together = Take("stribeck", {{"law", "asymmetric_stribeck"}}, m);
@@ -225,20 +226,20 @@ TEST(Remedies, AgainstASlopeOfEachDirectionOfACurve) {
 }
 
 TEST(Remedies, AgainstDirectionOfABristle) {
-  const FrictionDescription joint = test::TwoLevelLuGreJoint();
+  const Friction joint = test::TwoLevelLuGreJoint();
   const Measurements m =
       test::RecordBristle(joint, test::TurningMotion(60, 1), 60, 100, 0.3, 0.3, 1);
   ExpectLeadsTo(joint, "lugre", m);
 }
 
 TEST(Remedies, AgainstRippleAlongTheJoint) {
-  FrictionDescription rippled = test::Cold();
+  Friction rippled = test::Cold();
   rippled.maps = {test::PositionLevel(2.5, 1.5)};
   ExpectLeadsSomewhere("nominal-ls", Travelling(rippled, 1));
 }
 
 TEST(Remedies, AgainstRippleOfAJointThatWarms) {
-  FrictionDescription rippled = test::TableOne();
+  Friction rippled = test::TableOne();
   rippled.maps = {test::PositionLevel(2.5, 1.5)};
   ExpectLeadsSomewhere("energy-ml", Travelling(rippled, 1));
   ExpectLeadsSomewhere("position-ridge", Travelling(rippled, 1));
@@ -254,7 +255,7 @@ Measurements WithRipple(Measurements m) {
 
 TEST(Remedies, AgainstMoreRippleThanAMapFollows) {
   // steps of a random walk over a hundred periods and more
-  const FrictionDescription friction = test::Cold();
+  const Friction friction = test::Cold();
   const Measurements wide = WithRipple(test::RecordHour(friction, 1));
   ASSERT_GT(wide.position.maxCoeff() - wide.position.minCoeff(), 60 * 1.3);
   const Estimate estimate = Take("nominal-ls", {}, wide).estimate;
@@ -269,7 +270,7 @@ TEST(Remedies, AgainstMoreRippleThanAMapFollows) {
 }
 
 TEST(Remedies, AgainstRippleOfTheMotor) {
-  FrictionDescription rippled = test::Cold();
+  Friction rippled = test::Cold();
   rippled.gear = 10;
   rippled.maps = {test::MotorRipple(2, 1.5)};
   Measurements m = test::RecordFriction(test::Cold(), 0.02,
@@ -281,7 +282,7 @@ TEST(Remedies, AgainstRippleOfTheMotor) {
 }
 
 /// 40 min at 10 Hz behind a lag of 0.4 s.
-Measurements Lagging(const FrictionDescription& friction, std::uint64_t seed) {
+Measurements Lagging(const Friction& friction, std::uint64_t seed) {
   Eigen::VectorXd velocity(24000);
   const Eigen::VectorXd speeds = test::AlternatingSpeeds(2400, seed);
   for (Eigen::Index i = 0; i < velocity.size(); ++i) velocity[i] = speeds[i / 10];

@@ -11,7 +11,7 @@ namespace warmjoint {
 namespace {
 
 /// A fit of the truth, as far as WithHeat asks.
-FittedModel Warm(const FrictionDescription& friction, const Measurements& m) {
+FittedModel Warm(const Friction& friction, const Measurements& m) {
   FittedModel model;
   model.thermal = friction.thermal;
   model.loop = ClosedLoop::Along(m, LawColumns(*FindLaw(friction.law), m.velocity));
@@ -42,21 +42,21 @@ Eigen::MatrixXd OfRows(const FittedModel& model, const Measurements& m, const Bi
   return WithHeat<1>(model, m.velocity, bins, levels, same).leftCols(C);
 }
 
-Prediction Along(const FrictionDescription& friction, const Measurements& m) {
+Prediction Along(const Friction& friction, const Measurements& m) {
   return AlongMotion(friction).Predict(CourseOf(m, BristleStart::torque), {});
 }
 
 /// (F(+step) - F(-step)) / (2 step). [N]
-Eigen::VectorXd Slope(const FrictionDescription& above, const FrictionDescription& below,
-                      const Measurements& m, double step) {
+Eigen::VectorXd Slope(const Friction& above, const Friction& below, const Measurements& m,
+                      double step) {
   return (Along(above, m).force - Along(below, m).force) / (2 * step);
 }
 
 TEST(WithHeat, IsTheDerivativeByALevel) {
-  const FrictionDescription friction = test::TableOne();
+  const Friction friction = test::TableOne();
   const Measurements m = test::RecordFriction(friction, 1, test::AlternatingSpeeds(1200, 1), 0, 1);
   const double step = 0.01;
-  FrictionDescription above = friction, below = friction;
+  Friction above = friction, below = friction;
   above.parameters["coulomb"] += step;
   below.parameters["coulomb"] -= step;
   const Eigen::VectorXd sign = m.velocity.array().sign().matrix();
@@ -67,10 +67,10 @@ TEST(WithHeat, IsTheDerivativeByALevel) {
 }
 
 TEST(WithHeat, IsTheDerivativeByASlopeThatWarms) {
-  const FrictionDescription friction = test::TableOne();
+  const Friction friction = test::TableOne();
   const Measurements m = test::RecordFriction(friction, 1, test::AlternatingSpeeds(1200, 2), 0, 2);
   const double step = 1e-4;
-  FrictionDescription above = friction, below = friction;
+  Friction above = friction, below = friction;
   above.viscous_per_energy = step;
   below.viscous_per_energy = -step;
   const Eigen::VectorXd slope = m.velocity.cwiseProduct(Along(friction, m).energy);
@@ -81,7 +81,7 @@ TEST(WithHeat, IsTheDerivativeByASlopeThatWarms) {
 }
 
 TEST(WithHeat, IsTheDerivativeByTheLawsParameters) {
-  const FrictionDescription friction = test::TableOne();
+  const Friction friction = test::TableOne();
   const Measurements m = test::RecordFriction(friction, 1, test::AlternatingSpeeds(1200, 1), 0, 1);
   const FittedModel model = Warm(friction, m);
   const Eigen::MatrixX2d columns = LawColumns(*FindLaw(friction.law), m.velocity);

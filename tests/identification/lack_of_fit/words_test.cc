@@ -2,11 +2,11 @@
 #include "identification/lack_of_fit/words.h"
 
 #include <gmock/gmock.h>
+#include <warmjoint/prepared_log.h>
 
 #include <regex>
 
 #include "identification/fit_data.h"
-#include "identification/preparation/prepare.h"
 #include "identification/read_options.h"
 #include "tests/support/judging.h"
 #include "tests/support/travelling.h"
@@ -67,7 +67,7 @@ TEST(Words, NameSizesAsTheyAreDefined) {
 }
 
 TEST(Words, NameSizesOfRipplesAsTheyAreDefined) {
-  FrictionDescription rippled = test::Cold();
+  Friction rippled = test::Cold();
   rippled.maps = {test::PositionLevel(2.5, 1.5)};
   Measurements m =
       test::RecordFriction(rippled, 0.1, test::Travel(12000, 0.1, 2.5, {0.2, 0.5, 0.9}), 0.3, 1);

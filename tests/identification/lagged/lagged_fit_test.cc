@@ -1,6 +1,7 @@
 #include "identification/lagged/lagged_fit.h"
 
 #include <gtest/gtest.h>
+#include <warmjoint/prepared_log.h>
 
 #include <cmath>
 
@@ -8,7 +9,6 @@
 #include "identification/identifiers/identifier_list.h"
 #include "identification/lagged/lag_search.h"
 #include "identification/lagged/seen_lag.h"
-#include "identification/preparation/prepare.h"
 #include "identification/read_options.h"
 #include "models/foundation/low_pass.h"
 #include "models/foundation/random_stream.h"
@@ -23,7 +23,7 @@ constexpr double kLag = 1.7;  // s
 
 /// Table I's joint at 1 Hz behind a lag, with or without warming; noise: N.m.
 Measurements Lagging(double lag, double noise, std::optional<Thermal> thermal = Thermal{-3, 600}) {
-  FrictionDescription joint = test::TableOne();
+  Friction joint = test::TableOne();
   joint.thermal = thermal;
   const VectorXd velocity = test::AlternatingSpeeds(2400, 3);
   Measurements m = test::Record(1, velocity, velocity);
@@ -62,7 +62,7 @@ TEST(TorqueLag, IsFoundByALawWithoutWarming) {
 
 TEST(TorqueLag, IsFoundWhereTheFitWithoutItGoesAstray) {
   // a lag of 0.8 s in holds of 2 s leaves torque of the wrong sign in a third of the samples
-  FrictionDescription joint = test::TableOne();
+  Friction joint = test::TableOne();
   const VectorXd speeds = test::AlternatingSpeeds(4200, 11);
   VectorXd velocity(21000);
   for (Eigen::Index i = 0; i < velocity.size(); ++i) velocity[i] = speeds[i / 5];

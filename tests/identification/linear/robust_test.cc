@@ -1,13 +1,13 @@
 #include "identification/linear/robust.h"
 
 #include <gmock/gmock.h>
+#include <warmjoint/prepared_log.h>
+#include <warmjoint/recording.h>
 
 #include <cmath>
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/preparation/prepare.h"
-#include "identification/preparation/select.h"
 #include "identification/read_options.h"
 #include "tests/support/warm_recording.h"
 
@@ -108,7 +108,7 @@ TEST(Huber, LeavesExactDataAlone) {
 }
 
 TEST(Huber, HoldsNominalLsToo) {
-  FrictionDescription cold = test::TableOne();
+  Friction cold = test::TableOne();
   cold.thermal.reset();
   Measurements m = test::RecordFriction(cold, 1, test::AlternatingSpeeds(3600, 4), 0.1, 4);
   for (Eigen::Index i = 0; i < m.size(); i += 20) m.torque[i] = 100;

@@ -1,6 +1,7 @@
 #include "identification/maps/finer_maps.h"
 
 #include <gtest/gtest.h>
+#include <warmjoint/friction.h>
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
@@ -8,7 +9,6 @@
 #include "identification/fit_data.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/maps/map_options.h"
-#include "models/friction/gaussian_axis.h"
 #include "tests/support/travelling.h"
 
 namespace warmjoint {

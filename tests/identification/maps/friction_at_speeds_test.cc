@@ -1,12 +1,12 @@
 #include "identification/maps/friction_at_speeds.h"
 
 #include <gtest/gtest.h>
+#include <warmjoint/prepared_log.h>
 
 #include <cmath>
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/preparation/prepare.h"
 #include "identification/read_options.h"
 #include "tests/support/travelling.h"
 
@@ -21,7 +21,7 @@ Estimate Identified(const PreparedLog& log) {
 
 /// A joint whose level varies over its position by 0.3 N.m, and its answer.
 struct Answer {
-  FrictionDescription truth{"viscous_coulomb", {{"viscous", 0.5}, {"coulomb", 2}}, {}, 0, 100};
+  Friction truth{"viscous_coulomb", {{"viscous", 0.5}, {"coulomb", 2}}, {}, 0, 100};
   Measurements log;
   Estimate estimate;
 
@@ -54,8 +54,8 @@ TEST(FrictionAtSpeeds, HoldsWhatLawAndMapBrakeWith) {
   int held = 0, all = 0;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     const Answer answer(seed);
-    ASSERT_EQ(answer.estimate.at_speeds.size(), 6u) << answer.estimate.message;
-    for (const FrictionAtSpeed& one : answer.estimate.at_speeds) {
+    ASSERT_EQ(answer.estimate.friction_at_speeds.size(), 6u) << answer.estimate.message;
+    for (const FrictionAtSpeed& one : answer.estimate.friction_at_speeds) {
       const double truth = answer.TruthAt(one.speed);
       EXPECT_NEAR(one.value, truth, 0.02) << one.speed;
       EXPECT_EQ(one.speed_unit + ", " + one.unit, "rad/s, N.m");
@@ -64,7 +64,7 @@ TEST(FrictionAtSpeeds, HoldsWhatLawAndMapBrakeWith) {
       ++all;
     }
     // known to the noise of the 1500 samples at this speed, where the constant itself is not known at all
-    EXPECT_LT(answer.estimate.at_speeds[1].std, 2 * 0.1 / std::sqrt(1500));
+    EXPECT_LT(answer.estimate.friction_at_speeds[1].std, 2 * 0.1 / std::sqrt(1500));
     EXPECT_FALSE(answer.estimate.Find("coulomb")->interval95);
   }
   EXPECT_GT(held, 0.9 * all);
@@ -86,8 +86,8 @@ TEST(FrictionAtSpeeds, IsThatOfThePlacesWhereTheJointMovedSo) {
   Selection selection = Prepare(m).steady().selection;
   selection.keep = selection.keep && (m.position.array() - 0.5).abs() > 0.15;
   const Estimate estimate = Identified(Prepare(m, selection));
-  ASSERT_EQ(estimate.at_speeds.size(), 4u) << estimate.message;
-  for (const FrictionAtSpeed& one : estimate.at_speeds) {
+  ASSERT_EQ(estimate.friction_at_speeds.size(), 4u) << estimate.message;
+  for (const FrictionAtSpeed& one : estimate.friction_at_speeds) {
     EXPECT_NEAR(one.value, 15 + 5 * std::abs(one.speed), 0.05);
     EXPECT_LT(one.std, 0.02);
   }
@@ -96,12 +96,12 @@ TEST(FrictionAtSpeeds, IsThatOfThePlacesWhereTheJointMovedSo) {
 
 TEST(FrictionAtSpeeds, AreALowTheMedianAndAHighOneOfEachDirection) {
   const Estimate estimate = Answer(1).estimate;
-  ASSERT_EQ(estimate.at_speeds.size(), 6u);
-  EXPECT_NEAR(estimate.at_speeds[0].speed, 0.31, 0.01);
-  EXPECT_NEAR(estimate.at_speeds[2].speed, 0.83, 0.01);
-  EXPECT_GT(estimate.at_speeds[1].speed, 0.31);
-  EXPECT_LT(estimate.at_speeds[1].speed, 0.83);
-  EXPECT_NEAR(estimate.at_speeds[3].speed, -0.31, 0.01);
+  ASSERT_EQ(estimate.friction_at_speeds.size(), 6u);
+  EXPECT_NEAR(estimate.friction_at_speeds[0].speed, 0.31, 0.01);
+  EXPECT_NEAR(estimate.friction_at_speeds[2].speed, 0.83, 0.01);
+  EXPECT_GT(estimate.friction_at_speeds[1].speed, 0.31);
+  EXPECT_LT(estimate.friction_at_speeds[1].speed, 0.83);
+  EXPECT_NEAR(estimate.friction_at_speeds[3].speed, -0.31, 0.01);
 }
 
 }  // namespace

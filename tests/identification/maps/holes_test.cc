@@ -1,10 +1,10 @@
 #include "identification/maps/holes.h"
 
 #include <gmock/gmock.h>
+#include <warmjoint/prepared_log.h>
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/preparation/prepare.h"
 #include "identification/read_options.h"
 #include "tests/support/travelling.h"
 #include "tests/support/warm_recording.h"
@@ -108,7 +108,7 @@ TEST(Holes, AreNamedByWhateverTheMapIsOver) {
 
 TEST(Holes, AHoleInALogHoldsTheTruthAndIsToldOf) {
   // a level that rises from 5 to 25 N.m over the travel; nothing is logged backwards from 0.5 to 1.5 rad
-  FrictionDescription friction = test::TableOne();
+  Friction friction = test::TableOne();
   friction.thermal.reset();
   friction.maps = {test::Sampled(MapQuantity::position, EvenAxis(-2.5, 2.5, 64),
                                  MapFactor::direction, [](double p) { return 4 * p; })};

@@ -1,14 +1,14 @@
 #include "identification/maps/make_bands.h"
 
 #include <gtest/gtest.h>
+#include <warmjoint/prepared_log.h>
+#include <warmjoint/recording.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/preparation/prepare.h"
-#include "identification/preparation/select.h"
 #include "identification/read_options.h"
 #include "tests/support/travelling.h"
 
@@ -16,8 +16,8 @@ namespace warmjoint {
 namespace {
 
 /// A joint whose level varies over its position.
-FrictionDescription Truth(FrictionMap map) {
-  FrictionDescription friction{"viscous_coulomb", {{"viscous", 0.5}, {"coulomb", 2}}, {}, 0, 100};
+Friction Truth(FrictionMap map) {
+  Friction friction{"viscous_coulomb", {{"viscous", 0.5}, {"coulomb", 2}}, {}, 0, 100};
   friction.maps = {std::move(map)};
   return friction;
 }
@@ -27,8 +27,8 @@ struct Trial {
   Estimate estimate;
 };
 
-Trial Identify(const FrictionDescription& truth, const char* name, std::uint64_t seed,
-               double colour, const std::map<std::string, std::string>& given) {
+Trial Identify(const Friction& truth, const char* name, std::uint64_t seed, double colour,
+               const std::map<std::string, std::string>& given) {
   Trial trial;
   Measurements& m = trial.measurements;
   m = test::Record(0.1, test::Travel(6000, 0.1, 1, {0.31, 0.57, 0.83}),
@@ -50,7 +50,7 @@ struct Cover {
   double errors = 0;     // sum of squares, (N.m)^2
   double variances = 0;  // sum, (N.m)^2
 
-  void Add(const Trial& trial, const FrictionDescription& truth) {
+  void Add(const Trial& trial, const Friction& truth) {
     const MapBand& band = trial.estimate.bands[0];
     Measurements at = trial.measurements;
     const auto size = static_cast<Eigen::Index>(band.points.size());
@@ -74,7 +74,7 @@ struct Cover {
 };
 
 /// Bands of maps of 20 kernels over 40 logs.
-Cover CoverOf(const FrictionDescription& truth, double colour) {
+Cover CoverOf(const Friction& truth, double colour) {
   Cover cover;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     const Trial trial =
@@ -87,7 +87,7 @@ Cover CoverOf(const FrictionDescription& truth, double colour) {
 // the prior allows for a map as rough as its kernels; a smooth one is held more often than in 95 %,
 // but by bands that are at most twice as wide as the errors
 void ExpectTheTruthIsHeld(double colour) {
-  const FrictionDescription truth = Truth(test::PositionLevel(1, 0.3));
+  const Friction truth = Truth(test::PositionLevel(1, 0.3));
   const Cover cover = CoverOf(truth, colour);
   ASSERT_EQ(cover.all, 40 * 40);
   EXPECT_GT(cover.held, 0.93 * cover.all);

@@ -1,10 +1,10 @@
 #include "identification/maps/map_block.h"
 
 #include <gtest/gtest.h>
+#include <warmjoint/prepared_log.h>
 
 #include "identification/identifiers/energy_ml_with_maps.h"
 #include "identification/maps/position_maps.h"
-#include "identification/preparation/prepare.h"
 #include "identification/read_options.h"
 #include "tests/support/travelling.h"
 
@@ -15,7 +15,7 @@ namespace {
 class MapBlockTest : public ::testing::Test {
  protected:
   MapBlockTest() {
-    FrictionDescription friction{"viscous_coulomb", {{"viscous", 0.5}, {"coulomb", 2}}, {}, 0, 1};
+    Friction friction{"viscous_coulomb", {{"viscous", 0.5}, {"coulomb", 2}}, {}, 0, 1};
     friction.maps = {test::PositionLevel(1, 0.3)};
     m_ =
         test::RecordFriction(friction, 0.2, test::Travel(3000, 0.2, 1, {0.31, 0.57, 0.83}), 0.1, 1);

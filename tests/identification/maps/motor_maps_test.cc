@@ -47,7 +47,7 @@ TEST(MotorMaps, TheJointsGoesOverATurnWhereFewerThanThreeOfItsKernelsFallOnOne) 
 }
 
 TEST(MotorMaps, LeaveTheHeatToTheWarmingOfAJointThatWanders) {
-  FrictionDescription friction = test::TableOne();
+  Friction friction = test::TableOne();
   friction.gear = kGear;
   FrictionMap ripple{{{MapQuantity::motor_position, CircleAxis(kTurn, 12)}},
                      KernelKind::normalised,

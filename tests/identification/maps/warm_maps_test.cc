@@ -1,13 +1,13 @@
 #include "identification/maps/warm_maps.h"
 
 #include <gmock/gmock.h>
+#include <warmjoint/prepared_log.h>
 
 #include <string>
 
 #include "identification/answer/identify.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
 #include "identification/read_options.h"
 #include "tests/support/travelling.h"
@@ -20,14 +20,14 @@ using ::testing::HasSubstr;
 
 /// 20 min at 5 Hz of a YuMi-like joint: levels of about 0.5 N.m that fade by 40 %, ripple over the
 /// position.
-FrictionDescription YumiLike() {
-  FrictionDescription friction{
+Friction YumiLike() {
+  Friction friction{
       "viscous_coulomb", {{"viscous", 0.0527}, {"coulomb", 0.48}}, Thermal{-0.194, 180}, 0, 1};
   friction.maps = {test::PositionLevel(1.5, 0.06)};
   return friction;
 }
 
-Measurements Recorded(const FrictionDescription& friction, double noise, std::uint64_t seed) {
+Measurements Recorded(const Friction& friction, double noise, std::uint64_t seed) {
   return test::RecordFriction(friction, 0.2, test::Travel(6000, 0.2, 1.5, {0.3, 0.6, 1, 1.5, 2}),
                               noise, seed);
 }
@@ -46,7 +46,7 @@ Estimate Identify(const Measurements& m, const char* name,
 const std::map<std::string, std::string> kFew{{"kernels", "30"}, {"width", "1"}};
 
 TEST(WarmMaps, FindTheWarmingBesideAMap) {
-  const FrictionDescription truth = YumiLike();
+  const Friction truth = YumiLike();
   const Measurements m = Recorded(truth, 0.01, 1);
   auto given = kFew;
   given["position"] = "map";
@@ -83,7 +83,7 @@ TEST(WarmMaps, EachPartOfTheFrictionBettersTheFitAlsoOnHeldOutTime) {
 }
 
 TEST(WarmMaps, SayWhereNothingWarms) {
-  FrictionDescription cold = YumiLike();
+  Friction cold = YumiLike();
   cold.thermal.reset();
   auto given = kFew;
   given["position"] = "map";
@@ -93,7 +93,7 @@ TEST(WarmMaps, SayWhereNothingWarms) {
 }
 
 TEST(WarmMaps, FindTheWarmingBesideAMotorMap) {
-  FrictionDescription truth = YumiLike();
+  Friction truth = YumiLike();
   truth.gear = 100;
   truth.maps.push_back(test::MotorRipple(2, 0.05));
   const Measurements fresh = [&] {
@@ -134,7 +134,7 @@ struct WarmLog {
 };
 
 WarmLog WithoutItsBeginning(std::uint64_t seed) {
-  const FrictionDescription truth = YumiLike();
+  const Friction truth = YumiLike();
   const Measurements m = Recorded(truth, 0.001, seed);
   return {test::Without(m, {{-1, 299.9}}), PredictFriction(truth, m).energy[1500]};
 }
@@ -174,7 +174,7 @@ TEST(WarmMaps, HoldAnExpectedStartAgainstTheLog) {
 
 TEST(WarmMaps, EstimateWhatAGapHides) {
   // a joint that turns three times as fast while nothing is recorded, and makes more heat
-  const FrictionDescription truth = YumiLike();
+  const Friction truth = YumiLike();
   const Eigen::VectorXd slow = test::Travel(6000, 0.2, 1.5, {0.3, 0.6, 1});
   Eigen::VectorXd velocity = slow;
   velocity.segment(2000, 500) *= 3;
@@ -194,7 +194,7 @@ TEST(WarmMaps, EstimateWhatAGapHides) {
 
 TEST(EnergyMap, FollowsRippleThatFadesAsTheJointWarms) {
   // ripple that is gone once the joint is warm: E is about -0.09 N.m then
-  FrictionDescription truth = YumiLike();
+  Friction truth = YumiLike();
   FrictionMap fading{{{MapQuantity::position, EvenAxis(-1.5, 1.5, 24)},
                       {MapQuantity::energy, EvenAxis(-0.09, 0, 2)}},
                      KernelKind::normalised,
@@ -219,7 +219,7 @@ TEST(EnergyMap, FollowsRippleThatFadesAsTheJointWarms) {
 }
 
 TEST(LoadMap, FindsALevelThatGrowsWithTheLoad) {
-  FrictionDescription truth = YumiLike();
+  Friction truth = YumiLike();
   truth.maps = {{{{MapQuantity::load, EvenAxis(0, 10, 11)}},
                  KernelKind::normalised,
                  {},
@@ -243,7 +243,7 @@ TEST(LoadMap, FindsALevelThatGrowsWithTheLoad) {
 
 TEST(LpvEnergy, FollowsViscousFrictionThatFades) {
   // kv(E) = 0.0527 + 0.5 E, E from 0 to about -0.09 N.m
-  FrictionDescription truth = YumiLike();
+  Friction truth = YumiLike();
   truth.maps = {{{{MapQuantity::energy, EvenAxis(-0.3, 0, 4)}},
                  KernelKind::normalised,
                  {},

@@ -1,8 +1,8 @@
 #include "identification/nonlinear/lugre_course.h"
 
 #include <gtest/gtest.h>
+#include <warmjoint/friction.h>
 
-#include "models/friction/friction_description.h"
 #include "tests/support/bristle_recording.h"
 
 namespace warmjoint {

@@ -4,7 +4,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "identification/preparation/check_report.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint {

@@ -1,11 +1,12 @@
 #include "identification/preparation/condense.h"
 
 #include <gtest/gtest.h>
+#include <warmjoint/prepared_log.h>
 
 #include <iterator>
 #include <vector>
 
-#include "identification/preparation/prepare.h"
+#include "models/recording/sampling.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint {

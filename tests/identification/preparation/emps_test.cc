@@ -1,12 +1,10 @@
 // A real linear axis (EMPS): what its recording holds, and the friction laws on its samples at
 // constant speed. Expected figures: an independent fit, see the data's PROVENANCE.txt.
 #include <gmock/gmock.h>
+#include <warmjoint/prepared_log.h>
 
 #include <Eigen/Dense>
 
-#include "identification/preparation/check.h"
-#include "identification/preparation/check_report.h"
-#include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
 #include "models/friction/law.h"
 #include "models/recording/csv.h"

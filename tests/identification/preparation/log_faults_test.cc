@@ -1,11 +1,11 @@
 #include "identification/preparation/log_faults.h"
 
 #include <gmock/gmock.h>
+#include <warmjoint/prepared_log.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "identification/preparation/check.h"
 #include "identification/preparation/select.h"
 #include "models/foundation/random_stream.h"
 #include "tests/support/vectors.h"

@@ -1,11 +1,11 @@
 #include "identification/preparation/motion_from_positions.h"
 
 #include <gtest/gtest.h>
+#include <warmjoint/prepared_log.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "identification/preparation/prepare.h"
 #include "models/foundation/random_stream.h"
 #include "models/recording/join_recordings.h"
 

@@ -1,10 +1,10 @@
 #include "identification/preparation/moving_view.h"
 
 #include <gtest/gtest.h>
+#include <warmjoint/prepared_log.h>
 
 #include <cmath>
 
-#include "identification/preparation/prepare.h"
 #include "models/foundation/random_stream.h"
 #include "tests/support/vectors.h"
 

@@ -1,11 +1,11 @@
 #include "identification/preparation/path_against_velocity.h"
 
 #include <gmock/gmock.h>
+#include <warmjoint/prepared_log.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "identification/preparation/prepare.h"
 #include "tests/support/judging.h"
 
 namespace warmjoint {

@@ -1,11 +1,11 @@
 #include "identification/preparation/take_ways.h"
 
 #include <gtest/gtest.h>
+#include <warmjoint/prepared_log.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "identification/preparation/prepare.h"
 #include "models/foundation/random_stream.h"
 
 namespace warmjoint {

@@ -1,6 +1,7 @@
 #include "identification/report/end_state.h"
 
 #include <gmock/gmock.h>
+#include <warmjoint/prepared_log.h>
 
 #include <cmath>
 #include <map>
@@ -8,7 +9,6 @@
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/preparation/prepare.h"
 #include "identification/read_options.h"
 #include "models/recording/course_of.h"
 #include "tests/support/travelling.h"
@@ -30,13 +30,13 @@ EstimatedParameter EndOf(const Measurements& m, const std::map<std::string, std:
   return {};
 }
 
-FrictionDescription Rippling() {
-  FrictionDescription friction = test::TableOne();
+Friction Rippling() {
+  Friction friction = test::TableOne();
   friction.maps = {test::PositionLevel(3, 1.5)};
   return friction;
 }
 
-Measurements Log(const FrictionDescription& friction, std::uint64_t seed) {
+Measurements Log(const Friction& friction, std::uint64_t seed) {
   return test::RecordFriction(friction, 1, test::Travel(3600, 1, 3, {0.15, 0.3, 0.6}), 0.5, seed);
 }
 

@@ -14,7 +14,7 @@ constexpr VelocityNoise kHidesAll{0.02, 1, 0.5, 0.3};
 Estimate Of(const char* law, const std::map<std::string, double>& parameters) {
   Estimate estimate;
   estimate.message = "fitted";
-  estimate.friction = FrictionDescription{law, parameters, {}, 0, 1};
+  estimate.friction = Friction{law, parameters, {}, 0, 1};
   for (const auto& [name, value] : parameters) {
     estimate.parameters.push_back({name, value, "", 0.1, {{value - 0.2, value + 0.2}}});
   }

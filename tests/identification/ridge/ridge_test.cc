@@ -1,12 +1,12 @@
 #include "identification/ridge/ridge.h"
 
 #include <gtest/gtest.h>
+#include <warmjoint/friction.h>
 
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
 #include "identification/ridge/local_rows.h"
 #include "models/friction/evaluate_map.h"
-#include "models/friction/gaussian_axis.h"
 #include "tests/support/cross_validate.h"
 #include "tests/support/vectors.h"
 

@@ -1,6 +1,5 @@
-#include "identification/score/npe.h"
-
 #include <gtest/gtest.h>
+#include <warmjoint/score.h>
 
 #include <cmath>
 

@@ -1,6 +1,5 @@
-#include "identification/score/score.h"
-
 #include <gmock/gmock.h>
+#include <warmjoint/score.h>
 
 #include <Eigen/Cholesky>
 #include <cmath>

@@ -1,12 +1,12 @@
 #include "identification/uncertainty/penalised_uncertainty.h"
 
 #include <gtest/gtest.h>
+#include <warmjoint/recording.h>
 
 #include <Eigen/LU>
 #include <cmath>
 
 #include "models/foundation/random_stream.h"
-#include "models/recording/selection.h"
 
 namespace warmjoint {
 namespace {

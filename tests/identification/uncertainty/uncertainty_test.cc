@@ -1,6 +1,8 @@
 #include "identification/uncertainty/uncertainty.h"
 
 #include <gtest/gtest.h>
+#include <warmjoint/prepared_log.h>
+#include <warmjoint/recording.h>
 
 #include <Eigen/LU>
 #include <cmath>
@@ -8,8 +10,6 @@
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/linear/least_squares.h"
-#include "identification/preparation/prepare.h"
-#include "identification/preparation/select.h"
 #include "identification/read_options.h"
 #include "identification/uncertainty/tails.h"
 #include "tests/support/warm_recording.h"
@@ -20,7 +20,7 @@ namespace {
 /// Share of 500 recordings (3600 s, law (2) without warming) whose 95 % intervals hold the truth,
 /// for kv and kc. pole: of the autoregressive noise, of standard deviation 0.5 N.m.
 Eigen::Vector2d Coverage(double pole, Eigen::Index rest) {
-  FrictionDescription friction = test::TableOne();
+  Friction friction = test::TableOne();
   friction.thermal.reset();
   const Identifier& identifier = FindIdentifier("nominal-ls");
   const Options options = ReadOptions(identifier.options, {}, {});

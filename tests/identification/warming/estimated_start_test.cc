@@ -1,8 +1,8 @@
 #include "identification/warming/estimated_start.h"
 
 #include <gtest/gtest.h>
+#include <warmjoint/friction_model.h>
 
-#include "models/friction/course_start.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint {

@@ -17,8 +17,8 @@ using Eigen::Index;
 constexpr Index kSamples = 400;
 
 /// Every law with values that differ, static above coulomb, stiff where it has a bristle.
-FrictionDescription SomeFriction(const Law& law) {
-  FrictionDescription friction;
+Friction SomeFriction(const Law& law) {
+  Friction friction;
   friction.law = law.name;
   double value = 2;
   for (const ParameterInfo& info : law.parameters) {
@@ -69,7 +69,7 @@ JointCourse RichCourse() {
 }
 
 /// All that a friction can have, beside its law.
-FrictionDescription Rich(FrictionDescription friction) {
+Friction Rich(Friction friction) {
   friction.thermal = Thermal{-0.8, 40};
   friction.second_thermal = Thermal{-0.2, 9};
   friction.load_gain = 0.15;
@@ -102,7 +102,7 @@ void ExpectClose(const Eigen::VectorXd& value, const Eigen::VectorXd& expected,
             tolerance * expected.lpNorm<Eigen::Infinity>());
 }
 
-FrictionDescription Warm(double kv, double kc, double k, double tau) {
+Friction Warm(double kv, double kc, double k, double tau) {
   return {"viscous_coulomb", {{"viscous", kv}, {"coulomb", kc}}, Thermal{k, tau}};
 }
 
@@ -143,7 +143,7 @@ TEST(AlongMotion, IsEquations19To22BitForBitForLawsWithoutABristle) {
   const JointCourse course = SomeCourse();
   for (const Law& law : Laws()) {
     if (HasBristle(law)) continue;
-    FrictionDescription friction = SomeFriction(law);
+    Friction friction = SomeFriction(law);
     friction.thermal = Thermal{-0.8, 40};
     const Prediction p = AlongMotion(friction).Predict(course, {-0.3});
     EXPECT_EQ(p.bristle.size(), 0);
@@ -170,7 +170,7 @@ TEST(AlongMotion, IsThePluginsKernelBitForBitWhereAJointSlides) {
   const JointCourse course = RichCourse();
   for (const Law& law : Laws()) {
     if (HasBristle(law)) continue;
-    const FrictionDescription friction = Rich(SomeFriction(law));
+    const Friction friction = Rich(SomeFriction(law));
     const Prediction p = AlongMotion(friction).Predict(course, {-0.3, 0.1});
     const JointFriction joint(friction);
     double first = -0.3, second = 0.1;
@@ -193,7 +193,7 @@ TEST(AlongMotion, IsThePluginsKernelBitForBitWhereAJointSlides) {
 
 /// What the plugin's kernel makes of a motion in one direction, from a bristle that has yielded.
 /// course: even, its gear that of the friction.
-Prediction Stepped(const FrictionDescription& friction, const JointCourse& course) {
+Prediction Stepped(const Friction& friction, const JointCourse& course) {
   JointFriction joint(friction);
   joint.SetTimestep(course.step);
   const Index n = course.time.size();
@@ -221,7 +221,7 @@ JointCourse OneDirection() {
 }
 
 TEST(AlongMotion, IsTheStepOfThePluginBitForBitAtCoulombFriction) {
-  FrictionDescription friction{"coulomb", {{"coulomb", 6}}, Thermal{-0.8, 40}};
+  Friction friction{"coulomb", {{"coulomb", 6}}, Thermal{-0.8, 40}};
   friction.second_thermal = Thermal{-0.2, 9};
   friction.level_per_temperature = -0.02;
   const JointCourse course = OneDirection();
@@ -235,7 +235,7 @@ TEST(AlongMotion, IsTheStepOfThePluginWhereTheirSumsRoundApart) {
   const JointCourse course = OneDirection();
   for (const Law& law : Laws()) {
     if (HasBristle(law)) continue;
-    const FrictionDescription friction = Rich(SomeFriction(law));
+    const Friction friction = Rich(SomeFriction(law));
     const Prediction p = AlongMotion(friction).Predict(course), stepped = Stepped(friction, course);
     // kv v + (g + E) against (kv v + g) + E, some roundings a step, which the loop damps
     ExpectClose(p.force, stepped.force, 1e-14);
@@ -256,7 +256,7 @@ TEST(AlongMotion, BendsBristlesAsThePluginStepsThem) {
   ForEachLaw(AllLaws{}, [&laws]<typename L>() {
     if constexpr (LawWithCourse<L>) {
       ++laws;
-      FrictionDescription friction = SomeFriction(*FindLaw(L::name));
+      Friction friction = SomeFriction(*FindLaw(L::name));
       friction.load_gain = 0.15;
       JointCourse course = EvenCourse(0.01, Eigen::VectorXd::Constant(60, 0.05));
       course.velocity[0] = -0.05;
@@ -279,7 +279,7 @@ TEST(AlongMotion, BendsBristlesAsThePluginStepsThem) {
 TEST(AlongMotion, FollowsFinelySteppedBristlesThatWarm) {
   // the plugin's kernel at 0.1 ms, sampled at 100 Hz: turns, ramps and wobbles below sliding
   for (const char* law : {"dahl", "lugre"}) {
-    FrictionDescription friction = test::LuGreJoint();
+    Friction friction = test::LuGreJoint();
     if (law == std::string("dahl")) {
       friction.law = law;
       friction.parameters = {{"coulomb", 15}, {"bristle_stiffness", 2000}};
@@ -310,7 +310,7 @@ TEST(AlongMotion, FollowsFinelySteppedBristlesThatWarm) {
 
 TEST(AlongMotion, LosesInABristleWhatItDoesNotStore) {
   // work done less load^2 / (2 sigma0), over a motion within the elastic range and beyond
-  const FrictionDescription friction{"dahl", {{"coulomb", 4}, {"bristle_stiffness", 100}}, {}};
+  const Friction friction{"dahl", {{"coulomb", 4}, {"bristle_stiffness", 100}}, {}};
   const Index n = 20001;
   JointCourse course{Eigen::VectorXd::LinSpaced(n, 0, 20), Eigen::VectorXd(n)};
   course.velocity = (0.1 * course.time.array()).sin() * (3 * course.time.array()).cos() * 0.2;
@@ -328,7 +328,7 @@ TEST(AlongMotion, LosesInABristleWhatItDoesNotStore) {
 }
 
 TEST(AlongMotion, BendsTheBristleAsTheTorqueTells) {
-  FrictionDescription friction{"dahl", {{"coulomb", 15}, {"bristle_stiffness", 2000}}, {}};
+  Friction friction{"dahl", {{"coulomb", 15}, {"bristle_stiffness", 2000}}, {}};
   JointCourse course = EvenCourse(0.01, Eigen::VectorXd::Constant(101, 0.001));
   EXPECT_NEAR(AlongMotion(friction).Predict(course).force[0], 15, 1e-12);
   course.torque = Eigen::VectorXd::Constant(101, 3);
@@ -340,9 +340,8 @@ TEST(AlongMotion, BendsTheBristleAsTheTorqueTells) {
 
 TEST(AlongMotion, LowersTheLevelThatABristleBendsAgainstAsItWarms) {
   // at one speed, long slid: F = kc + E, and W = F |v|, whatever the stiffness
-  const FrictionDescription dahl{
-      "dahl", {{"coulomb", 15}, {"bristle_stiffness", 2000}}, Thermal{-3, 60}};
-  const FrictionDescription coulomb{"coulomb", {{"coulomb", 15}}, Thermal{-3, 60}};
+  const Friction dahl{"dahl", {{"coulomb", 15}, {"bristle_stiffness", 2000}}, Thermal{-3, 60}};
+  const Friction coulomb{"coulomb", {{"coulomb", 15}}, Thermal{-3, 60}};
   const JointCourse course = EvenCourse(0.1, Eigen::VectorXd::Constant(6000, 0.4));
   const Prediction bristle = AlongMotion(dahl).Predict(course);
   const Prediction steady = AlongMotion(coulomb).Predict(course);
@@ -353,7 +352,7 @@ TEST(AlongMotion, LowersTheLevelThatABristleBendsAgainstAsItWarms) {
 }
 
 TEST(AlongMotion, JumpsWhereItIsToldAndCoolsFromThere) {
-  const FrictionDescription friction = Warm(5, 15, -3, 600);
+  const Friction friction = Warm(5, 15, -3, 600);
   JointCourse course = EvenCourse(1, Eigen::VectorXd::Zero(10));
   CourseStart start;
   start.energy = -8;
@@ -368,7 +367,7 @@ TEST(AlongMotion, JumpsWhereItIsToldAndCoolsFromThere) {
 
 TEST(AlongMotion, IsColdAgainWhereAnotherRecordingBegins) {
   for (const char* law : {"viscous_coulomb", "stiction", "dahl", "lugre"}) {
-    FrictionDescription friction = SomeFriction(*FindLaw(law));
+    Friction friction = SomeFriction(*FindLaw(law));
     friction.thermal = Thermal{-0.8, 40};
     friction.second_thermal = Thermal{-0.2, 9};
     JointCourse once = SomeCourse();
@@ -388,7 +387,7 @@ TEST(AlongMotion, IsColdAgainWhereAnotherRecordingBegins) {
 }
 
 TEST(AlongMotion, AddsWhatElseJoinsTheLevelToForceAndLossAlone) {
-  FrictionDescription friction{"coulomb", {{"coulomb", 5}}, {}};
+  Friction friction{"coulomb", {{"coulomb", 5}}, {}};
   JointCourse course = EvenCourse(1, Eigen::Vector3d(0.5, -0.5, 0));
   course.level = Eigen::Vector3d(1, 2, 3);
   const Prediction p = AlongMotion(friction).Predict(course, {-1});
@@ -398,7 +397,7 @@ TEST(AlongMotion, AddsWhatElseJoinsTheLevelToForceAndLossAlone) {
 }
 
 TEST(AlongMotion, ChangesTheSlopeWithTheHeat) {
-  FrictionDescription friction = Warm(5, 15, -3, 600);
+  Friction friction = Warm(5, 15, -3, 600);
   friction.viscous_per_energy = 0.5;
   const JointCourse course = EvenCourse(1, Eigen::Vector2d(0.5, -0.5));
   // slope 5 - 0.5 4 = 3, level 15 - 4
@@ -413,7 +412,7 @@ TEST(AlongMotion, TellsTheFirstSampleWhereFrictionFeedsItself) {
   // above 1 rad/s for minutes, then slow: E = -3 v F0 / (1 + 3 v) exceeds 15 + 5 * 0.05 in size
   Eigen::VectorXd velocity(4000);
   velocity << Eigen::VectorXd::Constant(3000, 2.0), Eigen::VectorXd::Constant(1000, 0.05);
-  FrictionDescription friction = Warm(5, 15, -3, 600);
+  Friction friction = Warm(5, 15, -3, 600);
   EXPECT_EQ(AlongMotion(friction).Predict(EvenCourse(1, velocity)).feeds_itself, 3000);
   friction.law = "lugre";
   friction.parameters = test::LuGreJoint().parameters;
@@ -422,7 +421,7 @@ TEST(AlongMotion, TellsTheFirstSampleWhereFrictionFeedsItself) {
 }
 
 TEST(AlongMotion, RemembersTheSideThatABrokenJointSlidesTo) {
-  FrictionDescription friction = SomeFriction(*FindLaw("stiction"));
+  Friction friction = SomeFriction(*FindLaw("stiction"));
   EXPECT_EQ(AlongMotion(friction).Predict(EvenCourse(1, Eigen::Vector2d(0.5, -0.5))).end.slip, -1);
   EXPECT_EQ(AlongMotion(friction).Predict(EvenCourse(1, Eigen::Vector2d(0.5, 0))).end.slip, 0);
 }

@@ -25,7 +25,7 @@ Run RunBristle(const MotionPieces& motion, const std::vector<double>& p) {
   return run;
 }
 
-Eigen::VectorXd ForceAlong(const FrictionDescription& friction, const Measurements& m) {
+Eigen::VectorXd ForceAlong(const Friction& friction, const Measurements& m) {
   return RunBristle(MotionPieces(m.time, m.velocity, m.starts), LawValues(friction)).force;
 }
 

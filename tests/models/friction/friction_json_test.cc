@@ -36,7 +36,7 @@ TEST(FrictionJson, IsReadFromAnEstimateOrByItself) {
   const std::string path = testing::TempDir() + "/friction.json";
   for (const json& file : {Example(), json{{"identifier", "energy-ml"}, {"friction", Example()}}}) {
     WriteWholeFile(path, file.dump(2));
-    EXPECT_EQ(ReadFrictionFile(path).parameters.at("coulomb"), 15.0);
+    EXPECT_EQ(ReadFriction(path).parameters.at("coulomb"), 15.0);
   }
   std::filesystem::remove(path);
 }
@@ -45,7 +45,7 @@ TEST(FrictionJson, NamesTheLineThatIsNotJson) {
   const std::string path = testing::TempDir() + "/broken.json";
   WriteWholeFile(path, "{\n\"law\": \"coulomb\",\n}\n");
   try {
-    ReadFrictionFile(path);
+    ReadFriction(path);
     FAIL() << "accepted";
   } catch (const BadInput& refusal) {
     EXPECT_THAT(refusal.what(), HasSubstr("broken.json:3: is not JSON"));

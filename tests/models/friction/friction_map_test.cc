@@ -1,12 +1,10 @@
-#include "models/friction/friction_map.h"
-
 #include <gmock/gmock.h>
+#include <warmjoint/friction.h>
 
 #include <functional>
 #include <numbers>
 
 #include "models/friction/evaluate_map.h"
-#include "models/friction/friction_description.h"
 #include "models/friction/friction_json.h"
 #include "tests/support/shared_data.h"
 
@@ -67,14 +65,14 @@ TEST(FrictionMap, IsMultipliedByItsFactor) {
 }
 
 TEST(FrictionMap, ReadsBackWhatItWrites) {
-  FrictionDescription friction;
+  Friction friction;
   friction.parameters = {{"viscous", 1}, {"coulomb", 2}};
   const double turn = 2 * std::numbers::pi;
   friction.maps = {
       SmallMap(),
       {{{MapQuantity::motor_position, CircleAxis(turn, 2)}}, KernelKind::plain, {0.1, 0.2}}};
   const Tree written = FrictionToTree(friction);
-  const FrictionDescription back = FrictionFrom({written, "friction.json"});
+  const Friction back = FrictionFrom({written, "friction.json"});
   EXPECT_EQ(FrictionToTree(back), written);
   EXPECT_EQ(back.maps[1].axes[0].kernels.period, turn);
   EXPECT_EQ(back.maps[0].axes[1].kernels.sides, Sides::apart);

@@ -1,6 +1,5 @@
-#include "models/friction/gaussian_axis.h"
-
 #include <gmock/gmock.h>
+#include <warmjoint/friction.h>
 
 #include <numbers>
 #include <numeric>

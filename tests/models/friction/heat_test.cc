@@ -5,8 +5,8 @@
 namespace warmjoint {
 namespace {
 
-FrictionDescription TwoStages() {
-  FrictionDescription friction;
+Friction TwoStages() {
+  Friction friction;
   friction.law = "coulomb";
   friction.parameters = {{"coulomb", 10}};
   friction.thermal = Thermal{-3, 600};
@@ -43,7 +43,7 @@ TEST(Heat, FeedsBothStagesWithTheSameLoss) {
 }
 
 TEST(Heat, LeavesColdJointsAsTheyAre) {
-  FrictionDescription friction = TwoStages();
+  Friction friction = TwoStages();
   friction.thermal.reset();
   friction.second_thermal.reset();
   const Heat heat = DiscretiseHeat(friction, 1);

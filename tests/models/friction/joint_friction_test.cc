@@ -12,8 +12,8 @@
 namespace warmjoint {
 namespace {
 
-FrictionDescription Asymmetric(double kv, double positive, double negative) {
-  FrictionDescription friction;
+Friction Asymmetric(double kv, double positive, double negative) {
+  Friction friction;
   friction.law = "asymmetric";
   friction.parameters = {
       {"viscous", kv}, {"coulomb_positive", positive}, {"coulomb_negative", negative}};
@@ -23,7 +23,7 @@ FrictionDescription Asymmetric(double kv, double positive, double negative) {
 constexpr double kInertia = 0.25;  // kg.m^2
 constexpr double kStep = 0.001;    // s
 
-JointFriction Make(const FrictionDescription& friction) {
+JointFriction Make(const Friction& friction) {
   JointFriction joint(friction);
   joint.SetTimestep(kStep);
   return joint;
@@ -106,10 +106,10 @@ FrictionMap DrawMap(RandomStream& random) {
 }
 
 /// A law of the list with parameters drawn within their bounds.
-FrictionDescription DrawLaw(RandomStream& random) {
+Friction DrawLaw(RandomStream& random) {
   const Law& law =
       Laws()[static_cast<size_t>(random.Uniform(0, static_cast<double>(Laws().size())))];
-  FrictionDescription friction;
+  Friction friction;
   friction.law = law.name;
   for (const ParameterInfo& info : law.parameters) {
     friction.parameters[std::string(info.name)] =
@@ -135,7 +135,7 @@ FrictionDescription DrawLaw(RandomStream& random) {
 TEST(JointFriction, NeverGivesEnergyOverRandomLawsAndMotions) {
   for (std::uint64_t run = 0; run < 1000; ++run) {
     RandomStream random({7, run}, Stream::test);
-    const FrictionDescription friction = DrawLaw(random);
+    const Friction friction = DrawLaw(random);
     const JointFriction joint = Make(friction);
     const Bristle bristle = joint.own_bristle()
                                 ? LimitBristle(*joint.own_bristle(), kInertia, kStep)
@@ -166,7 +166,7 @@ TEST(JointFriction, NeverGivesEnergyOverRandomLawsAndMotions) {
 
 TEST(JointFriction, EveryLawSlidesAtItsSteadyForce) {
   for (const Law& law : Laws()) {
-    FrictionDescription friction;
+    Friction friction;
     friction.law = law.name;
     double value = 2;
     for (const ParameterInfo& info : law.parameters) {
@@ -184,8 +184,8 @@ TEST(JointFriction, EveryLawSlidesAtItsSteadyForce) {
   }
 }
 
-FrictionDescription Sticky() {
-  FrictionDescription friction;
+Friction Sticky() {
+  Friction friction;
   friction.law = "stiction";
   friction.parameters = {{"viscous", 0}, {"coulomb", 3}, {"static", 5}};
   return friction;
@@ -214,7 +214,7 @@ TEST(JointFriction, BreaksAwayAtTheStaticLevelAndSlidesAtCoulombUntilItStops) {
 }
 
 TEST(JointFriction, DahlApproachesItsLevelWithTravelExactlyAtAnyStep) {
-  FrictionDescription friction;
+  Friction friction;
   friction.law = "dahl";
   friction.parameters = {{"coulomb", 4}, {"bristle_stiffness", 100}};
   for (const double h : {0.0005, 0.002}) {
@@ -231,7 +231,7 @@ TEST(JointFriction, DahlApproachesItsLevelWithTravelExactlyAtAnyStep) {
 }
 
 TEST(JointFriction, SlidesWithItsMapsLoadAndSlopeOverEnergy) {
-  FrictionDescription friction = Asymmetric(0.7, 3, 5);
+  Friction friction = Asymmetric(0.7, 3, 5);
   friction.thermal = Thermal{-1, 100};
   friction.viscous_per_energy = 0.2;
   friction.load_gain = 0.1;
@@ -255,7 +255,7 @@ TEST(JointFriction, SlidesWithItsMapsLoadAndSlopeOverEnergy) {
 }
 
 TEST(JointFriction, HoldsWithinTheIntervalThatAMapShifts) {
-  FrictionDescription friction = Asymmetric(0, 3, 3);
+  Friction friction = Asymmetric(0, 3, 3);
   friction.maps = {
       {{{MapQuantity::position, EvenAxis(-1, 1, 3)}}, KernelKind::normalised, {2, 2, 2}}};
   const JointFriction joint = Make(friction);
@@ -269,7 +269,7 @@ TEST(JointFriction, StatesAreThoseThatTheLawNeeds) {
   EXPECT_EQ(StateOf(Asymmetric(1, 1, 1)).size(), 2);
   ASSERT_EQ(StateOf(Sticky()).size(), 3);
   EXPECT_EQ(StateOf(Sticky())[2].name, "slip");
-  FrictionDescription warm = Sticky();
+  Friction warm = Sticky();
   warm.thermal = warm.second_thermal = Thermal{-1, 100};
   ASSERT_EQ(StateOf(warm).size(), 4);
   EXPECT_EQ(StateOf(warm)[2].name, "second energy");

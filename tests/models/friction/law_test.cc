@@ -244,7 +244,7 @@ TEST(LawPart, TellsTheSlopeOfEveryForce) {
 
 TEST(LawPart, TellsTheBristleOfEveryLawThatBringsOne) {
   for (const Law& law : Laws()) {
-    FrictionDescription friction;
+    Friction friction;
     friction.law = law.name;
     friction.parameters.clear();
     for (const ParameterInfo& info : law.parameters)

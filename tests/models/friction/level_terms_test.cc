@@ -11,8 +11,8 @@
 namespace warmjoint {
 namespace {
 
-FrictionDescription With(std::vector<FrictionMap> maps, double load_gain = 0) {
-  FrictionDescription friction;
+Friction With(std::vector<FrictionMap> maps, double load_gain = 0) {
+  Friction friction;
   friction.law = "coulomb";
   friction.parameters = {{"coulomb", 10}};
   friction.maps = std::move(maps);
@@ -63,7 +63,7 @@ TEST(LevelTerms, TakeNoMapThatWouldKeepThemForMinutes) {
     map.weights.assign(map.size(), 0.1);
     return map;
   };
-  const auto refusal = [](FrictionDescription friction) -> std::string {
+  const auto refusal = [](Friction friction) -> std::string {
     friction.thermal = Thermal{-0.4, 900};
     try {
       CheckFriction(friction, {"friction.json"});

@@ -1,13 +1,13 @@
 #include "models/friction/row_table.h"
 
 #include <gtest/gtest.h>
+#include <warmjoint/friction.h>
 
 #include <cmath>
 #include <numbers>
 
 #include "models/foundation/random_stream.h"
 #include "models/friction/evaluate_map.h"
-#include "models/friction/friction_map.h"
 
 namespace warmjoint {
 namespace {

@@ -1,6 +1,5 @@
-#include "models/friction/settled_energy.h"
-
 #include <gtest/gtest.h>
+#include <warmjoint/friction_model.h>
 
 #include <cmath>
 #include <numbers>
@@ -10,8 +9,8 @@
 namespace warmjoint {
 namespace {
 
-FrictionDescription Asymmetric(double gain) {
-  FrictionDescription friction;
+Friction Asymmetric(double gain) {
+  Friction friction;
   friction.law = "asymmetric";
   friction.parameters = {{"viscous", 2}, {"coulomb_positive", 5}, {"coulomb_negative", 7}};
   friction.thermal = Thermal{gain, 30};
@@ -32,7 +31,7 @@ TEST(SettledEnergy, IsTheClosedFormOfALawAlone) {
 }
 
 TEST(SettledEnergy, IsWhereTwoStagesEndUp) {
-  FrictionDescription friction = Asymmetric(-0.2);
+  Friction friction = Asymmetric(-0.2);
   friction.second_thermal = Thermal{-0.1, 300};
   friction.viscous_per_energy = 0.05;
   const auto energy = SettledEnergy(friction, 0.9);
@@ -50,7 +49,7 @@ TEST(SettledEnergy, IsWhereTwoStagesEndUp) {
 }
 
 TEST(SettledEnergy, AveragesAMapOverTheMotorsTurn) {
-  FrictionDescription friction = Asymmetric(-0.3);
+  Friction friction = Asymmetric(-0.3);
   friction.gear = 50;
   FrictionMap ripple;
   ripple.axes = {{MapQuantity::motor_position, CircleAxis(2 * std::numbers::pi, 12)}};
@@ -64,7 +63,7 @@ TEST(SettledEnergy, AveragesAMapOverTheMotorsTurn) {
 }
 
 TEST(SettledEnergy, IsNoneWithoutHeatAndNothingWhereLossesGrowForEver) {
-  FrictionDescription cold = Asymmetric(-1);
+  Friction cold = Asymmetric(-1);
   cold.thermal.reset();
   EXPECT_EQ(SettledEnergy(cold, 1), std::vector<double>{});
   EXPECT_EQ(SettledEnergy(Asymmetric(2), 0.5), std::nullopt);

@@ -11,11 +11,11 @@ TEST(PredictFriction, FollowsTheGoldenClosedLoop) {
   const nlohmann::json& golden = test::Golden().at("closed_sim");
   const double h = 0.25;
   const Thermal thermal = Continuous({golden.at("ke"), golden.at("te")}, h);
-  const FrictionDescription friction{"viscous_coulomb",
-                                     {{"viscous", golden.at("kv")}, {"coulomb", golden.at("kc")}},
-                                     thermal,
-                                     0,
-                                     1};
+  const Friction friction{"viscous_coulomb",
+                          {{"viscous", golden.at("kv")}, {"coulomb", golden.at("kc")}},
+                          thermal,
+                          0,
+                          1};
   const Eigen::VectorXd velocity = test::ToVector(golden.at("v"));
   const Measurements motion = test::Record(h, velocity, 0 * velocity);
 
@@ -29,7 +29,7 @@ TEST(PredictFriction, FollowsTheGoldenClosedLoop) {
 }
 
 TEST(PredictFriction, HoldsTheNominalLawWhereNothingWarms) {
-  FrictionDescription friction = test::TableOne();
+  Friction friction = test::TableOne();
   friction.thermal.reset();
   const Eigen::VectorXd velocity = test::AlternatingSpeeds(100, 1, 30);
   const Prediction prediction = PredictFriction(friction, test::Record(1, velocity, 0 * velocity));
@@ -50,7 +50,7 @@ TEST(PredictFriction, SaysWhereFrictionFeedsItself) {
   // warm at 1.2 rad/s for an hour, then creep: E is below the level of slow friction
   Eigen::VectorXd velocity = Eigen::VectorXd::Constant(3600, 1.2);
   velocity.tail(1000).setConstant(0.05);
-  FrictionDescription friction = test::TableOne();
+  Friction friction = test::TableOne();
   friction.parameters["viscous"] = 20;
   const Prediction prediction = PredictFriction(friction, test::Record(1, velocity, 0 * velocity));
   EXPECT_EQ(prediction.feeds_itself, 2600);
@@ -58,7 +58,7 @@ TEST(PredictFriction, SaysWhereFrictionFeedsItself) {
 
 TEST(PredictFriction, BendsTheBristleAsTheTorqueTells) {
   // 1 s at 0.001 rad/s: the bristle of 2000 N.m/rad takes up 2 N.m on the way, from 3 N.m on
-  FrictionDescription friction;
+  Friction friction;
   friction.law = "lugre";
   friction.parameters = {{"viscous", 0},
                          {"coulomb", 15},

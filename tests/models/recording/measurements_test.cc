@@ -1,9 +1,9 @@
 #include "models/recording/measurements.h"
 
 #include <gtest/gtest.h>
+#include <warmjoint/recording.h>
 
 #include "models/recording/sampling.h"
-#include "models/recording/selection.h"
 
 namespace warmjoint {
 namespace {

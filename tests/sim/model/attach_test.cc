@@ -1,7 +1,6 @@
-#include "sim/model/attach.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <warmjoint/attach.h>
 
 #include <cmath>
 #include <fstream>
@@ -263,7 +262,7 @@ TEST_F(Attach, RefusesABallJointAndASecondFriction) {
 }
 
 TEST_F(Attach, RefusesWhatThePluginRefusesAndWritesNothing) {
-  FrictionDescription steep = LightFriction();
+  Friction steep = LightFriction();
   steep.law = "viscous_coulomb";
   steep.parameters = {{"viscous", 1e4}, {"coulomb", 1}};
   EXPECT_THAT(

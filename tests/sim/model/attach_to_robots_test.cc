@@ -1,11 +1,11 @@
 // Friction onto every joint of real robots.
 #include <gtest/gtest.h>
+#include <warmjoint/attach.h>
 
 #include <algorithm>
 #include <cmath>
 #include <ostream>
 
-#include "sim/model/attach.h"
 #include "sim/model/load_model.h"
 #include "tests/sim/model/light_friction.h"
 #include "tests/support/shared_data.h"
@@ -48,7 +48,7 @@ class AttachToRobot : public testing::TestWithParam<RobotFile> {
   std::vector<FrictionForJoint> EveryJoint(const mjModel* m) {
     std::vector<FrictionForJoint> all;
     for (int i = 0; i < m->njnt; ++i) {
-      FrictionDescription friction = LightFriction();
+      Friction friction = LightFriction();
       const double inertia = 1 / m->dof_invweight0[m->jnt_dofadr[i]];
       double& level = friction.parameters["coulomb"];
       level = std::min(level, 1e-3 * inertia / (m->opt.timestep * m->opt.timestep));

@@ -2,16 +2,15 @@
 #pragma once
 
 #include <mujoco/mujoco.h>
+#include <warmjoint/friction.h>
 
 #include <string>
 #include <vector>
 
-#include "models/friction/friction_description.h"
-
 namespace warmjoint::test {
 
-inline FrictionDescription LightFriction() {
-  FrictionDescription friction;
+inline Friction LightFriction() {
+  Friction friction;
   friction.law = "coulomb";
   friction.parameters = {{"coulomb", 0.5}};
   friction.thermal = Thermal{-0.1, 60};

@@ -2,12 +2,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <warmjoint/attach.h>
 
 #include <ostream>
 #include <regex>
 
 #include "models/foundation/atomic_file.h"
-#include "sim/model/attach.h"
 #include "tests/tools/scratch_directory.h"
 
 namespace warmjoint {
@@ -18,7 +18,7 @@ using testing::Not;
 
 /// A friction, printed by the name of its law.
 struct Case {
-  FrictionDescription friction;
+  Friction friction;
 };
 void PrintTo(const Case& of, std::ostream* stream) { *stream << of.friction.law; }
 
@@ -74,23 +74,23 @@ TEST_P(LightJoints, AreRefusedWithATimestepThatIsThenAccepted) {
   EXPECT_EQ(Refusal(options), "");
 }
 
-Case Friction(const std::string& law, std::map<std::string, double> parameters) {
-  FrictionDescription friction;
+Case OfLaw(const std::string& law, std::map<std::string, double> parameters) {
+  Friction friction;
   friction.law = law;
   friction.parameters = std::move(parameters);
   return {friction};
 }
 
 INSTANTIATE_TEST_SUITE_P(Frictions, LightJoints,
-                         testing::Values(Friction("coulomb", {{"coulomb", 6}}),
-                                         Friction("viscous_coulomb",
-                                                  {{"coulomb", 0}, {"viscous", 30}}),
-                                         Friction("lugre", {{"coulomb", 1},
-                                                            {"static", 1},
-                                                            {"viscous", 0},
-                                                            {"stribeck_velocity", 0.1},
-                                                            {"bristle_stiffness", 1e5},
-                                                            {"bristle_damping", 10}})),
+                         testing::Values(OfLaw("coulomb", {{"coulomb", 6}}),
+                                         OfLaw("viscous_coulomb",
+                                               {{"coulomb", 0}, {"viscous", 30}}),
+                                         OfLaw("lugre", {{"coulomb", 1},
+                                                         {"static", 1},
+                                                         {"viscous", 0},
+                                                         {"stribeck_velocity", 0.1},
+                                                         {"bristle_stiffness", 1e5},
+                                                         {"bristle_damping", 10}})),
                          [](const auto& of) { return of.param.friction.law; });
 
 }  // namespace

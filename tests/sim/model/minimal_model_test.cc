@@ -1,6 +1,5 @@
-#include "sim/model/minimal_model.h"
-
 #include <gtest/gtest.h>
+#include <warmjoint/attach.h>
 
 #include "models/foundation/atomic_file.h"
 #include "sim/model/load_model.h"
@@ -12,7 +11,7 @@ namespace {
 class MinimalModelOf : public testing::TestWithParam<JointKind> {};
 
 TEST_P(MinimalModelOf, EitherKindRunsAndIsBraked) {
-  FrictionDescription friction;
+  Friction friction;
   friction.law = "asymmetric";
   friction.parameters = {{"viscous", 203.5}, {"coulomb_positive", 1}, {"coulomb_negative", 2}};
   friction.thermal = Thermal{-0.1, 60};

@@ -2,8 +2,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <warmjoint/attach.h>
 
-#include "sim/model/attach.h"
 #include "sim/model/load_model.h"
 #include "tests/models/recording/temporary_file.h"
 #include "tests/sim/model/light_friction.h"

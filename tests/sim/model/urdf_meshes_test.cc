@@ -2,11 +2,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <warmjoint/attach.h>
 
 #include <fstream>
 
 #include "models/foundation/atomic_file.h"
-#include "sim/model/attach.h"
 #include "sim/model/load_model.h"
 #include "tests/sim/model/light_friction.h"
 #include "tests/tools/scratch_directory.h"

@@ -10,7 +10,7 @@
 namespace warmjoint {
 namespace {
 
-Recording Simulate(const Scenario& scenario) { return MakePlant(scenario)->Run(0); }
+Simulation Simulate(const Scenario& scenario) { return MakePlant(scenario)->Run(0); }
 
 /// What the disturbances add to the torque of Table I.
 Eigen::ArrayXd Added(const Disturbances& disturbances) {
@@ -60,9 +60,9 @@ TEST(Disturbances, UnevenNoiseGrowsWithFrictionAndSpeed) {
 
 TEST(Disturbances, LostSamplesAreGoneByChanceButTheEnds) {
   Scenario scenario = test::Table1();
-  const Recording whole = Simulate(scenario);
+  const Simulation whole = Simulate(scenario);
   scenario.disturbances.faults.lost_samples.fraction = 0.1;
-  const Recording left = Simulate(scenario);
+  const Simulation left = Simulate(scenario);
   // of 3600 samples 360 with sd sqrt(3600 * 0.09) = 18
   EXPECT_NEAR(static_cast<double>(left.measurements.size()), 3240, 5 * 18);
   EXPECT_EQ(left.measurements.time[0], whole.measurements.time[0]);
@@ -98,7 +98,7 @@ TEST(Disturbances, GravityFollowsThePosition) {
   Scenario scenario = test::Table1();
   scenario.noise.torque = 0;
   scenario.disturbances.gravity = {5, -2};
-  const Recording recording = Simulate(scenario);
+  const Simulation recording = Simulate(scenario);
   const Measurements& log = recording.measurements;
   for (Eigen::Index i = 0; i < log.size(); ++i) {
     const double gravity = 5 * std::sin(log.position[i]) - 2 * std::cos(log.position[i]);
@@ -110,7 +110,7 @@ TEST(Disturbances, AmbientTemperatureMovesTheLevel) {
   Scenario scenario = test::Table1();
   scenario.friction.thermal.reset();
   scenario.disturbances.ambient_drift = {2, 3600};
-  const Recording recording = Simulate(scenario);
+  const Simulation recording = Simulate(scenario);
   const double v = recording.truth.velocity[900];
   EXPECT_NEAR(std::abs(recording.truth.force[900]), 5 * std::abs(v) + 15 + 2, 1e-12);
 }
@@ -119,7 +119,7 @@ TEST(Disturbances, LoadRaisesTheLevelAndIsLogged) {
   Scenario scenario = test::Table1();
   scenario.friction.thermal.reset();
   scenario.disturbances.load_change = {-10, 0.1, 100};
-  const Recording recording = Simulate(scenario);
+  const Simulation recording = Simulate(scenario);
   ASSERT_TRUE(recording.measurements.load);
   const Eigen::ArrayXd cold = 5 * recording.truth.velocity.array().abs() + 15;
   for (Eigen::Index i = 0; i < 200; ++i) {
@@ -140,7 +140,7 @@ TEST(Disturbances, TwoEqualHeatsAreOneOfTwiceTheGain) {
 }
 
 /// Table I with what `set` sets, without noise of the torque.
-Recording Disturbed(const std::function<void(Disturbances&)>& set) {
+Simulation Disturbed(const std::function<void(Disturbances&)>& set) {
   Scenario scenario = test::Table1();
   scenario.noise.torque = 0;
   set(scenario.disturbances);
@@ -198,9 +198,9 @@ TEST(Disturbances, HiddenForcesFollowTheMotionAndNotItsSensor) {
     hidden.hysteresis = {3, 0.5};
     hidden.ripple = {1, 1.3};
     hidden.spring = {0.5};
-    const Recording exact = Simulate(scenario);
+    const Simulation exact = Simulate(scenario);
     scenario.noise.position = 0.02;
-    const Recording noisy = Simulate(scenario);
+    const Simulation noisy = Simulate(scenario);
     EXPECT_NE(noisy.measurements.position, exact.measurements.position);
     EXPECT_EQ(noisy.measurements.torque, exact.measurements.torque);
   }

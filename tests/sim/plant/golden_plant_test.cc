@@ -21,7 +21,7 @@ TEST(GoldenPlant, LogsTheRecordingOfEveryLawThatSlidesSteadily) {
     scenario.noise.torque = 0;
     scenario.sampling.rate = 1 / golden.course.step;
     scenario.duration = golden.course.step * static_cast<double>(golden.force.size());
-    const Recording recording = MakePlant(scenario)->Run(0);
+    const Simulation recording = MakePlant(scenario)->Run(0);
     EXPECT_EQ(recording.measurements.velocity, golden.course.velocity) << name;
     // the same equations: rounding of 600 steps at 20 N.m
     EXPECT_LT((recording.measurements.torque - golden.force).cwiseAbs().maxCoeff(), 2e-12) << name;

@@ -13,12 +13,12 @@ namespace {
 
 using test::Table1;
 
-Recording Simulate(const Scenario& scenario, std::uint64_t realization = 0) {
+Simulation Simulate(const Scenario& scenario, std::uint64_t realization = 0) {
   return MakePlant(scenario)->Run(realization);
 }
 
 TEST(IdealPlant, StoresOneSampleForEachPeriod) {
-  const Recording recording = Simulate(Table1());
+  const Simulation recording = Simulate(Table1());
   const Measurements& log = recording.measurements;
   ASSERT_EQ(log.size(), 3600);
   EXPECT_EQ(log.time[0], 0);
@@ -74,7 +74,7 @@ TEST(IdealPlant, StaysBetweenTheLimitsItTravels) {
 }
 
 TEST(IdealPlant, AddsWhiteNoiseOfTheGivenDeviation) {
-  const Recording recording = Simulate(Table1());
+  const Simulation recording = Simulate(Table1());
   const Eigen::ArrayXd noise = recording.measurements.torque - recording.truth.force;
   const Eigen::Index n = noise.size();
   const double variance = 0.25;
@@ -87,7 +87,7 @@ TEST(IdealPlant, AddsWhiteNoiseOfTheGivenDeviation) {
 TEST(IdealPlant, DrawsTheNoisesIndependently) {
   Scenario scenario = Table1();
   scenario.noise = {1.0, 1.0, 1.0};
-  const Recording recording = Simulate(scenario);
+  const Simulation recording = Simulate(scenario);
   const Measurements exact = Simulate(Table1()).measurements;
   const Eigen::ArrayXd torque = recording.measurements.torque - recording.truth.force;
   const Eigen::ArrayXd velocity = recording.measurements.velocity - recording.truth.velocity;
@@ -149,7 +149,7 @@ TEST(IdealPlant, FollowsCornersWithInertia) {
   scenario.disturbances.hidden.inertia.inertia = 2;
   scenario.sampling.rate = 10;
   scenario.duration = 2;
-  const Recording recording = MakeIdealPlant(scenario)->Run(0);
+  const Simulation recording = MakeIdealPlant(scenario)->Run(0);
   const Measurements& m = recording.measurements;
 
   // 5 v + 15 + 2 a; at the corner the slopes of both sides count half
@@ -165,7 +165,7 @@ TEST(IdealPlant, ChangesSpeedsByRamps) {
   scenario.sampling.rate = 10;
   scenario.duration = 600;
   scenario.controller.acceleration = 0.5;
-  const Recording ramped = MakePlant(scenario)->Run(0);
+  const Simulation ramped = MakePlant(scenario)->Run(0);
   const Measurements& m = ramped.measurements;
   const Eigen::VectorXd steps = m.velocity.tail(m.size() - 1) - m.velocity.head(m.size() - 1);
   EXPECT_LE(steps.cwiseAbs().maxCoeff(), 0.05 + 1e-12);
@@ -178,7 +178,7 @@ TEST(IdealPlant, ChangesSpeedsByRamps) {
 
   // the speeds themselves are those of the plan with jumps, which each ramp leads to
   scenario.controller.acceleration = 0;
-  const Recording jumping = MakePlant(scenario)->Run(0);
+  const Simulation jumping = MakePlant(scenario)->Run(0);
   for (Eigen::Index i = 0; i < m.size(); i += 200) {
     EXPECT_NEAR(m.velocity[i], jumping.measurements.velocity[i], 1e-9);
   }

@@ -6,6 +6,7 @@
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
+#include "models/friction/thermal.h"
 
 namespace warmjoint {
 namespace {
@@ -31,12 +32,12 @@ Scenario Table1() {
   return scenario;
 }
 
-Recording Record(const Scenario& scenario, std::uint64_t realization = 0) {
+Simulation Record(const Scenario& scenario, std::uint64_t realization = 0) {
   return MakeMujocoPlant(scenario)->Run(realization);
 }
 
 TEST(MujocoPlant, DrivesWithTheTorqueOfFrictionAtConstantSpeed) {
-  const Recording r = Record(Table1());
+  const Simulation r = Record(Table1());
   ASSERT_EQ(r.measurements.size(), 200);
   for (Eigen::Index i = 0; i < 200; ++i) {
     ASSERT_EQ(r.measurements.time[i], static_cast<double>(i));
@@ -48,7 +49,7 @@ TEST(MujocoPlant, DrivesWithTheTorqueOfFrictionAtConstantSpeed) {
 }
 
 TEST(MujocoPlant, RecordsFrictionLossAndEnergyOfTheEngine) {
-  const Recording r = Record(Table1());
+  const Simulation r = Record(Table1());
   const DiscreteThermal step = Discretise({-3, 600}, 1);
   double energy = 0;
   for (Eigen::Index i = 0; i < 200; ++i) {
@@ -69,10 +70,10 @@ TEST(MujocoPlant, RepeatsItselfBitForBit) {
   scenario.duration = 30;
   scenario.noise = {0.5, 0.01, 0.001};
   const auto plant = MakeMujocoPlant(scenario);
-  const Recording first = plant->Run(3);
+  const Simulation first = plant->Run(3);
   plant->Run(4);
-  const Recording again = plant->Run(3);
-  const Recording other = Record(scenario, 3);
+  const Simulation again = plant->Run(3);
+  const Simulation other = Record(scenario, 3);
   EXPECT_EQ(first.measurements.torque, again.measurements.torque);
   EXPECT_EQ(first.measurements.torque, other.measurements.torque);
   EXPECT_EQ(first.measurements.position, other.measurements.position);
@@ -81,9 +82,9 @@ TEST(MujocoPlant, RepeatsItselfBitForBit) {
 
 TEST(MujocoPlant, AddsNoiseToTheLogAndNotToTheTruth) {
   Scenario scenario = Table1();
-  const Recording clean = Record(scenario);
+  const Simulation clean = Record(scenario);
   scenario.noise.torque = 0.5;
-  const Recording noisy = Record(scenario);
+  const Simulation noisy = Record(scenario);
   EXPECT_EQ(noisy.truth.force, clean.truth.force);
   const Eigen::VectorXd noise = noisy.measurements.torque - clean.measurements.torque;
   // the mean square of 200 samples has a standard deviation of 10 %: five of them
@@ -95,7 +96,7 @@ TEST(MujocoPlant, StandsStillInRests) {
   Scenario scenario = Table1();
   scenario.motion.rests = Rests{20, 20};
   scenario.duration = 60;
-  const Recording r = Record(scenario);
+  const Simulation r = Record(scenario);
   for (Eigen::Index i = 22; i < 38; ++i) {
     EXPECT_LT(std::abs(r.truth.velocity[i]), 1e-9);
     EXPECT_LT(r.truth.loss[i], 1e-9);

@@ -56,7 +56,7 @@ class RichFriction : public testing::TestWithParam<const char*> {};
 TEST_P(RichFriction, IsTheForceOfTheModelAtEverySampleThatSlides) {
   const Scenario scenario = Rich(GetParam());
   const JointFriction model(scenario.friction);
-  const Recording recording = MakePlant(scenario)->Run(0);
+  const Simulation recording = MakePlant(scenario)->Run(0);
   const Truth& truth = recording.truth;
   const Measurements& log = recording.measurements;
   ASSERT_TRUE(log.load) << "friction that depends on the load logs it";

@@ -8,8 +8,8 @@ namespace warmjoint {
 namespace {
 
 /// Two hours at 1 Hz; position, velocity and torque are plain functions of time.
-Recording Example() {
-  Recording recording;
+Simulation Example() {
+  Simulation recording;
   Measurements& log = recording.measurements;
   log.time = Eigen::VectorXd::LinSpaced(7201, 0, 7200);
   log.position = 0.1 * log.time;
@@ -21,8 +21,8 @@ Recording Example() {
   return recording;
 }
 
-Recording Spoilt(const SensorFaults& faults) {
-  Recording recording = Example();
+Simulation Spoilt(const SensorFaults& faults) {
+  Simulation recording = Example();
   SpoilLog(faults, recording);
   return recording;
 }
@@ -92,7 +92,7 @@ TEST(SensorFaults, ScalesAndLateTorque) {
 TEST(SensorFaults, WhatIsCutIsGoneFromLogAndTruth) {
   SensorFaults faults;
   faults.cut_start.time = 20;
-  Recording recording = Spoilt(faults);
+  Simulation recording = Spoilt(faults);
   EXPECT_EQ(recording.measurements.size(), 7181);
   EXPECT_EQ(recording.measurements.time[0], 20);
   EXPECT_EQ((*recording.measurements.load)[0], 20);
@@ -105,7 +105,7 @@ TEST(SensorFaults, WhatIsCutIsGoneFromLogAndTruth) {
 TEST(SensorFaults, GapsLeaveNoSamples) {
   SensorFaults faults;
   faults.gap = {100, 50};
-  const Recording recording = Spoilt(faults);
+  const Simulation recording = Spoilt(faults);
   EXPECT_EQ(recording.measurements.size(), 7151);
   EXPECT_EQ(recording.measurements.time[99], 99);
   EXPECT_EQ(recording.measurements.time[100], 150);

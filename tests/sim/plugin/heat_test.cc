@@ -97,15 +97,15 @@ TEST(PluginHeat, StartsWarmInBothStagesFromAKeyframe) {
 }
 
 /// Friction with each number beside the law and the first stage by itself, and with all of them.
-std::vector<FrictionDescription> HeatedInEveryWay() {
-  FrictionDescription plain = FrictionsOfEveryLaw()[1];
+std::vector<Friction> HeatedInEveryWay() {
+  Friction plain = FrictionsOfEveryLaw()[1];
   for (const FrictionOption& option : FrictionOptions()) plain.*option.value = 0;
-  std::vector<FrictionDescription> all{plain};
-  FrictionDescription rich = plain;
+  std::vector<Friction> all{plain};
+  Friction rich = plain;
   rich.second_thermal = Thermal{-0.01, 0.5};
   for (const FrictionOption& option : FrictionOptions()) {
     // of the sign that is allowed beside the gain
-    FrictionDescription one = plain;
+    Friction one = plain;
     for (const double value : {0.02, -0.02}) {
       one.*option.value = value;
       try {
@@ -122,7 +122,7 @@ std::vector<FrictionDescription> HeatedInEveryWay() {
 }
 
 /// Steps an arm that slides, is held and stands still, and holds its energies to Heat.
-void ExpectHeat(const FrictionDescription& friction, Form form) {
+void ExpectHeat(const Friction& friction, Form form) {
   const Model m = MustCompile(SensedArmXml(friction, form));
   const Data d(mj_makeData(m.get()));
   JointFriction joint(friction);
@@ -157,7 +157,7 @@ void ExpectHeat(const FrictionDescription& friction, Form form) {
 }
 
 TEST(PluginHeat, IsThatOfHeatWhateverNumbersShapeIt) {
-  for (const FrictionDescription& friction : HeatedInEveryWay()) {
+  for (const Friction& friction : HeatedInEveryWay()) {
     for (const Form form : {Form::actuator, Form::passive}) ExpectHeat(friction, form);
   }
 }

@@ -16,7 +16,7 @@ std::string Initial(const std::string& value) {
 }
 
 /// Without ambient, so that a joint at rest only cools, by 3 s.
-FrictionDescription Warm() { return FrictionsOfEveryLaw()[0]; }
+Friction Warm() { return FrictionsOfEveryLaw()[0]; }
 
 TEST(PluginInitialEnergy, IsWhereTheHeatBeginsAfterEachReset) {
   const std::string more = Initial(R"({"j0": -0.4, "j2": -0.1})");
@@ -39,7 +39,7 @@ TEST(PluginInitialEnergy, IsWhereTheHeatBeginsAfterEachReset) {
 }
 
 TEST(PluginInitialEnergy, ReachesBothStages) {
-  FrictionDescription friction = Warm();
+  Friction friction = Warm();
   friction.second_thermal = Thermal{-0.01, 0.5};
   for (const Form form : {Form::actuator, Form::passive}) {
     const Model m = MustCompile(ArmXml(friction, form, "RK4", Initial("[-0.3, -0.2]")));
@@ -83,13 +83,13 @@ TEST(PluginInitialEnergy, IsOverruledByAKeyframesAct) {
 }
 
 TEST(PluginInitialEnergy, IsRefusedWithNameAndReason) {
-  const auto error = [](const FrictionDescription& friction, const std::string& value) {
+  const auto error = [](const Friction& friction, const std::string& value) {
     return Compile(ArmXml(friction, Form::passive, "Euler", Initial(value))).error;
   };
   EXPECT_THAT(error(Warm(), "x"), HasSubstr("initial_energy is 'x'; it must be a number"));
   EXPECT_THAT(error(Warm(), R"({"j4": 1})"),
               HasSubstr("initial_energy names 'j4', which joints does not"));
-  FrictionDescription friction = Warm();
+  Friction friction = Warm();
   friction.second_thermal = Thermal{-0.01, 0.5};
   EXPECT_THAT(error(friction, "-1"), HasSubstr("give a list of two numbers"));
   friction.thermal.reset();

@@ -29,8 +29,8 @@ constexpr char kTwoLinks[] = R"(
   </worldbody>
 </mujoco>)";
 
-FrictionDescription Shoulder() {
-  FrictionDescription friction;
+Friction Shoulder() {
+  Friction friction;
   friction.law = "coulomb";
   friction.parameters = {{"coulomb", 3}};
   friction.thermal = Thermal{-0.2, 5};
@@ -38,8 +38,8 @@ FrictionDescription Shoulder() {
 }
 
 /// Another law, with another number of states, that feeds itself once warm.
-FrictionDescription Elbow() {
-  FrictionDescription friction;
+Friction Elbow() {
+  Friction friction;
   friction.law = "stiction";
   friction.parameters = {{"viscous", 0.1}, {"coulomb", 0.5}, {"static", 0.7}};
   friction.thermal = Thermal{-3, 0.2};

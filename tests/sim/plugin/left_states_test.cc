@@ -19,7 +19,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 std::vector<BoundJoint> JointsAt(const std::vector<int>& begins, const std::vector<int>& states) {
   std::vector<BoundJoint> joints;
   for (size_t i = 0; i < begins.size(); ++i) {
-    FrictionDescription friction = FrictionsOfEveryLaw()[0];
+    Friction friction = FrictionsOfEveryLaw()[0];
     if (states[i] == 3) friction.second_thermal = Thermal{-0.01, 0.5};
     BoundJoint joint{.friction = JointFriction(friction)};
     joint.state = begins[i];

@@ -9,8 +9,8 @@ namespace {
 
 using namespace test;
 
-FrictionDescription Coulomb(double level) {
-  FrictionDescription friction = FrictionsOfEveryLaw()[0];
+Friction Coulomb(double level) {
+  Friction friction = FrictionsOfEveryLaw()[0];
   friction.parameters["coulomb"] = level;
   return friction;
 }
@@ -104,8 +104,8 @@ TEST(PluginModels, AModelThatIsOverwrittenInPlaceIsTheOneWhoseStatesGoOn) {
 }
 
 /// With a map whose weights, all but one, are of this many N.m.
-FrictionDescription Mapped(double weight, double other) {
-  FrictionDescription friction = FrictionsOfEveryLaw()[2];
+Friction Mapped(double weight, double other) {
+  Friction friction = FrictionsOfEveryLaw()[2];
   FrictionMap map{{{MapQuantity::motor_position, CircleAxis(6.283185307179586, 36)},
                    {MapQuantity::velocity, SpeedAxis(0.2, 2, 3)}},
                   KernelKind::normalised,

@@ -21,8 +21,8 @@ using namespace test;
 using ::testing::HasSubstr;
 
 /// Law (3) with heat, a ripple over the motor's angle, and a level that grows with the load.
-FrictionDescription Rippled() {
-  FrictionDescription friction;
+Friction Rippled() {
+  Friction friction;
   friction.law = "asymmetric";
   friction.parameters = {{"viscous", 0.4}, {"coulomb_positive", 3}, {"coulomb_negative", 4}};
   friction.thermal = Thermal{-0.3, 50};
@@ -48,7 +48,7 @@ std::string ActuatorXml(const std::string& configs) {
 }
 
 /// The sections that `attach` writes.
-std::string InlineXml(const FrictionDescription& friction) {
+std::string InlineXml(const Friction& friction) {
   const std::string sections = FrictionSections({"hinge", friction});
   return sections.substr(sections.find("<actuator>"));
 }
@@ -66,7 +66,7 @@ std::vector<double> Swing(const mjModel* m) {
 }
 
 TEST(PluginMaps, SlideAtTheForceOfTheModel) {
-  const FrictionDescription friction = Rippled();
+  const Friction friction = Rippled();
   const JointFriction expected(friction);
   const Model m = MustCompile(LinkXml(InlineXml(friction), kSwing, R"(armature="1")"));
   const Data d(mj_makeData(m.get()));

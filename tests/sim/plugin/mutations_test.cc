@@ -54,7 +54,7 @@ std::string MutateNumbers(std::string text, RandomStream& random) {
 }
 
 /// The text of `joints` in ArmXml, mutated.
-std::string MutatedArm(const FrictionDescription& friction, Form form, RandomStream& random) {
+std::string MutatedArm(const Friction& friction, Form form, RandomStream& random) {
   std::string xml = ArmXml(friction, form, "implicitfast");
   const std::string begin = R"(key="joints" value=")";
   const size_t from = xml.find(begin) + begin.size(), to = xml.find('"', from);
@@ -67,7 +67,7 @@ std::string MutatedArm(const FrictionDescription& friction, Form form, RandomStr
 }
 
 TEST(PluginMutations, AreRefusedInASentenceOrStepToFiniteStates) {
-  const std::vector<FrictionDescription> frictions = FrictionsOfEveryLaw();
+  const std::vector<Friction> frictions = FrictionsOfEveryLaw();
   int refused = 0, taken = 0;
   for (std::uint64_t run = 0; run < 1500; ++run) {
     RandomStream random({12, run}, Stream::test);

@@ -20,8 +20,8 @@ struct DeleteBatch {
   void operator()(mjBatch* batch) const { mjb_deleteBatch(batch); }
 };
 
-FrictionDescription Law(double positive, double viscous, double gain) {
-  FrictionDescription friction;
+Friction Law(double positive, double viscous, double gain) {
+  Friction friction;
   friction.law = "asymmetric";
   friction.parameters = {
       {"viscous", viscous}, {"coulomb_positive", positive}, {"coulomb_negative", 0.9}};
@@ -73,7 +73,7 @@ TEST(PluginNumbers, InArraysActAsTheSameInTheAttributes) {
 
 TEST(PluginNumbers, OfTheLoadInAnArrayActAsTheSameInTheAttributes) {
   for (const Form form : {Form::actuator, Form::passive}) {
-    FrictionDescription friction = Law(0.3, 0.1, -0.02);
+    Friction friction = Law(0.3, 0.1, -0.02);
     friction.load_gain = 0.05;
     const Model array =
         MustCompile(WithArrays(ArmXml(friction, form, "implicitfast"),

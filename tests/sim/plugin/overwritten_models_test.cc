@@ -17,7 +17,7 @@ class PluginOverwritten : public testing::TestWithParam<std::tuple<Form, const c
   }
 
   Model Arm(double level) const {
-    FrictionDescription friction = FrictionsOfEveryLaw()[0];
+    Friction friction = FrictionsOfEveryLaw()[0];
     friction.parameters["coulomb"] = level;
     return MustCompile(ArmXml(friction, std::get<0>(GetParam()), std::get<1>(GetParam())));
   }

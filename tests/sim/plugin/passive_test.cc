@@ -35,7 +35,7 @@ double Difference(const Model& a, const Model& b, double seconds, double ambient
 constexpr const char* kIntegrators[] = {"Euler", "implicit", "implicitfast", "discrete", "RK4"};
 
 /// What the README says of a law under an integrator, after both forms of it have moved an arm alike.
-std::string TryBothForms(const FrictionDescription& friction, const char* integrator) {
+std::string TryBothForms(const Friction& friction, const char* integrator) {
   const Model a = MustCompile(ArmXml(friction, Form::actuator, integrator));
   const Model b = MustCompile(ArmXml(friction, Form::passive, integrator));
   if (!a || !b) return "refused";
@@ -49,7 +49,7 @@ TEST(PluginForms, MoveAlikeWithEveryLawAndIntegratorAsTheReadmeSays) {
   std::string table = "| law |";
   for (const char* integrator : kIntegrators) table += fmt::format(" {} |", integrator);
   table += "\n|---|---|---|---|---|---|\n";
-  for (const FrictionDescription& friction : FrictionsOfEveryLaw()) {
+  for (const Friction& friction : FrictionsOfEveryLaw()) {
     table += fmt::format("| {} |", friction.law);
     for (const char* integrator : kIntegrators) {
       table += fmt::format(" {} |", TryBothForms(friction, integrator));
@@ -88,7 +88,7 @@ double Sensitivity(const Model& m, double seconds) {
 }
 
 TEST(PluginForms, MoveAlikeForAMinuteUnderGravityAsFarAsTheArmIsPredictable) {
-  const FrictionDescription friction = FrictionsOfEveryLaw()[2];
+  const Friction friction = FrictionsOfEveryLaw()[2];
   const Model a = MustCompile(ArmXml(friction, Form::actuator, "implicitfast"));
   const Model b = MustCompile(ArmXml(friction, Form::passive, "implicitfast"));
   EXPECT_LT(Difference(a, b, 20, 0), 1e-12);
@@ -121,7 +121,7 @@ TEST(PluginPassive, WorksBesideALimitOfTheMotorsForce) {
 }
 
 TEST(PluginPassive, RefusesJointsThatItCannotServe) {
-  const FrictionDescription friction = FrictionsOfEveryLaw()[0];
+  const Friction friction = FrictionsOfEveryLaw()[0];
   const auto error = [&](const std::string& from, const std::string& to) {
     std::string xml = ArmXml(friction, Form::passive, "Euler");
     const size_t at = xml.find(from);

@@ -15,8 +15,7 @@ namespace {
 using namespace test;
 
 /// The arm with sensors of its friction, at a step, s.
-Model SensedArm(const FrictionDescription& friction, Form form, const std::string& integrator,
-                double step) {
+Model SensedArm(const Friction& friction, Form form, const std::string& integrator, double step) {
   std::string xml = ArmXml(friction, form, integrator);
   const std::string timestep = R"(timestep="0.001")";
   xml.replace(xml.find(timestep), timestep.size(), fmt::format(R"(timestep="{}")", step));
@@ -58,7 +57,7 @@ class PluginPassivity : public testing::TestWithParam<const char*> {};
 
 TEST_P(PluginPassivity, TakesEnergyForAMinuteWithEveryLawStepAndForm) {
   std::uint64_t run = 0;
-  for (const FrictionDescription& friction : FrictionsOfEveryLaw()) {
+  for (const Friction& friction : FrictionsOfEveryLaw()) {
     for (const double step : {0.0005, 0.001, 0.002, 0.005}) {
       for (const Form form : {Form::actuator, Form::passive}) {
         const Model m = SensedArm(friction, form, GetParam(), step);

@@ -24,7 +24,7 @@ ModelPtr WithFriction(const test::Robot& robot, double timestep, mjtIntegrator i
   const std::vector<std::string> joints = SpecNames(*spec, mjOBJ_JOINT);
   std::vector<FrictionForJoint> frictions;
   for (size_t i = 0; i < joints.size(); ++i) {
-    FrictionDescription friction;
+    Friction friction;
     friction.law = "coulomb";
     friction.parameters = {{"coulomb", robot.level[i]}};
     frictions.push_back({joints[i], friction});

@@ -108,7 +108,7 @@ test::Model Finger(double stiffness, FrictionForm form) {
           stiffness)
           .c_str(),
       nullptr, error, sizeof(error)));
-  FrictionDescription friction;
+  Friction friction;
   friction.law = "coulomb";
   friction.parameters = {{"coulomb", 0.005 * stiffness}};
   AddFriction(*spec, {{"a", friction}, {"b", friction}, {"c", friction}}, {"finger"}, form);
@@ -151,7 +151,7 @@ ModelPtr Holding(const test::Robot& robot, double step, mjtIntegrator integrator
   const ModelPtr bare = CompileModel(*spec, {robot.path});
   std::vector<FrictionForJoint> frictions;
   for (int i = 0; i < bare->njnt; ++i) {
-    FrictionDescription friction;
+    Friction friction;
     friction.law = "coulomb";
     const double give = bare->jnt_type[i] == mjJNT_SLIDE ? 0.002 : 0.02;
     friction.parameters = {{"coulomb", give * kLoneBristles.stiffness *

@@ -20,10 +20,10 @@ enum class Form { actuator, passive };
 
 /// Frictions of every law, with loads, ambient, two stages and maps among them; warm within
 /// seconds.
-inline std::vector<FrictionDescription> FrictionsOfEveryLaw() {
-  std::vector<FrictionDescription> all;
+inline std::vector<Friction> FrictionsOfEveryLaw() {
+  std::vector<Friction> all;
   const auto add = [&](const char* law, const std::map<std::string, double>& parameters) {
-    FrictionDescription friction;
+    Friction friction;
     friction.law = law;
     friction.parameters = parameters;
     friction.thermal = Thermal{-0.02, 3};
@@ -68,8 +68,8 @@ inline std::vector<FrictionDescription> FrictionsOfEveryLaw() {
 }
 
 /// The arm's MJCF with that friction on all three joints, and a motor on each.
-inline std::string ArmXml(const FrictionDescription& friction, Form form,
-                          const std::string& integrator, const std::string& more = "") {
+inline std::string ArmXml(const Friction& friction, Form form, const std::string& integrator,
+                          const std::string& more = "") {
   nlohmann::json joints;
   std::string bodies, motors, frictions, ends;
   for (int i = 0; i < kArmJoints; ++i) {
@@ -99,7 +99,7 @@ inline std::string ArmXml(const FrictionDescription& friction, Form form,
 }
 
 /// The same, whose friction has the sensor "s". object: attributes of an object that it names, or none.
-inline std::string SensedArmXml(const FrictionDescription& friction, Form form,
+inline std::string SensedArmXml(const Friction& friction, Form form,
                                 const std::string& object = "") {
   std::string xml = ArmXml(friction, form, "implicitfast");
   return xml.insert(xml.rfind("</mujoco>"),

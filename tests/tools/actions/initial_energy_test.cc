@@ -14,8 +14,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-FrictionDescription Warm(bool two_stages) {
-  FrictionDescription friction;
+Friction Warm(bool two_stages) {
+  Friction friction;
   friction.law = "viscous_coulomb";
   friction.parameters = {{"viscous", 5}, {"coulomb", 15}};
   friction.thermal = Thermal{-3, 600};

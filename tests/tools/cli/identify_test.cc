@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <warmjoint/friction.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "models/foundation/atomic_file.h"
-#include "models/friction/friction_description.h"
 #include "models/friction/friction_json.h"
 #include "tests/support/folders.h"
 #include "tests/support/shared_data.h"
@@ -42,7 +42,7 @@ TEST(Identify, WritesTheContractsJsonAndAFrictionFile) {
   EXPECT_EQ(estimate.at("parameters").at("coulomb").at("interval95").size(), 2u);
   EXPECT_EQ(estimate.at("metrics").at("n"), 480);
   EXPECT_LT(estimate.at("holdout").at("n").get<int>(), 480);
-  EXPECT_EQ(ReadFrictionFile(output).law, "viscous_coulomb");
+  EXPECT_EQ(ReadFriction(output).law, "viscous_coulomb");
 }
 
 TEST(Identify, ReadsStandardInput) {

@@ -1,12 +1,11 @@
 // A recording of warm friction and an estimate of it, for tests of pictures.
 #pragma once
 
-#include "identification/estimate.h"
-#include "identification/metrics.h"
+#include <warmjoint/estimate.h>
+#include <warmjoint/recording.h>
+
 #include "models/foundation/random_stream.h"
 #include "models/recording/course_of.h"
-#include "models/recording/measurements.h"
-#include "models/recording/selection.h"
 
 namespace warmjoint::report {
 
@@ -39,7 +38,7 @@ struct WarmRecording {
 
  private:
   void Identify(RandomStream& random) {
-    estimate.friction = FrictionDescription{};
+    estimate.friction = Friction{};
     estimate.friction->parameters = {{"viscous", 5}, {"coulomb", 15}};
     estimate.friction->thermal = Thermal{-3, 600};
     prediction = PredictFriction(*estimate.friction, measurements);

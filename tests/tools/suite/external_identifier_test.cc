@@ -2,11 +2,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <warmjoint/prepared_log.h>
+#include <warmjoint/recording.h>
 
 #include <fstream>
 
-#include "identification/preparation/prepare.h"
-#include "identification/preparation/select.h"
 #include "models/foundation/bad_input.h"
 #include "tests/tools/scratch_directory.h"
 #include "tools/terminal/shell_words.h"

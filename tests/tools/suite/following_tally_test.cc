@@ -35,8 +35,8 @@ TEST(FollowingTally, TellsTheWorstInWhateverOrder) {
 }
 
 TEST(FollowingTally, NamesTheStepWhereTheDriveNeedsAnother) {
-  EXPECT_THAT(NotFollowingInWords({0.2, 20, 150, 0}), Not(HasSubstr("timestep")));
-  EXPECT_THAT(NotFollowingInWords({0.2, 20, 300, 0.0005}),
+  EXPECT_THAT((Following{0.2, 20, 150, 0}.Words()), Not(HasSubstr("timestep")));
+  EXPECT_THAT((Following{0.2, 20, 300, 0.0005}.Words()),
               HasSubstr("set controller.bandwidth to 300 rad/s and timestep to 0.0005 s"));
 }
 

@@ -1,11 +1,12 @@
 // An estimate as its pictures need it.
 #pragma once
 
+#include <warmjoint/estimate.h>
+#include <warmjoint/prepared_log.h>
+#include <warmjoint/recording.h>
+
 #include <optional>
 
-#include "identification/estimate.h"
-#include "identification/preparation/prepared_log.h"
-#include "models/recording/measurements.h"
 #include "tools/report/figures/fit_view.h"
 
 namespace warmjoint::report {

@@ -1,10 +1,10 @@
 // What an estimate has to say, as sentences.
 #pragma once
 
+#include <warmjoint/estimate.h>
+
 #include <string>
 #include <vector>
-
-#include "identification/estimate.h"
 
 namespace warmjoint::inline tools {
 

@@ -1,18 +1,17 @@
 #include "tools/report/estimate/shown_parameters.h"
 
 #include <fmt/format.h>
+#include <warmjoint/friction.h>
 
 #include <algorithm>
 #include <cmath>
-
-#include "models/friction/law.h"
 
 namespace warmjoint::inline tools {
 namespace {
 
 /// Whether only the prior of a map tells this parameter.
 bool IsShared(const Estimate& estimate, const EstimatedParameter& one) {
-  if (estimate.at_speeds.empty() || one.interval95) return false;
+  if (estimate.friction_at_speeds.empty() || one.interval95) return false;
   const Law* law = estimate.friction ? FindLaw(estimate.friction->law) : nullptr;
   return law && std::ranges::any_of(law->parameters, [&](const ParameterInfo& info) {
            return info.name == one.name;
@@ -22,7 +21,7 @@ bool IsShared(const Estimate& estimate, const EstimatedParameter& one) {
 /// Friction at each of the speeds.
 std::vector<EstimatedParameter> AtSpeeds(const Estimate& estimate) {
   std::vector<EstimatedParameter> rows;
-  for (const FrictionAtSpeed& one : estimate.at_speeds) {
+  for (const FrictionAtSpeed& one : estimate.friction_at_speeds) {
     std::string name = fmt::format("friction {} at {:.3g}",
                                    one.speed < 0 ? "backwards" : "forwards", std::abs(one.speed));
     if (!one.speed_unit.empty()) name += " " + one.speed_unit;

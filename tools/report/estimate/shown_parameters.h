@@ -1,9 +1,9 @@
 // The numbers of an estimate that a reader is shown.
 #pragma once
 
-#include <vector>
+#include <warmjoint/estimate.h>
 
-#include "identification/estimate.h"
+#include <vector>
 
 namespace warmjoint::inline tools {
 

@@ -2,12 +2,12 @@
 // Fig. 4.
 #pragma once
 
+#include <warmjoint/friction.h>
+#include <warmjoint/recording.h>
+
 #include <optional>
 #include <string>
 
-#include "models/friction/thermal.h"
-#include "models/recording/measurements.h"
-#include "models/recording/selection.h"
 #include "tools/report/draw/figure.h"
 
 namespace warmjoint::report {

@@ -117,7 +117,7 @@ FitView MakeFitView(const Measurements& measurements, const Selection& selection
   if (view.warms()) {
     const FrictionSpread spread = SpreadOf(estimate, view.course, view.start, selection);
     view.energy_std = SpreadOfPrediction(
-        spread, *estimate.friction, [&](const FrictionDescription& friction) -> Eigen::VectorXd {
+        spread, *estimate.friction, [&](const Friction& friction) -> Eigen::VectorXd {
           return AlongMotion(friction).Predict(view.course, view.start).energy;
         });
   }
@@ -150,7 +150,7 @@ Eigen::VectorXd KeptOrGap(const FitView& view, const Eigen::VectorXd& all) {
 }
 
 JointFriction SlidingWith(const FitView& view, std::vector<FrictionMap> maps) {
-  FrictionDescription friction = *view.estimate.friction;
+  Friction friction = *view.estimate.friction;
   friction.maps = std::move(maps);
   return JointFriction(friction);
 }

@@ -1,14 +1,14 @@
 // One recording and its estimate, worked out for pictures.
 #pragma once
 
+#include <warmjoint/estimate.h>
+#include <warmjoint/prepared_log.h>
+#include <warmjoint/recording.h>
+
 #include <optional>
 #include <string>
 
-#include "identification/estimate.h"
-#include "identification/preparation/prepared_log.h"
 #include "models/friction/along_motion.h"
-#include "models/recording/measurements.h"
-#include "models/recording/selection.h"
 #include "tools/report/draw/figure.h"
 
 namespace warmjoint::report {

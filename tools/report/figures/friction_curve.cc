@@ -57,8 +57,7 @@ void AddMeansOfMaps(Plot& plot, const FitView& view, double energy, Hue hue, std
 }
 
 /// The force of steady sliding, Eq. (20), at each speed, of a friction without maps.
-Eigen::VectorXd CurveOf(const FrictionDescription& friction, const Eigen::VectorXd& speeds,
-                        double energy) {
+Eigen::VectorXd CurveOf(const Friction& friction, const Eigen::VectorXd& speeds, double energy) {
   const JointFriction joint(friction);
   return speeds.unaryExpr([&](double v) { return joint.SlidingForce(v, {0, energy, 0}); });
 }
@@ -79,15 +78,14 @@ Eigen::VectorXd SpeedsOf(const Eigen::VectorXd& kept, int direction) {
 /// range: of the torque that is shown.
 void AddCurves(Plot& plot, const FitView& view, const FrictionSpread& spread, double energy,
                double range, Hue hue, std::string label, std::vector<Eigen::VectorXd>& shown) {
-  const FrictionDescription& friction = *view.estimate.friction;
+  const Friction& friction = *view.estimate.friction;
   for (int direction : {1, -1}) {
     const Eigen::VectorXd speeds = SpeedsOf(KeptOf(view, view.velocity), direction);
     if (speeds.size() == 0) continue;
     // friction over velocity at this warmth, and how sure it is
     const Eigen::VectorXd force = CurveOf(friction, speeds, energy);
     const Eigen::VectorXd deviation = SpreadOfPrediction(
-        spread, friction,
-        [&](const FrictionDescription& other) { return CurveOf(other, speeds, energy); });
+        spread, friction, [&](const Friction& other) { return CurveOf(other, speeds, energy); });
     // a band as thin as a line cannot be seen
     if (deviation.size() > 0 && 2 * kNormal95 * deviation.maxCoeff() > kThinnestBand * range) {
       plot.series.push_back(

@@ -27,7 +27,7 @@ std::vector<std::string> NamesOf(const Estimate& estimate) {
 }
 
 /// The number of a friction that a parameter of an estimate stands for.
-double& NumberOf(FrictionDescription& friction, const std::string& name) {
+double& NumberOf(Friction& friction, const std::string& name) {
   if (name == NameOf(Role::heat, 0)) return friction.thermal->gain;
   if (name == NameOf(Role::heat, 1)) return friction.thermal->time_constant;
   return friction.parameters.at(name);
@@ -39,7 +39,7 @@ Eigen::MatrixXd Derivatives(const Estimate& estimate, const std::vector<std::str
                             const Selection& selection) {
   const Eigen::Index n = selection.count();
   Eigen::MatrixXd jacobian(n, static_cast<Eigen::Index>(names.size()));
-  FrictionDescription friction = *estimate.friction;
+  Friction friction = *estimate.friction;
   for (std::size_t i = 0; i < names.size(); ++i) {
     // central differences of the predicted force over each number
     const double value = NumberOf(friction, names[i]);
@@ -62,9 +62,8 @@ Eigen::MatrixXd Derivatives(const Estimate& estimate, const std::vector<std::str
 
 }  // namespace
 
-FrictionDescription Changed(const FrictionDescription& friction, const std::string& name,
-                            double step) {
-  FrictionDescription changed = friction;
+Friction Changed(const Friction& friction, const std::string& name, double step) {
+  Friction changed = friction;
   NumberOf(changed, name) += step;
   return changed;
 }

@@ -1,11 +1,12 @@
 // How sure a fitted friction is of what it predicts.
 #pragma once
 
+#include <warmjoint/estimate.h>
+#include <warmjoint/recording.h>
+
 #include <Eigen/Core>
 
-#include "identification/estimate.h"
 #include "models/friction/along_motion.h"
-#include "models/recording/selection.h"
 
 namespace warmjoint::report {
 
@@ -24,14 +25,13 @@ FrictionSpread SpreadOf(const Estimate& estimate, const JointCourse& course,
                         const CourseStart& start, const Selection& selection);
 
 /// The friction with one of its parameters changed by `step`.
-FrictionDescription Changed(const FrictionDescription& friction, const std::string& name,
-                            double step);
+Friction Changed(const Friction& friction, const std::string& name, double step);
 
 /// Standard deviations of m predicted numbers: sqrt(diag(D C D^T)), D their derivatives by central
 /// differences. predict: the m numbers of a friction.
 template <typename Predict>
-Eigen::VectorXd SpreadOfPrediction(const FrictionSpread& spread,
-                                   const FrictionDescription& friction, const Predict& predict) {
+Eigen::VectorXd SpreadOfPrediction(const FrictionSpread& spread, const Friction& friction,
+                                   const Predict& predict) {
   if (!spread.is_known()) return {};
   Eigen::MatrixXd derivatives;
   for (std::size_t i = 0; i < spread.names.size(); ++i) {

@@ -1,13 +1,13 @@
 #include "tools/report/figures/kernels.h"
 
 #include <fmt/core.h>
+#include <warmjoint/friction.h>
 
 #include <cmath>
 
 #include "identification/ridge/ridge.h"
 #include "models/foundation/random_stream.h"
 #include "models/friction/evaluate_map.h"
-#include "models/friction/gaussian_axis.h"
 #include "tools/report/draw/ticks.h"
 #include "tools/report/figures/axes.h"
 

@@ -21,7 +21,7 @@ constexpr double kTurnsInView = 4;   // of the motor, in the close-up
 constexpr Eigen::Index kFewest = 8;  // samples of a close-up
 
 /// The maps with an axis over motor angle, or the others.
-std::vector<FrictionMap> MapsOverMotor(const FrictionDescription& friction, bool over) {
+std::vector<FrictionMap> MapsOverMotor(const Friction& friction, bool over) {
   std::vector<FrictionMap> chosen;
   for (const FrictionMap& map : friction.maps) {
     if ((FindAxis(map, MapQuantity::motor_position) != nullptr) == over) chosen.push_back(map);

@@ -1,10 +1,10 @@
 #include "tools/report/figures/symbols.h"
 
 #include <fmt/core.h>
+#include <warmjoint/friction.h>
 
 #include <map>
 
-#include "models/friction/law.h"
 #include "models/friction/thermal.h"
 
 namespace warmjoint::report {

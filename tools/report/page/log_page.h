@@ -1,10 +1,11 @@
 // A log and what was identified from it, on one web page.
 #pragma once
 
+#include <warmjoint/prepared_log.h>
+
 #include <string>
 #include <vector>
 
-#include "identification/preparation/check.h"
 #include "tools/report/figures/fit_view.h"
 
 namespace warmjoint::report {

@@ -22,7 +22,7 @@ std::string PlantOf(const Scenario& scenario) {
 }
 
 std::string FrictionOf(const Scenario& scenario) {
-  const FrictionDescription& friction = scenario.friction;
+  const Friction& friction = scenario.friction;
   std::string words = fmt::format("Its friction follows the law {}", friction.law);
   if (!friction.maps.empty()) words += ", and depends on position";
   if (friction.thermal) {

@@ -1,8 +1,9 @@
+#include <warmjoint/prepared_log.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
 #include "models/foundation/bad_input.h"
 #include "models/recording/course_of.h"
@@ -39,7 +40,7 @@ Eigen::MatrixXd BoundCovariance(const Suite& suite, const RunRow& row) {
   // one simulation tells how the errors of parameters go together
   FrictionSpread spread;
   try {
-    const Recording recording = MakePlant(suite.scenario)->Run(0);
+    const Simulation recording = MakePlant(suite.scenario)->Run(0);
     const Measurements m = Prepare(recording.measurements).taken().measurements;
     bound.friction = recording.truth.friction;
     spread = SpreadOf(

@@ -1,10 +1,10 @@
 #include "tools/report/run/row_builder.h"
 
+#include <warmjoint/friction.h>
+
 #include <algorithm>
 #include <limits>
 
-#include "models/friction/law.h"
-#include "models/friction/thermal.h"
 #include "tools/report/draw/ticks.h"
 
 namespace warmjoint::report {

@@ -1,8 +1,9 @@
 #include "tools/report/simulation/simulation_view.h"
 
+#include <warmjoint/prepared_log.h>
+
 #include <cmath>
 
-#include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
 #include "models/recording/read_recording.h"
 #include "scenarios/read_scenario.h"
@@ -25,7 +26,7 @@ void KeepTrulyConstant(const Truth& truth, Selection& selection) {
 
 }  // namespace
 
-SimulationView MakeSimulationView(const Scenario& scenario, const Recording& recording) {
+SimulationView MakeSimulationView(const Scenario& scenario, const Simulation& recording) {
   Estimate truth;
   truth.friction = recording.truth.friction;
   // samples as an identifier takes them, less those that only seem to be at constant speed
@@ -52,7 +53,7 @@ SimulationView ReadSimulationView(const std::filesystem::path& directory) {
   layout.joint = scenario.joint_kind;
   layout.gear = scenario.friction.gear;
   const bool hdf5 = std::filesystem::exists(directory / "recording.h5");
-  Recording recording;
+  Simulation recording;
   recording.measurements =
       ReadRecordingFile(directory / (hdf5 ? "recording.h5" : "recording.csv"), layout);
   recording.truth = ReadTruth(directory / "truth.json");

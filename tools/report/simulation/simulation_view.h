@@ -1,22 +1,23 @@
 // What `simulate` made, as its pictures need it.
 #pragma once
 
+#include <warmjoint/simulation.h>
+
 #include <filesystem>
 
 #include "scenarios/scenario.h"
-#include "sim/truth/simulated_recording.h"
 #include "tools/report/figures/fit_view.h"
 
 namespace warmjoint::report {
 
 struct SimulationView {
   Scenario scenario;
-  Recording recording;
+  Simulation recording;
   FitView fit;  // of the true friction to the recording
 };
 
 /// Takes the truth for an estimate that is right.
-SimulationView MakeSimulationView(const Scenario& scenario, const Recording& recording);
+SimulationView MakeSimulationView(const Scenario& scenario, const Simulation& recording);
 
 /// Whether a directory holds what `simulate` writes.
 bool IsSimulation(const std::filesystem::path& directory);

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <warmjoint/prepared_log.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -13,7 +14,6 @@
 #include "identification/estimate.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/preparation/prepare.h"
 #include "identification/read_options.h"
 #include "tests/tools/report/look.h"
 #include "tests/tools/report/mapped_recording.h"

@@ -23,7 +23,7 @@ TEST(ShownParameters, AreAllWhereNoMapSharesTheLaw) {
 
 TEST(ShownParameters, HaveFrictionAtSpeedsInPlaceOfWhatAMapShares) {
   Estimate estimate = WithSharedLevel();
-  estimate.at_speeds = {{0.3, 3.6, 0.05, {3.5, 3.7}, "rad/s", "N.m"}};
+  estimate.friction_at_speeds = {{0.3, 3.6, 0.05, {3.5, 3.7}, "rad/s", "N.m"}};
   const std::vector<EstimatedParameter> shown = ShownParameters(estimate);
   // what the data tell of the law, what is none of the law's, and the speed
   ASSERT_EQ(shown.size(), 3u);
@@ -38,7 +38,7 @@ TEST(ShownParameters, HaveFrictionAtSpeedsInPlaceOfWhatAMapShares) {
 
 TEST(ShownParameters, NameTheSpeedWithoutAUnitThatTheFileDoesNotTell) {
   Estimate estimate = WithSharedLevel();
-  estimate.at_speeds = {{0.25, 3.5, 0.05, {3.4, 3.6}}};
+  estimate.friction_at_speeds = {{0.25, 3.5, 0.05, {3.4, 3.6}}};
   EXPECT_EQ(ShownParameters(estimate).back().name, "friction forwards at 0.25");
 }
 

@@ -217,7 +217,7 @@ TEST(FrictionSpread, AgreesWithTheClosedFormOfALinearLaw) {
   EXPECT_NEAR(spread.covariance(1, 1), covariance(0, 0), 1e-6 * covariance(0, 0));
 
   // the deviation of F at v = 0.5
-  const auto predict = [](const FrictionDescription& friction) {
+  const auto predict = [](const Friction& friction) {
     const double force =
         friction.parameters.at("viscous") * 0.5 + friction.parameters.at("coulomb");
     return Eigen::VectorXd(Eigen::VectorXd::Constant(1, force));

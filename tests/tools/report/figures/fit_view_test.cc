@@ -3,11 +3,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <warmjoint/prepared_log.h>
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/moving_view.h"
-#include "identification/preparation/prepare.h"
 #include "identification/read_options.h"
 #include "models/foundation/low_pass.h"
 #include "tests/support/excited_recording.h"
@@ -35,8 +35,8 @@ Identified Identify(const Measurements& m, const std::map<std::string, std::stri
   return {std::move(log), std::move(estimate)};
 }
 
-FrictionDescription Warm() {
-  FrictionDescription friction = test::TableOne();
+Friction Warm() {
+  Friction friction = test::TableOne();
   friction.thermal->time_constant = 100;
   return friction;
 }

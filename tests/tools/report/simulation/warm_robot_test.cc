@@ -20,7 +20,7 @@ SimulationView ExampleSimulation() {
   scenario.plant = PlantKind::mujoco;
   scenario.robot = "irb140_like";
   scenario.joint = "joint_2";
-  Recording recording;
+  Simulation recording;
   Measurements& m = recording.measurements;
   m.time = Eigen::VectorXd::LinSpaced(kSamples, 0, kSamples - 1);
   m.velocity = ((m.time / 20).array().floor().unaryExpr([](double k) {
@@ -132,7 +132,7 @@ TEST(SimulationView, LeavesOutWhatOnlySeemsToMoveAtAConstantSpeed) {
   SimulationView view = ExampleSimulation();
   const Eigen::Index smeared = view.fit.selection.segments[3].begin + 1;
   ASSERT_TRUE(view.fit.selection.keep[smeared]);
-  Recording recording = view.recording;
+  Simulation recording = view.recording;
   recording.truth.velocity[smeared] *= -1;
   EXPECT_FALSE(MakeSimulationView(view.scenario, recording).fit.selection.keep[smeared]);
 }

@@ -1,0 +1,415 @@
+// What an identifier answers: the contract's estimate.json as a value.
+//
+//   const Estimate estimate = ReadEstimate("estimate.json");
+//   if (estimate.status != Status::ok) std::puts(estimate.message.c_str());
+//   else std::printf("%g N.m\n", estimate.Find("coulomb")->value);
+#pragma once
+
+#include <warmjoint/parameter_covariance.h>
+#include <warmjoint/recording.h>
+
+#include <Eigen/Core>
+#include <array>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace warmjoint::inline identification {
+
+/// Whether the numbers can be trusted, and if not, why.
+enum class Status { ok, not_converged, not_identifiable, inadequate_model, bad_data };
+
+inline std::span<const Word<Status>> WordsOf(Status) {
+  static constexpr std::array words{
+      Word{"ok", Status::ok}, Word{"not_converged", Status::not_converged},
+      Word{"not_identifiable", Status::not_identifiable},
+      Word{"inadequate_model", Status::inadequate_model}, Word{"bad_data", Status::bad_data}};
+  return words;
+}
+
+/// "ok", "not_converged", ...
+inline std::string_view StatusName(Status status) { return NameOf(status); }
+
+/// An estimated parameter; NaN is a number that is not known.
+struct EstimatedParameter {
+  std::string name;
+  double value = 0;
+  std::string unit;
+  std::optional<double> std;  // standard deviation
+  std::optional<std::array<double, 2>> interval95;
+
+  /// Without its name, by which a file has it.
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("value", &value, {.needed = kGiveNumber});
+    a->Field("unit", &unit, {.needed = "give it as text"});
+    a->Field("std", &std, {.at_default = AtDefault::null});
+    a->Field("interval95", &interval95, {.at_default = AtDefault::null});
+  }
+};
+
+/// Agreement of a fit with the samples that it kept. y: measured, yhat: fitted, e = y - yhat.
+struct Metrics {
+  int n = 0;                        // samples
+  int parameters = 0;               // d
+  double effective_parameters = 0;  // trace of the hat matrix; d where nothing is penalised
+  double rmse = 0;                  // sqrt(mean(e^2)), N.m or N
+  double mae = 0;                   // mean(|e|), N.m or N
+  double fit = 0;                   // 100 (1 - |e| / |y - mean(y)|), %
+  double fpe = 0;                   // V (1 + d/n)/(1 - d/n), V = mean(e^2)
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("n", &n, {.needed = kGiveNumber});
+    a->Field("parameters", &parameters, {.needed = kGiveNumber});
+    a->Field("effective_parameters", &effective_parameters, {.needed = kGiveNumber});
+    a->Field("rmse", &rmse, {.unit = "N.m", .needed = kGiveNumber});
+    a->Field("mae", &mae, {.unit = "N.m", .needed = kGiveNumber});
+    a->Field("fit", &fit, {.unit = "%", .needed = kGiveNumber});
+    a->Field("fpe", &fpe, {.unit = "(N.m)^2", .needed = kGiveNumber});
+  }
+};
+
+/// Metrics of a fit. measured, fitted: [n] N.m or N. Throws BadInput for unlike lengths and no sample.
+Metrics ComputeMetrics(const Eigen::VectorXd& measured, const Eigen::VectorXd& fitted,
+                       int parameters, double effective_parameters);
+
+/// State of an iterative identifier after one iteration.
+struct TraceEntry {
+  int iteration = 0;
+  std::vector<std::pair<std::string, double>> parameters;
+  double rmse = 0;  // over the kept samples, N.m or N
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("iteration", &iteration, {.needed = kGiveNumber});
+    a->Field("rmse", &rmse, {.unit = "N.m", .needed = kGiveNumber});
+    a->Field("parameters", &parameters, {.needed = "give their values by name"});
+  }
+};
+
+/// How G depends on the position p, linear in its values g:
+///   sincos    g1 sin p + g2 cos p, rotary joints
+///   paired    any periodic G(p), rotary joints: straight lines between 64 knots on the turn
+///   constant  g1: what `paired` is for a linear joint, whose weight does not depend on p
+enum class GravityKind { sincos, paired, constant };
+
+inline std::span<const Word<GravityKind>> WordsOf(GravityKind) {
+  static constexpr std::array words{Word{"sincos", GravityKind::sincos},
+                                    Word{"paired", GravityKind::paired},
+                                    Word{"constant", GravityKind::constant}};
+  return words;
+}
+
+/// Gravity with its values.
+struct GravityModel {
+  GravityKind kind = GravityKind::sincos;
+  std::vector<int> knots;  // paired: [m] those that are known, ascending; knot i: 2 pi i/64 rad
+  Eigen::VectorXd values;  // sincos: [2]; paired: [m] torque at the knots; constant: [1]. N.m or N
+
+  /// Whether G is known at a position (rad or m): paired knows it between neighbouring knots.
+  bool Covers(double position) const;
+
+  /// G at positions that are covered. position: [N] rad or m; returns [N] N.m or N.
+  Eigen::VectorXd Torque(const Eigen::VectorXd& position) const;
+};
+
+/// Law and maps together at one map's centres (make_bands.h), each by itself with 95 %.
+struct MapBand {
+  std::vector<std::string> quantities;            // of the axes
+  std::vector<std::vector<double>> points;        // [g][axes] rad or m, ...
+  std::vector<double> value;                      // [g] N.m or N
+  std::vector<double> std;                        // [g]
+  std::vector<std::array<double, 2>> interval95;  // [g]
+
+  template <class A>
+  void Serialize(A* a) {
+    constexpr std::string_view needed = "give a value for each centre";
+    a->Field("quantities", &quantities, {.needed = "name those of the axes"});
+    a->Field("points", &points, {.needed = needed});
+    a->Field("value", &value, {.unit = "N.m", .needed = needed});
+    a->Field("std", &std, {.unit = "N.m", .needed = needed});
+    a->Field("interval95", &interval95, {.unit = "N.m", .needed = needed});
+  }
+};
+
+/// What law and maps brake with at one speed: the mean over the places where kept samples moved so.
+struct FrictionAtSpeed {
+  double speed = 0;  // below 0: backwards
+  double value = 0;
+  double std = 0;
+  std::array<double, 2> interval95{};
+  std::string speed_unit{}, unit{};  // of a report; empty in a file that does not tell them
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("speed", &speed, {.unit = "rad/s", .needed = kGiveNumber});
+    a->Field("value", &value, {.unit = "N.m", .needed = kGiveNumber});
+    a->Field("std", &std, {.unit = "N.m", .needed = kGiveNumber});
+    a->Field("interval95", &interval95, {.unit = "N.m", .needed = "give [lower, upper]"});
+    a->Field("speed_unit", &speed_unit, {.at_default = AtDefault::left_out});
+    a->Field("unit", &unit, {.at_default = AtDefault::left_out});
+  }
+};
+
+/// By how much parameters change: name and change in the parameter's own unit.
+using ParameterMoves = std::vector<std::pair<std::string, double>>;
+
+/// One test for lack of fit: whether the residual depends on something that the model leaves out.
+struct Diagnostic {
+  std::string test;         // "direction", "lag", ...
+  bool made = false;        // whether the log and the fit let it be made
+  std::string reason;       // why it was not made, or what it found; a clause
+  double statistic = 0;     // z-score: standard deviations of a normal variable with the same p
+  double p = 1;             // by chance alone, what was tried within the test counted
+  double p_adjusted = 1;    // with all tests of the log counted (Holm 1979)
+  bool rejected = false;    // p_adjusted is below the error level of the log
+  double effect = 0;        // rms over the kept samples of what it explains, N.m or N
+  std::string effect_unit;  // of the torque
+  ParameterMoves moves;     // had the model held it; empty where that is not known
+
+  template <class A>
+  void Serialize(A* a);
+};
+
+/// Something that no test can see, and what it would do.
+struct Assumption {
+  std::string name;      // "cold_start", "open_drift", ...
+  std::string meaning;   // how far off it was taken to be: a clause
+  ParameterMoves moves;  // of each parameter, were it off by that much
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("name", &name, {.needed = "name it"});
+    a->Field("meaning", &meaning);
+    a->Field("moves", &moves);
+  }
+};
+
+/// The effect of a diagnostic as files have it.
+struct EffectFields {
+  double value = 0;
+  std::string unit;
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("value", &value, {.needed = kGiveNumber});
+    a->Field("unit", &unit);
+  }
+};
+
+template <class A>
+void Diagnostic::Serialize(A* a) {
+  constexpr FieldInfo or_null{.at_default = AtDefault::null};
+  a->Field("test", &test, {.needed = "name it"});
+  a->Field("made", &made, {.needed = "say true or false"});
+  a->Field("reason", &reason, or_null);
+  // figures of a test that was made alone
+  std::optional<EffectFields> size;
+  std::optional<bool> found;
+  std::optional<ParameterMoves> biases;
+  if (made) {
+    size = EffectFields{effect, effect_unit};
+    found = rejected;
+    biases = moves;
+  }
+  for (const auto& [name, value] : {std::pair("statistic", &statistic), std::pair("p", &p),
+                                    std::pair("p_adjusted", &p_adjusted)}) {
+    std::optional<double> figure;
+    if (made) figure = *value;
+    a->Field(name, &figure, or_null);
+    if (made) *value = figure.value_or(std::numeric_limits<double>::quiet_NaN());
+  }
+  a->Field("rejected", &found, or_null);
+  a->Field("effect", &size, or_null);
+  a->Field("moves", &biases, or_null);
+  if (!made) return;
+  rejected = found.value_or(false);
+  if (size) effect = size->value;
+  if (size) effect_unit = size->unit;
+  moves = biases.value_or(ParameterMoves{});
+}
+
+/// A structure that was tried.
+struct StructureTrial {
+  std::string name;            // identifier and options: "energy-ml law=coulomb"
+  std::optional<double> rmse;  // on held-out blocks, N.m or N; none where it was dropped before
+  double parameters = 0;       // effective number; 0 where nothing was fitted
+  std::string dropped;         // why it was no contender; empty for one that was
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("name", &name, {.needed = "name it"});
+    a->Field("rmse", &rmse, {.unit = "N.m", .at_default = AtDefault::null});
+    a->Field("parameters", &parameters);
+    a->Field("dropped", &dropped, {.at_default = AtDefault::null});
+  }
+};
+
+/// Which of several structures was chosen, and why.
+struct StructureChoice {
+  std::string chosen;
+  std::string reason;  // one clause
+  int blocks = 0;      // of time that were held out in turn
+  std::vector<StructureTrial> trials;
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("chosen", &chosen, {.needed = "name a structure"});
+    a->Field("reason", &reason);
+    a->Field("blocks", &blocks);
+    a->Field("trials", &trials);
+  }
+};
+
+/// A stage of carried heat as files have it.
+struct CarriedStage {
+  double value = 0;  // N.m or N
+  std::string unit;
+  double std = 0;  // of value
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("value", &value, {.needed = kGiveNumber});
+    a->Field("unit", &unit, {.needed = "give it as text"});
+    a->Field("std", &std, {.needed = kGiveNumber});
+  }
+};
+
+/// What is left of an earlier recording's heat at the first sample of the next, E(0) = E exp(-pause/tau) for each stage,
+/// Eq. (22) without losses.
+struct CarriedHeat {
+  std::string file;
+  double pause = 0;        // s
+  std::string pause_from;  // "stamps" or "given"
+  std::string unit;
+  std::vector<double> energy;  // of each stage, N.m or N
+  std::vector<double> std;     // the deviations by E and by tau added up, as if one error made both
+
+  /// The `follows` member of an estimate file: {file, pause, pause_from, energy{value, unit, std}}, and second_energy.
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("file", &file, {.needed = "name it"});
+    a->Field("pause", &pause, {.unit = "s", .needed = kGiveNumber});
+    a->Field("pause_from", &pause_from, {.needed = "say stamps or given"});
+    const char* const keys[] = {"energy", "second_energy"};
+    for (size_t i = 0; i < 2; ++i) {
+      std::optional<CarriedStage> stage;
+      if (i < energy.size()) stage = CarriedStage{energy[i], unit, std[i]};
+      a->Field(keys[i], &stage);
+      if (!stage || i < energy.size()) continue;
+      energy.push_back(stage->value);
+      std.push_back(stage->std);
+      unit = stage->unit;
+    }
+  }
+};
+
+/// Change of the friction (law and heat, rms) by what a model leaves out from which it is refused, as a share,
+/// where nobody says otherwise (`--relevance`).
+inline constexpr double kDefaultRelevance = 0.1;
+
+/// What an identifier answers.
+struct Estimate {
+  std::string identifier;
+  std::map<std::string, std::string> options;  // of the identifier, those not at their defaults
+  Status status = Status::ok;
+  std::string message;  // one sentence; for a failure: what is wrong and what would help
+  /// What must be known before numbers that pass are used, each a clause: "the kernels can imitate
+  /// coulomb, ...". Empty where nothing passes.
+  std::vector<std::string> warnings;
+  std::vector<EstimatedParameter> parameters;  // empty where nothing trustworthy is known
+  std::optional<Metrics> metrics;
+  std::optional<Metrics> holdout;
+  std::string without_holdout;  // why there is none: a clause; empty: there is, or none was tried
+  std::vector<TraceEntry> trace;
+  std::optional<Friction> friction;
+  std::optional<GravityModel> gravity;  // what the fit took for gravity beside friction
+  std::vector<MapBand> bands;           // one for each of the friction's maps
+  /// Beside maps, in place of parameters of the law that only the prior tells: friction at a low, the
+  /// median and a high speed of each direction.
+  std::vector<FrictionAtSpeed> friction_at_speeds;
+  std::optional<ParameterCovariance> covariance;  // of the values with intervals, by noise alone
+  std::vector<Diagnostic> diagnostics;            // of the verdict; empty where there is none
+  std::vector<Assumption> assumptions;
+  /// The heat at the end of the log, at its last stamp, `time`: a row for each stage, `energy`,
+  /// `second_energy`; empty where nothing warms or the friction cannot be trusted.
+  std::vector<EstimatedParameter> state_end;
+  std::optional<StructureChoice> choice;  // of identifiers that choose a structure
+  std::optional<CarriedHeat> follows;     // with what it began; none without an earlier recording
+  /// The files that it tells of, as seen from here; none of a log that was made of vectors.
+  std::optional<RecordingSource> recording;
+
+  /// The parameter of that name, or nullptr.
+  const EstimatedParameter* Find(std::string_view name) const;
+
+  /// The message and the warnings behind it, with semicolons between them.
+  std::string FullMessage() const;
+
+  template <class A>
+  void Serialize(A* a) {
+    constexpr FieldInfo or_null{.at_default = AtDefault::null};
+    constexpr FieldInfo left_out{.at_default = AtDefault::left_out};
+    // who answers, and how sure; the message ends in the warnings
+    a->Field("identifier", &identifier, {.needed = "name it"});
+    a->Field("options", &options, left_out);
+    a->Field("status", &status, {.needed = "say ok, or what failed"});
+    std::string full = FullMessage();
+    a->Field("message", &full, {.needed = "give it as text"});
+    a->Field("warnings", &warnings, left_out);
+    TakeMessage(full);
+
+    // numbers, and how well they fit
+    a->Named("parameters", &parameters, {.needed = "give them by name"});
+    a->Field("metrics", &metrics, or_null);
+    a->Field("holdout", &holdout, or_null);
+    a->Field("without_holdout", &without_holdout, left_out);
+    a->Field("trace", &trace);
+    a->Field("friction", &friction, or_null);
+    a->Field("gravity", &gravity, or_null);
+    a->Field("friction_at_speeds", &friction_at_speeds, left_out);
+    a->Field("bands", &bands, left_out);
+    a->Field("covariance", &covariance, or_null);
+
+    // what the verdict said, and what only some have
+    a->Field("diagnostics", &diagnostics, left_out);
+    a->Field("assumptions", &assumptions, left_out);
+    a->Named("state_end", &state_end, left_out);
+    a->Field("choice", &choice);
+
+    // what it tells of: the project file has a member of its own
+    a->Field("follows", &follows);
+    std::optional<TakenProject> project;
+    if (recording) project = recording->project;
+    a->Field("recording", &recording);
+    a->Field("project", &project);
+    if (recording) recording->project = project;
+  }
+
+ private:
+  /// Takes the message without the warnings at its end.
+  void TakeMessage(const std::string& full);
+};
+
+/// The text of estimate.json; what is no finite number is null.
+std::string EstimateToJson(const Estimate& estimate);
+
+/// The inverse; null numbers become NaN, the warnings at the end of `message` are taken off, and keys that nobody knows are
+/// left alone. name: of the text in messages. Throws BadInput for a missing member, a wrong type, an unknown status.
+Estimate EstimateFromJson(const std::string& text, const std::string& name = "estimate");
+
+/// Reads estimate.json. Its recordings are looked for as seen from its folder, as they are named, and beside it. Throws
+/// BadInput.
+Estimate ReadEstimate(const std::filesystem::path& file);
+
+/// Writes it as a whole; its recordings are named as seen from the file's folder, so that both can be found from anywhere and
+/// moved together. Throws BadInput and OutputFailed.
+void WriteEstimate(const Estimate& estimate, const std::filesystem::path& file);
+
+}  // namespace warmjoint::inline identification

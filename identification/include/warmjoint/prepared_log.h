@@ -1,0 +1,200 @@
+// A recording as every identifier gets it, and its check.
+//
+//   const PreparedLog log = Prepare(ReadRecording({{"log.csv"}}), {.trim = 0.5});
+//   std::puts(CheckToText(CheckRecording(log)).c_str());
+#pragma once
+
+#include <warmjoint/recording.h>
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace warmjoint::inline identification {
+
+struct LogView {
+  Measurements measurements;
+  Selection selection;
+};
+
+/// What tells how a joint moves: a velocity that was logged, or its positions alone.
+enum class MotionSource { velocity, positions };
+
+/// What noise of the velocity does to a slope over |v|.
+struct VelocityNoise {
+  double noise = 0;        // of the velocity within segments, rad/s or m/s
+  double attenuation = 0;  // share of a slope over |v| that this noise would hide
+  double left = 0;         // the share that the noise of one velocity for a segment still hides
+  double mean_speed = 0;   // mean |v| of the kept samples, rad/s or m/s
+};
+
+/// What is made when it is first asked for, by whichever thread is first.
+template <typename T>
+class MadeOnce {
+ public:
+  const T& Get(const std::function<T()>& make) {
+    std::call_once(once_, [&] { value_ = make(); });
+    return value_;
+  }
+
+ private:
+  std::once_flag once_;
+  T value_{};
+};
+
+/// A recording prepared for a fit: what moves at constant speed, one velocity for each segment where
+/// the noise of the samples' would bias a fit (segment_velocity.h), a sample at each switch of speed
+/// that happens between two samples (split_at_switches.h), the speed between segments from the
+/// positions where they tell more of it (take_ways.h), and the faults of the log. Where the log
+/// has no velocity, its positions tell it (motion_from_positions.h). Only Prepare
+/// (prepare.h) makes one, and identifiers take nothing else, so that nobody can forget a step. Cheap to copy:
+/// copies share the samples.
+class PreparedLog {
+ public:
+  /// The log as it was taken: for fits that follow changes of speed from sample to sample. A
+  /// velocity that it lacks is the smoothed slope of its positions (derive_velocity.h).
+  const LogView& taken() const { return log_->taken; }
+
+  /// The log as fits at constant speed see it.
+  const LogView& steady() const { return log_->steady ? *log_->steady : log_->taken; }
+
+  /// What tells the velocity of `taken`.
+  MotionSource source() const { return log_->source; }
+
+  /// What others found in the log when they first needed it (moving_view.h).
+  struct Found {
+    MadeOnce<LogView> moving;
+    MadeOnce<bool> holds_speeds;
+    MadeOnce<std::shared_ptr<const PreparedLog>>
+        without_absurd;  // or none, where no sample is absurd
+  };
+  Found& found() const { return *found_; }
+
+  /// Leaves those out of a view of the log that were left out of the log itself.
+  void LeaveOut(LogView& view) const;
+
+  /// What was done to the velocity, if anything.
+  const std::optional<VelocityNoise>& velocity_noise() const { return log_->velocity_noise; }
+
+  /// Share of the path that the log cannot tell from standing still (SplitLog::unseen).
+  double unseen() const { return log_->unseen; }
+
+  /// What in the log contradicts itself, each one sentence (log_faults.h).
+  const std::vector<std::string>& faults() const { return log_->faults; }
+
+  /// What a reader of the numbers must know of what was done, each one sentence.
+  const std::vector<std::string>& warnings() const { return log_->warnings; }
+
+  /// What WithoutAbsurd left out, one sentence.
+  const std::optional<std::string>& absurd() const { return log_->absurd; }
+
+  /// The samples before a time (s), with all that was done to them.
+  PreparedLog Before(double time) const;
+
+  /// The log without samples of absurd torque (log_faults.h), which is no fault any more; made once. For a
+  /// loss that bounds the pull of a sample.
+  const PreparedLog& WithoutAbsurd() const;
+
+ private:
+  struct Log {
+    LogView taken;
+    MotionSource source = MotionSource::velocity;  // of its velocity
+    std::optional<LogView> steady;                 // where anything was done to the log
+    std::optional<VelocityNoise> velocity_noise;
+    double unseen = 0;
+    std::vector<std::string> faults;
+    std::vector<std::string> warnings;
+    std::vector<double> left_out{};  // times of samples, s
+    std::optional<std::string> absurd{};
+  };
+
+  struct Maker;
+  explicit PreparedLog(Log log) : log_(std::make_shared<const Log>(std::move(log))) {}
+  friend PreparedLog Prepare(Measurements measurements, const PrepareSettings& holds);
+  friend PreparedLog Prepare(Measurements measurements, Selection known);
+
+  std::shared_ptr<const Log> log_;
+  std::shared_ptr<Found> found_ = std::make_shared<Found>();
+};
+
+/// Prepares a log: the samples at constant speed are found in it (select.h). The one path of command
+/// line, suites, tests of verdicts and benchmarks. Throws BadInput where there is no velocity and the
+/// slope of the positions is no number.
+PreparedLog Prepare(Measurements measurements, const PrepareSettings& holds = {});
+
+/// The same where a plant says which samples move at constant speed.
+PreparedLog Prepare(Measurements measurements, Selection known);
+
+/// A kind of friction that a motion may show or not.
+enum class FrictionKind {
+  coulomb,
+  viscous_coulomb,
+  asymmetric,
+  stribeck,
+  warm_up,
+  position_ripple,
+  motor_ripple,
+};
+
+/// How the samples lie in time.
+struct SamplingCheck {
+  Eigen::Index samples = 0;
+  double duration = 0;     // s
+  double step = 0;         // s, median
+  double rate = 0;         // Hz, 1 / step
+  double jitter = 0;       // standard deviation of the steps (gaps left out), share of the median
+  int gaps = 0;            // sampling.h
+  double longest_gap = 0;  // s
+};
+
+/// Segments at (almost) one speed.
+struct SpeedLevel {
+  double velocity = 0;  // rad/s or m/s, signed; mean over the segments' samples
+  int segments = 0;
+  Eigen::Index samples = 0;
+};
+
+/// How the joint moves.
+struct MotionCheck {
+  double constant_share = 0;  // share of the samples at a constant speed
+  double rest_share = 0;      // share of the samples at rest
+  int segments = 0;
+  std::vector<SpeedLevel> levels;  // in order of velocity, 5 % wide
+  double lower = 0, upper = 0;     // rad or m, travel
+  double speed_noise = 0;          // rad/s or m/s, around constant speeds
+  double speed_resolution = 0;     // rad/s or m/s; 0: not quantised
+  double position_resolution = 0;  // rad or m, of positions that tell the speed; 0: not quantised
+};
+
+/// Whether friction of one kind can be identified, and why (not).
+struct Excitation {
+  FrictionKind kind = FrictionKind::coulomb;
+  std::string what;  // the kind in words: "law asymmetric", ...
+  bool sufficient = false;
+  std::string reason;  // one sentence; where insufficient, it ends in the remedy
+};
+
+struct RecordingCheck {
+  std::string source;
+  JointKind joint = JointKind::rotary;
+  std::string torque_unit;
+  std::vector<std::string> notes;  // what reading made of it
+  SamplingCheck sampling;
+  MotionCheck motion;
+  std::vector<std::string> faults;  // log_faults.h
+  std::vector<Excitation> excitation;
+};
+
+/// Looks at a recording.
+RecordingCheck CheckRecording(const PreparedLog& log);
+
+/// The same of a recording that is not yet prepared.
+RecordingCheck CheckRecording(const Measurements& measurements);
+
+/// Lines for people: sampling, motion, speeds in each direction, faults, and what can be identified.
+std::string CheckToText(const RecordingCheck& check);
+
+}  // namespace warmjoint::inline identification

@@ -1,0 +1,62 @@
+// An estimate against the truth: errors, coverage, and the bound that no unbiased estimate beats.
+//
+//   const Simulation simulation = Simulate("scenario.yaml");
+//   const PreparedLog log = Prepare(simulation.measurements);
+//   const Score score = ScoreEstimate(Identify(log), log, simulation.truth);
+//   std::printf("NPE %.1f %%\n", 100 * score.npe_continuous);
+#pragma once
+
+#include <warmjoint/estimate.h>
+#include <warmjoint/prepared_log.h>
+#include <warmjoint/simulation.h>
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace warmjoint::inline identification {
+
+/// One parameter of the truth.
+struct ParameterScore {
+  std::string name;
+  double truth = 0;
+  double estimate = 0;  // 0 where not estimated
+  bool estimated = false;
+  std::optional<bool> covered;  // the 95 % interval holds the truth; empty without an interval
+  double bound = 0;             // Cramer-Rao standard deviation; NaN where it does not exist
+};
+
+/// Scores in two parametrisations, Eqs. (21) and (22) of the warming, and their NPE, Eq. (26).
+struct Score {
+  std::vector<ParameterScore> continuous;  // law, thermal_gain, thermal_time_constant
+  std::vector<ParameterScore> discrete;    // law, thermal_gain_discrete, thermal_pole
+  double npe_continuous = 0;
+  double npe_discrete = 0;
+  double bound_npe_continuous = 0;  // sqrt(sum((bound / truth)^2)): rms NPE at the bound, or NaN
+  double bound_npe_discrete = 0;
+};
+
+/// The samples that an estimate is scored on: those of the log as it was taken at constant speed, or
+/// all that move where it took motion of any kind.
+const LogView& ScoredView(const Estimate& estimate, const PreparedLog& log);
+
+/// Scores an estimate of the measurements behind which `truth` stands. Parameters are matched by
+/// name: one of the truth that the estimate lacks (another law's, or the thermal ones of an
+/// identifier without warming) counts as estimated 0 in the NPE. Parameters whose truth is 0 are
+/// listed but left out of the NPE, which is relative. The discrete pair is that of the recording's
+/// median sampling interval, for truth and estimate alike. The bounds count
+/// E(0) as known unless the estimate holds it; with an acceleration, inertia and the gravity that was
+/// fitted count as unknown.
+Score ScoreEstimate(const Estimate& estimate, const Measurements& measurements,
+                    const Selection& selection, const Truth& truth);
+
+/// The same on the samples that the estimate is scored on (ScoredView). Throws BadInput where log and truth have unlike
+/// lengths.
+Score ScoreEstimate(const Estimate& estimate, const PreparedLog& log, const Truth& truth);
+
+/// NPE = sqrt(sum_i ((estimate_i - truth_i) / |truth_i|)^2), Eq. (26); 0.05 is 5 %.
+/// estimate, truth: [d], the same parameters in the same order. Throws BadInput for unlike lengths and a truth of 0.
+double NormalisedParameterError(const Eigen::VectorXd& estimate, const Eigen::VectorXd& truth);
+
+}  // namespace warmjoint::inline identification

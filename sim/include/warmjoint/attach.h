@@ -1,0 +1,84 @@
+// Friction in MuJoCo models. They need the plugin (libwarmjoint_friction.so) to load.
+//
+//   AttachFriction("robot.urdf", {{"elbow", ReadFriction("estimate.json")}}, "warm.xml", {.form = FrictionForm::passive});
+#pragma once
+
+#include <mujoco/mujoco.h>
+#include <warmjoint/friction.h>
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace warmjoint::inline sim {
+
+/// How friction acts in a model.
+enum class FrictionForm {
+  /// An actuator for each joint: states in mjData.act, a control for the ambient.
+  actuator,
+  /// One instance of the plugin for all joints, to which a body refers: states in
+  /// mjData.plugin_state; actuators, controls and keyframes of the model stay as they are.
+  passive,
+};
+
+inline std::span<const Word<FrictionForm>> WordsOf(FrictionForm) {
+  static constexpr std::array words{Word{"actuator", FrictionForm::actuator},
+                                    Word{"passive", FrictionForm::passive}};
+  return words;
+}
+
+/// Friction for one joint of a model.
+struct FrictionForJoint {
+  std::string joint;
+  Friction friction;
+  std::vector<double> initial_energy{};  // E1, and E2 of a second stage, N.m or N; empty: cold
+};
+
+/// The folder of each ROS package by its name: package://NAME/FILE is FOLDER/FILE.
+using PackageFolders = std::map<std::string, std::filesystem::path>;
+
+/// An armature for the joints that a name or pattern means (MatchJoints).
+struct ArmatureForJoints {
+  std::string joints;
+  double value = 0;  // kg.m^2 or kg; takes the place of the model's
+};
+
+/// What attaching changes of a model besides adding friction.
+struct AttachOptions {
+  FrictionForm form = FrictionForm::actuator;
+  std::vector<ArmatureForJoints> armatures{};
+  std::optional<mjtIntegrator> integrator{};
+  std::optional<double> timestep{};  // s
+  PackageFolders packages{};         // of a URDF's meshes
+};
+
+/// What was attached.
+struct Attached {
+  std::vector<std::string> joints;   // that carry the friction now
+  std::vector<std::string> notices;  // of reading and of what was changed, one sentence each
+};
+
+/// Reads an MJCF or URDF model and writes it to `out` as MJCF, with friction on the given joints:
+/// - `joint` of each friction is a name or a pattern (MatchJoints);
+/// - the joint's own damping and frictionloss, which the friction replaces, are removed;
+/// - as actuators: an effort limit of the joint, which would clip friction too, is moved
+///   (MoveEffortLimits); in the passive form it stays;
+/// - everything else compiles to the same bits as before; meshes and textures are still found in
+///   the folder of the original.
+/// Throws BadInput for a model that does not load, a joint that is unknown (with the nearest name),
+/// that two frictions name, that is neither hinge nor slide or has friction already, joints too
+/// light for their friction (RefuseLightJoints), and what the plugin refuses; then `out` is not
+/// written.
+Attached AttachFriction(const std::filesystem::path& model,
+                        const std::vector<FrictionForJoint>& frictions,
+                        const std::filesystem::path& out, const AttachOptions& options = {});
+
+/// A small model that runs, with the friction on its only joint, "joint": what an identified
+/// friction looks like in MuJoCo, to try out or to copy from.
+std::string MinimalModel(const Friction& friction, JointKind kind);
+
+}  // namespace warmjoint::inline sim

@@ -1,0 +1,310 @@
+// What the public headers promise: the library does what the command line does.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <warmjoint/errors.h>
+#include <warmjoint/identify.h>
+#include <warmjoint/score.h>
+#include <warmjoint/suite.h>
+
+#include <array>
+#include <functional>
+#include <thread>
+
+#include "models/foundation/atomic_file.h"
+#include "models/robots/robot_folder.h"
+#include "tests/tools/cli/recording_file.h"
+#include "tests/tools/cli/run_program.h"
+#include "tests/tools/cli/table_one_yaml.h"
+#include "tests/tools/scratch_directory.h"
+
+namespace warmjoint {
+namespace {
+
+using testing::HasSubstr;
+
+/// Four speeds in both directions, 30 s each, rad/s; i: s.
+double SeveralSpeeds(int i) { return (i / 30 % 2 ? -1 : 1) * 0.2 * (1 + i / 60 % 4); }
+
+/// One speed in both directions, rad/s.
+double OneSpeed(int i) { return i / 20 % 2 ? -0.5 : 0.5; }
+
+/// A scenario of the paper's joint, carried out. seconds: of its duration.
+Simulation TableOneRun(int seconds) {
+  const ScratchDirectory scratch;
+  WriteWholeFile(scratch.path() / "scenario.yaml", TableOneYaml(seconds));
+  return Simulate(scratch.path() / "scenario.yaml", {.seed = 3});
+}
+
+/// What refuses it says; empty where nothing does.
+template <typename Work>
+std::string Refusal(const Work& work) {
+  try {
+    work();
+  } catch (const BadInput& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// One thing asked of both: the arguments behind RECORDING, and the settings that mean the same.
+struct Asked {
+  std::string name;
+  std::vector<std::string> arguments;
+  std::function<void(RecordingSource&, IdentifySettings&, HoldOutSource&)> set;
+  Status status = Status::ok;
+  double (*velocity)(int) = SeveralSpeeds;
+};
+
+void PrintTo(const Asked& asked, std::ostream* stream) { *stream << asked.name; }
+
+class IdentifyAsTheCommand : public testing::TestWithParam<Asked> {};
+
+TEST_P(IdentifyAsTheCommand, GivesTheSameFileToTheLastByte) {
+  const ScratchDirectory scratch;
+  const std::string log = scratch.path() / "log.csv", file = scratch.path() / "estimate.json";
+  WriteRecordingFile(log, 480, GetParam().velocity);
+  std::vector<std::string> arguments{"identify", log, "-o", file};
+  arguments.insert(arguments.end(), GetParam().arguments.begin(), GetParam().arguments.end());
+  const ProgramAnswer answer = RunWarmjoint(arguments);
+  ASSERT_EQ(answer.status, GetParam().status == Status::ok ? 0 : 3) << answer.err;
+
+  RecordingSource source{{log}, {}, {}};
+  IdentifySettings settings;
+  HoldOutSource holdout;
+  GetParam().set(source, settings, holdout);
+  Estimate estimate = Identify(Prepare(ReadRecording(source), source.prepare), settings, holdout);
+  EXPECT_EQ(estimate.status, GetParam().status) << estimate.message;
+  estimate.recording = source;
+  WriteEstimate(estimate, scratch.path() / "ours.json");
+  EXPECT_EQ(ReadWholeFile(scratch.path() / "ours.json"), ReadWholeFile(file));
+
+  // and there and back as values
+  WriteEstimate(ReadEstimate(file), scratch.path() / "back.json");
+  EXPECT_EQ(ReadWholeFile(scratch.path() / "back.json"), ReadWholeFile(file));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Logs, IdentifyAsTheCommand,
+    testing::Values(
+        Asked{"Defaults", {}, [](auto&, auto&, auto&) {}, Status::not_identifiable},
+        Asked{"Refused",
+              {"--identifier", "nominal-ls"},
+              [](auto&, auto& settings, auto&) { settings.identifier = "nominal-ls"; },
+              Status::not_identifiable,
+              OneSpeed},
+        Asked{"LinearJointInOtherUnits",
+              {"--identifier", "nominal-ls", "--unit", "position=mm,velocity=mm/s,torque=kN",
+               "--joint", "linear", "--gear", "3", "--scale", "torque=0.5"},
+              [](auto& source, auto& settings, auto&) {
+                settings.identifier = "nominal-ls";
+                source.read.unit = {{"torque", "kN"}, {"position", "mm"}, {"velocity", "mm/s"}};
+                source.read.joint = JointKind::linear;
+                source.read.gear = 3;
+                source.read.scale = {{"torque", 0.5}};
+              }},
+        Asked{"OptionsGravityAndTrimmedHolds",
+              {"--identifier", "nominal-ls", "--set", "law=asymmetric", "--gravity", "sincos",
+               "--trim", "1", "--shortest-hold", "2", "--start", "unknown", "--relevance", "0.05",
+               "--holdout", "0.4"},
+              [](auto& source, auto& settings, auto& holdout) {
+                settings.identifier = "nominal-ls";
+                settings.options = {{"law", "asymmetric"}};
+                settings.gravity = "sincos";
+                settings.start = "unknown";
+                settings.relevance = 0.05;
+                holdout.fraction = 0.4;
+                source.prepare = {1, 2};
+              }},
+        Asked{"ACurrentWhichMuJoCoDoesNotKnow",
+              {"--identifier", "nominal-ls", "--unit", "torque=A"},
+              [](auto& source, auto& settings, auto&) {
+                settings.identifier = "nominal-ls";
+                source.read.unit = {{"torque", "A"}};
+              }}),
+    [](const auto& asked) { return asked.param.name; });
+
+TEST(Identify, FollowsAnEarlierRecordingAsTheCommand) {
+  const ScratchDirectory scratch;
+  const std::string log = scratch.path() / "log.csv", earlier = scratch.path() / "earlier.json";
+  const std::string file = scratch.path() / "estimate.json";
+  WriteRecording(TableOneRun(3600).measurements, log);
+  RunWarmjoint({"identify", log, "-o", earlier});
+  RunWarmjoint({"identify", log, "--follows", earlier, "--pause", "60", "-o", file});
+
+  const Measurements recording = ReadRecording({{log}, {}, {}});
+  const CarriedHeat heat = CarryOver(HeatLeftBy(ReadEstimate(earlier), earlier), 60, recording);
+  Estimate estimate = Identify(Prepare(recording), {}, {}, heat);
+  estimate.recording = RecordingSource{{log}, {}, {}};
+  WriteEstimate(estimate, scratch.path() / "ours.json");
+  EXPECT_EQ(ReadWholeFile(scratch.path() / "ours.json"), ReadWholeFile(file));
+  // the truth is -3; its standard error over an hour is some 0.1
+  EXPECT_NEAR(estimate.Find("thermal_gain")->value, -3, 0.5);
+}
+
+TEST(Identify, RefusesSettingsWithTheBoundOrTheNearestName) {
+  const PreparedLog log = Prepare(TableOneRun(600).measurements);
+  const auto refusal = [&](const std::function<void(IdentifySettings&)>& change) {
+    IdentifySettings settings;
+    change(settings);
+    return Refusal([&] { Identify(log, settings); });
+  };
+  EXPECT_THAT(refusal([](auto& s) { s.identifier = "nominal-sl"; }), HasSubstr("'nominal-ls'"));
+  EXPECT_THAT(refusal([](auto& s) { s.options = {{"lwa", "coulomb"}}; }), HasSubstr("'law'"));
+  EXPECT_THAT(refusal([](auto& s) { s.relevance = 2; }), HasSubstr("at most 1"));
+  EXPECT_THAT(Refusal([&] { Identify(log, {}, {1, {}}); }), HasSubstr("below 1"));
+}
+
+TEST(Identify, AnswersTheSameInManyThreads) {
+  const PreparedLog log = Prepare(TableOneRun(1200).measurements);
+  const std::string alone = EstimateToJson(Identify(log));
+  std::array<std::string, 4> answers;
+  {
+    std::vector<std::jthread> threads;
+    for (std::string& answer : answers) {
+      threads.emplace_back([&] { answer = EstimateToJson(Identify(log)); });
+    }
+  }
+  for (const std::string& answer : answers) EXPECT_EQ(answer, alone);
+}
+
+TEST(MakeRecording, OfVectorsIsWhatAFileOfThemIs) {
+  const ScratchDirectory scratch;
+  WriteWholeFile(scratch.path() / "log.csv",
+                 "t_ms,position,velocity,torque\n0,0,90,1\n1000,90,90,2\n2000,180,90,1\n"
+                 "3000,270,90,2\n");
+  std::map<std::string, std::vector<double>> columns{{"t_ms", {0, 1000, 2000, 3000}},
+                                                     {"position", {0, 90, 180, 270}},
+                                                     {"velocity", {90, 90, 90, 90}},
+                                                     {"torque", {1, 2, 1, 2}}};
+  ReadSettings settings;
+  settings.map = {{"time", "t_ms"}};
+  settings.unit = {{"time", "ms"}, {"position", "deg"}, {"velocity", "deg/s"}};
+  settings.scale = {{"torque", -1}};
+  const Measurements made = MakeRecording(columns, settings, "bench");
+  const Measurements read = ReadRecording({{scratch.path() / "log.csv"}, settings, {}});
+  EXPECT_EQ(made.torque, Eigen::Vector4d(-1, -2, -1, -2));
+  EXPECT_EQ(made.time, read.time);
+  EXPECT_EQ(made.position, read.position);
+  EXPECT_EQ(made.velocity, read.velocity);
+  EXPECT_EQ(made.torque, read.torque);
+
+  columns["torque"].pop_back();
+  EXPECT_THAT(Refusal([&] { MakeRecording(columns, settings, "bench"); }), HasSubstr("bench: "));
+  EXPECT_THAT(Refusal([&] { ReadRecording({{"absent.csv"}, {}, {}}); }), HasSubstr("absent.csv"));
+}
+
+TEST(Check, SaysWhatTheCommandSays) {
+  const ScratchDirectory scratch;
+  const std::string log = scratch.path() / "log.csv";
+  WriteRecordingFile(log, 480, SeveralSpeeds);
+  const RecordingCheck check = CheckRecording(ReadRecording({{log}, {}, {}}));
+  EXPECT_EQ(CheckToText(check), RunWarmjoint({"check", log}).out);
+  EXPECT_EQ(check.motion.levels.size(), 8u);
+}
+
+TEST(AttachFriction, WritesTheModelOfTheCommandInBothForms) {
+  const ScratchDirectory scratch;
+  const auto theirs = scratch.path() / "theirs.xml", ours = scratch.path() / "ours.xml";
+  const std::string friction = DataFolder() / "models/robots/yumi_like/friction.json";
+  for (const FrictionForm form : {FrictionForm::actuator, FrictionForm::passive}) {
+    const ProgramAnswer answer = RunWarmjoint(
+        {"attach", "yumi_like", "--joint", "joint_.*=" + friction, "--as",
+         std::string(NameOf(form)), "--initial", "settled:0.2", "--armature", "joint_.*=0.125",
+         "--integrator", "implicitfast", "--timestep", "0.0005", "-o", theirs});
+    ASSERT_EQ(answer.status, 0) << answer.err;
+    std::vector<std::string> warnings;
+    AttachOptions options;
+    options.form = form;
+    options.armatures = {{"joint_.*", 0.125}};
+    options.integrator = mjINT_IMPLICITFAST;
+    options.timestep = 0.0005;
+    const Attached attached = AttachFriction(
+        FindRobot("yumi_like", "model"),
+        {ReadFrictionForJoint("joint_.*", friction, "settled:0.2", warnings)}, ours, options);
+    EXPECT_EQ(ReadWholeFile(ours), ReadWholeFile(theirs));
+    EXPECT_EQ(attached.joints.size(), 7u);
+  }
+}
+
+TEST(AttachFriction, RefusesAndWritesNothing) {
+  const ScratchDirectory scratch;
+  const auto out = scratch.path() / "out.xml";
+  const FrictionForJoint hinge{"hinge",
+                               ReadFriction(DataFolder() / "models/robots/pendulum/friction.json")};
+  const auto refusal = [&](const FrictionForJoint& friction, const AttachOptions& options) {
+    return Refusal(
+        [&] { AttachFriction(FindRobot("pendulum", "model"), {friction}, out, options); });
+  };
+  EXPECT_THAT(refusal({"hing", hinge.friction}, {}), HasSubstr("'hinge'"));
+  EXPECT_THAT(refusal(hinge, {.timestep = 0}), HasSubstr("above 0"));
+  EXPECT_THAT(refusal(hinge, {.armatures = {{"hinge", -1}}}), HasSubstr("0 or more"));
+  EXPECT_THAT(refusal(hinge, {.packages = {{"robot", "absent"}}}), HasSubstr("not a folder"));
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST(Run, HasTheLeaderboardOfTheCommandAndItsScores) {
+  const ScratchDirectory scratch;
+  const std::string suite = scratch.path() / "little.yaml";
+  const auto theirs = scratch.path() / "theirs", ours = scratch.path() / "ours";
+  WriteWholeFile(suite, TableOneSuite(6, "  - {name: nominal-ls}\n  - {name: energy-ml}\n"));
+  ASSERT_EQ(RunWarmjoint({"run", suite, "-o", theirs, "--realizations", "3"}).status, 0);
+  for (const std::string format : {"text", "markdown", "json", "csv"}) {
+    EXPECT_EQ(FormatLeaderboard(theirs, format),
+              RunWarmjoint({"compare", theirs, "--format", format}).out);
+  }
+
+  // stopped by whom it tells, then to its end in quiet
+  RunArguments arguments;
+  arguments.suite = suite;
+  arguments.output = ours;
+  arguments.realizations = 3;
+  arguments.jobs = 1;
+  EXPECT_THROW(warmjoint::Run(arguments, [](int, int) { throw std::runtime_error("enough"); }),
+               std::runtime_error);
+  testing::internal::CaptureStderr();
+  const RunEnding ending = warmjoint::Run(arguments);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(ending.realizations, 3);
+  EXPECT_EQ(ending.results, 6u);
+
+  const Leaderboard board = ReadLeaderboard(ours), other = ReadLeaderboard(theirs);
+  ASSERT_EQ(board.rows.size(), other.rows.size());
+  for (std::size_t i = 0; i < board.rows.size(); ++i) {
+    EXPECT_EQ(board.rows[i].identifier, other.rows[i].identifier);
+    // the program masks glibc's forms with fused multiply-adds, this process does not: an iterative
+    // fit then differs by what it leaves open
+    EXPECT_NEAR(board.rows[i].npe_continuous.median, other.rows[i].npe_continuous.median, 1e-6);
+  }
+  EXPECT_THAT(Refusal([&] { FormatLeaderboard(ours, "xls"); }), HasSubstr("xls"));
+  arguments.jobs = 0;
+  EXPECT_THAT(Refusal([&] { warmjoint::Run(arguments); }), HasSubstr("from 1 to 1024"));
+}
+
+TEST(Score, IsThatOfTheLeaderboard) {
+  const ScratchDirectory scratch;
+  RunArguments arguments;
+  arguments.suite = scratch.path() / "little.yaml";
+  arguments.output = scratch.path() / "run";
+  WriteWholeFile(arguments.suite, TableOneSuite(1, "  - {name: energy-ml}\n"));
+  warmjoint::Run(arguments);
+  const LeaderboardRow row = ReadLeaderboard(arguments.output).rows.front();
+
+  const Simulation simulation = TableOneRun(1800);
+  const PreparedLog log = Prepare(simulation.measurements);
+  const Score score = ScoreEstimate(Identify(log), log, simulation.truth);
+  EXPECT_DOUBLE_EQ(score.npe_continuous, row.npe_continuous.median);
+  EXPECT_DOUBLE_EQ(score.npe_discrete, row.npe_discrete.median);
+
+  Truth other = simulation.truth;
+  other.force.conservativeResize(5);
+  EXPECT_NE(Refusal([&] { ScoreEstimate({}, log, other); }), "");
+  EXPECT_NE(Refusal([] { NormalisedParameterError(Eigen::Vector2d(1, 2), Eigen::Vector2d(1, 0)); }),
+            "");
+}
+
+TEST(Version, IsThatOfTheProgramAndOfTheHeaders) {
+  EXPECT_EQ(RunWarmjoint({"--version"}).out, "warmjoint " + Version() + "\n");
+}
+
+}  // namespace
+}  // namespace warmjoint

@@ -1,0 +1,141 @@
+// Suites: many realizations, several identifiers, one leaderboard. What `warmjoint run` and `warmjoint compare` do.
+//
+//   RunArguments arguments;
+//   arguments.suite = "table1.yaml";
+//   arguments.output = "RUN";
+//   arguments.realizations = 50;
+//   Run(arguments);
+//   std::puts(FormatLeaderboard("RUN", "text").c_str());
+#pragma once
+
+#include <warmjoint/claim.h>
+#include <warmjoint/friction.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace warmjoint::inline tools {
+
+/// Whether commands run within a sandbox, or with all that the user may do.
+enum class Confinement { sandbox, none };
+
+/// Most threads of a run.
+inline constexpr int kMostJobs = 1024;
+
+/// What is run and how; each member is called as its option of the command line.
+struct RunArguments {
+  std::string suite;
+  std::string output;
+  std::optional<std::uint64_t> jobs;
+  std::optional<std::uint64_t> realizations;
+  std::optional<std::uint64_t> seed;
+  std::vector<std::string> identifiers;
+  std::string shard = "1/1";
+  bool keep = false;
+  bool allow_commands = false;
+  Confinement confinement = Confinement::sandbox;  // of commands
+
+  // of a run in shards
+  bool slurm = false;
+  std::optional<std::uint64_t> local_shards;  // processes on this machine
+  std::optional<std::uint64_t> shards;
+  std::vector<std::string> sbatch;  // key=value
+  bool dry_run = false;
+
+  bool in_shards() const { return slurm || local_shards; }
+};
+
+/// What is said of a run at its end.
+struct RunEnding {
+  std::size_t results = 0;
+  std::size_t refused = 0;        // by the identifier's own verdict: an answer as any other
+  std::size_t unanswered = 0;     // crashed, took too long, or wrote something else
+  std::size_t not_simulated = 0;  // there was nothing to identify
+  /// Identifiers that answered in no realization, be it with a verdict: label, and the first reason.
+  std::vector<std::pair<std::string, std::string>> silent;
+  int realizations = 0;  // of all variants that are in the store
+  std::string
+      not_following;  // of joints that did not follow their motion: how many, and what cures it
+
+  std::size_t failed() const { return refused + unanswered + not_simulated; }
+};
+
+/// Runs a suite into a directory, or goes on where an earlier run stopped, in this process. Results are those of `warmjoint
+/// run`, bit for bit on one kind of machine. watch: is told how many realizations of how many are in the store; what it throws
+/// ends the run, resumably. Throws BadInput and OutputFailed.
+RunEnding Run(const RunArguments& arguments,
+              const std::function<void(int finished, int total)>& watch = {});
+
+/// Median, quartiles and root mean square of a sample; NaN of an empty one.
+struct Summary {
+  double median;
+  double q25;
+  double q75;
+  double rms;
+};
+
+/// How far a row is behind the best one, by pairs of the same realization.
+struct Difference {
+  double median = 0;  // of NPE - NPE of the best; infinite where mostly this one alone fails
+  double lower = 0;   // 95 % interval of that median, bootstrap
+  double upper = 0;
+  bool tie() const { return lower <= 0 && upper >= 0; }
+};
+
+/// One parameter of the truth over all realizations.
+struct ParameterRow {
+  std::string name;
+  std::optional<double> coverage95;  // share of intervals that hold the truth; empty without any
+  double efficiency = 0;             // rms error / rms Cramer-Rao bound; 1 is best, NaN unknown
+};
+
+/// One identifier over all realizations. Summaries run over the realizations that it answered.
+struct LeaderboardRow {
+  std::string identifier;  // label
+  int runs = 0;
+  std::map<std::string, int> failures;  // status: count; every status but ok
+  std::string failure_example;          // message of the first failure
+  Summary npe_continuous{}, npe_discrete{}, rmse{}, fit{}, fpe{}, mae{};
+  Summary seconds{};
+  std::vector<ParameterRow> parameters;    // continuous, in the order of the truth
+  std::vector<std::string> not_estimated;  // continuous parameters that never were; count as 0
+  std::optional<Claim> claim;
+  std::optional<Difference> behind;  // empty for the best itself
+  double rank_npe = 0;  // median continuous NPE with runs without an answer as infinite
+
+  int failed() const;
+};
+
+/// The leaderboard of a run, best identifier first.
+struct Leaderboard {
+  std::string suite;
+  std::string question;
+  int realizations = 0;  // of the suite
+  int finished = 0;      // of them in the store
+  JointKind joint = JointKind::rotary;
+  double bound_npe_continuous = 0;   // rms NPE of an estimate at the Cramer-Rao bound, or NaN
+  double bound_npe_discrete = 0;     // the same for the discrete pair
+  std::vector<LeaderboardRow> rows;  // best first
+
+  // groups of a suite with a ladder, in its order; those have the following two, too
+  std::vector<Leaderboard> groups;
+  std::string variant;
+  std::optional<double> value;  // of the ladder's variable
+  std::string variable;         // what the ladder climbs, with its unit
+};
+
+/// Sums up a run directory. Throws BadInput.
+Leaderboard ReadLeaderboard(const std::filesystem::path& directory);
+
+/// The same as `warmjoint compare --format` prints it: text, markdown, json or csv. Throws BadInput.
+std::string FormatLeaderboard(const std::filesystem::path& directory,
+                              const std::string& format = "text");
+
+}  // namespace warmjoint::inline tools
