@@ -11,7 +11,6 @@
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
-#include "identification/read_options.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint::test {
@@ -38,8 +37,7 @@ inline Measurements RecordHour(const FrictionDescription& friction, std::uint64_
 inline Estimate Answer(const std::string& name, const Measurements& measurements,
                        const std::map<std::string, std::string>& given = {}) {
   const Identifier& identifier = FindIdentifier(name);
-  const Options options = ReadOptions(identifier.options, given, {});
-  return IdentifyAndJudge(identifier, {Prepare(measurements), options, {}});
+  return IdentifyAndJudge(identifier, {Prepare(measurements), identifier.options.Read(given), {}});
 }
 
 /// The outcome of a test for lack of fit, by its name; one that is not there was not made.

@@ -55,8 +55,8 @@ std::vector<IdentifierInfo> Identifiers() {
   for (const identification::Identifier& identifier : identification::Identifiers()) {
     // each with its options, as the list of the command line has them
     IdentifierInfo info{identifier.name, identifier.summary, {}};
-    for (const identification::OptionInfo& option : identifier.options) {
-      info.options.push_back({option.name, option.default_value, option.allowed, option.meaning});
+    for (const identification::OptionInfo& option : identifier.options.List()) {
+      info.options.push_back({option.name, option.value, option.allowed, option.meaning});
     }
     all.push_back(std::move(info));
   }
