@@ -23,6 +23,7 @@
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
 #include "identification/identifiers/identifier_list.h"
+#include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
 
 namespace warmjoint::inline identification {

@@ -3,6 +3,7 @@
 // F = kv(E) v + kc(E) sign(v), Eq. (27), linear parameter-varying in E: kv(E) and kc(E) are the
 // law's own values, E in kc, and kernels over E on both. E comes from energy-ml.
 #include "identification/identifiers/identifier_list.h"
+#include "identification/linear/linear_laws.h"
 #include "identification/maps/over_energy.h"
 #include "identification/physical_bounds.h"
 #include "identification/warming/slope_heat.h"

@@ -16,6 +16,7 @@
 #include "identification/lagged/lagged_fit.h"
 #include "identification/lagged/linear_lag.h"
 #include "identification/linear/least_squares.h"
+#include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/linear/robust.h"
 #include "identification/physical_bounds.h"

@@ -16,6 +16,7 @@
 #include "identification/identifiers/identifier_list.h"
 #include "identification/inference/covariance.h"
 #include "identification/linear/least_squares.h"
+#include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/online/measured_heat.h"
 #include "identification/online/recursive_least_squares.h"
