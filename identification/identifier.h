@@ -3,12 +3,10 @@
 
 #include <warmjoint/prepared_log.h>
 
-#include <algorithm>
 #include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "identification/fit.h"
 #include "identification/options.h"
@@ -19,8 +17,7 @@ namespace warmjoint::inline identification {
 /// Told what is being tried, for people who wait; may be empty.
 using Narrator = std::function<void(const std::string& words)>;
 
-/// Everything an identifier may look at. Refers to the log's samples and to the options, which must
-/// outlive it.
+/// Everything an identifier may look at. Refers to the log's samples, which must outlive it.
 class IdentifierInput {
  public:
   IdentifierInput(PreparedLog given, const Options& given_options, StartKey key,
@@ -38,7 +35,7 @@ class IdentifierInput {
     return {log, measurements, other, options, start, narrator};
   }
 
-  /// The same samples with other options, which must outlive the answer.
+  /// The same samples with other options.
   IdentifierInput With(const Options& other) const {
     return {log, measurements, selection, other, start, narrator};
   }
@@ -56,7 +53,7 @@ class IdentifierInput {
   const PreparedLog log;
   const Measurements& measurements;
   const Selection& selection;  // filter over all samples, fit on those kept
-  const Options& options;
+  const Options options;
   const StartKey start;  // for identifiers that draw their start
   const Narrator narrator;
 
@@ -83,7 +80,7 @@ enum class Regime {
 struct Identifier {
   std::string name;
   std::string summary;
-  std::vector<OptionInfo> options;
+  Options options;  // at their defaults
   /// Mathematics that fails gives a refusal, a status and a sentence; it does not throw.
   Fit (*fit)(const IdentifierInput& input);
   Regime regime = Regime::steady;
@@ -92,10 +89,6 @@ struct Identifier {
   /// Whether that is its name, or was.
   bool IsCalled(std::string_view asked) const {
     return asked == name || (!asked.empty() && asked == earlier_name);
-  }
-  /// Whether the table of options has a row of that name.
-  bool Has(std::string_view option) const {
-    return std::ranges::find(options, option, &OptionInfo::name) != options.end();
   }
 };
 

@@ -1,54 +1,80 @@
 #include "identification/options.h"
 
-#include <fmt/format.h>
-
-#include <stdexcept>
-#include <string>
+#include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "models/foundation/parse_number.h"
 
 namespace warmjoint::inline identification {
+namespace {
 
-std::optional<std::pair<double, double>> ParseRange(std::string_view text) {
-  // both ends must be numbers, the lower one first
+/// "number > 0 <= 1"
+std::string KindWithin(std::string kind, const Bounds& bounds) {
+  const auto add = [&](const char* relation, double bound) {
+    if (std::isfinite(bound)) kind += fmt::format(" {} {}", relation, bound);
+  };
+  add(">", bounds.above);
+  add(">=", bounds.at_least);
+  add("<", bounds.below);
+  add("<=", bounds.at_most);
+  return kind;
+}
+
+}  // namespace
+
+void ReadValue(const Node& node, OptionRange* value, const FieldInfo&) {
+  const std::string text = node.Text();
   const size_t colon = text.find(':');
-  if (colon == std::string_view::npos) return std::nullopt;
-  const auto lower = ParseFinite(text.substr(0, colon));
-  const auto upper = ParseFinite(text.substr(colon + 1));
-  if (!lower || !upper || *lower > *upper) return std::nullopt;
-  return std::pair(*lower, *upper);
-}
-
-const std::string& Options::Text(std::string_view name) const {
-  const auto found = values_.find(name);
-  // a bug of the identifier, in every build: there is no text to go on with
-  if (found == values_.end()) {
-    throw std::logic_error("an identifier asks for the option '" + std::string(name) +
-                           "', which its table of options lacks");
+  std::optional<double> lower, upper;
+  if (colon != std::string::npos) {
+    lower = ParseFinite(std::string_view(text).substr(0, colon));
+    upper = ParseFinite(std::string_view(text).substr(colon + 1));
   }
-  return found->second;
+  if (!lower || !upper || *lower > *upper) {
+    node.RefuseValue("two numbers lower:upper, the first not above the second, as -9:0");
+  }
+  *value = {*lower, *upper};
 }
 
-double Options::Number(std::string_view name) const {
-  const auto number = numbers_.find(name);
-  return number != numbers_.end() ? number->second : ParseNumber(Text(name)).value();
+Tree WriteValue(const OptionRange& value) { return fmt::format("{}:{}", value.lower, value.upper); }
+
+std::string OptionLister::TextOf(const Tree& value) {
+  if (value.is_string()) return value.get<std::string>();
+  return value.is_number_float() ? fmt::format("{}", value.get<double>()) : value.dump();
 }
 
-Options Options::With(std::string_view name, double number) const {
+std::string OptionLister::Allowed(double, const Bounds& bounds) {
+  return KindWithin("number", bounds);
+}
+
+std::string OptionLister::Allowed(int, const Bounds& bounds) {
+  return KindWithin("integer", bounds);
+}
+
+bool Options::Has(std::string_view name) const {
+  return std::ranges::any_of(List(), [&](const OptionInfo& one) { return one.name == name; });
+}
+
+Options Options::Read(const std::map<std::string, std::string>& given, const Place& place) const {
   Options options = *this;
-  options.numbers_.insert_or_assign(std::string(name), number);
-  // its text is for reports alone
-  std::string text = fmt::format("{}", number);
-  if (text != Text(name)) options.changed_.insert_or_assign(std::string(name), std::move(text));
+  const std::shared_ptr<Held> read = held_->Copy();
+  read->Read(NodeOf(given, place));
+  options.held_ = read;
   return options;
 }
 
-int Options::Integer(std::string_view name) const {
-  return static_cast<int>(ParseInteger(Text(name)).value());
+std::map<std::string, std::string> Options::Changed() const {
+  std::map<std::string, std::string> changed;
+  const std::vector<OptionInfo> rows = List(), defaults = held_->Defaults();
+  for (size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i].value != defaults[i].value) changed[rows[i].name] = rows[i].value;
+  }
+  return changed;
 }
 
-std::pair<double, double> Options::Range(std::string_view name) const {
-  return ParseRange(Text(name)).value();
+Node NodeOf(const std::map<std::string, std::string>& given, const Place& place) {
+  return {Tree(given), place.file, {{"", place}}, Scalars::texts};
 }
 
 }  // namespace warmjoint::inline identification

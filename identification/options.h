@@ -1,54 +1,170 @@
-// Options of identifiers, `--set key=value`, as values.
+// Options of identifiers, `--set key=value`, as typed values.
+//
+// A struct of options has the name, bounds and meaning of each beside it (serialize.h). An identifier has groups of them, of
+// which others share some:
+//
+//   struct KalmanOptions {
+//     int passes = 10;
+//
+//     template <class A>
+//     void Serialize(A* a) {
+//       a->Field("passes", &passes, {.bounds = {.at_least = 1, .at_most = 100}, .meaning = "most passes over the recording"});
+//     }
+//   };
+//
+//   OptionGroups<LawOption, KalmanOptions>
 #pragma once
 
-#include <functional>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <concepts>
 #include <map>
-#include <optional>
+#include <memory>
+#include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "models/foundation/serialize.h"
+
 namespace warmjoint::inline identification {
 
-/// One option of an identifier.
+/// One option, as tables and readers of texts see it.
 struct OptionInfo {
   std::string name;
-  std::string default_value;
+  std::string value;
   /// "text", "range", words separated by |, or "number" or "integer" and bounds: "number > 0 <= 1".
   std::string allowed;
   std::string meaning;
 };
 
-/// "lower:upper" with lower <= upper, both finite; nothing where the text is no such range.
-std::optional<std::pair<double, double>> ParseRange(std::string_view text);
+/// "lower:upper", two finite numbers; lower <= upper.
+struct OptionRange {
+  double lower = 0;
+  double upper = 0;
+};
+void ReadValue(const Node& node, OptionRange* value, const FieldInfo& info);
+Tree WriteValue(const OptionRange& value);
 
-/// Values by name, defaults filled in: made by ReadOptions (read_options.h).
-class Options {
+/// A type whose values have words: an enum, or a struct that stands for one of a list.
+template <typename E>
+concept HasWords = requires(const E& value) {
+  { WordsOf(value) } -> std::same_as<std::span<const Word<E>>>;
+};
+template <HasWords E>
+requires std::is_class_v<E>
+void ReadValue(const Node& node, E* value, const FieldInfo&) { *value = ChoiceOf<E>(node); }
+template <HasWords E>
+requires std::is_class_v<E> Tree WriteValue(const E& value) { return NameOf(value); }
+
+/// Lists the options of a struct.
+class OptionLister {
  public:
-  using Values = std::map<std::string, std::string, std::less<>>;
+  template <class T>
+  void Field(std::string_view name, T* value, const FieldInfo& info = {}) {
+    using models::WriteValue;  // beside those above
+    rows_.push_back({std::string(name), TextOf(WriteValue(*value)), Allowed(*value, info.bounds),
+                     std::string(info.meaning)});
+  }
 
-  /// values: of each option of a table, as its row allows; changed: those that are not at their default.
-  Options(Values values, std::map<std::string, std::string> changed)
-      : values_(std::move(values)), changed_(std::move(changed)) {}
-
-  /// The value of an option of the table; a name that the table lacks is a bug.
-  const std::string& Text(std::string_view name) const;
-  double Number(std::string_view name) const;
-  int Integer(std::string_view name) const;
-  /// "lower:upper", for example "-9:0"; lower <= upper.
-  std::pair<double, double> Range(std::string_view name) const;
-
-  /// The same with a number, within its bounds, for an option that was left at its default.
-  Options With(std::string_view name, double number) const;
-
-  /// What is not at its default, by name.
-  const std::map<std::string, std::string>& changed() const { return changed_; }
+  std::vector<OptionInfo> Take() { return std::move(rows_); }
 
  private:
-  Values values_;
-  std::map<std::string, double, std::less<>> numbers_;  // that With gave
-  std::map<std::string, std::string> changed_;
+  static std::string TextOf(const Tree& value);
+  static std::string Allowed(double, const Bounds& bounds);
+  static std::string Allowed(int, const Bounds& bounds);
+  static std::string Allowed(const std::string&, const Bounds&) { return "text"; }
+  static std::string Allowed(const OptionRange&, const Bounds&) { return "range"; }
+  template <HasWords E>
+  static std::string Allowed(const E& choice, const Bounds&) {
+    std::vector<std::string_view> words;
+    for (const Word<E>& word : WordsOf(choice)) words.push_back(word.name);
+    return fmt::format("{}", fmt::join(words, "|"));
+  }
+
+  std::vector<OptionInfo> rows_;
 };
+
+/// The rows of a struct of options.
+template <Described T>
+std::vector<OptionInfo> ListOptions(T options) {
+  OptionLister lister;
+  options.Serialize(&lister);
+  return lister.Take();
+}
+
+/// Groups of options as one, in that order.
+template <Described... Groups>
+struct OptionGroups : Groups... {
+  template <class A>
+  void Serialize([[maybe_unused]] A* a) {
+    (Groups::Serialize(a), ...);
+  }
+};
+
+/// An identifier's options, whichever it has. Cheap to copy.
+class Options {
+ public:
+  template <Described T>
+  Options(const T& options) : held_(std::make_shared<HeldAs<T>>(options)) {}  // NOLINT
+  /// None.
+  Options() : Options(OptionGroups<>{}) {}
+
+  /// A group of them; null where they have none of that type.
+  template <class T>
+  const T* Find() const {
+    return dynamic_cast<const T*>(held_.get());
+  }
+  /// The same; its absence is a bug of the identifier, which throws in every build.
+  template <class T>
+  const T& Get() const {
+    return dynamic_cast<const T&>(*held_);
+  }
+  /// Whether one of them has that name, in whichever group.
+  bool Has(std::string_view name) const;
+  /// The same with another group of that type.
+  template <class T>
+  Options With(const T& group) const {
+    Options other = *this;
+    const std::shared_ptr<Held> copy = held_->Copy();
+    dynamic_cast<T&>(*copy) = group;
+    other.held_ = copy;
+    return other;
+  }
+
+  /// These options with what texts say of some of them. Throws BadInput from `place` for an unknown name, with the nearest,
+  /// and for values that are not allowed.
+  Options Read(const std::map<std::string, std::string>& given, const Place& place = {}) const;
+
+  std::vector<OptionInfo> List() const { return held_->List(); }
+  /// The texts of what is not at its default, by name.
+  std::map<std::string, std::string> Changed() const;
+
+ private:
+  struct Held {
+    virtual ~Held() = default;
+    virtual std::shared_ptr<Held> Copy() const = 0;
+    virtual void Read(const Node& node) = 0;
+    virtual std::vector<OptionInfo> List() const = 0;
+    virtual std::vector<OptionInfo> Defaults() const = 0;
+  };
+
+  template <class T>
+  struct HeldAs final : Held, T {
+    explicit HeldAs(const T& options) : T(options) {}
+    std::shared_ptr<Held> Copy() const override { return std::make_shared<HeldAs>(*this); }
+    void Read(const Node& node) override { ReadFields(node, static_cast<T*>(this)); }
+    std::vector<OptionInfo> List() const override { return ListOptions<T>(*this); }
+    std::vector<OptionInfo> Defaults() const override { return ListOptions(T{}); }
+  };
+
+  std::shared_ptr<const Held> held_;
+};
+
+/// What texts give by name, for readers of fields; refusals name the place.
+Node NodeOf(const std::map<std::string, std::string>& given, const Place& place);
 
 }  // namespace warmjoint::inline identification

@@ -1,9 +1,51 @@
-// The samples of a log that an identifier learns from.
+// The samples of a log that an identifier learns from, and the options that say which.
 #pragma once
+
+#include <array>
+#include <span>
 
 #include "identification/identifier.h"
 
 namespace warmjoint::inline identification {
+
+/// The samples that take part, as options ask for them.
+enum class MotionKind { chosen, constant, any };
+inline std::span<const Word<MotionKind>> WordsOf(MotionKind) {
+  static constexpr std::array words{Word{"chosen", MotionKind::chosen},
+                                    Word{"constant", MotionKind::constant},
+                                    Word{"any", MotionKind::any}};
+  return words;
+}
+
+/// The option of an identifier that can follow motion of any kind.
+struct MotionOption {
+  MotionKind motion = MotionKind::chosen;
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("motion", &motion,
+             {.meaning = "constant: samples at constant speed; any: all that move, with inertia "
+                         "beside friction; chosen: any where the log holds no speeds"});
+  }
+};
+
+enum class LossKind { squares, huber };
+inline std::span<const Word<LossKind>> WordsOf(LossKind) {
+  static constexpr std::array words{Word{"squares", LossKind::squares},
+                                    Word{"huber", LossKind::huber}};
+  return words;
+}
+
+/// The option of an identifier that can do with outliers.
+struct LossOption {
+  LossKind loss = LossKind::squares;
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("loss", &loss,
+             {.meaning = "squares, or Huber's loss, which bounds the pull of outliers"});
+  }
+};
 
 /// The input with the samples that the identifier learns from: those of its regime; of one that has the
 /// option `motion`, all that move where that asks for them, or where the log shows no constant speeds.

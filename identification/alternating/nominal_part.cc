@@ -4,7 +4,6 @@
 
 #include "identification/fit_data.h"
 #include "identification/linear/linear_laws.h"
-#include "identification/maps/position_maps.h"
 #include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
@@ -13,7 +12,7 @@ namespace {
 /// Law and kernels over position.
 void AddMap(const IdentifierInput& input, const std::string& identifier, NominalPart& part) {
   // a map over position would take gravity up
-  if (input.options.Text(kGravityOption) != "none") {
+  if (input.options.Get<GravityOption>().gravity != FittedGravity::none) {
     part.refusal = Refusal{Status::bad_data,
                            "position=map cannot be had together with gravity; leave one of them "
                            "out (basis=position takes gravity up into the map)"};
@@ -25,7 +24,7 @@ void AddMap(const IdentifierInput& input, const std::string& identifier, Nominal
   part.refusal = begin.refusal;
   if (part.refusal) return;
   MapTask& task = begin.task;
-  task.candidates = PositionMaps(input.options, task.settings, begin.points);
+  task.candidates = PositionMaps(input.options, begin.points);
   const auto choice = ChooseAndFit(moving, task);
   if (!choice) {
     part.refusal = Unsolvable();
@@ -55,7 +54,7 @@ std::vector<FrictionMap> NominalPart::MapsOf(const Eigen::VectorXd& nominal) con
 
 NominalPart PrepareNominalPart(const IdentifierInput& given, const std::string& identifier) {
   const Measurements& m = given.measurements;
-  const Law& law = *FindLaw(given.options.Text("law"));
+  const Law& law = *given.options.Get<LawOption>().law;
   NominalPart part;
   // gravity, where it is asked for
   part.gravity = PrepareRigid(given);
@@ -73,7 +72,7 @@ NominalPart PrepareNominalPart(const IdentifierInput& given, const std::string& 
   // samples that move
   part.moving = WithoutRest(input.selection, m);
   part.columns = LawColumns(law, m.velocity);
-  if (given.options.Text("position") == "map") {
+  if (given.options.Get<NominalMapOptions>().position == NominalMap::map) {
     AddMap(input, identifier, part);
     return part;
   }

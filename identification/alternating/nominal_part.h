@@ -2,11 +2,32 @@
 // it.
 #pragma once
 
+#include <array>
+#include <span>
+
 #include "identification/linear/least_squares.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/maps/identify_maps.h"
 
 namespace warmjoint::inline identification {
+
+/// Whether a map stands beside the law.
+enum class NominalMap { none, map };
+inline std::span<const Word<NominalMap>> WordsOf(NominalMap) {
+  static constexpr std::array words{Word{"none", NominalMap::none}, Word{"map", NominalMap::map}};
+  return words;
+}
+
+/// A map beside the law, and how it is made.
+struct NominalMapOptions : AddedMapOptions {
+  NominalMap position = NominalMap::none;
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("position", &position, {.meaning = "a map over position beside the law"});
+    AddedMapOptions::Serialize(a);
+  }
+};
 
 struct NominalPart {
   Selection moving;         // samples that take part: kept, and not at rest

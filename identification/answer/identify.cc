@@ -70,7 +70,7 @@ Estimate ReportAnswer(const Identifier& identifier, const IdentifierInput& given
                       const Answer& answer) {
   const IdentifierInput input = Seen(identifier, given);
   Estimate estimate = ReportFit(answer.fit, answer.judged, input.measurements);
-  estimate.options = input.options.changed();
+  estimate.options = input.options.Changed();
 
   // how the samples were prepared, of fits at constant speed
   const bool steady = identifier.regime == Regime::steady && !input.measurements.acceleration;

@@ -6,7 +6,6 @@
 #include "identification/find_parameter.h"
 #include "identification/fit_parameters.h"
 #include "identification/lack_of_fit/judge.h"
-#include "identification/read_options.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -77,8 +76,7 @@ void TakeOver(const Fit& fit, Inference inference, Estimate& estimate) {
 void JudgeEstimate(const PreparedLog& log, const Judging& judging, Estimate& estimate) {
   // an identifier without options stands for whoever made the estimate
   const Identifier identifier{estimate.identifier, "", {}, nullptr};
-  const Options options = ReadOptions(identifier.options, {}, {});
-  const IdentifierInput input{log, options, {}};
+  const IdentifierInput input{log, {}, {}};
   if (!estimate.friction) {
     // nothing to follow along the log
     Fit none;

@@ -1,20 +1,29 @@
-#include "identification/identifiers/auto.h"
-
+// Identifier `auto`: chooses the structure, then identifies it.
+//
+// Tries the laws, cold and warm, with the Stribeck effect (with a level for each direction where what
+// it leaves pushes in one), and with maps over position, and over the motor's angle where a gear is
+// given. Drops those that the recording cannot identify, and
+// those to which BIC prefers a simpler one; compares the rest by the error on contiguous blocks
+// that each has not seen (blocked_hold_out.h) and takes the simplest that is not worse than the
+// best beyond doubt (structure_choice.h). The fit is that structure's on all the data; the
+// message says why and lists all candidates.
+//
+// not_identifiable where the motion cannot tell viscous from coulomb: then no law can be chosen.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <memory>
 #include <optional>
-#include <string_view>
 
 #include "identification/fit_data.h"
 #include "identification/holdout/structure_choice.h"
-#include "identification/identifiers/lag_of_log.h"
+#include "identification/identifiers/identifier_list.h"
+#include "identification/identifiers/structures.h"
 #include "identification/identifiers/tournament.h"
 #include "identification/lagged/lagged_fit.h"
 #include "identification/linear/rigid_part.h"
+#include "identification/seen_samples.h"
 #include "identification/warming/expected_start.h"
 
 namespace warmjoint::inline identification {
@@ -24,9 +33,9 @@ constexpr const char* kName = "auto";
 
 /// Laws with and without warming, then gravity beside the best of them.
 void TryLinear(const IdentifierInput& input, Tournament& tournament) {
-  const std::vector<std::string> kinds = GravityKinds(input);
-  for (const std::string& gravity : kinds) {
-    if (gravity == "paired" && kinds.size() > 1) continue;
+  const std::vector<FittedGravity> kinds = GravityKinds(input);
+  for (const FittedGravity gravity : kinds) {
+    if (gravity == FittedGravity::paired && kinds.size() > 1) continue;
     tournament.Add(ColdStructures(gravity));
     // a warming beside a further gravity only where it may be told
     if (gravity == kinds.front() || tournament.MayWarmBeside(gravity)) {
@@ -38,42 +47,42 @@ void TryLinear(const IdentifierInput& input, Tournament& tournament) {
   }
 
   // gravity that is free over place, beside the best of them alone
-  if (kinds.size() > 1 && kinds.back() == "paired") {
+  if (kinds.size() > 1 && kinds.back() == FittedGravity::paired) {
     if (const Structure* best = tournament.Best()) {
-      tournament.Add({best->With(kGravityOption, "paired")});
+      tournament.Add({best->With(GravityOption{FittedGravity::paired})});
     }
   }
 }
 
 /// Gravity to try beside maps: that of the best linear structure, but a sine where that is paired, over
 /// a joint that turns: what is no sine is the map's.
-std::string GravityBesideMaps(const IdentifierInput& input, const Structure* best) {
-  const std::vector<std::string> kinds = GravityKinds(input);
-  const std::string gravity = best ? best->Given(kGravityOption, "none") : kinds.front();
-  const bool turns = std::ranges::find(kinds, "sincos") != kinds.end();
-  return gravity == "paired" && turns ? "sincos" : gravity;
+FittedGravity GravityBesideMaps(const IdentifierInput& input, const Structure* best) {
+  const std::vector<FittedGravity> kinds = GravityKinds(input);
+  const FittedGravity gravity = best ? best->gravity() : kinds.front();
+  const bool turns = std::ranges::find(kinds, FittedGravity::sincos) != kinds.end();
+  return gravity == FittedGravity::paired && turns ? FittedGravity::sincos : gravity;
 }
 
 /// What bends or ripples, with the gravity of the best linear one.
 void TryCurved(const IdentifierInput& input, Tournament& tournament) {
-  const std::string gravity = GravityBesideMaps(input, tournament.Best());
+  const FittedGravity gravity = GravityBesideMaps(input, tournament.Best());
   const bool cold = TakesColdStart(input.options);
 
   // a bend over the speed, with and without warming
-  tournament.Add({StribeckStructure("none")});
+  tournament.Add({StribeckStructure(FittedWarming::none)});
   if (!cold) {
-    tournament.LeaveOut({StribeckStructure("estimated")},
+    tournament.LeaveOut({StribeckStructure(FittedWarming::estimated)},
                         "it takes the joint for cold as the log begins");
   } else if (tournament.MayBendAndWarm()) {
-    tournament.Add({StribeckStructure("estimated")});
+    tournament.Add({StribeckStructure(FittedWarming::estimated)});
   } else {
-    tournament.LeaveOut({StribeckStructure("estimated")},
+    tournament.LeaveOut({StribeckStructure(FittedWarming::estimated)},
                         "neither a bend over the speed nor a warming can be seen by itself");
   }
 
   // a level for each direction, where one may help
-  for (const char* warming : {"none", "estimated"}) {
-    if (!cold && std::string_view(warming) != "none") continue;
+  for (const FittedWarming warming : {FittedWarming::none, FittedWarming::estimated}) {
+    if (!cold && warming != FittedWarming::none) continue;
     if (tournament.MayHaveTwoLevels(warming)) tournament.Add({TwoLevelStribeckStructure(warming)});
   }
 
@@ -147,7 +156,7 @@ Fit NothingFits(const Tournament& tournament, StructureChoice choice) {
 }
 
 Fit FitChosen(const IdentifierInput& input) {
-  const int blocks = input.options.Integer("blocks");
+  const int blocks = input.options.Get<AutoOptions>().blocks;
   if (auto why = Unusable(input, 2 * blocks)) return Refused(kName, Status::bad_data, *why);
 
   // compare on rows that hold the means of neighbours
@@ -179,7 +188,7 @@ Fit FitChosen(const IdentifierInput& input) {
 
   // on every sample, with the reason before what it says
   if (trials.lag && chosen.CanTellLag()) {
-    chosen = chosen.With(kLagOption, "estimated");
+    chosen = chosen.With(LagOption{TorqueLagFit::estimated});
   }
   input.Tell("fitting " + chosen.Name() + " to every sample");
   Fit fit = FitOnAll(chosen, trials.lag, input);
@@ -198,18 +207,10 @@ Fit FitChosen(const IdentifierInput& input) {
 }  // namespace
 
 Identifier Auto() {
-  OptionInfo gravity = GravityOption();
-  gravity.default_value = "chosen";
-  gravity.allowed = "chosen|" + gravity.allowed;
-  std::vector<OptionInfo> options{
-      {"blocks", "6", "integer >= 3 <= 50", "contiguous parts of the recording to hold out"},
-      gravity,
-      MotionOption()};
-  std::ranges::copy(InitialEnergyOptions(), std::back_inserter(options));
   return {kName,
           "chooses law, gravity, warming and maps by hold-out, the simplest that is not worse, and "
           "says why",
-          options, &FitChosen};
+          OptionGroups<AutoOptions, MotionOption, InitialEnergyOptions>{}, &FitChosen};
 }
 
 }  // namespace warmjoint::inline identification

@@ -1,8 +1,20 @@
-#include "identification/identifiers/energy_als.h"
-
+// Identifier `energy-als`: Algorithm 1 of the paper, which are alternating least squares.
+//
+// Alternating least squares, a block-coordinate descent on |tau - Fn(v) - sign(v) E|^2 with
+// E = H W, W = |tau v| (19):
+//   0. E from the start H0, Fn by (24); then repeat
+//   1. E by (23)   2. H(z) of (22) to that E by output error   3. E = H W   4. Fn by (24).
+// It converges linearly, at the squared largest canonical correlation of its two blocks: about
+// 0.974 an iteration for steady motion, faster where rests let the joint cool. not_converged,
+// with the numbers reached so far, where the observed rate says that a parameter would still move
+// by more than the option `tolerance`.
+// It gives no intervals: W is formed of the noisy torque, so the residual understates the errors
+// (on Table I such intervals would hold the time constant in 72 % of the runs instead of 95 %).
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "identification/alternating/block_descent.h"
 #include "identification/alternating/convergence.h"
@@ -10,9 +22,9 @@
 #include "identification/alternating/nominal_part.h"
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
-#include "identification/linear/against_pushing.h"
-#include "identification/linear/linear_task.h"
-#include "identification/maps/position_maps.h"
+#include "identification/identifiers/identifier_list.h"
+#include "identification/linear/linear_laws.h"
+#include "identification/linear/rigid_part.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -20,20 +32,56 @@ namespace {
 constexpr const char* kName = "energy-als";
 constexpr double kSingular = 1e-6;  // of the joint Jacobian; short of it the intervals tell
 
+enum class LoopStart { options, guess, random };
+std::span<const Word<LoopStart>> WordsOf(LoopStart) {
+  static constexpr std::array words{Word{"options", LoopStart::options},
+                                    Word{"guess", LoopStart::guess},
+                                    Word{"random", LoopStart::random}};
+  return words;
+}
+
+struct EnergyAlsOptions {
+  int iterations = 50;
+  LoopStart start = LoopStart::options;
+  double start_gain = -0.1;          // N.m/W or N/W
+  double start_time_constant = 600;  // s
+  OptionRange gain_range{-9, 0};     // N.m/W or N/W
+  OptionRange time_range{0, 1800};   // s
+  double tolerance = 0.01;
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("iterations", &iterations,
+             {.bounds = {.at_least = 0}, .meaning = "iterations of the loop"});
+    a->Field("start", &start,
+             {.meaning = "start_gain and start_time_constant, the torque's envelope (25), or drawn "
+                         "evenly"});
+    a->Field("start_gain", &start_gain, {.meaning = "first thermal gain, N.m/W or N/W"});
+    a->Field("start_time_constant", &start_time_constant,
+             {.bounds = {.above = 0}, .meaning = "first time constant, s"});
+    a->Field("gain_range", &gain_range,
+             {.meaning = "where a random first gain is drawn, N.m/W or N/W"});
+    a->Field("time_range", &time_range,
+             {.meaning = "where a random first time constant is drawn, s"});
+    a->Field(
+        "tolerance", &tolerance,
+        {.bounds = {.above = 0},
+         .meaning = "largest distance from the fixed point that counts as converged, relative"});
+  }
+};
+
 /// Where the loop starts: from the options, from (25) corrected, or drawn at random.
 FirstGuess Start(const IdentifierInput& input) {
-  const std::string& start = input.options.Text("start");
-  if (start == "guess") return GuessThermal(input.measurements, input.selection);
-  if (start == "options") {
-    return {
-        Thermal{input.options.Number("start_gain"), input.options.Number("start_time_constant")},
-        ""};
+  const auto& options = input.options.Get<EnergyAlsOptions>();
+  if (options.start == LoopStart::guess) return GuessThermal(input.measurements, input.selection);
+  if (options.start == LoopStart::options) {
+    return {Thermal{options.start_gain, options.start_time_constant}, ""};
   }
 
   // drawn evenly within the ranges of the options
   StartStream random(input.start);
-  const auto [least_gain, greatest_gain] = input.options.Range("gain_range");
-  const auto [shortest, longest] = input.options.Range("time_range");
+  const auto [least_gain, greatest_gain] = options.gain_range;
+  const auto [shortest, longest] = options.time_range;
   const double gain = random.Uniform(least_gain, greatest_gain);
   return {Thermal{gain, random.Uniform(shortest, longest)}, ""};
 }
@@ -89,8 +137,9 @@ std::optional<Refusal> WhyRefused(const Measurements& m, const DescentState& las
                                last.thermal.time_constant)};
   }
   if (const Eigen::Index i = FeedsItselfAt(m, friction); i >= 0) {
-    return Refusal{Status::inadequate_model,
-                   WouldFeedItself(m.time[i], AgainstPushing("energy-ml", "", "none"))};
+    return Refusal{
+        Status::inadequate_model,
+        WouldFeedItself(m.time[i], AgainstPushing("energy-ml", "", FittedGravity::none))};
   }
   return std::nullopt;
 }
@@ -150,7 +199,7 @@ Uncertainty OfTable(const NominalPart& part, Eigen::Index d, Uncertainty known) 
 /// Law, warming, gravity and maps of the last state: the model and its table.
 Fit ModelOf(const IdentifierInput& input, const NominalPart& part, const DescentState& last) {
   const Measurements& m = input.measurements;
-  const Law& law = *FindLaw(input.options.Text("law"));
+  const Law& law = *input.options.Get<LawOption>().law;
   const Eigen::VectorXd values =
       last.nominal.head(static_cast<Eigen::Index>(law.parameters.size()));
   Fit fit;
@@ -196,7 +245,8 @@ Fit Conclude(const IdentifierInput& input, const NominalPart& part, const BlockD
       JudgeUncertainty(jacobian, *cofactor, fit.residual(), fit.used, fit.fitted);
   const auto d = static_cast<Eigen::Index>(fit.friction.parameters.size());
   fit.errors.known = OfTable(part, d, known);
-  const auto [arrived, message] = Arrival(states, known, input.options.Number("tolerance"));
+  const auto [arrived, message] =
+      Arrival(states, known, input.options.Get<EnergyAlsOptions>().tolerance);
   if (!arrived) fit.voided = {Status::not_converged, message};
   fit.summary = message;
 
@@ -231,7 +281,7 @@ Fit FitInTurn(const IdentifierInput& input) {
   const double shortest = descent.output_error().shortest();
   start.thermal->time_constant = std::max(start.thermal->time_constant, shortest);
   const std::vector<DescentState> states =
-      Descend(descent, *start.thermal, input.options.Integer("iterations"));
+      Descend(descent, *start.thermal, input.options.Get<EnergyAlsOptions>().iterations);
 
   Fit fit = Conclude(input, part, descent, states);
   fit.trace = Trace(states, static_cast<Eigen::Index>(fit.friction.parameters.size()));
@@ -241,27 +291,11 @@ Fit FitInTurn(const IdentifierInput& input) {
 }  // namespace
 
 Identifier EnergyAls() {
-  std::vector<OptionInfo> options{
-      LawOption(),
-      {"iterations", "50", "integer >= 0", "iterations of the loop"},
-      {"start", "options", "options|guess|random",
-       "start_gain and start_time_constant, the torque's envelope (25), or drawn evenly"},
-      {"start_gain", "-0.1", "number", "first thermal gain, N.m/W or N/W"},
-      {"start_time_constant", "600", "number > 0", "first time constant, s"},
-      {"gain_range", "-9:0", "range", "where a random first gain is drawn, N.m/W or N/W"},
-      {"time_range", "0:1800", "range", "where a random first time constant is drawn, s"},
-      {"tolerance", "0.01", "number > 0",
-       "largest distance from the fixed point that counts as converged, relative"},
-      GravityOption(),
-  };
-  for (OptionInfo& option : PositionPartOptions("none|map", "a map over position beside the law")) {
-    options.push_back(std::move(option));
-  }
   return {
       kName,
       "alternating least squares (Algorithm 1): energy filter and nominal law fitted in turn, a "
       "trace per iteration",
-      options,
+      OptionGroups<LawOption, EnergyAlsOptions, GravityOption, NominalMapOptions>{},
       &FitInTurn,
       Regime::steady,
       "energy-em"};

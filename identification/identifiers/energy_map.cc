@@ -1,7 +1,9 @@
-#include "identification/identifiers/energy_map.h"
-
+// energy-map: friction over position, velocity and energy.
+//
+// The paper's expansion over P x V x E (40 x 6 x 3 kernels), once E is known from a fit of law,
+// position map and warming together (warm_maps.h).
+#include "identification/identifiers/identifier_list.h"
 #include "identification/maps/over_energy.h"
-#include "identification/maps/position_maps.h"
 #include "identification/maps/warm_maps.h"
 #include "identification/physical_bounds.h"
 
@@ -10,15 +12,29 @@ namespace {
 
 constexpr const char* kName = "energy-map";
 
+struct EnergyMapSize {
+  int kernels = 40, velocity_kernels = 3, energy_kernels = 3;
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("kernels", &kernels,
+             {.bounds = {.at_least = 2, .at_most = 128}, .meaning = "kernels over position"});
+    a->Field("velocity_kernels", &velocity_kernels,
+             {.bounds = {.at_least = 1, .at_most = 64},
+              .meaning = "kernels over speed for each direction of motion"});
+    a->Field("energy_kernels", &energy_kernels,
+             {.bounds = {.at_least = 2, .at_most = 32}, .meaning = "kernels over energy"});
+  }
+};
+
 /// P x V x E, for every width.
-std::vector<std::vector<FrictionMap>> Shapes(const Options& options, const MapSettings& settings,
+std::vector<std::vector<FrictionMap>> Shapes(const EnergyMapSize& size, const MapOptions& options,
                                              const MapPoints& points) {
   std::vector<std::vector<FrictionMap>> shapes;
-  for (const double width : settings.widths) {
-    FrictionMap map = PositionMap(points, settings.kernels, options.Integer("kernels"), width,
-                                  options.Integer("velocity_kernels"));
-    map.axes.push_back(
-        RangeAxis(MapQuantity::energy, points, options.Integer("energy_kernels"), width));
+  for (const double width : options.Widths()) {
+    FrictionMap map =
+        PositionMap(points, options.kernel, size.kernels, width, size.velocity_kernels);
+    map.axes.push_back(RangeAxis(MapQuantity::energy, points, size.energy_kernels, width));
     shapes.push_back({map});
   }
   return shapes;
@@ -30,9 +46,10 @@ Fit FitEnergyMap(const IdentifierInput& input) {
   MapTask& task = begin.task;
 
   // E, with position parts beside it, one for each direction of motion
-  for (const double width : task.settings.widths) {
-    task.candidates.push_back({PositionMap(begin.points, task.settings.kernels,
-                                           input.options.Integer("kernels"), width)});
+  const auto& size = input.options.Get<EnergyMapSize>();
+  const auto& options = input.options.Get<MapOptions>();
+  for (const double width : options.Widths()) {
+    task.candidates.push_back({PositionMap(begin.points, options.kernel, size.kernels, width)});
   }
   const std::optional<WarmMaps> warm = FitWarmMaps(input, task);
   if (!warm) return Refused(kName, Unsolvable());
@@ -40,23 +57,17 @@ Fit FitEnergyMap(const IdentifierInput& input) {
   if (!GivesFriction(first)) return first;
 
   // the map over that E too
-  return IdentifyOverEnergy(input, task, &first, [&](const MapPoints& points) {
-    return Shapes(input.options, task.settings, points);
-  });
+  return IdentifyOverEnergy(input, task, &first,
+                            [&](const MapPoints& points) { return Shapes(size, options, points); });
 }
 
 }  // namespace
 
 Identifier EnergyMap() {
-  std::vector<OptionInfo> options = MapOptions();
-  options.push_back({"kernels", "40", "integer >= 2 <= 128", "kernels over position"});
-  options.push_back({"velocity_kernels", "3", "integer >= 1 <= 64",
-                     "kernels over speed for each direction of motion"});
-  options.push_back({"energy_kernels", "3", "integer >= 2 <= 32", "kernels over energy"});
   return {kName,
           "law, warming, and a map over position x velocity x energy: ripple that fades or grows "
           "as the joint warms",
-          options, &FitEnergyMap};
+          OptionGroups<LawOption, MapOptions, EnergyMapSize>{}, &FitEnergyMap};
 }
 
 }  // namespace warmjoint::inline identification

@@ -1,5 +1,18 @@
-#include "identification/identifiers/energy_ml.h"
-
+// Identifier `energy-ml`: law and warming together, by maximum likelihood over the closed loop.
+//
+// (p, k, tau) = argmin sum over the kept samples of (tau - F)^2, F the response of the closed loop
+// (19)-(22) to the recorded velocity: maximum likelihood for white noise on the torque. Needs no
+// start: tau is scanned, then all parameters are refined together. Any law that is linear in its
+// parameters; optionally E(0).
+//
+// Standard deviations and 95 % intervals from s^2 (J^T J)^-1 with the exact Jacobian J at the
+// solution. not_identifiable where the motion cannot tell the law's parameters apart, or where the
+// warm-up cannot be seen: its share of the residual is not beyond chance, or tau is not known to
+// better than a factor of about e.
+//
+// Where the option `torque_lag` asks for a lag and the log shows one, law and warming are fitted once more behind it
+// (lagged_warm_fit.h). Where `position` names maps over the joint's or the motor's angle, these are fitted together with law and
+// warming (energy_ml_maps.h), but behind no lag.
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -9,16 +22,25 @@
 
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
+#include "identification/identifiers/identifier_list.h"
+#include "identification/lagged/lagged_fit.h"
+#include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/linear/robust.h"
+#include "identification/maps/energy_ml_maps.h"
 #include "identification/physical_bounds.h"
+#include "identification/seen_samples.h"
 #include "identification/uncertainty/disagreement.h"
 #include "identification/warming/expected_start.h"
 #include "identification/warming/further_passes.h"
+#include "identification/warming/lagged_warm_fit.h"
 #include "identification/warming/warm_answer.h"
+#include "identification/warming/warm_course.h"
 
 namespace warmjoint::inline identification {
 namespace {
+
+constexpr const char* kEnergyMl = "energy-ml";
 
 /// What whitening changes of a fit beyond doubt; nothing where the colour may be noise. plain: the
 /// fit before it.
@@ -55,17 +77,12 @@ Whitened FitAgainWhitened(const WarmCourse& course, const LoopResponse& response
   return white;
 }
 
-Fit FitWarming(const IdentifierInput& given) {
-  return FitLawAndWarming(kEnergyMl, given, &FitFurther);
-}
-
-}  // namespace
-
+/// After the passes by squares: under Huber's loss, or on whitened rows where the noise is coloured beyond doubt.
 Fit FitFurther(const WarmCourse& course, const WarmStart& start, RobustWarmFit robust) {
   const auto& [input, task] = std::tie(course.input, course.task);
   double nominal_squares = course.nominal_squares;
   // outliers count less, in the fit without warming as well
-  if (input.options.Text("loss") == "huber") {
+  if (input.options.Get<LossOption>().loss == LossKind::huber) {
     robust = RefineByHuber(course.loop, course.level, course.offsets, course.kept,
                            std::move(robust.fit), course.spread);
     const Eigen::VectorXd root = Kept(robust.weight, input.selection).col(0).cwiseSqrt();
@@ -89,13 +106,69 @@ Fit FitFurther(const WarmCourse& course, const WarmStart& start, RobustWarmFit r
                       robust, nominal_squares);
 }
 
+/// Behind the lag that leaves least; as without one where the log shows none.
+Fit FitWithLag(const WarmCourse& course, const WarmStart& start, RobustWarmFit robust) {
+  const auto& [input, task] = std::tie(course.input, course.task);
+  std::shared_ptr<const LaggedRows> lag;
+  if (course.KeepsNoRest()) {
+    lag = FitBehindLag(
+        input.measurements, course.moving, course.loop, course.offsets, course.spread,
+        [&](const Eigen::VectorXd& level) { return Scan(course, level); }, robust.fit);
+  }
+  if (!lag) {
+    Fit fit = FitFurther(course, start, std::move(robust));
+    if (!fit.refusal) fit.afterword = kNoLagSeen;
+    return fit;
+  }
+
+  // the fit without warming, on the same rows
+  const double nominal_squares =
+      LeftOver(lag->Of(course.kept_columns), lag->Of(lag->Unlagged(course.torque)));
+  const WarmFit& warm = robust.fit;
+  const LoopResponse response = WarmResponse(course.loop, warm);
+  Fit fit = ConcludeWarm(kEnergyMl,
+                         {input,
+                          task.law,
+                          task.gravity,
+                          course.loop,
+                          start,
+                          course.gaps,
+                          response,
+                          nullptr,
+                          {},
+                          kBehindLag},
+                         robust, nominal_squares);
+  if (fit.refusal) return fit;
+
+  // the lag, which the model of law and warming does not know
+  AddLag(lag, response.force + task.gravity.columns * warm.offset_values(), input.measurements,
+         fit);
+  return fit;
+}
+
+Fit FitAsAsked(const IdentifierInput& input) {
+  const bool lags = AsksForLag(input.options);
+  // what cannot be had together
+  if (auto why = WhyNoLag(input)) return Refused(kEnergyMl, Status::bad_data, *why);
+  if (input.options.Get<WarmMapOptions>().position == WarmMap::none) {
+    return FitLawAndWarming(kEnergyMl, input, lags ? &FitWithLag : &FitFurther);
+  }
+  if (lags) {
+    return Refused(kEnergyMl, Status::bad_data,
+                   "torque_lag is estimated beside a law without maps; use position none, or "
+                   "torque_lag none");
+  }
+  return FitWithMaps(kEnergyMl, input);
+}
+
+}  // namespace
+
 Identifier EnergyMl() {
-  std::vector<OptionInfo> options{LawOption()};
-  for (const OptionInfo& option : InitialEnergyOptions()) options.push_back(option);
-  options.insert(options.end(), {GravityOption(), MotionOption(), LossOption()});
   return {kEnergyMl,
           "law and warming together by maximum likelihood over the closed loop; needs no start",
-          options, &FitWarming};
+          OptionGroups<LawOption, InitialEnergyOptions, GravityOption, MotionOption, LossOption,
+                       LagOption, WarmMapOptions>{},
+          &FitAsAsked};
 }
 
 }  // namespace warmjoint::inline identification

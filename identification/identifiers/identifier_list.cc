@@ -2,19 +2,6 @@
 
 #include <algorithm>
 
-#include "identification/identifiers/auto.h"
-#include "identification/identifiers/energy_als.h"
-#include "identification/identifiers/energy_map.h"
-#include "identification/identifiers/energy_ml_with_maps.h"
-#include "identification/identifiers/kalman.h"
-#include "identification/identifiers/load_map.h"
-#include "identification/identifiers/lpv_energy.h"
-#include "identification/identifiers/lugre.h"
-#include "identification/identifiers/motor_ridge.h"
-#include "identification/identifiers/nominal_ls.h"
-#include "identification/identifiers/position_ridge.h"
-#include "identification/identifiers/rls.h"
-#include "identification/identifiers/stribeck.h"
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
@@ -23,10 +10,9 @@ namespace warmjoint::inline identification {
 
 const std::vector<Identifier>& Identifiers() {
   static const std::vector<Identifier> identifiers{
-      NominalLs(), PositionRidge(), MotorRidge(),         EnergyMap(),
-      LoadMap(),   LpvEnergy(),     EnergyAls(),          EnergyMlWithMaps(),
-      Rls(),       Kalman(),        StribeckIdentifier(), LuGreIdentifier(),
-      Auto(),
+      NominalLs(),          PositionRidge(),   MotorRidge(), EnergyMap(), LoadMap(),
+      LpvEnergy(),          EnergyAls(),       EnergyMl(),   Rls(),       Kalman(),
+      StribeckIdentifier(), LuGreIdentifier(), Auto(),
   };
   return identifiers;
 }

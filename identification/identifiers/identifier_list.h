@@ -8,8 +8,22 @@
 
 namespace warmjoint::inline identification {
 
-/// All identifiers: a new one is its own file pair in this folder and one line in
-/// identifier_list.cc.
+/// Each is described at the top of its file.
+Identifier NominalLs();
+Identifier PositionRidge();
+Identifier MotorRidge();
+Identifier EnergyMap();
+Identifier LoadMap();
+Identifier LpvEnergy();
+Identifier EnergyAls();
+Identifier EnergyMl();
+Identifier Rls();
+Identifier Kalman();
+Identifier StribeckIdentifier();
+Identifier LuGreIdentifier();
+Identifier Auto();
+
+/// All identifiers: a new one is a file in this folder, a line above, and one in identifier_list.cc.
 const std::vector<Identifier>& Identifiers();
 
 /// The identifier that is called so, or was. Throws BadInput with the nearest name.

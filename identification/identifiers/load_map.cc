@@ -1,8 +1,10 @@
-#include "identification/identifiers/load_map.h"
-
-#include <fmt/format.h>
-
+// load-map: friction over position, energy and load.
+//
+// The paper's proposal P x E x L: a level that depends on the load which the joint transmits. The
+// recording must have the column `load`. Where no warm-up can be seen E is 0 and its axis left
+// out.
 #include "identification/fit_data.h"
+#include "identification/identifiers/identifier_list.h"
 #include "identification/inference/inference.h"
 #include "identification/maps/over_energy.h"
 #include "identification/maps/warm_maps.h"
@@ -12,16 +14,34 @@ namespace {
 
 constexpr const char* kName = "load-map";
 
+struct LoadMapSize {
+  int position_kernels = 10, energy_kernels = 3, load_kernels = 4;
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("position_kernels", &position_kernels,
+             {.bounds = {.at_least = 1, .at_most = 128}, .meaning = "kernels over position"});
+    a->Field("energy_kernels", &energy_kernels,
+             {.bounds = {.at_least = 2, .at_most = 32}, .meaning = "kernels over energy"});
+    a->Field("load_kernels", &load_kernels,
+             {.bounds = {.at_least = 2, .at_most = 32}, .meaning = "kernels over load"});
+  }
+};
+
+/// An axis of maps, and its kernels.
+struct AxisSize {
+  MapQuantity quantity;
+  int kernels;
+};
+
 /// Levels over the load alone, or over position, energy and load, for every width.
-std::vector<std::vector<FrictionMap>> Shapes(const Options& options, const MapSettings& settings,
-                                             const MapPoints& points,
-                                             const std::vector<MapQuantity>& quantities) {
+std::vector<std::vector<FrictionMap>> Shapes(const MapOptions& options, const MapPoints& points,
+                                             const std::vector<AxisSize>& axes) {
   std::vector<std::vector<FrictionMap>> shapes;
-  for (const double width : settings.widths) {
-    FrictionMap map{{}, settings.kernels, {}, MapFactor::direction};
-    for (const MapQuantity quantity : quantities) {
-      const std::string option = fmt::format("{}_kernels", NameOf(quantity));
-      map.axes.push_back(RangeAxis(quantity, points, options.Integer(option), width));
+  for (const double width : options.Widths()) {
+    FrictionMap map{{}, options.kernel, {}, MapFactor::direction};
+    for (const auto& [quantity, kernels] : axes) {
+      map.axes.push_back(RangeAxis(quantity, points, kernels, width));
     }
     shapes.push_back({map});
   }
@@ -34,7 +54,10 @@ Fit FitLoadMap(const IdentifierInput& input) {
   MapTask& task = begin.task;
 
   // E, with the load's part beside it
-  task.candidates = Shapes(input.options, task.settings, begin.points, {MapQuantity::load});
+  const auto& size = input.options.Get<LoadMapSize>();
+  const auto& options = input.options.Get<MapOptions>();
+  const AxisSize load{MapQuantity::load, size.load_kernels};
+  task.candidates = Shapes(options, begin.points, {load});
   const std::optional<WarmMaps> warm = FitWarmMaps(input, task);
   if (!warm) return Refused(kName, Unsolvable());
   const Fit first = AsFit(input, *warm);
@@ -43,10 +66,10 @@ Fit FitLoadMap(const IdentifierInput& input) {
 
   // the level over all of them
   const auto maker = [&](const MapPoints& warm_points) {
-    std::vector<MapQuantity> quantities{MapQuantity::position, MapQuantity::energy,
-                                        MapQuantity::load};
-    if (!warming) std::erase(quantities, MapQuantity::energy);
-    return Shapes(input.options, task.settings, warm_points, quantities);
+    std::vector<AxisSize> axes{{MapQuantity::position, size.position_kernels}};
+    if (warming) axes.push_back({MapQuantity::energy, size.energy_kernels});
+    axes.push_back(load);
+    return Shapes(options, warm_points, axes);
   };
   Fit fit = IdentifyOverEnergy(input, task, warming, maker);
   if (!warming && Infer(fit).status == Status::ok) {
@@ -58,12 +81,8 @@ Fit FitLoadMap(const IdentifierInput& input) {
 }  // namespace
 
 Identifier LoadMap() {
-  std::vector<OptionInfo> options = MapOptions();
-  options.push_back({"position_kernels", "10", "integer >= 1 <= 128", "kernels over position"});
-  options.push_back({"energy_kernels", "3", "integer >= 2 <= 32", "kernels over energy"});
-  options.push_back({"load_kernels", "4", "integer >= 2 <= 32", "kernels over load"});
   return {kName, "law, warming, and a level over position x energy x load; needs the column load",
-          options, &FitLoadMap};
+          OptionGroups<LawOption, MapOptions, LoadMapSize>{}, &FitLoadMap};
 }
 
 }  // namespace warmjoint::inline identification

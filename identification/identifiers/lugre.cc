@@ -1,5 +1,20 @@
-#include "identification/identifiers/lugre.h"
-
+// Identifier `lugre`: the LuGre law, its bristle included.
+//
+// (kv, kc, ks, vs, sigma0, sigma1, M) = argmin sum ((tau - F - M a) / s)^2, F the LuGre law, or
+// the one with a level for each direction (kc+, kc- and kr for kc and ks), over the recorded motion (bristle_course.h). Starts, stops and turns take part beside the samples
+// kept, since they alone show the bristle (lugre_data.h); M, which acts there too, is estimated
+// beside the law, and so is how far the bristle is bent as each recording begins (lugre_course.h). s is the rms of the residual, one value for the samples kept and one for the
+// others, larger for outliers (Huber's weights), from three passes. Starts from the Stribeck curve
+// of the samples at constant speed, with sigma0 and sigma1 from a grid; the best three are refined
+// by Ceres. Standard deviations and intervals as in uncertainty.h, those of vs, sigma0 and sigma1
+// through their logarithms.
+//
+// not_identifiable where the motion cannot tell the law without bristle and fall; where the Stribeck effect is
+// not seen (stribeck_verdict.h); where sigma0 or sigma1 are not known to a factor of e. What the
+// sampling shifts the parameters by counts as a standard deviation beside the noise: a third of
+// what leaving out every other sample changes (Richardson). inadequate_model where friction rises
+// from rest, or turns leave twice as much as constant speeds and 2 % of the torque. The trace
+// holds the grid.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +22,7 @@
 
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
+#include "identification/identifiers/identifier_list.h"
 #include "identification/nonlinear/lugre_answer.h"
 #include "identification/nonlinear/lugre_data.h"
 #include "identification/nonlinear/stribeck_fit.h"
@@ -210,10 +226,32 @@ void Conclude(const IdentifierInput& input, const LugreProblem& problem, const L
   JudgeTurns(m, noise, fit);
 }
 
+enum class Estimation { estimated, none };
+std::span<const Word<Estimation>> WordsOf(Estimation) {
+  static constexpr std::array words{Word{"estimated", Estimation::estimated},
+                                    Word{"none", Estimation::none}};
+  return words;
+}
+
+struct LuGreOptions {
+  FallingLawOf<BristleFallingLaws> law;
+  Estimation damping = Estimation::estimated;
+  Estimation inertia = Estimation::estimated;
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("law", &law, {.meaning = "one Coulomb level, or one for each direction"});
+    a->Field("damping", &damping, {.meaning = "bristle_damping, or 0"});
+    a->Field("inertia", &inertia,
+             {.meaning = "torque for acceleration, beside the friction, or none"});
+  }
+};
+
 Fit FitLugre(const IdentifierInput& given) {
   const IdentifierInput input = given.AsTaken();
   const Measurements& m = input.measurements;
-  const FallingLaw& law = FindFallingLaw(input.options.Text("law"));
+  const auto& options = input.options.Get<LuGreOptions>();
+  const FallingLaw& law = *options.law;
   if (auto why = Unusable(input, static_cast<int>(law.levels()) + 5)) {
     return Refused(kName, Status::bad_data, *why);
   }
@@ -224,9 +262,9 @@ Fit FitLugre(const IdentifierInput& given) {
   const double scale = torque.norm() / std::sqrt(static_cast<double>(torque.size()));
   LugreProblem problem = MakeLugreProblem(input, law, scale);
   // what the options hold at 0 is not estimated
-  if (input.options.Text("damping") == "none")
+  if (options.damping == Estimation::none)
     problem.constant.push_back(static_cast<int>(problem.damping()));
-  if (input.options.Text("inertia") == "none")
+  if (options.inertia == Estimation::none)
     problem.constant.push_back(static_cast<int>(problem.inertia()));
   const std::vector<LugrePoint> scan =
       ScanBristle(problem, m, [&](double distance) { return SteadyStart(input, law, distance); });
@@ -250,15 +288,8 @@ Fit FitLugre(const IdentifierInput& given) {
 }  // namespace
 
 Identifier LuGreIdentifier() {
-  return {kName,
-          "the LuGre law by least squares over turns and constant speeds; needs no start",
-          {{"law", std::string(LuGre::name), LawWords(BristleFallingLaws{}),
-            "one Coulomb level, or one for each direction"},
-           {"damping", "estimated", "estimated|none", "bristle_damping, or 0"},
-           {"inertia", "estimated", "estimated|none",
-            "torque for acceleration, beside the friction, or none"}},
-          &FitLugre,
-          Regime::transient};
+  return {kName, "the LuGre law by least squares over turns and constant speeds; needs no start",
+          LuGreOptions{}, &FitLugre, Regime::transient};
 }
 
 }  // namespace warmjoint::inline identification

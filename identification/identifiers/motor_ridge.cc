@@ -1,10 +1,14 @@
-#include "identification/identifiers/motor_ridge.h"
-
+// motor-ridge: a nominal law, a map over the joint's angle and one over the motor's.
+//
+// Ripple repeats with the motor's turn: kernels over mod(gear p, 2 pi) x V on a circle, beside a
+// part over the joint's position for each direction of motion.
 #include <utility>
 
+#include "identification/identifiers/identifier_list.h"
 #include "identification/maps/identify_maps.h"
 #include "identification/maps/motor_maps.h"
 #include "identification/physical_bounds.h"
+#include "identification/seen_samples.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -21,13 +25,11 @@ Fit FitMotorMaps(const IdentifierInput& given) {
   MapTask& task = begin.task;
 
   // kernels over the motor's turn, and over the joint's travel beside them
-  const MotorMapSize size{input.options.Integer("kernels"),
-                          input.options.Integer("velocity_kernels"),
-                          input.options.Integer("arm_kernels")};
-  task.candidates = MotorMaps(size, task.settings, input.measurements.joint, begin.points);
+  task.candidates = MotorMaps(input.options.Get<MotorMapSize>(), task.settings,
+                              input.measurements.joint, begin.points);
   auto choice = ChooseAndFit(input, task);
   if (!choice) return Refused(kName, Unsolvable());
-  if (!task.settings.has_bands) return AsSketch(input, task, std::move(*choice));
+  if (task.settings.bands == MapBands::none) return AsSketch(input, task, std::move(*choice));
 
   // how sure law and maps are, for intervals and bands
   const MapFit& maps = choice->fit;
@@ -45,18 +47,11 @@ Fit FitMotorMaps(const IdentifierInput& given) {
 }  // namespace
 
 Identifier MotorRidge() {
-  std::vector<OptionInfo> options = MapOptions();
-  options.push_back({"kernels", "36", "integer >= 3 <= 128", "kernels over the motor's turn"});
-  options.push_back({"velocity_kernels", "3", "integer >= 1 <= 64",
-                     "kernels over speed for each direction, beside those over the turn"});
-  options.push_back({"arm_kernels", "20", "integer >= 0 <= 128",
-                     "kernels over the joint's position for each direction; 0: no such map"});
-  options.push_back(GravityOption());
-  options.push_back(MotionOption());
   return {kName,
           "a nominal law and maps over the motor's angle and the joint's, without warming; tells "
           "the ripple's multiples of the motor's turn",
-          options, &FitMotorMaps};
+          OptionGroups<LawOption, MapOptions, MotorMapSize, GravityOption, MotionOption>{},
+          &FitMotorMaps};
 }
 
 }  // namespace warmjoint::inline identification

@@ -1,5 +1,9 @@
-#include "identification/identifiers/nominal_ls.h"
-
+// Identifier `nominal-ls`: a nominal law by linear least squares, Eqs. (7)-(9).
+//
+// x = argmin |A x - tau|, rows of A as in Eq. (9): [v, sign v] for law (2). Standard deviations
+// as in uncertainty.h, right for coloured noise too.
+// not_identifiable where the motion makes columns of A alike, bad_data where nothing can be
+// fitted.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -8,12 +12,15 @@
 
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
+#include "identification/identifiers/identifier_list.h"
 #include "identification/lagged/lagged_fit.h"
 #include "identification/lagged/linear_lag.h"
 #include "identification/linear/least_squares.h"
-#include "identification/linear/linear_task.h"
+#include "identification/linear/linear_laws.h"
+#include "identification/linear/rigid_part.h"
 #include "identification/linear/robust.h"
 #include "identification/physical_bounds.h"
+#include "identification/seen_samples.h"
 #include "identification/uncertainty/disagreement.h"
 
 namespace warmjoint::inline identification {
@@ -48,7 +55,7 @@ struct LawRows {
 LawRows SolveRows(const IdentifierInput& input, const LinearTask& task) {
   LawRows rows{input, task, Kept(task.columns, input.selection),
                Kept(input.measurements.torque, input.selection)};
-  rows.robust = input.options.Text("loss") == "huber"
+  rows.robust = input.options.Get<LossOption>().loss == LossKind::huber
                     ? SolveHuber(rows.A, rows.torque)
                     : RobustLeastSquares{SolveLeastSquares(rows.A, rows.torque), kInfinity, true};
   return rows;
@@ -131,7 +138,7 @@ Fit FitLaw(const IdentifierInput& given) {
 
   // then behind a lag of the torque, or whitened where the noise is coloured
   const bool by_squares = std::isinf(rows.robust.threshold);
-  if (AsksForLag(given)) SolveBehindLag(rows);
+  if (AsksForLag(given.options)) SolveBehindLag(rows);
   if (by_squares && !rows.lag) SolveWhitened(rows);
 
   // what only some have
@@ -145,17 +152,15 @@ Fit FitLaw(const IdentifierInput& given) {
     fit.held_structure = {*rows.structure, rows.A.leftCols(count) * solved.solution.head(count)};
   }
   if (rows.lag) AddLag(rows.lag, task.columns * solved.solution, input.measurements, fit);
-  if (!rows.lag && AsksForLag(given)) fit.afterword = kNoLagSeen;
+  if (!rows.lag && AsksForLag(given.options)) fit.afterword = kNoLagSeen;
   return fit;
 }
 
 }  // namespace
 
 Identifier NominalLs() {
-  return {kName,
-          "a nominal law by linear least squares, without warming",
-          {LawOption(), GravityOption(), MotionOption(), LossOption(), TorqueLagOption()},
-          &FitLaw};
+  return {kName, "a nominal law by linear least squares, without warming",
+          OptionGroups<LawOption, GravityOption, MotionOption, LossOption, LagOption>{}, &FitLaw};
 }
 
 }  // namespace warmjoint::inline identification

@@ -1,7 +1,10 @@
-#include "identification/identifiers/position_ridge.h"
-
+// position-ridge: a nominal law and a map over the joint's position.
+//
+// Eqs. (10)-(16): law and Gaussian kernels over position, one part for each direction of motion,
+// or over position times velocity.
+#include "identification/identifiers/identifier_list.h"
 #include "identification/maps/identify_maps.h"
-#include "identification/maps/position_maps.h"
+#include "identification/seen_samples.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -14,19 +17,16 @@ Fit FitMap(const IdentifierInput& given) {
   const IdentifierInput input = rigid.Of(given);
   MapBeginning begin = BeginMaps(input, kName, {MapQuantity::position}, rigid);
   if (begin.refusal) return Refused(kName, *begin.refusal);
-  begin.task.candidates = PositionMaps(input.options, begin.task.settings, begin.points);
+  begin.task.candidates = PositionMaps(input.options, begin.points);
   return IdentifyMaps(input, begin.task);
 }
 
 }  // namespace
 
 Identifier PositionRidge() {
-  std::vector<OptionInfo> options = MapOptions();
-  for (const OptionInfo& option : PositionMapOptions()) options.push_back(option);
-  options.push_back(GravityOption());
-  options.push_back(MotionOption());
   return {kName, "a nominal law and a map over position by ridge regression, without warming",
-          options, &FitMap};
+          OptionGroups<LawOption, MapOptions, PositionMapOptions, GravityOption, MotionOption>{},
+          &FitMap};
 }
 
 }  // namespace warmjoint::inline identification

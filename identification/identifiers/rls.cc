@@ -1,14 +1,23 @@
-#include "identification/identifiers/rls.h"
-
+// Identifier `rls`: a nominal law online, by recursive least squares.
+//
+// The linear parameters of a law, sample by sample, with a forgetting factor f: the answer is that
+// of weighted least squares with weight f^age, so that with f = 1 it is nominal-ls. All but the
+// thermal parameters are linear: with thermal_gain and thermal_time_constant given, the heat of the
+// measured losses, H |tau v| without gravity's, is taken off first, so that a friction that changes
+// does not spoil it. The trace holds the parameters at 50 moments of the recording.
+// Intervals as in uncertainty.h, for the weighted samples; with a warming they hold the noise that
+// comes through the heat, too (measured_heat.h).
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
+#include "identification/identifiers/identifier_list.h"
 #include "identification/inference/covariance.h"
 #include "identification/linear/least_squares.h"
-#include "identification/linear/linear_task.h"
+#include "identification/linear/linear_laws.h"
+#include "identification/linear/rigid_part.h"
 #include "identification/online/measured_heat.h"
 #include "identification/online/recursive_least_squares.h"
 
@@ -18,11 +27,27 @@ namespace {
 constexpr const char* kName = "rls";
 constexpr Eigen::Index kMoments = 50;  // of the trace
 
+struct RlsOptions {
+  double forgetting = 0.999;
+  double thermal_gain = 0;             // N.m/W or N/W
+  double thermal_time_constant = 600;  // s
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("forgetting", &forgetting,
+             {.bounds = {.above = 0, .at_most = 1},
+              .meaning = "weight of a sample relative to the next one"});
+    a->Field("thermal_gain", &thermal_gain,
+             {.meaning = "known thermal gain, N.m/W or N/W; 0: no warming"});
+    a->Field("thermal_time_constant", &thermal_time_constant,
+             {.bounds = {.above = 0}, .meaning = "known time constant of warming, s"});
+  }
+};
+
 /// The thermal part that the options give, if any.
-std::optional<Thermal> GivenThermal(const Options& options) {
-  const double gain = options.Number("thermal_gain");
-  if (gain == 0) return std::nullopt;
-  return Thermal{gain, options.Number("thermal_time_constant")};
+std::optional<Thermal> GivenThermal(const RlsOptions& options) {
+  if (options.thermal_gain == 0) return std::nullopt;
+  return Thermal{options.thermal_gain, options.thermal_time_constant};
 }
 
 /// Weight of each sample, f^age. [n]
@@ -99,13 +124,13 @@ Fit FitOnline(const IdentifierInput& given) {
   const IdentifierInput input = gravity.Of(given);
 
   // the heat of a given warming is taken off the torque, and off gravity
-  const std::optional<Thermal> thermal = GivenThermal(input.options);
+  const std::optional<Thermal> thermal = GivenThermal(input.options.Get<RlsOptions>());
   std::optional<MeasuredHeat> heat;
   if (thermal) heat.emplace(m, *thermal);
   ColdRows cold = Cold(heat, columns, gravity.count(), m.torque);
 
   // what the remembered samples can tell apart, from their weighted columns
-  const double forgetting = input.options.Number("forgetting");
+  const double forgetting = input.options.Get<RlsOptions>().forgetting;
   const Eigen::MatrixXd A = Kept(cold.rows, input.selection);
   const Eigen::VectorXd y = Kept(cold.torque, input.selection);
   const Eigen::VectorXd weights = Weights(y.size(), forgetting);
@@ -148,15 +173,8 @@ Fit FitOnline(const IdentifierInput& given) {
 }  // namespace
 
 Identifier Rls() {
-  return {
-      kName,
-      "a nominal law online, by recursive least squares with forgetting",
-      {LawOption(),
-       {"forgetting", "0.999", "number > 0 <= 1", "weight of a sample relative to the next one"},
-       {"thermal_gain", "0", "number", "known thermal gain, N.m/W or N/W; 0: no warming"},
-       {"thermal_time_constant", "600", "number > 0", "known time constant of warming, s"},
-       GravityOption()},
-      &FitOnline};
+  return {kName, "a nominal law online, by recursive least squares with forgetting",
+          OptionGroups<LawOption, RlsOptions, GravityOption>{}, &FitOnline};
 }
 
 }  // namespace warmjoint::inline identification

@@ -1,5 +1,14 @@
-#include "identification/identifiers/stribeck.h"
-
+// Identifier `stribeck`: the Stribeck law, with or without warming.
+//
+// (kv, kc, ks, vs[, k, tau]) = argmin sum over the kept samples of (tau - F)^2, F the Stribeck law,
+// or the one with a level for each direction (kc+, kc- and kr for kc and ks), with a fixed exponent, closed over its losses by (19)-(22) where `warming` is estimated. Needs
+// no start: vs is scanned, and the three best are refined by Ceres on the law itself. Standard
+// deviations and 95 % intervals as in uncertainty.h, those of vs and tau through their logarithms.
+//
+// not_identifiable where the motion cannot tell the law without its fall; where the level at rest and
+// stribeck_velocity explain no more than chance does; where vs is not known to a factor of e, or
+// ks - kc not to a half of itself, which is so when slow speeds are missing. inadequate_model
+// where friction rises from rest instead of falling. The trace holds the scan, by its vs.
 #include <fmt/format.h>
 #include <warmjoint/recording.h>
 
@@ -7,9 +16,10 @@
 
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
-#include "identification/linear/against_pushing.h"
+#include "identification/identifiers/identifier_list.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/linear_laws.h"
+#include "identification/linear/rigid_part.h"
 #include "identification/nonlinear/stribeck_fit.h"
 #include "identification/nonlinear/stribeck_verdict.h"
 #include "identification/physical_bounds.h"
@@ -120,7 +130,7 @@ void JudgeWarmth(const Measurements& m, std::string_view without, Fit& fit) {
   if (predicted.feeds_itself == m.size()) return;
   fit.voided = {Status::inadequate_model,
                 WouldFeedItself(m.time[predicted.feeds_itself],
-                                AgainstPushing("energy-ml", without, "none"))};
+                                AgainstPushing("energy-ml", without, FittedGravity::none))};
 }
 
 std::vector<Iterate> Trace(const StribeckProblem& problem, const std::vector<StribeckPoint>& scan) {
@@ -208,7 +218,8 @@ void Conclude(const IdentifierInput& input, const StribeckProblem& problem, cons
 
 Fit FitStribeck(const IdentifierInput& input) {
   const Measurements& m = input.measurements;
-  const FallingLaw& law = FindFallingLaw(input.options.Text("law"));
+  const auto& options = input.options.Get<StribeckOptions>();
+  const FallingLaw& law = *options.law;
   const auto levels = static_cast<size_t>(law.levels());
   if (auto why = Unusable(input, static_cast<int>(levels) + 4)) {
     return Refused(kName, Status::bad_data, *why);
@@ -220,14 +231,13 @@ Fit FitStribeck(const IdentifierInput& input) {
 
   // scan vs, then refine the best
   const Eigen::VectorXd torque = Kept(m.torque, input.selection);
-  StribeckProblem problem{
-      m,
-      input.selection,
-      FindIntervals(m.time, m.starts),
-      input.options.Number("exponent"),
-      input.options.Text("warming") == "estimated" ? FittedWarming::estimated : FittedWarming::none,
-      torque.norm() / std::sqrt(static_cast<double>(torque.size())),
-      law};
+  StribeckProblem problem{m,
+                          input.selection,
+                          FindIntervals(m.time, m.starts),
+                          options.exponent,
+                          options.warming,
+                          torque.norm() / std::sqrt(static_cast<double>(torque.size())),
+                          law};
   const double without = SquaresWithout(problem);
   const std::vector<StribeckPoint> scan = ScanStribeckVelocity(problem);
   if (scan.empty() || !std::isfinite(without))
@@ -250,13 +260,8 @@ Fit FitStribeck(const IdentifierInput& input) {
 }  // namespace
 
 Identifier StribeckIdentifier() {
-  return {kName,
-          "the Stribeck law by least squares, with or without warming; needs no start",
-          {{"law", std::string(Stribeck::name), LawWords(SteadyFallingLaws{}),
-            "one Coulomb level, or one for each direction"},
-           {"warming", "none", "none|estimated", "whether friction warms up"},
-           {"exponent", "2", "number >= 0.1 <= 10", "the law's stribeck_exponent, fixed"}},
-          &FitStribeck};
+  return {kName, "the Stribeck law by least squares, with or without warming; needs no start",
+          StribeckOptions{}, &FitStribeck};
 }
 
 }  // namespace warmjoint::inline identification

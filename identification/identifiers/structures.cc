@@ -2,119 +2,149 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <initializer_list>
+#include <map>
 
+#include "identification/fit_data.h"
 #include "identification/holdout/blocked_hold_out.h"
-#include "identification/identifiers/energy_ml_with_maps.h"
-#include "identification/identifiers/motor_ridge.h"
-#include "identification/identifiers/nominal_ls.h"
-#include "identification/identifiers/position_ridge.h"
-#include "identification/identifiers/stribeck.h"
+#include "identification/identifiers/identifier_list.h"
+#include "identification/lagged/kept_runs.h"
 #include "identification/lagged/lagged_fit.h"
-#include "identification/linear/rigid_part.h"
-#include "identification/read_options.h"
+#include "identification/lagged/seen_lag.h"
+#include "identification/linear/linear_laws.h"
 #include "identification/warming/expected_start.h"
+#include "models/friction/asymmetric.h"
 #include "models/friction/asymmetric_stribeck.h"
+#include "models/friction/coulomb.h"
+#include "models/friction/viscous_coulomb.h"
 #include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
+namespace {
+
+/// Linear laws by one identifier.
+std::vector<Structure> LinearStructures(const Identifier& identifier, FittedGravity gravity,
+                                        std::initializer_list<std::string_view> laws) {
+  std::vector<Structure> structures;
+  for (const std::string_view law : laws) {
+    structures.push_back(
+        Structure{identifier, "law"}.With(LawOption{{FindLaw(law)}}).With(GravityOption{gravity}));
+  }
+  return structures;
+}
+
+constexpr double kSettledAfter = 5;  // time constants; why 5: e^-5 = 1/150 is left
+
+}  // namespace
 
 std::string Structure::Name() const {
+  // by name: what is not as usual, and what tells it from others
+  std::map<std::string, std::string> given = identifier.options.Changed();
+  for (const OptionInfo& option : identifier.options.List()) {
+    if (option.name == told) given.insert({option.name, option.value});
+  }
   std::string name = identifier.name;
   for (const auto& [key, value] : given) name += fmt::format(" {}={}", key, value);
   return name;
 }
 
-std::string Structure::Given(const std::string& option, const std::string& otherwise) const {
-  const auto found = given.find(option);
-  return found == given.end() ? otherwise : found->second;
-}
-
-Structure Structure::With(const std::string& option, const std::string& value) const {
-  Structure other = *this;
-  other.given[option] = value;
-  return other;
+FittedGravity Structure::gravity() const {
+  const auto* option = identifier.options.Find<GravityOption>();
+  return option ? option->gravity : FittedGravity::none;
 }
 
 Structure Structure::WithShapeOf(const FrictionMap& map) const {
   const MapAxis& axis = map.axes[0];
   const std::vector<double>& centres = axis.kernels.centres;
   const double spacing = centres[1] - centres[0];
-  const Structure wide = With("width", fmt::format("{:.4g}", axis.kernels.width / spacing));
+  auto made = identifier.options.Get<MapOptions>();
+  made.width = std::round(1e4 * axis.kernels.width / spacing) / 1e4;
+  const Structure wide = With(made);
   // over the motor's angle only the width is chosen
   if (axis.quantity != MapQuantity::position) return wide;
-  return wide.With("kernels", std::to_string(centres.size()));
+  auto over = identifier.options.Get<PositionMapOptions>();
+  over.kernels = static_cast<int>(centres.size());
+  return wide.With(over);
 }
 
 bool Structure::CanTellLag() const {
-  return TellsLag(identifier) && Given("position", "none") == "none";
+  const auto* maps = identifier.options.Find<WarmMapOptions>();
+  return identifier.options.Find<LagOption>() && (!maps || maps->position == WarmMap::none);
+}
+
+Structure Structure::Sketch() const {
+  const auto* given = identifier.options.Find<MapOptions>();
+  if (!given) return *this;
+  MapOptions made = *given;
+  made.bands = MapBands::none;
+  return With(made);
 }
 
 Structure Structure::Quick() const {
   const Structure sketch = Sketch();
-  return strength ? sketch.With("strength", fmt::format("{}", *strength)) : sketch;
+  if (!strength) return sketch;
+  auto made = sketch.identifier.options.Get<MapOptions>();
+  made.strength = *strength;
+  return sketch.With(made);
 }
 
 Options Structure::OptionsBeside(const Options& input) const {
-  auto all = given;
-  if (TellsStart(identifier)) all.merge(StartAsGiven(input));
-  return ReadOptions(identifier.options, all, {});
+  if (!identifier.options.Find<InitialEnergyOptions>()) return identifier.options;
+  return identifier.options.With(input.Get<InitialEnergyOptions>());
 }
 
 Fit Structure::Fitted(const IdentifierInput& input) const {
-  const Options options = OptionsBeside(input.options);
-  return identifier.fit(input.With(options));
+  return identifier.fit(input.With(OptionsBeside(input.options)));
 }
 
 std::optional<Eigen::VectorXd> Structure::ErrorsOn(const IdentifierInput& input,
                                                    const std::vector<Eigen::Index>& bounds) const {
-  const Options options = Quick().OptionsBeside(input.options);
-  return BlockedErrors(identifier, input.With(options), bounds);
+  return BlockedErrors(identifier, input.With(Quick().OptionsBeside(input.options)), bounds);
 }
 
-std::vector<std::string> GravityKinds(const IdentifierInput& input) {
-  const std::string& asked = input.options.Text(kGravityOption);
-  if (asked != "chosen") return {asked};
+std::span<const Word<GravityToTry>> WordsOf(GravityToTry) {
+  static const std::array words{Word<GravityToTry>{"chosen", {}},
+                                Word<GravityToTry>{"none", {FittedGravity::none}},
+                                Word<GravityToTry>{"sincos", {FittedGravity::sincos}},
+                                Word<GravityToTry>{"paired", {FittedGravity::paired}}};
+  return words;
+}
+
+std::vector<FittedGravity> GravityKinds(const IdentifierInput& input) {
+  const auto& asked = input.options.Get<AutoOptions>().gravity.kind;
+  if (asked) return {*asked};
   // a place that never changes tells nothing of gravity
   const Eigen::VectorXd& position = input.measurements.position;
-  if (!position.allFinite() || position.maxCoeff() == position.minCoeff()) return {"none"};
-  if (input.measurements.joint == JointKind::linear) return {"none", "paired"};
-  return {"none", "sincos", "paired"};
+  if (!position.allFinite() || position.maxCoeff() == position.minCoeff())
+    return {FittedGravity::none};
+  if (input.measurements.joint == JointKind::linear)
+    return {FittedGravity::none, FittedGravity::paired};
+  return {FittedGravity::none, FittedGravity::sincos, FittedGravity::paired};
 }
 
-namespace {
-
-/// Linear laws by one identifier.
-std::vector<Structure> LinearStructures(const Identifier& identifier, const std::string& gravity,
-                                        std::initializer_list<const char*> laws) {
-  std::vector<Structure> structures;
-  for (const char* law : laws) {
-    const Structure one{identifier, {{"law", law}}};
-    structures.push_back(gravity == "none" ? one : one.With(kGravityOption, gravity));
-  }
-  return structures;
+std::vector<Structure> ColdStructures(FittedGravity gravity) {
+  return LinearStructures(NominalLs(), gravity,
+                          {ViscousCoulomb::name, Coulomb::name, Asymmetric::name});
 }
 
-}  // namespace
-
-std::vector<Structure> ColdStructures(const std::string& gravity) {
-  return LinearStructures(NominalLs(), gravity, {"viscous_coulomb", "coulomb", "asymmetric"});
+std::vector<Structure> WarmStructures(FittedGravity gravity) {
+  return LinearStructures(EnergyMl(), gravity,
+                          {Coulomb::name, ViscousCoulomb::name, Asymmetric::name});
 }
 
-std::vector<Structure> WarmStructures(const std::string& gravity) {
-  return LinearStructures(EnergyMlWithMaps(), gravity,
-                          {"coulomb", "viscous_coulomb", "asymmetric"});
+Structure StribeckStructure(FittedWarming warming) {
+  return Structure{StribeckIdentifier(), "warming"}.With(StribeckOptions{.warming = warming});
 }
 
-Structure StribeckStructure(const std::string& warming) {
-  return {StribeckIdentifier(), {{"warming", warming}}};
+Structure TwoLevelStribeckStructure(FittedWarming warming) {
+  return StribeckStructure(warming).With(
+      StribeckOptions{{&FindFallingLaw(AsymmetricStribeck::name)}, warming});
 }
 
-Structure TwoLevelStribeckStructure(const std::string& warming) {
-  return StribeckStructure(warming).With("law", std::string(AsymmetricStribeck::name));
-}
-
-std::vector<Structure> MapStructures(const IdentifierInput& input, const std::string& gravity,
+std::vector<Structure> MapStructures(const IdentifierInput& input, FittedGravity gravity,
                                      const ChosenKernels& kernels) {
   // with the kernels and the strength that were chosen for the log, if any
   const auto shaped = [](Structure one, const std::optional<ChosenMap>& chosen) {
@@ -123,23 +153,55 @@ std::vector<Structure> MapStructures(const IdentifierInput& input, const std::st
     return one.WithShapeOf(chosen->map);
   };
   // what looks like gravity beside a law that is too simple may be a map's
-  std::vector<std::string> kinds{"none"};
-  if (gravity != "none") kinds.push_back(gravity);
+  std::vector<FittedGravity> kinds{FittedGravity::none};
+  if (gravity != FittedGravity::none) kinds.push_back(gravity);
 
   std::vector<Structure> structures;
   const bool knows_motor = KnowsMotorAngle(input.measurements);
-  for (const std::string& kind : kinds) {
-    std::map<std::string, std::string> given;
-    if (kind != "none") given = {{kGravityOption, kind}};
-    const Structure warm{EnergyMlWithMaps(), given};
-    structures.push_back(shaped({PositionRidge(), given}, kernels.position));
-    structures.push_back(shaped(warm.With("position", "map"), kernels.position));
+  const auto add = [&](const Structure& one, const std::optional<ChosenMap>& chosen,
+                       FittedGravity kind) {
+    structures.push_back(shaped(one.With(GravityOption{kind}), chosen));
+  };
+  const Structure warm{EnergyMl()};
+  for (const FittedGravity kind : kinds) {
+    add({PositionRidge()}, kernels.position, kind);
+    add(warm.With(WarmMapOptions{{}, WarmMap::map}), kernels.position, kind);
     // ripple of the motor, where its angle is known
     if (!knows_motor) continue;
-    structures.push_back(shaped({MotorRidge(), given}, kernels.motor));
-    structures.push_back(shaped(warm.With("position", "motor"), kernels.motor));
+    add({MotorRidge()}, kernels.motor, kind);
+    add(warm.With(WarmMapOptions{{}, WarmMap::motor}), kernels.motor, kind);
   }
   return structures;
+}
+
+std::optional<double> LagOf(const Structure& structure, const TorqueModel& without,
+                            const CourseStart& start, const IdentifierInput& input) {
+  const Measurements& m = input.measurements;
+  if (m.acceleration || !structure.CanTellLag()) return std::nullopt;
+
+  // whether what the model leaves shows a lag at all
+  const TorquePrediction predicted = PredictTorque(without, m, input.selection, start);
+  const auto runs = std::make_shared<const KeptRuns>(FindRuns(m, predicted.known));
+  const Eigen::VectorXd torque = Kept(predicted.torque, predicted.known);
+  const Eigen::VectorXd residual = Kept(m.torque, predicted.known) - torque;
+  if (!ShowsLag(runs, torque, residual)) return std::nullopt;
+
+  // then how long it is, by the structure that estimates it
+  const Fit behind = structure.With(LagOption{TorqueLagFit::estimated}).Fitted(input);
+  if (behind.refusal || !behind.torque_lag) return std::nullopt;
+  return behind.torque_lag->time_constant;
+}
+
+Selection Settled(const Measurements& m, Selection selection, double lag) {
+  const KeptRuns all = FindRuns(m, selection);
+  for (const KeptRun& run : all.runs) {
+    const double begin = all.time[run.begin];
+    const double wait = std::min(kSettledAfter * lag, 0.5 * (all.time[run.end - 1] - begin));
+    for (Eigen::Index i = run.begin; i < run.end && all.time[i] < begin + wait; ++i) {
+      selection.keep[all.samples[static_cast<std::size_t>(i)]] = false;
+    }
+  }
+  return selection;
 }
 
 }  // namespace warmjoint::inline identification

@@ -1,29 +1,41 @@
 // The structures that `auto` chooses from.
 #pragma once
 
-#include <map>
+#include <warmjoint/friction_model.h>
+
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "identification/holdout/predict_torque.h"
 #include "identification/identifier.h"
+#include "identification/linear/rigid_part.h"
 #include "identification/maps/energy_ml_maps.h"
+#include "identification/nonlinear/stribeck_fit.h"
 
 namespace warmjoint::inline identification {
 
-/// An identifier with its options.
+/// An identifier, whose options are the structure's.
 struct Structure {
   Identifier identifier;
-  std::map<std::string, std::string> given;
+  /// The option that its name tells even where it is at its default; or empty.
+  std::string_view told{};
   /// Of the prior on a map, where it is chosen for the rows that structures are compared on.
   std::optional<double> strength{};
 
-  /// "energy-ml law=coulomb gravity=sincos"
+  /// "energy-ml gravity=sincos law=coulomb"
   std::string Name() const;
-  /// What an option was given as; `otherwise` where it was not.
-  std::string Given(const std::string& option, const std::string& otherwise) const;
-  /// The same with another option.
-  Structure With(const std::string& option, const std::string& value) const;
+  /// The same with another group of options of that type.
+  template <class T>
+  Structure With(const T& group) const {
+    Structure other = *this;
+    other.identifier.options = identifier.options.With(group);
+    return other;
+  }
+  /// Its gravity; none where it knows none.
+  FittedGravity gravity() const;
 
   /// The same with the number and the width of a map's kernels, of those over the motor's angle with the
   /// width.
@@ -32,12 +44,12 @@ struct Structure {
   /// Whether it could estimate a lag of the torque, too.
   bool CanTellLag() const;
 
-  /// The identifier's options: what is given, and what those of the input say of E(0), where it asks.
+  /// Its options, E(0) as those of the input have it, where it asks.
   Options OptionsBeside(const Options& input) const;
   /// Fitted to the samples of the input.
   Fit Fitted(const IdentifierInput& input) const;
   /// The same without what only a reader wants: bands along maps.
-  Structure Sketch() const { return identifier.Has("bands") ? With("bands", "none") : *this; }
+  Structure Sketch() const;
   /// A sketch for the rows that structures are compared on.
   Structure Quick() const;
   /// Mean squared errors on blocks that it has not seen (BlockedErrors).
@@ -45,19 +57,40 @@ struct Structure {
                                           const std::vector<Eigen::Index>& bounds) const;
 };
 
+/// A kind of gravity, or none: the one to try is chosen.
+struct GravityToTry {
+  std::optional<FittedGravity> kind;
+  bool operator==(const GravityToTry&) const = default;
+};
+std::span<const Word<GravityToTry>> WordsOf(GravityToTry);
+
+/// The options of `auto` alone.
+struct AutoOptions {
+  int blocks = 6;
+  GravityToTry gravity;
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("blocks", &blocks,
+             {.bounds = {.at_least = 3, .at_most = 50},
+              .meaning = "contiguous parts of the recording to hold out"});
+    a->Field("gravity", &gravity, kGravityInfo);
+  }
+};
+
 /// Kinds of gravity to try, the simplest first: the one that the option `gravity` names, or none,
 /// sincos and paired for a joint that turns, none and paired for one that slides.
-std::vector<std::string> GravityKinds(const IdentifierInput& input);
+std::vector<FittedGravity> GravityKinds(const IdentifierInput& input);
 
 /// Laws that are linear in their parameters beside gravity, without warming and with it.
-std::vector<Structure> ColdStructures(const std::string& gravity);
-std::vector<Structure> WarmStructures(const std::string& gravity);
+std::vector<Structure> ColdStructures(FittedGravity gravity);
+std::vector<Structure> WarmStructures(FittedGravity gravity);
 
-/// The Stribeck law, which is fitted without gravity. warming: none or estimated.
-Structure StribeckStructure(const std::string& warming);
+/// The Stribeck law, which is fitted without gravity.
+Structure StribeckStructure(FittedWarming warming);
 
 /// The same with a Coulomb level for each direction of motion.
-Structure TwoLevelStribeckStructure(const std::string& warming);
+Structure TwoLevelStribeckStructure(FittedWarming warming);
 
 /// Maps whose kernels are chosen already, or nothing where they are not.
 struct ChosenKernels {
@@ -66,7 +99,17 @@ struct ChosenKernels {
 };
 
 /// Maps, without warming and with it, also beside gravity.
-std::vector<Structure> MapStructures(const IdentifierInput& input, const std::string& gravity,
+std::vector<Structure> MapStructures(const IdentifierInput& input, FittedGravity gravity,
                                      const ChosenKernels& kernels = {});
+
+/// The lag, s, that a structure with the option torque_lag finds on every sample; nothing where the
+/// log shows none to the model, the same structure's without lag. start: of that model.
+std::optional<double> LagOf(const Structure& structure, const TorqueModel& without,
+                            const CourseStart& start, const IdentifierInput& input);
+
+/// The selection without the first five time constants of each run, after which 1/150 of what the lag
+/// held is left, or without half of the run where it is shorter: what structures that know no lag may
+/// see.
+Selection Settled(const Measurements& measurements, Selection selection, double lag);
 
 }  // namespace warmjoint::inline identification

@@ -8,13 +8,11 @@
 #include "identification/fit_data.h"
 #include "identification/forward/map_points.h"
 #include "identification/holdout/blocked_hold_out.h"
-#include "identification/identifiers/energy_ml_with_maps.h"
-#include "identification/identifiers/lag_of_log.h"
+#include "identification/identifiers/identifier_list.h"
+#include "identification/identifiers/structures.h"
 #include "identification/identifiers/left_over_place.h"
-#include "identification/identifiers/stribeck.h"
-#include "identification/linear/rigid_part.h"
+#include "identification/linear/linear_laws.h"
 #include "identification/physical_bounds.h"
-#include "identification/read_options.h"
 #include "models/friction/coulomb.h"
 #include "models/recording/course_of.h"
 #include "models/recording/measurements.h"
@@ -87,7 +85,7 @@ bool Tournament::MayHaveMap() const {
   return LeavesOverPlace(best->fit.residual(), points);
 }
 
-ChosenKernels Tournament::KernelsBesideBest(const std::string& gravity) const {
+ChosenKernels Tournament::KernelsBesideBest(FittedGravity gravity) const {
   quick_.Tell("choosing the kernels of maps");
   // E as the best structure so far has it
   const Trial* best = BestTrial();
@@ -98,41 +96,43 @@ ChosenKernels Tournament::KernelsBesideBest(const std::string& gravity) const {
   }
 
   // energy-ml has both maps, over position and over the motor's angle
-  const auto chosen = [&](const char* position) {
-    const Options options = ReadOptions(EnergyMlWithMaps().options,
-                                        {{kGravityOption, gravity}, {"position", position}}, {});
+  const auto chosen = [&](WarmMap position) {
+    const Options options =
+        EnergyMl().options.With(GravityOption{gravity}).With(WarmMapOptions{{}, position});
     return MapBesideEnergy(quick_.With(options), energy);
   };
-  ChosenKernels kernels{chosen("map"), {}};
-  if (KnowsMotorAngle(log_.view.measurements)) kernels.motor = chosen("motor");
+  ChosenKernels kernels{chosen(WarmMap::map), {}};
+  if (KnowsMotorAngle(log_.view.measurements)) kernels.motor = chosen(WarmMap::motor);
   return kernels;
 }
 
 bool Tournament::MayWarm() const {
   return std::ranges::any_of(trials_, [](const Trial& trial) {
-    if (trial.structure.identifier.name != EnergyMlWithMaps().name) return false;
+    const Identifier& identifier = trial.structure.identifier;
+    if (identifier.name != EnergyMl().name) return false;
     // one without slope, where the joint has one, need not settle for its warming
-    const bool too_poor = trial.structure.Given("law", "") == Coulomb::name;
+    const bool too_poor = identifier.options.Get<LawOption>().law->name == Coulomb::name;
     return too_poor ? trial.gives_friction : trial.told.status != Status::not_identifiable;
   });
 }
 
-bool Tournament::MayWarmBeside(const std::string& gravity) const {
+bool Tournament::MayWarmBeside(FittedGravity gravity) const {
   const Structure* best = Best();
-  return MayWarm() || !best || best->Given(kGravityOption, "none") == gravity;
+  return MayWarm() || !best || best->gravity() == gravity;
 }
 
 bool Tournament::MayBendAndWarm() const {
-  return MayWarm() || Find(StribeckStructure("none"))->told.status != Status::not_identifiable;
+  return MayWarm() ||
+         Find(StribeckStructure(FittedWarming::none))->told.status != Status::not_identifiable;
 }
 
-bool Tournament::MayHaveTwoLevels(const std::string& warming) const {
+bool Tournament::MayHaveTwoLevels(FittedWarming warming) const {
   const Trial& one = *Find(StribeckStructure(warming));
   if (one.told.status == Status::ok) return Pushes(one.fit);
 
   // where the curve does not fit: by a linear law, or by two levels without warming
-  if (warming == "none") return Pushes(First().fit);
-  const Trial* cold = Find(TwoLevelStribeckStructure("none"));
+  if (warming == FittedWarming::none) return Pushes(First().fit);
+  const Trial* cold = Find(TwoLevelStribeckStructure(FittedWarming::none));
   return cold && cold->told.status == Status::ok;
 }
 

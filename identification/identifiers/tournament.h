@@ -57,11 +57,11 @@ class Tournament {
 
   /// The kernels of maps that suit the log, chosen once, beside the warming of the best so far. gravity: its
   /// kind, fitted beside the maps.
-  ChosenKernels KernelsBesideBest(const std::string& gravity) const;
+  ChosenKernels KernelsBesideBest(FittedGravity gravity) const;
 
   /// Whether a warming may be told beside gravity, which has been tried without one: a linear law
   /// can be told with it, or the best so far has that gravity.
-  bool MayWarmBeside(const std::string& gravity) const;
+  bool MayWarmBeside(FittedGravity gravity) const;
 
   /// Whether the Stribeck law with warming may be told, which costs more than either by itself: so far it can
   /// be told without warming, or a linear law with it.
@@ -70,7 +70,7 @@ class Tournament {
   /// Whether a level for each direction may help the Stribeck law with that warming: what it leaves
   /// pushes in one direction. Where it does not fit, the linear law tells; with warming, which costs
   /// more, that two levels fit without it.
-  bool MayHaveTwoLevels(const std::string& warming) const;
+  bool MayHaveTwoLevels(FittedWarming warming) const;
 
   /// Drops those that cannot be chosen whatever the blocks say: one that stands itself is simpler and preferred
   /// by BIC, or leaves half of the residual.

@@ -92,7 +92,7 @@ bool MayBeGravity(const Advice& advice) {
 }  // namespace
 
 std::string AgainstWarmStart(const Identifier& identifier) {
-  if (TellsStart(identifier)) return "try --start estimated";
+  if (identifier.options.Find<InitialEnergyOptions>()) return "try --start estimated";
   return "record it from cold, or learn E(0) by energy-ml with --start estimated";
 }
 
@@ -108,7 +108,7 @@ std::string AgainstWarming(const Advice& advice) {
   }
 
   // a warming that is not enough: perhaps the start was warm
-  if (TellsStart(advice.identifier) && TakesColdStart(advice.input.options)) {
+  if (TakesColdStart(advice.input.options)) {
     return "if the joint was warm at the start, try --start estimated; else one time constant is "
            "too few, or the surroundings change their temperature";
   }
@@ -171,7 +171,7 @@ std::string AgainstDirection(const Advice& advice) {
   if (HoldsCurve(advice)) return AgainstDirectionOfACurve(advice);
 
   // first a law with a level for each direction, where the identifier has one
-  const bool can = advice.identifier.Has("law");
+  const bool can = advice.identifier.options.Has("law");
   const bool mapped = HoldsMap(advice, MapQuantity::position);
   const std::string map = mapped && HoldsWarming(advice) ? " --set position=map" : "";
   if (can && advice.fit.friction.law != "asymmetric" && !advice.fit.gravity) {
@@ -229,7 +229,7 @@ std::string AgainstLag(const Advice& advice) {
   const Law& law = *FindLaw(advice.fit.friction.law);
   // a lag is estimated beside linear laws alone, without maps and inertia
   const bool can = IsLinear(law) && advice.fit.friction.maps.empty() && !advice.fit.inertia;
-  const bool asked = TellsLag(advice.identifier) && AsksForLag(advice.input);
+  const bool asked = AsksForLag(advice.input.options);
   if (!can || asked || advice.fit.torque_lag) {
     return "is the torque filtered or late? shift it against the velocity, or log both alike";
   }
@@ -253,9 +253,9 @@ std::string AgainstPosition(const Advice& advice) {
   const std::string how = alike ? "it acts alike in both directions, as " : "";
   if (alike && MayBeGravity(advice)) {
     return how + fmt::format("gravity does: try --identifier {} --gravity sincos",
-                             TellsGravity(advice.identifier) ? advice.fit.identifier
-                             : warm                          ? "energy-ml"
-                                                             : "nominal-ls");
+                             advice.identifier.options.Has("gravity") ? advice.fit.identifier
+                             : warm                                   ? "energy-ml"
+                                                                      : "nominal-ls");
   }
   const Eigen::VectorXd& position = advice.input.measurements.position;
   const double periods = (position.maxCoeff() - position.minCoeff()) / advice.finding.period;

@@ -12,6 +12,7 @@
 #include "identification/lagged/seen_lag.h"
 #include "identification/linear/least_squares.h"
 #include "identification/linear/rigid_part.h"
+#include "identification/seen_samples.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -73,24 +74,18 @@ MatrixXd AtSamples(const MatrixXd& kept, const KeptRuns& runs, Index all) {
 
 }  // namespace
 
-OptionInfo TorqueLagOption() {
-  return {kLagOption, "none", "none|estimated",
-          "the torque's first-order lag, estimated where the log shows one"};
-}
-
-bool TellsLag(const Identifier& identifier) { return identifier.Has(kLagOption); }
-
-bool AsksForLag(const IdentifierInput& input) {
-  return input.options.Text(kLagOption) == "estimated";
+bool AsksForLag(const Options& options) {
+  const auto* option = options.Find<LagOption>();
+  return option && option->torque_lag == TorqueLagFit::estimated;
 }
 
 std::optional<std::string> WhyNoLag(const IdentifierInput& input) {
-  if (!AsksForLag(input)) return std::nullopt;
+  if (!AsksForLag(input.options)) return std::nullopt;
   if (input.measurements.acceleration) {
     return "torque_lag is told by segments of constant speed, which a fit of any motion does not "
            "look at; use motion constant, or torque_lag none";
   }
-  if (input.options.Text("loss") == "huber") {
+  if (input.options.Get<LossOption>().loss == LossKind::huber) {
     return "torque_lag is estimated by least squares; use loss squares, or torque_lag none";
   }
   return std::nullopt;

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
+#include <string>
 
 #include "identification/fit.h"
 #include "identification/identifier.h"
@@ -12,16 +15,26 @@
 
 namespace warmjoint::inline identification {
 
-/// The row of an identifier that can estimate a lag in its table of options.
-OptionInfo TorqueLagOption();
-/// Its name.
-inline constexpr const char* kLagOption = "torque_lag";
+enum class TorqueLagFit { none, estimated };
+inline std::span<const Word<TorqueLagFit>> WordsOf(TorqueLagFit) {
+  static constexpr std::array words{Word{"none", TorqueLagFit::none},
+                                    Word{"estimated", TorqueLagFit::estimated}};
+  return words;
+}
 
-/// Whether an identifier has that row.
-bool TellsLag(const Identifier& identifier);
+/// The option of an identifier that can estimate a lag.
+struct LagOption {
+  TorqueLagFit torque_lag = TorqueLagFit::none;
 
-/// Whether the option asks for a lag.
-bool AsksForLag(const IdentifierInput& input);
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("torque_lag", &torque_lag,
+             {.meaning = "the torque's first-order lag, estimated where the log shows one"});
+  }
+};
+
+/// Whether options have it, and it asks for a lag.
+bool AsksForLag(const Options& options);
 
 /// Why the other options or the log rule out the lag that is asked for; nothing where they do not, or
 /// none is.

@@ -34,13 +34,14 @@ bool IsLinear(const Law& law) {
   return true;
 }
 
-std::string LinearLawWords() {
-  std::string words;
-  for (const Law& law : Laws()) {
-    if (!IsLinear(law)) continue;
-    if (!words.empty()) words += '|';
-    words += law.name;
-  }
+std::span<const Word<LinearLaw>> WordsOf(LinearLaw) {
+  static const std::vector<Word<LinearLaw>> words = [] {
+    std::vector<Word<LinearLaw>> linear;
+    for (const Law& law : Laws()) {
+      if (IsLinear(law)) linear.push_back({law.name, {&law}});
+    }
+    return linear;
+  }();
   return words;
 }
 

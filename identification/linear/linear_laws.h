@@ -5,7 +5,10 @@
 #include <warmjoint/recording.h>
 
 #include <Eigen/Core>
-#include <string>
+#include <span>
+
+#include "models/foundation/serialize.h"
+#include "models/friction/viscous_coulomb.h"
 
 namespace warmjoint::inline identification {
 
@@ -13,8 +16,25 @@ namespace warmjoint::inline identification {
 /// speeds and values.
 bool IsLinear(const Law& law);
 
-/// Names of the laws that are linear in their parameters, separated by |, as an option's words.
-std::string LinearLawWords();
+/// One of the laws that are linear in their parameters.
+struct LinearLaw {
+  const Law* law = FindLaw(ViscousCoulomb::name);
+
+  const Law& operator*() const { return *law; }
+  const Law* operator->() const { return law; }
+  bool operator==(const LinearLaw&) const = default;
+};
+std::span<const Word<LinearLaw>> WordsOf(LinearLaw);
+
+/// The option of an identifier that fits one of them.
+struct LawOption {
+  LinearLaw law;
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("law", &law, {.meaning = "nominal friction law"});
+  }
+};
 
 /// Regressor A of Fn = A p, one column for each parameter: [v, sign v] for Eq. (2).
 /// velocity: [N] rad/s or m/s; returns [N x d]. The law must be linear.

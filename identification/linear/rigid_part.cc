@@ -12,6 +12,7 @@
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
 #include "identification/gravity.h"
+#include "identification/linear/linear_laws.h"
 
 namespace warmjoint::inline identification {
 namespace {
@@ -84,36 +85,16 @@ Eigen::MatrixXd FilledDirections(const Eigen::MatrixXd& hats) {
          values.tail(q).cwiseSqrt().cwiseInverse().asDiagonal();
 }
 
-}  // namespace
-
-OptionInfo GravityOption() {
-  return {kGravityOption, "none", "none|sincos|paired",
-          "gravity beside friction: none, by sin and cos of the position, or whatever both "
-          "directions have in common at one position"};
-}
-
-OptionInfo MotionOption() {
-  return {"motion", "chosen", "chosen|constant|any",
-          "constant: samples at constant speed; any: all that move, with inertia beside friction; "
-          "chosen: any where the log holds no speeds"};
-}
-
-bool TellsGravity(const Identifier& identifier) { return identifier.Has(kGravityOption); }
-
-IdentifierInput RigidPart::Of(const IdentifierInput& given) const { return given.With(selection); }
-
-namespace {
-
 /// Sets the columns of G and their transform, or says why there are none.
-void PrepareGravity(const IdentifierInput& input, const std::string& asked, RigidPart& fit) {
+void PrepareGravity(const IdentifierInput& input, FittedGravity asked, RigidPart& fit) {
   const Measurements& m = input.measurements;
 
   // a linear joint carries one weight wherever it is
   const bool linear = m.joint == JointKind::linear;
-  fit.kind = asked == "sincos" ? GravityKind::sincos
-             : linear          ? GravityKind::constant
-                               : GravityKind::paired;
-  if (linear && asked == "sincos") {
+  fit.kind = asked == FittedGravity::sincos ? GravityKind::sincos
+             : linear                       ? GravityKind::constant
+                                            : GravityKind::paired;
+  if (linear && asked == FittedGravity::sincos) {
     fit.status = Status::bad_data;
     fit.why = "gravity sincos needs an angle and the joint is linear; use gravity paired";
     return;
@@ -136,13 +117,15 @@ void PrepareGravity(const IdentifierInput& input, const std::string& asked, Rigi
 
 }  // namespace
 
+IdentifierInput RigidPart::Of(const IdentifierInput& given) const { return given.With(selection); }
+
 RigidPart PrepareRigid(const IdentifierInput& input) {
   RigidPart fit;
   // what takes part so far, and no columns yet
   fit.selection = input.selection;
   fit.columns.resize(input.measurements.size(), 0);
-  const std::string& asked = input.options.Text(kGravityOption);
-  if (asked != "none") PrepareGravity(input, asked, fit);
+  const FittedGravity asked = input.options.Get<GravityOption>().gravity;
+  if (asked != FittedGravity::none) PrepareGravity(input, asked, fit);
 
   // the inertia, behind gravity
   const auto& acceleration = input.measurements.acceleration;
@@ -194,10 +177,50 @@ void AddRigid(const RigidPart& rigid, const Eigen::VectorXd& values,
   Append({InertiaParameter(values[q], measurements)}, fit);
 }
 
+std::string AgainstPushing(std::string_view identifier, std::string_view law,
+                           FittedGravity gravity) {
+  // levels of their own for both directions
+  const std::string asymmetric =
+      fmt::format("try --identifier {} --set law=asymmetric", identifier);
+  if (law != "asymmetric") {
+    return gravity == FittedGravity::none
+               ? asymmetric
+               : fmt::format("{} --gravity {}", asymmetric, NameOf(gravity));
+  }
+  if (gravity == FittedGravity::none) {
+    return "does the torque hold gravity or another load? " + asymmetric + " --gravity paired";
+  }
+
+  // both are fitted already: what is left is the sign
+  return "is the sign of the torque reversed (--scale torque=-1)?";
+}
+
 Eigen::MatrixXd Beside(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   Eigen::MatrixXd both(a.rows(), a.cols() + b.cols());
   both << a, b;
   return both;
+}
+
+LinearTask BeginLinear(const IdentifierInput& given, int more) {
+  LinearTask task{*given.options.Get<LawOption>().law, PrepareRigid(given), {}, {}};
+  const RigidPart& gravity = task.gravity;
+
+  // gravity that the motion does not tell from friction ends it here
+  if (gravity.why) {
+    task.refusal = Refusal{gravity.status, *gravity.why};
+    return task;
+  }
+
+  // finite numbers, more samples than parameters, a torque that changes
+  const auto d = static_cast<int>(task.law.parameters.size() + gravity.count());
+  if (auto why = Unusable(gravity.Of(given), d + more)) {
+    task.refusal = Refusal{Status::bad_data, *why};
+    return task;
+  }
+
+  // the columns of the law, then gravity and inertia
+  task.columns = Beside(LawColumns(task.law, given.measurements.velocity), gravity.columns);
+  return task;
 }
 
 }  // namespace warmjoint::inline identification

@@ -4,23 +4,41 @@
 #include <warmjoint/estimate.h>
 #include <warmjoint/friction.h>
 
+#include <array>
 #include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "identification/identifier.h"
 #include "identification/uncertainty/uncertainty.h"
 
 namespace warmjoint::inline identification {
 
-/// The row that an identifier which can tell gravity from friction has in its table of options.
-OptionInfo GravityOption();
-/// Its name.
-inline constexpr const char* kGravityOption = "gravity";
+/// Gravity as options ask for it.
+enum class FittedGravity { none, sincos, paired };
+inline std::span<const Word<FittedGravity>> WordsOf(FittedGravity) {
+  static constexpr std::array words{Word{"none", FittedGravity::none},
+                                    Word{"sincos", FittedGravity::sincos},
+                                    Word{"paired", FittedGravity::paired}};
+  return words;
+}
 
-/// The row of an identifier that can follow motion of any kind (seen_samples.h).
-OptionInfo MotionOption();
+inline constexpr FieldInfo kGravityInfo{
+    .meaning =
+        "gravity beside friction: none, by sin and cos of the position, or whatever both "
+        "directions have in common at one position"};
 
-/// Whether an identifier has the row of gravity.
-bool TellsGravity(const Identifier& identifier);
+/// The option of an identifier that can tell gravity from friction.
+struct GravityOption {
+  FittedGravity gravity = FittedGravity::none;
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("gravity", &gravity, kGravityInfo);
+  }
+};
 
 /// Gravity and inertia as one fit sees them. Torque = M a + F + G(p), Eqs. (5) and (6): F alone makes
 /// heat, so the columns of G and a stand beside the friction, outside of its loss. M is fitted where
@@ -57,7 +75,30 @@ std::string IndistinctColumns(const std::vector<Eigen::Index>& mixed, const Law&
 void AddRigid(const RigidPart& rigid, const Eigen::VectorXd& values,
               const Measurements& measurements, Fit& fit);
 
+/// A remedy where a fitted friction pushes the joint, which the fit does not hold already: another law, else gravity, else the
+/// torque's sign. identifier: one that can do both; law: of the fit; gravity: its option.
+std::string AgainstPushing(std::string_view identifier, std::string_view law,
+                           FittedGravity gravity);
+
 /// [A B].
 Eigen::MatrixXd Beside(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+
+/// What a summary adds of samples that accelerate.
+inline constexpr const char* kOfAnyMotion = " of motion of any kind, with inertia";
+
+/// Law, gravity and inertia, all linear in their parameters, on usable data.
+struct LinearTask {
+  const Law& law;
+  RigidPart gravity;
+  Eigen::MatrixXd columns;         // [N x d] over all samples: law, then gravity
+  std::optional<Refusal> refusal;  // why nothing can be fitted; then there are no columns
+
+  int count() const { return static_cast<int>(columns.cols()); }
+  Eigen::Index law_count() const { return columns.cols() - gravity.count(); }
+};
+
+/// As the options `law` and `gravity` ask for it. more: parameters of the fit beside those of law
+/// and gravity.
+LinearTask BeginLinear(const IdentifierInput& given, int more);
 
 }  // namespace warmjoint::inline identification

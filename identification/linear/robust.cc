@@ -16,11 +16,6 @@ constexpr double kAtRest = 1e-9;  // of the fitted torque between rounds, relati
 
 }  // namespace
 
-OptionInfo LossOption() {
-  return {"loss", "squares", "squares|huber",
-          "squares, or Huber's loss, which bounds the pull of outliers"};
-}
-
 double HuberThreshold(const Eigen::VectorXd& residual) {
   Eigen::VectorXd size = residual.cwiseAbs();
   return kHuberBend * kNormal * MedianInPlace(size);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 
 #include "identification/identifier.h"
 #include "identification/linear/least_squares.h"
@@ -11,9 +12,6 @@ namespace warmjoint::inline identification {
 /// Where Huber's loss turns from squares to lines, in standard deviations: 95 % as efficient as
 /// squares on normal noise (Huber and Ronchetti, Robust Statistics, 2009, 4.5).
 inline constexpr double kHuberBend = 1.345;
-
-/// The row `loss` of an identifier that can do with outliers.
-OptionInfo LossOption();
 
 /// Where the loss of residuals bends: kHuberBend times 1.4826 times their median size, which is
 /// the standard deviation of normal noise. residual: [n] N.m or N.

@@ -4,9 +4,10 @@
 
 #include "identification/fit_data.h"
 #include "identification/inference/inference.h"
+#include "identification/linear/robust.h"
 #include "identification/maps/motor_maps.h"
-#include "identification/maps/position_maps.h"
 #include "identification/maps/warm_maps.h"
+#include "identification/seen_samples.h"
 #include "identification/warming/expected_start.h"
 
 namespace warmjoint::inline identification {
@@ -18,7 +19,7 @@ constexpr int kArmKernels = 20;
 /// What a law with a map over position, or over the motor's angle, begins with.
 MapBeginning Begin(const std::string& identifier, const IdentifierInput& input,
                    const RigidPart& rigid) {
-  if (input.options.Text("position") == "map") {
+  if (input.options.Get<WarmMapOptions>().position == WarmMap::map) {
     return BeginMaps(input, identifier, {MapQuantity::position}, rigid);
   }
   return BeginMaps(input, identifier, {MapQuantity::position, MapQuantity::motor_position}, rigid);
@@ -27,12 +28,11 @@ MapBeginning Begin(const std::string& identifier, const IdentifierInput& input,
 /// The shapes that the option `position` names.
 std::vector<std::vector<FrictionMap>> Candidates(const Options& options, JointKind joint,
                                                  const MapBeginning& begin) {
-  const MapSettings& settings = begin.task.settings;
-  if (options.Text("position") == "map") return PositionMaps(options, settings, begin.points);
-  const int arm = options.Integer("kernels");
-  return MotorMaps({options.Integer("motor_kernels"), options.Integer("velocity_kernels"),
-                    arm > 0 ? arm : kArmKernels},
-                   settings, joint, begin.points);
+  const auto& maps = options.Get<WarmMapOptions>();
+  if (maps.position == WarmMap::map) return PositionMaps(options, begin.points);
+  return MotorMaps(
+      {maps.motor_kernels, maps.velocity_kernels, maps.kernels > 0 ? maps.kernels : kArmKernels},
+      begin.task.settings, joint, begin.points);
 }
 
 /// What a log that knows nothing of its start says of one that was expected: the fit that takes E(0)
@@ -56,15 +56,6 @@ std::optional<Fit> AgainstExpected(const IdentifierInput& input, const MapTask& 
 
 }  // namespace
 
-std::vector<OptionInfo> WarmMapOptions() {
-  std::vector<OptionInfo> options = PositionPartOptions(
-      "none|map|motor",
-      "beside the law a map over position, or one over the motor's angle and one over position");
-  options.push_back({"motor_kernels", "36", "integer >= 3 <= 128",
-                     "of the map: kernels over the motor's turn, with position motor"});
-  return options;
-}
-
 Fit FitWithMaps(const std::string& identifier, const IdentifierInput& given) {
   // gravity and inertia, where they are asked for, and what a map needs
   const RigidPart rigid = PrepareRigid(given);
@@ -73,12 +64,12 @@ Fit FitWithMaps(const std::string& identifier, const IdentifierInput& given) {
   MapBeginning begin = Begin(identifier, input, rigid);
   if (begin.refusal) return Refused(identifier, *begin.refusal);
   // maps know squares alone
-  const std::string& loss = input.options.Text("loss");
-  if (loss != "squares") {
+  const LossKind loss = input.options.Get<LossOption>().loss;
+  if (loss != LossKind::squares) {
     return Refused(
         identifier, Status::bad_data,
         fmt::format("position={} cannot be had together with loss={}; leave one of them out",
-                    input.options.Text("position"), loss));
+                    NameOf(input.options.Get<WarmMapOptions>().position), NameOf(loss)));
   }
   // an expected start first, unless the log contradicts it
   begin.task.candidates = Candidates(input.options, input.measurements.joint, begin);

@@ -1,17 +1,40 @@
 // Joint maximum likelihood of law and warming with maps over the joint's or the motor's angle.
 #pragma once
 
-#include <warmjoint/friction.h>
-
 #include <Eigen/Core>
+#include <array>
 #include <optional>
+#include <span>
 
 #include "identification/identifier.h"
+#include "identification/maps/map_options.h"
 
 namespace warmjoint::inline identification {
 
-/// position=none|map|motor, and what says how the maps are made.
-std::vector<OptionInfo> WarmMapOptions();
+/// What has a map beside law and warming.
+enum class WarmMap { none, map, motor };
+inline std::span<const Word<WarmMap>> WordsOf(WarmMap) {
+  static constexpr std::array words{Word{"none", WarmMap::none}, Word{"map", WarmMap::map},
+                                    Word{"motor", WarmMap::motor}};
+  return words;
+}
+
+/// Maps beside law and warming, and how they are made.
+struct WarmMapOptions : AddedMapOptions {
+  WarmMap position = WarmMap::none;
+  int motor_kernels = 36;
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("position", &position,
+             {.meaning = "beside the law a map over position, or one over the motor's angle and "
+                         "one over position"});
+    AddedMapOptions::Serialize(a);
+    a->Field("motor_kernels", &motor_kernels,
+             {.bounds = {.at_least = 3, .at_most = 128},
+              .meaning = "of the map: kernels over the motor's turn, with position motor"});
+  }
+};
 
 /// Law, warming and the maps that the option `position` names, together. Refuses options that
 /// cannot be had with maps: gravity, an estimated E(0), Huber's loss.

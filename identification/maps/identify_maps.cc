@@ -90,7 +90,7 @@ void AddLaw(const Law& law, const MapFit& maps, const Measurements& measurements
 /// The samples that law and maps are fitted to; without maps.
 MapProblem ProblemOf(const IdentifierInput& input, const MapTask& task) {
   // columns of the law, and beside them those of gravity and inertia
-  const Law& law = *FindLaw(task.settings.law);
+  const Law& law = *task.law;
   Eigen::MatrixXd columns = LawColumns(law, input.measurements.velocity);
   if (task.rigid.count() > 0) columns = Beside(columns, task.rigid.columns);
   MapProblem problem{{},
@@ -108,7 +108,7 @@ MapProblem ProblemOf(const IdentifierInput& input, const MapTask& task) {
 /// Bands of a fit of law and maps, and friction at speeds where they share a constant.
 void AddBands(const IdentifierInput& input, const MapTask& task, const MapFit& maps,
               const Uncertainty& known, Fit& fit) {
-  const Law& law = *FindLaw(task.settings.law);
+  const Law& law = *task.law;
   MapProblem finer = ProblemOf(input, task);
   const std::optional<FinerFit> twice = FitFiner(finer, maps, known.noise);
   fit.bands = MakeBands(law, maps, known, finer.points, twice ? &*twice : nullptr);
@@ -134,19 +134,26 @@ void AddBands(const IdentifierInput& input, const MapTask& task, const MapFit& m
 }  // namespace
 
 Eigen::Index MapTask::law_count() const {
-  return static_cast<Eigen::Index>(FindLaw(settings.law)->parameters.size());
+  return static_cast<Eigen::Index>(law->parameters.size());
 }
 
 int MapTask::folds(Eigen::Index samples) const {
   return std::min(settings.folds, std::max(2, static_cast<int>(samples) / 2));
 }
 
+MapTask MakeMapTask(const Options& options, const std::string& identifier) {
+  return {.identifier = identifier,
+          .law = options.Get<LawOption>().law,
+          .settings = options.Get<MapOptions>()};
+}
+
 MapBeginning BeginMaps(const IdentifierInput& input, const std::string& identifier,
                        std::initializer_list<MapQuantity> quantities, const RigidPart& rigid) {
-  MapBeginning begin{{identifier, ReadMapSettings(input.options), {}, {}, rigid, {}}, {}, {}};
+  MapBeginning begin{MakeMapTask(input.options, identifier), {}, {}};
+  begin.task.rigid = rigid;
   // one that is not asked for has no columns, over all samples
   if (rigid.count() == 0) begin.task.rigid.columns.resize(input.measurements.size(), 0);
-  begin.refusal = RefuseForMaps(input, *FindLaw(begin.task.settings.law), rigid);
+  begin.refusal = RefuseForMaps(input, *begin.task.law, rigid);
   if (begin.refusal) return begin;
   // each quantity of the maps must be known and must vary
   begin.points = Kept(PointsOf(input.measurements), input.selection);
@@ -181,7 +188,7 @@ std::optional<ChosenProblem> Choose(const IdentifierInput& input, const MapTask&
   ChosenMaps best{0, task.settings.strength, 0, {}};
   if (task.candidates.size() > 1 || task.settings.strength == 0) {
     const int folds = task.folds(problem.torque.size());
-    best = ChooseMaps(problem, task.candidates, task.settings.rule, folds);
+    best = ChooseMaps(problem, task.candidates, task.settings.selection, folds);
     if (!std::isfinite(best.criterion)) return std::nullopt;
     if (task.settings.strength > 0) best.strength = task.settings.strength;
   }
@@ -229,7 +236,7 @@ bool HoldsGravity(const IdentifierInput& input, const MapTask& task, const MapFi
   // what the maps hold of it, beside law and constant
   const MapTask with = WithGravity(task, maps, m.position);
   const Eigen::MatrixXd gravity = Kept(with.rigid.columns.leftCols(3), input.selection);
-  const Law& law = *FindLaw(task.settings.law);
+  const Law& law = *task.law;
   const Eigen::MatrixXd columns = Kept(LawColumns(law, m.velocity), input.selection);
   const Eigen::VectorXd of_law = columns * maps.x.head(columns.cols());
   const Eigen::VectorXd of_maps =
@@ -251,7 +258,7 @@ bool HoldsGravity(const IdentifierInput& input, const MapTask& task, const MapFi
 /// All but errors and bands.
 Fit ModelOf(const IdentifierInput& input, const MapTask& task, const MapFit& maps) {
   const Measurements& m = input.measurements;
-  const Law& law = *FindLaw(task.settings.law);
+  const Law& law = *task.law;
 
   // the law, and the maps beside it
   Fit fit;
@@ -301,7 +308,8 @@ Fit AsFit(const IdentifierInput& input, const MapTask& task, const MapFit& maps,
   if (!known.covariance.allFinite()) return Refused(task.identifier, Unsolvable());
   Fit fit = ModelOf(input, task, maps);
   fit.errors.known = OfTable(known, maps);
-  if (task.settings.has_bands && GivesFriction(fit)) AddBands(input, task, maps, known, fit);
+  if (task.settings.bands == MapBands::wide && GivesFriction(fit))
+    AddBands(input, task, maps, known, fit);
   return fit;
 }
 
@@ -317,7 +325,7 @@ Fit AsSketch(const IdentifierInput& input, const MapTask& task, MapChoice choice
 Fit IdentifyMaps(const IdentifierInput& input, const MapTask& task) {
   auto choice = ChooseAndFit(input, task);
   if (!choice) return Refused(task.identifier, Unsolvable());
-  if (!task.settings.has_bands) return AsSketch(input, task, std::move(*choice));
+  if (task.settings.bands == MapBands::none) return AsSketch(input, task, std::move(*choice));
   return AsFit(input, task, choice->fit, JudgeMaps(choice->problem, choice->fit));
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "identification/identifier.h"
+#include "identification/linear/linear_laws.h"
 #include "identification/linear/rigid_part.h"
 #include "identification/maps/map_options.h"
 
@@ -15,11 +16,12 @@ namespace warmjoint::inline identification {
 
 struct MapTask {
   std::string identifier;
-  MapSettings settings;
+  LinearLaw law;
+  MapOptions settings;
   /// Shapes of the maps to choose from, at least one.
-  std::vector<std::vector<FrictionMap>> candidates;
+  std::vector<std::vector<FrictionMap>> candidates{};
   /// [N] E, N.m or N, as far as it is known: sign(v) E is taken off the torque. Empty: 0.
-  Eigen::VectorXd energy;
+  Eigen::VectorXd energy{};
   /// Gravity and inertia beside law and maps, free of any prior; no columns: none.
   RigidPart rigid{};
   /// Of the only candidate at the kept samples, where they are made already; null: made anew.
@@ -28,6 +30,9 @@ struct MapTask {
   Eigen::Index law_count() const;         // parameters of the law
   int folds(Eigen::Index samples) const;  // of cross validation over so many kept samples
 };
+
+/// As options with LawOption and MapOptions say, without candidates. identifier: its name.
+MapTask MakeMapTask(const Options& options, const std::string& identifier);
 
 /// Where an identifier with maps begins: its settings, and the samples that it fits.
 struct MapBeginning {

@@ -29,7 +29,7 @@ Eigen::RowVectorXd OfEndEnergy(const ClosedLoop& loop, const Eigen::MatrixXd& al
 
 JointDerivatives DerivativesOf(const IdentifierInput& input, const WarmMaps& warm) {
   const Measurements& m = input.measurements;
-  const Law& nominal = *FindLaw(warm.task.settings.law);
+  const Law& nominal = *warm.task.law;
   // columns of law and kernels, and those of the losses where they differ
   const Eigen::MatrixXd law = LawColumns(nominal, m.velocity);
   const Eigen::MatrixXd of_loss = LossColumns(nominal, m);

@@ -1,7 +1,9 @@
 // Which maps, and how strong a prior on their weights.
 #pragma once
 
+#include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "identification/maps/map_fit.h"
@@ -10,6 +12,12 @@ namespace warmjoint::inline identification {
 
 /// By what maps and the strength s of the prior are chosen.
 enum class StrengthRule { cross_validation, leave_one_out, evidence };
+inline std::span<const Word<StrengthRule>> WordsOf(StrengthRule) {
+  static constexpr std::array words{Word{"cv", StrengthRule::cross_validation},
+                                    Word{"loo", StrengthRule::leave_one_out},
+                                    Word{"evidence", StrengthRule::evidence}};
+  return words;
+}
 
 struct ChosenMaps {
   size_t candidate = 0;

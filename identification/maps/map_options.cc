@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 
 #include <numbers>
-
-#include "identification/linear/linear_task.h"
-
 namespace warmjoint::inline identification {
 namespace {
 
@@ -14,41 +11,6 @@ Eigen::VectorXd Column(MapQuantity quantity, const MapPoints& points) {
 }
 
 }  // namespace
-
-std::vector<OptionInfo> MapOptions() {
-  return {
-      LawOption(),
-      {"kernel", "normalised", "normalised|plain",
-       "normalised kernels keep the value of the nearest centre outside of the data, (16)"},
-      {"width", "0", "number >= 0",
-       "width of the kernels in spacings of their centres; 0: chosen from 0.7, 1 and 1.5"},
-      {"strength", "0", "number >= 0", "of the prior on the kernels' weights; 0: chosen"},
-      {"selection", "cv", "cv|loo|evidence",
-       "what chooses: cross validation over contiguous parts, leave-one-out, or the evidence; the "
-       "last two take coloured noise for friction"},
-      {"folds", "5", "integer >= 2 <= 100", "contiguous parts of the recording for cv"},
-      {"bands", "wide", "wide|none",
-       "along the maps: wide enough for what twice the kernels follow; none: left out, with the "
-       "harmonics of a motor's map, for twice the speed"},
-  };
-}
-
-MapSettings ReadMapSettings(const Options& options) {
-  MapSettings settings;
-  settings.law = options.Text("law");
-  if (options.Text("kernel") == "plain") settings.kernels = KernelKind::plain;
-  // a width that is given, or those from which one is chosen
-  const double width = options.Number("width");
-  settings.widths = width > 0 ? std::vector{width} : std::vector{0.7, 1.0, 1.5};
-  settings.strength = options.Number("strength");
-  // what chooses width, shape and strength
-  const std::string& rule = options.Text("selection");
-  if (rule == "loo") settings.rule = StrengthRule::leave_one_out;
-  if (rule == "evidence") settings.rule = StrengthRule::evidence;
-  settings.folds = options.Integer("folds");
-  settings.has_bands = options.Text("bands") != "none";
-  return settings;
-}
 
 MapAxis RangeAxis(MapQuantity quantity, const MapPoints& points, int count, double width) {
   const Eigen::VectorXd x = Column(quantity, points);
@@ -72,6 +34,32 @@ MapAxis TurnAxis(MapQuantity angle, int count, double width) {
   MapAxis axis{angle, CircleAxis(2 * std::numbers::pi, count)};
   axis.kernels.width *= width;
   return axis;
+}
+
+FrictionMap PositionMap(const MapPoints& points, KernelKind kernels, int count, double width,
+                        int speeds) {
+  FrictionMap map{{RangeAxis(MapQuantity::position, points, count, width)}, kernels, {}};
+  if (speeds > 0) map.axes.push_back(VelocityAxis(points, speeds, width));
+  return map;
+}
+
+std::vector<std::vector<FrictionMap>> PositionMaps(const Options& options,
+                                                   const MapPoints& points) {
+  const auto& made = options.Get<MapOptions>();
+  const auto& [basis, kernels, velocity_kernels] = options.Get<PositionMapOptions>();
+  const std::vector<int> counts =
+      kernels > 0 ? std::vector{kernels} : std::vector{10, 20, 40, 80, 128};
+  // centres over speed in each direction; none where both directions share the map
+  const int speeds = basis == MapBasis::position   ? 0
+                     : basis == MapBasis::velocity ? velocity_kernels
+                                                   : 1;
+  std::vector<std::vector<FrictionMap>> candidates;
+  for (const int count : counts) {
+    for (const double width : made.Widths()) {
+      candidates.push_back({PositionMap(points, made.kernel, count, width, speeds)});
+    }
+  }
+  return candidates;
 }
 
 std::optional<std::string> CannotCarry(MapQuantity quantity, const MapPoints& points) {

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "identification/maps/motor_harmonics.h"
-#include "identification/maps/position_maps.h"
 #include "models/recording/measurements.h"
 
 namespace warmjoint::inline identification {
@@ -16,9 +15,9 @@ constexpr double kTurn = 2 * std::numbers::pi;  // rad
 constexpr double kKernelsATurn = 3;             // why: mean, cosine and sine of one turn
 
 /// The joint's map: over its travel, or over one turn.
-FrictionMap ArmMap(const MotorMapSize& size, const MapSettings& settings, JointKind joint,
+FrictionMap ArmMap(const MotorMapSize& size, const MapOptions& settings, JointKind joint,
                    double width, const MapPoints& points) {
-  FrictionMap map = PositionMap(points, settings.kernels, size.arm, width);
+  FrictionMap map = PositionMap(points, settings.kernel, size.arm, width);
   const double travel = map.axes[0].kernels.centres.back() - map.axes[0].kernels.centres.front();
   if (joint == JointKind::rotary && size.arm * kTurn < kKernelsATurn * travel) {
     map.axes[0] = TurnAxis(MapQuantity::position, size.arm, width);
@@ -29,14 +28,14 @@ FrictionMap ArmMap(const MotorMapSize& size, const MapSettings& settings, JointK
 }  // namespace
 
 std::vector<std::vector<FrictionMap>> MotorMaps(const MotorMapSize& size,
-                                                const MapSettings& settings, JointKind joint,
+                                                const MapOptions& settings, JointKind joint,
                                                 const MapPoints& points) {
   std::vector<std::vector<FrictionMap>> candidates;
   // a map over the motor's turn and speed for each width, and one over the arm where asked for
-  for (const double width : settings.widths) {
+  for (const double width : settings.Widths()) {
     std::vector<FrictionMap> maps{{{TurnAxis(MapQuantity::motor_position, size.turn, width),
                                     VelocityAxis(points, size.speed, width)},
-                                   settings.kernels,
+                                   settings.kernel,
                                    {}}};
     if (size.arm > 0) maps.push_back(ArmMap(size, settings, joint, width, points));
     candidates.push_back(maps);

@@ -8,7 +8,7 @@
 
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
-#include "identification/linear/against_pushing.h"
+#include "identification/linear/rigid_part.h"
 #include "identification/maps/anderson_mixing.h"
 #include "identification/maps/judge_warm_maps.h"
 #include "identification/maps/map_block.h"
@@ -173,12 +173,12 @@ Fit AsFit(const IdentifierInput& input, const WarmMaps& warm) {
   if (!GivesFriction(fit)) return fit;
   AddRipple(warm.fit, known, m, fit);
   // a friction that drives itself by its own heat is no model
+  const auto* asked = input.options.Find<GravityOption>();
   if (const auto at = PredictFriction(fit.friction, m, fit.Start()).feeds_itself; at < m.size()) {
     return Refused(
         name, Status::inadequate_model,
-        WouldFeedItself(m.time[at],
-                        AgainstPushing("energy-ml", fit.friction.law,
-                                       fit.gravity ? NameOf(fit.gravity->kind) : "none")));
+        WouldFeedItself(m.time[at], AgainstPushing("energy-ml", fit.friction.law,
+                                                   asked ? asked->gravity : FittedGravity::none)));
   }
   return fit;
 }

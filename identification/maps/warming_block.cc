@@ -36,7 +36,7 @@ WarmingBlock::WarmingBlock(const IdentifierInput& input, const MapTask& task,
 
 bool WarmingBlock::FitBeside(const MapBlock& maps) {
   const Measurements& m = input_.measurements;
-  ClosedLoop loop = LoopOf(m, *FindLaw(task_.settings.law), maps);
+  ClosedLoop loop = LoopOf(m, *task_.law, maps);
   const Eigen::VectorXd level = loop.direction().cwiseProduct(m.torque);
 
   // gravity and inertia make no heat: out of the scan, beside the loop in the fit

@@ -4,9 +4,11 @@
 #include <warmjoint/friction.h>
 
 #include <Eigen/Core>
-#include <string>
+#include <array>
+#include <span>
 #include <string_view>
 
+#include "models/foundation/serialize.h"
 #include "models/friction/law_list.h"
 
 namespace warmjoint::inline identification {
@@ -54,15 +56,24 @@ auto ForLawNamed(LawList<First, Rest...>, std::string_view name, const F& f) {
   return f.template operator()<First>();
 }
 
-/// The names of a list, separated by |, as an option's words.
-template <typename First, typename... Rest>
-std::string LawWords(LawList<First, Rest...>) {
-  std::string words(First::name);
-  ((words += "|", words += Rest::name), ...);
-  return words;
-}
-
 /// name: of one of the laws above.
 const FallingLaw& FindFallingLaw(std::string_view name);
+
+/// One law of a list, as an option names it.
+template <typename List>
+struct FallingLawOf;
+template <typename First, typename... Rest>
+struct FallingLawOf<LawList<First, Rest...>> {
+  const FallingLaw* law = &FindFallingLaw(First::name);
+
+  const FallingLaw& operator*() const { return *law; }
+  bool operator==(const FallingLawOf&) const = default;
+};
+template <typename... All>
+std::span<const Word<FallingLawOf<LawList<All...>>>> WordsOf(FallingLawOf<LawList<All...>>) {
+  static const std::array words{
+      Word<FallingLawOf<LawList<All...>>>{All::name, {&FindFallingLaw(All::name)}}...};
+  return words;
+}
 
 }  // namespace warmjoint::inline identification

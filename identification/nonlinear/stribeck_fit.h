@@ -13,8 +13,29 @@ namespace warmjoint::inline identification {
 
 /// Whether E of Eqs. (19)-(22) is part of the fit.
 enum class FittedWarming { none, estimated };
+inline std::span<const Word<FittedWarming>> WordsOf(FittedWarming) {
+  static constexpr std::array words{Word{"none", FittedWarming::none},
+                                    Word{"estimated", FittedWarming::estimated}};
+  return words;
+}
 
 /// What is fitted to what.
+/// The options of a fit of such a law.
+struct StribeckOptions {
+  FallingLawOf<SteadyFallingLaws> law{};
+  FittedWarming warming = FittedWarming::none;
+  double exponent = 2;
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("law", &law, {.meaning = "one Coulomb level, or one for each direction"});
+    a->Field("warming", &warming, {.meaning = "whether friction warms up"});
+    a->Field("exponent", &exponent,
+             {.bounds = {.at_least = 0.1, .at_most = 10},
+              .meaning = "the law's stribeck_exponent, fixed"});
+  }
+};
+
 struct StribeckProblem {
   const Measurements& measurements;
   const Selection& selection;  // E runs over all samples, the fit is to those kept

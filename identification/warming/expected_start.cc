@@ -21,34 +21,16 @@ WarmFit Again(const ClosedLoop& loop, const Eigen::VectorXd& level, const Eigen:
 
 }  // namespace
 
-std::vector<OptionInfo> InitialEnergyOptions() {
-  return {
-      {kStartOption, "zero", "zero|estimated|expected",
-       "E(0): 0 for a cold joint; estimated at a cost of accuracy; or expected at about a value, "
-       "as --follows has it"},
-      {"expected_energy", "0", "number", "N.m or N; E(0) where it is expected"},
-      {"expected_energy_std", "0", "number >= 0",
-       "N.m or N; standard deviation of that; 0: known exactly"}};
+bool TakesColdStart(const Options& options) {
+  const auto* start = options.Find<InitialEnergyOptions>();
+  return start && start->initial_energy == StartOfHeat::zero;
 }
-
-bool TellsStart(const Identifier& identifier) { return identifier.Has(kStartOption); }
-
-std::map<std::string, std::string> StartAsGiven(const Options& options) {
-  std::map<std::string, std::string> given;
-  for (const OptionInfo& option : InitialEnergyOptions()) {
-    const auto found = options.changed().find(option.name);
-    if (found != options.changed().end()) given.insert(*found);
-  }
-  return given;
-}
-
-bool TakesColdStart(const Options& options) { return options.Text(kStartOption) == "zero"; }
 
 InitialEnergy InitialEnergyOf(const Options& options) {
-  if (TakesColdStart(options)) return InitialEnergy::zero;
-  if (options.Text(kStartOption) == "estimated") return InitialEnergy::estimated;
-  const double spread = options.Number("expected_energy_std");
-  return {options.Number("expected_energy"), std::max(spread, InitialEnergy::kExact)};
+  const auto& start = options.Get<InitialEnergyOptions>();
+  if (start.initial_energy == StartOfHeat::zero) return InitialEnergy::zero;
+  if (start.initial_energy == StartOfHeat::estimated) return InitialEnergy::estimated;
+  return {start.expected_energy, std::max(start.expected_energy_std, InitialEnergy::kExact)};
 }
 
 std::string UnlikeBefore(const InitialEnergy& expected, double found, double deviation) {

@@ -1,10 +1,10 @@
 // A start of which something is known: what a recording before left of the heat.
 #pragma once
 
+#include <array>
 #include <functional>
-#include <map>
+#include <span>
 #include <string>
-#include <vector>
 
 #include "identification/identifier.h"
 #include "identification/options.h"
@@ -12,19 +12,35 @@
 
 namespace warmjoint::inline identification {
 
-/// The option that says what is known of E(0).
-inline constexpr const char* kStartOption = "initial_energy";
+/// E(0), as options have it.
+enum class StartOfHeat { zero, estimated, expected };
+inline std::span<const Word<StartOfHeat>> WordsOf(StartOfHeat) {
+  static constexpr std::array words{Word{"zero", StartOfHeat::zero},
+                                    Word{"estimated", StartOfHeat::estimated},
+                                    Word{"expected", StartOfHeat::expected}};
+  return words;
+}
 
-/// The rows of the table of options that say what is known of E(0).
-std::vector<OptionInfo> InitialEnergyOptions();
+/// Options that say what is known of E(0).
+struct InitialEnergyOptions {
+  StartOfHeat initial_energy = StartOfHeat::zero;
+  double expected_energy = 0;      // N.m or N
+  double expected_energy_std = 0;  // N.m or N
 
-/// Whether an identifier has them.
-bool TellsStart(const Identifier& identifier);
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("initial_energy", &initial_energy,
+             {.meaning = "E(0): 0 for a cold joint; estimated at a cost of accuracy; or expected "
+                         "at about a value, as --follows has it"});
+    a->Field("expected_energy", &expected_energy,
+             {.meaning = "N.m or N; E(0) where it is expected"});
+    a->Field("expected_energy_std", &expected_energy_std,
+             {.bounds = {.at_least = 0},
+              .meaning = "N.m or N; standard deviation of that; 0: known exactly"});
+  }
+};
 
-/// What options say of it beside their defaults, by name: for an identifier that fits by another one.
-std::map<std::string, std::string> StartAsGiven(const Options& options);
-
-/// Whether they take the joint for cold as the log begins.
+/// Whether options have these, and take the joint for cold as the log begins.
 bool TakesColdStart(const Options& options);
 
 /// What they say.

@@ -8,9 +8,8 @@
 
 #include "identification/fit_data.h"
 #include "identification/fit_parameters.h"
-#include "identification/linear/against_pushing.h"
 #include "identification/linear/least_squares.h"
-#include "identification/linear/linear_task.h"
+#include "identification/linear/rigid_part.h"
 #include "identification/linear/robust.h"
 #include "identification/uncertainty/few_segments.h"
 #include "identification/uncertainty/tails.h"
@@ -103,10 +102,11 @@ std::optional<Refusal> WhyRefused(const char* name, const WarmTask& task, const 
         FrictionKind::warm_up};
   }
   if (response.feeds_itself) {
-    return Refusal{Status::inadequate_model,
-                   WouldFeedItself(m.time[*response.feeds_itself],
-                                   AgainstPushing(name, task.law.name,
-                                                  task.input.options.Text(kGravityOption)))};
+    return Refusal{
+        Status::inadequate_model,
+        WouldFeedItself(
+            m.time[*response.feeds_itself],
+            AgainstPushing(name, task.law.name, task.input.options.Get<GravityOption>().gravity))};
   }
   return std::nullopt;
 }

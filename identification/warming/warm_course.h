@@ -8,7 +8,7 @@
 #include "identification/fit.h"
 #include "identification/identifier.h"
 #include "identification/linear/least_squares.h"
-#include "identification/linear/linear_task.h"
+#include "identification/linear/rigid_part.h"
 #include "identification/warming/gaps.h"
 #include "identification/warming/robust_warm_fit.h"
 #include "identification/warming/scan_time_constant.h"

@@ -5,7 +5,6 @@
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/lack_of_fit/judge.h"
-#include "identification/read_options.h"
 #include "models/foundation/keep_memory.h"
 #include "tests/support/warm_recording.h"
 
@@ -17,8 +16,7 @@ void Identify(benchmark::State& state, const char* name,
   const Measurements recording =
       test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 1), 0.5, 1);
   const Identifier& identifier = FindIdentifier(name);
-  const Options options = ReadOptions(identifier.options, given, {});
-  const IdentifierInput input{Prepare(recording), options, {}};
+  const IdentifierInput input{Prepare(recording), identifier.options.Read(given), {}};
   for (auto _ : state) {
     benchmark::DoNotOptimize(IdentifyUnjudged(identifier, input));
   }
@@ -32,8 +30,7 @@ void Judge(benchmark::State& state, const char* name) {
   const Measurements recording =
       test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 1), 0.5, 1);
   const Identifier& identifier = FindIdentifier(name);
-  const Options options = ReadOptions(identifier.options, {}, {});
-  const IdentifierInput input{Prepare(recording), options, {}};
+  const IdentifierInput input{Prepare(recording), identifier.options, {}};
   const Fit fit = identifier.fit(input);
   const Inference inferred = Infer(fit);
   for (auto _ : state) {

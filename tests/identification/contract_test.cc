@@ -13,7 +13,6 @@
 #include "identification/estimate.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
-#include "identification/read_options.h"
 #include "identification/seen_samples.h"
 #include "models/friction/check_friction.h"
 #include "tests/support/bristle_recording.h"
@@ -35,7 +34,7 @@ class Contract : public ::testing::TestWithParam<Identifier> {
   Estimate Identify(const Measurements& measurements, const Selection& selection) const {
     // one that iterates may do so until it has arrived
     std::map<std::string, std::string> given;
-    for (const OptionInfo& option : GetParam().options) {
+    for (const OptionInfo& option : GetParam().options.List()) {
       if (option.name == "iterations") given["iterations"] = "500";
       if (option.name == "motion")
         given["motion"] = "constant";  // the selection says which samples
@@ -46,9 +45,8 @@ class Contract : public ::testing::TestWithParam<Identifier> {
         given[option.name] = "8";
       }
     }
-    const Options options = ReadOptions(GetParam().options, given, {});
-    return IdentifyUnjudged(GetParam(),
-                            {Prepare(measurements, selection), options, StartKey{{11, 3}}});
+    return IdentifyUnjudged(GetParam(), {Prepare(measurements, selection),
+                                         GetParam().options.Read(given), StartKey{{11, 3}}});
   }
   Estimate Identify(const Measurements& measurements) const {
     return Identify(measurements, SelectMoving(measurements));
@@ -168,11 +166,10 @@ TEST_P(Contract, DocumentsItselfAndItsOptions) {
     EXPECT_TRUE(std::islower(letter) || std::isdigit(letter) || letter == '-') << identifier.name;
   }
   EXPECT_FALSE(identifier.summary.empty());
-  for (const OptionInfo& option : identifier.options) {
+  for (const OptionInfo& option : identifier.options.List()) {
     EXPECT_FALSE(option.meaning.empty()) << option.name;
     // the default passes the option's own check
-    EXPECT_NO_THROW(
-        ReadOptions(identifier.options, {{option.name, option.default_value}}, Place{option.name}));
+    EXPECT_NO_THROW(identifier.options.Read({{option.name, option.value}}, Place{option.name}));
   }
 }
 
@@ -363,9 +360,8 @@ TEST_P(Contract, GetsASlowLogSplitAtItsSwitchesOnlyForSteadyMotion) {
   log.velocity.tail(20).setConstant(-1);
   log.position = 19.5 - (log.time.array() - 19.5).abs();
   const Selection selection = SelectMoving(log);
-  const Options options = ReadOptions(GetParam().options, {}, {});
   const PreparedLog prepared = Prepare(log, selection);
-  const IdentifierInput seen = Seen(GetParam(), {prepared, options, {}});
+  const IdentifierInput seen = Seen(GetParam(), {prepared, GetParam().options, {}});
   const bool steady = GetParam().regime == Regime::steady;
   EXPECT_EQ(seen.measurements.size(), steady ? 41 : 40);
   EXPECT_GT(prepared.unseen(), 0);

@@ -2,82 +2,119 @@
 
 #include <gmock/gmock.h>
 
-#include "identification/read_options.h"
+#include <array>
+#include <typeinfo>
 
 namespace warmjoint {
 namespace {
 
+using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Pair;
 
-const std::vector<OptionInfo>& Table() {
-  static const std::vector<OptionInfo> table{
-      {"iterations", "50", "integer >= 0", "steps of the loop"},
-      {"fraction", "0.5", "number > 0 <= 1", "share of the samples"},
-      {"gain_range", "-9:0", "range", "where the first gain is drawn"},
-      {"start", "options", "options|guess|random", "where the loop starts"},
-  };
-  return table;
+enum class Start { options, guess, random };
+std::span<const Word<Start>> WordsOf(Start) {
+  static constexpr std::array words{Word{"options", Start::options}, Word{"guess", Start::guess},
+                                    Word{"random", Start::random}};
+  return words;
 }
+
+struct LoopOptions {
+  int iterations = 50;
+  Start start = Start::options;
+  OptionRange gain_range{-9, 0};
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("iterations", &iterations, {.bounds = {.at_least = 0}, .meaning = "of the loop"});
+    a->Field("start", &start, {.meaning = "where it starts"});
+    a->Field("gain_range", &gain_range, {.meaning = "where the first gain is drawn"});
+  }
+};
+
+struct ShareOption {
+  double fraction = 0.5;
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("fraction", &fraction,
+             {.bounds = {.above = 0, .at_most = 1}, .meaning = "share of the samples"});
+  }
+};
+
+const Options kDefaults = OptionGroups<ShareOption, LoopOptions>{};
 
 Options Given(const std::map<std::string, std::string>& given) {
-  return ReadOptions(Table(), given, {"suite.yaml", 7});
+  return kDefaults.Read(given, {"suite.yaml", 7});
 }
 
-std::string Refusal(const std::string& name, const std::string& value) {
-  try {
-    Given({{name, value}});
-  } catch (const BadInput& refusal) {
-    return refusal.what();
+TEST(Options, AreListedGroupByGroup) {
+  std::vector<std::vector<std::string>> rows;
+  for (const OptionInfo& one : kDefaults.List()) {
+    rows.push_back({one.name, one.value, one.allowed, one.meaning});
   }
-  return "accepted";
+  EXPECT_THAT(
+      rows,
+      ElementsAre(ElementsAre("fraction", "0.5", "number > 0 <= 1", "share of the samples"),
+                  ElementsAre("iterations", "50", "integer >= 0", "of the loop"),
+                  ElementsAre("start", "options", "options|guess|random", "where it starts"),
+                  ElementsAre("gain_range", "-9:0", "range", "where the first gain is drawn")));
 }
 
-TEST(Options, FillInTheDefaults) {
-  const Options options = Given({});
-  EXPECT_EQ(options.Integer("iterations"), 50);
-  EXPECT_EQ(options.Number("fraction"), 0.5);
-  EXPECT_EQ(options.Range("gain_range"), std::pair(-9.0, 0.0));
-  EXPECT_EQ(options.Text("start"), "options");
+TEST(Options, AreReadAndToldWhereTheyAreNotAtTheirDefault) {
+  const Options options = Given(
+      {{"fraction", "1"}, {"iterations", "50"}, {"gain_range", "-1e2:2.5"}, {"start", "guess"}});
+  EXPECT_EQ(options.Get<ShareOption>().fraction, 1);
+  EXPECT_EQ(options.Get<LoopOptions>().start, Start::guess);
+  EXPECT_EQ(options.Get<LoopOptions>().gain_range.lower, -100);
+  EXPECT_THAT(options.Changed(), ElementsAre(Pair("fraction", "1"), Pair("gain_range", "-100:2.5"),
+                                             Pair("start", "guess")));
+  EXPECT_TRUE(kDefaults.Changed().empty());
 }
 
-TEST(Options, TakeWhatIsGiven) {
-  const Options options =
-      Given({{"iterations", "0"}, {"gain_range", "-1e2:2.5"}, {"start", "guess"}});
-  EXPECT_EQ(options.Integer("iterations"), 0);
-  EXPECT_EQ(options.Range("gain_range"), std::pair(-100.0, 2.5));
-  EXPECT_EQ(options.Text("start"), "guess");
+TEST(Options, HaveAGroupOrNot) {
+  const Options options = kDefaults.With(ShareOption{0.1});
+  EXPECT_EQ(options.Get<ShareOption>().fraction, 0.1);
+  EXPECT_EQ(kDefaults.Get<ShareOption>().fraction, 0.5);
+  EXPECT_FALSE(Options().Find<ShareOption>());
+  EXPECT_THROW(Options().Get<ShareOption>(), std::bad_cast);
+  EXPECT_TRUE(options.Has("start"));
+  EXPECT_FALSE(Options().Has("start"));
 }
 
-TEST(Options, RefuseAnUnknownNameWithTheNearest) {
-  const std::string message = Refusal("iteration", "3");
-  EXPECT_THAT(message, HasSubstr("suite.yaml:7: "));
-  EXPECT_THAT(message, HasSubstr("'iteration'"));
-  EXPECT_THAT(message, HasSubstr("did you mean 'iterations'?"));
-  EXPECT_THROW(ReadOptions({}, {{"law", "coulomb"}}, {}), BadInput);
-}
-
-TEST(Options, RefuseAWordThatIsNotAllowedWithTheNearest) {
-  EXPECT_THAT(Refusal("start", "gues"), HasSubstr("did you mean 'guess'?"));
-}
-
-TEST(Options, RefuseWhatIsNoFiniteNumber) {
-  for (const char* value : {"", "five", "5x", "nan", "inf"}) {
-    EXPECT_THAT(Refusal("fraction", value), HasSubstr(std::string("'") + value + "'"));
-  }
-  EXPECT_THAT(Refusal("iterations", "2.5"), HasSubstr("integer >= 0"));
-  EXPECT_THAT(Refusal("iterations", "3000000000"), HasSubstr("3000000000"));
-}
-
-TEST(Options, RefuseNumbersBeyondTheirBounds) {
-  EXPECT_EQ(Refusal("fraction", "1"), "accepted");
-  EXPECT_THAT(Refusal("fraction", "0"), HasSubstr("number > 0 <= 1"));
-  EXPECT_THAT(Refusal("fraction", "1.01"), HasSubstr("number > 0 <= 1"));
-  EXPECT_THAT(Refusal("iterations", "-1"), HasSubstr("integer >= 0"));
-}
-
-TEST(Options, RefuseRangesThatAreNone) {
-  for (const char* value : {"5", "1:0", "a:b", ":", "1:", "0:inf"}) {
-    EXPECT_THAT(Refusal("gain_range", value), HasSubstr("lower:upper")) << value;
+TEST(Options, AreRefusedWithPlaceNameAndValue) {
+  // what is given, and what the refusal must name besides
+  const std::vector<std::array<const char*, 3>> wrong{
+      {"iteration", "3", "did you mean 'iterations'?"},
+      {"start", "gues", "did you mean 'guess'?"},
+      {"fraction", "", "above 0 and of at most 1"},
+      {"fraction", "five", "above 0 and of at most 1"},
+      {"fraction", "5x", "above 0 and of at most 1"},
+      {"fraction", "nan", "above 0 and of at most 1"},
+      {"fraction", "inf", "above 0 and of at most 1"},
+      {"fraction", "0", "above 0 and of at most 1"},
+      {"fraction", "1.01", "above 0 and of at most 1"},
+      {"iterations", "2.5", "whole number from 0"},
+      {"iterations", "-1", "whole number from 0"},
+      {"iterations", "3000000000", "whole number from 0"},
+      {"gain_range", "5", "lower:upper"},
+      {"gain_range", "1:0", "lower:upper"},
+      {"gain_range", "a:b", "lower:upper"},
+      {"gain_range", ":", "lower:upper"},
+      {"gain_range", "0:inf", "lower:upper"},
+  };
+  for (const auto& [name, value, besides] : wrong) {
+    try {
+      Given({{name, value}});
+      ADD_FAILURE() << name << '=' << value;
+    } catch (const BadInput& refusal) {
+      EXPECT_THAT(refusal.what(),
+                  AllOf(HasSubstr("suite.yaml:7: "), HasSubstr(name), HasSubstr(besides)));
+      if (std::string(name) != "iteration") {
+        EXPECT_THAT(refusal.what(), HasSubstr(std::string("'") + value + "'"));
+      }
+    }
   }
 }
 

@@ -7,7 +7,6 @@
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
-#include "identification/read_options.h"
 #include "models/recording/join_recordings.h"
 #include "tests/support/warm_recording.h"
 
@@ -27,12 +26,12 @@ Measurements Mornings(double noise) {
 Estimate Identify(const std::string& name, const Measurements& m) {
   const Identifier& identifier = FindIdentifier(name);
   std::map<std::string, std::string> given;
-  for (const OptionInfo& option : identifier.options) {
+  for (const OptionInfo& option : identifier.options.List()) {
     if (option.name == "iterations") given["iterations"] = "500";
   }
-  const Options options = ReadOptions(identifier.options, given, {});
   const Selection selection = SelectMoving(m);
-  return IdentifyUnjudged(identifier, {Prepare(m, selection), options, {11, 3}});
+  return IdentifyUnjudged(identifier,
+                          {Prepare(m, selection), identifier.options.Read(given), {11, 3}});
 }
 
 TEST(SeveralRecordings, EnergyMlFindsTheTruthWithoutNoise) {
@@ -91,9 +90,8 @@ TEST(SeveralRecordings, PredictionAndFilterStartColdWithEach) {
 TEST(SeveralRecordings, AreHeldOutFromTheEnd) {
   const Measurements m = Mornings(0.5);
   const Identifier& identifier = FindIdentifier("energy-ml");
-  const Options options = ReadOptions(identifier.options, {}, {});
   const Selection selection = SelectMoving(m);
-  const auto held = HoldOut(identifier, {Prepare(m, selection), options, {}}, 1.0 / 3);
+  const auto held = HoldOut(identifier, {Prepare(m, selection), identifier.options, {}}, 1.0 / 3);
   ASSERT_TRUE(held);
   EXPECT_NEAR(held->n, 1800, 1);
   // noise of 0.5 N.m, known from 1800 samples to 0.5 / sqrt(3600), three times, and the parameters

@@ -15,7 +15,6 @@
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/read_options.h"
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"
 #include "tests/studies/for_each_variant.h"
@@ -56,8 +55,8 @@ void Study(const Suite& suite, int variant, int realizations) {
     const PreparedLog log = Prepare(plant->Run(static_cast<std::uint64_t>(r)).measurements);
     for (const SuiteIdentifier& one : suite.identifiers) {
       const Identifier& identifier = FindIdentifier(one.name);
-      const Options options = ReadOptions(identifier.options, one.options, {one.label});
-      const Estimate estimate = IdentifyAndJudge(identifier, {log, options, {}});
+      const Estimate estimate = IdentifyAndJudge(
+          identifier, {log, identifier.options.Read(one.options, {one.label}), {}});
       fmt::print("{} {} {} {}", name, r, one.label, StatusName(estimate.status));
       const Selection& kept = log.steady().selection;
       PrintNumber("segments", static_cast<double>(kept.segments.size()), std::nullopt);

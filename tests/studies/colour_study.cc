@@ -18,7 +18,6 @@
 #include "identification/answer/identify.h"
 #include "identification/fit_data.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/read_options.h"
 #include "models/foundation/robust_noise.h"
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"
@@ -102,13 +101,12 @@ void Study(const Suite& suite, int variant, int realizations) {
   const std::unique_ptr<Plant> plant = MakePlant(VariantScenario(suite, variant));
   for (const SuiteIdentifier& one : suite.identifiers) {
     const Identifier& identifier = FindIdentifier(one.name);
-    const Options options = ReadOptions(identifier.options, one.options, {one.label});
     int told = 0, wrong = 0;
     std::array<int, kBounds.size()> refused{}, refused_wrong{};
     for (int r = 0; r < realizations; ++r) {
       const Simulation recording = plant->Run(static_cast<std::uint64_t>(r));
       const PreparedLog log = Prepare(recording.measurements);
-      const IdentifierInput input{log, options, {}};
+      const IdentifierInput input{log, identifier.options.Read(one.options, {one.label}), {}};
       const Answer answer = FitAndJudge(identifier, input);
       const Verdict verdict = VerdictOf(ReportAnswer(identifier, input, answer), recording, log);
       if (!verdict.told) continue;

@@ -13,7 +13,6 @@
 #include "identification/identifiers/identifier_list.h"
 #include "identification/inference/inference.h"
 #include "identification/lack_of_fit/fitted_model.h"
-#include "identification/read_options.h"
 #include "identification/seen_samples.h"
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"
@@ -61,9 +60,8 @@ class IdealChi2 {
   std::optional<double> Of(const SuiteIdentifier& one, std::uint64_t realization) const {
     if (!plant_) return {};
     const Identifier& identifier = FindIdentifier(one.name);
-    const Options options = ReadOptions(identifier.options, one.options, {one.label});
     const PreparedLog log = Prepare(plant_->Run(realization).measurements);
-    const IdentifierInput given{log, options, {}};
+    const IdentifierInput given{log, identifier.options.Read(one.options, {one.label}), {}};
     const IdentifierInput input = Seen(identifier, given);
     const double squares =
         LeastSquaresOf(identifier.fit(input), input.measurements, input.selection);

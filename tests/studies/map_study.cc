@@ -23,7 +23,6 @@
 #include "identification/holdout/evaluate.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/maps/holes.h"
-#include "identification/read_options.h"
 #include "identification/seen_samples.h"
 #include "identification/uncertainty/tails.h"
 #include "models/recording/course_of.h"
@@ -108,8 +107,7 @@ struct Outcomes {
 };
 
 Fit FitTo(const Identifier& identifier, const PreparedLog& log, const Given& given) {
-  const Options options = ReadOptions(identifier.options, given, {});
-  const IdentifierInput input{log, options, {}};
+  const IdentifierInput input{log, identifier.options.Read(given), {}};
   return identifier.fit(Seen(identifier, input));
 }
 

@@ -23,7 +23,6 @@
 #include "identification/identifiers/identifier_list.h"
 #include "identification/identifiers/structures.h"
 #include "identification/preparation/moving_view.h"
-#include "identification/read_options.h"
 #include "identification/seen_samples.h"
 #include "identification/uncertainty/tails.h"
 #include "scenarios/suite.h"
@@ -99,22 +98,25 @@ struct Compared {
 
 Compared Choose(const PreparedLog& log) {
   const Identifier& identifier = FindIdentifier("auto");
-  const Options options = ReadOptions(identifier.options, {}, {});
-  const IdentifierInput input{log, options, {}};
+  const IdentifierInput input{log, identifier.options, {}};
   Fit fit = identifier.fit(Seen(identifier, input));
   return {fit.choice ? WithoutShape(fit.choice->chosen) : "nothing", std::move(fit)};
 }
 
 Fit FitRight(const Structure& right, const PreparedLog& log) {
-  const Options options = ReadOptions(right.identifier.options, right.given, {});
-  const IdentifierInput input{log, options, {}};
+  const IdentifierInput input{log, right.identifier.options, {}};
   return right.identifier.fit(Seen(right.identifier, input));
 }
 
 void Study(const Suite& suite, int variant, int realizations) {
   const std::string name = suite.ladder->variants[static_cast<size_t>(variant)].name;
   const auto& [identifier, given] = kRight.at(name);
-  const Structure right{FindIdentifier(identifier), given};
+  Structure right{FindIdentifier(identifier)};
+  right.identifier.options = right.identifier.options.Read(given);
+  // the names of auto's structures tell these even where they are as usual
+  for (const char* option : {"law", "warming"}) {
+    if (given.contains(option)) right.told = option;
+  }
   const Scenario scenario = VariantScenario(suite, variant);
   const std::unique_ptr<Plant> plant = MakePlant(scenario);
   int as_it_is = 0, worse = 0;

@@ -33,7 +33,6 @@
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/read_options.h"
 #include "models/foundation/robust_noise.h"
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"
@@ -223,8 +222,8 @@ void Study(const Suite& suite, int variant, int realizations) {
     for (size_t i = 0; i < outcomes.size(); ++i) {
       const SuiteIdentifier& one = suite.identifiers[i];
       const Identifier& identifier = FindIdentifier(one.name);
-      const Options options = ReadOptions(identifier.options, one.options, {one.label});
-      const Estimate estimate = IdentifyAndJudge(identifier, {log, options, {}});
+      const Estimate estimate = IdentifyAndJudge(
+          identifier, {log, identifier.options.Read(one.options, {one.label}), {}});
       outcomes[i].Count(estimate, recording, ScoredView(estimate, log),
                         ideal.Of(one, static_cast<std::uint64_t>(r)));
     }

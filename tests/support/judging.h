@@ -12,7 +12,6 @@
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/read_options.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint::test {
@@ -38,8 +37,7 @@ inline Measurements RecordHour(const Friction& friction, std::uint64_t seed, dou
 inline Estimate Answer(const std::string& name, const Measurements& measurements,
                        const std::map<std::string, std::string>& given = {}) {
   const Identifier& identifier = FindIdentifier(name);
-  const Options options = ReadOptions(identifier.options, given, {});
-  return IdentifyAndJudge(identifier, {Prepare(measurements), options, {}});
+  return IdentifyAndJudge(identifier, {Prepare(measurements), identifier.options.Read(given), {}});
 }
 
 /// The outcome of a test for lack of fit, by its name; one that is not there was not made.

@@ -9,7 +9,6 @@
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/read_options.h"
 #include "sim/model/load_model.h"
 #include "sim/plant/plant.h"
 #include "tests/support/shared_data.h"
@@ -58,9 +57,9 @@ TEST_P(AnyonesRobot, GivesBackTheFrictionOfAJointUnderGravity) {
   const Simulation recording = MakePlant(scenario)->Run(0);
 
   const Identifier& identifier = FindIdentifier("energy-ml");
-  const Options options = ReadOptions(identifier.options, {{"gravity", "sincos"}}, {});
-  const Estimate estimate =
-      IdentifyUnjudged(identifier, {Prepare(recording.measurements), options, {}});
+  const Estimate estimate = IdentifyUnjudged(
+      identifier,
+      {Prepare(recording.measurements), identifier.options.Read({{"gravity", "sincos"}}), {}});
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
   for (const auto& [name, truth] : {std::pair{"viscous", 2.0},
                                     {"coulomb", 8.0},

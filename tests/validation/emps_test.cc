@@ -9,7 +9,6 @@
 #include "identification/answer/identify.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/read_options.h"
 #include "models/recording/read_recording.h"
 #include "tests/support/shared_data.h"
 
@@ -34,8 +33,7 @@ Measurements Emps() {
 double TestRmse(const Measurements& m, const std::string& name,
                 const std::map<std::string, std::string>& given) {
   const Identifier& identifier = FindIdentifier(name);
-  const Options options = ReadOptions(identifier.options, given, {});
-  const auto held = HoldOut(identifier, {Prepare(m), options, {}}, 0.4);
+  const auto held = HoldOut(identifier, {Prepare(m), identifier.options.Read(given), {}}, 0.4);
   if (!held) return kInfinity;
   std::cout << name << ": " << held->rmse << " N rms on the last 40 %\n";
   return held->rmse;
@@ -54,8 +52,7 @@ TEST(Emps, RipplesFourTimesATurnOfTheScrew) {
   WARMJOINT_NEED_SHARED(kFile);
   const Measurements m = Emps();
   const Identifier& identifier = FindIdentifier("motor-ridge");
-  const Options options = ReadOptions(identifier.options, {}, {});
-  const Estimate estimate = IdentifyUnjudged(identifier, {Prepare(m), options, {}});
+  const Estimate estimate = IdentifyUnjudged(identifier, {Prepare(m), identifier.options, {}});
   std::cout << estimate.message << "\n";
   // 2.50 mm, strongest in both directions
   EXPECT_THAT(estimate.message, ContainsRegex("v > 0: [0-9.]+ N at 4 a turn"));

@@ -7,7 +7,6 @@
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/read_options.h"
 #include "models/foundation/atomic_file.h"
 #include "models/recording/read_recording.h"
 #include "scenarios/scenario.h"
@@ -48,8 +47,8 @@ Scenario Sweeps(const std::string& robot) {
 
 Estimate Identify(const Measurements& measurements, const std::string& gravity) {
   const Identifier& identifier = FindIdentifier("energy-ml");
-  const Options options = ReadOptions(identifier.options, {{"gravity", gravity}}, {});
-  return IdentifyUnjudged(identifier, {Prepare(measurements), options, {}});
+  return IdentifyUnjudged(
+      identifier, {Prepare(measurements), identifier.options.Read({{"gravity", gravity}}), {}});
 }
 
 TEST(Gravity, OfAPendulumIsTakenOffBothWays) {
@@ -83,8 +82,8 @@ TEST(Gravity, OfTheEmpsAxisIsItsPublishedOffset) {
   const Measurements log =
       ReadRecordingFile(test::SharedFolder() / "data" / "emps" / "DATA_EMPS.csv", layout);
   const Identifier& identifier = FindIdentifier("nominal-ls");
-  const Options options = ReadOptions(identifier.options, {{"gravity", "paired"}}, {});
-  const Estimate estimate = IdentifyUnjudged(identifier, {Prepare(log), options, {}});
+  const Estimate estimate = IdentifyUnjudged(
+      identifier, {Prepare(log), identifier.options.Read({{"gravity", "paired"}}), {}});
   ASSERT_TRUE(estimate.Find("gravity_offset")) << estimate.message;
 
   // Janot, Gautier, Brunot 2019, from all samples: within our interval

@@ -5,7 +5,6 @@
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/read_options.h"
 #include "sim/plant/plant.h"
 
 namespace warmjoint {
@@ -35,8 +34,7 @@ TEST(LuGreInTheEngine, ComesBackFromSlowAndSmallTurns) {
   const Measurements m = MakePlant(scenario)->Run(0).measurements;
 
   const Identifier& identifier = FindIdentifier("lugre");
-  const Options options = ReadOptions(identifier.options, {}, {});
-  const Estimate estimate = IdentifyAndJudge(identifier, {Prepare(m), options, {}});
+  const Estimate estimate = IdentifyAndJudge(identifier, {Prepare(m), identifier.options, {}});
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
   for (const auto& [name, truth] : scenario.friction.parameters) {
     const EstimatedParameter& found = *estimate.Find(name);

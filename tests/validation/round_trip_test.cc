@@ -8,7 +8,6 @@
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
-#include "identification/read_options.h"
 #include "models/recording/read_recording.h"
 #include "models/robots/robot_folder.h"
 #include "sim/plant/motion_of.h"
@@ -22,8 +21,7 @@ namespace {
 Estimate Identify(const Measurements& measurements, const std::string& name,
                   const std::map<std::string, std::string>& given) {
   const Identifier& identifier = FindIdentifier(name);
-  const Options options = ReadOptions(identifier.options, given, {});
-  return IdentifyUnjudged(identifier, {Prepare(measurements), options, {}});
+  return IdentifyUnjudged(identifier, {Prepare(measurements), identifier.options.Read(given), {}});
 }
 
 /// The engine's recording of `log`'s motion on `robot`, which gets the estimated friction.

@@ -8,7 +8,6 @@
 #include "identification/answer/identify.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/read_options.h"
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"
 #include "tests/support/folders.h"
@@ -24,8 +23,8 @@ struct Reached {
 
 Reached Reach(const SuiteIdentifier& entry, const Simulation& recording) {
   const Identifier& identifier = FindIdentifier(entry.name);
-  const Options options = ReadOptions(identifier.options, entry.options, {});
-  const IdentifierInput input{Prepare(recording.measurements), options, {}};
+  const IdentifierInput input{
+      Prepare(recording.measurements), identifier.options.Read(entry.options), {}};
   const Estimate estimate = IdentifyUnjudged(identifier, input);
   const auto held = HoldOut(identifier, input, 0.3);
   Reached reached;

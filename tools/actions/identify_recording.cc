@@ -8,8 +8,6 @@
 #include "identification/estimate.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/linear/rigid_part.h"
-#include "identification/read_options.h"
 #include "identification/warming/expected_start.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
@@ -19,11 +17,13 @@
 namespace warmjoint::inline tools {
 namespace {
 
-/// Names of the identifiers that can do something, with commas between them.
-std::string Able(bool (*can)(const Identifier&)) {
+constexpr const char* kStartOption = "initial_energy";
+
+/// Names of the identifiers with an option, with commas between them.
+std::string Able(std::string_view option) {
   std::vector<std::string> able;
   for (const Identifier& one : Identifiers()) {
-    if (can(one)) able.push_back(one.name);
+    if (one.options.Has(option)) able.push_back(one.name);
   }
   return fmt::format("{}", fmt::join(able, ", "));
 }
@@ -39,8 +39,9 @@ void AddStart(const IdentifySettings& settings, const Identifier& identifier,
               std::map<std::string, std::string>& given) {
   if (settings.start != "estimated" && !settings.follows) return;
   const char* option = settings.follows ? "--follows" : "--start";
-  if (!TellsStart(identifier)) {
-    Refuse({option}, "{} cannot estimate E(0); use one of: {}", identifier.name, Able(TellsStart));
+  if (!identifier.options.Has(kStartOption)) {
+    Refuse({option}, "{} cannot estimate E(0); use one of: {}", identifier.name,
+           Able(kStartOption));
   }
   // only one option may say how warm the joint is at the start
   if (settings.follows && (settings.start != "cold" || given.contains(kStartOption))) {
@@ -54,10 +55,10 @@ void AddStart(const IdentifySettings& settings, const Identifier& identifier,
 void AddMotion(const std::string& motion, const Identifier& identifier,
                std::map<std::string, std::string>& given) {
   if (motion == "chosen") return;
-  if (!identifier.Has("motion")) {
+  if (!identifier.options.Has("motion")) {
     if (motion == "constant" && identifier.regime == Regime::steady) return;
     Refuse({"--motion"}, "{} cannot be told which motion to learn from; use one of: {}",
-           identifier.name, Able([](const Identifier& one) { return one.Has("motion"); }));
+           identifier.name, Able("motion"));
   }
   given["motion"] = motion;
 }
@@ -70,9 +71,9 @@ std::map<std::string, std::string> GivenOptions(const IdentifySettings& settings
   AddStart(settings, identifier, given);
   AddMotion(settings.motion, identifier, given);
   if (settings.gravity == "none") return given;
-  if (!TellsGravity(identifier)) {
+  if (!identifier.options.Has("gravity")) {
     Refuse({"--gravity"}, "{} cannot tell gravity from friction; use one of: {}", identifier.name,
-           Able(TellsGravity));
+           Able("gravity"));
   }
   // gravity over an angle needs one
   if (settings.gravity == "sincos" && joint == JointKind::linear) {
@@ -123,8 +124,7 @@ IdentifyTask CheckSettings(const IdentifySettings& settings, JointKind joint) {
   RequireWord(settings.motion, "--motion", {"chosen", "constant", "any"});
   RequireWord(settings.start, "--start", {"cold", "unknown", "estimated"});
   const Identifier& identifier = FindIdentifier(settings.identifier);
-  Options options =
-      ReadOptions(identifier.options, GivenOptions(settings, identifier, joint), {"--set"});
+  Options options = identifier.options.Read(GivenOptions(settings, identifier, joint), {"--set"});
   return {identifier, std::move(options), JudgingOf(settings), settings.void_numbers};
 }
 
@@ -134,8 +134,10 @@ void BeginWith(const CarriedHeat& heat, IdentifyTask& task) {
            task.identifier.name);
   }
   // expected with the doubt that it has
-  task.options =
-      task.options.With("expected_energy", heat.energy[0]).With("expected_energy_std", heat.std[0]);
+  auto start = task.options.Get<InitialEnergyOptions>();
+  start.expected_energy = heat.energy[0];
+  start.expected_energy_std = heat.std[0];
+  task.options = task.options.With(start);
 }
 
 HoldOutSource HoldOutShare(double fraction) {

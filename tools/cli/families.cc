@@ -113,9 +113,9 @@ ordered_json IdentifiersJson() {
   for (const Identifier& identifier : Identifiers()) {
     ordered_json options = ordered_json::array();
     // options in full, of which the short line shows the names
-    for (const OptionInfo& option : identifier.options) {
+    for (const OptionInfo& option : identifier.options.List()) {
       options.push_back({{"name", option.name},
-                         {"default", option.default_value},
+                         {"default", option.value},
                          {"allowed", option.allowed},
                          {"meaning", option.meaning}});
     }

@@ -4,7 +4,9 @@
 #include <warmjoint/estimate.h>
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <sstream>
 
 #include "identification/answer/judge_estimate.h"
@@ -12,7 +14,6 @@
 #include "identification/find_parameter.h"
 #include "identification/fit_data.h"
 #include "identification/options.h"
-#include "identification/read_options.h"
 #include "identification/warming/estimated_start.h"
 #include "models/foundation/excerpt.h"
 #include "models/foundation/read_json.h"
@@ -33,16 +34,30 @@ constexpr const char* kCsv = "{recording}";
 constexpr const char* kHdf5 = "{recording.h5}";
 constexpr const char* kEstimate = "{estimate}";
 
-const std::vector<OptionInfo>& ExternalOptions() {
-  static const std::vector<OptionInfo> options{
-      {"command", "", "text", "program and arguments with {recording} and {estimate}"},
-      {"time_limit", "60", "number > 0 <= 1000000", "s for each realization"},
-      {"memory", "4096", "number > 0 <= 1048576", "MiB of each process"},
-      {"reads", "", "text", "files and folders that it may read besides its own, parted by :"},
-      {"beside", "yes", "no|yes", "whether it reads what lies beside the first file it names"},
-  };
-  return options;
+enum class ReadsBeside { no, yes };
+std::span<const Word<ReadsBeside>> WordsOf(ReadsBeside) {
+  static constexpr std::array words{Word{"no", ReadsBeside::no}, Word{"yes", ReadsBeside::yes}};
+  return words;
 }
+
+/// The options of a command.
+struct ExternalOptions {
+  std::string command;     // program and arguments with {recording} and {estimate}
+  double time_limit = 60;  // s, of each realization
+  double memory = 4096;    // MiB, of each process
+  std::string reads;       // files and folders that it may read besides its own, parted by :
+  ReadsBeside beside =
+      ReadsBeside::yes;  // whether it reads what lies beside the first file it names
+
+  template <class A>
+  void Serialize(A* a) {
+    a->Field("command", &command);
+    a->Field("time_limit", &time_limit, {.unit = "s", .bounds = {.above = 0, .at_most = 1e6}});
+    a->Field("memory", &memory, {.unit = "MiB", .bounds = {.above = 0, .at_most = 1 << 20}});
+    a->Field("reads", &reads);
+    a->Field("beside", &beside);
+  }
+};
 
 bool Mentions(const std::string& command, const std::string& text) {
   return command.find(text) != std::string::npos;
@@ -232,14 +247,14 @@ SuiteIdentifier WithFilesOfSuite(SuiteIdentifier identifier, const fs::path& sui
 }
 
 std::vector<fs::path> ReadableBy(const SuiteIdentifier& identifier) {
-  const Options options = ReadOptions(ExternalOptions(), identifier.options, {identifier.label});
+  const auto options = ReadAs<ExternalOptions>(NodeOf(identifier.options, {identifier.label}));
   const Place place{Excerpt(identifier.label)};
-  const std::vector<std::string> words = SplitCommand(options.Text("command"), place);
+  const std::vector<std::string> words = SplitCommand(options.command, place);
   if (words.empty()) Refuse(place, "its command is empty");
 
   // what it names, and what lies beside a script unless that is around the folder of the run
   std::vector<fs::path> readable = FilesOf(words);
-  if (!readable.empty() && options.Text("beside") == "yes") {
+  if (!readable.empty() && options.beside == ReadsBeside::yes) {
     const fs::path beside = readable.front().parent_path();
     if (!IsAround(beside, fs::current_path())) readable.push_back(beside);
   }
@@ -255,7 +270,7 @@ std::vector<fs::path> ReadableBy(const SuiteIdentifier& identifier) {
     }
   }
   // what the suite allows besides
-  std::istringstream paths(options.Text("reads"));
+  std::istringstream paths(options.reads);
   for (std::string path; std::getline(paths, path, ':');) {
     if (!path.empty()) readable.push_back(fs::absolute(path));
   }
@@ -291,8 +306,8 @@ std::optional<Metrics> FrictionMetrics(const Estimate& estimate, const Measureme
 
 PreparedIdentifier PrepareExternal(const SuiteIdentifier& identifier, const Place& place,
                                    const Judging& judging, Confinement confinement) {
-  const Options options = ReadOptions(ExternalOptions(), identifier.options, place);
-  Command command{identifier.label, options.Text("command"), {}, judging};
+  const auto options = ReadAs<ExternalOptions>(NodeOf(identifier.options, place));
+  Command command{identifier.label, options.command, {}, judging};
   // a command that is not told where to write cannot answer
   if (!Mentions(command.text, kEstimate)) {
     Refuse(place, "the command of {} lacks {{estimate}}, the file that it has to write",
@@ -310,9 +325,8 @@ PreparedIdentifier PrepareExternal(const SuiteIdentifier& identifier, const Plac
   task.arguments = SplitCommand(command.text, place);
   task.answer = "estimate.json";
   task.confinement = confinement;
-  task.limits.seconds = options.Number("time_limit");
-  task.limits.memory =
-      static_cast<std::size_t>(options.Number("memory") * static_cast<double>(1 << 20));
+  task.limits.seconds = options.time_limit;
+  task.limits.memory = static_cast<std::size_t>(options.memory * static_cast<double>(1 << 20));
   return [command](const PreparedLog& log, StartKey) { return Ask(command, log); };
 }
 

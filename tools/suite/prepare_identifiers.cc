@@ -4,7 +4,6 @@
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/read_options.h"
 #include "models/foundation/excerpt.h"
 #include "tools/suite/external_identifier.h"
 
@@ -65,7 +64,7 @@ std::vector<PreparedIdentifier> PrepareIdentifiers(const std::vector<SuiteIdenti
     }
     // options are checked before anything runs
     const Identifier& identifier = FindIdentifier(one.name);
-    const Options options = ReadOptions(identifier.options, one.options, place);
+    const Options options = identifier.options.Read(one.options, place);
     prepared.emplace_back([identifier, options](const PreparedLog& log, StartKey start) {
       return IdentifyAndJudge(identifier, {log, options, start});
     });

@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 
 #include "identification/identifiers/identifier_list.h"
-#include "identification/read_options.h"
 #include "models/foundation/serialize.h"
 #include "models/recording/csv.h"
 #include "tests/fuzz/fuzz.h"
@@ -57,17 +56,9 @@ void Read(std::string_view bytes) {
 
   // what an identifier is told
   const Identifier& identifier = FindIdentifier(name);
-  const Options options = ReadOptions(identifier.options, ReadPairs(set, "--set"), {"--set"});
-  for (const OptionInfo& option : identifier.options) {
-    fuzz::Require(options.Text(option.name).data() != nullptr);
-    if (option.allowed == "range") {
-      const auto [lower, upper] = options.Range(option.name);
-      fuzz::Require(lower <= upper);
-    }
-    if (option.allowed.starts_with("integer")) options.Integer(option.name);
-    if (option.allowed.starts_with("number"))
-      fuzz::Require(std::isfinite(options.Number(option.name)));
-  }
+  // what is written is read back
+  const auto changed = identifier.options.Read(ReadPairs(set, "--set"), {"--set"}).Changed();
+  fuzz::Require(identifier.options.Read(changed, {"again"}).Changed() == changed);
 }
 
 }  // namespace

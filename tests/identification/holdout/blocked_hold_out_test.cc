@@ -3,10 +3,8 @@
 #include <gmock/gmock.h>
 #include <warmjoint/prepared_log.h>
 
-#include "identification/identifiers/energy_ml.h"
-#include "identification/identifiers/nominal_ls.h"
+#include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
-#include "identification/read_options.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint {
@@ -30,9 +28,8 @@ TEST(BlockedHoldOut, HasTheErrorOfTheNoiseWhereTheModelIsRight) {
       test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 4), 0.5, 4);
   const Selection selection = SelectMoving(m);
   const Identifier warm = EnergyMl();
-  const Options options = ReadOptions(warm.options, {}, {});
   const auto errors =
-      BlockedErrors(warm, {Prepare(m, selection), options, {}}, CutIntoBlocks(selection, 6));
+      BlockedErrors(warm, {Prepare(m, selection), warm.options, {}}, CutIntoBlocks(selection, 6));
   ASSERT_TRUE(errors);
   // 0.25, known to sqrt(2 / 600) = 6 % on each block; five of these; a fit without the first ten
   // minutes hardly sees the time constant, so that its block is left out
@@ -44,9 +41,8 @@ TEST(BlockedHoldOut, SeesTheWarmingThatTheModelLacks) {
       test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 4), 0.5, 4);
   const Selection selection = SelectMoving(m);
   const Identifier cold = NominalLs();
-  const Options options = ReadOptions(cold.options, {}, {});
   const auto errors =
-      BlockedErrors(cold, {Prepare(m, selection), options, {}}, CutIntoBlocks(selection, 6));
+      BlockedErrors(cold, {Prepare(m, selection), cold.options, {}}, CutIntoBlocks(selection, 6));
   ASSERT_TRUE(errors);
   EXPECT_GT((*errors)[0], 10 * 0.25);  // the first ten minutes are the cold ones
 }
@@ -62,9 +58,8 @@ TEST(BlockedHoldOut, StartsAsWarmAsTheFitSays) {
   Measurements m = test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(600, 4), 0, 4);
   m.torque = PredictFriction(test::TableOne(), m, {-6}).force;
   const Selection selection = SelectMoving(m);
-  const Options options = ReadOptions(knowing.options, {}, {});
-  const auto errors =
-      BlockedErrors(knowing, {Prepare(m, selection), options, {}}, CutIntoBlocks(selection, 6));
+  const auto errors = BlockedErrors(knowing, {Prepare(m, selection), knowing.options, {}},
+                                    CutIntoBlocks(selection, 6));
   ASSERT_TRUE(errors);
   EXPECT_EQ(errors->maxCoeff(), 0);
 }

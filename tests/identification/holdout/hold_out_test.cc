@@ -7,7 +7,6 @@
 
 #include "identification/fit_parameters.h"
 #include "identification/preparation/select.h"
-#include "identification/read_options.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint {
@@ -18,9 +17,10 @@ struct Trial {
   Identifier identifier;
   Measurements measurements;
   Selection selection = SelectMoving(measurements);
-  Options options = ReadOptions(identifier.options, {}, {});
 
-  IdentifierInput input() const { return {Prepare(measurements, selection), options, {}}; }
+  IdentifierInput input() const {
+    return {Prepare(measurements, selection), identifier.options, {}};
+  }
 };
 
 /// Says 5 v + 15 sign(v), warming as Table I, whatever it is shown; notes how much it was shown.

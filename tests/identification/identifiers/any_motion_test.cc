@@ -8,7 +8,6 @@
 #include "identification/answer/identify.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/read_options.h"
 #include "tests/support/excited_recording.h"
 
 namespace warmjoint {
@@ -21,8 +20,7 @@ using test::Excited, test::kInertia, test::kSine, test::kCosine;
 Estimate AnswerTo(const std::string& name, const Measurements& m,
                   std::map<std::string, std::string> given = {{"gravity", "sincos"}}) {
   const Identifier& identifier = FindIdentifier(name);
-  const Options options = ReadOptions(identifier.options, given, {});
-  return IdentifyAndJudge(identifier, {Prepare(m), options, {}});
+  return IdentifyAndJudge(identifier, {Prepare(m), identifier.options.Read(given), {}});
 }
 
 /// Within 4 standard deviations, and not by an interval that says nothing.
@@ -83,8 +81,9 @@ TEST(AnyMotion, HeldOutFiguresAreOfTheSameModel) {
   Friction cold = test::TableOne();
   cold.thermal.reset();
   const Identifier& identifier = FindIdentifier("nominal-ls");
-  const Options options = ReadOptions(identifier.options, {{"gravity", "sincos"}}, {});
-  const auto held = HoldOut(identifier, {Prepare(Excited(cold, 6000, 5)), options, {}}, 0.3);
+  const auto held = HoldOut(
+      identifier,
+      {Prepare(Excited(cold, 6000, 5)), identifier.options.Read({{"gravity", "sincos"}}), {}}, 0.3);
   ASSERT_TRUE(held);
   // noise alone: 0.5 with a standard error of 0.5/sqrt(2 * 1500)
   EXPECT_NEAR(held->rmse, test::kExcitedNoise, 0.04);

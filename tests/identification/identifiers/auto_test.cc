@@ -1,11 +1,9 @@
-#include "identification/identifiers/auto.h"
-
 #include <gmock/gmock.h>
 #include <warmjoint/prepared_log.h>
 #include <warmjoint/recording.h>
 
 #include "identification/answer/identify.h"
-#include "identification/read_options.h"
+#include "identification/identifiers/identifier_list.h"
 #include "models/foundation/low_pass.h"
 #include "models/foundation/random_stream.h"
 #include "models/recording/course_of.h"
@@ -20,8 +18,7 @@ using ::testing::HasSubstr;
 
 Estimate AnswerTo(const Measurements& m) {
   const Identifier identifier = Auto();
-  const Options options = ReadOptions(identifier.options, {}, {});
-  return IdentifyUnjudged(identifier, {Prepare(m), options, {}});
+  return IdentifyUnjudged(identifier, {Prepare(m), identifier.options, {}});
 }
 
 /// How many of 10 realizations choose that law, with that warming.
@@ -201,11 +198,9 @@ TEST(Auto, BeginsAsWarmAsItIsTold) {
   const double energy = PredictFriction(truth, all).energy[600];
   const Measurements log = test::Without(all, {{-1, 599.5}});
   const Identifier identifier = Auto();
-  const Options options = ReadOptions(identifier.options,
-                                      {{"initial_energy", "expected"},
-                                       {"expected_energy", std::to_string(energy)},
-                                       {"expected_energy_std", "0.05"}},
-                                      {});
+  const Options options = identifier.options.Read({{"initial_energy", "expected"},
+                                                   {"expected_energy", std::to_string(energy)},
+                                                   {"expected_energy_std", "0.05"}});
   const Estimate estimate = IdentifyUnjudged(identifier, {Prepare(log), options, {}});
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
   for (const auto& [name, value] :

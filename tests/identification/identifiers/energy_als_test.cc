@@ -1,5 +1,3 @@
-#include "identification/identifiers/energy_als.h"
-
 #include <gmock/gmock.h>
 #include <warmjoint/prepared_log.h>
 #include <warmjoint/recording.h>
@@ -7,7 +5,7 @@
 #include <cmath>
 
 #include "identification/answer/identify.h"
-#include "identification/read_options.h"
+#include "identification/identifiers/identifier_list.h"
 #include "tests/support/travelling.h"
 
 namespace warmjoint {
@@ -18,8 +16,7 @@ using Given = std::map<std::string, std::string>;
 
 Estimate Identify(const Measurements& measurements, const Given& given = {}, StartKey key = {}) {
   const Identifier identifier = EnergyAls();
-  const Options options = ReadOptions(identifier.options, given, {});
-  return IdentifyUnjudged(identifier, {Prepare(measurements), options, key});
+  return IdentifyUnjudged(identifier, {Prepare(measurements), identifier.options.Read(given), key});
 }
 
 Measurements TableOneRecording(std::uint64_t seed, Eigen::Index rest = 0, double noise = 0.5) {

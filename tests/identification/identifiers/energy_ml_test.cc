@@ -1,5 +1,3 @@
-#include "identification/identifiers/energy_ml.h"
-
 #include <gmock/gmock.h>
 #include <warmjoint/prepared_log.h>
 #include <warmjoint/recording.h>
@@ -7,9 +5,10 @@
 #include <cmath>
 
 #include "identification/answer/identify.h"
-#include "identification/read_options.h"
+#include "identification/identifiers/identifier_list.h"
 #include "models/foundation/random_stream.h"
 #include "models/friction/thermal.h"
+#include "tests/identification/identifiers/fit_of_table_one.h"
 #include "tests/support/vectors.h"
 
 namespace warmjoint {
@@ -21,8 +20,7 @@ using ::testing::HasSubstr;
 Estimate FitWarming(const Measurements& measurements,
                     const std::map<std::string, std::string>& given = {}) {
   const Identifier identifier = EnergyMl();
-  const Options options = ReadOptions(identifier.options, given, {});
-  return IdentifyUnjudged(identifier, {Prepare(measurements), options, {}});
+  return IdentifyUnjudged(identifier, {Prepare(measurements), identifier.options.Read(given), {}});
 }
 
 /// Torque of kv = 5, kc = 15 with `thermal` and E(0), plus noise, over a velocity at `time`.
@@ -154,6 +152,23 @@ TEST(EnergyMl, SaysThatARecordIsTooShort) {
   EXPECT_EQ(estimate.status, Status::not_identifiable);
   EXPECT_THAT(estimate.message, HasSubstr("thermal_time_constant"));
   EXPECT_FALSE(estimate.friction);
+}
+
+TEST(EnergyMl, SaysWhereTheLogShowsNoLag) {
+  const Fit plain = test::FitOfTableOne(EnergyMl(), {});
+  const Fit asked = test::FitOfTableOne(EnergyMl(), {{"torque_lag", "estimated"}});
+  EXPECT_EQ(asked.fitted, plain.fitted);
+  EXPECT_FALSE(asked.torque_lag);
+  EXPECT_THAT(asked.afterword, HasSubstr("the torque shows no lag"));
+}
+
+TEST(EnergyMl, RefusesALagUnderHubersLossAndBesideMaps) {
+  for (const auto& [option, value] : {std::pair{"loss", "huber"}, std::pair{"position", "map"}}) {
+    const Fit fit = test::FitOfTableOne(EnergyMl(), {{"torque_lag", "estimated"}, {option, value}});
+    ASSERT_TRUE(fit.refusal);
+    EXPECT_EQ(fit.refusal->status, Status::bad_data);
+    EXPECT_THAT(fit.refusal->message, HasSubstr("or torque_lag none"));
+  }
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "identification/identifier.h"
-#include "identification/read_options.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint::test {
@@ -16,7 +15,7 @@ namespace warmjoint::test {
 inline Fit FitOfTableOne(const Identifier& identifier,
                          const std::map<std::string, std::string>& given) {
   const Measurements m = RecordFriction(TableOne(), 1, AlternatingSpeeds(1200, 3), 0.5, 3);
-  return identifier.fit({Prepare(m), ReadOptions(identifier.options, given, {}), {}});
+  return identifier.fit({Prepare(m), identifier.options.Read(given), {}});
 }
 
 }  // namespace warmjoint::test

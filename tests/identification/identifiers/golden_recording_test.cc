@@ -6,7 +6,6 @@
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/read_options.h"
 #include "tests/support/vectors.h"
 
 namespace warmjoint {
@@ -24,8 +23,7 @@ Measurements GoldenLog(const std::string& law) {
 Estimate Identify(const std::string& name, const Measurements& m,
                   const std::map<std::string, std::string>& given) {
   const Identifier& identifier = FindIdentifier(name);
-  const Options options = ReadOptions(identifier.options, given, {});
-  const IdentifierInput input{Prepare(m), options, {}};
+  const IdentifierInput input{Prepare(m), identifier.options.Read(given), {}};
   EXPECT_GT(input.selection.count(), m.size() / 2);
   return IdentifyUnjudged(identifier, input);
 }

@@ -1,4 +1,3 @@
-#include "identification/identifiers/kalman.h"
 
 #include <gmock/gmock.h>
 #include <warmjoint/prepared_log.h>
@@ -7,9 +6,7 @@
 #include <cmath>
 
 #include "identification/answer/identify.h"
-#include "identification/identifiers/energy_ml.h"
-#include "identification/identifiers/rls.h"
-#include "identification/read_options.h"
+#include "identification/identifiers/identifier_list.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint {
@@ -19,8 +16,7 @@ using ::testing::HasSubstr;
 
 Estimate AnswerTo(const Identifier& identifier, const Measurements& m,
                   const std::map<std::string, std::string>& given = {}) {
-  const Options options = ReadOptions(identifier.options, given, {});
-  return IdentifyUnjudged(identifier, {Prepare(m), options, {}});
+  return IdentifyUnjudged(identifier, {Prepare(m), identifier.options.Read(given), {}});
 }
 
 Measurements TableOneRecording(std::uint64_t seed) {

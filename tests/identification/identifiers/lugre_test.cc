@@ -1,4 +1,3 @@
-#include "identification/identifiers/lugre.h"
 
 #include <gmock/gmock.h>
 #include <warmjoint/prepared_log.h>
@@ -6,10 +5,9 @@
 #include <cmath>
 
 #include "identification/answer/identify.h"
-#include "identification/identifiers/stribeck.h"
+#include "identification/identifiers/identifier_list.h"
 #include "identification/nonlinear/lugre_data.h"
 #include "identification/preparation/select.h"
-#include "identification/read_options.h"
 #include "models/recording/join_recordings.h"
 #include "tests/support/bristle_recording.h"
 
@@ -34,8 +32,7 @@ Estimate AnswerTo(const Measurements& m, const Selection& selection,
                   const std::map<std::string, std::string>& given = {},
                   Verdict verdict = Verdict::judged) {
   const Identifier identifier = LuGreIdentifier();
-  const Options options = ReadOptions(identifier.options, given, {});
-  const IdentifierInput input{Prepare(m, selection), options, {}};
+  const IdentifierInput input{Prepare(m, selection), identifier.options.Read(given), {}};
   return verdict == Verdict::judged ? IdentifyAndJudge(identifier, input)
                                     : IdentifyUnjudged(identifier, input);
 }
@@ -149,7 +146,7 @@ TEST(Lugre, AgreesWithStribeckWhereTheJointSlidesSteadily) {
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
 
   const Identifier stribeck = StribeckIdentifier();
-  const Options options = ReadOptions(stribeck.options, {}, {});
+  const Options options = stribeck.options;
   const Selection moving = SelectMoving(m);
   const Selection steady =
       SteadySamples(IdentifierInput(Prepare(m, moving), options, {}).AsTaken(), 0.01);

@@ -1,11 +1,9 @@
-#include "identification/identifiers/motor_ridge.h"
-
 #include <gmock/gmock.h>
 #include <warmjoint/prepared_log.h>
 
 #include "identification/answer/identify.h"
+#include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
-#include "identification/read_options.h"
 #include "tests/support/travelling.h"
 
 namespace warmjoint {
@@ -27,10 +25,11 @@ Measurements Geared(std::vector<FrictionMap> maps, double noise) {
 
 Estimate Identify(const Measurements& m) {
   const Identifier identifier = MotorRidge();
-  const Options options =
-      ReadOptions(identifier.options, {{"width", "1"}, {"arm_kernels", "10"}}, {});
   const Selection selection = SelectMoving(m);
-  return IdentifyUnjudged(identifier, {Prepare(m, selection), options, {}});
+  return IdentifyUnjudged(identifier,
+                          {Prepare(m, selection),
+                           identifier.options.Read({{"width", "1"}, {"arm_kernels", "10"}}),
+                           {}});
 }
 
 TEST(MotorRidge, FindsTheMultiplesOfTheMotorsTurn) {

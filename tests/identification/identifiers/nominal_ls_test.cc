@@ -1,5 +1,3 @@
-#include "identification/identifiers/nominal_ls.h"
-
 #include <gmock/gmock.h>
 #include <warmjoint/prepared_log.h>
 #include <warmjoint/recording.h>
@@ -9,7 +7,7 @@
 #include <limits>
 
 #include "identification/answer/identify.h"
-#include "identification/read_options.h"
+#include "identification/identifiers/identifier_list.h"
 #include "models/foundation/random_stream.h"
 #include "tests/support/vectors.h"
 
@@ -22,8 +20,8 @@ using ::testing::Not;
 
 Estimate FitLaw(const Measurements& measurements, const std::string& law) {
   const Identifier identifier = NominalLs();
-  const Options options = ReadOptions(identifier.options, {{"law", law}}, {});
-  return IdentifyUnjudged(identifier, {Prepare(measurements), options, {}});
+  return IdentifyUnjudged(identifier,
+                          {Prepare(measurements), identifier.options.Read({{"law", law}}), {}});
 }
 
 /// Speeds `speeds` (rad/s) in turn, 10 samples each, under kv = 2 N.m.s/rad and kc = 7 N.m.

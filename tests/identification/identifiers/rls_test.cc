@@ -1,12 +1,10 @@
-#include "identification/identifiers/rls.h"
 
 #include <gmock/gmock.h>
 #include <warmjoint/prepared_log.h>
 #include <warmjoint/recording.h>
 
 #include "identification/answer/identify.h"
-#include "identification/identifiers/nominal_ls.h"
-#include "identification/read_options.h"
+#include "identification/identifiers/identifier_list.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint {
@@ -14,8 +12,7 @@ namespace {
 
 Estimate AnswerTo(const Identifier& identifier, const Measurements& m,
                   const std::map<std::string, std::string>& given) {
-  const Options options = ReadOptions(identifier.options, given, {});
-  return IdentifyUnjudged(identifier, {Prepare(m), options, {}});
+  return IdentifyUnjudged(identifier, {Prepare(m), identifier.options.Read(given), {}});
 }
 
 TEST(Rls, IsNominalLsWhereItForgetsNothing) {

@@ -1,14 +1,12 @@
-#include "identification/identifiers/stribeck.h"
-
 #include <gmock/gmock.h>
 #include <warmjoint/prepared_log.h>
 
 #include <cmath>
 
 #include "identification/answer/identify.h"
+#include "identification/identifiers/identifier_list.h"
 #include "identification/nonlinear/stribeck_fit.h"
 #include "identification/preparation/select.h"
-#include "identification/read_options.h"
 #include "models/recording/join_recordings.h"
 #include "tests/support/slow_recording.h"
 
@@ -20,8 +18,7 @@ using ::testing::HasSubstr;
 
 Estimate AnswerTo(const Measurements& m, const std::map<std::string, std::string>& given = {}) {
   const Identifier identifier = StribeckIdentifier();
-  const Options options = ReadOptions(identifier.options, given, {});
-  return IdentifyUnjudged(identifier, {Prepare(m), options, {}});
+  return IdentifyUnjudged(identifier, {Prepare(m), identifier.options.Read(given), {}});
 }
 
 using test::StribeckJoint;

@@ -7,7 +7,6 @@
 #include "identification/fit_parameters.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
-#include "identification/read_options.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint {
@@ -127,14 +126,13 @@ TEST(AtBounds, HoldsWhatNoisePutsBeyond) {
   // without viscous friction half of the values fall below 0, and 2.5 % with their whole interval
   Friction friction{"viscous_coulomb", {{"viscous", 0}, {"coulomb", 15}}, {}, 0, 1};
   const Identifier& identifier = FindIdentifier("nominal-ls");
-  const Options options = ReadOptions(identifier.options, {}, {});
   int held = 0, voided = 0, covered = 0;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
     const Measurements m =
         test::RecordFriction(friction, 1, test::AlternatingSpeeds(400, seed), 0.5, seed);
     const Selection selection = SelectMoving(m);
     const PreparedLog log = Prepare(m, selection);
-    const Estimate estimate = IdentifyUnjudged(identifier, {log, options, {}});
+    const Estimate estimate = IdentifyUnjudged(identifier, {log, identifier.options, {}});
     voided += estimate.status == Status::inadequate_model;
     if (estimate.status != Status::ok) continue;
     ASSERT_TRUE(estimate.friction);
@@ -147,8 +145,8 @@ TEST(AtBounds, HoldsWhatNoisePutsBeyond) {
 
     // the other is that of the law without the parameter, but for what colour and unevenness of the noise seem to tell;
     // the fitted torque, too
-    const Options alone = ReadOptions(identifier.options, {{"law", "coulomb"}}, {});
-    const Estimate other = IdentifyUnjudged(identifier, {log, alone, {}});
+    const Estimate other =
+        IdentifyUnjudged(identifier, {log, identifier.options.Read({{"law", "coulomb"}}), {}});
     EXPECT_NEAR(coulomb.value, other.Find("coulomb")->value, 0.2 * *coulomb.std);
     EXPECT_NEAR(estimate.metrics->rmse, other.metrics->rmse, 1e-4 * other.metrics->rmse);
   }

@@ -7,7 +7,6 @@
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
-#include "identification/read_options.h"
 #include "tests/support/judging.h"
 
 namespace warmjoint {
@@ -27,8 +26,8 @@ TEST(FaultyLog, EndsAsBadDataForEveryIdentifier) {
   const Selection selection = SelectConstantSpeed(m);
   for (const char* name : {"energy-ml", "nominal-ls", "lugre", "kalman"}) {
     const Identifier& identifier = FindIdentifier(name);
-    const Options options = ReadOptions(identifier.options, {}, {});
-    const Estimate estimate = IdentifyAndJudge(identifier, {Prepare(m, selection), options, {}});
+    const Estimate estimate =
+        IdentifyAndJudge(identifier, {Prepare(m, selection), identifier.options, {}});
     EXPECT_EQ(estimate.status, Status::bad_data) << name;
     EXPECT_THAT(estimate.message, HasSubstr("--unit velocity=rpm")) << name;
     EXPECT_FALSE(estimate.friction) << name;
@@ -40,8 +39,7 @@ TEST(FaultyLog, ShowsItsNumbersByForce) {
   const Measurements m = HourInRpm();
   const Selection selection = SelectConstantSpeed(m);
   const Identifier& identifier = FindIdentifier("nominal-ls");
-  const Options options = ReadOptions(identifier.options, {}, {});
-  const IdentifierInput input{Prepare(m, selection), options, {}};
+  const IdentifierInput input{Prepare(m, selection), identifier.options, {}};
   const Answer answer = FitAndJudge(identifier, input);
   ASSERT_EQ(answer.inferred.status, Status::ok);
   const Estimate shown = WithVoidNumbers(identifier, input, answer);

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "identification/identifiers/identifier_list.h"
-#include "identification/read_options.h"
 #include "models/foundation/robust_noise.h"
 #include "tests/support/judging.h"
 
@@ -51,8 +50,7 @@ TEST(HeldLoss, MattersWhereTheTimeConstantIsKnownFinerThanTheStep) {
   const Measurements slow = test::RecordHour(test::TableOne(), 1);
   const auto matters = [](const Measurements& log) {
     const Identifier& identifier = FindIdentifier("energy-ml");
-    const Options options = ReadOptions(identifier.options, {}, {});
-    const IdentifierInput input{Prepare(log), options, {}};
+    const IdentifierInput input{Prepare(log), identifier.options, {}};
     const Fit fit = identifier.fit(input);
     return StepMatters(fit, Infer(fit), log.velocity, MedianStep(log.time));
   };

@@ -6,7 +6,6 @@
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
-#include "identification/read_options.h"
 #include "models/friction/sign.h"
 #include "tests/support/judging.h"
 
@@ -179,9 +178,8 @@ TEST(Judge, DoesNotTakeWhatIsPeriodicInTimeForRipple) {
 TEST(Judge, TakesBackEverythingButTheValues) {
   const Measurements warm = RecordHour(test::TableOne(), 1);
   const Identifier& identifier = FindIdentifier("nominal-ls");
-  const Options options = ReadOptions(identifier.options, {}, {});
   const Selection selection = SelectMoving(warm);
-  const IdentifierInput input{Prepare(warm, selection), options, {}};
+  const IdentifierInput input{Prepare(warm, selection), identifier.options, {}};
   const Estimate before = IdentifyUnjudged(identifier, input);
   const Estimate judged = IdentifyAndJudge(identifier, input);
   EXPECT_FALSE(judged.friction);
@@ -205,9 +203,8 @@ TEST(Judge, WarnsOfSmallStructureAndLetsIntervalsReachAsFar) {
     m.torque[i] += std::copysign(0.4 * std::exp(-std::pow(v / 0.2, 2)), v);
   }
   const Identifier& identifier = FindIdentifier("nominal-ls");
-  const Options options = ReadOptions(identifier.options, {}, {});
   const Selection selection = SelectMoving(m);
-  const IdentifierInput input{Prepare(m, selection), options, {}};
+  const IdentifierInput input{Prepare(m, selection), identifier.options, {}};
   const Estimate before = IdentifyUnjudged(identifier, input);
   const Estimate judged = IdentifyAndJudge(identifier, input);
   ASSERT_EQ(judged.status, Status::ok) << judged.message;

@@ -8,7 +8,6 @@
 #include <set>
 
 #include "identification/holdout/hold_out.h"
-#include "identification/read_options.h"
 #include "models/foundation/low_pass.h"
 #include "models/recording/measurements.h"
 #include "tests/support/bristle_recording.h"
@@ -39,8 +38,7 @@ constexpr Judging kStrict{.relevance = 0.02};
 
 Step Take(const std::string& name, const Options_& given, const Measurements& m) {
   const Identifier& identifier = FindIdentifier(name);
-  const Options options = ReadOptions(identifier.options, given, {});
-  const IdentifierInput input{Prepare(m), options, {}};
+  const IdentifierInput input{Prepare(m), identifier.options.Read(given), {}};
   Step step{name, given, IdentifyAndJudge(identifier, input, kStrict), 0};
   const auto held = HoldOut(identifier, input, 0.3);
   step.held_out = held ? held->rmse : kInfinity;
@@ -138,9 +136,8 @@ TEST(Remedies, AgainstFrictionThatFollowsLate) {
 
   // eight time constants a hold, three of which are left out at each end
   const Identifier& identifier = FindIdentifier("energy-ml");
-  const Options options = ReadOptions(identifier.options, {}, {});
   const PreparedLog log = Prepare(FollowingLate(10800, 480, 1), PrepareSettings{.trim = 180});
-  const Estimate patient = IdentifyAndJudge(identifier, {log, options, {}});
+  const Estimate patient = IdentifyAndJudge(identifier, {log, identifier.options, {}});
   ASSERT_EQ(patient.status, Status::ok) << patient.message;
   for (const auto& [name, truth] : {std::pair{"viscous", 5.0}, {"coulomb", 15.0}}) {
     const EstimatedParameter* found = patient.Find(name);

@@ -7,7 +7,6 @@
 #include <regex>
 
 #include "identification/fit_data.h"
-#include "identification/read_options.h"
 #include "tests/support/judging.h"
 #include "tests/support/travelling.h"
 
@@ -27,8 +26,7 @@ std::vector<double> NumbersIn(const std::string& text) {
 /// Examines what an identifier leaves of a log, and reads the words of what was found.
 void ExpectWordsMeanWhatTheySay(const char* name, const Measurements& m) {
   const Identifier& identifier = FindIdentifier(name);
-  const Options options = ReadOptions(identifier.options, {}, {});
-  const IdentifierInput input{Prepare(m), options, {}};
+  const IdentifierInput input{Prepare(m), identifier.options, {}};
   const Fit fit = identifier.fit(input);
   const Inference inference = Infer(fit);
   ASSERT_EQ(inference.status, Status::ok) << inference.message;

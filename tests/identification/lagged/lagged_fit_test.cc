@@ -9,7 +9,6 @@
 #include "identification/identifiers/identifier_list.h"
 #include "identification/lagged/lag_search.h"
 #include "identification/lagged/seen_lag.h"
-#include "identification/read_options.h"
 #include "models/foundation/low_pass.h"
 #include "models/foundation/random_stream.h"
 #include "tests/support/warm_recording.h"
@@ -37,8 +36,8 @@ Measurements Lagging(double lag, double noise, std::optional<Thermal> thermal = 
 
 Estimate Identified(const std::string& name, const Measurements& m) {
   const Identifier& identifier = FindIdentifier(name);
-  const Options options = ReadOptions(identifier.options, {{"torque_lag", "estimated"}}, {});
-  return IdentifyUnjudged(identifier, {Prepare(m), options, {}});
+  return IdentifyUnjudged(identifier,
+                          {Prepare(m), identifier.options.Read({{"torque_lag", "estimated"}}), {}});
 }
 
 TEST(TorqueLag, OfAnExactRecordingIsFoundWithTheFrictionBehindIt) {
@@ -86,8 +85,7 @@ TEST(TorqueLag, IsNotFittedWhereTheTorqueShowsNone) {
     const Measurements m = Lagging(0, 0.5, thermal);
     const Estimate asked = Identified(name, m);
     const Identifier& identifier = FindIdentifier(name);
-    const Estimate plain =
-        IdentifyUnjudged(identifier, {Prepare(m), ReadOptions(identifier.options, {}, {}), {}});
+    const Estimate plain = IdentifyUnjudged(identifier, {Prepare(m), identifier.options, {}});
     ASSERT_EQ(asked.status, Status::ok) << asked.message;
     EXPECT_EQ(asked.Find("torque_lag"), nullptr);
     EXPECT_EQ(asked.Find("coulomb")->value, plain.Find("coulomb")->value);
@@ -98,18 +96,23 @@ TEST(TorqueLag, IsNotFittedWhereTheTorqueShowsNone) {
 TEST(TorqueLag, LeavesTheVerdictNothingToFind) {
   const Measurements m = Lagging(kLag, 0.5);
   const Identifier& identifier = FindIdentifier("energy-ml");
-  const Options with = ReadOptions(identifier.options, {{"torque_lag", "estimated"}}, {});
-  const Options without = ReadOptions(identifier.options, {}, {});
-  EXPECT_EQ(IdentifyAndJudge(identifier, {Prepare(m), with, {}}).status, Status::ok);
-  EXPECT_NE(IdentifyAndJudge(identifier, {Prepare(m), without, {}}).status, Status::ok);
+  EXPECT_EQ(
+      IdentifyAndJudge(identifier,
+                       {Prepare(m), identifier.options.Read({{"torque_lag", "estimated"}}), {}})
+          .status,
+      Status::ok);
+  EXPECT_NE(IdentifyAndJudge(identifier, {Prepare(m), identifier.options, {}}).status, Status::ok);
 }
 
 TEST(TorqueLag, IsRefusedBesideOptionsThatRuleItOut) {
   const Identifier& identifier = FindIdentifier("nominal-ls");
-  const Options huber =
-      ReadOptions(identifier.options, {{"torque_lag", "estimated"}, {"loss", "huber"}}, {});
-  EXPECT_EQ(IdentifyUnjudged(identifier, {Prepare(Lagging(kLag, 0.5)), huber, {}}).status,
-            Status::bad_data);
+  EXPECT_EQ(
+      IdentifyUnjudged(identifier,
+                       {Prepare(Lagging(kLag, 0.5)),
+                        identifier.options.Read({{"torque_lag", "estimated"}, {"loss", "huber"}}),
+                        {}})
+          .status,
+      Status::bad_data);
 }
 
 TEST(FindLag, RefinesTheLeastSquaresAndKnowsTheEndsOfItsRange) {

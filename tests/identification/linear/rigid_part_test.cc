@@ -9,7 +9,6 @@
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
-#include "identification/read_options.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint {
@@ -29,12 +28,12 @@ Measurements Record(double pull, std::uint64_t seed, double coupled = 0) {
 Estimate Identify(const Identifier& identifier, const Measurements& m, const std::string& gravity,
                   std::map<std::string, std::string> given = {}) {
   given["gravity"] = gravity;
-  for (const OptionInfo& option : identifier.options) {
+  for (const OptionInfo& option : identifier.options.List()) {
     if (option.name == "iterations") given["iterations"] = "500";
   }
-  const Options options = ReadOptions(identifier.options, given, {});
   const Selection selection = SelectMoving(m);
-  return IdentifyUnjudged(identifier, {Prepare(m, selection), options, {11, 3}});
+  return IdentifyUnjudged(identifier,
+                          {Prepare(m, selection), identifier.options.Read(given), {11, 3}});
 }
 
 /// How far the friction of two estimates of the same noise is apart.
@@ -108,7 +107,7 @@ TEST_P(TellingGravity, RefusesPassesThatDoNotMeet) {
 std::vector<Identifier> Able() {
   std::vector<Identifier> able;
   for (const Identifier& one : Identifiers()) {
-    if (TellsGravity(one) && one.Has("law")) able.push_back(one);
+    if (one.options.Find<GravityOption>()) able.push_back(one);
   }
   return able;
 }
@@ -140,12 +139,24 @@ TEST(FitGravity, IsHeldOutTogetherWithFriction) {
   const Measurements m = Record(1, 7);
   const Selection selection = SelectMoving(m);
   for (const char* gravity : {"sincos", "paired"}) {
-    const Options options = ReadOptions(energy_ml.options, {{"gravity", gravity}}, {});
-    const auto held = HoldOut(energy_ml, {Prepare(m, selection), options, {}}, 0.3);
+    const auto held =
+        HoldOut(energy_ml,
+                {Prepare(m, selection), energy_ml.options.Read({{"gravity", gravity}}), {}}, 0.3);
     ASSERT_TRUE(held);
     // noise of 0.5 N.m; parameters of the first part cost less than a tenth of it
     EXPECT_NEAR(held->rmse, 0.5, 0.05) << gravity;
   }
+}
+
+TEST(AgainstPushing, NamesWhatTheFitDoesNotHold) {
+  EXPECT_EQ(AgainstPushing("energy-ml", "viscous_coulomb", FittedGravity::none),
+            "try --identifier energy-ml --set law=asymmetric");
+  EXPECT_THAT(AgainstPushing("energy-ml", "viscous_coulomb", FittedGravity::sincos),
+              HasSubstr("law=asymmetric --gravity sincos"));
+  EXPECT_THAT(AgainstPushing("energy-ml", "asymmetric", FittedGravity::none),
+              HasSubstr("--gravity paired"));
+  EXPECT_THAT(AgainstPushing("energy-ml", "asymmetric", FittedGravity::paired),
+              ::testing::Not(HasSubstr("try")));
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/read_options.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint {
@@ -29,8 +28,7 @@ Measurements Wild(std::uint64_t seed, double share) {
 
 Estimate Identify(const char* name, const Measurements& m, const char* loss) {
   const Identifier& identifier = FindIdentifier(name);
-  const Options options = ReadOptions(identifier.options, {{"loss", loss}}, {});
-  return IdentifyUnjudged(identifier, {Prepare(m), options, {}});
+  return IdentifyUnjudged(identifier, {Prepare(m), identifier.options.Read({{"loss", loss}}), {}});
 }
 
 TEST(Huber, ThresholdIsThatOfTheNormalNoiseBelowTheOutliers) {

@@ -7,7 +7,6 @@
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/read_options.h"
 #include "tests/support/travelling.h"
 
 namespace warmjoint {
@@ -15,8 +14,8 @@ namespace {
 
 Estimate Identified(const PreparedLog& log) {
   const Identifier& identifier = FindIdentifier("position-ridge");
-  const Options options = ReadOptions(identifier.options, {{"kernels", "20"}, {"width", "1"}}, {});
-  return IdentifyUnjudged(identifier, {log, options, {}});
+  return IdentifyUnjudged(identifier,
+                          {log, identifier.options.Read({{"kernels", "20"}, {"width", "1"}}), {}});
 }
 
 /// A joint whose level varies over its position by 0.3 N.m, and its answer.

@@ -5,7 +5,6 @@
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/read_options.h"
 #include "tests/support/travelling.h"
 #include "tests/support/warm_recording.h"
 
@@ -115,12 +114,12 @@ TEST(Holes, AHoleInALogHoldsTheTruthAndIsToldOf) {
   Measurements m =
       test::RecordFriction(friction, 0.05, test::Travel(16000, 0.05, 2.5, {0.2, 0.5, 0.9}), 0.3, 1);
   const Identifier& identifier = FindIdentifier("position-ridge");
-  const Options options = ReadOptions(identifier.options, {{"kernels", "20"}}, {});
   Selection selection = Prepare(m).steady().selection;
   for (Eigen::Index i = 0; i < m.size(); ++i) {
     if (m.velocity[i] < 0 && m.position[i] > 0.5 && m.position[i] < 1.5) selection.keep[i] = false;
   }
-  const Estimate estimate = IdentifyUnjudged(identifier, {Prepare(m, selection), options, {}});
+  const Estimate estimate = IdentifyUnjudged(
+      identifier, {Prepare(m, selection), identifier.options.Read({{"kernels", "20"}}), {}});
   ASSERT_EQ(estimate.status, Status::ok) << estimate.message;
   EXPECT_THAT(estimate.FullMessage(), HasSubstr("the map has no data at position"));
   EXPECT_THAT(estimate.FullMessage(), HasSubstr("backwards"));

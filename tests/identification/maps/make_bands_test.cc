@@ -9,7 +9,6 @@
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/read_options.h"
 #include "tests/support/travelling.h"
 
 namespace warmjoint {
@@ -38,8 +37,7 @@ Trial Identify(const Friction& truth, const char* name, std::uint64_t seed, doub
   m.torque = PredictFriction(truth, m).force;
   test::AddNoise(m, 0.1, colour, seed);
   const Identifier& identifier = FindIdentifier(name);
-  const Options options = ReadOptions(identifier.options, given, {});
-  trial.estimate = IdentifyUnjudged(identifier, {Prepare(m), options, {}});
+  trial.estimate = IdentifyUnjudged(identifier, {Prepare(m), identifier.options.Read(given), {}});
   return trial;
 }
 

@@ -3,9 +3,8 @@
 #include <gtest/gtest.h>
 #include <warmjoint/prepared_log.h>
 
-#include "identification/identifiers/energy_ml_with_maps.h"
-#include "identification/maps/position_maps.h"
-#include "identification/read_options.h"
+#include "identification/identifiers/identifier_list.h"
+#include "identification/maps/map_options.h"
 #include "tests/support/travelling.h"
 
 namespace warmjoint {
@@ -23,11 +22,11 @@ class MapBlockTest : public ::testing::Test {
 
   /// Expects that a block fits beside a course of E as one that is made anew.
   void ExpectTheSame(const std::map<std::string, std::string>& given) {
-    const Identifier identifier = EnergyMlWithMaps();
-    const Options options = ReadOptions(identifier.options, given, {});
+    const Identifier identifier = EnergyMl();
+    const Options options = identifier.options.Read(given);
     const IdentifierInput input{Prepare(m_), options, {}};
     MapBeginning begin = BeginMaps(input, "energy-ml", {MapQuantity::position});
-    begin.task.candidates = PositionMaps(options, begin.task.settings, begin.points);
+    begin.task.candidates = PositionMaps(options, begin.points);
     MapBlock block(input, begin.task);
     ASSERT_TRUE(block.ChooseBeside({}));
     const Eigen::VectorXd energy = Eigen::VectorXd::LinSpaced(input.measurements.size(), 0, -0.5);

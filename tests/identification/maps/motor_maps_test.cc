@@ -25,9 +25,7 @@ MapPoints Over(double travel) {
 
 /// The axis of the joint's map.
 GaussianAxis ArmAxis(JointKind joint, double travel) {
-  MapSettings settings;
-  settings.widths = {1.0};
-  return MotorMaps({36, 3, 20}, settings, joint, Over(travel)).at(0).at(1).axes.at(0).kernels;
+  return MotorMaps({36, 3, 20}, {.width = 1}, joint, Over(travel)).at(0).at(1).axes.at(0).kernels;
 }
 
 TEST(MotorMaps, TheJointsGoesOverItsTravel) {

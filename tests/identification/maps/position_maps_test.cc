@@ -1,5 +1,3 @@
-#include "identification/maps/position_maps.h"
-
 #include <gtest/gtest.h>
 #include <warmjoint/prepared_log.h>
 
@@ -8,7 +6,7 @@
 #include "identification/answer/identify.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/read_options.h"
+#include "identification/maps/map_options.h"
 #include "tests/support/travelling.h"
 
 namespace warmjoint {
@@ -35,8 +33,7 @@ struct Across {
 Across FitAndTry(const PreparedLog& log, const PreparedLog& other,
                  const std::map<std::string, std::string>& given) {
   const Identifier& identifier = FindIdentifier("position-ridge");
-  const Options options = ReadOptions(identifier.options, given, {});
-  const Fit fit = identifier.fit({log, options, {}});
+  const Fit fit = identifier.fit({log, identifier.options.Read(given), {}});
   const GaussianAxis& axis = fit.friction.maps.at(0).axes[0].kernels;
   const double rmse = HoldOut(identifier, fit, other)->rmse;
   return {axis.size(), axis.width / (axis.centres[1] - axis.centres[0]), rmse * rmse};

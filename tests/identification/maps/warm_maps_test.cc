@@ -9,7 +9,6 @@
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
-#include "identification/read_options.h"
 #include "tests/support/travelling.h"
 #include "tests/support/without_times.h"
 
@@ -35,9 +34,8 @@ Measurements Recorded(const Friction& friction, double noise, std::uint64_t seed
 Estimate Identify(const Measurements& m, const char* name,
                   const std::map<std::string, std::string>& given) {
   const Identifier& identifier = FindIdentifier(name);
-  const Options options = ReadOptions(identifier.options, given, {});
   const Selection selection = SelectMoving(m);
-  const IdentifierInput input{Prepare(m, selection), options, {}};
+  const IdentifierInput input{Prepare(m, selection), identifier.options.Read(given), {}};
   Estimate estimate = IdentifyUnjudged(identifier, input);
   estimate.holdout = HoldOut(identifier, input, 0.3);
   return estimate;

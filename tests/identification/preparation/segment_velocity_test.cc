@@ -8,7 +8,6 @@
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
-#include "identification/read_options.h"
 #include "identification/report/tell_preparation.h"
 #include "identification/seen_samples.h"
 #include "tests/support/judging.h"
@@ -129,12 +128,12 @@ TEST(SegmentVelocity, KeepsADriftOfTheSpeed) {
 
 TEST(SegmentVelocity, LetsIntervalsHold) {
   const Identifier& identifier = FindIdentifier("nominal-ls");
-  const Options options = ReadOptions(identifier.options, {}, {});
   int held = 0, ok = 0;
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     const Measurements m = Noisy{.seed = seed}.Log();
     const Selection selection = SelectConstantSpeed(m);
-    const Estimate estimate = IdentifyAndJudge(identifier, {Prepare(m, selection), options, {}});
+    const Estimate estimate =
+        IdentifyAndJudge(identifier, {Prepare(m, selection), identifier.options, {}});
     if (estimate.status != Status::ok) continue;
     ++ok;
     const auto interval = *estimate.Find("viscous")->interval95;
@@ -151,8 +150,7 @@ TEST(SegmentVelocity, IsForSteadyMotionAlone) {
   const Selection selection = SelectConstantSpeed(m);
   const auto velocities_of = [&](const char* name) {
     const Identifier& identifier = FindIdentifier(name);
-    const Options options = ReadOptions(identifier.options, {}, {});
-    const IdentifierInput seen = Seen(identifier, {Prepare(m, selection), options, {}});
+    const IdentifierInput seen = Seen(identifier, {Prepare(m, selection), identifier.options, {}});
     return Eigen::VectorXd(seen.measurements.velocity);
   };
   EXPECT_EQ(velocities_of("lugre"), m.velocity);

@@ -9,7 +9,6 @@
 
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/read_options.h"
 #include "models/recording/course_of.h"
 #include "tests/support/travelling.h"
 #include "tests/support/without_times.h"
@@ -20,8 +19,8 @@ namespace {
 /// E at the end of a log as its estimate has it.
 EstimatedParameter EndOf(const Measurements& m, const std::map<std::string, std::string>& given) {
   const Identifier& identifier = FindIdentifier("energy-ml");
-  const Options options = ReadOptions(identifier.options, given, {});
-  const Estimate estimate = IdentifyUnjudged(identifier, {Prepare(m), options, {}});
+  const Estimate estimate =
+      IdentifyUnjudged(identifier, {Prepare(m), identifier.options.Read(given), {}});
   EXPECT_EQ(estimate.status, Status::ok) << estimate.message;
   for (const EstimatedParameter& one : estimate.state_end) {
     if (one.name == "energy") return one;
@@ -61,8 +60,8 @@ TEST(EndState, IsTheSameByTheFitsRecursionAsAlongTheMotion) {
   // E(0) and, behind a gap, a jump are estimated too
   const Measurements m = test::Without(Log(test::TableOne(), 1), {{2000, 2400}});
   const Identifier& identifier = FindIdentifier("energy-ml");
-  const Options options = ReadOptions(identifier.options, {{"initial_energy", "estimated"}}, {});
-  Fit fit = identifier.fit({Prepare(m), options, {}});
+  Fit fit =
+      identifier.fit({Prepare(m), identifier.options.Read({{"initial_energy", "estimated"}}), {}});
   ASSERT_FALSE(fit.refusal);
   ASSERT_TRUE(fit.end_energy);
   const Inference inference = Infer(fit);

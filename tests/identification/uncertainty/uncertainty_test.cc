@@ -10,7 +10,6 @@
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/linear/least_squares.h"
-#include "identification/read_options.h"
 #include "identification/uncertainty/tails.h"
 #include "tests/support/warm_recording.h"
 
@@ -23,7 +22,6 @@ Eigen::Vector2d Coverage(double pole, Eigen::Index rest) {
   Friction friction = test::TableOne();
   friction.thermal.reset();
   const Identifier& identifier = FindIdentifier("nominal-ls");
-  const Options options = ReadOptions(identifier.options, {}, {});
   Eigen::Vector2d covered = Eigen::Vector2d::Zero();
   for (std::uint64_t seed = 0; seed < 500; ++seed) {
     Measurements m =
@@ -34,7 +32,7 @@ Eigen::Vector2d Coverage(double pole, Eigen::Index rest) {
       noise = pole * noise + 0.5 * std::sqrt(1 - pole * pole) * random.Normal();
       torque += noise;
     }
-    const Estimate estimate = IdentifyUnjudged(identifier, {Prepare(m), options, {}});
+    const Estimate estimate = IdentifyUnjudged(identifier, {Prepare(m), identifier.options, {}});
     const auto holds = [&](const char* name, double truth) {
       const auto [lower, upper] = *estimate.Find(name)->interval95;
       return lower <= truth && truth <= upper;

@@ -8,7 +8,6 @@
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/select.h"
-#include "identification/read_options.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint {
@@ -28,9 +27,8 @@ Measurements WarmLog(std::uint64_t seed, double noise = 0.3) {
 
 Estimate Fitted(const Measurements& m, const std::map<std::string, std::string>& given) {
   const Identifier& identifier = FindIdentifier("energy-ml");
-  const Options options = ReadOptions(identifier.options, given, {});
   const Selection selection = SelectMoving(m);
-  return IdentifyUnjudged(identifier, {Prepare(m, selection), options, {}});
+  return IdentifyUnjudged(identifier, {Prepare(m, selection), identifier.options.Read(given), {}});
 }
 
 Estimate Expecting(const Measurements& m, double energy, double std) {
@@ -42,7 +40,7 @@ Estimate Expecting(const Measurements& m, double energy, double std) {
 TEST(ExpectedStart, OptionsSayWhatIsKnown) {
   const Identifier& identifier = FindIdentifier("energy-ml");
   const auto of = [&](const std::map<std::string, std::string>& given) {
-    return InitialEnergyOf(ReadOptions(identifier.options, given, {}));
+    return InitialEnergyOf(identifier.options.Read(given));
   };
   EXPECT_EQ(of({}).spread, 0);
   EXPECT_FALSE(of({}).is_expected());

@@ -5,7 +5,6 @@
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/moving_view.h"
-#include "identification/read_options.h"
 #include "identification/report/report_fit.h"
 #include "identification/seen_samples.h"
 #include "tools/actions/identify_recording.h"
@@ -25,7 +24,7 @@ Selection From(double time, const Measurements& measurements, Selection selectio
 
 /// The options with which one of our identifiers made an estimate.
 Options OptionsOf(const Identifier& identifier, const Estimate& estimate) {
-  return ReadOptions(identifier.options, estimate.options, {"options of the estimate"});
+  return identifier.options.Read(estimate.options, {"options of the estimate"});
 }
 
 /// The last samples of the recording beside the fit that has not seen them (hold_out.h), which is made again. Nothing

@@ -14,7 +14,6 @@
 #include "identification/estimate.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
-#include "identification/read_options.h"
 #include "tests/tools/report/look.h"
 #include "tests/tools/report/mapped_recording.h"
 #include "tests/tools/report/warm_recording.h"
@@ -86,8 +85,7 @@ TEST(EstimateFigures, ShowTheRecordingAloneWithoutAFriction) {
 /// An answer that knows no warming about a joint that warms, as its file holds it after a verdict.
 Estimate Refused(const PreparedLog& log, std::map<std::string, std::string> options) {
   const Identifier& identifier = FindIdentifier("nominal-ls");
-  Estimate estimate =
-      IdentifyAndJudge(identifier, {log, ReadOptions(identifier.options, options, {}), {}});
+  Estimate estimate = IdentifyAndJudge(identifier, {log, identifier.options.Read(options), {}});
   EXPECT_NE(estimate.status, Status::ok);
   return EstimateFrom({EstimateToTree(estimate), "estimate.json"});
 }
@@ -106,8 +104,7 @@ TEST(EstimateFigures, ShowTheFitOfARefusedEstimateWithItsOptions) {
 TEST(EstimateFigures, PredictTheHeldOutSamplesByAFitThatHasNotSeenThem) {
   const PreparedLog log = Prepare(WarmRecording().measurements);
   const Identifier& identifier = FindIdentifier("energy-ml");
-  const Options options = ReadOptions(identifier.options, {}, {});
-  const IdentifierInput input{log, options, {}};
+  const IdentifierInput input{log, identifier.options, {}};
   Estimate estimate = IdentifyAndJudge(identifier, input);
   estimate.holdout = HoldOut(identifier, input, 0.3);
   const EstimateView view = ViewOwnRecording(estimate, log);
@@ -121,8 +118,7 @@ TEST(EstimateFigures, PredictTheHeldOutSamplesByAFitThatHasNotSeenThem) {
 TEST(EstimateFigures, PredictTheHeldOutSamplesByTheStructureThatWasChosen) {
   const PreparedLog log = Prepare(WarmRecording().measurements);
   const Identifier& identifier = FindIdentifier("auto");
-  const Options options = ReadOptions(identifier.options, {}, {});
-  const IdentifierInput input{log, options, {}};
+  const IdentifierInput input{log, identifier.options, {}};
   const Answer answer = FitAndJudge(identifier, input);
   Estimate estimate = ReportAnswer(identifier, input, answer);
   ASSERT_TRUE(estimate.choice.has_value());

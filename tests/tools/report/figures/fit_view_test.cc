@@ -8,7 +8,6 @@
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/moving_view.h"
-#include "identification/read_options.h"
 #include "models/foundation/low_pass.h"
 #include "tests/support/excited_recording.h"
 #include "tests/tools/report/look.h"
@@ -29,9 +28,8 @@ struct Identified {
 
 Identified Identify(const Measurements& m, const std::map<std::string, std::string>& given) {
   const Identifier& identifier = FindIdentifier("energy-ml");
-  const Options options = ReadOptions(identifier.options, given, {});
   PreparedLog log = Prepare(m);
-  Estimate estimate = IdentifyAndJudge(identifier, {log, options, {}});
+  Estimate estimate = IdentifyAndJudge(identifier, {log, identifier.options.Read(given), {}});
   return {std::move(log), std::move(estimate)};
 }
 
