@@ -1,11 +1,14 @@
 // Friction onto the joints of any robot.
 #pragma once
 
+#include <mujoco/mujoco.h>
+
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "models/foundation/bad_input.h"
 #include "sim/model/friction_actuator.h"
 #include "sim/model/urdf_meshes.h"
 

@@ -4,7 +4,9 @@
 #include <Eigen/Core>
 #include <string>
 
+#include "models/foundation/field.h"
 #include "models/friction/friction_description.h"
+#include "models/recording/measurements.h"
 
 namespace warmjoint::inline sim {
 
@@ -13,8 +15,8 @@ struct Truth {
   FrictionDescription friction;
   double initial_energy = 0;  // E(0), N.m or N
   double torque_noise = 0;    // standard deviation of the noise on the stored torque, N.m or N
-  double coloured_noise =
-      0;  // of the part of it that remembers, exp(-t/correlation_time); N.m or N
+  /// Of the part of it that remembers, exp(-t/correlation_time), N.m or N.
+  double coloured_noise = 0;
   double correlation_time = 0;  // s; 0 where all of it is white
   std::string plant;            // plant that made the recording
 
@@ -46,5 +48,33 @@ struct Truth {
     a->Check(energy.size() == velocity.size(), "energy", like);
   }
 };
+
+/// How well a driven joint followed its motion.
+struct Following {
+  /// Of the time in which the motion asks for a constant speed other than 0, the share in which the
+  /// joint moved within 5 % of it; 1 where it asks for none.
+  double share = 1;
+  double bandwidth = 0;   // of the drive, rad/s; 0: the plant has none, and follows exactly
+  double sufficient = 0;  // bandwidth that does (SufficientBandwidth), rad/s
+  double timestep = 0;    // s, whole part of the scenario's that allows it; 0: the scenario's does
+
+  /// Whether the recording holds the motion that was asked for.
+  bool Follows() const { return share >= 0.8; }
+};
+
+/// The two halves of a simulated run, kept apart by type: no identifier sees the second.
+struct Recording {
+  Measurements measurements;
+  Truth truth;
+  Following following{};
+};
+
+// As JSON: the truth.json of a simulated recording. SI; numbers read back bit for bit.
+
+/// Writes truth.json as a whole. Throws BadInput where the file cannot be written.
+void WriteTruth(const Truth& truth, const std::string& path);
+
+/// Reads it. Missing or unknown keys, arrays of unlike lengths and wrong types throw BadInput with their place.
+Truth ReadTruth(const std::string& path);
 
 }  // namespace warmjoint::inline sim

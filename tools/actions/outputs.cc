@@ -5,7 +5,7 @@
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "models/recording/read_recording.h"
-#include "sim/truth/truth_json.h"
+#include "sim/truth/truth.h"
 
 namespace warmjoint::inline tools {
 namespace fs = std::filesystem;

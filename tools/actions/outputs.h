@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/truth/simulated_recording.h"
+#include "sim/truth/truth.h"
 
 namespace warmjoint::inline tools {
 

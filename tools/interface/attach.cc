@@ -3,7 +3,7 @@
 #include "models/foundation/atomic_file.h"
 #include "models/friction/friction_json.h"
 #include "models/robots/robot_folder.h"
-#include "sim/model/minimal_model.h"
+#include "sim/model/friction_sections.h"
 #include "tools/actions/attach_settings.h"
 #include "tools/actions/outputs.h"
 #include "tools/interface/convert_friction.h"

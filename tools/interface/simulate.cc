@@ -5,7 +5,7 @@
 #include "models/foundation/nearest_name.h"
 #include "scenarios/read_scenario.h"
 #include "sim/plant/plant.h"
-#include "sim/truth/truth_json.h"
+#include "sim/truth/truth.h"
 #include "tools/actions/outputs.h"
 #include "tools/interface/convert_friction.h"
 #include "tools/interface/convert_numbers.h"

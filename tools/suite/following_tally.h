@@ -4,7 +4,7 @@
 #include <string>
 
 #include "scenarios/suite.h"
-#include "sim/truth/simulated_recording.h"
+#include "sim/truth/truth.h"
 #include "tools/store/result.h"
 
 namespace warmjoint::inline tools {

@@ -10,7 +10,7 @@
 #include "models/foundation/output_failed.h"
 #include "models/foundation/robust_noise.h"
 #include "models/recording/read_recording.h"
-#include "sim/truth/truth_json.h"
+#include "sim/truth/truth.h"
 #include "tools/suite/start_key.h"
 #include "tools/suite/trace_table.h"
 

@@ -8,7 +8,7 @@
 
 #include "scenarios/suite.h"
 #include "sim/plant/plant.h"
-#include "sim/truth/simulated_recording.h"
+#include "sim/truth/truth.h"
 #include "tools/store/result.h"
 #include "tools/suite/prepared_identifier.h"
 

@@ -1,9 +1,8 @@
-#include "sim/model/effort_limit.h"
+#include "sim/model/attach.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sim/model/mujoco_handles.h"
 #include "sim/model/spec_elements.h"
 
 namespace warmjoint {

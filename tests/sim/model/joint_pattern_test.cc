@@ -1,9 +1,8 @@
-#include "sim/model/joint_pattern.h"
+#include "sim/model/spec_elements.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sim/model/mujoco_handles.h"
 
 namespace warmjoint {
 namespace {

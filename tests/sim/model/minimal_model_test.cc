@@ -1,4 +1,4 @@
-#include "sim/model/minimal_model.h"
+#include "sim/model/friction_sections.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,9 @@
-#include "sim/model/plugin_libraries.h"
+#include "sim/model/load_model.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "sim/model/attach.h"
-#include "sim/model/load_model.h"
 #include "tests/models/recording/temporary_file.h"
 #include "tests/sim/model/light_friction.h"
 #include "tests/tools/scratch_directory.h"

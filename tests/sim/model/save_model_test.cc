@@ -1,9 +1,9 @@
-#include "sim/model/save_model.h"
+#include "sim/model/load_model.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sim/model/mujoco_handles.h"
+#include "sim/model/spec_elements.h"
 
 namespace warmjoint {
 namespace {

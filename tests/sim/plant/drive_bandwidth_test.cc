@@ -1,4 +1,4 @@
-#include "sim/plant/drive_bandwidth.h"
+#include "sim/plant/velocity_drive.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "sim/plant/hidden_forces.h"
+#include "sim/plant/disturb_log.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "sim/plant/ideal_plant.h"
+#include "sim/plant/plant.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

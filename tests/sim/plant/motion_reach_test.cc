@@ -1,5 +1,5 @@
 // How far a motion takes a joint, by hand.
-#include "sim/plant/motion_reach.h"
+#include "sim/plant/single_joint_model.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "sim/plant/mujoco_plant.h"
+#include "sim/plant/plant.h"
 
 #include <gmock/gmock.h>
 

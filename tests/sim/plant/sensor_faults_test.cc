@@ -1,4 +1,4 @@
-#include "sim/plant/sensor_faults.h"
+#include "sim/plant/disturb_log.h"
 
 #include <gtest/gtest.h>
 

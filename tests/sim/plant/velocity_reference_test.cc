@@ -1,8 +1,7 @@
-#include "sim/plant/velocity_reference.h"
+#include "sim/plant/velocity_drive.h"
 
 #include <gtest/gtest.h>
 
-#include "sim/plant/velocity_drive.h"
 
 namespace warmjoint {
 namespace {

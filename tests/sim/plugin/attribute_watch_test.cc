@@ -1,5 +1,5 @@
 // Whether a text is the one that was bound.
-#include "sim/plugin/attribute_watch.h"
+#include "sim/plugin/bound_joints.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "models/foundation/atomic_file.h"
-#include "sim/model/escape_xml.h"
+#include "sim/model/friction_sections.h"
 #include "tests/sim/plugin/friction_models.h"
 #include "tests/support/folders.h"
 

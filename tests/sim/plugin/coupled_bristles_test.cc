@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "models/foundation/random_stream.h"
-#include "sim/plugin/bristle_shape.h"
+#include "sim/plugin/stability.h"
 #include "tests/sim/plugin/friction_models.h"
 
 namespace warmjoint {

@@ -8,7 +8,7 @@
 #include <map>
 #include <string>
 
-#include "sim/model/mujoco_handles.h"
+#include "sim/model/spec_elements.h"
 #include "sim/plugin/register.h"
 
 namespace warmjoint::test {

@@ -1,4 +1,4 @@
-#include "sim/plugin/joint_names.h"
+#include "sim/plugin/plugin_instances.h"
 
 #include <gtest/gtest.h>
 

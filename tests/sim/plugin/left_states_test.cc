@@ -1,5 +1,5 @@
 // States of joints as a step has left them.
-#include "sim/plugin/left_states.h"
+#include "sim/plugin/joint_states.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // One mjData with several models in turn, as rollouts over lists of models have it.
 #include <gmock/gmock.h>
 
-#include "sim/plugin/prepared_joints.h"
+#include "sim/plugin/attributes.h"
 #include "tests/sim/plugin/two_forms.h"
 
 namespace warmjoint {

@@ -1,5 +1,5 @@
 // Data that an instance refuses, with engines that are known and others.
-#include "sim/plugin/refused_data.h"
+#include "sim/plugin/register.h"
 
 #include <gmock/gmock.h>
 

@@ -10,8 +10,7 @@
 
 #include "models/foundation/random_stream.h"
 #include "sim/model/friction_actuator.h"
-#include "sim/plugin/bristle_shape.h"
-#include "sim/plugin/check_joint.h"
+#include "sim/plugin/stability.h"
 #include "sim/plugin/friction_instance.h"
 #include "tests/sim/plugin/friction_models.h"
 #include "tests/sim/plugin/friction_robots.h"

@@ -1,4 +1,4 @@
-#include "sim/truth/truth_json.h"
+#include "sim/truth/truth.h"
 
 #include <gmock/gmock.h>
 

@@ -5,7 +5,7 @@
 
 #include "models/foundation/atomic_file.h"
 #include "scenarios/read_scenario.h"
-#include "sim/truth/truth_json.h"
+#include "sim/truth/truth.h"
 #include "tests/tools/cli/recording_file.h"
 #include "tests/tools/cli/run_program.h"
 #include "tests/tools/cli/table_one_yaml.h"

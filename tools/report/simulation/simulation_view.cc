@@ -6,7 +6,7 @@
 #include "identification/preparation/select.h"
 #include "models/recording/read_recording.h"
 #include "scenarios/read_scenario.h"
-#include "sim/truth/truth_json.h"
+#include "sim/truth/truth.h"
 
 namespace warmjoint::report {
 namespace {

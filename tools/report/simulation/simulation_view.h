@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "scenarios/scenario.h"
-#include "sim/truth/simulated_recording.h"
+#include "sim/truth/truth.h"
 #include "tools/report/figures/fit_view.h"
 
 namespace warmjoint::report {

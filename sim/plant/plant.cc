@@ -1,9 +1,8 @@
+#include "sim/plant/plant.h"
+
 #include "models/foundation/bad_input.h"
 #include "models/recording/measurements.h"
 #include "scenarios/realize.h"
-#include "sim/plant/ideal_plant.h"
-#include "sim/plant/mujoco_plant.h"
-#include "sim/plant/plant.h"
 
 namespace warmjoint::inline sim {
 namespace {

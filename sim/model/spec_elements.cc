@@ -1,10 +1,9 @@
-#include "sim/model/joint_pattern.h"
+#include "sim/model/spec_elements.h"
 
 #include <regex>
 
 #include "models/foundation/excerpt.h"
 #include "models/foundation/nearest_name.h"
-#include "sim/model/spec_elements.h"
 
 namespace warmjoint::inline sim {
 namespace {

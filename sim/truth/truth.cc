@@ -1,4 +1,4 @@
-#include "sim/truth/truth_json.h"
+#include "sim/truth/truth.h"
 
 #include <nlohmann/json.hpp>
 
@@ -9,12 +9,8 @@
 
 namespace warmjoint::inline sim {
 
-Tree TruthToTree(const Truth& truth) { return WriteFields(truth); }
-
-Truth TruthFrom(const Node& node) { return ReadAs<Truth>(node); }
-
 void WriteTruth(const Truth& truth, const std::string& path) {
-  const Tree tree = TruthToTree(truth);
+  const Tree tree = WriteFields(truth);
   // one thread at a time: the writer asks for the locale
   const auto written = [&] {
     const auto turn = JsonTurn();
@@ -23,6 +19,6 @@ void WriteTruth(const Truth& truth, const std::string& path) {
   WriteWholeFile(path, written());
 }
 
-Truth ReadTruth(const std::string& path) { return TruthFrom(ReadJsonNode(path)); }
+Truth ReadTruth(const std::string& path) { return ReadAs<Truth>(ReadJsonNode(path)); }
 
 }  // namespace warmjoint::inline sim
