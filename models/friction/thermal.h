@@ -10,9 +10,6 @@
 
 namespace warmjoint::inline models {
 
-/// In size, N.m/W or N/W; joints show some 1 N.m/W, and a larger number is one that slipped.
-inline constexpr double kLargestThermalGain = 1e6;
-
 /// Parameters of E = k / (1 + s tau) W, Eq. (21): a first-order lag from the power lost, W, to the
 /// change of the friction level, E. k is negative where friction falls as the joint warms.
 struct Thermal {
@@ -34,11 +31,7 @@ struct Thermal {
   template <class A>
   void Serialize(A* a) {
     const auto& [k, tau] = parameters;
-    a->Field(k.name, &gain,
-             {.unit = k.unit.rotary,
-              .bounds = {.at_least = -kLargestThermalGain, .at_most = kLargestThermalGain},
-              .meaning = k.meaning,
-              .needed = kGiveNumber});
+    a->Field(k.name, &gain, {.unit = k.unit.rotary, .meaning = k.meaning, .needed = kGiveNumber});
     a->Field(tau.name, &time_constant,
              {.unit = tau.unit.rotary,
               .bounds = {.above = 0},
@@ -46,6 +39,9 @@ struct Thermal {
               .needed = kGiveNumber});
   }
 };
+
+/// In size, N.m/W or N/W; joints show some 1 N.m/W, and a larger number is one that slipped.
+inline constexpr double kLargestThermalGain = 1e6;
 
 // What these numbers are called in files and attributes.
 

@@ -25,8 +25,10 @@ struct StageOfHeat {
 
   template <class T>
   void Field(std::string_view name, T*, FieldInfo info) {
-    // a stage may be left out
+    // a stage may be left out; a gain is bounded by the check of the whole
     info.needed = {};
+    if (name == kGainName)
+      info.bounds = {.at_least = -kLargestThermalGain, .at_most = kLargestThermalGain};
     if (!meaning.empty()) info.meaning = meaning;
     numbers.push_back({fmt::format("{}{}", prefix, name), info});
   }

@@ -46,9 +46,6 @@ void CheckElement(const mjModel* m, int i, const JointFriction& friction, const 
     const std::string given = states == 0 ? "not given, or below 1" : std::to_string(states);
     Refuse(place, "actdim is {}; it must be {} ({})", given, friction.state().size(), names);
   }
-  if (m->actuator_actlimited[i]) {
-    Refuse(place, "has an actrange, which would clip the states; leave it out");
-  }
   if (m->actuator_forcelimited[i]) {
     Refuse(place, "has a forcerange, which would clip friction; leave it out");
   }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 
 namespace warmjoint {
 namespace {
@@ -22,12 +23,6 @@ TEST(VelocityReference, HasSettledWhenASegmentBegins) {
   EXPECT_EQ(reference.Velocity(9), 0);
 }
 
-TEST(VelocityReference, KnowsItsRunUp) {
-  // a triangle of 0.25 s and 0.1 s at full speed
-  EXPECT_DOUBLE_EQ(VelocityReference({{2, 1}, {2, -1}}, 4, 0.1).run_up(), 0.125 + 0.1);
-  EXPECT_DOUBLE_EQ(VelocityReference({{2, -1}}, 4, 0.1).run_up(), -0.225);
-}
-
 TEST(VelocityReference, KnowsTheRunUpOfRampsThatFollowOnEachOther) {
   // 0.02 s to 0.1, at once 0.22 s to -1, and 0.28 s at full speed
   VelocityReference reference({{0.05, 0.1}, {2, -1}}, 5, 0.5);
@@ -45,13 +40,6 @@ TEST(VelocityReference, GoesThroughCornersAndHasSettledOnTheFirst) {
   EXPECT_DOUBLE_EQ(reference.Velocity(2.25), 0.5);
   EXPECT_EQ(reference.acceleration(), -2);
   EXPECT_EQ(reference.Velocity(9), -1);
-}
-
-TEST(VelocityReference, StaysAtRestWithoutMotion) {
-  VelocityReference reference({{3, 0}}, 4, 0.1);
-  EXPECT_EQ(reference.begin(), 0);
-  EXPECT_EQ(reference.run_up(), 0);
-  EXPECT_EQ(reference.Velocity(1), 0);
 }
 
 TEST(VelocityReference, KeepsTheOrderOfRampsInShortSegments) {
@@ -75,6 +63,47 @@ TEST(VelocityDrive, TakesUpAConstantLoadWithoutAnErrorLeft) {
   }
   EXPECT_NEAR(v, 0.5, 1e-12);
   EXPECT_NEAR(torque, 3, 1e-9);
+}
+
+TEST(SufficientBandwidth, EndsStickingWithinTheSettlingTime) {
+  // b = (2 * 15 / 0.1 + 4.6 * 5) / 0.895 = 360.9, and 360.9 / 5.4 = 66.8 rad/s
+  const DriveTask task{0.895, 15, 5, 0};
+  EXPECT_NEAR(SufficientBandwidth(task, {{20, 0.1}, {20, -0.1}}), 66.8, 0.1);
+  // 4.6 / w + b / w^2 = 10 / w there
+  const double w = SufficientBandwidth(task, {{20, 0.1}});
+  const double b = (2 * 15 / 0.1 + 4.6 * 5) / 0.895;
+  EXPECT_NEAR(4.6 / w + b / (w * w), 10 / w, 1e-12);
+}
+
+TEST(SufficientBandwidth, LeavesMostOfAShortHoldToItsSpeed) {
+  // without friction 6.6 / w is to be a tenth of 0.5 s
+  EXPECT_NEAR(SufficientBandwidth({1, 0, 0, 0}, {{0.5, 1}}), 6.6 / 0.05, 1e-9);
+  // with it 6.6 / w + b / w^2 is, b = 2 * 3 / 1
+  const double w = SufficientBandwidth({1, 3, 0, 0}, {{0.5, 1}});
+  EXPECT_NEAR(6.6 / w + 6 / (w * w), 0.05, 1e-12);
+}
+
+TEST(SufficientBandwidth, HoldsAgainstGravityThatGrowsOnTheWay) {
+  // K / (M w^2) = 1 %
+  const double w = SufficientBandwidth({0.05, 0, 0, 1.962}, {{20, 0.2}});
+  EXPECT_NEAR(1.962 / (0.05 * w * w), 0.01, 1e-12);
+}
+
+TEST(SufficientBandwidth, IsNotThatOfRestsAndOfAFewSlowPieces) {
+  const DriveTask task{1, 10, 0, 0};
+  EXPECT_EQ(SufficientBandwidth(task, {{60, 0}}), 0);
+  EXPECT_EQ(SufficientBandwidth(task, {}), 0);
+  const double fast = SufficientBandwidth(task, {{20, 1}});
+  EXPECT_EQ(SufficientBandwidth(task, {{20, 1}, {100, 0}, {1, 0.01}}), fast);
+  EXPECT_GT(SufficientBandwidth(task, {{20, 1}, {100, 0}, {2, 0.01}}), 10 * fast);
+}
+
+TEST(HoldsBetween, AreThePiecesOfOneVelocity) {
+  const std::vector<MotionSegment> holds =
+      HoldsBetween({{0, 0}, {1, 0.5}, {4, 0.5}, {5, -0.5}, {5.5, -0.5}});
+  ASSERT_EQ(holds.size(), 2u);
+  EXPECT_DOUBLE_EQ(holds[0].duration, 3);
+  EXPECT_EQ(holds[1].velocity, -0.5);
 }
 
 }  // namespace

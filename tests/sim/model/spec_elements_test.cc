@@ -3,13 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/sim/refusal.h"
 
 namespace warmjoint {
 namespace {
 
 using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::ThrowsMessage;
 
 /// Joints base (free), left.elbow, leftXelbow, ball (ball), slide (slide), a*b and one without name.
 class MatchJointsOf : public testing::Test {
@@ -53,12 +52,12 @@ TEST_F(MatchJointsOf, MatchesWholeNamesOfHingesAndSlides) {
 TEST_F(MatchJointsOf, CountsTheNamelessThatNoPatternMeans) { EXPECT_EQ(NamelessJoints(*spec_), 1); }
 
 TEST_F(MatchJointsOf, RefusesWhatMeansNoJoint) {
-  EXPECT_THAT([&] { Match("slid"); },
-              ThrowsMessage<BadInput>(HasSubstr("no joint 'slid'; did you mean 'slide'")));
-  EXPECT_THAT([&] { Match("ba.*"); },
-              ThrowsMessage<BadInput>(HasSubstr("no hinge or slide joint matches")));
-  EXPECT_THAT([&] { Match("left[.elbow"); },
-              ThrowsMessage<BadInput>(HasSubstr("regular expression")));
+  const auto refusal = [&](const char* pattern) {
+    return test::RefusalOf([&] { Match(pattern); });
+  };
+  test::ExpectNamed(refusal("slid"), {"robot.xml: ", "'slid'", "did you mean 'slide'"});
+  test::ExpectNamed(refusal("ba.*"), {"robot.xml: ", "'ba.*'", "left.elbow"});
+  test::ExpectNamed(refusal("left[.elbow"), {"robot.xml: ", "'left[.elbow'", "regular expression"});
 }
 
 }  // namespace

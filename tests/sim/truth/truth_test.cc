@@ -1,16 +1,16 @@
 #include "sim/truth/truth.h"
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
+#include "models/foundation/serialize.h"
 #include "models/friction/friction_json.h"
 #include "tests/models/recording/temporary_file.h"
+#include "tests/sim/refusal.h"
 
 namespace warmjoint {
 namespace {
-
-using testing::HasSubstr;
 
 Truth Example() {
   Truth truth;
@@ -25,15 +25,6 @@ Truth Example() {
   truth.loss = Eigen::Vector3d(1.55, 1.55, 2);
   truth.energy = Eigen::Vector3d(0, -0.1, -1e-17);
   return truth;
-}
-
-std::string Refusal(const nlohmann::json& json) {
-  try {
-    TruthFrom({Tree(json), "truth.json"});
-  } catch (const BadInput& refusal) {
-    return refusal.what();
-  }
-  return "";
 }
 
 TEST(Truth, ReadsBackBitForBit) {
@@ -52,19 +43,16 @@ TEST(Truth, ReadsBackBitForBit) {
 }
 
 TEST(Truth, RefusesWhatIsNoTruth) {
-  nlohmann::json json = TruthToTree(Example());
-  json.erase("plant");
-  EXPECT_THAT(Refusal(json), HasSubstr("truth.json: 'plant' is missing"));
-
-  json = TruthToTree(Example());
-  json["energys"] = json["energy"];
-  EXPECT_THAT(Refusal(json), HasSubstr("did you mean 'energy'?"));
-
-  json = TruthToTree(Example());
-  json["force"] = {1, 2};
-  EXPECT_THAT(Refusal(json), HasSubstr("force is a list of 2; it must be as long as velocity"));
-  json["force"] = "many";
-  EXPECT_THAT(Refusal(json), HasSubstr("force is 'many'"));
+  const auto refusal = [](const std::string& key, const nlohmann::json& value) {
+    Tree tree = WriteFields(Example());
+    tree[key] = value;
+    return test::RefusalOf([&] { ReadAs<Truth>({tree, "truth.json"}); });
+  };
+  test::ExpectNamed(refusal("plant", nullptr), {"truth.json: ", "'plant' is missing"});
+  test::ExpectNamed(refusal("energys", {1}),
+                    {"truth.json: ", "'energys'", "did you mean 'energy'"});
+  test::ExpectNamed(refusal("force", {1, 2}), {"truth.json: ", "force is a list of 2", "velocity"});
+  test::ExpectNamed(refusal("force", "many"), {"truth.json: ", "force is 'many'"});
 
   const TemporaryFile file("truth.json", "{");
   EXPECT_THROW(ReadTruth(file.path()), BadInput);
