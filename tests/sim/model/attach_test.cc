@@ -185,7 +185,10 @@ TEST_F(Attach, LetsTheRobotMoveInASceneUnderAPrefixAsAlone) {
       <asset><model name="arm" file="out.xml"/></asset><worldbody>
       <frame><attach model="arm" body="upper_arm" prefix="left/"/></frame>
       <frame pos="0 1 0"><attach model="arm" body="upper_arm" prefix="right/"/></frame>
+      <body pos="0 3 0"><joint name="shoulder" axis="0 1 0"/><geom size="0.1"/>
+      <body><joint name="elbow" axis="0 1 0"/><geom pos="0.2 0 0" size="0.1"/></body></body>
       </worldbody></mujoco>)");
+    // joints of the scene's own, which have the robot's names, are not meant
     const LoadedModel alone = LoadModel(out_), two = LoadModel(scene);
     ASSERT_EQ(two.model->nplugin, 2);
     EXPECT_GE(mj_name2id(two.model.get(), mjOBJ_JOINT, "right/elbow"), 0);
