@@ -1,9 +1,10 @@
 // Truth files as JSON, and as they are written again.
+#include "sim/truth/truth.h"
+
 #include <nlohmann/json.hpp>
 
 #include "models/foundation/serialize.h"
 #include "models/friction/friction_json.h"
-#include "sim/truth/truth.h"
 #include "tests/fuzz/fuzz.h"
 
 namespace {
