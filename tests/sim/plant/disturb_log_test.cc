@@ -49,8 +49,8 @@ TEST(Disturbances, ColouredNoiseHasItsDeviationAndMemory) {
 }
 
 TEST(Disturbances, ColouredNoiseJoinsTheKnownNoise) {
-  const auto set = [](Disturbances& set) { set.coloured_noise = {4, 10}; };
-  EXPECT_DOUBLE_EQ(Disturbed(set, 3).truth.torque_noise, 5);
+  const auto coloured = [](Disturbances& set) { set.coloured_noise = {4, 10}; };
+  EXPECT_DOUBLE_EQ(Disturbed(coloured, 3).truth.torque_noise, 5);
 }
 
 TEST(Disturbances, UnevenNoiseGrowsWithFrictionAndSpeed) {
