@@ -9,11 +9,11 @@
 namespace warmjoint::inline models {
 namespace {
 
-using Word = std::uint32_t;
-using State = std::array<Word, 8>;
+using Bits32 = std::uint32_t;
+using State = std::array<Bits32, 8>;
 
 /// The first 32 bits of the fractional parts of the cube roots of the first 64 primes.
-constexpr std::array<Word, 64> kRounds{
+constexpr std::array<Bits32, 64> kRounds{
     0x428a2f98, 0x71374491, 0xb5c0fbcf, 0xe9b5dba5, 0x3956c25b, 0x59f111f1, 0x923f82a4, 0xab1c5ed5,
     0xd807aa98, 0x12835b01, 0x243185be, 0x550c7dc3, 0x72be5d74, 0x80deb1fe, 0x9bdc06a7, 0xc19bf174,
     0xe49b69c1, 0xefbe4786, 0x0fc19dc6, 0x240ca1cc, 0x2de92c6f, 0x4a7484aa, 0x5cb0a9dc, 0x76f988da,
@@ -26,7 +26,7 @@ constexpr std::array<Word, 64> kRounds{
 /// Takes in one block of 64 bytes, as FIPS 180-4, 6.2.2, names it.
 void AddBlock(State& state, const char* block) {
   // the message schedule: 16 words of the block, big end first, and 48 that follow from them
-  std::array<Word, 64> w;
+  std::array<Bits32, 64> w;
   for (std::size_t t = 0; t < 64; ++t) {
     if (t < 16) {
       w[t] = 0;
@@ -35,7 +35,7 @@ void AddBlock(State& state, const char* block) {
       }
       continue;
     }
-    const Word a = w[t - 15], b = w[t - 2];
+    const Bits32 a = w[t - 15], b = w[t - 2];
     w[t] = w[t - 16] + (std::rotr(a, 7) ^ std::rotr(a, 18) ^ a >> 3) + w[t - 7] +
            (std::rotr(b, 17) ^ std::rotr(b, 19) ^ b >> 10);
   }
@@ -43,9 +43,9 @@ void AddBlock(State& state, const char* block) {
   // 64 rounds
   auto [a, b, c, d, e, f, g, h] = state;
   for (std::size_t t = 0; t < 64; ++t) {
-    const Word t1 = h + (std::rotr(e, 6) ^ std::rotr(e, 11) ^ std::rotr(e, 25)) +
-                    ((e & f) ^ (~e & g)) + kRounds[t] + w[t];
-    const Word t2 =
+    const Bits32 t1 = h + (std::rotr(e, 6) ^ std::rotr(e, 11) ^ std::rotr(e, 25)) +
+                      ((e & f) ^ (~e & g)) + kRounds[t] + w[t];
+    const Bits32 t2 =
         (std::rotr(a, 2) ^ std::rotr(a, 13) ^ std::rotr(a, 22)) + ((a & b) ^ (a & c) ^ (b & c));
     h = g, g = f, f = e, e = d + t1, d = c, c = b, b = a, a = t1 + t2;
   }

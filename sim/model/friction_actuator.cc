@@ -8,10 +8,7 @@
 #include "models/foundation/excerpt.h"
 #include "models/friction/check_friction.h"
 #include "models/friction/joint_friction.h"
-#include "sim/model/joint_pattern.h"
-#include "sim/model/mujoco_handles.h"
 #include "sim/model/spec_elements.h"
-#include "sim/plugin/plugin_name.h"
 #include "sim/plugin/register.h"
 
 namespace warmjoint::inline sim {

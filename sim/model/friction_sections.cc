@@ -2,13 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "models/friction/check_friction.h"
 #include "models/friction/friction_json.h"
 #include "models/friction/joint_friction.h"
+#include "models/friction/law.h"
 #include "models/friction/thermal.h"
-#include "sim/model/escape_xml.h"
-#include "sim/plugin/plugin_name.h"
+#include "sim/plugin/register.h"
 
 namespace warmjoint::inline sim {
 namespace {
@@ -62,6 +64,24 @@ std::string InlineConfigs(const FrictionForJoint& of) {
 
 }  // namespace
 
+std::string EscapeXml(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '&') {
+      result += "&amp;";
+    } else if (c == '<') {
+      result += "&lt;";
+    } else if (c == '>') {
+      result += "&gt;";
+    } else if (c == '"') {
+      result += "&quot;";
+    } else {
+      result += c;
+    }
+  }
+  return result;
+}
+
 std::string FrictionActuatorOf(const std::string& joint) { return joint + "_friction"; }
 
 std::string FrictionSections(const FrictionForJoint& friction) {
@@ -97,6 +117,31 @@ std::string InstanceSection(const std::string& instance,
   </extension>
 )",
                      kFrictionPlugin, EscapeXml(instance), configs);
+}
+
+std::string MinimalModel(const Friction& friction, JointKind kind) {
+  CheckFriction(friction, {});
+  // heavy enough for any slope at this step
+  constexpr double kTimestep = 0.001;  // s
+  const auto slope = PlaceOf(LawPart::slope, *FindLaw(friction.law));
+  const double needed = slope ? 10 * kTimestep * LawValues(friction)[*slope] : 0;
+  const double inertia = std::max(1.0, needed);
+  const bool slides = kind == JointKind::linear;
+  return fmt::format(R"(<mujoco model="friction">
+  <!-- load the plugin first: mj_loadPluginLibrary("libwarmjoint_friction.so").
+       In another model: the sections <extension> and <actuator>, with that model's joint. -->
+  <option timestep="{}" integrator="implicitfast"/>
+  <worldbody>
+    <body name="link">
+      <joint name="joint" type="{}" axis="{}"/>
+      <inertial pos="0 0 0" mass="{}" diaginertia="{} {} {}"/>
+      <geom type="box" size="0.2 0.05 0.05" mass="0" contype="0" conaffinity="0"/>
+    </body>
+  </worldbody>
+{}</mujoco>
+)",
+                     kTimestep, slides ? "slide" : "hinge", slides ? "1 0 0" : "0 0 1", inertia,
+                     inertia, inertia, inertia, FrictionSections({"joint", friction}));
 }
 
 }  // namespace warmjoint::inline sim

@@ -5,6 +5,7 @@
 #include <warmjoint/friction.h>
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace warmjoint::inline sim {
@@ -14,11 +15,18 @@ namespace warmjoint::inline sim {
 std::string FrictionSections(const FrictionForJoint& friction);
 
 /// The section <extension> with one instance of that name which holds the friction of all the
-/// joints, and its own name, from which the plugin tells what an attachment put before the names.
+/// joints, and its own name, from which the plugin finds what an attachment put before the names.
 std::string InstanceSection(const std::string& instance,
                             const std::vector<FrictionForJoint>& frictions);
 
 /// Name of the actuator that carries the friction of a joint.
 std::string FrictionActuatorOf(const std::string& joint);
+
+/// A small model that runs, with the friction on its only joint, "joint": what an identified
+/// friction looks like in MuJoCo, to try out or to copy from.
+std::string MinimalModel(const Friction& friction, JointKind kind);
+
+/// The text with &, <, > and " written as entities.
+std::string EscapeXml(std::string_view text);
 
 }  // namespace warmjoint::inline sim

@@ -6,8 +6,8 @@
 
 #include "models/foundation/parse_number.h"
 #include "models/friction/joint_friction.h"
-#include "sim/plugin/check_joint.h"
-#include "sim/plugin/stiff_drives.h"
+#include "sim/plugin/plugin_instances.h"
+#include "sim/plugin/stability.h"
 
 namespace warmjoint::inline sim {
 namespace {

@@ -1,19 +1,61 @@
 #include "sim/model/load_model.h"
 
+#include <dlfcn.h>
+#include <mujoco/mujoco.h>
+
 #include <array>
+#include <filesystem>
 #include <regex>
 #include <string_view>
+#include <utility>
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/xml_tags.h"
-#include "sim/model/plugin_libraries.h"
 #include "sim/model/spec_elements.h"
-#include "sim/plugin/model_folder.h"
-#include "sim/plugin/plugin_name.h"
+#include "sim/plugin/attributes.h"
 #include "sim/plugin/register.h"
 
 namespace warmjoint::inline sim {
 namespace {
+
+namespace fs = std::filesystem;
+
+/// The folder of MuJoCo's library; empty where the system does not tell.
+fs::path MujocoFolder() {
+  Dl_info library{};
+  if (dladdr(reinterpret_cast<void*>(&mj_version), &library) == 0) return {};
+  return fs::absolute(library.dli_fname).parent_path();
+}
+
+/// Loads, the first time that it is called, the plugin libraries that MuJoCo itself comes with: those in
+/// the folder `plugin` (wheel) or `mujoco_plugin` (release archive) beside its library or in ../bin. No
+/// other folder is looked at: loading a library runs it. Returns whether this call loaded any.
+bool LoadMujocoPlugins() {
+  // once in a process: a second time each would be registered twice
+  static bool loaded = false;
+  if (std::exchange(loaded, true)) return false;
+  const fs::path library = MujocoFolder();
+  if (library.empty()) return false;
+  // folders in which its packages have them
+  bool any = false;
+  for (const char* folder : {"plugin", "mujoco_plugin", "../bin/mujoco_plugin"}) {
+    std::error_code absent;
+    if (!fs::is_directory(library / folder, absent)) continue;
+    mj_loadAllPluginLibraries((library / folder).c_str(), nullptr);
+    any = true;
+  }
+  return any;
+}
+
+/// The plugin that a message of MuJoCo calls unknown; empty where it complains of something else.
+std::string UnknownPlugin(const std::string& message) {
+  static const std::regex complaint(
+      "[Pp]lugin '?([A-Za-z0-9_.:/-]+)'? not found|"
+      "unknown plugin '?([A-Za-z0-9_.:/-]+)'?");
+  std::smatch found;
+  if (!std::regex_search(message, found, complaint)) return "";
+  return found[1].matched ? found[1] : found[2];
+}
 
 constexpr std::size_t kLargestModel = std::size_t{64} << 20;  // bytes of XML
 constexpr double kLargestTexture = 1 << 30;                   // bytes
@@ -165,6 +207,25 @@ LoadedModel LoadModel(const std::filesystem::path& path) {
   ParsedModel parsed = ParseModel(path);
   ModelPtr model = CompileModel(*parsed.spec, {path.string()});
   return {std::move(model), std::move(parsed.notices)};
+}
+
+std::string ModelToXml(mjSpec& spec, const Place& place) {
+  // as it was written, not as the compiler changed it
+  spec.compiler.savecompiled = 0;
+  spec.compiler.savecanonical = 0;
+
+  // the first call tells how much room the second needs
+  std::array<char, 1000> error{};
+  std::string text(1, '\0');
+  const int size = mj_saveXMLString(&spec, text.data(), 1, error.data(), error.size());
+  if (size >= 0) {
+    text.resize(static_cast<size_t>(size) + 1);
+    if (mj_saveXMLString(&spec, text.data(), size + 1, error.data(), error.size()) == 0) {
+      text.resize(text.find('\0'));
+      return text;
+    }
+  }
+  Refuse(place, "MuJoCo cannot write it as MJCF: {}", error.data());
 }
 
 }  // namespace warmjoint::inline sim

@@ -1,12 +1,14 @@
 // MuJoCo models from MJCF and URDF files.
 #pragma once
 
+#include <mujoco/mujoco.h>
+
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "models/foundation/bad_input.h"
-#include "sim/model/mujoco_handles.h"
+#include "sim/model/spec_elements.h"
 #include "sim/model/urdf_meshes.h"
 
 namespace warmjoint::inline sim {
@@ -35,5 +37,12 @@ struct LoadedModel {
 
 /// ParseModel and CompileModel in one.
 LoadedModel LoadModel(const std::filesystem::path& path);
+
+/// A spec as MJCF text, as it was written and not as it was compiled (savecompiled and
+/// savecanonical off): classes, frames, degrees, Euler angles and actuator shortcuts stay, and every
+/// number has the digits that it needs to be read back to the same bits. MuJoCo's other notation
+/// rounds to six digits. The text compiles to the model that the spec compiles to, bit for bit.
+/// Throws BadInput from `place` where MuJoCo cannot write it.
+std::string ModelToXml(mjSpec& spec, const Place& place);
 
 }  // namespace warmjoint::inline sim

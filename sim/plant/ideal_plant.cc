@@ -1,5 +1,3 @@
-#include "sim/plant/ideal_plant.h"
-
 #include <cmath>
 #include <numbers>
 
@@ -7,7 +5,8 @@
 #include "models/friction/along_motion.h"
 #include "models/friction/check_friction.h"
 #include "sim/plant/disturb_log.h"
-#include "sim/plant/velocity_reference.h"
+#include "sim/plant/plant.h"
+#include "sim/plant/velocity_drive.h"
 
 namespace warmjoint::inline sim {
 namespace {

@@ -1,5 +1,3 @@
-#include "sim/plant/mujoco_plant.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -7,13 +5,10 @@
 #include "models/friction/joint_friction.h"
 #include "models/robots/robot_folder.h"
 #include "sim/plant/disturb_log.h"
-#include "sim/plant/drive_bandwidth.h"
-#include "sim/plant/motion_reach.h"
+#include "sim/plant/plant.h"
 #include "sim/plant/sampling.h"
 #include "sim/plant/single_joint_model.h"
-#include "sim/plant/speed_watch.h"
 #include "sim/plant/velocity_drive.h"
-#include "sim/plant/velocity_reference.h"
 
 namespace warmjoint::inline sim {
 namespace {

@@ -1,12 +1,15 @@
-// A robot with one joint free and friction on it.
+// A robot with one joint free and friction on it, and whether that has room for a motion.
 #pragma once
 
 #include <warmjoint/friction.h>
 
 #include <string>
 #include <utility>
+#include <vector>
 
-#include "sim/model/mujoco_handles.h"
+#include "scenarios/motion.h"
+#include "scenarios/scenario.h"
+#include "sim/model/spec_elements.h"
 
 namespace warmjoint::inline sim {
 
@@ -31,5 +34,16 @@ struct SingleJointModel {
 SingleJointModel LoadSingleJoint(const std::string& path, const std::string& joint,
                                  const Friction& friction, double timestep,
                                  const std::string& asked_by);
+
+/// Where a motion may go.
+struct JointRoom {
+  const Scenario& scenario;          // whose joint it is, and how long it moves
+  std::pair<double, double> limits;  // rad or m; infinite where the joint has none
+};
+
+/// Throws BadInput where a motion from a position, rad or m, leaves the joint's limits: the first is
+/// made of pieces at constant speed, the second of a velocity that is linear between corners.
+void CheckReach(const JointRoom& room, const std::vector<MotionSegment>& plan, double position);
+void CheckReach(const JointRoom& room, const std::vector<VelocityCorner>& corners, double position);
 
 }  // namespace warmjoint::inline sim

@@ -1,103 +1,83 @@
 #include "sim/plugin/attributes.h"
 
+#include <fmt/ranges.h>
 #include <warmjoint/friction.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "models/foundation/excerpt.h"
-#include "models/foundation/nearest_name.h"
-#include "models/foundation/parse_number.h"
 #include "models/friction/check_friction.h"
 #include "models/friction/friction_json.h"
 #include "models/friction/thermal.h"
-#include "sim/plugin/model_folder.h"
 
 namespace warmjoint::inline sim {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string BoundOf(const ParameterInfo& info) {
-  // bounds as words, as the table of parameters has them
-  if (info.name == Thermal::parameters[0].name) {
-    return fmt::format("-{0:g} to {0:g}", kLargestThermalGain);
+/// Takes the members of one stage of heat into a list, under a prefix.
+struct StageOfHeat {
+  std::string_view prefix;
+  std::string_view meaning;  // instead of their own, where not empty
+  std::vector<NumberAttribute>& numbers;
+
+  template <class T>
+  void Field(std::string_view name, T*, FieldInfo info) {
+    // a stage may be left out; a gain is bounded by the check of the whole
+    info.needed = {};
+    if (name == kGainName)
+      info.bounds = {.at_least = -kLargestThermalGain, .at_most = kLargestThermalGain};
+    if (!meaning.empty()) info.meaning = meaning;
+    numbers.push_back({fmt::format("{}{}", prefix, name), info});
   }
-  if (info.lower == -kInfinity) return "any";
-  const bool time = info.name == Thermal::parameters[1].name;
-  if (info.lower == kSmallestPositive || time) return "> 0";
-  if (info.upper != kInfinity) return fmt::format("{} to {}", info.lower, info.upper);
-  return fmt::format(">= {}", info.lower);
-}
+};
 
-void AddParameter(const ParameterInfo& info, std::vector<PluginAttribute>& attributes) {
-  const auto same_name = [&](const PluginAttribute& known) { return known.name == info.name; };
-  if (std::any_of(attributes.begin(), attributes.end(), same_name)) return;
-  attributes.push_back({std::string(info.name), std::string(info.unit.rotary), BoundOf(info),
-                        std::string(info.meaning)});
-}
-
-std::vector<PluginAttribute> MakeAttributes() {
-  std::vector<PluginAttribute> attributes{
-      {"law", "", fmt::format("{}", fmt::join(LawNames(), ", ")), "the nominal law"},
-      {"file", "", "path", "friction file instead of all the other attributes"},
-      {"joints", "", "JSON", "friction of each joint by its name, instead of all the others"},
-      {"instance", "", "text", "the instance's own name, so that a prefix of the model is known"},
-      {"folder", "", "path", "folder from which file starts where it is relative"},
-      {"gear", "rad/rad", "not 0", "motor turns for each joint turn; 1 where not given"},
+std::vector<NumberAttribute> ListNumbers() {
+  std::vector<NumberAttribute> numbers;
+  const auto add = [&](const ParameterInfo& info) {
+    const auto known = [&](const NumberAttribute& number) { return number.name == info.name; };
+    if (std::ranges::any_of(numbers, known)) return;
+    const Bounds bounds{.at_least = info.lower, .at_most = info.upper};
+    numbers.push_back({std::string(info.name),
+                       {.unit = info.unit.rotary, .bounds = bounds, .meaning = info.meaning}});
   };
 
   // the parameters of all laws, each once, then what joins any law
   for (const Law& law : Laws()) {
-    for (const ParameterInfo& info : law.parameters) AddParameter(info, attributes);
+    for (const ParameterInfo& info : law.parameters) add(info);
   }
-  for (const ParameterInfo& info : Thermal::parameters) AddParameter(info, attributes);
-  for (const ParameterInfo& info : Thermal::parameters) {
-    attributes.push_back({fmt::format("{}{}", kSecondStage, info.name),
-                          std::string(info.unit.rotary), BoundOf(info),
-                          "the same of a second stage"});
-  }
-  for (const FrictionOption& option : FrictionOptions()) AddParameter(option.info, attributes);
-  attributes.push_back({"maps", "", "JSON", "list of maps as in a friction file"});
-  attributes.push_back({"initial_energy", "N.m", "any, or JSON",
-                        "energy state at a reset: of every joint, or of each by its name"});
-  return attributes;
-}
-
-double Number(const std::string& name, const std::string& text, const Place& place) {
-  const std::optional<double> value = ParseNumber(text);
-  if (!value) Refuse(place, "{} is '{}'; it must be a number", name, Excerpt(text));
-  return *value;
+  StageOfHeat first{"", "", numbers}, second{kSecondStage, "the same of a second stage", numbers};
+  Thermal().Serialize(&first);
+  Thermal().Serialize(&second);
+  for (const FrictionOption& option : FrictionOptions()) add(option.info);
+  return numbers;
 }
 
 /// Where a relative file lies: in `folder`, in the model's folder where this program loaded it, or
-/// in the working directory. MuJoCo does not tell a plugin where its model comes from.
+/// in the working directory.
 fs::path Locate(const fs::path& file, const fs::path& folder) {
   // a folder that is given goes before the model's, and that before the working directory
   if (file.is_absolute()) return file;
   const fs::path inside = folder / file;
-  const fs::path beside = ModelFolder() / inside;
-  return !ModelFolder().empty() && fs::exists(beside) ? beside : inside;
+  const fs::path near_model = ModelFolder() / inside;
+  return !ModelFolder().empty() && fs::exists(near_model) ? near_model : inside;
 }
 
-/// Refuses every attribute that is given beside `whole`, which stands for all of friction.
-void RefuseBeside(const std::string& whole, const AttributeReader& read, const Place& place) {
-  // what does not describe the friction may stand beside it
-  for (const PluginAttribute& attribute : PluginAttributes()) {
-    const bool beside = attribute.name == "folder" || attribute.name == "instance" ||
-                        attribute.name == "initial_energy";
-    if (beside || attribute.name == whole) continue;
-    if (read(attribute.name).empty()) continue;
-    Refuse(place, "{0} is '{1}' beside {2} '{3}'; give {2} or the other attributes", attribute.name,
-           Excerpt(read(attribute.name)), whole, Excerpt(read(whole)));
+/// Refuses every attribute that is given with `whole`, which stands for all of friction.
+void RefuseOthers(const std::string& whole, const AttributeTexts& texts, const Place& place) {
+  // what does not describe the friction may be given with it
+  static const std::set<std::string> others{"folder", "instance", "initial_energy"};
+  for (const auto& [name, text] : texts) {
+    if (name == whole || others.contains(name)) continue;
+    Refuse(place, "{0} is '{1}' beside {2} '{3}'; give {2} or the other attributes", name,
+           Excerpt(text), whole, Excerpt(texts.at(whole)));
   }
 }
 
-Friction ReadFile(const std::string& file, const AttributeReader& read, const Place& place) {
-  RefuseBeside("file", read, place);
-  const fs::path path = Locate(file, read("folder"));
+Friction ReadFile(const PluginAttributes& given, const Place& place) {
+  const fs::path path = Locate(given.file, given.folder);
   // a file that is not found may be looked for in the wrong folder
   try {
     return ReadFriction(path);
@@ -112,160 +92,146 @@ Friction ReadFile(const std::string& file, const AttributeReader& read, const Pl
 }
 
 /// A gain and a time constant; nothing where neither is given.
-std::optional<Thermal> ReadThermal(std::string_view prefix, const AttributeReader& read,
+std::optional<Thermal> ReadThermal(std::string_view prefix, const PluginAttributes& given,
                                    const Place& place) {
   // the two make sense together alone
   const std::string gain_name = fmt::format("{}{}", prefix, kGainName);
   const std::string time_name = fmt::format("{}{}", prefix, kTimeConstantName);
-  const std::string gain = read(gain_name), time_constant = read(time_name);
-  if (gain.empty() && time_constant.empty()) return std::nullopt;
-  if (gain.empty() || time_constant.empty()) {
-    Refuse(place, "{} is '{}' and {} '{}'; give both or neither", gain_name, Excerpt(gain),
-           time_name, Excerpt(time_constant));
+  const auto gain = given.numbers.at(gain_name), time_constant = given.numbers.at(time_name);
+  if (gain.has_value() != time_constant.has_value()) {
+    Refuse(place, "{} is given without {}; give both or neither", gain ? gain_name : time_name,
+           gain ? time_name : gain_name);
   }
-  return Thermal{Number(gain_name, gain, place), Number(time_name, time_constant, place)};
+  if (!gain) return std::nullopt;
+  return Thermal{*gain, *time_constant};
 }
 
-std::vector<FrictionMap> ReadMaps(const std::string& text, const Place& place) {
-  Tree list = Tree::parse(text, nullptr, false);
-  if (!list.is_array()) Refuse(place, "maps must be a JSON list");
-  return MapsFrom(Node(Tree{{"maps", std::move(list)}}, place.file).Require("maps", ""));
-}
-
-/// The object of joints; of a name given twice JSON would keep the last alone.
-nlohmann::json ParseJoints(const std::string& text, const Place& place) {
-  using nlohmann::json;
-
-  // refused while it is parsed: afterwards only one of them is left
-  std::set<std::string> names;
-  const auto refuse_twice = [&](int depth, json::parse_event_t event, json& value) {
-    if (event != json::parse_event_t::key || depth != 1) return true;
-    const auto name = value.get<std::string>();
-    if (!names.insert(name).second) {
-      Refuse(place, "joints names '{}' twice; take one out", Excerpt(name));
-    }
-    return true;
-  };
-  return json::parse(text, refuse_twice, false);
-}
-
-FrictionOfJoints ReadJoints(const AttributeReader& read, const Place& place) {
-  using nlohmann::json;
-  RefuseBeside("joints", read, place);
-  const json object = ParseJoints(read("joints"), place);
-  if (!object.is_object() || object.empty()) {
-    Refuse(place, "joints must be a JSON object of joint names and their friction");
-  }
-  // each friction is checked as one of a file is
-  FrictionOfJoints joints;
-  for (const auto& [name, friction] : object.items()) {
-    joints[name] = FrictionFrom({Tree(friction), fmt::format("{}: joints: {}", place.file, name)});
-  }
-  return joints;
-}
-
-Friction ReadInline(const AttributeReader& read, const Place& place) {
+Friction ReadInline(const PluginAttributes& given, const Place& place) {
   Friction friction;
-  if (read("law").empty()) {
+  if (given.law.empty()) {
     Refuse(place, "law is missing; give one of {}", fmt::join(LawNames(), ", "));
   }
-  friction.law = read("law");
+  friction.law = given.law;
 
   // every parameter that is given, whichever law it belongs to; the check finds those too many
   for (const Law& law : Laws()) {
     for (const ParameterInfo& info : law.parameters) {
       const std::string name(info.name);
-      const std::string text = read(name);
-      if (!text.empty()) friction.parameters[name] = Number(name, text, place);
+      if (const auto number = given.numbers.at(name)) friction.parameters[name] = *number;
     }
   }
 
   // what joins any law, and what of the table was left out
-  friction.thermal = ReadThermal("", read, place);
-  friction.second_thermal = ReadThermal(kSecondStage, read, place);
+  friction.thermal = ReadThermal("", given, place);
+  friction.second_thermal = ReadThermal(kSecondStage, given, place);
   for (const FrictionOption& option : FrictionOptions()) {
-    const std::string name(option.info.name);
-    if (!read(name).empty()) friction.*option.value = Number(name, read(name), place);
+    const auto number = given.numbers.at(std::string(option.info.name));
+    friction.*option.value = number.value_or(0);
   }
-  if (!read("maps").empty()) friction.maps = ReadMaps(read("maps"), place);
-  if (!read("gear").empty()) friction.gear = Number("gear", read("gear"), place);
+  if (!given.maps.is_null()) {
+    friction.maps = MapsFrom(Node(Tree{{"maps", given.maps}}, place.file).Require("maps", ""));
+  }
+  friction.gear = given.gear.value_or(1);
   FillDefaults(friction);
   CheckFriction(friction, place);
   return friction;
 }
 
-}  // namespace
-
-const std::vector<PluginAttribute>& PluginAttributes() {
-  static const std::vector<PluginAttribute> attributes = MakeAttributes();
-  return attributes;
+DescribedJoints ReadFriction(const PluginAttributes& given, const AttributeTexts& texts,
+                             const Place& place) {
+  // one friction for every joint, or a list, each checked as one of a file is
+  if (given.joints.is_null() && given.file.empty()) return {{"", {ReadInline(given, place)}}};
+  RefuseOthers(given.joints.is_null() ? "file" : "joints", texts, place);
+  if (given.joints.is_null()) return {{"", {ReadFile(given, place)}}};
+  if (!given.joints.is_object() || given.joints.empty()) {
+    Refuse(place, "joints must be a JSON object of joint names and their friction");
+  }
+  DescribedJoints joints;
+  for (const auto& [name, friction] : given.joints.items()) {
+    const Node node(friction, fmt::format("{}: joints: {}", place.file, name));
+    joints[name].friction = FrictionFrom(node);
+  }
+  return joints;
 }
-
-FrictionOfJoints ReadAttributes(const AttributeReader& read, const Place& place) {
-  if (!read("joints").empty()) return ReadJoints(read, place);
-  const std::string file = read("file");
-  return {{"", file.empty() ? ReadInline(read, place) : ReadFile(file, read, place)}};
-}
-
-namespace {
 
 /// The energy of a joint at a reset: a number, or one for each stage.
-std::array<double, 2> EnergyFrom(const nlohmann::json& value, const Friction& friction,
-                                 const Place& place) {
+std::array<double, 2> ReadEnergy(const Node& node, const Friction& friction) {
   if (!friction.thermal) {
-    Refuse(place, "initial_energy needs thermal, which is not given; give it, or leave it out");
+    Refuse(node.place(), "{} needs thermal, which is not given; give it, or leave it out",
+           node.key());
   }
-  const auto number = [&](const nlohmann::json& one) {
-    return Node({{"initial_energy", Tree(one)}}, place.file)
-        .Require("initial_energy", kGiveNumber)
-        .Number();
-  };
-  if (!friction.second_thermal) return {number(value), 0};
-  if (!value.is_array() || value.size() != 2) {
-    Refuse(place, "initial_energy is {}; with two stages of warming give a list of two numbers",
-           Excerpt(value.dump()));
+  if (!friction.second_thermal) return {node.Number(), 0};
+  constexpr std::string_view two = "a list of two numbers, since it warms in two stages";
+  const std::vector<Node> stages = node.Entries(two);
+  if (stages.size() != 2) node.RefuseValue(two);
+  return {stages[0].Number(), stages[1].Number()};
+}
+
+void ReadEnergies(const Tree& given, const Place& place, DescribedJoints& joints) {
+  if (given.is_null()) return;
+  const Node node = Node({{"initial_energy", given}}, place.file).Require("initial_energy", "");
+  // for every joint, or for each by its name
+  std::vector<std::string> names;
+  for (const auto& [name, joint] : joints) names.push_back(name);
+  if (node.IsMap()) node.RequireKnownKeys(names);
+  for (auto& [name, joint] : joints) {
+    const auto own = node.IsMap() ? node.Find(name) : node;
+    if (own) joint.initial_energy = ReadEnergy(*own, joint.friction);
   }
-  return {number(value[0]), number(value[1])};
 }
 
 }  // namespace
 
-InitialEnergies ReadInitialEnergy(const AttributeReader& read, const FrictionOfJoints& joints,
-                                  const Place& place) {
-  using nlohmann::json;
-  const std::string text = read("initial_energy");
-  if (text.empty()) return {};
-  // a number for every joint, or a number for each by its name
-  const json given = json::parse(text, nullptr, false);
-  if (given.is_discarded()) {
-    Refuse(place, "initial_energy is '{}'; it must be a number, or JSON by joint", Excerpt(text));
-  }
-  InitialEnergies energies;
-  if (!given.is_object()) {
-    for (const auto& [name, friction] : joints) {
-      energies[name] = EnergyFrom(given, friction, place);
-    }
-    return energies;
-  }
-  for (const auto& [name, value] : given.items()) {
-    const auto joint = joints.find(name);
-    if (joint == joints.end()) {
-      std::vector<std::string> known;
-      for (const auto& [other, unused] : joints) known.push_back(other);
-      Refuse(place, "initial_energy names '{}', which joints does not{}", Excerpt(name),
-             Suggestion(name, known));
-    }
-    const Place inside{fmt::format("{}: initial_energy: {}", place.file, name)};
-    energies[name] = EnergyFrom(value, joint->second, inside);
-  }
-  return energies;
+const std::vector<NumberAttribute>& NumberAttributes() {
+  static const std::vector<NumberAttribute> numbers = ListNumbers();
+  return numbers;
 }
 
-std::string FileStamp(const AttributeReader& read) {
+std::string_view MeaningOfLaw() {
+  static const std::string meaning =
+      fmt::format("the nominal law: {}", fmt::join(LawNames(), ", "));
+  return meaning;
+}
+
+const std::vector<std::string>& AttributeNames() {
+  static const std::vector<std::string> names = [] {
+    FieldNames fields;
+    PluginAttributes().Serialize(&fields);
+    return fields.names;
+  }();
+  return names;
+}
+
+void ReadValue(const Node& node, Tree* value, const FieldInfo&) {
+  // of a name given twice JSON would keep the last alone, so that it is refused while it is parsed
+  std::set<std::string> names;
+  const auto refuse_twice = [&](int depth, Tree::parse_event_t event, Tree& key) {
+    if (event != Tree::parse_event_t::key || depth != 1) return true;
+    const auto name = key.get<std::string>();
+    if (!names.insert(name).second) {
+      Refuse(node.place(), "{} names '{}' twice; take one out", node.key(), Excerpt(name));
+    }
+    return true;
+  };
+  *value = Tree::parse(node.Text(), refuse_twice, false);
+  if (value->is_discarded() || value->is_null()) node.RefuseValue("JSON");
+}
+
+void ReadValue(const Node& node, fs::path* value, const FieldInfo&) { *value = node.Text(); }
+
+DescribedJoints DescribeJoints(const AttributeTexts& texts, const Place& place) {
+  const Node node(Tree(texts), place.file, {}, Scalars::texts);
+  const auto given = ReadAs<PluginAttributes>(node);
+  DescribedJoints joints = ReadFriction(given, texts, place);
+  ReadEnergies(given.initial_energy, place, joints);
+  return joints;
+}
+
+std::string FileStamp(const AttributeTexts& texts) {
   // path, size and time: a file that changed is read again
-  const std::string file = read("file");
-  if (file.empty()) return "";
-  const fs::path path = Locate(file, read("folder"));
+  const auto file = texts.find("file"), folder = texts.find("folder");
+  if (file == texts.end()) return "";
+  const fs::path path = Locate(file->second, folder == texts.end() ? "" : folder->second);
   std::error_code absent;
   const auto size = fs::file_size(path, absent);
   const auto time = fs::last_write_time(path, absent).time_since_epoch().count();

@@ -4,49 +4,96 @@
 #include <warmjoint/friction.h>
 
 #include <array>
-#include <functional>
+#include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "models/foundation/bad_input.h"
+#include "models/foundation/serialize.h"
 
 namespace warmjoint::inline sim {
 
-/// One attribute that <config key= value=> may give.
-struct PluginAttribute {
+/// A number among the attributes: a parameter of laws, of the heat's stages, or a friction's option.
+struct NumberAttribute {
   std::string name;
-  std::string unit;   // of rotary joints; empty where it is no quantity
-  std::string bound;  // what is allowed
-  std::string meaning;
+  FieldInfo info;
 };
 
-/// All attributes: `law`, `file`, `joints`, `instance`, `folder`, `gear`, the parameters of every
-/// law, the thermal ones, the options (FrictionOptions), `maps`, `initial_energy`.
-const std::vector<PluginAttribute>& PluginAttributes();
+/// All of them, each once; unit, bounds and meaning as models/friction states them.
+const std::vector<NumberAttribute>& NumberAttributes();
 
-/// Reads the value of an attribute by its name; empty where it was not given.
-using AttributeReader = std::function<std::string(const std::string& name)>;
+/// Names of all laws, for the meaning of `law`.
+std::string_view MeaningOfLaw();
 
-/// Friction by the name of its joint; under "" that of every joint.
-using FrictionOfJoints = std::map<std::string, Friction>;
+/// A document in JSON, null where it is not given.
+void ReadValue(const Node& node, Tree* value, const FieldInfo& info);
+void ReadValue(const Node& node, std::filesystem::path* value, const FieldInfo& info);
 
-/// The friction that the attributes describe, checked. Throws BadInput, from `place`, naming
-/// attribute, value and bound for: no number ("5x"), a value out of bounds, a parameter that the
-/// law lacks or needs, `file` or `joints` beside attributes that they would contradict, a joint
-/// twice in `joints`.
-FrictionOfJoints ReadAttributes(const AttributeReader& read, const Place& place);
+/// What <config key= value=> may give, each by its name. Empty: not given.
+struct PluginAttributes {
+  std::string law, instance;
+  std::filesystem::path file, folder;
+  std::optional<double> gear;
+  std::map<std::string, std::optional<double>> numbers;  // by their names
+  Tree joints, maps, initial_energy;
 
-/// Heat at a reset by the name of its joint, {E1, E2}, N.m or N; under "" that of every joint.
-using InitialEnergies = std::map<std::string, std::array<double, 2>>;
+  template <class A>
+  void Serialize(A* a) {
+    // what friction it is, and whose
+    a->Field("law", &law, {.meaning = MeaningOfLaw()});
+    a->Field("file", &file, {.meaning = "friction file instead of all the other attributes"});
+    a->Field("joints", &joints,
+             {.meaning = "friction of each joint by its name, instead of all the others"});
+    a->Field("instance", &instance,
+             {.meaning = "the instance's own name, so that a prefix of the model is known"});
+    a->Field("folder", &folder, {.meaning = "folder from which file starts where it is relative"});
 
-/// The attribute `initial_energy`: a number, two in a list for two stages of warming, or an object
-/// of these by joint. Checked against the joints' friction; throws BadInput.
-InitialEnergies ReadInitialEnergy(const AttributeReader& read, const FrictionOfJoints& joints,
-                                  const Place& place);
+    // its numbers, and what is more than a number
+    a->Field("gear", &gear,
+             {.unit = "rad/rad",
+              .meaning = "motor turns for each joint turn, not 0; 1 where not given"});
+    for (const NumberAttribute& number : NumberAttributes()) {
+      a->Field(number.name, &numbers[number.name], number.info);
+    }
+    a->Field("maps", &maps, {.meaning = "list of maps as in a friction file"});
+    a->Field("initial_energy", &initial_energy,
+             {.unit = "N.m",
+              .meaning = "energy state at a reset: of every joint, or of each by its name"});
+  }
+};
 
-/// Path, size and time of the friction file that the attributes name, which tell whether it is still
-/// the same; empty where they name none.
-std::string FileStamp(const AttributeReader& read);
+/// Their names.
+const std::vector<std::string>& AttributeNames();
+
+/// The attributes that are given, by their names.
+using AttributeTexts = std::map<std::string, std::string>;
+
+/// One joint's part of what attributes describe.
+struct DescribedJoint {
+  Friction friction;
+  std::array<double, 2> initial_energy{};  // {E1, E2} at a reset, N.m or N
+};
+
+/// By the name of the joint; under "" every joint.
+using DescribedJoints = std::map<std::string, DescribedJoint>;
+
+/// What the attributes describe, checked. Throws BadInput, from `place`, naming attribute, value and
+/// bound for: no number ("5x"), a value out of bounds, a parameter that the law lacks or needs, `file`
+/// or `joints` with attributes that they would contradict, a joint twice in `joints`, or an initial
+/// energy that is none of its joint.
+DescribedJoints DescribeJoints(const AttributeTexts& texts, const Place& place);
+
+/// Path, size and time of the friction file that the attributes name, which change where the file
+/// does; empty where they name none.
+std::string FileStamp(const AttributeTexts& texts);
+
+/// Folder of the model that this thread loaded last, where its friction files may lie; empty where it
+/// loaded none that way. MuJoCo does not tell a plugin where its model comes from.
+inline std::filesystem::path& ModelFolder() {
+  thread_local std::filesystem::path folder;
+  return folder;
+}
 
 }  // namespace warmjoint::inline sim

@@ -3,17 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 
 #include "models/foundation/bad_input.h"
 #include "models/foundation/excerpt.h"
-#include "models/foundation/nearest_name.h"
-#include "sim/plugin/check_actuator.h"
-#include "sim/plugin/check_joint.h"
-#include "sim/plugin/joint_names.h"
 #include "sim/plugin/plugin_instances.h"
-#include "sim/plugin/prepared_joints.h"
-#include "sim/plugin/stiff_drives.h"
+#include "sim/plugin/stability.h"
 
 namespace warmjoint::inline sim {
 namespace {
@@ -34,58 +28,6 @@ BoundJoint BindJoint(const mjModel* m, int joint, const PreparedJoint& prepared,
   bound.needs_ambient = prepared.description.level_per_temperature != 0;
   return bound;
 }
-
-/// The friction of each joint that an instance's actuators drive.
-class FrictionOfActuators {
- public:
-  FrictionOfActuators(const mjModel* m, int instance, const PreparedInstance& prepared)
-      : m_(m), instance_(instance), prepared_(prepared) {
-    // a model that was put into another has a prefix before its joints' names
-    std::vector<std::string> driven;
-    for (int i = 0; i < m->nactuator; ++i) {
-      if (m->actuator_plugin[i] == instance) driven.push_back(JointOf(i));
-    }
-    const InstanceNames names{prepared.written_name, NameIn(m, mjOBJ_PLUGIN, instance)};
-    const std::set<std::string> known(driven.begin(), driven.end());
-    const auto exists = [&](const std::string& name) { return known.contains(name); };
-    const Renaming renaming = FindRenaming(names, JointsOf(prepared), driven, exists);
-    for (const auto& [name, joint] : prepared.joints) {
-      waiting_[name.empty() ? name : renaming(name)] = &joint;
-    }
-    all_ = waiting_;
-  }
-
-  const PreparedJoint& Of(int actuator) {
-    // one friction may be meant for every joint; else each joint has its own
-    if (const auto every = all_.find(""); every != all_.end()) return *every->second;
-    const std::string name = JointOf(actuator);
-    const auto found = all_.find(name);
-    if (name.empty() || found == all_.end()) {
-      Refuse({ActuatorName(m_, actuator)}, "joints has no joint '{}'{}", Excerpt(name),
-             Suggestion(name, JointsOf(prepared_)));
-    }
-    waiting_.erase(name);
-    return *found->second;
-  }
-
-  void RefuseWaiting() const {
-    if (waiting_.empty() || waiting_.contains("")) return;
-    Refuse({InstanceName(m_, instance_)},
-           "joints names '{}', which no actuator of the instance drives; add one, or take it out",
-           Excerpt(waiting_.begin()->first));
-  }
-
- private:
-  std::string JointOf(int actuator) const {
-    const bool joint = m_->actuator_trntype[actuator] == mjTRN_JOINT;
-    return joint ? NameIn(m_, mjOBJ_JOINT, m_->actuator_trnid[2 * actuator]) : "";
-  }
-
-  const mjModel* m_;
-  int instance_;
-  const PreparedInstance& prepared_;
-  std::map<std::string, const PreparedJoint*> all_, waiting_;
-};
 
 }  // namespace
 
@@ -109,18 +51,15 @@ BoundJoints::BoundJoints(const mjModel* m, int instance, int states)
 void BoundJoints::BindActuators(const mjModel* m) {
   // the instance's joints in the order of its actuators
   const auto prepared = PrepareInstance(m, instance_, {InstanceName(m, instance_)});
-  FrictionOfActuators frictions(m, instance_, *prepared);
   const OtherInstances others = FindOthers(m, instance_);
-  for (int i = 0; i < m->nactuator; ++i) {
-    if (m->actuator_plugin[i] != instance_) continue;
-    const PreparedJoint& friction = frictions.Of(i);
-
+  for (const auto& [joint, i, friction] : FindJoints(m, instance_, *prepared)) {
     // refuse what the engine would accept and friction cannot
-    CheckActuator(m, i, friction.friction);
-    BoundJoint bound = BindJoint(m, m->actuator_trnid[2 * i], friction, others);
-    CheckJoint(m, bound.joint, bound.friction, BristlesOf(bound.instances), {ActuatorName(m, i)});
+    const Place place{ActuatorName(m, i)};
+    CheckActuator(m, i, friction->friction);
+    BoundJoint bound = BindJoint(m, joint, *friction, others);
+    CheckJoint(m, joint, bound.friction, BristlesOf(bound.instances), place);
     if (bound.needs_ambient && m->actuator_ctrlnum[i] == 0) {
-      Refuse({ActuatorName(m, i)}, "has no control, which would be the ambient temperature's rise");
+      Refuse(place, "has no control, which would be the ambient temperature's rise");
     }
 
     // where the engine keeps what it needs and gives
@@ -130,7 +69,6 @@ void BoundJoints::BindActuators(const mjModel* m) {
     bound.output = m->actuator_outadr[i];
     joints_.push_back(std::move(bound));
   }
-  frictions.RefuseWaiting();
 }
 
 void BoundJoints::BindPassive(const mjModel* m, int states) {
@@ -139,9 +77,9 @@ void BoundJoints::BindPassive(const mjModel* m, int states) {
   const auto prepared = PrepareInstance(m, instance_, {name});
   const OtherInstances others = FindOthers(m, instance_);
   int state = m->plugin_stateadr[instance_] + states;
-  for (const auto& [joint, friction] : FindPassive(m, instance_, *prepared)) {
+  for (const auto& [joint, actuator, friction] : FindJoints(m, instance_, *prepared)) {
     const Place place{fmt::format("{}: {}", name, JointName(m, joint))};
-    RefuseSecond(m, instance_, joint);
+    CheckAlone(m, instance_, joint);
     BoundJoint bound = BindJoint(m, joint, *friction, others);
     CheckJoint(m, joint, bound.friction, BristlesOf(bound.instances), place);
     bound.state = state;

@@ -4,12 +4,12 @@
 #include <mujoco/mujoco.h>
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "models/friction/joint_friction.h"
-#include "sim/plugin/attribute_watch.h"
-#include "sim/plugin/prepared_joints.h"
+#include "sim/plugin/prepared_instances.h"
 
 namespace warmjoint::inline sim {
 

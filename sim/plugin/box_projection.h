@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/plugin/inertia_block.h"
+#include "sim/plugin/row_pairs.h"
 
 namespace warmjoint::inline sim {
 
@@ -20,30 +21,49 @@ namespace warmjoint::inline sim {
 class BoxProjection {
  public:
   /// What a degree of freedom does: is at a bound, within them, or bound to 0 and free to slip.
-  enum Course : signed char { at_lower = -1, within = 0, at_upper = 1, free = 2 };
+  enum Status : signed char { at_lower = -1, within = 0, at_upper = 1, free = 2 };
 
   BoxProjection() = default;
   explicit BoxProjection(int size);
 
-  /// Begins with `course`.
+  /// Begins with `status`.
   void Start(InertiaBlock& inertia, const mjData* d);
 
-  /// Finds force and slip from aim, lower, upper and course.
+  /// Finds force and slip from aim, lower, upper and status.
   void Find(InertiaBlock& inertia, const mjData* d);
 
   // [size] each
-  std::vector<Course> course;
+  std::vector<Status> status;
   std::vector<double> lower, upper;  // N.m or N, not negative
   std::vector<double> aim, force;    // N.m or N
   std::vector<double> slip;          // in the unit of M^-1 force
 
  private:
   double Bound(size_t i) const;
-  Course Better(size_t i) const;
+  Status Better(size_t i) const;
   int Count() const;
   void Turn(bool all);
 
   std::vector<char> slips_;
+};
+
+/// Both projections of CoupledBristles by a search for what slides. It begins with what has slid at the
+/// last step, and its answer follows from what it ends with alone.
+class SearchTree {
+ public:
+  SearchTree() = default;
+  explicit SearchTree(int size) : box_(size), last_(box_.status) {}
+
+  /// Finds kFriction, kLoad and kSliding of the joints' rows. force: {p where everything is held, M v} of
+  /// each row; joints: rows with friction; damping: B/h.
+  void Find(InertiaBlock& inertia, const mjData* d, Rows rows, AskedLevels& levels,
+            const std::vector<int>& joints, const Two* force, double damping);
+
+ private:
+  void Take(Rows rows, const Two* force);
+
+  BoxProjection box_;
+  std::vector<BoxProjection::Status> last_;  // at the end of a step's first projection
 };
 
 }  // namespace warmjoint::inline sim

@@ -108,7 +108,7 @@ void FrictionInstance::Step(const mjModel* m, mjData* d, const mjtNum* load) {
   for (const size_t place : rows_.pushed()) {
     WarnOfPush(m, d, instance_, bound_.joints(), place);
   }
-  sensors_.Tell(m, d, bound_, rows_);
+  sensors_.Note(m, d, bound_, rows_);
 }
 
 void FrictionInstance::StepActuators(const mjModel* m, mjData* d) {

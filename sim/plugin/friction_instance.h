@@ -7,9 +7,8 @@
 
 #include "sim/plugin/bound_joints.h"
 #include "sim/plugin/friction_reports.h"
-#include "sim/plugin/friction_sensors.h"
 #include "sim/plugin/joint_rows.h"
-#include "sim/plugin/left_states.h"
+#include "sim/plugin/joint_states.h"
 
 namespace warmjoint::inline sim {
 

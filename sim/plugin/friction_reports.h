@@ -1,4 +1,4 @@
-// The entries that an instance has in mjData.plugin_state, and the warnings that it gives once.
+// What an instance reports: its entries in mjData.plugin_state, warnings that it gives once, sensors.
 #pragma once
 
 #include <mujoco/mujoco.h>
@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "sim/plugin/bound_joints.h"
-#include "sim/plugin/plugin_name.h"
+#include "sim/plugin/joint_rows.h"
+#include "sim/plugin/register.h"
 
 namespace warmjoint::inline sim {
 
@@ -40,5 +41,25 @@ void WarnOfNumbers(const mjModel* m, mjData* d, int instance,
 /// Warns, once until a reset for each joint, that friction would push it. place: of the joint.
 void WarnOfPush(const mjModel* m, mjData* d, int instance, const std::vector<BoundJoint>& joints,
                 size_t place);
+
+/// Writes sensordata of an instance's sensors, kSensed numbers for each joint. The engine asks before
+/// the step has found them, so that the step writes them.
+class FrictionSensors {
+ public:
+  /// The engine asks: zeros where friction is off, else the step that follows writes.
+  void Ask(const mjModel* m, mjData* d, const BoundJoints& bound, bool off);
+
+  /// After the step: writes where the engine has asked.
+  void Note(const mjModel* m, mjData* d, const BoundJoints& bound, const JointRows& rows) {
+    if (asked_) WriteStep(m, d, bound, rows);
+  }
+
+ private:
+  void WriteStep(const mjModel* m, mjData* d, const BoundJoints& bound, const JointRows& rows);
+  void Write(const mjModel* m, mjData* d, const BoundJoints& bound) const;
+
+  bool asked_ = false;
+  std::vector<double> sensed_;  // [joints x kSensed] of the last step
+};
 
 }  // namespace warmjoint::inline sim

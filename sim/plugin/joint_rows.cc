@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/plugin/check_joint.h"
+#include "sim/plugin/stability.h"
 
 namespace warmjoint::inline sim {
 

@@ -1,4 +1,4 @@
-// The instances of the plugin in a model: which joints each of them acts on.
+// The instances of the plugin in a model: which joints each of them acts on, and by which names.
 #pragma once
 
 #include <mujoco/mujoco.h>
@@ -8,45 +8,58 @@
 #include <string>
 #include <vector>
 
-#include "sim/plugin/prepared_joints.h"
+#include "models/friction/joint_friction.h"
+#include "sim/plugin/prepared_instances.h"
 
 namespace warmjoint::inline sim {
 
 /// The name of an object of the model; empty where it has none.
 std::string NameIn(const mjModel* m, mjtObj type, int id);
 
-/// The names in the attribute `joints`; "": every joint.
-std::vector<std::string> JointsOf(const PreparedInstance& prepared);
+// For messages: by name, as "joint 'name'", or by number, as "joint 3".
+
+std::string JointName(const mjModel* m, int joint);
+std::string ActuatorName(const mjModel* m, int actuator);
+/// The name of the first actuator of a plugin instance, else its own.
+std::string InstanceName(const mjModel* m, int instance);
 
 /// Whether an actuator refers to the instance; one that none refers to is passive.
 bool DrivenByActuators(const mjModel* m, int instance);
 
-/// The joints of a passive instance: each joint of the model that `joints` names, in the model's
-/// order.
-struct PassiveJoint {
-  int joint;
+/// A joint on which an instance acts.
+struct ActingJoint {
+  int joint;     // -1 where the actuator drives none
+  int actuator;  // -1 in the passive form
   const PreparedJoint* prepared;
 };
 
-/// Throws BadInput where `joints` names one that the model lacks.
-std::vector<PassiveJoint> FindPassive(const mjModel* m, int instance,
-                                      const PreparedInstance& prepared);
+/// The joints of an instance: of each of its actuators, in their order, or in the passive form those that
+/// `joints` names, in the order of the model. Names in `joints` may lack what MuJoCo put around every name
+/// of a model that was attached to another one: what stands around the attribute `instance` in the
+/// instance's name, else a beginning of that name, else what stands before the name of a driven joint; the
+/// first of them by which every joint is found. Throws BadInput where a joint is not.
+std::vector<ActingJoint> FindJoints(const mjModel* m, int instance,
+                                    const PreparedInstance& prepared);
 
 /// Numbers of state that the joints of a passive instance need together. Throws BadInput.
 int PassiveStates(const mjModel* m, int instance);
 
-/// What has given a joint friction already, of the plugin in this slot: an actuator, or one of the passive instances
-/// before `end`; empty where nothing has. Throws BadInput for attributes that cannot be read.
-std::string FrictionOn(const mjModel* m, int joint, int plugin, int end);
-
-/// Throws BadInput where another friction acts on the joint: two would be one that is stiffer than
-/// the step can carry.
-void RefuseSecond(const mjModel* m, int instance, int joint);
+/// What has given a joint friction already, of the plugin in this slot: one of the first `actuators`, or of the passive
+/// ones among the first `instances`; empty where nothing has. Throws BadInput for attributes that cannot be read.
+std::string FrictionOn(const mjModel* m, int joint, int plugin, int actuators, int instances);
 
 /// Instances by the kinematic trees on which they act.
 using OtherInstances = std::map<int, std::set<int>>;
 
 /// The instances beside this one.
 OtherInstances FindOthers(const mjModel* m, int instance);
+
+/// Throws BadInput, naming actuator, property, value and remedy, unless the actuator drives a
+/// joint directly and alone of its kind, holds the plugin's states, and clips no force.
+void CheckActuator(const mjModel* m, int actuator, const JointFriction& friction);
+
+/// Throws BadInput where another friction acts on the joint of a passive instance: two would be one that
+/// is stiffer than the step can carry.
+void CheckAlone(const mjModel* m, int instance, int joint);
 
 }  // namespace warmjoint::inline sim

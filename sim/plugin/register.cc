@@ -8,16 +8,34 @@
 #include <cstdint>
 #include <exception>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "sim/plugin/attributes.h"
-#include "sim/plugin/check_actuator.h"
 #include "sim/plugin/friction_instance.h"
+#include "sim/plugin/friction_reports.h"
 #include "sim/plugin/plugin_instances.h"
-#include "sim/plugin/refused_data.h"
 
 namespace warmjoint::inline sim {
 namespace {
+
+// Read from 4.0's source; of a later engine read how its mj_makeData frees data after a plugin's -1.
+static_assert(mjVERSION_HEADER / 1000 == 4000, "RefuseData frees data as the engine 4.0 does");
+
+/// Refuses data from within a plugin's init. The data is freed as the engine frees it after a -1, with
+/// what the instances before have made for it, which the engine leaves, and the refusal is given once,
+/// as an error; that leaves by longjmp, so that no caller may have anything left to do.
+void RefuseData(const mjModel* m, mjData* d, int instance, const char* refusal) {
+  // what earlier instances hold of the data, then the data as the engine made it
+  for (int before = 0; before < instance; ++before) {
+    const mjpPlugin* plugin = mjp_getPluginAtSlot(m->plugin[before]);
+    if (plugin->destroy) plugin->destroy(d, before);
+  }
+  mju_free(d->buffer);
+  mju_free(d->arena);
+  mju_free(d);
+  mju_error("%s: %s", kFrictionPlugin, refusal);
+}
 
 /// Of a refusal, characters; the engine cuts errors off before that.
 constexpr size_t kMostRefusal = 900;
@@ -49,7 +67,8 @@ int Init(const mjModel* m, mjData* d, int instance) {
   static thread_local std::array<char, kMostRefusal> refusal;
   refusal.fill(0);
   MakeInstance(m, d, instance, refusal);
-  return refusal[0] == 0 ? 0 : RefuseData(m, d, instance, refusal.data());
+  if (refusal[0] != 0) RefuseData(m, d, instance, refusal.data());
+  return 0;
 }
 
 /// Reads the attributes and counts the numbers of plugin_state; what they refuse goes to `refusal`.
@@ -96,7 +115,7 @@ void Compute(const mjModel* m, mjData* d, int instance, int capability) {
 }
 
 int SensorNumbers(const mjModel* m, int instance, int) {
-  // a refusal is told by States; until then one joint's numbers
+  // States refuses what is wrong; until then one joint's numbers
   try {
     return SensorSize(m, instance);
   } catch (const std::exception&) {
@@ -122,10 +141,7 @@ void Destroy(mjData* d, int instance) {
 
 mjpPlugin MakePlugin() {
   static std::vector<const char*> names;
-  for (const PluginAttribute& attribute : PluginAttributes()) {
-    names.push_back(attribute.name.c_str());
-  }
-
+  for (const std::string& name : AttributeNames()) names.push_back(name.c_str());
   mjpPlugin plugin;
   mjp_defaultPlugin(&plugin);
   plugin.name = kFrictionPlugin;
@@ -133,7 +149,7 @@ mjpPlugin MakePlugin() {
   plugin.attributes = names.data();
   plugin.capabilityflags = mjPLUGIN_ACTUATOR | mjPLUGIN_PASSIVE | mjPLUGIN_SENSOR;
   // at later stages the engine would work out velocities or forces of all bodies for it; sensors
-  // are told at the first, and written by the step that follows
+  // are called at the first, and written by the step that follows
   plugin.needstage = mjSTAGE_POS;
   plugin.nsensordata = SensorNumbers;
   plugin.nstate = States;

@@ -20,8 +20,7 @@
 
 #include "models/foundation/bad_input.h"
 #include "sim/model/friction_actuator.h"
-#include "sim/model/joint_pattern.h"
-#include "sim/model/mujoco_handles.h"
+#include "sim/model/spec_elements.h"
 #include "sim/plugin/register.h"
 #include "tests/sim/plugin/friction_robots.h"
 

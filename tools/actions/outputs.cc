@@ -1,11 +1,12 @@
 #include "tools/actions/outputs.h"
 
+#include <warmjoint/simulation.h>
+
 #include <algorithm>
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "models/recording/read_recording.h"
-#include "sim/truth/truth_json.h"
 
 namespace warmjoint::inline tools {
 namespace fs = std::filesystem;

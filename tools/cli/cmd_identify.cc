@@ -1,6 +1,5 @@
 // warmjoint identify RECORDING: friction from a log.
 #include <fmt/format.h>
-#include <warmjoint/attach.h>
 
 #include <algorithm>
 #include <memory>
@@ -10,6 +9,7 @@
 #include "identification/estimate.h"
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/parse_number.h"
+#include "sim/model/friction_sections.h"
 #include "tools/actions/identify_by_command.h"
 #include "tools/actions/identify_recording.h"
 #include "tools/actions/outputs.h"

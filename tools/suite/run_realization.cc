@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <warmjoint/prepared_log.h>
+#include <warmjoint/simulation.h>
 
 #include <chrono>
 #include <cmath>
@@ -10,7 +11,6 @@
 #include "models/foundation/output_failed.h"
 #include "models/foundation/robust_noise.h"
 #include "models/recording/read_recording.h"
-#include "sim/truth/truth_json.h"
 #include "tools/suite/start_key.h"
 #include "tools/suite/trace_table.h"
 

@@ -1,8 +1,6 @@
 // Attributes of the plugin: one name=value a line.
 #include "sim/plugin/attributes.h"
 
-#include <map>
-
 #include "models/friction/check_friction.h"
 #include "tests/fuzz/fuzz.h"
 
@@ -11,7 +9,7 @@ namespace {
 using namespace warmjoint;
 
 void Read(std::string_view bytes) {
-  std::map<std::string, std::string> given;
+  AttributeTexts given;
   while (!bytes.empty()) {
     const std::string_view line = fuzz::TakeLine(bytes);
     const std::size_t equals = line.find('=');
@@ -19,17 +17,12 @@ void Read(std::string_view bytes) {
     // files of the machine are not for fuzzing
     const std::string name(line.substr(0, equals));
     if (name == "file" || name == "folder") continue;
-    given[name] = line.substr(equals + 1);
+    if (equals + 1 < line.size()) given[name] = line.substr(equals + 1);
   }
-  const AttributeReader read = [&](const std::string& name) {
-    const auto found = given.find(name);
-    return found == given.end() ? std::string() : found->second;
-  };
   const Place place{"fuzz"};
-  const FrictionOfJoints joints = ReadAttributes(read, place);
+  const DescribedJoints joints = DescribeJoints(given, place);
   fuzz::Require(!joints.empty());
-  for (const auto& [joint, friction] : joints) CheckFriction(friction, place);
-  ReadInitialEnergy(read, joints, place);
+  for (const auto& [name, joint] : joints) CheckFriction(joint.friction, place);
 }
 
 }  // namespace

@@ -1,27 +1,29 @@
 // Truth files as JSON, and as they are written again.
+#include <warmjoint/simulation.h>
+
 #include <nlohmann/json.hpp>
 
-#include "models/foundation/read_json.h"
-#include "sim/truth/truth_json.h"
+#include "models/foundation/serialize.h"
+#include "models/friction/friction_json.h"
 #include "tests/fuzz/fuzz.h"
 
 namespace {
 
 using namespace warmjoint;
 
-Truth Parsed(const std::string& text) { return TruthFrom(ParseJsonNode(text, "truth.json")); }
+Truth Parsed(const std::string& text) { return ReadAs<Truth>(ParseJsonNode(text, "truth.json")); }
 
 void Read(std::string_view bytes) {
   const Truth truth = Parsed(std::string(bytes));
   const Eigen::Index n = truth.velocity.size();
   fuzz::Require(truth.force.size() == n && truth.loss.size() == n && truth.energy.size() == n);
-  const std::string written = TruthToTree(truth).dump();
-  fuzz::Require(TruthToTree(Parsed(written)).dump() == written);
+  const std::string written = WriteFields(truth).dump();
+  fuzz::Require(WriteFields(Parsed(written)).dump() == written);
 
   // and from file to file
   const fuzz::ScratchFile file("");
   WriteTruth(truth, file.path());
-  fuzz::Require(TruthToTree(ReadTruth(file.path())).dump() == written);
+  fuzz::Require(WriteFields(ReadTruth(file.path())).dump() == written);
 }
 
 }  // namespace

@@ -6,11 +6,11 @@
 #include <fstream>
 
 #include "models/foundation/atomic_file.h"
-#include "models/foundation/bad_input.h"
 #include "sim/model/load_model.h"
 #include "sim/plugin/friction_instance.h"
 #include "tests/models/recording/temporary_file.h"
 #include "tests/sim/model/light_friction.h"
+#include "tests/sim/refusal.h"
 #include "tests/tools/scratch_directory.h"
 
 namespace warmjoint {
@@ -19,11 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 using test::FrictionJoints;
 using test::LightFriction;
-using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::ThrowsMessage;
 
 constexpr char kTwoJoints[] = R"(<mujoco>
   <option timestep="0.002"/>
@@ -43,36 +40,50 @@ constexpr char kTwoJoints[] = R"(<mujoco>
 </mujoco>
 )";
 
+/// A mesh of four triangles.
+constexpr char kTetrahedron[] =
+    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+
 class Attach : public testing::Test {
  protected:
+  /// Light friction onto joints of a model; what was attached.
+  Attached To(const fs::path& model, const std::vector<std::string>& joints,
+              const AttachOptions& options = {}) const {
+    std::vector<FrictionForJoint> frictions;
+    for (const std::string& joint : joints) frictions.push_back({joint, LightFriction()});
+    return AttachFriction(model, frictions, out_, options);
+  }
+
   const ScratchDirectory folder_;
   const fs::path out_ = folder_.path() / "out.xml";
   const TemporaryFile two_joints_{"two.xml", kTwoJoints};
 };
 
 TEST_F(Attach, PutsFrictionOnTheNamedJointsAlone) {
-  AttachFriction(two_joints_.path(), {{"elbow", LightFriction()}}, out_);
+  To(two_joints_.path(), {"elbow"});
   const LoadedModel result = LoadModel(out_);
   EXPECT_THAT(FrictionJoints(result.model.get()), ElementsAre("elbow"));
   EXPECT_EQ(mj_name2id(result.model.get(), mjOBJ_ACTUATOR, "elbow_friction"), 1);
 }
 
+TEST_F(Attach, TakesPatternsAndKeepsKeyframesWithTheirControls) {
+  EXPECT_THAT(To(two_joints_.path(), {"el.*|sh.*"}).joints, ElementsAre("shoulder", "elbow"));
+  const LoadedModel result = LoadModel(out_);
+  EXPECT_THAT(FrictionJoints(result.model.get()), ElementsAre("shoulder", "elbow"));
+  ASSERT_EQ(result.model->nkey, 1);
+  EXPECT_EQ(result.model->key_ctrl[0], 0.5);
+  EXPECT_EQ(result.model->key_qpos[1], 0.2);
+}
+
 TEST_F(Attach, ReplacesTheFrictionOfTheModelOnThoseJoints) {
-  const Attached attached =
-      AttachFriction(two_joints_.path(), {{"shoulder", LightFriction()}}, out_);
-  EXPECT_THAT(attached.notices, ElementsAre(AllOf(HasSubstr("shoulder"), HasSubstr("damping")),
-                                            HasSubstr("'shoulder' by 0.029 mrad")));
+  const Attached attached = To(two_joints_.path(), {"shoulder"});
+  ASSERT_EQ(attached.notices.size(), 2);
+  test::ExpectNamed(attached.notices[0], {"shoulder", "damping"});
+  test::ExpectNamed(attached.notices[1], {"'shoulder' by 0.029 mrad"});
   const LoadedModel result = LoadModel(out_);
   EXPECT_EQ(result.model->dof_damping[0], 0);
   EXPECT_EQ(result.model->dof_frictionloss[0], 0);
   EXPECT_EQ(result.model->dof_damping[1], 0.2);
-}
-
-TEST_F(Attach, TakesPatternsAndSeveralJointsAtOnce) {
-  const Attached attached =
-      AttachFriction(two_joints_.path(), {{"el.*|sh.*", LightFriction()}}, out_);
-  EXPECT_THAT(attached.joints, ElementsAre("shoulder", "elbow"));
-  EXPECT_THAT(FrictionJoints(LoadModel(out_).model.get()), ElementsAre("shoulder", "elbow"));
 }
 
 TEST_F(Attach, ChangesArmatureIntegratorAndStepWhereAsked) {
@@ -80,7 +91,7 @@ TEST_F(Attach, ChangesArmatureIntegratorAndStepWhereAsked) {
   options.armatures = {{".*", 0.01}, {"elbow", 0.0200000000000001}};
   options.integrator = mjINT_IMPLICITFAST;
   options.timestep = 0.0005;
-  AttachFriction(two_joints_.path(), {{"elbow", LightFriction()}}, out_, options);
+  To(two_joints_.path(), {"elbow"}, options);
   const LoadedModel result = LoadModel(out_);
   EXPECT_EQ(result.model->dof_armature[0], 0.01);
   EXPECT_EQ(result.model->dof_armature[1], 0.0200000000000001);
@@ -97,7 +108,7 @@ TEST_F(Attach, InheritsNothingFromTheActuatorDefaultsOfTheModel) {
   text.insert(text.find("<worldbody>"), defaults);
   text.replace(text.find("<motor"), 6, "<general");
   const TemporaryFile model("defaults.xml", text);
-  AttachFriction(model.path(), {{"elbow", LightFriction()}, {"shoulder", LightFriction()}}, out_);
+  To(model.path(), {"elbow", "shoulder"});
   const LoadedModel result = LoadModel(out_);
   const mjModel* m = result.model.get();
   ASSERT_EQ(m->nactuator, 3);
@@ -117,8 +128,7 @@ TEST_F(Attach, InheritsNothingFromTheActuatorDefaultsOfTheModel) {
 }
 
 TEST_F(Attach, TakesAFileThatIsNamedWithoutItsFolder) {
-  std::ofstream(folder_.path() / "t.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
-                                             "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+  std::ofstream(folder_.path() / "t.obj") << kTetrahedron;
   std::ofstream(folder_.path() / "model.xml") << R"(<mujoco>
     <asset><mesh name="t" file="t.obj"/></asset>
     <worldbody><body><joint name="j"/><geom type="mesh" mesh="t"/></body></worldbody></mujoco>)";
@@ -133,26 +143,16 @@ TEST_F(Attach, WorksOnReplicatedJoints) {
   const TemporaryFile model("replicate.xml", R"(<mujoco><worldbody>
     <replicate count="3" offset="0.5 0 0"><body><joint name="j" axis="0 1 0"/><geom size="0.1"/>
     </body></replicate></worldbody></mujoco>)");
-  const Attached attached = AttachFriction(model.path(), {{"j.*", LightFriction()}}, out_);
+  const Attached attached = To(model.path(), {"j.*"});
   EXPECT_EQ(attached.joints.size(), 3u);
   EXPECT_EQ(FrictionJoints(LoadModel(out_).model.get()), attached.joints);
-}
-
-TEST_F(Attach, RefusesAJointThatSharesAnInstanceAlready) {
-  AttachFriction(two_joints_.path(), {{".*", LightFriction()}}, out_);
-  EXPECT_THAT(
-      [&] {
-        AttachFriction(out_, {{"elbow", LightFriction()}}, folder_.path() / "again.xml");
-      },
-      ThrowsMessage<BadInput>(HasSubstr("'elbow' has friction already, by actuator")));
 }
 
 TEST_F(Attach, LeavesActuatorsControlsAndLimitsAsTheyAreInThePassiveForm) {
   AttachOptions options;
   options.form = FrictionForm::passive;
   options.integrator = mjINT_RK4;
-  const Attached attached =
-      AttachFriction(two_joints_.path(), {{".*", LightFriction()}}, out_, options);
+  const Attached attached = To(two_joints_.path(), {".*"}, options);
   EXPECT_THAT(attached.joints, ElementsAre("shoulder", "elbow"));
   const LoadedModel before = LoadModel(two_joints_.path()), after = LoadModel(out_);
   const mjModel *a = before.model.get(), *b = after.model.get();
@@ -174,111 +174,132 @@ TEST_F(Attach, LeavesActuatorsControlsAndLimitsAsTheyAreInThePassiveForm) {
   EXPECT_GT(data->qvel[1], 0.1);
 }
 
-TEST_F(Attach, LetsTheRobotBePutIntoASceneWithAPrefix) {
+TEST_F(Attach, LetsTheRobotMoveInASceneUnderAPrefixAsAlone) {
   for (const FrictionForm form : {FrictionForm::actuator, FrictionForm::passive}) {
     AttachOptions options;
     options.form = form;
-    AttachFriction(two_joints_.path(), {{".*", LightFriction()}}, out_, options);
+    To(two_joints_.path(), {".*"}, options);
     const fs::path scene = folder_.path() / "scene.xml";
-    WriteWholeFile(scene, R"(<mujoco><asset><model name="arm" file="out.xml"/></asset><worldbody>
+    WriteWholeFile(scene, R"(<mujoco><option timestep="0.002"/>
+      <asset><model name="arm" file="out.xml"/></asset><worldbody>
       <frame><attach model="arm" body="upper_arm" prefix="left/"/></frame>
       <frame pos="0 1 0"><attach model="arm" body="upper_arm" prefix="right/"/></frame>
+      <body pos="0 3 0"><joint name="shoulder" axis="0 1 0"/><geom size="0.1"/>
+      <body><joint name="elbow" axis="0 1 0"/><geom pos="0.2 0 0" size="0.1"/></body></body>
       </worldbody></mujoco>)");
-    const LoadedModel loaded = LoadModel(scene);
-    EXPECT_EQ(loaded.model->nplugin, 2);
-    EXPECT_GE(mj_name2id(loaded.model.get(), mjOBJ_JOINT, "right/elbow"), 0);
-    const DataPtr data(mj_makeData(loaded.model.get()));
-    EXPECT_TRUE(data);
+    // joints of the scene's own, which have the robot's names, are not meant
+    const LoadedModel alone = LoadModel(out_), two = LoadModel(scene);
+    ASSERT_EQ(two.model->nplugin, 2);
+    EXPECT_GE(mj_name2id(two.model.get(), mjOBJ_JOINT, "right/elbow"), 0);
+    const DataPtr a(mj_makeData(alone.model.get())), b(mj_makeData(two.model.get()));
+    for (int i = 0; i < 200; ++i) {
+      mj_step(alone.model.get(), a.get());
+      mj_step(two.model.get(), b.get());
+    }
+    const int nq = static_cast<int>(alone.model->nq);
+    for (int k = 0; k < 2; ++k) {
+      EXPECT_NEAR(b->qpos[k], a->qpos[k], 1e-12);
+      EXPECT_NEAR(b->qpos[nq + k], a->qpos[k], 1e-12);
+    }
   }
-}
-
-TEST_F(Attach, RefusesAPassiveFrictionBesideAnotherOne) {
-  AttachOptions options;
-  options.form = FrictionForm::passive;
-  AttachFriction(two_joints_.path(), {{"elbow", LightFriction()}}, out_, options);
-  for (const FrictionForm form : {FrictionForm::passive, FrictionForm::actuator}) {
-    options.form = form;
-    EXPECT_THAT(
-        [&] {
-          AttachFriction(out_, {{"elbow", LightFriction()}}, folder_.path() / "again.xml", options);
-        },
-        ThrowsMessage<BadInput>(
-            HasSubstr("'elbow' has friction already, by plugin instance 'friction'")));
-  }
-}
-
-TEST_F(Attach, KeepsKeyframesWithTheirControls) {
-  AttachFriction(two_joints_.path(), {{"elbow", LightFriction()}, {"shoulder", LightFriction()}},
-                 out_);
-  const LoadedModel result = LoadModel(out_);
-  ASSERT_EQ(result.model->nkey, 1);
-  EXPECT_EQ(result.model->key_ctrl[0], 0.5);
-  EXPECT_EQ(result.model->key_qpos[1], 0.2);
 }
 
 TEST_F(Attach, FindsMeshesInTheFolderOfTheOriginal) {
   const fs::path source = folder_.path() / "source" / "assets";
   fs::create_directories(source);
-  std::ofstream(source / "t.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
-                                     "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+  std::ofstream(source / "t.obj") << kTetrahedron;
   const fs::path model = folder_.path() / "source" / "model.xml";
   std::ofstream(model) << R"(<mujoco><compiler meshdir="assets"/>
     <asset><mesh name="t" file="t.obj"/></asset>
     <worldbody><body><joint name="j"/><geom type="mesh" mesh="t"/></body></worldbody></mujoco>)";
-  AttachFriction(model, {{"j", LightFriction()}}, out_);
+  To(model, {"j"});
   EXPECT_EQ(LoadModel(out_).model->nmesh, 1);
   EXPECT_THAT(ReadWholeFile(out_), HasSubstr("meshdir=\"source/assets"));
-}
-
-TEST_F(Attach, RefusesAnUnknownJointWithTheNearestAndWritesNothing) {
-  EXPECT_THAT(
-      [&] {
-        AttachFriction(two_joints_.path(), {{"elbwo", LightFriction()}}, out_);
-      },
-      ThrowsMessage<BadInput>(AllOf(HasSubstr(two_joints_.path()),
-                                    HasSubstr("no joint 'elbwo'; did you mean 'elbow'"))));
-  EXPECT_TRUE(fs::is_empty(folder_.path()));
-}
-
-TEST_F(Attach, RefusesABallJointAndASecondFriction) {
-  EXPECT_THAT(
-      [&] {
-        AttachFriction(two_joints_.path(), {{"wrist", LightFriction()}}, out_);
-      },
-      ThrowsMessage<BadInput>(HasSubstr("'wrist' is neither hinge nor slide")));
-  EXPECT_THAT(
-      [&] {
-        AttachFriction(two_joints_.path(), {{"elbow", LightFriction()}, {"elbow", LightFriction()}},
-                       out_);
-      },
-      ThrowsMessage<BadInput>(
-          HasSubstr("'elbow' is given friction twice, by 'elbow' and by 'elbow'")));
-  AttachFriction(two_joints_.path(), {{"elbow", LightFriction()}}, out_);
-  EXPECT_THAT(
-      [&] {
-        AttachFriction(out_, {{"elbow", LightFriction()}}, folder_.path() / "again.xml");
-      },
-      ThrowsMessage<BadInput>(HasSubstr("by actuator 'elbow_friction'")));
-}
-
-TEST_F(Attach, RefusesWhatThePluginRefusesAndWritesNothing) {
-  Friction steep = LightFriction();
-  steep.law = "viscous_coulomb";
-  steep.parameters = {{"viscous", 1e4}, {"coulomb", 1}};
-  EXPECT_THAT(
-      [&] {
-        AttachFriction(two_joints_.path(), {{"elbow", steep}}, out_);
-      },
-      ThrowsMessage<BadInput>(AllOf(HasSubstr(two_joints_.path()), HasSubstr("armature"))));
-  EXPECT_TRUE(fs::is_empty(folder_.path()));
 }
 
 TEST_F(Attach, EscapesNames) {
   const TemporaryFile file("odd.xml",
                            "<mujoco><worldbody><body><joint name='a&amp;&lt;&quot;b'/>"
                            "<geom size='0.1'/></body></worldbody></mujoco>");
-  AttachFriction(file.path(), {{"a&<\"b", LightFriction()}}, out_);
+  To(file.path(), {"a&<\"b"});
   EXPECT_THAT(FrictionJoints(LoadModel(out_).model.get()), ElementsAre("a&<\"b"));
+}
+
+TEST_F(Attach, RefusesAJointThatCannotCarryFrictionAndWritesNothing) {
+  Friction steep = LightFriction();
+  steep.law = "viscous_coulomb";
+  steep.parameters = {{"viscous", 1e4}, {"coulomb", 1}};
+  const Friction light = LightFriction();
+  const struct {
+    std::vector<FrictionForJoint> frictions;
+    std::vector<std::string> names;
+  } cases[] = {
+      {{{"elbwo", light}}, {"'elbwo'", "did you mean 'elbow'"}},
+      {{{"wrist", light}}, {"'wrist'", "neither hinge nor slide"}},
+      {{{"elbow", light}, {"el.*", light}}, {"'elbow'", "twice", "by 'elbow' and by 'el.*'"}},
+      {{{"elbow", steep}}, {"--armature elbow=", "--timestep"}},
+  };
+  for (const auto& [frictions, names] : cases) {
+    const std::string refusal =
+        test::RefusalOf([&] { AttachFriction(two_joints_.path(), frictions, out_); });
+    test::ExpectNamed(refusal, names);
+    test::ExpectNamed(refusal, {two_joints_.path()});
+    EXPECT_TRUE(fs::is_empty(folder_.path()));
+  }
+}
+
+TEST_F(Attach, RefusesASecondFrictionByTheFirst) {
+  const struct {
+    std::vector<std::string> first;
+    FrictionForm form;
+    std::string name;
+  } cases[] = {{{"elbow"}, FrictionForm::actuator, "actuator 'elbow_friction'"},
+               {{".*"}, FrictionForm::actuator, "actuator 'elbow_friction'"},
+               {{"elbow"}, FrictionForm::passive, "plugin instance 'friction'"}};
+  for (const auto& [first, form, name] : cases) {
+    AttachOptions options;
+    options.form = form;
+    To(two_joints_.path(), first, options);
+    for (const FrictionForm second : {FrictionForm::passive, FrictionForm::actuator}) {
+      options.form = second;
+      const auto again = [&] {
+        AttachFriction(out_, {{"elbow", LightFriction()}}, folder_.path() / "again.xml", options);
+      };
+      test::ExpectNamed(test::RefusalOf(again), {"'elbow' has friction already", name});
+    }
+  }
+}
+
+/// Effort limits of a joint `j` of -4 to 3 N.m, which would clip a friction that is an actuator, too.
+TEST_F(Attach, GivesEffortLimitsToTheActuatorsThatDriveTheJoint) {
+  const struct {
+    std::string actuators;
+    std::vector<double> ranges;       // of the actuators' forces, two of each; 0: none
+    std::vector<std::string> notice;  // names
+  } cases[] = {
+      {R"(<motor joint="j" forcerange="-2 9"/>)", {-2, 3}, {"j: "}},
+      {R"(<motor joint="j" gear="-2"/>)", {-1.5, 2}, {"j: "}},
+      {R"(<position joint="j"/><velocity joint="j"/><motor joint="free"/>)",
+       {-4, 3, -4, 3, 0, 0},
+       {"j: ", "sum"}},
+      {"", {}, {"j (-4 to 3)", "forcerange"}},
+  };
+  for (const auto& [actuators, ranges, notice] : cases) {
+    const TemporaryFile model("limited.xml", R"(<mujoco><worldbody><body>
+      <joint name="j" axis="0 1 0" actuatorfrcrange="-4 3"/><geom size="0.1"/>
+      <body><joint name="free"/><geom size="0.1"/></body></body></worldbody><actuator>)" +
+                                                 actuators + "</actuator></mujoco>");
+    test::ExpectNamed(To(model.path(), {"j"}).notices.front(), notice);
+    const LoadedModel result = LoadModel(out_);
+    const mjModel* m = result.model.get();
+    EXPECT_FALSE(m->jnt_actfrclimited[0]);
+    EXPECT_EQ(m->nactuator, static_cast<int>(ranges.size() / 2) + 1);
+    for (size_t i = 0; i < ranges.size(); ++i) EXPECT_EQ(m->actuator_forcerange[i], ranges[i]);
+
+    // of a joint without limit they stay
+    EXPECT_EQ(To(model.path(), {"free"}).notices.size(), 1);
+    EXPECT_TRUE(LoadModel(out_).model->jnt_actfrclimited[0]);
+  }
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ class AttachToRobot : public testing::TestWithParam<RobotFile> {
   }
 };
 
-TEST_P(AttachToRobot, EveryJointCarriesFrictionAndTheRobotRuns) {
+TEST_P(AttachToRobot, EveryJointCarriesFrictionAndTheRestStays) {
   const LoadedModel before = LoadModel(robot_);
   AttachFriction(robot_, EveryJoint(before.model.get()), out_);
   const LoadedModel after = LoadModel(out_);
@@ -74,13 +74,9 @@ TEST_P(AttachToRobot, EveryJointCarriesFrictionAndTheRobotRuns) {
   double warmest = 0;
   for (int i = 0; i < m->na; ++i) warmest = std::max(warmest, std::abs(data->act[i]));
   EXPECT_GT(warmest, 0);
-}
 
-TEST_P(AttachToRobot, TheRestOfTheModelStays) {
-  const LoadedModel before = LoadModel(robot_);
-  AttachFriction(robot_, EveryJoint(before.model.get()), out_);
-  const LoadedModel after = LoadModel(out_);
-  const mjModel *a = before.model.get(), *b = after.model.get();
+  // the rest of the model stays
+  const mjModel *a = before.model.get(), *b = m;
   ASSERT_EQ(a->nbody, b->nbody);
   ASSERT_EQ(a->nv, b->nv);
   EXPECT_EQ(a->ngeom, b->ngeom);

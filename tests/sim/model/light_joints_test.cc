@@ -8,6 +8,7 @@
 #include <regex>
 
 #include "models/foundation/atomic_file.h"
+#include "tests/sim/refusal.h"
 #include "tests/tools/scratch_directory.h"
 
 namespace warmjoint {
@@ -36,13 +37,10 @@ class LightJoints : public testing::TestWithParam<Case> {
   }
 
   std::string Refusal(const AttachOptions& options) const {
-    try {
+    return test::RefusalOf([&] {
       AttachFriction(folder_.path() / "arm.xml", {{".*", GetParam().friction}},
                      folder_.path() / "out.xml", options);
-    } catch (const BadInput& refused) {
-      return refused.what();
-    }
-    return "";
+    });
   }
 
   const ScratchDirectory folder_;

@@ -1,11 +1,11 @@
-#include "sim/plant/ideal_plant.h"
-
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
-#include "models/foundation/bad_input.h"
+#include "sim/plant/plant.h"
+#include "tests/sim/refusal.h"
+#include "tests/support/golden.h"
 #include "tests/support/table1.h"
 
 namespace warmjoint {
@@ -17,32 +17,23 @@ Simulation Simulate(const Scenario& scenario, std::uint64_t realization = 0) {
   return MakePlant(scenario)->Run(realization);
 }
 
-TEST(IdealPlant, StoresOneSampleForEachPeriod) {
+TEST(IdealPlant, LogsThePlanOneSampleForEachPeriod) {
   const Simulation recording = Simulate(Table1());
   const Measurements& log = recording.measurements;
   ASSERT_EQ(log.size(), 3600);
-  EXPECT_EQ(log.time[0], 0);
-  EXPECT_EQ(log.time[3599], 3599);
   EXPECT_EQ(log.torque_unit, "N.m");
   EXPECT_EQ(log.velocity, recording.truth.velocity);
   EXPECT_EQ(recording.truth.torque_noise, 0.5);
   EXPECT_EQ(recording.truth.plant, "ideal");
-}
-
-TEST(IdealPlant, HoldsEachSpeedForItsTime) {
-  const Measurements log = Simulate(Table1()).measurements;
+  EXPECT_EQ(log.position[0], 0);
   for (Eigen::Index i = 0; i < log.size(); ++i) {
+    EXPECT_EQ(log.time[i], i);
+    // each speed for 20 s, to and fro; positions of tens of radians round at 1e-14
     EXPECT_EQ(log.velocity[i], log.velocity[i / 20 * 20]) << "sample " << i;
     EXPECT_EQ(log.velocity[i] > 0, i / 20 % 2 == 0);
-  }
-}
-
-TEST(IdealPlant, LogsThePositionThatTheVelocityLeadsTo) {
-  const Measurements log = Simulate(Table1()).measurements;
-  EXPECT_EQ(log.position[0], 0);
-  for (Eigen::Index i = 1; i < log.size(); ++i) {
-    // positions of tens of radians round at 1e-14
-    EXPECT_NEAR(log.position[i] - log.position[i - 1], log.velocity[i - 1], 1e-12);
+    const Eigen::Index before = std::max<Eigen::Index>(i - 1, 0);
+    const double way = i > 0 ? log.velocity[before] : 0;
+    EXPECT_NEAR(log.position[i] - log.position[before], way, 1e-12);
   }
 }
 
@@ -99,12 +90,6 @@ TEST(IdealPlant, DrawsTheNoisesIndependently) {
   EXPECT_NEAR(velocity.square().mean(), 1, 5 * std::sqrt(2.0 / 3600));
 }
 
-TEST(IdealPlant, KeepsTheMotionWhenTheNoiseChanges) {
-  Scenario loud = Table1();
-  loud.noise.torque = 5;
-  EXPECT_EQ(Simulate(loud).truth.force, Simulate(Table1()).truth.force);
-}
-
 TEST(IdealPlant, RepeatsItsBitsForTheSameSeedAndRealizationOnly) {
   const auto plant = MakePlant(Table1());
   const Eigen::VectorXd third = plant->Run(3).measurements.torque;
@@ -113,6 +98,11 @@ TEST(IdealPlant, RepeatsItsBitsForTheSameSeedAndRealizationOnly) {
   Scenario other = Table1();
   other.seed = 2;
   EXPECT_NE(Simulate(other, 3).measurements.torque, third);
+
+  // and the motion whatever the noise
+  Scenario loud = Table1();
+  loud.noise.torque = 5;
+  EXPECT_EQ(Simulate(loud).truth.force, Simulate(Table1()).truth.force);
 }
 
 TEST(IdealPlant, DrawsATruthForEachRealization) {
@@ -127,16 +117,8 @@ TEST(IdealPlant, RefusesJointLimitsItDoesNotKnow) {
   Scenario scenario = Table1();
   scenario.motion.hold = 0;
   scenario.motion.travel_between_joint_limits = true;
-  EXPECT_THROW(
-      {
-        try {
-          MakePlant(scenario);
-        } catch (const BadInput& error) {
-          EXPECT_THAT(error.what(), testing::HasSubstr("the ideal plant has no robot"));
-          throw;
-        }
-      },
-      BadInput);
+  test::ExpectNamed(test::RefusalOf([&] { MakePlant(scenario); }),
+                    {scenario.name + ": ", "ideal", "limits"});
 }
 
 TEST(IdealPlant, FollowsCornersWithInertia) {
@@ -181,6 +163,28 @@ TEST(IdealPlant, ChangesSpeedsByRamps) {
   const Simulation jumping = MakePlant(scenario)->Run(0);
   for (Eigen::Index i = 0; i < m.size(); i += 200) {
     EXPECT_NEAR(m.velocity[i], jumping.measurements.velocity[i], 1e-9);
+  }
+}
+
+// recordings that the project did not make
+TEST(IdealPlant, LogsTheGoldenRecordingOfEveryLawThatSlidesSteadily) {
+  for (const char* name : {"coulomb", "viscous_coulomb", "asymmetric", "stiction", "stribeck",
+                           "asymmetric_stribeck"}) {
+    const test::GoldenMotion golden = test::ReadGoldenMotion(name);
+    const nlohmann::json plan = test::ReadGolden(name);
+    Scenario scenario = test::Table1();
+    scenario.friction = golden.friction;
+    scenario.motion.speed_draws.reset();
+    scenario.motion.speed_list = plan.at("speeds").get<std::vector<double>>();
+    scenario.motion.hold = plan.at("hold");
+    scenario.noise.torque = 0;
+    scenario.sampling.rate = 1 / golden.course.step;
+    scenario.duration = golden.course.step * static_cast<double>(golden.force.size());
+    const Simulation recording = MakePlant(scenario)->Run(0);
+    EXPECT_EQ(recording.measurements.velocity, golden.course.velocity) << name;
+    // the same equations: rounding of 600 steps at 20 N.m
+    EXPECT_LT((recording.measurements.torque - golden.force).cwiseAbs().maxCoeff(), 2e-12) << name;
+    EXPECT_LT((recording.truth.energy - golden.energy).cwiseAbs().maxCoeff(), 2e-12) << name;
   }
 }
 

@@ -1,19 +1,18 @@
-#include "sim/plant/mujoco_plant.h"
-
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
+#include <string>
 
 #include "models/foundation/atomic_file.h"
 #include "models/foundation/bad_input.h"
 #include "models/friction/thermal.h"
+#include "sim/plant/plant.h"
+#include "sim/plant/single_joint_model.h"
+#include "tests/sim/refusal.h"
 
 namespace warmjoint {
 namespace {
-
-using ::testing::AllOf;
-using ::testing::HasSubstr;
-using ::testing::ThrowsMessage;
 
 /// Table I in the engine: 20 s holds at speeds from 0.1 to 1 rad/s, stored at 1 Hz; 200 s.
 Scenario Table1() {
@@ -165,42 +164,70 @@ TEST(MujocoPlant, FollowsTableOneAndRests) {
   EXPECT_EQ(Record(scenario).following.share, 1) << "no speed is asked for";
 }
 
-template <typename Edit>
-void ExpectRefusal(const Edit& edit, const std::string& message) {
-  Scenario scenario = Table1();
-  edit(scenario);
-  EXPECT_THAT([&] { Record(scenario); },
-              ThrowsMessage<BadInput>(AllOf(HasSubstr("table1-mujoco"), HasSubstr(message))));
+TEST(MujocoPlant, RefusesWhatCannotBeByScenarioAndKey) {
+  const std::string broken = testing::TempDir() + "/broken_robot.xml";
+  WriteWholeFile(broken, "<mujoco><worldbody><bod/></worldbody></mujoco>");
+  const struct {
+    std::function<void(Scenario&)> edit;
+    std::vector<std::string> names;
+  } cases[] = {
+      {[](Scenario& s) { s.joint = "hing"; }, {"table1-mujoco", "'hing'", "did you mean 'hinge'"}},
+      {[](Scenario& s) { s.robot = "rotory"; }, {"table1-mujoco", "'rotory'", "did you mean"}},
+      {[&](Scenario& s) { s.robot = broken; }, {broken}},
+      {[](Scenario& s) { s.sampling.rate = 30; }, {"table1-mujoco", "sampling.rate", "0.002"}},
+      {[](Scenario& s) { s.controller.bandwidth = 1000; },
+       {"table1-mujoco", "controller.bandwidth is 1000", "at most 100"}},
+      {[](Scenario& s) { s.friction.parameters.clear(); }, {"table1-mujoco", "parameter viscous"}},
+      {[](Scenario& s) { s.friction.parameters["viscous"] = 5000; },
+       {"table1-mujoco", "hinge_friction", "armature of"}},
+      {[](Scenario& s) {
+         s.motion.speed_draws = Distribution{Distribution::Kind::fixed, 1};
+         s.motion.hold = s.duration = 2000;
+       },
+       {"table1-mujoco", "'hinge'", "limits"}},
+  };
+  for (const auto& [edit, names] : cases) {
+    Scenario scenario = Table1();
+    edit(scenario);
+    test::ExpectNamed(test::RefusalOf([&] { Record(scenario); }), names);
+  }
 }
 
-TEST(MujocoPlant, RefusesWhatCannotBe) {
-  ExpectRefusal([](Scenario& s) { s.joint = "hing"; }, "no joint 'hing'; did you mean 'hinge'");
-  ExpectRefusal([](Scenario& s) { s.robot = "rotory"; }, "no robot 'rotory'; did you mean");
-  ExpectRefusal([](Scenario& s) { s.sampling.rate = 30; }, "whole number of timesteps");
-  ExpectRefusal([](Scenario& s) { s.controller.bandwidth = 1000; }, "bandwidth is 1000 rad/s");
-  ExpectRefusal([](Scenario& s) { s.friction.parameters.clear(); }, "lacks its parameter");
-  ExpectRefusal(
-      [](Scenario& s) {
-        s.motion.speed_draws = Distribution{Distribution::Kind::fixed, 1};
-        s.motion.hold = s.duration = 2000;
-      },
-      "beyond its limits");
+/// A motion that reaches `farthest`, rad: any room up to there is too small, and any beyond it does.
+template <typename Motion>
+void ExpectFarthest(const Motion& motion, double duration, double start, double farthest) {
+  Scenario scenario;
+  scenario.name = "reach";
+  scenario.joint = "hinge";
+  scenario.duration = duration;
+  const auto check = [&](double limit) { CheckReach({scenario, {-10, limit}}, motion, start); };
+  EXPECT_NO_THROW(check(farthest));
+  EXPECT_NO_THROW(check(farthest + 1e-3));
+  test::ExpectNamed(test::RefusalOf([&] { check(farthest - 1e-3); }), {"reach: ", "'hinge'"});
 }
 
-TEST(MujocoPlant, RefusesAFileThatDoesNotLoad) {
-  Scenario scenario = Table1();
-  scenario.robot = testing::TempDir() + "/broken_robot.xml";
-  WriteWholeFile(scenario.robot, "<mujoco><worldbody><bod/></worldbody></mujoco>");
-  EXPECT_THAT(
-      [&] { Record(scenario); },
-      ThrowsMessage<BadInput>(AllOf(HasSubstr(scenario.robot), HasSubstr("cannot read it"))));
+using Pieces = std::vector<MotionSegment>;
+using Corners = std::vector<VelocityCorner>;
+
+TEST(MotionReach, PiecesAddUp) {
+  ExpectFarthest(Pieces{{2, 0.5}, {1, -1}, {1, 0.25}}, 4, 0.5, 1.5);
+  ExpectFarthest(Pieces{{1, -0.5}, {3, 0.5}}, 4, 0, 1);
 }
 
-TEST(MujocoPlant, RefusesFrictionThatThePluginRefuses) {
-  Scenario scenario = Table1();
-  scenario.friction.parameters["viscous"] = 5000;
-  EXPECT_THAT([&] { Record(scenario); }, ThrowsMessage<BadInput>(AllOf(HasSubstr("hinge_friction"),
-                                                                       HasSubstr("armature of"))));
+TEST(MotionReach, ARampThatReversesIsFarthestWhereItTurns) {
+  // from 1 rad/s to -3 rad/s in 4 s: it turns after 1 s, half a radian ahead
+  ExpectFarthest(Corners{{0, 1}, {4, -3}, {5, -3}}, 5, 0, 0.5);
+  // and one that only slows down, at its end
+  ExpectFarthest(Corners{{0, 1}, {2, 0}, {4, 0}}, 4, 0.25, 1.25);
+}
+
+TEST(MotionReach, OnlyTheWayUntilTheEndCounts) {
+  // a hold that would go on
+  ExpectFarthest(Corners{{0, 0.5}, {10, 0.5}}, 3, 0, 1.5);
+  // a ramp that would go on: 0.25 t^2 of it
+  ExpectFarthest(Corners{{0, 0}, {4, 2}}, 2, 0, 1);
+  // a speed that stays behind the last corner
+  ExpectFarthest(Corners{{0, 0}, {2, 1}}, 5, 0, 4);
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
 // Friction with maps, load and heat of two stages, in both plants.
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "models/foundation/bad_input.h"
 #include "models/friction/joint_friction.h"
 #include "scenarios/read_scenario.h"
 #include "sim/plant/plant.h"
+#include "tests/sim/refusal.h"
 
 namespace warmjoint {
 namespace {
@@ -102,20 +102,13 @@ TEST(RichFriction, WarmsInTheEngineByTheLossOfEveryStep) {
   EXPECT_LT(truth.energy.minCoeff(), -1) << "should be warm";
 }
 
-TEST(RichFriction, RefusesAnAmbientTemperatureThatChangesNothing) {
-  Scenario scenario = Rich("ideal");
-  EXPECT_THAT(
-      [&] {
-        WithSettings(scenario, {{"friction.level_per_temperature", "0"}});
-      },
-      testing::ThrowsMessage<BadInput>(testing::HasSubstr("ambient_temperature changes nothing")));
-}
-
-TEST(RichFriction, RefusesToPushInTheEngineToo) {
+TEST(RichFriction, RefusesAnAmbientThatChangesNothingAndToPushInTheEngineToo) {
   Scenario scenario = Rich("mujoco");
+  const auto set = [&] { WithSettings(scenario, {{"friction.level_per_temperature", "0"}}); };
+  test::ExpectNamed(test::RefusalOf(set), {"ambient_temperature"});
   scenario.initial_energy = -30;
-  EXPECT_THAT([&] { MakePlant(scenario)->Run(0); },
-              testing::ThrowsMessage<BadInput>(testing::HasSubstr("friction feeds itself")));
+  test::ExpectNamed(test::RefusalOf([&] { MakePlant(scenario)->Run(0); }),
+                    {"rich: ", "feeds itself", "thermal gain"});
 }
 
 }  // namespace

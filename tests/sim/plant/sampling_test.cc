@@ -33,18 +33,12 @@ double MeanSquaredGain(double cutoff, double rate) {
   return sum / points;
 }
 
-TEST(Sampling, StoresEveryReadingAsItIsAtTheSensorRate) {
-  const auto samples = Log({10, 10, 0}, 0, 5, [](double t) { return std::exp(t); });
-  for (int k = 0; k < 5; ++k) EXPECT_EQ(samples[k], std::exp(k / 10.0));
-}
-
-TEST(Sampling, StoresEveryFifthReading) {
+TEST(Sampling, StoresReadingsOrTheLineBetweenTwo) {
+  const auto every = Log({10, 10, 0}, 0, 5, [](double t) { return std::exp(t); });
+  for (int k = 0; k < 5; ++k) EXPECT_EQ(every[k], std::exp(k / 10.0));
   EXPECT_EQ(SensorReadings({50, 250, 0}, 11), 51);
-  const auto samples = Log({50, 250, 0}, 0, 11, [](double t) { return t * t; });
-  for (int k = 0; k < 11; ++k) EXPECT_NEAR(samples[k], k * k / 2500.0, 1e-15);
-}
-
-TEST(Sampling, LiesOnTheLineBetweenTwoReadings) {
+  const auto fifth = Log({50, 250, 0}, 0, 11, [](double t) { return t * t; });
+  for (int k = 0; k < 11; ++k) EXPECT_NEAR(fifth[k], k * k / 2500.0, 1e-15);
   // 250 Hz stored at 20 Hz: every second sample lies midway between two readings
   EXPECT_EQ(SensorReadings({20, 250, 0}, 2), 14);
   const auto line = Log({20, 250, 0}, 0, 100, [](double t) { return 3 - 2 * t; });

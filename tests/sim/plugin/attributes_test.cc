@@ -1,69 +1,48 @@
+// Models that the plugin refuses: who, which key, which value, which bound; and what it takes.
 #include "sim/plugin/attributes.h"
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
-#include <fstream>
 #include <string>
 #include <vector>
 
 #include "models/foundation/atomic_file.h"
-#include "sim/model/escape_xml.h"
-#include "tests/sim/plugin/friction_models.h"
+#include "tests/sim/plugin/two_forms.h"
+#include "tests/sim/refusal.h"
 #include "tests/support/folders.h"
 
 namespace warmjoint {
 namespace {
 
 using namespace test;
-using ::testing::AllOf;
-using ::testing::HasSubstr;
-
-std::string ErrorOf(const Config& config, const std::string& attributes = "",
-                    const std::string& option = kNoGravity, const std::string& joint = "") {
-  return Compile(LinkXml(FrictionSection(config, {attributes}), option, joint)).error;
-}
 
 const Config kGood{{"law", "viscous_coulomb"}, {"viscous", "5"}, {"coulomb", "15"}};
 
-Config With(const std::string& key, const std::string& value) {
-  Config config = kGood;
-  config[key] = value;
+Config With(const Config& more) {
+  Config config = more;
+  config.insert(kGood.begin(), kGood.end());
   return config;
 }
 
-TEST(PluginAttributes, LoadWhereTheyAreRight) { EXPECT_EQ(ErrorOf(kGood), ""); }
-
-TEST(PluginAttributes, RefuseATextInANumber) {
-  EXPECT_THAT(ErrorOf(With("viscous", "5x")),
-              AllOf(HasSubstr("actuator 'f'"), HasSubstr("viscous is '5x'"), HasSubstr("number")));
-  EXPECT_THAT(ErrorOf(With("coulomb", "nan")), HasSubstr("coulomb is nan; it must be a finite"));
+std::string ErrorOf(const Config& config, const ActuatorExtras& extras = {},
+                    const std::string& joint = "") {
+  Config escaped;
+  for (const auto& [key, value] : config) escaped[key] = EscapeXml(value);
+  return Compile(LinkXml(FrictionSection(escaped, extras), kNoGravity, joint)).error;
 }
 
-TEST(PluginAttributes, RefuseAValueOutOfBounds) {
-  EXPECT_THAT(ErrorOf(With("coulomb", "-3")),
-              AllOf(HasSubstr("actuator 'f'"), HasSubstr("coulomb is -3"), HasSubstr("from 0")));
-  EXPECT_THAT(ErrorOf(With("gear", "0")), HasSubstr("gear is 0"));
-}
+/// An actuator that is refused, and what the refusal names.
+struct Refused {
+  Config config;
+  std::vector<std::string> names;
+  ActuatorExtras extras{};
+};
 
-TEST(PluginAttributes, RefuseNumbersThatSlipped) {
-  EXPECT_THAT(ErrorOf(With("load_gain", "1e9")),
-              AllOf(HasSubstr("actuator 'f'"), HasSubstr("load_gain is 1000000000"),
-                    HasSubstr("from 0 to 100")));
-  Config hot = With("thermal_time_constant", "10");
-  hot["thermal_gain"] = "-1e300";
-  EXPECT_THAT(ErrorOf(hot), AllOf(HasSubstr("actuator 'f'"), HasSubstr("thermal_gain is -1e+300"),
-                                  HasSubstr("from -1000000")));
-}
-
-TEST(PluginAttributes, TellARefusalOnce) {
-  // those of actdim and of the give are found last, when the engine makes its data
-  std::vector<std::string> errors{
-      Compile(LinkXml(FrictionSection(kGood, {.states = 3}), kNoGravity)).error};
-  for (const Config& config : {Config{{"coulomb", "6"}}, With("viscous", "-1"), With("maps", "["),
-                               With("coulomb", "100000")}) {
-    errors.push_back(ErrorOf(config));
-  }
-  for (const std::string& error : errors) {
+void ExpectRefused(const std::vector<Refused>& all) {
+  for (const Refused& refused : all) {
+    const std::string error = ErrorOf(refused.config, refused.extras);
+    ExpectNamed(error, refused.names);
+    // by its actuator, and once
     const std::string start = "warmjoint.friction: actuator 'f': ";
     const size_t first = error.find(start);
     ASSERT_NE(first, std::string::npos) << error;
@@ -71,93 +50,157 @@ TEST(PluginAttributes, TellARefusalOnce) {
   }
 }
 
-TEST(PluginAttributes, RefuseAnActdimBelowOne) {
-  EXPECT_THAT(Compile(LinkXml(FrictionSection(kGood, {.states = -1}), kNoGravity)).error,
-              HasSubstr("actdim is not given, or below 1; it must be 2 (bristle load, energy)"));
+TEST(PluginAttributes, LoadWhereTheyAreRight) { EXPECT_EQ(ErrorOf(kGood), ""); }
+
+TEST(PluginAttributes, RefuseNumbersByKeyValueAndBound) {
+  ExpectRefused({
+      {With({{"viscous", "5x"}}), {"viscous is '5x'", "at least 0"}},
+      {With({{"coulomb", "nan"}}), {"coulomb is 'nan'", "number"}},
+      {With({{"coulomb", "-3"}}), {"coulomb is '-3'", "at least 0"}},
+      {With({{"gear", "0"}}), {"gear is 0"}},
+      {With({{"load_gain", "1e9"}}), {"load_gain is '1e9'", "at most 100"}},
+      {With({{"thermal_gain", "-1e300"}, {"thermal_time_constant", "10"}}),
+       {"thermal_gain is '-1e300'", "at least -1000000"}},
+      {With({{"thermal_gain", "-3"}, {"thermal_time_constant", "0"}}),
+       {"thermal_time_constant is '0'", "above 0"}},
+      {With({{"second_thermal_gain", "-3"}}),
+       {"second_thermal_gain", "second_thermal_time_constant", "both or neither"}},
+  });
 }
 
-TEST(PluginAttributes, RefuseAnUnknownKeyLawOrParameter) {
-  EXPECT_THAT(ErrorOf(With("viscos", "5")), HasSubstr("viscos"));
-  EXPECT_THAT(ErrorOf(With("law", "viscous_coulom")), HasSubstr("did you mean 'viscous_coulomb'"));
-  EXPECT_THAT(ErrorOf(With("coulomb_positive", "5")),
-              HasSubstr("law viscous_coulomb has no parameter 'coulomb_positive'"));
-}
-
-TEST(PluginAttributes, RefuseWhatIsMissing) {
-  EXPECT_THAT(ErrorOf({{"law", "viscous_coulomb"}, {"viscous", "5"}}), HasSubstr("lacks its"));
-  EXPECT_THAT(ErrorOf({{"viscous", "5"}}), HasSubstr("law is missing"));
-  EXPECT_THAT(ErrorOf(With("thermal_gain", "-3")), HasSubstr("give both or neither"));
+TEST(PluginAttributes, RefuseWhatTheLawLacksOrNeeds) {
+  EXPECT_NE(ErrorOf(With({{"viscos", "5"}})).find("viscos"), std::string::npos);
+  ExpectRefused({
+      {{{"law", "viscous_coulom"}}, {"'viscous_coulom'", "did you mean 'viscous_coulomb'"}},
+      {With({{"coulomb_positive", "5"}}), {"law viscous_coulomb", "'coulomb_positive'"}},
+      {{{"law", "viscous_coulomb"}, {"viscous", "5"}}, {"lacks its parameter coulomb"}},
+      {{{"viscous", "5"}}, {"law is missing"}},
+      {{{"coulomb", "3"}, {"law", "coulomb"}, {"maps", "{}"}}, {"maps is a map", "list"}},
+      {{{"coulomb", "3"}, {"law", "coulomb"}, {"maps", R"([{"axes": []}])"}},
+       {"'maps.0.weights' is missing"}},
+  });
 }
 
 TEST(PluginAttributes, ReadAFrictionFileInstead) {
   const std::string path = testing::TempDir() + "/friction_of_attributes_test.json";
   WriteWholeFile(path, R"({"law": "coulomb", "parameters": {"coulomb": 6}})");
   EXPECT_EQ(ErrorOf({{"file", path}}), "");
-  EXPECT_THAT(ErrorOf({{"file", path}, {"law", "coulomb"}}), HasSubstr("beside file"));
-  EXPECT_THAT(ErrorOf({{"file", path + "x"}}), HasSubstr("cannot be read"));
+  ExpectRefused({{{{"file", path}, {"law", "coulomb"}}, {"law is 'coulomb'", "file '/"}},
+                 {{{"file", path + "x"}}, {path + "x", "cannot be read"}},
+                 {{{"file", "lost.json"}}, {"lost.json", "give folder"}}});
 }
 
 TEST(PluginAttributes, HoldTheFrictionOfSeveralJoints) {
-  const auto error = [](const std::string& joints) {
-    return ErrorOf({{"joints", EscapeXml(joints)}});
-  };
-  EXPECT_EQ(error(R"({"hinge": {"law": "coulomb", "parameters": {"coulomb": 6}}})"), "");
-  EXPECT_THAT(error("[]"), HasSubstr("joints must be a JSON object"));
-  EXPECT_THAT(error(R"({"hinge": {"law": "coulomb", "parameters": {"coulomb": -6}}})"),
-              AllOf(HasSubstr("actuator 'f': joints: hinge"), HasSubstr("coulomb is -6")));
-  EXPECT_THAT(error(R"({"hing": {"law": "coulomb", "parameters": {"coulomb": 6}}})"),
-              HasSubstr("joints has no joint 'hinge'; did you mean 'hing'"));
-  EXPECT_THAT(error(R"({"hinge": {"law": "coulomb", "parameters": {"coulomb": 6}},
-                        "elbow": {"law": "coulomb", "parameters": {"coulomb": 6}}})"),
-              HasSubstr("joints names 'elbow', which no actuator"));
-  EXPECT_THAT(ErrorOf({{"joints", "{}"}, {"law", "coulomb"}}), HasSubstr("beside joints"));
-  EXPECT_THAT(error(R"({"hinge": {"law": "coulomb", "parameters": {"coulomb": 6}},
-                        "hinge": {"law": "coulomb", "parameters": {"coulomb": 5}}})"),
-              HasSubstr("joints names 'hinge' twice"));
+  const std::string six = R"({"law": "coulomb", "parameters": {"coulomb": 6}})";
+  const auto joints = [](const std::string& text) { return Config{{"joints", text}}; };
+  EXPECT_EQ(ErrorOf(joints(R"({"hinge": )" + six + "}")), "");
+  ExpectRefused({
+      {joints("[]"), {"joints", "JSON object"}},
+      {joints("x"), {"joints is 'x'", "JSON"}},
+      {joints(R"({"hinge": {"law": "coulomb", "parameters": {"coulomb": -6}}})"),
+       {"joints: hinge", "coulomb is -6"}},
+      {joints(R"({"hing": )" + six + "}"), {"'hinge'", "did you mean 'hing'"}},
+      {joints(R"({"hinge": )" + six + R"(, "elbow": )" + six + "}"), {"joints names 'elbow'"}},
+      {joints(R"({"hinge": )" + six + R"(, "hinge": )" + six + "}"),
+       {"joints names 'hinge' twice"}},
+      {{{"joints", "{}"}, {"law", "coulomb"}}, {"law is 'coulomb'", "joints '{}'"}},
+  });
 }
 
 TEST(PluginActuator, RefusesWhatWouldBreakFriction) {
-  EXPECT_THAT(ErrorOf(kGood, R"(forcerange="-1 1")"), HasSubstr("forcerange"));
-  EXPECT_THAT(ErrorOf(kGood, R"(gear="2")"), HasSubstr("gear is 2"));
-  EXPECT_THAT(ErrorOf(kGood, "", kNoGravity, R"(actuatorfrcrange="-9 9")"),
-              HasSubstr("joint 'hinge' has actuatorfrcrange"));
-}
-
-TEST(PluginActuator, RefusesASecondFrictionOnItsJoint) {
-  const std::string one = FrictionSection(kGood);
-  const std::string two = one + FrictionSection(kGood);
-  const size_t name = two.rfind("name=\"f\"");
-  const std::string named = two.substr(0, name) + "name=\"g\"" + two.substr(name + 8);
-  EXPECT_THAT(Compile(LinkXml(named, kNoGravity)).error,
-              HasSubstr("actuator 'g': joint 'hinge' has friction already, by actuator 'f'"));
-}
-
-TEST(PluginActuator, RefusesAnInertiaTooSmallForTheSlopeAndSaysWhatItNeeds) {
-  // inertia 0.25 kg.m^2, 250 N.m.s/rad at 1 ms needs 0.5 kg.m^2
-  const std::string error = ErrorOf(With("viscous", "250"));
-  EXPECT_THAT(error, AllOf(HasSubstr("actuator 'f'"), HasSubstr("armature of 0.25"),
-                           HasSubstr("timestep of at most 0.0005")));
-  EXPECT_EQ(ErrorOf(With("viscous", "250"), "", kNoGravity, R"(armature="0.253")"), "");
-}
-
-TEST(PluginActuator, RefusesABristleThatTheStepCannotCarry) {
-  Config config{{"law", "dahl"}, {"coulomb", "5"}, {"bristle_stiffness", "1e6"}};
-  // 1e6 N.m/rad at 1 ms needs 1 / 0.9 kg.m^2 of inertia; the link has 0.25
-  EXPECT_THAT(ErrorOf(config), AllOf(HasSubstr("bristle_stiffness is 1000000"),
-                                     HasSubstr("armature of 0.87"), HasSubstr("0.000474 s")));
-  config["bristle_stiffness"] = "1e4";
-  EXPECT_EQ(ErrorOf(config), "");
-}
-
-TEST(PluginActuator, RefusesTheWrongNumberOfStates) {
   const Config stiction{{"law", "stiction"}, {"viscous", "1"}, {"coulomb", "5"}, {"static", "6"}};
-  EXPECT_THAT(ErrorOf(stiction),
-              HasSubstr("actdim is 2; it must be 3 (bristle load, energy, slip)"));
-  EXPECT_THAT(ErrorOf(kGood, R"(actlimited="true" actrange="-1 1")"), HasSubstr("actrange"));
+  ExpectRefused({
+      {kGood, {"forcerange"}, {R"(forcerange="-1 1")"}},
+      {kGood, {"gear is 2"}, {R"(gear="2")"}},
+      {kGood, {"actdim is 3", "2 (bristle load, energy)"}, {.states = 3}},
+      {kGood, {"actdim is not given, or below 1", "2 (bristle load, energy)"}, {.states = -1}},
+      {stiction, {"actdim is 2", "3 (bristle load, energy, slip)"}},
+  });
+  ExpectNamed(ErrorOf(kGood, {}, R"(actuatorfrcrange="-9 9")"),
+              {"actuator 'f'", "joint 'hinge' has actuatorfrcrange"});
+  // by MuJoCo itself
+  ExpectNamed(ErrorOf(kGood, {R"(actlimited="true" actrange="-1 1")"}), {"actrange", "'f'"});
+
+  // a second friction on its joint
+  std::string two = FrictionSection(kGood);
+  const std::string second = two;
+  two.replace(two.find("name=\"f\""), 8, "name=\"g\"");
+  ExpectNamed(Compile(LinkXml(second + two, kNoGravity)).error,
+              {"actuator 'g'", "joint 'hinge' has friction already, by actuator 'f'"});
+}
+
+TEST(PluginActuator, RefusesWhatTheStepCannotCarryWithTheRemedy) {
+  // inertia 0.25 kg.m^2: 250 N.m.s/rad at 1 ms need 0.5 kg.m^2, 1e6 N.m/rad 1 / 0.9 kg.m^2
+  Config dahl{{"law", "dahl"}, {"coulomb", "5"}, {"bristle_stiffness", "1e6"}};
+  ExpectRefused({
+      {With({{"viscous", "250"}}), {"armature of 0.25", "timestep of at most 0.0005"}},
+      {dahl, {"bristle_stiffness is 1000000", "armature of 0.87", "0.000474 s"}},
+  });
+  EXPECT_EQ(ErrorOf(With({{"viscous", "250"}}), {}, R"(armature="0.253")"), "");
+  dahl["bristle_stiffness"] = "1e4";
+  EXPECT_EQ(ErrorOf(dahl), "");
+
+  // 32 kN on 3 kg at 1 ms: 32000 N h^2 / (0.8 M) = 13 mm
+  ExpectNamed(
+      Compile(CarriageXml(
+                  FrictionSection({{"law", "coulomb"}, {"coulomb", "32000"}}, {.joint = "slide"}),
+                  kNoGravity))
+          .error,
+      {"actuator 'f'", "0.0133 m", "0.005", "armature of 5.05", "timestep of at most 0.000612"});
+}
+
+/// An arm with this text in place of another.
+std::string ErrorOfArm(const Friction& friction, const std::string& from, const std::string& to) {
+  std::string xml = SensedArmXml(friction, Form::passive);
+  const size_t at = xml.find(from);
+  return Compile(xml.replace(at, from.size(), to)).error;
+}
+
+TEST(PluginPassive, RefusesWhatItCannotServe) {
+  const Friction friction = FrictionsOfEveryLaw()[0];
+  const std::string end = "</mujoco>", config = R"(<config key="instance" value="arm"/>)";
+  const struct {
+    std::string from, to;
+    std::vector<std::string> names;
+  } cases[] = {
+      {"&quot;j2&quot;", "&quot;j3&quot;", {"plugin instance 'arm'", "'j3'", "did you mean"}},
+      {R"(name="j1" axis="1 0 0")", R"(name="j1" type="ball")", {"joint 'j1'", "hinge nor slide"}},
+      // one that has friction from an actuator of its own
+      {R"(<motor joint="j0"/>)",
+       R"(<plugin name="f" joint="j0" plugin="warmjoint.friction" actdim="2">
+          <config key="law" value="coulomb"/><config key="coulomb" value="1"/></plugin>)",
+       {"joint 'j0' has friction already, by actuator 'f'"}},
+      {R"(instance="arm" /></sensor>)",
+       R"(instance="arm" objtype="joint" objname="j1"/></sensor>)",
+       {"sensor 's'", "object"}},
+      {end,
+       R"(<custom><numeric name="arm/viscous" size="3"/></custom>)" + end,
+       {"numeric 'arm/viscous'", "'viscous'"}},
+      {end,
+       R"(<custom><numeric name="arm/coulomb" size="2"/></custom>)" + end,
+       {"numeric 'arm/coulomb'", "2 numbers", "give 3"}},
+      {config, config + R"(<config key="initial_energy" value="x"/>)", {"initial_energy is 'x'"}},
+      {config,
+       config + R"(<config key="initial_energy" value='{"j4": 1}'/>)",
+       {"'initial_energy.j4'", "did you mean"}},
+  };
+  for (const auto& [from, to, names] : cases) {
+    const std::string error = ErrorOfArm(friction, from, to);
+    ExpectNamed(error, names);
+  }
+
+  // an initial energy for the stages that there are
+  Friction other = friction;
+  const std::string one = config + R"(<config key="initial_energy" value="-1"/>)";
+  other.second_thermal = Thermal{-0.01, 0.5};
+  ExpectNamed(ErrorOfArm(other, config, one), {"initial_energy is '-1'", "two numbers"});
+  other.thermal.reset();
+  other.second_thermal.reset();
+  ExpectNamed(ErrorOfArm(other, config, one), {"initial_energy", "thermal"});
 }
 
 TEST(PluginReadme, HasAModelThatRuns) {
-  const std::string readme = ReadWholeFile(test::SourceFolder() / "sim/plugin/README.md");
+  const std::string readme = ReadWholeFile(SourceFolder() / "sim/plugin/README.md");
   const size_t begin = readme.find("```xml\n") + 7;
   const auto compiled = Compile(readme.substr(begin, readme.find("```", begin) - begin));
   ASSERT_EQ(compiled.error, "");

@@ -1,8 +1,6 @@
 // States are carried bit for bit in both forms: state vectors, copies, resets, mjb, batches.
 #include <gmock/gmock.h>
-#include <mujoco/mjbatch.h>
 
-#include <memory>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -66,10 +64,6 @@ TEST_P(CarriageOfStates, IsBitForBitInAModelThatWasSavedAndLoaded) {
   EXPECT_EQ(EndIn(loaded.get()), end);
 }
 
-struct DeleteBatch {
-  void operator()(mjBatch* batch) const { mjb_deleteBatch(batch); }
-};
-
 TEST_P(CarriageOfStates, IsBitForBitInABatchOnOneAndFourThreads) {
   constexpr int worlds = 8;
   // controls as DriveArm sets them, from the time at which the step begins
@@ -79,21 +73,9 @@ TEST_P(CarriageOfStates, IsBitForBitInABatchOnOneAndFourThreads) {
     DriveArm(m.get(), single.get(), 1);
     controls.insert(controls.end(), single->ctrl, single->ctrl + m->nu);
   }
-  std::vector<mjtNum> all;
-  for (int world = 0; world < worlds; ++world) {
-    all.insert(all.end(), controls.begin(), controls.end());
-  }
   for (const int threads : {1, 4}) {
-    mjBatchConfig config;
-    mjb_defaultConfig(&config);
-    config.nthread = threads;
-    char error[500] = "";
-    const std::unique_ptr<mjBatch, DeleteBatch> batch(
-        mjb_makeBatch(m.get(), worlds, &config, error, sizeof(error)));
-    ASSERT_TRUE(batch) << error;
-    ASSERT_EQ(mjb_reset(batch.get(), nullptr, worlds, nullptr, mjSTAGE_NONE), 0);
-    ASSERT_EQ(
-        mjb_rollout(batch.get(), nullptr, worlds, kHalf, all.data(), mjSTATE_CTRL, nullptr, 0), 0);
+    const Batch batch = MakeBatch(m.get(), worlds, threads);
+    RollOut(batch.get(), worlds, kHalf, controls);
     const Data of_batch(mj_makeData(m.get()));
     for (int world = 0; world < worlds; ++world) {
       mjb_getData(batch.get(), world, of_batch.get());

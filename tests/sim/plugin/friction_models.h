@@ -1,4 +1,4 @@
-// Small models with warm friction, and their engine objects, for the plugin's tests.
+// Small models with warm friction, and what the engine says of them, for the plugin's tests.
 #pragma once
 
 #include <fmt/format.h>
@@ -8,7 +8,7 @@
 #include <map>
 #include <string>
 
-#include "sim/model/mujoco_handles.h"
+#include "sim/model/spec_elements.h"
 #include "sim/plugin/register.h"
 
 namespace warmjoint::test {
@@ -93,5 +93,18 @@ inline std::string CarriageXml(const std::string& sections, const std::string& o
 }
 
 inline constexpr char kNoGravity[] = R"(timestep="0.001" gravity="0 0 0")";
+
+/// All warnings of the engine, while it lives.
+class Warnings {
+ public:
+  Warnings() {
+    text() = "", mju_user_warning = [](const char* message) { text() += message; };
+  }
+  ~Warnings() { mju_user_warning = nullptr; }
+  static std::string& text() {
+    static std::string all;
+    return all;
+  }
+};
 
 }  // namespace warmjoint::test

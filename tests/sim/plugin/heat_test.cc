@@ -1,4 +1,4 @@
-// Heat of surroundings and of two stages in the engine, and friction that feeds itself.
+// Heat of surroundings, of two stages and at a start, and friction that feeds itself.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -11,7 +11,6 @@
 #include "sim/plugin/bound_joints.h"
 #include "sim/plugin/friction_instance.h"
 #include "tests/sim/plugin/two_forms.h"
-#include "tests/sim/plugin/warnings.h"
 
 namespace warmjoint {
 namespace {
@@ -38,62 +37,15 @@ TEST(PluginAmbient, IsTheControlAndMovesTheLevelOfAJointAtRest) {
   EXPECT_NEAR(d->act[1], warm, 1e-10);
   rest(0, 10);
   EXPECT_NEAR(d->act[1], warm * std::exp(-10.0 / 20), 1e-10);
-}
 
-TEST(PluginAmbient, IsIgnoredWhereNoTemperatureFormIsGiven) {
+  // ignored where no temperature form is given
   Config config = kThermometer;
   config.erase("level_per_temperature");
-  const Model m = MustCompile(LinkXml(FrictionSection(config), kNoGravity));
-  const Data d(mj_makeData(m.get()));
-  d->ctrl[0] = 15;
-  for (int i = 0; i < 100; ++i) mj_step(m.get(), d.get());
-  EXPECT_EQ(d->act[1], 0);
-}
-
-TEST(PluginHeat, HasTwoStagesThatSettleEachAtItsGain) {
-  Config config = kThermometer;
-  config["second_thermal_gain"] = "-0.5";
-  config["second_thermal_time_constant"] = "2";
-  const Model m =
-      MustCompile(LinkXml(FrictionSection(config, {.states = 3}), kNoGravity, R"(armature="2")"));
-  const Data d(mj_makeData(m.get()));
-  d->act[0] = 10;
-  const double v = 0.1, h = 0.001;
-
-  // the same two recursions by hand: W = v (10 + E1 + E2)
-  double first = 0, second = 0;
-  for (int i = 0; i < 20000; ++i) {
-    const double loss = v * (10 + first + second);
-    first = std::exp(-h / 20) * first - 3 * -std::expm1(-h / 20) * loss;
-    second = std::exp(-h / 2) * second - 0.5 * -std::expm1(-h / 2) * loss;
-    d->qvel[0] = v;
-    mj_step(m.get(), d.get());
-  }
-  // rounding of 2e4 steps
-  EXPECT_NEAR(d->act[1], first, 1e-11);
-  EXPECT_NEAR(d->act[2], second, 1e-11);
-}
-
-TEST(PluginHeat, StartsWarmInBothStagesFromAKeyframe) {
-  Config config = kThermometer;
-  config["second_thermal_gain"] = "-0.5";
-  config["second_thermal_time_constant"] = "2";
-  const Model m = MustCompile(LinkXml(
-      FrictionSection(config, {.states = 3}) + R"(<keyframe><key act="0 -4 -3"/></keyframe>)",
-      kNoGravity));
-  const Data d(mj_makeData(m.get()));
-  mj_resetDataKeyframe(m.get(), d.get(), 0);
-
-  // at rest each stage cools by its own time constant; rounding of 5000 steps
-  for (int i = 0; i < 5000; ++i) mj_step(m.get(), d.get());
-  EXPECT_NEAR(d->act[1], -4 * std::exp(-5.0 / 20), 1e-11);
-  EXPECT_NEAR(d->act[2], -3 * std::exp(-5.0 / 2), 1e-11);
-
-  // sliding at once, the level is lower by both: 10 - 4 - 3
-  mj_resetDataKeyframe(m.get(), d.get(), 0);
-  d->qvel[0] = 1;
-  mj_forward(m.get(), d.get());
-  EXPECT_DOUBLE_EQ(d->actuator_force[0], -(10 - 4 - 3));
+  const Model plain = MustCompile(LinkXml(FrictionSection(config), kNoGravity));
+  const Data e(mj_makeData(plain.get()));
+  e->ctrl[0] = 15;
+  for (int i = 0; i < 100; ++i) mj_step(plain.get(), e.get());
+  EXPECT_EQ(e->act[1], 0);
 }
 
 /// Friction with each number beside the law and the first stage by itself, and with all of them.
@@ -129,8 +81,7 @@ void ExpectHeat(const Friction& friction, Form form) {
   joint.SetTimestep(m->opt.timestep);
   const size_t count = joint.state().size();
 
-  const mjtNum* states =
-      form == Form::actuator ? d->act : d->plugin_state + m->plugin_stateadr[0] + kFrictionReports;
+  const mjtNum* states = StatesOf(m.get(), d.get());
   const auto energies = [&](size_t k) { return joint.Load(states + count * k); };
   int held = 0, slid = 0;
   for (int i = 0; i < 1500; ++i) {
@@ -160,6 +111,69 @@ TEST(PluginHeat, IsThatOfHeatWhateverNumbersShapeIt) {
   for (const Friction& friction : HeatedInEveryWay()) {
     for (const Form form : {Form::actuator, Form::passive}) ExpectHeat(friction, form);
   }
+}
+
+std::string Initial(const std::string& value) {
+  return fmt::format(R"(<config key="initial_energy" value="{}"/>)", EscapeXml(value));
+}
+
+/// Without ambient, so that a joint at rest only cools, by 3 s.
+Friction Warm() { return FrictionsOfEveryLaw()[0]; }
+
+TEST(PluginInitialEnergy, IsWhereTheHeatOfEachStageBeginsAfterEachReset) {
+  Friction two_stages = Warm();
+  two_stages.second_thermal = Thermal{-0.01, 0.5};
+  const struct {
+    Friction friction;
+    const char* initial;
+    std::vector<std::array<double, 2>> energies;  // {E, tau} of each of a joint's stages
+  } cases[] = {{Warm(), R"({"j0": -0.4, "j2": -0.1})", {{-0.4, 3}, {0, 3}, {-0.1, 3}}},
+               {two_stages, "[-0.3, -0.2]", {{-0.3, 3}, {-0.2, 0.5}}}};
+  for (const auto& [friction, initial, energies] : cases) {
+    const bool two = friction.second_thermal.has_value();
+    for (const Form form : {Form::actuator, Form::passive}) {
+      const Model m = MustCompile(ArmXml(friction, form, two ? "RK4" : "Euler", Initial(initial)));
+      m->opt.gravity[2] = 0;
+      const Data d(mj_makeData(m.get()));
+      for (int round = 0; round < 2; ++round) {
+        for (int i = 0; i < 1000; ++i) mj_step(m.get(), d.get());
+        // one second of cooling, exactly; the bristle's load stands before the energies
+        for (size_t k = 0; k < energies.size(); ++k) {
+          const double energy = StatesOf(m.get(), d.get())[two ? 1 + k : 1 + 2 * k];
+          EXPECT_NEAR(energy, energies[k][0] * std::exp(-1 / energies[k][1]), 1e-12);
+        }
+        mj_resetData(m.get(), d.get());
+      }
+    }
+  }
+}
+
+TEST(PluginInitialEnergy, MovesBothFormsAlikeAndContinuesBitForBit) {
+  const std::string more = Initial("-0.3");
+  const Model a = MustCompile(ArmXml(Warm(), Form::actuator, "implicitfast", more));
+  const Model b = MustCompile(ArmXml(Warm(), Form::passive, "implicitfast", more));
+  const Data da(mj_makeData(a.get())), db(mj_makeData(b.get()));
+  DriveArm(a.get(), da.get(), 1);
+  DriveArm(b.get(), db.get(), 1);
+  for (int k = 0; k < kArmJoints; ++k) EXPECT_NEAR(da->qvel[k], db->qvel[k], 1e-14);
+
+  // a state vector from before the first step starts warm, too
+  const Data fresh(mj_makeData(a.get())), other(mj_makeData(a.get()));
+  const std::vector<mjtNum> start = FullState(a.get(), fresh.get());
+  DriveArm(a.get(), other.get(), 77);
+  mj_setState(a.get(), other.get(), start.data(), mjSTATE_FULLPHYSICS);
+  DriveArm(a.get(), other.get(), 1);
+  EXPECT_EQ(FullState(a.get(), other.get()), FullState(a.get(), da.get()));
+}
+
+TEST(PluginInitialEnergy, IsOverruledByAKeyframesAct) {
+  std::string xml = ArmXml(Warm(), Form::actuator, "implicitfast", Initial("-0.3"));
+  xml.insert(xml.rfind("</mujoco>"), R"(<keyframe><key act="0 -9 0 -8 0 -7"/></keyframe>)");
+  const Model m = MustCompile(xml);
+  const Data d(mj_makeData(m.get()));
+  mj_resetDataKeyframe(m.get(), d.get(), 0);
+  mj_step(m.get(), d.get());
+  EXPECT_NEAR(d->act[1], -9 * std::exp(-0.001 / 3), 1e-12);
 }
 
 TEST(PluginReport, TellsOnceWhereFrictionWouldFeedItself) {

@@ -1,4 +1,4 @@
-// How stiff joints hold and how soon they rest: a link, and robots without armature.
+// How stiff joints hold and how soon they rest: a link, servos, and robots that people know.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,12 +10,10 @@
 
 #include "models/foundation/random_stream.h"
 #include "sim/model/friction_actuator.h"
-#include "sim/plugin/bristle_shape.h"
-#include "sim/plugin/check_joint.h"
 #include "sim/plugin/friction_instance.h"
+#include "sim/plugin/stability.h"
 #include "tests/sim/plugin/friction_models.h"
 #include "tests/sim/plugin/friction_robots.h"
-#include "tests/sim/plugin/warnings.h"
 #include "tests/support/shared_data.h"
 
 namespace warmjoint {
@@ -141,26 +139,36 @@ TEST(PluginStiffness, WarnsOfServosThatLeaveBristlesNothing) {
   EXPECT_EQ(test::Warnings::text(), once);
 }
 
-/// A robot whose joints hold what lets their bristles give way by 20 mrad (2 mm), without gravity.
-ModelPtr Holding(const test::Robot& robot, double step, mjtIntegrator integrator,
-                 FrictionForm form) {
+/// A robot with these levels of friction, [nv] N.m or N, on its joints.
+ModelPtr WithFriction(const test::Robot& robot, double step, mjtIntegrator integrator,
+                      const std::vector<double>& levels, FrictionForm form) {
   const SpecPtr spec(mj_copySpec(robot.spec.get()));
   spec->option.timestep = step;
   spec->option.integrator = integrator;
-  mju_zero3(spec->option.gravity);
-  const ModelPtr bare = CompileModel(*spec, {robot.path});
   std::vector<FrictionForJoint> frictions;
-  for (int i = 0; i < bare->njnt; ++i) {
+  for (const std::string& joint : SpecNames(*spec, mjOBJ_JOINT)) {
     Friction friction;
     friction.law = "coulomb";
-    const double give = bare->jnt_type[i] == mjJNT_SLIDE ? 0.002 : 0.02;
-    friction.parameters = {{"coulomb", give * kLoneBristles.stiffness *
-                                           EffectiveInertia(bare.get(), bare->jnt_dofadr[i]) /
-                                           (step * step)}};
-    frictions.push_back({mj_id2name(bare.get(), mjOBJ_JOINT, i), friction});
+    friction.parameters = {{"coulomb", levels[frictions.size()]}};
+    frictions.push_back({joint, friction});
   }
   AddFriction(*spec, frictions, {robot.path}, form);
   return CompileModel(*spec, {robot.path});
+}
+
+/// The same with levels that let bristles give way by 20 mrad (2 mm), without gravity.
+ModelPtr Holding(const test::Robot& robot, double step, mjtIntegrator integrator,
+                 FrictionForm form) {
+  const ModelPtr bare = CompileModel(*robot.spec, {robot.path});
+  std::vector<double> levels;
+  for (int i = 0; i < bare->njnt; ++i) {
+    const double give = bare->jnt_type[i] == mjJNT_SLIDE ? 0.002 : 0.02;
+    levels.push_back(give * kLoneBristles.stiffness *
+                     EffectiveInertia(bare.get(), bare->jnt_dofadr[i]) / (step * step));
+  }
+  ModelPtr m = WithFriction(robot, step, integrator, levels, form);
+  mju_zero3(m->opt.gravity);
+  return m;
 }
 
 /// The states of the bristles, two of each joint.
@@ -253,6 +261,51 @@ TEST_P(ArmsWithoutArmature, RestWithin25StepsOfAPush) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ArmsWithoutArmature, testing::ValuesIn(test::kRobots),
+                         [](const auto& test) { return test.param.name(); });
+
+constexpr double kQuiet = 0.2;   // s below 1e-9 rad/s until a robot counts as settled
+constexpr double kLongest = 60;  // s
+
+double Fastest(const mjModel* m, const mjData* d) {
+  double fastest = 0;
+  for (int i = 0; i < m->nv; ++i) fastest = std::max(fastest, std::abs(d->qvel[i]));
+  return fastest;
+}
+
+class RobotsStick : public testing::TestWithParam<test::RobotCase> {};
+
+TEST_P(RobotsStick, WithEveryJointUnderGravityAtAnyStepAndIntegrator) {
+  WARMJOINT_NEED_SHARED(std::string("robots/") + GetParam().file);
+  const test::Robot robot = test::LoadRobot(GetParam().file, GetParam().armature);
+  for (const double timestep : {0.0005, 0.001, 0.002}) {
+    for (const mjtIntegrator integrator : {mjINT_EULER, mjINT_IMPLICITFAST, mjINT_DISCRETE}) {
+      SCOPED_TRACE(
+          fmt::format("timestep {} integrator {}", timestep, static_cast<int>(integrator)));
+      const ModelPtr m =
+          WithFriction(robot, timestep, integrator, robot.level, FrictionForm::actuator);
+      const DataPtr d(mj_makeData(m.get()));
+      std::copy(robot.pose.begin(), robot.pose.end(), d->qpos);
+
+      // coupled modes without armature decay slowest, at 0.2 lambda / h
+      double until = kQuiet;
+      while (d->time < until && d->time < kLongest) {
+        mj_step(m.get(), d.get());
+        if (Fastest(m.get(), d.get()) > 1e-9) until = d->time + kQuiet;
+      }
+      ASSERT_LT(d->time, kLongest) << "never settled";
+
+      const std::vector<double> settled(d->qpos, d->qpos + m->nq);
+      for (int i = 0; i < std::lround(1 / timestep); ++i) mj_step(m.get(), d.get());
+      for (int i = 0; i < m->nv; ++i) {
+        EXPECT_LT(std::abs(d->qvel[i]), 1e-9) << "joint " << i;
+        EXPECT_LT(std::abs(d->qpos[i] - settled[i]), 1e-6 / 60) << "joint " << i;
+        EXPECT_LT(std::abs(d->qpos[i] - robot.pose[i]), 0.05) << "joint " << i;
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, RobotsStick, testing::ValuesIn(test::kRobots),
                          [](const auto& test) { return test.param.name(); });
 
 }  // namespace

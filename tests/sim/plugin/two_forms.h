@@ -1,14 +1,17 @@
 // A driven arm of three joints, with the same friction in the actuator and in the passive form.
 #pragma once
 
+#include <mujoco/mjbatch.h>
+
 #include <algorithm>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "models/friction/friction_json.h"
 #include "models/friction/joint_friction.h"
-#include "sim/model/escape_xml.h"
+#include "sim/model/friction_sections.h"
 #include "sim/plugin/friction_instance.h"
 #include "tests/sim/plugin/friction_models.h"
 
@@ -127,10 +130,38 @@ inline void SetAmbient(const mjModel* m, mjData* d, Form form, double rise) {
   }
 }
 
+/// The states of the joints, of one joint after the other.
+inline mjtNum* StatesOf(const mjModel* m, mjData* d) {
+  return m->na > 0 ? d->act : d->plugin_state + m->plugin_stateadr[0] + kFrictionReports;
+}
+
 inline std::vector<mjtNum> FullState(const mjModel* m, const mjData* d) {
   std::vector<mjtNum> state(mj_stateSize(m, mjSTATE_FULLPHYSICS));
   mj_getState(m, d, state.data(), mjSTATE_FULLPHYSICS);
   return state;
+}
+
+struct DeleteBatch {
+  void operator()(mjBatch* batch) const { mjb_deleteBatch(batch); }
+};
+using Batch = std::unique_ptr<mjBatch, DeleteBatch>;
+
+inline Batch MakeBatch(const mjModel* m, int worlds, int threads) {
+  mjBatchConfig config;
+  mjb_defaultConfig(&config);
+  config.nthread = threads;
+  char error[500] = "";
+  Batch batch(mjb_makeBatch(m, worlds, &config, error, sizeof(error)));
+  EXPECT_TRUE(batch) << error;
+  return batch;
+}
+
+/// Steps all worlds from a reset under the same controls, one set for each step.
+inline void RollOut(mjBatch* batch, int worlds, int steps, const std::vector<mjtNum>& controls) {
+  ASSERT_EQ(mjb_reset(batch, nullptr, worlds, nullptr, mjSTAGE_NONE), 0);
+  std::vector<mjtNum> all;
+  for (int i = 0; i < worlds; ++i) all.insert(all.end(), controls.begin(), controls.end());
+  ASSERT_EQ(mjb_rollout(batch, nullptr, worlds, steps, all.data(), mjSTATE_CTRL, nullptr, 0), 0);
 }
 
 }  // namespace warmjoint::test

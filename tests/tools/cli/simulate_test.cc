@@ -1,11 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <warmjoint/simulation.h>
 
 #include <fstream>
 
 #include "models/foundation/atomic_file.h"
 #include "scenarios/read_scenario.h"
-#include "sim/truth/truth_json.h"
 #include "tests/tools/cli/recording_file.h"
 #include "tests/tools/cli/run_program.h"
 #include "tests/tools/cli/table_one_yaml.h"

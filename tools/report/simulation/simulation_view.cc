@@ -1,13 +1,13 @@
 #include "tools/report/simulation/simulation_view.h"
 
 #include <warmjoint/prepared_log.h>
+#include <warmjoint/simulation.h>
 
 #include <cmath>
 
 #include "identification/preparation/select.h"
 #include "models/recording/read_recording.h"
 #include "scenarios/read_scenario.h"
-#include "sim/truth/truth_json.h"
 
 namespace warmjoint::report {
 namespace {

@@ -1,0 +1,70 @@
+#include "sim/model/spec_elements.h"
+
+#include <regex>
+
+#include "models/foundation/excerpt.h"
+#include "models/foundation/nearest_name.h"
+
+namespace warmjoint::inline sim {
+namespace {
+
+/// Whether the text holds more than letters that stand for themselves.
+bool LooksLikePattern(const std::string& text) {
+  return text.find_first_of("*+?[](){}|^$\\") != std::string::npos;
+}
+
+bool CarriesFriction(const mjsJoint& joint) {
+  return joint.type == mjJNT_HINGE || joint.type == mjJNT_SLIDE;
+}
+
+std::regex ReadPattern(const std::string& pattern, const Place& place) {
+  try {
+    return std::regex(pattern);
+  } catch (const std::regex_error& error) {
+    Refuse(place, "'{}' is neither the name of a joint nor a regular expression: {}",
+           Excerpt(pattern), error.what());
+  }
+}
+
+}  // namespace
+
+mjsJoint* FindJoint(mjSpec& spec, const std::string& joint, const Place& place) {
+  mjsElement* found = mjs_findElement(&spec, mjOBJ_JOINT, joint.c_str());
+  if (found) return mjs_asJoint(found);
+  Refuse(place, "there is no joint '{}'{}", Excerpt(joint),
+         Suggestion(joint, SpecNames(spec, mjOBJ_JOINT)));
+}
+
+std::vector<std::string> MatchJoints(mjSpec& spec, const std::string& pattern, const Place& place) {
+  // a name goes before a pattern, also one with letters that patterns use
+  const bool named = mjs_findElement(&spec, mjOBJ_JOINT, pattern.c_str()) != nullptr;
+  if (named || !LooksLikePattern(pattern)) {
+    FindJoint(spec, pattern, place);
+    return {pattern};
+  }
+
+  // all hinges and slides whose whole name fits
+  const std::regex expression = ReadPattern(pattern, place);
+  std::vector<std::string> joints;
+  for (mjsElement* element : SpecElements(spec, mjOBJ_JOINT)) {
+    if (!CarriesFriction(*mjs_asJoint(element))) continue;
+    std::string name = mjs_getString(mjs_getName(element));
+    if (!name.empty() && std::regex_match(name, expression)) joints.push_back(std::move(name));
+  }
+  if (!joints.empty()) return joints;
+  const std::vector<std::string> names = SpecNames(spec, mjOBJ_JOINT);
+  if (names.empty()) Refuse(place, "none of its {} joints has a name", NamelessJoints(spec));
+  Refuse(place, "no hinge or slide joint matches the pattern '{}'; there are {}", Excerpt(pattern),
+         ExcerptOfList(names));
+}
+
+int NamelessJoints(mjSpec& spec) {
+  int nameless = 0;
+  for (mjsElement* element : SpecElements(spec, mjOBJ_JOINT)) {
+    const bool named = mjs_getString(mjs_getName(element))[0] != '\0';
+    nameless += CarriesFriction(*mjs_asJoint(element)) && !named;
+  }
+  return nameless;
+}
+
+}  // namespace warmjoint::inline sim

@@ -1,0 +1,178 @@
+#include "sim/plugin/stability.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <random>
+
+#include "models/friction/bristle.h"
+#include "sim/plugin/plugin_instances.h"
+
+namespace warmjoint::inline sim {
+namespace {
+
+/// Eigenvalues up to this change no BristlesOf. Why: 3.6 of instances that share a tree + 0.3 = kCarried.
+constexpr double kMinor = 0.3;
+
+/// Poses in which drives are looked at, of which the reference pose is the first.
+constexpr int kPoses = 32;
+
+/// The diagonal of h^2 K + 2 h C, kg.m^2 or kg.
+Eigen::VectorXd Added(const mjModel* m, int integrator) {
+  const double h = m->opt.timestep, per_damping = integrator == mjINT_EULER ? 2 * h : -2 * h;
+  Eigen::VectorXd added = Eigen::VectorXd::Zero(m->nv);
+  for (int i = 0; i < m->nactuator; ++i) {
+    if (m->actuator_trntype[i] != mjTRN_JOINT || m->actuator_biastype[i] != mjBIAS_AFFINE) continue;
+    const double gear = m->actuator_gear[6 * m->actuator_outadr[i]];
+    const mjtNum* bias = m->actuator_biasprm + i * mjNBIAS;
+    added[m->jnt_dofadr[m->actuator_trnid[2 * i]]] -=
+        gear * gear * (h * h * bias[1] + per_damping * bias[2]);
+  }
+  return added;
+}
+
+/// Another pose within the joints' ranges, the same ones for each model.
+void Draw(const mjModel* m, std::minstd_rand& random, mjtNum* position) {
+  for (int i = 0; i < m->njnt; ++i) {
+    const bool limited = m->jnt_limited[i], hinge = m->jnt_type[i] == mjJNT_HINGE;
+    const double share = static_cast<double>(random()) / std::minstd_rand::max();
+    const double lower = limited ? m->jnt_range[2 * i] : -mjPI;
+    const double upper = limited ? m->jnt_range[2 * i + 1] : mjPI;
+    if (hinge) position[m->jnt_qposadr[i]] = lower + share * (upper - lower);
+  }
+}
+
+/// How far a bristle may wind up before it slides.
+constexpr double kLargestWindUp = 0.05;         // rad
+constexpr double kLargestLinearWindUp = 0.005;  // m
+
+/// A little more, so that the three digits of a message are enough.
+double RoundUp(double value) { return 1.01 * value; }
+
+/// The first three digits, so that what a message prints is not more. value: positive.
+double RoundDown(double value) {
+  const double unit = std::pow(10, std::floor(std::log10(value)) - 2);
+  // a number of three digits may lie a rounding error below itself
+  return std::floor(value / unit * (1 + 1e-12)) * unit;
+}
+
+/// An explicit slope of force over speed c is well damped up to c h = M / 2, also where coupled
+/// joints feel lighter than M, and diverges above 2 M.
+Asked ForSlope(const JointFriction& friction, double inertia, double h) {
+  const double slope = friction.SteepestSlope();
+  return {2 * slope * h, inertia / (2 * slope),
+          fmt::format("friction rises by up to {:.4g} over speed on an effective inertia of {:.3g} "
+                      "at timestep {}; the step would be unstable",
+                      slope, inertia, h)};
+}
+
+/// How far the bristle winds up before it slides: level h^2 / (A M).
+Asked ForWindUp(const JointFriction& friction, const BristleShape& bristles, double inertia,
+                double h, JointKind kind) {
+  const double level = friction.HoldingLevel();
+  const double allowed = kind == JointKind::rotary ? kLargestWindUp : kLargestLinearWindUp;
+  const double needed = level * h * h / (bristles.stiffness * allowed);
+  return {
+      needed, h * std::sqrt(inertia / needed),
+      fmt::format("friction holds up to {:.3g} on an effective inertia of {:.3g} at timestep {}; "
+                  "it would give way by {:.3g} {} before it slides, at most {} are allowed",
+                  level, inertia, h, allowed * needed / inertia, kPositionUnit.For(kind), allowed)};
+}
+
+/// An explicit step carries a law's own bristle while (stiffness + 2 damping) in units of M/h^2 and
+/// M/h is at most that of MakeBristle.
+Asked ForBristle(const Bristle& bristle, double inertia, double h) {
+  constexpr double carried = kBristleStiffness + 2 * kBristleDamping;
+  // largest step: stiffness h^2 + 2 damping h = carried M
+  const double b = bristle.damping;
+  const double longest =
+      carried * inertia / (b + std::sqrt(b * b + carried * inertia * bristle.stiffness));
+  return {
+      h * (bristle.stiffness * h + 2 * b) / carried, longest,
+      fmt::format("bristle_stiffness is {} and bristle_damping {} on an effective inertia of "
+                  "{:.3g} at timestep {}; the step would be unstable unless the bristle is softer",
+                  bristle.stiffness, b, inertia, h)};
+}
+
+}  // namespace
+
+std::vector<double> StiffestDrives(const mjModel* m, int integrator) {
+  // most models: the eigenvalues' sum, in which the compiler at first knows no inertia, is small
+  std::vector<double> stiffest(static_cast<size_t>(m->ntree), 0);
+  const Eigen::VectorXd added = Added(m, integrator);
+  double sum = 0;
+  for (int dof = 0; dof < m->nv; ++dof) {
+    const double inertia = EffectiveInertia(m, dof);
+    if (inertia > 0) sum += std::max(0.0, added[dof]) / inertia;
+  }
+  if (sum <= kMinor || integrator == mjINT_DISCRETE || integrator == mjINT_RK4) return stiffest;
+
+  // data of a model with plugins would ask for this instance again
+  const std::unique_ptr<mjModel, void (*)(mjModel*)> bare(mj_copyModel(nullptr, m), mj_deleteModel);
+  bare->nplugin = 0;
+  const std::unique_ptr<mjData, void (*)(mjData*)> d(mj_makeData(bare.get()), mj_deleteData);
+  Eigen::MatrixXd inertia(m->nv, m->nv);
+  std::minstd_rand random;
+  for (int pose = 0; pose < kPoses; ++pose) {
+    if (pose > 0) Draw(m, random, d->qpos);
+    mj_kinematics(bare.get(), d.get());
+    mj_comPos(bare.get(), d.get());
+    mj_makeM(bare.get(), d.get());
+    mj_fullM(bare.get(), d.get(), inertia.data());
+    for (int tree = 0; tree < m->ntree; ++tree) {
+      const int first = m->tree_dofadr[tree], size = m->tree_dofnum[tree];
+      const Eigen::MatrixXd of_tree = added.segment(first, size).asDiagonal();
+      const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(
+          of_tree, inertia.block(first, first, size, size), Eigen::EigenvaluesOnly | Eigen::Ax_lBx);
+      stiffest[tree] = std::max(stiffest[tree], modes.eigenvalues().maxCoeff());
+    }
+  }
+  return stiffest;
+}
+
+std::array<Asked, 2> AskedOf(const mjModel* m, int joint, const JointFriction& friction,
+                             const BristleShape& bristles) {
+  const double inertia = EffectiveInertia(m, m->jnt_dofadr[joint]), h = m->opt.timestep;
+  const bool slides = m->jnt_type[joint] == mjJNT_SLIDE;
+  const JointKind kind = slides ? JointKind::linear : JointKind::rotary;
+  return {ForSlope(friction, inertia, h), friction.own_bristle()
+                                              ? ForBristle(*friction.own_bristle(), inertia, h)
+                                              : ForWindUp(friction, bristles, inertia, h, kind)};
+}
+
+void CheckJoint(const mjModel* m, int joint, const JointFriction& friction,
+                const BristleShape& bristles, const Place& place) {
+  const int type = m->jnt_type[joint];
+  if (type != mjJNT_HINGE && type != mjJNT_SLIDE) {
+    Refuse(place, "{} is neither hinge nor slide; friction acts on these alone",
+           JointName(m, joint));
+  }
+
+  // the compiler asks once before it knows the inertia, and again after
+  const double inertia = EffectiveInertia(m, m->jnt_dofadr[joint]);
+  if (inertia == 0) return;
+  for (const Asked& asked : AskedOf(m, joint, friction, bristles)) {
+    if (asked.inertia <= inertia) continue;
+    Refuse(place, "{}: add an armature of {:.3g} or take a timestep of at most {:.3g} s", asked.why,
+           RoundUp(asked.inertia - inertia), RoundDown(asked.timestep));
+  }
+}
+
+void CheckDrive(const mjModel* m, int joint, double drive, const Place& place) {
+  // beside stiffer ones bristles no longer soften
+  if (drive + kCarried - kStiffestDrive < 4) return;
+  const double h = m->opt.timestep;
+  const int tree = m->dof_treeid[m->jnt_dofadr[joint]];
+  const bool implicit_helps = StiffestDrives(m, mjINT_IMPLICITFAST)[tree] <= kStiffestDrive;
+  Refuse(
+      place,
+      "servos are too stiff for timestep {}: their h^2 kp + 2 h kv over the inertia is up to "
+      "{:.3g}, above {}, so that the joint may shake instead of resting; take {}a timestep of at "
+      "most {:.3g} s (attach --timestep) or more armature (--armature)",
+      h, drive, kStiffestDrive,
+      implicit_helps ? "the integrator implicitfast (attach --integrator implicitfast), " : "",
+      RoundDown(h * kStiffestDrive / drive));
+}
+
+}  // namespace warmjoint::inline sim

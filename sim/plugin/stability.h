@@ -1,0 +1,111 @@
+// What friction the engine's step can carry: how stiff bristles are, on which inertia, beside which drives.
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "models/foundation/bad_input.h"
+#include "models/friction/bristle.h"
+#include "models/friction/joint_friction.h"
+
+namespace warmjoint::inline sim {
+
+/// Stiffness A and damping B of the bristles, in units of M/h^2 and M/h.
+struct BristleShape {
+  double stiffness = 0;
+  double damping = 0;
+};
+
+/// The largest eigenvalue of the inverse inertia matrix scaled by the joints' inertias, over the poses
+/// of arms with six and seven axes.
+inline constexpr double kLargestCoupling = 3.3;
+
+/// Of an instance that is alone on its kinematic tree: every mode of the held joints, each with
+/// eigenvalue 1, follows z^2 - (2 - A - B) z + 1 - B = 0, whose roots are 0.45 in size.
+inline constexpr BristleShape kLoneBristles{0.8, 0.8};
+
+/// Of so many instances that share a tree, each of which takes the others' joints as free: the
+/// eigenvalues are then at most their number, and A + 2 B = 3.6 over it keeps the step stable; they are
+/// at most kLargestCoupling, however many instances.
+inline BristleShape BristlesOf(int instances) {
+  if (instances <= 1) return kLoneBristles;
+  if (instances > 4) return {kBristleStiffness, kBristleDamping};
+  return {1.2 / instances, 1.2 / instances};
+}
+
+/// Of A + 2 B, times those eigenvalues, and K + 2 C of drives the step carries less than 4.
+inline constexpr double kCarried = 3.9;
+
+/// K + 2 C (StiffestDrives) beside which bristles still hold; frictionloss lets joints rest to there.
+inline constexpr double kStiffestDrive = 3;
+
+/// Beside drives of that K + 2 C: as above where the step carries both, else softer, with A = 2 B at last.
+inline BristleShape BristlesOf(int instances, double drive) {
+  const BristleShape own = BristlesOf(instances);
+  const double left = kCarried - std::min(drive, kStiffestDrive);
+  const double carried = left / std::min<double>(instances, kLargestCoupling);
+  if (drive <= 0 || own.stiffness + 2 * own.damping <= carried) return own;
+  const double stiffness = std::min(own.stiffness, carried / 2);
+  return {stiffness, (carried - stiffness) / 2};
+}
+
+/// Damping of RK4, beside that of integrators which ask for the force once a step: its stages see
+/// speeds that the damper has slowed, so that a mode follows
+///   v' = -(A + B + D) v/h - A z/h^2,   z' = z + h v of the last stage
+/// by the method's polynomial, D h/M being what other damping adds, which this integrator takes
+/// explicitly, too. Its spectral radius is below 0.6 for B + D from 0.05 to 0.69, and 0.56 at both
+/// B alone and B + 0.5, which is what the joints' own damping adds at 5 ms in poses of arms without armature.
+inline constexpr double kDampingOfStages = 0.1875;
+
+/// Effective inertia of a degree of freedom at the reference pose with all the others free,
+/// 1 / dof_invweight0, kg.m^2 or kg; 0 while the compiler has not yet determined it. Of one that
+/// MuJoCo knows to be uncoupled (simple) dof_invweight0 lacks the armature, and dof_M0 has it.
+inline double EffectiveInertia(const mjModel* m, int dof) {
+  if (m->dof_simplenum[dof] > 0) return m->dof_M0[dof];
+  const double inverse = m->dof_invweight0[dof];
+  return inverse > 0 ? 1 / inverse : 0;
+}
+
+/// Effective inertia at the present pose, kg.m^2 or kg: the smaller of the one at the reference
+/// pose and the joint's pivot in the factorised inertia matrix, which sees the present pose but
+/// takes the joints before it as held. Over the poses of arms with 6 and 7 axes the inertia matrix
+/// scaled by these has eigenvalues up to 3.3; with reference values alone, up to 28.
+inline double EffectiveInertia(const mjModel* m, const mjData* d, int dof) {
+  const bool coupled = m->dof_simplenum[dof] == 0;
+  const double inverse =
+      coupled ? std::max(m->dof_invweight0[dof], d->qLDiagInv[dof]) : d->qLDiagInv[dof];
+  return inverse > 0 ? 1 / inverse : 0;
+}
+
+/// What the step asks of a joint's inertia so that it carries the friction.
+struct Asked {
+  double inertia;   // at least, kg.m^2 or kg
+  double timestep;  // s, or else at most this step
+  std::string why;
+};
+
+/// For the slope over speed, and for the bristle.
+std::array<Asked, 2> AskedOf(const mjModel* m, int joint, const JointFriction& friction,
+                             const BristleShape& bristles);
+
+/// Throws BadInput, from `place` and with the remedy, unless the joint is a hinge or slide whose
+/// effective inertia at the reference pose lets the model's step carry the friction. bristles: those
+/// of a law that leaves them to the step, as they are without drives.
+void CheckJoint(const mjModel* m, int joint, const JointFriction& friction,
+                const BristleShape& bristles, const Place& place);
+
+/// Throws BadInput, from `place` and with the remedies, where the drives of a joint's tree
+/// (StiffestDrives) leave bristles nothing of what the step carries.
+void CheckDrive(const mjModel* m, int joint, double drive, const Place& place);
+
+/// Of each kinematic tree, the largest eigenvalue of M^-1 (h^2 K + 2 h C) over poses under an integrator,
+/// K and C being the stiffness and damping of affine drives of joints; damping that the integrator takes
+/// implicitly counts as -C. 0 under `discrete` and RK4, which carry more stiffness than bristles need, and
+/// where all is so soft that BristlesOf does not change.
+std::vector<double> StiffestDrives(const mjModel* m, int integrator);
+
+}  // namespace warmjoint::inline sim
