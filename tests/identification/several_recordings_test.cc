@@ -1,7 +1,6 @@
 // Several recordings of one joint at once: heat starts again with each.
 #include <gmock/gmock.h>
 
-#include "identification/answer/identify.h"
 #include "identification/forward/thermal_filter.h"
 #include "identification/holdout/hold_out.h"
 #include "identification/identifiers/identifier_list.h"
@@ -9,7 +8,7 @@
 #include "identification/preparation/select.h"
 #include "identification/read_options.h"
 #include "models/recording/join_recordings.h"
-#include "tests/support/warm_recording.h"
+#include "tests/support/judging.h"
 
 namespace warmjoint {
 namespace {
@@ -25,14 +24,8 @@ Measurements Mornings(double noise) {
 }
 
 Estimate Identify(const std::string& name, const Measurements& m) {
-  const Identifier& identifier = FindIdentifier(name);
-  std::map<std::string, std::string> given;
-  for (const OptionInfo& option : identifier.options) {
-    if (option.name == "iterations") given["iterations"] = "500";
-  }
-  const Options options = ReadOptions(identifier.options, given, {});
-  const Selection selection = SelectMoving(m);
-  return IdentifyUnjudged(identifier, {Prepare(m, selection), options, {11, 3}});
+  if (name != "energy-als") return test::Fitted(name, m);
+  return test::Fitted(name, m, {{"iterations", "500"}}, {11, 3});
 }
 
 TEST(SeveralRecordings, EnergyMlFindsTheTruthWithoutNoise) {
@@ -71,21 +64,6 @@ TEST(SeveralRecordings, KalmanAsksForOne) {
   const Estimate estimate = Identify("kalman", Mornings(0.1));
   EXPECT_EQ(estimate.status, Status::bad_data);
   EXPECT_THAT(estimate.message, testing::HasSubstr("give one"));
-}
-
-TEST(SeveralRecordings, PredictionAndFilterStartColdWithEach) {
-  const Measurements m = Mornings(0);
-  const Prediction prediction = PredictFriction(test::TableOne(), m);
-  const Eigen::VectorXd loss = m.torque.cwiseProduct(m.velocity);
-  const Eigen::VectorXd filtered =
-      ThermalFilter(m.time, m.starts).Energy(*test::TableOne().thermal, loss);
-  for (const Eigen::Index start : {1800, 3600}) {
-    EXPECT_EQ(prediction.energy[start], 0);
-    EXPECT_EQ(filtered[start], 0);
-    EXPECT_LT(prediction.energy[start - 1], -5);
-    EXPECT_LT(filtered[start - 1], -5);
-  }
-  EXPECT_LT((prediction.force - m.torque).cwiseAbs().maxCoeff(), 1e-12);
 }
 
 TEST(SeveralRecordings, AreHeldOutFromTheEnd) {

@@ -1,26 +1,19 @@
 // What the public interface promises about its headers.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
 #include <regex>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "tests/support/folders.h"
 
 namespace {
+
 namespace fs = std::filesystem;
 
 const fs::path kInterface = "tools/interface";
-
-std::string TextOf(const fs::path& file) {
-  std::stringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
 
 std::vector<fs::path> PublicHeaders() {
   std::vector<fs::path> headers;
@@ -68,34 +61,6 @@ TEST(PublicHeaders, KnowWhatIsForbidden) {
   EXPECT_EQ(Breach("#include <vector>"), "");
   EXPECT_EQ(Breach("#include <warmjoint/recording.h>"), "");
   EXPECT_EQ(Breach("  std::vector<double> time;  // of all models"), "");
-}
-
-TEST(PublicHeaders, AreIncludedByTheInterfaceAndByNoRoomBelowIt) {
-  const fs::path root = warmjoint::test::SourceFolder();
-  int users = 0;
-  for (const std::string folder : {"models", "scenarios", "sim", "identification", "tools"}) {
-    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
-      if (entry.path().extension() != ".cc" && entry.path().extension() != ".h") continue;
-      if (TextOf(entry.path()).find("#include <warmjoint/") == std::string::npos) continue;
-      const std::string file = fs::relative(entry.path(), root);
-      EXPECT_EQ(file.rfind(kInterface.string() + "/", 0), 0u) << file;
-      ++users;
-    }
-  }
-  EXPECT_GT(users, 8) << "the interface was not found";
-}
-
-TEST(PublicHeaders, HaveAnExampleEachAndAProgramInTheReadmeThatIsTested) {
-  for (const fs::path& header : PublicHeaders()) {
-    EXPECT_NE(TextOf(header).find("\n//   "), std::string::npos) << header << " shows no example";
-  }
-  // each line of the program, indented
-  const fs::path root = warmjoint::test::SourceFolder();
-  std::istringstream program(TextOf(root / "tests/consumer/main.cc"));
-  std::string shown;
-  for (std::string line; std::getline(program, line);)
-    shown += line.empty() ? "\n" : "    " + line + "\n";
-  EXPECT_NE(TextOf(root / kInterface / "README.md").find(shown), std::string::npos);
 }
 
 }  // namespace

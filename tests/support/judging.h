@@ -35,11 +35,24 @@ inline Measurements RecordHour(const FrictionDescription& friction, std::uint64_
   return RecordFriction(friction, 1, AlternatingSpeeds(3600, seed), noise, seed);
 }
 
+/// An identifier's answer with its verdict. given: options by name
 inline Estimate Answer(const std::string& name, const Measurements& measurements,
                        const std::map<std::string, std::string>& given = {}) {
   const Identifier& identifier = FindIdentifier(name);
   const Options options = ReadOptions(identifier.options, given, {});
   return IdentifyAndJudge(identifier, {Prepare(measurements), options, {}});
+}
+
+/// The same without its verdict.
+inline Estimate Fitted(const std::string& name, const PreparedLog& log,
+                       const std::map<std::string, std::string>& given = {}, StartKey key = {}) {
+  const Identifier& identifier = FindIdentifier(name);
+  return IdentifyUnjudged(identifier, {log, ReadOptions(identifier.options, given, {}), key});
+}
+
+inline Estimate Fitted(const std::string& name, const Measurements& measurements,
+                       const std::map<std::string, std::string>& given = {}, StartKey key = {}) {
+  return Fitted(name, Prepare(measurements), given, key);
 }
 
 /// The outcome of a test for lack of fit, by its name; one that is not there was not made.

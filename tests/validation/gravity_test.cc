@@ -6,12 +6,12 @@
 #include "identification/answer/identify.h"
 #include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/prepare.h"
-#include "identification/preparation/select.h"
 #include "identification/read_options.h"
 #include "models/foundation/atomic_file.h"
 #include "models/recording/read_recording.h"
 #include "scenarios/scenario.h"
 #include "sim/plant/plant.h"
+#include "tests/support/judging.h"
 #include "tests/support/shared_data.h"
 #include "tests/tools/scratch_directory.h"
 
@@ -47,9 +47,7 @@ Scenario Sweeps(const std::string& robot) {
 }
 
 Estimate Identify(const Measurements& measurements, const std::string& gravity) {
-  const Identifier& identifier = FindIdentifier("energy-ml");
-  const Options options = ReadOptions(identifier.options, {{"gravity", gravity}}, {});
-  return IdentifyUnjudged(identifier, {Prepare(measurements), options, {}});
+  return test::Fitted("energy-ml", measurements, {{"gravity", gravity}});
 }
 
 TEST(Gravity, OfAPendulumIsTakenOffBothWays) {

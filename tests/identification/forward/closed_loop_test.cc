@@ -95,57 +95,6 @@ TEST(ClosedLoop, AgreesWithDualNumbersOnUnevenSamples) {
   }
 }
 
-TEST(ClosedLoop, TellsTheSlopesOfItsLastHeat) {
-  Eigen::VectorXd v(50);
-  for (int i = 0; i < 50; ++i) v[i] = (i / 10 % 2 ? -0.1 : 0.1) * (1 + i / 10);
-  const ClosedLoop loop = Loop(EvenTime(50), v).WithJumps({7, 30});
-  const Eigen::VectorXd x = (Eigen::VectorXd(7) << 5, 15, -0.6, 40, -0.3, 0.2, -0.1).finished();
-  const Thermal thermal{x[2], x[3]};
-
-  // central differences over tau's logarithm: the error is of order step^2 = 1e-10
-  Eigen::VectorXd differences(7);
-  for (int i = 0; i < 7; ++i) {
-    const double step = 1e-5 * std::abs(x[i]);
-    const auto end = [&](double value) {
-      Eigen::VectorXd at = x;
-      at[i] = value;
-      return loop.Simulate(at.head(2), {at[2], at[3]}, at[4], at.tail(2)).energy[49];
-    };
-    differences[i] = (end(x[i] + step) - end(x[i] - step)) / (2 * step);
-  }
-  differences[3] *= x[3];
-  ExpectNear(loop.End(x.head(2), thermal, x[4], x.tail(2)).slopes, differences, 1e-8);
-
-  // without jumps it is compiled for its size: the same but for rounding
-  const Eigen::Vector2d none(0, 0);
-  const LoopEnd fixed = Loop(EvenTime(50), v).End(x.head(2), thermal, x[4]);
-  const LoopEnd dynamic = loop.End(x.head(2), thermal, x[4], none);
-  ExpectNear(fixed.slopes, dynamic.slopes.head(5), 1e-13);
-
-  // E itself is that of the simulation
-  const LoopResponse response = loop.Simulate(x.head(2), thermal, x[4], none);
-  EXPECT_NEAR(fixed.energy, response.energy[49], 1e-13 * std::abs(response.energy[49]));
-  EXPECT_NEAR(dynamic.energy, response.energy[49], 1e-13 * std::abs(response.energy[49]));
-}
-
-TEST(ClosedLoop, AgreesWithFiniteDifferences) {
-  Eigen::VectorXd v(200);  // 0.1 to 1 rad/s, held 20 s, alternating
-  for (int i = 0; i < 200; ++i) v[i] = (i / 20 % 2 ? -0.1 : 0.1) * (1 + i / 20);
-  const ClosedLoop loop = Loop(EvenTime(200), v);
-  const Eigen::VectorXd x = (Eigen::VectorXd(5) << 5, 15, -0.6, 40, -0.3).finished();
-  const auto force = [&](const Eigen::VectorXd& at) {
-    return loop.Simulate(at.head(2), {at[2], at[3]}, at[4]).force;
-  };
-  Eigen::MatrixXd differences(200, 5);
-  for (int i = 0; i < 5; ++i) {
-    // central differences: the error is of order step^2 = 1e-10
-    Eigen::VectorXd step = Eigen::VectorXd::Zero(5);
-    step[i] = 1e-5 * std::abs(x[i]);
-    differences.col(i) = (force(x + step) - force(x - step)) / (2 * step[i]);
-  }
-  ExpectNear(loop.Jacobian(x.head(2), {x[2], x[3]}, x[4]), differences, 1e-8);
-}
-
 TEST(ClosedLoop, IsTheForwardModelWithJumpsAndColdStarts) {
   const Eigen::VectorXd time =
       (Eigen::VectorXd(10) << 0, 1, 1.5, 4, 4.1, 9, 10, 20, 21, 22).finished();
@@ -240,24 +189,6 @@ TEST(ClosedLoop, LosesByTheMeansBetweenSamplesAsTheForwardModel) {
     differences.col(i) = (force(step) - force(-step)) / (2 * step);
   }
   ExpectNear(loop.Jacobian(p, thermal, -0.5), differences, 1e-8);
-}
-
-TEST(ClosedLoop, CoolsThroughRests) {
-  Eigen::VectorXd v = Eigen::VectorXd::Zero(11);
-  v[0] = 1;
-  const LoopResponse response = Loop(EvenTime(11), v).Simulate(Eigen::Vector2d(5, 15), {-0.3, 10});
-  EXPECT_LT(response.energy[1], 0);
-  EXPECT_NEAR(response.energy[10], response.energy[1] * std::exp(-0.9), 1e-14);
-  EXPECT_EQ(response.force[5], 0);
-}
-
-TEST(ClosedLoop, ReportsFrictionThatFeedsItself) {
-  // a minute at 2 rad/s drives E far below -kc, then a slow motion meets it
-  Eigen::VectorXd v = Eigen::VectorXd::Constant(400, 2);
-  v.tail(100).setConstant(0.05);
-  const LoopResponse response = Loop(EvenTime(400), v).Simulate(Eigen::Vector2d(20, 2), {-3, 100});
-  ASSERT_TRUE(response.feeds_itself);
-  EXPECT_EQ(*response.feeds_itself, 300);
 }
 
 }  // namespace

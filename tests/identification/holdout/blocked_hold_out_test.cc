@@ -1,7 +1,5 @@
 #include "identification/holdout/blocked_hold_out.h"
 
-#include <gmock/gmock.h>
-
 #include "identification/identifiers/energy_ml.h"
 #include "identification/identifiers/nominal_ls.h"
 #include "identification/preparation/prepare.h"
@@ -11,19 +9,6 @@
 
 namespace warmjoint {
 namespace {
-
-TEST(BlockedHoldOut, CutsIntoBlocksWithEqualNumbersOfKeptSamples) {
-  Selection selection{Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(12, true), {}};
-  selection.keep.segment(2, 4) = false;
-  // kept: 0 1 6 7 8 9 10 11
-  EXPECT_THAT(CutIntoBlocks(selection, 4), testing::ElementsAre(0, 2, 8, 10, 12));
-}
-
-TEST(BlockedHoldOut, LeavesNoBlockToSamplesBehindTheLastKeptOne) {
-  Selection selection{Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(9, true), {}};
-  selection.keep.tail(3) = false;
-  EXPECT_THAT(CutIntoBlocks(selection, 3), testing::ElementsAre(0, 2, 4, 9));
-}
 
 TEST(BlockedHoldOut, HasTheErrorOfTheNoiseWhereTheModelIsRight) {
   const Measurements m =

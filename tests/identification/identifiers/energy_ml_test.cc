@@ -1,28 +1,20 @@
-#include "identification/identifiers/energy_ml.h"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
 
-#include "identification/answer/identify.h"
-#include "identification/preparation/prepare.h"
-#include "identification/preparation/select.h"
-#include "identification/read_options.h"
 #include "models/foundation/random_stream.h"
 #include "models/friction/thermal.h"
+#include "tests/support/judging.h"
 #include "tests/support/vectors.h"
 
 namespace warmjoint {
 namespace {
 
-using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 Estimate FitWarming(const Measurements& measurements,
                     const std::map<std::string, std::string>& given = {}) {
-  const Identifier identifier = EnergyMl();
-  const Options options = ReadOptions(identifier.options, given, {});
-  return IdentifyUnjudged(identifier, {Prepare(measurements), options, {}});
+  return test::Fitted("energy-ml", measurements, given);
 }
 
 /// Torque of kv = 5, kc = 15 with `thermal` and E(0), plus noise, over a velocity at `time`.
@@ -130,15 +122,6 @@ TEST(EnergyMl, GivesFrictionWithWarming) {
   EXPECT_GT((*estimate.Find("thermal_time_constant")->interval95)[0], 0);
   EXPECT_GE(estimate.trace.size(), 2u);
   EXPECT_NEAR(estimate.trace.back().rmse, estimate.metrics->rmse, 1e-12);
-}
-
-TEST(EnergyMl, SaysThatOneSpeedAloneIsNotIdentifiable) {
-  const Eigen::VectorXd v = Eigen::VectorXd::Constant(3600, 0.5);
-  const Estimate estimate = FitWarming(Warm(EvenTime(3600), v, {-3, 600}, 0.5));
-  EXPECT_EQ(estimate.status, Status::not_identifiable);
-  EXPECT_THAT(estimate.message, AllOf(HasSubstr("viscous, coulomb"), HasSubstr("two or more")));
-  EXPECT_TRUE(estimate.parameters.empty());
-  EXPECT_FALSE(estimate.friction || estimate.metrics);
 }
 
 TEST(EnergyMl, SaysThatNoWarmUpCanBeSeen) {

@@ -1,27 +1,13 @@
-#include "identification/identifiers/kalman.h"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
 
-#include "identification/answer/identify.h"
-#include "identification/identifiers/energy_ml.h"
-#include "identification/identifiers/rls.h"
-#include "identification/preparation/prepare.h"
-#include "identification/preparation/select.h"
-#include "identification/read_options.h"
-#include "tests/support/warm_recording.h"
+#include "tests/support/judging.h"
 
 namespace warmjoint {
 namespace {
 
 using ::testing::HasSubstr;
-
-Estimate AnswerTo(const Identifier& identifier, const Measurements& m,
-                  const std::map<std::string, std::string>& given = {}) {
-  const Options options = ReadOptions(identifier.options, given, {});
-  return IdentifyUnjudged(identifier, {Prepare(m), options, {}});
-}
 
 Measurements TableOneRecording(std::uint64_t seed) {
   return test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, seed), 0.5, seed);
@@ -30,8 +16,8 @@ Measurements TableOneRecording(std::uint64_t seed) {
 TEST(Kalman, ComesToTheMaximumLikelihood) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const Measurements m = TableOneRecording(seed);
-    const Estimate filtered = AnswerTo(Kalman(), m);
-    const Estimate likely = AnswerTo(EnergyMl(), m);
+    const Estimate filtered = test::Fitted("kalman", m);
+    const Estimate likely = test::Fitted("energy-ml", m);
     ASSERT_EQ(filtered.status, Status::ok) << filtered.message;
     for (const EstimatedParameter& parameter : likely.parameters) {
       // the passes end where one moves less than a tenth of a deviation
@@ -45,7 +31,7 @@ TEST(Kalman, ComesToTheMaximumLikelihood) {
 TEST(Kalman, HoldsTheTruthInItsIntervals) {
   int held = 0, all = 0;
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
-    const Estimate estimate = AnswerTo(Kalman(), TableOneRecording(seed));
+    const Estimate estimate = test::Fitted("kalman", TableOneRecording(seed));
     for (const auto& [name, truth] :
          std::map<std::string, double>{{"viscous", 5},
                                        {"coulomb", 15},
@@ -64,7 +50,7 @@ TEST(Kalman, HoldsTheTruthInItsIntervals) {
 }
 
 TEST(Kalman, GivesNoIntervalsAfterOnePass) {
-  const Estimate once = AnswerTo(Kalman(), TableOneRecording(3), {{"passes", "1"}});
+  const Estimate once = test::Fitted("kalman", TableOneRecording(3), {{"passes", "1"}});
   EXPECT_THAT(once.message, HasSubstr("intervals need more than one pass"));
   // about twice the Cramer-Rao bound, 11 s of tau; five of these
   EXPECT_NEAR(once.Find("thermal_time_constant")->value, 600, 110);
@@ -75,7 +61,7 @@ TEST(Kalman, GivesNoIntervalsAfterOnePass) {
 
 TEST(Kalman, KnowsTheEnergyOnTheWay) {
   const Measurements m = TableOneRecording(7);
-  const Estimate estimate = AnswerTo(Kalman(), m);
+  const Estimate estimate = test::Fitted("kalman", m);
   const Prediction truth = PredictFriction(test::TableOne(), m);
   ASSERT_EQ(estimate.trace.size(), 50u);
   for (const TraceEntry& entry : estimate.trace) {
@@ -89,22 +75,21 @@ TEST(Kalman, KnowsTheEnergyOnTheWay) {
 }
 
 TEST(Kalman, SaysThatAColdJointShowsNoWarming) {
-  FrictionDescription cold = test::TableOne();
-  cold.thermal.reset();
-  const Measurements m = test::RecordFriction(cold, 1, test::AlternatingSpeeds(3600, 5), 0.5, 5);
-  const Estimate estimate = AnswerTo(Kalman(), m);
+  const Measurements m =
+      test::RecordFriction(test::Cold(), 1, test::AlternatingSpeeds(3600, 5), 0.5, 5);
+  const Estimate estimate = test::Fitted("kalman", m);
   EXPECT_EQ(estimate.status, Status::not_identifiable);
   EXPECT_THAT(estimate.message, HasSubstr("no warm-up can be seen"));
 }
 
 TEST(Kalman, AgreesWithRlsThatIsToldTheWarming) {
   const Measurements m = TableOneRecording(9);
-  const Estimate filtered = AnswerTo(Kalman(), m);
+  const Estimate filtered = test::Fitted("kalman", m);
   const auto text = [&](const char* name) { return std::to_string(filtered.Find(name)->value); };
-  const Estimate told = AnswerTo(Rls(), m,
-                                 {{"forgetting", "1"},
-                                  {"thermal_gain", text("thermal_gain")},
-                                  {"thermal_time_constant", text("thermal_time_constant")}});
+  const Estimate told = test::Fitted("rls", m,
+                                     {{"forgetting", "1"},
+                                      {"thermal_gain", text("thermal_gain")},
+                                      {"thermal_time_constant", text("thermal_time_constant")}});
   // rls takes the losses from the noisy torque: within the joint fit's deviation
   for (const char* name : {"viscous", "coulomb"}) {
     EXPECT_NEAR(filtered.Find(name)->value, told.Find(name)->value, *filtered.Find(name)->std)

@@ -2,8 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include <cmath>
-
 #include "identification/answer/identify.h"
 #include "identification/identifiers/stribeck.h"
 #include "identification/nonlinear/lugre_data.h"
@@ -176,16 +174,6 @@ TEST(Lugre, SaysWhatTurnsBetweenTwoSamplesCannotTell) {
       EXPECT_THAT(estimate.message,
                   AllOf(HasSubstr("bristle_stiffness"), HasSubstr("reverse slowly")));
     }
-  }
-}
-
-TEST(Lugre, GivesNoNumbersForTableOne) {
-  const Measurements m =
-      test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 1), 0.5, 1);
-  for (const char* damping : {"estimated", "none"}) {
-    const Estimate estimate = AnswerTo(m, SelectMoving(m), {{"damping", damping}});
-    EXPECT_EQ(estimate.status, Status::not_identifiable) << estimate.message;
-    EXPECT_TRUE(estimate.parameters.empty());
   }
 }
 

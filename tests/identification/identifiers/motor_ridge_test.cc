@@ -1,11 +1,6 @@
-#include "identification/identifiers/motor_ridge.h"
-
 #include <gmock/gmock.h>
 
-#include "identification/answer/identify.h"
-#include "identification/preparation/prepare.h"
-#include "identification/preparation/select.h"
-#include "identification/read_options.h"
+#include "tests/support/judging.h"
 #include "tests/support/travelling.h"
 
 namespace warmjoint {
@@ -26,11 +21,7 @@ Measurements Geared(std::vector<FrictionMap> maps, double noise) {
 }
 
 Estimate Identify(const Measurements& m) {
-  const Identifier identifier = MotorRidge();
-  const Options options =
-      ReadOptions(identifier.options, {{"width", "1"}, {"arm_kernels", "10"}}, {});
-  const Selection selection = SelectMoving(m);
-  return IdentifyUnjudged(identifier, {Prepare(m, selection), options, {}});
+  return test::Fitted("motor-ridge", m, {{"width", "1"}, {"arm_kernels", "10"}});
 }
 
 TEST(MotorRidge, FindsTheMultiplesOfTheMotorsTurn) {

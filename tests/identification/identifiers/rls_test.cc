@@ -1,30 +1,17 @@
-#include "identification/identifiers/rls.h"
-
 #include <gmock/gmock.h>
 
-#include "identification/answer/identify.h"
-#include "identification/identifiers/nominal_ls.h"
-#include "identification/preparation/prepare.h"
-#include "identification/preparation/select.h"
-#include "identification/read_options.h"
-#include "tests/support/warm_recording.h"
+#include "tests/support/judging.h"
 
 namespace warmjoint {
 namespace {
-
-Estimate AnswerTo(const Identifier& identifier, const Measurements& m,
-                  const std::map<std::string, std::string>& given) {
-  const Options options = ReadOptions(identifier.options, given, {});
-  return IdentifyUnjudged(identifier, {Prepare(m), options, {}});
-}
 
 TEST(Rls, IsNominalLsWhereItForgetsNothing) {
   FrictionDescription friction = test::TableOne();
   friction.thermal.reset();
   const Measurements m =
       test::RecordFriction(friction, 1, test::AlternatingSpeeds(2000, 1, 300), 0.5, 1);
-  const Estimate online = AnswerTo(Rls(), m, {{"forgetting", "1"}});
-  const Estimate batch = AnswerTo(NominalLs(), m, {});
+  const Estimate online = test::Fitted("rls", m, {{"forgetting", "1"}});
+  const Estimate batch = test::Fitted("nominal-ls", m);
   for (const char* name : {"viscous", "coulomb"}) {
     // 1e-9: linear solve; the first doubt counts as 1e-8 of 1400 samples
     EXPECT_NEAR(online.Find(name)->value, batch.Find(name)->value, 1e-9 * 15) << name;
@@ -36,7 +23,7 @@ TEST(Rls, FollowsFrictionThatWarms) {
   // settled, E = k W makes F = F0 / (1 - k |v|): near 0.5 rad/s the level has fallen by half
   const Measurements m =
       test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 2), 0.1, 2);
-  const Estimate online = AnswerTo(Rls(), m, {{"forgetting", "0.995"}});
+  const Estimate online = test::Fitted("rls", m, {{"forgetting", "0.995"}});
   ASSERT_EQ(online.trace.size(), 50u);
   const double first = online.trace[1].parameters[1].second;
   const double last = online.trace[49].parameters[1].second;
@@ -47,7 +34,7 @@ TEST(Rls, TakesOffTheWarmingThatIsKnown) {
   const Measurements m =
       test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 3), 0.1, 3);
   const Estimate online =
-      AnswerTo(Rls(), m, {{"thermal_gain", "-3"}, {"thermal_time_constant", "600"}});
+      test::Fitted("rls", m, {{"thermal_gain", "-3"}, {"thermal_time_constant", "600"}});
   // noise of 0.1 N.m over the last 1000 samples; 5 standard deviations
   EXPECT_NEAR(online.Find("viscous")->value, 5, 5 * 0.1 / std::sqrt(1000) / 0.26);
   EXPECT_NEAR(online.Find("coulomb")->value, 15, 5 * 0.1 / std::sqrt(1000) / 0.4);
@@ -64,7 +51,7 @@ TEST(Rls, LetsIntervalsHoldWhereTheNoiseComesThroughTheHeat) {
         test::TableOne(), 1, test::AlternatingSpeeds(1800, static_cast<std::uint64_t>(seed)), 0.5,
         static_cast<std::uint64_t>(seed));
     const Estimate online =
-        AnswerTo(Rls(), m, {{"thermal_gain", "-3"}, {"thermal_time_constant", "600"}});
+        test::Fitted("rls", m, {{"thermal_gain", "-3"}, {"thermal_time_constant", "600"}});
     const auto& [lower, upper] = *online.Find("coulomb")->interval95;
     held += lower <= 15 && 15 <= upper;
   }
@@ -76,11 +63,11 @@ TEST(Rls, TakesGravityOffTheHeat) {
   Measurements m =
       test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 4), 0, 4);
   m.torque += 6 * m.position.array().sin().matrix();
-  const Estimate online = AnswerTo(Rls(), m,
-                                   {{"thermal_gain", "-3"},
-                                    {"thermal_time_constant", "600"},
-                                    {"gravity", "sincos"},
-                                    {"forgetting", "1"}});
+  const Estimate online = test::Fitted("rls", m,
+                                       {{"thermal_gain", "-3"},
+                                        {"thermal_time_constant", "600"},
+                                        {"gravity", "sincos"},
+                                        {"forgetting", "1"}});
   // without noise all of it is linear: what is left is the first doubt, 1e-8 of 3600 samples
   EXPECT_NEAR(online.Find("viscous")->value, 5, 1e-6);
   EXPECT_NEAR(online.Find("coulomb")->value, 15, 1e-6);

@@ -1,15 +1,11 @@
-#include "identification/identifiers/stribeck.h"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
 
-#include "identification/answer/identify.h"
 #include "identification/nonlinear/stribeck_fit.h"
-#include "identification/preparation/prepare.h"
 #include "identification/preparation/select.h"
-#include "identification/read_options.h"
 #include "models/recording/join_recordings.h"
+#include "tests/support/judging.h"
 #include "tests/support/slow_recording.h"
 
 namespace warmjoint {
@@ -19,9 +15,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 Estimate AnswerTo(const Measurements& m, const std::map<std::string, std::string>& given = {}) {
-  const Identifier identifier = StribeckIdentifier();
-  const Options options = ReadOptions(identifier.options, given, {});
-  return IdentifyUnjudged(identifier, {Prepare(m), options, {}});
+  return test::Fitted("stribeck", m, given);
 }
 
 using test::StribeckJoint;

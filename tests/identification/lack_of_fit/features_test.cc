@@ -40,59 +40,6 @@ bool Holds(const Estimate& estimate, const std::string& name, double truth) {
   return lower <= truth && truth <= upper;
 }
 
-/// Bins of one sample each over a log, forwards and backwards in turn, whose segments are not known.
-Bins EvenBins(Eigen::Index count) {
-  Bins bins;
-  bins.weight = Eigen::VectorXd::Ones(count);
-  bins.velocity.resize(count);
-  bins.time.resize(count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    bins.begin.push_back(i);
-    bins.end.push_back(i + 1);
-    bins.velocity[i] = i % 2 == 0 ? 0.5 : -0.5;
-    bins.time[i] = (static_cast<double>(i) + 0.5) / static_cast<double>(count);
-  }
-  return bins;
-}
-
-/// A fit of one level that leaves this.
-GrowingFit Leaving(const Bins& bins, const Eigen::VectorXd& residual) {
-  return {bins.weight,
-          residual,
-          Eigen::MatrixXd::Ones(bins.size(), 1),
-          {Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(bins.size(), true), {}}};
-}
-
-TEST(Period, IsThatOfTheWaveAmongThoseHalfACycleApart) {
-  const Bins bins = EvenBins(400);
-  const GrowingFit fit = Leaving(bins, (2 * std::numbers::pi * 7 * bins.time.array()).cos());
-  Circumstances known;
-  known.duration = 100;
-  // 2.5 to 20 cycles, one a hold; to a quarter of the bins where no holds are known
-  known.hold = 5;
-  EXPECT_EQ(OfPeriod(bins, known, fit).candidates, 36);
-  EXPECT_DOUBLE_EQ(OfPeriod(bins, known, fit).period, 100.0 / 7);
-  known.hold = 0;
-  EXPECT_EQ(OfPeriod(bins, known, fit).candidates, 196);
-  // too few holds for a wave
-  known.hold = 50;
-  EXPECT_EQ(OfPeriod(bins, known, fit).columns.cols(), 0);
-}
-
-TEST(Step, IsWhereTheFrictionOrTheTorqueSteps) {
-  // 32 places of ten rows each: at the twentieth
-  const Bins bins = EvenBins(320);
-  const Eigen::VectorXd step = (bins.time.array() > 0.625).cast<double>();
-  const Eigen::VectorXd turned = step.cwiseProduct(bins.velocity.cwiseSign());
-  for (const Eigen::VectorXd& residual : {step, turned}) {
-    const Features features = OfStep(bins, {}, Leaving(bins, residual));
-    // 31 places between the parts, of each kind
-    EXPECT_EQ(features.candidates, 62);
-    ASSERT_EQ(features.columns.cols(), 1);
-    EXPECT_EQ(features.columns.col(0), residual);
-  }
-}
-
 TEST(HoldPhase, SeesWhatIsTheSameInBothHalvesOfAHold) {
   int seen = 0;
   for (std::uint64_t seed = 1; seed <= kLogs; ++seed) {

@@ -1,7 +1,5 @@
 #include "identification/lack_of_fit/held_loss.h"
 
-#include <gmock/gmock.h>
-
 #include <cmath>
 
 #include "identification/identifiers/identifier_list.h"
@@ -14,8 +12,6 @@ namespace warmjoint {
 namespace {
 
 using Eigen::Index;
-using ::testing::HasSubstr;
-using ::testing::Not;
 
 /// A joint of 30 s at 1 Hz, 20 min. part: steps of the plant in each sample; noise: N.m.
 Measurements Quick(std::uint64_t seed, Index part, double noise) {
@@ -44,20 +40,6 @@ TEST(HeldLoss, IsWhatContinuousHeatAddsAtOneSpeed) {
     // an eighth of a step leaves less than h^2/64 of the curvature: 17.5 0.6 (2.5/30)^2/64
     EXPECT_NEAR(force[n], settled, 2e-3);
   }
-}
-
-TEST(HeldLoss, MattersWhereTheTimeConstantIsKnownFinerThanTheStep) {
-  const Measurements m = Quick(1, 50, 0.1);
-  const Measurements slow = test::RecordHour(test::TableOne(), 1);
-  const auto matters = [](const Measurements& log) {
-    const Identifier& identifier = FindIdentifier("energy-ml");
-    const Options options = ReadOptions(identifier.options, {}, {});
-    const IdentifierInput input{Prepare(log), options, {}};
-    const Fit fit = identifier.fit(input);
-    return StepMatters(fit, Infer(fit), log.velocity, MedianStep(log.time));
-  };
-  EXPECT_TRUE(matters(m));
-  EXPECT_FALSE(matters(slow));
 }
 
 /// Of 20 recordings, how many intervals of tau and of the gain hold the truth.
@@ -90,15 +72,6 @@ TEST(HeldLoss, LeavesIntervalsThatHoldTheTruthOfAnIdealPlant) {
   for (const double noise : {0.02, 0.1, 0.5}) {
     EXPECT_GE(Covered(1, noise).minCoeff(), kMost) << noise;
   }
-}
-
-TEST(HeldLoss, IsToldOf) {
-  EXPECT_THAT(
-      test::Answer("energy-ml", Quick(1, 50, 0.1)).FullMessage(),
-      HasSubstr(
-          "losses that change with the heat within a step change thermal_time_constant by -"));
-  EXPECT_THAT(test::Answer("energy-ml", test::RecordHour(test::TableOne(), 1)).FullMessage(),
-              Not(HasSubstr("change with the heat")));
 }
 
 }  // namespace

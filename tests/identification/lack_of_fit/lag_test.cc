@@ -97,24 +97,5 @@ TEST(TestLag, HasOneSide) {
   EXPECT_EQ(found.p_adjusted, 1);
 }
 
-TEST(TestLag, TakesWhatItFindsOffTheResidual) {
-  const Measurements m = Late(RecordHour(test::Cold(), 1, 0.1), 0.4);
-  FittedModel model;
-  model.selection = SelectConstantSpeed(m);
-  model.step = 1;
-  model.torque = m.torque;
-  const Eigen::ArrayXd speed = m.velocity.array();
-  model.residual = m.torque - (5 * speed + 15 * speed.sign()).matrix();
-  model.derivatives.resize(m.size(), 2);
-  model.derivatives << speed.matrix(), speed.sign().matrix();
-  Eigen::VectorXd rest = model.residual;
-  ErrorLevel level(1);
-  const Finding found = TestLag(model, m, rest, level);
-  ASSERT_TRUE(found.rejected);
-  // 0.4 of the change is left for one sample of 1 s; what is left is noise of 0.1 N.m, smoothed
-  EXPECT_NEAR(found.lag, 0.4, 0.05);
-  EXPECT_NEAR(rest.norm() / std::sqrt(3600.0), 0.1 * std::sqrt(0.6 * 0.6 + 0.4 * 0.4), 0.005);
-}
-
 }  // namespace
 }  // namespace warmjoint

@@ -10,51 +10,10 @@
 namespace warmjoint {
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 constexpr double kNoise = 0.5;  // N.m
 
 double Rounded(double torque, double step, double offset) {
   return step * std::round((torque - offset) / step) + offset;
-}
-
-TEST(Rounding, IsTheMeanErrorOfWhatIsLogged) {
-  for (const double step : {0.8, 1.5, 3.0}) {
-    constexpr double offset = 0.3;  // N.m, of the sensor's steps
-    constexpr Index levels = 40, each = 20'000;
-    RandomStream random({2, 7}, Stream::test);
-    VectorXd torque(levels * each), level(levels * each);
-    for (Index i = 0; i < torque.size(); ++i) {
-      level[i] = 5 + 0.1 * static_cast<double>(i % levels);
-      torque[i] = Rounded(level[i] + kNoise * random.Normal(), step, offset);
-    }
-    const VectorXd residual = torque - level;
-    const VectorXd mean =
-        MeanRounding(torque, residual, residual.squaredNorm() / static_cast<double>(torque.size()));
-    ASSERT_EQ(mean.size(), torque.size());
-
-    // 5 standard errors of the mean over each level's samples; the noise is known to 1 % where steps are small
-    const double scatter = std::hypot(kNoise, step / std::sqrt(12.0));
-    for (Index k = 0; k < levels; ++k) {
-      double sum = 0;
-      for (Index i = k; i < torque.size(); i += levels) sum += residual[i];
-      EXPECT_NEAR(mean[k], sum / each, 5 * scatter / std::sqrt(each) + 0.01 * step)
-          << step << " at " << level[k];
-    }
-  }
-}
-
-TEST(Rounding, IsNoMatterWhereNoiseEvensItOut) {
-  RandomStream random({3, 7}, Stream::test);
-  VectorXd residual(1000), torque(1000);
-  for (Index i = 0; i < 1000; ++i) {
-    residual[i] = kNoise * random.Normal();
-    torque[i] = 5 + residual[i];
-  }
-  EXPECT_EQ(MeanRounding(torque, residual, kNoise * kNoise).size(), 0);
-  for (double& t : torque) t = Rounded(t, 0.4, 0);
-  EXPECT_EQ(MeanRounding(torque, residual, kNoise * kNoise).size(), 0);
 }
 
 TEST(Rounding, IsTakenBackFromTheParameters) {

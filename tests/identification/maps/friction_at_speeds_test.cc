@@ -4,28 +4,24 @@
 
 #include <cmath>
 
-#include "identification/answer/identify.h"
-#include "identification/identifiers/identifier_list.h"
 #include "identification/preparation/prepare.h"
-#include "identification/read_options.h"
+#include "tests/support/judging.h"
 #include "tests/support/travelling.h"
 
 namespace warmjoint {
 namespace {
 
 Estimate Identified(const PreparedLog& log) {
-  const Identifier& identifier = FindIdentifier("position-ridge");
-  const Options options = ReadOptions(identifier.options, {{"kernels", "20"}, {"width", "1"}}, {});
-  return IdentifyUnjudged(identifier, {log, options, {}});
+  return test::Fitted("position-ridge", log, {{"kernels", "20"}, {"width", "1"}});
 }
 
 /// A joint whose level varies over its position by 0.3 N.m, and its answer.
-struct Answer {
+struct Rippled {
   FrictionDescription truth{"viscous_coulomb", {{"viscous", 0.5}, {"coulomb", 2}}, {}, 0, 100};
   Measurements log;
   Estimate estimate;
 
-  explicit Answer(std::uint64_t seed) {
+  explicit Rippled(std::uint64_t seed) {
     truth.maps = {test::PositionLevel(1, 0.3)};
     log = test::Record(0.1, test::Travel(6000, 0.1, 1, {0.31, 0.57, 0.57, 0.83}),
                        Eigen::VectorXd::Zero(6000));
@@ -53,10 +49,10 @@ struct Answer {
 TEST(FrictionAtSpeeds, HoldsWhatLawAndMapBrakeWith) {
   int held = 0, all = 0;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
-    const Answer answer(seed);
-    ASSERT_EQ(answer.estimate.at_speeds.size(), 6u) << answer.estimate.message;
-    for (const FrictionAtSpeed& one : answer.estimate.at_speeds) {
-      const double truth = answer.TruthAt(one.speed);
+    const Rippled rippled(seed);
+    ASSERT_EQ(rippled.estimate.at_speeds.size(), 6u) << rippled.estimate.message;
+    for (const FrictionAtSpeed& one : rippled.estimate.at_speeds) {
+      const double truth = rippled.TruthAt(one.speed);
       EXPECT_NEAR(one.value, truth, 0.02) << one.speed;
       EXPECT_EQ(one.speed_unit + ", " + one.unit, "rad/s, N.m");
       // every so manieth of 1500 places has a mean of their level that is its own to 0.001
@@ -64,8 +60,8 @@ TEST(FrictionAtSpeeds, HoldsWhatLawAndMapBrakeWith) {
       ++all;
     }
     // known to the noise of the 1500 samples at this speed, where the constant itself is not known at all
-    EXPECT_LT(answer.estimate.at_speeds[1].std, 2 * 0.1 / std::sqrt(1500));
-    EXPECT_FALSE(answer.estimate.Find("coulomb")->interval95);
+    EXPECT_LT(rippled.estimate.at_speeds[1].std, 2 * 0.1 / std::sqrt(1500));
+    EXPECT_FALSE(rippled.estimate.Find("coulomb")->interval95);
   }
   EXPECT_GT(held, 0.9 * all);
 }
@@ -95,7 +91,7 @@ TEST(FrictionAtSpeeds, IsThatOfThePlacesWhereTheJointMovedSo) {
 }
 
 TEST(FrictionAtSpeeds, AreALowTheMedianAndAHighOneOfEachDirection) {
-  const Estimate estimate = Answer(1).estimate;
+  const Estimate estimate = Rippled(1).estimate;
   ASSERT_EQ(estimate.at_speeds.size(), 6u);
   EXPECT_NEAR(estimate.at_speeds[0].speed, 0.31, 0.01);
   EXPECT_NEAR(estimate.at_speeds[2].speed, 0.83, 0.01);

@@ -5,11 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "identification/answer/identify.h"
-#include "identification/identifiers/identifier_list.h"
-#include "identification/preparation/prepare.h"
-#include "identification/preparation/select.h"
-#include "identification/read_options.h"
+#include "tests/support/judging.h"
 #include "tests/support/travelling.h"
 
 namespace warmjoint {
@@ -37,9 +33,7 @@ Trial Identify(const FrictionDescription& truth, const char* name, std::uint64_t
   m.position.array() -= 1;  // between the limits
   m.torque = PredictFriction(truth, m).force;
   test::AddNoise(m, 0.1, colour, seed);
-  const Identifier& identifier = FindIdentifier(name);
-  const Options options = ReadOptions(identifier.options, given, {});
-  trial.estimate = IdentifyUnjudged(identifier, {Prepare(m), options, {}});
+  trial.estimate = test::Fitted(name, m, given);
   return trial;
 }
 

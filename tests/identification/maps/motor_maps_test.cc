@@ -13,39 +13,6 @@ namespace {
 constexpr double kTurn = 2 * std::numbers::pi;  // rad
 constexpr double kGear = 4.8332;
 
-/// Samples spread evenly over a travel, with two speeds. travel: rad or m
-MapPoints Over(double travel) {
-  MapPoints points = MapPoints::Zero(100, 5);
-  for (Eigen::Index i = 0; i < 100; ++i) {
-    const double x = travel * static_cast<double>(i) / 99;
-    points.row(i) << x, kGear * x, (i % 2 == 0 ? 0.5 : -0.8), 0, 0;
-  }
-  return points;
-}
-
-/// The axis of the joint's map.
-GaussianAxis ArmAxis(JointKind joint, double travel) {
-  MapSettings settings;
-  settings.widths = {1.0};
-  return MotorMaps({36, 3, 20}, settings, joint, Over(travel)).at(0).at(1).axes.at(0).kernels;
-}
-
-TEST(MotorMaps, TheJointsGoesOverItsTravel) {
-  for (const double turns : {0.3, 1.5, 6.0}) {
-    const GaussianAxis axis = ArmAxis(JointKind::rotary, turns * kTurn);
-    EXPECT_FALSE(axis.period) << turns;
-    EXPECT_DOUBLE_EQ(axis.centres.back(), turns * kTurn);
-  }
-  EXPECT_FALSE(ArmAxis(JointKind::linear, 100).period);
-}
-
-TEST(MotorMaps, TheJointsGoesOverATurnWhereFewerThanThreeOfItsKernelsFallOnOne) {
-  const GaussianAxis axis = ArmAxis(JointKind::rotary, 7 * kTurn);
-  ASSERT_TRUE(axis.period);
-  EXPECT_DOUBLE_EQ(*axis.period, kTurn);
-  EXPECT_EQ(axis.size(), 20u);
-}
-
 TEST(MotorMaps, LeaveTheHeatToTheWarmingOfAJointThatWanders) {
   FrictionDescription friction = test::TableOne();
   friction.gear = kGear;

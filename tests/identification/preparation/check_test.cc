@@ -2,15 +2,13 @@
 
 #include <gmock/gmock.h>
 
-#include <nlohmann/json.hpp>
-
 #include "identification/preparation/check_report.h"
 #include "tests/support/warm_recording.h"
 
 namespace warmjoint {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// Constant speeds in turn, 20 s each, one sample a second.
 Measurements Log(const std::vector<double>& speeds, int repetitions) {
@@ -109,25 +107,6 @@ TEST(CheckRecording, JudgesAMotionWithoutConstantSpeeds) {
   EXPECT_EQ(check.motion.segments, 0);
   for (const Excitation& excitation : check.excitation) EXPECT_FALSE(excitation.sufficient);
   EXPECT_THAT(CheckToText(check), HasSubstr("record piecewise constant speeds"));
-}
-
-TEST(CheckToJson, HoldsWhatTheTextSays) {
-  const nlohmann::json json = CheckToJson(CheckRecording(Log({0.1, -0.5}, 20)));
-  EXPECT_EQ(json["sampling"]["samples"], 800);
-  EXPECT_EQ(json["motion"]["levels"].size(), 2U);
-  EXPECT_EQ(json["excitation"].size(), 7U);
-  EXPECT_EQ(json["joint"], "rotary");
-}
-
-TEST(Unsettled, SaysWhatTheRecordingLacks) {
-  const auto record = [](Eigen::Index n) {
-    return test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(n, 1), 0.5, 1);
-  };
-  EXPECT_THAT(WhyNotConverged(record(60), FrictionKind::warm_up), HasSubstr("the log lasts 59 s"));
-  EXPECT_THAT(WhyNotConverged(record(60), FrictionKind::stribeck),
-              HasSubstr("the slowest below 1/20 of the fastest"));
-  EXPECT_THAT(WhyNotConverged(record(3600), FrictionKind::warm_up),
-              HasSubstr("does the torque column"));
 }
 
 }  // namespace

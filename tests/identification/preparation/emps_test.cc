@@ -2,8 +2,6 @@
 // constant speed. Expected figures: an independent fit, see the data's PROVENANCE.txt.
 #include <gmock/gmock.h>
 
-#include <Eigen/Dense>
-
 #include "identification/preparation/check.h"
 #include "identification/preparation/check_report.h"
 #include "identification/preparation/prepare.h"
@@ -29,47 +27,6 @@ class Emps : public testing::Test {
 
   Measurements log_;
 };
-
-struct Fit {
-  Eigen::VectorXd parameters;
-  double rmse = 0;  // N
-  double fit = 0;   // %
-};
-
-Fit LeastSquares(const Measurements& log, const std::string& law_name) {
-  const Law& law = *FindLaw(law_name);
-  const Selection selection = SelectConstantSpeed(log);
-  const auto d = static_cast<Eigen::Index>(law.parameters.size());
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows(selection.count(), d);
-  Eigen::VectorXd force(selection.count());
-  for (Eigen::Index i = 0, k = 0; i < log.size(); ++i) {
-    if (!selection.keep[i]) continue;
-    Regressor(law, log.velocity[i], &rows(k, 0));
-    force[k++] = log.torque[i];
-  }
-  const Eigen::VectorXd parameters = rows.colPivHouseholderQr().solve(force);
-  const Eigen::VectorXd error = force - rows * parameters;
-  const double spread = (force.array() - force.mean()).matrix().norm();
-  return {parameters, std::sqrt(error.squaredNorm() / static_cast<double>(force.size())),
-          100 * (1 - error.norm() / spread)};
-}
-
-// the reference cut its segments by its own rule: where the cuts differ by some hundredths of a
-// second the figures differ in their third digit
-TEST_F(Emps, IsDescribedByTheAsymmetricLaw) {
-  const Fit fit = LeastSquares(log_, "asymmetric");
-  EXPECT_NEAR(fit.parameters[0], 193, 2);
-  EXPECT_NEAR(fit.parameters[1], 18.0, 0.1);
-  EXPECT_NEAR(fit.parameters[2], 25.2, 0.1);
-  EXPECT_NEAR(fit.rmse, 1.78, 0.02);
-  EXPECT_NEAR(fit.fit, 95.5, 0.1);
-}
-
-TEST_F(Emps, IsNotDescribedByOneLevelForBothDirections) {
-  const Fit fit = LeastSquares(log_, "viscous_coulomb");
-  EXPECT_NEAR(fit.parameters[1], 21.47, 0.1);
-  EXPECT_NEAR(fit.rmse, 4.02, 0.03);
-}
 
 TEST_F(Emps, MovesAtThreeSpeedsInBothDirections) {
   const RecordingCheck check = CheckRecording(log_);

@@ -113,21 +113,5 @@ TEST(PrepareSettings, LeaveOutEndsAndShortHolds) {
   EXPECT_EQ(Prepare(log, {.shortest_hold = 100}).taken().selection.count(), 0);
 }
 
-TEST(PathAgainstVelocity, PositionsTellMoreWhereTheirNoiseIsLessThanWhatSamplesHide) {
-  // differences of 0.01 rad either way, on ways of 2.5 rad: the path is as long, and each way is told better
-  PathComparison paths;
-  for (int i = 0; i < 20; ++i)
-    paths.ways.push_back({10 * i, 10 * i + 10, 2.5, i % 2 ? 0.01 : -0.01});
-  const double limit = 0.01 / std::sqrt(8);
-  EXPECT_TRUE(PositionsTellMore(paths, 0.99 * limit));
-  EXPECT_FALSE(PositionsTellMore(paths, 1.01 * limit));
-
-  // 0.01 % of a way is no matter
-  for (Way& way : paths.ways) way.difference = 2.4e-4;
-  EXPECT_FALSE(PositionsTellMore(paths, 0));
-  for (Way& way : paths.ways) way.difference = 2.6e-4;
-  EXPECT_TRUE(PositionsTellMore(paths, 0));
-}
-
 }  // namespace
 }  // namespace warmjoint

@@ -114,37 +114,5 @@ TEST(TakeWays, SegmentsKeepTheVelocityColumn) {
   }
 }
 
-TEST(TakeWays, AWayThatSamplesCannotHideStaysAsItIs) {
-  Measurements log = Drive().log;
-  const PreparedLog prepared = Prepare(log);
-  const LogView& taken = prepared.taken();
-  const auto& segments = taken.selection.segments;
-  const auto middle = [&](size_t i) { return (segments[i].begin + segments[i].end) / 2; };
-  Measurements other = log;
-  other.velocity *= 0.5;
-
-  // one step at the change of speed is the most that a sample hides
-  const Way way{middle(3), middle(4), 4, 0};
-  const double most = kStep * std::abs(log.velocity[way.last] - log.velocity[way.first]);
-  for (const bool is_hidden : {true, false}) {
-    Way one = way;
-    one.difference = (is_hidden ? 0.9 : 1.1) * most;
-    const Measurements made = TakeWays(taken, log, other, {one}).measurements;
-    Index j = way.first;
-    for (Index i = way.first; i < way.last; ++i, ++j) {
-      // one is put in right behind the last of the segment
-      const bool changes = is_hidden && !taken.selection.keep[i];
-      if (changes && taken.selection.keep[i - 1]) {
-        EXPECT_EQ(made.velocity[j], other.velocity[i - 1]);
-        ++j;
-      }
-      ASSERT_EQ(made.time[j], log.time[i]);
-      EXPECT_EQ(made.velocity[j], changes ? other.velocity[i] : log.velocity[i]) << i;
-    }
-    EXPECT_EQ(j - way.last, is_hidden ? 1 : 0);
-    EXPECT_EQ(made.velocity.head(way.first), log.velocity.head(way.first));
-  }
-}
-
 }  // namespace
 }  // namespace warmjoint

@@ -1,16 +1,11 @@
 #include "identification/report/end_state.h"
 
-#include <gmock/gmock.h>
-
 #include <cmath>
 #include <map>
 #include <string>
 
-#include "identification/answer/identify.h"
-#include "identification/identifiers/identifier_list.h"
-#include "identification/preparation/prepare.h"
-#include "identification/read_options.h"
 #include "models/recording/course_of.h"
+#include "tests/support/judging.h"
 #include "tests/support/travelling.h"
 #include "tests/support/without_times.h"
 
@@ -19,9 +14,7 @@ namespace {
 
 /// E at the end of a log as its estimate has it.
 EstimatedParameter EndOf(const Measurements& m, const std::map<std::string, std::string>& given) {
-  const Identifier& identifier = FindIdentifier("energy-ml");
-  const Options options = ReadOptions(identifier.options, given, {});
-  const Estimate estimate = IdentifyUnjudged(identifier, {Prepare(m), options, {}});
+  const Estimate estimate = test::Fitted("energy-ml", m, given);
   EXPECT_EQ(estimate.status, Status::ok) << estimate.message;
   for (const EstimatedParameter& one : estimate.state_end) {
     if (one.name == "energy") return one;
@@ -55,28 +48,6 @@ TEST(EndState, OfAMapHasTheIntervalOfLawAndMapTogether) {
     squares += std::pow((end.value - truth) / *end.std, 2);
   }
   EXPECT_NEAR(squares / logs, 1, 4 * 0.32);
-}
-
-TEST(EndState, IsTheSameByTheFitsRecursionAsAlongTheMotion) {
-  // E(0) and, behind a gap, a jump are estimated too
-  const Measurements m = test::Without(Log(test::TableOne(), 1), {{2000, 2400}});
-  const Identifier& identifier = FindIdentifier("energy-ml");
-  const Options options = ReadOptions(identifier.options, {{"initial_energy", "estimated"}}, {});
-  Fit fit = identifier.fit({Prepare(m), options, {}});
-  ASSERT_FALSE(fit.refusal);
-  ASSERT_TRUE(fit.end_energy);
-  const Inference inference = Infer(fit);
-  const auto by_fit = EndState(fit, inference, fit.friction, m);
-  fit.end_energy = nullptr;
-  const auto by_differences = EndState(fit, inference, fit.friction, m);
-
-  // 1e-2: differences of one standard error bend by its square
-  ASSERT_EQ(by_fit.size(), by_differences.size());
-  ASSERT_TRUE(by_fit.back().std && by_differences.back().std);
-  EXPECT_NEAR(*by_fit.back().std, *by_differences.back().std, 1e-2 * *by_fit.back().std);
-  // 1e-12: two recursions over 3200 steps, each of which rounds by 1e-16
-  EXPECT_NEAR(by_fit.back().value, by_differences.back().value,
-              1e-12 * std::abs(by_fit.back().value));
 }
 
 TEST(EndState, IsLessSureBehindAGap) {

@@ -54,16 +54,6 @@ Eigen::Array2d Coverage(int count, double in_common) {
   return held;
 }
 
-TEST(FewSegments, AreFewerThanEightBeyondTheParameters) {
-  EXPECT_TRUE(HasFewSegments(Segments(3), 2));
-  EXPECT_TRUE(HasFewSegments(Segments(9), 2));
-  EXPECT_FALSE(HasFewSegments(Segments(10), 2));
-  // where no segments are known nothing is said
-  Selection none = Segments(3);
-  none.segments.clear();
-  EXPECT_FALSE(HasFewSegments(none, 2));
-}
-
 TEST(FewSegments, LeaveIntervalsThatHoldTheTruth) {
   // standard error of 95 % in a thousand: 0.7 %, of which three; noise in common to a segment makes
   // the variance scatter less than white noise, for which its degrees of freedom are counted
@@ -73,25 +63,6 @@ TEST(FewSegments, LeaveIntervalsThatHoldTheTruth) {
       EXPECT_NEAR(white[j], 0.95, 0.021) << count << " segments, " << j;
       EXPECT_GE(common[j], 0.95 - 0.021) << count << " segments, " << j;
     }
-  }
-}
-
-TEST(FewSegments, CountOneDegreeWhereTheyAreAsManyAsTheParameters) {
-  const Selection selection = Segments(2);
-  Eigen::MatrixXd A(selection.count(), 2);
-  A.topRows(kSamples).rowwise() = Eigen::RowVector2d(1, 0.2);
-  A.bottomRows(kSamples).rowwise() = Eigen::RowVector2d(1, 0.8);
-  const Eigen::MatrixXd cofactor = Cofactor(A.transpose() * A);
-  RandomStream random({1, 0}, Stream::test);
-  Eigen::VectorXd noise(selection.count());
-  for (double& value : noise) value = random.Normal();
-  const Eigen::VectorXd residual = noise - A * (cofactor * A.transpose() * noise);
-  const Uncertainty before = JudgeUncertainty(A, cofactor, residual, selection);
-  Uncertainty known = before;
-  CountSegments(A, cofactor, residual, selection, known);
-  for (int j = 0; j < 2; ++j) {
-    EXPECT_DOUBLE_EQ(known.Deviation(j), before.Deviation(j));
-    EXPECT_EQ(known.Freedom(j), 1);
   }
 }
 

@@ -5,14 +5,9 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "identification/answer/identify.h"
-#include "identification/identifiers/identifier_list.h"
 #include "identification/linear/least_squares.h"
-#include "identification/preparation/prepare.h"
-#include "identification/preparation/select.h"
-#include "identification/read_options.h"
 #include "identification/uncertainty/tails.h"
-#include "tests/support/warm_recording.h"
+#include "tests/support/judging.h"
 
 namespace warmjoint {
 namespace {
@@ -20,21 +15,17 @@ namespace {
 /// Share of 500 recordings (3600 s, law (2) without warming) whose 95 % intervals hold the truth,
 /// for kv and kc. pole: of the autoregressive noise, of standard deviation 0.5 N.m.
 Eigen::Vector2d Coverage(double pole, Eigen::Index rest) {
-  FrictionDescription friction = test::TableOne();
-  friction.thermal.reset();
-  const Identifier& identifier = FindIdentifier("nominal-ls");
-  const Options options = ReadOptions(identifier.options, {}, {});
   Eigen::Vector2d covered = Eigen::Vector2d::Zero();
   for (std::uint64_t seed = 0; seed < 500; ++seed) {
     Measurements m =
-        test::RecordFriction(friction, 1, test::AlternatingSpeeds(3600, seed, rest), 0, 0);
+        test::RecordFriction(test::Cold(), 1, test::AlternatingSpeeds(3600, seed, rest), 0, 0);
     RandomStream random({seed, 0}, Stream::torque_noise);
     double noise = 0.5 * random.Normal();
     for (double& torque : m.torque) {
       noise = pole * noise + 0.5 * std::sqrt(1 - pole * pole) * random.Normal();
       torque += noise;
     }
-    const Estimate estimate = IdentifyUnjudged(identifier, {Prepare(m), options, {}});
+    const Estimate estimate = test::Fitted("nominal-ls", m);
     const auto holds = [&](const char* name, double truth) {
       const auto [lower, upper] = *estimate.Find(name)->interval95;
       return lower <= truth && truth <= upper;

@@ -4,12 +4,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "identification/answer/identify.h"
-#include "identification/identifiers/identifier_list.h"
-#include "identification/preparation/prepare.h"
-#include "identification/preparation/select.h"
-#include "identification/read_options.h"
-#include "tests/support/warm_recording.h"
+#include "tests/support/judging.h"
 
 namespace warmjoint {
 namespace {
@@ -27,32 +22,13 @@ Measurements WarmLog(std::uint64_t seed, double noise = 0.3) {
 }
 
 Estimate Fitted(const Measurements& m, const std::map<std::string, std::string>& given) {
-  const Identifier& identifier = FindIdentifier("energy-ml");
-  const Options options = ReadOptions(identifier.options, given, {});
-  const Selection selection = SelectMoving(m);
-  return IdentifyUnjudged(identifier, {Prepare(m, selection), options, {}});
+  return test::Fitted("energy-ml", m, given);
 }
 
 Estimate Expecting(const Measurements& m, double energy, double std) {
   return Fitted(m, {{"initial_energy", "expected"},
                     {"expected_energy", fmt::format("{}", energy)},
                     {"expected_energy_std", fmt::format("{}", std)}});
-}
-
-TEST(ExpectedStart, OptionsSayWhatIsKnown) {
-  const Identifier& identifier = FindIdentifier("energy-ml");
-  const auto of = [&](const std::map<std::string, std::string>& given) {
-    return InitialEnergyOf(ReadOptions(identifier.options, given, {}));
-  };
-  EXPECT_EQ(of({}).spread, 0);
-  EXPECT_FALSE(of({}).is_expected());
-  EXPECT_FALSE(of({{"initial_energy", "estimated"}}).is_expected());
-  const InitialEnergy expected = of(
-      {{"initial_energy", "expected"}, {"expected_energy", "-2"}, {"expected_energy_std", "0.5"}});
-  EXPECT_TRUE(expected.is_expected());
-  EXPECT_EQ(expected.mean, -2);
-  EXPECT_EQ(expected.spread, 0.5);
-  EXPECT_TRUE(of({{"initial_energy", "expected"}}).is_expected());
 }
 
 TEST(ExpectedStart, AWideOneIsNone) {

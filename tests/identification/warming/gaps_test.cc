@@ -1,46 +1,10 @@
 #include "identification/warming/gaps.h"
 
-#include <gmock/gmock.h>
-
-#include <cmath>
-
 #include "tests/support/judging.h"
 #include "tests/support/without_times.h"
 
 namespace warmjoint {
 namespace {
-
-using Eigen::Index;
-using ::testing::HasSubstr;
-using ::testing::Not;
-
-TEST(Gaps, AreLongerThanThreeStepsOfAJointThatMoves) {
-  Measurements m = test::RecordHour(test::TableOne(), 1);
-  EXPECT_THAT(FindGaps(m), testing::IsEmpty());
-  m = test::Without(m, {{300, 303}, {600, 604}});
-  const std::vector<LogGap> gaps = FindGaps(m);
-  ASSERT_EQ(gaps.size(), 1u);
-  EXPECT_EQ(m.time[gaps[0].behind], 604);
-  EXPECT_EQ(gaps[0].length, 4);
-  EXPECT_EQ(DescribeGaps(gaps, m), "a gap of 4 s at 600 s");
-
-  // a second recording behind it starts cold, whatever happened before
-  m.starts = {gaps[0].behind};
-  EXPECT_THAT(FindGaps(m), testing::IsEmpty());
-}
-
-TEST(Gaps, OfAJointAtRestDoNotCount) {
-  Measurements m =
-      test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(400, 1, 100), 0.5, 1);
-  EXPECT_THAT(FindGaps(test::Without(m, {{120, 180}})), testing::IsEmpty());
-  EXPECT_EQ(FindGaps(test::Without(m, {{120, 280}})).size(), 1u);
-}
-
-TEST(Gaps, MayMoveTheEnergyByWhatSettlesInThem) {
-  const Eigen::VectorXd spread = JumpSpread({{5, 600}, {9, 1e9}}, 8, 600);
-  EXPECT_DOUBLE_EQ(spread[0], 8 * (1 - std::exp(-1)));
-  EXPECT_DOUBLE_EQ(spread[1], 8);
-}
 
 struct Tally {
   int answered = 0;  // with an interval
@@ -87,15 +51,6 @@ TEST(Gaps, WidenTheIntervalsOfFitsThatHoldTheLossOverThem) {
   const Tally tally = Count({{300, 400}}, "thermal_time_constant", 600, "kalman");
   EXPECT_GE(tally.answered, 20);  // some filters run away beside a gap, and say so
   EXPECT_LE(tally.missed, kMostMissed);
-}
-
-TEST(Gaps, AreToldOf) {
-  const Measurements m = test::Without(test::RecordHour(test::TableOne(), 1), {{300, 400}});
-  const Estimate estimate = test::Answer("energy-ml", m);
-  EXPECT_THAT(estimate.FullMessage(), HasSubstr("a gap of 100 s at 300 s"));
-  EXPECT_TRUE(estimate.Find("energy_jump_1"));
-  EXPECT_THAT(test::Answer("energy-ml", test::RecordHour(test::TableOne(), 1)).FullMessage(),
-              Not(HasSubstr("gap")));
 }
 
 TEST(Gaps, AreFittedUnderHubersLossAndBesideGravityToo) {

@@ -7,12 +7,13 @@
 #include "models/recording/read_recording.h"
 #include "tests/models/recording/temporary_file.h"
 #include "tests/support/folders.h"
+#include "tests/support/refusal.h"
 
 namespace warmjoint {
 namespace {
 
-using testing::AllOf;
-using testing::HasSubstr;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
 Measurements Example() {
   Measurements log;
@@ -28,12 +29,7 @@ Measurements Example() {
 }
 
 std::string Refusal(const std::string& path, const ReadSettings& layout = {}) {
-  try {
-    ReadRecordingFile(path, layout);
-  } catch (const BadInput& refusal) {
-    return refusal.what();
-  }
-  return "";
+  return test::RefusalOf([&] { ReadRecordingFile(path, layout); });
 }
 
 TEST(Hdf5, ReadsBackBitForBitWithUnitsAndGear) {

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "models/foundation/bad_input.h"
+#include "tests/support/refusal.h"
 
 namespace warmjoint {
 namespace {
@@ -26,11 +27,9 @@ TEST(RobotFolder, TakesAPathAsItIs) {
 }
 
 TEST(RobotFolder, RefusesWhatIsNoRobot) {
-  EXPECT_THAT([] { FindRobot("rotari", "my.yaml"); },
-              ThrowsMessage<BadInput>(HasSubstr("my.yaml: there is no robot 'rotari'; did you mean "
-                                                "'rotary'")));
-  EXPECT_THAT([] { FindRobot("no/such.xml", "my.yaml"); },
-              ThrowsMessage<BadInput>(HasSubstr("'no/such.xml' is neither a file nor")));
+  test::ExpectRefused(
+      {{"rotari", "my.yaml: ", "'rotary'"}, {"no/such.xml", "my.yaml: ", "no/such.xml"}},
+      [](const std::string& name) { FindRobot(name, "my.yaml"); });
 }
 
 TEST(RobotFolder, RefusesADataFolderWithoutRobots) {

@@ -14,8 +14,8 @@
 namespace warmjoint {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 /// A result of one parameter "coulomb" with truth 10, bound 0.5 and interval estimate +- 1.
 Result Answered(int realization, int identifier, double estimate) {
@@ -148,22 +148,6 @@ TEST(Leaderboard, JsonHasTheKeysOfTheContract) {
 TEST(Leaderboard, JsonSaysNullForWhatDoesNotExist) {
   const auto json = nlohmann::json::parse(BoardToJson(BoardOf({Failure(0, 0, "crashed")})));
   EXPECT_TRUE(json.at("rows").at(0).at("npe").at("continuous").at("median").is_null());
-}
-
-TEST(Leaderboard, TextAnswersFirst) {
-  const std::string text = BoardToText(BoardOf(AFailsTwiceAndBIsOftenWorse()));
-  EXPECT_THAT(text, HasSubstr("little: Who is best?\nb is best: its median NPE is 7.50 %"));
-  EXPECT_THAT(text, HasSubstr("2 of 4"));
-  EXPECT_THAT(text, HasSubstr("Cramer-Rao bound"));
-  EXPECT_THAT(text, HasSubstr("a: 2 of 4 runs failed (2 not_converged), for example: no idea"));
-  EXPECT_THAT(text,
-              HasSubstr("b: the claim is NPE 5.00 % (someone); the median here is NPE 7.50 %"));
-}
-
-TEST(Leaderboard, MarkdownAndCsvHaveARowForEachIdentifier) {
-  const Leaderboard board = BoardOf(AFailsTwiceAndBIsOftenWorse());
-  EXPECT_THAT(BoardToMarkdown(board), HasSubstr("| 1 | b | 0 | 7.50 % |"));
-  EXPECT_THAT(BoardToCsv(board), HasSubstr("\na,4,2,"));
 }
 
 TEST(Leaderboard, TextOfSuitesReachesNoTerminalAndNoPageAsItIs) {

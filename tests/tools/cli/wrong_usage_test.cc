@@ -5,6 +5,7 @@
 #include <set>
 
 #include "models/foundation/atomic_file.h"
+#include "tests/support/folders.h"
 #include "tests/tools/cli/recording_file.h"
 #include "tests/tools/cli/run_program.h"
 #include "tests/tools/cli/table_one_yaml.h"
@@ -12,12 +13,18 @@
 
 namespace warmjoint {
 namespace {
+
 namespace fs = std::filesystem;
 
 struct WrongUsage {
   std::vector<std::string> arguments;
   std::string right;  // what the answer must name
 };
+
+/// Friction for a joint of the pendulum.
+std::string Pendulum(const std::string& joint = "hinge") {
+  return joint + "=" + (test::SourceFolder() / "models/robots/pendulum/friction.json").string();
+}
 
 const std::vector<WrongUsage>& WrongUsages() {
   static const std::vector<WrongUsage> usages{
@@ -90,6 +97,23 @@ const std::vector<WrongUsage>& WrongUsages() {
       {{"attach", "pendulum", "--joint", "hinge", "-o", "d.xml"}, "NAME=FILE"},
       {{"attach", "pendulum", "--joint", "hinge=f.json", "-o", "d.xml", "--as", "pasive"},
        "'passive'"},
+      {{"attach", "pendulum", "--joint", Pendulum("hing"), "-o", "d.xml"}, "'hinge'"},
+      {{"attach", "pendulum", "--joint", Pendulum(), "-o", "d.xml", "--armature", "hinge=-1"},
+       "0 or more"},
+      {{"attach", "pendulum", "--joint", Pendulum(), "-o", "d.xml", "--armature", "hing=1"},
+       "'hinge'"},
+      {{"attach", "pendulum", "--joint", Pendulum(), "-o", "d.xml", "--timestep", "0"}, "above 0"},
+      {{"attach", "pendulum", "--joint", Pendulum(), "-o", "d.xml", "--integrator", "RK45"}, "RK4"},
+      {{"attach", "pendulum", "--joint", Pendulum(), "-o", "d.xml", "--package", "rd=/none"},
+       "not a folder"},
+      {{"attach", "pendulum", "--joint", Pendulum(), "-o", "d.xml", "--initial", "hot"}, "settled"},
+      {{"attach", "pendulum", "--joint", Pendulum(), "-o", "d.xml", "--initial", "settled:fast"},
+       "rad/s"},
+      {{"attach", "pendulum", "--joint", Pendulum(), "-o", "d.xml", "--initial", "end"},
+       "state_end"},
+      {{"attach", "pendulum", "--joint", Pendulum(), "--joint", Pendulum(), "-o", "d.xml"},
+       "twice"},
+      {{"predict", "estimate.json", "log.csv", "--initial", "warm"}, "settled:SPEED"},
       // templates
       {{"new", "scenari", "mine"}, "'scenario'"},
       {{"new", "scenario", "a/b"}, "letters"},

@@ -3,14 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "models/friction/thermal.h"
 
 namespace warmjoint {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 constexpr double kStep = 1;  // s
 
@@ -42,15 +40,6 @@ TEST(TraceTable, FindsTheContinuousPairOfADiscreteOne) {
       {{1, {{"thermal_gain_discrete", discrete.gain}, {"thermal_pole", discrete.pole}}, 1}},
       TruthOfTable1(), kStep);
   EXPECT_FLOAT_EQ(table.values[2], 0.5f) << "tau is half of its truth, k is right";
-}
-
-TEST(TraceTable, AParameterThatIsMissingCountsAsZero) {
-  const TraceTable table = MakeTraceTable({{1, {}, 1}}, TruthOfTable1(), kStep);
-  EXPECT_FLOAT_EQ(table.values[2], static_cast<float>(std::sqrt(2.0)));
-}
-
-TEST(TraceTable, IsEmptyWithoutIterations) {
-  EXPECT_EQ(MakeTraceTable({}, TruthOfTable1(), kStep).rows(), 0u);
 }
 
 }  // namespace

@@ -30,8 +30,6 @@ Figure OneLine() {
   return figure;
 }
 
-Series& OnlySeries(Figure& figure) { return std::get<Plot>(figure.panels[0].content).series[0]; }
-
 TEST(DrawFigure, HandsOverLimitsDataAndColour) {
   const Drawn drawn = DrawTidy(OneLine());
   const DrawnPlot& plot = PlotNamed(drawn, "Panel");
@@ -79,31 +77,12 @@ TEST(DrawFigure, WritesEveryWord) {
                                               "torque (N·m)", "measured", "0", "10", "−2.0"}));
 }
 
-TEST(DrawFigure, KeepsLegendsOffTheData) {
-  const Drawn drawn = DrawTidy(OneLine());
-  for (const DrawnText& text : drawn.texts) {
-    if (text.text == "measured") {
-      EXPECT_LE(text.place.bottom, drawn.plots[0].area.top);
-    }
-  }
-}
-
 TEST(DrawFigure, GivesTheSameBytesWhateverWasDrawnBefore) {
   const std::string first = EncodePng(DrawFigure(OneLine()).image, "alt");
   Figure other = OneLine();
   other.title = "Other letters: xyzäöüβγ";
   DrawFigure(other, DarkTheme());
   EXPECT_EQ(EncodePng(DrawFigure(OneLine()).image, "alt"), first);
-}
-
-TEST(DrawFigure, ClipsToTheAxes) {
-  Figure figure = OneLine();
-  OnlySeries(figure).shape = Line{Vector2d(-50, 50), Vector2d(1, 1), 3};
-  const Drawn drawn = DrawTidy(figure);
-  const DrawnPlot& plot = drawn.plots[0];
-  const Rgb blue = LightTheme().Colour(Hue::blue);
-  EXPECT_TRUE(HasColourNear(drawn.image, PixelOf(plot, 0.5, 1), blue));
-  EXPECT_FALSE(HasColourNear(drawn.image, PixelOf(plot, -0.3, 1), blue));
 }
 
 TEST(DrawFigure, ShowsBandsBarsBoxesLevelsAndHeatMapsWhereTheyBelong) {
@@ -142,50 +121,6 @@ TEST(DrawFigure, ShowsBandsBarsBoxesLevelsAndHeatMapsWhereTheyBelong) {
       heat.image.At(PixelOf(heat.plots[0], 7.5, 1).x, PixelOf(heat.plots[0], 7.5, 1).y);
   EXPECT_LT(low.red + low.green, 120) << "row 0, column 0 stands at the lower left";
   EXPECT_GT(high.red + high.green, 400);
-}
-
-TEST(DrawFigure, LeavesGapsForNaN) {
-  Figure figure = OneLine();
-  VectorXd x(5), y(5);
-  x << 0, 3, 5, 7, 10;
-  y << 1, 1, NAN, 1, 1;
-  OnlySeries(figure).shape = Line{x, y, 3};
-  const Drawn drawn = DrawTidy(figure);
-  const Rgb blue = LightTheme().Colour(Hue::blue);
-  EXPECT_TRUE(HasColourNear(drawn.image, PixelOf(drawn.plots[0], 2, 1), blue));
-  EXPECT_FALSE(HasColourNear(drawn.image, PixelOf(drawn.plots[0], 5, 1), blue));
-}
-
-TEST(DrawFigure, RefusesAxesThatCannotBeDrawn) {
-  Figure figure = OneLine();
-  auto& plot = std::get<Plot>(figure.panels[0].content);
-  plot.y = {"error (%)", 0, 1, Scale::logarithmic, {}};
-  try {
-    DrawFigure(figure);
-    FAIL() << "drawn";
-  } catch (const BadInput& refusal) {
-    EXPECT_THAT(refusal.what(), HasSubstr("axis 'error (%)' cannot run from 0 to 1"));
-  }
-  // and draws on as if nothing had happened
-  DrawTidy(OneLine());
-}
-
-TEST(DrawFigure, SaysWhichTextsItsTypefaceCannotSet) {
-  Figure figure = OneLine();
-  figure.title = "two signs \u4E2D";
-  EXPECT_THAT(DrawFigure(figure).unreadable, ::testing::ElementsAre(figure.title));
-}
-
-TEST(DrawFigure, PutsPicturesWhereTheirPanelsAre) {
-  Figure figure = OneLine();
-  Image red{2, 1, {255, 0, 0, 0, 0, 255}};
-  figure.panels = {{"", Picture{red}}};
-  const Drawn drawn = DrawFigure(figure);
-  const Rectangle& place = drawn.pictures.at(0);
-  EXPECT_NEAR(place.width(), 2 * place.height(), 0.01);
-  const int y = static_cast<int>(place.top + place.bottom);
-  EXPECT_EQ(drawn.image.At(static_cast<int>(2 * place.left + 3), y), (Rgb{255, 0, 0}));
-  EXPECT_EQ(drawn.image.At(static_cast<int>(2 * place.right - 3), y), (Rgb{0, 0, 255}));
 }
 
 TEST(EncodeFigure, GivesTheSameBytesOfEachFormatWhateverWasDrawnBefore) {
@@ -234,16 +169,6 @@ TEST(EncodeFigure, IsAsLargeAsAsked) {
   EXPECT_EQ(number(22), 709);
   setting.height = 20;
   EXPECT_THROW(EncodeFigure(OneLine(), setting), BadInput) << "no room between the axes";
-}
-
-TEST(EncodeFigure, LeavesTheTitleToTheCaption) {
-  PageSetting setting;
-  setting.format = FileFormat::svg;
-  setting.titled = false;
-  const std::string svg = EncodeFigure(OneLine(), setting).bytes;
-  EXPECT_EQ(svg.find(">Title</text>"), std::string::npos);
-  EXPECT_EQ(svg.find(">Subtitle</text>"), std::string::npos);
-  EXPECT_THAT(svg, HasSubstr("<title>Title</title>"));
 }
 
 TEST(EncodeFigure, ThinsAHundredThousandSamplesAndSaysSo) {

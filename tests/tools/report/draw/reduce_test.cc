@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "models/foundation/random_stream.h"
@@ -13,60 +12,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-
-TEST(ReduceCurve, KeepsEveryExtremeOfEveryColumn) {
-  const Index n = 100000;
-  const VectorXd x = VectorXd::LinSpaced(n, 0, 1);
-  VectorXd y = (200 * x).array().sin();
-  y[4567] = 40;
-  y[80001] = -30;
-  const auto chosen = ReduceCurve(x, y, {0, 1, 500});
-  EXPECT_LE(chosen.size(), 4 * 500u);
-  EXPECT_TRUE(std::is_sorted(chosen.begin(), chosen.end()));
-  for (Index spike : {Index{4567}, Index{80001}, Index{0}, n - 1}) {
-    EXPECT_TRUE(std::binary_search(chosen.begin(), chosen.end(), spike)) << spike;
-  }
-}
-
-TEST(ReduceCurve, KeepsGapsAndLeavesShortOrFoldedCurvesAlone) {
-  VectorXd x = VectorXd::LinSpaced(10000, 0, 1);
-  VectorXd y = VectorXd::Zero(10000);
-  y[5000] = NAN;
-  const auto chosen = ReduceCurve(x, y, {0, 1, 100});
-  EXPECT_TRUE(std::binary_search(chosen.begin(), chosen.end(), Index{5000}));
-  EXPECT_EQ(ReduceCurve(x.head(300), y.head(300), {0, 1, 100}).size(), 300u);
-  x[3] = 2;
-  EXPECT_EQ(ReduceCurve(x, y, {0, 1, 100}).size(), 10000u);
-}
-
-TEST(ReduceCloud, StrokesEachColumnFromItsLowestToItsHighest) {
-  VectorXd x(6), y(6);
-  x << 0.11, 0.12, 0.15, 0.9, 7, 0.14;
-  y << 0.11, 0.13, 0.25, 0.9, 0.5, 0.95;
-  const auto strokes = ReduceCloud(x, y, {0, 1, 10}, {0, 1, 10}, 2);
-  // rows 1, 1 and 2 touch, row 9 of the same column is far off; what is outside is left out
-  using Strokes = std::vector<std::pair<Index, Index>>;
-  EXPECT_EQ(strokes, (Strokes{{0, 2}, {5, 5}, {3, 3}}));
-}
-
-TEST(ReduceCloud, LosesNoExtreme) {
-  constexpr Index kPoints = 100000;
-  RandomStream random({4, 0}, Stream::test);
-  const VectorXd x = VectorXd::LinSpaced(kPoints, 0, 1);
-  VectorXd y(kPoints);
-  for (double& value : y) value = random.Normal();
-  Index lowest = 0, highest = 0;
-  y.minCoeff(&lowest);
-  y.maxCoeff(&highest);
-  const auto strokes = ReduceCloud(x, y, {0, 1, 400}, {-6, 6, 300}, 2);
-  EXPECT_LT(strokes.size(), 5000u) << "of 100 000";
-  bool low = false, high = false;
-  for (const auto& [from, to] : strokes) {
-    low = low || from == lowest;
-    high = high || to == highest;
-  }
-  EXPECT_TRUE(low && high);
-}
 
 /// How many inked pixels of a picture have no ink of another within a pixel.
 int Astray(const Image& image, const Image& other) {

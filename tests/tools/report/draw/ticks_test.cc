@@ -35,17 +35,6 @@ TEST(AxisTicks, ShareOnePowerOfTen) {
               ElementsAre("0", "0.5·10⁻⁴", "1.0·10⁻⁴", "1.5·10⁻⁴", "2.0·10⁻⁴"));
 }
 
-TEST(AxisTicks, AreWholeNumbersWhereTheAxisCounts) {
-  EXPECT_THAT(Labels({"", -0.1, 4.1, Scale::linear, {}, 1}, 20),
-              ElementsAre("0", "1", "2", "3", "4"));
-  EXPECT_THAT(Labels({"", -1, 51, Scale::linear, {}, 1}, 6),
-              ElementsAre("0", "10", "20", "30", "40", "50"));
-}
-
-TEST(AxisTicks, OfTheAxisItselfAreKept) {
-  EXPECT_THAT(Labels({"", 0, 1, Scale::linear, {{0.5, "middle"}}}, 5), ElementsAre("middle"));
-}
-
 TEST(SignificantText, RoundsAsPeopleDo) {
   EXPECT_EQ(SignificantText(15.0412), "15.0");
   EXPECT_EQ(SignificantText(-3.0), "−3.00");
@@ -54,13 +43,6 @@ TEST(SignificantText, RoundsAsPeopleDo) {
   EXPECT_EQ(SignificantText(0), "0");
   EXPECT_EQ(SignificantText(0.09999, 2), "0.10") << "one more digit before the point";
   EXPECT_EQ(SignificantText(9.999e-5, 2), "1.0·10⁻⁴");
-}
-
-TEST(UnitText, SetsDotsInTheMiddle) { EXPECT_EQ(UnitText("N.m.s/rad"), "N·m·s/rad"); }
-
-TEST(UnitText, RaisesSquares) {
-  EXPECT_EQ(UnitText("N.m.s^2/rad"), "N·m·s²/rad");
-  EXPECT_EQ(UnitText("m/s^2"), "m/s²");
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include "tools/report/figures/error_by_iteration.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/tools/report/look.h"
@@ -58,18 +57,6 @@ TEST(ErrorByIteration, ShowsTheQuartilesAsABandOfTheSameColour) {
   ASSERT_NE(band, nullptr);
   EXPECT_NEAR(band->y.second, 120, 1e-9);
   EXPECT_EQ(band->colour, LightTheme().Colour(Hue::vermilion));
-}
-
-TEST(ErrorByIteration, SaysInItsAltTextWhatOneSees) {
-  EXPECT_EQ(MakeErrorByIteration(Example()).finding,
-            "Median NPE after the last iteration: nominal-ls 120 %, energy-als 50 20.0 %, "
-            "energy-als 500 1.00 %, median at the Cramér-Rao bound 1.20 %.");
-}
-
-TEST(ErrorByIteration, DrawsWithoutAnyThatIterates) {
-  ErrorByIteration data = Example();
-  data.identifiers.resize(1);
-  DrawTidy(MakeErrorByIteration(data));
 }
 
 }  // namespace

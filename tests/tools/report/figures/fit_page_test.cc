@@ -54,55 +54,6 @@ TEST(FitPage, ExplainsWhyThereIsNoFit) {
   DrawLight(MakeFitPage(view));
 }
 
-TEST(FitPage, GivesALongMessageTheRoomItNeeds) {
-  WarmRecording warm;
-  const auto height = [&] {
-    return DrawLight(MakeFitPage(MakeFitView(warm.measurements, warm.selection, warm.estimate)))
-        .image.height;
-  };
-  warm.estimate.message = "short";
-  const int usual = height();
-  for (int i = 0; i < 30; ++i) warm.estimate.message += " and another thing that the data shows";
-  EXPECT_GT(height(), usual + 100) << "pixels";
-}
-
-TEST(FitPage, WarnsOfResidualsThatRemember) {
-  WarmRecording warm;
-  FitView view = MakeFitView(warm.measurements, warm.selection, warm.estimate);
-  EXPECT_LT(std::abs(ResidualCorrelation(view, 1)), 0.05) << "white";
-  view.torque.array() += 2 * (0.05 * view.time.array()).sin();
-  EXPECT_GT(ResidualCorrelation(view, 1), 0.8);
-  EXPECT_THAT(AllText(VerdictOf(view)), HasSubstr("alike from one sample to the next"));
-}
-
-TEST(FitPage, ShowsWarningsInAmberWhereTheNumbersPass) {
-  WarmRecording warm;
-  const auto verdict = [&] {
-    return VerdictOf(MakeFitView(warm.measurements, warm.selection, warm.estimate)).paragraphs;
-  };
-  EXPECT_EQ(verdict()[0].hue, Hue::green);
-  warm.estimate.message = "maximum likelihood; noise is coloured";
-  warm.estimate.warnings = {
-      "the residual depends on time: 0.4 N.m rms; and on direction: 0.1 N.m rms: the intervals "
-      "reach as far as that moves them; try lpv-energy"};
-  EXPECT_EQ(verdict()[0].hue, Hue::caution);
-  EXPECT_EQ(verdict()[0].text, "energy-ml: the numbers can be used, with a warning.");
-  EXPECT_EQ(verdict()[1].hue, Hue::caution);
-  EXPECT_EQ(
-      verdict()[1].text,
-      "Warning: The residual depends on time: 0.4 N·m rms; and on direction: 0.1 N·m rms: the "
-      "intervals reach as far as that moves them; try lpv-energy.");
-  EXPECT_EQ(verdict()[2].text, "Maximum likelihood; noise is coloured.");
-  const Figure page = MakeFitPage(MakeFitView(warm.measurements, warm.selection, warm.estimate));
-  EXPECT_THAT(page.finding, HasSubstr("with a warning"));
-  DrawLight(page);
-
-  // a failure says it all: nothing passes, so nothing is parted off
-  warm.estimate.status = Status::inadequate_model;
-  EXPECT_EQ(verdict()[0].hue, Hue::vermilion);
-  EXPECT_THAT(verdict()[1].text, HasSubstr("Maximum likelihood; noise is coloured; the residual"));
-}
-
 TEST(FrictionCurve, HasNoBandWhereMapsCarryPartOfTheFriction) {
   WarmRecording warm;
   const auto bands = [&] {
@@ -117,15 +68,6 @@ TEST(FrictionCurve, HasNoBandWhereMapsCarryPartOfTheFriction) {
   map.weights = {0.1, 0, -0.1};
   warm.estimate.friction->maps = {map};
   EXPECT_EQ(bands(), 0);
-}
-
-TEST(FrictionCurve, LeavesOutBandsThinnerThanTheirLine) {
-  WarmRecording warm;
-  for (EstimatedParameter& parameter : warm.estimate.parameters) *parameter.std *= 0.01;
-  const Plot plot = FrictionCurve(MakeFitView(warm.measurements, warm.selection, warm.estimate));
-  for (const Series& series : plot.series) {
-    EXPECT_FALSE(std::holds_alternative<Band>(series.shape));
-  }
 }
 
 TEST(FrictionCurve, RunsThroughTheDataWhereMapsCarryAConstant) {
@@ -171,32 +113,6 @@ TEST(FitPage, ShowsAVoidFitWithThePanelThatDecided) {
   }
 }
 
-TEST(ResidualMemory, BeginsOneSampleOn) {
-  const WarmRecording warm;
-  const Plot plot = ResidualMemory(MakeFitView(warm.measurements, warm.selection, warm.estimate));
-  EXPECT_EQ(std::get<Line>(plot.series[0].shape).x[0], 1) << "s, the sampling interval";
-  EXPECT_EQ(plot.x.scale, Scale::logarithmic);
-}
-
-TEST(FitPage, LooksAtTheFirstAndTheLastSegments) {
-  const WarmRecording warm;
-  const FitView view = MakeFitView(warm.measurements, warm.selection, warm.estimate);
-  EXPECT_EQ(ColdWindow(view, 6).begin, 0);
-  const Eigen::Index end = warm.selection.segments[5].end;
-  EXPECT_EQ(ColdWindow(view, 6).end, end + end / 20) << "with a little of what follows";
-  EXPECT_EQ(WarmWindow(view, 6).end, warm.measurements.size());
-}
-
-TEST(FitPage, LooksAtSegmentsWhereThereAreFew) {
-  WarmRecording warm;
-  // two segments in the middle of the recording, as of a joint that rests before and after
-  warm.selection.segments = {{500, 520, 0.3}, {600, 620, -0.3}};
-  const FitView view = MakeFitView(warm.measurements, warm.selection, warm.estimate);
-  EXPECT_EQ(ColdWindow(view).begin, 499);
-  EXPECT_EQ(ColdWindow(view).end, 521);
-  EXPECT_EQ(WarmWindow(view).begin, 599);
-}
-
 TEST(FrictionSpread, AgreesWithTheClosedFormOfALinearLaw) {
   // without warming the covariance is s^2 (A^T A)^-1 of the rows [v, sign v]
   WarmRecording warm;
@@ -225,13 +141,6 @@ TEST(FrictionSpread, AgreesWithTheClosedFormOfALinearLaw) {
   const Eigen::Vector2d row(0.5, 1);
   EXPECT_NEAR(SpreadOfPrediction(spread, *warm.estimate.friction, predict)[0],
               std::sqrt(row.dot(covariance * row)), 1e-6);
-}
-
-TEST(FrictionSpread, IsUnknownWithoutDeviations) {
-  WarmRecording warm;
-  for (EstimatedParameter& parameter : warm.estimate.parameters) parameter.std.reset();
-  EXPECT_FALSE(SpreadOf(warm.estimate, CourseOf(warm.measurements), {}, warm.selection).is_known());
-  DrawLight(MakeFitPage(MakeFitView(warm.measurements, warm.selection, warm.estimate)));
 }
 
 }  // namespace

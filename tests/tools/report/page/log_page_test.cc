@@ -73,15 +73,5 @@ TEST(LogPage, StaysBelowSixMegabytesHoweverLongTheLog) {
   EXPECT_LT(MakeLogPage({view, {}, {}}).size(), 6000000u);
 }
 
-TEST(PlainWords, AreThereForEveryTest) {
-  for (const LackOfFitTest& test : LackOfFitTests()) {
-    EXPECT_TRUE(test.question.ends_with('?')) << test.name;
-    EXPECT_TRUE(test.advice.ends_with('.')) << test.name;
-    EXPECT_NE(QuestionOf(std::string(test.name)), test.name) << test.name;
-    EXPECT_THAT(RemedyOf(std::string(test.name)), Not(HasSubstr("look at its pictures")))
-        << test.name;
-  }
-}
-
 }  // namespace
 }  // namespace warmjoint::report

@@ -113,22 +113,6 @@ TEST(RunPage, SaysQuestionVerdictNotesAndHowToRepeatIt) {
   EXPECT_THAT(page, HasSubstr("name: table1"));
 }
 
-TEST(RunPage, ExplainsWhatWasSimulatedByWhomItWasIdentifiedAndItsTerms) {
-  const std::string& page = ExamplePage();
-  EXPECT_THAT(page, HasSubstr(Escape(WhatWasSimulated(ParseSuite(kSuite, "")).front())));
-  EXPECT_THAT(page, HasSubstr("<dt>energy-ml</dt><dd>" +
-                              Escape(FindIdentifier("energy-ml").summary) + "</dd>"));
-  EXPECT_THAT(page, HasSubstr("python3 &lt;mine&gt;.py"));
-  for (const auto& [term, meaning] : RunTerms()) EXPECT_THAT(page, HasSubstr(Escape(meaning)));
-}
-
-TEST(RunPage, ListsEveryAnswerWithTheCommandThatSimulatesItAgain) {
-  const std::string& page = ExamplePage();
-  EXPECT_EQ(Count(page, "warmjoint simulate --from RUN --realization"), 2);
-  EXPECT_THAT(page, HasSubstr("--realization 4 -o replay</td>"));
-  EXPECT_THAT(page, HasSubstr("Nothing could be simulated."));
-}
-
 TEST(RunPage, LetsItsOwnScriptRunAlone) {
   const std::string& page = ExamplePage();
   EXPECT_EQ(Count(page, SecurityPolicy({kStyle, RealizationStyle()}, {RealizationScript()})), 1);
@@ -160,25 +144,6 @@ TEST(RunPage, GivesEveryPictureAnAltTextAndBothThemes) {
   EXPECT_EQ(Count(page, "<img "), 1);
   EXPECT_THAT(page, HasSubstr("alt=\"Parameter error of each identifier. Median NPE: energy-ml"));
   EXPECT_EQ(Count(page, "media=\"(prefers-color-scheme: dark)\" srcset=\"data:image/png"), 1);
-}
-
-TEST(RunPage, HasTablesWithHeadsAndCaptions) {
-  const std::string& page = ExamplePage();
-  EXPECT_EQ(Count(page, "<table>"), Count(page, "<caption>"));
-  EXPECT_GE(Count(page, "<th scope=\"col\""), 9);
-  EXPECT_GE(Count(page, "<th scope=\"row\""), 2);
-  EXPECT_THAT(page, HasSubstr("<html lang=\"en\">"));
-  EXPECT_THAT(page, HasSubstr("name=\"viewport\""));
-}
-
-TEST(RunPage, NamesEveryRowOfATable) {
-  // ranks do not name a row, and a name that stands once for several rows is said in each
-  const warmjoint::Table table{{"#", "identifier", "NPE"},
-                               {{"1", "energy-ml", "1 %"}, {"", "", "2 %"}, {"", "bound", "1 %"}}};
-  const std::string html = HtmlTable("ranking", table);
-  EXPECT_EQ(Count(html, "<th scope=\"row\" class=\"name words\">energy-ml</th>"), 2);
-  EXPECT_EQ(Count(html, ">bound</th>"), 1);
-  EXPECT_EQ(Count(html, "<th scope=\"row\""), 3);
 }
 
 TEST(RunPage, ClosesEveryElementThatItOpens) {

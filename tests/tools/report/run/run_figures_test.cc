@@ -59,32 +59,6 @@ TEST(NpeBoxes, StandInTheIdentifiersColoursWithTheFailuresWrittenOut) {
   EXPECT_THAT(figure.finding, HasSubstr("with 12 of 40 failed"));
 }
 
-TEST(NpeBoxes, NameAnIdentifierThatNeverAnswered) {
-  RunView run = ExampleRun();
-  run.rows[1].npe.setConstant(std::nan(""));
-  const Figure figure = *NpeBoxes(run);
-  EXPECT_TRUE(Writes(DrawLight(figure), "energy-als"));
-  EXPECT_THAT(figure.finding, HasSubstr("energy-als, 50 iterations none"));
-}
-
-TEST(NpeBoxes, CentreTheFailuresUnderTheIdentifier) {
-  const Drawn drawn = DrawLight(*NpeBoxes(ExampleRun()));
-  const DrawnPlot& plot = drawn.plots.at(0);
-  for (const DrawnText& text : drawn.texts) {
-    if (text.text.find("not converged") == std::string::npos) continue;
-    const double place = plot.area.left + plot.area.width() * 0.75;  // the second of two
-    EXPECT_NEAR((text.place.left + text.place.right) / 2, place, 1);
-    // each line by itself: ink to both sides of the middle is alike in the first, short one
-    const double bottom = text.place.top + (text.place.bottom - text.place.top) / 2 - 1;
-    const double middle = place;
-    const double left = Ink(drawn.image, {text.place.left, text.place.top, middle, bottom},
-                            LightTheme().background);
-    const double right = Ink(drawn.image, {middle, text.place.top, text.place.right, bottom},
-                             LightTheme().background);
-    EXPECT_LT(std::abs(left - right), 0.35 * (left + right));
-  }
-}
-
 TEST(Ladder, ShowsMediansAtTheRungsWithTheBound) {
   const RunView run = ExampleRun();
   const Figure figure = *LadderFigure(run);
@@ -100,20 +74,6 @@ TEST(Ladder, ShowsMediansAtTheRungsWithTheBound) {
   EXPECT_NEAR(bound.y.first, std::sqrt(14), 1e-9);
   EXPECT_TRUE(Writes(drawn, "torque noise (N·m)"));
   EXPECT_THAT(figure.finding, HasSubstr("from the first rung of torque noise to the last"));
-}
-
-TEST(Ladder, SaysInWhichVariantsNobodyGivesNumbers) {
-  RunView run = ExampleRun();
-  run.rungs = {"", "", Eigen::Vector2d(0, 1), {"one speed", "many speeds"}};
-  for (RunRow& row : run.rows) {
-    row.npe = (row.variant.array() == 0).select(std::nan(""), row.npe);
-  }
-  const Figure figure = *LadderFigure(run);
-  const Drawn drawn = DrawLight(figure);
-  EXPECT_TRUE(Writes(drawn, "no numbers"));
-  EXPECT_TRUE(Writes(drawn, "many speeds"));
-  EXPECT_THAT(figure.finding, HasSubstr("No identifier gives numbers in one speed."));
-  EXPECT_THAT(figure.finding, HasSubstr("% (many speeds)"));
 }
 
 TEST(ParameterCourses, ShowWhereMostRealizationsRunAndTheTruth) {
@@ -154,29 +114,6 @@ TEST(IntervalCoverage, ShowsSharesInPerCent) {
   EXPECT_EQ(shares.points, 3);
   EXPECT_NEAR(shares.y.first, 95, 1e-9) << "38 of 40";
   EXPECT_TRUE(Writes(drawn, "τ")) << "symbols";
-}
-
-TEST(IntervalCoverage, TellsRowsOfOneIdentifierApart) {
-  RunView run = ExampleRun();
-  run.rows.push_back(run.rows[0]);
-  run.rows.back().label = "energy-ml, e0";
-  const Figure figure = *IntervalCoverage(run);
-  DrawLight(figure);
-  std::vector<Scatter> dots;
-  for (const Series& series : std::get<Plot>(figure.panels[0].content).series) {
-    if (series.label.starts_with("energy-ml")) dots.push_back(std::get<Scatter>(series.shape));
-  }
-  ASSERT_EQ(dots.size(), 2u);
-  EXPECT_NE(dots[0].marker, dots[1].marker);
-  EXPECT_GT(std::abs(dots[0].x[0] - dots[1].x[0]), 0.1) << "side by side";
-}
-
-TEST(IntervalCoverage, NamesOnlyParametersThatHaveIntervals) {
-  RunView run = ExampleRun();
-  for (RunRow& row : run.rows) row.parameters[1].intervals = row.parameters[1].covered = 0;
-  const Drawn drawn = DrawLight(*IntervalCoverage(run));
-  EXPECT_FALSE(Writes(drawn, "k_{c}"));
-  EXPECT_EQ(drawn.plots[0].x, std::pair(-0.5, 1.5));
 }
 
 TEST(ParameterPairs, HoldTheirEllipsesAndThatOfTheBound) {
