@@ -169,7 +169,7 @@ TEST(ReadCsv, RefusesWhatIsNoRecordingAtItsPlace) {
 }
 
 TEST(ReadCsv, RefusesColumnsAndUnitsThatAreNone) {
-  const auto refusal = [](auto member, std::map<std::string, std::string> given) {
+  const auto refusal = [](auto member, ColumnTexts given) {
     ReadSettings layout;
     layout.*member = std::move(given);
     return Refusal(kPlain, layout);
